@@ -1,0 +1,163 @@
+// What a picture is made of: meshes, materials, images, lamps, a camera, a sun, an environment. Plain values;
+// every loader and every built-in scene ends here, and the GPU renderer and the reference both start here.
+// World: right-handed, Y up, metres. A view looks along its own -Z. Angles in radians.
+#pragma once
+
+#include "base/math.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace reflet {
+
+/// 8-bit image, four channels, rows from the top. Whether its colours are sRGB is said by the slot that uses it.
+struct Image {
+    std::string name;
+    uint32_t width = 0;
+    uint32_t height = 0;
+    std::vector<uint8_t> rgba;  ///< width · height · 4 bytes
+};
+
+enum class Wrap : uint8_t { repeat, mirror, clamp };
+
+/// How an image is read. Mips are always generated; `mips` says whether they are used.
+struct Sampler {
+    Wrap wrapU = Wrap::repeat;
+    Wrap wrapV = Wrap::repeat;
+    bool magLinear = true;
+    bool minLinear = true;
+    bool mips = true;
+    bool mipLinear = true;
+
+    bool operator==(const Sampler&) const = default;
+};
+
+/// A texture as one material slot sees it. image < 0: none, the slot's factor stands alone.
+struct TextureSlot {
+    int32_t image = -1;    ///< index into Scene::images
+    int32_t sampler = -1;  ///< index into Scene::samplers; < 0: Sampler{}
+    uint32_t uvSet = 0;    ///< 0 or 1
+    /// KHR_texture_transform as two rows: u' = dot(row[0], (u, v, 1)), v' = dot(row[1], (u, v, 1)).
+    std::array<vec3, 2> uvTransform{vec3(1, 0, 0), vec3(0, 1, 0)};
+};
+
+/// glTF metallic-roughness. Colours are linear.
+struct Material {
+    std::string name;
+    vec4 baseColor{1.0F};          ///< factor, alpha in w
+    float metallic = 1.0F;         ///< factor, 0..1
+    float roughness = 1.0F;        ///< perceptual (alpha = roughness²), factor, 0..1
+    vec3 emissive{0.0F};           ///< factor times strength: emitted radiance [W/(m² sr)]
+    float normalScale = 1.0F;
+    float occlusionStrength = 1.0F;
+    float alphaCutoff = 0.0F;      ///< a fragment with alpha < cutoff is not there; 0: opaque
+    bool doubleSided = false;
+    TextureSlot baseColorTexture;  ///< sRGB
+    TextureSlot metallicRoughnessTexture;
+    TextureSlot normalTexture;
+    TextureSlot occlusionTexture;
+    TextureSlot emissiveTexture;   ///< sRGB
+};
+
+/// What a vertex has besides its position. Unit normal; unit tangent, w = ±1 (bitangent = w · cross(n, t)).
+struct VertexAttributes {
+    vec3 normal{0, 1, 0};
+    vec4 tangent{1, 0, 0, 1};
+    vec2 uv0{0.0F};
+    vec2 uv1{0.0F};
+    glm::u16vec4 color{65535};  ///< linear, unorm, multiplies the base colour
+};
+
+/// Triangles of one material, in object space. Three indices a triangle, front faces counter-clockwise.
+struct Mesh {
+    std::string name;
+    std::vector<vec3> positions;
+    std::vector<VertexAttributes> attributes;  ///< as many as positions
+    std::vector<uint32_t> indices;
+    uint32_t material = 0;                     ///< index into Scene::materials
+    Aabb bounds;
+};
+
+/// A mesh at a place. Several may share a mesh.
+struct Instance {
+    std::string name;  ///< of the glTF node, may be empty
+    uint32_t mesh = 0;
+    mat4 objectToWorld{1.0F};
+};
+
+/// Perspective where orthographicHeight is 0, with reversed depth and an infinite far plane.
+struct Camera {
+    std::string name;
+    vec3 position{0, 0, 5};
+    vec3 target{0.0F};   ///< any point straight ahead, not the position itself
+    vec3 up{0, 1, 0};    ///< not parallel to the view
+    float fovY = glm::radians(60.0F);
+    float near = 0.05F;  ///< metres, > 0
+    float orthographicHeight = 0.0F;  ///< metres from the lower to the upper edge; > 0: orthographic
+    float far = 1000.0F;              ///< metres; of an orthographic camera only
+};
+
+/// Directional light. `irradiance` is what a surface that faces it receives [W/m²].
+struct Sun {
+    vec3 direction{0, -1, 0};  ///< the way the light travels, unit length
+    vec3 irradiance{0.0F};
+    float angularDiameter = glm::radians(0.53F);
+};
+
+/// KHR_lights_punctual. Point and spot: intensity [W/sr]; directional: irradiance [W/m²].
+struct Lamp {
+    enum class Type : uint8_t { point, spot, directional };
+
+    std::string name;
+    Type type = Type::point;
+    vec3 position{0.0F};
+    vec3 direction{0, -1, 0};  ///< the way the light travels, unit length (spot, directional)
+    vec3 intensity{1.0F};
+    float range = 0.0F;        ///< metres; 0: without end
+    float innerAngle = 0.0F;   ///< spot: from the axis, full strength inside
+    float outerAngle = glm::quarter_pi<float>();  ///< spot: from the axis, dark outside
+};
+
+/// What rays meet that meet nothing else.
+struct Environment {
+    vec3 radiance{0.0F};  ///< constant over all directions [W/(m² sr)]
+};
+
+struct Scene {
+    std::string name;
+    std::vector<Image> images;
+    std::vector<Sampler> samplers;
+    std::vector<Material> materials;
+    std::vector<Mesh> meshes;
+    std::vector<Instance> instances;
+    std::vector<Lamp> lamps;      ///< without the sun
+    std::vector<Camera> cameras;
+    std::optional<Sun> sun;       ///< the first directional light
+    Environment environment;
+
+    /// World-space box around all instances; empty if there are none.
+    [[nodiscard]] Aabb bounds() const;
+};
+
+/// From where, and in which light, a scene is seen: what a view file can change.
+struct View {
+    Camera camera;
+    Sun sun;
+    Environment environment;
+};
+
+/// The scene's first camera, its sun and its environment; where it has none, a camera that frames the whole scene
+/// from a little above, and (without any light at all) a sun from over the camera's shoulder.
+View defaultView(const Scene& scene);
+
+/// Camera-to-view matrix; view space looks along -Z.
+mat4 worldToView(const Camera& camera);
+
+/// Reversed depth: 1 at the near plane, 0 at infinity (perspective) or at the far plane (orthographic). Vulkan's
+/// clip space, Y down: uv = 0.5 + 0.5 · ndc.xy with (0,0) at the top left.
+mat4 viewToClip(const Camera& camera, float aspect);
+
+}  // namespace reflet
