@@ -1,0 +1,128 @@
+// The scene's bounds, the view it is first seen from, and the two matrices of a camera.
+#include "scene/scene.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reflet {
+namespace {
+
+constexpr vec3 worldUp{0, 1, 0};
+
+/// `up` where it can span a plane with `forward`, else an axis that can.
+vec3 usableUp(const vec3& forward, const vec3& up) {
+    const float sine = glm::length(glm::cross(forward, up));
+    if (sine > 1e-4F * glm::length(up)) {
+        return up;
+    }
+    return std::abs(forward.y) < 0.9F ? worldUp : vec3(0, 0, -1);
+}
+
+vec3 viewDirection(const Camera& camera) {
+    const vec3 toTarget = camera.target - camera.position;
+    const float distance = glm::length(toTarget);
+    return distance > 0.0F ? toTarget / distance : vec3(0, 0, -1);
+}
+
+/// Sees the whole box from a little above and from the right of its front (+Z).
+Camera framingCamera(const Aabb& bounds) {
+    Camera camera;
+    if (bounds.empty()) {
+        return camera;
+    }
+    camera.fovY = glm::radians(45.0F);
+    // The bounding sphere touches the upper and the lower edge of the picture; wider pictures leave room beside it.
+    const float radius = std::max(0.5F * glm::length(bounds.size()), 1e-3F);
+    const float distance = radius / std::sin(0.5F * camera.fovY);
+    const float azimuth = glm::radians(30.0F);
+    const float elevation = glm::radians(20.0F);
+    const vec3 towardsCamera{std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
+                             std::cos(elevation) * std::cos(azimuth)};
+    camera.target = bounds.center();
+    camera.position = camera.target + distance * towardsCamera;
+    // Far nearer than the sphere, so that one can walk into the scene; reversed float depth has the precision for it.
+    camera.near = 0.01F * radius;
+    return camera;
+}
+
+/// From behind the camera's left shoulder, 53° above the horizon: shadows fall to the right and stay in the picture.
+Sun shoulderSun(const Camera& camera) {
+    const vec3 forward = viewDirection(camera);
+    vec3 ahead{forward.x, 0.0F, forward.z};
+    if (glm::length(ahead) < 1e-3F) {  // looks straight up or down: what is up in the picture is ahead
+        const vec3 up = usableUp(forward, camera.up);
+        ahead = {up.x, 0.0F, up.z};
+    }
+    ahead = glm::normalize(ahead);
+    const vec3 right = glm::cross(ahead, worldUp);
+    Sun sun;
+    sun.direction = glm::normalize(0.6F * ahead + 0.45F * right - worldUp);
+    sun.irradiance = vec3(glm::pi<float>());
+    return sun;
+}
+
+Sun defaultSun(const Scene& scene, const Camera& camera) {
+    if (scene.sun) {
+        return *scene.sun;
+    }
+    // Emissive surfaces do not count: a glowing lamp on a robot does not light the robot.
+    const bool lit = !scene.lamps.empty() || scene.environment.radiance != vec3(0.0F);
+    return lit ? Sun{} : shoulderSun(camera);
+}
+
+}  // namespace
+
+Aabb Scene::bounds() const {
+    Aabb result;
+    for (const Instance& instance : instances) {
+        const Aabb& box = meshes.at(instance.mesh).bounds;
+        if (!box.empty()) {
+            result.add(transformed(box, instance.objectToWorld));
+        }
+    }
+    return result;
+}
+
+View defaultView(const Scene& scene) {
+    View view;
+    view.camera = scene.cameras.empty() ? framingCamera(scene.bounds()) : scene.cameras.front();
+    view.sun = defaultSun(scene, view.camera);
+    view.environment = scene.environment;
+    return view;
+}
+
+mat4 worldToView(const Camera& camera) {
+    const vec3 back = -viewDirection(camera);
+    const vec3 right = glm::normalize(glm::cross(usableUp(-back, camera.up), back));
+    const vec3 up = glm::cross(back, right);
+    const mat3 worldToViewRotation = glm::transpose(mat3(right, up, back));
+    mat4 result(worldToViewRotation);
+    result[3] = vec4(worldToViewRotation * -camera.position, 1.0F);
+    return result;
+}
+
+mat4 viewToClip(const Camera& camera, float aspect) {
+    REFLET_CHECK(aspect > 0.0F && camera.near > 0.0F, "aspect {}, near {}", aspect, camera.near);
+    mat4 result(0.0F);  // result[column][row]
+    if (camera.orthographicHeight > 0.0F) {
+        REFLET_CHECK(camera.far > camera.near, "near {}, far {}", camera.near, camera.far);
+        const float scale = 2.0F / camera.orthographicHeight;
+        const float depthScale = 1.0F / (camera.far - camera.near);
+        result[0][0] = scale / aspect;
+        result[1][1] = -scale;  // clip y points down
+        result[2][2] = depthScale;
+        result[3][2] = camera.far * depthScale;
+        result[3][3] = 1.0F;
+        return result;
+    }
+    const float scale = 1.0F / std::tan(0.5F * camera.fovY);
+    result[0][0] = scale / aspect;
+    result[1][1] = -scale;       // clip y points down
+    result[3][2] = camera.near;  // clip.z = near
+    result[2][3] = -1.0F;        // clip.w = -z_view, the distance along the view: depth = near / distance
+    return result;
+}
+
+}  // namespace reflet
