@@ -1,0 +1,59 @@
+// Draws 8-bit images by code: rectangles, discs, letters, grain, and normal maps from heights.
+#pragma once
+
+#include "scene/scene.h"
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace reflet::builtin {
+
+/// 0xRRGGBB as artists write colours: sRGB.
+using Hex = uint32_t;
+
+/// The linear colour of a hex colour, for material factors.
+vec3 linear(Hex color);
+
+/// Between two hex colours, in sRGB.
+Hex mixed(Hex a, Hex b, float t);
+
+/// Pixel rectangle: from x, y; right and lower edge excluded.
+struct PixelBox {
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
+};
+
+class Canvas {
+public:
+    Canvas(std::string name, uint32_t width, uint32_t height, Hex fill);
+
+    [[nodiscard]] int width() const { return static_cast<int>(image.width); }
+    [[nodiscard]] int height() const { return static_cast<int>(image.height); }
+
+    void set(int x, int y, Hex color, uint8_t alpha = 255);
+    void rectangle(const PixelBox& area, Hex color, uint8_t alpha = 255);
+    void disc(const vec2& center, float radius, Hex color, uint8_t alpha = 255);
+
+    /// Letters A to L and digits in a 5x7 raster, `pixel` pixels a dot, centred on a point.
+    void text(std::string_view letters, const vec2& center, int pixel, Hex color);
+
+    /// Makes every pixel a little lighter or darker, at most by `strength` of 255.
+    void grain(float strength, uint32_t seed);
+
+    /// Runs over all pixels; uv is the pixel's centre.
+    void paint(const std::function<Hex(const vec2& uv)>& color);
+
+    Image finish() { return std::move(image); }
+
+private:
+    Image image;
+};
+
+/// Tangent-space normal map of a height in metres over the unit square, which continues at the edges and is `metres`
+/// wide.
+Image normalMap(std::string name, uint32_t size, float metres, const std::function<float(const vec2& uv)>& height);
+
+}  // namespace reflet::builtin
