@@ -104,7 +104,7 @@ mat4 worldToView(const Camera& camera) {
 }
 
 mat4 viewToClip(const Camera& camera, float aspect) {
-    REFLET_CHECK(aspect > 0.0F && camera.near > 0.0F, "aspect {}, near {}", aspect, camera.near);
+    REFLET_CHECK(aspect > 0.0F, "aspect {}", aspect);
     mat4 result(0.0F);  // result[column][row]
     if (camera.orthographicHeight > 0.0F) {
         REFLET_CHECK(camera.far > camera.near, "near {}, far {}", camera.near, camera.far);
@@ -117,6 +117,7 @@ mat4 viewToClip(const Camera& camera, float aspect) {
         result[3][3] = 1.0F;
         return result;
     }
+    REFLET_CHECK(camera.near > 0.0F && camera.fovY > 0.0F, "near {}, fovY {}", camera.near, camera.fovY);
     const float scale = 1.0F / std::tan(0.5F * camera.fovY);
     result[0][0] = scale / aspect;
     result[1][1] = -scale;       // clip y points down

@@ -1,0 +1,156 @@
+// Whole files in and out. Files are written beside their name and then renamed, which is atomic on POSIX.
+#include "base/file.h"
+
+#include "base/error.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <string>
+#include <system_error>
+#include <utility>
+
+namespace reflet {
+namespace fs = std::filesystem;
+namespace {
+
+std::string reason(int errorNumber) {
+    return std::generic_category().message(errorNumber);
+}
+
+/// A file descriptor that closes itself.
+class Descriptor {
+public:
+    explicit Descriptor(int value) : value_(value) {}
+    ~Descriptor() { close(); }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    Descriptor(Descriptor&&) = delete;
+    Descriptor& operator=(Descriptor&&) = delete;
+
+    [[nodiscard]] int get() const { return value_; }
+    [[nodiscard]] bool valid() const { return value_ >= 0; }
+
+    /// False with errno set if the last of the content could not be written.
+    bool close() {
+        const int value = std::exchange(value_, -1);
+        return value < 0 || ::close(value) == 0;
+    }
+
+private:
+    int value_;
+};
+
+[[noreturn]] void failWrite(const fs::path& path, int errorNumber) {
+    std::string advice;
+    const fs::path folder = path.parent_path();
+    std::error_code ignored;
+    if (errorNumber == ENOENT && !folder.empty() && !fs::exists(folder, ignored)) {
+        advice = fmt::format(": create the folder '{}' first", folder.string());
+    }
+    fail("{}: cannot be written: {}{}", path.string(), reason(errorNumber), advice);
+}
+
+/// A name in the same folder that no other process and no other thread of this one uses.
+fs::path temporaryName(const fs::path& target) {
+    static std::atomic<unsigned> counter = 0;
+    fs::path result = target;
+    result.replace_filename(fmt::format(".{}.{}-{}.tmp", target.filename().string(), ::getpid(), counter++));
+    return result;
+}
+
+void writeAll(int descriptor, std::string_view content, const fs::path& name) {
+    while (!content.empty()) {
+        const ssize_t written = ::write(descriptor, content.data(), content.size());
+        if (written < 0 && errno != EINTR) {
+            failWrite(name, errno);
+        }
+        if (written > 0) {
+            content.remove_prefix(static_cast<size_t>(written));
+        }
+    }
+}
+
+}  // namespace
+
+std::string readFile(const fs::path& path) {
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    if (!file.valid()) {
+        fail("{}: cannot be read: {}", path.string(), reason(errno));
+    }
+    std::string content;
+    std::error_code ignored;
+    if (const uintmax_t size = fs::file_size(path, ignored); !ignored) {
+        content.reserve(size);
+    }
+    std::string block(size_t{1} << 16, '\0');
+    for (;;) {
+        const ssize_t count = ::read(file.get(), block.data(), block.size());
+        if (count < 0 && errno != EINTR) {
+            fail("{}: cannot be read: {}", path.string(), reason(errno));
+        }
+        if (count == 0) {
+            return content;
+        }
+        if (count > 0) {
+            content.append(block, 0, static_cast<size_t>(count));
+        }
+    }
+}
+
+void writeFileAtomically(const fs::path& path, std::string_view content) {
+    AtomicFile file(path);
+    Descriptor descriptor(::open(file.tempPath().c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC));
+    if (!descriptor.valid()) {
+        failWrite(path, errno);
+    }
+    writeAll(descriptor.get(), content, path);
+    if (!descriptor.close()) {
+        failWrite(path, errno);
+    }
+    file.commit();
+}
+
+AtomicFile::AtomicFile(const fs::path& target) : name_(target), target_(target) {
+    std::error_code ignored;
+    const fs::file_status status = fs::status(target, ignored);
+    if (fs::is_directory(status) || !target.has_filename()) {
+        fail("{}: cannot be written: it is a folder: name a file in it", target.string());
+    }
+    if (fs::exists(status) && !fs::is_regular_file(status)) {
+        tempPath_ = target_;
+        return;
+    }
+    if (fs::is_symlink(fs::symlink_status(target, ignored))) {
+        std::error_code dangling;
+        const fs::path resolved = fs::canonical(target, dangling);
+        target_ = dangling ? target : resolved;
+    }
+    tempPath_ = temporaryName(target_);
+    const Descriptor descriptor(::open(tempPath_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    if (!descriptor.valid()) {
+        failWrite(name_, errno);
+    }
+    pending_ = true;
+}
+
+AtomicFile::~AtomicFile() {
+    if (pending_) {
+        std::error_code ignored;
+        fs::remove(tempPath_, ignored);
+    }
+}
+
+void AtomicFile::commit() {
+    if (!pending_) {
+        return;
+    }
+    if (::rename(tempPath_.c_str(), target_.c_str()) != 0) {
+        failWrite(name_, errno);
+    }
+    pending_ = false;
+}
+
+}  // namespace reflet

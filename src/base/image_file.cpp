@@ -1,0 +1,93 @@
+// PNG and Radiance HDR through stb, encoded and decoded in memory.
+#include "base/image_file.h"
+
+#include "base/error.h"
+#include "base/file.h"
+
+#include <stb/stb_image.h>
+#include <stb/stb_image_write.h>
+
+#include <limits>
+#include <memory>
+#include <string_view>
+
+namespace reflet {
+namespace {
+
+template <class T>
+using StbPixels = std::unique_ptr<T, decltype(&stbi_image_free)>;
+
+/// A file as stb wants it.
+struct Encoded {
+    explicit Encoded(const std::filesystem::path& path) : content(readFile(path)) {
+        if (content.size() > static_cast<size_t>(std::numeric_limits<int>::max())) {
+            fail("{}: cannot be read: larger than 2 GiB", path.string());
+        }
+    }
+    [[nodiscard]] const stbi_uc* data() const { return reinterpret_cast<const stbi_uc*>(content.data()); }
+    [[nodiscard]] int size() const { return static_cast<int>(content.size()); }
+
+    std::string content;
+};
+
+[[noreturn]] void failDecode(const std::filesystem::path& path) {
+    const char* reason = stbi_failure_reason();
+    fail("{}: cannot be read as an image: {}", path.string(), reason != nullptr ? reason : "unknown format");
+}
+
+void appendToString(void* target, void* data, int size) {
+    static_cast<std::string*>(target)->append(static_cast<const char*>(data), static_cast<size_t>(size));
+}
+
+}  // namespace
+
+void writePng(const std::filesystem::path& path, const Bitmap& bitmap) {
+    const size_t stride = size_t{bitmap.width} * bitmap.channels;
+    REFLET_CHECK(bitmap.channels == 3 || bitmap.channels == 4, "{} channels", bitmap.channels);
+    REFLET_CHECK(bitmap.width > 0 && bitmap.height > 0 && bitmap.data.size() == stride * bitmap.height,
+                 "{}x{}, {} bytes", bitmap.width, bitmap.height, bitmap.data.size());
+    std::string png;
+    const int done =
+        stbi_write_png_to_func(appendToString, &png, static_cast<int>(bitmap.width), static_cast<int>(bitmap.height),
+                               static_cast<int>(bitmap.channels), bitmap.data.data(), static_cast<int>(stride));
+    if (done == 0) {
+        fail("{}: cannot be encoded as PNG: out of memory", path.string());
+    }
+    writeFileAtomically(path, png);
+}
+
+Bitmap readBitmap(const std::filesystem::path& path) {
+    const Encoded file(path);
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    const StbPixels<stbi_uc> pixels(stbi_load_from_memory(file.data(), file.size(), &width, &height, &channels, 0),
+                                    &stbi_image_free);
+    if (!pixels) {
+        failDecode(path);
+    }
+    Bitmap bitmap{static_cast<uint32_t>(width), static_cast<uint32_t>(height), static_cast<uint32_t>(channels), {}};
+    bitmap.data.assign(pixels.get(), pixels.get() + size_t{bitmap.width} * bitmap.height * bitmap.channels);
+    return bitmap;
+}
+
+FloatImage readHdr(const std::filesystem::path& path) {
+    const Encoded file(path);
+    // stb would turn an 8-bit picture into floats with a gamma of its own.
+    if (stbi_is_hdr_from_memory(file.data(), file.size()) == 0) {
+        fail("{}: is not a Radiance HDR image", path.string());
+    }
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    const StbPixels<float> pixels(stbi_loadf_from_memory(file.data(), file.size(), &width, &height, &channels, 3),
+                                  &stbi_image_free);
+    if (!pixels) {
+        failDecode(path);
+    }
+    FloatImage image{static_cast<uint32_t>(width), static_cast<uint32_t>(height), {"R", "G", "B"}, {}};
+    image.data.assign(pixels.get(), pixels.get() + size_t{image.width} * image.height * 3);
+    return image;
+}
+
+}  // namespace reflet

@@ -1,0 +1,245 @@
+// OpenEXR files of several layers, encoded and decoded in memory, so that all file errors are told in one place.
+#include "base/image_file.h"
+
+#include "base/error.h"
+#include "base/file.h"
+
+#include <ImathBox.h>
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfThreading.h>
+#include <half.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <map>
+#include <string_view>
+#include <thread>
+
+namespace reflet {
+namespace {
+
+class MemoryOutput : public Imf::OStream {
+public:
+    MemoryOutput() : OStream("") {}
+
+    void write(const char data[], int count) override {
+        const auto size = static_cast<size_t>(count);
+        content.resize(std::max(content.size(), position_ + size));
+        std::memcpy(content.data() + position_, data, size);
+        position_ += size;
+    }
+    uint64_t tellp() override { return position_; }
+    void seekp(uint64_t position) override { position_ = position; }
+
+    std::string content;
+
+private:
+    size_t position_ = 0;
+};
+
+class MemoryInput : public Imf::IStream {
+public:
+    explicit MemoryInput(std::string_view content) : IStream(""), content_(content) {}
+
+    bool read(char target[], int count) override {
+        const auto size = static_cast<size_t>(count);
+        if (position_ > content_.size() || size > content_.size() - position_) {
+            fail("the file ends too early");
+        }
+        std::memcpy(target, content_.data() + position_, size);
+        position_ += size;
+        return position_ < content_.size();
+    }
+    uint64_t tellg() override { return position_; }
+    void seekg(uint64_t position) override { position_ = position; }
+
+private:
+    std::string_view content_;
+    size_t position_ = 0;
+};
+
+/// OpenEXR's messages read: Cannot do this with file "". Reason.
+std::string reasonOf(const std::exception& error) {
+    std::string text = error.what();
+    if (const size_t end = text.rfind("\". "); end != std::string::npos) {
+        text.erase(0, end + 3);
+    }
+    std::ranges::replace(text, '\n', ' ');
+    while (!text.empty() && (text.back() == '.' || text.back() == ' ')) {
+        text.pop_back();
+    }
+    return text;
+}
+
+std::string channelName(const std::string& layer, const std::string& channel) {
+    return layer.empty() ? channel : layer + "." + channel;
+}
+
+size_t pixelCount(const FloatImage& image) {
+    return size_t{image.width} * image.height;
+}
+
+void checkLayers(std::span<const ImageLayer> layers) {
+    REFLET_CHECK(!layers.empty(), "an EXR file needs a layer");
+    for (const auto& [name, image, pixelType] : layers) {
+        REFLET_CHECK(image.width == layers[0].image.width && image.height == layers[0].image.height,
+                     "layer '{}': {}x{}", name, image.width, image.height);
+        REFLET_CHECK(pixelCount(image) > 0 && !image.channels.empty() &&
+                         image.data.size() == pixelCount(image) * image.channels.size(),
+                     "layer '{}': {}x{}, {} channels, {} values", name, image.width, image.height,
+                     image.channels.size(), image.data.size());
+    }
+}
+
+/// Finite stays finite: a bright highlight is not worth an infinity in every later sum.
+std::vector<half> toHalf(const std::vector<float>& values) {
+    std::vector<half> result(values.size());
+    std::ranges::transform(values, result.begin(), [](float value) {
+        return half(std::isfinite(value) ? std::clamp(value, -float{HALF_MAX}, float{HALF_MAX}) : value);
+    });
+    return result;
+}
+
+/// The slice of one channel of interleaved values whose first pixel is that of `window`.
+template <class T>
+Imf::Slice sliceOf(Imf::PixelType type, const T* values, size_t channel, size_t channels, const Imath::Box2i& window) {
+    const size_t xStride = channels * sizeof(T);
+    const auto width = static_cast<size_t>(window.max.x - window.min.x) + 1;
+    return Imf::Slice::Make(type, values + channel, window, xStride, xStride * width);
+}
+
+/// Compression takes most of the time of writing. The bytes do not depend on the number of threads.
+void startThreads() {
+    static const bool once = [] {
+        Imf::setGlobalThreadCount(static_cast<int>(std::thread::hardware_concurrency()));
+        return true;
+    }();
+    (void)once;
+}
+
+std::string encodeExr(std::span<const ImageLayer> layers) {
+    startThreads();
+    Imf::Header header(static_cast<int>(layers[0].image.width), static_cast<int>(layers[0].image.height));
+    header.compression() = Imf::ZIP_COMPRESSION;
+    Imf::FrameBuffer frameBuffer;
+    std::vector<std::vector<half>> halfData(layers.size());
+    for (size_t i = 0; i < layers.size(); ++i) {
+        const auto& [name, image, pixelType] = layers[i];
+        const bool isHalf = pixelType == PixelType::half;
+        if (isHalf) {
+            halfData[i] = toHalf(image.data);
+        }
+        for (size_t c = 0; c < image.channels.size(); ++c) {
+            const std::string channel = channelName(name, image.channels[c]);
+            REFLET_CHECK(header.channels().findChannel(channel) == nullptr, "two channels '{}'", channel);
+            header.channels().insert(channel, Imf::Channel(isHalf ? Imf::HALF : Imf::FLOAT));
+            frameBuffer.insert(
+                channel, isHalf
+                             ? sliceOf(Imf::HALF, halfData[i].data(), c, image.channels.size(), header.dataWindow())
+                             : sliceOf(Imf::FLOAT, image.data.data(), c, image.channels.size(), header.dataWindow()));
+        }
+    }
+    MemoryOutput output;
+    {
+        Imf::OutputFile file(output, header);
+        file.setFrameBuffer(frameBuffer);
+        file.writePixels(static_cast<int>(layers[0].image.height));
+    }  // the destructor writes the table of offsets
+    return std::move(output.content);
+}
+
+int channelRank(const std::string& channel) {
+    const size_t rank = std::string_view("RGBA").find(channel);
+    return channel.size() == 1 && rank != std::string_view::npos ? static_cast<int>(rank) : 4;
+}
+
+/// The layers that the header names, without pixels.
+std::vector<ImageLayer> layersOf(const Imf::Header& header, uint32_t width, uint32_t height) {
+    std::map<std::string, ImageLayer> byName;
+    for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
+        if (it.channel().xSampling != 1 || it.channel().ySampling != 1) {
+            fail("channel '{}' is subsampled, which is not supported", it.name());
+        }
+        const std::string full = it.name();
+        const size_t dot = full.rfind('.');
+        const std::string name = dot == std::string::npos ? "" : full.substr(0, dot);
+        ImageLayer& layer =
+            byName.try_emplace(name, ImageLayer{name, {width, height, {}, {}}, PixelType::half}).first->second;
+        layer.image.channels.push_back(dot == std::string::npos ? full : full.substr(dot + 1));
+        if (it.channel().type != Imf::HALF) {
+            layer.pixelType = PixelType::float32;
+        }
+    }
+    std::vector<ImageLayer> layers;
+    for (auto& [name, layer] : byName) {
+        std::ranges::stable_sort(layer.image.channels, {}, channelRank);
+        layers.push_back(std::move(layer));
+    }
+    return layers;
+}
+
+/// A damaged header can ask for any amount of memory.
+void checkPlausible(const std::vector<ImageLayer>& layers, size_t fileSize) {
+    double bytes = 0;  // as a double it cannot overflow
+    for (const auto& [name, image, pixelType] : layers) {
+        bytes += double{sizeof(float)} * image.width * image.height * static_cast<double>(image.channels.size());
+    }
+    constexpr double always = 64.0 * 1024 * 1024;
+    constexpr double bestCompression = 4096;
+    if (bytes > std::max(always, bestCompression * static_cast<double>(fileSize))) {
+        fail("a picture of {:g} bytes cannot be in {} bytes", bytes, fileSize);
+    }
+}
+
+std::vector<ImageLayer> decodeExr(std::string_view content) {
+    MemoryInput input(content);
+    Imf::InputFile file(input);
+    const Imath::Box2i window = file.header().dataWindow();
+    std::vector<ImageLayer> layers = layersOf(file.header(), static_cast<uint32_t>(window.max.x - window.min.x + 1),
+                                              static_cast<uint32_t>(window.max.y - window.min.y + 1));
+    checkPlausible(layers, content.size());
+    Imf::FrameBuffer frameBuffer;
+    for (auto& [name, image, pixelType] : layers) {
+        image.data.resize(pixelCount(image) * image.channels.size());
+        for (size_t c = 0; c < image.channels.size(); ++c) {
+            frameBuffer.insert(channelName(name, image.channels[c]),
+                               sliceOf(Imf::FLOAT, image.data.data(), c, image.channels.size(), window));
+        }
+    }
+    file.setFrameBuffer(frameBuffer);
+    file.readPixels(window.min.y, window.max.y);
+    return layers;
+}
+
+}  // namespace
+
+void writeExr(const std::filesystem::path& path, std::span<const ImageLayer> layers) {
+    checkLayers(layers);
+    std::string content;
+    try {
+        content = encodeExr(layers);
+    } catch (const std::logic_error&) {
+        throw;  // a broken check
+    } catch (const std::exception& error) {
+        fail("{}: cannot be encoded as EXR: {}", path.string(), reasonOf(error));
+    }
+    writeFileAtomically(path, content);
+}
+
+std::vector<ImageLayer> readExr(const std::filesystem::path& path) {
+    const std::string content = readFile(path);
+    try {
+        return decodeExr(content);
+    } catch (const std::exception& error) {
+        fail("{}: cannot be read as EXR: {}", path.string(), reasonOf(error));
+    }
+}
+
+}  // namespace reflet

@@ -1,0 +1,73 @@
+// Finds the name that somebody meant who mistyped it: optimal string alignment distance.
+#include "base/text.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace reflet {
+namespace {
+
+std::string lowerCase(std::string_view text) {
+    std::string result(text);
+    std::ranges::transform(result, result.begin(),
+                           [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    return result;
+}
+
+/// How many letters must be inserted, deleted, replaced, or swapped with their neighbour, to make b of a.
+size_t editDistance(std::string_view a, std::string_view b) {
+    std::vector<size_t> beforeLast(b.size() + 1);
+    std::vector<size_t> last(b.size() + 1);
+    std::vector<size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), size_t{0});
+    for (size_t i = 1; i <= a.size(); ++i) {
+        beforeLast.swap(last);
+        last.swap(row);
+        row[0] = i;
+        for (size_t j = 1; j <= b.size(); ++j) {
+            const size_t replaced = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+            row[j] = std::min({replaced, last[j] + 1, row[j - 1] + 1});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+                row[j] = std::min(row[j], beforeLast[j - 2] + 1);
+            }
+        }
+    }
+    return row[b.size()];
+}
+
+/// "pos" for "position", "maxSteps" for "trace_screen.maxSteps".
+bool onePartOfOther(std::string_view a, std::string_view b) {
+    const auto [shorter, longer] = a.size() < b.size() ? std::pair(a, b) : std::pair(b, a);
+    return shorter.size() >= 3 && longer.find(shorter) != std::string_view::npos;
+}
+
+}  // namespace
+
+std::optional<std::string> nearestName(std::string_view name, std::span<const std::string> names) {
+    const std::string wanted = lowerCase(name);
+    std::optional<std::string> nearest;
+    size_t nearestDistance = std::numeric_limits<size_t>::max();
+    for (const std::string& candidate : names) {
+        const std::string known = lowerCase(candidate);
+        const size_t distance = editDistance(wanted, known);
+        const bool near = 2 * distance < std::max(wanted.size(), known.size()) || onePartOfOther(wanted, known);
+        if (near && distance < nearestDistance) {
+            nearest = candidate;
+            nearestDistance = distance;
+        }
+    }
+    return nearest;
+}
+
+std::string suggestion(std::string_view name, std::span<const std::string> names) {
+    const std::optional<std::string> nearest = nearestName(name, names);
+    return nearest ? fmt::format("; did you mean '{}'?", *nearest) : "";
+}
+
+}  // namespace reflet
