@@ -1,0 +1,126 @@
+// View files: camera, sun and environment as JSON, checked before anything of the view is changed.
+#include "scene/view_file.h"
+
+#include "base/error.h"
+#include "base/json.h"
+
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace reflet {
+namespace {
+
+// Far beyond any scene, and far from where float arithmetic overflows.
+constexpr double largest = 1e12;
+constexpr double degree = glm::pi<double>() / 180.0;
+
+vec3 readVec3(const JsonNode& node, double min, double max, std::string_view unit = "") {
+    const std::vector<double> values = node.numbers(3, min, max, unit);
+    return {static_cast<float>(values[0]), static_cast<float>(values[1]), static_cast<float>(values[2])};
+}
+
+/// A unit vector from three numbers that are not all zero.
+vec3 readDirection(const JsonNode& node) {
+    const std::vector<double> values = node.numbers(3, -largest, largest);
+    const glm::dvec3 direction(values[0], values[1], values[2]);
+    const double length = glm::length(direction);
+    if (!(length > 0.0)) {
+        node.complainMustBe("a direction that is not zero");
+    }
+    return direction / length;
+}
+
+/// Keeps Camera's promise that position, target and up span a view.
+void checkOrientation(const JsonNode& node, Camera& camera) {
+    const vec3 toTarget = camera.target - camera.position;
+    if (!(glm::length(toTarget) > 0.0F)) {
+        node.complain("position and target are the same point; a view needs two");
+    }
+    const vec3 forward = glm::normalize(toTarget);
+    if (glm::length(glm::cross(forward, glm::normalize(camera.up))) >= 1e-3F) {
+        return;
+    }
+    if (const auto up = node.find("up")) {
+        up->complainMustBe("a direction across the view, not along it");
+    }
+    // An old up that a new position or target has made useless.
+    camera.up = std::abs(forward.y) < 0.9F ? vec3(0, 1, 0) : vec3(0, 0, -1);
+}
+
+Camera readCamera(const JsonNode& node, Camera camera) {
+    static const std::array<std::string, 5> keys{"position", "target", "up", "fov_y", "near"};
+    node.requireKeys(keys);
+    if (const auto position = node.find("position")) {
+        camera.position = readVec3(*position, -largest, largest, "metres");
+    }
+    if (const auto target = node.find("target")) {
+        camera.target = readVec3(*target, -largest, largest, "metres");
+    }
+    if (const auto up = node.find("up")) {
+        camera.up = readDirection(*up);
+    }
+    if (const auto fovY = node.find("fov_y")) {
+        camera.fovY = static_cast<float>(fovY->number(1.0, 179.0, "degrees") * degree);
+        camera.orthographicHeight = 0.0F;  // a field of view asks for a perspective
+    }
+    if (const auto near = node.find("near")) {
+        camera.near = static_cast<float>(near->number(1e-6, 1000.0, "metres"));
+        if (camera.orthographicHeight > 0.0F && camera.near >= camera.far) {
+            near->complainMustBe(fmt::format("less than {:g} metres, the scene's far plane", camera.far));
+        }
+    }
+    checkOrientation(node, camera);
+    return camera;
+}
+
+Sun readSun(const JsonNode& node, Sun sun) {
+    static const std::array<std::string, 3> keys{"direction", "irradiance", "angular_diameter"};
+    node.requireKeys(keys);
+    if (const auto direction = node.find("direction")) {
+        sun.direction = readDirection(*direction);
+    }
+    if (const auto irradiance = node.find("irradiance")) {
+        sun.irradiance = readVec3(*irradiance, 0.0, largest);
+    }
+    if (const auto diameter = node.find("angular_diameter")) {
+        sun.angularDiameter = static_cast<float>(diameter->number(0.0, 90.0, "degrees") * degree);
+    }
+    return sun;
+}
+
+Environment readEnvironment(const JsonNode& node, Environment environment) {
+    for (const char* key : {"image", "intensity", "rotation"}) {
+        if (const auto later = node.find(key)) {
+            later->complain("image environments are not supported by this version; use environment.radiance");
+        }
+    }
+    static const std::array<std::string, 1> keys{"radiance"};
+    node.requireKeys(keys);
+    if (const auto radiance = node.find("radiance")) {
+        environment.radiance = readVec3(*radiance, 0.0, largest);
+    }
+    return environment;
+}
+
+}  // namespace
+
+void applyViewFile(const std::filesystem::path& path, View& view) {
+    static const std::array<std::string, 3> keys{"camera", "sun", "environment"};
+    const nlohmann::json file = parseJsonFile(path);
+    const JsonNode root(file, path);
+    root.requireKeys(keys);
+    View changed = view;
+    if (const auto camera = root.find("camera")) {
+        changed.camera = readCamera(*camera, view.camera);
+    }
+    if (const auto sun = root.find("sun")) {
+        changed.sun = readSun(*sun, view.sun);
+    }
+    if (const auto environment = root.find("environment")) {
+        changed.environment = readEnvironment(*environment, view.environment);
+    }
+    view = changed;
+}
+
+}  // namespace reflet

@@ -1,0 +1,78 @@
+// JSON files read strictly.
+#include "base/json.h"
+
+#include "base/error.h"
+#include "base/file.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace reflet {
+namespace {
+
+std::string messageOf(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+/// What parseJsonFile says of a file of this content, from after the file's name.
+std::string parseErrorOf(const std::string& content) {
+    const auto path = std::filesystem::path(::testing::TempDir()) / "reflet_json_test.json";
+    writeFileAtomically(path, content);
+    const std::string message = messageOf([&] { parseJsonFile(path); });
+    std::filesystem::remove(path);
+    return message.starts_with(path.string()) ? message.substr(path.string().size()) : message;
+}
+
+TEST(JsonFile, ThatIsWellFormedIsRead) {
+    EXPECT_EQ(parseErrorOf(R"([{"a": 1, "b": {"a": 2}}, {"a": 1}, "\u00e9", -1.5e3, null, true])"), "no error");
+}
+
+TEST(JsonFile, ThatIsMalformedIsAnErrorWithTheLineAndColumnWhereReadingStopped) {
+    EXPECT_TRUE(parseErrorOf("{\n\n  \"a\" 1}").starts_with(":3:7: ")) << parseErrorOf("{\n\n  \"a\" 1}");
+    EXPECT_TRUE(parseErrorOf("").starts_with(":1:1: "));
+    EXPECT_TRUE(parseErrorOf("[1,\n").starts_with(":2:1: ")) << parseErrorOf("[1,\n");
+}
+
+TEST(JsonFile, WithAKeyTwiceInOneObjectIsAnError) {
+    EXPECT_EQ(parseErrorOf(R"({"a": {"b": [{"c": 1, "c": 2}]}})"), ": a.b.c: is given twice");
+}
+
+TEST(JsonFile, DeeplyNestedDoesNotOverflowTheStack) {
+    EXPECT_TRUE(parseErrorOf(std::string(200000, '[')).starts_with(":1:200001: "));
+    EXPECT_EQ(parseErrorOf(std::string(200000, '[') + std::string(200000, ']')), "no error");
+}
+
+TEST(JsonNode, SaysWhereInTheFileItStands) {
+    const auto json = nlohmann::json::parse(R"({"a": {"b": [1, "two"]}})");
+    const JsonNode root(json, "f.json");
+    EXPECT_EQ(root.path(), "");
+    EXPECT_EQ(root.find("missing"), std::nullopt);
+    const JsonNode element = root.find("a")->find("b")->at(1);
+    EXPECT_EQ(element.path(), "a.b[1]");
+    EXPECT_EQ(element.json(), "two");
+    EXPECT_EQ(messageOf([&] { element.complain("is wrong"); }), "f.json: a.b[1]: is wrong");
+    EXPECT_EQ(messageOf([&] { root.complain("is wrong"); }), "f.json: is wrong");
+}
+
+TEST(JsonNode, OnAnyJsonTheTypedReadersAnswerOrComplain) {
+    for (const char* text : {"null", "true", "1", "\"x\"", "[]", "[1,2]", "{}", "{\"x\":1}"}) {
+        const auto json = nlohmann::json::parse(text);
+        const JsonNode node(json, "f.json");
+        messageOf([&] { (void)node.number(0, 1); });
+        messageOf([&] { (void)node.numbers(2, 0, 9); });
+        messageOf([&] { node.requireKeys(std::array<std::string, 1>{"y"}); });
+        messageOf([&] { (void)node.find("x"); });
+    }
+}
+
+}  // namespace
+}  // namespace reflet

@@ -1,0 +1,204 @@
+// View files: what they change, and every way in which they can be wrong.
+#include "scene/view_file.h"
+
+#include "base/error.h"
+#include "base/file.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace reflet {
+namespace {
+
+/// Writes view files, applies them to a view, and gives error messages with the path shortened to "FILE".
+class ViewFile : public ::testing::Test {
+protected:
+    ViewFile()
+        : path_(std::filesystem::path(::testing::TempDir()) /
+                (std::string("reflet_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".json")) {}
+    ~ViewFile() override { std::filesystem::remove(path_); }
+    ViewFile(const ViewFile&) = delete;
+    ViewFile& operator=(const ViewFile&) = delete;
+    ViewFile(ViewFile&&) = delete;
+    ViewFile& operator=(ViewFile&&) = delete;
+
+    void apply(std::string_view json) {
+        writeFileAtomically(path_, json);
+        applyViewFile(path_, view_);
+    }
+
+    std::string errorOf(std::string_view json) {
+        try {
+            apply(json);
+        } catch (const Error& error) {
+            std::string message = error.what();
+            const size_t name = message.find(path_.string());
+            return name == std::string::npos ? message : message.replace(name, path_.string().size(), "FILE");
+        }
+        return "no error";
+    }
+
+    View view_;
+
+private:
+    std::filesystem::path path_;
+};
+
+void expectNear(const vec3& a, const vec3& b) {
+    EXPECT_LE(glm::length(a - b), 1e-6F) << a.x << ' ' << a.y << ' ' << a.z;
+}
+
+TEST_F(ViewFile, SetsEverythingThatItNames) {
+    apply(R"({ "camera": { "position": [6,1,0], "target": [0,0,0], "up": [0,2,0], "fov_y": 75, "near": 0.5 },
+               "sun": { "direction": [0,-3,4], "irradiance": [3.14,0,1e3], "angular_diameter": 0.5 },
+               "environment": { "radiance": [0.1,0.2,0.3] } })");
+    EXPECT_EQ(view_.camera.position, vec3(6, 1, 0));
+    EXPECT_EQ(view_.camera.target, vec3(0));
+    EXPECT_EQ(view_.camera.up, vec3(0, 1, 0));
+    EXPECT_FLOAT_EQ(view_.camera.fovY, glm::radians(75.0F));
+    EXPECT_EQ(view_.camera.near, 0.5F);
+    expectNear(view_.sun.direction, {0, -0.6F, 0.8F});
+    EXPECT_EQ(view_.sun.irradiance, vec3(3.14F, 0, 1e3F));
+    EXPECT_FLOAT_EQ(view_.sun.angularDiameter, glm::radians(0.5F));
+    EXPECT_EQ(view_.environment.radiance, vec3(0.1F, 0.2F, 0.3F));
+}
+
+TEST_F(ViewFile, LeavesWhatItDoesNotName) {
+    view_.camera.position = {1, 2, 3};
+    view_.sun.irradiance = vec3(7);
+    view_.environment.radiance = vec3(8);
+    apply("{}");
+    apply(R"({"camera": {}, "sun": {}, "environment": {}})");
+    apply(R"({"camera": {"target": [4,5,6]}, "sun": {"direction": [1,0,0]}})");
+    EXPECT_EQ(view_.camera.position, vec3(1, 2, 3));
+    EXPECT_EQ(view_.camera.target, vec3(4, 5, 6));
+    EXPECT_EQ(view_.sun.irradiance, vec3(7));
+    EXPECT_EQ(view_.sun.direction, vec3(1, 0, 0));
+    EXPECT_EQ(view_.environment.radiance, vec3(8));
+    apply(R"({"camera": {"position": [9,9,9]}})");
+    EXPECT_EQ(view_.camera.target, vec3(4, 5, 6));
+}
+
+TEST_F(ViewFile, WithAnErrorChangesNothing) {
+    EXPECT_NE(errorOf(R"({"camera": {"position": [9,9,9]}, "sun": {"direction": 1}})"), "no error");
+    EXPECT_EQ(view_.camera.position, Camera{}.position);
+}
+
+TEST_F(ViewFile, ThatIsMissingIsAnError) {
+    EXPECT_THROW(applyViewFile("no/such/view.json", view_), Error);
+}
+
+TEST_F(ViewFile, ThatIsMalformedIsAnErrorWithLineAndColumn) {
+    EXPECT_EQ(errorOf("{\n  \"camera\": {\n    \"near\": 1,\n  }\n}"),
+              "FILE:4:3: syntax error while parsing object key - unexpected '}'; expected string literal");
+    EXPECT_TRUE(errorOf("").starts_with("FILE:1:1: ")) << errorOf("");
+    EXPECT_TRUE(errorOf(R"({"camera": {"near": NaN}})").starts_with("FILE:1:21: "));
+    EXPECT_TRUE(errorOf("{} {}").starts_with("FILE:1:4: "));
+    EXPECT_EQ(errorOf(R"({"camera": {"near": 1e999}})"), "FILE: number overflow parsing '1e999'");
+}
+
+TEST_F(ViewFile, WithAKeyTwiceIsAnError) {
+    EXPECT_EQ(errorOf(R"({"camera": {"near": 1, "near": 2}})"), "FILE: camera.near: is given twice");
+    EXPECT_EQ(errorOf(R"({"sun": {}, "sun": {}})"), "FILE: sun: is given twice");
+}
+
+TEST_F(ViewFile, WithAnUnknownKeyIsAnErrorThatNamesTheNearest) {
+    EXPECT_EQ(errorOf(R"({"camra": {}})"), "FILE: camra: unknown key; did you mean 'camera'?");
+    EXPECT_EQ(errorOf(R"({"camera": {"fovY": 1}})"), "FILE: camera.fovY: unknown key; did you mean 'fov_y'?");
+    EXPECT_EQ(errorOf(R"({"sun": {"size": 1}})"),
+              "FILE: sun.size: unknown key; there are direction, irradiance, angular_diameter");
+    EXPECT_EQ(errorOf(R"({"environment": {"colour": 1}})"),
+              "FILE: environment.colour: unknown key; there are radiance");
+}
+
+TEST_F(ViewFile, WithSomethingElseWhereAnObjectBelongsIsAnError) {
+    EXPECT_EQ(errorOf("[1]"), "FILE: must be an object, is [1]");
+    EXPECT_EQ(errorOf(R"({"camera": null})"), "FILE: camera: must be an object, is null");
+    EXPECT_EQ(errorOf(R"({"sun": "bright"})"), "FILE: sun: must be an object, is \"bright\"");
+    EXPECT_EQ(errorOf(R"({"environment": 1})"), "FILE: environment: must be an object, is 1");
+}
+
+TEST_F(ViewFile, WithAValueOfTheWrongTypeOrLengthIsAnError) {
+    EXPECT_EQ(errorOf(R"({"camera": {"fov_y": "wide"}})"), "FILE: camera.fov_y: must be a number, is \"wide\"");
+    EXPECT_EQ(errorOf(R"({"camera": {"fov_y": true}})"), "FILE: camera.fov_y: must be a number, is true");
+    EXPECT_EQ(errorOf(R"({"camera": {"position": [1,2]}})"), "FILE: camera.position: must be 3 numbers, is [1,2]");
+    EXPECT_EQ(errorOf(R"({"camera": {"position": 1}})"), "FILE: camera.position: must be 3 numbers, is 1");
+    EXPECT_EQ(errorOf(R"({"camera": {"target": {}}})"), "FILE: camera.target: must be 3 numbers, is {}");
+    EXPECT_EQ(errorOf(R"({"sun": {"irradiance": [1,null,1]}})"),
+              "FILE: sun.irradiance: must be 3 numbers, is [1,null,1]");
+}
+
+TEST_F(ViewFile, WithANumberOutOfRangeIsAnError) {
+    EXPECT_EQ(errorOf(R"({"camera": {"fov_y": 200}})"),
+              "FILE: camera.fov_y: must be between 1 and 179 degrees, is 200");
+    EXPECT_EQ(errorOf(R"({"camera": {"near": 0}})"), "FILE: camera.near: must be between 1e-06 and 1000 metres, is 0");
+    EXPECT_EQ(errorOf(R"({"camera": {"position": [0,1e300,0]}})"),
+              "FILE: camera.position[1]: must be between -1e+12 and 1e+12 metres, is 1e+300");
+    EXPECT_EQ(errorOf(R"({"sun": {"angular_diameter": 90.5}})"),
+              "FILE: sun.angular_diameter: must be between 0 and 90 degrees, is 90.5");
+    EXPECT_EQ(errorOf(R"({"sun": {"irradiance": [1,-1,1]}})"),
+              "FILE: sun.irradiance[1]: must be between 0 and 1e+12, is -1");
+    EXPECT_EQ(errorOf(R"({"environment": {"radiance": [0,0,-0.5]}})"),
+              "FILE: environment.radiance[2]: must be between 0 and 1e+12, is -0.5");
+}
+
+TEST_F(ViewFile, WithADirectionOfZeroIsAnError) {
+    EXPECT_EQ(errorOf(R"({"sun": {"direction": [0,0,0]}})"),
+              "FILE: sun.direction: must be a direction that is not zero, is [0,0,0]");
+    EXPECT_EQ(errorOf(R"({"camera": {"up": [0,0,0]}})"),
+              "FILE: camera.up: must be a direction that is not zero, is [0,0,0]");
+}
+
+TEST_F(ViewFile, WithPositionAndTargetTheSameIsAnError) {
+    const std::string expected = "FILE: camera: position and target are the same point; a view needs two";
+    EXPECT_EQ(errorOf(R"({"camera": {"position": [1,2,3], "target": [1,2,3]}})"), expected);
+    EXPECT_EQ(errorOf(R"({"camera": {"position": [0,0,0]}})"), expected);  // the target that the view has
+}
+
+TEST_F(ViewFile, WithUpAlongTheViewIsAnError) {
+    EXPECT_EQ(errorOf(R"({"camera": {"position": [0,5,0], "target": [0,0,0], "up": [0,1,0]}})"),
+              "FILE: camera.up: must be a direction across the view, not along it, is [0,1,0]");
+    EXPECT_EQ(errorOf(R"({"camera": {"position": [0,0,5], "target": [0,0,0], "up": [0,0,2]}})"),
+              "FILE: camera.up: must be a direction across the view, not along it, is [0,0,2]");
+}
+
+TEST_F(ViewFile, CanLookStraightDownWithoutSayingWhereUpIs) {
+    apply(R"({"camera": {"position": [0,5,0], "target": [0,0,0]}})");
+    EXPECT_EQ(view_.camera.up, vec3(0, 0, -1));
+}
+
+TEST_F(ViewFile, WithAnEnvironmentImageIsAnErrorUntilThereAreSome) {
+    const std::string expected = ": image environments are not supported by this version; use environment.radiance";
+    EXPECT_EQ(errorOf(R"({"environment": {"image": "sky.hdr"}})"), "FILE: environment.image" + expected);
+    EXPECT_EQ(errorOf(R"({"environment": {"intensity": 2}})"), "FILE: environment.intensity" + expected);
+    EXPECT_EQ(errorOf(R"({"environment": {"rotation": 0}})"), "FILE: environment.rotation" + expected);
+}
+
+TEST_F(ViewFile, MakesAnOrthographicCameraPerspectiveOnlyByAFieldOfView) {
+    view_.camera.orthographicHeight = 10.0F;
+    apply(R"({"camera": {"position": [0,1,9]}})");
+    EXPECT_EQ(view_.camera.orthographicHeight, 10.0F);
+    apply(R"({"camera": {"fov_y": 40}})");
+    EXPECT_EQ(view_.camera.orthographicHeight, 0.0F);
+}
+
+TEST_F(ViewFile, CannotPutTheNearPlaneBehindTheFarPlaneOfAnOrthographicCamera) {
+    view_.camera.orthographicHeight = 10.0F;
+    view_.camera.far = 50.0F;
+    EXPECT_EQ(errorOf(R"({"camera": {"near": 60}})"),
+              "FILE: camera.near: must be less than 50 metres, the scene's far plane, is 60");
+    apply(R"({"camera": {"near": 60, "fov_y": 40}})");
+    EXPECT_EQ(view_.camera.near, 60.0F);
+}
+
+TEST_F(ViewFile, ShowsNoLongValueAndNoSecondLineInItsErrors) {
+    const std::string message = errorOf(R"({"camera": {"fov_y": ")" + std::string(500, 'x') + "\"}}");
+    EXPECT_EQ(message, "FILE: camera.fov_y: must be a number, is a longer text");
+    EXPECT_EQ(errorOf("{\"sun\": \"\xff\"}").find('\n'), std::string::npos);
+}
+
+}  // namespace
+}  // namespace reflet
