@@ -46,7 +46,8 @@ Bitmap readBitmap(const std::filesystem::path& path);
 void writeExr(const std::filesystem::path& path, std::span<const ImageLayer> layers);
 
 /// All channels of the first part of an EXR file as layers, ordered by name (the unnamed one first); channels in the
-/// order R G B A, then alphabetical. The size is that of the data window. Integer channels become float. Throws Error.
+/// order R G B A, then alphabetical. The size is that of the data window, at most 65536 pixels a side. Integer channels
+/// become float. Throws Error.
 std::vector<ImageLayer> readExr(const std::filesystem::path& path);
 
 /// Radiance .hdr as "R" "G" "B". Throws Error.

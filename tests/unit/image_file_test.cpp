@@ -21,16 +21,18 @@ namespace fs = std::filesystem;
 
 /// An empty folder for one test.
 class Files : public ::testing::Test {
+public:
+    Files(const Files&) = delete;
+    Files& operator=(const Files&) = delete;
+    Files(Files&&) = delete;
+    Files& operator=(Files&&) = delete;
+
 protected:
     Files() : folder_(fs::path(::testing::TempDir()) / "reflet_image_file_test" / testName()) {
         fs::remove_all(folder_);
         fs::create_directories(folder_);
     }
     ~Files() override { fs::remove_all(folder_); }
-    Files(const Files&) = delete;
-    Files& operator=(const Files&) = delete;
-    Files(Files&&) = delete;
-    Files& operator=(Files&&) = delete;
 
     [[nodiscard]] fs::path at(const std::string& name) const { return folder_ / name; }
     [[nodiscard]] size_t fileCount() const {

@@ -15,15 +15,17 @@ namespace {
 
 /// Writes view files, applies them to a view, and gives error messages with the path shortened to "FILE".
 class ViewFile : public ::testing::Test {
+public:
+    ViewFile(const ViewFile&) = delete;
+    ViewFile& operator=(const ViewFile&) = delete;
+    ViewFile(ViewFile&&) = delete;
+    ViewFile& operator=(ViewFile&&) = delete;
+
 protected:
     ViewFile()
         : path_(std::filesystem::path(::testing::TempDir()) /
                 (std::string("reflet_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".json")) {}
     ~ViewFile() override { std::filesystem::remove(path_); }
-    ViewFile(const ViewFile&) = delete;
-    ViewFile& operator=(const ViewFile&) = delete;
-    ViewFile(ViewFile&&) = delete;
-    ViewFile& operator=(ViewFile&&) = delete;
 
     void apply(std::string_view json) {
         writeFileAtomically(path_, json);
