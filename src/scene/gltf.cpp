@@ -1,0 +1,59 @@
+// Loads glTF 2.0 files (.gltf, .glb) into a Scene: read and check the document, choose the scene, place its nodes.
+#include "scene/gltf.h"
+
+#include "scene/gltf_nodes.h"
+
+#include <new>
+
+namespace reflet {
+
+namespace {
+
+/// The roots of the chosen scene. A file without scenes is a library of parts: all of them are shown.
+std::vector<int> chooseScene(const GltfDocument& document, int wanted, std::string& name, GltfReport& report) {
+    const auto& scenes = document.model.scenes;
+    if (wanted >= 0 && static_cast<size_t>(wanted) >= scenes.size()) {
+        report.failUsage("", "there is no scene {}: it has {} {}, counted from 0", wanted, scenes.size(),
+                         scenes.size() == 1 ? "scene" : "scenes");
+    }
+    if (scenes.empty()) {
+        report.warn("no scenes", "scenes", "there are none: all nodes are drawn");
+        std::vector<int> roots;
+        for (size_t i = 0; i < document.isChild.size(); ++i) {
+            if (!document.isChild[i]) {
+                roots.push_back(static_cast<int>(i));
+            }
+        }
+        return roots;
+    }
+    const int chosen = wanted >= 0 ? wanted : std::max(document.model.defaultScene, 0);
+    name = scenes[static_cast<size_t>(chosen)].name;
+    return scenes[static_cast<size_t>(chosen)].nodes;
+}
+
+}  // namespace
+
+Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
+    GltfReport report(path.string(), options.warn);
+    try {
+        const GltfDocument document = readGltfDocument(path, report);
+        if (document.animated) {
+            report.warn("animations", "animations", "animations are left out: the scene is drawn as it is stored");
+        }
+        Scene scene;
+        const std::vector<int> roots = chooseScene(document, options.scene, scene.name, report);
+        if (scene.name.empty()) {
+            scene.name = path.stem().string();
+        }
+        GltfMaterials materials(document, scene, report);
+        GltfMeshes meshes(document, materials, scene, report);
+        placeGltfNodes(document, roots, meshes, scene, report);
+        return scene;
+    } catch (const std::bad_alloc&) {
+        report.fail("", "needs more memory than there is");
+    } catch (const std::length_error&) {
+        report.fail("", "needs more memory than there is");
+    }
+}
+
+}  // namespace reflet

@@ -1,0 +1,181 @@
+// Reads a glTF file: container, then schema, then tinygltf for the structure, then the buffers, then the checks.
+// tinygltf is given a document without buffers and images: its own reading of them falls back to the current folder,
+// takes '+' in a file name for a space, decodes every image and has no bounds.
+#include "scene/gltf_document.h"
+
+#include "scene/gltf_container.h"
+#include "scene/gltf_schema.h"
+#include "scene/gltf_uri.h"
+
+#include <algorithm>
+#include <charconv>
+
+namespace reflet {
+
+namespace {
+
+using nlohmann::json;
+
+/// The array of this name in a checked document; an empty one where there is none.
+const json& arrayOf(const json& document, const char* name) {
+    static const json none = json::array();
+    const auto found = document.find(name);
+    return found != document.end() ? *found : none;
+}
+
+/// "MAJOR.MINOR" with MAJOR 2; a file that needs a minor version says so in minVersion.
+void checkVersion(const json& document, const GltfReport& report) {
+    const auto& asset = document["asset"];
+    const std::string version = asset["version"];
+    if (version != "2" && !version.starts_with("2.")) {
+        report.fail("asset.version", "is {}, only glTF 2.0 is read", version);
+    }
+    const std::string least = asset.value("minVersion", "2.0");
+    if (least != "2.0") {
+        report.fail("asset.minVersion", "is {}, only glTF 2.0 is read", least);
+    }
+}
+
+void checkExtensions(const json& document, GltfReport& report) {
+    for (const std::string name : arrayOf(document, "extensionsRequired")) {
+        if (!knownGltfExtension(name)) {
+            report.fail("extensionsRequired", "the extension {} is not known", name);
+        }
+    }
+    for (const std::string name : arrayOf(document, "extensionsUsed")) {
+        if (!knownGltfExtension(name)) {
+            report.warn("extension " + name, "extensionsUsed", "the extension {} is not known and left out", name);
+        }
+    }
+}
+
+/// A camera and a spot light have an object of the name of their type.
+void checkVariants(const json& document, const GltfReport& report) {
+    size_t i = 0;
+    for (const json& camera : arrayOf(document, "cameras")) {
+        const std::string type = camera["type"];
+        if (!camera.contains(type)) {
+            report.fail(fmt::format("cameras[{}].{}", i, type), "is missing");
+        }
+        ++i;
+    }
+    i = 0;
+    const json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
+    for (const json& light : document.value(lights, json::array())) {
+        if (light["type"] == "spot" && !light.contains("spot")) {
+            report.fail(fmt::format("extensions.KHR_lights_punctual.lights[{}].spot", i), "is missing");
+        }
+        ++i;
+    }
+}
+
+/// Takes the indices out of the primitives, because tinygltf refuses an accessor without a buffer view there, which is
+/// what Draco has; put back by restoreIndices.
+void removeIndices(json& document) {
+    const auto meshes = document.find("meshes");
+    if (meshes == document.end()) {
+        return;
+    }
+    for (auto& mesh : *meshes) {
+        for (auto& primitive : mesh["primitives"]) {
+            primitive.erase("indices");
+        }
+    }
+}
+
+void restoreIndices(tinygltf::Model& model, const json& document, const GltfReport& report) {
+    const json& meshes = arrayOf(document, "meshes");
+    for (size_t m = 0; m < meshes.size(); ++m) {
+        const auto& primitives = meshes[m]["primitives"];
+        if (model.meshes.size() <= m || model.meshes[m].primitives.size() != primitives.size()) {
+            report.fail(fmt::format("meshes[{}]", m), "is not one that tinygltf reads");
+        }
+        for (size_t p = 0; p < primitives.size(); ++p) {
+            model.meshes[m].primitives[p].indices = primitives[p].value("indices", -1);
+        }
+    }
+}
+
+tinygltf::Model parseStructure(json document, const GltfReport& report) {
+    const json full = document;
+    removeIndices(document);
+    document.erase("buffers");
+    document.erase("images");
+    const std::string text = document.dump();
+    tinygltf::Model model;
+    std::string errors;
+    std::string warnings;
+    tinygltf::TinyGLTF loader;
+    if (!loader.LoadASCIIFromString(&model, &errors, &warnings, text.data(), static_cast<unsigned>(text.size()), "")) {
+        report.fail("JSON", "tinygltf: {}", errors);
+    }
+    restoreIndices(model, full, report);
+    return model;
+}
+
+/// A buffer without a URI is the binary chunk of a .glb, which only the first may be.
+std::vector<uint8_t> readBuffer(const json& buffer, const std::string& part, GltfContainer& container,
+                                const std::filesystem::path& folder, const GltfReport& report) {
+    const auto length = buffer["byteLength"].get<uint64_t>();
+    std::vector<uint8_t> bytes;
+    if (buffer.contains("uri")) {
+        bytes = readUri(buffer["uri"], folder, length, part + ".uri", report);
+    } else if (part == "buffers[0]" && container.bin) {
+        bytes = std::move(*container.bin);
+    } else {
+        report.fail(part, "has neither a uri nor a binary chunk");
+    }
+    if (bytes.size() < length) {
+        report.fail(part, "has {} bytes, but its byteLength is {}", bytes.size(), length);
+    }
+    bytes.resize(length);
+    return bytes;
+}
+
+void readBuffers(const json& document, GltfContainer& container, GltfDocument& result, GltfReport& report) {
+    size_t i = 0;
+    for (const json& buffer : arrayOf(document, "buffers")) {
+        const std::string part = fmt::format("buffers[{}]", i++);
+        tinygltf::Buffer read;
+        read.data = readBuffer(buffer, part, container, result.folder, report);
+        report.charge(part, read.data.size());
+        result.model.buffers.push_back(std::move(read));
+    }
+}
+
+void listImages(const json& document, GltfDocument& result) {
+    for (const json& image : arrayOf(document, "images")) {
+        tinygltf::Image listed;
+        listed.name = image.value("name", "");
+        listed.uri = image.value("uri", "");
+        listed.bufferView = image.value("bufferView", -1);
+        result.model.images.push_back(std::move(listed));
+    }
+}
+
+bool hasElements(const json& document, const char* name) {
+    const auto found = document.find(name);
+    return found != document.end() && found->is_array() && !found->empty();
+}
+
+}  // namespace
+
+GltfDocument readGltfDocument(const std::filesystem::path& path, GltfReport& report) {
+    GltfContainer container = readGltfContainer(path, report);
+    GltfDocument result;
+    result.folder = path.parent_path();
+    result.animated = container.document.is_object() && hasElements(container.document, "animations");
+    const json document = checkedGltfDocument(container.document, report);
+    container.document = nullptr;
+    checkVersion(document, report);
+    checkExtensions(document, report);
+    checkVariants(document, report);
+    result.model = parseStructure(document, report);
+    readBuffers(document, container, result, report);
+    listImages(document, result);
+    checkGltfBuffers(result.model, report);
+    checkGltfNodes(result, report);
+    return result;
+}
+
+}  // namespace reflet

@@ -1,0 +1,88 @@
+// Decodes the images of a glTF file: PNG and JPEG, from a file, a data URI or a buffer view.
+#include "scene/gltf_image.h"
+
+#include "scene/gltf_uri.h"
+
+#include <stb/stb_image.h>
+
+#include <array>
+#include <memory>
+#include <span>
+
+namespace reflet {
+
+namespace {
+
+constexpr uint64_t maxFileBytes = 1ULL << 30U;
+constexpr int maxSide = 16384;
+constexpr uint64_t maxPixelsPerByte = 8 * 1032;  // deflate's best is 1032 to 1, at one bit per pixel; JPEG has less
+
+bool startsWith(std::span<const uint8_t> bytes, std::span<const uint8_t> magic) {
+    return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
+}
+
+/// stb_image also reads formats that glTF does not have; only these two are let through to it.
+bool isPngOrJpeg(std::span<const uint8_t> bytes) {
+    constexpr std::array<uint8_t, 8> png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+    constexpr std::array<uint8_t, 3> jpeg{0xFF, 0xD8, 0xFF};
+    return startsWith(bytes, png) || startsWith(bytes, jpeg);
+}
+
+std::string reason() {
+    const char* text = stbi_failure_reason();
+    return text != nullptr ? text : "no reason given";
+}
+
+Image decode(std::span<const uint8_t> bytes, const std::string& part, GltfReport& report) {
+    if (!isPngOrJpeg(bytes)) {
+        report.fail(part, "is neither PNG nor JPEG");
+    }
+    if (bytes.size() > maxFileBytes) {
+        report.fail(part, "has {} bytes, more than {} MiB", bytes.size(), maxFileBytes >> 20U);
+    }
+    const int size = static_cast<int>(bytes.size());
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    if (stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) == 0 || width <= 0 || height <= 0) {
+        report.fail(part, "is a broken image: {}", reason());
+    }
+    const uint64_t pixels = uint64_t(width) * uint64_t(height);
+    if (width > maxSide || height > maxSide) {
+        report.fail(part, "has {} x {} pixels, more than {} a side", width, height, maxSide);
+    }
+    if (pixels > maxPixelsPerByte * bytes.size()) {
+        report.fail(part, "claims {} x {} pixels in {} bytes", width, height, bytes.size());
+    }
+    report.charge(part, pixels * 4);
+    const std::unique_ptr<stbi_uc, void (*)(void*)> decoded(
+        stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, 4), stbi_image_free);
+    if (!decoded || uint64_t(width) * uint64_t(height) != pixels) {
+        report.fail(part, "is a broken image: {}", reason());
+    }
+    return {.name = "",
+            .width = static_cast<uint32_t>(width),
+            .height = static_cast<uint32_t>(height),
+            .rgba = {decoded.get(), decoded.get() + pixels * 4}};
+}
+
+}  // namespace
+
+Image decodeGltfImage(const GltfDocument& document, size_t index, GltfReport& report) {
+    const tinygltf::Image& source = document.model.images[index];
+    const std::string part = fmt::format("images[{}]", index);
+    Image image;
+    if (source.bufferView >= 0) {
+        const auto& view = document.model.bufferViews[static_cast<size_t>(source.bufferView)];
+        const std::span bytes(document.model.buffers[static_cast<size_t>(view.buffer)].data);
+        image = decode(bytes.subspan(view.byteOffset, view.byteLength), part, report);
+    } else if (!source.uri.empty()) {
+        image = decode(readUri(source.uri, document.folder, maxFileBytes + 1, part + ".uri", report), part, report);
+    } else {
+        report.fail(part, "has neither a uri nor a bufferView");
+    }
+    image.name = !source.name.empty() || source.uri.starts_with("data:") ? source.name : percentDecoded(source.uri);
+    return image;
+}
+
+}  // namespace reflet

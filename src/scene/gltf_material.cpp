@@ -1,0 +1,166 @@
+// Turns the materials of a glTF file, and the textures they use, into the scene's. Only what is asked for is read.
+#include "scene/gltf_material.h"
+
+#include "scene/gltf_image.h"
+
+#include <cmath>
+
+namespace reflet {
+
+namespace {
+
+constexpr float blendCutoff = 0.5F;
+
+Wrap wrapOf(int value) {
+    switch (value) {
+        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+            return Wrap::clamp;
+        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+            return Wrap::mirror;
+        default:
+            return Wrap::repeat;
+    }
+}
+
+/// A filter that is not stated (-1) is ours to choose: trilinear.
+Sampler convertSampler(const tinygltf::Sampler& source) {
+    const int min = source.minFilter;
+    const bool nearest = min == TINYGLTF_TEXTURE_FILTER_NEAREST ||
+                         min == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST ||
+                         min == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR;
+    const bool mips = min != TINYGLTF_TEXTURE_FILTER_NEAREST && min != TINYGLTF_TEXTURE_FILTER_LINEAR;
+    const bool nearestMip =
+        min == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST || min == TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST;
+    return {.wrapU = wrapOf(source.wrapS),
+            .wrapV = wrapOf(source.wrapT),
+            .magLinear = source.magFilter != TINYGLTF_TEXTURE_FILTER_NEAREST,
+            .minLinear = !nearest,
+            .mips = mips,
+            .mipLinear = mips && !nearestMip};
+}
+
+double numberOr(const tinygltf::Value& object, const std::string& name, double otherwise) {
+    return object.Has(name) ? object.Get(name).GetNumberAsDouble() : otherwise;
+}
+
+double numberAt(const tinygltf::Value& object, const std::string& name, int index, double otherwise) {
+    return object.Has(name) ? object.Get(name).Get(index).GetNumberAsDouble() : otherwise;
+}
+
+vec3 emissiveOf(const tinygltf::Material& source) {
+    const auto& factor = source.emissiveFactor;
+    const auto found = source.extensions.find("KHR_materials_emissive_strength");
+    const double strength = found != source.extensions.end() ? numberOr(found->second, "emissiveStrength", 1.0) : 1.0;
+    return vec3(glm::dvec3(factor[0], factor[1], factor[2]) * strength);
+}
+
+}  // namespace
+
+uint32_t GltfMaterials::use(int material) {
+    const int key = std::max(material, -1);
+    const auto found = materials_.find(key);
+    if (found != materials_.end()) {
+        return found->second;
+    }
+    scene_.materials.push_back(key < 0 ? Material{} : convert(key));
+    return materials_[key] = static_cast<uint32_t>(scene_.materials.size() - 1);
+}
+
+Material GltfMaterials::convert(int material) {
+    const tinygltf::Material& source = document_.model.materials[static_cast<size_t>(material)];
+    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+    const std::string part = fmt::format("materials[{}]", material);
+    Material result;
+    result.name = source.name;
+    for (int c = 0; c < 4; ++c) {
+        result.baseColor[c] = static_cast<float>(pbr.baseColorFactor[static_cast<size_t>(c)]);
+    }
+    result.metallic = static_cast<float>(pbr.metallicFactor);
+    result.roughness = static_cast<float>(pbr.roughnessFactor);
+    result.emissive = emissiveOf(source);
+    result.normalScale = static_cast<float>(source.normalTexture.scale);
+    result.occlusionStrength = static_cast<float>(source.occlusionTexture.strength);
+    result.doubleSided = source.doubleSided;
+    if (source.alphaMode == "MASK") {
+        result.alphaCutoff = static_cast<float>(source.alphaCutoff);
+    } else if (source.alphaMode == "BLEND") {
+        result.alphaCutoff = blendCutoff;
+        report_.warn("blend", part + ".alphaMode", "BLEND is drawn as MASK with a cutoff of {}", blendCutoff);
+    }
+    const auto slotOf = [&](const auto& info, const char* name) {
+        return slot(info.index, info.texCoord, info.extensions, part + "." + name);
+    };
+    result.baseColorTexture = slotOf(pbr.baseColorTexture, "pbrMetallicRoughness.baseColorTexture");
+    result.metallicRoughnessTexture =
+        slotOf(pbr.metallicRoughnessTexture, "pbrMetallicRoughness.metallicRoughnessTexture");
+    result.normalTexture = slotOf(source.normalTexture, "normalTexture");
+    result.occlusionTexture = slotOf(source.occlusionTexture, "occlusionTexture");
+    result.emissiveTexture = slotOf(source.emissiveTexture, "emissiveTexture");
+    return result;
+}
+
+TextureSlot GltfMaterials::slot(int texture, int uvSet, const tinygltf::ExtensionMap& extensions,
+                                const std::string& part) {
+    TextureSlot result;
+    if (texture < 0) {
+        return result;
+    }
+    const tinygltf::Texture& source = document_.model.textures[static_cast<size_t>(texture)];
+    if (source.source < 0) {
+        const std::string here = fmt::format("textures[{}]", texture);
+        report_.warn(here, here, "has no image that can be read, and is left out");
+        return result;
+    }
+    result.image = useImage(source.source);
+    result.sampler = useSampler(source.sampler);
+    setUvSet(result, uvSet, part);
+    const auto transform = extensions.find("KHR_texture_transform");
+    if (transform != extensions.end()) {
+        transformUv(result, transform->second, part);
+    }
+    return result;
+}
+
+void GltfMaterials::setUvSet(TextureSlot& slot, int uvSet, const std::string& part) {
+    if (uvSet > 1) {
+        report_.warn(part + " uv set", part + ".texCoord", "is {}, but only the sets 0 and 1 are read: 0 is taken",
+                     uvSet);
+    }
+    slot.uvSet = uvSet == 1 ? 1 : 0;
+}
+
+/// The extension's offset · rotation · scale. Its example and its words ("counter-clockwise", with v down) have the
+/// sine of u' positive, as the viewers do; the matrix in early versions of its text has it negative.
+void GltfMaterials::transformUv(TextureSlot& slot, const tinygltf::Value& transform, const std::string& part) {
+    const double angle = numberOr(transform, "rotation", 0.0);
+    const double scaleU = numberAt(transform, "scale", 0, 1.0);
+    const double scaleV = numberAt(transform, "scale", 1, 1.0);
+    slot.uvTransform[0] = {std::cos(angle) * scaleU, std::sin(angle) * scaleV, numberAt(transform, "offset", 0, 0.0)};
+    slot.uvTransform[1] = {-std::sin(angle) * scaleU, std::cos(angle) * scaleV, numberAt(transform, "offset", 1, 0.0)};
+    if (transform.Has("texCoord")) {
+        setUvSet(slot, transform.Get("texCoord").GetNumberAsInt(), part + ".extensions.KHR_texture_transform");
+    }
+}
+
+int32_t GltfMaterials::useImage(int image) {
+    const auto found = images_.find(image);
+    if (found != images_.end()) {
+        return found->second;
+    }
+    scene_.images.push_back(decodeGltfImage(document_, static_cast<size_t>(image), report_));
+    return images_[image] = static_cast<int32_t>(scene_.images.size() - 1);
+}
+
+int32_t GltfMaterials::useSampler(int sampler) {
+    if (sampler < 0) {
+        return -1;
+    }
+    const auto found = samplers_.find(sampler);
+    if (found != samplers_.end()) {
+        return found->second;
+    }
+    scene_.samplers.push_back(convertSampler(document_.model.samplers[static_cast<size_t>(sampler)]));
+    return samplers_[sampler] = static_cast<int32_t>(scene_.samplers.size() - 1);
+}
+
+}  // namespace reflet

@@ -1,0 +1,172 @@
+// Turns the primitives of a glTF file into meshes.
+#include "scene/gltf_mesh.h"
+
+#include "scene/gltf_normals.h"
+#include "scene/gltf_primitive.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reflet {
+
+namespace {
+
+constexpr uint64_t vertexBytes = sizeof(vec3) + sizeof(VertexAttributes);
+
+bool isFinite(const vec4& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
+}
+
+/// The vertices that the triangles use, ascending; the triangles are renumbered to match. Primitives often share one
+/// long list of vertices, and each takes only its own.
+std::vector<uint32_t> takeUsed(std::vector<uint32_t>& triangles, uint32_t vertices) {
+    std::vector<uint32_t> used;
+    if (vertices <= 4 * triangles.size()) {
+        std::vector<uint32_t> renumbered(vertices, 0);
+        for (const uint32_t v : triangles) {
+            renumbered[v] = 1;
+        }
+        for (uint32_t v = 0; v < vertices; ++v) {
+            if (renumbered[v] != 0) {
+                renumbered[v] = static_cast<uint32_t>(used.size());
+                used.push_back(v);
+            }
+        }
+        std::transform(triangles.begin(), triangles.end(), triangles.begin(),
+                       [&](uint32_t v) { return renumbered[v]; });
+        return used;
+    }
+    used = triangles;
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    std::transform(triangles.begin(), triangles.end(), triangles.begin(), [&](uint32_t v) {
+        return static_cast<uint32_t>(std::lower_bound(used.begin(), used.end(), v) - used.begin());
+    });
+    return used;
+}
+
+glm::u16vec4 colorOf(vec4 value, const AccessorView& view) {
+    // Integer colours are normalised by the specification, also where the file forgets to say so.
+    if (!view.normalized && view.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) {
+        value /= 255.0F;
+    } else if (!view.normalized && view.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) {
+        value /= 65535.0F;
+    }
+    if (view.components < 4) {
+        value.w = 1.0F;
+    }
+    glm::u16vec4 result;
+    for (int c = 0; c < 4; ++c) {
+        const float clamped = value[c] > 0.0F ? std::min(value[c], 1.0F) : 0.0F;  // a NaN becomes 0
+        result[c] = static_cast<uint16_t>(std::lround(clamped * 65535.0F));
+    }
+    return result;
+}
+
+void readPositions(Mesh& mesh, const PrimitiveSource& source, const std::vector<uint32_t>& used,
+                   const std::string& part, const GltfReport& report) {
+    const AccessorView& view = *source.find("POSITION");
+    mesh.positions.reserve(used.size());
+    for (const uint32_t v : used) {
+        const vec4 position = view.at(v);
+        if (!isFinite(position)) {
+            report.fail(part + ".attributes.POSITION", "the position of vertex {} is not finite", v);
+        }
+        mesh.positions.emplace_back(position);
+        mesh.bounds.add(mesh.positions.back());
+    }
+}
+
+void readUvs(Mesh& mesh, const AccessorView* view, vec2 VertexAttributes::*member, const std::vector<uint32_t>& used) {
+    for (size_t i = 0; view != nullptr && i < used.size(); ++i) {
+        const vec4 uv = view->at(used[i]);
+        mesh.attributes[i].*member = isFinite(uv) ? vec2(uv) : vec2(0.0F);
+    }
+}
+
+void readAttributes(Mesh& mesh, const PrimitiveSource& source, const std::vector<uint32_t>& used) {
+    mesh.attributes.resize(used.size());
+    readUvs(mesh, source.find("TEXCOORD_0"), &VertexAttributes::uv0, used);
+    readUvs(mesh, source.find("TEXCOORD_1"), &VertexAttributes::uv1, used);
+    const AccessorView* normals = source.find("NORMAL");
+    const AccessorView* tangents = source.find("TANGENT");
+    const AccessorView* colors = source.find("COLOR_0");
+    for (size_t i = 0; i < used.size(); ++i) {
+        VertexAttributes& vertex = mesh.attributes[i];
+        if (normals != nullptr) {
+            vertex.normal = vec3(normals->at(used[i]));
+        }
+        if (tangents != nullptr) {
+            vertex.tangent = tangents->at(used[i]);
+        }
+        if (colors != nullptr) {
+            vertex.color = colorOf(colors->at(used[i]), *colors);
+        }
+    }
+}
+
+/// glTF 2.0, 3.7.2.1: without normals they are flat, and tangents that are there do not count.
+void completeFrames(Mesh& mesh, const PrimitiveSource& source, const TextureSlot& normalTexture,
+                    const std::string& part, GltfReport& report) {
+    const bool flat = source.find("NORMAL") == nullptr;
+    if (flat) {
+        report.charge(part, mesh.indices.size() * vertexBytes);
+        makeFlat(mesh);
+    } else if (const size_t broken = repairNormals(mesh); broken > 0) {
+        report.warn(part + " normals", part + ".attributes.NORMAL", "{} vertices have none: taken from the triangles",
+                    broken);
+    }
+    if (!flat && source.find("TANGENT") != nullptr) {
+        repairTangents(mesh);
+    } else if (normalTexture.image >= 0) {
+        report.charge(part, mesh.positions.size() * vertexBytes);  // every vertex may be split
+        makeTangents(mesh, normalTexture);
+    } else {
+        for (VertexAttributes& vertex : mesh.attributes) {
+            vertex.tangent = vec4(perpendicular(vertex.normal), 1.0F);
+        }
+    }
+}
+
+}  // namespace
+
+const std::vector<uint32_t>& GltfMeshes::use(int mesh) {
+    const auto index = static_cast<size_t>(mesh);
+    if (!loaded_[index]) {
+        loaded_[index] = true;
+        for (size_t p = 0; p < document_.model.meshes[index].primitives.size(); ++p) {
+            loadPrimitive(index, p);
+        }
+    }
+    return meshes_[index];
+}
+
+void GltfMeshes::loadPrimitive(size_t mesh, size_t primitive) {
+    const tinygltf::Primitive& source = document_.model.meshes[mesh].primitives[primitive];
+    const std::string part = fmt::format("meshes[{}].primitives[{}]", mesh, primitive);
+    if (source.mode < TINYGLTF_MODE_TRIANGLES) {
+        report_.warn("points and lines", part + ".mode", "points and lines are not drawn");
+        return;
+    }
+    if (!source.attributes.contains("POSITION")) {
+        report_.warn(part + " position", part + ".attributes", "has no POSITION, and is not drawn");
+        return;
+    }
+    if (!source.targets.empty()) {
+        report_.warn("morph targets", part + ".targets", "morph targets are left out");
+    }
+    PrimitiveSource opened = openPrimitive(document_, source, part, report_);
+    const std::vector<uint32_t> used = takeUsed(opened.triangles, opened.find("POSITION")->count);
+    report_.charge(part, used.size() * vertexBytes);
+    Mesh result;
+    result.name = document_.model.meshes[mesh].name;
+    result.material = materials_.use(source.material);
+    readPositions(result, opened, used, part, report_);
+    readAttributes(result, opened, used);
+    result.indices = std::move(opened.triangles);
+    completeFrames(result, opened, scene_.materials[result.material].normalTexture, part, report_);
+    meshes_[mesh].push_back(static_cast<uint32_t>(scene_.meshes.size()));
+    scene_.meshes.push_back(std::move(result));
+}
+
+}  // namespace reflet

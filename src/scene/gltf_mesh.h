@@ -1,0 +1,36 @@
+// Turns the primitives of a glTF file into meshes.
+#pragma once
+
+#include "scene/gltf_material.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace reflet {
+
+class GltfMeshes {
+public:
+    /// All four must live as long as this.
+    GltfMeshes(const GltfDocument& document, GltfMaterials& materials, Scene& scene, GltfReport& report)
+        : document_(document),
+          materials_(materials),
+          scene_(scene),
+          report_(report),
+          meshes_(document.model.meshes.size()),
+          loaded_(document.model.meshes.size(), false) {}
+
+    /// Indices into Scene::meshes, one for each primitive of the file's mesh that draws triangles. Throws Error.
+    const std::vector<uint32_t>& use(int mesh);
+
+private:
+    void loadPrimitive(size_t mesh, size_t primitive);
+
+    const GltfDocument& document_;
+    GltfMaterials& materials_;
+    Scene& scene_;
+    GltfReport& report_;
+    std::vector<std::vector<uint32_t>> meshes_;
+    std::vector<bool> loaded_;
+};
+
+}  // namespace reflet

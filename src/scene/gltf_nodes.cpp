@@ -1,0 +1,188 @@
+// Places the nodes of a glTF scene: instances, cameras, lamps, the sun.
+#include "scene/gltf_nodes.h"
+
+#include "scene/gltf_normals.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reflet {
+
+namespace {
+
+constexpr float minNear = 1e-3F;  // metres; of orthographic cameras, which may have 0 in glTF
+
+bool isFinite(const mat4& m) {
+    for (int c = 0; c < 4; ++c) {
+        for (int r = 0; r < 4; ++r) {
+            if (!std::isfinite(m[c][r])) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+glm::dvec3 vectorOr(const std::vector<double>& values, const glm::dvec3& otherwise) {
+    return values.size() == 3 ? glm::dvec3(values[0], values[1], values[2]) : otherwise;
+}
+
+glm::dmat4 localTransform(const tinygltf::Node& node, const std::string& part, const GltfReport& report) {
+    glm::dmat4 result(1.0);
+    if (node.matrix.size() == 16) {
+        for (int i = 0; i < 16; ++i) {
+            result[i / 4][i % 4] = node.matrix[static_cast<size_t>(i)];
+        }
+        if (result[0].w != 0.0 || result[1].w != 0.0 || result[2].w != 0.0 || result[3].w != 1.0) {
+            report.fail(part + ".matrix", "its last row is not 0 0 0 1");
+        }
+        return result;
+    }
+    result = glm::translate(result, vectorOr(node.translation, glm::dvec3(0.0)));
+    if (node.rotation.size() == 4) {
+        const glm::dquat rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
+        const double length = glm::length(rotation);
+        if (length == 0.0 || !std::isfinite(length)) {
+            report.fail(part + ".rotation", "is no rotation: its length is {}", length);
+        }
+        result *= glm::mat4_cast(rotation / length);
+    }
+    return glm::scale(result, vectorOr(node.scale, glm::dvec3(1.0)));
+}
+
+Camera placeCamera(const tinygltf::Camera& source, const mat4& toWorld, const std::string& part,
+                   const GltfReport& report) {
+    Camera camera;
+    camera.name = source.name;
+    camera.position = vec3(toWorld[3]);
+    const vec3 forward = unitOr(-vec3(toWorld[2]), vec3(0, 0, -1));
+    const vec3 up = vec3(toWorld[1]) - forward * glm::dot(vec3(toWorld[1]), forward);
+    camera.up = unitOr(up, perpendicular(forward));
+    // Far enough ahead that a float tells the target from the position.
+    const float farthest =
+        std::max({1.0F, std::abs(camera.position.x), std::abs(camera.position.y), std::abs(camera.position.z)});
+    camera.target = camera.position + forward * (farthest < 1000.0F ? 1.0F : farthest / 1000.0F);
+    if (source.type == "orthographic") {
+        const auto& ortho = source.orthographic;
+        if (!(ortho.zfar > ortho.znear)) {
+            report.fail(part + ".orthographic", "zfar {} is not beyond znear {}", ortho.zfar, ortho.znear);
+        }
+        camera.orthographicHeight = static_cast<float>(2.0 * ortho.ymag);
+        camera.far = static_cast<float>(ortho.zfar);
+        camera.near = std::max(static_cast<float>(ortho.znear), std::min(minNear, 0.5F * camera.far));
+    } else {
+        camera.fovY = static_cast<float>(source.perspective.yfov);
+        camera.near = static_cast<float>(source.perspective.znear);
+    }
+    return camera;
+}
+
+Lamp placeLamp(const tinygltf::Light& source, const mat4& toWorld, const std::string& part, const GltfReport& report) {
+    Lamp lamp;
+    lamp.name = source.name;
+    lamp.type = source.type == "spot"          ? Lamp::Type::spot
+                : source.type == "directional" ? Lamp::Type::directional
+                                               : Lamp::Type::point;
+    lamp.position = vec3(toWorld[3]);
+    lamp.direction = unitOr(-vec3(toWorld[2]), vec3(0, 0, -1));
+    const glm::dvec3 intensity = vectorOr(source.color, glm::dvec3(1.0)) * source.intensity;
+    lamp.intensity = vec3(intensity);
+    if (!std::isfinite(glm::length(glm::dvec3(lamp.intensity)))) {
+        report.fail(part, "color times intensity is not finite");
+    }
+    lamp.range = static_cast<float>(source.range);
+    if (lamp.type == Lamp::Type::spot) {
+        lamp.innerAngle = static_cast<float>(source.spot.innerConeAngle);
+        lamp.outerAngle = static_cast<float>(source.spot.outerConeAngle);
+        if (!(source.spot.innerConeAngle < source.spot.outerConeAngle)) {
+            report.fail(part + ".spot", "innerConeAngle {} is not less than outerConeAngle {}",
+                        source.spot.innerConeAngle, source.spot.outerConeAngle);
+        }
+    }
+    return lamp;
+}
+
+class NodePlacer {
+public:
+    NodePlacer(const GltfDocument& document, GltfMeshes& meshes, Scene& scene, GltfReport& report)
+        : document_(document), meshes_(meshes), scene_(scene), report_(report) {}
+
+    /// Returns the node's own object-to-world matrix.
+    glm::dmat4 place(int index, const glm::dmat4& parentToWorld) {
+        const tinygltf::Node& node = document_.model.nodes[static_cast<size_t>(index)];
+        const std::string part = fmt::format("nodes[{}]", index);
+        const glm::dmat4 exact = parentToWorld * localTransform(node, part, report_);
+        const mat4 toWorld(exact);
+        if (!isFinite(toWorld)) {
+            report_.fail(part, "its place in the world is not finite");
+        }
+        if (node.mesh >= 0) {
+            addInstances(node, toWorld, part);
+        }
+        if (node.camera >= 0) {
+            const auto& camera = document_.model.cameras[static_cast<size_t>(node.camera)];
+            scene_.cameras.push_back(placeCamera(camera, toWorld, fmt::format("cameras[{}]", node.camera), report_));
+        }
+        const auto light = node.extensions.find("KHR_lights_punctual");
+        if (light != node.extensions.end()) {
+            addLight(light->second.Get("light").GetNumberAsInt(), toWorld);
+        }
+        return exact;
+    }
+
+private:
+    void addInstances(const tinygltf::Node& node, const mat4& toWorld, const std::string& part) {
+        if (node.skin >= 0) {
+            report_.warn("skins", part + ".skin", "skins are left out: the mesh is drawn as it is stored");
+        }
+        for (const uint32_t mesh : meshes_.use(node.mesh)) {
+            const Aabb box = transformed(scene_.meshes[mesh].bounds, toWorld);
+            if (!std::isfinite(glm::length(glm::dvec3(box.min) - glm::dvec3(box.max)))) {
+                report_.fail(part, "its mesh reaches past what a float holds");
+            }
+            report_.charge(part, sizeof(Instance));
+            scene_.instances.push_back({.name = node.name, .mesh = mesh, .objectToWorld = toWorld});
+        }
+    }
+
+    void addLight(int light, const mat4& toWorld) {
+        const std::string part = fmt::format("extensions.KHR_lights_punctual.lights[{}]", light);
+        Lamp lamp = placeLamp(document_.model.lights[static_cast<size_t>(light)], toWorld, part, report_);
+        if (lamp.type == Lamp::Type::directional && !scene_.sun) {
+            scene_.sun = Sun{.direction = lamp.direction, .irradiance = lamp.intensity};
+        } else {
+            scene_.lamps.push_back(std::move(lamp));
+        }
+    }
+
+    const GltfDocument& document_;
+    GltfMeshes& meshes_;
+    Scene& scene_;
+    GltfReport& report_;
+};
+
+}  // namespace
+
+void placeGltfNodes(const GltfDocument& document, const std::vector<int>& roots, GltfMeshes& meshes, Scene& scene,
+                    GltfReport& report) {
+    struct Open {
+        int node;
+        glm::dmat4 parentToWorld;
+    };
+    NodePlacer placer(document, meshes, scene, report);
+    std::vector<Open> open;  // a stack of our own: a chain of nodes may be longer than the program's
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root) {
+        open.push_back({*root, glm::dmat4(1.0)});
+    }
+    while (!open.empty()) {
+        const Open next = open.back();
+        open.pop_back();
+        const glm::dmat4 toWorld = placer.place(next.node, next.parentToWorld);
+        const auto& children = document.model.nodes[static_cast<size_t>(next.node)].children;
+        for (auto child = children.rbegin(); child != children.rend(); ++child) {
+            open.push_back({*child, toWorld});
+        }
+    }
+}
+
+}  // namespace reflet

@@ -1,0 +1,207 @@
+// Checks a glTF document against the part of the specification that the loader reads. What is checked is written in
+// tables, one row per property, after the JSON schemas of the Khronos glTF 2.0 specification, 2021.
+#include "scene/gltf_schema.h"
+
+#include "scene/gltf_schema_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace reflet {
+
+namespace {
+
+using gltf_schema::Field;
+using gltf_schema::Type;
+using nlohmann::json;
+
+constexpr double maxInteger = 9007199254740992.0;  // 2^53: every integer up to here is a double
+constexpr size_t maxObjects = size_t(1) << 21U;    // a tinygltf object is up to some 2 KiB, `{}` is two bytes
+
+/// Where a value stands in the document: a list from the value to the root, so that a path costs nothing until told.
+struct Place {
+    const Place* parent = nullptr;
+    std::string_view name{};
+    size_t index = 0;  ///< where name is empty
+
+    [[nodiscard]] std::string path() const {
+        const std::string before = parent != nullptr ? parent->path() : "";
+        if (name.empty()) {
+            return fmt::format("{}[{}]", before, index);
+        }
+        return before.empty() ? std::string(name) : fmt::format("{}.{}", before, name);
+    }
+};
+
+class Checker {
+public:
+    Checker(const json& document, const GltfReport& report) : report_(report) {
+        for (const auto& [name, value] : document.items()) {
+            if (value.is_array()) {
+                sizes_[name] = value.size();
+            }
+        }
+        const json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
+        if (document.contains(lights) && document[lights].is_array()) {
+            sizes_["lights"] = document[lights].size();
+        }
+    }
+
+    json object(const json& value, std::span<const Field> fields, const Place* place) {
+        if (!value.is_object()) {
+            fail(place, "is {}, not an object", kindOf(value));
+        }
+        if (++objects_ > maxObjects) {
+            fail(place, "is one object more than the {} that are read", maxObjects);
+        }
+        json result = json::object();
+        for (const Field& field : fields) {
+            const auto found = value.find(field.name);
+            const Place inner{.parent = place, .name = field.name};
+            if (found != value.end()) {
+                result[field.name] = property(*found, field, inner);
+            } else if (field.required) {
+                fail(&inner, "is missing");
+            }
+        }
+        return result;
+    }
+
+private:
+    template <class... Args>
+    [[noreturn]] void fail(const Place* place, fmt::format_string<Args...> format, Args&&... args) const {
+        report_.fail(place != nullptr ? place->path() : "JSON", format, std::forward<Args>(args)...);
+    }
+
+    static std::string kindOf(const json& value) {
+        const std::string type = value.type_name();
+        return (type == "object" || type == "array" ? "an " : type == "null" ? "" : "a ") + type;
+    }
+
+    json property(const json& value, const Field& field, const Place& place) {
+        if (!field.array) {
+            return single(value, field, place);
+        }
+        if (!value.is_array()) {
+            fail(&place, "is {}, not an array", kindOf(value));
+        }
+        if (field.items != 0 && value.size() != field.items) {
+            fail(&place, "has {} elements, not {}", value.size(), field.items);
+        }
+        json result = json::array();
+        for (size_t i = 0; i < value.size(); ++i) {
+            result.push_back(single(value[i], field, {.parent = &place, .index = i}));
+        }
+        return result;
+    }
+
+    json single(const json& value, const Field& field, const Place& place) {
+        switch (field.type) {
+            case Type::boolean:
+                if (!value.is_boolean()) {
+                    fail(&place, "is {}, not true or false", kindOf(value));
+                }
+                return value;
+            case Type::text:
+                return text(value, field, place);
+            case Type::number:
+                return number(value, field, place);
+            case Type::integer:
+                return integer(value, field, place);
+            case Type::index:
+                return index(value, field.refersTo, place);
+            case Type::indexMap:
+                return indexMap(value, field, place);
+            case Type::object:
+                return object(value, field.fields, &place);
+        }
+        fail(&place, "is of a type that is not known");
+    }
+
+    [[nodiscard]] json text(const json& value, const Field& field, const Place& place) const {
+        if (!value.is_string()) {
+            fail(&place, "is {}, not a string", kindOf(value));
+        }
+        const auto& string = value.get_ref<const std::string&>();
+        if (!field.words.empty() && std::find(field.words.begin(), field.words.end(), string) == field.words.end()) {
+            fail(&place, "is \"{}\", not one of {}", string.substr(0, 40), fmt::join(field.words, " "));
+        }
+        return value;
+    }
+
+    [[nodiscard]] json number(const json& value, const Field& field, const Place& place) const {
+        if (!value.is_number()) {
+            fail(&place, "is {}, not a number", kindOf(value));
+        }
+        const auto number = value.get<double>();
+        if (!(number >= field.min && number <= field.max)) {
+            fail(&place, "is {}, not between {} and {}", number, field.min, field.max);
+        }
+        return value;
+    }
+
+    [[nodiscard]] json integer(const json& value, const Field& field, const Place& place) const {
+        if (!value.is_number()) {
+            fail(&place, "is {}, not an integer", kindOf(value));
+        }
+        const auto number = value.get<double>();
+        if (number != std::floor(number)) {
+            fail(&place, "is {}, not an integer", number);
+        }
+        const double min = std::max(field.min, 0.0);
+        const double max = std::min(field.max, maxInteger);
+        if (!(number >= min && number <= max)) {
+            fail(&place, "is {}, not between {} and {}", number, min, max);
+        }
+        const auto result = static_cast<uint64_t>(number);  // also of 3.0 and 3e0, which tinygltf takes for absent
+        if (!field.numbers.empty() &&
+            std::find(field.numbers.begin(), field.numbers.end(), result) == field.numbers.end()) {
+            fail(&place, "is {}, not one of {}", result, fmt::join(field.numbers, " "));
+        }
+        return result;
+    }
+
+    [[nodiscard]] json index(const json& value, const char* refersTo, const Place& place) const {
+        const json result = integer(value, {.name = "", .type = Type::index}, place);
+        const auto size = sizes_.find(refersTo);
+        const size_t count = size != sizes_.end() ? size->second : 0;
+        if (result.get<uint64_t>() >= count) {
+            fail(&place, "is {}, but there are {} {}", result.get<uint64_t>(), count, refersTo);
+        }
+        return result;
+    }
+
+    json indexMap(const json& value, const Field& field, const Place& place) {
+        if (!value.is_object()) {
+            fail(&place, "is {}, not an object", kindOf(value));
+        }
+        json result = json::object();
+        for (const auto& [name, item] : value.items()) {
+            const Place inner{.parent = &place, .name = name.empty() ? "\"\"" : std::string_view(name)};
+            json checked = field.refersTo != nullptr ? index(item, field.refersTo, inner)
+                                                     : integer(item, {.name = "", .max = 4294967295.0}, inner);
+            if (gltf_schema::knownAttribute(name)) {
+                result[name] = std::move(checked);
+            }
+        }
+        return result;
+    }
+
+    const GltfReport& report_;
+    std::map<std::string, size_t, std::less<>> sizes_;
+    size_t objects_ = 0;
+};
+
+}  // namespace
+
+bool knownGltfExtension(const std::string& name) {
+    const auto& known = gltf_schema::knownExtensions;
+    return std::find(known.begin(), known.end(), name) != known.end();
+}
+
+json checkedGltfDocument(const json& document, const GltfReport& report) {
+    return Checker(document, report).object(document, gltf_schema::document(), nullptr);
+}
+
+}  // namespace reflet

@@ -1,0 +1,235 @@
+// The properties of a glTF document that the loader reads, as tables: JSON schemas of the Khronos glTF 2.0
+// specification, 2021, and of the extensions in knownExtensions.
+#include "scene/gltf_schema_tables.h"
+
+#include <algorithm>
+
+namespace reflet::gltf_schema {
+
+namespace {
+
+constexpr double maxInt = 2147483647.0;  // where tinygltf keeps an int
+constexpr double halfPi = 1.5707963705;  // rounded up to float
+
+constexpr std::array<uint64_t, 6> componentTypes{5120, 5121, 5122, 5123, 5125, 5126};
+constexpr std::array<uint64_t, 3> indexTypes{5121, 5123, 5125};
+constexpr std::array<uint64_t, 2> magFilters{9728, 9729};
+constexpr std::array<uint64_t, 6> minFilters{9728, 9729, 9984, 9985, 9986, 9987};
+constexpr std::array<uint64_t, 3> wraps{33071, 33648, 10497};
+constexpr std::array<std::string_view, 7> accessorTypes{"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
+constexpr std::array<std::string_view, 3> alphaModes{"OPAQUE", "MASK", "BLEND"};
+constexpr std::array<std::string_view, 2> cameraTypes{"perspective", "orthographic"};
+constexpr std::array<std::string_view, 3> lightTypes{"directional", "point", "spot"};
+constexpr std::array<std::string_view, 8> attributes{"POSITION",   "NORMAL",  "TANGENT",  "TEXCOORD_0",
+                                                     "TEXCOORD_1", "COLOR_0", "JOINTS_0", "WEIGHTS_0"};
+
+constexpr std::array asset{
+    Field{.name = "version", .type = Type::text, .required = true},
+    Field{.name = "minVersion", .type = Type::text},
+};
+
+// Buffers, views and accessors.
+constexpr std::array buffer{
+    Field{.name = "uri", .type = Type::text},
+    Field{.name = "byteLength", .type = Type::integer, .required = true, .min = 1},
+};
+constexpr std::array bufferView{
+    Field{.name = "buffer", .type = Type::index, .required = true, .refersTo = "buffers"},
+    Field{.name = "byteOffset", .type = Type::integer},
+    Field{.name = "byteLength", .type = Type::integer, .required = true, .min = 1},
+    Field{.name = "byteStride", .type = Type::integer, .min = 4, .max = 252},
+};
+constexpr std::array sparseIndices{
+    Field{.name = "bufferView", .type = Type::index, .required = true, .refersTo = "bufferViews"},
+    Field{.name = "byteOffset", .type = Type::integer, .max = maxInt},
+    Field{.name = "componentType", .type = Type::integer, .required = true, .numbers = indexTypes},
+};
+constexpr std::array sparseValues{
+    Field{.name = "bufferView", .type = Type::index, .required = true, .refersTo = "bufferViews"},
+    Field{.name = "byteOffset", .type = Type::integer, .max = maxInt},
+};
+constexpr std::array sparse{
+    Field{.name = "count", .type = Type::integer, .required = true, .min = 1, .max = maxInt},
+    Field{.name = "indices", .type = Type::object, .required = true, .fields = sparseIndices},
+    Field{.name = "values", .type = Type::object, .required = true, .fields = sparseValues},
+};
+constexpr std::array accessor{
+    Field{.name = "bufferView", .type = Type::index, .refersTo = "bufferViews"},
+    Field{.name = "byteOffset", .type = Type::integer},
+    Field{.name = "componentType", .type = Type::integer, .required = true, .numbers = componentTypes},
+    Field{.name = "normalized", .type = Type::boolean},
+    Field{.name = "count", .type = Type::integer, .required = true, .min = 1, .max = 4294967294.0},
+    Field{.name = "type", .type = Type::text, .required = true, .words = accessorTypes},
+    Field{.name = "sparse", .type = Type::object, .fields = sparse},
+};
+
+// Images and textures.
+constexpr std::array image{
+    Field{.name = "name", .type = Type::text},
+    Field{.name = "uri", .type = Type::text},
+    Field{.name = "mimeType", .type = Type::text},
+    Field{.name = "bufferView", .type = Type::index, .refersTo = "bufferViews"},
+};
+constexpr std::array sampler{
+    Field{.name = "magFilter", .type = Type::integer, .numbers = magFilters},
+    Field{.name = "minFilter", .type = Type::integer, .numbers = minFilters},
+    Field{.name = "wrapS", .type = Type::integer, .numbers = wraps},
+    Field{.name = "wrapT", .type = Type::integer, .numbers = wraps},
+};
+constexpr std::array texture{
+    Field{.name = "sampler", .type = Type::index, .refersTo = "samplers"},
+    Field{.name = "source", .type = Type::index, .refersTo = "images"},
+};
+
+// Materials.
+constexpr std::array textureTransform{
+    Field{.name = "offset", .array = true, .items = 2},
+    Field{.name = "rotation"},
+    Field{.name = "scale", .array = true, .items = 2},
+    Field{.name = "texCoord", .type = Type::integer, .max = maxInt},
+};
+constexpr std::array textureExtensions{
+    Field{.name = "KHR_texture_transform", .type = Type::object, .fields = textureTransform},
+};
+constexpr std::array textureInfo{
+    Field{.name = "index", .type = Type::index, .required = true, .refersTo = "textures"},
+    Field{.name = "texCoord", .type = Type::integer, .max = maxInt},
+    Field{.name = "scale"},
+    Field{.name = "strength", .min = 0, .max = 1},
+    Field{.name = "extensions", .type = Type::object, .fields = textureExtensions},
+};
+constexpr std::array metallicRoughness{
+    Field{.name = "baseColorFactor", .array = true, .items = 4, .min = 0, .max = 1},
+    Field{.name = "baseColorTexture", .type = Type::object, .fields = textureInfo},
+    Field{.name = "metallicFactor", .min = 0, .max = 1},
+    Field{.name = "roughnessFactor", .min = 0, .max = 1},
+    Field{.name = "metallicRoughnessTexture", .type = Type::object, .fields = textureInfo},
+};
+constexpr std::array emissiveStrength{Field{.name = "emissiveStrength", .min = 0}};
+constexpr std::array materialExtensions{
+    Field{.name = "KHR_materials_emissive_strength", .type = Type::object, .fields = emissiveStrength},
+};
+constexpr std::array material{
+    Field{.name = "name", .type = Type::text},
+    Field{.name = "pbrMetallicRoughness", .type = Type::object, .fields = metallicRoughness},
+    Field{.name = "normalTexture", .type = Type::object, .fields = textureInfo},
+    Field{.name = "occlusionTexture", .type = Type::object, .fields = textureInfo},
+    Field{.name = "emissiveTexture", .type = Type::object, .fields = textureInfo},
+    Field{.name = "emissiveFactor", .array = true, .items = 3, .min = 0, .max = 1},
+    Field{.name = "alphaMode", .type = Type::text, .words = alphaModes},
+    Field{.name = "alphaCutoff", .min = 0},
+    Field{.name = "doubleSided", .type = Type::boolean},
+    Field{.name = "extensions", .type = Type::object, .fields = materialExtensions},
+};
+
+// Meshes.
+constexpr std::array draco{
+    Field{.name = "bufferView", .type = Type::index, .required = true, .refersTo = "bufferViews"},
+    Field{.name = "attributes", .type = Type::indexMap, .required = true},
+};
+constexpr std::array primitiveExtensions{
+    Field{.name = "KHR_draco_mesh_compression", .type = Type::object, .fields = draco},
+};
+constexpr std::array primitive{
+    Field{.name = "attributes", .type = Type::indexMap, .required = true, .refersTo = "accessors"},
+    Field{.name = "indices", .type = Type::index, .refersTo = "accessors"},
+    Field{.name = "material", .type = Type::index, .refersTo = "materials"},
+    Field{.name = "mode", .type = Type::integer, .max = 6},
+    Field{.name = "targets", .type = Type::indexMap, .array = true, .refersTo = "accessors"},
+    Field{.name = "extensions", .type = Type::object, .fields = primitiveExtensions},
+};
+constexpr std::array mesh{
+    Field{.name = "name", .type = Type::text},
+    Field{.name = "primitives", .type = Type::object, .required = true, .array = true, .fields = primitive},
+};
+
+// Nodes and what they place.
+constexpr std::array nodeLight{
+    Field{.name = "light", .type = Type::index, .required = true, .refersTo = "lights"},
+};
+constexpr std::array nodeExtensions{
+    Field{.name = "KHR_lights_punctual", .type = Type::object, .fields = nodeLight},
+};
+constexpr std::array node{
+    Field{.name = "name", .type = Type::text},
+    Field{.name = "camera", .type = Type::index, .refersTo = "cameras"},
+    Field{.name = "children", .type = Type::index, .array = true, .refersTo = "nodes"},
+    Field{.name = "skin", .type = Type::index, .refersTo = "skins"},
+    Field{.name = "mesh", .type = Type::index, .refersTo = "meshes"},
+    Field{.name = "matrix", .array = true, .items = 16},
+    Field{.name = "translation", .array = true, .items = 3},
+    Field{.name = "rotation", .array = true, .items = 4},
+    Field{.name = "scale", .array = true, .items = 3},
+    Field{.name = "extensions", .type = Type::object, .fields = nodeExtensions},
+};
+constexpr std::array scene{
+    Field{.name = "name", .type = Type::text},
+    Field{.name = "nodes", .type = Type::index, .array = true, .refersTo = "nodes"},
+};
+constexpr std::array perspective{
+    Field{.name = "aspectRatio", .min = 1e-6},
+    Field{.name = "yfov", .required = true, .min = 1e-4, .max = 3.1415},
+    Field{.name = "znear", .required = true, .min = 1e-6},
+    Field{.name = "zfar", .min = 1e-6},
+};
+constexpr std::array orthographic{
+    Field{.name = "xmag", .required = true},
+    Field{.name = "ymag", .required = true, .min = 1e-6},
+    Field{.name = "znear", .required = true, .min = 0},
+    Field{.name = "zfar", .required = true, .min = 1e-6},
+};
+constexpr std::array camera{
+    Field{.name = "name", .type = Type::text},
+    Field{.name = "type", .type = Type::text, .required = true, .words = cameraTypes},
+    Field{.name = "perspective", .type = Type::object, .fields = perspective},
+    Field{.name = "orthographic", .type = Type::object, .fields = orthographic},
+};
+constexpr std::array spot{
+    Field{.name = "innerConeAngle", .min = 0, .max = halfPi},
+    Field{.name = "outerConeAngle", .min = 0, .max = halfPi},
+};
+constexpr std::array light{
+    Field{.name = "name", .type = Type::text},
+    Field{.name = "color", .array = true, .items = 3, .min = 0},
+    Field{.name = "intensity", .min = 0},
+    Field{.name = "type", .type = Type::text, .required = true, .words = lightTypes},
+    Field{.name = "range", .min = 1e-6},
+    Field{.name = "spot", .type = Type::object, .fields = spot},
+};
+constexpr std::array lights{
+    Field{.name = "lights", .type = Type::object, .required = true, .array = true, .fields = light},
+};
+constexpr std::array documentExtensions{
+    Field{.name = "KHR_lights_punctual", .type = Type::object, .fields = lights},
+};
+
+constexpr std::array root{
+    Field{.name = "asset", .type = Type::object, .required = true, .fields = asset},
+    Field{.name = "extensionsUsed", .type = Type::text, .array = true},
+    Field{.name = "extensionsRequired", .type = Type::text, .array = true},
+    Field{.name = "buffers", .type = Type::object, .array = true, .fields = buffer},
+    Field{.name = "bufferViews", .type = Type::object, .array = true, .fields = bufferView},
+    Field{.name = "accessors", .type = Type::object, .array = true, .fields = accessor},
+    Field{.name = "images", .type = Type::object, .array = true, .fields = image},
+    Field{.name = "samplers", .type = Type::object, .array = true, .fields = sampler},
+    Field{.name = "textures", .type = Type::object, .array = true, .fields = texture},
+    Field{.name = "materials", .type = Type::object, .array = true, .fields = material},
+    Field{.name = "meshes", .type = Type::object, .array = true, .fields = mesh},
+    Field{.name = "nodes", .type = Type::object, .array = true, .fields = node},
+    Field{.name = "cameras", .type = Type::object, .array = true, .fields = camera},
+    Field{.name = "scenes", .type = Type::object, .array = true, .fields = scene},
+    Field{.name = "scene", .type = Type::index, .refersTo = "scenes"},
+    Field{.name = "extensions", .type = Type::object, .fields = documentExtensions},
+};
+
+}  // namespace
+
+std::span<const Field> document() {
+    return root;
+}
+
+bool knownAttribute(std::string_view name) {
+    return std::find(attributes.begin(), attributes.end(), name) != attributes.end();
+}
+
+}  // namespace reflet::gltf_schema

@@ -1,0 +1,40 @@
+// The properties of a glTF document that the loader reads, as tables.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string_view>
+
+namespace reflet::gltf_schema {
+
+enum class Type : uint8_t { boolean, integer, index, number, text, object, indexMap };
+
+/// One property of an object.
+struct Field {
+    const char* name;
+    Type type = Type::number;
+    bool required = false;
+    bool array = false;                               ///< an array of the type
+    size_t items = 0;                                 ///< of an array; 0: any number
+    const char* refersTo = nullptr;                   ///< index, indexMap: the array that it is an index into
+    double min = -std::numeric_limits<float>::max();  ///< every number must fit a float
+    double max = std::numeric_limits<float>::max();
+    std::span<const std::string_view> words{};  ///< text: the only ones; empty: any
+    std::span<const uint64_t> numbers{};        ///< integer: the only ones; empty: any
+    std::span<const Field> fields{};            ///< object
+};
+
+/// The document itself.
+std::span<const Field> document();
+
+/// Whether the loader reads the vertex attribute of this name.
+bool knownAttribute(std::string_view name);
+
+constexpr std::array<std::string_view, 5> knownExtensions{"KHR_draco_mesh_compression", "KHR_lights_punctual",
+                                                          "KHR_materials_emissive_strength", "KHR_mesh_quantization",
+                                                          "KHR_texture_transform"};
+
+}  // namespace reflet::gltf_schema
