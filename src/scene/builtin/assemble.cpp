@@ -54,7 +54,9 @@ void place(Scene& scene, const std::string& name, uint32_t material, Mesh mesh, 
     place(scene, name, addMesh(scene, name, material, std::move(mesh)), objectToWorld);
 }
 
-mat4 at(const vec3& position) { return glm::translate(mat4(1.0F), position); }
+mat4 at(const vec3& position) {
+    return glm::translate(mat4(1.0F), position);
+}
 
 mat4 turned(float degrees, const vec3& axis) {
     return glm::rotate(mat4(1.0F), glm::radians(degrees), glm::normalize(axis));

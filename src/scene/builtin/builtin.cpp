@@ -10,19 +10,23 @@ namespace reflet {
 namespace {
 
 constexpr std::array<BuiltinScene, 7> scenes{{
-    {"cubes", "a polished box and painted cubes on labelled tiles: first steps, reflections, contact", builtin::makeCubes},
+    {"cubes", "a polished box and painted cubes on labelled tiles: first steps, reflections, contact",
+     builtin::makeCubes},
     {"tilted-cube", "a tilted patterned box above a plain glossy ground: what a reflection can and cannot know",
      builtin::makeTiltedCube},
     {"cornell", "the classic box with the sun in its open front: colour bleeding", builtin::makeCornell},
     {"cave", "a grotto that the sun enters through one opening: all other light is indirect", builtin::makeCave},
     {"gloss", "roughness 0 to 1, metal and not, on labelled tiles: blurred reflections", builtin::makeGloss},
     {"colonnade", "columns, thin bars at 1, 2 and 5 m and a pierced panel: shadows", builtin::makeColonnade},
-    {"mirror-hall", "a hall with a mirror wall and a mirror floor: reflections of reflections", builtin::makeMirrorHall},
+    {"mirror-hall", "a hall with a mirror wall and a mirror floor: reflections of reflections",
+     builtin::makeMirrorHall},
 }};
 
 }  // namespace
 
-std::span<const BuiltinScene> builtinScenes() { return scenes; }
+std::span<const BuiltinScene> builtinScenes() {
+    return scenes;
+}
 
 const BuiltinScene* findBuiltinScene(std::string_view name) {
     const auto* found = std::find_if(scenes.begin(), scenes.end(), [&](const auto& s) { return s.name == name; });

@@ -47,9 +47,13 @@ const Glyph& glyph(char letter) {
     return capitals[static_cast<size_t>(letter - 'A')];
 }
 
-uint8_t channel(Hex color, unsigned index) { return static_cast<uint8_t>(color >> (16U - 8U * index)); }
+uint8_t channel(Hex color, unsigned index) {
+    return static_cast<uint8_t>(color >> (16U - 8U * index));
+}
 
-uint8_t toByte(float value) { return static_cast<uint8_t>(std::clamp(value, 0.0F, 255.0F) + 0.5F); }
+uint8_t toByte(float value) {
+    return static_cast<uint8_t>(std::clamp(value, 0.0F, 255.0F) + 0.5F);
+}
 
 }  // namespace
 

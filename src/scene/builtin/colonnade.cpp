@@ -42,31 +42,39 @@ void addColumns(Scene& scene) {
     place(scene, "back wall", plaster, box({7.4F, 2.3F, 0.15F}, 0.5F), at({0, 2.3F, -6.0F}));
 }
 
-void addBars(Scene& scene) {
-    const uint32_t iron = addMaterial(scene, plain("dark iron", {0x3C4147, 0.45F, 1.0F}));
-    const uint32_t paint = addMaterial(scene, plain("blue paint", {0x2C6E8F, 0.5F}));
-    constexpr std::array<float, 3> heights{1.0F, 2.0F, 5.0F};
-    for (size_t i = 0; i < heights.size(); ++i) {
-        const float z = 2.6F - 1.1F * static_cast<float>(i);
-        const std::string name = "bar at " + std::to_string(static_cast<int>(heights[i])) + " m";
-        place(scene, name, paint, cylinder(0.04F, 5.2F, 16), between({-2.6F, heights[i], z}, {2.6F, heights[i], z}));
-        for (const float x : {-2.5F, 2.5F}) {
-            place(scene, name + " post", iron, cylinder(0.05F, heights[i] + 0.06F, 16), at({x, 0, z}));
-        }
+/// A bar on two posts, as high as its name says.
+void addBar(Scene& scene, const vec3& middle, const std::array<uint32_t, 2>& paintAndIron) {
+    const vec3 half(1.7F, 0, 1.3F);
+    const float length = 2.0F * glm::length(half);
+    const std::string name = "bar at " + std::to_string(static_cast<int>(middle.y)) + " m";
+    place(scene, name, paintAndIron[0], cylinder(0.04F, length, 16), between(middle - half, middle + half));
+    const uint32_t post = addMesh(scene, name + " post", paintAndIron[1], cylinder(0.05F, middle.y + 0.06F, 16));
+    for (const float end : {-0.95F, 0.95F}) {
+        const vec3 p = middle + end * half;
+        place(scene, name + " post", post, at({p.x, 0, p.z}));
     }
+}
+
+void addBars(Scene& scene) {
+    const uint32_t iron = addMaterial(scene, plain("dark iron", {0x53585C, 0.5F}));
+    const uint32_t paint = addMaterial(scene, plain("blue paint", {0x2C6E8F, 0.5F}));
+    addBar(scene, {-1.6F, 1.0F, 2.4F}, {paint, iron});
+    addBar(scene, {1.0F, 2.0F, 1.6F}, {paint, iron});
+    addBar(scene, {4.0F, 5.0F, 0.6F}, {paint, iron});
     const uint32_t leaning = addMesh(scene, "leaning pole", iron, cylinder(0.035F, 3.4F, 12));
-    place(scene, "leaning pole 1", leaning, between({4.0F, 0, 1.8F}, {4.9F, 3.0F, 0.4F}));
-    place(scene, "leaning pole 2", leaning, between({4.7F, 0, 2.0F}, {3.9F, 3.0F, 0.9F}));
-    place(scene, "leaning pole 3", leaning, between({5.2F, 0, 1.0F}, {4.2F, 3.0F, 1.6F}));
+    place(scene, "leaning pole 1", leaning, between({4.4F, 0, 4.0F}, {5.3F, 3.0F, 2.6F}));
+    place(scene, "leaning pole 2", leaning, between({5.1F, 0, 4.2F}, {4.3F, 3.0F, 3.1F}));
+    place(scene, "leaning pole 3", leaning, between({5.6F, 0, 3.2F}, {4.6F, 3.0F, 3.8F}));
 }
 
 void addPanel(Scene& scene) {
-    Material pierced = textured("pierced panel", addTexture(scene, piercedPanel("pierced panel", 512, 5, 0xB5874A)), 0.6F);
+    Material pierced =
+        textured("pierced panel", addTexture(scene, piercedPanel("pierced panel", 512, 5, 0xB5874A)), 0.6F);
     pierced.alphaCutoff = 0.5F;
     pierced.doubleSided = true;
     const uint32_t panel = addMaterial(scene, pierced);
     place(scene, "pierced panel", panel, patch({{0, 1.1F, 0}, {1.0F, 0, 0}, {0, 1.0F, 0}, {1, 1}, {1, 1}}),
-          at({-4.6F, 0, 1.2F}) * turned(35));
+          at({-3.3F, 0, 0.4F}) * turned(-52));
 }
 
 }  // namespace
@@ -78,9 +86,9 @@ Scene makeColonnade() {
     addColumns(scene);
     addBars(scene);
     addPanel(scene);
-    scene.cameras.push_back(camera("main", {-1.5F, 3.0F, 10.2F}, {0.0F, 1.7F, -1.0F}, 45));
-    scene.cameras.push_back(camera("contact", {1.6F, 1.3F, 4.6F}, {-0.2F, 0.4F, 0.6F}, 45));
-    scene.sun = sun({0.55F, -0.62F, 0.42F}, {4.4F, 3.9F, 3.2F});
+    scene.cameras.push_back(camera("main", {-3.6F, 3.1F, 9.8F}, {0.2F, 1.5F, -1.0F}, 45));
+    scene.cameras.push_back(camera("contact", {-5.6F, 1.5F, 3.6F}, {-2.6F, 0.7F, -1.6F}, 50));
+    scene.sun = sun({-0.70F, -0.55F, -0.14F}, {4.2F, 3.7F, 3.0F});
     scene.environment.radiance = {0.28F, 0.38F, 0.55F};
     return scene;
 }

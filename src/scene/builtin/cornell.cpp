@@ -48,7 +48,7 @@ Scene makeCornell() {
     scene.lamps.push_back(wallLamp());
 
     scene.cameras.push_back(camera("main", {0, 2.0F, 5.65F}, {0, 1.95F, 0}, 52));
-    scene.sun = sun({-0.62F, -0.42F, -0.75F}, {6.6F, 6.1F, 5.3F});
+    scene.sun = sun({-0.50F, -0.64F, -0.58F}, {5.0F, 4.7F, 4.2F});
     return scene;
 }
 

@@ -21,7 +21,7 @@ Scene makeCubes() {
     scene.name = "cubes";
     place(scene, "ground", tiles(scene), ground({5, 5}, {8, 8}, {1, 1}), at({0, -1, 0}) * turned(90));
 
-    const uint32_t polished = addMaterial(scene, plain("polished metal", {0xF0E6DC, 0.04F, 1.0F}));
+    const uint32_t polished = addMaterial(scene, plain("polished metal", {0xE9A67C, 0.05F, 1.0F}));
     place(scene, "box", polished, box({1, 1, 1}));
 
     const auto board = addTexture(scene, emblem("emblem", "3", 0xC8402E, 0xF2E3C4, 0xF8F1E0));
@@ -32,9 +32,10 @@ Scene makeCubes() {
     const uint32_t small = addMesh(scene, "small cube", blue, box(vec3(0.35F)));
     place(scene, "blue cube", small, at({2.35F, -0.65F, -1.15F}) * turned(20));
     const uint32_t yellow = addMaterial(scene, plain("ochre", {0xE8B23A, 0.8F}));
-    place(scene, "ochre cube", addMesh(scene, "ochre cube", yellow, box(vec3(0.55F))), at({0.4F, -0.45F, -2.3F}) * turned(-25));
+    place(scene, "ochre cube", addMesh(scene, "ochre cube", yellow, box(vec3(0.55F))),
+          at({0.4F, -0.45F, -2.3F}) * turned(-25));
 
-    scene.cameras.push_back(camera("main", {6.2F, 2.2F, 1.6F}, {0.3F, -0.25F, -0.1F}, 42));
+    scene.cameras.push_back(camera("main", {6.0F, 3.3F, 2.7F}, {0.5F, -0.45F, 0.0F}, 42));
     scene.cameras.push_back(camera("side", {6, 1, 0}, {0, 0, 0}, 60));
     scene.sun = sun({0.4F, -0.9F, -0.2F}, {3.9F, 3.65F, 3.3F});
     scene.environment.radiance = {0.30F, 0.40F, 0.55F};

@@ -6,7 +6,9 @@
 namespace reflet::builtin {
 namespace {
 
-vec3 quintic(const vec3& t) { return t * t * t * (t * (t * 6.0F - 15.0F) + 10.0F); }
+vec3 quintic(const vec3& t) {
+    return t * t * t * (t * (t * 6.0F - 15.0F) + 10.0F);
+}
 
 uint32_t mixed(uint32_t h) {
     h ^= h >> 15U;
@@ -20,10 +22,9 @@ uint32_t mixed(uint32_t h) {
 }  // namespace
 
 uint32_t hash(int32_t x, int32_t y, int32_t z, uint32_t seed) {
-    uint32_t h = mixed(seed + 0x9E3779B9U);
-    h = mixed(h ^ static_cast<uint32_t>(x));
-    h = mixed(h + 0x85EBCA77U * static_cast<uint32_t>(y));
-    return mixed(h ^ (0xC2B2AE3DU * static_cast<uint32_t>(z)));
+    const uint32_t lattice = 0x8DA6B343U * static_cast<uint32_t>(x) + 0xD8163841U * static_cast<uint32_t>(y) +
+                             0xCB1AB31FU * static_cast<uint32_t>(z);
+    return mixed(lattice ^ (0x9E3779B9U * (seed + 1U)));
 }
 
 float hash01(int32_t x, int32_t y, int32_t z, uint32_t seed) {

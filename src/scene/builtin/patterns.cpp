@@ -123,9 +123,9 @@ Image piercedPanel(std::string name, uint32_t size, int repeats, Hex color) {
     for (int y = 0; y < static_cast<int>(size); ++y) {
         for (int x = 0; x < static_cast<int>(size); ++x) {
             const vec2 p = (vec2(x, y) + 0.5F) / cell;
-            const vec2 ring = glm::abs(p - glm::floor(p) - 0.5F);          // from the middle of a cell
+            const vec2 ring = glm::abs(p - glm::floor(p) - 0.5F);                // from the middle of a cell
             const vec2 star = glm::abs(p + 0.5F - glm::floor(p + 0.5F) - 0.5F);  // from the corner of a cell
-            const float root = std::sqrt(star.x) + std::sqrt(star.y);      // an astroid
+            const float root = std::sqrt(star.x) + std::sqrt(star.y);            // an astroid
             if (glm::length(ring) < 0.31F || root < 0.52F) {
                 canvas.set(x, y, color, 0);
             }

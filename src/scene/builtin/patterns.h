@@ -15,7 +15,7 @@ struct LabelledTiles {
     Hex joint = 0x2A2A2E;
     Hex letters = 0xF4EFE6;
     float grain = 4.0F;
-    uint32_t seed = 1;     ///< chooses which tile has which colour
+    uint32_t seed = 1;  ///< chooses which tile has which colour
 };
 Image labelledTiles(std::string name, const LabelledTiles& style);
 

@@ -194,9 +194,11 @@ Mesh lathe(std::span<const vec2> outline, unsigned segments, float uvRepeat) {
             const float v = 1.0F - (travelled + (end == 1 ? length : 0.0F)) / total;
             for (unsigned x = 0; x <= segments; ++x) {
                 const float u = static_cast<float>(x) / static_cast<float>(segments);
-                const float phi = glm::two_pi<float>() * static_cast<float>(x % segments) / static_cast<float>(segments);
+                const float phi =
+                    glm::two_pi<float>() * static_cast<float>(x % segments) / static_cast<float>(segments);
                 const vec3 away(std::sin(phi), 0.0F, std::cos(phi));
-                addVertex(mesh, point.x * away + vec3(0, point.y, 0), n.x * away + vec3(0, n.y, 0), vec2(u, v) * uvRepeat);
+                addVertex(mesh, point.x * away + vec3(0, point.y, 0), n.x * away + vec3(0, n.y, 0),
+                          vec2(u, v) * uvRepeat);
             }
         }
         for (unsigned x = 0; x < segments; ++x) {
@@ -258,7 +260,8 @@ Mesh boxMapped(const Mesh& mesh, float uvPerMetre) {
     };
     for (size_t i = 0; i < mesh.indices.size(); i += 3) {
         const uint32_t* t = &mesh.indices[i];
-        const vec3 n = glm::cross(mesh.positions[t[1]] - mesh.positions[t[0]], mesh.positions[t[2]] - mesh.positions[t[0]]);
+        const vec3 n =
+            glm::cross(mesh.positions[t[1]] - mesh.positions[t[0]], mesh.positions[t[2]] - mesh.positions[t[0]]);
         const vec3 a = glm::abs(n);
         const int axis = a.x >= a.y && a.x >= a.z ? 0 : (a.y >= a.z ? 1 : 2);
         const int side = 2 * axis + (n[axis] < 0.0F ? 1 : 0);
@@ -291,7 +294,8 @@ void finish(Mesh& mesh) {
         const vec3 n = mesh.attributes[i].normal;
         const vec3 t = sums[i] - n * glm::dot(n, sums[i]);
         const float length = glm::length(t);
-        mesh.attributes[i].tangent = vec4(length > 1e-12F ? t / length : anyPerpendicular(n), handedness[i] < 0.0F ? -1 : 1);
+        mesh.attributes[i].tangent =
+            vec4(length > 1e-12F ? t / length : anyPerpendicular(n), handedness[i] < 0.0F ? -1 : 1);
         mesh.bounds.add(mesh.positions[i]);
     }
 }

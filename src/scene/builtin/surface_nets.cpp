@@ -12,7 +12,9 @@ constexpr uint32_t none = ~0U;
 class Nets {
 public:
     Nets(const Lattice& lattice, const std::function<float(const vec3&)>& field)
-        : l(lattice), points(lattice.cells + 1U), values(size_t{points.x} * points.y * points.z),
+        : l(lattice),
+          points(lattice.cells + 1U),
+          values(size_t{points.x} * points.y * points.z),
           vertexOfCell(values.size(), none) {
         each(points, [&](const glm::uvec3& p) { values[at(p)] = field(l.origin + l.cell * vec3(p)); });
     }

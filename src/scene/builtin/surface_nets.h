@@ -10,7 +10,7 @@ namespace reflet::builtin {
 
 struct Lattice {
     vec3 origin{0.0F};
-    float cell = 0.25F;     ///< metres
+    float cell = 0.25F;  ///< metres
     glm::uvec3 cells{1U};
 };
 

@@ -30,11 +30,11 @@ void addBox(Scene& scene, const mat4& boxToWorld) {
 Scene makeTiltedCube() {
     Scene scene;
     scene.name = "tilted-cube";
-    const uint32_t floor = addMaterial(scene, plain("glossy ground", {0xA9A39A, 0.08F, 0.35F}));
+    const uint32_t floor = addMaterial(scene, plain("glossy ground", {0x8F8B86, 0.08F, 0.4F}));
     place(scene, "ground", floor, ground({5, 5}, {10, 10}, {10, 10}), at({0, -1, 0}));
     addBox(scene, at({0, 0.85F, 0}) * turned(28) * turned(38, {1, 0, -0.55F}));
 
-    scene.cameras.push_back(camera("main", {5.6F, 1.7F, 3.4F}, {0.0F, 0.25F, 0.0F}, 42));
+    scene.cameras.push_back(camera("main", {6.0F, 1.9F, 3.7F}, {0.0F, -0.1F, 0.0F}, 42));
     scene.sun = sun({0.4F, -0.9F, -0.2F}, {3.7F, 3.5F, 3.2F});
     scene.environment.radiance = {0.28F, 0.36F, 0.48F};
     return scene;
