@@ -1,0 +1,38 @@
+# Compiles GLSL to SPIR-V and embeds it in the target: reflet_shaders(TARGET FUNCTION FILE...) adds a source that
+# defines `std::span<const reflet::gpu::EmbeddedShader> FUNCTION()`. Shaders are known by their file name. The target
+# is 1.2, whose shaders every 1.3 device runs: for 1.3 glslc writes group sizes in a form that reflection does not read.
+function(reflet_shaders target function)
+    set(folder ${CMAKE_CURRENT_BINARY_DIR}/shaders/${target})
+    file(MAKE_DIRECTORY ${folder})
+    set(arrays "")
+    set(table "")
+    set(outputs "")
+    foreach(shader ${ARGN})
+        get_filename_component(name ${shader} NAME)
+        string(MAKE_C_IDENTIFIER ${name} symbol)
+        set(output ${folder}/${name}.inc)
+        add_custom_command(
+            OUTPUT ${output}
+            COMMAND ${GLSLC} --target-env=vulkan1.2 -Werror -I ${CMAKE_SOURCE_DIR}/src -mfmt=num -MD -MF ${output}.d
+                -o ${output} ${CMAKE_CURRENT_SOURCE_DIR}/${shader}
+            DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${shader}
+            DEPFILE ${output}.d
+            COMMENT "Shader ${name}"
+            VERBATIM)
+        list(APPEND outputs ${output})
+        string(APPEND arrays "constexpr uint32_t ${symbol}[] = {\n#include \"${output}\"\n};\n")
+        string(APPEND table "    {\"${name}\", ${symbol}},\n")
+    endforeach()
+    set(source ${folder}/embedded.cpp)
+    file(GENERATE OUTPUT ${source} CONTENT "// Generated: shaders of ${target}.
+#include \"gpu/shader.h\"
+namespace {
+${arrays}constexpr reflet::gpu::EmbeddedShader shaders[] = {
+${table}};
+}  // namespace
+std::span<const reflet::gpu::EmbeddedShader> ${function}();
+std::span<const reflet::gpu::EmbeddedShader> ${function}() { return shaders; }
+")
+    set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${outputs}")
+    target_sources(${target} PRIVATE ${source})
+endfunction()

@@ -1,0 +1,11 @@
+// The subcommands of `reflet`. Each adds itself to the command line; what it does runs when it is chosen.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace reflet {
+
+void addRenderCommand(CLI::App& app);
+void addListCommand(CLI::App& app);
+
+}  // namespace reflet

@@ -1,0 +1,45 @@
+// Progress of long work on a terminal.
+#include "apps/progress.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <cstdio>
+#include <unistd.h>
+
+namespace reflet {
+
+namespace {
+
+constexpr std::chrono::milliseconds patience(500);  // work shorter than this shows nothing
+
+std::string durationText(double seconds) {
+    const auto whole = static_cast<uint64_t>(seconds + 0.5);
+    return whole < 60 ? fmt::format("{} s", whole) : fmt::format("{}:{:02} min", whole / 60, whole % 60);
+}
+
+}  // namespace
+
+Progress::Progress(std::string what, uint64_t total)
+    : what_(std::move(what)), total_(total), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+Progress::~Progress() {
+    if (shown_) {
+        fmt::print(stderr, "\r\033[K");
+    }
+}
+
+void Progress::advance(uint64_t steps) {
+    done_ += steps;
+    const Clock::time_point now = Clock::now();
+    if (!terminal_ || done_ >= total_ || now - printed_ < patience) {
+        return;
+    }
+    printed_ = now;
+    shown_ = true;
+    const double elapsed = std::chrono::duration<double>(now - start_).count();
+    const double left = elapsed / static_cast<double>(done_) * static_cast<double>(total_ - done_);
+    fmt::print(stderr, "\r\033[K{} {} of {}, {} left", what_, done_, total_, durationText(left));
+    (void)std::fflush(stderr);
+}
+
+}  // namespace reflet

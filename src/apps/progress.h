@@ -1,0 +1,31 @@
+// Progress of long work on a terminal: how far, and how long still. Quiet where standard error is no terminal.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace reflet {
+
+class Progress {
+public:
+    Progress(std::string what, uint64_t total);
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    void advance(uint64_t steps = 1);
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    std::string what_;
+    uint64_t total_;
+    uint64_t done_ = 0;
+    bool shown_ = false;
+    bool terminal_;
+    Clock::time_point start_ = Clock::now();
+    Clock::time_point printed_ = start_;
+};
+
+}  // namespace reflet

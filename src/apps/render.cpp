@@ -1,0 +1,219 @@
+// `reflet render`: pictures of a scene.
+#include "apps/commands.h"
+#include "apps/progress.h"
+#include "apps/scene_options.h"
+#include "apps/show.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "gpu/device.h"
+#include "render/renderer.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <memory>
+
+namespace reflet {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RenderOptions {
+    SceneOptions scene;
+    std::vector<std::string> outputs;
+    uint32_t frames = 1;
+    std::string show = "final";
+    std::vector<std::string> aovs;
+    std::string device;
+    std::string timings;
+    bool validate = false;
+};
+
+bool isExr(const std::string& file) { return fs::path(file).extension() == ".exr"; }
+
+void checkOutputs(const RenderOptions& options) {
+    for (const std::string& file : options.outputs) {
+        if (const auto extension = fs::path(file).extension(); extension != ".png" && extension != ".exr") {
+            failUsage("-o {}: the name must end in .png or .exr", file);
+        }
+    }
+    if (!options.aovs.empty() && std::ranges::none_of(options.outputs, isExr)) {
+        failUsage("--aov needs an EXR file to go to: add -o FILE.exr");
+    }
+    std::vector<fs::path> all(options.outputs.begin(), options.outputs.end());
+    if (!options.timings.empty()) {
+        all.emplace_back(options.timings);
+    }
+    for (const fs::path& path : all) {  // better now than after minutes of work
+        const AtomicFile trial(path);
+    }
+}
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    if (values.size() % 2 == 1) {
+        return *middle;
+    }
+    return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
+// Times of all passes over all frames; the first frame, in which pipelines are made, does not count if there are more.
+class Timings {
+public:
+    void add(const std::vector<gpu::PassTime>& times) {
+        ++frames_;
+        if (frames_ == 2) {
+            samples_.clear();
+            order_.clear();
+        }
+        for (const gpu::PassTime& time : times) {
+            if (samples_[time.name].empty()) {
+                order_.push_back(time.name);
+            }
+            samples_[time.name].push_back(time.ms);
+        }
+    }
+
+    [[nodiscard]] nlohmann::ordered_json json(const std::string& device, uvec2 size) const {
+        nlohmann::ordered_json passes = nlohmann::ordered_json::object();
+        for (const std::string& name : order_) {
+            if (name != "frame") {
+                passes[name] = median(samples_.at(name));
+            }
+        }
+        return {{"device", device},
+                {"size", {size.x, size.y}},
+                {"frames", frames_},
+                {"frame_ms", median(samples_.at("frame"))},
+                {"passes", passes}};
+    }
+
+private:
+    uint32_t frames_ = 0;
+    std::map<std::string, std::vector<double>> samples_;
+    std::vector<std::string> order_;
+};
+
+// What the last frame's images are copied into, and the files that are made of it.
+struct Pictures {
+    const Show* main = nullptr;
+    std::vector<const Show*> aovs;
+    std::map<const Show*, ShowReadback> readbacks;
+    gpu::Readback display;
+
+    void request(gpu::Frame& f, const FrameImages& images) {
+        readbacks.emplace(main, requestShow(f, images, *main));
+        for (const Show* aov : aovs) {
+            if (!readbacks.contains(aov)) {
+                readbacks.emplace(aov, requestShow(f, images, *aov));
+            }
+        }
+        display = f.readback(images.display);
+    }
+
+    void writePngFile(const std::string& file, const gpu::Frame& f, const ViewParams& view, uvec2 size) const {
+        writePng(file, main->picture == nullptr ? fetchDisplay(f, display, size)
+                                                : makePicture(*main, fetchValues(f, readbacks.at(main), view)));
+    }
+
+    // The --show image under plain channel names, so that every viewer opens it; then a named layer for each AOV.
+    void writeExrFile(const std::string& file, const gpu::Frame& f, const ViewParams& view) const {
+        std::vector<ImageLayer> layers{{"", fetchValues(f, readbacks.at(main), view), PixelType::float32}};
+        for (const Show* aov : aovs) {
+            layers.push_back({std::string(aov->name), fetchValues(f, readbacks.at(aov), view), PixelType::float32});
+        }
+        writeExr(file, layers);
+    }
+};
+
+Pictures choosePictures(const RenderOptions& options) {
+    Pictures pictures;
+    pictures.main = &findShow(options.show);
+    for (const std::string& name : options.aovs) {
+        pictures.aovs.push_back(&findShow(name));
+    }
+    const auto isShadowMap = [](const Show* s) { return s->name == "shadow_map"; };
+    if (std::ranges::any_of(pictures.aovs, isShadowMap)) {
+        failUsage("--aov shadow_map: it has a size of its own; render it alone with --show shadow_map");
+    }
+    if (isShadowMap(pictures.main) && !pictures.aovs.empty()) {
+        failUsage("--show shadow_map has a size of its own and cannot share a file with --aov");
+    }
+    return pictures;
+}
+
+void render(const RenderOptions& options) {
+    const uvec2 size = parseSize(options.scene.size);
+    const Settings settings = loadSettings(options.scene);
+    Pictures pictures = choosePictures(options);
+    checkOutputs(options);
+    const Scene scene = loadScene(options.scene);
+    const View view = loadView(options.scene, scene);
+
+    gpu::Device device({.select = options.device, .validation = options.validate, .onMessage = printWarning});
+    if (const uint32_t limit = device.limits().maxImageDimension2D; std::max(size.x, size.y) > limit) {
+        failUsage("--size {}: '{}' has images up to {}x{}", options.scene.size, device.description().name, limit, limit);
+    }
+    Renderer renderer(device, scene, printWarning);
+    Timings timings;
+    Progress progress("rendering", options.frames);
+    for (uint32_t i = 0; i < options.frames; ++i) {
+        const bool last = i + 1 == options.frames;
+        renderer.render(view, size, options.scene.seed, settings, [&](gpu::Frame& f, const FrameImages& images) {
+            if (last) {
+                pictures.request(f, images);
+            }
+        });
+        timings.add(renderer.frame().passTimes());
+        progress.advance();
+    }
+    const ViewParams params = makeViewParams(view.camera, size, 0, options.scene.seed);
+    for (const std::string& file : options.outputs) {
+        if (isExr(file)) {
+            pictures.writeExrFile(file, renderer.frame(), params);
+        } else {
+            pictures.writePngFile(file, renderer.frame(), params, size);
+        }
+    }
+    if (!options.timings.empty()) {
+        writeFileAtomically(options.timings, timings.json(device.description().name, size).dump(2) + "\n");
+    }
+    if (options.validate && !device.validationMessages().empty()) {
+        fail("the validation layers had {} messages", device.validationMessages().size());
+    }
+}
+
+}  // namespace
+
+void addRenderCommand(CLI::App& app) {
+    auto options = std::make_shared<RenderOptions>();
+    CLI::App* command = app.add_subcommand("render", "Render a scene to PNG or EXR");
+    addSceneOptions(*command, options->scene);
+    command->add_option("-o,--output", options->outputs, "Where the picture goes, .png or .exr; may be repeated")
+        ->type_name("FILE");
+    command->add_option("--frames", options->frames, "Frames to render; the last one is written")
+        ->check(CLI::Range(1U, 1000000U))
+        ->capture_default_str();
+    command->add_option("--show", options->show, "Which image of the frame (reflet list shows)")
+        ->type_name("NAME")
+        ->capture_default_str();
+    command->add_option("--aov", options->aovs, "More images, as named layers of the EXR files")
+        ->type_name("A,B,...")
+        ->delimiter(',');
+    command->add_option("--device", options->device, "Vulkan device by number or by part of its name (reflet list devices)")
+        ->type_name("NAME|INDEX");
+    command->add_option("--timings", options->timings, "Device time of every pass: medians over the frames after the first")
+        ->type_name("F.json");
+    command->add_flag("--validate", options->validate, "Run under the Vulkan validation layers; any message is a failure");
+    command->footer(
+        "Example: reflet render scene.glb --size 640x360 --set diffuse.rays=16 -o picture.png -o values.exr --aov "
+        "direct,normal");
+    command->callback([options] { render(*options); });
+}
+
+}  // namespace reflet

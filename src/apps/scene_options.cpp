@@ -1,0 +1,124 @@
+// Scene, view, size and settings from the command line.
+#include "apps/scene_options.h"
+
+#include "base/error.h"
+#include "base/json.h"
+#include "base/text.h"
+#include "render/presets.h"
+#include "scene/builtin.h"
+#include "scene/gltf.h"
+#include "scene/view_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+
+namespace reflet {
+
+namespace {
+
+constexpr std::string_view builtinPrefix = "builtin:";
+
+Scene makeBuiltin(std::string_view name) {
+    if (const BuiltinScene* builtin = findBuiltinScene(name)) {
+        return builtin->make();
+    }
+    std::vector<std::string> names;
+    std::ranges::transform(builtinScenes(), std::back_inserter(names),
+                           [](const BuiltinScene& b) { return std::string(b.name); });
+    failUsage("no built-in scene is called '{}'{}; there are: {}", name, suggestion(name, names),
+              fmt::join(names, ", "));
+}
+
+const Camera& findCamera(const Scene& scene, const std::string& wanted) {
+    size_t index = 0;
+    const char* end = wanted.data() + wanted.size();
+    const auto [rest, error] = std::from_chars(wanted.data(), end, index);
+    if (error == std::errc() && rest == end && index < scene.cameras.size()) {
+        return scene.cameras[index];
+    }
+    const auto found = std::ranges::find(scene.cameras, wanted, &Camera::name);
+    if (found == scene.cameras.end()) {
+        std::vector<std::string> names;
+        for (size_t i = 0; i < scene.cameras.size(); ++i) {
+            names.push_back(fmt::format("{} '{}'", i, scene.cameras[i].name));
+        }
+        failUsage("the scene has no camera '{}'; it has: {}", wanted,
+                  names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")));
+    }
+    return *found;
+}
+
+}  // namespace
+
+void addSceneOptions(CLI::App& command, SceneOptions& options) {
+    command.add_option("SCENE", options.scene, "A .gltf or .glb file, or builtin:NAME (reflet list scenes)")->required();
+    command.add_option("--scene", options.sceneIndex, "Which of the glTF file's scenes, from 0");
+    command.add_option("--camera", options.camera, "Which of the scene's cameras, by number from 0 or by name");
+    command.add_option("--view-file", options.viewFile, "Camera, sun and environment from a JSON file")
+        ->type_name("V.json");
+    command.add_option("--size", options.size, "Width and height in pixels")->type_name("WxH")->capture_default_str();
+    command.add_option("--preset", options.preset, "Settings under one name (reflet list presets)")->type_name("P");
+    command.add_option("--settings", options.settingsFiles, "Settings from a JSON file, over the preset's")
+        ->type_name("F.json");
+    command.add_option("--set", options.set, "One setting, over all others (reflet list settings); may be repeated")
+        ->type_name("KEY=VALUE");
+    command.add_option("--seed", options.seed, "Another number gives other noise")->capture_default_str();
+}
+
+void printWarning(const std::string& message) { fmt::print(stderr, "reflet: warning: {}\n", message); }
+
+Scene loadScene(const SceneOptions& options) {
+    if (options.scene.starts_with(builtinPrefix)) {
+        if (options.sceneIndex.value_or(0) != 0) {
+            failUsage("--scene {}: a built-in scene is one scene", *options.sceneIndex);
+        }
+        return makeBuiltin(std::string_view(options.scene).substr(builtinPrefix.size()));
+    }
+    if (options.sceneIndex && *options.sceneIndex < 0) {
+        failUsage("--scene must be 0 or more, is {}", *options.sceneIndex);
+    }
+    return loadGltf(options.scene, {.scene = options.sceneIndex.value_or(-1), .warn = printWarning});
+}
+
+View loadView(const SceneOptions& options, const Scene& scene) {
+    View view = defaultView(scene);
+    if (!options.camera.empty()) {
+        view.camera = findCamera(scene, options.camera);
+    }
+    if (!options.viewFile.empty()) {
+        applyViewFile(options.viewFile, view);
+    }
+    return view;
+}
+
+uvec2 parseSize(const std::string& text) {
+    uvec2 size(0);
+    const char* end = text.data() + text.size();
+    const auto width = std::from_chars(text.data(), end, size.x);
+    if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
+        const auto height = std::from_chars(width.ptr + 1, end, size.y);
+        if (height.ec == std::errc() && height.ptr == end && size.x > 0 && size.y > 0) {
+            return size;
+        }
+    }
+    failUsage("--size wants WIDTHxHEIGHT in pixels, both at least 1, is '{}'", text);
+}
+
+Settings loadSettings(const SceneOptions& options) {
+    Settings settings;
+    if (!options.preset.empty()) {
+        applyPreset(settings, options.preset);
+    }
+    for (const std::string& file : options.settingsFiles) {
+        applySettingsJson(settings, parseJsonFile(file), file);
+    }
+    for (const std::string& assignment : options.set) {
+        setSetting(settings, assignment);
+    }
+    return settings;
+}
+
+}  // namespace reflet

@@ -1,0 +1,45 @@
+// What subcommands that take a scene have in common: the scene, the view, size, seed and settings.
+#pragma once
+
+#include "render/settings.h"
+#include "scene/scene.h"
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace reflet {
+
+struct SceneOptions {
+    std::string scene;
+    std::optional<int> sceneIndex;
+    std::string camera;
+    std::string viewFile;
+    std::string size = "1280x720";
+    std::string preset;
+    std::vector<std::string> settingsFiles;
+    std::vector<std::string> set;
+    uint32_t seed = 0;
+};
+
+/// Adds SCENE and the options to a subcommand.
+void addSceneOptions(CLI::App& command, SceneOptions& options);
+
+/// One line on standard error.
+void printWarning(const std::string& message);
+
+/// A file, or `builtin:NAME`. Warnings are printed.
+Scene loadScene(const SceneOptions& options);
+
+/// The scene's view, changed by --camera and --view-file.
+View loadView(const SceneOptions& options, const Scene& scene);
+
+/// "1280x720". Throws UsageError.
+uvec2 parseSize(const std::string& text);
+
+/// Preset, then settings files, then --set, each over the ones before.
+Settings loadSettings(const SceneOptions& options);
+
+}  // namespace reflet

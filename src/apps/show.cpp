@@ -1,0 +1,189 @@
+// The images of a frame by name.
+#include "apps/show.h"
+
+#include "apps/texels.h"
+#include "base/error.h"
+#include "base/text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace reflet {
+
+namespace {
+
+using Texels = std::span<const vec4>;
+using Images = std::vector<gpu::Image>;
+
+float encode(float linear) {
+    const float c = std::clamp(linear, 0.0F, 1.0F);
+    return c <= 0.0031308F ? 12.92F * c : 1.055F * std::pow(c, 1.0F / 2.4F) - 0.055F;
+}
+
+// Value functions.
+void first(Texels t, const ViewParams&, float* out) { out[0] = t[0].x; }
+void firstTwo(Texels t, const ViewParams&, float* out) { std::memcpy(out, &t[0], 2 * sizeof(float)); }
+void color(Texels t, const ViewParams&, float* out) { std::memcpy(out, &t[0], 3 * sizeof(float)); }
+void green(Texels t, const ViewParams&, float* out) { out[0] = t[0].y; }
+void blue(Texels t, const ViewParams&, float* out) { out[0] = t[0].z; }
+void alpha(Texels t, const ViewParams&, float* out) { out[0] = t[0].w; }
+void bothAlphas(Texels t, const ViewParams&, float* out) {
+    out[0] = t[0].w;
+    out[1] = t[1].w;
+}
+void meanColor(Texels t, const ViewParams&, float* out) {
+    const vec3 mean = 0.5F * vec3(t[0] + t[1]);
+    std::memcpy(out, &mean, sizeof(mean));
+}
+void viewDistance(Texels t, const ViewParams& view, float* out) {
+    const vec4& d = view.depthToDistance;
+    out[0] = t[0].x > 0.0F ? (d.x + d.y * t[0].x) / (d.z + d.w * t[0].x) : 0.0F;
+}
+// Where there is no surface (depth 0) a cleared normal would decode to +Z.
+void normal(Texels t, const ViewParams&, float* out) {
+    const vec3 n = t[1].x > 0.0F ? vec3(t[0]) : vec3(0.0F);
+    std::memcpy(out, &n, sizeof(n));
+}
+
+// Picture functions.
+vec3 encoded(const float* v) { return {encode(v[0]), encode(v[1]), encode(v[2])}; }
+vec3 grey(const float* v) { return vec3(std::clamp(v[0], 0.0F, 1.0F)); }
+vec3 redGreen(const float* v) { return {std::clamp(v[0], 0.0F, 1.0F), std::clamp(v[1], 0.0F, 1.0F), 0.0F}; }
+vec3 asIs(const float* v) { return glm::clamp(vec3(v[0], v[1], v[2]), 0.0F, 1.0F); }
+vec3 direction(const float* v) { return 0.5F + 0.5F * vec3(v[0], v[1], v[2]); }
+vec3 offsets(const float* v) { return glm::clamp(vec3(0.5F + 10.0F * v[0], 0.5F + 10.0F * v[1], 0.5F), 0.0F, 1.0F); }
+float nearness(float metres) { return metres > 0.0F ? 4.0F / (4.0F + metres) : 0.0F; }
+vec3 near(const float* v) { return vec3(nearness(v[0])); }
+vec3 nearRedGreen(const float* v) { return {nearness(v[0]), nearness(v[1]), 0.0F}; }
+// A shadow map's depths, stretched to be told apart.
+vec3 mapDepth(const float* v) { return vec3(v[0]); }
+
+const std::vector<std::string> rgb{"R", "G", "B"};
+const std::vector<std::string> xyz{"X", "Y", "Z"};
+const std::vector<std::string> xy{"X", "Y"};
+const std::vector<std::string> rg{"R", "G"};
+const std::vector<std::string> y{"Y"};
+
+const std::vector<Show>& table() {
+    static const std::vector<Show> all{
+        {"final", "the whole picture: radiance; PNG tone mapped", [](const FrameImages& i) { return Images{i.light.lit}; },
+         color, rgb, nullptr},
+        {"direct", "sun, lamps, emission and background: radiance", [](const FrameImages& i) { return Images{i.direct}; },
+         color, rgb, encoded},
+        {"indirect_diffuse", "light by way of diffuse rays: radiance",
+         [](const FrameImages& i) { return Images{i.light.indirectDiffuse}; }, color, rgb, encoded},
+        {"indirect_specular", "reflections: radiance",
+         [](const FrameImages& i) { return Images{i.light.indirectSpecular}; }, color, rgb, encoded},
+        {"diffuse_radiance", "mean radiance that the diffuse rays met, without the surface's colour",
+         [](const FrameImages& i) { return Images{i.diffuse.radiance}; }, color, rgb, encoded},
+        {"specular_radiance", "mean radiance that the reflection rays met, without the surface's colour",
+         [](const FrameImages& i) { return Images{i.specular.radiance}; }, color, rgb, encoded},
+        {"sun_visibility", "0 in the sun's shadow, 1 lit", [](const FrameImages& i) { return Images{i.sunVisibility}; },
+         first, y, grey},
+        {"shadow_map", "depth as the sun sees it, 1 nearest to the sun, 0 nothing; of the map's own size",
+         [](const FrameImages& i) { return i.shadowMap ? Images{i.shadowMap} : Images{i.sunVisibility}; }, first, y,
+         mapDepth},
+        {"depth", "metres in front of the camera, 0 where there is nothing; PNG bright is near",
+         [](const FrameImages& i) { return Images{i.g.depth}; }, viewDistance, y, near},
+        {"normal", "world-space shading normal, 0 where there is nothing; PNG 0.5 + 0.5 n",
+         [](const FrameImages& i) { return Images{i.g.normal, i.g.depth}; }, normal, xyz, direction},
+        {"albedo", "base colour, linear", [](const FrameImages& i) { return Images{i.g.baseColor}; }, color, rgb, encoded},
+        {"roughness", "perceptual roughness, 0 mirror to 1", [](const FrameImages& i) { return Images{i.g.material}; },
+         first, y, grey},
+        {"metallic", "0 dielectric to 1 metal", [](const FrameImages& i) { return Images{i.g.material}; }, green, y,
+         grey},
+        {"occlusion", "the materials' occlusion maps, 1 open",
+         [](const FrameImages& i) { return Images{i.g.material}; }, blue, y, grey},
+        {"emissive", "emitted radiance", [](const FrameImages& i) { return Images{i.g.emissive}; }, color, rgb, encoded},
+        {"motion", "uv now minus uv in the last frame; PNG 0.5 + 10 motion",
+         [](const FrameImages& i) { return Images{i.g.motion}; }, firstTwo, xy, offsets},
+        {"confidence", "share of the rays' weight that a source answered: R diffuse, G specular",
+         [](const FrameImages& i) { return Images{i.diffuse.source, i.specular.source}; }, bothAlphas, rg, redGreen},
+        {"diffuse_confidence", "the same, of the diffuse rays",
+         [](const FrameImages& i) { return Images{i.diffuse.source}; }, alpha, y, grey},
+        {"specular_confidence", "the same, of the reflection rays",
+         [](const FrameImages& i) { return Images{i.specular.source}; }, alpha, y, grey},
+        {"hit_distance", "mean length of the rays in metres: R diffuse, G specular; PNG bright is near",
+         [](const FrameImages& i) { return Images{i.diffuse.radiance, i.specular.radiance}; }, bothAlphas, rg,
+         nearRedGreen},
+        {"diffuse_hit_distance", "the same, of the diffuse rays",
+         [](const FrameImages& i) { return Images{i.diffuse.radiance}; }, alpha, y, near},
+        {"specular_hit_distance", "the same, of the reflection rays",
+         [](const FrameImages& i) { return Images{i.specular.radiance}; }, alpha, y, near},
+        {"source", "who answered the rays, both lobes: green the screen, blue the environment",
+         [](const FrameImages& i) { return Images{i.diffuse.source, i.specular.source}; }, meanColor, rgb, asIs},
+        {"diffuse_source", "the same, of the diffuse rays", [](const FrameImages& i) { return Images{i.diffuse.source}; },
+         color, rgb, asIs},
+        {"specular_source", "the same, of the reflection rays",
+         [](const FrameImages& i) { return Images{i.specular.source}; }, color, rgb, asIs},
+    };
+    return all;
+}
+
+}  // namespace
+
+std::span<const Show> shows() { return table(); }
+
+const Show& findShow(std::string_view name) {
+    const auto found = std::ranges::find(table(), name, &Show::name);
+    if (found == table().end()) {
+        std::vector<std::string> names;
+        std::ranges::transform(table(), std::back_inserter(names), [](const Show& s) { return std::string(s.name); });
+        failUsage("no image of the frame is called '{}'{}; all of them: reflet list shows", name,
+                  suggestion(name, names));
+    }
+    return *found;
+}
+
+ShowReadback requestShow(gpu::Frame& f, const FrameImages& images, const Show& show) {
+    ShowReadback readback{&show, show.images(images), {}};
+    for (const gpu::Image& image : readback.images) {
+        readback.copies.push_back(f.readback(image));
+    }
+    return readback;
+}
+
+FloatImage fetchValues(const gpu::Frame& f, const ShowReadback& readback, const ViewParams& view) {
+    std::vector<std::vector<vec4>> decoded;
+    for (size_t i = 0; i < readback.images.size(); ++i) {
+        decoded.push_back(decodeTexels(readback.images[i].format, f.bytes(readback.copies[i])));
+    }
+    const uvec2 size = readback.images.front().size;
+    const std::vector<std::string>& channels = readback.show->channels;
+    FloatImage values{size.x, size.y, channels, {}};
+    values.data.resize(decoded.front().size() * channels.size());
+    std::vector<vec4> texels(decoded.size());
+    for (size_t i = 0; i < decoded.front().size(); ++i) {
+        std::ranges::transform(decoded, texels.begin(), [&](const auto& image) { return image[i]; });
+        readback.show->values(texels, view, &values.data[i * channels.size()]);
+    }
+    return values;
+}
+
+Bitmap makePicture(const Show& show, const FloatImage& values) {
+    Bitmap bitmap{values.width, values.height, 3, {}};
+    const size_t pixels = size_t(values.width) * values.height;
+    bitmap.data.reserve(pixels * 3);
+    for (size_t i = 0; i < pixels; ++i) {
+        const vec3 c = show.picture(&values.data[i * values.channels.size()]);
+        for (int channel = 0; channel < 3; ++channel) {
+            bitmap.data.push_back(static_cast<uint8_t>(std::lround(c[channel] * 255.0F)));
+        }
+    }
+    return bitmap;
+}
+
+Bitmap fetchDisplay(const gpu::Frame& f, gpu::Readback readback, uvec2 size) {
+    const auto bytes = f.bytes(readback);
+    Bitmap bitmap{size.x, size.y, 3, {}};
+    bitmap.data.reserve(bytes.size() / 4 * 3);
+    for (size_t i = 0; i < bytes.size(); i += 4) {
+        for (size_t channel = 0; channel < 3; ++channel) {
+            bitmap.data.push_back(static_cast<uint8_t>(bytes[i + channel]));
+        }
+    }
+    return bitmap;
+}
+
+}  // namespace reflet

@@ -1,0 +1,190 @@
+// Opens a Vulkan device and keeps its books: serials of submitted work, and what waits to be destroyed.
+#include "gpu/device.h"
+
+#include "base/error.h"
+#include "gpu/physical_device.h"
+#include "gpu/pipeline.h"
+
+#include <array>
+
+namespace reflet::gpu {
+
+namespace {
+
+constexpr const char* validationLayer = "VK_LAYER_KHRONOS_validation";
+
+VkDebugUtilsMessengerCreateInfoEXT messengerInfo(PFN_vkDebugUtilsMessengerCallbackEXT callback, void* self) {
+    VkDebugUtilsMessengerCreateInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
+    info.messageSeverity =
+        VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+    info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT;
+    info.pfnUserCallback = callback;
+    info.pUserData = self;
+    return info;
+}
+
+}  // namespace
+
+Device::Device(const DeviceOptions& options) : onMessage_(options.onMessage) {
+    createInstance(options.validation);
+    physical_ = choosePhysicalDevice(instance_, options.select);
+    description_ = describe(physical_);
+    VkPhysicalDeviceProperties properties{};
+    vkGetPhysicalDeviceProperties(physical_, &properties);
+    limits_ = properties.limits;
+    createDevice();
+    memory_ = std::make_unique<Memory>(vk, device_, physical_);
+    pipelines_ = std::make_unique<PipelineCache>(*this);
+}
+
+Device::~Device() {
+    if (device_ != VK_NULL_HANDLE) {
+        vk.vkDeviceWaitIdle(device_);
+        for (const Retired& retired : retired_) {
+            retired.destroy();
+        }
+        pipelines_.reset();
+        memory_.reset();
+        for (const auto& [info, sampler] : samplers_) {
+            vk.vkDestroySampler(device_, sampler, nullptr);
+        }
+        vk.vkDestroyCommandPool(device_, immediatePool_, nullptr);
+        vk.vkDestroySemaphore(device_, timeline_, nullptr);
+        vk.vkDestroyDevice(device_, nullptr);
+    }
+    if (messenger_ != VK_NULL_HANDLE) {
+        vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
+    }
+    if (instance_ != VK_NULL_HANDLE) {
+        vkDestroyInstance(instance_, nullptr);
+    }
+}
+
+VkBool32 Device::onValidation(VkDebugUtilsMessageSeverityFlagBitsEXT severity, VkDebugUtilsMessageTypeFlagsEXT types,
+                              const VkDebugUtilsMessengerCallbackDataEXT* data, void* self) {
+    // The loader's own remarks (a driver it could not load, say) are not about us unless they are errors.
+    if ((types & VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT) == 0 &&
+        severity < VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT) {
+        return VK_FALSE;
+    }
+    auto& device = *static_cast<Device*>(self);
+    device.messages_.emplace_back(data->pMessage);
+    if (device.onMessage_) {
+        device.onMessage_(data->pMessage);
+    }
+    return VK_FALSE;
+}
+
+void Device::createInstance(bool validation) {
+    instance_ = makeInstance(validation ? validationLayer : nullptr);
+    if (validation) {
+        const auto info = messengerInfo(onValidation, this);
+        vkCheck(vkCreateDebugUtilsMessengerEXT(instance_, &info, nullptr, &messenger_), "creating the messenger");
+    }
+}
+
+void Device::createDevice() {
+    queueFamily_ = graphicsQueueFamily(physical_).value();
+    const float priority = 1.0F;
+    VkDeviceQueueCreateInfo queueInfo{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
+    queueInfo.queueFamilyIndex = queueFamily_;
+    queueInfo.queueCount = 1;
+    queueInfo.pQueuePriorities = &priority;
+
+    FloorFeatures floor = floorFeatures();
+    VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
+    info.pNext = floor.chain();
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queueInfo;
+    vkCheck(vkCreateDevice(physical_, &info, nullptr, &device_), "opening the device");
+    volkLoadDeviceTable(&vk, device_);
+    vk.vkGetDeviceQueue(device_, queueFamily_, 0, &queue_);
+
+    VkSemaphoreTypeCreateInfo type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
+    type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
+    const VkSemaphoreCreateInfo semaphore{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &type, 0};
+    vkCheck(vk.vkCreateSemaphore(device_, &semaphore, nullptr, &timeline_), "creating the timeline");
+
+    const VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr,
+                                       VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, queueFamily_};
+    vkCheck(vk.vkCreateCommandPool(device_, &pool, nullptr, &immediatePool_), "creating a command pool");
+}
+
+VkSampler Device::sampler(const SamplerInfo& info) {
+    for (const auto& [known, sampler] : samplers_) {
+        if (known == info) {
+            return sampler;
+        }
+    }
+    VkSamplerCreateInfo create{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
+    create.magFilter = info.mag;
+    create.minFilter = info.min;
+    create.mipmapMode = info.mip;
+    create.addressModeU = info.u;
+    create.addressModeV = info.v;
+    create.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    create.maxLod = info.maxLod;
+    VkSampler sampler = VK_NULL_HANDLE;
+    vkCheck(vk.vkCreateSampler(device_, &create, nullptr, &sampler), "creating a sampler");
+    samplers_.emplace_back(info, sampler);
+    return sampler;
+}
+
+uint64_t Device::submit(VkCommandBuffer commands) {
+    const uint64_t serial = submitted_ + 1;
+    VkCommandBufferSubmitInfo command{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
+    command.commandBuffer = commands;
+    VkSemaphoreSubmitInfo signal{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
+    signal.semaphore = timeline_;
+    signal.value = serial;
+    signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    VkSubmitInfo2 info{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+    info.commandBufferInfoCount = 1;
+    info.pCommandBufferInfos = &command;
+    info.signalSemaphoreInfoCount = 1;
+    info.pSignalSemaphoreInfos = &signal;
+    vkCheck(vk.vkQueueSubmit2(queue_, 1, &info, VK_NULL_HANDLE), "submitting work");
+    submitted_ = serial;
+    return serial;
+}
+
+void Device::wait(uint64_t serial) {
+    VkSemaphoreWaitInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO};
+    info.semaphoreCount = 1;
+    info.pSemaphores = &timeline_;
+    info.pValues = &serial;
+    vkCheck(vk.vkWaitSemaphores(device_, &info, UINT64_MAX), "waiting for the device");
+    completed_ = std::max(completed_, serial);
+    collectRetired();
+}
+
+void Device::retire(std::function<void()> destroy) {
+    // What is being recorded now is submitted next: it may use the thing, too.
+    retired_.push_back({submitted_ + 1, std::move(destroy)});
+}
+
+void Device::collectRetired() {
+    while (!retired_.empty() && retired_.front().serial <= completed_) {
+        const auto destroy = std::move(retired_.front().destroy);
+        retired_.pop_front();
+        destroy();
+    }
+}
+
+void Device::runNow(const std::function<void(VkCommandBuffer)>& record) {
+    VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    allocate.commandPool = immediatePool_;
+    allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    allocate.commandBufferCount = 1;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    vkCheck(vk.vkAllocateCommandBuffers(device_, &allocate, &commands), "allocating commands");
+    VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    vkCheck(vk.vkBeginCommandBuffer(commands, &begin), "beginning commands");
+    record(commands);
+    vkCheck(vk.vkEndCommandBuffer(commands), "ending commands");
+    wait(submit(commands));
+    vk.vkFreeCommandBuffers(device_, immediatePool_, 1, &commands);
+}
+
+}  // namespace reflet::gpu

@@ -1,0 +1,259 @@
+// Records the passes of a frame.
+#include "gpu/frame.h"
+
+#include "base/error.h"
+#include "gpu/barrier.h"
+#include "gpu/device.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace reflet::gpu {
+
+namespace {
+
+constexpr VkDeviceSize uniformBytes = VkDeviceSize(4) << 20U;
+constexpr uint32_t maxTimedPasses = 1024;
+constexpr VkDeviceSize maxUpdateBytes = 65536;
+
+constexpr VkImageUsageFlags copied = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+constexpr VkImageUsageFlags storageUsage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | copied;
+
+VkDescriptorPool makeDescriptorPool(Device& device) {
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2048},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2048},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 4096},
+                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 8192}};
+    VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+    info.maxSets = maxTimedPasses;
+    info.poolSizeCount = static_cast<uint32_t>(std::size(sizes));
+    info.pPoolSizes = sizes;
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    vkCheck(device.vk.vkCreateDescriptorPool(device.handle(), &info, nullptr, &pool), "creating a descriptor pool");
+    return pool;
+}
+
+VkQueryPool makeQueryPool(Device& device) {
+    VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
+    info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+    info.queryCount = 2 * maxTimedPasses;
+    VkQueryPool pool = VK_NULL_HANDLE;
+    vkCheck(device.vk.vkCreateQueryPool(device.handle(), &info, nullptr, &pool), "creating a query pool");
+    return pool;
+}
+
+}  // namespace
+
+Frame::Frame(Device& device)
+    : device_(device),
+      uniforms_(device, uniformBytes, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, MemoryUse::upload, "uniforms") {
+    const VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, 0, device.queueFamily()};
+    vkCheck(device.vk.vkCreateCommandPool(device.handle(), &pool, nullptr, &commandPool_), "creating a command pool");
+    VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    allocate.commandPool = commandPool_;
+    allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    allocate.commandBufferCount = 1;
+    vkCheck(device.vk.vkAllocateCommandBuffers(device.handle(), &allocate, &commands_), "allocating commands");
+    descriptorPool_ = makeDescriptorPool(device);
+    queries_ = makeQueryPool(device);
+}
+
+Frame::~Frame() {
+    device_.vk.vkDeviceWaitIdle(device_.handle());
+    device_.vk.vkDestroyQueryPool(device_.handle(), queries_, nullptr);
+    device_.vk.vkDestroyDescriptorPool(device_.handle(), descriptorPool_, nullptr);
+    device_.vk.vkDestroyCommandPool(device_.handle(), commandPool_, nullptr);
+}
+
+void Frame::begin() {
+    device_.wait(serial_);
+    vkCheck(device_.vk.vkResetCommandPool(device_.handle(), commandPool_, 0), "resetting commands");
+    vkCheck(device_.vk.vkResetDescriptorPool(device_.handle(), descriptorPool_, 0), "resetting descriptors");
+    uniformsUsed_ = 0;
+    readbacksUsed_ = 0;
+    timed_.clear();
+    ++number_;
+    VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    vkCheck(device_.vk.vkBeginCommandBuffer(commands_, &info), "beginning commands");
+    device_.vk.vkCmdResetQueryPool(commands_, queries_, 0, 2 * maxTimedPasses);
+}
+
+void Frame::submit() {
+    vkCheck(device_.vk.vkEndCommandBuffer(commands_), "ending commands");
+    serial_ = device_.submit(commands_);
+}
+
+void Frame::wait() {
+    device_.wait(serial_);
+    readTimers();
+}
+
+void Frame::beginTimer(const std::string& name) {
+    REFLET_CHECK(timed_.size() < maxTimedPasses, "{} passes in one frame", timed_.size());
+    const auto query = static_cast<uint32_t>(2 * timed_.size());
+    device_.vk.vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, query);
+    timed_.push_back(name);
+}
+
+void Frame::endTimer() {
+    const auto query = static_cast<uint32_t>(2 * timed_.size() - 1);
+    device_.vk.vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, query);
+}
+
+void Frame::readTimers() {
+    times_.clear();
+    if (timed_.empty()) {
+        return;
+    }
+    std::vector<uint64_t> ticks(2 * timed_.size());
+    vkCheck(device_.vk.vkGetQueryPoolResults(device_.handle(), queries_, 0, static_cast<uint32_t>(ticks.size()),
+                                             ticks.size() * sizeof(uint64_t), ticks.data(), sizeof(uint64_t),
+                                             VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+            "reading timestamps");
+    const double tick = device_.limits().timestampPeriod * 1e-6;
+    times_.push_back({"frame", static_cast<double>(ticks.back() - ticks.front()) * tick});
+    for (size_t i = 0; i < timed_.size(); ++i) {
+        const double ms = static_cast<double>(ticks[2 * i + 1] - ticks[2 * i]) * tick;
+        const auto same = std::ranges::find(times_, timed_[i], &PassTime::name);
+        if (same == times_.end()) {
+            times_.push_back({timed_[i], ms});
+        } else {
+            same->ms += ms;
+        }
+    }
+}
+
+Pass Frame::compute(std::string_view name, std::string_view shader) {
+    return {*this, prefix_ + std::string(name), {std::string(shader)}};
+}
+
+Pass Frame::raster(std::string_view name, std::vector<std::string> shaders) {
+    return {*this, prefix_ + std::string(name), std::move(shaders)};
+}
+
+void Frame::update(BufferView buffer, std::span<const std::byte> bytes) {
+    REFLET_CHECK(bytes.size() <= maxUpdateBytes && bytes.size() % 4 == 0, "{} bytes", bytes.size());
+    BarrierBatch batch;
+    batch.use(buffer.state->access, {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, true});
+    batch.record(device_.vk, commands_);
+    device_.vk.vkCmdUpdateBuffer(commands_, buffer.state->buffer, 0, bytes.size(), bytes.data());
+}
+
+void Frame::clear(Image image) {
+    BarrierBatch batch;
+    batch.use(*image.state, aspectOf(image.format),
+              {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, true});
+    batch.record(device_.vk, commands_);
+    const VkClearColorValue zero{};
+    const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS, 0,
+                                      VK_REMAINING_ARRAY_LAYERS};
+    device_.vk.vkCmdClearColorImage(commands_, image.state->image, VK_IMAGE_LAYOUT_GENERAL, &zero, 1, &all);
+}
+
+// A texture of that name and kind; one of another kind (a new size, say) is replaced.
+Image Frame::transient(std::string_view name, const ImageInfo& info, bool array) {
+    auto known = images_.find(name);
+    if (known == images_.end()) {
+        known = images_.emplace(std::string(name), Texture()).first;
+    }
+    if (!(known->second.info() == info)) {
+        known->second = Texture(device_, info, std::string(name), array);
+    }
+    return known->second.image();
+}
+
+Image Frame::image(std::string_view name, VkFormat format, uvec2 size, uint32_t layers, bool array) {
+    return transient(name, {format, size, 1, layers, storageUsage}, array);
+}
+
+Image Frame::target(std::string_view name, VkFormat format, uvec2 size) {
+    const VkImageUsageFlags attachment = aspectOf(format) == VK_IMAGE_ASPECT_DEPTH_BIT
+                                             ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
+                                             : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    return transient(name, {format, size, 1, 1, attachment | VK_IMAGE_USAGE_SAMPLED_BIT | copied}, false);
+}
+
+BufferView Frame::buffer(std::string_view name, VkDeviceSize size) {
+    auto known = buffers_.find(name);
+    if (known == buffers_.end() || known->second.view().size != size) {
+        Buffer made(device_, size,
+                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+                        VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                    MemoryUse::device, std::string(name));
+        known = buffers_.insert_or_assign(std::string(name), std::move(made)).first;
+    }
+    return known->second.view();
+}
+
+History Frame::history(std::string_view name, VkFormat format, uvec2 size) {
+    HistoryPair& pair = histories_[std::string(name)];
+    const ImageInfo info{format, size, 1, 1, storageUsage};
+    const bool fresh = !(pair.textures[0].info() == info);
+    if (fresh) {
+        for (Texture& texture : pair.textures) {
+            texture = Texture(device_, info, std::string(name));
+        }
+    }
+    if (pair.lastUse != number_) {
+        pair.current ^= 1U;
+    }
+    const bool valid = !fresh && (pair.lastUse + 1 == number_ || pair.lastUse == number_);
+    pair.lastUse = number_;
+    return {pair.textures[pair.current ^ 1U].image(), pair.textures[pair.current].image(), valid};
+}
+
+Readback Frame::readback(Image image) {
+    const VkDeviceSize size = VkDeviceSize(image.size.x) * image.size.y * bytesPerTexel(image.format);
+    const size_t index = readbacksUsed_++;
+    if (index >= readbacks_.size() || readbacks_[index].view().size != size) {
+        readbacks_.resize(std::max(readbacks_.size(), index + 1));
+        readbacks_[index] =
+            Buffer(device_, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback, "readback");
+    }
+    const BufferView target = readbacks_[index].view();
+    BarrierBatch before;
+    before.use(*image.state, aspectOf(image.format),
+               {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, false});
+    before.use(target.state->access, {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, true});
+    before.record(device_.vk, commands_);
+    VkBufferImageCopy copy{};
+    copy.imageSubresource = {aspectOf(image.format), 0, 0, 1};
+    copy.imageExtent = {image.size.x, image.size.y, 1};
+    device_.vk.vkCmdCopyImageToBuffer(commands_, image.state->image, VK_IMAGE_LAYOUT_GENERAL, target.state->buffer, 1,
+                                      &copy);
+    BarrierBatch after;
+    after.use(target.state->access, {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT, false});
+    after.record(device_.vk, commands_);
+    return {index};
+}
+
+std::span<const std::byte> Frame::bytes(Readback readback) const { return readbacks_.at(readback.index).bytes(); }
+
+Frame::Scope::Scope(Frame& frame, std::string_view prefix) : frame_(frame), length_(frame.prefix_.size()) {
+    frame.prefix_ += prefix;
+    frame.prefix_ += '.';
+}
+
+Frame::Scope::~Scope() { frame_.prefix_.resize(length_); }
+
+Frame::UniformSlice Frame::uploadUniform(std::span<const std::byte> bytes) {
+    const VkDeviceSize alignment = std::max<VkDeviceSize>(device_.limits().minUniformBufferOffsetAlignment, 1);
+    const VkDeviceSize offset = (uniformsUsed_ + alignment - 1) / alignment * alignment;
+    REFLET_CHECK(offset + bytes.size() <= uniformBytes, "uniform buffer of the frame: {} bytes", offset + bytes.size());
+    std::memcpy(uniforms_.bytes().data() + offset, bytes.data(), bytes.size());
+    uniformsUsed_ = offset + bytes.size();
+    return {uniforms_.handle(), offset};
+}
+
+VkDescriptorSet Frame::allocateSet(VkDescriptorSetLayout layout) {
+    VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
+    info.descriptorPool = descriptorPool_;
+    info.descriptorSetCount = 1;
+    info.pSetLayouts = &layout;
+    VkDescriptorSet set = VK_NULL_HANDLE;
+    vkCheck(device_.vk.vkAllocateDescriptorSets(device_.handle(), &info, &set), "allocating a descriptor set");
+    return set;
+}
+
+}  // namespace reflet::gpu

@@ -1,0 +1,146 @@
+// Block allocator: first fit in blocks of 64 MiB, large resources in blocks of their own.
+#include "gpu/memory.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+
+namespace reflet::gpu {
+
+namespace {
+
+constexpr VkDeviceSize blockSize = VkDeviceSize(64) << 20U;
+
+VkDeviceSize alignUp(VkDeviceSize value, VkDeviceSize alignment) {
+    return (value + alignment - 1) / alignment * alignment;
+}
+
+}  // namespace
+
+// Linear and optimal resources never share a block, so bufferImageGranularity needs no care.
+struct MemoryBlock {
+    uint32_t type = 0;
+    bool linear = false;
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    VkDeviceSize size = 0;
+    std::byte* mapped = nullptr;
+    std::map<VkDeviceSize, VkDeviceSize> holes;  // offset → size
+
+    std::optional<VkDeviceSize> take(VkDeviceSize bytes, VkDeviceSize alignment) {
+        for (auto hole = holes.begin(); hole != holes.end(); ++hole) {
+            const auto [start, length] = *hole;
+            const VkDeviceSize offset = alignUp(start, alignment);
+            if (offset + bytes > start + length) {
+                continue;
+            }
+            holes.erase(hole);
+            if (offset > start) {
+                holes[start] = offset - start;
+            }
+            if (start + length > offset + bytes) {
+                holes[offset + bytes] = start + length - offset - bytes;
+            }
+            return offset;
+        }
+        return std::nullopt;
+    }
+
+    void giveBack(VkDeviceSize offset, VkDeviceSize bytes) {
+        auto hole = holes.emplace(offset, bytes).first;
+        if (auto next = std::next(hole); next != holes.end() && hole->first + hole->second == next->first) {
+            hole->second += next->second;
+            holes.erase(next);
+        }
+        if (hole != holes.begin()) {
+            if (auto previous = std::prev(hole); previous->first + previous->second == hole->first) {
+                previous->second += hole->second;
+                holes.erase(hole);
+            }
+        }
+    }
+};
+
+Memory::Memory(const VolkDeviceTable& vk, VkDevice device, VkPhysicalDevice physical) : vk_(vk), device_(device) {
+    vkGetPhysicalDeviceMemoryProperties(physical, &properties_);
+}
+
+Memory::~Memory() {
+    for (const auto& block : blocks_) {
+        vk_.vkFreeMemory(device_, block->memory, nullptr);
+    }
+}
+
+uint32_t Memory::chooseType(uint32_t allowed, MemoryUse use) const {
+    constexpr VkMemoryPropertyFlags local = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+    constexpr VkMemoryPropertyFlags host = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    constexpr VkMemoryPropertyFlags cached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+    VkMemoryPropertyFlags wanted = local;
+    VkMemoryPropertyFlags needed = 0;
+    if (use != MemoryUse::device) {
+        wanted = host | (use == MemoryUse::upload ? local : cached);
+        needed = host;
+    }
+    for (const VkMemoryPropertyFlags wish : {wanted, needed}) {
+        for (uint32_t i = 0; i < properties_.memoryTypeCount; ++i) {
+            if (((allowed >> i) & 1U) != 0 && (properties_.memoryTypes[i].propertyFlags & wish) == wish) {
+                return i;
+            }
+        }
+    }
+    fail("the device has no memory type for this use");
+}
+
+MemoryBlock& Memory::addBlock(uint32_t type, bool linear, VkDeviceSize size) {
+    auto block = std::make_unique<MemoryBlock>();
+    const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, size, type};
+    const VkResult result = vk_.vkAllocateMemory(device_, &info, nullptr, &block->memory);
+    if (result != VK_SUCCESS) {
+        fail("out of device memory: {} MiB more are needed beside the {} MiB in use ({}); render at a smaller --size",
+             size >> 20U, reserved_ >> 20U, resultName(result));
+    }
+    block->type = type;
+    block->linear = linear;
+    block->size = size;
+    block->holes[0] = size;
+    if ((properties_.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0) {
+        void* mapped = nullptr;
+        vkCheck(vk_.vkMapMemory(device_, block->memory, 0, VK_WHOLE_SIZE, 0, &mapped), "mapping device memory");
+        block->mapped = static_cast<std::byte*>(mapped);
+    }
+    reserved_ += size;
+    return *blocks_.emplace_back(std::move(block));
+}
+
+Allocation Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, bool linear) {
+    const uint32_t type = chooseType(needs.memoryTypeBits, use);
+    const auto placed = [&](MemoryBlock& block, VkDeviceSize offset) {
+        std::byte* mapped = block.mapped != nullptr ? block.mapped + offset : nullptr;
+        return Allocation{&block, block.memory, offset, needs.size, mapped};
+    };
+    for (const auto& block : blocks_) {
+        if (block->type == type && block->linear == linear) {
+            if (const auto offset = block->take(needs.size, needs.alignment)) {
+                return placed(*block, *offset);
+            }
+        }
+    }
+    MemoryBlock& block = addBlock(type, linear, needs.size > blockSize / 2 ? needs.size : blockSize);
+    return placed(block, block.take(needs.size, needs.alignment).value());
+}
+
+void Memory::release(const Allocation& allocation) {
+    if (allocation.block == nullptr) {
+        return;
+    }
+    MemoryBlock& block = *allocation.block;
+    block.giveBack(allocation.offset, allocation.size);
+    if (block.holes.size() == 1 && block.holes.begin()->second == block.size) {
+        vk_.vkFreeMemory(device_, block.memory, nullptr);
+        reserved_ -= block.size;
+        std::erase_if(blocks_, [&](const auto& b) { return b.get() == &block; });
+    }
+}
+
+}  // namespace reflet::gpu

@@ -1,0 +1,55 @@
+// Device memory: a block allocator. Small enough to be swapped for the Vulkan Memory Allocator behind this header.
+#pragma once
+
+#include "gpu/vulkan.h"
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace reflet::gpu {
+
+struct MemoryBlock;
+
+/// A piece of device memory. Values; give it back with Memory::release.
+struct Allocation {
+    MemoryBlock* block = nullptr;
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    VkDeviceSize offset = 0;
+    VkDeviceSize size = 0;
+    std::byte* mapped = nullptr;  ///< where memory is host visible, for all of its life
+};
+
+enum class MemoryUse : uint8_t {
+    device,    ///< the device's own, the host never looks
+    upload,    ///< written by the host, coherent
+    readback,  ///< read by the host, cached where there is such
+};
+
+class Memory {
+public:
+    Memory(const VolkDeviceTable& vk, VkDevice device, VkPhysicalDevice physical);
+    ~Memory();
+    Memory(const Memory&) = delete;
+    Memory& operator=(const Memory&) = delete;
+
+    /// `linear`: a buffer or a linear image. Throws Error when the device has no more.
+    Allocation allocate(const VkMemoryRequirements& needs, MemoryUse use, bool linear);
+    void release(const Allocation& allocation);
+
+    /// Bytes taken from the device.
+    [[nodiscard]] VkDeviceSize reserved() const { return reserved_; }
+
+private:
+    uint32_t chooseType(uint32_t allowed, MemoryUse use) const;
+    MemoryBlock& addBlock(uint32_t type, bool linear, VkDeviceSize size);
+
+    const VolkDeviceTable& vk_;
+    VkDevice device_;
+    VkPhysicalDeviceMemoryProperties properties_{};
+    std::vector<std::unique_ptr<MemoryBlock>> blocks_;
+    VkDeviceSize reserved_ = 0;
+};
+
+}  // namespace reflet::gpu

@@ -1,0 +1,118 @@
+// One pass as it is stated where it is recorded: what it reads, writes and is told, all by the shader's names.
+//
+//     f.compute("trace_screen", "trace_screen.comp")
+//         .read("depth", g.depth).read("lit", lit).write("answer", rays.answer)
+//         .params(TraceScreenParams{...})
+//         .dispatchIndirect(rays.list, offset);
+//
+// A name that the shader does not have, one that is left out, a parameter block of another size, a write to what is
+// declared readonly: std::logic_error naming the pass and the binding, in every build.
+#pragma once
+
+#include "gpu/pipeline.h"
+#include "gpu/resource.h"
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace reflet::gpu {
+
+class Device;
+class Frame;
+
+/// Passed to what draws inside a raster pass.
+struct DrawCommands {
+    Device& device;
+    VkCommandBuffer commands;
+    VkPipelineLayout layout;
+};
+
+/// How a pass touches a resource.
+struct Access {
+    VkPipelineStageFlags2 stages = 0;
+    VkAccessFlags2 access = 0;
+    bool write = false;
+};
+
+class Pass {
+public:
+    Pass(Frame& frame, std::string name, std::vector<std::string> shaders);
+
+    Pass& read(std::string_view binding, Image image, VkSampler sampler = VK_NULL_HANDLE);
+    Pass& read(std::string_view binding, BufferView buffer);
+    /// What a pass writes it may read as well.
+    Pass& write(std::string_view binding, Image image);
+    Pass& write(std::string_view binding, BufferView buffer);
+
+    /// The uniform block of that name. T has no padding the shader's scalar layout would not have.
+    template <class T>
+    Pass& params(const T& value, std::string_view binding = "params") {
+        static_assert(std::is_trivially_copyable_v<T>);
+        return uniform(binding, std::as_bytes(std::span(&value, 1)));
+    }
+    Pass& uniform(std::string_view binding, std::span<const std::byte> bytes);
+
+    /// Specialization constants.
+    Pass& constant(std::string_view name, uint32_t value);
+
+    /// Runs with one thread for each of x · y · z, rounded up to whole groups.
+    void dispatch(uint32_t x, uint32_t y = 1, uint32_t z = 1);
+    void dispatch(uvec2 threads) { dispatch(threads.x, threads.y); }
+    /// Group counts from a VkDispatchIndirectCommand at the start of the buffer plus `offset`.
+    void dispatchIndirect(BufferView arguments, VkDeviceSize offset);
+
+    /// Raster only. Cleared to `clear` where given, else what is there stays.
+    Pass& color(std::string_view output, Image image, std::optional<VkClearColorValue> clear);
+    Pass& depth(Image image, std::optional<float> clear);
+    /// What vertex buffers the draws bind, and the layout of the set (1) that they bind themselves.
+    Pass& vertices(const VertexLayout& layout, VkDescriptorSetLayout drawSet = VK_NULL_HANDLE);
+    /// Runs with a viewport over the whole target.
+    void draw(const std::function<void(const DrawCommands&)>& record);
+
+private:
+    struct Bound {
+        std::string name;
+        Image image;
+        BufferView buffer;
+        VkSampler sampler = VK_NULL_HANDLE;
+        bool write = false;
+    };
+    struct UniformBytes {
+        std::string name;
+        std::vector<std::byte> bytes;
+    };
+    struct Attachment {
+        std::string output;
+        Image image;
+        std::optional<VkClearColorValue> clear;
+    };
+
+    void prepare(const Pipeline& pipeline);
+    VkDescriptorSet writeSet(const Pipeline& pipeline);
+    void checkBindings(const Pipeline& pipeline) const;
+    void checkAccess(const ShaderBinding& binding, const Bound& bound) const;
+    void collectUses(const Pipeline& pipeline);
+    void emitBarriers();
+    void use(Image image, const Access& access);
+    void use(BufferView buffer, const Access& access);
+    const Pipeline& startCompute();
+    void orderAttachments(const Pipeline& pipeline);
+
+    Frame& frame_;
+    std::string name_;
+    PipelineInfo info_;
+    std::vector<Bound> bound_;
+    std::vector<UniformBytes> uniforms_;
+    std::vector<Attachment> colors_;
+    Image depth_;
+    std::optional<float> clearDepth_;
+    std::vector<std::pair<Image, Access>> imageUses_;
+    std::vector<std::pair<BufferView, Access>> bufferUses_;
+};
+
+}  // namespace reflet::gpu

@@ -1,0 +1,307 @@
+// Finds and judges Vulkan devices.
+#include "gpu/physical_device.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cstring>
+#include <span>
+
+namespace reflet::gpu {
+
+namespace {
+
+constexpr uint32_t floorSampledImages = 128;
+
+std::string versionText(uint32_t version) {
+    return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version),
+                       VK_API_VERSION_PATCH(version));
+}
+
+std::string lower(std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+const char* kindName(VkPhysicalDeviceType type) {
+    switch (type) {
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+            return "discrete GPU";
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+            return "integrated GPU";
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+            return "virtual GPU";
+        case VK_PHYSICAL_DEVICE_TYPE_CPU:
+            return "CPU";
+        default:
+            return "other";
+    }
+}
+
+struct NeededFormat {
+    const char* name;
+    VkFormat format;
+    VkFormatFeatureFlags features;
+};
+
+// What the frame's images ask of a format; src/render declares them.
+constexpr VkFormatFeatureFlags sampled = VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT;
+constexpr VkFormatFeatureFlags target = sampled | VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT;
+constexpr VkFormatFeatureFlags storage = sampled | VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT;
+constexpr std::array neededFormats{
+    NeededFormat{"D32_SFLOAT", VK_FORMAT_D32_SFLOAT, sampled | VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT},
+    NeededFormat{"R8G8B8A8_SRGB", VK_FORMAT_R8G8B8A8_SRGB, target},
+    NeededFormat{"R8G8B8A8_UNORM", VK_FORMAT_R8G8B8A8_UNORM, target | storage},
+    NeededFormat{"B10G11R11_UFLOAT", VK_FORMAT_B10G11R11_UFLOAT_PACK32, target},
+    NeededFormat{"R16G16_SFLOAT", VK_FORMAT_R16G16_SFLOAT, target | storage},
+    NeededFormat{"R16G16B16A16_SFLOAT", VK_FORMAT_R16G16B16A16_SFLOAT, target | storage},
+    NeededFormat{"R32_UINT", VK_FORMAT_R32_UINT, target | storage},
+    NeededFormat{"R32_SFLOAT", VK_FORMAT_R32_SFLOAT, storage},
+    NeededFormat{"R32G32_UINT", VK_FORMAT_R32G32_UINT, storage},
+    NeededFormat{"R8_UNORM", VK_FORMAT_R8_UNORM, storage},
+};
+
+std::vector<std::string> missingOfFloor(VkPhysicalDevice device, const VkPhysicalDeviceProperties& properties) {
+    if (properties.apiVersion < VK_API_VERSION_1_3) {
+        return {fmt::format("Vulkan 1.3 (it has {})", versionText(properties.apiVersion))};
+    }
+    std::vector<std::string> missing;
+    const auto need = [&](bool there, std::string what) {
+        if (!there) {
+            missing.push_back(std::move(what));
+        }
+    };
+    FloorFeatures has;
+    has.chain();
+    vkGetPhysicalDeviceFeatures2(device, &has.core);
+    need(has.core.features.shaderStorageImageExtendedFormats != 0, "extended storage image formats");
+    need(has.v12.scalarBlockLayout != 0, "scalar block layout");
+    need(has.v12.timelineSemaphore != 0, "timeline semaphores");
+    need(has.v13.dynamicRendering != 0, "dynamic rendering");
+    need(has.v13.synchronization2 != 0, "synchronization2");
+    need(properties.limits.maxPerStageDescriptorSampledImages >= floorSampledImages, "128 sampled images per stage");
+    need(graphicsQueueFamily(device).has_value(), "a queue for graphics and compute with timestamps");
+    for (const NeededFormat& format : neededFormats) {
+        VkFormatProperties support{};
+        vkGetPhysicalDeviceFormatProperties(device, format.format, &support);
+        need((support.optimalTilingFeatures & format.features) == format.features,
+             fmt::format("the format {}", format.name));
+    }
+    return missing;
+}
+
+std::vector<std::string> extrasOf(VkPhysicalDevice device) {
+    uint32_t count = 0;
+    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
+    const auto has = [&](const char* name) {
+        return std::ranges::any_of(extensions, [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
+    };
+    VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v12};
+    vkGetPhysicalDeviceFeatures2(device, &features);
+    std::vector<std::string> extras;
+    const auto add = [&](bool there, const char* what) {
+        if (there) {
+            extras.emplace_back(what);
+        }
+    };
+    add(has("VK_KHR_ray_query"), "ray query");
+    add(has("VK_KHR_ray_tracing_pipeline"), "ray tracing pipeline");
+    add(v12.runtimeDescriptorArray != 0 && v12.shaderSampledImageArrayNonUniformIndexing != 0, "descriptor indexing");
+    add(v12.shaderFloat16 != 0, "fp16");
+    return extras;
+}
+
+std::vector<VkPhysicalDevice> physicalDevices(VkInstance instance) {
+    uint32_t count = 0;
+    vkEnumeratePhysicalDevices(instance, &count, nullptr);
+    std::vector<VkPhysicalDevice> devices(count);
+    vkEnumeratePhysicalDevices(instance, &count, devices.data());
+    return devices;
+}
+
+// Better first: real GPUs before software.
+int rank(VkPhysicalDevice device) {
+    VkPhysicalDeviceProperties properties{};
+    vkGetPhysicalDeviceProperties(device, &properties);
+    switch (properties.deviceType) {
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+            return 0;
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+            return 1;
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+            return 2;
+        case VK_PHYSICAL_DEVICE_TYPE_CPU:
+            return 4;
+        default:
+            return 3;
+    }
+}
+
+std::string listText(std::span<const DeviceDescription> all) {
+    std::string text;
+    for (size_t i = 0; i < all.size(); ++i) {
+        text += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i, all[i].name);
+    }
+    return text;
+}
+
+std::optional<size_t> findSelected(std::span<const DeviceDescription> all, const std::string& select) {
+    size_t index = 0;
+    const char* end = select.data() + select.size();
+    if (const auto [rest, error] = std::from_chars(select.data(), end, index); error == std::errc() && rest == end) {
+        return index < all.size() ? std::optional(index) : std::nullopt;
+    }
+    const auto found = std::ranges::find_if(
+        all, [&](const auto& d) { return lower(d.name).find(lower(select)) != std::string::npos; });
+    return found == all.end() ? std::nullopt : std::optional<size_t>(found - all.begin());
+}
+
+}  // namespace
+
+void vkCheck(VkResult result, const char* what) {
+    if (result < 0) {
+        fail("{} failed: {}", what, resultName(result));
+    }
+}
+
+std::string resultName(VkResult result) {
+    switch (result) {
+        case VK_ERROR_OUT_OF_HOST_MEMORY:
+            return "out of host memory";
+        case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+            return "out of device memory";
+        case VK_ERROR_DEVICE_LOST:
+            return "the device was lost";
+        case VK_ERROR_INITIALIZATION_FAILED:
+            return "initialization failed";
+        case VK_ERROR_LAYER_NOT_PRESENT:
+            return "a layer is not installed";
+        case VK_ERROR_INCOMPATIBLE_DRIVER:
+            return "no driver fits";
+        default:
+            return fmt::format("VkResult {}", static_cast<int>(result));
+    }
+}
+
+FloorFeatures floorFeatures() {
+    FloorFeatures floor;
+    floor.core.features.shaderStorageImageExtendedFormats = VK_TRUE;
+    floor.v12.scalarBlockLayout = VK_TRUE;
+    floor.v12.timelineSemaphore = VK_TRUE;
+    floor.v13.dynamicRendering = VK_TRUE;
+    floor.v13.synchronization2 = VK_TRUE;
+    return floor;
+}
+
+VkInstance makeInstance(const char* layer) {
+    if (volkInitialize() != VK_SUCCESS) {
+        fail("no Vulkan loader (libvulkan.so.1): install it and a driver (Debian: libvulkan1 mesa-vulkan-drivers)");
+    }
+    VkApplicationInfo app{VK_STRUCTURE_TYPE_APPLICATION_INFO};
+    app.pApplicationName = "reflet";
+    app.apiVersion = VK_API_VERSION_1_3;
+    const VkValidationFeatureEnableEXT synchronization = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+    VkValidationFeaturesEXT validation{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
+    validation.enabledValidationFeatureCount = 1;
+    validation.pEnabledValidationFeatures = &synchronization;
+    const char* debugUtils = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
+    info.pApplicationInfo = &app;
+    if (layer != nullptr) {
+        info.pNext = &validation;
+        info.enabledLayerCount = 1;
+        info.ppEnabledLayerNames = &layer;
+        info.enabledExtensionCount = 1;
+        info.ppEnabledExtensionNames = &debugUtils;
+    }
+    VkInstance instance = VK_NULL_HANDLE;
+    const VkResult result = vkCreateInstance(&info, nullptr, &instance);
+    if (result == VK_ERROR_LAYER_NOT_PRESENT) {
+        fail("the layer {} is not installed (Debian: vulkan-validationlayers)", layer);
+    }
+    if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
+        fail("no Vulkan driver: install one (Debian: mesa-vulkan-drivers; it renders on the CPU where there is no GPU)");
+    }
+    vkCheck(result, "creating a Vulkan instance");
+    volkLoadInstanceOnly(instance);
+    return instance;
+}
+
+std::optional<uint32_t> graphicsQueueFamily(VkPhysicalDevice device) {
+    uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+    constexpr VkQueueFlags needed = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    for (uint32_t i = 0; i < count; ++i) {
+        if ((families[i].queueFlags & needed) == needed && families[i].timestampValidBits != 0) {
+            return i;
+        }
+    }
+    return std::nullopt;
+}
+
+DeviceDescription describe(VkPhysicalDevice device) {
+    VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver};
+    vkGetPhysicalDeviceProperties2(device, &properties);
+    const VkPhysicalDeviceProperties& p = properties.properties;
+    return {.name = p.deviceName,
+            .driver = fmt::format("{} {}", driver.driverName, driver.driverInfo),
+            .kind = kindName(p.deviceType),
+            .api = versionText(p.apiVersion),
+            .missing = missingOfFloor(device, p),
+            .extras = p.apiVersion >= VK_API_VERSION_1_3 ? extrasOf(device) : std::vector<std::string>{}};
+}
+
+std::vector<DeviceDescription> listDevices() {
+    VkInstance instance = VK_NULL_HANDLE;
+    try {
+        instance = makeInstance(nullptr);
+    } catch (const Error&) {
+        return {};
+    }
+    std::vector<DeviceDescription> list;
+    for (const VkPhysicalDevice device : physicalDevices(instance)) {
+        list.push_back(describe(device));
+    }
+    vkDestroyInstance(instance, nullptr);
+    return list;
+}
+
+VkPhysicalDevice choosePhysicalDevice(VkInstance instance, const std::string& select) {
+    const std::vector<VkPhysicalDevice> devices = physicalDevices(instance);
+    std::vector<DeviceDescription> all;
+    std::ranges::transform(devices, std::back_inserter(all), describe);
+    if (all.empty()) {
+        fail("no Vulkan device: install a driver (Debian: mesa-vulkan-drivers; it renders on the CPU without a GPU)");
+    }
+    if (!select.empty()) {
+        const auto chosen = findSelected(all, select);
+        if (!chosen) {
+            fail("no Vulkan device '{}'; there are: {}", select, listText(all));
+        }
+        if (!all[*chosen].missing.empty()) {
+            fail("the device '{}' lacks {}", all[*chosen].name, fmt::join(all[*chosen].missing, ", "));
+        }
+        return devices[*chosen];
+    }
+    std::optional<size_t> best;
+    for (size_t i = 0; i < all.size(); ++i) {
+        if (all[i].missing.empty() && (!best || rank(devices[i]) < rank(devices[*best]))) {
+            best = i;
+        }
+    }
+    if (!best) {
+        fail("no Vulkan device will do: '{}' lacks {}", all.front().name, fmt::join(all.front().missing, ", "));
+    }
+    return devices[*best];
+}
+
+}  // namespace reflet::gpu

@@ -1,0 +1,239 @@
+// Makes pipelines from reflected shaders.
+#include "gpu/pipeline.h"
+
+#include "base/error.h"
+#include "gpu/device.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace reflet::gpu {
+
+namespace {
+
+// Bindings of all stages as one list; two stages that name the same binding must mean the same.
+std::vector<ShaderBinding> mergeBindings(const std::vector<Shader>& shaders, uint32_t set) {
+    std::vector<ShaderBinding> merged;
+    for (const Shader& shader : shaders) {
+        for (const ShaderBinding& b : shader.bindings) {
+            if (b.set != set) {
+                continue;
+            }
+            const auto same = std::ranges::find(merged, b.binding, &ShaderBinding::binding);
+            if (same == merged.end()) {
+                merged.push_back(b);
+                continue;
+            }
+            REFLET_CHECK(same->name == b.name && same->type == b.type && same->blockSize == b.blockSize,
+                         "{}: binding {} is '{}' here and '{}' in another stage", shader.name, b.binding, b.name,
+                         same->name);
+        }
+    }
+    return merged;
+}
+
+VkDescriptorSetLayout makeSetLayout(Device& device, const std::vector<ShaderBinding>& bindings) {
+    std::vector<VkDescriptorSetLayoutBinding> list;
+    for (const ShaderBinding& b : bindings) {
+        list.push_back({b.binding, b.type, b.count, VK_SHADER_STAGE_ALL, nullptr});
+    }
+    VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+    info.bindingCount = static_cast<uint32_t>(list.size());
+    info.pBindings = list.data();
+    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+    vkCheck(device.vk.vkCreateDescriptorSetLayout(device.handle(), &info, nullptr, &layout), "creating a set layout");
+    return layout;
+}
+
+VkPipelineLayout makeLayout(Device& device, const Pipeline& pipeline, VkDescriptorSetLayout drawSet) {
+    const VkDescriptorSetLayout sets[] = {pipeline.set, drawSet};
+    const VkPushConstantRange push{VK_SHADER_STAGE_ALL, 0, pipeline.pushConstantSize};
+    VkPipelineLayoutCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+    info.setLayoutCount = drawSet != VK_NULL_HANDLE ? 2 : 1;
+    info.pSetLayouts = sets;
+    info.pushConstantRangeCount = pipeline.pushConstantSize > 0 ? 1 : 0;
+    info.pPushConstantRanges = &push;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    vkCheck(device.vk.vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "creating a pipeline layout");
+    return layout;
+}
+
+// The specialization of one stage: the constants of the pipeline that this shader has.
+struct Specialization {
+    std::vector<VkSpecializationMapEntry> entries;
+    std::vector<uint32_t> data;
+    VkSpecializationInfo info{};
+
+    Specialization(const Shader& shader, const PipelineInfo& pipeline) {
+        for (const auto& [name, value] : pipeline.constants) {
+            const auto known = std::ranges::find(shader.constants, name, &SpecializationConstant::name);
+            if (known != shader.constants.end()) {
+                entries.push_back({known->id, static_cast<uint32_t>(data.size() * sizeof(uint32_t)), sizeof(uint32_t)});
+                data.push_back(value);
+            }
+        }
+        info = {static_cast<uint32_t>(entries.size()), entries.data(), data.size() * sizeof(uint32_t), data.data()};
+    }
+};
+
+void checkConstants(const std::vector<Shader>& shaders, const PipelineInfo& info) {
+    for (const auto& [name, value] : info.constants) {
+        const bool known = std::ranges::any_of(shaders, [&](const Shader& s) {
+            return std::ranges::find(s.constants, name, &SpecializationConstant::name) != s.constants.end();
+        });
+        REFLET_CHECK(known, "{} has no specialization constant '{}' (set to {})", info.shaders.front(), name, value);
+    }
+}
+
+VkShaderModule makeModule(Device& device, const Shader& shader) {
+    VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+    info.codeSize = shader.words.size_bytes();
+    info.pCode = shader.words.data();
+    VkShaderModule shaderModule = VK_NULL_HANDLE;
+    vkCheck(device.vk.vkCreateShaderModule(device.handle(), &info, nullptr, &shaderModule), "creating a shader");
+    return shaderModule;
+}
+
+struct VertexInput {
+    std::vector<VkVertexInputBindingDescription> buffers;
+    std::vector<VkVertexInputAttributeDescription> attributes;
+};
+
+VertexInput vertexInput(const Shader& shader, const VertexLayout* layout) {
+    VertexInput input;
+    for (const ShaderLocation& wanted : shader.inputs) {
+        REFLET_CHECK(layout != nullptr, "{} reads '{}', but the pass has no vertices", shader.name, wanted.name);
+        const auto found = std::ranges::find(layout->attributes, wanted.name, &VertexAttribute::name);
+        REFLET_CHECK(found != layout->attributes.end(), "{}: no vertex attribute '{}'", shader.name, wanted.name);
+        input.attributes.push_back({wanted.location, found->buffer, found->format, found->offset});
+    }
+    for (uint32_t i = 0; layout != nullptr && i < layout->strides.size(); ++i) {
+        if (std::ranges::any_of(input.attributes, [&](const auto& a) { return a.binding == i; })) {
+            input.buffers.push_back({i, layout->strides[i], VK_VERTEX_INPUT_RATE_VERTEX});
+        }
+    }
+    return input;
+}
+
+// Fixed: triangle lists, reversed depth (greater or equal passes), no blending. Dynamic: viewport, scissor, culling.
+VkPipeline makeGraphics(Device& device, const PipelineInfo& info, const VertexInput& vertices, VkPipelineLayout layout,
+                        const std::vector<VkPipelineShaderStageCreateInfo>& stages) {
+    VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+    input.vertexBindingDescriptionCount = static_cast<uint32_t>(vertices.buffers.size());
+    input.pVertexBindingDescriptions = vertices.buffers.data();
+    input.vertexAttributeDescriptionCount = static_cast<uint32_t>(vertices.attributes.size());
+    input.pVertexAttributeDescriptions = vertices.attributes.data();
+    VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
+    assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
+    viewport.viewportCount = 1;
+    viewport.scissorCount = 1;
+    VkPipelineRasterizationStateCreateInfo raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
+    raster.polygonMode = VK_POLYGON_MODE_FILL;
+    raster.lineWidth = 1.0F;
+    VkPipelineMultisampleStateCreateInfo samples{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
+    samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+    VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
+    depth.depthTestEnable = info.depthFormat != VK_FORMAT_UNDEFINED ? VK_TRUE : VK_FALSE;
+    depth.depthWriteEnable = depth.depthTestEnable;
+    depth.depthCompareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
+    VkPipelineColorBlendAttachmentState opaque{};
+    opaque.colorWriteMask = 0xF;
+    const std::vector<VkPipelineColorBlendAttachmentState> targets(info.colorFormats.size(), opaque);
+    VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
+    blend.attachmentCount = static_cast<uint32_t>(targets.size());
+    blend.pAttachments = targets.data();
+    const VkDynamicState dynamics[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR, VK_DYNAMIC_STATE_CULL_MODE,
+                                       VK_DYNAMIC_STATE_FRONT_FACE};
+    VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
+    dynamic.dynamicStateCount = static_cast<uint32_t>(std::size(dynamics));
+    dynamic.pDynamicStates = dynamics;
+    VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
+    rendering.colorAttachmentCount = static_cast<uint32_t>(info.colorFormats.size());
+    rendering.pColorAttachmentFormats = info.colorFormats.data();
+    rendering.depthAttachmentFormat = info.depthFormat;
+
+    VkGraphicsPipelineCreateInfo create{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &rendering};
+    create.stageCount = static_cast<uint32_t>(stages.size());
+    create.pStages = stages.data();
+    create.pVertexInputState = &input;
+    create.pInputAssemblyState = &assembly;
+    create.pViewportState = &viewport;
+    create.pRasterizationState = &raster;
+    create.pMultisampleState = &samples;
+    create.pDepthStencilState = &depth;
+    create.pColorBlendState = &blend;
+    create.pDynamicState = &dynamic;
+    create.layout = layout;
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    vkCheck(device.vk.vkCreateGraphicsPipelines(device.handle(), VK_NULL_HANDLE, 1, &create, nullptr, &pipeline),
+            "creating a graphics pipeline");
+    return pipeline;
+}
+
+VkPipeline makeCompute(Device& device, const VkPipelineShaderStageCreateInfo& stage, VkPipelineLayout layout) {
+    VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+    create.stage = stage;
+    create.layout = layout;
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    vkCheck(device.vk.vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &create, nullptr, &pipeline),
+            "creating a compute pipeline");
+    return pipeline;
+}
+
+void makePipeline(Device& device, const PipelineInfo& info, const std::vector<Shader>& shaders, Pipeline& pipeline) {
+    std::vector<Specialization> specializations;
+    std::vector<VkPipelineShaderStageCreateInfo> stages;
+    specializations.reserve(shaders.size());
+    for (const Shader& shader : shaders) {
+        const Specialization& specialization = specializations.emplace_back(shader, info);
+        VkPipelineShaderStageCreateInfo stage{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
+        stage.stage = shader.stage;
+        stage.module = makeModule(device, shader);
+        stage.pName = "main";
+        stage.pSpecializationInfo = &specialization.info;
+        stages.push_back(stage);
+    }
+    pipeline.handle = shaders.front().stage == VK_SHADER_STAGE_COMPUTE_BIT
+                          ? makeCompute(device, stages.front(), pipeline.layout)
+                          : makeGraphics(device, info, vertexInput(shaders.front(), info.vertices), pipeline.layout,
+                                         stages);
+    for (const auto& stage : stages) {
+        device.vk.vkDestroyShaderModule(device.handle(), stage.module, nullptr);
+    }
+}
+
+}  // namespace
+
+PipelineCache::~PipelineCache() {
+    for (const auto& [info, pipeline] : pipelines_) {
+        device_.vk.vkDestroyPipeline(device_.handle(), pipeline->handle, nullptr);
+        device_.vk.vkDestroyPipelineLayout(device_.handle(), pipeline->layout, nullptr);
+        device_.vk.vkDestroyDescriptorSetLayout(device_.handle(), pipeline->set, nullptr);
+    }
+}
+
+const Pipeline& PipelineCache::get(const PipelineInfo& info) {
+    if (const auto known = pipelines_.find(info); known != pipelines_.end()) {
+        return *known->second;
+    }
+    std::vector<Shader> shaders;
+    std::ranges::transform(info.shaders, std::back_inserter(shaders), reflectShader);
+    checkConstants(shaders, info);
+    auto pipeline = std::make_unique<Pipeline>();
+    pipeline->bindings = mergeBindings(shaders, 0);
+    pipeline->localSize = shaders.front().localSize;
+    for (const Shader& shader : shaders) {
+        pipeline->stages |= shader.stage;
+        pipeline->pushConstantSize = std::max(pipeline->pushConstantSize, shader.pushConstantSize);
+        if (shader.stage == VK_SHADER_STAGE_FRAGMENT_BIT) {
+            pipeline->colorOutputs = shader.outputs;
+        }
+    }
+    pipeline->set = makeSetLayout(device_, pipeline->bindings);
+    pipeline->layout = makeLayout(device_, *pipeline, info.drawSet);
+    makePipeline(device_, info, shaders, *pipeline);
+    return *pipelines_.emplace(info, std::move(pipeline)).first->second;
+}
+
+}  // namespace reflet::gpu

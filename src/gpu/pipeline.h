@@ -1,0 +1,68 @@
+// Pipelines, made on first use and kept: what a pass's shaders, constants and targets come to.
+#pragma once
+
+#include "gpu/shader.h"
+#include "gpu/vulkan.h"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace reflet::gpu {
+
+class Device;
+
+/// One vertex attribute that a draw list offers; pipelines take those that their vertex shader names.
+struct VertexAttribute {
+    std::string name;
+    uint32_t buffer = 0;
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    uint32_t offset = 0;
+};
+
+struct VertexLayout {
+    std::vector<uint32_t> strides;  ///< one a buffer
+    std::vector<VertexAttribute> attributes;
+};
+
+/// What a pipeline is made of; equal descriptions are the same pipeline.
+struct PipelineInfo {
+    std::vector<std::string> shaders;                          ///< one .comp, or a .vert and maybe a .frag
+    std::vector<std::pair<std::string, uint32_t>> constants;   ///< specialization constants by name, as bits
+    std::vector<VkFormat> colorFormats;                        ///< by location
+    VkFormat depthFormat = VK_FORMAT_UNDEFINED;
+    const VertexLayout* vertices = nullptr;                    ///< static data; nullptr: no vertex buffers
+    VkDescriptorSetLayout drawSet = VK_NULL_HANDLE;            ///< set 1, bound by the draws themselves
+
+    auto operator<=>(const PipelineInfo&) const = default;
+};
+
+struct Pipeline {
+    VkPipeline handle = VK_NULL_HANDLE;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    VkDescriptorSetLayout set = VK_NULL_HANDLE;  ///< set 0
+    std::vector<ShaderBinding> bindings;         ///< of set 0, of all stages
+    std::vector<ShaderLocation> colorOutputs;    ///< of the fragment shader
+    VkShaderStageFlags stages = 0;
+    uint32_t pushConstantSize = 0;
+    glm::uvec3 localSize{1};
+};
+
+class PipelineCache {
+public:
+    explicit PipelineCache(Device& device) : device_(device) {}
+    ~PipelineCache();
+    PipelineCache(const PipelineCache&) = delete;
+    PipelineCache& operator=(const PipelineCache&) = delete;
+
+    /// Throws std::logic_error: an unknown shader or constant, stages that disagree about a binding.
+    const Pipeline& get(const PipelineInfo& info);
+
+private:
+    Device& device_;
+    std::map<PipelineInfo, std::unique_ptr<Pipeline>> pipelines_;
+};
+
+}  // namespace reflet::gpu

@@ -1,0 +1,129 @@
+// Images and buffers on the device. Owners (Texture, Buffer) are move-only and, when dropped, live on until the
+// device has finished what may use them. What passes take are small copyable views (Image, BufferView).
+#pragma once
+
+#include "base/math.h"
+#include "gpu/memory.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace reflet::gpu {
+
+class Device;
+
+/// What has happened to a resource on the queue so far: what the next use must wait for.
+struct AccessState {
+    VkPipelineStageFlags2 writeStages = 0;
+    VkAccessFlags2 writeAccess = 0;
+    VkPipelineStageFlags2 readStages = 0;     ///< since the last write
+    VkPipelineStageFlags2 visibleStages = 0;  ///< that have been made to see the last write
+    VkAccessFlags2 visibleAccess = 0;
+};
+
+struct ImageState {
+    VkImage image = VK_NULL_HANDLE;
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    AccessState access;
+};
+
+struct BufferState {
+    VkBuffer buffer = VK_NULL_HANDLE;
+    AccessState access;
+};
+
+struct ImageInfo {
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    uvec2 size{0};
+    uint32_t mips = 1;
+    uint32_t layers = 1;
+    VkImageUsageFlags usage = 0;
+
+    bool operator==(const ImageInfo&) const = default;
+};
+
+/// A view of a texture, all of its mips and layers. Valid as long as its owner. Empty: `!image`.
+struct Image {
+    ImageState* state = nullptr;
+    VkImageView view = VK_NULL_HANDLE;
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    uvec2 size{0};
+    uint32_t layers = 1;
+
+    explicit operator bool() const { return state != nullptr; }
+};
+
+/// A whole buffer. Valid as long as its owner.
+struct BufferView {
+    BufferState* state = nullptr;
+    VkDeviceSize size = 0;
+
+    explicit operator bool() const { return state != nullptr; }
+};
+
+/// Depth formats end in a depth aspect, all others in colour.
+VkImageAspectFlags aspectOf(VkFormat format);
+/// Bytes of one texel of the formats the renderer uses.
+uint32_t bytesPerTexel(VkFormat format);
+
+class Texture {
+public:
+    Texture() = default;
+    /// `name` shows in messages. More than one layer: a 2D array view; `arrayView` makes it one for a single layer.
+    Texture(Device& device, const ImageInfo& info, const std::string& name, bool arrayView = false);
+    ~Texture();
+    Texture(Texture&& other) noexcept;
+    Texture& operator=(Texture&& other) noexcept;
+    Texture(const Texture&) = delete;
+    Texture& operator=(const Texture&) = delete;
+
+    [[nodiscard]] const ImageInfo& info() const { return info_; }
+    [[nodiscard]] Image image() const { return {state_.get(), view_, info_.format, info_.size, info_.layers}; }
+
+private:
+    void retire();
+
+    Device* device_ = nullptr;
+    ImageInfo info_;
+    std::unique_ptr<ImageState> state_;
+    VkImageView view_ = VK_NULL_HANDLE;
+    Allocation allocation_;
+};
+
+class Buffer {
+public:
+    Buffer() = default;
+    Buffer(Device& device, VkDeviceSize size, VkBufferUsageFlags usage, MemoryUse use, const std::string& name);
+    ~Buffer();
+    Buffer(Buffer&& other) noexcept;
+    Buffer& operator=(Buffer&& other) noexcept;
+    Buffer(const Buffer&) = delete;
+    Buffer& operator=(const Buffer&) = delete;
+
+    [[nodiscard]] BufferView view() const { return {state_.get(), size_}; }
+    [[nodiscard]] VkBuffer handle() const { return state_->buffer; }
+    /// The host's view; empty for MemoryUse::device.
+    [[nodiscard]] std::span<std::byte> bytes() const {
+        return {allocation_.mapped, allocation_.mapped != nullptr ? size_ : 0};
+    }
+
+private:
+    void retire();
+
+    Device* device_ = nullptr;
+    VkDeviceSize size_ = 0;
+    std::unique_ptr<BufferState> state_;
+    Allocation allocation_;
+};
+
+/// A sampled texture from 8-bit RGBA pixels, with mips down to 1x1, ready to be read by any shader (layout read only).
+Texture uploadTexture(Device& device, uvec2 size, std::span<const uint8_t> rgba, bool srgb, bool mips,
+                      const std::string& name);
+
+/// A device buffer with these bytes.
+Buffer uploadBuffer(Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage,
+                    const std::string& name);
+
+}  // namespace reflet::gpu

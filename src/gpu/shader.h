@@ -1,0 +1,64 @@
+// Shaders: SPIR-V embedded at build time, found by file name, and what reflection says of their bindings.
+#pragma once
+
+#include "gpu/vulkan.h"
+
+#include "base/math.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace reflet::gpu {
+
+struct EmbeddedShader {
+    std::string_view name;  ///< "trace_screen.comp"
+    std::span<const uint32_t> words;
+};
+
+/// Makes shaders known by name; libraries and tests register what they embed. Later ones do not replace earlier ones.
+void registerShaders(std::span<const EmbeddedShader> shaders);
+
+struct ShaderBinding {
+    std::string name;
+    uint32_t set = 0;
+    uint32_t binding = 0;
+    uint32_t count = 1;
+    VkDescriptorType type = VK_DESCRIPTOR_TYPE_MAX_ENUM;
+    bool readOnly = true;    ///< storage images and buffers: declared readonly
+    uint32_t blockSize = 0;  ///< uniform buffers: bytes
+};
+
+/// An input or output of a stage.
+struct ShaderLocation {
+    std::string name;
+    uint32_t location = 0;
+};
+
+struct SpecializationConstant {
+    std::string name;
+    uint32_t id = 0;
+};
+
+/// What a shader is, read from its SPIR-V with spirv-cross.
+struct Shader {
+    std::string name;
+    std::span<const uint32_t> words;
+    VkShaderStageFlagBits stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    std::vector<ShaderBinding> bindings;  ///< those that the code uses
+    std::vector<SpecializationConstant> constants;
+    std::vector<ShaderLocation> inputs;
+    std::vector<ShaderLocation> outputs;
+    uint32_t pushConstantSize = 0;
+    glm::uvec3 localSize{1};
+};
+
+/// Throws std::logic_error (a bug of ours) when there is no shader of that name.
+Shader reflectShader(std::string_view name);
+
+/// Names of all registered shaders, for tests that go through all of them.
+std::vector<std::string> shaderNames();
+
+}  // namespace reflet::gpu

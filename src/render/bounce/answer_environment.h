@@ -1,0 +1,33 @@
+// The last source of the chain: what lies behind everything. It answers every ray. Shared by C++ and GLSL.
+#ifndef REFLET_RENDER_ANSWER_ENVIRONMENT_H
+#define REFLET_RENDER_ANSWER_ENVIRONMENT_H
+
+#include "base/shared.h"
+
+SHARED_BEGIN
+
+// Hit distance of what has none [m]: far, and a half float.
+const float environmentDistance = 10000.0;
+
+struct AnswerEnvironmentParams {
+    vec3 radiance;  // the same in all directions
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "gpu/frame.h"
+#include "render/bounce/rays.h"
+#include "render/gbuffer/gbuffer.h"
+
+namespace reflet {
+
+/// Answers all that waits. Diffuse rays from surfaces with an occlusion map get less of it: the map knows of nearby
+/// surfaces that the rays could not meet.
+void answerEnvironment(gpu::Frame& f, Rays& rays, const GBuffer& g, const vec3& radiance);
+
+}  // namespace reflet
+#endif
+
+#endif

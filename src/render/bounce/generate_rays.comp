@@ -1,0 +1,66 @@
+// Makes the rays of a lobe: directions, weights, and the list of all that need an answer. In: depth, normal, material.
+// Out: direction, answer and source (cleared), the list.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "render/bounce/rays.glsl"
+#include "render/gbuffer/gbuffer.glsl"
+#include "shaders/noise.glsl"
+#include "shaders/projection.glsl"
+#include "shaders/sampling.glsl"
+
+layout(constant_id = 0) const uint lobe = 0u;
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { GenerateRaysParams params; };
+layout(set = 0, binding = 1) uniform sampler2D depth;
+layout(set = 0, binding = 2) uniform usampler2D normal;
+layout(set = 0, binding = 3) uniform sampler2D material;
+layout(set = 0, binding = 4, rg32ui) uniform writeonly uimage2DArray direction;
+layout(set = 0, binding = 5, rgba16f) uniform writeonly image2DArray answer;
+layout(set = 0, binding = 6, rgba8) uniform writeonly image2DArray source;
+layout(set = 0, binding = 7, scalar) buffer MissedBlock {
+    uint groups[3];
+    uint count;
+    RayItem items[];
+} missed;
+#include "render/bounce/rays_append.glsl"
+
+Ray diffuseRay(ivec2 pixel, uint number, vec3 n) {
+    uint stream = number * 2u + hashPcg(params.view.seed);
+    vec2 u = hashToUnit2(hashPixel(uvec2(pixel), stream, params.view.frame));
+    if (params.diffuse.distribution == RayDistribution_uniform) {
+        vec3 local = sampleUniformHemisphere(u);
+        return Ray(basisAround(n) * local, 2.0 * local.z, 1.0);  // cos / pi over 1 / (2 pi)
+    }
+    return Ray(basisAround(n) * sampleCosineHemisphere(u), 1.0, 1.0);
+}
+
+Ray mirrorRay(vec3 n, vec3 v, float roughness) {
+    vec3 r = reflect(-v, n);
+    float fade = smoothstep(params.specular.maxRoughness - 0.1, params.specular.maxRoughness, roughness);
+    return Ray(r, 1.0, 1.0 - fade);
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, ivec2(params.view.size)))) {
+        return;
+    }
+    float d = texelFetch(depth, pixel, 0).r;
+    MaterialTexel m = unpackMaterial(texelFetch(material, pixel, 0));
+    bool needed = d > 0.0 && (lobe == lobeDiffuse || (m.flags & materialFlagLambert) == 0u);
+    vec3 n = unpackUnitVector(texelFetch(normal, pixel, 0).r);
+    vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), max(d, 1e-12), params.view.clipToWorld);
+    for (uint i = 0u; i < params.rayCount; ++i) {
+        ivec3 slot = ivec3(pixel, i);
+        imageStore(answer, slot, vec4(0.0));
+        imageStore(source, slot, vec4(0.0));
+        Ray ray = Ray(vec3(0.0, 0.0, 1.0), 0.0, 0.0);
+        if (needed) {
+            ray = lobe == lobeDiffuse ? diffuseRay(pixel, params.firstRay + i, n)
+                                      : mirrorRay(n, directionToEye(p, params.view.eye), m.roughness);
+            appendRay(packSlot(slot), 1.0);
+        }
+        imageStore(direction, slot, uvec4(packRay(ray), 0u, 0u));
+    }
+}

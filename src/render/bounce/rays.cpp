@@ -1,0 +1,70 @@
+// Records the ends of the chain: rays out of pixels, and their answers back into pixels.
+#include "render/bounce/rays.h"
+
+namespace reflet {
+
+gpu::BufferView makeRayList(gpu::Frame& f, const Rays& rays, std::string_view name) {
+    const uvec2 size = rays.direction.size;
+    const VkDeviceSize items = VkDeviceSize(size.x) * size.y * raysPerBatch;
+    const gpu::BufferView list = f.buffer(name, rayListHeader + items * sizeof(RayItem));
+    constexpr uint32_t empty[] = {0, 1, 1, 0};
+    f.update(list, std::as_bytes(std::span(empty)));
+    return list;
+}
+
+Rays generateRays(gpu::Frame& f, const GBuffer& g, uint32_t lobe, const GenerateRaysParams& params) {
+    const uvec2 size = g.depth.size;
+    Rays rays{.direction = f.image("rays.direction", VK_FORMAT_R32G32_UINT, size, raysPerBatch, true),
+              .answer = f.image("rays.answer", VK_FORMAT_R16G16B16A16_SFLOAT, size, raysPerBatch, true),
+              .source = f.image("rays.source", VK_FORMAT_R8G8B8A8_UNORM, size, raysPerBatch, true),
+              .waiting = {},
+              .firstRay = params.firstRay,
+              .count = params.rayCount,
+              .lobe = lobe};
+    rays.waiting = makeRayList(f, rays, "rays.generated");
+    f.compute("generate_rays", "generate_rays.comp")
+        .constant("lobe", lobe)
+        .read("depth", g.depth)
+        .read("normal", g.normal)
+        .read("material", g.material)
+        .write("direction", rays.direction)
+        .write("answer", rays.answer)
+        .write("source", rays.source)
+        .write("missed", rays.waiting)
+        .params(params)
+        .dispatch(size);
+    return rays;
+}
+
+namespace {
+
+LobeLight lobeImages(gpu::Frame& f, uint32_t lobe, uvec2 size) {
+    const bool diffuse = lobe == lobeDiffuse;
+    return {.radiance = f.image(diffuse ? "diffuse.radiance" : "specular.radiance", VK_FORMAT_R16G16B16A16_SFLOAT, size),
+            .source = f.image(diffuse ? "diffuse.source" : "specular.source", VK_FORMAT_R8G8B8A8_UNORM, size)};
+}
+
+}  // namespace
+
+LobeLight noLight(gpu::Frame& f, uint32_t lobe, uvec2 size) {
+    const LobeLight light = lobeImages(f, lobe, size);
+    f.clear(light.radiance);
+    f.clear(light.source);
+    return light;
+}
+
+LobeLight resolveRays(gpu::Frame& f, const Rays& rays, uint32_t perPixel) {
+    const uvec2 size = rays.direction.size;
+    const LobeLight light = lobeImages(f, rays.lobe, size);
+    f.compute("resolve_rays", "resolve_rays.comp")
+        .read("direction", rays.direction)
+        .read("answer", rays.answer)
+        .read("raySource", rays.source)
+        .write("radiance", light.radiance)
+        .write("source", light.source)
+        .params(ResolveRaysParams{rays.count, 1.0F / static_cast<float>(perPixel), rays.firstRay == 0 ? 1U : 0U, size})
+        .dispatch(size);
+    return light;
+}
+
+}  // namespace reflet

@@ -1,0 +1,40 @@
+// Rays as the generator and the sources share them: slots, lists, answers.
+#ifndef REFLET_RAYS_GLSL
+#define REFLET_RAYS_GLSL
+
+#include "render/bounce/rays.h"
+#include "shaders/half_float.glsl"
+#include "shaders/octahedral.glsl"
+
+// The largest image that Vulkan devices of the floor have is 16384: 14 bits a coordinate, 4 bits for the layer.
+uint packSlot(ivec3 slot) { return uint(slot.x) | (uint(slot.y) << 14u) | (uint(slot.z) << 28u); }
+ivec3 unpackSlot(uint bits) { return ivec3(bits & 0x3fffu, (bits >> 14u) & 0x3fffu, bits >> 28u); }
+
+struct Ray {
+    vec3 direction;  // world space, unit
+    float weight;    // of its radiance in the pixel's mean
+    float trust;     // how far the screen may answer it, 0..1
+};
+
+uvec2 packRay(Ray ray) { return uvec2(packUnitVector(ray.direction), packHalf2x16(vec2(ray.weight, ray.trust))); }
+Ray unpackRay(uvec2 bits) {
+    vec2 halves = unpackHalf2x16(bits.y);
+    return Ray(unpackUnitVector(bits.x), halves.x, halves.y);
+}
+
+// What a source says of a ray. confidence: the share of the ray's weight that it answers, 0..1.
+struct RayAnswer {
+    vec3 radiance;
+    float confidence;
+    float hitDistance;  // metres
+};
+
+// Colours of the image `source`.
+const vec3 sourceScreen = vec3(0.2, 0.8, 0.3);
+const vec3 sourceEnvironment = vec3(0.25, 0.45, 0.9);
+
+// Vulkan promises this many groups; threads of a list take several rays where there are more.
+const uint maxListGroups = 65535u;
+const uint listGroupSize = 64u;
+
+#endif

@@ -1,0 +1,102 @@
+// Rays of both indirect lobes, diffuse and specular: which there are, what they have been answered so far, and lists
+// of those that still wait for an answer. Shared by C++ and GLSL.
+//
+// The chain: generateRays → a source → the next source for what it missed → … → the environment → resolveRays.
+// Every source takes a list of rays with what is left of their weight, adds its answer to the ray's own texel, and
+// hands on what it could not answer. The weights of one ray sum to 1.
+#ifndef REFLET_RENDER_RAYS_H
+#define REFLET_RENDER_RAYS_H
+
+#include "base/shared.h"
+#include "render/view.h"
+
+SHARED_BEGIN
+
+#define RAY_DISTRIBUTIONS(OPTION)            \
+    OPTION(RayDistribution, cosine, 0)       \
+    OPTION(RayDistribution, uniform, 1)
+CHOICES(RayDistribution, RAY_DISTRIBUTIONS)
+
+#define DIFFUSE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                  \
+    VALUE(uint, rays, 4, 0, 256, "Rays per pixel for indirect diffuse light; 0: none is computed.")             \
+    CHOICE(RayDistribution, distribution, cosine, "How their directions are spread over the hemisphere.")
+SETTINGS(DiffuseSettings, DIFFUSE_SETTINGS)
+
+#define SPECULAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                                 \
+    VALUE(uint, rays, 1, 0, 1, "Rays per pixel for reflections, in the mirror direction; 0: none are computed.") \
+    VALUE(float, maxRoughness, 0.4, 0.0, 1.0, "Rougher surfaces leave their reflections to the sources behind the screen.")
+SETTINGS(SpecularSettings, SPECULAR_SETTINGS)
+
+// Lobes, as the specialization constant `lobe`.
+const uint lobeDiffuse = 0;
+const uint lobeSpecular = 1;
+
+// Rays per pixel that are traced at once; more are traced in turns.
+const uint raysPerBatch = 4;
+
+// A ray in a list: pixel and layer, and how much of its weight (0..1, as float bits) still waits for an answer.
+struct RayItem {
+    uint slot;
+    uint rest;
+};
+
+// Bytes before the items: group counts for an indirect dispatch, then the number of items.
+const uint rayListHeader = 16;
+
+struct GenerateRaysParams {
+    ViewParams view;
+    DiffuseSettings diffuse;
+    SpecularSettings specular;
+    uint firstRay;  // number of the batch's first ray in its pixel
+    uint rayCount;  // of the batch
+};
+
+struct ResolveRaysParams {
+    uint rayCount;   // of the batch
+    float weight;    // of each ray: 1 over the rays per pixel
+    uint firstBatch; // 1: overwrite, 0: add to the batches before
+    uvec2 size;
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "gpu/frame.h"
+#include "render/gbuffer/gbuffer.h"
+
+namespace reflet {
+
+/// One batch of rays of one lobe. A layer per ray of a pixel.
+struct Rays {
+    gpu::Image direction;    ///< RG32_UINT array: direction (packUnitVector, world), half2(weight, trust of the screen)
+    gpu::Image answer;       ///< RGBA16F array: radiance · weights so far, hit distance · weights [m]
+    gpu::Image source;       ///< RGBA8 array: colours of the sources · weights; alpha: confidence
+    gpu::BufferView waiting; ///< rays without (all of) an answer
+    uint32_t firstRay = 0;
+    uint32_t count = 0;      ///< per pixel
+    uint32_t lobe = 0;
+};
+
+/// What a lobe's rays brought, averaged per pixel; not yet multiplied by the surface's own colour.
+struct LobeLight {
+    gpu::Image radiance;  ///< RGBA16F: mean of radiance · ray weight; alpha: mean hit distance [m]
+    gpu::Image source;    ///< RGBA8: mean colour of the sources that answered; alpha: confidence
+};
+
+/// Rays firstRay .. firstRay + count of every pixel that has a surface (and the lobe).
+Rays generateRays(gpu::Frame& f, const GBuffer& g, uint32_t lobe, const GenerateRaysParams& params);
+
+/// An empty list as large as the rays' own, for what a source misses.
+gpu::BufferView makeRayList(gpu::Frame& f, const Rays& rays, std::string_view name);
+
+/// A lobe without rays: black.
+LobeLight noLight(gpu::Frame& f, uint32_t lobe, uvec2 size);
+
+/// Adds the batch to the lobe's images, `perPixel` rays making the whole.
+LobeLight resolveRays(gpu::Frame& f, const Rays& rays, uint32_t perPixel);
+
+}  // namespace reflet
+#endif
+
+#endif

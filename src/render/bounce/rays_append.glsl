@@ -1,0 +1,14 @@
+// Appends to a ray list. The includer declares the buffer `missed` with these four members.
+#ifndef REFLET_RAYS_APPEND_GLSL
+#define REFLET_RAYS_APPEND_GLSL
+
+// The first ray of each group of threads adds that group to the indirect dispatch.
+void appendRay(uint slot, float rest) {
+    uint index = atomicAdd(missed.count, 1u);
+    missed.items[index] = RayItem(slot, floatBitsToUint(rest));
+    if (index % listGroupSize == 0u && index / listGroupSize < maxListGroups) {
+        atomicAdd(missed.groups[0], 1u);
+    }
+}
+
+#endif

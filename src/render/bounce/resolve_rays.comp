@@ -1,0 +1,37 @@
+// Averages a batch of rays into their pixels. In: direction (for the weights), answers and sources by ray.
+// Out: radiance with mean hit distance, source colours with confidence; added to what earlier batches brought.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "render/bounce/rays.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ResolveRaysParams params; };
+layout(set = 0, binding = 1, rg32ui) uniform readonly uimage2DArray direction;
+layout(set = 0, binding = 2, rgba16f) uniform readonly image2DArray answer;
+layout(set = 0, binding = 3, rgba8) uniform readonly image2DArray raySource;
+layout(set = 0, binding = 4, rgba16f) uniform image2D radiance;
+layout(set = 0, binding = 5, rgba8) uniform image2D source;
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(uvec2(pixel), params.size))) {
+        return;
+    }
+    vec4 light = vec4(0.0);
+    vec4 colors = vec4(0.0);
+    for (uint i = 0u; i < params.rayCount; ++i) {
+        ivec3 slot = ivec3(pixel, i);
+        float weight = unpackRay(imageLoad(direction, slot).xy).weight;
+        vec4 a = imageLoad(answer, slot);
+        light += vec4(a.rgb * weight, a.a);
+        colors += imageLoad(raySource, slot);
+    }
+    light *= params.weight;
+    colors *= params.weight;
+    if (params.firstBatch == 0u) {
+        light += imageLoad(radiance, pixel);
+        colors += imageLoad(source, pixel);
+    }
+    imageStore(radiance, pixel, vec4(clampToHalf(light.rgb), min(light.a, largestHalf)));
+    imageStore(source, pixel, colors);
+}

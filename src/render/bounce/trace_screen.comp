@@ -1,0 +1,73 @@
+// Marches waiting rays through the depth buffer; a hit takes the light that the screen shows there.
+// In: depth, lit image, ray directions, the list. Out: answers, sources, the list of misses.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "render/bounce/rays.glsl"
+#include "render/bounce/trace_screen.h"
+#include "shaders/noise.glsl"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { TraceScreenParams params; };
+layout(set = 0, binding = 1) uniform sampler2D depth;
+layout(set = 0, binding = 2) uniform usampler2D normal;
+layout(set = 0, binding = 3, rgba16f) uniform readonly image2D lit;
+layout(set = 0, binding = 4, rg32ui) uniform readonly uimage2DArray direction;
+layout(set = 0, binding = 5, scalar) readonly buffer WaitingBlock {
+    uint groups[3];
+    uint count;
+    RayItem items[];
+} waiting;
+layout(set = 0, binding = 6, rgba16f) uniform image2DArray answer;
+layout(set = 0, binding = 7, rgba8) uniform image2DArray source;
+layout(set = 0, binding = 8, scalar) buffer MissedBlock {
+    uint groups[3];
+    uint count;
+    RayItem items[];
+} missed;
+#include "render/bounce/rays_append.glsl"
+#include "render/bounce/rays_answer.glsl"
+
+float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
+#include "shaders/march.glsl"
+
+// A little off the surface, so that rounding does not put the ray below it: a fraction of what a pixel covers there.
+vec3 rayOrigin(ivec2 pixel) {
+    vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), loadDepth(pixel), params.view.clipToWorld);
+    vec3 n = unpackUnitVector(texelFetch(normal, pixel, 0).r);
+    float distance = dot(params.view.viewPlane, vec4(p, 1.0));
+    float footprint = params.view.pixelAngle * mix(1.0, distance, params.view.eye.w);
+    return p + n * footprint;
+}
+
+RayAnswer answerRay(ivec3 slot, Ray ray) {
+    float jitter = 1.0;
+    if (params.settings.jitter != 0u) {
+        uint stream = (params.firstRay + uint(slot.z)) * 2u + 1u + hashPcg(params.view.seed);
+        jitter = 1.0 - hashToUnit(hashPixel(uvec2(slot.xy), stream, params.view.frame));
+    }
+    MarchView view = MarchView(params.view.worldToClip, params.view.viewPlane, params.view.depthToDistance,
+                               params.view.size);
+    MarchResult hit = marchLinear(rayOrigin(slot.xy), ray.direction, params.settings.step, params.settings.maxSteps,
+                                  params.settings.thickness, jitter, view);
+    if (hit.outcome != marchHit) {
+        return RayAnswer(vec3(0.0), 0.0, 0.0);
+    }
+    return RayAnswer(imageLoad(lit, hit.pixel).rgb, ray.trust, hit.distance);
+}
+
+void main() {
+    uint stride = gl_NumWorkGroups.x * listGroupSize;
+    for (uint i = gl_GlobalInvocationID.x; i < waiting.count; i += stride) {
+        ivec3 slot = unpackSlot(waiting.items[i].slot);
+        float rest = uintBitsToFloat(waiting.items[i].rest);
+        Ray ray = unpackRay(imageLoad(direction, slot).xy);
+        RayAnswer a = RayAnswer(vec3(0.0), 0.0, 0.0);
+        if (ray.trust > 0.0) {
+            a = answerRay(slot, ray);
+        }
+        float left = addAnswer(slot, a, rest, sourceScreen);
+        if (left > 0.0) {
+            appendRay(packSlot(slot), left);
+        }
+    }
+}

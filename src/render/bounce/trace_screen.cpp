@@ -1,0 +1,23 @@
+// Records the screen as a source of answers.
+#include "render/bounce/trace_screen.h"
+
+namespace reflet {
+
+void traceScreen(gpu::Frame& f, Rays& rays, const GBuffer& g, gpu::Image lit, const ViewParams& view,
+                 const TraceScreenSettings& settings) {
+    const gpu::BufferView missed = makeRayList(f, rays, "rays.missed_by_screen");
+    f.compute("trace_screen", "trace_screen.comp")
+        .read("depth", g.depth)
+        .read("normal", g.normal)
+        .read("lit", lit)
+        .read("direction", rays.direction)
+        .read("waiting", rays.waiting)
+        .write("answer", rays.answer)
+        .write("source", rays.source)
+        .write("missed", missed)
+        .params(TraceScreenParams{view, settings, rays.firstRay})
+        .dispatchIndirect(rays.waiting, 0);
+    rays.waiting = missed;
+}
+
+}  // namespace reflet

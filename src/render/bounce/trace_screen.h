@@ -1,0 +1,45 @@
+// The first source of the chain: rays marched through what the camera sees. Shared by C++ and GLSL.
+#ifndef REFLET_RENDER_TRACE_SCREEN_H
+#define REFLET_RENDER_TRACE_SCREEN_H
+
+#include "base/shared.h"
+#include "render/view.h"
+
+SHARED_BEGIN
+
+#define TRACE_METHODS(OPTION) \
+    OPTION(TraceMethod, linear, 0)
+CHOICES(TraceMethod, TRACE_METHODS)
+
+#define TRACE_SCREEN_SETTINGS(VALUE, SWITCH, CHOICE)                                                                \
+    CHOICE(TraceMethod, method, linear, "How rays find what they hit; linear: fixed steps in the world.")          \
+    VALUE(float, step, 0.15, 0.001, 100.0, "Length of a step in metres.")                                          \
+    VALUE(uint, maxSteps, 48, 1, 4096, "Steps a ray may take; one that has taken them all has missed.")            \
+    VALUE(float, thickness, 0.3, 0.001, 1000.0, "How thick every surface is taken to be, in metres along the view.") \
+    SWITCH(jitter, 1, "Start each ray at a random part of its first step: bands become grain.")
+SETTINGS(TraceScreenSettings, TRACE_SCREEN_SETTINGS)
+
+struct TraceScreenParams {
+    ViewParams view;
+    TraceScreenSettings settings;
+    uint firstRay;
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "gpu/frame.h"
+#include "render/bounce/rays.h"
+#include "render/gbuffer/gbuffer.h"
+
+namespace reflet {
+
+/// Answers rays that hit what the screen shows with `lit` (RGBA16F) at the hit; hands on the others.
+void traceScreen(gpu::Frame& f, Rays& rays, const GBuffer& g, gpu::Image lit, const ViewParams& view,
+                 const TraceScreenSettings& settings);
+
+}  // namespace reflet
+#endif
+
+#endif

@@ -1,0 +1,37 @@
+// Puts the lobes' light on the surfaces and adds it to the direct light. Shared by C++ and GLSL.
+#ifndef REFLET_RENDER_COMPOSITE_H
+#define REFLET_RENDER_COMPOSITE_H
+
+#include "base/shared.h"
+#include "render/view.h"
+
+SHARED_BEGIN
+
+struct CompositeParams {
+    ViewParams view;
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "gpu/frame.h"
+#include "render/bounce/rays.h"
+#include "render/gbuffer/gbuffer.h"
+
+namespace reflet {
+
+/// RGBA16F radiance: lit = direct + indirectDiffuse + indirectSpecular.
+struct Composite {
+    gpu::Image indirectDiffuse;
+    gpu::Image indirectSpecular;
+    gpu::Image lit;
+};
+
+Composite composite(gpu::Frame& f, const GBuffer& g, gpu::Image direct, const LobeLight& diffuse,
+                    const LobeLight& specular, gpu::Image ggxTable, const ViewParams& view);
+
+}  // namespace reflet
+#endif
+
+#endif

@@ -1,0 +1,49 @@
+// Direct light of sun and lamps, emission and background. In: G-buffer, sun visibility. Out: direct radiance.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "render/direct/direct.h"
+#include "render/gbuffer/gbuffer.glsl"
+#include "shaders/half_float.glsl"
+#include "shaders/lamp.glsl"
+#include "shaders/projection.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { DirectParams params; };
+layout(set = 0, binding = 1, scalar) uniform LampUniforms { LampBlock lampBlock; };
+layout(set = 0, binding = 2) uniform sampler2D depth;
+layout(set = 0, binding = 3) uniform usampler2D normal;
+layout(set = 0, binding = 4) uniform sampler2D baseColor;
+layout(set = 0, binding = 5) uniform sampler2D material;
+layout(set = 0, binding = 6) uniform sampler2D emissive;
+layout(set = 0, binding = 7) uniform sampler2D sunVisibility;
+layout(set = 0, binding = 8) uniform sampler2D ggxTable;
+layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D direct;
+
+vec3 radianceAt(ivec2 pixel) {
+    float d = texelFetch(depth, pixel, 0).r;
+    if (d <= 0.0) {
+        return params.background;
+    }
+    vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
+    vec3 n = unpackUnitVector(texelFetch(normal, pixel, 0).r);
+    vec3 v = directionToEye(p, params.view.eye);
+    MaterialTexel m = unpackMaterial(texelFetch(material, pixel, 0));
+    Surface s = surfaceAt(texelFetch(baseColor, pixel, 0).rgb, m, dot(n, v), ggxTable);
+
+    float visibility = texelFetch(sunVisibility, pixel, 0).r;
+    vec3 radiance = texelFetch(emissive, pixel, 0).rgb;
+    radiance += reflectLight(s, n, v, params.toSun) * params.sunIrradiance * visibility;
+    for (uint i = 0u; i < lampBlock.count; ++i) {
+        vec3 toLamp;
+        vec3 irradiance = lampIrradiance(lampBlock.lamps[i], p, toLamp);
+        radiance += reflectLight(s, n, v, toLamp) * irradiance;
+    }
+    return radiance;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (all(lessThan(pixel, ivec2(params.view.size)))) {
+        imageStore(direct, pixel, vec4(clampToHalf(radianceAt(pixel)), 1.0));
+    }
+}

@@ -1,0 +1,40 @@
+// Records direct light.
+#include "render/direct/direct.h"
+
+#include "gpu/device.h"
+
+namespace reflet {
+
+gpu::Texture makeGgxTable(gpu::Frame& f) {
+    constexpr uint32_t side = 32;  // ggxTableSize in ggx.glsl
+    gpu::Texture table(f.device(),
+                       {VK_FORMAT_R16G16_SFLOAT, uvec2(side), 1, 1,
+                        VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT},
+                       "ggx_table");
+    f.begin();
+    f.compute("ggx_table", "ggx_table.comp").write("table", table.image()).dispatch(uvec2(side));
+    f.submit();
+    f.wait();
+    return table;
+}
+
+gpu::Image directLight(gpu::Frame& f, const GBuffer& g, gpu::Image sunVisibility, gpu::Image ggxTable,
+                       const DirectParams& params, const LampBlock& lamps) {
+    const gpu::Image direct = f.image("direct", VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size);
+    const VkSampler linear = f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR});
+    f.compute("direct", "direct.comp")
+        .read("depth", g.depth)
+        .read("normal", g.normal)
+        .read("baseColor", g.baseColor)
+        .read("material", g.material)
+        .read("emissive", g.emissive)
+        .read("sunVisibility", sunVisibility)
+        .read("ggxTable", ggxTable, linear)
+        .write("direct", direct)
+        .params(params)
+        .params(lamps, "lampBlock")
+        .dispatch(direct.size);
+    return direct;
+}
+
+}  // namespace reflet

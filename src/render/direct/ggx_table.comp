@@ -1,0 +1,33 @@
+// Directional albedo of the single-scattering GGX lobe as A · F0 + B, by quadrature over the visible half vectors'
+// distribution; a texel is (nv, roughness). (Karis, Real Shading in Unreal Engine 4, 2013, with exact visibility.)
+// Out: table (A, B).
+#version 460
+#include "shaders/ggx.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, rg16f) uniform writeonly image2D table;
+
+const uint sampleCount = 32u;  // per axis
+
+void main() {
+    vec2 size = vec2(imageSize(table));
+    vec2 at = vec2(gl_GlobalInvocationID.xy);
+    float nv = max(at.x / (size.x - 1.0), 1e-3);
+    float roughness = at.y / (size.y - 1.0);
+    float alpha = max(roughness * roughness, 1e-4);
+    vec3 v = vec3(sqrt(1.0 - nv * nv), 0.0, nv);
+    vec2 sum = vec2(0.0);
+    for (uint i = 0u; i < sampleCount * sampleCount; ++i) {
+        vec2 u = (vec2(i % sampleCount, i / sampleCount) + 0.5) / float(sampleCount);
+        vec3 h = sampleGgx(u, alpha);
+        float vh = dot(v, h);
+        float nl = 2.0 * vh * h.z - v.z;
+        if (vh > 0.0 && nl > 0.0) {
+            // BRDF · nl / pdf without D, which the half vector's pdf brings in, too.
+            float weight = ggxVisibility(nl, nv, alpha) * 4.0 * nl * vh / h.z;
+            float fresnel = fresnelSchlick(vec3(0.0), vh).x;
+            sum += weight * vec2(1.0 - fresnel, fresnel);
+        }
+    }
+    imageStore(table, ivec2(gl_GlobalInvocationID.xy), vec4(sum / float(sampleCount * sampleCount), 0.0, 0.0));
+}

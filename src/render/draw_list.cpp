@@ -1,0 +1,75 @@
+// Records draws.
+#include "render/draw_list.h"
+
+#include "gpu/device.h"
+#include "scene/scene.h"
+
+#include <cstddef>
+
+namespace reflet {
+
+const gpu::VertexLayout& vertexLayout() {
+    static const gpu::VertexLayout layout{
+        {sizeof(vec3), sizeof(VertexAttributes)},
+        {{"position", 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
+         {"normal", 1, VK_FORMAT_R32G32B32_SFLOAT, offsetof(VertexAttributes, normal)},
+         {"tangent", 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(VertexAttributes, tangent)},
+         {"uv0", 1, VK_FORMAT_R32G32_SFLOAT, offsetof(VertexAttributes, uv0)},
+         {"uv1", 1, VK_FORMAT_R32G32_SFLOAT, offsetof(VertexAttributes, uv1)},
+         {"color", 1, VK_FORMAT_R16G16B16A16_UNORM, offsetof(VertexAttributes, color)}}};
+    return layout;
+}
+
+namespace {
+
+// Conservative: false only when all corners are beyond the same side of the view. There is no far plane.
+bool mayBeSeen(const Aabb& box, const mat4& worldToClip) {
+    unsigned outside = 0x1F;
+    for (unsigned i = 0; i < 8; ++i) {
+        const vec4 c = worldToClip * vec4(box.corner(i), 1.0F);
+        unsigned corner = 0;
+        corner |= c.x < -c.w ? 1U : 0U;
+        corner |= c.x > c.w ? 2U : 0U;
+        corner |= c.y < -c.w ? 4U : 0U;
+        corner |= c.y > c.w ? 8U : 0U;
+        corner |= c.z > c.w ? 16U : 0U;
+        outside &= corner;
+    }
+    return outside == 0;
+}
+
+struct DrawConstants {
+    glm::mat4x3 objectToWorld;
+    glm::mat4x3 previousObjectToWorld;
+};
+
+}  // namespace
+
+void recordDraws(const gpu::DrawCommands& to, const DrawList& list, const DrawFilter& filter, bool previousTransform) {
+    const VolkDeviceTable& vk = to.device.vk;
+    const VkBuffer buffers[] = {list.positions, list.attributes};
+    const VkDeviceSize offsets[] = {0, 0};
+    vk.vkCmdBindVertexBuffers(to.commands, 0, 2, buffers, offsets);
+    vk.vkCmdBindIndexBuffer(to.commands, list.indices, 0, VK_INDEX_TYPE_UINT32);
+    VkDescriptorSet boundMaterial = VK_NULL_HANDLE;
+    for (const Draw& draw : list.draws) {
+        if (!filter.keep(draw) || !mayBeSeen(draw.boundsW, filter.worldToClip)) {
+            continue;
+        }
+        if (list.materialLayout != VK_NULL_HANDLE && draw.material != boundMaterial) {
+            boundMaterial = draw.material;
+            vk.vkCmdBindDescriptorSets(to.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, to.layout, 1, 1, &boundMaterial, 0,
+                                       nullptr);
+        }
+        const bool mirrored = glm::determinant(mat3(draw.objectToWorld)) < 0.0F;
+        vk.vkCmdSetFrontFace(to.commands, mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
+        vk.vkCmdSetCullMode(to.commands, filter.cullBackFaces && !draw.doubleSided ? VK_CULL_MODE_BACK_BIT
+                                                                                  : VK_CULL_MODE_NONE);
+        const DrawConstants constants{glm::mat4x3(draw.objectToWorld), glm::mat4x3(draw.previousObjectToWorld)};
+        vk.vkCmdPushConstants(to.commands, to.layout, VK_SHADER_STAGE_ALL, 0,
+                              previousTransform ? sizeof(constants) : sizeof(constants.objectToWorld), &constants);
+        vk.vkCmdDrawIndexed(to.commands, draw.indexCount, 1, draw.firstIndex, draw.firstVertex, 0);
+    }
+}
+
+}  // namespace reflet

@@ -1,0 +1,46 @@
+// What raster passes draw: index ranges with a transform and a material, in buffers shared by all. Knows no scene.
+#pragma once
+
+#include "base/math.h"
+#include "gpu/pass.h"
+
+#include <functional>
+#include <vector>
+
+namespace reflet {
+
+struct Draw {
+    uint32_t firstIndex = 0;
+    uint32_t indexCount = 0;
+    int32_t firstVertex = 0;
+    mat4 objectToWorld{1.0F};
+    mat4 previousObjectToWorld{1.0F};
+    Aabb boundsW;
+    VkDescriptorSet material = VK_NULL_HANDLE;
+    bool masked = false;       ///< has an alpha cutoff
+    bool doubleSided = false;
+};
+
+struct DrawList {
+    VkBuffer positions = VK_NULL_HANDLE;   ///< vec3
+    VkBuffer attributes = VK_NULL_HANDLE;  ///< VertexAttributes
+    VkBuffer indices = VK_NULL_HANDLE;     ///< uint32
+    VkDescriptorSetLayout materialLayout = VK_NULL_HANDLE;
+    std::vector<Draw> draws;
+    Aabb boundsW;                          ///< of all
+};
+
+/// The vertex buffers of a draw list: position; normal, tangent, uv0, uv1, color.
+const gpu::VertexLayout& vertexLayout();
+
+struct DrawFilter {
+    std::function<bool(const Draw&)> keep;
+    bool cullBackFaces = true;  ///< of single-sided draws
+    mat4 worldToClip{1.0F};     ///< draws that this puts wholly outside the view are left out
+};
+
+/// Records the draws that pass the filter. Push constants of the vertex shader: objectToWorld, then (as far as the
+/// shader's block reaches) previousObjectToWorld, both mat4x3 in scalar layout.
+void recordDraws(const gpu::DrawCommands& to, const DrawList& list, const DrawFilter& filter, bool previousTransform);
+
+}  // namespace reflet

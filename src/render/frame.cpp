@@ -1,0 +1,60 @@
+// The frame, top to bottom: values in, values out. Start reading here.
+//
+//     G-buffer → sun visibility → direct light → diffuse rays, specular rays → answer chain → composite → tone map
+//
+// There is no graph compiler: an `if` in this file is the only culling.
+#include "render/frame.h"
+
+#include "render/bounce/answer_environment.h"
+#include "render/bounce/trace_screen.h"
+#include "render/shadow/shadow.h"
+#include "render/tonemap/tonemap.h"
+
+#include <algorithm>
+
+namespace reflet {
+
+FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& settings) {
+    FrameImages out;
+    out.g = drawGBuffer(f, in.draws, in.view, settings.materials);
+
+    ShadowSettings shadow = settings.shadow;
+    if (in.sunIrradiance == vec3(0.0F)) {
+        shadow.filter = ShadowFilter::none;
+    }
+    const ShadowMapParams sunMap =
+        fitSunShadow(in.view.clipToWorld, in.draws.boundsW, in.sunDirection, shadow.resolution);
+    if (shadow.filter != ShadowFilter::none) {
+        out.shadowMap = drawShadowMap(f, in.draws, sunMap, shadow);
+    }
+    out.sunVisibility = sunVisibility(f, out.g, out.shadowMap, sunMap, in.view, shadow);
+    out.direct = directLight(f, out.g, out.sunVisibility, in.ggxTable,
+                             {in.view, -in.sunDirection, in.sunIrradiance, in.environment}, in.lamps);
+
+    // One chain for both lobes: rays, then sources that answer in order of trust, each taking what is left over.
+    const auto traceLobe = [&](uint32_t lobe, uint32_t perPixel) {
+        LobeLight light;
+        for (uint32_t first = 0; first < perPixel; first += raysPerBatch) {
+            const uint32_t count = std::min(perPixel - first, raysPerBatch);
+            Rays rays = generateRays(f, out.g, lobe, {in.view, settings.diffuse, settings.specular, first, count});
+            traceScreen(f, rays, out.g, out.direct, in.view, settings.traceScreen);
+            answerEnvironment(f, rays, out.g, in.environment);
+            light = resolveRays(f, rays, perPixel);
+        }
+        return perPixel > 0 ? light : noLight(f, lobe, out.g.depth.size);
+    };
+    {
+        const auto scope = f.scope("diffuse");
+        out.diffuse = traceLobe(lobeDiffuse, settings.diffuse.rays);
+    }
+    {
+        const auto scope = f.scope("specular");
+        out.specular = traceLobe(lobeSpecular, settings.specular.rays);
+    }
+
+    out.light = composite(f, out.g, out.direct, out.diffuse, out.specular, in.ggxTable, in.view);
+    out.display = tonemap(f, out.light.lit, settings.tonemap);
+    return out;
+}
+
+}  // namespace reflet

@@ -1,0 +1,39 @@
+// The frame: a lit picture from a draw list, a view and lights.
+#pragma once
+
+#include "gpu/frame.h"
+#include "render/bounce/rays.h"
+#include "render/composite/composite.h"
+#include "render/direct/direct.h"
+#include "render/draw_list.h"
+#include "render/gbuffer/gbuffer.h"
+#include "render/settings.h"
+
+namespace reflet {
+
+struct FrameInputs {
+    const DrawList& draws;
+    ViewParams view;
+    vec3 sunDirection{0, -1, 0};  ///< the way the light travels, unit
+    vec3 sunIrradiance{0.0F};     ///< on a surface that faces the sun [W/m²]; 0: no sun
+    vec3 environment{0.0F};       ///< radiance from all directions [W/(m² sr)]
+    const LampBlock& lamps;
+    gpu::Image ggxTable;          ///< of makeGgxTable
+};
+
+/// Every image of the frame; formats where the effects declare them.
+struct FrameImages {
+    GBuffer g;
+    gpu::Image shadowMap;      ///< none without sun or shadows
+    gpu::Image sunVisibility;
+    gpu::Image direct;
+    LobeLight diffuse;
+    LobeLight specular;
+    Composite light;
+    gpu::Image display;
+};
+
+/// Records all passes of one frame.
+FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& settings);
+
+}  // namespace reflet

@@ -1,0 +1,32 @@
+// Draws the G-buffer.
+#include "render/gbuffer/gbuffer.h"
+
+namespace reflet {
+
+GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view, const MaterialsSettings& settings) {
+    const uvec2 size(view.size);
+    const GBuffer g{
+        .depth = f.target("depth", VK_FORMAT_D32_SFLOAT, size),
+        .normal = f.target("normal", VK_FORMAT_R32_UINT, size),
+        .baseColor = f.target("base_color", VK_FORMAT_R8G8B8A8_SRGB, size),
+        .material = f.target("material", VK_FORMAT_R8G8B8A8_UNORM, size),
+        .emissive = f.target("emissive", VK_FORMAT_B10G11R11_UFLOAT_PACK32, size),
+        .motion = f.target("motion", VK_FORMAT_R16G16_SFLOAT, size),
+    };
+    const VkClearColorValue zero{};
+    f.raster("gbuffer", {"gbuffer.vert", "gbuffer.frag"})
+        .color("outBaseColor", g.baseColor, zero)
+        .color("outNormal", g.normal, zero)
+        .color("outMaterial", g.material, zero)
+        .color("outEmissive", g.emissive, zero)
+        .color("outMotion", g.motion, zero)
+        .depth(g.depth, 0.0F)
+        .vertices(vertexLayout(), list.materialLayout)
+        .params(GBufferParams{view, settings})
+        .draw([&](const gpu::DrawCommands& to) {
+            recordDraws(to, list, {[](const Draw&) { return true; }, true, view.worldToClip}, true);
+        });
+    return g;
+}
+
+}  // namespace reflet

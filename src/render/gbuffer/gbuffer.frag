@@ -1,0 +1,59 @@
+// G-buffer, fragments: the material's textures and factors, and the shading normal.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "render/gbuffer/gbuffer.h"
+#include "render/material.glsl"
+#include "shaders/octahedral.glsl"
+
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { GBufferParams params; };
+
+layout(location = 0) in vec3 normalW;
+layout(location = 1) in vec4 tangentW;
+layout(location = 2) in vec4 uv;
+layout(location = 3) in vec4 vertexColor;
+layout(location = 4) in vec3 clipNow;
+layout(location = 5) in vec3 clipBefore;
+
+layout(location = 0) out vec4 outBaseColor;
+layout(location = 1) out uint outNormal;
+layout(location = 2) out vec4 outMaterial;
+layout(location = 3) out vec3 outEmissive;
+layout(location = 4) out vec2 outMotion;
+
+vec3 shadingNormal() {
+    vec3 n = normalize(normalW);
+    if (hasTexture(slotNormal)) {
+        vec3 t = normalize(tangentW.xyz - n * dot(n, tangentW.xyz));
+        vec3 b = cross(n, t) * tangentW.w;
+        vec3 m = texture(normalTexture, slotUv(slotNormal, uv.xy, uv.zw)).xyz * 2.0 - 1.0;
+        m.xy *= material.normalScale;
+        n = normalize(mat3(t, b, n) * m);
+    }
+    return gl_FrontFacing ? n : -n;
+}
+
+void main() {
+    vec4 baseColor;
+    if (!materialBaseColor(uv.xy, uv.zw, vertexColor, baseColor)) {
+        discard;
+    }
+    vec2 roughnessMetallic = vec2(material.roughness, material.metallic);
+    if (hasTexture(slotMetallicRoughness)) {
+        roughnessMetallic *=
+            texture(metallicRoughnessTexture, slotUv(slotMetallicRoughness, uv.xy, uv.zw)).gb;
+    }
+    float occlusion = 1.0;
+    if (hasTexture(slotOcclusion)) {
+        float o = texture(occlusionTexture, slotUv(slotOcclusion, uv.xy, uv.zw)).r;
+        occlusion = 1.0 + material.occlusionStrength * (o - 1.0);
+    }
+    outEmissive = material.emissive;
+    if (hasTexture(slotEmissive)) {
+        outEmissive *= texture(emissiveTexture, slotUv(slotEmissive, uv.xy, uv.zw)).rgb;
+    }
+    uint flags = params.settings.lambertOnly != 0u ? materialFlagLambert : 0u;
+    outBaseColor = vec4(baseColor.rgb, 1.0);
+    outNormal = packUnitVector(shadingNormal());
+    outMaterial = vec4(roughnessMetallic, occlusion, float(flags) / 255.0);
+    outMotion = 0.5 * (clipNow.xy / clipNow.z - clipBefore.xy / clipBefore.z);
+}

@@ -1,0 +1,48 @@
+// The G-buffer: what each pixel sees, and nothing about how it is lit. Shared by C++ and GLSL.
+#ifndef REFLET_RENDER_GBUFFER_H
+#define REFLET_RENDER_GBUFFER_H
+
+#include "base/shared.h"
+#include "render/view.h"
+
+SHARED_BEGIN
+
+#define MATERIALS_SETTINGS(VALUE, SWITCH, CHOICE) \
+    SWITCH(lambertOnly, 0, "Treat every material as pure Lambert of its base colour: no specular, no metal.")
+SETTINGS(MaterialsSettings, MATERIALS_SETTINGS)
+
+// Bits of the material image's alpha.
+const uint materialFlagLambert = 1;
+
+struct GBufferParams {
+    ViewParams view;
+    MaterialsSettings settings;
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "gpu/frame.h"
+#include "render/draw_list.h"
+
+namespace reflet {
+
+/// Images of the view's size.
+struct GBuffer {
+    gpu::Image depth;      ///< D32, reversed, 0: sky
+    gpu::Image normal;     ///< R32_UINT: world-space shading normal, octahedral, two snorm16 (packUnitVector). The
+                           ///< design's RG16 snorm is no colour target on SwiftShader, nor promised by Vulkan
+    gpu::Image baseColor;  ///< RGBA8 sRGB
+    gpu::Image material;   ///< RGBA8: perceptual roughness, metallic, occlusion, flags / 255
+    gpu::Image emissive;   ///< B10G11R11: emitted radiance
+    gpu::Image motion;     ///< RG16F: uv now minus uv last frame
+};
+
+/// Draws the list as seen by the view: reversed Z, back faces of single-sided draws culled.
+GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view, const MaterialsSettings& settings);
+
+}  // namespace reflet
+#endif
+
+#endif

@@ -1,0 +1,39 @@
+// G-buffer, vertices: to clip space now and in the last frame, normal and tangent to the world.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "render/gbuffer/gbuffer.h"
+
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { GBufferParams params; };
+layout(push_constant, scalar) uniform DrawBlock {
+    mat4x3 objectToWorld;
+    mat4x3 previousObjectToWorld;
+} draw;
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 tangent;
+layout(location = 3) in vec2 uv0;
+layout(location = 4) in vec2 uv1;
+layout(location = 5) in vec4 color;
+
+layout(location = 0) out vec3 normalW;
+layout(location = 1) out vec4 tangentW;
+layout(location = 2) out vec4 uv;
+layout(location = 3) out vec4 vertexColor;
+layout(location = 4) out vec3 clipNow;
+layout(location = 5) out vec3 clipBefore;
+
+void main() {
+    mat3 m = mat3(draw.objectToWorld);
+    // The cofactors are the inverse transpose times the determinant; its sign is taken out again.
+    mat3 cofactors = mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1]));
+    float handedness = dot(m[0], cofactors[0]) < 0.0 ? -1.0 : 1.0;
+    normalW = normalize(cofactors * normal) * handedness;
+    tangentW = vec4(m * tangent.xyz, tangent.w * handedness);
+    uv = vec4(uv0, uv1);
+    vertexColor = color;
+    gl_Position = params.view.worldToClip * vec4(draw.objectToWorld * vec4(position, 1.0), 1.0);
+    clipNow = gl_Position.xyw;
+    vec4 before = params.view.previousWorldToClip * vec4(draw.previousObjectToWorld * vec4(position, 1.0), 1.0);
+    clipBefore = before.xyw;
+}

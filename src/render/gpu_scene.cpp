@@ -1,0 +1,249 @@
+// Uploads a scene.
+#include "render/gpu_scene.h"
+
+#include "base/error.h"
+#include "gpu/device.h"
+#include "render/material.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <span>
+
+namespace reflet {
+
+namespace {
+
+// Binding 0: MaterialParams; 1..5: the slots' textures.
+VkDescriptorSetLayout makeMaterialLayout(gpu::Device& device) {
+    std::array<VkDescriptorSetLayoutBinding, 1 + slotCount> bindings{};
+    for (uint32_t i = 0; i < bindings.size(); ++i) {
+        bindings[i] = {i, i == 0 ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1,
+                       VK_SHADER_STAGE_ALL, nullptr};
+    }
+    VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+    info.bindingCount = static_cast<uint32_t>(bindings.size());
+    info.pBindings = bindings.data();
+    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+    gpu::vkCheck(device.vk.vkCreateDescriptorSetLayout(device.handle(), &info, nullptr, &layout),
+                 "creating the material layout");
+    return layout;
+}
+
+VkDescriptorPool makeMaterialPool(gpu::Device& device, uint32_t materials) {
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, materials},
+                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, materials * slotCount}};
+    VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+    info.maxSets = materials;
+    info.poolSizeCount = static_cast<uint32_t>(std::size(sizes));
+    info.pPoolSizes = sizes;
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    gpu::vkCheck(device.vk.vkCreateDescriptorPool(device.handle(), &info, nullptr, &pool), "creating material sets");
+    return pool;
+}
+
+std::array<const TextureSlot*, slotCount> slotsOf(const Material& m) {
+    return {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.occlusionTexture,
+            &m.emissiveTexture};
+}
+
+bool isSrgb(uint32_t slot) { return slot == slotBaseColor || slot == slotEmissive; }
+
+MaterialParams materialParams(const Material& m) {
+    MaterialParams p{};
+    p.baseColor = m.baseColor;
+    p.emissive = m.emissive;
+    p.alphaCutoff = m.alphaCutoff;
+    p.metallic = m.metallic;
+    p.roughness = m.roughness;
+    p.normalScale = m.normalScale;
+    p.occlusionStrength = m.occlusionStrength;
+    const auto slots = slotsOf(m);
+    for (uint32_t i = 0; i < slotCount; ++i) {
+        p.textured |= slots[i]->image >= 0 ? 1U << i : 0U;
+        p.secondUv |= slots[i]->uvSet == 1 ? 1U << i : 0U;
+        p.uvRows[2 * i] = slots[i]->uvTransform[0];
+        p.uvRows[2 * i + 1] = slots[i]->uvTransform[1];
+    }
+    return p;
+}
+
+VkSamplerAddressMode addressMode(Wrap wrap) {
+    switch (wrap) {
+        case Wrap::mirror:
+            return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+        case Wrap::clamp:
+            return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+        default:
+            return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    }
+}
+
+gpu::SamplerInfo samplerInfo(const Sampler& s) {
+    return {.mag = s.magLinear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST,
+            .min = s.minLinear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST,
+            .mip = s.mipLinear ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST,
+            .u = addressMode(s.wrapU),
+            .v = addressMode(s.wrapV),
+            .maxLod = s.mips ? VK_LOD_CLAMP_NONE : 0.0F};
+}
+
+LampParams lampParams(const Lamp& lamp) {
+    LampParams p{};
+    p.position = lamp.position;
+    p.type = lamp.type == Lamp::Type::point ? lampPoint : lamp.type == Lamp::Type::spot ? lampSpot : lampDirectional;
+    p.toLamp = -lamp.direction;
+    p.inverseRange = lamp.range > 0.0F ? 1.0F / lamp.range : 0.0F;
+    p.intensity = lamp.intensity;
+    const float inner = std::cos(lamp.innerAngle);
+    const float outer = std::cos(lamp.outerAngle);
+    p.spotScale = 1.0F / std::max(inner - outer, 1e-4F);
+    p.spotOffset = -outer * p.spotScale;
+    return p;
+}
+
+template <class T>
+gpu::Buffer uploadVector(gpu::Device& device, const std::vector<T>& values, VkBufferUsageFlags usage,
+                         const char* name) {
+    const T none{};
+    const std::span<const T> span = values.empty() ? std::span(&none, 1) : std::span(values);
+    return gpu::uploadBuffer(device, std::as_bytes(span), usage, name);
+}
+
+}  // namespace
+
+GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn)
+    : device_(device), materialLayout_(makeMaterialLayout(device)) {
+    uploadMeshes(scene);
+    uploadMaterials(scene);
+    addLamps(scene, warn);
+    addDraws(scene);
+}
+
+GpuScene::~GpuScene() {
+    device_.retire([device = &device_, pool = materialPool_, layout = materialLayout_] {
+        device->vk.vkDestroyDescriptorPool(device->handle(), pool, nullptr);
+        device->vk.vkDestroyDescriptorSetLayout(device->handle(), layout, nullptr);
+    });
+}
+
+void GpuScene::uploadMeshes(const Scene& scene) {
+    std::vector<vec3> positions;
+    std::vector<VertexAttributes> attributes;
+    std::vector<uint32_t> indices;
+    for (const Mesh& mesh : scene.meshes) {
+        ranges_.push_back({static_cast<uint32_t>(indices.size()), static_cast<int32_t>(positions.size())});
+        positions.insert(positions.end(), mesh.positions.begin(), mesh.positions.end());
+        attributes.insert(attributes.end(), mesh.attributes.begin(), mesh.attributes.end());
+        indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
+    }
+    positions_ = uploadVector(device_, positions, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "positions");
+    attributes_ = uploadVector(device_, attributes, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "attributes");
+    indices_ = uploadVector(device_, indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, "indices");
+}
+
+gpu::Image GpuScene::texture(const Scene& scene, int32_t image, bool srgb) {
+    gpu::Texture& texture = textures_[{image, srgb}];
+    if (texture.info().format == VK_FORMAT_UNDEFINED) {
+        if (image < 0) {  // a slot without a texture binds one white texel, which the shader does not read
+            constexpr std::array<uint8_t, 4> white{255, 255, 255, 255};
+            texture = gpu::uploadTexture(device_, uvec2(1), white, srgb, false, "white");
+        } else {
+            const Image& source = scene.images.at(static_cast<size_t>(image));
+            texture = gpu::uploadTexture(device_, {source.width, source.height}, source.rgba, srgb, true, source.name);
+        }
+    }
+    return texture.image();
+}
+
+void GpuScene::writeMaterialSet(const Scene& scene, const Material& material, VkDescriptorSet set,
+                                VkDeviceSize offset) {
+    const VkDescriptorBufferInfo block{materials_.handle(), offset, sizeof(MaterialParams)};
+    std::array<VkDescriptorImageInfo, slotCount> images{};
+    std::array<VkWriteDescriptorSet, 1 + slotCount> writes{};
+    const auto slots = slotsOf(material);
+    for (uint32_t i = 0; i < writes.size(); ++i) {
+        writes[i] = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+        writes[i].dstSet = set;
+        writes[i].dstBinding = i;
+        writes[i].descriptorCount = 1;
+        writes[i].descriptorType =
+            i == 0 ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        writes[i].pBufferInfo = &block;
+        if (i > 0) {
+            const TextureSlot& slot = *slots[i - 1];
+            const Sampler sampler =
+                slot.sampler < 0 ? Sampler{} : scene.samplers.at(static_cast<size_t>(slot.sampler));
+            images[i - 1] = {device_.sampler(samplerInfo(sampler)), texture(scene, slot.image, isSrgb(i - 1)).view,
+                             VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+            writes[i].pImageInfo = &images[i - 1];
+        }
+    }
+    device_.vk.vkUpdateDescriptorSets(device_.handle(), static_cast<uint32_t>(writes.size()), writes.data(), 0,
+                                      nullptr);
+}
+
+void GpuScene::uploadMaterials(const Scene& scene) {
+    const auto count = static_cast<uint32_t>(scene.materials.size());
+    materialPool_ = makeMaterialPool(device_, std::max(count, 1U));
+    const VkDeviceSize alignment = std::max<VkDeviceSize>(device_.limits().minUniformBufferOffsetAlignment, 4);
+    const VkDeviceSize stride = (sizeof(MaterialParams) + alignment - 1) / alignment * alignment;
+    std::vector<std::byte> blocks(std::max<size_t>(count, 1) * stride);
+    for (uint32_t i = 0; i < count; ++i) {
+        const MaterialParams params = materialParams(scene.materials[i]);
+        std::memcpy(blocks.data() + i * stride, &params, sizeof(params));
+    }
+    materials_ = gpu::uploadBuffer(device_, blocks, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, "materials");
+    const std::vector<VkDescriptorSetLayout> layouts(count, materialLayout_);
+    materialSets_.resize(count);
+    if (count == 0) {
+        return;
+    }
+    VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
+    info.descriptorPool = materialPool_;
+    info.descriptorSetCount = count;
+    info.pSetLayouts = layouts.data();
+    gpu::vkCheck(device_.vk.vkAllocateDescriptorSets(device_.handle(), &info, materialSets_.data()),
+                 "allocating material sets");
+    for (uint32_t i = 0; i < count; ++i) {
+        writeMaterialSet(scene, scene.materials[i], materialSets_[i], i * stride);
+    }
+}
+
+void GpuScene::addLamps(const Scene& scene, const std::function<void(const std::string&)>& warn) {
+    std::vector<Lamp> lamps = scene.lamps;
+    if (lamps.size() > maxLamps) {
+        warn(fmt::format("the scene has {} lamps, of which the strongest {} are used", lamps.size(), maxLamps));
+        const auto strength = [](const Lamp& l) { return std::max({l.intensity.x, l.intensity.y, l.intensity.z}); };
+        std::ranges::stable_sort(lamps, std::greater<>(), strength);
+        lamps.resize(maxLamps);
+    }
+    lamps_.count = static_cast<uint32_t>(lamps.size());
+    std::ranges::transform(lamps, lamps_.lamps, lampParams);
+}
+
+void GpuScene::addDraws(const Scene& scene) {
+    draws_.positions = positions_.handle();
+    draws_.attributes = attributes_.handle();
+    draws_.indices = indices_.handle();
+    draws_.materialLayout = materialLayout_;
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes.at(instance.mesh);
+        const Material& material = scene.materials.at(mesh.material);
+        Draw draw;
+        draw.firstIndex = ranges_[instance.mesh].firstIndex;
+        draw.indexCount = static_cast<uint32_t>(mesh.indices.size());
+        draw.firstVertex = ranges_[instance.mesh].firstVertex;
+        draw.objectToWorld = instance.objectToWorld;
+        draw.previousObjectToWorld = instance.objectToWorld;
+        draw.boundsW = transformed(mesh.bounds, instance.objectToWorld);
+        draw.material = materialSets_[mesh.material];
+        draw.masked = material.alphaCutoff > 0.0F;
+        draw.doubleSided = material.doubleSided;
+        draws_.boundsW.add(draw.boundsW);
+        draws_.draws.push_back(draw);
+    }
+}
+
+}  // namespace reflet

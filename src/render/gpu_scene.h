@@ -1,0 +1,55 @@
+// A scene on the device: vertex buffers, textures with mips, materials, lamps; made once, drawn every frame.
+#pragma once
+
+#include "gpu/resource.h"
+#include "render/direct/direct.h"
+#include "render/draw_list.h"
+#include "scene/scene.h"
+
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace reflet {
+
+class GpuScene {
+public:
+    /// Uploads everything. `warn` hears of what does not fit (more than maxLamps lamps: the weakest are left out).
+    GpuScene(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn);
+    ~GpuScene();
+    GpuScene(const GpuScene&) = delete;
+    GpuScene& operator=(const GpuScene&) = delete;
+
+    [[nodiscard]] const DrawList& draws() const { return draws_; }
+    [[nodiscard]] const LampBlock& lamps() const { return lamps_; }
+
+private:
+    struct MeshRange {
+        uint32_t firstIndex;
+        int32_t firstVertex;
+    };
+
+    void uploadMeshes(const Scene& scene);
+    void uploadMaterials(const Scene& scene);
+    void addLamps(const Scene& scene, const std::function<void(const std::string&)>& warn);
+    void addDraws(const Scene& scene);
+    gpu::Image texture(const Scene& scene, int32_t image, bool srgb);
+    void writeMaterialSet(const Scene& scene, const Material& material, VkDescriptorSet set, VkDeviceSize offset);
+
+    gpu::Device& device_;
+    gpu::Buffer positions_;
+    gpu::Buffer attributes_;
+    gpu::Buffer indices_;
+    gpu::Buffer materials_;
+    std::vector<MeshRange> ranges_;
+    std::map<std::pair<int32_t, bool>, gpu::Texture> textures_;  ///< by image and sRGB
+    VkDescriptorSetLayout materialLayout_ = VK_NULL_HANDLE;
+    VkDescriptorPool materialPool_ = VK_NULL_HANDLE;
+    std::vector<VkDescriptorSet> materialSets_;
+    LampBlock lamps_{};
+    DrawList draws_;
+};
+
+}  // namespace reflet

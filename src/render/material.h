@@ -1,0 +1,32 @@
+// A material as shaders see it: set 1, bound by each draw. Shared by C++ and GLSL.
+#ifndef REFLET_RENDER_MATERIAL_H
+#define REFLET_RENDER_MATERIAL_H
+
+#include "base/shared.h"
+
+SHARED_BEGIN
+
+// Slots of Material, in the order of the bindings 1..5 of set 1; binding 0 is this block.
+const uint slotBaseColor = 0;
+const uint slotMetallicRoughness = 1;
+const uint slotNormal = 2;
+const uint slotOcclusion = 3;
+const uint slotEmissive = 4;
+const uint slotCount = 5;
+
+struct MaterialParams {
+    vec4 baseColor;
+    vec3 emissive;
+    float alphaCutoff;
+    float metallic;
+    float roughness;
+    float normalScale;
+    float occlusionStrength;
+    uint textured;    // bit per slot: it has a texture
+    uint secondUv;    // bit per slot: it reads uv1
+    vec3 uvRows[10];  // two per slot, KHR_texture_transform
+};
+
+SHARED_END
+
+#endif

@@ -1,0 +1,36 @@
+// Renders a scene: holds what lives longer than a frame, and keeps the last view for motion.
+#pragma once
+
+#include "gpu/frame.h"
+#include "render/frame.h"
+#include "render/gpu_scene.h"
+#include "scene/scene.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace reflet {
+
+class Renderer {
+public:
+    Renderer(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn);
+
+    /// Records one frame; `after` may record more (read-backs). Returns when the device is done.
+    FrameImages render(const View& view, uvec2 size, uint32_t seed, const Settings& settings,
+                       const std::function<void(gpu::Frame&, const FrameImages&)>& after = {});
+
+    [[nodiscard]] const gpu::Frame& frame() const { return frame_; }
+
+private:
+    gpu::Frame frame_;
+    GpuScene scene_;
+    gpu::Texture ggxTable_;
+    std::optional<mat4> previousWorldToClip_;
+    uint32_t frameNumber_ = 0;
+};
+
+/// The camera as passes see it. previousWorldToClip is set to the camera's own.
+ViewParams makeViewParams(const Camera& camera, uvec2 size, uint32_t frame, uint32_t seed);
+
+}  // namespace reflet

@@ -1,0 +1,171 @@
+// Reads and writes settings by name, from the tables.
+#include "render/settings.h"
+
+#include "base/error.h"
+#include "base/text.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <optional>
+
+namespace reflet {
+
+namespace {
+
+template <class Effect>
+void addEffect(std::vector<SettingEntry>& entries, const std::string& effect, size_t offset) {
+    for (SettingInfo info : settingInfos(static_cast<const Effect*>(nullptr))) {
+        info.offset += offset;
+        entries.push_back({effect + "." + info.name, std::move(info)});
+    }
+}
+
+std::vector<SettingEntry> makeEntries() {
+    std::vector<SettingEntry> entries;
+    addEffect<MaterialsSettings>(entries, "materials", offsetof(Settings, materials));
+    addEffect<ShadowSettings>(entries, "shadow", offsetof(Settings, shadow));
+    addEffect<TraceScreenSettings>(entries, "trace_screen", offsetof(Settings, traceScreen));
+    addEffect<DiffuseSettings>(entries, "diffuse", offsetof(Settings, diffuse));
+    addEffect<SpecularSettings>(entries, "specular", offsetof(Settings, specular));
+    addEffect<TonemapSettings>(entries, "tonemap", offsetof(Settings, tonemap));
+    return entries;
+}
+
+const SettingEntry& findEntry(std::string_view name) {
+    const auto& entries = settingEntries();
+    const auto found = std::ranges::find(entries, name, &SettingEntry::name);
+    if (found == entries.end()) {
+        std::vector<std::string> names;
+        std::ranges::transform(entries, std::back_inserter(names), &SettingEntry::name);
+        failUsage("unknown setting '{}'{}; all of them: reflet list settings", name, suggestion(name, names));
+    }
+    return *found;
+}
+
+std::optional<double> parseNumber(const std::string& text) {
+    double value = 0.0;
+    const char* end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, value);
+    return error == std::errc() && rest == end && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+std::optional<double> parseValue(const SettingInfo& info, const std::string& text) {
+    if (info.type == SettingType::choice) {
+        const auto option = std::ranges::find(info.options, text, &SettingOption::name);
+        return option == info.options.end() ? std::nullopt : std::optional<double>(option->value);
+    }
+    if (info.type == SettingType::toggle) {
+        if (text == "true" || text == "on" || text == "1") {
+            return 1.0;
+        }
+        return text == "false" || text == "off" || text == "0" ? std::optional(0.0) : std::nullopt;
+    }
+    const auto value = parseNumber(text);
+    const bool whole = info.type == SettingType::real || (value && std::floor(*value) == *value);
+    return value && whole && *value >= info.lowest && *value <= info.highest ? value : std::nullopt;
+}
+
+void store(Settings& settings, const SettingInfo& info, double value) {
+    auto* at = reinterpret_cast<std::byte*>(&settings) + info.offset;
+    if (info.type == SettingType::real) {
+        const auto real = static_cast<float>(value);
+        std::memcpy(at, &real, sizeof(real));
+    } else {
+        const auto integer = static_cast<uint32_t>(value);
+        std::memcpy(at, &integer, sizeof(integer));
+    }
+}
+
+double load(const Settings& settings, const SettingInfo& info) {
+    const auto* at = reinterpret_cast<const std::byte*>(&settings) + info.offset;
+    if (info.type == SettingType::real) {
+        float real = 0.0F;
+        std::memcpy(&real, at, sizeof(real));
+        return real;
+    }
+    uint32_t integer = 0;
+    std::memcpy(&integer, at, sizeof(integer));
+    return integer;
+}
+
+std::string jsonText(const nlohmann::json& value) {
+    return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+}  // namespace
+
+const std::vector<SettingEntry>& settingEntries() {
+    static const std::vector<SettingEntry> entries = makeEntries();
+    return entries;
+}
+
+std::string rangeText(const SettingInfo& info) {
+    switch (info.type) {
+        case SettingType::toggle:
+            return "true or false";
+        case SettingType::choice: {
+            std::vector<std::string> names;
+            std::ranges::transform(info.options, std::back_inserter(names), &SettingOption::name);
+            return fmt::format("{}", fmt::join(names, ", "));
+        }
+        default:
+            return fmt::format("{:g} to {:g}", info.lowest, info.highest);
+    }
+}
+
+void setSetting(Settings& settings, std::string_view name, const std::string& value) {
+    const SettingEntry& entry = findEntry(name);
+    const auto parsed = parseValue(entry.info, value);
+    if (!parsed) {
+        const char* kind = entry.info.type == SettingType::choice    ? "one of "
+                           : entry.info.type == SettingType::integer ? "a whole number from "
+                           : entry.info.type == SettingType::real    ? "a number from "
+                                                                     : "";
+        failUsage("{} must be {}{}, is '{}'", entry.name, kind, rangeText(entry.info), value);
+    }
+    store(settings, entry.info, *parsed);
+}
+
+void setSetting(Settings& settings, std::string_view assignment) {
+    const size_t equals = assignment.find('=');
+    if (equals == std::string_view::npos) {
+        failUsage("--set wants KEY=VALUE, is '{}'", assignment);
+    }
+    setSetting(settings, assignment.substr(0, equals), std::string(assignment.substr(equals + 1)));
+}
+
+std::string settingText(const Settings& settings, const SettingEntry& entry) {
+    const double value = load(settings, entry.info);
+    if (entry.info.type == SettingType::choice) {
+        return std::ranges::find(entry.info.options, static_cast<uint32_t>(value), &SettingOption::value)->name;
+    }
+    if (entry.info.type == SettingType::toggle) {
+        return value != 0.0 ? "true" : "false";
+    }
+    return entry.info.type == SettingType::real ? fmt::format("{}", static_cast<float>(value))
+                                                : fmt::format("{}", static_cast<uint32_t>(value));
+}
+
+void applySettingsJson(Settings& settings, const nlohmann::json& json, const std::string& where) {
+    if (!json.is_object()) {
+        fail("{}: settings must be an object: {{\"effect\": {{\"name\": value}}}}", where);
+    }
+    for (const auto& [effect, values] : json.items()) {
+        if (!values.is_object()) {
+            fail("{}: {}: must be an object of settings, is {}", where, effect, values.type_name());
+        }
+        for (const auto& [name, value] : values.items()) {
+            try {
+                setSetting(settings, effect + "." + name, jsonText(value));
+            } catch (const UsageError& error) {
+                fail("{}: {}", where, error.what());
+            }
+        }
+    }
+}
+
+}  // namespace reflet

@@ -1,0 +1,54 @@
+// All settings of the frame: one table per effect, here gathered under the names that users type (`effect.name`).
+#pragma once
+
+#include "base/setting_info.h"
+#include "render/bounce/rays.h"
+#include "render/bounce/trace_screen.h"
+#include "render/gbuffer/gbuffer.h"
+#include "render/shadow/shadow.h"
+#include "render/tonemap/tonemap.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace reflet {
+
+struct Settings {
+    MaterialsSettings materials;
+    ShadowSettings shadow;
+    TraceScreenSettings traceScreen;
+    DiffuseSettings diffuse;
+    SpecularSettings specular;
+    TonemapSettings tonemap;
+};
+
+/// A setting with its full name and its place in Settings.
+struct SettingEntry {
+    std::string name;  ///< "trace_screen.maxSteps"
+    SettingInfo info;  ///< offset counts from the start of Settings
+};
+
+/// All of them, in the order of the tables.
+const std::vector<SettingEntry>& settingEntries();
+
+/// Sets one from text. Throws UsageError: an unknown name (naming the nearest), a value that is none of its type, or
+/// out of its range (naming the range).
+void setSetting(Settings& settings, std::string_view name, const std::string& value);
+
+/// `key=value`, as given to --set.
+void setSetting(Settings& settings, std::string_view assignment);
+
+/// The value as text that setSetting takes.
+std::string settingText(const Settings& settings, const SettingEntry& entry);
+
+/// { "trace_screen": { "maxSteps": 64, … }, … }: what the object names is set, the rest stays. `where` starts the
+/// messages. Throws Error as setSetting does.
+void applySettingsJson(Settings& settings, const nlohmann::json& json, const std::string& where);
+
+/// What a setting may be: "0.001 to 100", "on or off", "gamma22, srgb, …".
+std::string rangeText(const SettingInfo& info);
+
+}  // namespace reflet

@@ -1,0 +1,122 @@
+// Fits the sun's shadow map to the view: the visible part of the scene's box, as a convex polyhedron cut by planes.
+#include "render/shadow/shadow.h"
+
+#include "base/error.h"
+
+#include <array>
+#include <cmath>
+
+namespace reflet {
+
+namespace {
+
+using Polygon = std::vector<vec3>;
+
+// The part of a convex polygon on the side where dot(plane, (p, 1)) >= 0 (Sutherland and Hodgman 1974).
+Polygon clip(const Polygon& polygon, const vec4& plane) {
+    Polygon kept;
+    for (size_t i = 0; i < polygon.size(); ++i) {
+        const vec3& a = polygon[i];
+        const vec3& b = polygon[(i + 1) % polygon.size()];
+        const float da = glm::dot(plane, vec4(a, 1.0F));
+        const float db = glm::dot(plane, vec4(b, 1.0F));
+        if (da >= 0.0F) {
+            kept.push_back(a);
+        }
+        if ((da >= 0.0F) != (db >= 0.0F)) {
+            kept.push_back(glm::mix(a, b, da / (da - db)));
+        }
+    }
+    return kept;
+}
+
+std::array<Polygon, 6> boxFaces(const Aabb& box) {
+    constexpr unsigned faces[6][4] = {{0, 2, 6, 4}, {1, 5, 7, 3}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 1, 3, 2}, {4, 6, 7, 5}};
+    std::array<Polygon, 6> polygons;
+    for (size_t i = 0; i < 6; ++i) {
+        for (const unsigned corner : faces[i]) {
+            polygons[i].push_back(box.corner(corner));
+        }
+    }
+    return polygons;
+}
+
+// Left, right, top, bottom, near. There is no far plane: the box ends the view.
+std::array<vec4, 5> frustumPlanes(const mat4& worldToClip) {
+    const mat4 rows = glm::transpose(worldToClip);
+    return {rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1], rows[3] - rows[2]};
+}
+
+// Corners of the intersection of box and view: the box's faces cut by the view, and (where the view's edges pass
+// through the box) the view's faces cut by the box, which a large polygon on each plane stands for.
+Polygon visibleCorners(const Aabb& box, const mat4& clipToWorld) {
+    const auto planes = frustumPlanes(glm::inverse(clipToWorld));
+    Polygon corners;
+    const auto addClipped = [&](Polygon polygon, size_t skip) {
+        for (size_t i = 0; i < planes.size(); ++i) {
+            polygon = i == skip ? polygon : clip(polygon, planes[i]);
+        }
+        corners.insert(corners.end(), polygon.begin(), polygon.end());
+    };
+    for (const Polygon& face : boxFaces(box)) {
+        addClipped(face, planes.size());
+    }
+    const float reach = glm::length(box.size()) * 4.0F;
+    for (size_t i = 0; i < planes.size(); ++i) {
+        const float length = glm::length(vec3(planes[i]));
+        const vec3 n = vec3(planes[i]) / length;
+        const vec3 onPlane = box.center() - n * (glm::dot(n, box.center()) + planes[i].w / length);
+        const vec3 t = glm::normalize(glm::cross(n, std::abs(n.x) < 0.5F ? vec3(1, 0, 0) : vec3(0, 1, 0))) * reach;
+        const vec3 b = glm::normalize(glm::cross(n, t)) * reach;
+        Polygon large = {onPlane - t - b, onPlane + t - b, onPlane + t + b, onPlane - t + b};
+        for (int axis = 0; axis < 3; ++axis) {
+            vec4 lower(0.0F, 0.0F, 0.0F, -box.min[axis]);
+            vec4 upper(0.0F, 0.0F, 0.0F, box.max[axis]);
+            lower[axis] = 1.0F;
+            upper[axis] = -1.0F;
+            large = clip(clip(large, lower), upper);
+        }
+        addClipped(large, i);
+    }
+    return corners;
+}
+
+}  // namespace
+
+ShadowMapParams fitSunShadow(const mat4& clipToWorld, const Aabb& sceneBounds, const vec3& direction,
+                             uint resolution) {
+    const vec3 toSun = -direction;
+    const vec3 side = glm::normalize(glm::cross(std::abs(toSun.y) < 0.99F ? vec3(0, 1, 0) : vec3(1, 0, 0), toSun));
+    const mat3 worldToLight = glm::transpose(mat3(side, glm::cross(toSun, side), toSun));
+
+    Aabb seen;
+    for (const vec3& p : visibleCorners(sceneBounds, clipToWorld)) {
+        seen.add(worldToLight * p);
+    }
+    Aabb all = transformed(sceneBounds, mat4(worldToLight));
+    if (seen.empty()) {  // the view sees nothing of the scene
+        seen = all;
+    }
+    // A texel's margin on each side, so that look-ups at the edge find their surface.
+    const float extent = std::max({seen.size().x, seen.size().y, 1e-3F});
+    const vec2 margin(2.0F * extent / static_cast<float>(resolution));
+    const vec2 low = vec2(seen.min) - margin;
+    const vec2 high = vec2(seen.max) + margin;
+    const float thick = std::max(1e-3F, 1e-4F * glm::length(all.size()));
+    const float nearest = all.max.z + thick;
+    const float farthest = seen.min.z - thick;
+
+    mat4 lightToShadow(0.0F);
+    lightToShadow[0][0] = 2.0F / (high.x - low.x);
+    lightToShadow[1][1] = 2.0F / (high.y - low.y);
+    lightToShadow[2][2] = 1.0F / (nearest - farthest);
+    lightToShadow[3] = vec4(-(high + low) / (high - low), -farthest / (nearest - farthest), 1.0F);
+    ShadowMapParams map{};
+    map.worldToShadow = lightToShadow * mat4(worldToLight);
+    map.toSun = toSun;
+    map.texelSize = std::max(high.x - low.x, high.y - low.y) / static_cast<float>(resolution);
+    map.depthRange = nearest - farthest;
+    return map;
+}
+
+}  // namespace reflet

@@ -1,0 +1,16 @@
+// Records the tone map.
+#include "render/tonemap/tonemap.h"
+
+namespace reflet {
+
+gpu::Image tonemap(gpu::Frame& f, gpu::Image radiance, const TonemapSettings& settings) {
+    const gpu::Image display = f.image("display", VK_FORMAT_R8G8B8A8_UNORM, radiance.size);
+    f.compute("tonemap", "tonemap.comp")
+        .read("radiance", radiance)
+        .write("display", display)
+        .params(TonemapParams{settings, radiance.size})
+        .dispatch(radiance.size);
+    return display;
+}
+
+}  // namespace reflet

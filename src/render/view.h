@@ -1,0 +1,27 @@
+// A camera as passes see it. Shared by C++ and GLSL.
+#ifndef REFLET_RENDER_VIEW_H
+#define REFLET_RENDER_VIEW_H
+
+#include "base/shared.h"
+
+SHARED_BEGIN
+
+// Clip space is Vulkan's with reversed depth: 1 at the near plane, 0 at infinity. uv = 0.5 + 0.5 · ndc.xy.
+struct ViewParams {
+    mat4 worldToClip;
+    mat4 clipToWorld;
+    mat4 previousWorldToClip;  // of the last frame; equal to worldToClip in the first
+    vec4 eye;                  // world space: the camera's position with w = 1, or (orthographic) the direction
+                               // toward the camera with w = 0
+    vec4 viewPlane;            // dot(viewPlane, (p, 1)): distance of a world point in front of the camera [m]
+    vec4 depthToDistance;      // that distance from a depth d: (x + y d) / (z + w d)
+    vec2 size;                 // pixels
+    vec2 pixel;                // 1 / size
+    float pixelAngle;          // what a pixel covers at distance 1 [m/m]; orthographic: at any distance [m]
+    uint frame;                // counts up; decorrelates the noise of successive frames
+    uint seed;                 // of the whole picture
+};
+
+SHARED_END
+
+#endif

@@ -1,0 +1,90 @@
+// The surface model: Lambert under GGX with height-correlated Smith shadowing (Heitz, Understanding the
+// Masking-Shadowing Function, JCGT 2014). Single scattering is compensated by its directional albedo (Turquin,
+// Practical Multiple Scattering Compensation, 2019), and the diffuse base gets what the specular layer leaves, so that
+// a white surface in a white environment is white at every roughness, metal or not.
+#ifndef REFLET_GGX_GLSL
+#define REFLET_GGX_GLSL
+
+#include "shaders/sampling.glsl"
+
+// Below this perceptual roughness a point-like light's reflection would be smaller than half floats can hold.
+const float minLightRoughness = 0.045;
+const float dielectricF0 = 0.04;
+
+// D, for cos of the angle between normal and half vector.
+float ggxDistribution(float nh, float alpha) {
+    float a2 = alpha * alpha;
+    float d = (nh * a2 - nh) * nh + 1.0;
+    return a2 / (pi * d * d);
+}
+
+// V = G2 / (4 nl nv).
+float ggxVisibility(float nl, float nv, float alpha) {
+    float a2 = alpha * alpha;
+    float v = nl * sqrt(nv * nv * (1.0 - a2) + a2);
+    float l = nv * sqrt(nl * nl * (1.0 - a2) + a2);
+    return 0.5 / max(v + l, 1e-7);
+}
+
+vec3 fresnelSchlick(vec3 f0, float vh) {
+    float m = clamp(1.0 - vh, 0.0, 1.0);
+    float m2 = m * m;
+    return f0 + (1.0 - f0) * (m2 * m2 * m);
+}
+
+// What a material is at one point, ready for light from any side.
+struct Surface {
+    vec3 diffuse;       // albedo of the diffuse base, times what the specular layer lets through
+    vec3 f0;
+    float roughness;    // perceptual
+    vec3 compensation;  // factor on single-scattering specular
+    vec3 specular;      // directional albedo toward the camera, compensated
+};
+
+// table: directional albedo of the single-scattering lobe toward the camera as A · F0 + B (texel (nv, roughness) of the
+// image made by ggx_table.comp). lambertOnly: no specular layer at all.
+Surface makeSurface(vec3 baseColor, float metallic, float roughness, vec2 table, bool lambertOnly) {
+    Surface s;
+    s.roughness = roughness;
+    if (lambertOnly) {
+        s.diffuse = baseColor;
+        s.f0 = vec3(0.0);
+        s.compensation = vec3(0.0);
+        s.specular = vec3(0.0);
+        return s;
+    }
+    s.f0 = mix(vec3(dielectricF0), baseColor, metallic);
+    float lost = 1.0 / max(table.x + table.y, 1e-3) - 1.0;
+    s.compensation = 1.0 + s.f0 * lost;
+    s.specular = min((s.f0 * table.x + table.y) * s.compensation, vec3(1.0));
+    float coat = (dielectricF0 * table.x + table.y) * (1.0 + dielectricF0 * lost);
+    s.diffuse = baseColor * ((1.0 - metallic) * (1.0 - coat));
+    return s;
+}
+
+// Where the table of directional albedos holds this angle and roughness: its outer texels stand for 0 and 1.
+const float ggxTableSize = 32.0;
+vec2 ggxTableUv(float nv, float roughness) {
+    return (vec2(clamp(nv, 0.0, 1.0), roughness) * (ggxTableSize - 1.0) + 0.5) / ggxTableSize;
+}
+
+// Radiance toward v for irradiance 1 on a surface that faces the light: BRDF times cos. All unit, all away from the
+// point.
+vec3 reflectLight(Surface s, vec3 n, vec3 v, vec3 l) {
+    float nl = dot(n, l);
+    if (nl <= 0.0) {
+        return vec3(0.0);
+    }
+    vec3 result = s.diffuse * (nl / pi);
+    float nv = max(dot(n, v), 1e-4);
+    if (s.compensation.x > 0.0) {
+        vec3 h = normalize(v + l);
+        float roughness = max(s.roughness, minLightRoughness);
+        float alpha = roughness * roughness;
+        float dv = ggxDistribution(clamp(dot(n, h), 0.0, 1.0), alpha) * ggxVisibility(nl, nv, alpha);
+        result += fresnelSchlick(s.f0, dot(v, h)) * s.compensation * (dv * nl);
+    }
+    return result;
+}
+
+#endif

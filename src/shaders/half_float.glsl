@@ -1,0 +1,13 @@
+// Keeps radiance inside what a half float holds, so that no inf or NaN gets into an image that a filter will spread.
+#ifndef REFLET_HALF_FLOAT_GLSL
+#define REFLET_HALF_FLOAT_GLSL
+
+const float largestHalf = 65504.0;
+
+// Negative values and NaN become 0.
+vec3 clampToHalf(vec3 v) {
+    v = mix(v, vec3(0.0), isnan(v));
+    return clamp(v, vec3(0.0), vec3(largestHalf));
+}
+
+#endif

@@ -1,0 +1,25 @@
+// Between pixels, clip space and the world. Reversed depth: 1 near, 0 at infinity; uv (0,0) is the top left corner.
+#ifndef REFLET_PROJECTION_GLSL
+#define REFLET_PROJECTION_GLSL
+
+vec2 uvToNdc(vec2 uv) { return 2.0 * uv - 1.0; }
+vec2 ndcToUv(vec2 ndc) { return 0.5 * ndc + 0.5; }
+
+vec2 pixelToUv(ivec2 pixel, vec2 pixelSize) { return (vec2(pixel) + 0.5) * pixelSize; }
+
+// The point at this uv whose depth the buffer holds. depth > 0: the sky has no position.
+vec3 uvToWorld(vec2 uv, float depth, mat4 clipToWorld) {
+    vec4 p = clipToWorld * vec4(uvToNdc(uv), depth, 1.0);
+    return p.xyz / p.w;
+}
+
+// Distance in front of the camera [m], along its axis, for a depth; very large for the sky.
+float depthToViewDistance(float depth, vec4 depthToDistance) {
+    float denominator = depthToDistance.z + depthToDistance.w * depth;
+    return (depthToDistance.x + depthToDistance.y * depth) / max(denominator, 1e-20);
+}
+
+// Unit direction from the point toward the camera. eye: position with w = 1, or direction with w = 0.
+vec3 directionToEye(vec3 positionW, vec4 eye) { return normalize(eye.xyz - positionW * eye.w); }
+
+#endif
