@@ -107,7 +107,7 @@ tinygltf::Model parseStructure(json document, const GltfReport& report) {
     std::string warnings;
     tinygltf::TinyGLTF loader;
     if (!loader.LoadASCIIFromString(&model, &errors, &warnings, text.data(), static_cast<unsigned>(text.size()), "")) {
-        report.fail("JSON", "tinygltf: {}", errors);
+        report.fail("JSON", "tinygltf: {}", errors.substr(0, errors.find('\n')));
     }
     restoreIndices(model, full, report);
     return model;

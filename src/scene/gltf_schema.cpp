@@ -155,6 +155,9 @@ private:
             fail(&place, "is {}, not between {} and {}", number, min, max);
         }
         const auto result = static_cast<uint64_t>(number);  // also of 3.0 and 3e0, which tinygltf takes for absent
+        if (result % field.multipleOf != 0) {
+            fail(&place, "is {}, not a multiple of {}", result, field.multipleOf);
+        }
         if (!field.numbers.empty() &&
             std::find(field.numbers.begin(), field.numbers.end(), result) == field.numbers.end()) {
             fail(&place, "is {}, not one of {}", result, fmt::join(field.numbers, " "));

@@ -37,7 +37,7 @@ constexpr std::array bufferView{
     Field{.name = "buffer", .type = Type::index, .required = true, .refersTo = "buffers"},
     Field{.name = "byteOffset", .type = Type::integer},
     Field{.name = "byteLength", .type = Type::integer, .required = true, .min = 1},
-    Field{.name = "byteStride", .type = Type::integer, .min = 4, .max = 252},
+    Field{.name = "byteStride", .type = Type::integer, .min = 4, .max = 252, .multipleOf = 4},
 };
 constexpr std::array sparseIndices{
     Field{.name = "bufferView", .type = Type::index, .required = true, .refersTo = "bufferViews"},

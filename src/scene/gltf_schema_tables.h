@@ -22,6 +22,7 @@ struct Field {
     const char* refersTo = nullptr;                   ///< index, indexMap: the array that it is an index into
     double min = -std::numeric_limits<float>::max();  ///< every number must fit a float
     double max = std::numeric_limits<float>::max();
+    uint64_t multipleOf = 1;                    ///< integer
     std::span<const std::string_view> words{};  ///< text: the only ones; empty: any
     std::span<const uint64_t> numbers{};        ///< integer: the only ones; empty: any
     std::span<const Field> fields{};            ///< object

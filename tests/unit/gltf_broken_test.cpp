@@ -1,0 +1,388 @@
+// Broken glTF files: each gets one line that names the file and the part of it that is broken.
+#include "base/error.h"
+#include "gltf_builder.h"
+#include "scene/gltf_report.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <ostream>
+
+namespace reflet::test {
+namespace {
+
+using nlohmann::json;
+
+/// What load(path) complains about, after "FILE: "; empty if it does not.
+std::string complaint(const std::filesystem::path& path) {
+    try {
+        loadGltf(path);
+    } catch (const Error& error) {
+        const std::string message = error.what();
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+        EXPECT_EQ(message.rfind(path.string() + ": ", 0), 0U) << message;
+        return message.substr(std::min(message.size(), path.string().size() + 2));
+    }
+    return "";
+}
+
+struct BrokenCase {
+    const char* name;
+    std::function<void(GltfBuilder&)> breakIt;
+    const char* starts;  ///< how the complaint starts: the part
+    const char* says = "";
+};
+
+std::ostream& operator<<(std::ostream& stream, const BrokenCase& broken) {
+    return stream << broken.name;
+}
+
+BrokenCase set(const char* name, const char* pointer, json value, const char* starts, const char* says = "") {
+    return {name, [=](GltfBuilder& b) { b.document[json::json_pointer(pointer)] = value; }, starts, says};
+}
+
+BrokenCase erase(const char* name, const char* pointer, const char* key, const char* starts) {
+    return {name, [=](GltfBuilder& b) { b.document[json::json_pointer(pointer)].erase(key); }, starts, "is missing"};
+}
+
+/// Overwrites bytes of a view of everything().
+template <class T>
+BrokenCase poke(const char* name, size_t view, size_t element, T value, const char* starts, const char* says) {
+    return {name,
+            [=](GltfBuilder& b) {
+                const size_t at = b.document["bufferViews"][view]["byteOffset"];
+                std::memcpy(b.bin.data() + at + element * sizeof(T), &value, sizeof(T));
+            },
+            starts, says};
+}
+
+class BrokenGltf : public ::testing::TestWithParam<BrokenCase> {};
+
+TEST_P(BrokenGltf, IsToldInOneLineThatNamesTheBrokenPart) {
+    GltfBuilder b = everything();
+    GetParam().breakIt(b);
+    const auto folder = testFolder();
+    for (const auto& path : {b.writeGltf(folder / "a.gltf"), [&] {
+                                 b.document.erase("buffers");
+                                 return b.writeGlb(folder / "b.glb");
+                             }()}) {
+        const std::string message = complaint(path);
+        EXPECT_EQ(message.rfind(GetParam().starts, 0), 0U) << message;
+        EXPECT_NE(message.find(GetParam().says), std::string::npos) << message;
+    }
+}
+
+std::string caseName(const ::testing::TestParamInfo<BrokenCase>& info) {
+    return info.param.name;
+}
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+INSTANTIATE_TEST_SUITE_P(
+    Header, BrokenGltf,
+    ::testing::Values(erase("NoAsset", "", "asset", "asset: "),
+                      erase("NoVersion", "/asset", "version", "asset.version: "),
+                      set("Version1", "/asset/version", "1.0", "asset.version: is 1.0"),
+                      set("VersionNumber", "/asset/version", 2.0, "asset.version: is a number, not a string"),
+                      set("MinVersion", "/asset/minVersion", "2.1", "asset.minVersion: is 2.1"),
+                      set("RequiredExtension", "/extensionsRequired", {"ACME_holograms"},
+                          "extensionsRequired: ", "ACME_holograms"),
+                      set("NodesAreAnObject", "/nodes", json::object(), "nodes: is an object, not an array"),
+                      set("NodeIsANumber", "/nodes/1", 7, "nodes[1]: is a number, not an object"),
+                      set("ScenesAreNull", "/scenes", nullptr, "scenes: is null, not an array")),
+    caseName);
+
+INSTANTIATE_TEST_SUITE_P(
+    IndexOutOfRange, BrokenGltf,
+    ::testing::Values(
+        set("Scene", "/scene", 5, "scene: is 5, but there are 1 scenes"),
+        set("SceneNode", "/scenes/0/nodes/0", 99, "scenes[0].nodes[0]: is 99, but there are 5 nodes"),
+        set("Child", "/nodes/0/children/1", 99, "nodes[0].children[1]: is 99"),
+        set("NodeMesh", "/nodes/1/mesh", 2, "nodes[1].mesh: is 2, but there are 2 meshes"),
+        set("NodeCamera", "/nodes/1/camera", 1, "nodes[1].camera: is 1"),
+        set("NodeSkin", "/nodes/1/skin", 0, "nodes[1].skin: is 0, but there are 0 skins"),
+        set("NodeLight", "/nodes/3/extensions/KHR_lights_punctual/light", 2,
+            "nodes[3].extensions.KHR_lights_punctual.light: is 2, but there are 2 lights"),
+        set("Attribute", "/meshes/0/primitives/0/attributes/NORMAL", 50,
+            "meshes[0].primitives[0].attributes.NORMAL: is 50"),
+        set("MorphTarget", "/meshes/0/primitives/0/targets", json::array({{{"POSITION", 50}}}),
+            "meshes[0].primitives[0].targets[0].POSITION: is 50"),
+        set("Indices", "/meshes/0/primitives/0/indices", -1, "meshes[0].primitives[0].indices: is -1"),
+        set("PrimitiveMaterial", "/meshes/0/primitives/0/material", 1, "meshes[0].primitives[0].material: is 1"),
+        set("MaterialTexture", "/materials/0/normalTexture/index", 2, "materials[0].normalTexture.index: is 2"),
+        set("TextureImage", "/textures/1/source", 2, "textures[1].source: is 2, but there are 2 images"),
+        set("TextureSampler", "/textures/0/sampler", 1, "textures[0].sampler: is 1"),
+        set("ImageView", "/images/0/bufferView", 99, "images[0].bufferView: is 99"),
+        set("AccessorView", "/accessors/0/bufferView", 99, "accessors[0].bufferView: is 99"),
+        set("SparseIndicesView", "/accessors/4/sparse/indices/bufferView", 99,
+            "accessors[4].sparse.indices.bufferView: is 99"),
+        set("SparseValuesView", "/accessors/4/sparse/values/bufferView", 99,
+            "accessors[4].sparse.values.bufferView: is 99"),
+        set("ViewBuffer", "/bufferViews/0/buffer", 1, "bufferViews[0].buffer: is 1, but there are 1 buffers"),
+        set("DracoView", "/meshes/1/primitives/0/extensions/KHR_draco_mesh_compression/bufferView", 99,
+            "meshes[1].primitives[0].extensions.KHR_draco_mesh_compression.bufferView: is 99"),
+        set("DracoAttribute", "/meshes/1/primitives/0/extensions/KHR_draco_mesh_compression/attributes/NORMAL", 9,
+            "meshes[1].primitives[0].extensions.KHR_draco_mesh_compression.attributes.NORMAL: ", "9"),
+        set("HalfAnIndex", "/nodes/1/mesh", 0.5, "nodes[1].mesh: is 0.5, not an integer"),
+        set("IndexIsText", "/nodes/1/mesh", "0", "nodes[1].mesh: is a string")),
+    caseName);
+
+INSTANTIATE_TEST_SUITE_P(
+    Reach, BrokenGltf,
+    ::testing::Values(
+        set("AccessorPastItsView", "/accessors/0/count", 5, "accessors[0]: reaches 12 bytes past bufferViews[0]"),
+        set("AccessorOffset", "/accessors/0/byteOffset", 4, "accessors[0]: reaches 4 bytes past bufferViews[0]"),
+        set("ViewPastItsBuffer", "/bufferViews/0/byteLength", 1000000, "bufferViews[0]: reaches ", "past buffers[0]"),
+        set("HugeCount", "/accessors/0/count", 4294967294U, "accessors[0]: reaches "),
+        set("CountOverflow", "/accessors/0/count", 18446744073709551615U, "accessors[0].count: is "),
+        set("NoCount", "/accessors/0/count", 0, "accessors[0].count: is 0"),
+        set("OffsetOverflow", "/accessors/0/byteOffset", 18446744073709551608U, "accessors[0].byteOffset: is "),
+        set("NegativeOffset", "/accessors/0/byteOffset", -12, "accessors[0].byteOffset: is -12"),
+        set("ViewOffsetOverflow", "/bufferViews/0/byteOffset", 9007199254740992U, "bufferViews[0]: reaches "),
+        set("NegativeStride", "/bufferViews/0/byteStride", -12, "bufferViews[0].byteStride: is -12"),
+        set("HugeStride", "/bufferViews/0/byteStride", 256, "bufferViews[0].byteStride: is 256"),
+        set("StrideBelowElement", "/bufferViews/0/byteStride", 8, "accessors[0]: has elements of 12 bytes",
+            "bufferViews[0].byteStride is 8"),
+        set("StrideOfThirteen", "/bufferViews/0/byteStride", 13,
+            "bufferViews[0].byteStride: is 13, not a multiple of 4"),
+        set("Misaligned", "/bufferViews/1/byteOffset", 1, "accessors[1]: is misaligned"),
+        set("ComponentType", "/accessors/0/componentType", 5124, "accessors[0].componentType: is 5124"),
+        set("AccessorType", "/accessors/0/type", "VEC5", "accessors[0].type: is \"VEC5\""),
+        set("SparseCount", "/accessors/4/sparse/count", 5, "accessors[4].sparse.count: is 5"),
+        set("SparseIndicesReach", "/accessors/4/sparse/count", 2, "accessors[4].sparse.indices: reaches 2 bytes past"),
+        set("SparseValuesOffset", "/accessors/4/sparse/values/byteOffset", 4,
+            "accessors[4].sparse.values: reaches 4 bytes past"),
+        set("UnbackedCount", "/accessors/0", {{"componentType", 5126}, {"type", "VEC3"}, {"count", 4000000000U}},
+            "accessors[0]: has 4000000000 elements without a buffer view"),
+        BrokenCase{"BufferShorterThanItSays",
+                   [](GltfBuilder& b) {
+                       b.add("buffers", {{"byteLength", b.bin.size() + 100},
+                                         {"uri", "data:application/octet-stream;base64," + base64(b.bin)}});
+                       b.document["bufferViews"][0]["byteLength"] = 1U << 30U;  // the .glb's complaint
+                   },
+                   "buffer", ""}),
+    caseName);
+
+INSTANTIATE_TEST_SUITE_P(
+    Geometry, BrokenGltf,
+    ::testing::Values(
+        poke("NanPosition", 0, 4, nan, "meshes[0].primitives[0].attributes.POSITION: ", "vertex 1 is not finite"),
+        poke("InfinitePosition", 0, 4, infinity, "meshes[0].primitives[0].attributes.POSITION: ", "vertex 1"),
+        poke<uint16_t>("IndexPastTheVertices", 3, 2, 4, "accessors[3]: index 2 is 4, but there are 4 vertices", ""),
+        poke<uint16_t>("RestartIndex", 3, 2, 0xFFFF, "accessors[3]: index 2 is 65535", "restarts"),
+        poke<uint16_t>("SparseIndexPastTheEnd", 4, 0, 4, "accessors[4].sparse.indices: index 0 is 4", "4 elements"),
+        set("WordRestartIndex", "/accessors/3",
+            {{"bufferView", 1}, {"componentType", uintType}, {"type", "SCALAR"}, {"count", 3}, {"byteOffset", 8}},
+            "accessors[3]: index 0 is 1065353216"),
+        set("SevenIndices", "/accessors/3/count", 5, "meshes[0].primitives[0]: 5 indices do not make whole triangles"),
+        set("PositionsOfTwo", "/accessors/0/type", "VEC2", "accessors[0]: has 2 components, a POSITION has 3"),
+        set("PositionsOfWords", "/accessors/0/componentType", uintType, "accessors[0].componentType: is 5125"),
+        set("FloatIndices", "/meshes/0/primitives/0/indices", 2, "accessors[2].componentType: is 5126"),
+        set("VectorIndices", "/accessors/3",
+            {{"bufferView", 3}, {"componentType", ushortType}, {"type", "VEC2"}, {"count", 3}},
+            "accessors[3].type: is not SCALAR"),
+        set("TooFewNormals", "/accessors/1/count", 3, "meshes[0].primitives[0].attributes.NORMAL: has 3 vertices"),
+        set("Mode", "/meshes/0/primitives/0/mode", 7, "meshes[0].primitives[0].mode: is 7"),
+        erase("NoAttributes", "/meshes/0/primitives/0", "attributes", "meshes[0].primitives[0].attributes: "),
+        erase("NoPrimitives", "/meshes/0", "primitives", "meshes[0].primitives: ")),
+    caseName);
+
+INSTANTIATE_TEST_SUITE_P(
+    Nodes, BrokenGltf,
+    ::testing::Values(
+        set("Cycle", "/nodes/4/children", {3}, "nodes[3]: has two parents"),
+        set("RootInACycle", "/nodes/4/children", {0}, "nodes[0]: is, or hangs below, a node that is its own ancestor"),
+        set("OwnChild", "/nodes/4/children", {4}, "nodes[4]: has two parents"),
+        set("TwoParents", "/nodes/3/children", {4, 1}, "nodes[1]: has two parents"),
+        set("SceneNamesAChild", "/scenes/0/nodes", {0, 4}, "scenes[0].nodes: names nodes[4]", "child"),
+        set("SceneNamesTwice", "/scenes/0/nodes", {0, 0}, "scenes[0].nodes: names nodes[0]", "already"),
+        set("ShortMatrix", "/nodes/1/matrix", {1, 0, 0}, "nodes[1].matrix: has 3 elements, not 16"),
+        set("ProjectiveMatrix", "/nodes/1/matrix", {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+            "nodes[1].matrix: its last row"),
+        set("HugeTranslation", "/nodes/0/translation", {1e300, 0, 0}, "nodes[0].translation[0]: is 1e+300"),
+        set("HugeProduct", "/nodes/0/scale", {1e38, 1e38, 3e38}, "nodes[4]: its place in the world is not finite"),
+        set("MeshAtInfinity", "/nodes/1", {{"mesh", 0}, {"scale", {3e38, 3e38, 3e38}}},
+            "nodes[1]: its mesh reaches past"),
+        set("NoRotation", "/nodes/2/rotation", {0, 0, 0, 0}, "nodes[2].rotation: is no rotation"),
+        set("NullScale", "/nodes/2/scale", {1, nullptr, 1}, "nodes[2].scale[1]: is null, not a number"),
+        set("CameraType", "/cameras/0/type", "fisheye", "cameras[0].type: is \"fisheye\""),
+        set("CameraWithoutItsObject", "/cameras/0/type", "orthographic", "cameras[0].orthographic: is missing"),
+        set("CameraAngle", "/cameras/0/perspective/yfov", 4, "cameras[0].perspective.yfov: is 4"),
+        set("CameraRange", "/cameras/0",
+            {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 2}, {"zfar", 1}}}},
+            "cameras[0].orthographic: zfar 1 is not beyond znear 2"),
+        set("LightType", "/extensions/KHR_lights_punctual/lights/0/type", "area",
+            "extensions.KHR_lights_punctual.lights[0].type: is \"area\""),
+        erase("SpotWithoutCone", "/extensions/KHR_lights_punctual/lights/1", "spot",
+              "extensions.KHR_lights_punctual.lights[1].spot: "),
+        set("SpotCone", "/extensions/KHR_lights_punctual/lights/1/spot/innerConeAngle", 0.5,
+            "extensions.KHR_lights_punctual.lights[1].spot: innerConeAngle 0.5"),
+        set("NegativeLight", "/extensions/KHR_lights_punctual/lights/0/intensity", -1,
+            "extensions.KHR_lights_punctual.lights[0].intensity: is -1")),
+    caseName);
+
+INSTANTIATE_TEST_SUITE_P(
+    Materials, BrokenGltf,
+    ::testing::Values(
+        set("Color", "/materials/0/pbrMetallicRoughness/baseColorFactor", {1, 1, 1},
+            "materials[0].pbrMetallicRoughness.baseColorFactor: has 3 elements, not 4"),
+        set("Roughness", "/materials/0/pbrMetallicRoughness/roughnessFactor", 1.5,
+            "materials[0].pbrMetallicRoughness.roughnessFactor: is 1.5"),
+        set("AlphaMode", "/materials/0/alphaMode", "GLASS", "materials[0].alphaMode: is \"GLASS\""),
+        set("Filter", "/samplers/0/magFilter", 9987, "samplers[0].magFilter: is 9987"),
+        erase("TextureIndex", "/materials/0/normalTexture", "index", "materials[0].normalTexture.index: "),
+        set("UvScale", "/materials/0/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/scale", {1},
+            "materials[0].pbrMetallicRoughness.baseColorTexture.extensions.KHR_texture_transform.scale: has 1"),
+        poke<uint8_t>("NotAnImage", 6, 0, 0, "images[0]: is neither PNG nor JPEG", ""),
+        poke<uint8_t>("GiganticImage", 6, 17, 0x0F, "images[0]: has 983042 x 2 pixels", ""),
+        poke<uint64_t>("AQuarterGigapixelInAFewBytes", 6, 2, 0x0040000000400000ULL, "images[0]: claims 16384 x 16384",
+                       ""),
+        poke<uint8_t>("TornImage", 6, 43, 0xFF, "images[0]: is a broken image", ""),
+        set("ImageWithoutSource", "/images/0", json::object(), "images[0]: has neither a uri nor a bufferView")),
+    caseName);
+
+INSTANTIATE_TEST_SUITE_P(
+    Uris, BrokenGltf,
+    ::testing::Values(
+        set("MissingFile", "/images/0", {{"uri", "gone.png"}}, "images[0].uri: there is no file "),
+        set("Folder", "/images/0", {{"uri", "."}}, "images[0].uri: ", "is not a file"),
+        set("ParentFolder", "/images/0", {{"uri", "../x.png"}}, "images[0].uri: ../x.png leads out"),
+        set("ParentInside", "/images/0", {{"uri", "a/../../x.png"}}, "images[0].uri: ", "leads out"),
+        set("EncodedParent", "/images/0", {{"uri", "%2e%2E/x.png"}}, "images[0].uri: ", "leads out"),
+        set("EncodedSlash", "/images/0", {{"uri", "..%2Fx.png"}}, "images[0].uri: ", "leads out"),
+        set("Backslash", "/images/0", {{"uri", "..\\x.png"}}, "images[0].uri: ", "leads out"),
+        set("Absolute", "/images/0", {{"uri", "/etc/passwd"}}, "images[0].uri: /etc/passwd leads out"),
+        set("FileScheme", "/images/0", {{"uri", "file:///etc/passwd"}}, "images[0].uri: ", "is not a file"),
+        set("Http", "/images/0", {{"uri", "http://example.com/x.png"}}, "images[0].uri: ", "is not a file"),
+        set("EncodedScheme", "/images/0", {{"uri", "http%3A//example.com"}}, "images[0].uri: ", "is not a file"),
+        set("Nul", "/images/0", {{"uri", "x%00.png"}}, "images[0].uri: ", "leads out"),
+        set("NewLine", "/images/0", {{"uri", "x\ny.png"}}, "images[0].uri: there is no file "),
+        set("DataWithoutComma", "/images/0", {{"uri", "data:image/png;base64"}}, "images[0].uri: ", "without data"),
+        set("DataNotBase64", "/images/0", {{"uri", "data:image/png;base64,iVBO*w0K"}}, "images[0].uri: character 4"),
+        set("DataCutOff", "/images/0", {{"uri", "data:image/png;base64,iVBOR"}}, "images[0].uri: ", "cut off")),
+    caseName);
+
+INSTANTIATE_TEST_SUITE_P(
+    Draco, BrokenGltf,
+    ::testing::Values(
+        poke<uint8_t>("Magic", 8, 0, 'X', "meshes[1].primitives[0].extensions.KHR_draco_mesh_compression: ", "header"),
+        poke<uint8_t>("Version", 8, 5, 1, "meshes[1].primitives[0].extensions.KHR_draco_mesh_compression: ", "2.2"),
+        poke<uint8_t>("PointCloud", 8, 7, 0,
+                      "meshes[1].primitives[0].extensions.KHR_draco_mesh_compression: ", "point cloud"),
+        poke<uint32_t>("Claims", 8, 3, 0xFFFFFFFF,
+                       "meshes[1].primitives[0].extensions.KHR_draco_mesh_compression: ", ""),
+        set("CutOff", "/bufferViews/8/byteLength", 30,
+            "meshes[1].primitives[0].extensions.KHR_draco_mesh_compression: its Draco data is broken"),
+        set("UnknownAttribute", "/meshes/1/primitives/0/extensions/KHR_draco_mesh_compression/attributes",
+            {{"POSITION", 0}, {"TEXCOORD_0", 1}},
+            "meshes[1].primitives[0].extensions.KHR_draco_mesh_compression.attributes.TEXCOORD_0: is not an attribute"),
+        set("WrongComponents", "/accessors/6/type", "VEC2",
+            "meshes[1].primitives[0].extensions.KHR_draco_mesh_compression.attributes.NORMAL: has 3 components")),
+    caseName);
+
+struct BrokenBytes {
+    const char* name;
+    std::string bytes;
+    const char* starts;
+};
+
+std::ostream& operator<<(std::ostream& stream, const BrokenBytes& broken) {
+    return stream << broken.name;
+}
+
+class BrokenGltfBytes : public ::testing::TestWithParam<BrokenBytes> {};
+
+TEST_P(BrokenGltfBytes, AreToldInOneLine) {
+    const auto path = testFolder() / "scene.gltf";
+    writeBytes(path, GetParam().bytes);
+    const std::string message = complaint(path);
+    EXPECT_EQ(message.rfind(GetParam().starts, 0), 0U) << message;
+}
+
+std::string bytesName(const ::testing::TestParamInfo<BrokenBytes>& info) {
+    return info.param.name;
+}
+
+std::string glbWith(size_t at, char value) {
+    std::string bytes = triangle().glbBytes();
+    bytes[at] = value;
+    return bytes;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Container, BrokenGltfBytes,
+    ::testing::Values(BrokenBytes{"Empty", "", "is empty"},
+                      BrokenBytes{"DocumentIsAnArray", "[]", "JSON: is an array, not an object"},
+                      BrokenBytes{"NotJson", "hello\n<world>", "JSON: is not JSON at line 1, byte 1 of 13"},
+                      BrokenBytes{"CutOff", R"({"asset":)", "JSON: is not JSON at line 1"},
+                      BrokenBytes{"NanLiteral", R"({"asset":{"version":NaN}})", "JSON: is not JSON"},
+                      BrokenBytes{"NumberOverflow", R"({"asset":{"version":1e999}})", "JSON: "},
+                      BrokenBytes{"BadUtf8", "{\"a\":\"\xFF\xFE\"}", "JSON: is not JSON"},
+                      BrokenBytes{"DeepArrays", std::string(1000000, '['), "JSON: is nested more than 128 deep"},
+                      BrokenBytes{"GlbHeaderOnly", "glTF\2", "GLB header: is cut off"},
+                      BrokenBytes{"GlbVersion1", glbWith(4, 1), "GLB header: says version 1"},
+                      BrokenBytes{"GlbLength", glbWith(11, 1), "GLB header: says the file has "},
+                      BrokenBytes{"GlbFirstChunkLength", glbWith(15, 1), "GLB chunk: at byte 12 says it has "},
+                      BrokenBytes{"GlbFirstChunkType", glbWith(16, 'X'), "GLB chunk: the first one is not JSON"},
+                      BrokenBytes{"GlbMagic", glbWith(0, 'X'), "JSON: is not JSON"}),
+    bytesName);
+
+TEST(BrokenGltfFile, AMissingFileAndAFolderAreTold) {
+    const auto folder = testFolder();
+    EXPECT_EQ(complaint(folder / "gone.gltf").rfind("there is no file", 0), 0U);
+    EXPECT_NE(complaint(folder).find("is not a file"), std::string::npos);
+}
+
+TEST(BrokenGltfFile, ASymbolicLinkOutOfTheFolderIsRefused) {
+    const auto folder = testFolder();
+    std::filesystem::create_directories(folder / "inside");
+    writeBytes(folder / "secret.png", "secret");
+    std::filesystem::create_symlink(folder / "secret.png", folder / "inside" / "link.png");
+    GltfBuilder b = everything();
+    b.document["images"][0] = {{"uri", "link.png"}};
+    const auto path = b.writeGltf(folder / "inside" / "scene.gltf");
+    EXPECT_EQ(complaint(path), "images[0].uri: link.png leads out of the scene's folder");
+}
+
+TEST(BrokenGltfFile, AShortBufferFileIsTold) {
+    const auto folder = testFolder();
+    GltfBuilder b = triangle();
+    writeBytes(folder / "short.bin", "1234567890");
+    b.add("buffers", {{"byteLength", 36}, {"uri", "short.bin"}});
+    EXPECT_EQ(complaint(b.writeGltf(folder / "scene.gltf")), "buffers[0]: has 10 bytes, but its byteLength is 36");
+}
+
+TEST(BrokenGltfFile, ASceneCannotTakeUnboundedMemory) {
+    GltfReport report("scene.gltf", nullptr);
+    report.charge("meshes[0]", 7ULL << 30U);
+    EXPECT_NO_THROW(report.charge("meshes[1]", 1ULL << 30U));
+    EXPECT_THROW(report.charge("meshes[2]", 1), Error);
+    EXPECT_THROW(report.charge("meshes[2]", ~0ULL), Error);
+}
+
+TEST(BrokenGltfFile, AChainOfAHundredThousandNodesIsPlaced) {
+    GltfBuilder b = triangle();
+    for (int i = 1; i < 100000; ++i) {
+        b.document["nodes"][static_cast<size_t>(i - 1)]["children"] = {i};
+        b.add("nodes", {{"translation", {1, 0, 0}}});
+    }
+    b.document["nodes"][99999]["mesh"] = 0;
+    const Scene scene = load(std::move(b)).scene;
+    ASSERT_EQ(scene.instances.size(), 2U);
+    EXPECT_EQ(vec3(scene.instances[1].objectToWorld[3]), vec3(99999, 0, 0));
+}
+
+TEST(BrokenGltfFile, ASceneThatIsNotThereIsAUsageErrorThatSaysHowManyThereAre) {
+    const auto path = triangle().writeGltf(testFolder() / "scene.gltf");
+    try {
+        loadGltf(path, {.scene = 3, .warn = nullptr});
+        FAIL();
+    } catch (const UsageError& error) {
+        EXPECT_EQ(error.what(), path.string() + ": there is no scene 3: it has 1 scene, counted from 0");
+    }
+}
+
+}  // namespace
+}  // namespace reflet::test

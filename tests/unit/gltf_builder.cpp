@@ -1,0 +1,250 @@
+// Builds small glTF files for the tests, whole or with something broken in them.
+#include "gltf_builder.h"
+
+#include <draco/compression/encode.h>
+#include <draco/mesh/triangle_soup_mesh_builder.h>
+#include <gtest/gtest.h>
+#include <stb/stb_image_write.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+
+namespace reflet::test {
+
+using nlohmann::json;
+
+std::filesystem::path testFolder() {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    std::string name = std::string("reflet_") + test->test_suite_name() + "_" + test->name();
+    std::replace(name.begin(), name.end(), '/', '_');
+    auto folder = std::filesystem::path(::testing::TempDir()) / name;
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    return folder;
+}
+
+void writeBytes(const std::filesystem::path& path, std::string_view bytes) {
+    std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+std::string base64(const std::vector<uint8_t>& bytes) {
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (size_t i = 0; i < bytes.size(); i += 3) {
+        const size_t have = std::min<size_t>(3, bytes.size() - i);
+        uint32_t bits = 0;
+        for (size_t b = 0; b < 3; ++b) {
+            bits = bits << 8U | (b < have ? bytes[i + b] : 0U);
+        }
+        for (size_t d = 0; d < 4; ++d) {
+            text += d <= have ? digits[bits >> (18 - 6 * d) & 63U] : '=';
+        }
+    }
+    return text;
+}
+
+std::vector<uint8_t> pngOf(int width, int height, std::array<uint8_t, 4> color) {
+    std::vector<uint8_t> pixels;
+    for (int i = 0; i < width * height; ++i) {
+        pixels.insert(pixels.end(), color.begin(), color.end());
+    }
+    std::vector<uint8_t> png;
+    stbi_write_png_to_func(
+        [](void* context, void* data, int size) {
+            const auto* bytes = static_cast<const uint8_t*>(data);
+            static_cast<std::vector<uint8_t>*>(context)->assign(bytes, bytes + size);
+        },
+        &png, width, height, 4, pixels.data(), 0);
+    return png;
+}
+
+GltfBuilder::GltfBuilder()
+    : document{{"asset", {{"version", "2.0"}}},
+               {"scene", 0},
+               {"scenes", json::array({{{"name", "first"}, {"nodes", json::array()}}})}} {}
+
+int GltfBuilder::add(const char* array, json element) {
+    if (!document.contains(array)) {
+        document[array] = json::array();
+    }
+    document[array].push_back(std::move(element));
+    return static_cast<int>(document[array].size()) - 1;
+}
+
+int GltfBuilder::addView(const void* bytes, size_t size, int byteStride) {
+    bin.resize((bin.size() + 3) / 4 * 4);
+    json view = {{"buffer", 0}, {"byteOffset", bin.size()}, {"byteLength", size}};
+    if (byteStride > 0) {
+        view["byteStride"] = byteStride;
+    }
+    const auto* first = static_cast<const uint8_t*>(bytes);
+    bin.insert(bin.end(), first, first + size);
+    return add("bufferViews", std::move(view));
+}
+
+int GltfBuilder::addRoot(json node) {
+    const int index = add("nodes", std::move(node));
+    document["scenes"][0]["nodes"].push_back(index);
+    return index;
+}
+
+int GltfBuilder::addPrimitive(json primitive) {
+    const int mesh = add("meshes", {{"name", "mesh"}, {"primitives", json::array({std::move(primitive)})}});
+    addRoot({{"mesh", mesh}});
+    return mesh;
+}
+
+int GltfBuilder::addTexture(std::array<uint8_t, 4> color) {
+    const std::vector<uint8_t> png = pngOf(2, 2, color);
+    const int image = add("images", {{"bufferView", addView(png.data(), png.size())}, {"mimeType", "image/png"}});
+    return add("textures", {{"source", image}});
+}
+
+std::string GltfBuilder::gltfBytes() {
+    if (!bin.empty() && !document.contains("buffers")) {
+        add("buffers", {{"byteLength", bin.size()}, {"uri", "data:application/octet-stream;base64," + base64(bin)}});
+    }
+    return document.dump();
+}
+
+std::string GltfBuilder::glbBytes() {
+    if (!bin.empty() && !document.contains("buffers")) {
+        add("buffers", {{"byteLength", bin.size()}});
+    }
+    std::string text = document.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    bin.resize((bin.size() + 3) / 4 * 4);
+    const auto word = [](uint32_t value) {
+        std::string bytes(4, '\0');
+        std::memcpy(bytes.data(), &value, 4);
+        return bytes;
+    };
+    const std::string first = word(static_cast<uint32_t>(text.size())) + "JSON" + text;
+    const std::string rest = bin.empty() ? ""
+                                         : word(static_cast<uint32_t>(bin.size())) + std::string("BIN\0", 4) +
+                                               std::string(bin.begin(), bin.end());
+    return "glTF" + word(2) + word(static_cast<uint32_t>(12 + first.size() + rest.size())) + first + rest;
+}
+
+std::filesystem::path GltfBuilder::writeGltf(const std::filesystem::path& path) {
+    writeBytes(path, gltfBytes());
+    return path;
+}
+
+std::filesystem::path GltfBuilder::writeGlb(const std::filesystem::path& path) {
+    writeBytes(path, glbBytes());
+    return path;
+}
+
+size_t GltfBuilder::componentsOf(std::string_view type) {
+    return type == "SCALAR" ? 1 : type == "VEC2" ? 2 : type == "VEC3" ? 3 : type == "MAT4" ? 16 : 4;
+}
+
+GltfBuilder triangle() {
+    GltfBuilder b;
+    const int positions = b.addFloats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+    b.addPrimitive({{"attributes", {{"POSITION", positions}}}});
+    return b;
+}
+
+namespace {
+
+/// mesh 0: a textured square with normals and uvs, and the same square with a sparse corner.
+void addSquares(GltfBuilder& b) {
+    const int positions = b.addFloats({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, "VEC3");
+    const int normals = b.addFloats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+    const int uvs = b.addFloats({0, 1, 1, 1, 1, 0, 0, 0}, "VEC2");
+    const int indices = b.addAccessor<uint16_t>({0, 1, 2, 0, 2, 3}, "SCALAR", ushortType);
+    const uint16_t corner = 2;
+    const std::array<float, 3> value{2, 2, 0};
+    const int sparse = b.add("accessors", b.document["accessors"][static_cast<size_t>(positions)]);
+    b.document["accessors"][static_cast<size_t>(sparse)]["sparse"] = {
+        {"count", 1},
+        {"indices", {{"bufferView", b.addView(&corner, sizeof corner)}, {"componentType", ushortType}}},
+        {"values", {{"bufferView", b.addView(value.data(), sizeof value)}}}};
+    const json transform = {{"extensions", {{"KHR_texture_transform", {{"offset", {0.5, 0.25}}}}}}};
+    json baseColor = {{"index", b.addTexture({255, 128, 0, 255})}};
+    baseColor.update(transform);
+    const int sampler = b.add("samplers", {{"magFilter", 9728}, {"minFilter", 9987}, {"wrapS", 33071}});
+    b.document["textures"][0]["sampler"] = sampler;
+    const int material = b.add("materials", {{"name", "painted"},
+                                             {"pbrMetallicRoughness", {{"baseColorTexture", baseColor}}},
+                                             {"normalTexture", {{"index", b.addTexture({128, 128, 255, 255})}}},
+                                             {"alphaMode", "MASK"}});
+    b.add("meshes", {{"primitives",
+                      {{{"attributes", {{"POSITION", positions}, {"NORMAL", normals}, {"TEXCOORD_0", uvs}}},
+                        {"indices", indices},
+                        {"material", material}},
+                       {{"attributes", {{"POSITION", sparse}}}, {"indices", indices}}}}});
+}
+
+/// mesh 1: the square in Draco.
+void addDracoMesh(GltfBuilder& b) {
+    const std::vector<uint8_t> draco = dracoSquare();
+    const int view = b.addView(draco.data(), draco.size());
+    const int positions = b.add("accessors", {{"componentType", floatType}, {"count", 4}, {"type", "VEC3"}});
+    const int normals = b.add("accessors", {{"componentType", floatType}, {"count", 4}, {"type", "VEC3"}});
+    const int indices = b.add("accessors", {{"componentType", ushortType}, {"count", 6}, {"type", "SCALAR"}});
+    b.add("meshes", {{"primitives",
+                      {{{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}},
+                        {"indices", indices},
+                        {"extensions",
+                         {{"KHR_draco_mesh_compression",
+                           {{"bufferView", view}, {"attributes", {{"POSITION", 0}, {"NORMAL", 1}}}}}}}}}}});
+}
+
+}  // namespace
+
+GltfBuilder everything() {
+    GltfBuilder b;
+    addSquares(b);
+    addDracoMesh(b);
+    b.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}});
+    b.document["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "directional"}, {"intensity", 3}},
+        {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.2}}}}};
+    b.document["extensionsUsed"] = {"KHR_lights_punctual", "KHR_draco_mesh_compression", "KHR_texture_transform"};
+    b.document["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+    b.addRoot({{"children", {1, 2, 3}}, {"translation", {1, 2, 3}}});
+    b.add("nodes", {{"mesh", 0}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}});
+    b.add("nodes", {{"mesh", 1}, {"camera", 0}, {"rotation", {0, 0, 0, 1}}});
+    b.add("nodes", {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"children", {4}}});
+    b.add("nodes", {{"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}, {"scale", {1, 1, 2}}});
+    return b;
+}
+
+std::vector<uint8_t> dracoSquare() {
+    const std::array<std::array<float, 3>, 4> corners{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}};
+    const std::array<float, 3> normal{0, 0, 1};
+    draco::TriangleSoupMeshBuilder builder;
+    builder.Start(2);
+    const int position = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+    const int normals = builder.AddAttribute(draco::GeometryAttribute::NORMAL, 3, draco::DT_FLOAT32);
+    for (uint32_t f = 0; f < 2; ++f) {
+        const draco::FaceIndex face(f);
+        builder.SetAttributeValuesForFace(position, face, corners[0].data(), corners.at(f + 1).data(),
+                                          corners.at(f + 2).data());
+        builder.SetAttributeValuesForFace(normals, face, normal.data(), normal.data(), normal.data());
+    }
+    const auto mesh = builder.Finalize();
+    draco::EncoderBuffer buffer;
+    draco::Encoder encoder;
+    if (!encoder.EncodeMeshToBuffer(*mesh, &buffer).ok()) {
+        throw std::runtime_error("Draco does not encode");
+    }
+    return {buffer.data(), buffer.data() + buffer.size()};
+}
+
+Loaded load(const std::filesystem::path& path, int scene) {
+    Loaded result;
+    result.scene = loadGltf(
+        path, {.scene = scene, .warn = [&](const std::string& warning) { result.warnings.push_back(warning); }});
+    return result;
+}
+
+Loaded load(GltfBuilder builder, int scene) {
+    return load(builder.writeGltf(testFolder() / "scene.gltf"), scene);
+}
+
+}  // namespace reflet::test

@@ -1,0 +1,91 @@
+// Builds small glTF files for the tests, whole or with something broken in them.
+#pragma once
+
+#include "scene/gltf.h"
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace reflet::test {
+
+/// An empty folder of the running test's own, below the test's temporary folder.
+std::filesystem::path testFolder();
+
+void writeBytes(const std::filesystem::path& path, std::string_view bytes);
+std::string base64(const std::vector<uint8_t>& bytes);
+
+/// A PNG with one colour.
+std::vector<uint8_t> pngOf(int width, int height, std::array<uint8_t, 4> color);
+
+constexpr int byteType = 5120;
+constexpr int ubyteType = 5121;
+constexpr int shortType = 5122;
+constexpr int ushortType = 5123;
+constexpr int uintType = 5125;
+constexpr int floatType = 5126;
+
+/// A glTF document and its one buffer. Every function returns the index of what it adds.
+class GltfBuilder {
+public:
+    GltfBuilder();
+
+    nlohmann::json document;
+    std::vector<uint8_t> bin;
+
+    int add(const char* array, nlohmann::json element);
+    /// The bytes start at a multiple of four.
+    int addView(const void* bytes, size_t size, int byteStride = 0);
+    /// Tightly packed.
+    template <class T>
+    int addAccessor(const std::vector<T>& components, const char* type, int componentType) {
+        const int view = addView(components.data(), components.size() * sizeof(T));
+        return add("accessors", {{"bufferView", view},
+                                 {"componentType", componentType},
+                                 {"count", components.size() / componentsOf(type)},
+                                 {"type", type}});
+    }
+    int addFloats(const std::vector<float>& components, const char* type) {
+        return addAccessor(components, type, floatType);
+    }
+    /// A node of the first scene.
+    int addRoot(nlohmann::json node);
+    /// A mesh with this primitive, and a root node that shows it.
+    int addPrimitive(nlohmann::json primitive);
+    /// A texture of its own, with a PNG of the colour in a buffer view.
+    int addTexture(std::array<uint8_t, 4> color);
+
+    /// Writes the file with its buffer as a data URI.
+    std::filesystem::path writeGltf(const std::filesystem::path& path);
+    std::filesystem::path writeGlb(const std::filesystem::path& path);
+    [[nodiscard]] std::string gltfBytes();
+    [[nodiscard]] std::string glbBytes();
+
+    static size_t componentsOf(std::string_view type);
+};
+
+/// A unit right triangle in the xy-plane: positions (0,0,0) (1,0,0) (0,1,0), as a root node.
+GltfBuilder triangle();
+
+/// A scene with one of everything that the loader reads; all of it is used.
+GltfBuilder everything();
+
+/// A Draco mesh of two triangles on the square 0..1, with the attributes POSITION (unique id 0) and NORMAL (1).
+std::vector<uint8_t> dracoSquare();
+
+/// A scene together with the warnings it came with.
+struct Loaded {
+    Scene scene;
+    std::vector<std::string> warnings;
+};
+
+Loaded load(const std::filesystem::path& path, int scene = -1);
+/// Writes the file as .gltf and loads it.
+Loaded load(GltfBuilder builder, int scene = -1);
+
+}  // namespace reflet::test
