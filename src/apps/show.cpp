@@ -88,6 +88,8 @@ const std::vector<Show>& table() {
          [](const FrameImages& i) { return Images{i.g.depth}; }, viewDistance, y, near},
         {"normal", "world-space shading normal, 0 where there is nothing; PNG 0.5 + 0.5 n",
          [](const FrameImages& i) { return Images{i.g.normal, i.g.depth}; }, normal, xyz, direction},
+        {"geometric_normal", "world-space normal of the triangle, toward the camera; PNG 0.5 + 0.5 n",
+         [](const FrameImages& i) { return Images{i.g.geometricNormal, i.g.depth}; }, normal, xyz, direction},
         {"albedo", "base colour, linear", [](const FrameImages& i) { return Images{i.g.baseColor}; }, color, rgb, encoded},
         {"roughness", "perceptual roughness, 0 mirror to 1", [](const FrameImages& i) { return Images{i.g.material}; },
          first, y, grey},

@@ -14,6 +14,7 @@ namespace {
 
 constexpr VkDeviceSize uniformBytes = VkDeviceSize(4) << 20U;
 constexpr uint32_t maxTimedPasses = 1024;
+constexpr uint32_t queriesPerPass = 3;
 constexpr VkDeviceSize maxUpdateBytes = 65536;
 
 constexpr VkImageUsageFlags copied = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
@@ -36,7 +37,7 @@ VkDescriptorPool makeDescriptorPool(Device& device) {
 VkQueryPool makeQueryPool(Device& device) {
     VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
     info.queryType = VK_QUERY_TYPE_TIMESTAMP;
-    info.queryCount = 2 * maxTimedPasses;
+    info.queryCount = queriesPerPass * maxTimedPasses;
     VkQueryPool pool = VK_NULL_HANDLE;
     vkCheck(device.vk.vkCreateQueryPool(device.handle(), &info, nullptr, &pool), "creating a query pool");
     return pool;
@@ -76,7 +77,7 @@ void Frame::begin() {
     VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     vkCheck(device_.vk.vkBeginCommandBuffer(commands_, &info), "beginning commands");
-    device_.vk.vkCmdResetQueryPool(commands_, queries_, 0, 2 * maxTimedPasses);
+    device_.vk.vkCmdResetQueryPool(commands_, queries_, 0, queriesPerPass * maxTimedPasses);
 }
 
 void Frame::submit() {
@@ -91,13 +92,16 @@ void Frame::wait() {
 
 void Frame::beginTimer(const std::string& name) {
     REFLET_CHECK(timed_.size() < maxTimedPasses, "{} passes in one frame", timed_.size());
-    const auto query = static_cast<uint32_t>(2 * timed_.size());
+    // The second one is not read. llvmpipe takes a timestamp when the next one flushes it, which without this would be
+    // after the pass.
+    const auto query = static_cast<uint32_t>(queriesPerPass * timed_.size());
     device_.vk.vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, query);
+    device_.vk.vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, query + 1);
     timed_.push_back(name);
 }
 
 void Frame::endTimer() {
-    const auto query = static_cast<uint32_t>(2 * timed_.size() - 1);
+    const auto query = static_cast<uint32_t>(queriesPerPass * timed_.size() - 1);
     device_.vk.vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, query);
 }
 
@@ -106,7 +110,7 @@ void Frame::readTimers() {
     if (timed_.empty()) {
         return;
     }
-    std::vector<uint64_t> ticks(2 * timed_.size());
+    std::vector<uint64_t> ticks(queriesPerPass * timed_.size());
     vkCheck(device_.vk.vkGetQueryPoolResults(device_.handle(), queries_, 0, static_cast<uint32_t>(ticks.size()),
                                              ticks.size() * sizeof(uint64_t), ticks.data(), sizeof(uint64_t),
                                              VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
@@ -114,7 +118,7 @@ void Frame::readTimers() {
     const double tick = device_.limits().timestampPeriod * 1e-6;
     times_.push_back({"frame", static_cast<double>(ticks.back() - ticks.front()) * tick});
     for (size_t i = 0; i < timed_.size(); ++i) {
-        const double ms = static_cast<double>(ticks[2 * i + 1] - ticks[2 * i]) * tick;
+        const double ms = static_cast<double>(ticks[queriesPerPass * i + 2] - ticks[queriesPerPass * i]) * tick;
         const auto same = std::ranges::find(times_, timed_[i], &PassTime::name);
         if (same == times_.end()) {
             times_.push_back({timed_[i], ms});

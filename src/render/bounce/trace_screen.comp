@@ -1,5 +1,5 @@
 // Marches waiting rays through the depth buffer; a hit takes the light that the screen shows there.
-// In: depth, lit image, ray directions, the list. Out: answers, sources, the list of misses.
+// In: depth, geometric normal, lit image, ray directions, the list. Out: answers, sources, the list of misses.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/bounce/rays.glsl"
@@ -9,7 +9,7 @@
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { TraceScreenParams params; };
 layout(set = 0, binding = 1) uniform sampler2D depth;
-layout(set = 0, binding = 2) uniform usampler2D normal;
+layout(set = 0, binding = 2) uniform usampler2D geometricNormal;
 layout(set = 0, binding = 3, rgba16f) uniform readonly image2D lit;
 layout(set = 0, binding = 4, rg32ui) uniform readonly uimage2DArray direction;
 layout(set = 0, binding = 5, scalar) readonly buffer WaitingBlock {
@@ -33,7 +33,7 @@ float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
 // A little off the surface, so that rounding does not put the ray below it: a fraction of what a pixel covers there.
 vec3 rayOrigin(ivec2 pixel) {
     vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), loadDepth(pixel), params.view.clipToWorld);
-    vec3 n = unpackUnitVector(texelFetch(normal, pixel, 0).r);
+    vec3 n = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
     float distance = dot(params.view.viewPlane, vec4(p, 1.0));
     float footprint = params.view.pixelAngle * mix(1.0, distance, params.view.eye.w);
     return p + n * footprint;

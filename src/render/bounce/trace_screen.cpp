@@ -8,7 +8,7 @@ void traceScreen(gpu::Frame& f, Rays& rays, const GBuffer& g, gpu::Image lit, co
     const gpu::BufferView missed = makeRayList(f, rays, "rays.missed_by_screen");
     f.compute("trace_screen", "trace_screen.comp")
         .read("depth", g.depth)
-        .read("normal", g.normal)
+        .read("geometricNormal", g.geometricNormal)
         .read("lit", lit)
         .read("direction", rays.direction)
         .read("waiting", rays.waiting)

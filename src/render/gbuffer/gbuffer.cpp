@@ -8,6 +8,7 @@ GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view,
     const GBuffer g{
         .depth = f.target("depth", VK_FORMAT_D32_SFLOAT, size),
         .normal = f.target("normal", VK_FORMAT_R32_UINT, size),
+        .geometricNormal = f.target("geometric_normal", VK_FORMAT_R32_UINT, size),
         .baseColor = f.target("base_color", VK_FORMAT_R8G8B8A8_SRGB, size),
         .material = f.target("material", VK_FORMAT_R8G8B8A8_UNORM, size),
         .emissive = f.target("emissive", VK_FORMAT_B10G11R11_UFLOAT_PACK32, size),
@@ -17,6 +18,7 @@ GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view,
     f.raster("gbuffer", {"gbuffer.vert", "gbuffer.frag"})
         .color("outBaseColor", g.baseColor, zero)
         .color("outNormal", g.normal, zero)
+        .color("outGeometricNormal", g.geometricNormal, zero)
         .color("outMaterial", g.material, zero)
         .color("outEmissive", g.emissive, zero)
         .color("outMotion", g.motion, zero)

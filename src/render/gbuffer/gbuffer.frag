@@ -13,12 +13,25 @@ layout(location = 2) in vec4 uv;
 layout(location = 3) in vec4 vertexColor;
 layout(location = 4) in vec3 clipNow;
 layout(location = 5) in vec3 clipBefore;
+layout(location = 6) in vec3 fromEye;
 
 layout(location = 0) out vec4 outBaseColor;
 layout(location = 1) out uint outNormal;
-layout(location = 2) out vec4 outMaterial;
-layout(location = 3) out vec3 outEmissive;
-layout(location = 4) out vec2 outMotion;
+layout(location = 2) out uint outGeometricNormal;
+layout(location = 3) out vec4 outMaterial;
+layout(location = 4) out vec3 outEmissive;
+layout(location = 5) out vec2 outMotion;
+
+// The triangle's own, toward the camera. An edge-on triangle that gives none gets the shading normal.
+vec3 geometricNormal(vec3 shading) {
+    vec3 n = cross(dFdx(fromEye), dFdy(fromEye));
+    float square = dot(n, n);
+    if (!(square > 1e-30)) {
+        return shading;
+    }
+    vec3 toEye = params.view.eye.w > 0.0 ? -fromEye : params.view.eye.xyz;
+    return n * (inversesqrt(square) * (dot(n, toEye) < 0.0 ? -1.0 : 1.0));
+}
 
 vec3 shadingNormal() {
     vec3 n = normalize(normalW);
@@ -33,6 +46,8 @@ vec3 shadingNormal() {
 }
 
 void main() {
+    vec3 n = shadingNormal();
+    uint packedGeometric = packUnitVector(geometricNormal(n));  // derivatives come before any discard
     vec4 baseColor;
     if (!materialBaseColor(uv.xy, uv.zw, vertexColor, baseColor)) {
         discard;
@@ -53,7 +68,8 @@ void main() {
     }
     uint flags = params.settings.lambertOnly != 0u ? materialFlagLambert : 0u;
     outBaseColor = vec4(baseColor.rgb, 1.0);
-    outNormal = packUnitVector(shadingNormal());
+    outNormal = packUnitVector(n);
+    outGeometricNormal = packedGeometric;
     outMaterial = vec4(roughnessMetallic, occlusion, float(flags) / 255.0);
     outMotion = 0.5 * (clipNow.xy / clipNow.z - clipBefore.xy / clipBefore.z);
 }

@@ -33,6 +33,8 @@ struct GBuffer {
     gpu::Image depth;      ///< D32, reversed, 0: sky
     gpu::Image normal;     ///< R32_UINT: world-space shading normal, octahedral, two snorm16 (packUnitVector). The
                            ///< design's RG16 snorm is no colour target on SwiftShader, nor promised by Vulkan
+    gpu::Image geometricNormal;  ///< R32_UINT, packed alike: of the triangle itself, toward the camera. What depth
+                                 ///< does along a surface, which neither normal maps nor smooth normals tell
     gpu::Image baseColor;  ///< RGBA8 sRGB
     gpu::Image material;   ///< RGBA8: perceptual roughness, metallic, occlusion, flags / 255
     gpu::Image emissive;   ///< B10G11R11: emitted radiance

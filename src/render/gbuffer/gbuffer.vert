@@ -22,6 +22,7 @@ layout(location = 2) out vec4 uv;
 layout(location = 3) out vec4 vertexColor;
 layout(location = 4) out vec3 clipNow;
 layout(location = 5) out vec3 clipBefore;
+layout(location = 6) out vec3 fromEye;
 
 void main() {
     mat3 m = mat3(draw.objectToWorld);
@@ -32,7 +33,9 @@ void main() {
     tangentW = vec4(m * tangent.xyz, tangent.w * handedness);
     uv = vec4(uv0, uv1);
     vertexColor = color;
-    gl_Position = params.view.worldToClip * vec4(draw.objectToWorld * vec4(position, 1.0), 1.0);
+    vec3 positionW = draw.objectToWorld * vec4(position, 1.0);
+    gl_Position = params.view.worldToClip * vec4(positionW, 1.0);
+    fromEye = positionW - params.view.eye.xyz * params.view.eye.w;
     clipNow = gl_Position.xyw;
     vec4 before = params.view.previousWorldToClip * vec4(draw.previousObjectToWorld * vec4(position, 1.0), 1.0);
     clipBefore = before.xyw;

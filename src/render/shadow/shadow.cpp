@@ -31,7 +31,7 @@ gpu::Image sunVisibility(gpu::Frame& f, const GBuffer& g, gpu::Image shadowMap, 
     const gpu::Image visibility = f.image("sun_visibility", VK_FORMAT_R8_UNORM, g.depth.size);
     f.compute("shadow_visibility", "shadow_visibility.comp")
         .read("depth", g.depth)
-        .read("normal", g.normal)
+        .read("geometricNormal", g.geometricNormal)
         .read("shadowMap", shadowMap ? shadowMap : g.depth)  // bound, but not read without shadows
         .write("visibility", visibility)
         .params(ShadowVisibilityParams{view, map, settings})

@@ -1,4 +1,4 @@
-// How much of the sun each pixel sees. In: depth, normal, shadow map. Out: visibility, 1 lit.
+// How much of the sun each pixel sees. In: depth, geometric normal, shadow map. Out: visibility, 1 lit.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/shadow/shadow.h"
@@ -8,29 +8,20 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ShadowVisibilityParams params; };
 layout(set = 0, binding = 1) uniform sampler2D depth;
-layout(set = 0, binding = 2) uniform usampler2D normal;
+layout(set = 0, binding = 2) uniform usampler2D geometricNormal;
 layout(set = 0, binding = 3) uniform sampler2D shadowMap;
 layout(set = 0, binding = 4, r8) uniform writeonly image2D visibility;
-
-vec3 loadPosition(ivec2 pixel, out bool known) {
-    ivec2 inside = clamp(pixel, ivec2(0), ivec2(params.view.size) - 1);
-    float d = texelFetch(depth, inside, 0).r;
-    known = inside == pixel && d > 0.0;
-    return uvToWorld(pixelToUv(pixel, params.view.pixel), max(d, 1e-12), params.view.clipToWorld);
-}
-#include "shaders/surface_normal.glsl"
 
 float loadShadowDepth(ivec2 texel) { return texelFetch(shadowMap, texel, 0).r; }
 #include "shaders/shadow_map.glsl"
 
 float visibilityAt(ivec2 pixel) {
-    bool known;
-    vec3 p = loadPosition(pixel, known);
-    if (!known || params.settings.filter == ShadowFilter_none) {
+    float d = texelFetch(depth, pixel, 0).r;
+    if (d <= 0.0 || params.settings.filter == ShadowFilter_none) {
         return 1.0;
     }
-    vec3 shading = unpackUnitVector(texelFetch(normal, pixel, 0).r);
-    vec3 n = surfaceNormal(pixel, p, directionToEye(p, params.view.eye), shading);
+    vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
+    vec3 n = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
     return hardVisibility(p, n, params.map, textureSize(shadowMap, 0), params.settings.bias);
 }
 
