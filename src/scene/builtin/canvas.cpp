@@ -52,7 +52,7 @@ uint8_t channel(Hex color, unsigned index) {
 }
 
 uint8_t toByte(float value) {
-    return static_cast<uint8_t>(std::clamp(value, 0.0F, 255.0F) + 0.5F);
+    return static_cast<uint8_t>(std::lround(std::clamp(value, 0.0F, 255.0F)));
 }
 
 }  // namespace

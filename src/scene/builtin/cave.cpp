@@ -6,7 +6,7 @@
 #include "scene/builtin/scenes.h"
 #include "scene/builtin/surface_nets.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 
 namespace reflet::builtin {
@@ -54,7 +54,7 @@ float cavity(const vec3& p) {
     float d = ellipsoid(p, {0.0F, 1.3F, -0.9F}, {3.7F, 2.9F, 3.4F});
     d = smoothMin(d, capsule(p, {0.6F, 1.6F, 2.5F}, {1.0F, 1.6F, 4.2F}, 1.9F), 1.2F);  // where the camera stands
     d += 0.9F * fractalNoise(p * 0.6F, 4, 7U) + 0.32F * noise({0.5F * p.x, 1.9F * p.y, 0.5F * p.z}, 13U);
-    d = smoothMin(d, shaft(p, mainPatch, 1.9F) + 0.3F * noise(p * 0.9F, 8U), 0.4F);
+    d = smoothMin(d, shaft(p, mainPatch, 2.15F) + 0.3F * noise(p * 0.9F, 8U), 0.4F);
     const float groundHeight = 0.3F * noise({0.45F * p.x, 0.0F, 0.45F * p.z}, 9U) + 0.08F * noise(p * 1.7F, 10U);
     return smoothMax(d, groundHeight - p.y, 0.4F);
 }
@@ -93,12 +93,12 @@ Scene makeCave() {
     for (size_t i = 0; i < mesh.positions.size(); ++i) {
         mesh.attributes[i].color = vertexColor(rockTint(mesh.positions[i]));
     }
-    Material stone = textured("rock", addTexture(scene, rockColors("rock", 256, 0xB4ABA2, 0xFFFAF2)), 0.95F);
+    Material stone = textured("rock", addTexture(scene, rockColors("rock", 256, 0xC6BEB5, 0xFFFBF4)), 0.95F);
     stone.normalTexture = addTexture(scene, rockNormals("rock normals", 256, 2.5F));
     place(scene, "rock", addMaterial(scene, stone), boxMapped(mesh, 1.0F / 2.5F));
 
     scene.cameras.push_back(camera("main", {0.5F, 1.7F, 4.0F}, {-0.3F, 1.35F, -1.5F}, 62));
-    scene.sun = sun(sunDirection, {22.0F, 20.8F, 19.0F});
+    scene.sun = sun(sunDirection, {24.0F, 22.6F, 20.6F});
     return scene;
 }
 

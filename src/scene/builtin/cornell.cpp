@@ -39,7 +39,7 @@ Lamp wallLamp() {
 Scene makeCornell() {
     Scene scene;
     scene.name = "cornell";
-    const uint32_t white = addMaterial(scene, plain("white", {0xDDD8CF, 0.95F}));
+    const uint32_t white = addMaterial(scene, plain("white", {0xE6E1D8, 0.95F}));
     const uint32_t red = addMaterial(scene, plain("red", {0xC2321F, 0.95F}));
     const uint32_t green = addMaterial(scene, plain("green", {0x3F9A35, 0.95F}));
     addRoom(scene, white, red, green);
@@ -48,7 +48,7 @@ Scene makeCornell() {
     scene.lamps.push_back(wallLamp());
 
     scene.cameras.push_back(camera("main", {0, 2.0F, 5.65F}, {0, 1.95F, 0}, 52));
-    scene.sun = sun({-0.50F, -0.64F, -0.58F}, {5.0F, 4.7F, 4.2F});
+    scene.sun = sun({-0.50F, -0.64F, -0.58F}, {5.2F, 4.9F, 4.4F});
     return scene;
 }
 

@@ -3,6 +3,7 @@
 
 #include "scene/builtin/noise.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>

@@ -38,6 +38,9 @@ Mesh lathe(std::span<const vec2> outline, unsigned segments, float uvRepeat = 1.
 /// Stands on y = 0, with both lids.
 Mesh cylinder(float radius, float height, unsigned segments);
 
+/// Appends a vertex with both uv sets alike and without a tangent (see finish); returns its index.
+uint32_t addVertex(Mesh& mesh, const vec3& position, const vec3& normal, const vec2& uv);
+
 /// Adds `from`, moved by a rotation, a translation and a uniform scale.
 void append(Mesh& to, const Mesh& from, const mat4& fromToTo);
 

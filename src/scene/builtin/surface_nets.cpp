@@ -1,7 +1,7 @@
 // One vertex per lattice cell that the surface crosses, one quad per lattice edge that it crosses.
 #include "scene/builtin/surface_nets.h"
 
-#include <cmath>
+#include <utility>
 #include <vector>
 
 namespace reflet::builtin {
