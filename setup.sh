@@ -1,0 +1,88 @@
+#!/usr/bin/env bash
+# Installs what building Reflet needs and this machine lacks, through apt. With --tests: also what the tests need.
+# Does nothing, and asks for nothing, where everything is there. Debian 12 or newer, Ubuntu 24.04 or newer.
+set -euo pipefail
+
+needed=(
+    "build-essential: C++ compiler"
+    "cmake: build"
+    "ninja-build: build"
+    "pkg-config: finds libraries"
+    "glslc: compiles shaders"
+    "libvulkan-dev: Vulkan headers"
+    "libvulkan1: Vulkan loader"
+    "libvulkan-volk-dev: loads Vulkan's functions"
+    "mesa-vulkan-drivers: Vulkan devices, one that runs on the CPU among them"
+    "libspirv-cross-c-shared-dev: reflects shaders"
+    "libglm-dev: vectors and matrices"
+    "libtinygltf-dev: reads glTF"
+    "libdraco-dev: decodes compressed meshes"
+    "libopenexr-dev: writes and reads EXR"
+    "libstb-dev: writes and reads PNG, JPEG, HDR"
+    "libcli11-dev: command line"
+    "nlohmann-json3-dev: JSON"
+    "libspdlog-dev: log"
+    "libfmt-dev: text"
+)
+neededByTests=(
+    "libgtest-dev: tests"
+    "vulkan-validationlayers: checks in tests that Vulkan is used as it wants to be"
+)
+
+case "${1-}" in
+    "") ;;
+    --tests) needed+=("${neededByTests[@]}") ;;
+    *)
+        echo "usage: ./setup.sh [--tests]" >&2
+        exit 2
+        ;;
+esac
+
+if ! command -v dpkg-query >/dev/null; then
+    echo "setup.sh: no Debian packages here; see to it yourself that there is what these hold: ${needed[*]%%:*}" >&2
+    exit 0
+fi
+
+missing=()
+for entry in "${needed[@]}"; do
+    package=${entry%%:*}
+    if ! dpkg-query -W -f '${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed; then
+        missing+=("$package")
+        echo "setup.sh: to install: $package (${entry#*: })"
+    fi
+done
+if ((${#missing[@]} == 0)); then
+    exit 0
+fi
+
+giveUp() {
+    echo "setup.sh: $1; install these and try again: ${missing[*]}" >&2
+    exit 1
+}
+
+command -v apt-get >/dev/null || giveUp "there is no apt-get"
+asRoot=()
+if ((EUID != 0)); then
+    command -v sudo >/dev/null || giveUp "only root can install, and there is no sudo"
+    asRoot=(sudo)
+    [[ -t 0 ]] || asRoot+=(-n)
+fi
+apt() {
+    "${asRoot[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=300 "$@"
+}
+
+# Without the lists (no network, say) the install below may still work, or says why not.
+apt update || true
+
+known=()
+for package in "${missing[@]}"; do
+    if apt-cache show "$package" >/dev/null 2>&1; then
+        known+=("$package")
+    else
+        echo "setup.sh: apt does not know $package here; going on without it: CMake will tell if it is needed" >&2
+    fi
+done
+if ((${#known[@]} == 0)); then
+    giveUp "apt knows none of what is missing (is there a network?)"
+fi
+apt install -y --no-install-recommends "${known[@]}" || giveUp "apt-get could not install"
