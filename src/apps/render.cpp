@@ -156,8 +156,10 @@ void render(const RenderOptions& options) {
     const View view = loadView(options.scene, scene);
 
     gpu::Device device({.select = options.device, .validation = options.validate, .onMessage = printWarning});
-    if (const uint32_t limit = device.limits().maxImageDimension2D; std::max(size.x, size.y) > limit) {
-        failUsage("--size {}: '{}' has images up to {}x{}", options.scene.size, device.description().name, limit, limit);
+    if (const uint32_t limit = std::min(device.limits().maxImageDimension2D, maxFrameSize);
+        std::max(size.x, size.y) > limit) {
+        failUsage("--size {}: with '{}' pictures can be up to {}x{}", options.scene.size, device.description().name,
+                  limit, limit);
     }
     Renderer renderer(device, scene, printWarning);
     Timings timings;

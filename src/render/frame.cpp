@@ -32,10 +32,11 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
                              {in.view, -in.sunDirection, in.sunIrradiance, in.environment}, in.lamps);
 
     // One chain for both lobes: rays, then sources that answer in order of trust, each taking what is left over.
+    const uint32_t batch = raysPerBatch(f, out.g.depth.size);
     const auto traceLobe = [&](uint32_t lobe, uint32_t perPixel) {
         LobeLight light;
-        for (uint32_t first = 0; first < perPixel; first += raysPerBatch) {
-            const uint32_t count = std::min(perPixel - first, raysPerBatch);
+        for (uint32_t first = 0; first < perPixel; first += batch) {
+            const uint32_t count = std::min(perPixel - first, batch);
             Rays rays = generateRays(f, out.g, lobe, {in.view, settings.diffuse, settings.specular, first, count});
             traceScreen(f, rays, out.g, out.direct, in.view, settings.traceScreen);
             answerEnvironment(f, rays, out.g, in.environment);

@@ -1,11 +1,25 @@
 // Records the ends of the chain: rays out of pixels, and their answers back into pixels.
 #include "render/bounce/rays.h"
 
+#include "base/error.h"
+#include "gpu/device.h"
+
+#include <algorithm>
+
 namespace reflet {
+
+uint32_t raysPerBatch(gpu::Frame& f, uvec2 size) {
+    const VkDeviceSize layer = VkDeviceSize(size.x) * size.y * sizeof(RayItem);
+    const VkDeviceSize fit = (f.device().limits().maxStorageBufferRange - rayListHeader) / layer;
+    if (fit == 0 || std::max(size.x, size.y) > maxFrameSize) {
+        fail("{}x{} pixels are more than this device can trace rays for; render at a smaller size", size.x, size.y);
+    }
+    return static_cast<uint32_t>(std::min<VkDeviceSize>(fit, maxRaysPerBatch));
+}
 
 gpu::BufferView makeRayList(gpu::Frame& f, const Rays& rays, std::string_view name) {
     const uvec2 size = rays.direction.size;
-    const VkDeviceSize items = VkDeviceSize(size.x) * size.y * raysPerBatch;
+    const VkDeviceSize items = VkDeviceSize(size.x) * size.y * rays.direction.layers;
     const gpu::BufferView list = f.buffer(name, rayListHeader + items * sizeof(RayItem));
     constexpr uint32_t empty[] = {0, 1, 1, 0};
     f.update(list, std::as_bytes(std::span(empty)));
@@ -14,9 +28,10 @@ gpu::BufferView makeRayList(gpu::Frame& f, const Rays& rays, std::string_view na
 
 Rays generateRays(gpu::Frame& f, const GBuffer& g, uint32_t lobe, const GenerateRaysParams& params) {
     const uvec2 size = g.depth.size;
-    Rays rays{.direction = f.image("rays.direction", VK_FORMAT_R32G32_UINT, size, raysPerBatch, true),
-              .answer = f.image("rays.answer", VK_FORMAT_R16G16B16A16_SFLOAT, size, raysPerBatch, true),
-              .source = f.image("rays.source", VK_FORMAT_R8G8B8A8_UNORM, size, raysPerBatch, true),
+    const uint32_t layers = raysPerBatch(f, size);
+    Rays rays{.direction = f.image("rays.direction", VK_FORMAT_R32G32_UINT, size, layers, true),
+              .answer = f.image("rays.answer", VK_FORMAT_R16G16B16A16_SFLOAT, size, layers, true),
+              .source = f.image("rays.source", VK_FORMAT_R8G8B8A8_UNORM, size, layers, true),
               .waiting = {},
               .firstRay = params.firstRay,
               .count = params.rayCount,

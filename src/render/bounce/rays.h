@@ -31,8 +31,11 @@ SETTINGS(SpecularSettings, SPECULAR_SETTINGS)
 const uint lobeDiffuse = 0;
 const uint lobeSpecular = 1;
 
-// Rays per pixel that are traced at once; more are traced in turns.
-const uint raysPerBatch = 4;
+// Rays per pixel that are traced at once, at most; more are traced in turns.
+const uint maxRaysPerBatch = 4;
+
+// Lists of rays hold pixel coordinates in 14 bits.
+const uint maxFrameSize = 16384;
 
 // A ray in a list: pixel and layer, and how much of its weight (0..1, as float bits) still waits for an answer.
 struct RayItem {
@@ -74,7 +77,7 @@ struct Rays {
     gpu::Image source;       ///< RGBA8 array: colours of the sources · weights; alpha: confidence
     gpu::BufferView waiting; ///< rays without (all of) an answer
     uint32_t firstRay = 0;
-    uint32_t count = 0;      ///< per pixel
+    uint32_t count = 0;      ///< per pixel, in this batch
     uint32_t lobe = 0;
 };
 
@@ -83,6 +86,10 @@ struct LobeLight {
     gpu::Image radiance;  ///< RGBA16F: mean of radiance · ray weight; alpha: mean hit distance [m]
     gpu::Image source;    ///< RGBA8: mean colour of the sources that answered; alpha: confidence
 };
+
+/// Rays per pixel that one batch may hold, 1 to maxRaysPerBatch: as many as the device's buffers take at this size.
+/// Throws Error where they do not take one.
+uint32_t raysPerBatch(gpu::Frame& f, uvec2 size);
 
 /// Rays firstRay .. firstRay + count of every pixel that has a surface (and the lobe).
 Rays generateRays(gpu::Frame& f, const GBuffer& g, uint32_t lobe, const GenerateRaysParams& params);

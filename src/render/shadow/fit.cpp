@@ -86,6 +86,9 @@ Polygon visibleCorners(const Aabb& box, const mat4& clipToWorld) {
 ShadowMapParams fitSunShadow(const mat4& clipToWorld, const Aabb& sceneBounds, const vec3& direction,
                              uint resolution) {
     const vec3 toSun = -direction;
+    if (sceneBounds.empty()) {
+        return {mat4(1.0F), toSun, 1.0F, 1.0F};
+    }
     const vec3 side = glm::normalize(glm::cross(std::abs(toSun.y) < 0.99F ? vec3(0, 1, 0) : vec3(1, 0, 0), toSun));
     const mat3 worldToLight = glm::transpose(mat3(side, glm::cross(toSun, side), toSun));
 
