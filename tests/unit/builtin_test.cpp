@@ -6,10 +6,18 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <ostream>
 #include <string>
 #include <vector>
 
 namespace reflet {
+
+/// How GoogleTest names a parameter; without it, its bytes, addresses included.
+static void PrintTo(const BuiltinScene& scene, std::ostream* out) {
+    *out << scene.name;
+}
+
 namespace {
 
 struct Triangle {

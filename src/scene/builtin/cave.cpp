@@ -98,7 +98,7 @@ Scene makeCave() {
     place(scene, "rock", addMaterial(scene, stone), boxMapped(mesh, 1.0F / 2.5F));
 
     scene.cameras.push_back(camera("main", {0.5F, 1.7F, 4.0F}, {-0.3F, 1.35F, -1.5F}, 62));
-    scene.sun = sun(sunDirection, {24.0F, 22.6F, 20.6F});
+    scene.sun = sun(sunDirection, {18.0F, 17.0F, 15.6F});
     return scene;
 }
 
