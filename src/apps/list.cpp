@@ -38,6 +38,37 @@ void listSettings() {
     }
 }
 
+const char* typeName(SettingType type) {
+    switch (type) {
+        case SettingType::real:
+            return "number";
+        case SettingType::integer:
+            return "whole number";
+        case SettingType::toggle:
+            return "switch";
+        default:
+            return "choice";
+    }
+}
+
+// docs/settings.md. No help text has a vertical bar in it.
+void listSettingsAsMarkdown() {
+    fmt::print(
+        "# Settings\n\nMade by `reflet list settings --markdown`. To change it, change the tables in `src/render/`.\n\n"
+        "On the command line: `--set EFFECT.NAME=VALUE`. In a file for `--settings`:\n"
+        "`{{ \"EFFECT\": {{ \"NAME\": VALUE }} }}`, a choice as text, a switch as `true` or `false`.\n");
+    const Settings defaults;
+    std::string lastEffect;
+    for (const SettingEntry& entry : settingEntries()) {
+        if (const std::string effect = entry.name.substr(0, entry.name.find('.')); effect != lastEffect) {
+            fmt::print("\n## {}\n\n| name | type | default | range | what it is |\n|---|---|---|---|---|\n", effect);
+            lastEffect = effect;
+        }
+        fmt::print("| `{}` | {} | {} | {} | {} |\n", entry.name, typeName(entry.info.type),
+                   settingText(defaults, entry), rangeText(entry.info), entry.info.help);
+    }
+}
+
 void listDevices() {
     const auto devices = gpu::listDevices();
     if (devices.empty()) {
@@ -57,13 +88,16 @@ void listDevices() {
 void addListCommand(CLI::App& app) {
     CLI::App* command = app.add_subcommand("list", "List scenes, presets, shows, settings or devices");
     const std::vector<std::pair<const char*, void (*)()>> lists{
-        {"scenes", listScenes}, {"presets", listPresets},   {"shows", listShows},
-        {"settings", listSettings}, {"devices", listDevices}};
+        {"scenes", listScenes}, {"presets", listPresets}, {"shows", listShows}, {"devices", listDevices}};
     const char* descriptions[] = {"Built-in scenes", "Presets of settings", "Images of the frame for --show and --aov",
-                                  "Settings for --set, with range and default", "Vulkan devices for --device"};
+                                  "Vulkan devices for --device"};
     for (size_t i = 0; i < lists.size(); ++i) {
         command->add_subcommand(lists[i].first, descriptions[i])->callback(lists[i].second);
     }
+    auto markdown = std::make_shared<bool>(false);
+    CLI::App* settings = command->add_subcommand("settings", "Settings for --set, with range and default");
+    settings->add_flag("--markdown", *markdown, "As tables: what docs/settings.md holds");
+    settings->callback([markdown] { *markdown ? listSettingsAsMarkdown() : listSettings(); });
     command->require_subcommand(1);
 }
 

@@ -1,7 +1,13 @@
 // The program: subcommands in, exit status out. 0 done, 1 it failed, 2 wrong use.
 #include "apps/commands.h"
 #include "base/error.h"
+#include "base/text.h"
 #include "gpu/shader.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <span>
 
 std::span<const reflet::gpu::EmbeddedShader> refletShaders();
 
@@ -10,9 +16,60 @@ namespace {
 constexpr int exitFailed = 1;
 constexpr int exitUsage = 2;
 
-int complain(const char* message, int status) {
+// One line, whatever names from outside are in it.
+int complain(std::string message, int status) {
+    std::ranges::replace_if(
+        message, [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
     fmt::print(stderr, "reflet: {}\n", message);
     return status;
+}
+
+// "reflet list scenes"
+std::string fullName(const CLI::App& command) {
+    const CLI::App* parent = command.get_parent();
+    return parent == nullptr ? command.get_name() : fullName(*parent) + " " + command.get_name();
+}
+
+// Before CLI11 sees it: that would only say that a subcommand is missing.
+void checkSubcommand(CLI::App& app, std::span<char* const> arguments) {
+    if (app.get_require_subcommand_min() == 0) {
+        return;
+    }
+    std::vector<std::string> names;
+    std::ranges::transform(app.get_subcommands({}), std::back_inserter(names), &CLI::App::get_name);
+    if (arguments.empty()) {
+        reflet::failUsage("'{}' wants a subcommand: {} ({} --help says more)", fullName(app), fmt::join(names, ", "),
+                          fullName(app));
+    }
+    const std::string name = arguments[0];
+    if (app.get_option_no_throw(name) != nullptr) {
+        return;
+    }
+    if (std::ranges::find(names, name) == names.end()) {
+        reflet::failUsage("'{}' has no {} '{}'; its subcommands: {}{}", fullName(app),
+                          name.starts_with('-') ? "option" : "subcommand", name, fmt::join(names, ", "),
+                          reflet::suggestion(name, names));
+    }
+    checkSubcommand(*app.get_subcommand(name), arguments.subspan(1));
+}
+
+// The first argument that nobody took, and the option that it was meant to be.
+std::string unexpectedArgument(const CLI::App& app) {
+    const CLI::App* command = &app;
+    while (!command->get_subcommands().empty()) {
+        command = command->get_subcommands().front();
+    }
+    const std::vector<std::string> rest = command->remaining();
+    if (rest.empty()) {
+        return fmt::format("unexpected argument ({} --help says more)", fullName(*command));
+    }
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command->get_options()) {
+        std::ranges::transform(option->get_lnames(), std::back_inserter(names),
+                               [](const std::string& name) { return "--" + name; });
+    }
+    return fmt::format("unexpected argument '{}' ({} --help says more){}", rest.front(), fullName(*command),
+                       rest.front().starts_with('-') ? reflet::suggestion(rest.front(), names) : "");
 }
 
 int run(int argc, char** argv) {
@@ -23,12 +80,18 @@ int run(int argc, char** argv) {
     app.footer("Try: reflet render builtin:cubes -o cubes.png\nEach subcommand has its own --help.");
     reflet::addRenderCommand(app);
     reflet::addListCommand(app);
+    checkSubcommand(app, std::span(argv, static_cast<size_t>(argc)).subspan(1));
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {  // --help, --version
-        return app.exit(success);
+        app.exit(success);
+    } catch (const CLI::ExtrasError&) {
+        return complain(unexpectedArgument(app), exitUsage);
     } catch (const CLI::ParseError& error) {
-        return complain(fmt::format("{} (reflet --help says more)", error.what()).c_str(), exitUsage);
+        return complain(fmt::format("{} (reflet --help says more)", error.what()), exitUsage);
+    }
+    if (std::fflush(stdout) != 0) {
+        return complain("standard output cannot be written to", exitFailed);
     }
     return 0;
 }

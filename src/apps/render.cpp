@@ -36,6 +36,9 @@ struct RenderOptions {
 bool isExr(const std::string& file) { return fs::path(file).extension() == ".exr"; }
 
 void checkOutputs(const RenderOptions& options) {
+    if (options.outputs.empty() && options.timings.empty() && !options.validate) {
+        failUsage("nothing to write: add -o FILE.png or -o FILE.exr (reflet render --help says more)");
+    }
     for (const std::string& file : options.outputs) {
         if (const auto extension = fs::path(file).extension(); extension != ".png" && extension != ".exr") {
             failUsage("-o {}: the name must end in .png or .exr", file);
@@ -135,7 +138,10 @@ Pictures choosePictures(const RenderOptions& options) {
     Pictures pictures;
     pictures.main = &findShow(options.show);
     for (const std::string& name : options.aovs) {
-        pictures.aovs.push_back(&findShow(name));
+        const Show* aov = &findShow(name);
+        if (std::ranges::find(pictures.aovs, aov) == pictures.aovs.end()) {
+            pictures.aovs.push_back(aov);
+        }
     }
     const auto isShadowMap = [](const Show* s) { return s->name == "shadow_map"; };
     if (std::ranges::any_of(pictures.aovs, isShadowMap)) {

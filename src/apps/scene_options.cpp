@@ -28,8 +28,8 @@ Scene makeBuiltin(std::string_view name) {
     std::vector<std::string> names;
     std::ranges::transform(builtinScenes(), std::back_inserter(names),
                            [](const BuiltinScene& b) { return std::string(b.name); });
-    failUsage("no built-in scene is called '{}'{}; there are: {}", name, suggestion(name, names),
-              fmt::join(names, ", "));
+    failUsage("no built-in scene is called '{}'; there are: {}{}", name, fmt::join(names, ", "),
+              suggestion(name, names));
 }
 
 const Camera& findCamera(const Scene& scene, const std::string& wanted) {

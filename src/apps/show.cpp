@@ -132,7 +132,7 @@ const Show& findShow(std::string_view name) {
     if (found == table().end()) {
         std::vector<std::string> names;
         std::ranges::transform(table(), std::back_inserter(names), [](const Show& s) { return std::string(s.name); });
-        failUsage("no image of the frame is called '{}'{}; all of them: reflet list shows", name,
+        failUsage("no image of the frame is called '{}' (all of them: reflet list shows){}", name,
                   suggestion(name, names));
     }
     return *found;

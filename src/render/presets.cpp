@@ -24,14 +24,16 @@ constexpr std::array all{
 
 }  // namespace
 
-std::span<const Preset> presets() { return all; }
+std::span<const Preset> presets() {
+    return all;
+}
 
 void applyPreset(Settings& settings, std::string_view name) {
     const auto found = std::ranges::find(all, name, &Preset::name);
     if (found == all.end()) {
         std::vector<std::string> names;
         std::ranges::transform(all, std::back_inserter(names), [](const Preset& p) { return std::string(p.name); });
-        failUsage("no preset is called '{}'{}; there are: {}", name, suggestion(name, names), fmt::join(names, ", "));
+        failUsage("no preset is called '{}'; there are: {}{}", name, fmt::join(names, ", "), suggestion(name, names));
     }
     applySettingsJson(settings, nlohmann::json::parse(found->json), fmt::format("preset {}", name));
 }

@@ -41,7 +41,7 @@ const SettingEntry& findEntry(std::string_view name) {
     if (found == entries.end()) {
         std::vector<std::string> names;
         std::ranges::transform(entries, std::back_inserter(names), &SettingEntry::name);
-        failUsage("unknown setting '{}'{}; all of them: reflet list settings", name, suggestion(name, names));
+        failUsage("unknown setting '{}' (all of them: reflet list settings){}", name, suggestion(name, names));
     }
     return *found;
 }
@@ -92,8 +92,35 @@ double load(const Settings& settings, const SettingInfo& info) {
     return integer;
 }
 
-std::string jsonText(const nlohmann::json& value) {
-    return value.is_string() ? value.get<std::string>() : value.dump();
+// A text names a choice; a number or a switch in quotation marks keeps them, and is refused.
+std::string jsonText(const nlohmann::json& value, const SettingInfo& info) {
+    return value.is_string() && info.type == SettingType::choice ? value.get<std::string>() : value.dump();
+}
+
+// Where an effect has no setting in the file, nothing else would notice that there is no such effect.
+void checkEffect(const std::string& effect) {
+    std::vector<std::string> effects;
+    for (const SettingEntry& entry : settingEntries()) {
+        if (const std::string name = entry.name.substr(0, entry.name.find('.'));
+            std::ranges::find(effects, name) == effects.end()) {
+            effects.push_back(name);
+        }
+    }
+    if (std::ranges::find(effects, effect) == effects.end()) {
+        failUsage("no effect is called '{}'; there are: {}{}", effect, fmt::join(effects, ", "),
+                  suggestion(effect, effects));
+    }
+}
+
+void applyEffectJson(Settings& settings, const std::string& effect, const nlohmann::json& values) {
+    checkEffect(effect);
+    if (!values.is_object()) {
+        failUsage("{}: must be an object of settings, is {}", effect, values.dump());
+    }
+    for (const auto& [name, value] : values.items()) {
+        const SettingEntry& entry = findEntry(effect + "." + name);
+        setSetting(settings, entry.name, jsonText(value, entry.info));
+    }
 }
 
 }  // namespace
@@ -155,15 +182,10 @@ void applySettingsJson(Settings& settings, const nlohmann::json& json, const std
         fail("{}: settings must be an object: {{\"effect\": {{\"name\": value}}}}", where);
     }
     for (const auto& [effect, values] : json.items()) {
-        if (!values.is_object()) {
-            fail("{}: {}: must be an object of settings, is {}", where, effect, values.type_name());
-        }
-        for (const auto& [name, value] : values.items()) {
-            try {
-                setSetting(settings, effect + "." + name, jsonText(value));
-            } catch (const UsageError& error) {
-                fail("{}: {}", where, error.what());
-            }
+        try {
+            applyEffectJson(settings, effect, values);
+        } catch (const UsageError& error) {
+            fail("{}: {}", where, error.what());
         }
     }
 }
