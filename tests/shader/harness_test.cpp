@@ -1,0 +1,32 @@
+// The net has no holes: what these tests rely on to fail does fail.
+#include "shader/harness.h"
+
+#include <string>
+
+namespace reflet::test {
+namespace {
+
+TEST(Validation, noticesTwoWritesWithoutABarrier) {
+    gpu::DeviceOptions options;
+    options.validation = true;
+    gpu::Device device(options);
+    const gpu::Buffer buffer(device, 64, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::device, "buffer");
+    device.runNow([&](VkCommandBuffer commands) {
+        device.vk.vkCmdFillBuffer(commands, buffer.handle(), 0, 64, 1);
+        device.vk.vkCmdFillBuffer(commands, buffer.handle(), 0, 64, 2);
+    });
+    ASSERT_EQ(device.validationMessages().size(), 1U);
+    EXPECT_NE(device.validationMessages().front().find("SYNC-HAZARD-WRITE-AFTER-WRITE"), std::string::npos);
+}
+
+TEST(Validation, noticesAWrongUse) {
+    gpu::DeviceOptions options;
+    options.validation = true;
+    gpu::Device device(options);
+    const gpu::Buffer buffer(device, 64, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryUse::device, "buffer");
+    device.runNow([&](VkCommandBuffer commands) { device.vk.vkCmdFillBuffer(commands, buffer.handle(), 0, 64, 1); });
+    EXPECT_EQ(device.validationMessages().size(), 1U);
+}
+
+}  // namespace
+}  // namespace reflet::test

@@ -1,0 +1,71 @@
+// One Vulkan device for all tests of a process.
+#include "support/device_fixture.h"
+
+#include "gpu/shader.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+std::span<const reflet::gpu::EmbeddedShader> refletShaders();
+
+namespace reflet::test {
+
+namespace {
+
+struct Shared {
+    std::unique_ptr<gpu::Device> device;
+    std::unique_ptr<gpu::Frame> frame;
+    std::vector<std::string> messages;  ///< outlive the device: its end is watched, too
+};
+
+Shared& shared() {
+    static Shared instance;
+    return instance;
+}
+
+class DeviceEnd : public ::testing::Environment {
+public:
+    void TearDown() override {
+        const size_t before = shared().messages.size();
+        shared().frame.reset();
+        shared().device.reset();
+        for (size_t i = before; i < shared().messages.size(); ++i) {
+            ADD_FAILURE() << "validation, at the device's end: " << shared().messages[i];
+        }
+    }
+};
+
+const ::testing::Environment* const deviceEnd = ::testing::AddGlobalTestEnvironment(new DeviceEnd);
+
+}  // namespace
+
+gpu::Device& DeviceTest::device() {
+    if (!shared().device) {
+        gpu::registerShaders(refletShaders());
+        gpu::DeviceOptions options;
+        options.validation = true;
+        options.onMessage = [](const std::string& message) { shared().messages.push_back(message); };
+        shared().device = std::make_unique<gpu::Device>(options);
+    }
+    return *shared().device;
+}
+
+gpu::Frame& DeviceTest::frame() {
+    if (!shared().frame) {
+        shared().frame = std::make_unique<gpu::Frame>(device());
+    }
+    return *shared().frame;
+}
+
+void DeviceTest::SetUp() {
+    messagesBefore_ = shared().messages.size();
+}
+
+void DeviceTest::TearDown() {
+    for (size_t i = messagesBefore_; i < shared().messages.size(); ++i) {
+        ADD_FAILURE() << "validation: " << shared().messages[i];
+    }
+}
+
+}  // namespace reflet::test
