@@ -1,0 +1,29 @@
+// Directions from numbers. Which sampler: the constant.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "shaders/sampling.glsl"
+
+layout(constant_id = 0) const uint kind = 0u;
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { float alpha; } params;
+layout(set = 0, binding = 1, scalar) readonly buffer InputBlock { vec2 items[]; } inputs;
+layout(set = 0, binding = 2, scalar) buffer OutputBlock { vec3 items[]; } outputs;
+
+vec3 direction(vec2 u) {
+    switch (kind) {
+        case 0u:
+            return sampleCosineHemisphere(u);
+        case 1u:
+            return sampleUniformHemisphere(u);
+        default:
+            return sampleGgx(u, params.alpha);
+    }
+}
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i < outputs.items.length()) {
+        outputs.items[i] = direction(inputs.items[i]);
+    }
+}
