@@ -203,7 +203,8 @@ void addRenderCommand(CLI::App& app) {
     CLI::App* command = app.add_subcommand("render", "Render a scene to PNG or EXR");
     addSceneOptions(*command, options->scene);
     command->add_option("-o,--output", options->outputs, "Where the picture goes, .png or .exr; may be repeated")
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->allow_extra_args(false);
     command->add_option("--frames", options->frames, "Frames to render; the last one is written")
         ->check(CLI::Range(1U, 1000000U))
         ->capture_default_str();
@@ -212,6 +213,7 @@ void addRenderCommand(CLI::App& app) {
         ->capture_default_str();
     command->add_option("--aov", options->aovs, "More images, as named layers of the EXR files")
         ->type_name("A,B,...")
+        ->allow_extra_args(false)
         ->delimiter(',');
     command->add_option("--device", options->device, "Vulkan device by number or by part of its name (reflet list devices)")
         ->type_name("NAME|INDEX");

@@ -61,10 +61,13 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
         ->type_name("V.json");
     command.add_option("--size", options.size, "Width and height in pixels")->type_name("WxH")->capture_default_str();
     command.add_option("--preset", options.preset, "Settings under one name (reflet list presets)")->type_name("P");
+    // One value for each time that they are given: what follows may be the scene.
     command.add_option("--settings", options.settingsFiles, "Settings from a JSON file, over the preset's")
-        ->type_name("F.json");
+        ->type_name("F.json")
+        ->allow_extra_args(false);
     command.add_option("--set", options.set, "One setting, over all others (reflet list settings); may be repeated")
-        ->type_name("KEY=VALUE");
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
     command.add_option("--seed", options.seed, "Another number gives other noise")->capture_default_str();
 }
 
