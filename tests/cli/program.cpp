@@ -1,0 +1,163 @@
+// Runs the built program: posix_spawn, with its output in files so that no pipe can fill up.
+#include "cli/program.h"
+
+#include "base/error.h"
+#include "base/file.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <sstream>
+#include <thread>
+
+namespace reflet {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::chrono::seconds limit(120);  // only for a program that hangs
+constexpr std::chrono::milliseconds pause(2);
+constexpr int killed = 128;
+
+std::vector<char*> pointers(std::vector<std::string>& texts) {
+    std::vector<char*> result;
+    std::ranges::transform(texts, std::back_inserter(result), [](std::string& text) { return text.data(); });
+    result.push_back(nullptr);
+    return result;
+}
+
+std::vector<std::string> environment(const Environment& added) {
+    std::vector<std::string> result;
+    for (char** variable = ::environ; *variable != nullptr; ++variable) {
+        const std::string text = *variable;
+        if (!added.contains(text.substr(0, text.find('=')))) {
+            result.push_back(text);
+        }
+    }
+    std::ranges::transform(added, std::back_inserter(result),
+                           [](const auto& variable) { return variable.first + "=" + variable.second; });
+    return result;
+}
+
+int waitFor(pid_t child) {
+    const auto end = std::chrono::steady_clock::now() + limit;
+    int status = 0;
+    while (::waitpid(child, &status, WNOHANG) == 0) {
+        if (std::chrono::steady_clock::now() > end) {
+            ::kill(child, SIGKILL);
+            ::waitpid(child, &status, 0);
+            break;
+        }
+        std::this_thread::sleep_for(pause);
+    }
+    return WIFEXITED(status) ? WEXITSTATUS(status) : killed + WTERMSIG(status);
+}
+
+struct Places {
+    fs::path folder;
+    fs::path out;
+    fs::path err;
+};
+
+pid_t start(const Arguments& arguments, const Environment& added, const Places& places) {
+    Arguments all{REFLET_PROGRAM};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    std::vector<std::string> variables = environment(added);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addchdir_np(&actions, places.folder.c_str());
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    const int flags = O_WRONLY | O_CREAT | O_TRUNC;
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, places.out.c_str(), flags, 0600);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, places.err.c_str(), flags, 0600);
+    pid_t child = 0;
+    const int error =
+        ::posix_spawn(&child, REFLET_PROGRAM, &actions, nullptr, pointers(all).data(), pointers(variables).data());
+    posix_spawn_file_actions_destroy(&actions);
+    REFLET_CHECK(error == 0, "{} cannot be started", REFLET_PROGRAM);
+    return child;
+}
+
+fs::path makeFolder() {
+    std::string name = (fs::temp_directory_path() / "reflet-cli-XXXXXX").string();
+    REFLET_CHECK(::mkdtemp(name.data()) != nullptr, "{} cannot be made", name);
+    return name;
+}
+
+}  // namespace
+
+ProgramTest::ProgramTest() : folder_(makeFolder()), said_(makeFolder()) {}
+
+ProgramTest::~ProgramTest() {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+    fs::remove_all(said_, ignored);
+}
+
+Outcome ProgramTest::run(const Arguments& arguments, const Environment& added, const fs::path& out) const {
+    const int status = waitFor(start(arguments, added, {folder_, out.empty() ? said_ / "out" : out, said_ / "err"}));
+    return {status, out.empty() ? readFile(said_ / "out") : "", readFile(said_ / "err")};
+}
+
+Outcome ProgramTest::render(const std::string& scene, const Arguments& more, const Environment& added) const {
+    Arguments all{"render", scene, "--size", "32x18"};
+    all.insert(all.end(), more.begin(), more.end());
+    return run(all, added);
+}
+
+void ProgramTest::write(std::string_view file, std::string_view content) const {
+    writeFileAtomically(path(file), content);
+}
+
+std::string ProgramTest::read(std::string_view file) const {
+    return readFile(path(file));
+}
+
+std::vector<std::string> ProgramTest::files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_)) {
+        names.push_back(entry.path().filename().string());
+    }
+    std::ranges::sort(names);
+    return names;
+}
+
+testing::AssertionResult quietSuccess(const Outcome& run) {
+    if (run.status == 0 && run.err.empty()) {
+        return testing::AssertionSuccess();
+    }
+    return testing::AssertionFailure() << "status " << run.status << ", said: " << run.err;
+}
+
+testing::AssertionResult refused(const Outcome& run, int status, std::initializer_list<std::string_view> words) {
+    const auto failure = testing::AssertionFailure() << "status " << run.status << ", said: " << run.err << run.out;
+    if (run.status != status || !run.out.empty() || !run.err.starts_with("reflet: ")) {
+        return failure;
+    }
+    if (std::ranges::count(run.err, '\n') != 1 || !run.err.ends_with('\n')) {
+        return testing::AssertionFailure() << "not one line: " << run.err;
+    }
+    for (const std::string_view word : words) {
+        if (run.err.find(word) == std::string::npos) {
+            return testing::AssertionFailure() << "no '" << word << "' in: " << run.err;
+        }
+    }
+    return testing::AssertionSuccess();
+}
+
+std::vector<std::string> firstWords(const std::string& text) {
+    std::vector<std::string> words;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        if (const std::string word = line.substr(0, line.find(' ')); !word.empty()) {
+            words.push_back(word);
+        }
+    }
+    return words;
+}
+
+}  // namespace reflet

@@ -1,0 +1,57 @@
+// Runs the built program as a user would, in a folder of its own, and keeps what it said.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <initializer_list>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace reflet {
+
+/// What one run left behind. A run that was ended by a signal or by the time limit has a status above 128.
+struct Outcome {
+    int status = 0;
+    std::string out;
+    std::string err;
+};
+
+using Arguments = std::vector<std::string>;
+using Environment = std::map<std::string, std::string>;
+
+/// A test in an empty folder, which is the program's working folder and is removed afterwards.
+class ProgramTest : public testing::Test {
+protected:
+    ProgramTest();
+    ~ProgramTest() override;
+
+    /// Standard output is kept, or goes to `out`.
+    [[nodiscard]] Outcome run(const Arguments& arguments, const Environment& added = {},
+                              const std::filesystem::path& out = {}) const;
+    /// `reflet render SCENE --size 32x18` and more.
+    [[nodiscard]] Outcome render(const std::string& scene, const Arguments& more, const Environment& added = {}) const;
+
+    [[nodiscard]] std::filesystem::path path(std::string_view file) const { return folder_ / file; }
+    void write(std::string_view file, std::string_view content) const;
+    [[nodiscard]] std::string read(std::string_view file) const;
+    /// Names of all files in the folder, sorted.
+    [[nodiscard]] std::vector<std::string> files() const;
+
+private:
+    std::filesystem::path folder_;
+    std::filesystem::path said_;  ///< where the output of runs goes, outside of the folder
+};
+
+/// Status 0 and not a word on standard error.
+testing::AssertionResult quietSuccess(const Outcome& run);
+
+/// The status, nothing on standard output, and one line "reflet: …" with all of the words on standard error.
+testing::AssertionResult refused(const Outcome& run, int status, std::initializer_list<std::string_view> words);
+
+/// The first word of each line: the names that a list shows.
+std::vector<std::string> firstWords(const std::string& text);
+
+}  // namespace reflet

@@ -1,0 +1,228 @@
+// What `reflet render` writes when all is well.
+#include "cli/program.h"
+
+#include "base/image_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace reflet {
+namespace {
+
+using Names = std::vector<std::string>;
+const std::string cubes = "builtin:cubes";
+
+bool allFinite(const FloatImage& image) {
+    return std::ranges::all_of(image.data, [](float value) { return std::isfinite(value); });
+}
+
+class Render : public ProgramTest {
+protected:
+    /// The EXR's layers, each of the expected size and without NaN.
+    [[nodiscard]] std::vector<ImageLayer> layers(std::string_view file, uint32_t width = 32,
+                                                 uint32_t height = 18) const {
+        std::vector<ImageLayer> all = readExr(path(file));
+        for (const ImageLayer& layer : all) {
+            EXPECT_EQ(layer.image.width, width) << layer.name;
+            EXPECT_EQ(layer.image.height, height) << layer.name;
+            EXPECT_TRUE(allFinite(layer.image)) << layer.name;
+        }
+        return all;
+    }
+    /// The bytes of the picture that these arguments give.
+    [[nodiscard]] std::string picture(const Arguments& more) const {
+        Arguments all{"-o", "picture.png"};
+        all.insert(all.end(), more.begin(), more.end());
+        EXPECT_TRUE(quietSuccess(render(cubes, all)));
+        return read("picture.png");
+    }
+    [[nodiscard]] Names names(const std::string& list) const { return firstWords(run({"list", list}).out); }
+};
+
+float mean(const FloatImage& image) {
+    double sum = 0.0;
+    for (const float value : image.data) {
+        sum += value;
+    }
+    return static_cast<float>(sum / static_cast<double>(image.data.size()));
+}
+
+TEST_F(Render, WritesEveryOutputOfOneRunAndNothingElse) {
+    const Outcome done = render(cubes, {"-o", "a.png", "-o", "b.png", "-o", "c.exr"});
+    ASSERT_TRUE(quietSuccess(done));
+    EXPECT_EQ(done.out, "");
+    EXPECT_EQ(files(), (Names{"a.png", "b.png", "c.exr"}));
+    const Bitmap bitmap = readBitmap(path("a.png"));
+    EXPECT_EQ(bitmap.width, 32U);
+    EXPECT_EQ(bitmap.height, 18U);
+    EXPECT_EQ(read("a.png"), read("b.png"));
+    const auto all = layers("c.exr");
+    ASSERT_EQ(all.size(), 1U);
+    EXPECT_EQ(all[0].image.channels, (Names{"R", "G", "B"}));
+    EXPECT_GT(mean(all[0].image), 0.01F);
+}
+
+TEST_F(Render, TheSceneMayStandAfterAnyOption) {
+    for (const Arguments& option :
+         {Arguments{"-o", "b.png"}, Arguments{"--set", "diffuse.rays=1"}, Arguments{"--frames", "1"}}) {
+        Arguments all{"render", "-o", "a.png", "--size", "8x8"};
+        all.insert(all.end(), option.begin(), option.end());
+        all.push_back(cubes);
+        EXPECT_TRUE(quietSuccess(run(all))) << option.front();
+    }
+}
+
+TEST_F(Render, AnExrHoldsTheNamedLayersBesideTheMainImage) {
+    ASSERT_TRUE(quietSuccess(render(cubes, {"-o", "a.exr", "--aov", "normal,depth", "--aov", "direct,normal"})));
+    const auto all = layers("a.exr");
+    ASSERT_EQ(all.size(), 4U);
+    const std::vector<std::pair<std::string, Names>> expected{
+        {"", {"R", "G", "B"}}, {"depth", {"Y"}}, {"direct", {"R", "G", "B"}}, {"normal", {"X", "Y", "Z"}}};
+    for (size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_EQ(all[i].name, expected[i].first);
+        EXPECT_EQ(all[i].image.channels, expected[i].second);
+    }
+}
+
+TEST_F(Render, FinalIsDirectPlusBothIndirectLayers) {
+    ASSERT_TRUE(quietSuccess(render(cubes, {"-o", "a.exr", "--aov", "direct,indirect_diffuse,indirect_specular"})));
+    const auto all = layers("a.exr");
+    ASSERT_EQ(all.size(), 4U);
+    for (size_t i = 0; i < all[0].image.data.size(); ++i) {
+        const float whole = all[0].image.data[i];
+        const float sum = all[1].image.data[i] + all[2].image.data[i] + all[3].image.data[i];
+        ASSERT_NEAR(sum, whole, 0.003F * std::max(1.0F, whole)) << "value " << i;  // all four are half floats
+    }
+}
+
+TEST_F(Render, EveryListedShowMakesAPictureAndValues) {
+    const Names shows = names("shows");
+    ASSERT_GE(shows.size(), 20U);
+    for (const std::string& show : shows) {
+        const bool map = show == "shadow_map";
+        ASSERT_TRUE(quietSuccess(
+            render(cubes, {"-o", "a.png", "-o", "a.exr", "--show", show, "--set", "shadow.resolution=64"})))
+            << show;
+        const auto all = layers("a.exr", map ? 64 : 32, map ? 64 : 18);
+        ASSERT_EQ(all.size(), 1U) << show;
+        EXPECT_EQ(readBitmap(path("a.png")).width, all[0].image.width) << show;
+    }
+}
+
+TEST_F(Render, EveryBuiltinSceneHasAllImagesWithoutNan) {
+    Names shows = names("shows");
+    std::erase(shows, "shadow_map");  // of a size of its own
+    std::string aovs;
+    for (const std::string& show : shows) {
+        aovs += (aovs.empty() ? "" : ",") + show;
+    }
+    const Names scenes = names("scenes");
+    ASSERT_GE(scenes.size(), 7U);
+    for (const std::string& scene : scenes) {
+        ASSERT_TRUE(quietSuccess(render(scene, {"-o", "a.exr", "--aov", aovs}))) << scene;
+        EXPECT_EQ(layers("a.exr").size(), shows.size() + 1) << scene;
+    }
+}
+
+TEST_F(Render, TheSameCommandTwiceGivesTheSameBytes) {
+    for (const char* scene : {"builtin:cubes", "builtin:cave"}) {
+        const Arguments outputs{"-o", "a.png", "-o", "a.exr", "--aov", "indirect_diffuse,source", "--frames", "2"};
+        ASSERT_TRUE(quietSuccess(render(scene, outputs)));
+        const std::string png = read("a.png");
+        const std::string exr = read("a.exr");
+        ASSERT_TRUE(quietSuccess(render(scene, outputs)));
+        EXPECT_EQ(png, read("a.png")) << scene;
+        EXPECT_EQ(exr, read("a.exr")) << scene;
+    }
+}
+
+TEST_F(Render, AnotherSeedGivesOtherNoise) {
+    EXPECT_EQ(picture({}), picture({"--seed", "0"}));
+    EXPECT_NE(picture({}), picture({"--seed", "1"}));
+}
+
+TEST_F(Render, TheLastOfSeveralFramesIsWritten) {
+    EXPECT_NE(picture({"--frames", "1"}), picture({"--frames", "3"}));  // successive frames have other noise
+}
+
+TEST_F(Render, TimingsTellEveryPassOfTheFrame) {
+    ASSERT_TRUE(quietSuccess(render(cubes, {"--frames", "3", "--timings", "t.json"})));
+    EXPECT_EQ(files(), Names{"t.json"});
+    const auto timings = nlohmann::json::parse(read("t.json"));
+    EXPECT_FALSE(timings.at("device").get<std::string>().empty());
+    EXPECT_EQ(timings.at("size"), nlohmann::json::parse("[32, 18]"));
+    EXPECT_EQ(timings.at("frames"), 3);
+    EXPECT_GT(timings.at("frame_ms"), 0.0);
+    const auto& passes = timings.at("passes");
+    for (const char* pass : {"gbuffer", "shadow_map", "shadow_visibility", "direct", "diffuse.generate_rays",
+                             "diffuse.trace_screen", "specular.trace_screen", "composite", "tonemap"}) {
+        EXPECT_TRUE(passes.contains(pass)) << pass;
+    }
+    for (const auto& [pass, ms] : passes.items()) {
+        EXPECT_GT(ms, 0.0) << pass;
+    }
+}
+
+TEST_F(Render, LaterSourcesOfSettingsWin) {
+    write("bright.json", R"({"tonemap": {"exposure": 2}})");
+    write("dark.json", R"({"tonemap": {"exposure": -2, "curve": "srgb"}, "trace_screen": {"jitter": false}})");
+    const std::string standard = picture({"--preset", "direct"});
+    const std::string bright = picture({"--preset", "direct", "--set", "tonemap.exposure=2"});
+    EXPECT_NE(standard, bright);
+    EXPECT_EQ(bright, picture({"--settings", "bright.json", "--preset", "direct"}));
+    EXPECT_EQ(standard, picture({"--set", "tonemap.exposure=0", "--preset", "direct", "--settings", "bright.json"}));
+    EXPECT_EQ(bright, picture({"--preset", "direct", "--settings", "dark.json", "--settings", "bright.json", "--set",
+                               "tonemap.curve=neutral"}));
+    EXPECT_EQ(bright, picture({"--preset", "direct", "--set", "tonemap.exposure=1", "--set", "tonemap.exposure=2"}));
+}
+
+TEST_F(Render, ASettingsFileOverridesThePreset) {
+    write("rays.json", R"({"diffuse": {"rays": 4}, "specular": {"rays": 1}})");
+    EXPECT_EQ(picture({}), picture({"--preset", "direct", "--settings", "rays.json"}));
+    EXPECT_NE(picture({}), picture({"--preset", "direct"}));
+}
+
+TEST_F(Render, AViewFileChangesCameraSunAndEnvironment) {
+    const std::string standard = picture({});
+    write("camera.json", R"({"camera": {"fov_y": 20}})");
+    write("sun.json", R"({"sun": {"direction": [0.2, -1, 0.1]}})");
+    write("dark.json", R"({"sun": {"irradiance": [0, 0, 0]}, "environment": {"radiance": [0, 0, 0]}})");
+    EXPECT_NE(standard, picture({"--view-file", "camera.json"}));
+    EXPECT_NE(standard, picture({"--view-file", "sun.json"}));
+    ASSERT_TRUE(quietSuccess(render("builtin:tilted-cube", {"--view-file", "dark.json", "-o", "a.exr"})));
+    EXPECT_EQ(mean(layers("a.exr").at(0).image), 0.0F);
+}
+
+TEST_F(Render, ACameraIsChosenByNumberOrName) {
+    EXPECT_EQ(picture({"--camera", "1"}), picture({"--camera", "side"}));
+    EXPECT_NE(picture({"--camera", "1"}), picture({"--camera", "main"}));
+    EXPECT_EQ(picture({}), picture({"--camera", "0"}));
+}
+
+TEST_F(Render, AGltfFileIsAScene) {
+    // One triangle: (0,0,0), (1,0,0), (0,1,0).
+    write("triangle.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0],
+                       "max": [1, 1, 0]}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
+    ASSERT_TRUE(quietSuccess(render("triangle.gltf", {"-o", "a.exr", "--show", "depth"})));
+    EXPECT_GT(mean(layers("a.exr").at(0).image), 0.0F);
+}
+
+TEST_F(Render, ADeviceIsChosenByNumberOrPartOfItsName) {
+    const std::string name = run({"list", "devices"}).out.substr(3, 5);
+    EXPECT_TRUE(quietSuccess(render(cubes, {"-o", "a.png", "--device", "0"})));
+    EXPECT_TRUE(quietSuccess(render(cubes, {"-o", "a.png", "--device", name})));
+}
+
+TEST_F(Render, TheValidationLayersHaveNothingToSay) {
+    EXPECT_TRUE(quietSuccess(render(cubes, {"-o", "a.png", "--validate", "--frames", "3"})));
+    EXPECT_TRUE(quietSuccess(render("builtin:cave", {"--validate", "--set", "diffuse.rays=5"})));
+}
+
+}  // namespace
+}  // namespace reflet
