@@ -5,6 +5,8 @@
 
 #include "render/shadow/shadow.h"
 
+const float lookupOffset = 0.75;  // texels: a texel's centre is at most 0.71 from its corner
+
 // 1: lit. A hard edge, exact to the texel: the map holds depth at texel centres, so the surface is followed along its
 // own plane from the point to the centre and compared there. What is left for the bias is curvature and rounding.
 float hardVisibility(vec3 p, vec3 normal, ShadowMapParams map, ivec2 size, float bias) {
@@ -12,8 +14,13 @@ float hardVisibility(vec3 p, vec3 normal, ShadowMapParams map, ivec2 size, float
     if (facing <= 0.0) {
         return 0.0;  // the surface is in its own shadow
     }
+    // Looked up a part of a texel to the side that the surface faces: past the edge of a wall, the centre of the texel
+    // may see what the wall itself does not, and light would leak in along the edge.
     vec3 s = (map.worldToShadow * vec4(p, 1.0)).xyz;
-    vec2 at = (0.5 + 0.5 * s.xy) * vec2(size);
+    vec3 sideways = normal - facing * map.toSun;
+    float across = length(sideways);
+    vec3 lookup = p + sideways * (across > 1e-3 ? lookupOffset * map.texelSize / across : 0.0);
+    vec2 at = (0.5 + 0.5 * (map.worldToShadow * vec4(lookup, 1.0)).xy) * vec2(size);
     ivec2 texel = ivec2(floor(at));
     if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, size))) {
         return 1.0;  // nothing that the map knows of casts here

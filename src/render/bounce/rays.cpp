@@ -56,7 +56,7 @@ namespace {
 LobeLight lobeImages(gpu::Frame& f, uint32_t lobe, uvec2 size) {
     const bool diffuse = lobe == lobeDiffuse;
     return {.radiance = f.image(diffuse ? "diffuse.radiance" : "specular.radiance", VK_FORMAT_R16G16B16A16_SFLOAT, size),
-            .source = f.image(diffuse ? "diffuse.source" : "specular.source", VK_FORMAT_R8G8B8A8_UNORM, size)};
+            .source = f.image(diffuse ? "diffuse.source" : "specular.source", VK_FORMAT_R16G16B16A16_SFLOAT, size)};
 }
 
 }  // namespace

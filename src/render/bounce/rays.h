@@ -84,7 +84,8 @@ struct Rays {
 /// What a lobe's rays brought, averaged per pixel; not yet multiplied by the surface's own colour.
 struct LobeLight {
     gpu::Image radiance;  ///< RGBA16F: mean of radiance · ray weight; alpha: mean hit distance [m]
-    gpu::Image source;    ///< RGBA8: mean colour of the sources that answered; alpha: confidence
+    gpu::Image source;    ///< RGBA16F: mean colour of the sources that answered; alpha: confidence. Sums of many
+                          ///< batches, for which 8 bits are too few
 };
 
 /// Rays per pixel that one batch may hold, 1 to maxRaysPerBatch: as many as the device's buffers take at this size.

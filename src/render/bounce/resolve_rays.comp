@@ -10,7 +10,7 @@ layout(set = 0, binding = 1, rg32ui) uniform readonly uimage2DArray direction;
 layout(set = 0, binding = 2, rgba16f) uniform readonly image2DArray answer;
 layout(set = 0, binding = 3, rgba8) uniform readonly image2DArray raySource;
 layout(set = 0, binding = 4, rgba16f) uniform image2D radiance;
-layout(set = 0, binding = 5, rgba8) uniform image2D source;
+layout(set = 0, binding = 5, rgba16f) uniform image2D source;
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

@@ -27,16 +27,17 @@ layout(set = 0, binding = 8, scalar) buffer MissedBlock {
 #include "render/bounce/rays_append.glsl"
 #include "render/bounce/rays_answer.glsl"
 
+const float originOffset = 2e-4;  // metres per metre from the camera
+
 float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
 #include "shaders/march.glsl"
 
-// A little off the surface, so that rounding does not put the ray below it: a fraction of what a pixel covers there.
+// A little off the surface, so that rounding does not put the ray below it.
 vec3 rayOrigin(ivec2 pixel) {
     vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), loadDepth(pixel), params.view.clipToWorld);
     vec3 n = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
     float distance = dot(params.view.viewPlane, vec4(p, 1.0));
-    float footprint = params.view.pixelAngle * mix(1.0, distance, params.view.eye.w);
-    return p + n * footprint;
+    return p + n * (originOffset * distance);
 }
 
 RayAnswer answerRay(ivec3 slot, Ray ray) {

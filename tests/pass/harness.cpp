@@ -1,0 +1,126 @@
+// Renders small scenes for tests.
+#include "pass/harness.h"
+
+#include "apps/show.h"
+#include "support/device_fixture.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reflet::test {
+
+float Pictures::value(const std::string& show, unsigned x, unsigned y, unsigned channel) const {
+    const FloatImage& image = images.at(show);
+    return image.data.at((size_t(y) * image.width + x) * image.channels.size() + channel);
+}
+
+vec3 Pictures::color(const std::string& show, unsigned x, unsigned y) const {
+    return {value(show, x, y, 0), value(show, x, y, 1), value(show, x, y, 2)};
+}
+
+vec3 Pictures::position(unsigned x, unsigned y) const {
+    const float distance = value("depth", x, y);
+    const vec2 ndc = 2.0F * (vec2(x, y) + 0.5F) / vec2(size) - 1.0F;
+    // Any depth will do for the direction; the length follows from the distance along the camera's axis.
+    const vec4 p = view.clipToWorld * vec4(ndc, 0.5F, 1.0F);
+    const vec3 ray = vec3(p) / p.w - vec3(view.eye);
+    return vec3(view.eye) + ray * (distance / glm::dot(vec3(view.viewPlane), ray));
+}
+
+namespace {
+
+// The process's device, outside of a fixture.
+struct SharedDevice : DeviceTest {
+    void TestBody() override {}
+    using DeviceTest::device;
+};
+
+gpu::Device& testDevice() { return SharedDevice::device(); }
+
+struct TestFrame {
+    View view;
+    uvec2 size;
+};
+
+Pictures renderFrames(const Scene& scene, const std::vector<TestFrame>& frames, const Settings& settings,
+                      const std::vector<std::string>& shows) {
+    Renderer renderer(testDevice(), scene, [](const std::string&) {});
+    std::vector<ShowReadback> readbacks;
+    for (const auto& [view, size] : frames) {
+        readbacks.clear();
+        renderer.render(view, size, 0, settings, [&](gpu::Frame& f, const FrameImages& images) {
+            for (const std::string& show : shows) {
+                readbacks.push_back(requestShow(f, images, findShow(show)));
+            }
+        });
+    }
+    const auto& [view, size] = frames.back();
+    Pictures pictures{size, makeViewParams(view.camera, size, 0, 0), {}};
+    for (const ShowReadback& readback : readbacks) {
+        pictures.images[std::string(readback.show->name)] = fetchValues(renderer.frame(), readback, pictures.view);
+    }
+    return pictures;
+}
+
+}  // namespace
+
+Pictures render(const Scene& scene, const View& view, uvec2 size, const Settings& settings,
+                const std::vector<std::string>& shows, uint32_t frames) {
+    return renderFrames(scene, std::vector<TestFrame>(frames, {view, size}), settings, shows);
+}
+
+Pictures renderMoved(const Scene& scene, const View& before, const View& now, uvec2 size, const Settings& settings,
+                     const std::vector<std::string>& shows) {
+    return renderFrames(scene, {{before, size}, {now, size}}, settings, shows);
+}
+
+Pictures renderResized(const Scene& scene, const View& view, uvec2 before, uvec2 now, const Settings& settings,
+                       const std::vector<std::string>& shows) {
+    return renderFrames(scene, {{view, before}, {view, now}}, settings, shows);
+}
+
+vec3 pixelDirection(const Camera& camera, uvec2 size, unsigned x, unsigned y) {
+    const mat4 viewToWorld = glm::inverse(worldToView(camera));
+    const float halfHeight = std::tan(0.5F * camera.fovY);
+    const vec2 at = 2.0F * (vec2(x, y) + 0.5F) / vec2(size) - 1.0F;
+    const float aspect = static_cast<float>(size.x) / static_cast<float>(size.y);
+    return glm::normalize(mat3(viewToWorld) * vec3(at.x * halfHeight * aspect, -at.y * halfHeight, -1.0F));
+}
+
+Settings settingsOf(const std::vector<std::string>& assignments) {
+    Settings settings;
+    for (const std::string& assignment : assignments) {
+        setSetting(settings, assignment);
+    }
+    return settings;
+}
+
+Range rangeOf(const FloatImage& image) {
+    const auto [min, max] = std::ranges::minmax(image.data);
+    const bool finite = std::ranges::all_of(image.data, [](float v) { return std::isfinite(v); });
+    return {min, max, finite};
+}
+
+void expectSilentValidation(const std::string& during) {
+    static size_t heard = 0;
+    const auto& messages = testDevice().validationMessages();
+    for (; heard < messages.size(); ++heard) {
+        ADD_FAILURE() << "validation, " << during << ": " << messages[heard];
+    }
+}
+
+Material lambertMaterial(const vec3& albedo) {
+    Material material;
+    material.baseColor = vec4(albedo, 1.0F);
+    material.metallic = 0.0F;
+    material.roughness = 1.0F;
+    return material;
+}
+
+Scene sceneOf(const Material& material, Mesh mesh) {
+    Scene scene;
+    builtin::place(scene, "thing", builtin::addMaterial(scene, material), std::move(mesh));
+    return scene;
+}
+
+}  // namespace reflet::test

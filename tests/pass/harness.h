@@ -1,0 +1,65 @@
+// Renders small scenes for tests, under the validation layers, and gives the frame's images as values.
+#pragma once
+
+#include "base/image_file.h"
+#include "render/renderer.h"
+#include "scene/builtin/assemble.h"
+#include "scene/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace reflet::test {
+
+/// Images by --show name.
+struct Pictures {
+    uvec2 size{0};
+    ViewParams view{};
+    std::map<std::string, FloatImage> images;
+
+    [[nodiscard]] float value(const std::string& show, unsigned x, unsigned y, unsigned channel = 0) const;
+    [[nodiscard]] vec3 color(const std::string& show, unsigned x, unsigned y) const;
+    /// World position of the surface at a pixel, from the depth image; only where depth > 0.
+    [[nodiscard]] vec3 position(unsigned x, unsigned y) const;
+    [[nodiscard]] bool hasSurface(unsigned x, unsigned y) const { return value("depth", x, y) > 0.0F; }
+};
+
+/// The last of `frames` frames.
+Pictures render(const Scene& scene, const View& view, uvec2 size, const Settings& settings,
+                const std::vector<std::string>& shows, uint32_t frames = 1);
+
+/// A frame from `before`, then one from `now`, of which the images are.
+Pictures renderMoved(const Scene& scene, const View& before, const View& now, uvec2 size, const Settings& settings,
+                     const std::vector<std::string>& shows);
+
+/// A frame of size `before`, then one of size `now`, of which the images are.
+Pictures renderResized(const Scene& scene, const View& view, uvec2 before, uvec2 now, const Settings& settings,
+                       const std::vector<std::string>& shows);
+
+/// Unit direction from the eye through a pixel's centre.
+vec3 pixelDirection(const Camera& camera, uvec2 size, unsigned x, unsigned y);
+
+/// Settings from assignments: settingsOf({"diffuse.rays=0", …}).
+Settings settingsOf(const std::vector<std::string>& assignments);
+
+/// Smallest value, largest value, and whether all are finite.
+struct Range {
+    float min = 0.0F;
+    float max = 0.0F;
+    bool finite = true;
+};
+Range rangeOf(const FloatImage& image);
+
+/// Expects that the validation layers have been silent since the last call.
+void expectSilentValidation(const std::string& during);
+
+/// An empty scene with one material a call.
+Material lambertMaterial(const vec3& albedo);
+
+/// A scene of one mesh in one material.
+Scene sceneOf(const Material& material, Mesh mesh);
+
+}  // namespace reflet::test
