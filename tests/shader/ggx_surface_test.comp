@@ -1,0 +1,27 @@
+// Surfaces made as the renderer makes them, and light that they reflect.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "shaders/ggx.glsl"
+#include "ggx_test.h"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0) uniform sampler2D ggxTable;
+layout(set = 0, binding = 1, scalar) readonly buffer InputBlock { GgxCase items[]; } inputs;
+layout(set = 0, binding = 2, scalar) buffer OutputBlock { GgxResult items[]; } outputs;
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= outputs.items.length()) {
+        return;
+    }
+    GgxCase c = inputs.items[i];
+    GgxResult o;
+    o.table = textureLod(ggxTable, ggxTableUv(c.v.z, c.material.roughness), 0.0).rg;
+    Surface s = makeSurface(c.material.baseColor, c.material.metallic, c.material.roughness, o.table,
+                            c.material.lambert != 0u);
+    o.reflected = reflectLight(s, vec3(0.0, 0.0, 1.0), c.v, c.l);
+    o.diffuse = s.diffuse;
+    o.specular = s.specular;
+    o.singleScattering = (o.reflected - s.diffuse * c.l.z / pi) / (s.compensation * c.l.z);
+    outputs.items[i] = o;
+}

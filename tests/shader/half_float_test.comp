@@ -1,0 +1,15 @@
+// What is kept of values in half-float images.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "shaders/half_float.glsl"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0, scalar) readonly buffer InputBlock { vec3 items[]; } inputs;
+layout(set = 0, binding = 1, scalar) buffer OutputBlock { vec3 items[]; } outputs;
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i < outputs.items.length()) {
+        outputs.items[i] = clampToHalf(inputs.items[i]);
+    }
+}

@@ -1,0 +1,214 @@
+// march.glsl: walls met at known depths, and every way to miss. The camera looks along -Z from the origin; walls face
+// it.
+#include "shader/march_test.h"
+
+#include "render/renderer.h"
+#include "shader/harness.h"
+
+#include <random>
+
+namespace reflet::test {
+namespace {
+
+constexpr uint32_t marchHit = 0;
+constexpr uint32_t marchLeftScreen = 1;
+constexpr uint32_t marchSpent = 2;
+constexpr uvec2 pixels{320, 180};
+
+Camera cameraOf(bool orthographic) {
+    Camera camera;
+    camera.position = vec3(0.0F);
+    camera.target = vec3(0, 0, -1);
+    camera.near = 0.1F;
+    camera.orthographicHeight = orthographic ? 10.0F : 0.0F;
+    camera.far = 100.0F;
+    return camera;
+}
+
+/// The plane z = -distance, where uv lies in the given part of the screen.
+MarchWall wallAt(float distance, vec2 firstUv = vec2(-1.0F), vec2 lastUv = vec2(2.0F)) {
+    return {vec4(0, 0, 1, distance), firstUv, lastUv};
+}
+
+class March : public ShaderTest, public ::testing::WithParamInterface<bool> {
+protected:
+    [[nodiscard]] static MarchScene sceneOf(const std::vector<MarchWall>& walls) {
+        MarchScene scene{};
+        scene.view = makeViewParams(cameraOf(GetParam()), pixels, 0, 0);
+        std::ranges::copy(walls, scene.walls);
+        scene.wallCount = static_cast<uint32_t>(walls.size());
+        return scene;
+    }
+
+    static std::vector<MarchAnswer> march(const MarchScene& scene, const std::vector<MarchRay>& rays) {
+        return mapOnDevice<MarchAnswer>("march_test.comp", rays, scene);
+    }
+
+    /// Where a world point is on the screen [pixels], in double precision.
+    static glm::dvec2 project(const glm::dvec3& p) {
+        const double scale = GetParam() ? 1.0 / 10.0 : 0.5 / (std::tan(glm::radians(30.0)) * -p.z);
+        return glm::dvec2(0.5 * pixels.x + p.x * scale * pixels.y, 0.5 * pixels.y - p.y * scale * pixels.y);
+    }
+
+    /// Rays from all over the middle of the view into its depth.
+    static std::vector<MarchRay> raysIntoDepth(float jitter, float stepLength) {
+        std::mt19937 random(7);
+        const auto between = [&](float low, float high) {
+            return low + (high - low) * static_cast<float>(random() >> 8U) / 16777216.0F;
+        };
+        std::vector<MarchRay> rays;
+        for (int i = 0; i < 500; ++i) {
+            const vec3 origin(between(-0.5F, 0.5F), between(-0.5F, 0.5F), between(-4.0F, -2.0F));
+            const vec3 direction = glm::normalize(vec3(between(-0.3F, 0.3F), between(-0.25F, 0.25F), -1.0F));
+            rays.push_back({origin, direction, stepLength, 4096, 0.5F, jitter});
+        }
+        return rays;
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(Cameras, March, ::testing::Bool(), [](const auto& camera) {
+    return camera.param ? std::string("orthographic") : std::string("perspective");
+});
+
+TEST_P(March, meetsAWallWithinAStepOfItsDepthAndInItsPixel) {
+    for (const float jitter : {1.0F, 0.001F, 0.37F}) {
+        constexpr float stepLength = 0.07F;
+        const auto rays = raysIntoDepth(jitter, stepLength);
+        const auto answers = march(sceneOf({wallAt(10.0F)}), rays);
+        for (size_t i = 0; i < rays.size(); ++i) {
+            const glm::dvec3 o(rays[i].origin);
+            const glm::dvec3 d(rays[i].direction);
+            const double toWall = (o.z + 10.0) / -d.z;
+            // The first sample behind the wall; two samples are right where it lies on it to a rounding.
+            const double samples = toWall / stepLength - jitter;
+            ASSERT_EQ(answers[i].outcome, marchHit);
+            ASSERT_GT(answers[i].distance, toWall - 1e-5);
+            ASSERT_LT(answers[i].distance, toWall + stepLength + 1e-5);
+            if (std::abs(samples - std::round(samples)) > 1e-3) {
+                ASSERT_EQ(answers[i].steps, static_cast<uint32_t>(std::floor(samples)) + 2U);
+            }
+            ASSERT_NEAR(answers[i].distance, (answers[i].steps - 1 + static_cast<double>(jitter)) * stepLength, 2e-5);
+            const glm::dvec2 at = project(o + d * static_cast<double>(answers[i].distance));
+            const glm::dvec2 pixel(answers[i].pixelX, answers[i].pixelY);
+            // 1e-3 of a pixel: where the rounding of the projection decides.
+            ASSERT_TRUE(glm::all(glm::greaterThanEqual(at, pixel - 1e-3))) << at.x << ' ' << at.y;
+            ASSERT_TRUE(glm::all(glm::lessThanEqual(at, pixel + 1.001))) << at.x << ' ' << at.y;
+        }
+    }
+}
+
+TEST_P(March, meetsATiltedWallWithinAStepAndAPixel) {
+    const MarchWall tilted{vec4(glm::normalize(vec3(0.5F, 0.2F, 1.0F)), 7.0F), vec2(-1.0F), vec2(2.0F)};
+    constexpr float stepLength = 0.02F;
+    const auto rays = raysIntoDepth(1.0F, stepLength);
+    const auto answers = march(sceneOf({tilted}), rays);
+    for (size_t i = 0; i < rays.size(); ++i) {
+        const double facing = glm::dot(vec3(tilted.plane), rays[i].direction);
+        const double toWall = -glm::dot(tilted.plane, vec4(rays[i].origin, 1.0F)) / facing;
+        // Half a pixel of the wall beside the ray: up to 0.055 m wide here, and as much in depth, seen this aslant.
+        ASSERT_EQ(answers[i].outcome, marchHit);
+        ASSERT_NEAR(answers[i].distance, toWall, stepLength + 0.05);
+    }
+}
+
+TEST_P(March, isSpentAlongAWallThatItNeverMeets) {
+    const MarchScene scene = sceneOf({wallAt(10.0F)});
+    for (const vec3 direction : {vec3(1, 0, 0), vec3(0, 1, 0), vec3(-1, 0, 0)}) {
+        for (const uint32_t budget : {1U, 7U, 64U}) {
+            const auto answer = march(scene, {{vec3(0, 0, -9.99F), direction, 0.02F, budget, 0.5F, 1.0F}}).front();
+            EXPECT_EQ(answer.outcome, marchSpent);
+            EXPECT_EQ(answer.steps, budget);
+            EXPECT_NEAR(answer.distance, 0.02F * static_cast<float>(budget), 1e-6F);
+        }
+    }
+}
+
+// Steps of 0.5 from z = -2.25: the wall at -10 lies between the fifteenth (-9.75) and the sixteenth (-10.25).
+TEST_P(March, hitsWithItsLastStepAndMissesWithTheStepAfter) {
+    MarchRay ray{vec3(0.1F, 0.1F, -2.25F), vec3(0, 0, -1), 0.5F, 16, 0.5F, 1.0F};
+    const MarchScene scene = sceneOf({wallAt(10.0F)});
+    const auto last = march(scene, {ray}).front();
+    EXPECT_EQ(last.outcome, marchHit);
+    EXPECT_EQ(last.steps, 16U);
+    EXPECT_FLOAT_EQ(last.distance, 8.0F);
+    ray.maxSteps = 15;
+    const auto after = march(scene, {ray}).front();
+    EXPECT_EQ(after.outcome, marchSpent);
+    EXPECT_EQ(after.steps, 15U);
+    ray.maxSteps = 0;
+    const auto none = march(scene, {ray}).front();
+    EXPECT_EQ(none.outcome, marchSpent);
+    EXPECT_EQ(none.steps, 0U);
+}
+
+TEST_P(March, leavesTheScreenOnEachOfItsSides) {
+    const MarchScene scene = sceneOf({wallAt(50.0F)});
+    struct Side {
+        vec3 direction;
+        int column;  ///< of the last pixel; -1: any
+        int row;
+    };
+    for (const Side& side :
+         {Side{{1, 0, 0}, 319, -1}, Side{{-1, 0, 0}, 0, -1}, Side{{0, 1, 0}, -1, 0}, Side{{0, -1, 0}, -1, 179}}) {
+        // A pixel at this distance is more than 0.03 m wide: no pixel is stepped over.
+        const auto answer =
+            march(scene, {{vec3(0.01F, 0.01F, -8.0F), side.direction, 0.02F, 4096, 0.3F, 1.0F}}).front();
+        EXPECT_EQ(answer.outcome, marchLeftScreen);
+        EXPECT_EQ(answer.pixelX, side.column < 0 ? 160 : side.column);
+        EXPECT_EQ(answer.pixelY, side.row < 0 ? 89 : side.row);
+        EXPECT_LT(answer.steps, 4096U);
+    }
+}
+
+TEST_P(March, leavesTheScreenPastTheCamera) {
+    const MarchScene scene = sceneOf({wallAt(10.0F)});
+    const float near = 0.1F;
+    for (const float jitter : {1.0F, 0.5F}) {
+        // From 5 m in front of the camera back to it, through its near plane and its eye.
+        const auto answer = march(scene, {{vec3(0, 0, -5), vec3(0, 0, 1), 0.03F, 4096, 100.0F, jitter}}).front();
+        EXPECT_EQ(answer.outcome, marchLeftScreen);
+        EXPECT_NEAR(answer.distance, 5.0F - near, 0.031F);
+    }
+    // One step leaps over the camera, another starts behind it.
+    const auto leapt = march(scene, {{vec3(0, 0, -1), vec3(0, 0, 1), 4.0F, 64, 100.0F, 1.0F}}).front();
+    EXPECT_EQ(leapt.outcome, marchLeftScreen);
+    EXPECT_EQ(leapt.steps, 0U);
+    const auto behind = march(scene, {{vec3(0, 0, 3), vec3(0, 0, 1), 0.1F, 64, 100.0F, 1.0F}}).front();
+    EXPECT_EQ(behind.outcome, marchLeftScreen);
+    EXPECT_EQ(behind.steps, 0U);
+}
+
+// A wall at 5 m covers the right half; rays pass a metre behind it.
+TEST_P(March, passesBehindAWallThatIsThinnerThanTheGap) {
+    const MarchScene scene = sceneOf({wallAt(5.0F, vec2(0.5F, 0.0F), vec2(1.0F))});
+    MarchRay ray{vec3(-1.0F, 0.1F, -6.0F), vec3(1, 0, 0), 0.03F, 84, 0.9F, 1.0F};  // no pixel is stepped over
+    const auto thin = march(scene, {ray}).front();
+    EXPECT_EQ(thin.outcome, marchSpent);
+    EXPECT_GT(thin.pixelX, 170);  // it was behind the wall
+    ray.thickness = 1.1F;
+    const auto thick = march(scene, {ray}).front();
+    EXPECT_EQ(thick.outcome, marchHit);
+    EXPECT_EQ(thick.pixelX, 160);  // the wall's first column
+    EXPECT_NEAR(thick.distance, 1.0F, 0.06F);
+}
+
+TEST_P(March, passesInFrontOfWhatLiesBehindIt) {
+    const MarchScene scene = sceneOf({wallAt(5.0F, vec2(0.7F, 0.0F), vec2(1.0F)), wallAt(20.0F)});
+    const auto answer = march(scene, {{vec3(-1.0F, 0.1F, -4.0F), vec3(1, 0, 0), 0.05F, 30, 100.0F, 1.0F}}).front();
+    EXPECT_EQ(answer.outcome, marchSpent);
+}
+
+TEST_P(March, neverHitsTheSky) {
+    auto rays = raysIntoDepth(1.0F, 0.5F);
+    for (MarchRay& ray : rays) {
+        ray.maxSteps = 12;
+        ray.thickness = 1000.0F;
+    }
+    for (const MarchAnswer& answer : march(sceneOf({}), rays)) {
+        ASSERT_EQ(answer.outcome, marchSpent);
+        ASSERT_EQ(answer.steps, 12U);
+    }
+}
+
+}  // namespace
+}  // namespace reflet::test

@@ -1,0 +1,17 @@
+// What noise_test.comp says of a pixel. Shared by C++ and GLSL.
+#ifndef REFLET_TESTS_NOISE_TEST_H
+#define REFLET_TESTS_NOISE_TEST_H
+
+#include "base/shared.h"
+
+SHARED_BEGIN
+
+struct NoiseSample {
+    uint hash;
+    float unit;
+    vec2 pair;
+};
+
+SHARED_END
+
+#endif
