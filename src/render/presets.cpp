@@ -29,7 +29,7 @@ std::span<const Preset> presets() {
 }
 
 void applyPreset(Settings& settings, std::string_view name) {
-    const auto found = std::ranges::find(all, name, &Preset::name);
+    const auto* found = std::ranges::find(all, name, &Preset::name);
     if (found == all.end()) {
         std::vector<std::string> names;
         std::ranges::transform(all, std::back_inserter(names), [](const Preset& p) { return std::string(p.name); });

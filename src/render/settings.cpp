@@ -118,7 +118,7 @@ void applyEffectJson(Settings& settings, const std::string& effect, const nlohma
         failUsage("{}: must be an object of settings, is {}", effect, values.dump());
     }
     for (const auto& [name, value] : values.items()) {
-        const SettingEntry& entry = findEntry(effect + "." + name);
+        const SettingEntry& entry = findEntry(fmt::format("{}.{}", effect, name));
         setSetting(settings, entry.name, jsonText(value, entry.info));
     }
 }
@@ -179,7 +179,7 @@ std::string settingText(const Settings& settings, const SettingEntry& entry) {
 
 void applySettingsJson(Settings& settings, const nlohmann::json& json, const std::string& where) {
     if (!json.is_object()) {
-        fail("{}: settings must be an object: {{\"effect\": {{\"name\": value}}}}", where);
+        fail(R"({}: settings must be an object: {{"effect": {{"name": value}}}})", where);
     }
     for (const auto& [effect, values] : json.items()) {
         try {
