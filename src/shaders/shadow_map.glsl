@@ -8,7 +8,8 @@
 const float lookupOffset = 0.75;  // texels: a texel's centre is at most 0.71 from its corner
 
 // 1: lit. A hard edge, exact to the texel: the map holds depth at texel centres, so the surface is followed along its
-// own plane from the point to the centre and compared there. What is left for the bias is curvature and rounding.
+// own plane from the point to the centre and compared there. What is left for the bias (texels along the normal) is
+// curvature, creases and rounding.
 float hardVisibility(vec3 p, vec3 normal, ShadowMapParams map, ivec2 size, float bias) {
     float facing = dot(normal, map.toSun);
     if (facing <= 0.0) {
@@ -31,8 +32,7 @@ float hardVisibility(vec3 p, vec3 normal, ShadowMapParams map, ivec2 size, float
     vec2 slope = -vec2(dot(normal, axisX) / dot(axisX, axisX), dot(normal, axisY) / dot(axisY, axisY)) /
                  max(facing, 0.05);
     vec2 toCentre = (2.0 * (vec2(texel) + 0.5) / vec2(size) - 1.0) - s.xy;
-    float steepness = min(1.0 / (facing * facing), 100.0);
-    float metres = dot(slope, toCentre) + bias * map.texelSize * steepness;
+    float metres = dot(slope, toCentre) + bias * map.texelSize / max(facing, 0.05);
     float surface = s.z + metres / map.depthRange;
     return loadShadowDepth(texel) > surface ? 0.0 : 1.0;
 }

@@ -16,7 +16,7 @@ CHOICES(ShadowFilter, SHADOW_FILTERS)
 #define SHADOW_SETTINGS(VALUE, SWITCH, CHOICE)                                                                    \
     CHOICE(ShadowFilter, filter, hard, "How the sun's shadow map is read; none: the sun casts no shadows.")      \
     VALUE(uint, resolution, 2048, 64, 8192, "Texels along each side of the sun's shadow map.")                   \
-    VALUE(float, bias, 0.1, 0.0, 16.0, "How far a surface is lifted toward the sun, in texels, where it faces it.")
+    VALUE(float, bias, 0.75, 0.0, 16.0, "How far above themselves surfaces ask for shadow, in texels of the map.")
 SETTINGS(ShadowSettings, SHADOW_SETTINGS)
 
 // Shadow space: x, y in clip space of the map, z reversed depth (1 nearest to the sun), all of it linear.
