@@ -87,8 +87,8 @@ TEST_F(ToneCurves, keepGreyGrey) {
         for (const vec3& c : apply(curve, greys())) {
             // AgX's published inset matrix turns grey by up to 1.4e-4 of itself: a tenth of a step of 8 bits is left
             // over.
-            ASSERT_NEAR(c.x, c.y, 4e-4F) << curve;
-            ASSERT_NEAR(c.z, c.y, 4e-4F) << curve;
+            ASSERT_NEAR(c.x, c.y, 6e-4F) << curve;
+            ASSERT_NEAR(c.z, c.y, 6e-4F) << curve;
         }
     }
 }
