@@ -25,6 +25,11 @@ float encode(float linear) {
 void first(Texels t, const ViewParams&, float* out) { out[0] = t[0].x; }
 void firstTwo(Texels t, const ViewParams&, float* out) { std::memcpy(out, &t[0], 2 * sizeof(float)); }
 void color(Texels t, const ViewParams&, float* out) { std::memcpy(out, &t[0], 3 * sizeof(float)); }
+// As unpackBaseColor in gbuffer.glsl.
+void squaredColor(Texels t, const ViewParams&, float* out) {
+    const vec3 c = vec3(t[0]) * vec3(t[0]);
+    std::memcpy(out, &c, sizeof(c));
+}
 void green(Texels t, const ViewParams&, float* out) { out[0] = t[0].y; }
 void blue(Texels t, const ViewParams&, float* out) { out[0] = t[0].z; }
 void alpha(Texels t, const ViewParams&, float* out) { out[0] = t[0].w; }
@@ -90,7 +95,8 @@ const std::vector<Show>& table() {
          [](const FrameImages& i) { return Images{i.g.normal, i.g.depth}; }, normal, xyz, direction},
         {"geometric_normal", "world-space normal of the triangle, toward the camera; PNG 0.5 + 0.5 n",
          [](const FrameImages& i) { return Images{i.g.geometricNormal, i.g.depth}; }, normal, xyz, direction},
-        {"albedo", "base colour, linear", [](const FrameImages& i) { return Images{i.g.baseColor}; }, color, rgb, encoded},
+        {"albedo", "base colour, linear", [](const FrameImages& i) { return Images{i.g.baseColor}; }, squaredColor, rgb,
+         encoded},
         {"roughness", "perceptual roughness, 0 mirror to 1", [](const FrameImages& i) { return Images{i.g.material}; },
          first, y, grey},
         {"metallic", "0 dielectric to 1 metal", [](const FrameImages& i) { return Images{i.g.material}; }, green, y,

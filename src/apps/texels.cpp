@@ -19,8 +19,6 @@ T loadAs(const std::byte* at) {
     return value;
 }
 
-float srgbToLinear(float c) { return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F); }
-
 // As octahedral.glsl.
 vec3 unpackUnitVector(uint32_t bits) {
     const vec2 p = glm::unpackSnorm2x16(bits);
@@ -41,10 +39,8 @@ vec4 decode(VkFormat format, const std::byte* at) {
             return {static_cast<float>(loadAs<uint8_t>(at)) / 255.0F, 0, 0, 1};
         case VK_FORMAT_R8G8B8A8_UNORM:
             return glm::unpackUnorm4x8(loadAs<uint32_t>(at));
-        case VK_FORMAT_R8G8B8A8_SRGB: {
-            const vec4 c = glm::unpackUnorm4x8(loadAs<uint32_t>(at));
-            return {srgbToLinear(c.x), srgbToLinear(c.y), srgbToLinear(c.z), c.w};
-        }
+        case VK_FORMAT_A2B10G10R10_UNORM_PACK32:
+            return glm::unpackUnorm3x10_1x2(loadAs<uint32_t>(at));
         case VK_FORMAT_B10G11R11_UFLOAT_PACK32:
             return {glm::unpackF2x11_1x10(loadAs<uint32_t>(at)), 1};
         case VK_FORMAT_R16G16_SFLOAT:

@@ -53,7 +53,8 @@ constexpr VkFormatFeatureFlags target = sampled | VK_FORMAT_FEATURE_COLOR_ATTACH
 constexpr VkFormatFeatureFlags storage = sampled | VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT;
 constexpr std::array neededFormats{
     NeededFormat{"D32_SFLOAT", VK_FORMAT_D32_SFLOAT, sampled | VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT},
-    NeededFormat{"R8G8B8A8_SRGB", VK_FORMAT_R8G8B8A8_SRGB, target},
+    NeededFormat{"R8G8B8A8_SRGB", VK_FORMAT_R8G8B8A8_SRGB, sampled},
+    NeededFormat{"A2B10G10R10_UNORM", VK_FORMAT_A2B10G10R10_UNORM_PACK32, target},
     NeededFormat{"R8G8B8A8_UNORM", VK_FORMAT_R8G8B8A8_UNORM, target | storage},
     NeededFormat{"B10G11R11_UFLOAT", VK_FORMAT_B10G11R11_UFLOAT_PACK32, target},
     NeededFormat{"R16G16_SFLOAT", VK_FORMAT_R16G16_SFLOAT, target | storage},

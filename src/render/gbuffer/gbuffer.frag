@@ -1,9 +1,8 @@
 // G-buffer, fragments: the material's textures and factors, and the shading normal.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
-#include "render/gbuffer/gbuffer.h"
+#include "render/gbuffer/gbuffer.glsl"
 #include "render/material.glsl"
-#include "shaders/octahedral.glsl"
 
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { GBufferParams params; };
 
@@ -67,7 +66,7 @@ void main() {
         outEmissive *= texture(emissiveTexture, slotUv(slotEmissive, uv.xy, uv.zw)).rgb;
     }
     uint flags = params.settings.lambertOnly != 0u ? materialFlagLambert : 0u;
-    outBaseColor = vec4(baseColor.rgb, 1.0);
+    outBaseColor = vec4(packBaseColor(baseColor.rgb), 1.0);
     outNormal = packUnitVector(n);
     outGeometricNormal = packedGeometric;
     outMaterial = vec4(roughnessMetallic, occlusion, float(flags) / 255.0);

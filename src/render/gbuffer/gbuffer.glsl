@@ -1,10 +1,13 @@
-// Reads the G-buffer back. The includer declares the samplers that the functions it calls are given.
+// How the G-buffer's texels are packed.
 #ifndef REFLET_GBUFFER_GLSL
 #define REFLET_GBUFFER_GLSL
 
 #include "render/gbuffer/gbuffer.h"
 #include "shaders/ggx.glsl"
 #include "shaders/octahedral.glsl"
+
+vec3 packBaseColor(vec3 linear) { return sqrt(clamp(linear, 0.0, 1.0)); }
+vec3 unpackBaseColor(vec3 texel) { return texel * texel; }
 
 struct MaterialTexel {
     float roughness;
@@ -18,10 +21,10 @@ MaterialTexel unpackMaterial(vec4 texel) {
 }
 
 // The surface seen at a pixel, its specular directional albedo taken from the table toward nv.
-Surface surfaceAt(vec3 baseColor, MaterialTexel m, float nv, sampler2D ggxTable) {
+Surface surfaceAt(vec3 baseColorTexel, MaterialTexel m, float nv, sampler2D ggxTable) {
     bool lambert = (m.flags & materialFlagLambert) != 0u;
     vec2 table = lambert ? vec2(0.0) : textureLod(ggxTable, ggxTableUv(nv, m.roughness), 0.0).rg;
-    return makeSurface(baseColor, m.metallic, m.roughness, table, lambert);
+    return makeSurface(unpackBaseColor(baseColorTexel), m.metallic, m.roughness, table, lambert);
 }
 
 #endif
