@@ -10,8 +10,6 @@ layout(set = 0, binding = 0) uniform sampler2D ggxTable;
 layout(set = 0, binding = 1, scalar) readonly buffer InputBlock { GgxRing items[]; } inputs;
 layout(set = 0, binding = 2, scalar) buffer OutputBlock { float items[]; } outputs;
 
-const uint around = 128u;  // half a turn: the other half mirrors it
-
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= outputs.items.length()) {
@@ -26,17 +24,17 @@ void main() {
     alpha *= alpha;
     float at = (float(c.ring) + 0.5) / float(c.rings);
     float sum = 0.0;
-    for (uint j = 0u; j < around; ++j) {
-        float turn = (float(j) + 0.5) / float(2u * around);
+    for (uint j = 0u; j < c.around; ++j) {
+        float turn = (float(j) + 0.5) / float(2u * c.around);
         if (c.byHalfVector != 0u) {
             vec3 h = sampleGgx(vec2(at, turn), alpha);
             vec3 l = reflect(-v, h);
             float pdf = ggxDistribution(h.z, alpha) * h.z / (4.0 * dot(v, h));
-            sum += dot(v, h) > 0.0 ? reflectLight(s, n, v, l).x / (pdf * float(c.rings * around)) : 0.0;
+            sum += dot(v, h) > 0.0 ? reflectLight(s, n, v, l).x / (pdf * float(c.rings * c.around)) : 0.0;
         } else {
             float theta = at * pi / 2.0;
             vec3 l = vec3(sin(theta) * cos(2.0 * pi * turn), sin(theta) * sin(2.0 * pi * turn), cos(theta));
-            float solidAngle = sin(theta) * (pi / 2.0 / float(c.rings)) * (2.0 * pi / float(around));
+            float solidAngle = sin(theta) * (pi / 2.0 / float(c.rings)) * (2.0 * pi / float(c.around));
             sum += reflectLight(s, n, v, l).x * solidAngle;
         }
     }

@@ -33,6 +33,7 @@ struct GgxRing {
     float nv;
     uint ring;
     uint rings;
+    uint around;        // directions in half a turn: the other half mirrors it
     uint byHalfVector;  // 1: of half vectors, spread like the GGX distribution
 };
 
