@@ -94,7 +94,7 @@ bool isVisible(const ViewParams& view, const vec3& p) {
 }
 
 vec3 inMap(const ShadowMapParams& map, const vec3& p) {
-    return vec3(map.worldToShadow * vec4(p, 1.0F));
+    return {map.worldToShadow * vec4(p, 1.0F)};
 }
 
 bool isFinite(const ShadowMapParams& map) {

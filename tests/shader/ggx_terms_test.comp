@@ -11,6 +11,7 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i < outputs.items.length()) {
         vec4 c = inputs.items[i];
-        outputs.items[i] = vec3(ggxDistribution(c.x, c.w), ggxVisibility(c.y, c.z, c.w), fresnelSchlick(vec3(0.04), c.x).x);
+        float fresnel = fresnelSchlick(vec3(0.04), c.x).x;
+        outputs.items[i] = vec3(ggxDistribution(c.x, c.w), ggxVisibility(c.y, c.z, c.w), fresnel);
     }
 }

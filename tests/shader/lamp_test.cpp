@@ -21,6 +21,7 @@ protected:
     static std::vector<LampLight> lightAt(const Lamp& lamp, const std::vector<vec3>& points) {
         const LampParams p = params(lamp);
         std::vector<LampCase> cases;
+        cases.reserve(points.size());
         for (const vec3& point : points) {
             cases.push_back({p, point});
         }
@@ -80,6 +81,7 @@ TEST_F(Lamps, endAtTheirRangeSmoothly) {
     lamp.range = 5.0F;
     const std::vector<float> distances = {0.05F, 1.0F, 2.5F, 4.0F, 4.999F, 5.001F, 6.0F, 500.0F};
     std::vector<vec3> points;
+    points.reserve(distances.size());
     for (const float d : distances) {
         points.push_back(lamp.position + vec3(0, d, 0));
     }

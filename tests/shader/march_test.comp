@@ -34,6 +34,7 @@ void main() {
     MarchRay ray = inputs.items[i];
     MarchView view = MarchView(params.view.worldToClip, params.view.viewPlane, params.view.depthToDistance,
                                params.view.size);
-    MarchResult r = marchLinear(ray.origin, ray.direction, ray.stepLength, ray.maxSteps, ray.thickness, ray.jitter, view);
+    MarchResult r = marchLinear(ray.origin, ray.direction, ray.stepLength, ray.maxSteps, ray.thickness, ray.jitter,
+                                vec4(0.0, 0.0, 0.0, 1.0), view);
     outputs.items[i] = MarchAnswer(r.outcome, r.pixel.x, r.pixel.y, r.distance, r.steps);
 }

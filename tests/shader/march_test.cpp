@@ -47,7 +47,7 @@ protected:
     /// Where a world point is on the screen [pixels], in double precision.
     static glm::dvec2 project(const glm::dvec3& p) {
         const double scale = GetParam() ? 1.0 / 10.0 : 0.5 / (std::tan(glm::radians(30.0)) * -p.z);
-        return glm::dvec2(0.5 * pixels.x + p.x * scale * pixels.y, 0.5 * pixels.y - p.y * scale * pixels.y);
+        return {0.5 * pixels.x + p.x * scale * pixels.y, 0.5 * pixels.y - p.y * scale * pixels.y};
     }
 
     /// Rays from all over the middle of the view into its depth.

@@ -67,6 +67,7 @@ protected:
     static void expectRoundTrip(const Camera& camera, const std::vector<double>& distances) {
         const std::vector<Placed> points = placePoints(camera, distances);
         std::vector<vec3> inputs;
+        inputs.reserve(points.size());
         for (const Placed& point : points) {
             inputs.push_back(point.p);
         }

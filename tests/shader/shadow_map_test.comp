@@ -1,4 +1,5 @@
-// Looks points up in a shadow map that is worked out, not drawn: at each texel's centre, the surface nearest to the sun.
+// Looks points up in a shadow map that is worked out, not drawn: at each texel's centre, the surface that is nearest to
+// the sun.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/octahedral.glsl"
