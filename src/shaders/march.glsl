@@ -23,25 +23,17 @@ struct MarchView {
     vec2 size;
 };
 
-// The depth between pixel centres. Depth is linear across the screen on a plane, so this is exact there.
-float loadDepthBilinear(vec2 uv, vec2 size) {
-    vec2 at = uv * size - 0.5;
-    ivec2 corner = ivec2(floor(at));
-    vec2 f = at - vec2(corner);
-    ivec2 low = clamp(corner, ivec2(0), ivec2(size) - 1);
-    ivec2 high = clamp(corner + 1, ivec2(0), ivec2(size) - 1);
-    float top = mix(loadDepth(low), loadDepth(ivec2(high.x, low.y)), f.x);
-    float bottom = mix(loadDepth(ivec2(low.x, high.y)), loadDepth(high), f.x);
-    return mix(top, bottom, f.y);
-}
+// Metres above the own plane per metre from the camera (orthographic: metres) that count as in it.
+const float ownPlaneSlack = 5e-4;
 
 // Fixed steps in the world. jitter: 0..1, what part of a step the first one is. A sample hits when it lies behind the
-// surface that its pixel shows by less than `thickness` metres along the view, and behind the depth between the pixels
-// too: a surface seen at a slant would else be hit by rays that have only just left it, because a pixel's one depth
-// stands for all of its width (Stachowiak's double test).
+// surface that its pixel shows by less than `thickness` metres along the view.
+// ownPlane: the plane that the ray leaves, as planeOnScreen gives it. What lies in it or below it cannot be hit from it.
+// Without this, a surface seen at a slant is hit by rays that have only just left it, because one depth stands for all of
+// a pixel's width. (Interpolated depth would tell as much, but wears half a pixel off every silhouette.)
 // Clip coordinates and view distance are linear along the ray: one multiply-add a step each.
 MarchResult marchLinear(vec3 originW, vec3 directionW, float stepLength, uint maxSteps, float thickness, float jitter,
-                        MarchView view) {
+                        vec4 ownPlane, MarchView view) {
     vec4 clipStart = view.worldToClip * vec4(originW, 1.0);
     vec4 clipStep = view.worldToClip * vec4(directionW, 0.0);
     float awayStart = dot(view.viewPlane, vec4(originW, 1.0));
@@ -59,13 +51,12 @@ MarchResult marchLinear(vec3 originW, vec3 directionW, float stepLength, uint ma
         result.pixel = ivec2(uv * view.size);
         result.distance = t;
         result.steps = i + 1u;
-        float behind = awayStart + t * awayStep - depthToViewDistance(loadDepth(result.pixel), view.depthToDistance);
-        if (behind > 0.0 && behind < thickness) {
-            float between = depthToViewDistance(loadDepthBilinear(uv, view.size), view.depthToDistance);
-            if (awayStart + t * awayStep > between) {
-                result.outcome = marchHit;
-                break;
-            }
+        float depth = loadDepth(result.pixel);
+        float behind = awayStart + t * awayStep - depthToViewDistance(depth, view.depthToDistance);
+        float above = dot(ownPlane, vec4((vec2(result.pixel) + 0.5) / view.size, depth, 1.0));
+        if (behind > 0.0 && behind < thickness && above > ownPlaneSlack) {
+            result.outcome = marchHit;
+            break;
         }
     }
     return result;

@@ -19,6 +19,13 @@ float depthToViewDistance(float depth, vec4 depthToDistance) {
     return (depthToDistance.x + depthToDistance.y * depth) / max(denominator, 1e-20);
 }
 
+// A plane through p with normal n, as factors f of (uv.x, uv.y, depth, 1): dot(f, …) > 0 above it, on the side of n. The
+// value is the height above the plane per metre from the camera (orthographic: the height).
+vec4 planeOnScreen(vec3 p, vec3 n, mat4 clipToWorld) {
+    vec4 onClip = vec4(n, -dot(n, p)) * clipToWorld;
+    return vec4(2.0 * onClip.xy, onClip.z, onClip.w - onClip.x - onClip.y);
+}
+
 // Unit direction from the point toward the camera. eye: position with w = 1, or direction with w = 0.
 vec3 directionToEye(vec3 positionW, vec4 eye) { return normalize(eye.xyz - positionW * eye.w); }
 

@@ -1,5 +1,5 @@
-// Makes the rays of a lobe: directions, weights, and the list of all that need an answer. In: depth, normal, material.
-// Out: direction, answer and source (cleared), the list.
+// Makes the rays of a lobe: directions, weights, and the list of all that need an answer.
+// In: depth, both normals, material. Out: direction, answer and source (cleared), the list.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/bounce/rays.glsl"
@@ -14,6 +14,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { GenerateRaysParams params; };
 layout(set = 0, binding = 1) uniform sampler2D depth;
 layout(set = 0, binding = 2) uniform usampler2D normal;
+layout(set = 0, binding = 8) uniform usampler2D geometricNormal;
 layout(set = 0, binding = 3) uniform sampler2D material;
 layout(set = 0, binding = 4, rg32ui) uniform writeonly uimage2DArray direction;
 layout(set = 0, binding = 5, rgba16f) uniform writeonly image2DArray answer;
@@ -25,6 +26,8 @@ layout(set = 0, binding = 7, scalar) buffer MissedBlock {
 } missed;
 #include "render/bounce/rays_append.glsl"
 
+const float lowestRay = 1e-3;  // sine of the angle between a ray and the surface that it leaves
+
 Ray diffuseRay(ivec2 pixel, uint number, vec3 n) {
     uint stream = number * 2u + hashPcg(params.view.seed);
     vec2 u = hashToUnit2(hashPixel(uvec2(pixel), stream, params.view.frame));
@@ -33,6 +36,12 @@ Ray diffuseRay(ivec2 pixel, uint number, vec3 n) {
         return Ray(basisAround(n) * local, 2.0 * local.z, 1.0);  // cos / pi over 1 / (2 pi)
     }
     return Ray(basisAround(n) * sampleCosineHemisphere(u), 1.0, 1.0);
+}
+
+// Normal maps and smooth normals send some rays into the surface; they leave along it.
+vec3 raiseAbove(vec3 direction, vec3 geometric) {
+    float height = dot(direction, geometric);
+    return height < lowestRay ? normalize(direction + geometric * (lowestRay - height)) : direction;
 }
 
 Ray mirrorRay(vec3 n, vec3 v, float roughness) {
@@ -59,6 +68,7 @@ void main() {
         if (needed) {
             ray = lobe == lobeDiffuse ? diffuseRay(pixel, params.firstRay + i, n)
                                       : mirrorRay(n, directionToEye(p, params.view.eye), m.roughness);
+            ray.direction = raiseAbove(ray.direction, unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r));
             appendRay(packSlot(slot), 1.0);
         }
         imageStore(direction, slot, uvec4(packRay(ray), 0u, 0u));

@@ -41,6 +41,7 @@ Rays generateRays(gpu::Frame& f, const GBuffer& g, uint32_t lobe, const Generate
         .constant("lobe", lobe)
         .read("depth", g.depth)
         .read("normal", g.normal)
+        .read("geometricNormal", g.geometricNormal)
         .read("material", g.material)
         .write("direction", rays.direction)
         .write("answer", rays.answer)

@@ -5,6 +5,7 @@
 #include "render/bounce/rays.glsl"
 #include "render/bounce/trace_screen.h"
 #include "shaders/noise.glsl"
+#include "shaders/projection.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { TraceScreenParams params; };
@@ -27,18 +28,8 @@ layout(set = 0, binding = 8, scalar) buffer MissedBlock {
 #include "render/bounce/rays_append.glsl"
 #include "render/bounce/rays_answer.glsl"
 
-const float originOffset = 2e-4;  // metres per metre from the camera
-
 float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
 #include "shaders/march.glsl"
-
-// A little off the surface, so that rounding does not put the ray below it.
-vec3 rayOrigin(ivec2 pixel) {
-    vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), loadDepth(pixel), params.view.clipToWorld);
-    vec3 n = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
-    float distance = dot(params.view.viewPlane, vec4(p, 1.0));
-    return p + n * (originOffset * distance);
-}
 
 RayAnswer answerRay(ivec3 slot, Ray ray) {
     float jitter = 1.0;
@@ -48,8 +39,11 @@ RayAnswer answerRay(ivec3 slot, Ray ray) {
     }
     MarchView view = MarchView(params.view.worldToClip, params.view.viewPlane, params.view.depthToDistance,
                                params.view.size);
-    MarchResult hit = marchLinear(rayOrigin(slot.xy), ray.direction, params.settings.step, params.settings.maxSteps,
-                                  params.settings.thickness, jitter, view);
+    vec3 p = uvToWorld(pixelToUv(slot.xy, params.view.pixel), loadDepth(slot.xy), params.view.clipToWorld);
+    vec3 n = unpackUnitVector(texelFetch(geometricNormal, slot.xy, 0).r);
+    MarchResult hit =
+        marchLinear(p, ray.direction, params.settings.step, params.settings.maxSteps, params.settings.thickness, jitter,
+                    planeOnScreen(p, n, params.view.clipToWorld), view);
     if (hit.outcome != marchHit) {
         return RayAnswer(vec3(0.0), 0.0, 0.0);
     }
