@@ -3,7 +3,9 @@
 
 #include "scene/gltf_nodes.h"
 
+#include <algorithm>
 #include <new>
+#include <stdexcept>
 
 namespace reflet {
 

@@ -34,6 +34,6 @@ private:
 };
 
 /// Throws Error where the accessor is too large, or its sparse indices do not ascend or reach past its count.
-AccessorView viewAccessor(const GltfDocument& document, int accessor, GltfReport& report);
+AccessorView viewAccessor(const GltfDocument& document, int index, GltfReport& report);
 
 }  // namespace reflet

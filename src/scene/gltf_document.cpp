@@ -96,12 +96,16 @@ void restoreIndices(tinygltf::Model& model, const json& document, const GltfRepo
     }
 }
 
-tinygltf::Model parseStructure(json document, const GltfReport& report) {
-    const json full = document;
-    removeIndices(document);
-    document.erase("buffers");
-    document.erase("images");
-    const std::string text = document.dump();
+tinygltf::Model parseStructure(const json& document, const GltfReport& report) {
+    json structure = json::object();
+    for (const auto& [name, value] : document.items()) {
+        if (name != "buffers" && name != "images") {
+            structure[name] = value;
+        }
+    }
+    removeIndices(structure);
+    const std::string text = structure.dump();
+    structure = nullptr;
     tinygltf::Model model;
     std::string errors;
     std::string warnings;
@@ -109,7 +113,7 @@ tinygltf::Model parseStructure(json document, const GltfReport& report) {
     if (!loader.LoadASCIIFromString(&model, &errors, &warnings, text.data(), static_cast<unsigned>(text.size()), "")) {
         report.fail("JSON", "tinygltf: {}", errors.substr(0, errors.find('\n')));
     }
-    restoreIndices(model, full, report);
+    restoreIndices(model, document, report);
     return model;
 }
 

@@ -173,15 +173,17 @@ DracoPrimitive decodeDraco(const GltfDocument& document, const tinygltf::Primiti
     DracoPrimitive result;
     result.indices = readIndices(*mesh, here, report);
     for (const std::string& name : extension.Get("attributes").Keys()) {
+        const std::string attributePart = fmt::format("{}.attributes.{}", here, name);
         const auto found = primitive.attributes.find(name);
         if (found == primitive.attributes.end()) {
-            report.fail(here + ".attributes." + name, "is not an attribute of the primitive");
+            report.fail(attributePart, "is not an attribute of the primitive");
         }
         const auto& accessor = model.accessors[static_cast<size_t>(found->second)];
         const int components = tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor.type));
         const auto id = static_cast<uint32_t>(extension.Get("attributes").Get(name).GetNumberAsInt());
         auto& values = result.values[name];
-        values = readAttribute(*mesh, id, accessor.normalized, components, here + ".attributes." + name, report);
+        const bool normalized = accessor.normalized || name == "COLOR_0";  // integer colours always are
+        values = readAttribute(*mesh, id, normalized, components, attributePart, report);
         result.attributes[name] = {.data = reinterpret_cast<const uint8_t*>(values.data()),
                                    .stride = sizeof(vec4),
                                    .components = components,

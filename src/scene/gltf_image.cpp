@@ -5,6 +5,7 @@
 
 #include <stb/stb_image.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <span>
@@ -15,17 +16,34 @@ namespace {
 
 constexpr uint64_t maxFileBytes = 1ULL << 30U;
 constexpr int maxSide = 16384;
-constexpr uint64_t maxPixelsPerByte = 8 * 1032;  // deflate's best is 1032 to 1, at one bit per pixel; JPEG has less
+constexpr uint64_t maxDeflateRatio = 1032;
+constexpr uint64_t maxJpegPixelsPerByte = 512;  // a block of 8 x 8 takes at least one bit
 
 bool startsWith(std::span<const uint8_t> bytes, std::span<const uint8_t> magic) {
     return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
 }
 
-/// stb_image also reads formats that glTF does not have; only these two are let through to it.
-bool isPngOrJpeg(std::span<const uint8_t> bytes) {
-    constexpr std::array<uint8_t, 8> png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
-    constexpr std::array<uint8_t, 3> jpeg{0xFF, 0xD8, 0xFF};
-    return startsWith(bytes, png) || startsWith(bytes, jpeg);
+bool isPng(std::span<const uint8_t> bytes) {
+    constexpr std::array<uint8_t, 16> magic{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n',
+                                            0,    0,   0,   13,  'I',  'H',  'D',  'R'};
+    return startsWith(bytes, magic);
+}
+
+bool isJpeg(std::span<const uint8_t> bytes) {
+    constexpr std::array<uint8_t, 3> magic{0xFF, 0xD8, 0xFF};
+    return startsWith(bytes, magic);
+}
+
+/// How many pixels the bytes hold at the very most, however well they are packed.
+uint64_t mostPixels(std::span<const uint8_t> bytes) {
+    if (isJpeg(bytes)) {
+        return maxJpegPixelsPerByte * bytes.size();
+    }
+    constexpr std::array<uint64_t, 7> channels{1, 1, 3, 1, 2, 1, 4};  // by the PNG header's colour type
+    constexpr size_t depthAt = 24;
+    const uint64_t depth = std::max<uint64_t>(bytes[depthAt], 1);
+    const uint64_t bits = depth * channels.at(std::min<size_t>(bytes[depthAt + 1], 6));
+    return maxDeflateRatio * bytes.size() * 8 / bits;
 }
 
 std::string reason() {
@@ -34,7 +52,7 @@ std::string reason() {
 }
 
 Image decode(std::span<const uint8_t> bytes, const std::string& part, GltfReport& report) {
-    if (!isPngOrJpeg(bytes)) {
+    if (!isPng(bytes) && !isJpeg(bytes)) {  // stb_image reads more than glTF has
         report.fail(part, "is neither PNG nor JPEG");
     }
     if (bytes.size() > maxFileBytes) {
@@ -51,7 +69,7 @@ Image decode(std::span<const uint8_t> bytes, const std::string& part, GltfReport
     if (width > maxSide || height > maxSide) {
         report.fail(part, "has {} x {} pixels, more than {} a side", width, height, maxSide);
     }
-    if (pixels > maxPixelsPerByte * bytes.size()) {
+    if (pixels > mostPixels(bytes)) {
         report.fail(part, "claims {} x {} pixels in {} bytes", width, height, bytes.size());
     }
     report.charge(part, pixels * 4);

@@ -51,7 +51,7 @@ vec3 emissiveOf(const tinygltf::Material& source) {
     const auto& factor = source.emissiveFactor;
     const auto found = source.extensions.find("KHR_materials_emissive_strength");
     const double strength = found != source.extensions.end() ? numberOr(found->second, "emissiveStrength", 1.0) : 1.0;
-    return vec3(glm::dvec3(factor[0], factor[1], factor[2]) * strength);
+    return glm::dvec3(factor[0], factor[1], factor[2]) * strength;
 }
 
 }  // namespace
@@ -108,7 +108,7 @@ TextureSlot GltfMaterials::slot(int texture, int uvSet, const tinygltf::Extensio
     const tinygltf::Texture& source = document_.model.textures[static_cast<size_t>(texture)];
     if (source.source < 0) {
         const std::string here = fmt::format("textures[{}]", texture);
-        report_.warn(here, here, "has no image that can be read, and is left out");
+        report_.warn("no image", here, "has no image that can be read, and is left out");
         return result;
     }
     result.image = useImage(source.source);
@@ -123,8 +123,7 @@ TextureSlot GltfMaterials::slot(int texture, int uvSet, const tinygltf::Extensio
 
 void GltfMaterials::setUvSet(TextureSlot& slot, int uvSet, const std::string& part) {
     if (uvSet > 1) {
-        report_.warn(part + " uv set", part + ".texCoord", "is {}, but only the sets 0 and 1 are read: 0 is taken",
-                     uvSet);
+        report_.warn("uv set", part + ".texCoord", "is {}, but only the sets 0 and 1 are read: 0 is taken", uvSet);
     }
     slot.uvSet = uvSet == 1 ? 1 : 0;
 }

@@ -113,8 +113,7 @@ void completeFrames(Mesh& mesh, const PrimitiveSource& source, const TextureSlot
         report.charge(part, mesh.indices.size() * vertexBytes);
         makeFlat(mesh);
     } else if (const size_t broken = repairNormals(mesh); broken > 0) {
-        report.warn(part + " normals", part + ".attributes.NORMAL", "{} vertices have none: taken from the triangles",
-                    broken);
+        report.warn("normals", part + ".attributes.NORMAL", "{} vertices have none: taken from the triangles", broken);
     }
     if (!flat && source.find("TANGENT") != nullptr) {
         repairTangents(mesh);
@@ -149,7 +148,7 @@ void GltfMeshes::loadPrimitive(size_t mesh, size_t primitive) {
         return;
     }
     if (!source.attributes.contains("POSITION")) {
-        report_.warn(part + " position", part + ".attributes", "has no POSITION, and is not drawn");
+        report_.warn("no position", part + ".attributes", "has no POSITION, and is not drawn");
         return;
     }
     if (!source.targets.empty()) {
@@ -157,7 +156,7 @@ void GltfMeshes::loadPrimitive(size_t mesh, size_t primitive) {
     }
     PrimitiveSource opened = openPrimitive(document_, source, part, report_);
     const std::vector<uint32_t> used = takeUsed(opened.triangles, opened.find("POSITION")->count);
-    report_.charge(part, used.size() * vertexBytes);
+    report_.charge(part, used.size() * vertexBytes + document_.model.meshes[mesh].name.size());
     Mesh result;
     result.name = document_.model.meshes[mesh].name;
     result.material = materials_.use(source.material);

@@ -140,7 +140,7 @@ private:
             if (!std::isfinite(glm::length(glm::dvec3(box.min) - glm::dvec3(box.max)))) {
                 report_.fail(part, "its mesh reaches past what a float holds");
             }
-            report_.charge(part, sizeof(Instance));
+            report_.charge(part, sizeof(Instance) + node.name.size());
             scene_.instances.push_back({.name = node.name, .mesh = mesh, .objectToWorld = toWorld});
         }
     }
@@ -171,17 +171,17 @@ void placeGltfNodes(const GltfDocument& document, const std::vector<int>& roots,
     };
     NodePlacer placer(document, meshes, scene, report);
     std::vector<Open> open;  // a stack of our own: a chain of nodes may be longer than the program's
-    for (auto root = roots.rbegin(); root != roots.rend(); ++root) {
-        open.push_back({*root, glm::dmat4(1.0)});
-    }
+    const auto push = [&](const std::vector<int>& nodes, const glm::dmat4& parentToWorld) {
+        for (size_t i = nodes.size(); i-- > 0;) {  // the first one last, so that it is the next
+            open.push_back({nodes[i], parentToWorld});
+        }
+    };
+    push(roots, glm::dmat4(1.0));
     while (!open.empty()) {
         const Open next = open.back();
         open.pop_back();
         const glm::dmat4 toWorld = placer.place(next.node, next.parentToWorld);
-        const auto& children = document.model.nodes[static_cast<size_t>(next.node)].children;
-        for (auto child = children.rbegin(); child != children.rend(); ++child) {
-            open.push_back({*child, toWorld});
-        }
+        push(document.model.nodes[static_cast<size_t>(next.node)].children, toWorld);
     }
 }
 

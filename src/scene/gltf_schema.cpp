@@ -166,7 +166,7 @@ private:
     }
 
     [[nodiscard]] json index(const json& value, const char* refersTo, const Place& place) const {
-        const json result = integer(value, {.name = "", .type = Type::index}, place);
+        json result = integer(value, {.name = "", .type = Type::index}, place);
         const auto size = sizes_.find(refersTo);
         const size_t count = size != sizes_.end() ? size->second : 0;
         if (result.get<uint64_t>() >= count) {

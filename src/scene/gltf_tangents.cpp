@@ -118,9 +118,9 @@ private:
             }
             if (copy[v] == 0) {
                 copy[v] = static_cast<uint32_t>(mesh_.positions.size());
-                mesh_.positions.push_back(vec3(mesh_.positions[v]));
-                mesh_.attributes.push_back(VertexAttributes(mesh_.attributes[v]));
-                group_.push_back(uint32_t(group_[v]));
+                mesh_.positions.push_back(mesh_.positions[v]);
+                mesh_.attributes.push_back(mesh_.attributes[v]);
+                group_.push_back(group_[v]);
                 side_.push_back(side);
             }
             mesh_.indices[i] = copy[v];

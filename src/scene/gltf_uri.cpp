@@ -138,7 +138,7 @@ std::vector<uint8_t> readUri(const std::string& uri, const std::filesystem::path
     }
     std::error_code error;
     const auto home = std::filesystem::weakly_canonical(folder.empty() ? "." : folder, error);
-    const auto path = std::filesystem::weakly_canonical(home / name, error);
+    const auto path = error ? home : std::filesystem::weakly_canonical(home / name, error);
     if (error) {
         report.fail(part, "{} cannot be found: {}", shown, error.message());
     }

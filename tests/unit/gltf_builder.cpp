@@ -1,6 +1,8 @@
 // Builds small glTF files for the tests, whole or with something broken in them.
 #include "gltf_builder.h"
 
+#include "base/error.h"
+
 #include <draco/compression/encode.h>
 #include <draco/mesh/triangle_soup_mesh_builder.h>
 #include <gtest/gtest.h>
@@ -45,9 +47,9 @@ std::string base64(const std::vector<uint8_t>& bytes) {
 }
 
 std::vector<uint8_t> pngOf(int width, int height, std::array<uint8_t, 4> color) {
-    std::vector<uint8_t> pixels;
-    for (int i = 0; i < width * height; ++i) {
-        pixels.insert(pixels.end(), color.begin(), color.end());
+    std::vector<uint8_t> pixels(static_cast<size_t>(width) * static_cast<size_t>(height) * color.size());
+    for (size_t i = 0; i < pixels.size(); ++i) {
+        pixels[i] = color[i % color.size()];
     }
     std::vector<uint8_t> png;
     stbi_write_png_to_func(
@@ -245,6 +247,18 @@ Loaded load(const std::filesystem::path& path, int scene) {
 
 Loaded load(GltfBuilder builder, int scene) {
     return load(builder.writeGltf(testFolder() / "scene.gltf"), scene);
+}
+
+std::string complaint(const std::filesystem::path& path) {
+    try {
+        loadGltf(path);
+    } catch (const Error& error) {
+        const std::string message = error.what();
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+        EXPECT_EQ(message.rfind(path.string() + ": ", 0), 0U) << message;
+        return message.substr(std::min(message.size(), path.string().size() + 2));
+    }
+    return "";
 }
 
 }  // namespace reflet::test

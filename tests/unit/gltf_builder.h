@@ -88,4 +88,7 @@ Loaded load(const std::filesystem::path& path, int scene = -1);
 /// Writes the file as .gltf and loads it.
 Loaded load(GltfBuilder builder, int scene = -1);
 
+/// What loading complains about, after "FILE: "; empty if it does not. Expects one line that starts with the file.
+std::string complaint(const std::filesystem::path& path);
+
 }  // namespace reflet::test

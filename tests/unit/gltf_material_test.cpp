@@ -3,6 +3,7 @@
 #include "gltf_builder.h"
 
 #include <gtest/gtest.h>
+#include <stb/stb_image_write.h>
 
 namespace reflet::test {
 namespace {
@@ -194,8 +195,8 @@ Image imageFrom(const std::string& uri, const std::function<void(const std::file
     prepare(folder);
     GltfBuilder b = triangle();
     b.add("images", {{"uri", uri}});
-    b = withBaseColor(std::move(b), {{"index", b.add("textures", {{"source", 0}})}});
-    return load(b.writeGltf(folder / "scene.gltf")).scene.images.at(0);
+    const int texture = b.add("textures", {{"source", 0}});
+    return load(withBaseColor(std::move(b), {{"index", texture}}).writeGltf(folder / "scene.gltf")).scene.images.at(0);
 }
 
 std::string pngBytes(std::array<uint8_t, 4> color) {
@@ -225,6 +226,21 @@ TEST(GltfUri, ImagesMayBeFilesDataUrisAndPercentEncodedNames) {
               4);
     EXPECT_EQ(imageFrom("data:image/png;base64," + base64(pngOf(1, 1, {5, 0, 0, 255})), [](const auto&) {}).rgba.at(0),
               5);
+}
+
+TEST(GltfUri, ImagesMayBeJpeg) {
+    const std::vector<uint8_t> grey(3 * 16 * 8, 200);
+    std::string jpeg;
+    stbi_write_jpg_to_func(
+        [](void* context, void* data, int size) {
+            static_cast<std::string*>(context)->append(static_cast<const char*>(data), static_cast<size_t>(size));
+        },
+        &jpeg, 16, 8, 3, grey.data(), 90);
+    const Image image = imageFrom("a.jpg", [&](const auto& folder) { writeBytes(folder / "a.jpg", jpeg); });
+    EXPECT_EQ(image.width, 16U);
+    EXPECT_EQ(image.height, 8U);
+    EXPECT_NEAR(image.rgba.at(0), 200, 2);
+    EXPECT_EQ(image.rgba.at(3), 255);
 }
 
 TEST(GltfUri, BuffersMayBeFilesChunksAndDataUris) {
