@@ -23,6 +23,7 @@ if ! build; then
     echo "test.sh: the build failed" >&2
     finish 0 1
 fi
+echo "built in $SECONDS s"
 
 logs=build/test-logs
 mkdir -p "$logs"
@@ -38,7 +39,7 @@ total() {  # report key
 }
 
 runTests() {  # program
-    local name=${1##*/} status=0 ok bad
+    local name=${1##*/} status=0 start=$SECONDS ok bad
     local log="$logs/$name.log" report="$logs/$name.json"
     rm -f "$report"
     echo "== $name"
@@ -66,7 +67,7 @@ runTests() {  # program
     fi
     passed=$((passed + ok))
     failed=$((failed + bad))
-    echo "$name: $ok passed, $bad failed (${SECONDS} s since the start)"
+    echo "$name: $ok passed, $bad failed, $((SECONDS - start)) s"
 }
 
 for program in build/bin/*_tests; do
