@@ -32,13 +32,14 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
                              {in.view, -in.sunDirection, in.sunIrradiance, in.environment}, in.lamps);
 
     // One chain for both lobes: rays, then sources that answer in order of trust, each taking what is left over.
+    const gpu::History lit = f.history("lit", VK_FORMAT_R16G16B16A16_SFLOAT, out.g.depth.size);
     const uint32_t batch = raysPerBatch(f, out.g.depth.size);
     const auto traceLobe = [&](uint32_t lobe, uint32_t perPixel) {
         LobeLight light;
         for (uint32_t first = 0; first < perPixel; first += batch) {
             const uint32_t count = std::min(perPixel - first, batch);
             Rays rays = generateRays(f, out.g, lobe, {in.view, settings.diffuse, settings.specular, first, count});
-            traceScreen(f, rays, out.g, out.direct, in.view, settings.traceScreen);
+            traceScreen(f, rays, out.g, out.direct, lit, in.view, settings.traceScreen);
             answerEnvironment(f, rays, out.g, in.environment);
             light = resolveRays(f, rays, perPixel);
         }
@@ -53,7 +54,7 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
         out.specular = traceLobe(lobeSpecular, settings.specular.rays);
     }
 
-    out.light = composite(f, out.g, out.direct, out.diffuse, out.specular, in.ggxTable, in.view);
+    out.light = composite(f, out.g, out.direct, out.diffuse, out.specular, in.ggxTable, lit.next, in.view);
     out.display = tonemap(f, out.light.lit, settings.tonemap);
     return out;
 }

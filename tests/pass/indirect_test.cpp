@@ -232,6 +232,28 @@ TEST(Indirect, ARayWithoutStepsLeftMisses) {
     EXPECT_GT(reflected(400), 1.5F);
 }
 
+TEST(Indirect, TheLastFramesLightBringsFurtherBouncesUpToTheirSum) {
+    // Two mirrors would never end; two grey surfaces end at the sum of a geometric series.
+    View view = viewFrom({0, 3, 6}, {0, 1, 0});
+    view.sun = builtin::sun(glm::normalize(vec3(0.3F, -1.0F, -0.5F)), vec3(3.0F));
+    Scene scene = sceneOf(lambertMaterial(vec3(0.8F)), builtin::ground({3, 3}, {1, 1}, {1, 1}));
+    builtin::place(scene, "wall", 0, builtin::patch({{0, 1, -2}, {3, 0, 0}, {0, 1, 0}, {1, 1}, {1, 1}}));
+    const auto meanAfter = [&](const char* light, uint32_t frames) {
+        return meanOnSurfaces(render(scene, view, size,
+                                     settingsOf({"materials.lambertOnly=true", "diffuse.rays=16",
+                                                 std::string("trace_screen.light=") + light}),
+                                     {"indirect_diffuse", "depth"}, frames),
+                              "indirect_diffuse");
+    };
+    EXPECT_EQ(meanAfter("previous", 1), meanAfter("direct", 1)) << "there is no last frame yet";
+    const float one = meanAfter("direct", 12);
+    const float many = meanAfter("previous", 12);
+    EXPECT_GT(one, 0.01F);
+    EXPECT_GT(many, 1.02F * one);
+    EXPECT_LT(many, one / (1.0F - 0.8F));
+    expectSilentValidation("feedback");
+}
+
 TEST(Indirect, LambertOnlyHasNoReflections) {
     View view = viewFrom({0, 3, 6}, {0, 0, 0});
     view.environment.radiance = vec3(1.0F);

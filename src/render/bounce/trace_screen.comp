@@ -1,5 +1,5 @@
 // Marches waiting rays through the depth buffer; a hit takes the light that the screen shows there.
-// In: depth, geometric normal, lit image, ray directions, the list. Out: answers, sources, the list of misses.
+// In: depth, geometric normal, motion, light of this and the last frame, ray directions, the list. Out: answers, sources, the list of misses.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/bounce/rays.glsl"
@@ -11,7 +11,9 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { TraceScreenParams params; };
 layout(set = 0, binding = 1) uniform sampler2D depth;
 layout(set = 0, binding = 2) uniform usampler2D geometricNormal;
-layout(set = 0, binding = 3, rgba16f) uniform readonly image2D lit;
+layout(set = 0, binding = 3, rgba16f) uniform readonly image2D direct;
+layout(set = 0, binding = 9, rgba16f) uniform readonly image2D previousLit;
+layout(set = 0, binding = 10) uniform sampler2D motion;
 layout(set = 0, binding = 4, rg32ui) uniform readonly uimage2DArray direction;
 layout(set = 0, binding = 5, scalar) readonly buffer WaitingBlock {
     uint groups[3];
@@ -31,6 +33,17 @@ layout(set = 0, binding = 8, scalar) buffer MissedBlock {
 float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
 #include "shaders/march.glsl"
 
+// Of what the pixel shows. A point that the last frame did not have on screen gives its direct light.
+vec3 lightAt(ivec2 pixel) {
+    if (params.settings.light == HitLight_previous && params.previousValid != 0u) {
+        vec2 before = pixelToUv(pixel, params.view.pixel) - texelFetch(motion, pixel, 0).xy;
+        if (all(greaterThanEqual(before, vec2(0.0))) && all(lessThan(before, vec2(1.0)))) {
+            return imageLoad(previousLit, ivec2(before * params.view.size)).rgb;
+        }
+    }
+    return imageLoad(direct, pixel).rgb;
+}
+
 RayAnswer answerRay(ivec3 slot, Ray ray) {
     float jitter = 1.0;
     if (params.settings.jitter != 0u) {
@@ -47,7 +60,7 @@ RayAnswer answerRay(ivec3 slot, Ray ray) {
     if (hit.outcome != marchHit) {
         return RayAnswer(vec3(0.0), 0.0, 0.0);
     }
-    return RayAnswer(imageLoad(lit, hit.pixel).rgb, ray.trust, hit.distance);
+    return RayAnswer(lightAt(hit.pixel), ray.trust, hit.distance);
 }
 
 void main() {

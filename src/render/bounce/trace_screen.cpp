@@ -3,19 +3,21 @@
 
 namespace reflet {
 
-void traceScreen(gpu::Frame& f, Rays& rays, const GBuffer& g, gpu::Image lit, const ViewParams& view,
-                 const TraceScreenSettings& settings) {
+void traceScreen(gpu::Frame& f, Rays& rays, const GBuffer& g, gpu::Image direct, const gpu::History& lit,
+                 const ViewParams& view, const TraceScreenSettings& settings) {
     const gpu::BufferView missed = makeRayList(f, rays, "rays.missed_by_screen");
     f.compute("trace_screen", "trace_screen.comp")
         .read("depth", g.depth)
         .read("geometricNormal", g.geometricNormal)
-        .read("lit", lit)
+        .read("motion", g.motion)
+        .read("direct", direct)
+        .read("previousLit", lit.previous)
         .read("direction", rays.direction)
         .read("waiting", rays.waiting)
         .write("answer", rays.answer)
         .write("source", rays.source)
         .write("missed", missed)
-        .params(TraceScreenParams{view, settings, rays.firstRay})
+        .params(TraceScreenParams{view, settings, rays.firstRay, lit.valid ? 1U : 0U})
         .dispatchIndirect(rays.waiting, 0);
     rays.waiting = missed;
 }

@@ -11,18 +11,26 @@ SHARED_BEGIN
     OPTION(TraceMethod, linear, 0)
 CHOICES(TraceMethod, TRACE_METHODS)
 
+#define HIT_LIGHTS(OPTION)       \
+    OPTION(HitLight, direct, 0)  \
+    OPTION(HitLight, previous, 1)
+CHOICES(HitLight, HIT_LIGHTS)
+
 #define TRACE_SCREEN_SETTINGS(VALUE, SWITCH, CHOICE)                                                                \
     CHOICE(TraceMethod, method, linear, "How rays find what they hit; linear: fixed steps in the world.")          \
     VALUE(float, step, 0.15, 0.001, 100.0, "Length of a step in metres.")                                          \
     VALUE(uint, maxSteps, 48, 1, 4096, "Steps a ray may take; one that has taken them all has missed.")            \
     VALUE(float, thickness, 0.3, 0.001, 1000.0, "How thick every surface is taken to be, in metres along the view.") \
-    SWITCH(jitter, 1, "Start each ray at a random part of its first step: bands become grain.")
+    SWITCH(jitter, 1, "Start each ray at a random part of its first step: bands become grain.")                      \
+    CHOICE(HitLight, light, direct,                                                                                 \
+           "What a hit brings: this frame's direct light, or the last frame's whole picture (further bounces).")
 SETTINGS(TraceScreenSettings, TRACE_SCREEN_SETTINGS)
 
 struct TraceScreenParams {
     ViewParams view;
     TraceScreenSettings settings;
     uint firstRay;
+    uint previousValid;  // 0: there is no last frame
 };
 
 SHARED_END
@@ -35,9 +43,10 @@ SHARED_END
 
 namespace reflet {
 
-/// Answers rays that hit what the screen shows with `lit` (RGBA16F) at the hit; hands on the others.
-void traceScreen(gpu::Frame& f, Rays& rays, const GBuffer& g, gpu::Image lit, const ViewParams& view,
-                 const TraceScreenSettings& settings);
+/// Answers rays that hit what the screen shows with the light there: `direct` of this frame (RGBA16F), or the last
+/// frame's `lit.previous`, found by the hit's own motion. Hands on the others.
+void traceScreen(gpu::Frame& f, Rays& rays, const GBuffer& g, gpu::Image direct, const gpu::History& lit,
+                 const ViewParams& view, const TraceScreenSettings& settings);
 
 }  // namespace reflet
 #endif

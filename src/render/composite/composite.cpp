@@ -6,12 +6,12 @@
 namespace reflet {
 
 Composite composite(gpu::Frame& f, const GBuffer& g, gpu::Image direct, const LobeLight& diffuse,
-                    const LobeLight& specular, gpu::Image ggxTable, const ViewParams& view) {
+                    const LobeLight& specular, gpu::Image ggxTable, gpu::Image lit, const ViewParams& view) {
     constexpr VkFormat radiance = VK_FORMAT_R16G16B16A16_SFLOAT;
     const uvec2 size = g.depth.size;
     const Composite result{.indirectDiffuse = f.image("indirect_diffuse", radiance, size),
                            .indirectSpecular = f.image("indirect_specular", radiance, size),
-                           .lit = f.image("lit", radiance, size)};
+                           .lit = lit};
     f.compute("composite", "composite.comp")
         .read("depth", g.depth)
         .read("normal", g.normal)

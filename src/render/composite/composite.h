@@ -28,8 +28,9 @@ struct Composite {
     gpu::Image lit;
 };
 
+/// lit: written.
 Composite composite(gpu::Frame& f, const GBuffer& g, gpu::Image direct, const LobeLight& diffuse,
-                    const LobeLight& specular, gpu::Image ggxTable, const ViewParams& view);
+                    const LobeLight& specular, gpu::Image ggxTable, gpu::Image lit, const ViewParams& view);
 
 }  // namespace reflet
 #endif

@@ -1,0 +1,145 @@
+// What the device layer promises: a pass that does not fit its shader is refused by name, history changes places.
+#include "gpu/frame.h"
+#include "pass/harness.h"
+#include "render/tonemap/tonemap.h"
+#include "support/device_fixture.h"
+
+#include <functional>
+
+namespace reflet::test {
+namespace {
+
+class Gpu : public DeviceTest {
+protected:
+    static constexpr uvec2 size{8, 4};
+
+    gpu::Image radiance(gpu::Frame& f) { return f.image("test.radiance", VK_FORMAT_R16G16B16A16_SFLOAT, size); }
+    gpu::Image display(gpu::Frame& f) { return f.image("test.display", VK_FORMAT_R8G8B8A8_UNORM, size); }
+
+    // The complaint of a pass that is recorded in a frame that is never submitted.
+    static std::string complaint(const std::function<void(gpu::Frame&)>& record) {
+        gpu::Frame f(device());
+        f.begin();
+        try {
+            record(f);
+        } catch (const std::logic_error& error) {
+            f.submit();
+            f.wait();
+            return error.what();
+        }
+        f.submit();
+        f.wait();
+        return "";
+    }
+};
+
+TEST_F(Gpu, APassThatFitsIsRecorded) {
+    EXPECT_EQ(complaint([&](gpu::Frame& f) {
+                  f.clear(radiance(f));
+                  f.compute("tonemap", "tonemap.comp")
+                      .read("radiance", radiance(f))
+                      .write("display", display(f))
+                      .params(TonemapParams{{}, size})
+                      .dispatch(size);
+              }),
+              "");
+}
+
+TEST_F(Gpu, AnUnknownBindingIsNamed) {
+    const std::string text = complaint([&](gpu::Frame& f) {
+        f.compute("tonemap", "tonemap.comp")
+            .read("radiance", radiance(f))
+            .read("radiancy", radiance(f))
+            .write("display", display(f))
+            .params(TonemapParams{{}, size})
+            .dispatch(size);
+    });
+    EXPECT_NE(text.find("tonemap: the shader has no binding 'radiancy'"), std::string::npos) << text;
+}
+
+TEST_F(Gpu, AMissingBindingIsNamed) {
+    const std::string text = complaint([&](gpu::Frame& f) {
+        f.compute("tonemap", "tonemap.comp")
+            .read("radiance", radiance(f))
+            .params(TonemapParams{{}, size})
+            .dispatch(size);
+    });
+    EXPECT_NE(text.find("tonemap: the binding 'display' is not given"), std::string::npos) << text;
+}
+
+TEST_F(Gpu, AParameterBlockOfAnotherSizeIsNamedWithBothSizes) {
+    const std::string text = complaint([&](gpu::Frame& f) {
+        f.compute("tonemap", "tonemap.comp")
+            .read("radiance", radiance(f))
+            .write("display", display(f))
+            .params(1.0F)
+            .dispatch(size);
+    });
+    EXPECT_NE(text.find("'params' has"), std::string::npos) << text;
+    EXPECT_NE(text.find(std::to_string(sizeof(TonemapParams)) + " in the shader"), std::string::npos) << text;
+}
+
+TEST_F(Gpu, WritingWhatTheShaderOnlyReadsIsRefused) {
+    const std::string text = complaint([&](gpu::Frame& f) {
+        f.compute("tonemap", "tonemap.comp")
+            .write("radiance", radiance(f))
+            .write("display", display(f))
+            .params(TonemapParams{{}, size})
+            .dispatch(size);
+    });
+    EXPECT_NE(text.find("'radiance' is written here, and readonly in the shader"), std::string::npos) << text;
+}
+
+TEST_F(Gpu, AnUnknownSpecializationConstantIsNamed) {
+    const std::string text = complaint([&](gpu::Frame& f) {
+        f.compute("tonemap", "tonemap.comp")
+            .constant("quality", 3)
+            .read("radiance", radiance(f))
+            .write("display", display(f))
+            .params(TonemapParams{{}, size})
+            .dispatch(size);
+    });
+    EXPECT_NE(text.find("no specialization constant 'quality'"), std::string::npos) << text;
+}
+
+TEST_F(Gpu, HistoryIsLastFramesImageAndStartsAnewWithASize) {
+    gpu::Frame f(device());
+    const auto next = [&](uvec2 extent) {
+        f.begin();
+        const gpu::History history = f.history("test.history", VK_FORMAT_R16G16B16A16_SFLOAT, extent);
+        f.clear(history.next);
+        f.submit();
+        f.wait();
+        return history;
+    };
+    const gpu::History first = next(size);
+    const gpu::History second = next(size);
+    EXPECT_FALSE(first.valid);
+    EXPECT_TRUE(second.valid);
+    EXPECT_EQ(second.previous.state, first.next.state);
+    EXPECT_NE(second.next.state, first.next.state);
+    EXPECT_FALSE(next({4, 4}).valid);
+    f.begin();  // a frame that does not ask for it breaks the chain
+    f.submit();
+    f.wait();
+    EXPECT_FALSE(next({4, 4}).valid);
+}
+
+TEST_F(Gpu, TimesAreThereForEveryPassByItsScopedName) {
+    gpu::Frame f(device());
+    f.begin();
+    {
+        const auto scope = f.scope("outer");
+        f.clear(radiance(f));
+        tonemap(f, radiance(f), {});
+    }
+    f.submit();
+    f.wait();
+    ASSERT_EQ(f.passTimes().size(), 2U);
+    EXPECT_EQ(f.passTimes()[0].name, "frame");
+    EXPECT_EQ(f.passTimes()[1].name, "outer.tonemap");
+    EXPECT_GT(f.passTimes()[1].ms, 0.0);
+}
+
+}  // namespace
+}  // namespace reflet::test
