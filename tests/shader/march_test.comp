@@ -34,7 +34,9 @@ void main() {
     MarchRay ray = inputs.items[i];
     MarchView view = MarchView(params.view.worldToClip, params.view.viewPlane, params.view.depthToDistance,
                                params.view.size);
+    vec4 ownPlane = ray.normal == vec3(0.0) ? vec4(0.0, 0.0, 0.0, 1.0)  // all is far above it
+                                            : planeOnScreen(ray.origin, ray.normal, params.view.clipToWorld);
     MarchResult r = marchLinear(ray.origin, ray.direction, ray.stepLength, ray.maxSteps, ray.thickness, ray.jitter,
-                                vec4(0.0, 0.0, 0.0, 1.0), view);
+                                ownPlane, view);
     outputs.items[i] = MarchAnswer(r.outcome, r.pixel.x, r.pixel.y, r.distance, r.steps);
 }

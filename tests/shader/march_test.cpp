@@ -5,6 +5,7 @@
 #include "render/renderer.h"
 #include "shader/harness.h"
 
+#include <algorithm>
 #include <random>
 
 namespace reflet::test {
@@ -60,7 +61,7 @@ protected:
         for (int i = 0; i < 500; ++i) {
             const vec3 origin(between(-0.5F, 0.5F), between(-0.5F, 0.5F), between(-4.0F, -2.0F));
             const vec3 direction = glm::normalize(vec3(between(-0.3F, 0.3F), between(-0.25F, 0.25F), -1.0F));
-            rays.push_back({origin, direction, stepLength, 4096, 0.5F, jitter});
+            rays.push_back({origin, direction, stepLength, 4096, 0.5F, jitter, {}});
         }
         return rays;
     }
@@ -207,6 +208,45 @@ TEST_P(March, neverHitsTheSky) {
     for (const MarchAnswer& answer : march(sceneOf({}), rays)) {
         ASSERT_EQ(answer.outcome, marchSpent);
         ASSERT_EQ(answer.steps, 12U);
+    }
+}
+
+// A floor 1 m below the camera, whose pixels show steps of depth to rays just above it; it runs up to a wall.
+class MarchOffTheFloor : public March {
+protected:
+    static MarchScene floorAndWall() { return sceneOf({{vec4(0, 1, 0, 1), vec2(-1.0F), vec2(2.0F)}, wallAt(20.0F)}); }
+
+    static std::vector<MarchRay> raysAlongTheFloor(const vec3& normal) {
+        std::vector<MarchRay> rays;
+        for (int i = 0; i < 200; ++i) {
+            const float part = static_cast<float>(i) / 200.0F;
+            const vec3 origin(-0.5F + part, -1.0F, -8.0F - 3.0F * part);
+            rays.push_back({origin, glm::normalize(vec3(0.1F, 0.002F, -1.0F)), 0.01F, 400, 1.0F, 1.0F, normal});
+        }
+        return rays;
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(Cameras, MarchOffTheFloor, ::testing::Values(false));  // an orthographic one sees no floor
+
+TEST_P(MarchOffTheFloor, neverHitsTheFloorThatTheRayLeaves) {
+    const auto hits = [](const std::vector<MarchAnswer>& answers) {
+        return std::ranges::count(answers, marchHit, &MarchAnswer::outcome);
+    };
+    EXPECT_GT(hits(march(floorAndWall(), raysAlongTheFloor(vec3(0.0F)))), 0);  // what the plane is there for
+    EXPECT_EQ(hits(march(floorAndWall(), raysAlongTheFloor(vec3(0, 1, 0)))), 0);
+}
+
+TEST_P(MarchOffTheFloor, stillMeetsTheWallBehindIt) {
+    auto rays = raysAlongTheFloor(vec3(0, 1, 0));
+    for (MarchRay& ray : rays) {
+        ray.direction = glm::normalize(vec3(0.1F, 0.05F, -1.0F));
+        ray.maxSteps = 4096;
+    }
+    const auto answers = march(floorAndWall(), rays);
+    for (size_t i = 0; i < rays.size(); ++i) {
+        ASSERT_EQ(answers[i].outcome, marchHit);
+        ASSERT_NEAR(answers[i].distance, (rays[i].origin.z + 20.0F) / -rays[i].direction.z, 0.0101F);
     }
 }
 

@@ -29,6 +29,7 @@ struct MarchRay {
     uint maxSteps;
     float thickness;
     float jitter;
+    vec3 normal;  // of the plane that the ray leaves; 0: none
 };
 
 struct MarchAnswer {

@@ -23,5 +23,6 @@ void main() {
     o.distance = depthToViewDistance(o.depth, params.depthToDistance);
     o.back = uvToWorld(o.uv, o.depth, params.clipToWorld);
     o.toEye = directionToEye(p, params.eye);
+    o.above = dot(planeOnScreen(planePoint, planeNormal, params.clipToWorld), vec4(o.uv, o.depth, 1.0));
     outputs.items[i] = o;
 }

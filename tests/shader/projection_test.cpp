@@ -79,6 +79,10 @@ protected:
             ASSERT_NEAR(projected[i].uv.x, points[i].uv.x, tolerance / span) << points[i].distance;
             ASSERT_NEAR(projected[i].uv.y, points[i].uv.y, tolerance / span) << points[i].distance;
             ASSERT_NEAR(projected[i].distance, points[i].distance, tolerance);
+            const double height = glm::dot(glm::dvec3(planeNormal), glm::dvec3(points[i].p) - glm::dvec3(planePoint));
+            const double distance = camera.orthographicHeight > 0.0F ? 1.0 : points[i].distance;
+            // Depth is off by as much, as a part, as the distance: so is the height.
+            ASSERT_NEAR(projected[i].above * distance, height, 2.0 * tolerance * (1.0 + std::abs(height) / distance));
             ASSERT_LT(glm::distance(glm::dvec3(projected[i].back), glm::dvec3(points[i].p)), 2.0 * tolerance);
         }
     }
