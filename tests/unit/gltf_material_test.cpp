@@ -229,7 +229,7 @@ TEST(GltfUri, ImagesMayBeFilesDataUrisAndPercentEncodedNames) {
 }
 
 TEST(GltfUri, ImagesMayBeJpeg) {
-    const std::vector<uint8_t> grey(3 * 16 * 8, 200);
+    const std::vector<uint8_t> grey(384, 200);
     std::string jpeg;
     stbi_write_jpg_to_func(
         [](void* context, void* data, int size) {

@@ -212,8 +212,7 @@ TEST(Gltf, QuantisedPositionsAreReadAsTheyAreOrNormalised) {
     const auto positions = [](auto components, int type, bool normalized) {
         GltfBuilder b;
         const size_t size = sizeof(components[0]);
-        components.resize(3 * 4 / size, 0);  // three elements of four bytes or eight: the stride is a multiple of four
-        const int stride = size == 1 ? 4 : 8;
+        const int stride = size == 1 ? 4 : 8;  // three components, padded to a multiple of four bytes
         std::vector<uint8_t> bytes(3 * static_cast<size_t>(stride), 0);
         std::memcpy(bytes.data(), components.data(), 3 * size);
         const int view = b.addView(bytes.data(), bytes.size(), stride);
