@@ -4,10 +4,9 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
 ./setup.sh
-# The first time without the tests, which need more packages; a build that has them keeps them. Warnings of compilers
-# that nobody has tried yet are no reason to stop.
+# The first time without the tests, which need more packages; a build that has them keeps them.
 if [[ ! -f build/build.ninja ]]; then
-    cmake --preset release -DREFLET_TESTS=OFF -DREFLET_WERROR=OFF
+    cmake --preset release -DREFLET_TESTS=OFF
 fi
 cmake --build --preset release --parallel "$(nproc)" --target reflet
 

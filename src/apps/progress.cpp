@@ -3,8 +3,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <cstdio>
 #include <unistd.h>
+#include <cstdio>
 
 namespace reflet {
 

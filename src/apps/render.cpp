@@ -33,7 +33,9 @@ struct RenderOptions {
     bool validate = false;
 };
 
-bool isExr(const std::string& file) { return fs::path(file).extension() == ".exr"; }
+bool isExr(const std::string& file) {
+    return fs::path(file).extension() == ".exr";
+}
 
 void checkOutputs(const RenderOptions& options) {
     if (options.outputs.empty() && options.timings.empty() && !options.validate) {
@@ -215,11 +217,16 @@ void addRenderCommand(CLI::App& app) {
         ->type_name("A,B,...")
         ->allow_extra_args(false)
         ->delimiter(',');
-    command->add_option("--device", options->device, "Vulkan device by number or by part of its name (reflet list devices)")
+    command
+        ->add_option("--device", options->device,
+                     "Vulkan device by number or by part of its name (reflet list devices)")
         ->type_name("NAME|INDEX");
-    command->add_option("--timings", options->timings, "Device time of every pass: medians over the frames after the first")
+    command
+        ->add_option("--timings", options->timings,
+                     "Device time of every pass: medians over the frames after the first")
         ->type_name("F.json");
-    command->add_flag("--validate", options->validate, "Run under the Vulkan validation layers; any message is a failure");
+    command->add_flag("--validate", options->validate,
+                      "Run under the Vulkan validation layers; any message is a failure");
     command->footer(
         "Example: reflet render scene.glb --size 640x360 --set diffuse.rays=16 -o picture.png -o values.exr --aov "
         "direct,normal");

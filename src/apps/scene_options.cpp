@@ -54,7 +54,8 @@ const Camera& findCamera(const Scene& scene, const std::string& wanted) {
 }  // namespace
 
 void addSceneOptions(CLI::App& command, SceneOptions& options) {
-    command.add_option("SCENE", options.scene, "A .gltf or .glb file, or builtin:NAME (reflet list scenes)")->required();
+    command.add_option("SCENE", options.scene, "A .gltf or .glb file, or builtin:NAME (reflet list scenes)")
+        ->required();
     command.add_option("--scene", options.sceneIndex, "Which of the glTF file's scenes, from 0");
     command.add_option("--camera", options.camera, "Which of the scene's cameras, by number from 0 or by name");
     command.add_option("--view-file", options.viewFile, "Camera, sun and environment from a JSON file")
@@ -71,7 +72,9 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
     command.add_option("--seed", options.seed, "Another number gives other noise")->capture_default_str();
 }
 
-void printWarning(const std::string& message) { fmt::print(stderr, "reflet: warning: {}\n", message); }
+void printWarning(const std::string& message) {
+    fmt::print(stderr, "reflet: warning: {}\n", message);
+}
 
 Scene loadScene(const SceneOptions& options) {
     if (options.scene.starts_with(builtinPrefix)) {

@@ -22,17 +22,29 @@ float encode(float linear) {
 }
 
 // Value functions.
-void first(Texels t, const ViewParams&, float* out) { out[0] = t[0].x; }
-void firstTwo(Texels t, const ViewParams&, float* out) { std::memcpy(out, &t[0], 2 * sizeof(float)); }
-void color(Texels t, const ViewParams&, float* out) { std::memcpy(out, &t[0], 3 * sizeof(float)); }
+void first(Texels t, const ViewParams&, float* out) {
+    out[0] = t[0].x;
+}
+void firstTwo(Texels t, const ViewParams&, float* out) {
+    std::memcpy(out, &t[0], 2 * sizeof(float));
+}
+void color(Texels t, const ViewParams&, float* out) {
+    std::memcpy(out, &t[0], 3 * sizeof(float));
+}
 // As unpackBaseColor in gbuffer.glsl.
 void squaredColor(Texels t, const ViewParams&, float* out) {
     const vec3 c = vec3(t[0]) * vec3(t[0]);
     std::memcpy(out, &c, sizeof(c));
 }
-void green(Texels t, const ViewParams&, float* out) { out[0] = t[0].y; }
-void blue(Texels t, const ViewParams&, float* out) { out[0] = t[0].z; }
-void alpha(Texels t, const ViewParams&, float* out) { out[0] = t[0].w; }
+void green(Texels t, const ViewParams&, float* out) {
+    out[0] = t[0].y;
+}
+void blue(Texels t, const ViewParams&, float* out) {
+    out[0] = t[0].z;
+}
+void alpha(Texels t, const ViewParams&, float* out) {
+    out[0] = t[0].w;
+}
 void bothAlphas(Texels t, const ViewParams&, float* out) {
     out[0] = t[0].w;
     out[1] = t[1].w;
@@ -52,17 +64,37 @@ void normal(Texels t, const ViewParams&, float* out) {
 }
 
 // Picture functions.
-vec3 encoded(const float* v) { return {encode(v[0]), encode(v[1]), encode(v[2])}; }
-vec3 grey(const float* v) { return vec3(std::clamp(v[0], 0.0F, 1.0F)); }
-vec3 redGreen(const float* v) { return {std::clamp(v[0], 0.0F, 1.0F), std::clamp(v[1], 0.0F, 1.0F), 0.0F}; }
-vec3 asIs(const float* v) { return glm::clamp(vec3(v[0], v[1], v[2]), 0.0F, 1.0F); }
-vec3 direction(const float* v) { return 0.5F + 0.5F * vec3(v[0], v[1], v[2]); }
-vec3 offsets(const float* v) { return glm::clamp(vec3(0.5F + 10.0F * v[0], 0.5F + 10.0F * v[1], 0.5F), 0.0F, 1.0F); }
-float nearness(float metres) { return metres > 0.0F ? 4.0F / (4.0F + metres) : 0.0F; }
-vec3 near(const float* v) { return vec3(nearness(v[0])); }
-vec3 nearRedGreen(const float* v) { return {nearness(v[0]), nearness(v[1]), 0.0F}; }
+vec3 encoded(const float* v) {
+    return {encode(v[0]), encode(v[1]), encode(v[2])};
+}
+vec3 grey(const float* v) {
+    return vec3(std::clamp(v[0], 0.0F, 1.0F));
+}
+vec3 redGreen(const float* v) {
+    return {std::clamp(v[0], 0.0F, 1.0F), std::clamp(v[1], 0.0F, 1.0F), 0.0F};
+}
+vec3 asIs(const float* v) {
+    return glm::clamp(vec3(v[0], v[1], v[2]), 0.0F, 1.0F);
+}
+vec3 direction(const float* v) {
+    return 0.5F + 0.5F * vec3(v[0], v[1], v[2]);
+}
+vec3 offsets(const float* v) {
+    return glm::clamp(vec3(0.5F + 10.0F * v[0], 0.5F + 10.0F * v[1], 0.5F), 0.0F, 1.0F);
+}
+float nearness(float metres) {
+    return metres > 0.0F ? 4.0F / (4.0F + metres) : 0.0F;
+}
+vec3 near(const float* v) {
+    return vec3(nearness(v[0]));
+}
+vec3 nearRedGreen(const float* v) {
+    return {nearness(v[0]), nearness(v[1]), 0.0F};
+}
 // A shadow map's depths, stretched to be told apart.
-vec3 mapDepth(const float* v) { return vec3(v[0]); }
+vec3 mapDepth(const float* v) {
+    return vec3(v[0]);
+}
 
 const std::vector<std::string> rgb{"R", "G", "B"};
 const std::vector<std::string> xyz{"X", "Y", "Z"};
@@ -72,10 +104,10 @@ const std::vector<std::string> y{"Y"};
 
 const std::vector<Show>& table() {
     static const std::vector<Show> all{
-        {"final", "the whole picture: radiance; PNG tone mapped", [](const FrameImages& i) { return Images{i.light.lit}; },
-         color, rgb, nullptr},
-        {"direct", "sun, lamps, emission and background: radiance", [](const FrameImages& i) { return Images{i.direct}; },
-         color, rgb, encoded},
+        {"final", "the whole picture: radiance; PNG tone mapped",
+         [](const FrameImages& i) { return Images{i.light.lit}; }, color, rgb, nullptr},
+        {"direct", "sun, lamps, emission and background: radiance",
+         [](const FrameImages& i) { return Images{i.direct}; }, color, rgb, encoded},
         {"indirect_diffuse", "light by way of diffuse rays: radiance",
          [](const FrameImages& i) { return Images{i.light.indirectDiffuse}; }, color, rgb, encoded},
         {"indirect_specular", "reflections: radiance",
@@ -92,9 +124,15 @@ const std::vector<Show>& table() {
         {"depth", "metres in front of the camera, 0 where there is nothing; PNG bright is near",
          [](const FrameImages& i) { return Images{i.g.depth}; }, viewDistance, y, near},
         {"normal", "world-space shading normal, 0 where there is nothing; PNG 0.5 + 0.5 n",
-         [](const FrameImages& i) { return Images{i.g.normal, i.g.depth}; }, normal, xyz, direction},
+         [](const FrameImages& i) {
+             return Images{i.g.normal, i.g.depth};
+         },
+         normal, xyz, direction},
         {"geometric_normal", "world-space normal of the triangle, toward the camera; PNG 0.5 + 0.5 n",
-         [](const FrameImages& i) { return Images{i.g.geometricNormal, i.g.depth}; }, normal, xyz, direction},
+         [](const FrameImages& i) {
+             return Images{i.g.geometricNormal, i.g.depth};
+         },
+         normal, xyz, direction},
         {"albedo", "base colour, linear", [](const FrameImages& i) { return Images{i.g.baseColor}; }, squaredColor, rgb,
          encoded},
         {"roughness", "perceptual roughness, 0 mirror to 1", [](const FrameImages& i) { return Images{i.g.material}; },
@@ -103,26 +141,35 @@ const std::vector<Show>& table() {
          grey},
         {"occlusion", "the materials' occlusion maps, 1 open",
          [](const FrameImages& i) { return Images{i.g.material}; }, blue, y, grey},
-        {"emissive", "emitted radiance", [](const FrameImages& i) { return Images{i.g.emissive}; }, color, rgb, encoded},
+        {"emissive", "emitted radiance", [](const FrameImages& i) { return Images{i.g.emissive}; }, color, rgb,
+         encoded},
         {"motion", "uv now minus uv in the last frame; PNG 0.5 + 10 motion",
          [](const FrameImages& i) { return Images{i.g.motion}; }, firstTwo, xy, offsets},
         {"confidence", "share of the rays' weight that a source answered: R diffuse, G specular",
-         [](const FrameImages& i) { return Images{i.diffuse.source, i.specular.source}; }, bothAlphas, rg, redGreen},
+         [](const FrameImages& i) {
+             return Images{i.diffuse.source, i.specular.source};
+         },
+         bothAlphas, rg, redGreen},
         {"diffuse_confidence", "the same, of the diffuse rays",
          [](const FrameImages& i) { return Images{i.diffuse.source}; }, alpha, y, grey},
         {"specular_confidence", "the same, of the reflection rays",
          [](const FrameImages& i) { return Images{i.specular.source}; }, alpha, y, grey},
         {"hit_distance", "mean length of the rays in metres: R diffuse, G specular; PNG bright is near",
-         [](const FrameImages& i) { return Images{i.diffuse.radiance, i.specular.radiance}; }, bothAlphas, rg,
-         nearRedGreen},
+         [](const FrameImages& i) {
+             return Images{i.diffuse.radiance, i.specular.radiance};
+         },
+         bothAlphas, rg, nearRedGreen},
         {"diffuse_hit_distance", "the same, of the diffuse rays",
          [](const FrameImages& i) { return Images{i.diffuse.radiance}; }, alpha, y, near},
         {"specular_hit_distance", "the same, of the reflection rays",
          [](const FrameImages& i) { return Images{i.specular.radiance}; }, alpha, y, near},
         {"source", "who answered the rays, both lobes: green the screen, blue the environment",
-         [](const FrameImages& i) { return Images{i.diffuse.source, i.specular.source}; }, meanColor, rgb, asIs},
-        {"diffuse_source", "the same, of the diffuse rays", [](const FrameImages& i) { return Images{i.diffuse.source}; },
-         color, rgb, asIs},
+         [](const FrameImages& i) {
+             return Images{i.diffuse.source, i.specular.source};
+         },
+         meanColor, rgb, asIs},
+        {"diffuse_source", "the same, of the diffuse rays",
+         [](const FrameImages& i) { return Images{i.diffuse.source}; }, color, rgb, asIs},
         {"specular_source", "the same, of the reflection rays",
          [](const FrameImages& i) { return Images{i.specular.source}; }, color, rgb, asIs},
     };
@@ -131,7 +178,9 @@ const std::vector<Show>& table() {
 
 }  // namespace
 
-std::span<const Show> shows() { return table(); }
+std::span<const Show> shows() {
+    return table();
+}
 
 const Show& findShow(std::string_view name) {
     const auto found = std::ranges::find(table(), name, &Show::name);

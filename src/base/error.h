@@ -39,8 +39,8 @@ template <class... Args>
 }  // namespace reflet
 
 /// REFLET_CHECK(a == b, "{} {}", a, b): the invariant, and the values that broke it.
-#define REFLET_CHECK(condition, ...)                                                                 \
-    do {                                                                                             \
-        if (!(condition)) [[unlikely]]                                                               \
-            ::reflet::checkFailed(#condition, __FILE__, __LINE__, fmt::format(__VA_ARGS__));         \
+#define REFLET_CHECK(condition, ...)                                                         \
+    do {                                                                                     \
+        if (!(condition)) [[unlikely]]                                                       \
+            ::reflet::checkFailed(#condition, __FILE__, __LINE__, fmt::format(__VA_ARGS__)); \
     } while (false)

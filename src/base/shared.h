@@ -37,9 +37,11 @@ using uint = uint32_t;
 
 #define SHARED_OPTION_ENUM(type, name, value) name = value,
 #define SHARED_OPTION_NAME(type, name, value) {#name, value},
-#define CHOICES(type, OPTIONS)                                                 \
-    enum class type : uint32_t { OPTIONS(SHARED_OPTION_ENUM) };                \
-    inline std::vector<SettingOption> settingOptions(const type*) { return {OPTIONS(SHARED_OPTION_NAME)}; }
+#define CHOICES(type, OPTIONS)                                      \
+    enum class type : uint32_t { OPTIONS(SHARED_OPTION_ENUM) };     \
+    inline std::vector<SettingOption> settingOptions(const type*) { \
+        return {OPTIONS(SHARED_OPTION_NAME)};                       \
+    }
 
 #define SHARED_VALUE_MEMBER(type, name, standard, lowest, highest, help) type name = standard;
 #define SHARED_SWITCH_MEMBER(name, standard, help) uint name = standard;
@@ -47,16 +49,16 @@ using uint = uint32_t;
 #define SHARED_VALUE_INFO(type, name, standard, lowest, highest, help) \
     valueInfo(#name, offsetof(Self, name), type(standard), type(lowest), type(highest), help),
 #define SHARED_SWITCH_INFO(name, standard, help) switchInfo(#name, offsetof(Self, name), standard, help),
-#define SHARED_CHOICE_INFO(type, name, standard, help)                         \
+#define SHARED_CHOICE_INFO(type, name, standard, help)                             \
     choiceInfo(#name, offsetof(Self, name), static_cast<uint32_t>(type::standard), \
                settingOptions(static_cast<const type*>(nullptr)), help),
-#define SETTINGS(structName, TABLE)                                                                   \
-    struct structName {                                                                               \
-        TABLE(SHARED_VALUE_MEMBER, SHARED_SWITCH_MEMBER, SHARED_CHOICE_MEMBER)                        \
-    };                                                                                                \
-    inline std::vector<SettingInfo> settingInfos(const structName*) {                                 \
-        using Self = structName;                                                                      \
-        return {TABLE(SHARED_VALUE_INFO, SHARED_SWITCH_INFO, SHARED_CHOICE_INFO)};                    \
+#define SETTINGS(structName, TABLE)                                                \
+    struct structName {                                                            \
+        TABLE(SHARED_VALUE_MEMBER, SHARED_SWITCH_MEMBER, SHARED_CHOICE_MEMBER)     \
+    };                                                                             \
+    inline std::vector<SettingInfo> settingInfos(const structName*) {              \
+        using Self = structName;                                                   \
+        return {TABLE(SHARED_VALUE_INFO, SHARED_SWITCH_INFO, SHARED_CHOICE_INFO)}; \
     }
 
 #else  // GLSL

@@ -212,8 +212,7 @@ Readback Frame::readback(Image image) {
     const size_t index = readbacksUsed_++;
     if (index >= readbacks_.size() || readbacks_[index].view().size != size) {
         readbacks_.resize(std::max(readbacks_.size(), index + 1));
-        readbacks_[index] =
-            Buffer(device_, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback, "readback");
+        readbacks_[index] = Buffer(device_, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback, "readback");
     }
     const BufferView target = readbacks_[index].view();
     BarrierBatch before;
@@ -232,14 +231,18 @@ Readback Frame::readback(Image image) {
     return {index};
 }
 
-std::span<const std::byte> Frame::bytes(Readback readback) const { return readbacks_.at(readback.index).bytes(); }
+std::span<const std::byte> Frame::bytes(Readback readback) const {
+    return readbacks_.at(readback.index).bytes();
+}
 
 Frame::Scope::Scope(Frame& frame, std::string_view prefix) : frame_(frame), length_(frame.prefix_.size()) {
     frame.prefix_ += prefix;
     frame.prefix_ += '.';
 }
 
-Frame::Scope::~Scope() { frame_.prefix_.resize(length_); }
+Frame::Scope::~Scope() {
+    frame_.prefix_.resize(length_);
+}
 
 Frame::UniformSlice Frame::uploadUniform(std::span<const std::byte> bytes) {
     const VkDeviceSize alignment = std::max<VkDeviceSize>(device_.limits().minUniformBufferOffsetAlignment, 1);

@@ -36,8 +36,7 @@ VkRenderingAttachmentInfo attachmentInfo(const Image& image, bool clear, VkClear
 
 }  // namespace
 
-Pass::Pass(Frame& frame, std::string name, std::vector<std::string> shaders)
-    : frame_(frame), name_(std::move(name)) {
+Pass::Pass(Frame& frame, std::string name, std::vector<std::string> shaders) : frame_(frame), name_(std::move(name)) {
     info_.shaders = std::move(shaders);
 }
 
@@ -146,9 +145,9 @@ void Pass::use(BufferView buffer, const Access& access) {
 void Pass::collectUses(const Pipeline& pipeline) {
     const VkPipelineStageFlags2 stages = shaderStages(pipeline.stages);
     for (const Bound& bound : bound_) {
-        const Access access =
-            bound.write ? Access{stages, VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT, true}
-                        : Access{stages, VK_ACCESS_2_SHADER_READ_BIT, false};
+        const Access access = bound.write
+                                  ? Access{stages, VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT, true}
+                                  : Access{stages, VK_ACCESS_2_SHADER_READ_BIT, false};
         if (bound.image) {
             use(bound.image, access);
         } else {

@@ -227,7 +227,8 @@ VkInstance makeInstance(const char* layer) {
         fail("the layer {} is not installed (Debian: vulkan-validationlayers)", layer);
     }
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
-        fail("no Vulkan driver: install one (Debian: mesa-vulkan-drivers; it renders on the CPU where there is no GPU)");
+        fail(
+            "no Vulkan driver: install one (Debian: mesa-vulkan-drivers; it renders on the CPU where there is no GPU)");
     }
     vkCheck(result, "creating a Vulkan instance");
     volkLoadInstanceOnly(instance);

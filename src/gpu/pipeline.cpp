@@ -194,10 +194,10 @@ void makePipeline(Device& device, const PipelineInfo& info, const std::vector<Sh
         stage.pSpecializationInfo = &specialization.info;
         stages.push_back(stage);
     }
-    pipeline.handle = shaders.front().stage == VK_SHADER_STAGE_COMPUTE_BIT
-                          ? makeCompute(device, stages.front(), pipeline.layout)
-                          : makeGraphics(device, info, vertexInput(shaders.front(), info.vertices), pipeline.layout,
-                                         stages);
+    pipeline.handle =
+        shaders.front().stage == VK_SHADER_STAGE_COMPUTE_BIT
+            ? makeCompute(device, stages.front(), pipeline.layout)
+            : makeGraphics(device, info, vertexInput(shaders.front(), info.vertices), pipeline.layout, stages);
     for (const auto& stage : stages) {
         device.vk.vkDestroyShaderModule(device.handle(), stage.module, nullptr);
     }

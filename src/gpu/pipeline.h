@@ -29,12 +29,12 @@ struct VertexLayout {
 
 /// What a pipeline is made of; equal descriptions are the same pipeline.
 struct PipelineInfo {
-    std::vector<std::string> shaders;                          ///< one .comp, or a .vert and maybe a .frag
-    std::vector<std::pair<std::string, uint32_t>> constants;   ///< specialization constants by name, as bits
-    std::vector<VkFormat> colorFormats;                        ///< by location
+    std::vector<std::string> shaders;                         ///< one .comp, or a .vert and maybe a .frag
+    std::vector<std::pair<std::string, uint32_t>> constants;  ///< specialization constants by name, as bits
+    std::vector<VkFormat> colorFormats;                       ///< by location
     VkFormat depthFormat = VK_FORMAT_UNDEFINED;
-    const VertexLayout* vertices = nullptr;                    ///< static data; nullptr: no vertex buffers
-    VkDescriptorSetLayout drawSet = VK_NULL_HANDLE;            ///< set 1, bound by the draws themselves
+    const VertexLayout* vertices = nullptr;          ///< static data; nullptr: no vertex buffers
+    VkDescriptorSetLayout drawSet = VK_NULL_HANDLE;  ///< set 1, bound by the draws themselves
 
     auto operator<=>(const PipelineInfo&) const = default;
 };

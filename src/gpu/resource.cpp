@@ -81,9 +81,13 @@ void Texture::retire() {
     state_.reset();
 }
 
-Texture::~Texture() { retire(); }
+Texture::~Texture() {
+    retire();
+}
 
-Texture::Texture(Texture&& other) noexcept { *this = std::move(other); }
+Texture::Texture(Texture&& other) noexcept {
+    *this = std::move(other);
+}
 
 Texture& Texture::operator=(Texture&& other) noexcept {
     std::swap(device_, other.device_);
@@ -119,9 +123,13 @@ void Buffer::retire() {
     state_.reset();
 }
 
-Buffer::~Buffer() { retire(); }
+Buffer::~Buffer() {
+    retire();
+}
 
-Buffer::Buffer(Buffer&& other) noexcept { *this = std::move(other); }
+Buffer::Buffer(Buffer&& other) noexcept {
+    *this = std::move(other);
+}
 
 Buffer& Buffer::operator=(Buffer&& other) noexcept {
     std::swap(device_, other.device_);

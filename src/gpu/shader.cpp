@@ -45,9 +45,9 @@ public:
         context_.reset(context);
         spvc_parsed_ir ir = nullptr;
         spvcCheck(spvc_context_parse_spirv(context, source.words.data(), source.words.size(), &ir), name_);
-        spvcCheck(spvc_context_create_compiler(context, SPVC_BACKEND_NONE, ir, SPVC_CAPTURE_MODE_TAKE_OWNERSHIP,
-                                               &compiler_),
-                  name_);
+        spvcCheck(
+            spvc_context_create_compiler(context, SPVC_BACKEND_NONE, ir, SPVC_CAPTURE_MODE_TAKE_OWNERSHIP, &compiler_),
+            name_);
         spvc_set active = nullptr;
         spvcCheck(spvc_compiler_get_active_interface_variables(compiler_, &active), name_);
         spvcCheck(spvc_compiler_create_shader_resources_for_active_variables(compiler_, &resources_, active), name_);

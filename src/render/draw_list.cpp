@@ -63,8 +63,8 @@ void recordDraws(const gpu::DrawCommands& to, const DrawList& list, const DrawFi
         }
         const bool mirrored = glm::determinant(mat3(draw.objectToWorld)) < 0.0F;
         vk.vkCmdSetFrontFace(to.commands, mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
-        vk.vkCmdSetCullMode(to.commands, filter.cullBackFaces && !draw.doubleSided ? VK_CULL_MODE_BACK_BIT
-                                                                                  : VK_CULL_MODE_NONE);
+        vk.vkCmdSetCullMode(to.commands,
+                            filter.cullBackFaces && !draw.doubleSided ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE);
         const DrawConstants constants{glm::mat4x3(draw.objectToWorld), glm::mat4x3(draw.previousObjectToWorld)};
         vk.vkCmdPushConstants(to.commands, to.layout, VK_SHADER_STAGE_ALL, 0,
                               previousTransform ? sizeof(constants) : sizeof(constants.objectToWorld), &constants);

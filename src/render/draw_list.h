@@ -17,7 +17,7 @@ struct Draw {
     mat4 previousObjectToWorld{1.0F};
     Aabb boundsW;
     VkDescriptorSet material = VK_NULL_HANDLE;
-    bool masked = false;       ///< has an alpha cutoff
+    bool masked = false;  ///< has an alpha cutoff
     bool doubleSided = false;
 };
 
@@ -27,7 +27,7 @@ struct DrawList {
     VkBuffer indices = VK_NULL_HANDLE;     ///< uint32
     VkDescriptorSetLayout materialLayout = VK_NULL_HANDLE;
     std::vector<Draw> draws;
-    Aabb boundsW;                          ///< of all
+    Aabb boundsW;  ///< of all
 };
 
 /// The vertex buffers of a draw list: position; normal, tangent, uv0, uv1, color.

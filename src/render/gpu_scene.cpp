@@ -48,7 +48,9 @@ std::array<const TextureSlot*, slotCount> slotsOf(const Material& m) {
             &m.emissiveTexture};
 }
 
-bool isSrgb(uint32_t slot) { return slot == slotBaseColor || slot == slotEmissive; }
+bool isSrgb(uint32_t slot) {
+    return slot == slotBaseColor || slot == slotEmissive;
+}
 
 MaterialParams materialParams(const Material& m) {
     MaterialParams p{};
@@ -173,8 +175,7 @@ void GpuScene::writeMaterialSet(const Scene& scene, const Material& material, Vk
         writes[i].pBufferInfo = &block;
         if (i > 0) {
             const TextureSlot& slot = *slots[i - 1];
-            const Sampler sampler =
-                slot.sampler < 0 ? Sampler{} : scene.samplers.at(static_cast<size_t>(slot.sampler));
+            const Sampler sampler = slot.sampler < 0 ? Sampler{} : scene.samplers.at(static_cast<size_t>(slot.sampler));
             images[i - 1] = {device_.sampler(samplerInfo(sampler)), texture(scene, slot.image, isSrgb(i - 1)).view,
                              VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
             writes[i].pImageInfo = &images[i - 1];

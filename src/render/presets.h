@@ -1,20 +1,30 @@
-// Settings under one name: JSON of the same form as a settings file.
+// Settings under one name: the JSON files in src/render/presets, which are settings files as users write them.
 #pragma once
 
 #include "render/settings.h"
 
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace reflet {
 
-struct Preset {
+struct EmbeddedPreset {
     std::string_view name;
-    std::string_view description;
     std::string_view json;
 };
 
-std::span<const Preset> presets();
+/// The files, embedded at build time, ordered by name.
+std::span<const EmbeddedPreset> embeddedPresets();
+
+struct Preset {
+    std::string name;
+    std::string description;
+    std::string json;  ///< on one line, without the description
+};
+
+std::vector<Preset> presets();
 
 /// Throws UsageError naming the nearest.
 void applyPreset(Settings& settings, std::string_view name);

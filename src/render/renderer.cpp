@@ -18,8 +18,8 @@ ViewParams makeViewParams(const Camera& camera, uvec2 size, uint32_t frame, uint
     v.previousWorldToClip = v.worldToClip;
     v.eye = orthographic ? vec4(toCamera, 0.0F) : vec4(camera.position, 1.0F);
     v.viewPlane = -glm::transpose(toView)[2];
-    v.depthToDistance = orthographic ? vec4(camera.far, camera.near - camera.far, 1.0F, 0.0F)
-                                     : vec4(camera.near, 0.0F, 0.0F, 1.0F);
+    v.depthToDistance =
+        orthographic ? vec4(camera.far, camera.near - camera.far, 1.0F, 0.0F) : vec4(camera.near, 0.0F, 0.0F, 1.0F);
     v.size = pixels;
     v.pixel = 1.0F / pixels;
     const float height = orthographic ? camera.orthographicHeight : 2.0F * std::tan(0.5F * camera.fovY);
@@ -38,16 +38,15 @@ FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const 
     params.previousWorldToClip = previousWorldToClip_.value_or(params.worldToClip);
     previousWorldToClip_ = params.worldToClip;
     frame_.begin();
-    const FrameImages images =
-        renderFrame(frame_,
-                    {.draws = scene_.draws(),
-                     .view = params,
-                     .sunDirection = view.sun.direction,
-                     .sunIrradiance = view.sun.irradiance,
-                     .environment = view.environment.radiance,
-                     .lamps = scene_.lamps(),
-                     .ggxTable = ggxTable_.image()},
-                    settings);
+    const FrameImages images = renderFrame(frame_,
+                                           {.draws = scene_.draws(),
+                                            .view = params,
+                                            .sunDirection = view.sun.direction,
+                                            .sunIrradiance = view.sun.irradiance,
+                                            .environment = view.environment.radiance,
+                                            .lamps = scene_.lamps(),
+                                            .ggxTable = ggxTable_.image()},
+                                           settings);
     if (after) {
         after(frame_, images);
     }

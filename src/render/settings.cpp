@@ -182,6 +182,9 @@ void applySettingsJson(Settings& settings, const nlohmann::json& json, const std
         fail(R"({}: settings must be an object: {{"effect": {{"name": value}}}})", where);
     }
     for (const auto& [effect, values] : json.items()) {
+        if (effect == "description" && values.is_string()) {
+            continue;
+        }
         try {
             applyEffectJson(settings, effect, values);
         } catch (const UsageError& error) {

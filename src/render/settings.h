@@ -44,8 +44,8 @@ void setSetting(Settings& settings, std::string_view assignment);
 /// The value as text that setSetting takes.
 std::string settingText(const Settings& settings, const SettingEntry& entry);
 
-/// { "trace_screen": { "maxSteps": 64, … }, … }: what the object names is set, the rest stays. `where` starts the
-/// messages. Throws Error as setSetting does.
+/// { "description": "what it is for", "trace_screen": { "maxSteps": 64, … }, … }: what the object names is set, the
+/// rest stays. `where` starts the messages. Throws Error as setSetting does.
 void applySettingsJson(Settings& settings, const nlohmann::json& json, const std::string& where);
 
 /// What a setting may be: "0.001 to 100", "on or off", "gamma22, srgb, …".

@@ -47,19 +47,19 @@ struct TextureSlot {
 /// glTF metallic-roughness. Colours are linear.
 struct Material {
     std::string name;
-    vec4 baseColor{1.0F};          ///< factor, alpha in w
-    float metallic = 1.0F;         ///< factor, 0..1
-    float roughness = 1.0F;        ///< perceptual (alpha = roughness²), factor, 0..1
-    vec3 emissive{0.0F};           ///< factor times strength: emitted radiance [W/(m² sr)]
+    vec4 baseColor{1.0F};    ///< factor, alpha in w
+    float metallic = 1.0F;   ///< factor, 0..1
+    float roughness = 1.0F;  ///< perceptual (alpha = roughness²), factor, 0..1
+    vec3 emissive{0.0F};     ///< factor times strength: emitted radiance [W/(m² sr)]
     float normalScale = 1.0F;
     float occlusionStrength = 1.0F;
-    float alphaCutoff = 0.0F;      ///< a fragment with alpha < cutoff is not there; 0: opaque
+    float alphaCutoff = 0.0F;  ///< a fragment with alpha < cutoff is not there; 0: opaque
     bool doubleSided = false;
     TextureSlot baseColorTexture;  ///< sRGB
     TextureSlot metallicRoughnessTexture;
     TextureSlot normalTexture;
     TextureSlot occlusionTexture;
-    TextureSlot emissiveTexture;   ///< sRGB
+    TextureSlot emissiveTexture;  ///< sRGB
 };
 
 /// What a vertex has besides its position. Unit normal; unit tangent, w = ±1 (bitangent = w · cross(n, t)).
@@ -77,7 +77,7 @@ struct Mesh {
     std::vector<vec3> positions;
     std::vector<VertexAttributes> attributes;  ///< as many as positions
     std::vector<uint32_t> indices;
-    uint32_t material = 0;                     ///< index into Scene::materials
+    uint32_t material = 0;  ///< index into Scene::materials
     Aabb bounds;
 };
 
@@ -92,10 +92,10 @@ struct Instance {
 struct Camera {
     std::string name;
     vec3 position{0, 0, 5};
-    vec3 target{0.0F};   ///< any point straight ahead, not the position itself
-    vec3 up{0, 1, 0};    ///< not parallel to the view
+    vec3 target{0.0F};  ///< any point straight ahead, not the position itself
+    vec3 up{0, 1, 0};   ///< not parallel to the view
     float fovY = glm::radians(60.0F);
-    float near = 0.05F;  ///< metres, > 0
+    float near = 0.05F;               ///< metres, > 0
     float orthographicHeight = 0.0F;  ///< metres from the lower to the upper edge; > 0: orthographic
     float far = 1000.0F;              ///< metres; of an orthographic camera only
 };
@@ -116,8 +116,8 @@ struct Lamp {
     vec3 position{0.0F};
     vec3 direction{0, -1, 0};  ///< the way the light travels, unit length (spot, directional)
     vec3 intensity{1.0F};
-    float range = 0.0F;        ///< metres; 0: without end
-    float innerAngle = 0.0F;   ///< spot: from the axis, full strength inside
+    float range = 0.0F;                           ///< metres; 0: without end
+    float innerAngle = 0.0F;                      ///< spot: from the axis, full strength inside
     float outerAngle = glm::quarter_pi<float>();  ///< spot: from the axis, dark outside
 };
 
@@ -133,9 +133,9 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
-    std::vector<Lamp> lamps;      ///< without the sun
+    std::vector<Lamp> lamps;  ///< without the sun
     std::vector<Camera> cameras;
-    std::optional<Sun> sun;       ///< the first directional light
+    std::optional<Sun> sun;  ///< the first directional light
     Environment environment;
 
     /// World-space box around all instances; empty if there are none.

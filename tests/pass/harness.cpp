@@ -35,7 +35,9 @@ struct SharedDevice : DeviceTest {
     using DeviceTest::device;
 };
 
-gpu::Device& testDevice() { return SharedDevice::device(); }
+gpu::Device& testDevice() {
+    return SharedDevice::device();
+}
 
 struct TestFrame {
     View view;

@@ -57,15 +57,13 @@ TEST_P(Furnace, AWhiteSphereInAWhiteEnvironmentIsWhite) {
     expectSilentValidation("the furnace");
 }
 
-INSTANTIATE_TEST_SUITE_P(Materials, Furnace,
-                         testing::Values(FurnaceCase{"lambert", 1.0F, 0.0F, true},
-                                         FurnaceCase{"dielectric_smooth", 0.0F, 0.0F, false},
-                                         FurnaceCase{"dielectric_half", 0.5F, 0.0F, false},
-                                         FurnaceCase{"dielectric_rough", 1.0F, 0.0F, false},
-                                         FurnaceCase{"metal_smooth", 0.0F, 1.0F, false},
-                                         FurnaceCase{"metal_half", 0.5F, 1.0F, false},
-                                         FurnaceCase{"metal_rough", 1.0F, 1.0F, false}),
-                         [](const auto& furnace) { return furnace.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Materials, Furnace,
+    testing::Values(FurnaceCase{"lambert", 1.0F, 0.0F, true}, FurnaceCase{"dielectric_smooth", 0.0F, 0.0F, false},
+                    FurnaceCase{"dielectric_half", 0.5F, 0.0F, false},
+                    FurnaceCase{"dielectric_rough", 1.0F, 0.0F, false}, FurnaceCase{"metal_smooth", 0.0F, 1.0F, false},
+                    FurnaceCase{"metal_half", 0.5F, 1.0F, false}, FurnaceCase{"metal_rough", 1.0F, 1.0F, false}),
+    [](const auto& furnace) { return furnace.param.name; });
 
 TEST(Indirect, FinalIsTheSumOfItsLayers) {
     View view = viewFrom({0, 3, 6}, {0, 0, 0});
@@ -79,8 +77,8 @@ TEST(Indirect, FinalIsTheSumOfItsLayers) {
     const Pictures p = render(scene, view, size, {}, {"final", "direct", "indirect_diffuse", "indirect_specular"});
     for (unsigned y = 0; y < size.y; ++y) {
         for (unsigned x = 0; x < size.x; ++x) {
-            const vec3 sum = p.color("direct", x, y) + p.color("indirect_diffuse", x, y) +
-                             p.color("indirect_specular", x, y);
+            const vec3 sum =
+                p.color("direct", x, y) + p.color("indirect_diffuse", x, y) + p.color("indirect_specular", x, y);
             for (int c = 0; c < 3; ++c) {
                 EXPECT_NEAR(p.color("final", x, y)[c], sum[c], 2e-3F * sum[c] + 1e-4F) << x << ", " << y;
             }
@@ -123,8 +121,8 @@ TEST(Indirect, UniformAndCosineRaysConvergeToTheSameLight) {
 }
 
 // Irradiance at a point of the floor, `far` in front of a wall of radiance 1 and that height, of which it sees `width`
-// to one side (form factor of an element to a perpendicular rectangle at its corner; Howell, A Catalog of Radiation Heat
-// Transfer Configuration Factors).
+// to one side (form factor of an element to a perpendicular rectangle at its corner; Howell, A Catalog of Radiation
+// Heat Transfer Configuration Factors).
 float wallIrradiance(float width, float height, float far) {
     const float a = width / far;
     const float b = height / far;

@@ -74,7 +74,8 @@ TEST(Shadow, OpenGroundIsFullyLitAtEverySunHeightAboveFiveDegrees) {
 TEST(Shadow, ASphereDoesNotShadowItsLitSide) {
     const vec3 toSun = glm::normalize(vec3(0.3F, 1.0F, 0.5F));
     const Scene scene = groundWith(builtin::sphere(1.0F, 64), builtin::at({0, 1, 0}));
-    const Pictures p = render(scene, viewOfGround(toSun), size, settingsOf(direct), {"sun_visibility", "depth", "normal"});
+    const Pictures p =
+        render(scene, viewOfGround(toSun), size, settingsOf(direct), {"sun_visibility", "depth", "normal"});
     unsigned lit = 0;
     for (unsigned y = 0; y < size.y; ++y) {
         for (unsigned x = 0; x < size.x; ++x) {

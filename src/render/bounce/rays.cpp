@@ -56,8 +56,9 @@ namespace {
 
 LobeLight lobeImages(gpu::Frame& f, uint32_t lobe, uvec2 size) {
     const bool diffuse = lobe == lobeDiffuse;
-    return {.radiance = f.image(diffuse ? "diffuse.radiance" : "specular.radiance", VK_FORMAT_R16G16B16A16_SFLOAT, size),
-            .source = f.image(diffuse ? "diffuse.source" : "specular.source", VK_FORMAT_R16G16B16A16_SFLOAT, size)};
+    return {
+        .radiance = f.image(diffuse ? "diffuse.radiance" : "specular.radiance", VK_FORMAT_R16G16B16A16_SFLOAT, size),
+        .source = f.image(diffuse ? "diffuse.source" : "specular.source", VK_FORMAT_R16G16B16A16_SFLOAT, size)};
 }
 
 }  // namespace

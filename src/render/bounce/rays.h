@@ -12,19 +12,20 @@
 
 SHARED_BEGIN
 
-#define RAY_DISTRIBUTIONS(OPTION)            \
-    OPTION(RayDistribution, cosine, 0)       \
+#define RAY_DISTRIBUTIONS(OPTION)      \
+    OPTION(RayDistribution, cosine, 0) \
     OPTION(RayDistribution, uniform, 1)
 CHOICES(RayDistribution, RAY_DISTRIBUTIONS)
 
-#define DIFFUSE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                  \
-    VALUE(uint, rays, 4, 0, 256, "Rays per pixel for indirect diffuse light; 0: none is computed.")             \
+#define DIFFUSE_SETTINGS(VALUE, SWITCH, CHOICE)                                                     \
+    VALUE(uint, rays, 4, 0, 256, "Rays per pixel for indirect diffuse light; 0: none is computed.") \
     CHOICE(RayDistribution, distribution, cosine, "How their directions are spread over the hemisphere.")
 SETTINGS(DiffuseSettings, DIFFUSE_SETTINGS)
 
 #define SPECULAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                                 \
     VALUE(uint, rays, 1, 0, 1, "Rays per pixel for reflections, in the mirror direction; 0: none are computed.") \
-    VALUE(float, maxRoughness, 0.4, 0.0, 1.0, "Rougher surfaces leave their reflections to the sources behind the screen.")
+    VALUE(float, maxRoughness, 0.4, 0.0, 1.0,                                                                    \
+          "Rougher surfaces leave their reflections to the sources behind the screen.")
 SETTINGS(SpecularSettings, SPECULAR_SETTINGS)
 
 // Lobes, as the specialization constant `lobe`.
@@ -55,9 +56,9 @@ struct GenerateRaysParams {
 };
 
 struct ResolveRaysParams {
-    uint rayCount;   // of the batch
-    float weight;    // of each ray: 1 over the rays per pixel
-    uint firstBatch; // 1: overwrite, 0: add to the batches before
+    uint rayCount;    // of the batch
+    float weight;     // of each ray: 1 over the rays per pixel
+    uint firstBatch;  // 1: overwrite, 0: add to the batches before
     uvec2 size;
 };
 
@@ -72,12 +73,12 @@ namespace reflet {
 
 /// One batch of rays of one lobe. A layer per ray of a pixel.
 struct Rays {
-    gpu::Image direction;    ///< RG32_UINT array: direction (packUnitVector, world), half2(weight, trust of the screen)
-    gpu::Image answer;       ///< RGBA16F array: radiance · weights so far, hit distance · weights [m]
-    gpu::Image source;       ///< RGBA8 array: colours of the sources · weights; alpha: confidence
-    gpu::BufferView waiting; ///< rays without (all of) an answer
+    gpu::Image direction;  ///< RG32_UINT array: direction (packUnitVector, world), half2(weight, trust of the screen)
+    gpu::Image answer;     ///< RGBA16F array: radiance · weights so far, hit distance · weights [m]
+    gpu::Image source;     ///< RGBA8 array: colours of the sources · weights; alpha: confidence
+    gpu::BufferView waiting;  ///< rays without (all of) an answer
     uint32_t firstRay = 0;
-    uint32_t count = 0;      ///< per pixel, in this batch
+    uint32_t count = 0;  ///< per pixel, in this batch
     uint32_t lobe = 0;
 };
 

@@ -7,22 +7,21 @@
 
 SHARED_BEGIN
 
-#define TRACE_METHODS(OPTION) \
-    OPTION(TraceMethod, linear, 0)
+#define TRACE_METHODS(OPTION) OPTION(TraceMethod, linear, 0)
 CHOICES(TraceMethod, TRACE_METHODS)
 
-#define HIT_LIGHTS(OPTION)       \
-    OPTION(HitLight, direct, 0)  \
+#define HIT_LIGHTS(OPTION)      \
+    OPTION(HitLight, direct, 0) \
     OPTION(HitLight, previous, 1)
 CHOICES(HitLight, HIT_LIGHTS)
 
-#define TRACE_SCREEN_SETTINGS(VALUE, SWITCH, CHOICE)                                                                \
-    CHOICE(TraceMethod, method, linear, "How rays find what they hit; linear: fixed steps in the world.")          \
-    VALUE(float, step, 0.15, 0.001, 100.0, "Length of a step in metres.")                                          \
-    VALUE(uint, maxSteps, 48, 1, 4096, "Steps a ray may take; one that has taken them all has missed.")            \
+#define TRACE_SCREEN_SETTINGS(VALUE, SWITCH, CHOICE)                                                                 \
+    CHOICE(TraceMethod, method, linear, "How rays find what they hit; linear: fixed steps in the world.")            \
+    VALUE(float, step, 0.15, 0.001, 100.0, "Length of a step in metres.")                                            \
+    VALUE(uint, maxSteps, 64, 1, 4096, "Steps a ray may take; one that has taken them all has missed.")              \
     VALUE(float, thickness, 0.3, 0.001, 1000.0, "How thick every surface is taken to be, in metres along the view.") \
     SWITCH(jitter, 1, "Start each ray at a random part of its first step: bands become grain.")                      \
-    CHOICE(HitLight, light, direct,                                                                                 \
+    CHOICE(HitLight, light, direct,                                                                                  \
            "What a hit brings: this frame's direct light, or the last frame's whole picture (further bounces).")
 SETTINGS(TraceScreenSettings, TRACE_SCREEN_SETTINGS)
 

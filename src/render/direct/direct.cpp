@@ -7,10 +7,10 @@ namespace reflet {
 
 gpu::Texture makeGgxTable(gpu::Frame& f) {
     constexpr uint32_t side = 32;  // ggxTableSize in ggx.glsl
-    gpu::Texture table(f.device(),
-                       {VK_FORMAT_R16G16_SFLOAT, uvec2(side), 1, 1,
-                        VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT},
-                       "ggx_table");
+    gpu::Texture table(
+        f.device(),
+        {VK_FORMAT_R16G16_SFLOAT, uvec2(side), 1, 1, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT},
+        "ggx_table");
     f.begin();
     f.compute("ggx_table", "ggx_table.comp").write("table", table.image()).dispatch(uvec2(side));
     f.submit();

@@ -16,12 +16,12 @@ const uint lampDirectional = 2;
 
 // KHR_lights_punctual.
 struct LampParams {
-    vec3 position;    // world space
+    vec3 position;  // world space
     uint type;
-    vec3 toLamp;      // unit, against the way the light travels (spot, directional)
+    vec3 toLamp;         // unit, against the way the light travels (spot, directional)
     float inverseRange;  // 1 / range; 0: without end
-    vec3 intensity;   // [W/sr]; directional: irradiance [W/m²]
-    float spotScale;  // factor = clamp(cos · scale + offset, 0, 1)²
+    vec3 intensity;      // [W/sr]; directional: irradiance [W/m²]
+    float spotScale;     // factor = clamp(cos · scale + offset, 0, 1)²
     float spotOffset;
 };
 

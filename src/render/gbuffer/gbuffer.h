@@ -30,9 +30,9 @@ namespace reflet {
 
 /// Images of the view's size.
 struct GBuffer {
-    gpu::Image depth;      ///< D32, reversed, 0: sky
-    gpu::Image normal;     ///< R32_UINT: world-space shading normal, octahedral, two snorm16 (packUnitVector). The
-                           ///< design's RG16 snorm is no colour target on SwiftShader, nor promised by Vulkan
+    gpu::Image depth;   ///< D32, reversed, 0: sky
+    gpu::Image normal;  ///< R32_UINT: world-space shading normal, octahedral, two snorm16 (packUnitVector). The
+                        ///< design's RG16 snorm is no colour target on SwiftShader, nor promised by Vulkan
     gpu::Image geometricNormal;  ///< R32_UINT, packed alike: of the triangle itself, toward the camera. What depth
                                  ///< does along a surface, which neither normal maps nor smooth normals tell
     gpu::Image baseColor;  ///< RGB10A2: square root of the linear base colour. The design's RGBA8 sRGB is off by up to

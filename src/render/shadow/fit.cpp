@@ -31,7 +31,8 @@ Polygon clip(const Polygon& polygon, const vec4& plane) {
 }
 
 std::array<Polygon, 6> boxFaces(const Aabb& box) {
-    constexpr unsigned faces[6][4] = {{0, 2, 6, 4}, {1, 5, 7, 3}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 1, 3, 2}, {4, 6, 7, 5}};
+    constexpr unsigned faces[6][4] = {{0, 2, 6, 4}, {1, 5, 7, 3}, {0, 4, 5, 1},
+                                      {2, 3, 7, 6}, {0, 1, 3, 2}, {4, 6, 7, 5}};
     std::array<Polygon, 6> polygons;
     for (size_t i = 0; i < 6; ++i) {
         for (const unsigned corner : faces[i]) {
@@ -83,8 +84,7 @@ Polygon visibleCorners(const Aabb& box, const mat4& clipToWorld) {
 
 }  // namespace
 
-ShadowMapParams fitSunShadow(const mat4& clipToWorld, const Aabb& sceneBounds, const vec3& direction,
-                             uint resolution) {
+ShadowMapParams fitSunShadow(const mat4& clipToWorld, const Aabb& sceneBounds, const vec3& direction, uint resolution) {
     const vec3 toSun = -direction;
     if (sceneBounds.empty()) {
         return {mat4(1.0F), toSun, 1.0F, 1.0F};

@@ -8,23 +8,23 @@
 
 SHARED_BEGIN
 
-#define SHADOW_FILTERS(OPTION)     \
-    OPTION(ShadowFilter, none, 0)  \
+#define SHADOW_FILTERS(OPTION)    \
+    OPTION(ShadowFilter, none, 0) \
     OPTION(ShadowFilter, hard, 1)
 CHOICES(ShadowFilter, SHADOW_FILTERS)
 
-#define SHADOW_SETTINGS(VALUE, SWITCH, CHOICE)                                                                    \
-    CHOICE(ShadowFilter, filter, hard, "How the sun's shadow map is read; none: the sun casts no shadows.")      \
-    VALUE(uint, resolution, 2048, 64, 8192, "Texels along each side of the sun's shadow map.")                   \
+#define SHADOW_SETTINGS(VALUE, SWITCH, CHOICE)                                                              \
+    CHOICE(ShadowFilter, filter, hard, "How the sun's shadow map is read; none: the sun casts no shadows.") \
+    VALUE(uint, resolution, 2048, 64, 8192, "Texels along each side of the sun's shadow map.")              \
     VALUE(float, bias, 0.75, 0.0, 16.0, "How far above themselves surfaces ask for shadow, in texels of the map.")
 SETTINGS(ShadowSettings, SHADOW_SETTINGS)
 
 // Shadow space: x, y in clip space of the map, z reversed depth (1 nearest to the sun), all of it linear.
 struct ShadowMapParams {
     mat4 worldToShadow;
-    vec3 toSun;         // world space, unit
-    float texelSize;    // metres that a texel spans (the longer side)
-    float depthRange;   // metres from depth 1 to depth 0
+    vec3 toSun;        // world space, unit
+    float texelSize;   // metres that a texel spans (the longer side)
+    float depthRange;  // metres from depth 1 to depth 0
 };
 
 struct ShadowVisibilityParams {

@@ -6,17 +6,17 @@
 
 SHARED_BEGIN
 
-#define TONE_CURVES(OPTION)        \
-    OPTION(ToneCurve, gamma22, 0)  \
-    OPTION(ToneCurve, srgb, 1)     \
-    OPTION(ToneCurve, aces, 2)     \
-    OPTION(ToneCurve, agx, 3)      \
+#define TONE_CURVES(OPTION)       \
+    OPTION(ToneCurve, gamma22, 0) \
+    OPTION(ToneCurve, srgb, 1)    \
+    OPTION(ToneCurve, aces, 2)    \
+    OPTION(ToneCurve, agx, 3)     \
     OPTION(ToneCurve, neutral, 4)
 CHOICES(ToneCurve, TONE_CURVES)
 
-#define TONEMAP_SETTINGS(VALUE, SWITCH, CHOICE)                                                       \
-    VALUE(float, exposure, 0.0, -24.0, 24.0, "Stops; 1 doubles the light before the tone curve.")     \
-    CHOICE(ToneCurve, curve, neutral,                                                                 \
+#define TONEMAP_SETTINGS(VALUE, SWITCH, CHOICE)                                                   \
+    VALUE(float, exposure, 0.0, -24.0, 24.0, "Stops; 1 doubles the light before the tone curve.") \
+    CHOICE(ToneCurve, curve, neutral,                                                             \
            "gamma22 and srgb clip (2.2 power or sRGB curve); aces, agx and neutral (Khronos) roll highlights off.")
 SETTINGS(TonemapSettings, TONEMAP_SETTINGS)
 
