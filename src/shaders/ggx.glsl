@@ -55,9 +55,11 @@ Surface makeSurface(vec3 baseColor, float metallic, float roughness, vec2 table,
     }
     s.f0 = mix(vec3(dielectricF0), baseColor, metallic);
     float lost = 1.0 / max(table.x + table.y, 1e-3) - 1.0;
-    s.compensation = 1.0 + s.f0 * lost;
-    s.specular = min((s.f0 * table.x + table.y) * s.compensation, vec3(1.0));
     float coat = (dielectricF0 * table.x + table.y) * (1.0 + dielectricF0 * lost);
+    vec3 metal = (baseColor * table.x + table.y) * (1.0 + baseColor * lost);
+    // Mixed as glTF mixes the materials. The compensation is not linear in F0, so it follows from the result.
+    s.specular = min(mix(vec3(coat), metal, metallic), vec3(1.0));
+    s.compensation = s.specular / max(s.f0 * table.x + table.y, vec3(1e-4));
     s.diffuse = baseColor * ((1.0 - metallic) * (1.0 - coat));
     return s;
 }

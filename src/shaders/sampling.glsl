@@ -36,4 +36,15 @@ vec3 sampleGgx(vec2 u, float alpha) {
     return vec3(r * cos(phi), r * sin(phi), sqrt(z2));
 }
 
+// Half vector of the GGX distribution as seen from v (unit, v.z > 0), pdf = D · max(dot(v, h), 0) · G1(v) / v.z.
+// (Dupuy and Benyoub, Sampling Visible GGX Normals with Spherical Caps, HPG 2023)
+vec3 sampleGgxVisible(vec2 u, vec3 v, float alpha) {
+    vec3 stretched = normalize(vec3(alpha * v.xy, v.z));
+    float phi = 2.0 * pi * u.y;
+    float z = (1.0 - u.x) * (1.0 + stretched.z) - stretched.z;
+    float r = sqrt(clamp(1.0 - z * z, 0.0, 1.0));
+    vec3 h = vec3(r * cos(phi), r * sin(phi), z) + stretched;
+    return normalize(vec3(alpha * h.xy, max(h.z, 0.0)));
+}
+
 #endif

@@ -1,5 +1,4 @@
-// Directional albedo of the single-scattering GGX lobe as A · F0 + B, by quadrature over the visible half vectors'
-// distribution; a texel is (nv, roughness). (Karis, Real Shading in Unreal Engine 4, 2013, with exact visibility.)
+// Directional albedo of the single-scattering GGX lobe as A · F0 + B, by quadrature over the visible half vectors; a texel is (nv, roughness). (Karis, Real Shading in Unreal Engine 4, 2013, with exact visibility.)
 // Out: table (A, B).
 #version 460
 #include "shaders/ggx.glsl"
@@ -19,12 +18,13 @@ void main() {
     vec2 sum = vec2(0.0);
     for (uint i = 0u; i < sampleCount * sampleCount; ++i) {
         vec2 u = (vec2(i % sampleCount, i / sampleCount) + 0.5) / float(sampleCount);
-        vec3 h = sampleGgx(u, alpha);
+        vec3 h = sampleGgxVisible(u, v, alpha);
         float vh = dot(v, h);
         float nl = 2.0 * vh * h.z - v.z;
-        if (vh > 0.0 && nl > 0.0) {
-            // BRDF · nl / pdf without D, which the half vector's pdf brings in, too.
-            float weight = ggxVisibility(nl, nv, alpha) * 4.0 * nl * vh / h.z;
+        if (nl > 0.0) {
+            // BRDF · nl / pdf: G2 / G1 (v), that is V · 4 nl nv / G1.
+            float a2 = alpha * alpha;
+            float weight = ggxVisibility(nl, nv, alpha) * 2.0 * nl * (nv + sqrt(nv * nv * (1.0 - a2) + a2));
             float fresnel = fresnelSchlick(vec3(0.0), vh).x;
             sum += weight * vec2(1.0 - fresnel, fresnel);
         }
