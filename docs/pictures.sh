@@ -14,7 +14,7 @@ render() { # scene name options...
 render cubes cubes --preset quality --set diffuse.rays=128 --size 608x342
 render cornell cornell --preset quality --set diffuse.rays=64 --size 320x240
 render cornell cornell-direct --preset direct --size 320x240
-render mirror-hall mirror-hall --preset quality --size 480x270
+render mirror-hall mirror-hall --preset quality --frames 6 --size 480x270
 render mirror-hall mirror-hall-source --preset quality --size 480x270 --show specular_source
 for show in albedo normal depth sun_visibility direct indirect_diffuse indirect_specular source; do
     render cubes "cubes-$show" --preset quality --size 320x180 --show "$show"

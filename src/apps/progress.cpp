@@ -4,6 +4,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <unistd.h>
+#include <cmath>
 #include <cstdio>
 
 namespace reflet {
@@ -13,7 +14,7 @@ namespace {
 constexpr std::chrono::milliseconds patience(500);  // work shorter than this shows nothing
 
 std::string durationText(double seconds) {
-    const auto whole = static_cast<uint64_t>(seconds + 0.5);
+    const auto whole = std::llround(seconds);
     return whole < 60 ? fmt::format("{} s", whole) : fmt::format("{}:{:02} min", whole / 60, whole % 60);
 }
 

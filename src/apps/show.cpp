@@ -26,10 +26,10 @@ void first(Texels t, const ViewParams&, float* out) {
     out[0] = t[0].x;
 }
 void firstTwo(Texels t, const ViewParams&, float* out) {
-    std::memcpy(out, &t[0], 2 * sizeof(float));
+    std::memcpy(out, t.data(), 2 * sizeof(float));
 }
 void color(Texels t, const ViewParams&, float* out) {
-    std::memcpy(out, &t[0], 3 * sizeof(float));
+    std::memcpy(out, t.data(), 3 * sizeof(float));
 }
 // As unpackBaseColor in gbuffer.glsl.
 void squaredColor(Texels t, const ViewParams&, float* out) {
@@ -145,7 +145,7 @@ const std::vector<Show>& table() {
          encoded},
         {"motion", "uv now minus uv in the last frame; PNG 0.5 + 10 motion",
          [](const FrameImages& i) { return Images{i.g.motion}; }, firstTwo, xy, offsets},
-        {"confidence", "share of the rays' weight that a source answered: R diffuse, G specular",
+        {"confidence", "share of the rays' weight not left to the environment: R diffuse, G specular",
          [](const FrameImages& i) {
              return Images{i.diffuse.source, i.specular.source};
          },

@@ -97,7 +97,8 @@ TEST(Indirect, RaysThatLeaveTheScreenAreAnsweredByTheEnvironment) {
         for (int c = 0; c < 3; ++c) {
             EXPECT_NEAR(got[c], 0.5F * view.environment.radiance[c], 0.005F) << x;
         }
-        EXPECT_NEAR(p.value("diffuse_confidence", x, 80), 1.0F, 0.01F) << "the weights of a ray sum to 1";
+        EXPECT_EQ(p.value("diffuse_confidence", x, 80), 0.0F) << "nothing on the screen was met";
+        EXPECT_NEAR(p.value("diffuse_source", x, 80, 2), 0.9F, 0.01F) << "the weights of a ray sum to 1";
     }
 }
 

@@ -168,19 +168,12 @@ std::vector<GgxCase> whiteCases(float metallic) {
 }
 
 TEST_F(Ggx, whiteInAWhiteWorldIsWhiteMetalOrNot) {
-    for (const float metallic : {0.0F, 1.0F}) {
+    for (const float metallic : {0.0F, 0.25F, 0.5F, 1.0F}) {
         for (const GgxResult& r : surfaces(whiteCases(metallic))) {
             ASSERT_NEAR(r.diffuse.x + r.specular.x, 1.0F, 1e-3F);
             ASSERT_EQ(r.diffuse.y, r.diffuse.x);
             ASSERT_EQ(r.specular.z, r.specular.x);
         }
-    }
-}
-
-TEST_F(Ggx, betweenMetalAndDielectricNoLightIsGained) {
-    for (const GgxResult& r : surfaces(whiteCases(0.5F))) {
-        ASSERT_LE(r.diffuse.x + r.specular.x, 1.0F + 1e-6F);
-        ASSERT_GE(r.diffuse.x + r.specular.x, 0.8F);  // the compensation is quadratic in F0: less than both ends
     }
 }
 

@@ -29,9 +29,10 @@ struct RayAnswer {
     float hitDistance;  // metres
 };
 
-// Colours of the image `source`.
-const vec3 sourceScreen = vec3(0.2, 0.8, 0.3);
-const vec3 sourceEnvironment = vec3(0.25, 0.45, 0.9);
+// The image `source`: a colour for each, and in alpha whether it knows what the ray met (the confidence). The environment
+// only stands in.
+const vec4 sourceScreen = vec4(0.2, 0.8, 0.3, 1.0);
+const vec4 sourceEnvironment = vec4(0.25, 0.45, 0.9, 0.0);
 
 // Vulkan promises this many groups; threads of a list take several rays where there are more.
 const uint maxListGroups = 65535u;

@@ -3,12 +3,12 @@
 #define REFLET_RAYS_ANSWER_GLSL
 
 // rest: what the sources before have left of the ray's weight. Returns what is left after this one.
-float addAnswer(ivec3 slot, RayAnswer a, float rest, vec3 color) {
+float addAnswer(ivec3 slot, RayAnswer a, float rest, vec4 color) {
     float weight = rest * clamp(a.confidence, 0.0, 1.0);
     if (weight > 0.0) {
         vec4 sum = imageLoad(answer, slot) + weight * vec4(clampToHalf(a.radiance), a.hitDistance);
         imageStore(answer, slot, min(sum, vec4(largestHalf)));
-        vec4 sources = imageLoad(source, slot) + weight * vec4(color, 1.0);
+        vec4 sources = imageLoad(source, slot) + weight * color;
         imageStore(source, slot, sources);
     }
     return rest - weight;
