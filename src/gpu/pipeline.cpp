@@ -77,11 +77,12 @@ struct Specialization {
 };
 
 void checkConstants(const std::vector<Shader>& shaders, const PipelineInfo& info) {
-    for (const auto& [name, value] : info.constants) {
+    for (const auto& constant : info.constants) {
         const bool known = std::ranges::any_of(shaders, [&](const Shader& s) {
-            return std::ranges::find(s.constants, name, &SpecializationConstant::name) != s.constants.end();
+            return std::ranges::find(s.constants, constant.first, &SpecializationConstant::name) != s.constants.end();
         });
-        REFLET_CHECK(known, "{} has no specialization constant '{}' (set to {})", info.shaders.front(), name, value);
+        REFLET_CHECK(known, "{} has no specialization constant '{}' (set to {})", info.shaders.front(), constant.first,
+                     constant.second);
     }
 }
 

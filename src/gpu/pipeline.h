@@ -36,7 +36,7 @@ struct PipelineInfo {
     const VertexLayout* vertices = nullptr;          ///< static data; nullptr: no vertex buffers
     VkDescriptorSetLayout drawSet = VK_NULL_HANDLE;  ///< set 1, bound by the draws themselves
 
-    auto operator<=>(const PipelineInfo&) const = default;
+    auto operator<=>(const PipelineInfo&) const = default;  // NOLINT(modernize-use-nullptr): a literal 0 of its own
 };
 
 struct Pipeline {

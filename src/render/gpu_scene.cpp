@@ -62,7 +62,7 @@ MaterialParams materialParams(const Material& m) {
     p.normalScale = m.normalScale;
     p.occlusionStrength = m.occlusionStrength;
     const auto slots = slotsOf(m);
-    for (uint32_t i = 0; i < slotCount; ++i) {
+    for (size_t i = 0; i < slotCount; ++i) {
         p.textured |= slots[i]->image >= 0 ? 1U << i : 0U;
         p.secondUv |= slots[i]->uvSet == 1 ? 1U << i : 0U;
         p.uvRows[2 * i] = slots[i]->uvTransform[0];
