@@ -19,7 +19,7 @@ while read -r scene _; do
     if [[ "$picture" -nt "$reflet" ]]; then
         echo "$picture is up to date"
     else
-        "$reflet" render "$scene" --size 1280x720 -o "$picture"
+        "$reflet" render "$scene" --size 1280x720 --set diffuse.rays=32 -o "$picture"
         echo "$picture"
     fi
 done <<<"$scenes"
