@@ -11,8 +11,8 @@ render() { # scene name options...
     echo "$file"
 }
 
-render cubes cubes --preset quality --set diffuse.rays=128 --size 608x342
-render cornell cornell --preset quality --set diffuse.rays=64 --size 320x240
+render cubes cubes --preset quality --frames 4 --set diffuse.rays=128 --size 608x342
+render cornell cornell --preset quality --frames 4 --set diffuse.rays=64 --size 320x240
 render cornell cornell-direct --preset direct --size 320x240
 render mirror-hall mirror-hall --preset quality --frames 6 --size 480x270
 render mirror-hall mirror-hall-source --preset quality --size 480x270 --show specular_source
