@@ -34,6 +34,7 @@ std::vector<ShaderBinding> mergeBindings(const std::vector<Shader>& shaders, uin
 
 VkDescriptorSetLayout makeSetLayout(Device& device, const std::vector<ShaderBinding>& bindings) {
     std::vector<VkDescriptorSetLayoutBinding> list;
+    list.reserve(bindings.size());
     for (const ShaderBinding& b : bindings) {
         list.push_back({b.binding, b.type, b.count, VK_SHADER_STAGE_ALL, nullptr});
     }

@@ -13,8 +13,8 @@ class Gpu : public DeviceTest {
 protected:
     static constexpr uvec2 size{8, 4};
 
-    gpu::Image radiance(gpu::Frame& f) { return f.image("test.radiance", VK_FORMAT_R16G16B16A16_SFLOAT, size); }
-    gpu::Image display(gpu::Frame& f) { return f.image("test.display", VK_FORMAT_R8G8B8A8_UNORM, size); }
+    static gpu::Image radiance(gpu::Frame& f) { return f.image("test.radiance", VK_FORMAT_R16G16B16A16_SFLOAT, size); }
+    static gpu::Image display(gpu::Frame& f) { return f.image("test.display", VK_FORMAT_R8G8B8A8_UNORM, size); }
 
     // The complaint of a pass that is recorded in a frame that is never submitted.
     static std::string complaint(const std::function<void(gpu::Frame&)>& record) {
