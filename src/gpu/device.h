@@ -72,7 +72,6 @@ public:
     uint64_t submit(VkCommandBuffer commands);
     /// Returns once all work up to the serial is done. Throws Error when the device is lost.
     void wait(uint64_t serial);
-    void waitIdle() { wait(submitted_); }
 
     /// Runs `destroy` once the device has done all that was submitted before, and what is being recorded now.
     void retire(std::function<void()> destroy);

@@ -38,9 +38,6 @@ public:
     Allocation allocate(const VkMemoryRequirements& needs, MemoryUse use, bool linear);
     void release(const Allocation& allocation);
 
-    /// Bytes taken from the device.
-    [[nodiscard]] VkDeviceSize reserved() const { return reserved_; }
-
 private:
     uint32_t chooseType(uint32_t allowed, MemoryUse use) const;
     MemoryBlock& addBlock(uint32_t type, bool linear, VkDeviceSize size);
@@ -49,7 +46,7 @@ private:
     VkDevice device_;
     VkPhysicalDeviceMemoryProperties properties_{};
     std::vector<std::unique_ptr<MemoryBlock>> blocks_;
-    VkDeviceSize reserved_ = 0;
+    VkDeviceSize reserved_ = 0;  ///< bytes taken from the device
 };
 
 }  // namespace reflet::gpu

@@ -160,10 +160,4 @@ Shader reflectShader(std::string_view name) {
     return shader;
 }
 
-std::vector<std::string> shaderNames() {
-    std::vector<std::string> names;
-    std::ranges::transform(registry(), std::back_inserter(names), [](const auto& s) { return std::string(s.name); });
-    return names;
-}
-
 }  // namespace reflet::gpu

@@ -58,7 +58,4 @@ struct Shader {
 /// Throws std::logic_error (a bug of ours) when there is no shader of that name.
 Shader reflectShader(std::string_view name);
 
-/// Names of all registered shaders, for tests that go through all of them.
-std::vector<std::string> shaderNames();
-
 }  // namespace reflet::gpu

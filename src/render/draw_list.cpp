@@ -56,7 +56,7 @@ void recordDraws(const gpu::DrawCommands& to, const DrawList& list, const DrawFi
         if (!filter.keep(draw) || !mayBeSeen(draw.boundsW, filter.worldToClip)) {
             continue;
         }
-        if (list.materialLayout != VK_NULL_HANDLE && draw.material != boundMaterial) {
+        if (filter.bindMaterials && draw.material != boundMaterial) {
             boundMaterial = draw.material;
             vk.vkCmdBindDescriptorSets(to.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, to.layout, 1, 1, &boundMaterial, 0,
                                        nullptr);

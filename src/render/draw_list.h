@@ -36,6 +36,7 @@ const gpu::VertexLayout& vertexLayout();
 struct DrawFilter {
     std::function<bool(const Draw&)> keep;
     bool cullBackFaces = true;  ///< of single-sided draws
+    bool bindMaterials = true;  ///< false: the pipeline has no set 1
     mat4 worldToClip{1.0F};     ///< draws that this puts wholly outside the view are left out
 };
 
