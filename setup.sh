@@ -19,6 +19,8 @@ needed=(
     "libdraco-dev: decodes compressed meshes"
     "libopenexr-dev: writes and reads EXR"
     "libstb-dev: writes and reads PNG, JPEG, HDR"
+    "libembree-dev: finds what rays hit, for the reference"
+    "libtbb-dev: threads"
     "libcli11-dev: command line"
     "nlohmann-json3-dev: JSON"
     "libspdlog-dev: log"
@@ -26,6 +28,7 @@ needed=(
 )
 neededByTests=(
     "libgtest-dev: tests"
+    "chromium: opens the pages that reflet report writes"
     "vulkan-validationlayers: checks in tests that Vulkan is used as it wants to be"
 )
 

@@ -1,0 +1,2 @@
+// How far a picture is from the truth.
+#include "compare/compare.h"

@@ -1,0 +1,2 @@
+// The path tracer.
+#include "reference/reference.h"
