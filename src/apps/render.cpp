@@ -162,6 +162,7 @@ void render(const RenderOptions& options) {
     checkOutputs(options);
     const Scene scene = loadScene(options.scene);
     const View view = loadView(options.scene, scene);
+    checkCanRender(view);
 
     gpu::Device device({.select = options.device, .validation = options.validate, .onMessage = printWarning});
     if (const uint32_t limit = std::min(device.limits().maxImageDimension2D, maxFrameSize);

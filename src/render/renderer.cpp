@@ -1,6 +1,8 @@
 // Renders a scene.
 #include "render/renderer.h"
 
+#include "base/error.h"
+
 #include <cmath>
 
 namespace reflet {
@@ -29,11 +31,20 @@ ViewParams makeViewParams(const Camera& camera, uvec2 size, uint32_t frame, uint
     return v;
 }
 
+void checkCanRender(const View& view) {
+    if (view.environment.image) {
+        fail(
+            "environment images are only used by 'reflet reference' in this version; give environment.radiance in the "
+            "view file instead");
+    }
+}
+
 Renderer::Renderer(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn)
     : frame_(device), scene_(device, scene, warn), ggxTable_(makeGgxTable(frame_)) {}
 
 FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const Settings& settings,
                              const std::function<void(gpu::Frame&, const FrameImages&)>& after) {
+    checkCanRender(view);
     ViewParams params = makeViewParams(view.camera, size, frameNumber_++, seed);
     params.previousWorldToClip = previousWorldToClip_.value_or(params.worldToClip);
     previousWorldToClip_ = params.worldToClip;

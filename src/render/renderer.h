@@ -12,11 +12,15 @@
 
 namespace reflet {
 
+/// Throws Error for what a view can say and this version cannot render: an environment image.
+void checkCanRender(const View& view);
+
 class Renderer {
 public:
     Renderer(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn);
 
-    /// Records one frame; `after` may record more (read-backs). Returns when the device is done.
+    /// Records one frame; `after` may record more (read-backs). Returns when the device is done. Throws Error where
+    /// checkCanRender does.
     FrameImages render(const View& view, uvec2 size, uint32_t seed, const Settings& settings,
                        const std::function<void(gpu::Frame&, const FrameImages&)>& after = {});
 

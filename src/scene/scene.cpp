@@ -68,7 +68,8 @@ Sun defaultSun(const Scene& scene, const Camera& camera) {
         return *scene.sun;
     }
     // Emissive surfaces do not count: a glowing lamp on a robot does not light the robot.
-    const bool lit = !scene.lamps.empty() || scene.environment.radiance != vec3(0.0F);
+    const Environment& environment = scene.environment;
+    const bool lit = !scene.lamps.empty() || environment.image || environment.radiance != vec3(0.0F);
     return lit ? Sun{} : shoulderSun(camera);
 }
 

@@ -3,10 +3,12 @@
 // World: right-handed, Y up, metres. A view looks along its own -Z. Angles in radians.
 #pragma once
 
+#include "base/image_file.h"
 #include "base/math.h"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -121,9 +123,13 @@ struct Lamp {
     float outerAngle = glm::quarter_pi<float>();  ///< spot: from the axis, dark outside
 };
 
-/// What rays meet that meet nothing else.
+/// What rays meet that meet nothing else. scene/environment.h says which direction is where in the image.
 struct Environment {
-    vec3 radiance{0.0F};  ///< constant over all directions [W/(m² sr)]
+    vec3 radiance{0.0F};  ///< constant over all directions [W/(m² sr)]; not used where there is an image
+    /// Equirectangular, "R" "G" "B", linear, finite, not negative [W/(m² sr)], rows from the top (+Y). May be null.
+    std::shared_ptr<const FloatImage> image;
+    float intensity = 1.0F;  ///< factor on the image, not negative
+    float rotation = 0.0F;   ///< of the image about +Y; 0: its centre is seen along -Z; 90 degrees: along -X
 };
 
 struct Scene {

@@ -3,9 +3,12 @@
 
 #include "base/error.h"
 #include "base/json.h"
+#include "scene/environment.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <string>
 
 namespace reflet {
@@ -89,16 +92,45 @@ Sun readSun(const JsonNode& node, Sun sun) {
     return sun;
 }
 
-Environment readEnvironment(const JsonNode& node, Environment environment) {
-    for (const char* key : {"image", "intensity", "rotation"}) {
-        if (const auto later = node.find(key)) {
-            later->complain("image environments are not supported by this version; use environment.radiance");
+/// An image with its intensity and rotation, in the place of the whole old environment.
+Environment readImage(const JsonNode& node, const JsonNode& imageNode, const std::filesystem::path& folder) {
+    if (const auto radiance = node.find("radiance")) {
+        radiance->complain("cannot be given together with an image; the image's factor is 'intensity'");
+    }
+    if (!imageNode.json().is_string()) {
+        imageNode.complainMustBe("the name of an .hdr or .exr file");
+    }
+    Environment environment;
+    environment.image =
+        std::make_shared<FloatImage>(readEnvironmentImage(folder / imageNode.json().get<std::string>()));
+    if (const auto intensity = node.find("intensity")) {
+        const double factor = intensity->number(0.0, largestRadiance);
+        const double brightest = *std::ranges::max_element(environment.image->data);
+        if (factor * brightest > largestRadiance) {
+            intensity->complainMustBe(fmt::format("at most {:g}, for the image has values up to {:g}",
+                                                  largestRadiance / brightest, brightest));
+        }
+        environment.intensity = static_cast<float>(factor);
+    }
+    if (const auto rotation = node.find("rotation")) {
+        environment.rotation = static_cast<float>(rotation->number(-360.0, 360.0, "degrees") * degree);
+    }
+    return environment;
+}
+
+Environment readEnvironment(const JsonNode& node, const Environment& environment, const std::filesystem::path& folder) {
+    static const std::array<std::string, 4> keys{"radiance", "image", "intensity", "rotation"};
+    node.requireKeys(keys);
+    if (const auto image = node.find("image")) {
+        return readImage(node, *image, folder);
+    }
+    for (const char* key : {"intensity", "rotation"}) {
+        if (const auto ofImage = node.find(key)) {
+            ofImage->complain("is a property of environment.image, which is not given");
         }
     }
-    static const std::array<std::string, 1> keys{"radiance"};
-    node.requireKeys(keys);
     if (const auto radiance = node.find("radiance")) {
-        environment.radiance = readVec3(*radiance, 0.0, largest);
+        return {.radiance = readVec3(*radiance, 0.0, largestRadiance)};
     }
     return environment;
 }
@@ -118,7 +150,7 @@ void applyViewFile(const std::filesystem::path& path, View& view) {
         changed.sun = readSun(*sun, view.sun);
     }
     if (const auto environment = root.find("environment")) {
-        changed.environment = readEnvironment(*environment, view.environment);
+        changed.environment = readEnvironment(*environment, view.environment, path.parent_path());
     }
     view = changed;
 }

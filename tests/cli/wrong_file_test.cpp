@@ -71,6 +71,20 @@ TEST_F(WrongFile, AViewFileIsCheckedWithThePlace) {
     EXPECT_TRUE(refused(withView(R"({"camera": {"fov_y": 180}})"), failed, {"camera.fov_y", "179 degrees", "180"}));
 }
 
+TEST_F(WrongFile, AnEnvironmentImageThatCannotBeReadIsNamed) {
+    EXPECT_TRUE(
+        refused(withView(R"({"environment": {"image": "absent.hdr"}})"), failed, {"absent.hdr", "No such file"}));
+    write("sky.hdr", "no picture");
+    EXPECT_TRUE(refused(withView(R"({"environment": {"image": "sky.hdr"}})"), failed, {"sky.hdr", "Radiance HDR"}));
+}
+
+TEST_F(WrongFile, AnEnvironmentImageIsNotRenderedInThisVersionWhichIsSaidBeforeAnyDeviceWork) {
+    write("sky.hdr", std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n") + "\x80\x80\x80\x81");
+    write("v.json", R"({"environment": {"image": "sky.hdr"}})");
+    EXPECT_TRUE(refused(render(cubes, {"-o", "a.png", "--view-file", "v.json"}, noDriver), failed,
+                        {"environment images", "'reflet reference'", "environment.radiance"}));
+}
+
 TEST_F(WrongFile, AnOutputThatCannotBeWrittenIsNamedBeforeAnyWork) {
     EXPECT_TRUE(refused(render(cubes, {"-o", "absent/a.png"}), failed, {"absent/a.png", "create the folder 'absent'"}));
     std::filesystem::create_directory(path("folder.png"));

@@ -3,12 +3,14 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/image_file.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace reflet {
 namespace {
@@ -25,7 +27,10 @@ protected:
     ViewFile()
         : path_(std::filesystem::path(::testing::TempDir()) /
                 (std::string("reflet_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".json")) {}
-    ~ViewFile() override { std::filesystem::remove(path_); }
+    ~ViewFile() override {
+        std::filesystem::remove(path_);
+        std::filesystem::remove(sky_);
+    }
 
     void apply(std::string_view json) {
         writeFileAtomically(path_, json);
@@ -43,10 +48,18 @@ protected:
         return "no error";
     }
 
+    /// An environment image of one texel beside the view file, called reflet_view_file_sky.exr.
+    void writeSky(const std::vector<float>& color) {
+        sky_ = path_.parent_path() / "reflet_view_file_sky.exr";
+        const ImageLayer layer{"", {1, 1, {"R", "G", "B"}, color}, PixelType::float32};
+        writeExr(sky_, {&layer, 1});
+    }
+
     View view_;
 
 private:
     std::filesystem::path path_;
+    std::filesystem::path sky_;
 };
 
 void expectNear(const vec3& a, const vec3& b) {
@@ -113,7 +126,7 @@ TEST_F(ViewFile, WithAnUnknownKeyIsAnErrorThatNamesTheNearest) {
     EXPECT_EQ(errorOf(R"({"sun": {"size": 1}})"),
               "FILE: sun.size: unknown key; there are direction, irradiance, angular_diameter");
     EXPECT_EQ(errorOf(R"({"environment": {"colour": 1}})"),
-              "FILE: environment.colour: unknown key; there are radiance");
+              "FILE: environment.colour: unknown key; there are radiance, image, intensity, rotation");
 }
 
 TEST_F(ViewFile, WithSomethingElseWhereAnObjectBelongsIsAnError) {
@@ -172,11 +185,48 @@ TEST_F(ViewFile, CanLookStraightDownWithoutSayingWhereUpIs) {
     EXPECT_EQ(view_.camera.up, vec3(0, 0, -1));
 }
 
-TEST_F(ViewFile, WithAnEnvironmentImageIsAnErrorUntilThereAreSome) {
-    const std::string expected = ": image environments are not supported by this version; use environment.radiance";
-    EXPECT_EQ(errorOf(R"({"environment": {"image": "sky.hdr"}})"), "FILE: environment.image" + expected);
+TEST_F(ViewFile, ReadsAnEnvironmentImageFromItsOwnFolder) {
+    view_.environment.radiance = vec3(8);
+    writeSky({1.0F, 2.0F, 3.0F});
+    apply(R"({"environment": {"image": "reflet_view_file_sky.exr", "intensity": 2.5, "rotation": 90}})");
+    ASSERT_TRUE(view_.environment.image);
+    EXPECT_EQ(view_.environment.image->data, (std::vector<float>{1, 2, 3}));
+    EXPECT_EQ(view_.environment.intensity, 2.5F);
+    EXPECT_FLOAT_EQ(view_.environment.rotation, glm::half_pi<float>());
+    apply(R"({"environment": {"image": "reflet_view_file_sky.exr"}})");
+    EXPECT_EQ(view_.environment.intensity, 1.0F);
+    EXPECT_EQ(view_.environment.rotation, 0.0F);
+    apply(R"({"environment": {"radiance": [1,1,1]}})");
+    EXPECT_FALSE(view_.environment.image);
+}
+
+TEST_F(ViewFile, WithAnEnvironmentImageThatIsNoneIsAnError) {
+    EXPECT_EQ(errorOf(R"({"environment": {"image": 1}})"),
+              "FILE: environment.image: must be the name of an .hdr or .exr file, is 1");
+    EXPECT_NE(errorOf(R"({"environment": {"image": "no/such/sky.hdr"}})").find("no/such/sky.hdr"), std::string::npos);
+    EXPECT_NE(errorOf(R"({"environment": {"image": "sky.png"}})").find("must end in .hdr or .exr"), std::string::npos);
+}
+
+TEST_F(ViewFile, WithAnEnvironmentImageAndARadianceIsAnError) {
+    EXPECT_EQ(errorOf(R"({"environment": {"image": "sky.hdr", "radiance": [1,1,1]}})"),
+              "FILE: environment.radiance: cannot be given together with an image; the image's factor is 'intensity'");
+}
+
+TEST_F(ViewFile, WithAPropertyOfAnEnvironmentImageThatIsNotGivenIsAnError) {
+    const std::string expected = ": is a property of environment.image, which is not given";
     EXPECT_EQ(errorOf(R"({"environment": {"intensity": 2}})"), "FILE: environment.intensity" + expected);
-    EXPECT_EQ(errorOf(R"({"environment": {"rotation": 0}})"), "FILE: environment.rotation" + expected);
+    EXPECT_EQ(errorOf(R"({"environment": {"rotation": 0, "radiance": [0,0,0]}})"),
+              "FILE: environment.rotation" + expected);
+}
+
+TEST_F(ViewFile, WithAnIntensityOrRotationOutOfRangeIsAnError) {
+    writeSky({1e9F, 0.0F, 0.0F});
+    EXPECT_EQ(errorOf(R"({"environment": {"image": "reflet_view_file_sky.exr", "intensity": -1}})"),
+              "FILE: environment.intensity: must be between 0 and 1e+12, is -1");
+    EXPECT_EQ(errorOf(R"({"environment": {"image": "reflet_view_file_sky.exr", "intensity": 1e4}})"),
+              "FILE: environment.intensity: must be at most 1000, for the image has values up to 1e+09, is 10000.0");
+    EXPECT_EQ(errorOf(R"({"environment": {"image": "reflet_view_file_sky.exr", "rotation": 361}})"),
+              "FILE: environment.rotation: must be between -360 and 360 degrees, is 361");
 }
 
 TEST_F(ViewFile, MakesAnOrthographicCameraPerspectiveOnlyByAFieldOfView) {
