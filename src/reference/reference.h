@@ -31,9 +31,9 @@ struct ReferenceOptions {
     float noise = 0.0F;            ///< ends earlier where the noise (see ReferencePicture) is under this; 0: never
     PixelFilter filter = PixelFilter::box;
     DiffuseSampling diffuse = DiffuseSampling::cosine;
-    bool visibleOnly = false;   ///< a scattered ray brings light only from points that the camera sees
-    bool lambertOnly = false;   ///< every material as Lambert of its base colour
-    bool lampShadows = true;    ///< false: lamps shine through everything
+    bool visibleOnly = false;  ///< a scattered ray brings light only from points that the camera sees
+    bool lambertOnly = false;  ///< every material as Lambert of its base colour
+    bool lampShadows = true;   ///< false: lamps shine through everything
     uint32_t seed = 0;
     unsigned threads = 0;  ///< 0: one per core. The picture does not depend on it
 };

@@ -2,7 +2,7 @@
 #include "shader/ggx_test.h"
 
 #include "render/direct/direct.h"
-#include "shader/ggx_truth.h"
+#include "support/ggx_truth.h"
 #include "shader/harness.h"
 
 #include <optional>

@@ -1,6 +1,6 @@
 // sampling.glsl
 #include "shader/directions.h"
-#include "shader/ggx_truth.h"
+#include "support/ggx_truth.h"
 #include "shader/harness.h"
 
 #include <algorithm>

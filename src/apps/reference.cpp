@@ -1,0 +1,170 @@
+// `reflet reference`: the path-traced truth.
+#include "reference/reference.h"
+#include "apps/commands.h"
+#include "apps/progress.h"
+#include "apps/scene_options.h"
+#include "base/error.h"
+#include "base/file.h"
+
+#include <csignal>
+#include <filesystem>
+#include <memory>
+
+namespace reflet {
+
+namespace {
+
+struct ReferenceCommand {
+    SceneOptions scene;
+    std::vector<std::string> outputs;
+    std::optional<uint32_t> bounces;
+    std::optional<uint32_t> samples;
+    float noise = 0.0F;
+    std::string filter = "box";
+    std::string sampling = "cosine";
+    bool visibleOnly = false;
+    unsigned threads = 0;
+};
+
+constexpr uint32_t standardSamples = 64;
+constexpr uint32_t largestSamples = 1U << 20U;
+
+volatile std::sig_atomic_t interrupted = 0;
+
+// While it lives, the first interrupt is only noted; the second one ends the program.
+class InterruptNote {
+public:
+    InterruptNote() {
+        struct sigaction action {};
+        action.sa_handler = [](int) { interrupted = 1; };
+        action.sa_flags = static_cast<int>(SA_RESETHAND);
+        sigaction(SIGINT, &action, &oldInterrupt_);
+        sigaction(SIGTERM, &action, &oldTerminate_);
+    }
+    ~InterruptNote() {
+        sigaction(SIGINT, &oldInterrupt_, nullptr);
+        sigaction(SIGTERM, &oldTerminate_, nullptr);
+    }
+    InterruptNote(const InterruptNote&) = delete;
+    InterruptNote& operator=(const InterruptNote&) = delete;
+    InterruptNote(InterruptNote&&) = delete;
+    InterruptNote& operator=(InterruptNote&&) = delete;
+
+private:
+    struct sigaction oldInterrupt_ {};
+    struct sigaction oldTerminate_ {};
+};
+
+bool isExr(const std::string& file) {
+    return std::filesystem::path(file).extension() == ".exr";
+}
+
+void checkOutputs(const std::vector<std::string>& outputs) {
+    if (outputs.empty()) {
+        failUsage("nothing to write: add -o FILE.exr or -o FILE.png (reflet reference --help says more)");
+    }
+    for (const std::string& file : outputs) {
+        if (!isExr(file) && std::filesystem::path(file).extension() != ".png") {
+            failUsage("-o {}: the name must end in .exr or .png", file);
+        }
+        const AtomicFile trial(file);  // better now than after minutes of work
+    }
+}
+
+ReferenceOptions referenceOptions(const ReferenceCommand& command, const Settings& settings) {
+    ReferenceOptions options;
+    options.bounces = command.bounces.value_or(ReferenceOptions::unlimited);
+    options.samples = command.samples.value_or(command.noise > 0.0F ? largestSamples : standardSamples);
+    options.noise = command.noise;
+    options.filter = command.filter == "box" ? PixelFilter::box : PixelFilter::center;
+    options.diffuse = command.sampling == "cosine" ? DiffuseSampling::cosine : DiffuseSampling::uniform;
+    options.visibleOnly = command.visibleOnly;
+    options.lambertOnly = settings.materials.lambertOnly != 0;
+    options.seed = command.scene.seed;
+    options.threads = command.threads;
+    return options;
+}
+
+void trace(const ReferenceCommand& command) {
+    const uvec2 size = parseSize(command.scene.size);
+    const Settings settings = loadSettings(command.scene);
+    const ReferenceOptions options = referenceOptions(command, settings);
+    checkOutputs(command.outputs);
+    const Scene scene = loadScene(command.scene);
+    const View view = loadView(command.scene, scene);
+
+    const InterruptNote note;
+    Progress progress("tracing: sample", options.samples);
+    const uint64_t pixels = uint64_t(size.x) * size.y;
+    const ReferencePicture picture = traceReference(scene, view, size, options, [&](const ReferenceProgress& p) {
+        progress.advance(0); (void)pixels; (void)p;
+        return interrupted == 0;
+    });
+    for (const std::string& file : command.outputs) {
+        if (isExr(file)) {
+            writeExr(file, picture.layers());
+        } else {
+fail("later");
+        }
+    }
+    if (!picture.complete) {
+        fail("interrupted after {} of {} samples per pixel; {} {} what was done", picture.samples, options.samples,
+             fmt::join(command.outputs, ", "), command.outputs.size() == 1 ? "holds" : "hold");
+    }
+    fmt::print("{} samples per pixel, noise {:.3g}; {:.1f} million rays in {:.1f} s: {:.2f} million rays a second\n",
+               picture.samples, picture.noise, static_cast<double>(picture.rays) * 1e-6, picture.seconds,
+               static_cast<double>(picture.rays) * 1e-6 / std::max(picture.seconds, 1e-6));
+}
+
+constexpr const char* footer =
+    "The EXR holds the layers final (without a name), direct, indirect_diffuse, indirect_specular, albedo, normal, "
+    "depth and sun_visibility, as `reflet render --aov` names them. Light of the sun and of lamps that reaches a "
+    "surface without a detour is direct, and so are emission and background. Light of glowing surfaces and of the "
+    "environment takes one scattered ray, as it does in the renderer. The sun and lamps are seen by no ray. Depth and "
+    "normal are those of the pixel's centre.\n"
+    "Noise is the root of the mean over the pixels of (variance of the mean) / (luminance² + 0.01), the square of "
+    "which is the picture's own relative MSE.\n"
+    "Of the settings, materials.lambertOnly and (for a PNG) tonemap.* matter here.\n"
+    "An interrupt (Ctrl-C) writes what was done; a second one ends at once.\n"
+    "Example: reflet reference builtin:cubes --size 640x360 --spp 256 -o truth.exr";
+
+}  // namespace
+
+void addReferenceCommand(CLI::App& app) {
+    auto options = std::make_shared<ReferenceCommand>();
+    CLI::App* command = app.add_subcommand("reference", "Path trace a scene on the CPU: the truth");
+    addSceneOptions(*command, options->scene);
+    command->add_option("-o,--output", options->outputs, "Where the picture goes, .exr or .png; may be repeated")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    command
+        ->add_option("--bounces", options->bounces,
+                     "Scattered rays of a path; 0: only direct light; not given: as many as the light takes")
+        ->type_name("N");
+    command
+        ->add_option("--spp", options->samples,
+                     fmt::format("Samples per pixel, at most [{}; with --noise {}]", standardSamples, largestSamples))
+        ->type_name("N")
+        ->check(CLI::Range(1U, largestSamples));
+    command->add_option("--noise", options->noise, "Stop when the noise is under this (0.01: 1 %)")
+        ->type_name("X")
+        ->check(CLI::Range(0.0F, 10.0F));
+    command
+        ->add_option("--filter", options->filter,
+                     "box: samples all over the pixel; center: through its centre only, as a rasterizer sees edges")
+        ->check(CLI::IsMember({"box", "center"}))
+        ->capture_default_str();
+    command->add_option("--sampling", options->sampling, "How diffuse rays are drawn: another noise, the same picture")
+        ->check(CLI::IsMember({"cosine", "uniform"}))
+        ->capture_default_str();
+    command->add_flag("--visible-only", options->visibleOnly,
+                      "Scattered rays bring light only from points that the camera sees (and from the environment): "
+                      "the best that any screen-space method can reach");
+    command->add_option("--threads", options->threads, "0: one per core; the picture is the same")
+        ->check(CLI::Range(0U, 4096U))
+        ->capture_default_str();
+    command->footer(footer);
+    command->callback([options] { trace(*options); });
+}
+
+}  // namespace reflet

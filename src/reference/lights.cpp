@@ -1,0 +1,177 @@
+// What shines.
+#include "reference/lights.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reflet {
+
+namespace {
+
+constexpr float pi = glm::pi<float>();
+
+float luminance(const vec3& c) {
+    return glm::dot(c, vec3(0.2126F, 0.7152F, 0.0722F));
+}
+
+// KHR_lights_punctual. Irradiance on a surface at p that faces the lamp.
+LightSample lampAt(const Lamp& lamp, const vec3& p) {
+    LightSample s;
+    if (lamp.type == Lamp::Type::directional) {
+        s.toLight = -lamp.direction;
+        s.light = lamp.intensity;
+        return s;
+    }
+    const vec3 toLamp = lamp.position - p;
+    s.distance = std::max(glm::length(toLamp), 1e-4F);
+    s.toLight = toLamp / s.distance;
+    s.light = lamp.intensity / (s.distance * s.distance);
+    if (lamp.range > 0.0F) {
+        s.light *= std::clamp(1.0F - std::pow(s.distance / lamp.range, 4.0F), 0.0F, 1.0F);
+    }
+    if (lamp.type == Lamp::Type::spot) {
+        const float inner = std::cos(lamp.innerAngle);
+        const float outer = std::cos(lamp.outerAngle);
+        const float cosine = -glm::dot(s.toLight, lamp.direction);
+        const float cone = std::clamp((cosine - outer) / std::max(inner - outer, 1e-4F), 0.0F, 1.0F);
+        s.light *= cone * cone;
+    }
+    return s;
+}
+
+vec2 uniformBarycentric(const vec2& u) {
+    const float root = std::sqrt(u.x);
+    return {root * (1.0F - u.y), root * u.y};
+}
+
+}  // namespace
+
+Distribution::Distribution(const std::vector<double>& weights) : sums_(weights.size()) {
+    for (size_t i = 0; i < weights.size(); ++i) {
+        total_ += weights[i];
+        sums_[i] = total_;
+    }
+}
+
+size_t Distribution::draw(float& u) const {
+    const double at = u * total_;
+    auto found = std::upper_bound(sums_.begin(), sums_.end(), at);
+    if (found == sums_.end()) {  // u · total rounded up to the total
+        found = std::lower_bound(sums_.begin(), sums_.end(), total_);
+    }
+    const double before = found == sums_.begin() ? 0.0 : *(found - 1);
+    u = std::min(static_cast<float>((at - before) / (*found - before)), 0x1.fffffep-1F);
+    return static_cast<size_t>(found - sums_.begin());
+}
+
+Lights::Lights(const RayScene& rays, const View& view)
+    : rays_(rays),
+      sunFrame_(frameAround(-glm::normalize(view.sun.direction))),
+      sunIrradiance_(view.sun.irradiance),
+      sunSine_(std::sin(0.5F * view.sun.angularDiameter)),
+      lamps_(rays.scene().lamps),
+      environment_(view.environment) {
+    collectTriangles();
+    prepareEnvironment();
+}
+
+void Lights::collectTriangles() {
+    const Scene& scene = rays_.scene();
+    std::vector<double> weights;
+    glowingIndex_.resize(scene.instances.size());
+    for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+        const float strength = luminance(rays_.material(i).emissive);
+        if (!(strength > 0.0F)) {
+            continue;
+        }
+        const auto count = static_cast<uint32_t>(scene.meshes[scene.instances[i].mesh].indices.size() / 3);
+        for (uint32_t k = 0; k < count; ++k) {
+            const Triangle t = rays_.triangle(i, k);
+            const float area = 0.5F * glm::length(glm::cross(t.b - t.a, t.c - t.a));
+            glowingIndex_[i].push_back(static_cast<uint32_t>(glowing_.size()));
+            glowing_.push_back({i, k, area});
+            weights.push_back(double(area) * strength);
+        }
+    }
+    triangles_ = Distribution(weights);
+}
+
+LightSample Lights::drawSun(const vec2& u) const {
+    // Uniform in the disk's projection on a plane that faces it, so that every place brings the same.
+    const float radius = sunSine_ * std::sqrt(u.x);
+    const float z = std::sqrt(1.0F - radius * radius);
+    LightSample s;
+    s.toLight = sunFrame_ * vec3(radius * std::cos(2.0F * pi * u.y), radius * std::sin(2.0F * pi * u.y), z);
+    s.light = sunIrradiance_ / z;
+    return s;
+}
+
+LightSample Lights::drawLamp(const SurfacePoint& point, float u) const {
+    const auto strength = [&](const LightSample& s) {
+        return glm::dot(s.toLight, point.geometricNormal) > 0.0F ? luminance(s.light) : 0.0F;
+    };
+    float total = 0.0F;
+    for (const Lamp& lamp : lamps_) {
+        total += strength(lampAt(lamp, point.position));
+    }
+    float left = u * total;
+    LightSample chosen;
+    for (const Lamp& lamp : lamps_) {
+        const LightSample s = lampAt(lamp, point.position);
+        const float mine = strength(s);
+        if (mine > 0.0F) {
+            chosen = s;
+            chosen.light *= total / mine;
+            if (left < mine) {
+                break;
+            }
+        }
+        left -= mine;
+    }
+    return chosen;
+}
+
+LightSample Lights::drawEmitter(const SurfacePoint& point, float choice, const vec2& u) const {
+    if (choice < environmentChance_) {
+        return drawEnvironment(choice / environmentChance_, u);
+    }
+    return drawTriangle(point, (choice - environmentChance_) / (1.0F - environmentChance_), u);
+}
+
+LightSample Lights::drawTriangle(const SurfacePoint& point, float choice, const vec2& u) const {
+    LightSample s;
+    const size_t index = triangles_.draw(choice);
+    const GlowingTriangle& glowing = glowing_[index];
+    const Triangle t = rays_.triangle(glowing.instance, glowing.triangle);
+    const vec2 at = uniformBarycentric(u);
+    const vec3 place = t.a * (1.0F - at.x - at.y) + t.b * at.x + t.c * at.y;
+    const vec3 toLight = place - point.position;
+    const float distance = glm::length(toLight);
+    if (!(distance > point.clearance)) {
+        return s;
+    }
+    s.hit = {distance, glowing.instance, glowing.triangle, at};
+    const SurfacePoint emitter = surfaceAt(rays_, s.hit, toLight);
+    s.onSurface = true;
+    s.distance = distance;
+    s.toLight = toLight / distance;
+    s.pdf = emitterPdf(point.position, emitter);
+    s.light = s.pdf > 0.0F ? emitter.emission / s.pdf : vec3(0.0F);
+    return s;
+}
+
+float Lights::emitterPdf(const vec3& from, const SurfacePoint& emitter) const {
+    const std::vector<uint32_t>& index = glowingIndex_[emitter.hit.instance];
+    if (index.empty()) {
+        return 0.0F;
+    }
+    const uint32_t i = index[emitter.hit.triangle];
+    const vec3 offset = emitter.position - from;
+    const float cosine = glm::dot(emitter.geometricNormal, emitter.toOrigin);
+    if (!(cosine > 1e-6F) || !(glowing_[i].area > 0.0F)) {
+        return 0.0F;
+    }
+    return (1.0F - environmentChance_) * triangles_.chance(i) / glowing_[i].area * glm::dot(offset, offset) / cosine;
+}
+
+}  // namespace reflet

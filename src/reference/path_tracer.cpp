@@ -1,0 +1,190 @@
+// One path.
+#include "reference/path_tracer.h"
+
+#include <algorithm>
+
+namespace reflet {
+
+namespace {
+
+constexpr uint32_t rouletteStart = 4;  // bounces that every path may take
+
+// Pairs of random numbers: one for the place in the pixel, then these for each surface.
+enum Purpose : uint32_t { forSun, forLampAndLobe, forEmitter, forEmitterChoice, forScattering, purposes };
+
+uint32_t pairFor(uint32_t vertex, Purpose purpose) {
+    return 1 + vertex * purposes + purpose;
+}
+
+}  // namespace
+
+// A path on its way: where it is, and what share of light from here reaches the camera through each lobe of the first
+// surface.
+struct PathTracer::Walk {
+    SurfacePoint point;
+    uint32_t vertex = 0;  ///< surfaces before this one
+    Reflection throughput;
+    const PixelSampler& random;
+    PathSample out;
+
+    void addIndirect(const vec3& radiance) {
+        out.indirectDiffuse += throughput.diffuse * radiance;
+        out.indirectSpecular += throughput.specular * radiance;
+    }
+    [[nodiscard]] vec2 pair(Purpose purpose) const { return random.pair(pairFor(vertex, purpose)); }
+};
+
+PathTracer::PathTracer(const RayScene& rays, const View& view, uvec2 size, const ReferenceOptions& options)
+    : rays_(rays), camera_(view.camera, size), lights_(rays, view), options_(options) {}
+
+std::optional<SurfacePoint> PathTracer::firstSurface(const vec2& place) const {
+    const Ray ray = camera_.through(place);
+    const auto hit = rays_.intersect(ray, RayKind::camera);
+    return hit ? std::optional(surfaceAt(rays_, *hit, ray.direction)) : std::nullopt;
+}
+
+PathSample PathTracer::trace(const vec2& place, const PixelSampler& random) const {
+    Walk walk{{}, 0, {}, random, {}};
+    walk.out.rays = 1;
+    const auto first = firstSurface(place);
+    if (!first) {
+        walk.out.direct = lights_.environment(camera_.through(place).direction);
+        return walk.out;
+    }
+    walk.point = *first;
+    walk.out.albedo = first->baseColor;
+    walk.out.direct = first->emission;
+    for (;; ++walk.vertex) {
+        const Bsdf bsdf(walk.point, options_);
+        addLamps(walk, bsdf);
+        if (walk.vertex >= options_.bounces) {
+            break;
+        }
+        addEmitters(walk, bsdf);
+        if (!step(walk, bsdf)) {
+            break;
+        }
+    }
+    return walk.out;
+}
+
+bool PathTracer::lit(const SurfacePoint& point, const LightSample& light, PathSample& out) const {
+    ++out.rays;
+    const vec3 origin = point.rayOrigin(light.toLight);
+    Ray ray{origin, light.toLight};
+    if (light.onSurface) {  // ends just off the surface that glows
+        const vec3 place = point.position + light.toLight * light.distance;
+        ray.direction = place - origin;
+        ray.far = 1.0F - 1e-4F;
+    } else if (light.distance < ray.far) {
+        ray.far = light.distance;
+    }
+    return !rays_.occluded(ray, RayKind::light);
+}
+
+// Sun and lamps, which no scattered ray can meet.
+void PathTracer::addLamps(Walk& walk, const Bsdf& bsdf) const {
+    const bool first = walk.vertex == 0;
+    vec3 sum(0.0F);
+    if (lights_.hasSun()) {
+        const LightSample sun = lights_.drawSun(walk.pair(forSun));
+        const vec3 reflected = bsdf.reflectLamp(sun.toLight).sum() * sun.light;
+        const bool faces = glm::dot(sun.toLight, walk.point.geometricNormal) > 0.0F;
+        const bool needed = faces && (first || reflected != vec3(0.0F));
+        const bool visible = needed && lit(walk.point, sun, walk.out);
+        sum += visible ? reflected : vec3(0.0F);
+        if (first) {
+            walk.out.sunVisibility = visible ? 1.0F : 0.0F;
+        }
+    }
+    if (lights_.hasLamps()) {
+        const LightSample lamp = lights_.drawLamp(walk.point, walk.pair(forLampAndLobe).x);
+        const vec3 reflected = bsdf.reflectLamp(lamp.toLight).sum() * lamp.light;
+        if (reflected != vec3(0.0F) && (!options_.lampShadows || lit(walk.point, lamp, walk.out))) {
+            sum += reflected;
+        }
+    }
+    if (first) {
+        walk.out.direct += sum;
+    } else {
+        walk.addIndirect(sum);
+    }
+}
+
+// A drawn place on what glows, weighted against the chance that the scattered ray finds it, too.
+void PathTracer::addEmitters(Walk& walk, const Bsdf& bsdf) const {
+    if (!lights_.hasSampledEmitters()) {
+        return;
+    }
+    const LightSample s = lights_.drawEmitter(walk.point, walk.pair(forEmitterChoice).x, walk.pair(forEmitter));
+    if (!(s.pdf > 0.0F) || s.light == vec3(0.0F)) {
+        return;
+    }
+    Reflection r = bsdf.reflect(s.toLight);
+    if (r.sum() == vec3(0.0F) || !lit(walk.point, s, walk.out)) {
+        return;
+    }
+    if (options_.visibleOnly && s.onSurface && !cameraSees(surfaceAt(rays_, s.hit, s.toLight), walk.out)) {
+        return;
+    }
+    const vec3 light = s.light * (s.pdf / (s.pdf + bsdf.pdf(s.toLight)));
+    if (walk.vertex == 0) {
+        walk.out.indirectDiffuse += r.diffuse * light;
+        walk.out.indirectSpecular += r.specular * light;
+    } else {
+        walk.addIndirect(r.sum() * light);
+    }
+}
+
+bool PathTracer::step(Walk& walk, const Bsdf& bsdf) const {
+    const Scattered s = bsdf.scatter(walk.pair(forLampAndLobe).y, walk.pair(forScattering));
+    if (walk.vertex == 0) {
+        walk.throughput = s.weight;
+    } else {
+        walk.throughput.diffuse *= s.weight.sum();
+        walk.throughput.specular *= s.weight.sum();
+    }
+    if (walk.vertex >= rouletteStart) {
+        const vec3 share = walk.throughput.sum();
+        const float survival = std::min(std::max({share.x, share.y, share.z}), 0.95F);
+        if (walk.pair(forEmitterChoice).y >= survival) {
+            return false;
+        }
+        walk.throughput.diffuse /= survival;
+        walk.throughput.specular /= survival;
+    }
+    if (walk.throughput.sum() == vec3(0.0F)) {
+        return false;
+    }
+    const vec3 from = walk.point.position;
+    const auto hit = rays_.intersect({walk.point.rayOrigin(s.direction), s.direction}, RayKind::light);
+    ++walk.out.rays;
+    const auto weight = [&](float otherPdf) { return s.pdf > 0.0F ? s.pdf / (s.pdf + otherPdf) : 1.0F; };
+    if (!hit) {
+        walk.addIndirect(lights_.environment(s.direction) * weight(lights_.environmentPdf(s.direction)));
+        return false;
+    }
+    walk.point = surfaceAt(rays_, *hit, s.direction);
+    if (options_.visibleOnly && !cameraSees(walk.point, walk.out)) {
+        return false;
+    }
+    if (walk.point.emission != vec3(0.0F)) {
+        walk.addIndirect(walk.point.emission * weight(lights_.emitterPdf(from, walk.point)));
+    }
+    return true;
+}
+
+bool PathTracer::cameraSees(const SurfacePoint& point, PathSample& out) const {
+    if (!point.front && !rays_.material(point.hit.instance).doubleSided) {
+        return false;  // the camera looks through it
+    }
+    auto back = camera_.backFrom(point.position);
+    if (!back || glm::dot(back->direction, point.geometricNormal) <= 0.0F) {
+        return false;
+    }
+    back->origin = point.rayOrigin(back->direction);
+    ++out.rays;
+    return !rays_.occluded(*back, RayKind::camera);
+}
+
+}  // namespace reflet

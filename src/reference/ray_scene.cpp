@@ -1,0 +1,242 @@
+// Embree, version 3 or 4, behind RayScene.
+#include "reference/ray_scene.h"
+
+#include "base/error.h"
+#include "reference/surface.h"
+
+#if REFLET_EMBREE_MAJOR >= 4
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <array>
+#include <cstring>
+
+namespace reflet {
+
+namespace {
+
+// What a filter needs to know of an instance.
+struct Geometry {
+    const RayScene* owner = nullptr;
+    uint32_t instance = 0;
+    bool mirrored = false;
+    bool doubleSided = false;
+    mat3 normalToWorld{1.0F};
+    const vec3* positions = nullptr;  ///< world space; Embree owns them
+};
+
+vec2 barycentricOf(const RTCFilterFunctionNArguments& args) {
+    return {RTCHitN_u(args.hit, args.N, 0), RTCHitN_v(args.hit, args.N, 0)};
+}
+
+const Geometry& geometryOf(const RTCFilterFunctionNArguments& args) {
+    return *static_cast<const Geometry*>(args.geometryUserPtr);
+}
+
+// Rays go through where the material is cut out.
+void passCutOut(const RTCFilterFunctionNArguments* args) {
+    const Geometry& g = geometryOf(*args);
+    const Hit hit{0.0F, g.instance, RTCHitN_primID(args->hit, args->N, 0), barycentricOf(*args)};
+    if (isCutOut(*g.owner, hit)) {
+        args->valid[0] = 0;
+    }
+}
+
+// Camera rays also go through the backs of single-sided surfaces.
+void passBacks(const RTCFilterFunctionNArguments* args) {
+    const Geometry& g = geometryOf(*args);
+    if (g.doubleSided) {
+        return;
+    }
+    const vec3 normal(RTCHitN_Ng_x(args->hit, args->N, 0), RTCHitN_Ng_y(args->hit, args->N, 0),
+                      RTCHitN_Ng_z(args->hit, args->N, 0));
+    const vec3 direction(RTCRayN_dir_x(args->ray, args->N, 0), RTCRayN_dir_y(args->ray, args->N, 0),
+                         RTCRayN_dir_z(args->ray, args->N, 0));
+    if ((glm::dot(normal, direction) > 0.0F) != g.mirrored) {
+        args->valid[0] = 0;
+    }
+}
+
+// What a query carries besides its ray; the two versions of Embree differ here and in the calls below.
+class Query {
+public:
+    explicit Query(RayKind kind) {
+        const RTCFilterFunctionN filter = kind == RayKind::camera ? passBacks : nullptr;
+#if REFLET_EMBREE_MAJOR >= 4
+        rtcInitIntersectArguments(&intersect_);
+        rtcInitOccludedArguments(&occluded_);
+        intersect_.filter = filter;
+        occluded_.filter = filter;
+        if (filter != nullptr) {
+            intersect_.flags = RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER;
+            occluded_.flags = RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER;
+        }
+#else
+        rtcInitIntersectContext(&context_);
+        context_.filter = filter;
+#endif
+    }
+#if REFLET_EMBREE_MAJOR >= 4
+    void intersect(RTCScene scene, RTCRayHit& ray) {
+        rtcIntersect1(scene, &ray, &intersect_);
+    }
+    void occluded(RTCScene scene, RTCRay& ray) {
+        rtcOccluded1(scene, &ray, &occluded_);
+    }
+
+private:
+    RTCIntersectArguments intersect_{};
+    RTCOccludedArguments occluded_{};
+#else
+    void intersect(RTCScene scene, RTCRayHit& ray) {
+        rtcIntersect1(scene, &context_, &ray);
+    }
+    void occluded(RTCScene scene, RTCRay& ray) {
+        rtcOccluded1(scene, &context_, &ray);
+    }
+
+private:
+    RTCIntersectContext context_{};
+#endif
+};
+
+#if REFLET_EMBREE_MAJOR >= 4
+constexpr RTCSceneFlags filterFlag = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
+#else
+constexpr RTCSceneFlags filterFlag = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+#endif
+
+RTCRay embreeRay(const Ray& ray) {
+    RTCRay r{};
+    r.org_x = ray.origin.x;
+    r.org_y = ray.origin.y;
+    r.org_z = ray.origin.z;
+    r.tnear = ray.near;
+    r.dir_x = ray.direction.x;
+    r.dir_y = ray.direction.y;
+    r.dir_z = ray.direction.z;
+    r.tfar = ray.far;
+    r.mask = 0xFFFFFFFFU;
+    return r;
+}
+
+}  // namespace
+
+struct RayScene::State {
+    const Scene& scene;
+    std::vector<Geometry> geometries;  ///< one per instance; Embree keeps pointers into it
+    RTCDevice device = nullptr;
+    RTCScene hierarchy = nullptr;
+
+    ~State() {
+        rtcReleaseScene(hierarchy);
+        rtcReleaseDevice(device);
+    }
+
+    // Embree sets the device's error and goes on.
+    void check(const char* what) const {
+        if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE) {
+            fail("{}: Embree failed with {}{}", what, static_cast<int>(error),
+                 error == RTC_ERROR_OUT_OF_MEMORY ? " (out of memory)" : "");
+        }
+    }
+
+    void add(Geometry& g) {
+        const Instance& instance = scene.instances[g.instance];
+        const Mesh& mesh = scene.meshes.at(instance.mesh);
+        const Material& material = scene.materials.at(mesh.material);
+        const mat3 m(instance.objectToWorld);
+        g.mirrored = glm::determinant(m) < 0.0F;
+        g.doubleSided = material.doubleSided;
+        // The cofactors: the inverse transpose up to a factor, there for flattened instances, too.
+        g.normalToWorld =
+            mat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])) * (g.mirrored ? -1.0F : 1.0F);
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        auto* positions = static_cast<vec3*>(rtcSetNewGeometryBuffer(
+            geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), mesh.positions.size()));
+        check("copying positions");
+        for (size_t i = 0; i < mesh.positions.size(); ++i) {
+            positions[i] = vec3(instance.objectToWorld * vec4(mesh.positions[i], 1.0F));
+        }
+        g.positions = positions;
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.indices.data(), 0,
+                                   3 * sizeof(uint32_t), mesh.indices.size() / 3);
+        rtcSetGeometryUserData(geometry, &g);
+        if (material.alphaCutoff > 0.0F) {
+            rtcSetGeometryIntersectFilterFunction(geometry, passCutOut);
+            rtcSetGeometryOccludedFilterFunction(geometry, passCutOut);
+        }
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(hierarchy, geometry, g.instance);
+        rtcReleaseGeometry(geometry);
+        check("adding a mesh");
+    }
+};
+
+RayScene::RayScene(const Scene& scene) : state_(new State{scene, {}, nullptr, nullptr}) {
+    state_->device = rtcNewDevice(nullptr);
+    if (state_->device == nullptr) {
+        fail("Embree cannot start: error {}", static_cast<int>(rtcGetDeviceError(nullptr)));
+    }
+    state_->hierarchy = rtcNewScene(state_->device);
+    // Robust: no ray slips through between two triangles.
+    rtcSetSceneFlags(state_->hierarchy, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | filterFlag));
+    state_->geometries.resize(scene.instances.size());
+    for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+        Geometry& g = state_->geometries[i];
+        g.owner = this;
+        g.instance = i;
+        if (!scene.meshes.at(scene.instances[i].mesh).indices.empty()) {
+            state_->add(g);
+        }
+    }
+    rtcCommitScene(state_->hierarchy);
+    state_->check("building the hierarchy");
+}
+
+RayScene::~RayScene() = default;
+
+std::optional<Hit> RayScene::intersect(const Ray& ray, RayKind kind) const {
+    RTCRayHit r{};
+    r.ray = embreeRay(ray);
+    r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    Query(kind).intersect(state_->hierarchy, r);
+    if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+        return std::nullopt;
+    }
+    return Hit{r.ray.tfar, r.hit.geomID, r.hit.primID, {r.hit.u, r.hit.v}};
+}
+
+bool RayScene::occluded(const Ray& ray, RayKind kind) const {
+    RTCRay r = embreeRay(ray);
+    Query(kind).occluded(state_->hierarchy, r);
+    return r.tfar < 0.0F;
+}
+
+const Scene& RayScene::scene() const {
+    return state_->scene;
+}
+
+Triangle RayScene::triangle(uint32_t instance, uint32_t triangle) const {
+    const vec3* positions = state_->geometries[instance].positions;
+    const Mesh& mesh = state_->scene.meshes[state_->scene.instances[instance].mesh];
+    const uint32_t* indices = &mesh.indices[size_t(triangle) * 3];
+    return {positions[indices[0]], positions[indices[1]], positions[indices[2]]};
+}
+
+const Material& RayScene::material(uint32_t instance) const {
+    return state_->scene.materials[state_->scene.meshes[state_->scene.instances[instance].mesh].material];
+}
+
+const mat3& RayScene::normalToWorld(uint32_t instance) const {
+    return state_->geometries[instance].normalToWorld;
+}
+
+bool RayScene::mirrored(uint32_t instance) const {
+    return state_->geometries[instance].mirrored;
+}
+
+}  // namespace reflet
