@@ -1,2 +1,157 @@
 // How far a picture is from the truth.
 #include "compare/compare.h"
+
+#include "base/error.h"
+#include "compare/color.h"
+#include "compare/flip.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace reflet {
+
+namespace {
+
+constexpr float lowestPixelsPerDegree = 1.0F;
+constexpr float highestPixelsPerDegree = 1000.0F;
+
+size_t pixelCount(const FloatImage& image) {
+    return size_t{image.width} * image.height;
+}
+
+// Names the first bad value and counts the others.
+void checkFinite(const FloatImage& image, const std::string& name) {
+    const auto isBad = [](float value) { return !std::isfinite(value); };
+    const auto found = std::ranges::find_if(image.data, isBad);
+    if (found == image.data.end()) {
+        return;
+    }
+    const auto index = static_cast<size_t>(found - image.data.begin());
+    const size_t pixel = index / image.channels.size();
+    const auto others = std::count_if(found + 1, image.data.end(), isBad);
+    fail("{}: {} at pixel ({}, {}), channel {}{}", name, std::isnan(*found) ? "NaN" : "infinity", pixel % image.width,
+         pixel / image.width, image.channels[index % image.channels.size()],
+         others == 0 ? "" : fmt::format(", and {} more that are NaN or infinity", others));
+}
+
+void checkImages(const FloatImage& picture, const FloatImage& truth, const CompareOptions& options) {
+    if (picture.width != truth.width || picture.height != truth.height) {
+        fail("{} is {}x{}, but {} is {}x{}: only pictures of one size can be compared", options.pictureName,
+             picture.width, picture.height, options.truthName, truth.width, truth.height);
+    }
+    if (picture.channels.size() != truth.channels.size()) {
+        fail("{} has the channels {}, but {} has {}: only as many can be compared", options.pictureName,
+             fmt::join(picture.channels, ", "), options.truthName, fmt::join(truth.channels, ", "));
+    }
+    if (picture.channels.size() != 1 && picture.channels.size() != 3) {
+        fail("{} has the channels {}: only 1 or 3 can be compared", options.pictureName,
+             fmt::join(picture.channels, ", "));
+    }
+    if (pixelCount(picture) == 0) {
+        fail("{} has no pixels", options.pictureName);
+    }
+    for (const FloatImage* image : {&picture, &truth}) {
+        REFLET_CHECK(image->data.size() == pixelCount(*image) * image->channels.size(), "{}x{}, {} channels, {} values",
+                     image->width, image->height, image->channels.size(), image->data.size());
+    }
+    checkFinite(picture, options.pictureName);
+    checkFinite(truth, options.truthName);
+}
+
+void checkOptions(const FloatImage& picture, const CompareOptions& options) {
+    if (!(options.pixelsPerDegree >= lowestPixelsPerDegree && options.pixelsPerDegree <= highestPixelsPerDegree)) {
+        fail("{} pixels per degree: must be {} to {}", options.pixelsPerDegree, lowestPixelsPerDegree,
+             highestPixelsPerDegree);
+    }
+    if (options.mask.empty()) {
+        return;
+    }
+    if (options.mask.size() != pixelCount(picture)) {
+        fail("the mask has {} pixels, but the pictures have {}", options.mask.size(), pixelCount(picture));
+    }
+    if (std::ranges::find(options.mask, true) == options.mask.end()) {
+        fail("the mask leaves no pixel to compare");
+    }
+}
+
+// FLIP wants red, green and blue in linear light; grey is all three.
+Planes3 linearPlanes(const FloatImage& image, ImageKind kind) {
+    Planes3 planes = makePlanes3(image.width, image.height);
+    const size_t channels = image.channels.size();
+    for (size_t c = 0; c < planes.size(); ++c) {
+        for (size_t i = 0; i < pixelCount(image); ++i) {
+            const float value = image.data[i * channels + c % channels];
+            planes[c].data[i] = kind == ImageKind::display ? srgbToLinear(value) : value;
+        }
+    }
+    return planes;
+}
+
+// Sums in double and in the order of the pixels.
+Difference differenceOf(const FloatImage& picture, const FloatImage& truth, const Plane& flip,
+                        const CompareOptions& options) {
+    constexpr double darkness = 0.01;  // keeps the relative error of dark pixels finite
+    Difference d;
+    double squares = 0.0;
+    double peak = 0.0;
+    const size_t channels = picture.channels.size();
+    for (size_t i = 0; i < pixelCount(picture); ++i) {
+        if (!options.mask.empty() && !options.mask[i]) {
+            continue;
+        }
+        ++d.pixels;
+        d.flip += flip.data[i];
+        for (size_t value = i * channels; value < (i + 1) * channels; ++value) {
+            const double b = truth.data[value];
+            const double error = std::abs(picture.data[value] - b);
+            squares += error * error;
+            d.relativeMse += error * error / (b * b + darkness);
+            d.mean += error;
+            d.max = std::max(d.max, error);
+            peak = std::max(peak, std::abs(b));
+        }
+    }
+    const double values = static_cast<double>(d.pixels) * static_cast<double>(channels);
+    d.flip /= static_cast<double>(d.pixels);
+    d.relativeMse /= values;
+    d.mean /= values;
+    if (options.kind == ImageKind::display || peak == 0.0) {
+        peak = 1.0;
+    }
+    d.psnr =
+        squares == 0.0 ? std::numeric_limits<double>::infinity() : 10.0 * std::log10(peak * peak * values / squares);
+    return d;
+}
+
+}  // namespace
+
+Comparison compareImages(const FloatImage& picture, const FloatImage& truth, const CompareOptions& options) {
+    checkImages(picture, truth, options);
+    checkOptions(picture, options);
+    const auto flipOf = options.kind == ImageKind::display ? flipOfDisplay : flipOfRadiance;
+    Plane flip =
+        flipOf(linearPlanes(picture, options.kind), linearPlanes(truth, options.kind), options.pixelsPerDegree);
+    const Difference difference = differenceOf(picture, truth, flip, options);
+    return {difference, {flip.width, flip.height, {"Y"}, std::move(flip.data)}};
+}
+
+std::span<const Metric> metrics() {
+    static constexpr std::array<Metric, 5> all{{
+        {"relative_mse", "", "mean over pixels and channels of (a - b)² / (b² + 0.01)", false,
+         [](const Difference& d) { return d.relativeMse; }},
+        {"psnr", "dB",
+         "10 log10(peak² / mean of (a - b)²); peak is 1 for display pictures, the largest |b| for linear ones", true,
+         [](const Difference& d) { return d.psnr; }},
+        {"flip", "",
+         "mean over pixels of FLIP (Andersson et al. 2020), of HDR-FLIP (Andersson et al. 2021) for linear pictures: "
+         "0 the same to 1",
+         false, [](const Difference& d) { return d.flip; }},
+        {"mean", "", "mean over pixels and channels of |a - b|", false, [](const Difference& d) { return d.mean; }},
+        {"max", "", "largest |a - b| of any pixel and channel", false, [](const Difference& d) { return d.max; }},
+    }};
+    return all;
+}
+
+}  // namespace reflet
