@@ -1,0 +1,96 @@
+// The renderer against the path tracer, which shares no shading code with it.
+#include "base/error.h"
+#include "compare/compare.h"
+#include "pass/harness.h"
+#include "reference/reference.h"
+#include "scene/builtin.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reflet::test {
+namespace {
+
+constexpr uvec2 size(160, 90);
+
+float at(const FloatImage& image, unsigned x, unsigned y, unsigned channel = 0) {
+    return image.data[(size_t(y) * image.width + x) * image.channels.size() + channel];
+}
+
+vec3 colorAt(const FloatImage& image, unsigned x, unsigned y) {
+    return {at(image, x, y, 0), at(image, x, y, 1), at(image, x, y, 2)};
+}
+
+// Nothing of the eight neighbours is another surface or has other light: no silhouette, no crease, no shadow's edge.
+bool isSmooth(const ReferencePicture& truth, unsigned x, unsigned y) {
+    const vec3 normal = colorAt(truth.normal, x, y);
+    const float visibility = at(truth.sunVisibility, x, y);
+    // Along a plane, 1 / depth is linear in the picture.
+    const auto nearness = [&](unsigned i, unsigned j) {
+        const float depth = at(truth.depth, i, j);
+        return depth > 0.0F ? 1.0F / depth : 0.0F;
+    };
+    const float here = nearness(x, y);
+    const float bend = std::max(std::abs(nearness(x - 1, y) + nearness(x + 1, y) - 2.0F * here),
+                                std::abs(nearness(x, y - 1) + nearness(x, y + 1) - 2.0F * here));
+    if (bend > 0.02F * here || (visibility > 0.0F && visibility < 1.0F)) {
+        return false;
+    }
+    for (unsigned j = y - 1; j <= y + 1; ++j) {
+        for (unsigned i = x - 1; i <= x + 1; ++i) {
+            const bool sameSurface = (nearness(i, j) > 0.0F) == (here > 0.0F);
+            const bool sameNormal = here == 0.0F || glm::dot(normal, colorAt(truth.normal, i, j)) > 0.9F;
+            if (!sameSurface || !sameNormal || at(truth.sunVisibility, i, j) != visibility) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+std::vector<bool> smoothPixels(const ReferencePicture& truth) {
+    std::vector<bool> mask(size_t(size.x) * size.y);
+    for (unsigned y = 1; y + 1 < size.y; ++y) {
+        for (unsigned x = 1; x + 1 < size.x; ++x) {
+            mask[size_t(y) * size.x + x] = isSmooth(truth, x, y);
+        }
+    }
+    return mask;
+}
+
+class EveryBuiltinScene : public testing::TestWithParam<const BuiltinScene*> {};
+
+TEST_P(EveryBuiltinScene, HasTheDirectLightOfTheReferenceAwayFromEdges) {
+    const Scene scene = GetParam()->make();
+    const View view = defaultView(scene);
+    ReferenceOptions options;
+    options.bounces = 0;
+    options.samples = 64;
+    options.lampShadows = false;  // the renderer's lamps cast none yet
+    const ReferencePicture truth = traceReference(scene, view, size, options);
+    const Pictures p = render(scene, view, size, settingsOf({"diffuse.rays=0", "specular.rays=0"}), {"direct"});
+    const std::vector<bool> mask = smoothPixels(truth);
+    const Difference d = compareImages(p.images.at("direct"), truth.direct, {.mask = mask}).difference;
+    EXPECT_LT(d.relativeMse, 1e-3);
+    EXPECT_GT(d.pixels, size.x * size.y / 4);
+    RecordProperty("relativeMse", std::to_string(d.relativeMse));
+    fmt::print("{} {} max {} px {}\n", GetParam()->name, d.relativeMse, d.max, d.pixels);
+    expectSilentValidation("the reference's comparison");
+}
+
+std::vector<const BuiltinScene*> allScenes() {
+    std::vector<const BuiltinScene*> scenes;
+    std::ranges::transform(builtinScenes(), std::back_inserter(scenes), [](const BuiltinScene& s) { return &s; });
+    return scenes;
+}
+
+std::string sceneName(const testing::TestParamInfo<const BuiltinScene*>& info) {
+    std::string name(info.param->name);
+    std::ranges::replace(name, '-', '_');
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Reference, EveryBuiltinScene, testing::ValuesIn(allScenes()), sceneName);
+
+}  // namespace
+}  // namespace reflet::test
