@@ -7,6 +7,7 @@ namespace reflet {
 
 void addRenderCommand(CLI::App& app);
 void addReferenceCommand(CLI::App& app);
+void addCompareCommand(CLI::App& app);
 void addListCommand(CLI::App& app);
 
 }  // namespace reflet

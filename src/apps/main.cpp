@@ -80,6 +80,7 @@ int run(int argc, char** argv) {
     app.footer("Try: reflet render builtin:cubes -o cubes.png\nEach subcommand has its own --help.");
     reflet::addRenderCommand(app);
     reflet::addReferenceCommand(app);
+    reflet::addCompareCommand(app);
     reflet::addListCommand(app);
     checkSubcommand(app, std::span(argv, static_cast<size_t>(argc)).subspan(1));
     try {

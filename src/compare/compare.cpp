@@ -36,30 +36,6 @@ void checkFinite(const FloatImage& image, const std::string& name) {
          others == 0 ? "" : fmt::format(", and {} more that are NaN or infinity", others));
 }
 
-void checkImages(const FloatImage& picture, const FloatImage& truth, const CompareOptions& options) {
-    if (picture.width != truth.width || picture.height != truth.height) {
-        fail("{} is {}x{}, but {} is {}x{}: only pictures of one size can be compared", options.pictureName,
-             picture.width, picture.height, options.truthName, truth.width, truth.height);
-    }
-    if (picture.channels.size() != truth.channels.size()) {
-        fail("{} has the channels {}, but {} has {}: only as many can be compared", options.pictureName,
-             fmt::join(picture.channels, ", "), options.truthName, fmt::join(truth.channels, ", "));
-    }
-    if (picture.channels.size() != 1 && picture.channels.size() != 3) {
-        fail("{} has the channels {}: only 1 or 3 can be compared", options.pictureName,
-             fmt::join(picture.channels, ", "));
-    }
-    if (pixelCount(picture) == 0) {
-        fail("{} has no pixels", options.pictureName);
-    }
-    for (const FloatImage* image : {&picture, &truth}) {
-        REFLET_CHECK(image->data.size() == pixelCount(*image) * image->channels.size(), "{}x{}, {} channels, {} values",
-                     image->width, image->height, image->channels.size(), image->data.size());
-    }
-    checkFinite(picture, options.pictureName);
-    checkFinite(truth, options.truthName);
-}
-
 void checkOptions(const FloatImage& picture, const CompareOptions& options) {
     if (!(options.pixelsPerDegree >= lowestPixelsPerDegree && options.pixelsPerDegree <= highestPixelsPerDegree)) {
         fail("{} pixels per degree: must be {} to {}", options.pixelsPerDegree, lowestPixelsPerDegree,
@@ -127,8 +103,32 @@ Difference differenceOf(const FloatImage& picture, const FloatImage& truth, cons
 
 }  // namespace
 
+void checkComparable(const FloatImage& picture, const FloatImage& truth, const CompareOptions& options) {
+    if (picture.width != truth.width || picture.height != truth.height) {
+        fail("{} is {}x{}, but {} is {}x{}: only pictures of one size can be compared", options.pictureName,
+             picture.width, picture.height, options.truthName, truth.width, truth.height);
+    }
+    if (picture.channels.size() != truth.channels.size()) {
+        fail("{} has the channels {}, but {} has {}: only as many can be compared", options.pictureName,
+             fmt::join(picture.channels, ", "), options.truthName, fmt::join(truth.channels, ", "));
+    }
+    if (picture.channels.size() != 1 && picture.channels.size() != 3) {
+        fail("{} has the channels {}: only 1 or 3 can be compared", options.pictureName,
+             fmt::join(picture.channels, ", "));
+    }
+    if (pixelCount(picture) == 0) {
+        fail("{} has no pixels", options.pictureName);
+    }
+    for (const FloatImage* image : {&picture, &truth}) {
+        REFLET_CHECK(image->data.size() == pixelCount(*image) * image->channels.size(), "{}x{}, {} channels, {} values",
+                     image->width, image->height, image->channels.size(), image->data.size());
+    }
+    checkFinite(picture, options.pictureName);
+    checkFinite(truth, options.truthName);
+}
+
 Comparison compareImages(const FloatImage& picture, const FloatImage& truth, const CompareOptions& options) {
-    checkImages(picture, truth, options);
+    checkComparable(picture, truth, options);
     checkOptions(picture, options);
     const auto flipOf = options.kind == ImageKind::display ? flipOfDisplay : flipOfRadiance;
     Plane flip =

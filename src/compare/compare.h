@@ -47,6 +47,9 @@ struct Comparison {
 /// does not depend on the number of threads.
 Comparison compareImages(const FloatImage& picture, const FloatImage& truth, const CompareOptions& options);
 
+/// Throws as compareImages does for the pictures themselves: to say what is wrong with them before a mask is made.
+void checkComparable(const FloatImage& picture, const FloatImage& truth, const CompareOptions& options);
+
 /// One of the numbers of Difference, for tables and limits.
 struct Metric {
     std::string_view name;  ///< "relative_mse"
