@@ -4,6 +4,7 @@
 #include "apps/texels.h"
 #include "base/error.h"
 #include "base/text.h"
+#include "render/tonemap/tone_map_image.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,11 +16,6 @@ namespace {
 
 using Texels = std::span<const vec4>;
 using Images = std::vector<gpu::Image>;
-
-float encode(float linear) {
-    const float c = std::clamp(linear, 0.0F, 1.0F);
-    return c <= 0.0031308F ? 12.92F * c : 1.055F * std::pow(c, 1.0F / 2.4F) - 0.055F;
-}
 
 // Value functions.
 void first(Texels t, const ViewParams&, float* out) {
@@ -65,7 +61,7 @@ void normal(Texels t, const ViewParams&, float* out) {
 
 // Picture functions.
 vec3 encoded(const float* v) {
-    return {encode(v[0]), encode(v[1]), encode(v[2])};
+    return srgbEncoded({v[0], v[1], v[2]});
 }
 vec3 grey(const float* v) {
     return vec3(std::clamp(v[0], 0.0F, 1.0F));

@@ -17,7 +17,8 @@
 //     #define TRACE_METHODS(OPTION) OPTION(TraceMethod, linear, 0) OPTION(TraceMethod, hiz, 1)
 //     CHOICES(TraceMethod, TRACE_METHODS)
 //
-// In C++ it is `enum class TraceMethod`; in GLSL the constants TraceMethod_linear, TraceMethod_hiz.
+// In C++ it is `enum class TraceMethod`; in both languages there are the constants TraceMethod_linear,
+// TraceMethod_hiz, for functions that both languages compile.
 #ifndef REFLET_BASE_SHARED_H
 #define REFLET_BASE_SHARED_H
 
@@ -37,8 +38,10 @@ using uint = uint32_t;
 
 #define SHARED_OPTION_ENUM(type, name, value) name = value,
 #define SHARED_OPTION_NAME(type, name, value) {#name, value},
+#define SHARED_OPTION_CONSTANT(type, name, value) constexpr uint type##_##name = value;
 #define CHOICES(type, OPTIONS)                                      \
     enum class type : uint32_t { OPTIONS(SHARED_OPTION_ENUM) };     \
+    OPTIONS(SHARED_OPTION_CONSTANT)                                 \
     inline std::vector<SettingOption> settingOptions(const type*) { \
         return {OPTIONS(SHARED_OPTION_NAME)};                       \
     }

@@ -38,6 +38,9 @@ protected:
         return outputs;
     }
 
+    /// For tests that record their own passes.
+    static void registerTestShaders();
+
 private:
     struct Io {
         std::span<const std::byte> inputs;
