@@ -1,10 +1,10 @@
 // `reflet compare`: how far a picture is from the truth.
+#include "compare/compare.h"
 #include "apps/commands.h"
 #include "apps/picture_input.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/text.h"
-#include "compare/compare.h"
 #include "compare/heat_map.h"
 
 #include <nlohmann/json.hpp>

@@ -71,9 +71,8 @@ FloatImage readLayer(const PictureName& name) {
         return layer->image;
     }
     std::vector<std::string> names;
-    for (const ImageLayer& other : layers) {
-        names.push_back(other.name.empty() ? "final" : other.name);
-    }
+    std::ranges::transform(layers, std::back_inserter(names),
+                           [](const ImageLayer& other) { return other.name.empty() ? "final" : other.name; });
     fail("{}: has no layer '{}'; its layers: {}{}", name.file, name.layer.empty() ? "final" : name.layer,
          fmt::join(names, ", "), suggestion(name.layer, names));
 }

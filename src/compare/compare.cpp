@@ -145,9 +145,8 @@ std::span<const Metric> metrics() {
          "10 log10(peak² / mean of (a - b)²); peak is 1 for display pictures, the largest |b| for linear ones", true,
          [](const Difference& d) { return d.psnr; }},
         {"flip", "",
-         "mean over pixels of FLIP (Andersson et al. 2020), of HDR-FLIP (Andersson et al. 2021) for linear pictures: "
-         "0 the same to 1",
-         false, [](const Difference& d) { return d.flip; }},
+         "mean over pixels of FLIP (Andersson et al. 2020), 0 the same to 1; linear pictures: HDR-FLIP (2021)", false,
+         [](const Difference& d) { return d.flip; }},
         {"mean", "", "mean over pixels and channels of |a - b|", false, [](const Difference& d) { return d.mean; }},
         {"max", "", "largest |a - b| of any pixel and channel", false, [](const Difference& d) { return d.max; }},
     }};
