@@ -5,6 +5,7 @@
 #include "apps/scene_options.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "render/tonemap/tone_map_image.h"
 
 #include <csignal>
 #include <filesystem>
@@ -97,14 +98,14 @@ void trace(const ReferenceCommand& command) {
     Progress progress("tracing: sample", options.samples);
     const uint64_t pixels = uint64_t(size.x) * size.y;
     const ReferencePicture picture = traceReference(scene, view, size, options, [&](const ReferenceProgress& p) {
-        progress.advance(0); (void)pixels; (void)p;
+        progress.set(p.done / pixels, p.noise > 0.0 ? fmt::format("noise {:.2g}", p.noise) : "");
         return interrupted == 0;
     });
     for (const std::string& file : command.outputs) {
         if (isExr(file)) {
             writeExr(file, picture.layers());
         } else {
-fail("later");
+            writePng(file, toneMapped(picture.final, settings.tonemap));
         }
     }
     if (!picture.complete) {

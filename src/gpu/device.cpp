@@ -91,7 +91,11 @@ void Device::createDevice() {
     queueInfo.queueCount = 1;
     queueInfo.pQueuePriorities = &priority;
 
+    VkPhysicalDeviceFeatures has{};
+    vkGetPhysicalDeviceFeatures(physical_, &has);
+    anisotropic_ = has.samplerAnisotropy != 0;
     FloorFeatures floor = floorFeatures();
+    floor.core.features.samplerAnisotropy = has.samplerAnisotropy;
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
     info.pNext = floor.chain();
     info.queueCreateInfoCount = 1;
@@ -124,6 +128,9 @@ VkSampler Device::sampler(const SamplerInfo& info) {
     create.addressModeV = info.v;
     create.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     create.maxLod = info.maxLod;
+    create.anisotropyEnable =
+        anisotropic_ && info.anisotropy > 1.0F && info.min == VK_FILTER_LINEAR ? VK_TRUE : VK_FALSE;
+    create.maxAnisotropy = std::min(info.anisotropy, limits_.maxSamplerAnisotropy);
     VkSampler sampler = VK_NULL_HANDLE;
     vkCheck(vk.vkCreateSampler(device_, &create, nullptr, &sampler), "creating a sampler");
     samplers_.emplace_back(info, sampler);

@@ -42,6 +42,7 @@ struct SamplerInfo {
     VkSamplerAddressMode u = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     VkSamplerAddressMode v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     float maxLod = VK_LOD_CLAMP_NONE;
+    float anisotropy = 1.0F;  ///< samples along a slanted surface, at most; 1: none. Devices may do less, or none
 
     bool operator==(const SamplerInfo&) const = default;
 };
@@ -110,6 +111,7 @@ private:
     uint64_t completed_ = 0;
     DeviceDescription description_;
     VkPhysicalDeviceLimits limits_{};
+    bool anisotropic_ = false;
     std::unique_ptr<Memory> memory_;
     std::unique_ptr<PipelineCache> pipelines_;
     std::vector<std::pair<SamplerInfo, VkSampler>> samplers_;

@@ -115,6 +115,7 @@ std::vector<std::string> extrasOf(VkPhysicalDevice device) {
     add(has("VK_KHR_ray_tracing_pipeline"), "ray tracing pipeline");
     add(v12.runtimeDescriptorArray != 0 && v12.shaderSampledImageArrayNonUniformIndexing != 0, "descriptor indexing");
     add(v12.shaderFloat16 != 0, "fp16");
+    add(features.features.samplerAnisotropy != 0, "anisotropic filtering");
     return extras;
 }
 

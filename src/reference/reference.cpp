@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "reference/path_tracer.h"
 
-#include <tbb/info.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -14,6 +14,7 @@
 #include <chrono>
 #include <cmath>
 #include <mutex>
+#include <optional>
 
 namespace reflet {
 
@@ -210,6 +211,11 @@ ReferencePicture traceReference(const Scene& scene, const View& view, uvec2 size
                                 const std::function<bool(const ReferenceProgress&)>& proceed) {
     REFLET_CHECK(size.x > 0 && size.y > 0 && options.samples > 0, "{}x{}, {} samples", size.x, size.y, options.samples);
     ReferencePicture picture;
+    // Lets a caller have more threads than there are cores, if it says so.
+    std::optional<tbb::global_control> allowed;
+    if (options.threads > 0) {
+        allowed.emplace(tbb::global_control::max_allowed_parallelism, options.threads);
+    }
     tbb::task_arena arena(options.threads > 0 ? static_cast<int>(options.threads) : tbb::task_arena::automatic);
     arena.execute([&] {
         const RayScene rays(scene);

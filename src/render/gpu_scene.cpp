@@ -159,30 +159,46 @@ gpu::Image GpuScene::texture(const Scene& scene, int32_t image, bool srgb) {
     return texture.image();
 }
 
-void GpuScene::writeMaterialSet(const Scene& scene, const Material& material, VkDescriptorSet set,
-                                VkDeviceSize offset) {
-    const VkDescriptorBufferInfo block{materials_.handle(), offset, sizeof(MaterialParams)};
+void GpuScene::bindMaterial(const Scene& scene, const Material& material, MaterialBinding& binding) {
+    const auto slots = slotsOf(material);
+    for (uint32_t i = 0; i < slotCount; ++i) {
+        const TextureSlot& slot = *slots[i];
+        binding.samplers[i] =
+            samplerInfo(slot.sampler < 0 ? Sampler{} : scene.samplers.at(static_cast<size_t>(slot.sampler)));
+        binding.views[i] = texture(scene, slot.image, isSrgb(i)).view;
+    }
+}
+
+void GpuScene::writeMaterialSet(const MaterialBinding& binding) {
+    const VkDescriptorBufferInfo block{materials_.handle(), binding.offset, sizeof(MaterialParams)};
     std::array<VkDescriptorImageInfo, slotCount> images{};
     std::array<VkWriteDescriptorSet, 1 + slotCount> writes{};
-    const auto slots = slotsOf(material);
     for (uint32_t i = 0; i < writes.size(); ++i) {
         writes[i] = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-        writes[i].dstSet = set;
+        writes[i].dstSet = binding.set;
         writes[i].dstBinding = i;
         writes[i].descriptorCount = 1;
         writes[i].descriptorType =
             i == 0 ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
         writes[i].pBufferInfo = &block;
         if (i > 0) {
-            const TextureSlot& slot = *slots[i - 1];
-            const Sampler sampler = slot.sampler < 0 ? Sampler{} : scene.samplers.at(static_cast<size_t>(slot.sampler));
-            images[i - 1] = {device_.sampler(samplerInfo(sampler)), texture(scene, slot.image, isSrgb(i - 1)).view,
-                             VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+            gpu::SamplerInfo info = binding.samplers[i - 1];
+            info.anisotropy = static_cast<float>(anisotropy_);
+            images[i - 1] = {device_.sampler(info), binding.views[i - 1], VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
             writes[i].pImageInfo = &images[i - 1];
         }
     }
     device_.vk.vkUpdateDescriptorSets(device_.handle(), static_cast<uint32_t>(writes.size()), writes.data(), 0,
                                       nullptr);
+}
+
+void GpuScene::setAnisotropy(uint32_t samples) {
+    if (samples != anisotropy_) {
+        anisotropy_ = samples;
+        for (const MaterialBinding& binding : materialBindings_) {
+            writeMaterialSet(binding);
+        }
+    }
 }
 
 void GpuScene::uploadMaterials(const Scene& scene) {
@@ -196,19 +212,20 @@ void GpuScene::uploadMaterials(const Scene& scene) {
         std::memcpy(blocks.data() + i * stride, &params, sizeof(params));
     }
     materials_ = gpu::uploadBuffer(device_, blocks, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, "materials");
-    const std::vector<VkDescriptorSetLayout> layouts(count, materialLayout_);
-    materialSets_.resize(count);
     if (count == 0) {
         return;
     }
+    const std::vector<VkDescriptorSetLayout> layouts(count, materialLayout_);
+    std::vector<VkDescriptorSet> sets(count);
     VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
     info.descriptorPool = materialPool_;
     info.descriptorSetCount = count;
     info.pSetLayouts = layouts.data();
-    gpu::vkCheck(device_.vk.vkAllocateDescriptorSets(device_.handle(), &info, materialSets_.data()),
-                 "allocating material sets");
+    gpu::vkCheck(device_.vk.vkAllocateDescriptorSets(device_.handle(), &info, sets.data()), "allocating material sets");
     for (uint32_t i = 0; i < count; ++i) {
-        writeMaterialSet(scene, scene.materials[i], materialSets_[i], i * stride);
+        MaterialBinding& binding = materialBindings_.emplace_back(MaterialBinding{sets[i], i * stride, {}, {}});
+        bindMaterial(scene, scene.materials[i], binding);
+        writeMaterialSet(binding);
     }
 }
 
@@ -239,7 +256,7 @@ void GpuScene::addDraws(const Scene& scene) {
         draw.objectToWorld = instance.objectToWorld;
         draw.previousObjectToWorld = instance.objectToWorld;
         draw.boundsW = transformed(mesh.bounds, instance.objectToWorld);
-        draw.material = materialSets_[mesh.material];
+        draw.material = materialBindings_[mesh.material].set;
         draw.masked = material.alphaCutoff > 0.0F;
         draw.doubleSided = material.doubleSided;
         draws_.boundsW.add(draw.boundsW);

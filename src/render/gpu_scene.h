@@ -1,11 +1,14 @@
 // A scene on the device: vertex buffers, textures with mips, materials, lamps; made once, drawn every frame.
 #pragma once
 
+#include "gpu/device.h"
 #include "gpu/resource.h"
 #include "render/direct/direct.h"
 #include "render/draw_list.h"
+#include "render/material.h"
 #include "scene/scene.h"
 
+#include <array>
 #include <functional>
 #include <map>
 #include <string>
@@ -22,6 +25,9 @@ public:
     GpuScene(const GpuScene&) = delete;
     GpuScene& operator=(const GpuScene&) = delete;
 
+    /// Texture samples along a slanted surface, at most. No frame that draws the scene may be in flight.
+    void setAnisotropy(uint32_t samples);
+
     [[nodiscard]] const DrawList& draws() const { return draws_; }
     [[nodiscard]] const LampBlock& lamps() const { return lamps_; }
 
@@ -36,7 +42,15 @@ private:
     void addLamps(const Scene& scene, const std::function<void(const std::string&)>& warn);
     void addDraws(const Scene& scene);
     gpu::Image texture(const Scene& scene, int32_t image, bool srgb);
-    void writeMaterialSet(const Scene& scene, const Material& material, VkDescriptorSet set, VkDeviceSize offset);
+    // What a material's set binds.
+    struct MaterialBinding {
+        VkDescriptorSet set = VK_NULL_HANDLE;
+        VkDeviceSize offset = 0;  ///< of its MaterialParams in materials_
+        std::array<gpu::SamplerInfo, slotCount> samplers;
+        std::array<VkImageView, slotCount> views{};
+    };
+    void bindMaterial(const Scene& scene, const Material& material, MaterialBinding& binding);
+    void writeMaterialSet(const MaterialBinding& binding);
 
     gpu::Device& device_;
     gpu::Buffer positions_;
@@ -47,7 +61,8 @@ private:
     std::map<std::pair<int32_t, bool>, gpu::Texture> textures_;  ///< by image and sRGB
     VkDescriptorSetLayout materialLayout_ = VK_NULL_HANDLE;
     VkDescriptorPool materialPool_ = VK_NULL_HANDLE;
-    std::vector<VkDescriptorSet> materialSets_;
+    std::vector<MaterialBinding> materialBindings_;
+    uint32_t anisotropy_ = 1;
     LampBlock lamps_{};
     DrawList draws_;
 };

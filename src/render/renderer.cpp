@@ -48,6 +48,7 @@ FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const 
     ViewParams params = makeViewParams(view.camera, size, frameNumber_++, seed);
     params.previousWorldToClip = previousWorldToClip_.value_or(params.worldToClip);
     previousWorldToClip_ = params.worldToClip;
+    scene_.setAnisotropy(settings.materials.anisotropy);
     frame_.begin();
     const FrameImages images = renderFrame(frame_,
                                            {.draws = scene_.draws(),

@@ -1,8 +1,7 @@
 // The renderer against the path tracer, which shares no shading code with it.
-#include "base/error.h"
+#include "reference/reference.h"
 #include "compare/compare.h"
 #include "pass/harness.h"
-#include "reference/reference.h"
 #include "scene/builtin.h"
 
 #include <algorithm>
@@ -48,11 +47,17 @@ bool isSmooth(const ReferencePicture& truth, unsigned x, unsigned y) {
     return true;
 }
 
-std::vector<bool> smoothPixels(const ReferencePicture& truth) {
+// A pixel's texture is filtered in other ways here and there; where that shows, it is not the light that is compared.
+bool hasSameColor(const ReferencePicture& truth, const FloatImage& albedo, unsigned x, unsigned y) {
+    const vec3 expected = colorAt(truth.albedo, x, y);
+    return glm::length(colorAt(albedo, x, y) - expected) <= 0.02F * glm::length(expected) + 0.002F;
+}
+
+std::vector<bool> comparablePixels(const ReferencePicture& truth, const FloatImage& albedo) {
     std::vector<bool> mask(size_t(size.x) * size.y);
     for (unsigned y = 1; y + 1 < size.y; ++y) {
         for (unsigned x = 1; x + 1 < size.x; ++x) {
-            mask[size_t(y) * size.x + x] = isSmooth(truth, x, y);
+            mask[size_t(y) * size.x + x] = isSmooth(truth, x, y) && hasSameColor(truth, albedo, x, y);
         }
     }
     return mask;
@@ -68,13 +73,14 @@ TEST_P(EveryBuiltinScene, HasTheDirectLightOfTheReferenceAwayFromEdges) {
     options.samples = 64;
     options.lampShadows = false;  // the renderer's lamps cast none yet
     const ReferencePicture truth = traceReference(scene, view, size, options);
-    const Pictures p = render(scene, view, size, settingsOf({"diffuse.rays=0", "specular.rays=0"}), {"direct"});
-    const std::vector<bool> mask = smoothPixels(truth);
+    const Pictures p =
+        render(scene, view, size, settingsOf({"diffuse.rays=0", "specular.rays=0", "materials.anisotropy=16"}),
+               {"direct", "albedo"});
+    const std::vector<bool> mask = comparablePixels(truth, p.images.at("albedo"));
     const Difference d = compareImages(p.images.at("direct"), truth.direct, {.mask = mask}).difference;
     EXPECT_LT(d.relativeMse, 1e-3);
     EXPECT_GT(d.pixels, size.x * size.y / 4);
     RecordProperty("relativeMse", std::to_string(d.relativeMse));
-    fmt::print("{} {} max {} px {}\n", GetParam()->name, d.relativeMse, d.max, d.pixels);
     expectSilentValidation("the reference's comparison");
 }
 

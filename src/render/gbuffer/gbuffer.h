@@ -7,8 +7,9 @@
 
 SHARED_BEGIN
 
-#define MATERIALS_SETTINGS(VALUE, SWITCH, CHOICE) \
-    SWITCH(lambertOnly, 0, "Treat every material as pure Lambert of its base colour: no specular, no metal.")
+#define MATERIALS_SETTINGS(VALUE, SWITCH, CHOICE)                                                             \
+    SWITCH(lambertOnly, 0, "Treat every material as pure Lambert of its base colour: no specular, no metal.") \
+    VALUE(uint, anisotropy, 8, 1, 16, "Texture samples along a slanted surface, at most; 1: blurred at grazing angles.")
 SETTINGS(MaterialsSettings, MATERIALS_SETTINGS)
 
 // Bits of the material image's alpha.
