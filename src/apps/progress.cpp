@@ -29,17 +29,18 @@ Progress::~Progress() {
     }
 }
 
-void Progress::advance(uint64_t steps) {
-    done_ += steps;
+void Progress::set(uint64_t done, std::string_view note) {
+    done_ = done;
     const Clock::time_point now = Clock::now();
-    if (!terminal_ || done_ >= total_ || now - printed_ < patience) {
+    if (!terminal_ || done_ == 0 || done_ >= total_ || now - printed_ < patience) {
         return;
     }
     printed_ = now;
     shown_ = true;
     const double elapsed = std::chrono::duration<double>(now - start_).count();
     const double left = elapsed / static_cast<double>(done_) * static_cast<double>(total_ - done_);
-    fmt::print(stderr, "\r\033[K{} {} of {}, {} left", what_, done_, total_, durationText(left));
+    fmt::print(stderr, "\r\033[K{} {} of {}, {} left{}{}", what_, done_, total_, durationText(left),
+               note.empty() ? "" : ", ", note);
     (void)std::fflush(stderr);
 }
 

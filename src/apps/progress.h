@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace reflet {
 
@@ -14,7 +15,9 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    void advance(uint64_t steps = 1);
+    void advance(uint64_t steps = 1) { set(done_ + steps); }
+    /// `done` of the total, not only what is new. `note` is shown after the time left: "noise 0.012".
+    void set(uint64_t done, std::string_view note = "");
 
 private:
     using Clock = std::chrono::steady_clock;

@@ -1,0 +1,27 @@
+// Pictures of values that no device has rendered: what the reference's layers become.
+#include "apps/show.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace reflet::test {
+namespace {
+
+TEST(ShowPicture, NeedsNoDeviceForTheLayersOfTheReference) {
+    for (const char* name :
+         {"direct", "indirect_diffuse", "indirect_specular", "albedo", "normal", "depth", "sun_visibility"}) {
+        const Show& show = findShow(name);
+        ASSERT_NE(show.picture, nullptr) << name;
+        FloatImage values{2, 1, show.channels, {}};
+        values.data.assign(show.channels.size(), 0.0F);
+        values.data.resize(2 * show.channels.size(), 1.0F);
+        const Bitmap bitmap = makePicture(show, values);
+        EXPECT_EQ(bitmap.channels, 3U);
+        ASSERT_EQ(bitmap.data.size(), 6U) << name;
+        EXPECT_LT(bitmap.data[0], bitmap.data[3]) << name;
+    }
+}
+
+}  // namespace
+}  // namespace reflet::test
