@@ -2,6 +2,7 @@
 #include "reference/bsdf.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +23,8 @@ float square(float x) {
 
 // Fresnel, Schlick 1994: F0 + (1 - F0) · this.
 float schlick(float cosine) {
-    return std::pow(std::clamp(1.0F - cosine, 0.0F, 1.0F), 5.0F);
+    const float rest = std::clamp(1.0F - cosine, 0.0F, 1.0F);
+    return square(square(rest)) * rest;
 }
 
 // Smith's Lambda; masking is 1 / (1 + Lambda).
@@ -65,10 +67,8 @@ float unmasked(const vec3& v, const vec3& l, float alpha) {
 class AlbedoTable {
 public:
     AlbedoTable() : entries_(size_t(side) * side) {
-        tbb::parallel_for(0, side * side, [this](int i) {
-            entries_[static_cast<size_t>(i)] =
-                integrate(static_cast<float>(i % side) / (side - 1), static_cast<float>(i / side) / (side - 1));
-        });
+        // Isolated: a thread that waits here must not take up a path, which would ask for this very table.
+        tbb::this_task_arena::isolate([this] { tbb::parallel_for(0, side, [this](int row) { integrateRow(row); }); });
     }
 
     [[nodiscard]] LobeAlbedo at(float cosine, float roughness) const {
@@ -85,8 +85,17 @@ private:
     static constexpr int side = 64;
     static constexpr int steps = 32;  // of the quadrature, along each axis
 
+    static size_t index(int column, int row) { return static_cast<size_t>(row) * side + static_cast<size_t>(column); }
+
+    void integrateRow(int row) {
+        for (int column = 0; column < side; ++column) {
+            entries_[index(column, row)] =
+                integrate(static_cast<float>(column) / (side - 1), static_cast<float>(row) / (side - 1));
+        }
+    }
+
     [[nodiscard]] vec2 entry(int column, int row) const {
-        const LobeAlbedo& a = entries_[static_cast<size_t>(row) * side + static_cast<size_t>(column)];
+        const LobeAlbedo& a = entries_[index(column, row)];
         return {a.scale, a.bias};
     }
 
