@@ -13,7 +13,9 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <ctime>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <thread>
 
@@ -96,10 +98,20 @@ bool catches(pid_t process, int signal) {
     return false;
 }
 
+/// Time that all threads of the process have had.
+double cpuSeconds(pid_t process) {
+    clockid_t clock = 0;
+    timespec time{};
+    if (::clock_getcpuclockid(process, &clock) != 0 || ::clock_gettime(clock, &time) != 0) {
+        return 0.0;
+    }
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 /// False if the process ends, or the time is up, before it is so.
-bool waitUntil(pid_t process, int signal, bool caught) {
+bool waitUntil(pid_t process, const std::function<bool()>& reached) {
     const auto end = std::chrono::steady_clock::now() + limit;
-    while (catches(process, signal) != caught) {
+    while (!reached()) {
         siginfo_t ended{};
         if (::waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 ||
             ended.si_pid != 0 || std::chrono::steady_clock::now() > end) {
@@ -131,13 +143,14 @@ Outcome ProgramTest::run(const Arguments& arguments, const Environment& added, c
     return {status, out.empty() ? readFile(said_ / "out") : "", readFile(said_ / "err")};
 }
 
-Outcome ProgramTest::interrupt(const Arguments& arguments, const std::vector<int>& signals) const {
+Outcome ProgramTest::interrupt(const Arguments& arguments, const std::vector<int>& signals, double work) const {
     const pid_t child = start(arguments, {}, {folder_, said_ / "out", said_ / "err"});
-    bool caught = true;
-    for (const int signal : signals) {
-        EXPECT_TRUE(waitUntil(child, signals.front(), caught)) << "for signal " << signal;
-        ::kill(child, signal);
-        caught = false;  // its handler is called once
+    const int first = signals.front();
+    EXPECT_TRUE(waitUntil(child, [&] { return catches(child, first) && cpuSeconds(child) >= work; }));
+    ::kill(child, first);
+    for (size_t i = 1; i < signals.size(); ++i) {
+        EXPECT_TRUE(waitUntil(child, [&] { return !catches(child, signals[i - 1]); }));  // it does so once
+        ::kill(child, signals[i]);
     }
     const int status = waitFor(child);
     return {status, readFile(said_ / "out"), readFile(said_ / "err")};
