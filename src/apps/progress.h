@@ -16,6 +16,8 @@ public:
     Progress& operator=(const Progress&) = delete;
 
     void advance(uint64_t steps = 1) { set(done_ + steps); }
+    /// Another total, where it was an estimate.
+    void expect(uint64_t total) { total_ = total; }
     /// `done` of the total, not only what is new. `note` is shown after the time left: "noise 0.012".
     void set(uint64_t done, std::string_view note = "");
 

@@ -7,9 +7,12 @@
 #include "base/file.h"
 #include "render/tonemap/tone_map_image.h"
 
+#include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <memory>
+#include <new>
 
 namespace reflet {
 
@@ -29,6 +32,7 @@ struct ReferenceCommand {
 
 constexpr uint32_t standardSamples = 64;
 constexpr uint32_t largestSamples = 1U << 20U;
+constexpr uint32_t largestSide = 65536;  // pixels; EXR files that are larger cannot be read
 
 volatile std::sig_atomic_t interrupted = 0;
 
@@ -72,6 +76,15 @@ void checkOutputs(const std::vector<std::string>& outputs) {
     }
 }
 
+void checkNumbers(const ReferenceCommand& command, uvec2 size) {
+    if (size.x > largestSide || size.y > largestSide) {
+        failUsage("--size {}: a picture has up to {} pixels a side", command.scene.size, largestSide);
+    }
+    if (std::isnan(command.noise)) {
+        failUsage("--noise wants a number, is '{}'", command.noise);
+    }
+}
+
 ReferenceOptions referenceOptions(const ReferenceCommand& command, const Settings& settings) {
     ReferenceOptions options;
     options.bounces = command.bounces.value_or(ReferenceOptions::unlimited);
@@ -86,8 +99,56 @@ ReferenceOptions referenceOptions(const ReferenceCommand& command, const Setting
     return options;
 }
 
+// Shows how many samples are done. Of those that a noise takes nobody knows the number, but that noise falls with its
+// root.
+class SampleProgress {
+public:
+    SampleProgress(const ReferenceOptions& options, uvec2 size)
+        : options_(options), pixels_(uint64_t(size.x) * size.y), shown_("tracing: sample", options.samples) {}
+
+    void set(const ReferenceProgress& now) {
+        const uint64_t done = now.done / pixels_;
+        if (options_.noise > 0.0F && now.noise != noise_) {
+            const double times = now.noise / options_.noise;
+            const double needed = std::ceil(static_cast<double>(done) * times * times);
+            shown_.expect(static_cast<uint64_t>(std::min(needed, double(options_.samples))));
+        }
+        noise_ = now.noise;
+        shown_.set(done, noise_ > 0.0 ? fmt::format("noise {:.2g}", noise_) : "");
+    }
+
+private:
+    const ReferenceOptions& options_;
+    uint64_t pixels_;
+    double noise_ = 0.0;
+    Progress shown_;
+};
+
+ReferencePicture tracePicture(const Scene& scene, const View& view, uvec2 size, const ReferenceOptions& options) {
+    SampleProgress progress(options, size);
+    try {
+        return traceReference(scene, view, size, options, [&](const ReferenceProgress& now) {
+            progress.set(now);
+            return interrupted == 0;
+        });
+    } catch (const std::bad_alloc&) {
+        fail("a picture of {}x{} pixels takes more memory than there is: choose a smaller --size", size.x, size.y);
+    }
+}
+
+std::string summary(const ReferencePicture& picture) {
+    constexpr double million = 1e6;
+    const double rays = static_cast<double>(picture.rays) / million;
+    return fmt::format(
+        "{}, noise {}; {:.2f} million rays in {:.2f} s: {:.2f} million rays per second",
+        picture.samples == 1 ? "1 sample per pixel" : fmt::format("{} samples per pixel", picture.samples),
+        picture.samples == 1 ? "unknown" : fmt::format("{:.3g}", picture.noise), rays, picture.seconds,
+        rays / std::max(picture.seconds, 1.0 / million));
+}
+
 void trace(const ReferenceCommand& command) {
     const uvec2 size = parseSize(command.scene.size);
+    checkNumbers(command, size);
     const Settings settings = loadSettings(command.scene);
     const ReferenceOptions options = referenceOptions(command, settings);
     checkOutputs(command.outputs);
@@ -95,12 +156,7 @@ void trace(const ReferenceCommand& command) {
     const View view = loadView(command.scene, scene);
 
     const InterruptNote note;
-    Progress progress("tracing: sample", options.samples);
-    const uint64_t pixels = uint64_t(size.x) * size.y;
-    const ReferencePicture picture = traceReference(scene, view, size, options, [&](const ReferenceProgress& p) {
-        progress.set(p.done / pixels, p.noise > 0.0 ? fmt::format("noise {:.2g}", p.noise) : "");
-        return interrupted == 0;
-    });
+    const ReferencePicture picture = tracePicture(scene, view, size, options);
     for (const std::string& file : command.outputs) {
         if (isExr(file)) {
             writeExr(file, picture.layers());
@@ -108,25 +164,24 @@ void trace(const ReferenceCommand& command) {
             writePng(file, toneMapped(picture.final, settings.tonemap));
         }
     }
-    if (!picture.complete) {
+    if (!picture.complete && picture.samples < options.samples) {
         fail("interrupted after {} of {} samples per pixel; {} {} what was done", picture.samples, options.samples,
              fmt::join(command.outputs, ", "), command.outputs.size() == 1 ? "holds" : "hold");
     }
-    fmt::print("{} samples per pixel, noise {:.3g}; {:.1f} million rays in {:.1f} s: {:.2f} million rays a second\n",
-               picture.samples, picture.noise, static_cast<double>(picture.rays) * 1e-6, picture.seconds,
-               static_cast<double>(picture.rays) * 1e-6 / std::max(picture.seconds, 1e-6));
+    fmt::print("{}\n", summary(picture));
 }
 
 constexpr const char* footer =
-    "The EXR holds the layers final (without a name), direct, indirect_diffuse, indirect_specular, albedo, normal, "
-    "depth and sun_visibility, as `reflet render --aov` names them. Light of the sun and of lamps that reaches a "
-    "surface without a detour is direct, and so are emission and background. Light of glowing surfaces and of the "
-    "environment takes one scattered ray, as it does in the renderer. The sun and lamps are seen by no ray. Depth and "
+    "The EXR holds the layers final (without a name), direct, indirect_diffuse, indirect_specular, albedo, normal,\n"
+    "depth and sun_visibility, as `reflet render --aov` names them. Light of the sun and of lamps that reaches a\n"
+    "surface without a detour is direct, and so are emission and background. Light of glowing surfaces and of the\n"
+    "environment takes one scattered ray, as it does in the renderer. The sun and lamps are seen by no ray. Depth and\n"
     "normal are those of the pixel's centre.\n"
-    "Noise is the root of the mean over the pixels of (variance of the mean) / (luminance² + 0.01), the square of "
+    "Noise is the root of the mean over the pixels of (variance of the mean) / (luminance² + 0.01), the square of\n"
     "which is the picture's own relative MSE.\n"
     "Of the settings, materials.lambertOnly and (for a PNG) tonemap.* matter here.\n"
-    "An interrupt (Ctrl-C) writes what was done; a second one ends at once.\n"
+    "An interrupt (Ctrl-C) writes what was done, a sample of every pixel at least, and ends with status 1; a second\n"
+    "one ends at once.\n"
     "Example: reflet reference builtin:cubes --size 640x360 --spp 256 -o truth.exr";
 
 }  // namespace

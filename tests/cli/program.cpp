@@ -11,7 +11,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
+#include <ctime>
+#include <fstream>
+#include <functional>
 #include <sstream>
 #include <thread>
 
@@ -82,6 +86,42 @@ pid_t start(const Arguments& arguments, const Environment& added, const Places& 
     return child;
 }
 
+/// Whether the process has a handler for the signal, as the kernel says it.
+bool catches(pid_t process, int signal) {
+    std::ifstream file(fmt::format("/proc/{}/status", process));
+    const std::string name = "SigCgt:";
+    for (std::string line; std::getline(file, line);) {
+        if (line.starts_with(name)) {
+            return (std::stoull(line.substr(name.size()), nullptr, 16) >> (signal - 1) & 1U) != 0;
+        }
+    }
+    return false;
+}
+
+/// Time that all threads of the process have had.
+double cpuSeconds(pid_t process) {
+    clockid_t clock = 0;
+    timespec time{};
+    if (::clock_getcpuclockid(process, &clock) != 0 || ::clock_gettime(clock, &time) != 0) {
+        return 0.0;
+    }
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// False if the process ends, or the time is up, before it is so.
+bool waitUntil(pid_t process, const std::function<bool()>& reached) {
+    const auto end = std::chrono::steady_clock::now() + limit;
+    while (!reached()) {
+        siginfo_t ended{};
+        if (::waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+            ended.si_pid != 0 || std::chrono::steady_clock::now() > end) {
+            return false;
+        }
+        std::this_thread::sleep_for(pause);
+    }
+    return true;
+}
+
 fs::path makeFolder() {
     std::string name = (fs::temp_directory_path() / "reflet-cli-XXXXXX").string();
     REFLET_CHECK(::mkdtemp(name.data()) != nullptr, "{} cannot be made", name);
@@ -103,6 +143,19 @@ Outcome ProgramTest::run(const Arguments& arguments, const Environment& added, c
     return {status, out.empty() ? readFile(said_ / "out") : "", readFile(said_ / "err")};
 }
 
+Outcome ProgramTest::interrupt(const Arguments& arguments, const std::vector<int>& signals, double work) const {
+    const pid_t child = start(arguments, {}, {folder_, said_ / "out", said_ / "err"});
+    const int first = signals.front();
+    EXPECT_TRUE(waitUntil(child, [&] { return catches(child, first) && cpuSeconds(child) >= work; }));
+    ::kill(child, first);
+    for (size_t i = 1; i < signals.size(); ++i) {
+        EXPECT_TRUE(waitUntil(child, [&] { return !catches(child, signals[i - 1]); }));  // it does so once
+        ::kill(child, signals[i]);
+    }
+    const int status = waitFor(child);
+    return {status, readFile(said_ / "out"), readFile(said_ / "err")};
+}
+
 Outcome ProgramTest::render(const std::string& scene, const Arguments& more, const Environment& added) const {
     Arguments all{"render", scene, "--size", "32x18"};
     all.insert(all.end(), more.begin(), more.end());
@@ -115,6 +168,16 @@ void ProgramTest::write(std::string_view file, std::string_view content) const {
 
 std::string ProgramTest::read(std::string_view file) const {
     return readFile(path(file));
+}
+
+std::vector<ImageLayer> ProgramTest::layers(std::string_view file, uint32_t width, uint32_t height) const {
+    std::vector<ImageLayer> all = readExr(path(file));
+    for (const ImageLayer& layer : all) {
+        EXPECT_EQ(layer.image.width, width) << layer.name;
+        EXPECT_EQ(layer.image.height, height) << layer.name;
+        EXPECT_TRUE(std::ranges::all_of(layer.image.data, [](float v) { return std::isfinite(v); })) << layer.name;
+    }
+    return all;
 }
 
 std::vector<std::string> ProgramTest::files() const {
@@ -158,6 +221,14 @@ std::vector<std::string> firstWords(const std::string& text) {
         }
     }
     return words;
+}
+
+float mean(const FloatImage& image) {
+    double sum = 0.0;
+    for (const float value : image.data) {
+        sum += value;
+    }
+    return static_cast<float>(sum / static_cast<double>(image.data.size()));
 }
 
 }  // namespace reflet

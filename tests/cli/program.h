@@ -1,6 +1,8 @@
 // Runs the built program as a user would, in a folder of its own, and keeps what it said.
 #pragma once
 
+#include "base/image_file.h"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -34,9 +36,17 @@ protected:
     /// `reflet render SCENE --size 32x18` and more.
     [[nodiscard]] Outcome render(const std::string& scene, const Arguments& more, const Environment& added = {}) const;
 
+    /// As run(), with `signals` sent to the program: the first when it catches it and has worked for as long, each
+    /// other one when the one before has reached it.
+    [[nodiscard]] Outcome interrupt(const Arguments& arguments, const std::vector<int>& signals,
+                                    double cpuSeconds = 0.0) const;
+
     [[nodiscard]] std::filesystem::path path(std::string_view file) const { return folder_ / file; }
     void write(std::string_view file, std::string_view content) const;
     [[nodiscard]] std::string read(std::string_view file) const;
+    /// An EXR's layers, each of the expected size and without NaN.
+    [[nodiscard]] std::vector<ImageLayer> layers(std::string_view file, uint32_t width = 32,
+                                                 uint32_t height = 18) const;
     /// Names of all files in the folder, sorted.
     [[nodiscard]] std::vector<std::string> files() const;
 
@@ -53,5 +63,8 @@ testing::AssertionResult refused(const Outcome& run, int status, std::initialize
 
 /// The first word of each line: the names that a list shows.
 std::vector<std::string> firstWords(const std::string& text);
+
+/// Of all values of all channels.
+float mean(const FloatImage& image);
 
 }  // namespace reflet

@@ -14,23 +14,8 @@ namespace {
 using Names = std::vector<std::string>;
 const std::string cubes = "builtin:cubes";
 
-bool allFinite(const FloatImage& image) {
-    return std::ranges::all_of(image.data, [](float value) { return std::isfinite(value); });
-}
-
 class Render : public ProgramTest {
 protected:
-    /// The EXR's layers, each of the expected size and without NaN.
-    [[nodiscard]] std::vector<ImageLayer> layers(std::string_view file, uint32_t width = 32,
-                                                 uint32_t height = 18) const {
-        std::vector<ImageLayer> all = readExr(path(file));
-        for (const ImageLayer& layer : all) {
-            EXPECT_EQ(layer.image.width, width) << layer.name;
-            EXPECT_EQ(layer.image.height, height) << layer.name;
-            EXPECT_TRUE(allFinite(layer.image)) << layer.name;
-        }
-        return all;
-    }
     /// The bytes of the picture that these arguments give.
     [[nodiscard]] std::string picture(const Arguments& more) const {
         Arguments all{"-o", "picture.png"};
@@ -40,14 +25,6 @@ protected:
     }
     [[nodiscard]] Names names(const std::string& list) const { return firstWords(run({"list", list}).out); }
 };
-
-float mean(const FloatImage& image) {
-    double sum = 0.0;
-    for (const float value : image.data) {
-        sum += value;
-    }
-    return static_cast<float>(sum / static_cast<double>(image.data.size()));
-}
 
 TEST_F(Render, WritesEveryOutputOfOneRunAndNothingElse) {
     const Outcome done = render(cubes, {"-o", "a.png", "-o", "b.png", "-o", "c.exr"});
