@@ -49,7 +49,8 @@ vec3 mean(const FloatImage& image) {
     for (size_t i = 0; i < image.data.size(); ++i) {
         sum[static_cast<int>(i % channels)] += image.data[i];
     }
-    return sum / static_cast<double>(image.data.size() / channels);
+    const size_t pixels = image.data.size() / channels;
+    return sum / static_cast<double>(pixels);
 }
 
 float pixel(const FloatImage& image, uint32_t x, uint32_t y, uint32_t channel) {

@@ -252,10 +252,10 @@ TEST(VisibleOnly, LeavesOutTheSideOfAThingThatTheCameraDoesNotSee) {
 
 // A sky that is bright in one small place: irradiance by hand is the sum over its texels.
 TEST(EnvironmentImage, LightsAsItsTexelsDoWhereverItIsTurned) {
-    auto image =
-        std::make_shared<FloatImage>(FloatImage{32, 16, {"R", "G", "B"}, std::vector<float>(32 * 16 * 3, 0.1F)});
-    for (int i = 0; i < 3; ++i) {
-        image->data[(3 * 32 + 5) * 3 + static_cast<size_t>(i)] = 200.0F * static_cast<float>(i + 1);
+    auto image = std::make_shared<FloatImage>(FloatImage{32, 16, {"R", "G", "B"}, std::vector<float>(1536, 0.1F)});
+    constexpr size_t bright = 3 * (3 * 32 + 5);  // row 3, column 5
+    for (size_t i = 0; i < 3; ++i) {
+        image->data[bright + i] = 200.0F * static_cast<float>(i + 1);
     }
     Scene scene;
     add(scene, matt(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 100.0F));
