@@ -36,10 +36,10 @@ protected:
     /// `reflet render SCENE --size 32x18` and more.
     [[nodiscard]] Outcome render(const std::string& scene, const Arguments& more, const Environment& added = {}) const;
 
-    /// As run(), with `signals` sent to the program: the first when it catches it and has worked for as long, each
-    /// other one when the one before has reached it.
+    /// As run(), with `signals` sent to the program: the first when it catches it and has used `work` seconds of all
+    /// cores, each other one when the one before has reached it.
     [[nodiscard]] Outcome interrupt(const Arguments& arguments, const std::vector<int>& signals,
-                                    double cpuSeconds = 0.0) const;
+                                    double work = 0.0) const;
 
     [[nodiscard]] std::filesystem::path path(std::string_view file) const { return folder_ / file; }
     void write(std::string_view file, std::string_view content) const;

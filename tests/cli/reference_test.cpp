@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <csignal>
 #include <filesystem>
+#include <map>
 #include <regex>
 
 namespace reflet {
