@@ -82,8 +82,8 @@ public:
     }
 
 private:
-    static constexpr int side = 64;
-    static constexpr int steps = 20;  // of the quadrature, along each axis
+    static constexpr int side = 48;
+    static constexpr int steps = 64;  // of the quadrature, along each axis
 
     static size_t index(int column, int row) { return static_cast<size_t>(row) * side + static_cast<size_t>(column); }
 
