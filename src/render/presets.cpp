@@ -10,26 +10,35 @@
 
 namespace reflet {
 
+namespace {
+
+std::string_view presetName(const EmbeddedFile& file) {
+    return file.name.substr(0, file.name.find('.'));
+}
+
+}  // namespace
+
 std::vector<Preset> presets() {
     std::vector<Preset> all;
-    for (const EmbeddedPreset& embedded : embeddedPresets()) {
-        auto json = nlohmann::ordered_json::parse(embedded.json);
+    for (const EmbeddedFile& embedded : embeddedPresets()) {
+        auto json = nlohmann::ordered_json::parse(embedded.text);
         const auto description = json.at("description").get<std::string>();
         json.erase("description");
-        all.push_back({std::string(embedded.name), description, json.dump()});
+        all.push_back({std::string(presetName(embedded)), description, json.dump()});
     }
     return all;
 }
 
 void applyPreset(Settings& settings, std::string_view name) {
     const auto all = embeddedPresets();
-    const auto found = std::ranges::find(all, name, &EmbeddedPreset::name);
+    const auto found = std::ranges::find(all, name, presetName);
     if (found == all.end()) {
         std::vector<std::string> names;
-        std::ranges::transform(all, std::back_inserter(names), [](const auto& p) { return std::string(p.name); });
+        std::ranges::transform(all, std::back_inserter(names),
+                               [](const auto& p) { return std::string(presetName(p)); });
         failUsage("no preset is called '{}'{}; there are: {}", name, suggestion(name, names), fmt::join(names, ", "));
     }
-    applySettingsJson(settings, nlohmann::json::parse(found->json), fmt::format("preset {}", name));
+    applySettingsJson(settings, nlohmann::json::parse(found->text), fmt::format("preset {}", name));
 }
 
 }  // namespace reflet

@@ -1,6 +1,7 @@
 // Settings under one name: the JSON files in src/render/presets, which are settings files as users write them.
 #pragma once
 
+#include "base/embedded.h"
 #include "render/settings.h"
 
 #include <span>
@@ -10,13 +11,8 @@
 
 namespace reflet {
 
-struct EmbeddedPreset {
-    std::string_view name;
-    std::string_view json;
-};
-
 /// The files, embedded at build time, ordered by name.
-std::span<const EmbeddedPreset> embeddedPresets();
+std::span<const EmbeddedFile> embeddedPresets();
 
 struct Preset {
     std::string name;
