@@ -1,7 +1,7 @@
 // `reflet reference`: the path-traced truth.
 #include "reference/reference.h"
 #include "apps/commands.h"
-#include "apps/progress.h"
+#include "apps/sample_progress.h"
 #include "apps/scene_options.h"
 #include "base/error.h"
 #include "base/file.h"
@@ -99,33 +99,8 @@ ReferenceOptions referenceOptions(const ReferenceCommand& command, const Setting
     return options;
 }
 
-// Shows how many samples are done. Of those that a noise takes nobody knows the number, but that noise falls with its
-// root.
-class SampleProgress {
-public:
-    SampleProgress(const ReferenceOptions& options, uvec2 size)
-        : options_(options), pixels_(uint64_t(size.x) * size.y), shown_("tracing: sample", options.samples) {}
-
-    void set(const ReferenceProgress& now) {
-        const uint64_t done = now.done / pixels_;
-        if (options_.noise > 0.0F && now.noise != noise_) {
-            const double times = now.noise / options_.noise;
-            const double needed = std::ceil(static_cast<double>(done) * times * times);
-            shown_.expect(static_cast<uint64_t>(std::min(needed, double(options_.samples))));
-        }
-        noise_ = now.noise;
-        shown_.set(done, noise_ > 0.0 ? fmt::format("noise {:.2g}", noise_) : "");
-    }
-
-private:
-    const ReferenceOptions& options_;
-    uint64_t pixels_;
-    double noise_ = 0.0;
-    Progress shown_;
-};
-
 ReferencePicture tracePicture(const Scene& scene, const View& view, uvec2 size, const ReferenceOptions& options) {
-    SampleProgress progress(options, size);
+    SampleProgress progress("tracing", options, size);
     try {
         return traceReference(scene, view, size, options, [&](const ReferenceProgress& now) {
             progress.set(now);

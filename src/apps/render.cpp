@@ -1,8 +1,10 @@
 // `reflet render`: pictures of a scene.
 #include "apps/commands.h"
+#include "apps/device_options.h"
 #include "apps/progress.h"
 #include "apps/scene_options.h"
 #include "apps/show.h"
+#include "apps/timings.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "gpu/device.h"
@@ -57,52 +59,6 @@ void checkOutputs(const RenderOptions& options) {
         const AtomicFile trial(path);
     }
 }
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    if (values.size() % 2 == 1) {
-        return *middle;
-    }
-    return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
-
-// Times of all passes over all frames; the first frame, in which pipelines are made, does not count if there are more.
-class Timings {
-public:
-    void add(const std::vector<gpu::PassTime>& times) {
-        ++frames_;
-        if (frames_ == 2) {
-            samples_.clear();
-            order_.clear();
-        }
-        for (const gpu::PassTime& time : times) {
-            if (samples_[time.name].empty()) {
-                order_.push_back(time.name);
-            }
-            samples_[time.name].push_back(time.ms);
-        }
-    }
-
-    [[nodiscard]] nlohmann::ordered_json json(const std::string& device, uvec2 size) const {
-        nlohmann::ordered_json passes = nlohmann::ordered_json::object();
-        for (const std::string& name : order_) {
-            if (name != "frame") {
-                passes[name] = median(samples_.at(name));
-            }
-        }
-        return {{"device", device},
-                {"size", {size.x, size.y}},
-                {"frames", frames_},
-                {"frame_ms", median(samples_.at("frame"))},
-                {"passes", passes}};
-    }
-
-private:
-    uint32_t frames_ = 0;
-    std::map<std::string, std::vector<double>> samples_;
-    std::vector<std::string> order_;
-};
 
 // What the last frame's images are copied into, and the files that are made of it.
 struct Pictures {
@@ -165,11 +121,7 @@ void render(const RenderOptions& options) {
     checkCanRender(view);
 
     gpu::Device device({.select = options.device, .validation = options.validate, .onMessage = printWarning});
-    if (const uint32_t limit = std::min(device.limits().maxImageDimension2D, maxFrameSize);
-        std::max(size.x, size.y) > limit) {
-        failUsage("--size {}: with '{}' pictures can be up to {}x{}", options.scene.size, device.description().name,
-                  limit, limit);
-    }
+    requireSize(device, size);
     Renderer renderer(device, scene, printWarning);
     Timings timings;
     Progress progress("rendering", options.frames);
@@ -218,10 +170,7 @@ void addRenderCommand(CLI::App& app) {
         ->type_name("A,B,...")
         ->allow_extra_args(false)
         ->delimiter(',');
-    command
-        ->add_option("--device", options->device,
-                     "Vulkan device by number or by part of its name (reflet list devices)")
-        ->type_name("NAME|INDEX");
+    addDeviceOption(*command, options->device);
     command
         ->add_option("--timings", options->timings,
                      "Device time of every pass: medians over the frames after the first")

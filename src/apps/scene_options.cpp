@@ -56,12 +56,16 @@ const Camera& findCamera(const Scene& scene, const std::string& wanted) {
 void addSceneOptions(CLI::App& command, SceneOptions& options) {
     command.add_option("SCENE", options.scene, "A .gltf or .glb file, or builtin:NAME (reflet list scenes)")
         ->required();
+    command.add_option("--preset", options.preset, "Settings under one name (reflet list presets)")->type_name("P");
+    addViewOptions(command, options);
+}
+
+void addViewOptions(CLI::App& command, SceneOptions& options) {
     command.add_option("--scene", options.sceneIndex, "Which of the glTF file's scenes, from 0");
     command.add_option("--camera", options.camera, "Which of the scene's cameras, by number from 0 or by name");
     command.add_option("--view-file", options.viewFile, "Camera, sun and environment from a JSON file")
         ->type_name("V.json");
     command.add_option("--size", options.size, "Width and height in pixels")->type_name("WxH")->capture_default_str();
-    command.add_option("--preset", options.preset, "Settings under one name (reflet list presets)")->type_name("P");
     // One value for each time that they are given: what follows may be the scene.
     command.add_option("--settings", options.settingsFiles, "Settings from a JSON file, over the preset's")
         ->type_name("F.json")
@@ -113,17 +117,21 @@ uvec2 parseSize(const std::string& text) {
     failUsage("--size wants WIDTHxHEIGHT in pixels, both at least 1, is '{}'", text);
 }
 
-Settings loadSettings(const SceneOptions& options) {
-    Settings settings;
-    if (!options.preset.empty()) {
-        applyPreset(settings, options.preset);
-    }
+void changeSettings(Settings& settings, const SceneOptions& options) {
     for (const std::string& file : options.settingsFiles) {
         applySettingsJson(settings, parseJsonFile(file), file);
     }
     for (const std::string& assignment : options.set) {
         setSetting(settings, assignment);
     }
+}
+
+Settings loadSettings(const SceneOptions& options) {
+    Settings settings;
+    if (!options.preset.empty()) {
+        applyPreset(settings, options.preset);
+    }
+    changeSettings(settings, options);
     return settings;
 }
 

@@ -26,6 +26,8 @@ struct SceneOptions {
 
 /// Adds SCENE and the options to a subcommand.
 void addSceneOptions(CLI::App& command, SceneOptions& options);
+/// Adds the options other than SCENE and --preset, for a subcommand that takes several of these.
+void addViewOptions(CLI::App& command, SceneOptions& options);
 
 /// One line on standard error.
 void printWarning(const std::string& message);
@@ -38,6 +40,9 @@ View loadView(const SceneOptions& options, const Scene& scene);
 
 /// "1280x720". Throws UsageError.
 uvec2 parseSize(const std::string& text);
+
+/// Settings files, then --set, over what `settings` holds.
+void changeSettings(Settings& settings, const SceneOptions& options);
 
 /// Preset, then settings files, then --set, each over the ones before.
 Settings loadSettings(const SceneOptions& options);
