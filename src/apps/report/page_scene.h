@@ -1,0 +1,13 @@
+// A scene in the report's page, as HTML.
+#pragma once
+
+#include "apps/report/page.h"
+
+#include <string>
+
+namespace reflet {
+
+/// `id` names the section.
+std::string sceneSection(const ReportScene& scene, uvec2 size, const std::string& id);
+
+}  // namespace reflet
