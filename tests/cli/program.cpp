@@ -67,8 +67,8 @@ struct Places {
     fs::path err;
 };
 
-pid_t start(const Arguments& arguments, const Environment& added, const Places& places) {
-    Arguments all{REFLET_PROGRAM};
+pid_t start(const std::string& program, const Arguments& arguments, const Environment& added, const Places& places) {
+    Arguments all{program};
     all.insert(all.end(), arguments.begin(), arguments.end());
     std::vector<std::string> variables = environment(added);
     posix_spawn_file_actions_t actions;
@@ -80,9 +80,9 @@ pid_t start(const Arguments& arguments, const Environment& added, const Places& 
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, places.err.c_str(), flags, 0600);
     pid_t child = 0;
     const int error =
-        ::posix_spawn(&child, REFLET_PROGRAM, &actions, nullptr, pointers(all).data(), pointers(variables).data());
+        ::posix_spawnp(&child, program.c_str(), &actions, nullptr, pointers(all).data(), pointers(variables).data());
     posix_spawn_file_actions_destroy(&actions);
-    REFLET_CHECK(error == 0, "{} cannot be started", REFLET_PROGRAM);
+    REFLET_CHECK(error == 0, "{} cannot be started", program);
     return child;
 }
 
@@ -139,12 +139,18 @@ ProgramTest::~ProgramTest() {
 }
 
 Outcome ProgramTest::run(const Arguments& arguments, const Environment& added, const fs::path& out) const {
-    const int status = waitFor(start(arguments, added, {folder_, out.empty() ? said_ / "out" : out, said_ / "err"}));
+    const Places places{folder_, out.empty() ? said_ / "out" : out, said_ / "err"};
+    const int status = waitFor(start(REFLET_PROGRAM, arguments, added, places));
     return {status, out.empty() ? readFile(said_ / "out") : "", readFile(said_ / "err")};
 }
 
+Outcome ProgramTest::runOther(const std::string& program, const Arguments& arguments, const Environment& added) const {
+    const int status = waitFor(start(program, arguments, added, {folder_, said_ / "out", said_ / "err"}));
+    return {status, readFile(said_ / "out"), readFile(said_ / "err")};
+}
+
 Outcome ProgramTest::interrupt(const Arguments& arguments, const std::vector<int>& signals, double work) const {
-    const pid_t child = start(arguments, {}, {folder_, said_ / "out", said_ / "err"});
+    const pid_t child = start(REFLET_PROGRAM, arguments, {}, {folder_, said_ / "out", said_ / "err"});
     const int first = signals.front();
     EXPECT_TRUE(waitUntil(child, [&] { return catches(child, first) && cpuSeconds(child) >= work; }));
     ::kill(child, first);

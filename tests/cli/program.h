@@ -33,6 +33,9 @@ protected:
     /// Standard output is kept, or goes to `out`.
     [[nodiscard]] Outcome run(const Arguments& arguments, const Environment& added = {},
                               const std::filesystem::path& out = {}) const;
+    /// Another program, searched for in PATH.
+    [[nodiscard]] Outcome runOther(const std::string& program, const Arguments& arguments,
+                                   const Environment& added = {}) const;
     /// `reflet render SCENE --size 32x18` and more.
     [[nodiscard]] Outcome render(const std::string& scene, const Arguments& more, const Environment& added = {}) const;
 

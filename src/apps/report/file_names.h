@@ -1,0 +1,22 @@
+// Names for files, made of what users call their scenes and variants.
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace reflet {
+
+/// Small letters, digits, '-' and '_' of ASCII; every run of others is one '-'. Never empty, at most 60 characters.
+std::string fileNameOf(std::string_view text);
+
+/// Hands out each name once: "cubes", then "cubes-2".
+class FileNames {
+public:
+    std::string take(const std::string& wanted);
+
+private:
+    std::set<std::string> taken_;
+};
+
+}  // namespace reflet

@@ -1,0 +1,231 @@
+// `reflet report`: a page that shows how near each variant comes to the truth, and how long it takes.
+#include "apps/command_line.h"
+#include "apps/commands.h"
+#include "apps/device_options.h"
+#include "apps/report/plot.h"
+#include "apps/report/scene_work.h"
+#include "apps/report/text.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/image_file.h"
+#include "compare/heat_map.h"
+#include "render/presets.h"
+#include "render/renderer.h"
+#include "scene/builtin.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+#include <memory>
+
+namespace reflet {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr uint32_t standardSamples = 256;
+constexpr uint32_t largestSamples = 1U << 20U;
+
+struct ReportCommand {
+    SceneOptions shared;
+    std::vector<std::string> scenes;
+    std::string folder;
+    std::vector<std::string> presets;
+    std::vector<std::string> variants;
+    std::string device;
+    uint32_t frames = 6;
+    std::optional<uint32_t> bounces;
+    std::optional<uint32_t> samples;
+    float noise = 0.0F;
+};
+
+// "What it is and what it is for. 1204 triangles, 5 materials, 2 lamps besides the sun."
+std::string describe(const std::string& source, const Scene& scene) {
+    size_t indices = 0;
+    for (const Instance& instance : scene.instances) {
+        indices += scene.meshes[instance.mesh].indices.size();
+    }
+    std::string facts =
+        fmt::format("{}, {}, {} besides the sun.", countText(indices / 3, "triangle"),
+                    countText(scene.materials.size(), "material"), countText(scene.lamps.size(), "lamp"));
+    const auto all = builtinScenes();
+    const auto found =
+        std::ranges::find_if(all, [&](const BuiltinScene& b) { return source == fmt::format("builtin:{}", b.name); });
+    if (found == all.end()) {
+        return facts;
+    }
+    std::string what(found->description);
+    what[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(what[0])));
+    return fmt::format("{}. {}", what, facts);
+}
+
+std::string nameOf(const std::string& source) {
+    constexpr std::string_view builtin = "builtin:";
+    return source.starts_with(builtin) ? source.substr(builtin.size()) : fs::path(source).stem().string();
+}
+
+// All of them before any long work, so that a scene that cannot be loaded ends it at once.
+std::vector<ReportInput> loadInputs(const ReportCommand& command) {
+    std::vector<ReportInput> inputs;
+    FileNames prefixes;
+    for (const std::string& source : command.scenes) {
+        SceneOptions options = command.shared;
+        options.scene = source;
+        ReportInput input{.name = nameOf(source), .source = source, .scene = loadScene(options)};
+        input.view = loadView(options, input.scene);
+        checkCanRender(input.view);
+        input.description = describe(source, input.scene);
+        input.filePrefix = prefixes.take(fileNameOf(input.name));
+        input.position = fmt::format("{} ({} of {})", input.name, inputs.size() + 1, command.scenes.size());
+        inputs.push_back(std::move(input));
+    }
+    // Scenes of one name are told apart by what the user typed.
+    for (ReportInput& input : inputs) {
+        if (std::ranges::count(command.scenes, nameOf(input.source), nameOf) > 1) {
+            input.name = input.source;
+        }
+    }
+    return inputs;
+}
+
+ReportWork makeWork(const ReportCommand& command) {
+    if (std::isnan(command.noise)) {
+        failUsage("--noise wants a number, is '{}'", command.noise);
+    }
+    const Settings settings = loadSettings(command.shared);
+    ReportWork work;
+    work.folder = command.folder;
+    work.size = parseSize(command.shared.size);
+    work.seed = command.shared.seed;
+    work.frames = command.frames;
+    work.reference.bounces = command.bounces.value_or(ReferenceOptions::unlimited);
+    work.reference.samples = command.samples.value_or(command.noise > 0.0F ? largestSamples : standardSamples);
+    work.reference.noise = command.noise;
+    work.reference.filter = PixelFilter::center;  // as the renderer samples: edges are not what is compared
+    work.reference.lambertOnly = settings.materials.lambertOnly != 0;
+    work.reference.seed = command.shared.seed;
+    work.tonemap = settings.tonemap;
+    std::vector<std::string> names = command.presets;
+    if (names.empty()) {
+        std::ranges::transform(presets(), std::back_inserter(names), &Preset::name);
+    }
+    work.variants = makeVariants(names, command.variants, command.shared);
+    return work;
+}
+
+void makeFolder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) {
+        fail("{}: cannot be made: {}", folder.string(), error.message());
+    }
+    const AtomicFile trial(folder / "index.html");  // better now than after minutes of work
+}
+
+// The file's name.
+std::string writeErrorScale(const fs::path& folder) {
+    constexpr uint32_t width = 256;
+    constexpr uint32_t height = 12;
+    FloatImage ramp{width, height, {"Y"}, {}};
+    for (uint32_t i = 0; i < width * height; ++i) {
+        ramp.data.push_back(static_cast<float>(i % width) / static_cast<float>(width - 1));
+    }
+    writePng(folder / "error-scale.png", heatMap(ramp));
+    return "error-scale.png";
+}
+
+std::string errorTimePlot(const ReportPage& page) {
+    ScatterPlot plot;
+    plot.title = "Every variant on every scene: left is faster, down is nearer to the truth";
+    plot.xLabel = "milliseconds per frame";
+    plot.yLabel = "relative MSE against the truth";
+    for (const ReportScene& scene : page.scenes) {
+        for (const ReportVariant& variant : scene.variants) {
+            plot.points.push_back({variant.name, scene.name, variant.frameMs, variant.againstTruth.relativeMse});
+        }
+    }
+    return scatterPlot(plot);
+}
+
+void report(const ReportCommand& command, const std::string& typed) {
+    const ReportWork work = makeWork(command);
+    const std::vector<ReportInput> inputs = loadInputs(command);
+    makeFolder(work.folder);
+    gpu::Device device({.select = command.device, .onMessage = printWarning});
+    requireSize(device, work.size);
+
+    ReportPage page;
+    page.version = REFLET_VERSION;
+    page.command = typed;
+    page.device = device.description().name;
+    page.size = work.size;
+    page.seed = work.seed;
+    page.frames = work.frames;
+    page.bounces = command.bounces;
+    page.errorScale = writeErrorScale(work.folder);
+    FileNames names;
+    for (const ReportInput& input : inputs) {
+        page.scenes.push_back(workOn(work, input, device, names));
+    }
+    page.plotSvg = errorTimePlot(page);
+    writeFileAtomically(work.folder / "report.json", reportJson(page));
+    writeFileAtomically(work.folder / "table.md", reportMarkdown(page));
+    writeFileAtomically(work.folder / "index.html", reportHtml(page));
+}
+
+constexpr const char* footer =
+    "DIR/index.html is the page; it needs no network and no server. Beside it: its pictures, report.json with all "
+    "numbers and table.md.\n"
+    "--set and --settings hold for all variants, over their presets; the truth is tone mapped with them.\n"
+    "A variant of your own: --variant NAME=KEY=VALUE,KEY=VALUE or, from a preset, --variant "
+    "NAME=PRESET,KEY=VALUE.\n"
+    "Example: reflet report builtin:cubes scene.glb -o out --preset fast,quality --variant "
+    "rays8=fast,diffuse.rays=8";
+
+void addTruthOptions(CLI::App& command, ReportCommand& options) {
+    command
+        .add_option("--bounces", options.bounces,
+                    "Scattered rays of the truth's paths; not given: as many as the light takes")
+        ->type_name("N");
+    command
+        .add_option("--spp", options.samples,
+                    fmt::format("The truth's samples per pixel, at most [{}; with --noise {}]", standardSamples,
+                                largestSamples))
+        ->type_name("N")
+        ->check(CLI::Range(2U, largestSamples));  // one tells nothing about noise
+    command.add_option("--noise", options.noise, "The truth is done when its noise is under this (0.01: 1 %)")
+        ->type_name("X")
+        ->check(CLI::Range(0.0F, 10.0F));
+}
+
+}  // namespace
+
+void addReportCommand(CLI::App& app) {
+    auto options = std::make_shared<ReportCommand>();
+    options->shared.size = "640x360";
+    CLI::App* command = app.add_subcommand("report", "Write a web page: variants against the truth, and their times");
+    command->add_option("SCENE", options->scenes, "A .gltf or .glb file, or builtin:NAME; may be several")->required();
+    command->add_option("-o,--output", options->folder, "Folder for the page and its pictures")
+        ->type_name("DIR")
+        ->required();
+    command->add_option("--preset", options->presets, "Presets to compare [all of them] (reflet list presets)")
+        ->type_name("P,Q,...")
+        ->allow_extra_args(false)
+        ->delimiter(',');
+    command->add_option("--variant", options->variants, "Settings to compare under a name; may be repeated")
+        ->type_name("NAME=[PRESET,]KEY=VALUE,...")
+        ->allow_extra_args(false);
+    addViewOptions(*command, options->shared);
+    command->add_option("--frames", options->frames, "Frames of each variant; the last one is shown")
+        ->check(CLI::Range(1U, 1000000U))
+        ->capture_default_str();
+    addTruthOptions(*command, *options);
+    addDeviceOption(*command, options->device);
+    command->footer(footer);
+    command->callback([options, command] { report(*options, commandLine(*command)); });
+}
+
+}  // namespace reflet

@@ -1,0 +1,143 @@
+// The long work of a report.
+#include "apps/report/scene_work.h"
+
+#include "apps/progress.h"
+#include "apps/sample_progress.h"
+#include "apps/show.h"
+#include "apps/timings.h"
+#include "base/image_file.h"
+#include "compare/compare.h"
+#include "compare/heat_map.h"
+#include "render/renderer.h"
+#include "render/tonemap/tone_map_image.h"
+
+#include <spdlog/fmt/fmt.h>
+
+namespace reflet {
+
+namespace {
+
+// Writes pictures of one scene and says under which names.
+class PictureFolder {
+public:
+    PictureFolder(std::filesystem::path folder, std::string prefix, FileNames& names)
+        : folder_(std::move(folder)), prefix_(std::move(prefix)), names_(names) {}
+
+    std::string write(const std::string& name, const Bitmap& picture) {
+        std::string file = names_.take(prefix_ + "-" + name) + ".png";
+        writePng(folder_ / file, picture);
+        return file;
+    }
+
+private:
+    std::filesystem::path folder_;
+    std::string prefix_;
+    FileNames& names_;
+};
+
+ReferencePicture trace(const ReportWork& work, const ReportInput& input, bool visibleOnly) {
+    ReferenceOptions options = work.reference;
+    options.visibleOnly = visibleOnly;
+    SampleProgress progress(fmt::format("{}, {}", input.position, visibleOnly ? "visible-only" : "truth"), options,
+                            work.size);
+    return traceReference(input.scene, input.view, work.size, options, [&](const ReferenceProgress& now) {
+        progress.set(now);
+        return true;
+    });
+}
+
+// The last frame of a variant.
+struct Rendered {
+    FloatImage radiance;
+    Bitmap display;
+    Timings timings;
+};
+
+// With a renderer of its own: what variants before it left behind must not show.
+Rendered renderVariant(const ReportWork& work, const ReportInput& input, const Settings& settings, gpu::Device& device,
+                       Progress& progress) {
+    Renderer renderer(device, input.scene, printWarning);
+    Rendered result;
+    ShowReadback radiance;
+    gpu::Readback display;
+    for (uint32_t i = 0; i < work.frames; ++i) {
+        renderer.render(input.view, work.size, work.seed, settings, [&](gpu::Frame& f, const FrameImages& images) {
+            if (i + 1 == work.frames) {
+                radiance = requestShow(f, images, findShow("final"));
+                display = f.readback(images.display);
+            }
+        });
+        result.timings.add(renderer.frame().passTimes());
+        progress.advance();
+    }
+    const ViewParams params = makeViewParams(input.view.camera, work.size, 0, work.seed);
+    result.radiance = fetchValues(renderer.frame(), radiance, params);
+    result.display = fetchDisplay(renderer.frame(), display, work.size);
+    return result;
+}
+
+Comparison compareNamed(const FloatImage& picture, const std::string& name, const FloatImage& truth,
+                        const std::string& truthName) {
+    CompareOptions options;
+    options.pictureName = name;
+    options.truthName = truthName;
+    return compareImages(picture, truth, options);
+}
+
+ReportError errorOf(const Comparison& comparison) {
+    const Difference& d = comparison.difference;
+    return {d.relativeMse, d.flip, d.psnr};
+}
+
+ReportVariant workOnVariant(const Variant& variant, const Rendered& rendered, const FloatImage& truth,
+                            const FloatImage& visible, PictureFolder& folder) {
+    const std::string file = fileNameOf(variant.name);
+    const Comparison againstTruth = compareNamed(rendered.radiance, variant.name, truth, "the truth");
+    const Comparison againstVisible = compareNamed(rendered.radiance, variant.name, visible, "visible-only");
+    ReportVariant result;
+    result.name = variant.name;
+    result.settings = changedSettings(variant.settings);
+    result.picture = folder.write(file, rendered.display);
+    result.truthErrorMap = folder.write(file + "-error", heatMap(againstTruth.flip));
+    result.visibleErrorMap = folder.write(file + "-method-error", heatMap(againstVisible.flip));
+    result.againstTruth = errorOf(againstTruth);
+    result.againstVisible = errorOf(againstVisible);
+    result.frameMs = rendered.timings.frameMs();
+    for (const gpu::PassTime& pass : rendered.timings.passes()) {
+        result.passes.push_back({pass.name, pass.ms});
+    }
+    return result;
+}
+
+}  // namespace
+
+ReportScene workOn(const ReportWork& work, const ReportInput& input, gpu::Device& device, FileNames& names) {
+    PictureFolder folder(work.folder, input.filePrefix, names);
+    // Frames first: they are soon done, and a variant that cannot be rendered should be known before the long work.
+    std::vector<Rendered> rendered;
+    {
+        Progress progress(input.position + ": frame", uint64_t(work.variants.size()) * work.frames);
+        for (const Variant& variant : work.variants) {
+            rendered.push_back(renderVariant(work, input, variant.settings, device, progress));
+        }
+    }
+    const ReferencePicture truth = trace(work, input, false);
+    const ReferencePicture visible = trace(work, input, true);
+    const Comparison unknown = compareNamed(visible.final, "visible-only", truth.final, "the truth");
+
+    ReportScene result;
+    result.name = input.name;
+    result.source = input.source;
+    result.description = input.description;
+    result.truth = {folder.write("truth", toneMapped(truth.final, work.tonemap)), truth.samples, truth.noise};
+    result.visible = {folder.write("visible-only", toneMapped(visible.final, work.tonemap)), visible.samples,
+                      visible.noise};
+    result.visibleErrorMap = folder.write("visible-only-error", heatMap(unknown.flip));
+    result.visibleError = errorOf(unknown);
+    for (size_t i = 0; i < rendered.size(); ++i) {
+        result.variants.push_back(workOnVariant(work.variants[i], rendered[i], truth.final, visible.final, folder));
+    }
+    return result;
+}
+
+}  // namespace reflet

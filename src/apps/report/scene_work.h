@@ -1,0 +1,42 @@
+// The long work of a report: both references of a scene, all variants, what lies between them, and the picture files.
+#pragma once
+
+#include "apps/report/file_names.h"
+#include "apps/report/page.h"
+#include "apps/report/variants.h"
+#include "gpu/device.h"
+#include "reference/reference.h"
+#include "scene/scene.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace reflet {
+
+/// What is the same for all scenes.
+struct ReportWork {
+    std::filesystem::path folder;  ///< exists
+    uvec2 size{0};
+    uint32_t seed = 0;
+    uint32_t frames = 1;         ///< of each variant
+    ReferenceOptions reference;  ///< of both references; visibleOnly is set here
+    TonemapSettings tonemap;     ///< of the references' pictures
+    std::vector<Variant> variants;
+};
+
+/// A scene to work on.
+struct ReportInput {
+    std::string name;
+    std::string source;
+    std::string description;
+    std::string filePrefix;
+    std::string position;  ///< for progress: "cubes (1 of 3)"
+    Scene scene;
+    View view;
+};
+
+/// Traces, renders, compares, and writes the pictures under names from `names`. Throws Error.
+ReportScene workOn(const ReportWork& work, const ReportInput& input, gpu::Device& device, FileNames& names);
+
+}  // namespace reflet

@@ -1,0 +1,79 @@
+// The variants of a report.
+#include "apps/report/variants.h"
+
+#include "base/error.h"
+#include "render/presets.h"
+
+#include <algorithm>
+
+namespace reflet {
+
+namespace {
+
+std::vector<std::string> split(std::string_view text, char separator) {
+    std::vector<std::string> parts;
+    while (true) {
+        const size_t end = text.find(separator);
+        parts.emplace_back(text.substr(0, end));
+        if (end == std::string_view::npos) {
+            return parts;
+        }
+        text.remove_prefix(end + 1);
+    }
+}
+
+Variant parseVariant(const std::string& text, const SceneOptions& shared) {
+    const size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
+        failUsage("--variant wants NAME=KEY=VALUE,… or NAME=PRESET,KEY=VALUE,…, is '{}'", text);
+    }
+    SceneOptions options = shared;
+    Settings settings;
+    std::vector<std::string> parts = split(std::string_view(text).substr(equals + 1), ',');
+    const auto isPreset = [](const std::string& part) { return part.find('=') == std::string::npos; };
+    const auto rest = std::ranges::find_if_not(parts, isPreset);
+    for (auto preset = parts.begin(); preset != rest; ++preset) {
+        applyPreset(settings, *preset);
+    }
+    if (const auto late = std::find_if(rest, parts.end(), isPreset); late != parts.end()) {
+        failUsage("--variant {}: '{}' is no KEY=VALUE; a preset must come first", text, *late);
+    }
+    options.set.insert(options.set.end(), rest, parts.end());
+    changeSettings(settings, options);
+    return {text.substr(0, equals), settings};
+}
+
+}  // namespace
+
+std::vector<Variant> makeVariants(const std::vector<std::string>& presets, const std::vector<std::string>& own,
+                                  const SceneOptions& shared) {
+    std::vector<Variant> variants;
+    for (const std::string& preset : presets) {
+        SceneOptions options = shared;
+        options.preset = preset;
+        variants.push_back({preset, loadSettings(options)});
+    }
+    for (const std::string& text : own) {
+        variants.push_back(parseVariant(text, shared));
+    }
+    for (auto variant = variants.begin(); variant != variants.end(); ++variant) {
+        if (std::find_if(variants.begin(), variant, [&](const Variant& v) { return v.name == variant->name; }) !=
+            variant) {
+            failUsage("two variants are called '{}': give each --variant a name of its own", variant->name);
+        }
+    }
+    return variants;
+}
+
+std::string changedSettings(const Settings& settings) {
+    const Settings defaults;
+    std::vector<std::string> changed;
+    for (const SettingEntry& entry : settingEntries()) {
+        if (const std::string text = settingText(settings, entry); text != settingText(defaults, entry)) {
+            changed.push_back(entry.name + "=" + text);
+        }
+    }
+    return fmt::format("{}", fmt::join(changed, " "));
+}
+
+}  // namespace reflet

@@ -1,0 +1,177 @@
+// The report's page in a browser (Chromium, where it is installed), opened as a file.
+#include "cli/program.h"
+#include "support/html.h"
+
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+namespace reflet {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// "" where there is none.
+std::string findBrowser() {
+    const char* variable = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): tests have one thread
+    for (const char* name : {"chromium", "chromium-browser", "google-chrome"}) {
+        std::istringstream folders(variable == nullptr ? "" : variable);
+        for (std::string folder; std::getline(folders, folder, ':');) {
+            std::error_code ignored;
+            if (fs::exists(fs::path(folder) / name, ignored)) {
+                return name;
+            }
+        }
+    }
+    return "";
+}
+
+// What it did to the page, written into attributes of the root element.
+constexpr const char* userScript = R"(
+<script>
+addEventListener("load", async () => {
+    const say = (name, value) => document.documentElement.setAttribute("data-test-" + name, value);
+    const compare = document.querySelector(".compare");
+    const part = (selector) => compare.querySelector(selector);
+    const range = part("input");
+    const edge = () => getComputedStyle(part("img.right")).clipPath;
+    const act = (element, value) => {
+        element.value = value;
+        element.dispatchEvent(new Event("input", { bubbles: true }));
+    };
+    const drag = (type, share) => {
+        const box = part(".stage").getBoundingClientRect();
+        part(".stage").dispatchEvent(new PointerEvent(type, {
+            bubbles: true, isPrimary: true, pointerId: 1, button: 0, clientX: box.left + share * box.width,
+        }));
+    };
+    say("shown", getComputedStyle(compare).display !== "none");
+    say("images", document.images.length);
+    say("broken", [...document.images].filter((i) => !i.complete || i.naturalWidth === 0).length);
+    act(range, "25");
+    say("edge-quarter", edge());
+    say("words-quarter", range.getAttribute("aria-valuetext"));
+    act(part("select.left"), "1");
+    act(part("select.right"), "3");
+    say("left", part("img.left").getAttribute("src"));
+    say("right", part("img.right").getAttribute("src"));
+    say("right-alt", part("img.right").alt);
+    act(part("select.kind"), "visible");
+    say("right-map", part("img.right").getAttribute("src"));
+    say("right-tag", part(".tag.right").textContent);
+    await part("img.right").decode();
+    say("map-width", part("img.right").naturalWidth);
+    part(".stage").setPointerCapture = () => {};  // real pointers can be captured, made-up ones cannot
+    drag("pointerdown", 0.75);
+    say("edge-drag", edge());
+    say("tab-stops", compare.querySelectorAll("select, input").length);
+    say("unlabelled", [...compare.querySelectorAll("select, input")].filter(
+        (e) => e.labels.length === 0 && !e.getAttribute("aria-label")).length);
+    say("foreign", performance.getEntriesByType("resource").filter((e) => !/^(file|data):/.test(e.name)).length);
+    say("overflow", document.documentElement.scrollWidth - document.documentElement.clientWidth);
+    say("done", "yes");
+});
+</script>
+</body>)";
+
+class ReportBrowserTest : public ProgramTest {
+protected:
+    void SetUp() override {
+        browser_ = findBrowser();
+        if (browser_.empty()) {
+            GTEST_SKIP() << "no chromium, chromium-browser or google-chrome in PATH";
+        }
+        ASSERT_TRUE(quietSuccess(run({"report", "builtin:cubes", "-o", "out", "--size", "64x36", "--spp", "2",
+                                      "--frames", "2", "--preset", "fast,direct"})));
+    }
+
+    /// A copy of the page with something before its end.
+    void extendPage(const std::string& file, const std::string& addition) const {
+        std::string page = read("out/index.html");
+        page.replace(page.rfind("</body>"), std::string_view("</body>").size(), addition);
+        write("out/" + file, page);
+    }
+
+    /// The page as it stands after its scripts ran, and what the browser said. `timeout` also ends its children.
+    [[nodiscard]] Outcome open(const std::string& file, const std::string& window) const {
+        Arguments all{"--kill-after=5",
+                      "60",
+                      browser_,
+                      "--headless",
+                      "--no-sandbox",
+                      "--disable-gpu",
+                      "--disable-dev-shm-usage",
+                      "--no-first-run",
+                      "--disable-background-networking",
+                      "--disable-component-update",
+                      "--disable-extensions",
+                      "--enable-logging=stderr",
+                      "--dump-dom",
+                      "--virtual-time-budget=5000",
+                      "--window-size=" + window};
+        all.push_back("--user-data-dir=" + path("profile").string());
+        all.push_back("file://" + path("out/" + file).string());
+        return runOther("timeout", all, {{"HOME", path("").string()}, {"DBUS_SESSION_BUS_ADDRESS", "/dev/null"}});
+    }
+
+private:
+    std::string browser_;
+};
+
+std::vector<std::string> consoleLines(const Outcome& run) {
+    std::vector<std::string> found;
+    std::istringstream lines(run.err);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.find("CONSOLE") != std::string::npos) {
+            found.push_back(line);
+        }
+    }
+    return found;
+}
+
+}  // namespace
+
+TEST_F(ReportBrowserTest, TheDividerAndTheChoicesWork) {
+    extendPage("test.html", userScript);
+    const Outcome shown = open("test.html", "1280,900");
+    ASSERT_EQ(shown.status, 0) << shown.err;
+    EXPECT_EQ(consoleLines(shown), std::vector<std::string>{});
+    const test::Html html = test::parseHtml(shown.out);
+    ASSERT_FALSE(html.elements.empty()) << shown.err;
+    const auto said = [&](const std::string& name) { return html.elements.front().value("data-test-" + name); };
+    ASSERT_EQ(said("done"), "yes");
+    EXPECT_EQ(said("shown"), "true");
+    EXPECT_EQ(said("images"), "12");
+    EXPECT_EQ(said("broken"), "0");
+    EXPECT_EQ(said("edge-quarter"), "inset(0px 0px 0px 25%)");
+    EXPECT_EQ(said("words-quarter"), "25 % truth, 75 % fast");
+    EXPECT_EQ(said("left"), "cubes-visible-only.png");
+    EXPECT_EQ(said("right"), "cubes-direct.png");
+    EXPECT_EQ(said("right-alt"), "cubes, variant direct");
+    EXPECT_EQ(said("right-map"), "cubes-direct-method-error.png");
+    EXPECT_EQ(said("right-tag"), "direct, error");
+    EXPECT_EQ(said("map-width"), "64");
+    EXPECT_EQ(said("edge-drag"), "inset(0px 0px 0px 75%)");
+    EXPECT_EQ(said("tab-stops"), "4");
+    EXPECT_EQ(said("unlabelled"), "0");
+    EXPECT_EQ(said("foreign"), "0");
+    EXPECT_EQ(said("overflow"), "0");
+}
+
+TEST_F(ReportBrowserTest, APhonesWidthIsEnough) {
+    extendPage("test.html", userScript);
+    const Outcome shown = open("test.html", "500,900");  // Chromium's windows are not narrower
+    ASSERT_EQ(shown.status, 0) << shown.err;
+    const test::Html html = test::parseHtml(shown.out);
+    ASSERT_FALSE(html.elements.empty()) << shown.err;
+    EXPECT_EQ(html.elements.front().value("data-test-overflow"), "0");
+}
+
+TEST_F(ReportBrowserTest, AMistakeOfTheScriptWouldBeSeen) {
+    extendPage("test.html", "<script>undefinedFunction();</script></body>");
+    EXPECT_EQ(consoleLines(open("test.html", "1280,900")).size(), 1U);
+}
+
+}  // namespace reflet
