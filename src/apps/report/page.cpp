@@ -99,8 +99,7 @@ constexpr const char* howToRead = R"(<section class="reading">
 <h2>How to read it</h2>
 <dl>
 <dt>truth</dt>
-<dd>The scene by path tracing on the CPU: light by every way that it takes, seen through the centres of the same pixels,
-so that edges do not count as errors.</dd>
+<dd>The scene by path tracing on the CPU: light by every way that it takes, over the whole area of each pixel.</dd>
 <dt>visible-only</dt>
 <dd>The same path tracer, but light arrives only from points that the camera sees and from the environment: all that a
 screen can know, and so the best that a screen-space method can reach without guessing. A variant's error against the

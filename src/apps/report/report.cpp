@@ -104,7 +104,6 @@ ReportWork makeWork(const ReportCommand& command) {
     work.reference.bounces = command.bounces.value_or(ReferenceOptions::unlimited);
     work.reference.samples = command.samples.value_or(command.noise > 0.0F ? largestSamples : standardSamples);
     work.reference.noise = command.noise;
-    work.reference.filter = PixelFilter::center;  // as the renderer samples: edges are not what is compared
     work.reference.lambertOnly = settings.materials.lambertOnly != 0;
     work.reference.seed = command.shared.seed;
     work.tonemap = settings.tonemap;
