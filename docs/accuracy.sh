@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes docs/accuracy.md: every built-in scene and preset against the truth. Takes about half an hour on two cores, which
+# Makes docs/accuracy.md: every built-in scene and preset against the truth. Takes about ten minutes on two cores, which
 # should have nothing else to do: the table has times. The pages with the pictures stay in out/accuracy*.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -19,3 +19,12 @@ render mirror-hall mirror-hall-source --preset quality --size 480x270 --show spe
 for show in albedo normal depth sun_visibility direct indirect_diffuse indirect_specular source; do
     render cubes "cubes-$show" --preset quality --size 320x180 --show "$show"
 done
+
+# The truth, what the screen can know of it, and how far the default settings are from it.
+reflet=build/bin/reflet
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+"$reflet" reference builtin:cubes --size 320x180 --spp 1024 -o docs/pictures/cubes-truth.png -o "$work/truth.exr"
+"$reflet" reference builtin:cubes --size 320x180 --spp 1024 --visible-only -o docs/pictures/cubes-visible-only.png
+"$reflet" render builtin:cubes --size 320x180 -o docs/pictures/cubes-default.png -o "$work/default.exr"
+"$reflet" compare "$work/default.exr" "$work/truth.exr" --heatmap docs/pictures/cubes-default-error.png

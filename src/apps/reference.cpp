@@ -147,11 +147,12 @@ void trace(const ReferenceCommand& command) {
 }
 
 constexpr const char* footer =
-    "The EXR holds the layers final (without a name), direct, indirect_diffuse, indirect_specular, albedo, normal,\n"
-    "depth and sun_visibility, as `reflet render --aov` names them. Light of the sun and of lamps that reaches a\n"
-    "surface without a detour is direct, and so are emission and background. Light of glowing surfaces and of the\n"
-    "environment takes one scattered ray, as it does in the renderer. The sun and lamps are seen by no ray. Depth and\n"
-    "normal are those of the pixel's centre.\n"
+    "The EXR holds the layers final (also without a name, for viewers), direct, indirect_diffuse, indirect_specular,\n"
+    "albedo, normal, depth and sun_visibility, as `reflet render --aov` names them. Light of the sun and of lamps "
+    "that\n"
+    "reaches a surface without a detour is direct, and so are emission and background. Light of glowing surfaces and\n"
+    "of the environment takes one scattered ray, as it does in the renderer. The sun and lamps are seen by no ray.\n"
+    "Depth and normal are those of the pixel's centre.\n"
     "Noise is the root of the mean over the pixels of (variance of the mean) / (luminance² + 0.01), the square of\n"
     "which is the picture's own relative MSE.\n"
     "Of the settings, materials.lambertOnly and (for a PNG) tonemap.* matter here.\n"

@@ -198,6 +198,7 @@ void traceCenters(ReferencePicture& picture, uvec2 size, const PathTracer& trace
 
 std::vector<ImageLayer> ReferencePicture::layers() const {
     return {{"", final},
+            {"final", final},
             {"direct", direct},
             {"indirect_diffuse", indirectDiffuse},
             {"indirect_specular", indirectSpecular},

@@ -62,7 +62,7 @@ struct ReferencePicture {
     double seconds = 0.0;         ///< of tracing, without building the hierarchy
     bool complete = true;         ///< false: `proceed` ended it
 
-    /// Named as `reflet render --aov` names them, `final` without a name.
+    /// Named as `reflet render --aov` names them; first `final` without a name, too, so that every viewer shows it.
     [[nodiscard]] std::vector<ImageLayer> layers() const;
 };
 

@@ -79,9 +79,15 @@ TEST_F(Reference, AnExrHoldsAllLayersWithTheNamesAndChannelsOfTheRenderers) {
     ASSERT_TRUE(quietSuccess(reference(cubes, {"--spp", "2", "-o", "a.exr"})));
     EXPECT_EQ(files(), Names{"a.exr"});
     const Names rgb{"R", "G", "B"};
-    const std::map<std::string, Names> expected{
-        {"", rgb},       {"direct", rgb},  {"indirect_diffuse", rgb},   {"indirect_specular", rgb},
-        {"albedo", rgb}, {"depth", {"Y"}}, {"normal", {"X", "Y", "Z"}}, {"sun_visibility", {"Y"}}};
+    const std::map<std::string, Names> expected{{"", rgb},
+                                                {"final", rgb},
+                                                {"direct", rgb},
+                                                {"indirect_diffuse", rgb},
+                                                {"indirect_specular", rgb},
+                                                {"albedo", rgb},
+                                                {"depth", {"Y"}},
+                                                {"normal", {"X", "Y", "Z"}},
+                                                {"sun_visibility", {"Y"}}};
     const auto all = layers("a.exr");
     std::map<std::string, Names> found;
     for (const ImageLayer& layer : all) {
@@ -92,9 +98,9 @@ TEST_F(Reference, AnExrHoldsAllLayersWithTheNamesAndChannelsOfTheRenderers) {
     EXPECT_EQ(found, expected);
     EXPECT_EQ(all.size(), expected.size());
 
-    ASSERT_TRUE(
-        quietSuccess(render(cubes, {"-o", "r.exr", "--aov",
-                                    "direct,indirect_diffuse,indirect_specular,albedo,depth,normal,sun_visibility"})));
+    ASSERT_TRUE(quietSuccess(
+        render(cubes, {"-o", "r.exr", "--aov",
+                       "final,direct,indirect_diffuse,indirect_specular,albedo,depth,normal,sun_visibility"})));
     for (const ImageLayer& layer : layers("r.exr")) {
         EXPECT_EQ(layer.image.channels, found.at(layer.name)) << layer.name;
     }
@@ -177,8 +183,8 @@ TEST_F(Reference, HelpNamesEveryOptionAndSaysWhatTheLayersAre) {
                               "--sampling",
                               "--visible-only",
                               "--threads",
-                              "final (without a name), direct, indirect_diffuse, indirect_specular, albedo, normal",
-                              "depth and sun_visibility",
+                              "final (also without a name, for viewers), direct, indirect_diffuse, indirect_specular",
+                              "albedo, normal, depth and sun_visibility",
                               "Noise is",
                               "materials.lambertOnly",
                               "Ctrl-C",

@@ -69,7 +69,7 @@ TEST(Picture, LayersAddUpAndAreNamedAsTheRenderersAre) {
     }
     std::vector<std::string> names;
     std::ranges::transform(p.layers(), std::back_inserter(names), &ImageLayer::name);
-    EXPECT_EQ(names, (std::vector<std::string>{"", "direct", "indirect_diffuse", "indirect_specular", "albedo",
+    EXPECT_EQ(names, (std::vector<std::string>{"", "final", "direct", "indirect_diffuse", "indirect_specular", "albedo",
                                                "normal", "depth", "sun_visibility"}));
 }
 
