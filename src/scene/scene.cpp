@@ -63,14 +63,10 @@ Sun shoulderSun(const Camera& camera) {
     return sun;
 }
 
-Sun defaultSun(const Scene& scene, const Camera& camera) {
-    if (scene.sun) {
-        return *scene.sun;
-    }
+bool isLit(const Scene& scene) {
     // Emissive surfaces do not count: a glowing lamp on a robot does not light the robot.
     const Environment& environment = scene.environment;
-    const bool lit = !scene.lamps.empty() || environment.image || environment.radiance != vec3(0.0F);
-    return lit ? Sun{} : shoulderSun(camera);
+    return scene.sun || !scene.lamps.empty() || environment.image || environment.radiance != vec3(0.0F);
 }
 
 }  // namespace
@@ -89,7 +85,8 @@ Aabb Scene::bounds() const {
 View defaultView(const Scene& scene) {
     View view;
     view.camera = scene.cameras.empty() ? framingCamera(scene.bounds()) : scene.cameras.front();
-    view.sun = defaultSun(scene, view.camera);
+    view.sunStandsIn = !isLit(scene);
+    view.sun = view.sunStandsIn ? shoulderSun(view.camera) : scene.sun.value_or(Sun{});
     view.environment = scene.environment;
     return view;
 }

@@ -153,6 +153,7 @@ struct View {
     Camera camera;
     Sun sun;
     Environment environment;
+    bool sunStandsIn = false;  ///< the scene has no light; the sun is there so that something is seen
 };
 
 /// The scene's first camera, its sun and its environment; where it has none, a camera that frames the whole scene

@@ -148,9 +148,14 @@ void applyViewFile(const std::filesystem::path& path, View& view) {
     }
     if (const auto sun = root.find("sun")) {
         changed.sun = readSun(*sun, view.sun);
+        changed.sunStandsIn = false;
     }
     if (const auto environment = root.find("environment")) {
         changed.environment = readEnvironment(*environment, view.environment, path.parent_path());
+        const bool shines = changed.environment.image || changed.environment.radiance != vec3(0.0F);
+        if (changed.sunStandsIn && shines) {
+            changed.sun.irradiance = vec3(0.0F);
+        }
     }
     view = changed;
 }

@@ -342,7 +342,7 @@ TEST_F(Reference, AnInterruptWritesWhatWasDoneAndEndsWithOne) {
         EXPECT_GE(std::stoi(number[1]), 1);
         EXPECT_EQ(files(), (Names{"a.exr", "a.png"}));
         Images all = images("a.exr");
-        EXPECT_EQ(all.size(), 8U);
+        EXPECT_EQ(all.size(), 9U);
         for (size_t i = 0; i < all["depth"].data.size(); ++i) {  // every pixel has been sampled
             ASSERT_TRUE(all["depth"].data[i] == 0.0F || all["albedo"].data[3 * i + 1] > 0.0F) << i;
         }
@@ -355,7 +355,7 @@ TEST_F(Reference, ALaterInterruptKeepsTheSamplesSoFar) {
     const Outcome done = interrupt(arguments(cubes, {"--noise", "1e-6", "-o", "a.exr"}), {SIGINT}, work);
     EXPECT_TRUE(refused(done, failed, {"interrupted after ", " samples per pixel; a.exr holds what was done"}));
     Images all = images("a.exr");
-    EXPECT_EQ(all.size(), 8U);
+    EXPECT_EQ(all.size(), 9U);
     EXPECT_GT(mean(all[""]), 0.01F);
 }
 

@@ -200,6 +200,25 @@ TEST_F(ViewFile, ReadsAnEnvironmentImageFromItsOwnFolder) {
     EXPECT_FALSE(view_.environment.image);
 }
 
+TEST_F(ViewFile, WithALightOfItsOwnTakesAwayTheSunThatOnlyStandsIn) {
+    const View unlit = defaultView(Scene{});
+    ASSERT_NE(unlit.sun.irradiance, vec3(0.0F));
+    view_ = unlit;
+    apply(R"({ "environment": { "radiance": [0, 0, 0] } })");
+    EXPECT_EQ(view_.sun.irradiance, unlit.sun.irradiance) << "a black sky is no light";
+    apply(R"({ "environment": { "radiance": [0, 0, 1] } })");
+    EXPECT_EQ(view_.sun.irradiance, vec3(0.0F));
+    view_ = unlit;
+    apply(R"({ "environment": { "radiance": [0, 0, 1] }, "sun": { "irradiance": [3, 2, 1] } })");
+    EXPECT_EQ(view_.sun.irradiance, vec3(3, 2, 1));
+    Scene sunny;
+    sunny.sun = Sun{};
+    sunny.sun->irradiance = {5, 5, 5};
+    view_ = defaultView(sunny);
+    apply(R"({ "environment": { "radiance": [0, 0, 1] } })");
+    EXPECT_EQ(view_.sun.irradiance, vec3(5.0F)) << "the scene's own";
+}
+
 TEST_F(ViewFile, WithAnEnvironmentImageThatIsNoneIsAnError) {
     EXPECT_EQ(errorOf(R"({"environment": {"image": 1}})"),
               "FILE: environment.image: must be the name of an .hdr or .exr file, is 1");
