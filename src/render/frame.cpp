@@ -41,7 +41,8 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
         LobeLight light;
         for (uint32_t first = 0; first < perPixel; first += batch) {
             const uint32_t count = std::min(perPixel - first, batch);
-            Rays rays = generateRays(f, out.g, lobe, {in.view, settings.diffuse, settings.specular, first, count});
+            Rays rays =
+                generateRays(f, out.g, in.ggxTable, lobe, {in.view, settings.diffuse, settings.specular, first, count});
             traceScreen(f, rays, out.g, pyramid, out.direct, lit, in.view, settings.traceScreen);
             answerEnvironment(f, rays, out.g, in.environment);
             light = resolveRays(f, rays, perPixel);

@@ -85,7 +85,10 @@ RayAnswer answerRay(ivec3 slot, Ray ray) {
     vec3 n = unpackUnitVector(texelFetch(geometricNormal, slot.xy, 0).r);
     vec4 ownPlane = planeOnScreen(p, n, params.view.clipToWorld);
     MarchResult hit = traceRay(makeMarchRay(p, ray.direction, ownPlane, view), jitter, view);
-    if (hit.outcome != marchHit) {
+    // What it would see of a surface from behind, the screen does not show.
+    bool facesAway = params.settings.rejectFacingAway != 0u && hit.outcome == marchHit &&
+                     dot(unpackUnitVector(texelFetch(geometricNormal, hit.pixel, 0).r), ray.direction) > 0.0;
+    if (hit.outcome != marchHit || facesAway) {
         return RayAnswer(vec3(0.0), 0.0, 0.0);
     }
     return RayAnswer(lightAt(hit.pixel), ray.trust, hit.distance);

@@ -22,7 +22,7 @@ CHOICES(TraceMethod, TRACE_METHODS)
 CHOICES(HitLight, HIT_LIGHTS)
 
 #define TRACE_SCREEN_SETTINGS(VALUE, SWITCH, CHOICE)                                                                   \
-    CHOICE(TraceMethod, method, linear,                                                                                \
+    CHOICE(TraceMethod, method, hiz,                                                                                   \
            "How rays find what they hit; linear: fixed steps in the world; halving: steps halved before what they "    \
            "would go behind; fixedPoint: the distance is replaced by that of what the screen shows; dda: steps of "    \
            "whole pixels; exhaustive: every pixel that the ray crosses; hiz: the same pixel by hierarchical depth.")   \
@@ -31,9 +31,10 @@ CHOICES(HitLight, HIT_LIGHTS)
     VALUE(float, smallestStep, 0.01, 0.0001, 10.0, "Metres; halving ends below it, fixedPoint when it moves by less.") \
     VALUE(float, stride, 1.0, 1.0, 64.0, "Pixels of a step of dda.")                                                   \
     VALUE(float, maxDistance, 1000.0, 0.01, 100000.0, "How far rays go in metres (dda, exhaustive, hiz).")             \
-    VALUE(uint, maxSteps, 64, 1, 4096,                                                                                 \
+    VALUE(uint, maxSteps, 128, 1, 4096,                                                                                \
           "Steps a ray may take (exhaustive: all it needs); one that has taken them all has missed.")                  \
     VALUE(float, thickness, 0.3, 0.001, 1000.0, "How thick every surface is taken to be, in metres along the view.")   \
+    SWITCH(rejectFacingAway, 0, "A ray that meets the far side of what the screen shows has missed.")                  \
     SWITCH(jitter, 1, "Start each ray at a random part of its first step: bands become grain.")                        \
     CHOICE(HitLight, light, direct,                                                                                    \
            "What a hit brings: this frame's direct light, or the last frame's whole picture (further bounces).")
