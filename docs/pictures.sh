@@ -11,11 +11,11 @@ render() { # scene name options...
     echo "$file"
 }
 
-render cubes cubes --preset quality --frames 4 --set diffuse.rays=128 --size 608x342
+render cubes cubes --preset quality --frames 4 --set diffuse.rays=128 --size 560x315
 render cornell cornell --preset quality --frames 4 --set diffuse.rays=64 --size 320x240
 render cornell cornell-direct --preset direct --size 320x240
-render mirror-hall mirror-hall --preset quality --frames 6 --size 480x270
-render mirror-hall mirror-hall-source --preset quality --size 480x270 --show specular_source
+render mirror-hall mirror-hall --preset quality --frames 6 --size 448x252
+render mirror-hall mirror-hall-source --preset quality --size 448x252 --show specular_source
 for show in albedo normal depth sun_visibility direct indirect_diffuse indirect_specular source; do
     render cubes "cubes-$show" --preset quality --size 320x180 --show "$show"
 done

@@ -7,6 +7,7 @@
 
 #include "render/bounce/answer_environment.h"
 #include "render/bounce/trace_screen.h"
+#include "render/pyramid/pyramid.h"
 #include "render/shadow/shadow.h"
 #include "render/tonemap/tonemap.h"
 
@@ -34,12 +35,15 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
     // One chain for both lobes: rays, then sources that answer in order of trust, each taking what is left over.
     const gpu::History lit = f.history("lit", VK_FORMAT_R16G16B16A16_SFLOAT, out.g.depth.size);
     const uint32_t batch = raysPerBatch(f, out.g.depth.size);
+    const gpu::Image pyramid =
+        settings.traceScreen.method == TraceMethod::hiz ? makePyramid(f, out.g.depth) : gpu::Image{};
     const auto traceLobe = [&](uint32_t lobe, uint32_t perPixel) {
         LobeLight light;
         for (uint32_t first = 0; first < perPixel; first += batch) {
             const uint32_t count = std::min(perPixel - first, batch);
-            Rays rays = generateRays(f, out.g, lobe, {in.view, settings.diffuse, settings.specular, first, count});
-            traceScreen(f, rays, out.g, out.direct, lit, in.view, settings.traceScreen);
+            Rays rays =
+                generateRays(f, out.g, in.ggxTable, lobe, {in.view, settings.diffuse, settings.specular, first, count});
+            traceScreen(f, rays, out.g, pyramid, out.direct, lit, in.view, settings.traceScreen);
             answerEnvironment(f, rays, out.g, in.environment);
             light = resolveRays(f, rays, perPixel);
         }

@@ -5,7 +5,7 @@
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { MarchScene params; };
-layout(set = 0, binding = 1, scalar) readonly buffer InputBlock { MarchRay items[]; } inputs;
+layout(set = 0, binding = 1, scalar) readonly buffer InputBlock { MarchInput items[]; } inputs;
 layout(set = 0, binding = 2, scalar) buffer OutputBlock { MarchAnswer items[]; } outputs;
 
 // Along a pixel, world points are a + depth · b in homogeneous coordinates.
@@ -24,19 +24,52 @@ float loadDepth(ivec2 pixel) {
     }
     return nearest;
 }
-#include "shaders/march.glsl"
+
+// By looking at all of the cell's pixels.
+vec2 loadCell(ivec2 cell, int level) {
+    ivec2 first = cell << level;
+    ivec2 last = min((cell + 1) << level, ivec2(params.view.size));
+    vec2 extremes = vec2(0.0, 1.0);
+    for (int y = first.y; y < last.y; ++y) {
+        for (int x = first.x; x < last.x; ++x) {
+            float depth = loadDepth(ivec2(x, y));
+            extremes = vec2(max(extremes.x, depth), min(extremes.y, depth));
+        }
+    }
+    return extremes;
+}
+#include "shaders/march_hiz.glsl"
+#include "shaders/march_world.glsl"
+
+layout(constant_id = 0) const uint method = 0u;
+
+MarchResult march(MarchInput i, MarchRay ray, MarchView view) {
+    switch (method) {
+        case marchMethodHalving:
+            return marchHalving(ray, i.stepLength, i.smallest, i.maxSteps, i.thickness, i.jitter, view);
+        case marchMethodFixedPoint:
+            return marchFixedPoint(ray, i.stepLength, i.smallest, i.maxSteps, i.thickness, view);
+        case marchMethodDda:
+            return marchDda(ray, marchLongest, i.stepLength, i.maxSteps, i.thickness, i.jitter, view);
+        case marchMethodExhaustive:
+            return marchExhaustive(ray, marchLongest, i.maxSteps, i.thickness, view);
+        case marchMethodHiz:
+            return marchHiz(ray, marchLongest, i.maxSteps, i.thickness, marchLevels, view);
+        default:
+            return marchLinear(ray, i.stepLength, i.maxSteps, i.thickness, i.jitter, view);
+    }
+}
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= outputs.items.length()) {
         return;
     }
-    MarchRay ray = inputs.items[i];
-    MarchView view = MarchView(params.view.worldToClip, params.view.viewPlane, params.view.depthToDistance,
-                               params.view.size);
-    vec4 ownPlane = ray.normal == vec3(0.0) ? vec4(0.0, 0.0, 0.0, 1.0)  // all is far above it
-                                            : planeOnScreen(ray.origin, ray.normal, params.view.clipToWorld);
-    MarchResult r = marchLinear(ray.origin, ray.direction, ray.stepLength, ray.maxSteps, ray.thickness, ray.jitter,
-                                ownPlane, view);
+    MarchInput given = inputs.items[i];
+    MarchView view = MarchView(params.view.worldToClip, params.view.clipToWorld, params.view.viewPlane,
+                               params.view.depthToDistance, params.view.size);
+    vec4 ownPlane = given.normal == vec3(0.0) ? vec4(0.0, 0.0, 0.0, 1.0)  // all is far above it
+                                              : planeOnScreen(given.origin, given.normal, params.view.clipToWorld);
+    MarchResult r = march(given, makeMarchRay(given.origin, given.direction, ownPlane, view), view);
     outputs.items[i] = MarchAnswer(r.outcome, r.pixel.x, r.pixel.y, r.distance, r.steps);
 }

@@ -1,71 +1,9 @@
 // march.glsl: walls met at known depths, and every way to miss. The camera looks along -Z from the origin; walls face
 // it.
-#include "shader/march_test.h"
-
-#include "render/renderer.h"
-#include "shader/harness.h"
-
-#include <algorithm>
-#include <random>
+#include "shader/march_scene.h"
 
 namespace reflet::test {
 namespace {
-
-constexpr uint32_t marchHit = 0;
-constexpr uint32_t marchLeftScreen = 1;
-constexpr uint32_t marchSpent = 2;
-constexpr uvec2 pixels{320, 180};
-
-Camera cameraOf(bool orthographic) {
-    Camera camera;
-    camera.position = vec3(0.0F);
-    camera.target = vec3(0, 0, -1);
-    camera.near = 0.1F;
-    camera.orthographicHeight = orthographic ? 10.0F : 0.0F;
-    camera.far = 100.0F;
-    return camera;
-}
-
-/// The plane z = -distance, where uv lies in the given part of the screen.
-MarchWall wallAt(float distance, vec2 firstUv = vec2(-1.0F), vec2 lastUv = vec2(2.0F)) {
-    return {vec4(0, 0, 1, distance), firstUv, lastUv};
-}
-
-class March : public ShaderTest, public ::testing::WithParamInterface<bool> {
-protected:
-    [[nodiscard]] static MarchScene sceneOf(const std::vector<MarchWall>& walls) {
-        MarchScene scene{};
-        scene.view = makeViewParams(cameraOf(GetParam()), pixels, 0, 0);
-        std::ranges::copy(walls, scene.walls);
-        scene.wallCount = static_cast<uint32_t>(walls.size());
-        return scene;
-    }
-
-    static std::vector<MarchAnswer> march(const MarchScene& scene, const std::vector<MarchRay>& rays) {
-        return mapOnDevice<MarchAnswer>("march_test.comp", rays, scene);
-    }
-
-    /// Where a world point is on the screen [pixels], in double precision.
-    static glm::dvec2 project(const glm::dvec3& p) {
-        const double scale = GetParam() ? 1.0 / 10.0 : 0.5 / (std::tan(glm::radians(30.0)) * -p.z);
-        return {0.5 * pixels.x + p.x * scale * pixels.y, 0.5 * pixels.y - p.y * scale * pixels.y};
-    }
-
-    /// Rays from all over the middle of the view into its depth.
-    static std::vector<MarchRay> raysIntoDepth(float jitter, float stepLength) {
-        std::mt19937 random(7);
-        const auto between = [&](float low, float high) {
-            return low + (high - low) * static_cast<float>(random() >> 8U) / 16777216.0F;
-        };
-        std::vector<MarchRay> rays;
-        for (int i = 0; i < 500; ++i) {
-            const vec3 origin(between(-0.5F, 0.5F), between(-0.5F, 0.5F), between(-4.0F, -2.0F));
-            const vec3 direction = glm::normalize(vec3(between(-0.3F, 0.3F), between(-0.25F, 0.25F), -1.0F));
-            rays.push_back({origin, direction, stepLength, 4096, 0.5F, jitter, {}});
-        }
-        return rays;
-    }
-};
 
 INSTANTIATE_TEST_SUITE_P(Cameras, March, ::testing::Bool(), [](const auto& camera) {
     return camera.param ? std::string("orthographic") : std::string("perspective");
@@ -126,7 +64,7 @@ TEST_P(March, isSpentAlongAWallThatItNeverMeets) {
 
 // Steps of 0.5 from z = -2.25: the wall at -10 lies between the fifteenth (-9.75) and the sixteenth (-10.25).
 TEST_P(March, hitsWithItsLastStepAndMissesWithTheStepAfter) {
-    MarchRay ray{vec3(0.1F, 0.1F, -2.25F), vec3(0, 0, -1), 0.5F, 16, 0.5F, 1.0F};
+    MarchInput ray{vec3(0.1F, 0.1F, -2.25F), vec3(0, 0, -1), 0.5F, 16, 0.5F, 1.0F};
     const MarchScene scene = sceneOf({wallAt(10.0F)});
     const auto last = march(scene, {ray}).front();
     EXPECT_EQ(last.outcome, marchHit);
@@ -182,7 +120,7 @@ TEST_P(March, leavesTheScreenPastTheCamera) {
 // A wall at 5 m covers the right half; rays pass a metre behind it.
 TEST_P(March, passesBehindAWallThatIsThinnerThanTheGap) {
     const MarchScene scene = sceneOf({wallAt(5.0F, vec2(0.5F, 0.0F), vec2(1.0F))});
-    MarchRay ray{vec3(-1.0F, 0.1F, -6.0F), vec3(1, 0, 0), 0.03F, 84, 0.9F, 1.0F};  // no pixel is stepped over
+    MarchInput ray{vec3(-1.0F, 0.1F, -6.0F), vec3(1, 0, 0), 0.03F, 84, 0.9F, 1.0F};  // no pixel is stepped over
     const auto thin = march(scene, {ray}).front();
     EXPECT_EQ(thin.outcome, marchSpent);
     EXPECT_GT(thin.pixelX, 170);  // it was behind the wall
@@ -201,7 +139,7 @@ TEST_P(March, passesInFrontOfWhatLiesBehindIt) {
 
 TEST_P(March, neverHitsTheSky) {
     auto rays = raysIntoDepth(1.0F, 0.5F);
-    for (MarchRay& ray : rays) {
+    for (MarchInput& ray : rays) {
         ray.maxSteps = 12;
         ray.thickness = 1000.0F;
     }
@@ -216,8 +154,8 @@ class MarchOffTheFloor : public March {
 protected:
     static MarchScene floorAndWall() { return sceneOf({{vec4(0, 1, 0, 1), vec2(-1.0F), vec2(2.0F)}, wallAt(20.0F)}); }
 
-    static std::vector<MarchRay> raysAlongTheFloor(const vec3& normal) {
-        std::vector<MarchRay> rays;
+    static std::vector<MarchInput> raysAlongTheFloor(const vec3& normal) {
+        std::vector<MarchInput> rays;
         for (int i = 0; i < 200; ++i) {
             const float part = static_cast<float>(i) / 200.0F;
             const vec3 origin(-0.5F + part, -1.0F, -8.0F - 3.0F * part);
@@ -239,7 +177,7 @@ TEST_P(MarchOffTheFloor, neverHitsTheFloorThatTheRayLeaves) {
 
 TEST_P(MarchOffTheFloor, stillMeetsTheWallBehindIt) {
     auto rays = raysAlongTheFloor(vec3(0, 1, 0));
-    for (MarchRay& ray : rays) {
+    for (MarchInput& ray : rays) {
         ray.direction = glm::normalize(vec3(0.1F, 0.05F, -1.0F));
         ray.maxSteps = 4096;
     }

@@ -22,14 +22,26 @@ struct MarchScene {
     uint wallCount;
 };
 
-struct MarchRay {
+const uint marchMethodLinear = 0;
+const uint marchMethodHalving = 1;
+const uint marchMethodFixedPoint = 2;
+const uint marchMethodDda = 3;
+const uint marchMethodExhaustive = 4;
+const uint marchMethodHiz = 5;
+const int marchLevels = 6;
+
+// How long rays get in the methods that step through pixels.
+const float marchLongest = 1000;
+
+struct MarchInput {
     vec3 origin;
     vec3 direction;
-    float stepLength;
+    float stepLength;  // metres; DDA: pixels; fixed point: the first distance
     uint maxSteps;
     float thickness;
     float jitter;
-    vec3 normal;  // of the plane that the ray leaves; 0: none
+    vec3 normal;     // of the plane that the ray leaves; 0: none
+    float smallest;  // halving: step; fixed point: tolerance
 };
 
 struct MarchAnswer {

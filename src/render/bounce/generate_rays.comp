@@ -1,5 +1,5 @@
 // Makes the rays of a lobe: directions, weights, and the list of all that need an answer.
-// In: depth, both normals, material. Out: direction, answer and source (cleared), the list.
+// In: depth, both normals, material, base colour, GGX table. Out: direction, answer and source (cleared), the list.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/bounce/rays.glsl"
@@ -16,6 +16,8 @@ layout(set = 0, binding = 1) uniform sampler2D depth;
 layout(set = 0, binding = 2) uniform usampler2D normal;
 layout(set = 0, binding = 8) uniform usampler2D geometricNormal;
 layout(set = 0, binding = 3) uniform sampler2D material;
+layout(set = 0, binding = 9) uniform sampler2D baseColor;
+layout(set = 0, binding = 10) uniform sampler2D ggxTable;
 layout(set = 0, binding = 4, rg32ui) uniform writeonly uimage2DArray direction;
 layout(set = 0, binding = 5, rgba16f) uniform writeonly image2DArray answer;
 layout(set = 0, binding = 6, rgba8) uniform writeonly image2DArray source;
@@ -44,10 +46,36 @@ vec3 raiseAbove(vec3 direction, vec3 geometric) {
     return height < lowestRay ? normalize(direction + geometric * (lowestRay - height)) : direction;
 }
 
-Ray mirrorRay(vec3 n, vec3 v, float roughness) {
-    vec3 r = reflect(-v, n);
-    float fade = smoothstep(params.specular.maxRoughness - 0.1, params.specular.maxRoughness, roughness);
-    return Ray(r, 1.0, 1.0 - fade);
+// Below this perceptual roughness the lobe is narrower than anything on the screen.
+const float mirrorRoughness = 0.01;
+
+// One of the microfacet normals that are seen from v reflects it. The weight is BRDF · cos / pdf over the directional
+// albedo, which composite multiplies in. One number for three colours: F0 by its luminance.
+Ray specularRay(ivec2 pixel, uint number, vec3 n, vec3 v, MaterialTexel m) {
+    mat3 frame = basisAround(n);
+    vec3 eye = v * frame;
+    eye = normalize(vec3(eye.xy, max(eye.z, 1e-3)));  // normal maps may turn away from the eye
+    float alpha = m.roughness * m.roughness;
+    vec3 h = vec3(0.0, 0.0, 1.0);
+    float share = 1.0;  // of the light along the ray that is not masked
+    if (m.roughness > mirrorRoughness) {
+        uint stream = number * 2u + hashPcg(params.view.seed + 1u);
+        h = sampleGgxVisible(hashToUnit2(hashPixel(uvec2(pixel), stream, params.view.frame)), eye, alpha);
+    }
+    vec3 l = 2.0 * dot(eye, h) * h - eye;
+    if (m.roughness > mirrorRoughness) {
+        float a2 = alpha * alpha;
+        share = ggxVisibility(max(l.z, 0.0), eye.z, alpha) * 2.0 * max(l.z, 0.0) *
+                (eye.z + sqrt(eye.z * eye.z * (1.0 - a2) + a2));
+    }
+    vec3 f0 = mix(vec3(dielectricF0), unpackBaseColor(texelFetch(baseColor, pixel, 0).rgb), m.metallic);
+    float y = dot(f0, vec3(0.2126, 0.7152, 0.0722));
+    vec2 table = textureLod(ggxTable, ggxTableUv(eye.z, m.roughness), 0.0).rg;
+    float weight = share * fresnelSchlick(vec3(y), dot(eye, h)).x / max(y * table.x + table.y, 1e-3);
+    float fade = params.specular.maxRoughness < 1.0
+                     ? smoothstep(params.specular.maxRoughness - 0.1, params.specular.maxRoughness, m.roughness)
+                     : 0.0;
+    return Ray(frame * l, weight, 1.0 - fade);
 }
 
 void main() {
@@ -67,7 +95,7 @@ void main() {
         Ray ray = Ray(vec3(0.0, 0.0, 1.0), 0.0, 0.0);
         if (needed) {
             ray = lobe == lobeDiffuse ? diffuseRay(pixel, params.firstRay + i, n)
-                                      : mirrorRay(n, directionToEye(p, params.view.eye), m.roughness);
+                                      : specularRay(pixel, params.firstRay + i, n, directionToEye(p, params.view.eye), m);
             ray.direction = raiseAbove(ray.direction, unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r));
             appendRay(packSlot(slot), 1.0);
         }

@@ -26,7 +26,8 @@ gpu::BufferView makeRayList(gpu::Frame& f, const Rays& rays, std::string_view na
     return list;
 }
 
-Rays generateRays(gpu::Frame& f, const GBuffer& g, uint32_t lobe, const GenerateRaysParams& params) {
+Rays generateRays(gpu::Frame& f, const GBuffer& g, gpu::Image ggxTable, uint32_t lobe,
+                  const GenerateRaysParams& params) {
     const uvec2 size = g.depth.size;
     const uint32_t layers = raysPerBatch(f, size);
     Rays rays{.direction = f.image("rays.direction", VK_FORMAT_R32G32_UINT, size, layers, true),
@@ -43,6 +44,8 @@ Rays generateRays(gpu::Frame& f, const GBuffer& g, uint32_t lobe, const Generate
         .read("normal", g.normal)
         .read("geometricNormal", g.geometricNormal)
         .read("material", g.material)
+        .read("baseColor", g.baseColor)
+        .read("ggxTable", ggxTable, f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
         .write("direction", rays.direction)
         .write("answer", rays.answer)
         .write("source", rays.source)

@@ -22,10 +22,11 @@ CHOICES(RayDistribution, RAY_DISTRIBUTIONS)
     CHOICE(RayDistribution, distribution, cosine, "How their directions are spread over the hemisphere.")
 SETTINGS(DiffuseSettings, DIFFUSE_SETTINGS)
 
-#define SPECULAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                                 \
-    VALUE(uint, rays, 1, 0, 1, "Rays per pixel for reflections, in the mirror direction; 0: none are computed.") \
-    VALUE(float, maxRoughness, 0.4, 0.0, 1.0,                                                                    \
-          "Rougher surfaces leave their reflections to the sources behind the screen.")
+#define SPECULAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                 \
+    VALUE(uint, rays, 1, 0, 256,                                                                 \
+          "Rays per pixel for reflections, spread as the roughness says; 0: none are computed.") \
+    VALUE(float, maxRoughness, 1.0, 0.0, 1.0,                                                    \
+          "Rougher surfaces leave their reflections to the sources behind the screen; 1: none do.")
 SETTINGS(SpecularSettings, SPECULAR_SETTINGS)
 
 // Lobes, as the specialization constant `lobe`.
@@ -94,7 +95,8 @@ struct LobeLight {
 uint32_t raysPerBatch(gpu::Frame& f, uvec2 size);
 
 /// Rays firstRay .. firstRay + count of every pixel that has a surface (and the lobe).
-Rays generateRays(gpu::Frame& f, const GBuffer& g, uint32_t lobe, const GenerateRaysParams& params);
+Rays generateRays(gpu::Frame& f, const GBuffer& g, gpu::Image ggxTable, uint32_t lobe,
+                  const GenerateRaysParams& params);
 
 /// An empty list as large as the rays' own, for what a source misses.
 gpu::BufferView makeRayList(gpu::Frame& f, const Rays& rays, std::string_view name);

@@ -1,11 +1,14 @@
 // Marches waiting rays through the depth buffer; a hit takes the light that the screen shows there.
-// In: depth, geometric normal, motion, light of this and the last frame, ray directions, the list. Out: answers, sources, the list of misses.
+// In: depth, geometric normal, motion, pyramid, light of this and the last frame, ray directions, the list. Out: answers, sources, the list of misses.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/bounce/rays.glsl"
 #include "render/bounce/trace_screen.h"
+#include "render/pyramid/pyramid.glsl"
 #include "shaders/noise.glsl"
 #include "shaders/projection.glsl"
+
+layout(constant_id = 0) const uint method = 0u;
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { TraceScreenParams params; };
@@ -14,6 +17,7 @@ layout(set = 0, binding = 2) uniform usampler2D geometricNormal;
 layout(set = 0, binding = 3, rgba16f) uniform readonly image2D direct;
 layout(set = 0, binding = 9, rgba16f) uniform readonly image2D previousLit;
 layout(set = 0, binding = 10) uniform sampler2D motion;
+layout(set = 0, binding = 11) uniform sampler2D pyramid;
 layout(set = 0, binding = 4, rg32ui) uniform readonly uimage2DArray direction;
 layout(set = 0, binding = 5, scalar) readonly buffer WaitingBlock {
     uint groups[3];
@@ -30,8 +34,15 @@ layout(set = 0, binding = 8, scalar) buffer MissedBlock {
 #include "render/bounce/rays_append.glsl"
 #include "render/bounce/rays_answer.glsl"
 
+// No ray crosses more pixels.
+const uint exhaustiveSteps = 2u * 16384u;
+
 float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
-#include "shaders/march.glsl"
+vec2 loadCell(ivec2 cell, int level) {
+    return texelFetch(pyramid, cell + ivec2(0, pyramidRow(ivec2(params.view.size), level)), 0).rg;
+}
+#include "shaders/march_hiz.glsl"
+#include "shaders/march_world.glsl"
 
 // Of what the pixel shows. A point that the last frame did not have on screen gives its direct light.
 vec3 lightAt(ivec2 pixel) {
@@ -44,20 +55,40 @@ vec3 lightAt(ivec2 pixel) {
     return imageLoad(direct, pixel).rgb;
 }
 
+MarchResult traceRay(MarchRay ray, float jitter, MarchView view) {
+    TraceScreenSettings s = params.settings;
+    switch (method) {
+        case TraceMethod_halving:
+            return marchHalving(ray, s.step, s.smallestStep, s.maxSteps, s.thickness, jitter, view);
+        case TraceMethod_fixedPoint:
+            return marchFixedPoint(ray, s.step, s.smallestStep, s.maxSteps, s.thickness, view);
+        case TraceMethod_dda:
+            return marchDda(ray, s.maxDistance, s.stride, s.maxSteps, s.thickness, jitter, view);
+        case TraceMethod_exhaustive:
+            return marchExhaustive(ray, s.maxDistance, exhaustiveSteps, s.thickness, view);
+        case TraceMethod_hiz:
+            return marchHiz(ray, s.maxDistance, s.maxSteps, s.thickness, int(pyramidLevels), view);
+        default:
+            return marchLinear(ray, s.step, s.maxSteps, s.thickness, jitter, view);
+    }
+}
+
 RayAnswer answerRay(ivec3 slot, Ray ray) {
     float jitter = 1.0;
     if (params.settings.jitter != 0u) {
         uint stream = (params.firstRay + uint(slot.z)) * 2u + 1u + hashPcg(params.view.seed);
         jitter = 1.0 - hashToUnit(hashPixel(uvec2(slot.xy), stream, params.view.frame));
     }
-    MarchView view = MarchView(params.view.worldToClip, params.view.viewPlane, params.view.depthToDistance,
-                               params.view.size);
+    MarchView view = MarchView(params.view.worldToClip, params.view.clipToWorld, params.view.viewPlane,
+                               params.view.depthToDistance, params.view.size);
     vec3 p = uvToWorld(pixelToUv(slot.xy, params.view.pixel), loadDepth(slot.xy), params.view.clipToWorld);
     vec3 n = unpackUnitVector(texelFetch(geometricNormal, slot.xy, 0).r);
-    MarchResult hit =
-        marchLinear(p, ray.direction, params.settings.step, params.settings.maxSteps, params.settings.thickness, jitter,
-                    planeOnScreen(p, n, params.view.clipToWorld), view);
-    if (hit.outcome != marchHit) {
+    vec4 ownPlane = planeOnScreen(p, n, params.view.clipToWorld);
+    MarchResult hit = traceRay(makeMarchRay(p, ray.direction, ownPlane, view), jitter, view);
+    // What it would see of a surface from behind, the screen does not show.
+    bool facesAway = params.settings.rejectFacingAway != 0u && hit.outcome == marchHit &&
+                     dot(unpackUnitVector(texelFetch(geometricNormal, hit.pixel, 0).r), ray.direction) > 0.0;
+    if (hit.outcome != marchHit || facesAway) {
         return RayAnswer(vec3(0.0), 0.0, 0.0);
     }
     return RayAnswer(lightAt(hit.pixel), ray.trust, hit.distance);

@@ -3,11 +3,13 @@
 
 namespace reflet {
 
-void traceScreen(gpu::Frame& f, Rays& rays, const GBuffer& g, gpu::Image direct, const gpu::History& lit,
-                 const ViewParams& view, const TraceScreenSettings& settings) {
+void traceScreen(gpu::Frame& f, Rays& rays, const GBuffer& g, gpu::Image pyramid, gpu::Image direct,
+                 const gpu::History& lit, const ViewParams& view, const TraceScreenSettings& settings) {
     const gpu::BufferView missed = makeRayList(f, rays, "rays.missed_by_screen");
     f.compute("trace_screen", "trace_screen.comp")
+        .constant("method", static_cast<uint32_t>(settings.method))
         .read("depth", g.depth)
+        .read("pyramid", pyramid ? pyramid : g.depth)
         .read("geometricNormal", g.geometricNormal)
         .read("motion", g.motion)
         .read("direct", direct)

@@ -1,0 +1,33 @@
+// Makes one level of the depth pyramid. In: depth (level 1) or the level below. Out: the level, in the same image.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "render/pyramid/pyramid.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { PyramidParams params; };
+layout(set = 0, binding = 1) uniform sampler2D depth;
+layout(set = 0, binding = 2, rg32f) uniform image2D pyramid;
+
+ivec2 pixels = ivec2(params.size);
+int level = int(params.level);
+
+vec2 below(ivec2 cell) {
+    cell = min(cell, pyramidSize(pixels, level - 1) - 1);  // of an odd size, the last one twice
+    if (level == 1) {
+        return texelFetch(depth, cell, 0).rr;
+    }
+    return imageLoad(pyramid, cell + ivec2(0, pyramidRow(pixels, level - 1))).rg;
+}
+
+void main() {
+    ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(cell, pyramidSize(pixels, level)))) {
+        return;
+    }
+    vec2 a = below(2 * cell);
+    vec2 b = below(2 * cell + ivec2(1, 0));
+    vec2 c = below(2 * cell + ivec2(0, 1));
+    vec2 d = below(2 * cell + ivec2(1, 1));
+    vec2 extremes = vec2(max(max(a.x, b.x), max(c.x, d.x)), min(min(a.y, b.y), min(c.y, d.y)));
+    imageStore(pyramid, cell + ivec2(0, pyramidRow(pixels, level)), vec4(extremes, 0.0, 0.0));
+}

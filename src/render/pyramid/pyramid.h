@@ -1,0 +1,33 @@
+// The depth pyramid: nearest and farthest depth of ever larger squares of pixels. Shared by C++ and GLSL.
+// All levels lie in one image, below one another: level 1 (2x2 pixels a cell) at the top. Sizes are rounded up, so that
+// cells at the right and lower edges of odd sizes stand for fewer pixels and no pixel is left out.
+#ifndef REFLET_RENDER_PYRAMID_H
+#define REFLET_RENDER_PYRAMID_H
+
+#include "base/shared.h"
+
+SHARED_BEGIN
+
+// Levels that rays use, the pixels themselves (level 0) included: cells of up to 64 x 64 pixels.
+const uint pyramidLevels = 7;
+
+struct PyramidParams {
+    uvec2 size;  // of level 0
+    uint level;  // to make, from 1
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "gpu/frame.h"
+
+namespace reflet {
+
+/// RG32F: the largest (nearest) and the smallest (farthest) reversed depth of each cell.
+gpu::Image makePyramid(gpu::Frame& f, gpu::Image depth);
+
+}  // namespace reflet
+#endif
+
+#endif

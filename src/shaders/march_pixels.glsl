@@ -1,0 +1,127 @@
+// Methods that step from pixel to pixel: every pixel that the ray crosses (the oracle), and a DDA with a stride.
+// (McGuire and Mara, Efficient GPU Screen-Space Ray Tracing, JCGT 2014; Amanatides and Woo, A Fast Voxel Traversal
+// Algorithm for Ray Tracing, 1987)
+#ifndef REFLET_MARCH_PIXELS_GLSL
+#define REFLET_MARCH_PIXELS_GLSL
+
+#include "shaders/march.glsl"
+
+// The part of a ray that is on the screen: there it is straight in (pixel x, pixel y, depth), from `start` by `delta`,
+// while s goes from 0 to 1. With s0 = start's clip w and s1 the end's, metres along the ray are
+// end · s · s0 / (s1 + s (s0 - s1)).
+struct ScreenRay {
+    vec3 start;
+    vec3 delta;
+    float end;     // metres
+    float wStart;
+    float wEnd;
+    bool leaves;   // it ends at the edge of the screen; else it is as long as rays get
+};
+
+float metresAt(ScreenRay r, float s) {
+    return r.end * s * r.wStart / (r.wEnd + s * (r.wStart - r.wEnd));
+}
+
+// How far the ray may go until a + t · b is negative.
+float lengthInside(float a, float b) { return b < 0.0 ? max(a / -b, 0.0) : 1e30; }
+
+ScreenRay makeScreenRay(MarchRay ray, float longest, MarchView view) {
+    vec4 a = ray.clipStart;
+    vec4 b = ray.clipStep;
+    float end = min(min(lengthInside(a.w + a.x, b.w + b.x), lengthInside(a.w - a.x, b.w - b.x)),
+                    min(lengthInside(a.w + a.y, b.w + b.y), lengthInside(a.w - a.y, b.w - b.y)));
+    end = min(end, min(lengthInside(a.w - a.z, b.w - b.z), lengthInside(a.z, b.z)));
+    ScreenRay r;
+    r.leaves = end <= longest;
+    r.end = min(end, longest);
+    vec4 last = a + r.end * b;
+    r.wStart = a.w;
+    r.wEnd = last.w;
+    vec3 first = vec3(ndcToUv(a.xy / a.w) * view.size, a.z / a.w);
+    r.start = first;
+    r.delta = vec3(ndcToUv(last.xy / last.w) * view.size, last.z / last.w) - first;
+    return r;
+}
+
+// Whether the ray, between two distances, is behind what the pixel shows by less than the thickness; `at`: where first.
+bool meetsPixel(MarchRay ray, ivec2 pixel, float first, float last, float thickness, MarchView view, out float at) {
+    float depth = loadDepth(pixel);
+    float front = depthToViewDistance(depth, view.depthToDistance);
+    float awayFirst = ray.awayStart + first * ray.awayStep;
+    float awayLast = ray.awayStart + last * ray.awayStep;
+    at = first;
+    if (max(awayFirst, awayLast) <= front || min(awayFirst, awayLast) >= front + thickness ||
+        !isForeign(ray, pixel, depth, view)) {
+        return false;
+    }
+    if (awayFirst < front || awayFirst > front + thickness) {
+        float border = awayFirst < front ? front : front + thickness;
+        at = clamp((border - ray.awayStart) / ray.awayStep, first, last);
+    }
+    return true;
+}
+
+// Every pixel that the ray crosses, in order. longest: metres.
+MarchResult marchExhaustive(MarchRay ray, float longest, uint maxSteps, float thickness, MarchView view) {
+    ScreenRay r = makeScreenRay(ray, longest, view);
+    ivec2 lastPixel = ivec2(view.size) - 1;
+    ivec2 pixel = clamp(ivec2(floor(r.start.xy)), ivec2(0), lastPixel);
+    ivec2 direction = ivec2(sign(r.delta.xy));
+    MarchResult result = MarchResult(marchSpent, pixel, 0.0, 0u);
+    float first = 0.0;
+    for (uint i = 0u; i < maxSteps; ++i) {
+        // Borders are whole numbers: no error adds up over the way.
+        vec2 border = vec2(pixel + max(direction, ivec2(0))) - r.start.xy;
+        vec2 s = vec2(direction.x == 0 ? 1e30 : border.x / r.delta.x, direction.y == 0 ? 1e30 : border.y / r.delta.y);
+        float sLast = min(min(s.x, s.y), 1.0);
+        float last = metresAt(r, sLast);
+        float at;
+        result.pixel = pixel;
+        result.steps = i + 1u;
+        if (meetsPixel(ray, pixel, first, last, thickness, view, at)) {
+            result.outcome = marchHit;
+            result.distance = at;
+            break;
+        }
+        result.distance = last;
+        pixel += s.x <= s.y ? ivec2(direction.x, 0) : ivec2(0, direction.y);
+        if (sLast >= 1.0 || any(lessThan(pixel, ivec2(0))) || any(greaterThan(pixel, lastPixel))) {
+            result.outcome = r.leaves ? marchLeftScreen : marchSpent;
+            break;
+        }
+        first = last;
+    }
+    return result;
+}
+
+// Steps of `stride` pixels along the axis on which the ray is longer. Each sample stands for the part of the ray that is
+// nearer to it than to its neighbours. jitter: 0..1, what part of a stride the first one is.
+MarchResult marchDda(MarchRay ray, float longest, float stride, uint maxSteps, float thickness, float jitter,
+                     MarchView view) {
+    ScreenRay r = makeScreenRay(ray, longest, view);
+    float pixels = max(max(abs(r.delta.x), abs(r.delta.y)), 1e-3);
+    float sStep = stride / pixels;
+    MarchResult result = MarchResult(marchSpent, ivec2(r.start.xy), 0.0, 0u);
+    float first = 0.0;
+    for (uint i = 0u; i < maxSteps; ++i) {
+        float s = (float(i) + jitter) * sStep;
+        if (s >= 1.0) {
+            result.outcome = r.leaves ? marchLeftScreen : marchSpent;
+            break;
+        }
+        float last = metresAt(r, min(s + 0.5 * sStep, 1.0));
+        float at;
+        result.pixel = clamp(ivec2(floor(r.start.xy + s * r.delta.xy)), ivec2(0), ivec2(view.size) - 1);
+        result.steps = i + 1u;
+        if (meetsPixel(ray, result.pixel, first, last, thickness, view, at)) {
+            result.outcome = marchHit;
+            result.distance = at;
+            break;
+        }
+        result.distance = last;
+        first = last;
+    }
+    return result;
+}
+
+#endif
