@@ -42,7 +42,7 @@ float linearToSrgb(float linear) {
     return c <= 0.0031308F ? 12.92F * c : 1.055F * std::pow(c, 1.0F / 2.4F) - 0.055F;
 }
 
-float luminance(const vec3& linear) {
+float cieLuminance(const vec3& linear) {
     return linearToXyz[0].y * linear.x + linearToXyz[1].y * linear.y + linearToXyz[2].y * linear.z;
 }
 

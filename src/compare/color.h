@@ -14,7 +14,7 @@ float srgbToLinear(float encoded);
 float linearToSrgb(float linear);
 
 /// CIE Y of a linear colour: 1 for white.
-float luminance(const vec3& linear);
+float cieLuminance(const vec3& linear);
 
 /// YyCxCz, the opponent space in which the eye's blur is applied: Yy -16..100 (black..white), Cx red against green, Cz
 /// yellow against blue. It is an affine function of the linear colour.

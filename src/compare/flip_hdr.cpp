@@ -73,7 +73,7 @@ float displayTone(float radiance) {
 ExposureRange exposureRange(const Planes3& truth) {
     std::vector<float> luminances(truth[0].data.size());
     for (size_t i = 0; i < luminances.size(); ++i) {
-        luminances[i] = luminance(positive(truth, i));
+        luminances[i] = cieLuminance(positive(truth, i));
     }
     const double largest = *std::ranges::max_element(luminances);
     if (largest <= 0.0) {

@@ -1,6 +1,8 @@
 // What shines.
 #include "reference/lights.h"
 
+#include "base/color.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,10 +11,6 @@ namespace reflet {
 namespace {
 
 constexpr float pi = glm::pi<float>();
-
-float luminance(const vec3& c) {
-    return glm::dot(c, vec3(0.2126F, 0.7152F, 0.0722F));
-}
 
 // KHR_lights_punctual. Irradiance on a surface at p that faces the lamp.
 LightSample lampAt(const Lamp& lamp, const vec3& p) {

@@ -1,4 +1,5 @@
 // Light from the environment: its image's texels are drawn by the light that they send.
+#include "base/color.h"
 #include "reference/lights.h"
 #include "scene/environment.h"
 
@@ -31,8 +32,7 @@ void Lights::prepareEnvironment() {
     for (size_t row = 0; row < image.height; ++row) {
         const double solidAngle = texelSolidAngle(image, row);
         for (size_t i = row * image.width; i < (row + 1) * image.width; ++i) {
-            const float* c = &image.data[3 * i];
-            weights[i] = solidAngle * (0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]);
+            weights[i] = solidAngle * luminance({image.data[3 * i], image.data[3 * i + 1], image.data[3 * i + 2]});
         }
     }
     texels_ = Distribution(weights);

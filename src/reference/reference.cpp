@@ -2,6 +2,7 @@
 // changes nothing.
 #include "reference/reference.h"
 
+#include "base/color.h"
 #include "base/error.h"
 #include "reference/path_tracer.h"
 
@@ -22,10 +23,6 @@ namespace {
 
 constexpr uint32_t tileSize = 16;
 constexpr uint32_t largestPass = 16;  // samples per pixel between two looks at the noise
-
-float luminance(const vec3& c) {
-    return glm::dot(c, vec3(0.2126F, 0.7152F, 0.0722F));
-}
 
 struct PixelSum {
     vec3 direct{0.0F};

@@ -1,6 +1,8 @@
 // Reads the scene's images.
 #include "reference/texture.h"
 
+#include "base/color.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,9 +13,8 @@ namespace {
 
 std::array<float, 256> decodingTable() {
     std::array<float, 256> table{};
-    for (size_t i = 0; i < table.size(); ++i) {  // IEC 61966-2-1
-        const double c = static_cast<double>(i) / 255.0;
-        table[i] = static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+    for (size_t i = 0; i < table.size(); ++i) {
+        table[i] = static_cast<float>(decodeSrgb(static_cast<double>(i) / 255.0));
     }
     return table;
 }

@@ -1,5 +1,6 @@
 // What the path tracer promises besides radiometry: the same picture on any number of threads and with any sampling,
 // what the camera sees, layers, interruption.
+#include "base/color.h"
 #include "reference/bsdf.h"
 #include "reference/harness.h"
 #include "reference/sampler.h"
@@ -94,7 +95,6 @@ TEST(Picture, NoiseIsTheErrorThatAnotherRunHas) {
     options.samples = 16;
     options.seed = 7;
     const ReferencePicture p = traceReference(scene, defaultView(scene), {32, 18}, options);
-    const auto luminance = [](const vec3& c) { return glm::dot(c, vec3(0.2126F, 0.7152F, 0.0722F)); };
     double sum = 0.0;
     for (uint32_t y = 0; y < 18; ++y) {
         for (uint32_t x = 0; x < 32; ++x) {

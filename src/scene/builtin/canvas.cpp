@@ -1,6 +1,7 @@
 // The raster work behind canvas.h. Nothing is blended: mips smooth the edges.
 #include "scene/builtin/canvas.h"
 
+#include "base/color.h"
 #include "base/error.h"
 #include "scene/builtin/noise.h"
 
@@ -60,8 +61,7 @@ uint8_t toByte(float value) {
 vec3 linear(Hex color) {
     vec3 result;
     for (unsigned i = 0; i < 3; ++i) {
-        const double s = channel(color, i) / 255.0;
-        result[static_cast<int>(i)] = static_cast<float>(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
+        result[static_cast<int>(i)] = static_cast<float>(decodeSrgb(channel(color, i) / 255.0));
     }
     return result;
 }
