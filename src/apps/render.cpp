@@ -67,14 +67,44 @@ struct Pictures {
     std::map<const Show*, ShowReadback> readbacks;
     gpu::Readback display;
 
-    void request(gpu::Frame& f, const FrameImages& images) {
-        readbacks.emplace(main, requestShow(f, images, *main));
-        for (const Show* aov : aovs) {
-            if (!readbacks.contains(aov)) {
-                readbacks.emplace(aov, requestShow(f, images, *aov));
+    [[nodiscard]] bool countsSteps() const {
+        return reflet::countsSteps(*main) ||
+               std::ranges::any_of(aovs, [](const Show* s) { return reflet::countsSteps(*s); });
+    }
+
+    void request(gpu::Frame& f, const FrameImages& images, bool rays) {
+        std::vector<const Show*> wanted = aovs;
+        wanted.push_back(main);
+        if (rays) {
+            for (const char* name : {"diffuse_steps", "specular_steps", "diffuse_confidence", "specular_confidence"}) {
+                wanted.push_back(&findShow(name));
+            }
+        }
+        for (const Show* show : wanted) {
+            if (!readbacks.contains(show)) {
+                readbacks.emplace(show, requestShow(f, images, *show));
             }
         }
         display = f.readback(images.display);
+    }
+
+    // Of the rays of each lobe: mean depth samples, and the share that the screen answered.
+    [[nodiscard]] nlohmann::ordered_json rayStatistics(const gpu::Frame& f, const ViewParams& view) const {
+        nlohmann::ordered_json json;
+        for (const std::string lobe : {"diffuse", "specular"}) {
+            const FloatImage steps = fetchValues(f, readbacks.at(&findShow(lobe + "_steps")), view);
+            const FloatImage hits = fetchValues(f, readbacks.at(&findShow(lobe + "_confidence")), view);
+            double pixels = 0.0;
+            double stepSum = 0.0;
+            double hitSum = 0.0;
+            for (size_t i = 0; i < steps.data.size(); ++i) {
+                pixels += steps.data[i] > 0.0F ? 1.0 : 0.0;  // others have no rays
+                stepSum += steps.data[i];
+                hitSum += hits.data[i];
+            }
+            json[lobe] = {{"steps", stepSum / std::max(pixels, 1.0)}, {"hits", hitSum / std::max(pixels, 1.0)}};
+        }
+        return json;
     }
 
     void writePngFile(const std::string& file, const gpu::Frame& f, const ViewParams& view, uvec2 size) const {
@@ -113,8 +143,11 @@ Pictures choosePictures(const RenderOptions& options) {
 
 void render(const RenderOptions& options) {
     const uvec2 size = parseSize(options.scene.size);
-    const Settings settings = loadSettings(options.scene);
+    Settings settings = loadSettings(options.scene);
     Pictures pictures = choosePictures(options);
+    if (pictures.countsSteps()) {
+        settings.traceScreen.countSteps = 1;
+    }
     checkOutputs(options);
     const Scene scene = loadScene(options.scene);
     const View view = loadView(options.scene, scene);
@@ -129,7 +162,7 @@ void render(const RenderOptions& options) {
         const bool last = i + 1 == options.frames;
         renderer.render(view, size, options.scene.seed, settings, [&](gpu::Frame& f, const FrameImages& images) {
             if (last) {
-                pictures.request(f, images);
+                pictures.request(f, images, settings.traceScreen.countSteps != 0);
             }
         });
         timings.add(renderer.frame().passTimes());
@@ -144,7 +177,11 @@ void render(const RenderOptions& options) {
         }
     }
     if (!options.timings.empty()) {
-        writeFileAtomically(options.timings, timings.json(device.description().name, size).dump(2) + "\n");
+        nlohmann::ordered_json json = timings.json(device.description().name, size);
+        if (settings.traceScreen.countSteps != 0) {
+            json["rays"] = pictures.rayStatistics(renderer.frame(), params);
+        }
+        writeFileAtomically(options.timings, json.dump(2) + "\n");
     }
     if (options.validate && !device.validationMessages().empty()) {
         fail("the validation layers had {} messages", device.validationMessages().size());
@@ -172,8 +209,10 @@ void addRenderCommand(CLI::App& app) {
         ->delimiter(',');
     addDeviceOption(*command, options->device);
     command
-        ->add_option("--timings", options->timings,
-                     "Device time of every pass: medians over the frames after the first")
+        ->add_option(
+            "--timings", options->timings,
+            "Device time of every pass: medians over the frames after the first; with trace_screen.countSteps also "
+            "mean steps and share of hits of the last frame's rays")
         ->type_name("F.json");
     command->add_flag("--validate", options->validate,
                       "Run under the Vulkan validation layers; any message is a failure");

@@ -45,6 +45,10 @@ void bothAlphas(Texels t, const ViewParams&, float* out) {
     out[0] = t[0].w;
     out[1] = t[1].w;
 }
+void bothFirsts(Texels t, const ViewParams&, float* out) {
+    out[0] = t[0].x;
+    out[1] = t[1].x;
+}
 void meanColor(Texels t, const ViewParams&, float* out) {
     const vec3 mean = 0.5F * vec3(t[0] + t[1]);
     std::memcpy(out, &mean, sizeof(mean));
@@ -86,6 +90,13 @@ vec3 near(const float* v) {
 }
 vec3 nearRedGreen(const float* v) {
     return {nearness(v[0]), nearness(v[1]), 0.0F};
+}
+constexpr float manySteps = 128.0F;
+vec3 count(const float* v) {
+    return vec3(std::clamp(v[0] / manySteps, 0.0F, 1.0F));
+}
+vec3 countRedGreen(const float* v) {
+    return {count(v).x, count(v + 1).x, 0.0F};
 }
 // A shadow map's depths, stretched to be told apart.
 vec3 mapDepth(const float* v) {
@@ -159,6 +170,15 @@ const std::vector<Show>& table() {
          [](const FrameImages& i) { return Images{i.diffuse.radiance}; }, alpha, y, near},
         {"specular_hit_distance", "the same, of the reflection rays",
          [](const FrameImages& i) { return Images{i.specular.radiance}; }, alpha, y, near},
+        {"steps", "mean depth samples per ray: R diffuse, G specular; PNG 1 is 128 samples",
+         [](const FrameImages& i) {
+             return Images{i.diffuse.steps, i.specular.steps};
+         },
+         bothFirsts, rg, countRedGreen},
+        {"diffuse_steps", "the same, of the diffuse rays", [](const FrameImages& i) { return Images{i.diffuse.steps}; },
+         first, y, count},
+        {"specular_steps", "the same, of the reflection rays",
+         [](const FrameImages& i) { return Images{i.specular.steps}; }, first, y, count},
         {"source", "who answered the rays, both lobes: green the screen, blue the environment",
          [](const FrameImages& i) {
              return Images{i.diffuse.source, i.specular.source};
@@ -173,6 +193,10 @@ const std::vector<Show>& table() {
 }
 
 }  // namespace
+
+bool countsSteps(const Show& show) {
+    return show.name.ends_with("steps");
+}
 
 std::span<const Show> shows() {
     return table();

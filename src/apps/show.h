@@ -29,6 +29,9 @@ std::span<const Show> shows();
 /// Throws UsageError naming the nearest.
 const Show& findShow(std::string_view name);
 
+/// Whether it needs trace_screen.countSteps.
+bool countsSteps(const Show& show);
+
 /// Read-backs of what a show needs; fetch after the frame is done.
 struct ShowReadback {
     const Show* show = nullptr;

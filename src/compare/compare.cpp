@@ -71,6 +71,8 @@ Difference differenceOf(const FloatImage& picture, const FloatImage& truth, cons
     constexpr double darkness = 0.01;  // keeps the relative error of dark pixels finite
     Difference d;
     double squares = 0.0;
+    double sumA = 0.0;
+    double sumB = 0.0;
     double peak = 0.0;
     const size_t channels = picture.channels.size();
     for (size_t i = 0; i < pixelCount(picture); ++i) {
@@ -85,6 +87,8 @@ Difference differenceOf(const FloatImage& picture, const FloatImage& truth, cons
             squares += error * error;
             d.relativeMse += error * error / (b * b + darkness);
             d.mean += error;
+            sumA += picture.data[value];
+            sumB += b;
             d.max = std::max(d.max, error);
             peak = std::max(peak, std::abs(b));
         }
@@ -93,6 +97,7 @@ Difference differenceOf(const FloatImage& picture, const FloatImage& truth, cons
     d.flip /= static_cast<double>(d.pixels);
     d.relativeMse /= values;
     d.mean /= values;
+    d.bias = sumA == sumB ? 0.0 : sumA / sumB - 1.0;
     if (options.kind == ImageKind::display || peak == 0.0) {
         peak = 1.0;
     }
@@ -138,7 +143,7 @@ Comparison compareImages(const FloatImage& picture, const FloatImage& truth, con
 }
 
 std::span<const Metric> metrics() {
-    static constexpr std::array<Metric, 5> all{{
+    static constexpr std::array<Metric, 6> all{{
         {"relative_mse", "", "mean over pixels and channels of (a - b)² / (b² + 0.01)", false,
          [](const Difference& d) { return d.relativeMse; }},
         {"psnr", "dB",
@@ -148,6 +153,8 @@ std::span<const Metric> metrics() {
          "mean over pixels of FLIP (Andersson et al. 2020), 0 the same to 1; linear pictures: HDR-FLIP (2021)", false,
          [](const Difference& d) { return d.flip; }},
         {"mean", "", "mean over pixels and channels of |a - b|", false, [](const Difference& d) { return d.mean; }},
+        {"bias", "", "mean of a over mean of b, minus 1: above 0 there is too much light, below 0 too little", false,
+         [](const Difference& d) { return d.bias; }},
         {"max", "", "largest |a - b| of any pixel and channel", false, [](const Difference& d) { return d.max; }},
     }};
     return all;

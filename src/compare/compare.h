@@ -31,6 +31,7 @@ struct Difference {
     double psnr = 0.0;
     double flip = 0.0;    ///< mean FLIP, 0 equal to 1
     double mean = 0.0;    ///< mean over pixels and channels of |a - b|
+    double bias = 0.0;    ///< mean of a over mean of b, minus 1: above 0 there is too much light; 0 where both are 0
     double max = 0.0;     ///< largest |a - b|
     uint64_t pixels = 0;  ///< that counted
 };
@@ -59,7 +60,7 @@ struct Metric {
     double (*value)(const Difference&);
 };
 
-/// relative_mse, psnr, flip, mean, max.
+/// relative_mse, psnr, flip, mean, bias, max.
 std::span<const Metric> metrics();
 
 }  // namespace reflet

@@ -35,27 +35,36 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
     // One chain for both lobes: rays, then sources that answer in order of trust, each taking what is left over.
     const gpu::History lit = f.history("lit", VK_FORMAT_R16G16B16A16_SFLOAT, out.g.depth.size);
     const uint32_t batch = raysPerBatch(f, out.g.depth.size);
-    const gpu::Image pyramid =
-        settings.traceScreen.method == TraceMethod::hiz ? makePyramid(f, out.g.depth) : gpu::Image{};
-    const auto traceLobe = [&](uint32_t lobe, uint32_t perPixel) {
+    const TraceScreenSettings& trace = settings.traceScreen;
+    const bool counted = trace.countSteps != 0;
+    ScreenImages screen{.g = out.g, .light = out.direct, .lit = lit};
+    if (trace.method == TraceMethod::hiz) {
+        screen.pyramid = makePyramid(f, out.g.depth, screen.backDepth);
+    }
+    const auto traceLobe = [&](uint32_t lobe, uint32_t perPixel, float longest) {
         LobeLight light;
         for (uint32_t first = 0; first < perPixel; first += batch) {
             const uint32_t count = std::min(perPixel - first, batch);
-            Rays rays =
-                generateRays(f, out.g, in.ggxTable, lobe, {in.view, settings.diffuse, settings.specular, first, count});
-            traceScreen(f, rays, out.g, pyramid, out.direct, lit, in.view, settings.traceScreen);
+            Rays rays = generateRays(f, out.g, in.ggxTable, lobe,
+                                     {in.view, settings.diffuse, settings.specular, first, count}, counted);
+            traceScreen(f, rays, screen, in.view, trace, longest);
             answerEnvironment(f, rays, out.g, in.environment);
             light = resolveRays(f, rays, perPixel);
         }
-        return perPixel > 0 ? light : noLight(f, lobe, out.g.depth.size);
+        return perPixel > 0 ? light : noLight(f, lobe, out.g.depth.size, counted);
     };
     {
         const auto scope = f.scope("diffuse");
-        out.diffuse = traceLobe(lobeDiffuse, settings.diffuse.rays);
+        out.diffuse = traceLobe(lobeDiffuse, settings.diffuse.rays, settings.diffuse.radius);
     }
     {
         const auto scope = f.scope("specular");
-        out.specular = traceLobe(lobeSpecular, settings.specular.rays);
+        if (trace.light == HitLight::lit && settings.specular.rays > 0) {
+            const LobeLight none = noLight(f, lobeSpecular, out.g.depth.size, counted);
+            const gpu::Image soFar = f.image("lit_so_far", VK_FORMAT_R16G16B16A16_SFLOAT, out.g.depth.size);
+            screen.light = composite(f, out.g, out.direct, out.diffuse, none, in.ggxTable, soFar, in.view).lit;
+        }
+        out.specular = traceLobe(lobeSpecular, settings.specular.rays, trace.maxDistance);
     }
 
     out.light = composite(f, out.g, out.direct, out.diffuse, out.specular, in.ggxTable, lit.next, in.view);

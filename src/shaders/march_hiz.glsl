@@ -1,32 +1,42 @@
 // Hierarchical depth: cells that a ray passes wholly in front of, or wholly behind by more than the thickness, are left
 // in one step, and the next larger ones are tried; else the next smaller. (Uludag, Hi-Z Screen-Space Cone-Traced
 // Reflections, GPU Pro 5, 2014, with nearest and farthest depth)
-// The includer defines, before it includes this, also: vec2 loadCell(ivec2 cell, int level): the largest (nearest) and
-// the smallest (farthest) reversed depth of the 2^level x 2^level pixels from cell · 2^level on; level is at least 1.
+// The includer defines, before it includes this, also: vec2 loadCell(ivec2 cell, int level): the largest (nearest)
+// reversed depth and the smallest (farthest, of back faces where those are used) of the 2^level x 2^level pixels from
+// cell · 2^level on, the sky left out (0 and 1 where there is nothing else); level is at least 1.
 #ifndef REFLET_MARCH_HIZ_GLSL
 #define REFLET_MARCH_HIZ_GLSL
 
 #include "shaders/march_pixels.glsl"
 
-// Whether anything in the cell can be hit between two distances along the ray.
-bool mayMeetCell(MarchRay ray, vec2 depths, float first, float last, float thickness, MarchView view) {
+// Whether anything in the cell can be hit between two distances along the ray. hidden: whether it is behind something
+// there; of a cell that it is wholly behind, that is taken for granted.
+bool mayMeetCell(MarchRay ray, vec2 depths, float first, float last, MarchOptions o, MarchView view,
+                 inout bool hidden) {
     float awayFirst = ray.awayStart + first * ray.awayStep;
     float awayLast = ray.awayStart + last * ray.awayStep;
-    float front = depthToViewDistance(depths.x, view.depthToDistance);
-    float back = depthToViewDistance(depths.y, view.depthToDistance) + thickness;
-    return max(awayFirst, awayLast) > front && min(awayFirst, awayLast) < back;
+    if (max(awayFirst, awayLast) <= depthToViewDistance(depths.x, view.depthToDistance)) {
+        return false;
+    }
+    float back = depthToViewDistance(depths.y, view.depthToDistance) + o.thickness;
+    if (min(awayFirst, awayLast) < back) {
+        return true;
+    }
+    hidden = true;
+    return false;
 }
 
-// Finds the pixel that marchExhaustive finds. levels: of the pyramid, pixels included.
-MarchResult marchHiz(MarchRay ray, float longest, uint maxSteps, float thickness, int levels, MarchView view) {
-    ScreenRay r = makeScreenRay(ray, longest, view);
+// Finds the pixel that marchExhaustive finds.
+MarchResult marchHiz(MarchRay ray, MarchOptions o, MarchView view) {
+    ScreenRay r = makeScreenRay(ray, o.longest, view);
     ivec2 lastPixel = ivec2(view.size) - 1;
     ivec2 pixel = clamp(ivec2(floor(r.start.xy)), ivec2(0), lastPixel);
     ivec2 direction = ivec2(sign(r.delta.xy));
-    MarchResult result = MarchResult(marchSpent, pixel, 0.0, 0u);
+    MarchResult result = startOfMarch();
     float first = 0.0;
+    bool hidden = false;
     int level = 0;
-    for (uint i = 0u; i < maxSteps; ++i) {
+    for (uint i = 0u; i < o.maxSteps; ++i) {
         // The cell's far border, as a whole number of pixels: no error adds up over the way.
         ivec2 cell = pixel >> level;
         ivec2 corner = (cell + max(direction, ivec2(0))) << level;
@@ -37,19 +47,20 @@ MarchResult marchHiz(MarchRay ray, float longest, uint maxSteps, float thickness
         result.pixel = pixel;
         result.steps = i + 1u;
         if (level > 0) {
-            if (mayMeetCell(ray, loadCell(cell, level), first, last, thickness, view)) {
+            if (mayMeetCell(ray, loadCell(cell, level), first, last, o, view, hidden)) {
                 --level;
                 continue;
             }
         } else {
             float at;
-            if (meetsPixel(ray, pixel, first, last, thickness, view, at)) {
+            if (meetsPixel(ray, pixel, first, last, o, view, at, hidden)) {
                 result.outcome = marchHit;
                 result.distance = at;
                 break;
             }
         }
         result.distance = last;
+        result.clear = hidden ? result.clear : last;
         // Across one border exactly; along the other axis, where the ray is then, but not out of the cell.
         ivec2 there = clamp(ivec2(floor(r.start.xy + sLast * r.delta.xy)), cell << level, ((cell + 1) << level) - 1);
         bool acrossX = s.x <= s.y;
@@ -60,7 +71,7 @@ MarchResult marchHiz(MarchRay ray, float longest, uint maxSteps, float thickness
             break;
         }
         first = last;
-        level = min(level + 1, levels - 1);
+        level = i + 1u < o.firstSteps ? 0 : min(level + 1, o.levels - 1);
     }
     return result;
 }

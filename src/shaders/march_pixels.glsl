@@ -43,33 +43,40 @@ ScreenRay makeScreenRay(MarchRay ray, float longest, MarchView view) {
     return r;
 }
 
-// Whether the ray, between two distances, is behind what the pixel shows by less than the thickness; `at`: where first.
-bool meetsPixel(MarchRay ray, ivec2 pixel, float first, float last, float thickness, MarchView view, out float at) {
+// Whether the ray, between two distances, is behind what the pixel shows by less than its thickness; `at`: where first.
+// hidden: whether it is behind it at all.
+bool meetsPixel(MarchRay ray, ivec2 pixel, float first, float last, MarchOptions o, MarchView view, out float at,
+                inout bool hidden) {
     float depth = loadDepth(pixel);
     float front = depthToViewDistance(depth, view.depthToDistance);
     float awayFirst = ray.awayStart + first * ray.awayStep;
     float awayLast = ray.awayStart + last * ray.awayStep;
     at = first;
-    if (max(awayFirst, awayLast) <= front || min(awayFirst, awayLast) >= front + thickness ||
-        !isForeign(ray, pixel, depth, view)) {
+    if (max(awayFirst, awayLast) <= front || !isForeign(ray, pixel, depth, view)) {
         return false;
     }
-    if (awayFirst < front || awayFirst > front + thickness) {
-        float border = awayFirst < front ? front : front + thickness;
-        at = clamp((border - ray.awayStart) / ray.awayStep, first, last);
+    hidden = true;
+    float back = front + thicknessAt(pixel, front, o, view);
+    if (min(awayFirst, awayLast) >= back) {
+        return false;
+    }
+    if (awayFirst < front || awayFirst > back) {
+        at = clamp(((awayFirst < front ? front : back) - ray.awayStart) / ray.awayStep, first, last);
     }
     return true;
 }
 
-// Every pixel that the ray crosses, in order. longest: metres.
-MarchResult marchExhaustive(MarchRay ray, float longest, uint maxSteps, float thickness, MarchView view) {
-    ScreenRay r = makeScreenRay(ray, longest, view);
+// Every pixel that the ray crosses, in order, however many.
+MarchResult marchExhaustive(MarchRay ray, MarchOptions o, MarchView view) {
+    ScreenRay r = makeScreenRay(ray, o.longest, view);
     ivec2 lastPixel = ivec2(view.size) - 1;
     ivec2 pixel = clamp(ivec2(floor(r.start.xy)), ivec2(0), lastPixel);
     ivec2 direction = ivec2(sign(r.delta.xy));
-    MarchResult result = MarchResult(marchSpent, pixel, 0.0, 0u);
+    MarchResult result = startOfMarch();
+    uint most = uint(view.size.x + view.size.y) + 2u;
     float first = 0.0;
-    for (uint i = 0u; i < maxSteps; ++i) {
+    bool hidden = false;
+    for (uint i = 0u; i < most; ++i) {
         // Borders are whole numbers: no error adds up over the way.
         vec2 border = vec2(pixel + max(direction, ivec2(0))) - r.start.xy;
         vec2 s = vec2(direction.x == 0 ? 1e30 : border.x / r.delta.x, direction.y == 0 ? 1e30 : border.y / r.delta.y);
@@ -78,12 +85,13 @@ MarchResult marchExhaustive(MarchRay ray, float longest, uint maxSteps, float th
         float at;
         result.pixel = pixel;
         result.steps = i + 1u;
-        if (meetsPixel(ray, pixel, first, last, thickness, view, at)) {
+        if (meetsPixel(ray, pixel, first, last, o, view, at, hidden)) {
             result.outcome = marchHit;
             result.distance = at;
             break;
         }
         result.distance = last;
+        result.clear = hidden ? result.clear : last;
         pixel += s.x <= s.y ? ivec2(direction.x, 0) : ivec2(0, direction.y);
         if (sLast >= 1.0 || any(lessThan(pixel, ivec2(0))) || any(greaterThan(pixel, lastPixel))) {
             result.outcome = r.leaves ? marchLeftScreen : marchSpent;
@@ -94,17 +102,35 @@ MarchResult marchExhaustive(MarchRay ray, float longest, uint maxSteps, float th
     return result;
 }
 
-// Steps of `stride` pixels along the axis on which the ray is longer. Each sample stands for the part of the ray that is
-// nearer to it than to its neighbours. jitter: 0..1, what part of a stride the first one is.
-MarchResult marchDda(MarchRay ray, float longest, float stride, uint maxSteps, float thickness, float jitter,
-                     MarchView view) {
-    ScreenRay r = makeScreenRay(ray, longest, view);
+// Refines a hit that lies between two distances, if the ray is in front of what is shown at the first and behind at the
+// last (a stride of one pixel leaves nothing to refine).
+MarchResult refineDda(MarchResult hit, float before, float last, MarchRay ray, MarchOptions o, MarchView view) {
+    if (o.stride <= 1.0 || (o.binarySteps == 0u && !o.interpolate)) {
+        return hit;
+    }
+    MarchSample a = sampleAt(ray, before, o, view);
+    MarchSample b = sampleAt(ray, last, o, view);
+    if (!a.onScreen || !b.onScreen || !b.foreign || b.behind <= 0.0 || (a.foreign && a.behind > 0.0)) {
+        return hit;
+    }
+    hit.pixel = b.pixel;
+    hit.distance = last;
+    hit.steps += 2u;
+    return refineHit(hit, before, a.foreign ? a.behind : 0.0, b.behind, ray, o, view);
+}
+
+// Steps of o.stride pixels along the axis on which the ray is longer. Each sample stands for the part of the ray that is
+// nearer to it than to its neighbours.
+MarchResult marchDda(MarchRay ray, MarchOptions o, MarchView view) {
+    ScreenRay r = makeScreenRay(ray, o.longest, view);
     float pixels = max(max(abs(r.delta.x), abs(r.delta.y)), 1e-3);
-    float sStep = stride / pixels;
-    MarchResult result = MarchResult(marchSpent, ivec2(r.start.xy), 0.0, 0u);
+    float sStep = o.stride / pixels;
+    MarchResult result = startOfMarch();
     float first = 0.0;
-    for (uint i = 0u; i < maxSteps; ++i) {
-        float s = (float(i) + jitter) * sStep;
+    float before = 0.0;
+    bool hidden = false;
+    for (uint i = 0u; i < o.maxSteps; ++i) {
+        float s = (float(i) + o.jitter) * sStep;
         if (s >= 1.0) {
             result.outcome = r.leaves ? marchLeftScreen : marchSpent;
             break;
@@ -113,13 +139,15 @@ MarchResult marchDda(MarchRay ray, float longest, float stride, uint maxSteps, f
         float at;
         result.pixel = clamp(ivec2(floor(r.start.xy + s * r.delta.xy)), ivec2(0), ivec2(view.size) - 1);
         result.steps = i + 1u;
-        if (meetsPixel(ray, result.pixel, first, last, thickness, view, at)) {
+        if (meetsPixel(ray, result.pixel, first, last, o, view, at, hidden)) {
             result.outcome = marchHit;
             result.distance = at;
-            break;
+            return refineDda(result, before, last, ray, o, view);
         }
         result.distance = last;
+        result.clear = hidden ? result.clear : last;
         first = last;
+        before = metresAt(r, s);
     }
     return result;
 }

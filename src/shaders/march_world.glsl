@@ -4,47 +4,71 @@
 
 #include "shaders/march.glsl"
 
-// Fixed steps. jitter: 0..1, what part of a step the first one is. A sample hits when it lies behind the surface that
-// its pixel shows by less than `thickness` metres along the view.
-MarchResult marchLinear(MarchRay ray, float stepLength, uint maxSteps, float thickness, float jitter, MarchView view) {
-    MarchResult result = MarchResult(marchSpent, ivec2(0), 0.0, 0u);
-    for (uint i = 0u; i < maxSteps; ++i) {
-        float t = (float(i) + jitter) * stepLength;
-        MarchSample s = sampleAt(ray, t, view);
+// Metres along the view that a step of `stride` metres adds to the thickness.
+float stepThickness(MarchRay ray, float stride, MarchOptions o) {
+    return o.thickAsStep ? abs(ray.awayStep) * stride : 0.0;
+}
+
+// Fixed steps. A sample hits when it lies behind the surface that its pixel shows by less than the thickness.
+MarchResult marchLinear(MarchRay ray, MarchOptions o, MarchView view) {
+    MarchResult result = startOfMarch();
+    bool hidden = false;
+    float behindBefore = 0.0;
+    float more = stepThickness(ray, o.stepLength, o);
+    for (uint i = 0u; i < o.maxSteps; ++i) {
+        float before = result.distance;
+        float t = (float(i) + o.jitter) * o.stepLength;
+        if (t > o.longest) {
+            break;
+        }
+        MarchSample s = sampleAt(ray, t, o, view);
         if (!s.onScreen) {
             result.outcome = marchLeftScreen;
             break;
         }
-        result = MarchResult(marchSpent, s.pixel, t, i + 1u);
-        if (s.behind > 0.0 && s.behind < thickness && s.foreign) {
-            result.outcome = marchHit;
-            break;
+        result.pixel = s.pixel;
+        result.distance = t;
+        result.steps = i + 1u;
+        if (s.behind > 0.0 && s.foreign) {
+            if (s.behind < s.thickness + more) {
+                result.outcome = marchHit;
+                return behindBefore <= 0.0 ? refineHit(result, before, behindBefore, s.behind, ray, o, view) : result;
+            }
+            hidden = true;
         }
+        result.clear = hidden ? result.clear : t;
+        behindBefore = s.foreign ? s.behind : 0.0;
     }
     return result;
 }
 
-// Steps that are halved whenever one would end behind something, until they are shorter than `smallest`; what the ray is
-// then behind of by less than `thickness` is hit. The first step is `stepLength` times jitter, the longest that it takes.
-MarchResult marchHalving(MarchRay ray, float stepLength, float smallest, uint maxSteps, float thickness, float jitter,
-                         MarchView view) {
-    MarchResult result = MarchResult(marchSpent, ivec2(0), 0.0, 0u);
-    float before = 0.0;
-    float stride = stepLength * jitter;
-    for (uint i = 0u; i < maxSteps; ++i) {
-        float t = before + stride;
-        MarchSample s = sampleAt(ray, t, view);
+// Steps that are halved whenever one would end behind something, until they are shorter than o.smallest; what the ray is
+// then behind of by less than the thickness is hit. The first step is jitter times o.stepLength, the longest that it takes.
+MarchResult marchHalving(MarchRay ray, MarchOptions o, MarchView view) {
+    MarchResult result = startOfMarch();
+    float behindBefore = 0.0;
+    float stride = o.stepLength * o.jitter;
+    for (uint i = 0u; i < o.maxSteps && result.clear + stride <= o.longest; ++i) {
+        float t = result.clear + stride;
+        MarchSample s = sampleAt(ray, t, o, view);
         if (!s.onScreen) {
             result.outcome = marchLeftScreen;
             break;
         }
-        result = MarchResult(marchSpent, s.pixel, t, i + 1u);
+        result.pixel = s.pixel;
+        result.distance = t;
+        result.steps = i + 1u;
         if (s.behind <= 0.0 || !s.foreign) {
-            before = t;
+            result.clear = t;
+            behindBefore = s.foreign ? s.behind : 0.0;
             continue;
         }
-        if (stride < smallest) {
-            result.outcome = s.behind < thickness ? marchHit : marchHidden;
+        if (stride < o.smallest) {
+            if (s.behind < s.thickness + stepThickness(ray, stride, o)) {
+                result.outcome = marchHit;
+                return refineHit(result, result.clear, behindBefore, s.behind, ray, o, view);
+            }
+            result.outcome = marchHidden;
             break;
         }
         stride *= 0.5;
@@ -53,25 +77,26 @@ MarchResult marchHalving(MarchRay ray, float stepLength, float smallest, uint ma
 }
 
 // The distance along the ray is replaced by the distance to the point that the screen shows there, until it no longer
-// changes by more than `tolerance`. Finds what is near where the ray first looks, or nothing.
-MarchResult marchFixedPoint(MarchRay ray, float firstDistance, float tolerance, uint maxSteps, float thickness,
-                            MarchView view) {
-    MarchResult result = MarchResult(marchSpent, ivec2(0), 0.0, 0u);
-    float t = firstDistance;
-    for (uint i = 0u; i < maxSteps; ++i) {
-        MarchSample s = sampleAt(ray, t, view);
+// changes by more than o.smallest. Finds what is near where the ray first looks, or nothing.
+MarchResult marchFixedPoint(MarchRay ray, MarchOptions o, MarchView view) {
+    MarchResult result = startOfMarch();
+    float t = o.stepLength;
+    for (uint i = 0u; i < o.maxSteps && t <= o.longest; ++i) {
+        MarchSample s = sampleAt(ray, t, o, view);
         if (!s.onScreen) {
             result.outcome = marchLeftScreen;
             break;
         }
-        result = MarchResult(marchSpent, s.pixel, t, i + 1u);
+        result.pixel = s.pixel;
+        result.distance = t;
+        result.steps = i + 1u;
         if (s.depth <= 0.0) {  // the sky is at no distance
             break;
         }
         vec3 shown = uvToWorld((vec2(s.pixel) + 0.5) / view.size, s.depth, view.clipToWorld);
         float there = distance(shown, ray.origin);
-        if (abs(there - t) < tolerance) {
-            result.outcome = abs(s.behind) < thickness && s.foreign ? marchHit : marchHidden;
+        if (abs(there - t) < o.smallest) {
+            result.outcome = abs(s.behind) < s.thickness && s.foreign ? marchHit : marchHidden;
             break;
         }
         t = there;

@@ -80,6 +80,9 @@ TEST_P(Methods, neverHitTheSky) {
 TEST_P(Methods, hitWithTheLastStepAndMissWithOneLess) {
     const MarchScene scene = sceneOf({wallAt(10.0F)});
     for (const uint32_t method : methods) {
+        if (method == marchMethodExhaustive) {
+            continue;  // takes all the steps that it needs
+        }
         auto rays = raysFor(method);
         const auto free = march(scene, rays, method);
         for (size_t i = 0; i < rays.size(); ++i) {

@@ -25,6 +25,8 @@ float loadDepth(ivec2 pixel) {
     return nearest;
 }
 
+float loadBackDepth(ivec2 pixel) { return 0.0; }
+
 // By looking at all of the cell's pixels.
 vec2 loadCell(ivec2 cell, int level) {
     ivec2 first = cell << level;
@@ -33,7 +35,9 @@ vec2 loadCell(ivec2 cell, int level) {
     for (int y = first.y; y < last.y; ++y) {
         for (int x = first.x; x < last.x; ++x) {
             float depth = loadDepth(ivec2(x, y));
-            extremes = vec2(max(extremes.x, depth), min(extremes.y, depth));
+            if (depth > 0.0) {
+                extremes = vec2(max(extremes.x, depth), min(extremes.y, depth));
+            }
         }
     }
     return extremes;
@@ -44,19 +48,21 @@ vec2 loadCell(ivec2 cell, int level) {
 layout(constant_id = 0) const uint method = 0u;
 
 MarchResult march(MarchInput i, MarchRay ray, MarchView view) {
+    MarchOptions o = MarchOptions(i.stepLength, i.smallest, i.stepLength, marchLongest, i.jitter, i.maxSteps, i.thickness,
+                                  i.thickAsStep != 0u, false, i.binarySteps, i.interpolate != 0u, marchLevels, 0u);
     switch (method) {
         case marchMethodHalving:
-            return marchHalving(ray, i.stepLength, i.smallest, i.maxSteps, i.thickness, i.jitter, view);
+            return marchHalving(ray, o, view);
         case marchMethodFixedPoint:
-            return marchFixedPoint(ray, i.stepLength, i.smallest, i.maxSteps, i.thickness, view);
+            return marchFixedPoint(ray, o, view);
         case marchMethodDda:
-            return marchDda(ray, marchLongest, i.stepLength, i.maxSteps, i.thickness, i.jitter, view);
+            return marchDda(ray, o, view);
         case marchMethodExhaustive:
-            return marchExhaustive(ray, marchLongest, i.maxSteps, i.thickness, view);
+            return marchExhaustive(ray, o, view);
         case marchMethodHiz:
-            return marchHiz(ray, marchLongest, i.maxSteps, i.thickness, marchLevels, view);
+            return marchHiz(ray, o, view);
         default:
-            return marchLinear(ray, i.stepLength, i.maxSteps, i.thickness, i.jitter, view);
+            return marchLinear(ray, o, view);
     }
 }
 
@@ -71,5 +77,5 @@ void main() {
     vec4 ownPlane = given.normal == vec3(0.0) ? vec4(0.0, 0.0, 0.0, 1.0)  // all is far above it
                                               : planeOnScreen(given.origin, given.normal, params.view.clipToWorld);
     MarchResult r = march(given, makeMarchRay(given.origin, given.direction, ownPlane, view), view);
-    outputs.items[i] = MarchAnswer(r.outcome, r.pixel.x, r.pixel.y, r.distance, r.steps);
+    outputs.items[i] = MarchAnswer(r.outcome, r.pixel.x, r.pixel.y, r.distance, r.clear, r.steps);
 }

@@ -42,6 +42,9 @@ struct MarchInput {
     float jitter;
     vec3 normal;     // of the plane that the ray leaves; 0: none
     float smallest;  // halving: step; fixed point: tolerance
+    uint binarySteps;
+    uint interpolate;
+    uint thickAsStep;
 };
 
 struct MarchAnswer {
@@ -49,6 +52,7 @@ struct MarchAnswer {
     int pixelX;
     int pixelY;
     float distance;
+    float clear;
     uint steps;
 };
 

@@ -21,9 +21,9 @@ layout(set = 0, binding = 4, rgba8) uniform image2DArray source;
 void main() {
     uint stride = gl_NumWorkGroups.x * listGroupSize;
     for (uint i = gl_GlobalInvocationID.x; i < waiting.count; i += stride) {
-        ivec3 slot = unpackSlot(waiting.items[i].slot);
-        float occlusion = lobe == lobeDiffuse ? texelFetch(material, slot.xy, 0).b : 1.0;
+        WaitingRay ray = unpackWaitingRay(waiting.items[i]);
+        float occlusion = lobe == lobeDiffuse ? texelFetch(material, ray.slot.xy, 0).b : 1.0;
         RayAnswer a = RayAnswer(params.radiance * occlusion, 1.0, environmentDistance);
-        addAnswer(slot, a, uintBitsToFloat(waiting.items[i].rest), sourceEnvironment);
+        addAnswer(ray.slot, a, ray.rest, sourceEnvironment);
     }
 }

@@ -26,17 +26,22 @@ gpu::BufferView makeRayList(gpu::Frame& f, const Rays& rays, std::string_view na
     return list;
 }
 
-Rays generateRays(gpu::Frame& f, const GBuffer& g, gpu::Image ggxTable, uint32_t lobe,
-                  const GenerateRaysParams& params) {
+Rays generateRays(gpu::Frame& f, const GBuffer& g, gpu::Image ggxTable, uint32_t lobe, const GenerateRaysParams& params,
+                  bool countSteps) {
     const uvec2 size = g.depth.size;
     const uint32_t layers = raysPerBatch(f, size);
     Rays rays{.direction = f.image("rays.direction", VK_FORMAT_R32G32_UINT, size, layers, true),
               .answer = f.image("rays.answer", VK_FORMAT_R16G16B16A16_SFLOAT, size, layers, true),
               .source = f.image("rays.source", VK_FORMAT_R8G8B8A8_UNORM, size, layers, true),
+              .steps = f.image("rays.steps", VK_FORMAT_R32_SFLOAT, countSteps ? size : uvec2(1), layers, true),
               .waiting = {},
               .firstRay = params.firstRay,
               .count = params.rayCount,
-              .lobe = lobe};
+              .lobe = lobe,
+              .countSteps = countSteps};
+    if (countSteps) {
+        f.clear(rays.steps);  // pixels without rays take none
+    }
     rays.waiting = makeRayList(f, rays, "rays.generated");
     f.compute("generate_rays", "generate_rays.comp")
         .constant("lobe", lobe)
@@ -57,31 +62,37 @@ Rays generateRays(gpu::Frame& f, const GBuffer& g, gpu::Image ggxTable, uint32_t
 
 namespace {
 
-LobeLight lobeImages(gpu::Frame& f, uint32_t lobe, uvec2 size) {
+LobeLight lobeImages(gpu::Frame& f, uint32_t lobe, uvec2 size, bool countSteps) {
     const bool diffuse = lobe == lobeDiffuse;
     return {
         .radiance = f.image(diffuse ? "diffuse.radiance" : "specular.radiance", VK_FORMAT_R16G16B16A16_SFLOAT, size),
-        .source = f.image(diffuse ? "diffuse.source" : "specular.source", VK_FORMAT_R16G16B16A16_SFLOAT, size)};
+        .source = f.image(diffuse ? "diffuse.source" : "specular.source", VK_FORMAT_R16G16B16A16_SFLOAT, size),
+        .steps =
+            f.image(diffuse ? "diffuse.steps" : "specular.steps", VK_FORMAT_R32_SFLOAT, countSteps ? size : uvec2(1))};
 }
 
 }  // namespace
 
-LobeLight noLight(gpu::Frame& f, uint32_t lobe, uvec2 size) {
-    const LobeLight light = lobeImages(f, lobe, size);
+LobeLight noLight(gpu::Frame& f, uint32_t lobe, uvec2 size, bool countSteps) {
+    const LobeLight light = lobeImages(f, lobe, size, countSteps);
     f.clear(light.radiance);
     f.clear(light.source);
+    f.clear(light.steps);
     return light;
 }
 
 LobeLight resolveRays(gpu::Frame& f, const Rays& rays, uint32_t perPixel) {
     const uvec2 size = rays.direction.size;
-    const LobeLight light = lobeImages(f, rays.lobe, size);
+    const LobeLight light = lobeImages(f, rays.lobe, size, rays.countSteps);
     f.compute("resolve_rays", "resolve_rays.comp")
+        .constant("countSteps", rays.countSteps ? 1U : 0U)
         .read("direction", rays.direction)
         .read("answer", rays.answer)
         .read("raySource", rays.source)
+        .read("raySteps", rays.steps)
         .write("radiance", light.radiance)
         .write("source", light.source)
+        .write("steps", light.steps)
         .params(ResolveRaysParams{rays.count, 1.0F / static_cast<float>(perPixel), rays.firstRay == 0 ? 1U : 0U, size})
         .dispatch(size);
     return light;

@@ -10,6 +10,23 @@
 uint packSlot(ivec3 slot) { return uint(slot.x) | (uint(slot.y) << 14u) | (uint(slot.z) << 28u); }
 ivec3 unpackSlot(uint bits) { return ivec3(bits & 0x3fffu, (bits >> 14u) & 0x3fffu, bits >> 28u); }
 
+// A ray that waits for an answer.
+struct WaitingRay {
+    ivec3 slot;   // pixel and layer
+    float rest;   // how much of its weight is left, 0..1; kept in 16 bits
+    float clear;  // metres along it up to which it has met nothing, and from where the next source may go on; a half
+                  // float, rounded down
+};
+
+RayItem packWaitingRay(WaitingRay ray) {
+    uint clear = packHalf2x16(vec2(min(ray.clear * (1.0 - 1.0 / 2048.0), largestHalf), 0.0));
+    return RayItem(packSlot(ray.slot), uint(ray.rest * 65535.0 + 0.5) | (clear << 16u));
+}
+WaitingRay unpackWaitingRay(RayItem item) {
+    return WaitingRay(unpackSlot(item.slot), float(item.restAndClear & 0xffffu) / 65535.0,
+                      unpackHalf2x16(item.restAndClear >> 16u).x);
+}
+
 struct Ray {
     vec3 direction;  // world space, unit
     float weight;    // of its radiance in the pixel's mean

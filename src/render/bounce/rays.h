@@ -17,9 +17,11 @@ SHARED_BEGIN
     OPTION(RayDistribution, uniform, 1)
 CHOICES(RayDistribution, RAY_DISTRIBUTIONS)
 
-#define DIFFUSE_SETTINGS(VALUE, SWITCH, CHOICE)                                                     \
-    VALUE(uint, rays, 4, 0, 256, "Rays per pixel for indirect diffuse light; 0: none is computed.") \
-    CHOICE(RayDistribution, distribution, cosine, "How their directions are spread over the hemisphere.")
+#define DIFFUSE_SETTINGS(VALUE, SWITCH, CHOICE)                                                           \
+    VALUE(uint, rays, 4, 0, 256, "Rays per pixel for indirect diffuse light; 0: none is computed.")       \
+    CHOICE(RayDistribution, distribution, cosine, "How their directions are spread over the hemisphere.") \
+    VALUE(float, radius, 100000.0, 0.01, 100000.0,                                                        \
+          "Metres; what is farther off is left to the sources behind the screen.")
 SETTINGS(DiffuseSettings, DIFFUSE_SETTINGS)
 
 #define SPECULAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                 \
@@ -39,10 +41,10 @@ const uint maxRaysPerBatch = 4;
 // Lists of rays hold pixel coordinates in 14 bits.
 const uint maxFrameSize = 16384;
 
-// A ray in a list: pixel and layer, and how much of its weight (0..1, as float bits) still waits for an answer.
+// A ray in a list, as packWaitingRay (rays.glsl) packs it.
 struct RayItem {
     uint slot;
-    uint rest;
+    uint restAndClear;
 };
 
 // Bytes before the items: group counts for an indirect dispatch, then the number of items.
@@ -77,10 +79,12 @@ struct Rays {
     gpu::Image direction;  ///< RG32_UINT array: direction (packUnitVector, world), half2(weight, trust of the screen)
     gpu::Image answer;     ///< RGBA16F array: radiance · weights so far, hit distance · weights [m]
     gpu::Image source;     ///< RGBA8 array: colours of the sources · weights; alpha: confidence
+    gpu::Image steps;      ///< R32F array: depth samples that the screen took; 1x1 unless they are counted
     gpu::BufferView waiting;  ///< rays without (all of) an answer
     uint32_t firstRay = 0;
     uint32_t count = 0;  ///< per pixel, in this batch
     uint32_t lobe = 0;
+    bool countSteps = false;
 };
 
 /// What a lobe's rays brought, averaged per pixel; not yet multiplied by the surface's own colour.
@@ -88,21 +92,23 @@ struct LobeLight {
     gpu::Image radiance;  ///< RGBA16F: mean of radiance · ray weight; alpha: mean hit distance [m]
     gpu::Image source;    ///< RGBA16F: mean colour of the sources that answered; alpha: confidence. Sums of many
                           ///< batches, for which 8 bits are too few
+    gpu::Image steps;     ///< R32F: mean depth samples per ray; 1x1 unless they are counted
 };
 
 /// Rays per pixel that one batch may hold, 1 to maxRaysPerBatch: as many as the device's buffers take at this size.
 /// Throws Error where they do not take one.
 uint32_t raysPerBatch(gpu::Frame& f, uvec2 size);
 
-/// Rays firstRay .. firstRay + count of every pixel that has a surface (and the lobe).
-Rays generateRays(gpu::Frame& f, const GBuffer& g, gpu::Image ggxTable, uint32_t lobe,
-                  const GenerateRaysParams& params);
+/// Rays firstRay .. firstRay + count of every pixel that has a surface (and the lobe). countSteps: keep how many depth
+/// samples each takes.
+Rays generateRays(gpu::Frame& f, const GBuffer& g, gpu::Image ggxTable, uint32_t lobe, const GenerateRaysParams& params,
+                  bool countSteps);
 
 /// An empty list as large as the rays' own, for what a source misses.
 gpu::BufferView makeRayList(gpu::Frame& f, const Rays& rays, std::string_view name);
 
 /// A lobe without rays: black.
-LobeLight noLight(gpu::Frame& f, uint32_t lobe, uvec2 size);
+LobeLight noLight(gpu::Frame& f, uint32_t lobe, uvec2 size, bool countSteps);
 
 /// Adds the batch to the lobe's images, `perPixel` rays making the whole.
 LobeLight resolveRays(gpu::Frame& f, const Rays& rays, uint32_t perPixel);

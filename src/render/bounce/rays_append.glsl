@@ -3,9 +3,9 @@
 #define REFLET_RAYS_APPEND_GLSL
 
 // The first ray of each group of threads adds that group to the indirect dispatch.
-void appendRay(uint slot, float rest) {
+void appendRay(WaitingRay ray) {
     uint index = atomicAdd(missed.count, 1u);
-    missed.items[index] = RayItem(slot, floatBitsToUint(rest));
+    missed.items[index] = packWaitingRay(ray);
     if (index % listGroupSize == 0u && index / listGroupSize < maxListGroups) {
         atomicAdd(missed.groups[0], 1u);
     }

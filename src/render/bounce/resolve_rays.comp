@@ -1,8 +1,10 @@
-// Averages a batch of rays into their pixels. In: direction (for the weights), answers and sources by ray.
-// Out: radiance with mean hit distance, source colours with confidence; added to what earlier batches brought.
+// Averages a batch of rays into their pixels. In: direction (for the weights), answers, sources and steps by ray.
+// Out: radiance with mean hit distance, source colours with confidence, steps; added to what earlier batches brought.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/bounce/rays.glsl"
+
+layout(constant_id = 0) const uint countSteps = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ResolveRaysParams params; };
@@ -11,6 +13,20 @@ layout(set = 0, binding = 2, rgba16f) uniform readonly image2DArray answer;
 layout(set = 0, binding = 3, rgba8) uniform readonly image2DArray raySource;
 layout(set = 0, binding = 4, rgba16f) uniform image2D radiance;
 layout(set = 0, binding = 5, rgba16f) uniform image2D source;
+layout(set = 0, binding = 6, r32f) uniform readonly image2DArray raySteps;
+layout(set = 0, binding = 7, r32f) uniform image2D steps;
+
+void resolveSteps(ivec2 pixel) {
+    float sum = 0.0;
+    for (uint i = 0u; i < params.rayCount; ++i) {
+        sum += imageLoad(raySteps, ivec3(pixel, i)).r;
+    }
+    sum *= params.weight;
+    if (params.firstBatch == 0u) {
+        sum += imageLoad(steps, pixel).r;
+    }
+    imageStore(steps, pixel, vec4(sum));
+}
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -34,4 +50,7 @@ void main() {
     }
     imageStore(radiance, pixel, vec4(clampToHalf(light.rgb), min(light.a, largestHalf)));
     imageStore(source, pixel, colors);
+    if (countSteps != 0u) {
+        resolveSteps(pixel);
+    }
 }

@@ -1,5 +1,6 @@
 // Marches waiting rays through the depth buffer; a hit takes the light that the screen shows there.
-// In: depth, geometric normal, motion, pyramid, light of this and the last frame, ray directions, the list. Out: answers, sources, the list of misses.
+// In: depth of both layers, geometric normal, motion, pyramid, light of this and the last frame, ray directions, the
+// list. Out: answers, sources, steps, the list of misses.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/bounce/rays.glsl"
@@ -9,15 +10,19 @@
 #include "shaders/projection.glsl"
 
 layout(constant_id = 0) const uint method = 0u;
+layout(constant_id = 1) const uint secondLayer = 0u;
+layout(constant_id = 2) const uint countSteps = 0u;
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { TraceScreenParams params; };
 layout(set = 0, binding = 1) uniform sampler2D depth;
 layout(set = 0, binding = 2) uniform usampler2D geometricNormal;
-layout(set = 0, binding = 3, rgba16f) uniform readonly image2D direct;
+layout(set = 0, binding = 3, rgba16f) uniform readonly image2D light;
 layout(set = 0, binding = 9, rgba16f) uniform readonly image2D previousLit;
 layout(set = 0, binding = 10) uniform sampler2D motion;
 layout(set = 0, binding = 11) uniform sampler2D pyramid;
+layout(set = 0, binding = 12) uniform sampler2D backDepth;
+layout(set = 0, binding = 13, r32f) uniform writeonly image2DArray steps;
 layout(set = 0, binding = 4, rg32ui) uniform readonly uimage2DArray direction;
 layout(set = 0, binding = 5, scalar) readonly buffer WaitingBlock {
     uint groups[3];
@@ -34,17 +39,15 @@ layout(set = 0, binding = 8, scalar) buffer MissedBlock {
 #include "render/bounce/rays_append.glsl"
 #include "render/bounce/rays_answer.glsl"
 
-// No ray crosses more pixels.
-const uint exhaustiveSteps = 2u * 16384u;
-
 float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
+float loadBackDepth(ivec2 pixel) { return texelFetch(backDepth, pixel, 0).r; }
 vec2 loadCell(ivec2 cell, int level) {
     return texelFetch(pyramid, cell + ivec2(0, pyramidRow(ivec2(params.view.size), level)), 0).rg;
 }
 #include "shaders/march_hiz.glsl"
 #include "shaders/march_world.glsl"
 
-// Of what the pixel shows. A point that the last frame did not have on screen gives its direct light.
+// Of what the pixel shows. A point that the last frame did not have on screen gives this frame's.
 vec3 lightAt(ivec2 pixel) {
     if (params.settings.light == HitLight_previous && params.previousValid != 0u) {
         vec2 before = pixelToUv(pixel, params.view.pixel) - texelFetch(motion, pixel, 0).xy;
@@ -52,28 +55,45 @@ vec3 lightAt(ivec2 pixel) {
             return imageLoad(previousLit, ivec2(before * params.view.size)).rgb;
         }
     }
-    return imageLoad(direct, pixel).rgb;
+    return imageLoad(light, pixel).rgb;
 }
 
-MarchResult traceRay(MarchRay ray, float jitter, MarchView view) {
+MarchOptions marchOptions(float jitter) {
     TraceScreenSettings s = params.settings;
+    return MarchOptions(s.step, s.smallestStep, s.stride, params.longest, jitter, s.maxSteps, s.thickness,
+                        s.thicknessFrom == ThicknessFrom_step, secondLayer != 0u, s.binarySteps, s.interpolate != 0u,
+                        int(pyramidLevels), s.firstSteps);
+}
+
+MarchResult traceRay(MarchRay ray, MarchOptions o, MarchView view) {
     switch (method) {
         case TraceMethod_halving:
-            return marchHalving(ray, s.step, s.smallestStep, s.maxSteps, s.thickness, jitter, view);
+            return marchHalving(ray, o, view);
         case TraceMethod_fixedPoint:
-            return marchFixedPoint(ray, s.step, s.smallestStep, s.maxSteps, s.thickness, view);
+            return marchFixedPoint(ray, o, view);
         case TraceMethod_dda:
-            return marchDda(ray, s.maxDistance, s.stride, s.maxSteps, s.thickness, jitter, view);
+            return marchDda(ray, o, view);
         case TraceMethod_exhaustive:
-            return marchExhaustive(ray, s.maxDistance, exhaustiveSteps, s.thickness, view);
+            return marchExhaustive(ray, o, view);
         case TraceMethod_hiz:
-            return marchHiz(ray, s.maxDistance, s.maxSteps, s.thickness, int(pyramidLevels), view);
+            return marchHiz(ray, o, view);
         default:
-            return marchLinear(ray, s.step, s.maxSteps, s.thickness, jitter, view);
+            return marchLinear(ray, o, view);
     }
 }
 
-RayAnswer answerRay(ivec3 slot, Ray ray) {
+// How far a hit can be trusted, 0..1.
+float fadeOf(MarchResult hit, vec3 p, vec3 direction) {
+    TraceScreenSettings s = params.settings;
+    vec2 uv = pixelToUv(hit.pixel, params.view.pixel);
+    vec2 inside = min(uv, 1.0 - uv);
+    float edge = clamp(min(inside.x, inside.y) / max(s.edgeFade, 1e-6), 0.0, 1.0);
+    float near = clamp((1.0 - hit.distance / params.longest) / max(s.distanceFade, 1e-6), 0.0, 1.0);
+    float turned = 1.0 - dot(direction, directionToEye(p, params.view.eye));
+    return edge * near * clamp(turned / max(s.cameraFade, 1e-6), 0.0, 1.0);
+}
+
+RayAnswer answerRay(ivec3 slot, Ray ray, out float clear) {
     float jitter = 1.0;
     if (params.settings.jitter != 0u) {
         uint stream = (params.firstRay + uint(slot.z)) * 2u + 1u + hashPcg(params.view.seed);
@@ -84,29 +104,32 @@ RayAnswer answerRay(ivec3 slot, Ray ray) {
     vec3 p = uvToWorld(pixelToUv(slot.xy, params.view.pixel), loadDepth(slot.xy), params.view.clipToWorld);
     vec3 n = unpackUnitVector(texelFetch(geometricNormal, slot.xy, 0).r);
     vec4 ownPlane = planeOnScreen(p, n, params.view.clipToWorld);
-    MarchResult hit = traceRay(makeMarchRay(p, ray.direction, ownPlane, view), jitter, view);
+    MarchResult hit = traceRay(makeMarchRay(p, ray.direction, ownPlane, view), marchOptions(jitter), view);
+    clear = hit.clear;
+    if (countSteps != 0u) {
+        imageStore(steps, slot, vec4(float(hit.steps)));
+    }
     // What it would see of a surface from behind, the screen does not show.
     bool facesAway = params.settings.rejectFacingAway != 0u && hit.outcome == marchHit &&
                      dot(unpackUnitVector(texelFetch(geometricNormal, hit.pixel, 0).r), ray.direction) > 0.0;
     if (hit.outcome != marchHit || facesAway) {
         return RayAnswer(vec3(0.0), 0.0, 0.0);
     }
-    return RayAnswer(lightAt(hit.pixel), ray.trust, hit.distance);
+    return RayAnswer(lightAt(hit.pixel), ray.trust * fadeOf(hit, p, ray.direction), hit.distance);
 }
 
 void main() {
     uint stride = gl_NumWorkGroups.x * listGroupSize;
     for (uint i = gl_GlobalInvocationID.x; i < waiting.count; i += stride) {
-        ivec3 slot = unpackSlot(waiting.items[i].slot);
-        float rest = uintBitsToFloat(waiting.items[i].rest);
-        Ray ray = unpackRay(imageLoad(direction, slot).xy);
+        WaitingRay w = unpackWaitingRay(waiting.items[i]);
+        Ray ray = unpackRay(imageLoad(direction, w.slot).xy);
         RayAnswer a = RayAnswer(vec3(0.0), 0.0, 0.0);
         if (ray.trust > 0.0) {
-            a = answerRay(slot, ray);
+            a = answerRay(w.slot, ray, w.clear);
         }
-        float left = addAnswer(slot, a, rest, sourceScreen);
-        if (left > 0.0) {
-            appendRay(packSlot(slot), left);
+        w.rest = addAnswer(w.slot, a, w.rest, sourceScreen);
+        if (w.rest > 0.0) {
+            appendRay(w);
         }
     }
 }

@@ -16,9 +16,16 @@ SHARED_BEGIN
     OPTION(TraceMethod, hiz, 5)
 CHOICES(TraceMethod, TRACE_METHODS)
 
+#define THICKNESSES(OPTION)            \
+    OPTION(ThicknessFrom, constant, 0) \
+    OPTION(ThicknessFrom, step, 1)     \
+    OPTION(ThicknessFrom, secondLayer, 2)
+CHOICES(ThicknessFrom, THICKNESSES)
+
 #define HIT_LIGHTS(OPTION)      \
     OPTION(HitLight, direct, 0) \
-    OPTION(HitLight, previous, 1)
+    OPTION(HitLight, lit, 1)    \
+    OPTION(HitLight, previous, 2)
 CHOICES(HitLight, HIT_LIGHTS)
 
 #define TRACE_SCREEN_SETTINGS(VALUE, SWITCH, CHOICE)                                                                   \
@@ -30,19 +37,32 @@ CHOICES(HitLight, HIT_LIGHTS)
           "Length of a step in metres (linear), of the first (halving), first distance (fixedPoint).")                 \
     VALUE(float, smallestStep, 0.01, 0.0001, 10.0, "Metres; halving ends below it, fixedPoint when it moves by less.") \
     VALUE(float, stride, 1.0, 1.0, 64.0, "Pixels of a step of dda.")                                                   \
-    VALUE(float, maxDistance, 1000.0, 0.01, 100000.0, "How far rays go in metres (dda, exhaustive, hiz).")             \
+    VALUE(uint, firstSteps, 0, 0, 64, "Single pixels that hiz visits before it tries larger cells.")                   \
+    VALUE(float, maxDistance, 1000.0, 0.01, 100000.0, "How far rays go in metres.")                                    \
     VALUE(uint, maxSteps, 128, 1, 4096,                                                                                \
           "Steps a ray may take (exhaustive: all it needs); one that has taken them all has missed.")                  \
-    VALUE(float, thickness, 0.3, 0.001, 1000.0, "How thick every surface is taken to be, in metres along the view.")   \
-    SWITCH(rejectFacingAway, 0, "A ray that meets the far side of what the screen shows has missed.")                  \
     SWITCH(jitter, 1, "Start each ray at a random part of its first step: bands become grain.")                        \
+    VALUE(uint, binarySteps, 0, 0, 16, "Halvings of the last step after a hit (linear, halving, dda).")                \
+    SWITCH(interpolate, 0, "Place a hit between the last two samples, by similar triangles (linear, halving, dda).")   \
+    VALUE(float, thickness, 0.3, 0.001, 1000.0, "How thick every surface is taken to be, in metres along the view.")   \
+    CHOICE(ThicknessFrom, thicknessFrom, constant,                                                                     \
+           "constant: the thickness; step: more by as much as a step goes along the view (linear, halving); "          \
+           "secondLayer: up to the back face, drawn once more, where there is one.")                                   \
+    SWITCH(rejectFacingAway, 0, "A ray that meets the far side of what the screen shows has missed.")                  \
+    VALUE(float, edgeFade, 0.0, 0.0, 0.5, "Hits this near the screen's edges fade out: a share of its size.")          \
+    VALUE(float, distanceFade, 0.0, 0.0, 1.0, "Hits in this last part of maxDistance fade out.")                       \
+    VALUE(float, cameraFade, 0.0, 0.0, 1.0,                                                                            \
+          "Rays toward the camera fade out, where 1 - the angle's cosine is less than this.")                          \
     CHOICE(HitLight, light, direct,                                                                                    \
-           "What a hit brings: this frame's direct light, or the last frame's whole picture (further bounces).")
+           "What a hit brings: this frame's direct light; lit: and, to reflections, this frame's diffuse light; "      \
+           "previous: the last frame's whole picture (further bounces).")                                              \
+    SWITCH(countSteps, 0, "Keep how many depth samples each ray took (--show steps does so by itself).")
 SETTINGS(TraceScreenSettings, TRACE_SCREEN_SETTINGS)
 
 struct TraceScreenParams {
     ViewParams view;
     TraceScreenSettings settings;
+    float longest;  // metres: no ray goes farther
     uint firstRay;
     uint previousValid;  // 0: there is no last frame
 };
@@ -57,10 +77,19 @@ SHARED_END
 
 namespace reflet {
 
-/// Answers rays that hit what the screen shows with the light there: `direct` of this frame (RGBA16F), or the last
-/// frame's `lit.previous`, found by the hit's own motion. Hands on the others. pyramid (makePyramid): for hiz only.
-void traceScreen(gpu::Frame& f, Rays& rays, const GBuffer& g, gpu::Image pyramid, gpu::Image direct,
-                 const gpu::History& lit, const ViewParams& view, const TraceScreenSettings& settings);
+/// What rays are traced through, and the light that they find.
+struct ScreenImages {
+    const GBuffer& g;
+    gpu::Image backDepth;  ///< drawBackDepth; only where settings.thicknessFrom is secondLayer
+    gpu::Image pyramid;    ///< makePyramid; for hiz only
+    gpu::Image light;      ///< RGBA16F: of this frame
+    gpu::History lit;      ///< of the last frame, found by the hit's own motion
+};
+
+/// Answers rays that hit what the screen shows with the light there. Hands on the others. longest: of the lobe's rays
+/// [m].
+void traceScreen(gpu::Frame& f, Rays& rays, const ScreenImages& screen, const ViewParams& view,
+                 const TraceScreenSettings& settings, float longest);
 
 }  // namespace reflet
 #endif

@@ -1,4 +1,5 @@
-// Makes one level of the depth pyramid. In: depth (level 1) or the level below. Out: the level, in the same image.
+// Makes one level of the depth pyramid. In: depth of the first layer and of the second (level 1), or the level below.
+// Out: the level, in the same image.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/pyramid/pyramid.glsl"
@@ -6,6 +7,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { PyramidParams params; };
 layout(set = 0, binding = 1) uniform sampler2D depth;
+layout(set = 0, binding = 3) uniform sampler2D backDepth;
 layout(set = 0, binding = 2, rg32f) uniform image2D pyramid;
 
 ivec2 pixels = ivec2(params.size);
@@ -14,7 +16,9 @@ int level = int(params.level);
 vec2 below(ivec2 cell) {
     cell = min(cell, pyramidSize(pixels, level - 1) - 1);  // of an odd size, the last one twice
     if (level == 1) {
-        return texelFetch(depth, cell, 0).rr;
+        float front = texelFetch(depth, cell, 0).r;
+        float back = params.secondLayer != 0u ? texelFetch(backDepth, cell, 0).r : 0.0;
+        return vec2(front, front <= 0.0 ? 1.0 : back > 0.0 ? back : front);
     }
     return imageLoad(pyramid, cell + ivec2(0, pyramidRow(pixels, level - 1))).rg;
 }

@@ -13,7 +13,7 @@ uvec2 levelSize(uvec2 pixels, uint32_t level) {
 
 }  // namespace
 
-gpu::Image makePyramid(gpu::Frame& f, gpu::Image depth) {
+gpu::Image makePyramid(gpu::Frame& f, gpu::Image depth, gpu::Image backDepth) {
     uint32_t rows = 0;
     for (uint32_t level = 1; level < pyramidLevels; ++level) {
         rows += levelSize(depth.size, level).y;
@@ -22,8 +22,9 @@ gpu::Image makePyramid(gpu::Frame& f, gpu::Image depth) {
     for (uint32_t level = 1; level < pyramidLevels; ++level) {
         f.compute("pyramid." + std::to_string(level), "pyramid.comp")
             .read("depth", depth)
+            .read("backDepth", backDepth ? backDepth : depth)
             .write("pyramid", pyramid)
-            .params(PyramidParams{depth.size, level})
+            .params(PyramidParams{depth.size, level, backDepth ? 1U : 0U})
             .dispatch(levelSize(depth.size, level));
     }
     return pyramid;

@@ -1,6 +1,7 @@
 // The depth pyramid: nearest and farthest depth of ever larger squares of pixels. Shared by C++ and GLSL.
 // All levels lie in one image, below one another: level 1 (2x2 pixels a cell) at the top. Sizes are rounded up, so that
-// cells at the right and lower edges of odd sizes stand for fewer pixels and no pixel is left out.
+// cells at the right and lower edges of odd sizes stand for fewer pixels and no pixel is left out. The sky does not
+// count: nothing can hit it. Cells that show nothing else have a nearest depth of 0 and a farthest of 1.
 #ifndef REFLET_RENDER_PYRAMID_H
 #define REFLET_RENDER_PYRAMID_H
 
@@ -12,8 +13,9 @@ SHARED_BEGIN
 const uint pyramidLevels = 7;
 
 struct PyramidParams {
-    uvec2 size;  // of level 0
-    uint level;  // to make, from 1
+    uvec2 size;        // of level 0
+    uint level;        // to make, from 1
+    uint secondLayer;  // 1: the farthest is that of the back faces, where there are any
 };
 
 SHARED_END
@@ -24,8 +26,9 @@ SHARED_END
 
 namespace reflet {
 
-/// RG32F: the largest (nearest) and the smallest (farthest) reversed depth of each cell.
-gpu::Image makePyramid(gpu::Frame& f, gpu::Image depth);
+/// RG32F: the largest (nearest) and the smallest (farthest) reversed depth of each cell. backDepth: of the second
+/// layer, or none.
+gpu::Image makePyramid(gpu::Frame& f, gpu::Image depth, gpu::Image backDepth = {});
 
 }  // namespace reflet
 #endif
