@@ -37,7 +37,7 @@ CHOICES(HitLight, HIT_LIGHTS)
           "Length of a step in metres (linear), of the first (halving), first distance (fixedPoint).")                 \
     VALUE(float, smallestStep, 0.01, 0.0001, 10.0, "Metres; halving ends below it, fixedPoint when it moves by less.") \
     VALUE(float, stride, 1.0, 1.0, 64.0, "Pixels of a step of dda.")                                                   \
-    VALUE(uint, firstSteps, 0, 0, 64, "Single pixels that hiz visits before it tries larger cells.")                   \
+    VALUE(uint, firstSteps, 2, 0, 64, "Single pixels that hiz visits before it tries larger cells.")                   \
     VALUE(float, maxDistance, 1000.0, 0.01, 100000.0, "How far rays go in metres.")                                    \
     VALUE(uint, maxSteps, 128, 1, 4096,                                                                                \
           "Steps a ray may take (exhaustive: all it needs); one that has taken them all has missed.")                  \
