@@ -48,7 +48,7 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
             Rays rays = generateRays(f, out.g, in.ggxTable, lobe,
                                      {in.view, settings.diffuse, settings.specular, first, count}, counted);
             traceScreen(f, rays, screen, in.view, trace, longest);
-            answerEnvironment(f, rays, out.g, in.environment);
+            answerEnvironment(f, rays, out.g, in.environment, settings.environment);
             light = resolveRays(f, rays, perPixel);
         }
         return perPixel > 0 ? light : noLight(f, lobe, out.g.depth.size, counted);

@@ -29,6 +29,7 @@ std::vector<SettingEntry> makeEntries() {
     addEffect<MaterialsSettings>(entries, "materials", offsetof(Settings, materials));
     addEffect<ShadowSettings>(entries, "shadow", offsetof(Settings, shadow));
     addEffect<TraceScreenSettings>(entries, "trace_screen", offsetof(Settings, traceScreen));
+    addEffect<EnvironmentSettings>(entries, "environment", offsetof(Settings, environment));
     addEffect<DiffuseSettings>(entries, "diffuse", offsetof(Settings, diffuse));
     addEffect<SpecularSettings>(entries, "specular", offsetof(Settings, specular));
     addEffect<TonemapSettings>(entries, "tonemap", offsetof(Settings, tonemap));

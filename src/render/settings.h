@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/setting_info.h"
+#include "render/bounce/answer_environment.h"
 #include "render/bounce/rays.h"
 #include "render/bounce/trace_screen.h"
 #include "render/gbuffer/gbuffer.h"
@@ -20,6 +21,7 @@ struct Settings {
     MaterialsSettings materials;
     ShadowSettings shadow;
     TraceScreenSettings traceScreen;
+    EnvironmentSettings environment;
     DiffuseSettings diffuse;
     SpecularSettings specular;
     TonemapSettings tonemap;

@@ -17,10 +17,11 @@ struct MarchResult {
     ivec2 pixel;     // of the hit; else the last one visited
     float distance;  // metres along the ray
     float clear;     // metres along the ray before it first went behind something, or left, or was given up
+    bool lost;       // it went behind something (a hit may have come after)
     uint steps;      // depth samples taken
 };
 
-MarchResult startOfMarch() { return MarchResult(marchSpent, ivec2(0), 0.0, 0.0, 0u); }
+MarchResult startOfMarch() { return MarchResult(marchSpent, ivec2(0), 0.0, 0.0, false, 0u); }
 
 struct MarchOptions {
     float stepLength;    // metres: linear, the first of halving, the first distance of the fixed point

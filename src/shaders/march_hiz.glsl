@@ -3,26 +3,26 @@
 // Reflections, GPU Pro 5, 2014, with nearest and farthest depth)
 // The includer defines, before it includes this, also: vec2 loadCell(ivec2 cell, int level): the largest (nearest)
 // reversed depth and the smallest (farthest, of back faces where those are used) of the 2^level x 2^level pixels from
-// cell · 2^level on, the sky left out (0 and 1 where there is nothing else); level is at least 1.
+// cell · 2^level on, the latter negative where some show the sky, which does not count itself (0 and -1 where there is
+// nothing else); level is at least 1.
 #ifndef REFLET_MARCH_HIZ_GLSL
 #define REFLET_MARCH_HIZ_GLSL
 
 #include "shaders/march_pixels.glsl"
 
-// Whether anything in the cell can be hit between two distances along the ray. hidden: whether it is behind something
-// there; of a cell that it is wholly behind, that is taken for granted.
-bool mayMeetCell(MarchRay ray, vec2 depths, float first, float last, MarchOptions o, MarchView view,
-                 inout bool hidden) {
+// Whether the cell's pixels must be looked at: the ray, between two distances, is neither wholly in front of all that
+// they show nor wholly behind it. lost: set if it is behind; where some show the sky, only the pixels tell whether it is.
+bool mustLookInto(vec2 depths, MarchRay ray, float first, float last, MarchOptions o, MarchView view, inout bool lost) {
     float awayFirst = ray.awayStart + first * ray.awayStep;
     float awayLast = ray.awayStart + last * ray.awayStep;
     if (max(awayFirst, awayLast) <= depthToViewDistance(depths.x, view.depthToDistance)) {
         return false;
     }
-    float back = depthToViewDistance(depths.y, view.depthToDistance) + o.thickness;
-    if (min(awayFirst, awayLast) < back) {
+    float back = depthToViewDistance(abs(depths.y), view.depthToDistance) + o.thickness;
+    if (min(awayFirst, awayLast) < back || (depths.y < 0.0 && !lost)) {
         return true;
     }
-    hidden = true;
+    lost = true;
     return false;
 }
 
@@ -34,7 +34,6 @@ MarchResult marchHiz(MarchRay ray, MarchOptions o, MarchView view) {
     ivec2 direction = ivec2(sign(r.delta.xy));
     MarchResult result = startOfMarch();
     float first = 0.0;
-    bool hidden = false;
     int level = 0;
     for (uint i = 0u; i < o.maxSteps; ++i) {
         // The cell's far border, as a whole number of pixels: no error adds up over the way.
@@ -47,20 +46,20 @@ MarchResult marchHiz(MarchRay ray, MarchOptions o, MarchView view) {
         result.pixel = pixel;
         result.steps = i + 1u;
         if (level > 0) {
-            if (mayMeetCell(ray, loadCell(cell, level), first, last, o, view, hidden)) {
+            if (mustLookInto(loadCell(cell, level), ray, first, last, o, view, result.lost)) {
                 --level;
                 continue;
             }
         } else {
             float at;
-            if (meetsPixel(ray, pixel, first, last, o, view, at, hidden)) {
+            if (meetsPixel(ray, pixel, first, last, o, view, at, result.lost)) {
                 result.outcome = marchHit;
                 result.distance = at;
                 break;
             }
         }
         result.distance = last;
-        result.clear = hidden ? result.clear : last;
+        result.clear = result.lost ? result.clear : last;
         // Across one border exactly; along the other axis, where the ray is then, but not out of the cell.
         ivec2 there = clamp(ivec2(floor(r.start.xy + sLast * r.delta.xy)), cell << level, ((cell + 1) << level) - 1);
         bool acrossX = s.x <= s.y;

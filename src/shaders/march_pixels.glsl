@@ -44,9 +44,9 @@ ScreenRay makeScreenRay(MarchRay ray, float longest, MarchView view) {
 }
 
 // Whether the ray, between two distances, is behind what the pixel shows by less than its thickness; `at`: where first.
-// hidden: whether it is behind it at all.
+// lost: set if it is behind it at all.
 bool meetsPixel(MarchRay ray, ivec2 pixel, float first, float last, MarchOptions o, MarchView view, out float at,
-                inout bool hidden) {
+                inout bool lost) {
     float depth = loadDepth(pixel);
     float front = depthToViewDistance(depth, view.depthToDistance);
     float awayFirst = ray.awayStart + first * ray.awayStep;
@@ -55,7 +55,7 @@ bool meetsPixel(MarchRay ray, ivec2 pixel, float first, float last, MarchOptions
     if (max(awayFirst, awayLast) <= front || !isForeign(ray, pixel, depth, view)) {
         return false;
     }
-    hidden = true;
+    lost = true;
     float back = front + thicknessAt(pixel, front, o, view);
     if (min(awayFirst, awayLast) >= back) {
         return false;
@@ -75,7 +75,6 @@ MarchResult marchExhaustive(MarchRay ray, MarchOptions o, MarchView view) {
     MarchResult result = startOfMarch();
     uint most = uint(view.size.x + view.size.y) + 2u;
     float first = 0.0;
-    bool hidden = false;
     for (uint i = 0u; i < most; ++i) {
         // Borders are whole numbers: no error adds up over the way.
         vec2 border = vec2(pixel + max(direction, ivec2(0))) - r.start.xy;
@@ -85,13 +84,13 @@ MarchResult marchExhaustive(MarchRay ray, MarchOptions o, MarchView view) {
         float at;
         result.pixel = pixel;
         result.steps = i + 1u;
-        if (meetsPixel(ray, pixel, first, last, o, view, at, hidden)) {
+        if (meetsPixel(ray, pixel, first, last, o, view, at, result.lost)) {
             result.outcome = marchHit;
             result.distance = at;
             break;
         }
         result.distance = last;
-        result.clear = hidden ? result.clear : last;
+        result.clear = result.lost ? result.clear : last;
         pixel += s.x <= s.y ? ivec2(direction.x, 0) : ivec2(0, direction.y);
         if (sLast >= 1.0 || any(lessThan(pixel, ivec2(0))) || any(greaterThan(pixel, lastPixel))) {
             result.outcome = r.leaves ? marchLeftScreen : marchSpent;
@@ -128,7 +127,6 @@ MarchResult marchDda(MarchRay ray, MarchOptions o, MarchView view) {
     MarchResult result = startOfMarch();
     float first = 0.0;
     float before = 0.0;
-    bool hidden = false;
     for (uint i = 0u; i < o.maxSteps; ++i) {
         float s = (float(i) + o.jitter) * sStep;
         if (s >= 1.0) {
@@ -139,13 +137,13 @@ MarchResult marchDda(MarchRay ray, MarchOptions o, MarchView view) {
         float at;
         result.pixel = clamp(ivec2(floor(r.start.xy + s * r.delta.xy)), ivec2(0), ivec2(view.size) - 1);
         result.steps = i + 1u;
-        if (meetsPixel(ray, result.pixel, first, last, o, view, at, hidden)) {
+        if (meetsPixel(ray, result.pixel, first, last, o, view, at, result.lost)) {
             result.outcome = marchHit;
             result.distance = at;
             return refineDda(result, before, last, ray, o, view);
         }
         result.distance = last;
-        result.clear = hidden ? result.clear : last;
+        result.clear = result.lost ? result.clear : last;
         first = last;
         before = metresAt(r, s);
     }

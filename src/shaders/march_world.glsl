@@ -12,7 +12,6 @@ float stepThickness(MarchRay ray, float stride, MarchOptions o) {
 // Fixed steps. A sample hits when it lies behind the surface that its pixel shows by less than the thickness.
 MarchResult marchLinear(MarchRay ray, MarchOptions o, MarchView view) {
     MarchResult result = startOfMarch();
-    bool hidden = false;
     float behindBefore = 0.0;
     float more = stepThickness(ray, o.stepLength, o);
     for (uint i = 0u; i < o.maxSteps; ++i) {
@@ -34,9 +33,9 @@ MarchResult marchLinear(MarchRay ray, MarchOptions o, MarchView view) {
                 result.outcome = marchHit;
                 return behindBefore <= 0.0 ? refineHit(result, before, behindBefore, s.behind, ray, o, view) : result;
             }
-            hidden = true;
+            result.lost = true;
         }
-        result.clear = hidden ? result.clear : t;
+        result.clear = result.lost ? result.clear : t;
         behindBefore = s.foreign ? s.behind : 0.0;
     }
     return result;
@@ -69,6 +68,7 @@ MarchResult marchHalving(MarchRay ray, MarchOptions o, MarchView view) {
                 return refineHit(result, result.clear, behindBefore, s.behind, ray, o, view);
             }
             result.outcome = marchHidden;
+            result.lost = true;
             break;
         }
         stride *= 0.5;

@@ -32,15 +32,17 @@ vec2 loadCell(ivec2 cell, int level) {
     ivec2 first = cell << level;
     ivec2 last = min((cell + 1) << level, ivec2(params.view.size));
     vec2 extremes = vec2(0.0, 1.0);
+    bool sky = false;
     for (int y = first.y; y < last.y; ++y) {
         for (int x = first.x; x < last.x; ++x) {
             float depth = loadDepth(ivec2(x, y));
             if (depth > 0.0) {
                 extremes = vec2(max(extremes.x, depth), min(extremes.y, depth));
             }
+            sky = sky || depth <= 0.0;
         }
     }
-    return extremes;
+    return vec2(extremes.x, sky ? -extremes.y : extremes.y);
 }
 #include "shaders/march_hiz.glsl"
 #include "shaders/march_world.glsl"

@@ -23,7 +23,7 @@ void main() {
     for (uint i = gl_GlobalInvocationID.x; i < waiting.count; i += stride) {
         WaitingRay ray = unpackWaitingRay(waiting.items[i]);
         float occlusion = lobe == lobeDiffuse ? texelFetch(material, ray.slot.xy, 0).b : 1.0;
-        RayAnswer a = RayAnswer(params.radiance * occlusion, 1.0, environmentDistance);
+        RayAnswer a = RayAnswer(params.radiance * occlusion * (ray.lost ? params.settings.lostShare : 1.0), 1.0, environmentDistance);
         addAnswer(ray.slot, a, ray.rest, sourceEnvironment);
     }
 }

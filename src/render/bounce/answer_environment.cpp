@@ -3,14 +3,15 @@
 
 namespace reflet {
 
-void answerEnvironment(gpu::Frame& f, Rays& rays, const GBuffer& g, const vec3& radiance) {
+void answerEnvironment(gpu::Frame& f, Rays& rays, const GBuffer& g, const vec3& radiance,
+                       const EnvironmentSettings& settings) {
     f.compute("answer_environment", "answer_environment.comp")
         .constant("lobe", rays.lobe)
         .read("material", g.material)
         .read("waiting", rays.waiting)
         .write("answer", rays.answer)
         .write("source", rays.source)
-        .params(AnswerEnvironmentParams{radiance})
+        .params(AnswerEnvironmentParams{radiance, settings})
         .dispatchIndirect(rays.waiting, 0);
     rays.waiting = {};
 }

@@ -9,8 +9,14 @@ SHARED_BEGIN
 // Hit distance of what has none [m]: far, and a half float.
 const float environmentDistance = 10000.0;
 
+#define ENVIRONMENT_SETTINGS(VALUE, SWITCH, CHOICE) \
+    VALUE(float, lostShare, 0.5, 0.0, 1.0,          \
+          "How much of the environment rays get of which the screen only knows that they went behind something.")
+SETTINGS(EnvironmentSettings, ENVIRONMENT_SETTINGS)
+
 struct AnswerEnvironmentParams {
     vec3 radiance;  // the same in all directions
+    EnvironmentSettings settings;
 };
 
 SHARED_END
@@ -25,7 +31,8 @@ namespace reflet {
 
 /// Answers all that waits. Diffuse rays from surfaces with an occlusion map get less of it: the map knows of nearby
 /// surfaces that the rays could not meet.
-void answerEnvironment(gpu::Frame& f, Rays& rays, const GBuffer& g, const vec3& radiance);
+void answerEnvironment(gpu::Frame& f, Rays& rays, const GBuffer& g, const vec3& radiance,
+                       const EnvironmentSettings& settings);
 
 }  // namespace reflet
 #endif

@@ -97,7 +97,7 @@ void main() {
             ray = lobe == lobeDiffuse ? diffuseRay(pixel, params.firstRay + i, n)
                                       : specularRay(pixel, params.firstRay + i, n, directionToEye(p, params.view.eye), m);
             ray.direction = raiseAbove(ray.direction, unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r));
-            appendRay(WaitingRay(slot, 1.0, 0.0));
+            appendRay(WaitingRay(slot, 1.0, 0.0, false));
         }
         imageStore(direction, slot, uvec4(packRay(ray), 0u, 0u));
     }

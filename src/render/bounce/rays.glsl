@@ -16,15 +16,17 @@ struct WaitingRay {
     float rest;   // how much of its weight is left, 0..1; kept in 16 bits
     float clear;  // metres along it up to which it has met nothing, and from where the next source may go on; a half
                   // float, rounded down
+    bool lost;    // there it went behind something that the screen shows, and nobody knows what it meets
 };
 
 RayItem packWaitingRay(WaitingRay ray) {
     uint clear = packHalf2x16(vec2(min(ray.clear * (1.0 - 1.0 / 2048.0), largestHalf), 0.0));
-    return RayItem(packSlot(ray.slot), uint(ray.rest * 65535.0 + 0.5) | (clear << 16u));
+    uint lost = ray.lost ? 0x8000u : 0u;  // where the sign would be
+    return RayItem(packSlot(ray.slot), uint(ray.rest * 65535.0 + 0.5) | ((clear | lost) << 16u));
 }
 WaitingRay unpackWaitingRay(RayItem item) {
     return WaitingRay(unpackSlot(item.slot), float(item.restAndClear & 0xffffu) / 65535.0,
-                      unpackHalf2x16(item.restAndClear >> 16u).x);
+                      unpackHalf2x16((item.restAndClear >> 16u) & 0x7fffu).x, (item.restAndClear & 0x80000000u) != 0u);
 }
 
 struct Ray {

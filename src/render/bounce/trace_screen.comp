@@ -93,7 +93,7 @@ float fadeOf(MarchResult hit, vec3 p, vec3 direction) {
     return edge * near * clamp(turned / max(s.cameraFade, 1e-6), 0.0, 1.0);
 }
 
-RayAnswer answerRay(ivec3 slot, Ray ray, out float clear) {
+RayAnswer answerRay(ivec3 slot, Ray ray, inout WaitingRay w) {
     float jitter = 1.0;
     if (params.settings.jitter != 0u) {
         uint stream = (params.firstRay + uint(slot.z)) * 2u + 1u + hashPcg(params.view.seed);
@@ -105,13 +105,14 @@ RayAnswer answerRay(ivec3 slot, Ray ray, out float clear) {
     vec3 n = unpackUnitVector(texelFetch(geometricNormal, slot.xy, 0).r);
     vec4 ownPlane = planeOnScreen(p, n, params.view.clipToWorld);
     MarchResult hit = traceRay(makeMarchRay(p, ray.direction, ownPlane, view), marchOptions(jitter), view);
-    clear = hit.clear;
     if (countSteps != 0u) {
         imageStore(steps, slot, vec4(float(hit.steps)));
     }
     // What it would see of a surface from behind, the screen does not show.
     bool facesAway = params.settings.rejectFacingAway != 0u && hit.outcome == marchHit &&
                      dot(unpackUnitVector(texelFetch(geometricNormal, hit.pixel, 0).r), ray.direction) > 0.0;
+    w.clear = hit.clear;
+    w.lost = hit.lost || facesAway;
     if (hit.outcome != marchHit || facesAway) {
         return RayAnswer(vec3(0.0), 0.0, 0.0);
     }
@@ -125,7 +126,7 @@ void main() {
         Ray ray = unpackRay(imageLoad(direction, w.slot).xy);
         RayAnswer a = RayAnswer(vec3(0.0), 0.0, 0.0);
         if (ray.trust > 0.0) {
-            a = answerRay(w.slot, ray, w.clear);
+            a = answerRay(w.slot, ray, w);
         }
         w.rest = addAnswer(w.slot, a, w.rest, sourceScreen);
         if (w.rest > 0.0) {

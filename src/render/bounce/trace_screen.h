@@ -48,12 +48,12 @@ CHOICES(HitLight, HIT_LIGHTS)
     CHOICE(ThicknessFrom, thicknessFrom, constant,                                                                     \
            "constant: the thickness; step: more by as much as a step goes along the view (linear, halving); "          \
            "secondLayer: up to the back face, drawn once more, where there is one.")                                   \
-    SWITCH(rejectFacingAway, 0, "A ray that meets the far side of what the screen shows has missed.")                  \
+    SWITCH(rejectFacingAway, 1, "A ray that meets the far side of what the screen shows has missed.")                  \
     VALUE(float, edgeFade, 0.0, 0.0, 0.5, "Hits this near the screen's edges fade out: a share of its size.")          \
     VALUE(float, distanceFade, 0.0, 0.0, 1.0, "Hits in this last part of maxDistance fade out.")                       \
     VALUE(float, cameraFade, 0.0, 0.0, 1.0,                                                                            \
           "Rays toward the camera fade out, where 1 - the angle's cosine is less than this.")                          \
-    CHOICE(HitLight, light, direct,                                                                                    \
+    CHOICE(HitLight, light, lit,                                                                                       \
            "What a hit brings: this frame's direct light; lit: and, to reflections, this frame's diffuse light; "      \
            "previous: the last frame's whole picture (further bounces).")                                              \
     SWITCH(countSteps, 0, "Keep how many depth samples each ray took (--show steps does so by itself).")

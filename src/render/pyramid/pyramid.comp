@@ -18,7 +18,7 @@ vec2 below(ivec2 cell) {
     if (level == 1) {
         float front = texelFetch(depth, cell, 0).r;
         float back = params.secondLayer != 0u ? texelFetch(backDepth, cell, 0).r : 0.0;
-        return vec2(front, front <= 0.0 ? 1.0 : back > 0.0 ? back : front);
+        return vec2(front, front <= 0.0 ? -1.0 : back > 0.0 ? back : front);
     }
     return imageLoad(pyramid, cell + ivec2(0, pyramidRow(pixels, level - 1))).rg;
 }
@@ -32,6 +32,8 @@ void main() {
     vec2 b = below(2 * cell + ivec2(1, 0));
     vec2 c = below(2 * cell + ivec2(0, 1));
     vec2 d = below(2 * cell + ivec2(1, 1));
-    vec2 extremes = vec2(max(max(a.x, b.x), max(c.x, d.x)), min(min(a.y, b.y), min(c.y, d.y)));
-    imageStore(pyramid, cell + ivec2(0, pyramidRow(pixels, level)), vec4(extremes, 0.0, 0.0));
+    float nearest = max(max(a.x, b.x), max(c.x, d.x));
+    float farthest = min(min(abs(a.y), abs(b.y)), min(abs(c.y), abs(d.y)));
+    bool sky = min(min(a.y, b.y), min(c.y, d.y)) < 0.0;
+    imageStore(pyramid, cell + ivec2(0, pyramidRow(pixels, level)), vec4(nearest, sky ? -farthest : farthest, 0.0, 0.0));
 }

@@ -26,8 +26,8 @@ SHARED_END
 
 namespace reflet {
 
-/// RG32F: the largest (nearest) and the smallest (farthest) reversed depth of each cell. backDepth: of the second
-/// layer, or none.
+/// RG32F: the largest (nearest) and the smallest (farthest) reversed depth of each cell, negative where there is sky.
+/// backDepth: of the second layer, or none.
 gpu::Image makePyramid(gpu::Frame& f, gpu::Image depth, gpu::Image backDepth = {});
 
 }  // namespace reflet
