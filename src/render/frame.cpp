@@ -18,6 +18,7 @@ namespace reflet {
 FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& settings) {
     FrameImages out;
     out.g = drawGBuffer(f, in.draws, in.view, settings.materials);
+    out.g.depth = keptDepth(f, "kept_depth", out.g.depth, in.view, settings.depth);
 
     ShadowSettings shadow = settings.shadow;
     if (in.sunIrradiance == vec3(0.0F)) {

@@ -5,6 +5,7 @@
 #include "render/bounce/rays.h"
 #include "render/bounce/trace_screen.h"
 #include "render/gbuffer/gbuffer.h"
+#include "render/gbuffer/kept_depth.h"
 #include "render/shadow/shadow.h"
 #include "render/tonemap/tonemap.h"
 
@@ -18,6 +19,7 @@ namespace reflet {
 
 struct Settings {
     MaterialsSettings materials;
+    DepthSettings depth;
     ShadowSettings shadow;
     TraceScreenSettings traceScreen;
     DiffuseSettings diffuse;
