@@ -25,7 +25,8 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
         shadow.filter = ShadowFilter::none;
     }
     const ShadowMapParams sunMap =
-        fitSunShadow(in.view.clipToWorld, in.draws.boundsW, in.sunDirection, shadow.resolution);
+        shadow.extent > 0.0F ? centredSunShadow(in.draws.boundsW, in.sunDirection, shadow.extent, shadow.resolution)
+                             : fitSunShadow(in.view.clipToWorld, in.draws.boundsW, in.sunDirection, shadow.resolution);
     if (shadow.filter != ShadowFilter::none) {
         out.shadowMap = drawShadowMap(f, in.draws, sunMap, shadow);
     }
