@@ -64,12 +64,15 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
         if (trace.light == HitLight::lit && settings.specular.rays > 0) {
             const LobeLight none = noLight(f, lobeSpecular, out.g.depth.size, counted);
             const gpu::Image soFar = f.image("lit_so_far", VK_FORMAT_R16G16B16A16_SFLOAT, out.g.depth.size);
-            screen.light = composite(f, out.g, out.direct, out.diffuse, none, in.ggxTable, soFar, in.view).lit;
+            screen.light =
+                composite(f, out.g, out.direct, out.diffuse, none, in.ggxTable, soFar, {in.view, settings.diffuse.gain})
+                    .lit;
         }
         out.specular = traceLobe(lobeSpecular, settings.specular.rays, trace.maxDistance);
     }
 
-    out.light = composite(f, out.g, out.direct, out.diffuse, out.specular, in.ggxTable, lit.next, in.view);
+    out.light = composite(f, out.g, out.direct, out.diffuse, out.specular, in.ggxTable, lit.next,
+                          {in.view, settings.diffuse.gain});
     out.display = tonemap(f, out.light.lit, settings.tonemap);
     return out;
 }
