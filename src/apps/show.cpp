@@ -131,8 +131,8 @@ const std::vector<Show>& table() {
         {"depth", "metres in front of the camera, 0 where there is nothing; PNG bright is near",
          [](const FrameImages& i) { return Images{i.g.depth}; }, viewDistance, y, near},
         {"back_depth",
-         "metres in front of the camera of the nearest back face behind the surface, 0 none; PNG bright is near; where "
-         "settings ask for a second depth layer",
+         "metres in front of the camera of the nearest back face behind the surface, 0 none; PNG bright is near; only "
+         "with trace_screen.thicknessFrom=secondLayer",
          [](const FrameImages& i) { return Images{i.backDepth}; }, viewDistance, y, near},
         {"normal", "world-space shading normal, 0 where there is nothing; PNG 0.5 + 0.5 n",
          [](const FrameImages& i) {

@@ -7,6 +7,7 @@
 
 #include "render/bounce/answer_environment.h"
 #include "render/bounce/trace_screen.h"
+#include "render/gbuffer/back_depth.h"
 #include "render/pyramid/pyramid.h"
 #include "render/shadow/shadow.h"
 #include "render/tonemap/tonemap.h"
@@ -18,6 +19,10 @@ namespace reflet {
 FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& settings) {
     FrameImages out;
     out.g = drawGBuffer(f, in.draws, in.view, settings.materials);
+    if (settings.traceScreen.thicknessFrom == ThicknessFrom::secondLayer) {
+        const gpu::Image back = drawBackDepth(f, in.draws, out.g.depth, in.view);
+        out.backDepth = keptDepth(f, "kept_back_depth", back, in.view, settings.depth);
+    }
     out.g.depth = keptDepth(f, "kept_depth", out.g.depth, in.view, settings.depth);
 
     ShadowSettings shadow = settings.shadow;
@@ -39,7 +44,7 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
     const uint32_t batch = raysPerBatch(f, out.g.depth.size);
     const TraceScreenSettings& trace = settings.traceScreen;
     const bool counted = trace.countSteps != 0;
-    ScreenImages screen{.g = out.g, .light = out.direct, .lit = lit};
+    ScreenImages screen{.g = out.g, .backDepth = out.backDepth, .light = out.direct, .lit = lit};
     if (trace.method == TraceMethod::hiz) {
         screen.pyramid = makePyramid(f, out.g.depth, screen.backDepth);
     }
