@@ -20,7 +20,7 @@ void listScenes() {
 
 void listPresets() {
     for (const Preset& preset : presets()) {
-        fmt::print("{:<10} {}\n           {}\n", preset.name, preset.description, preset.json);
+        fmt::print("{:<18} {}\n                   {}\n", preset.name, preset.description, preset.json);
     }
 }
 

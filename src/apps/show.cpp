@@ -130,6 +130,10 @@ const std::vector<Show>& table() {
          mapDepth},
         {"depth", "metres in front of the camera, 0 where there is nothing; PNG bright is near",
          [](const FrameImages& i) { return Images{i.g.depth}; }, viewDistance, y, near},
+        {"back_depth",
+         "metres in front of the camera of the nearest back face behind the surface, 0 none; PNG bright is near; only "
+         "with trace_screen.thicknessFrom=secondLayer",
+         [](const FrameImages& i) { return Images{i.backDepth}; }, viewDistance, y, near},
         {"normal", "world-space shading normal, 0 where there is nothing; PNG 0.5 + 0.5 n",
          [](const FrameImages& i) {
              return Images{i.g.normal, i.g.depth};
@@ -216,6 +220,9 @@ const Show& findShow(std::string_view name) {
 ShowReadback requestShow(gpu::Frame& f, const FrameImages& images, const Show& show) {
     ShowReadback readback{&show, show.images(images), {}};
     for (const gpu::Image& image : readback.images) {
+        if (!image) {
+            fail("the frame has no {} with these settings; it is: {}", show.name, show.description);
+        }
         readback.copies.push_back(f.readback(image));
     }
     return readback;

@@ -39,6 +39,7 @@ struct ShowReadback {
     std::vector<gpu::Readback> copies;
 };
 
+/// Throws Error for an image that the frame has not made with its settings.
 ShowReadback requestShow(gpu::Frame& f, const FrameImages& images, const Show& show);
 FloatImage fetchValues(const gpu::Frame& f, const ShowReadback& readback, const ViewParams& view);
 

@@ -38,6 +38,13 @@ bool mayBeSeen(const Aabb& box, const mat4& worldToClip) {
     return outside == 0;
 }
 
+VkCullModeFlags cullMode(Cull cull, const Draw& draw) {
+    if (cull == Cull::front) {
+        return VK_CULL_MODE_FRONT_BIT;
+    }
+    return cull == Cull::back && !draw.doubleSided ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
+}
+
 struct DrawConstants {
     glm::mat4x3 objectToWorld;
     glm::mat4x3 previousObjectToWorld;
@@ -63,8 +70,7 @@ void recordDraws(const gpu::DrawCommands& to, const DrawList& list, const DrawFi
         }
         const bool mirrored = glm::determinant(mat3(draw.objectToWorld)) < 0.0F;
         vk.vkCmdSetFrontFace(to.commands, mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
-        vk.vkCmdSetCullMode(to.commands,
-                            filter.cullBackFaces && !draw.doubleSided ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE);
+        vk.vkCmdSetCullMode(to.commands, cullMode(filter.cull, draw));
         const DrawConstants constants{glm::mat4x3(draw.objectToWorld), glm::mat4x3(draw.previousObjectToWorld)};
         vk.vkCmdPushConstants(to.commands, to.layout, VK_SHADER_STAGE_ALL, 0,
                               previousTransform ? sizeof(constants) : sizeof(constants.objectToWorld), &constants);

@@ -4,6 +4,7 @@
 #include "base/math.h"
 #include "gpu/pass.h"
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -33,9 +34,15 @@ struct DrawList {
 /// The vertex buffers of a draw list: position; normal, tangent, uv0, uv1, color.
 const gpu::VertexLayout& vertexLayout();
 
+enum class Cull : uint8_t {
+    none,
+    back,   ///< of single-sided draws
+    front,  ///< of all draws
+};
+
 struct DrawFilter {
     std::function<bool(const Draw&)> keep;
-    bool cullBackFaces = true;  ///< of single-sided draws
+    Cull cull = Cull::back;
     bool bindMaterials = true;  ///< false: the pipeline has no set 1
     mat4 worldToClip{1.0F};     ///< draws that this puts wholly outside the view are left out
 };

@@ -7,6 +7,7 @@
 
 #include "render/bounce/answer_environment.h"
 #include "render/bounce/trace_screen.h"
+#include "render/gbuffer/back_depth.h"
 #include "render/pyramid/pyramid.h"
 #include "render/shadow/shadow.h"
 #include "render/tonemap/tonemap.h"
@@ -18,13 +19,19 @@ namespace reflet {
 FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& settings) {
     FrameImages out;
     out.g = drawGBuffer(f, in.draws, in.view, settings.materials);
+    if (settings.traceScreen.thicknessFrom == ThicknessFrom::secondLayer) {
+        const gpu::Image back = drawBackDepth(f, in.draws, out.g.depth, in.view);
+        out.backDepth = keptDepth(f, "kept_back_depth", back, in.view, settings.depth);
+    }
+    out.g.depth = keptDepth(f, "kept_depth", out.g.depth, in.view, settings.depth);
 
     ShadowSettings shadow = settings.shadow;
     if (in.sunIrradiance == vec3(0.0F)) {
         shadow.filter = ShadowFilter::none;
     }
     const ShadowMapParams sunMap =
-        fitSunShadow(in.view.clipToWorld, in.draws.boundsW, in.sunDirection, shadow.resolution);
+        shadow.extent > 0.0F ? centredSunShadow(in.draws.boundsW, in.sunDirection, shadow.extent, shadow.resolution)
+                             : fitSunShadow(in.view.clipToWorld, in.draws.boundsW, in.sunDirection, shadow.resolution);
     if (shadow.filter != ShadowFilter::none) {
         out.shadowMap = drawShadowMap(f, in.draws, sunMap, shadow);
     }
@@ -37,7 +44,7 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
     const uint32_t batch = raysPerBatch(f, out.g.depth.size);
     const TraceScreenSettings& trace = settings.traceScreen;
     const bool counted = trace.countSteps != 0;
-    ScreenImages screen{.g = out.g, .light = out.direct, .lit = lit};
+    ScreenImages screen{.g = out.g, .backDepth = out.backDepth, .light = out.direct, .lit = lit};
     if (trace.method == TraceMethod::hiz) {
         screen.pyramid = makePyramid(f, out.g.depth, screen.backDepth);
     }
@@ -62,12 +69,15 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
         if (trace.light == HitLight::lit && settings.specular.rays > 0) {
             const LobeLight none = noLight(f, lobeSpecular, out.g.depth.size, counted);
             const gpu::Image soFar = f.image("lit_so_far", VK_FORMAT_R16G16B16A16_SFLOAT, out.g.depth.size);
-            screen.light = composite(f, out.g, out.direct, out.diffuse, none, in.ggxTable, soFar, in.view).lit;
+            screen.light =
+                composite(f, out.g, out.direct, out.diffuse, none, in.ggxTable, soFar, {in.view, settings.diffuse.gain})
+                    .lit;
         }
         out.specular = traceLobe(lobeSpecular, settings.specular.rays, trace.maxDistance);
     }
 
-    out.light = composite(f, out.g, out.direct, out.diffuse, out.specular, in.ggxTable, lit.next, in.view);
+    out.light = composite(f, out.g, out.direct, out.diffuse, out.specular, in.ggxTable, lit.next,
+                          {in.view, settings.diffuse.gain});
     out.display = tonemap(f, out.light.lit, settings.tonemap);
     return out;
 }

@@ -24,6 +24,7 @@ struct FrameInputs {
 /// Every image of the frame; formats where the effects declare them.
 struct FrameImages {
     GBuffer g;
+    gpu::Image backDepth;  ///< none unless trace_screen.thicknessFrom is secondLayer
     gpu::Image shadowMap;  ///< none without sun or shadows
     gpu::Image sunVisibility;
     gpu::Image direct;

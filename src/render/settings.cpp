@@ -27,6 +27,7 @@ void addEffect(std::vector<SettingEntry>& entries, const std::string& effect, si
 std::vector<SettingEntry> makeEntries() {
     std::vector<SettingEntry> entries;
     addEffect<MaterialsSettings>(entries, "materials", offsetof(Settings, materials));
+    addEffect<DepthSettings>(entries, "depth", offsetof(Settings, depth));
     addEffect<ShadowSettings>(entries, "shadow", offsetof(Settings, shadow));
     addEffect<TraceScreenSettings>(entries, "trace_screen", offsetof(Settings, traceScreen));
     addEffect<EnvironmentSettings>(entries, "environment", offsetof(Settings, environment));

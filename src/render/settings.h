@@ -6,6 +6,7 @@
 #include "render/bounce/rays.h"
 #include "render/bounce/trace_screen.h"
 #include "render/gbuffer/gbuffer.h"
+#include "render/gbuffer/kept_depth.h"
 #include "render/shadow/shadow.h"
 #include "render/tonemap/tonemap.h"
 
@@ -19,6 +20,7 @@ namespace reflet {
 
 struct Settings {
     MaterialsSettings materials;
+    DepthSettings depth;
     ShadowSettings shadow;
     TraceScreenSettings traceScreen;
     EnvironmentSettings environment;

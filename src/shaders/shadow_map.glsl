@@ -7,6 +7,10 @@
 
 const float lookupOffset = 0.75;  // texels: a texel's centre is at most 0.71 from its corner
 
+bool outsideMap(ivec2 texel, ivec2 size) {
+    return any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, size));
+}
+
 // 1: lit. A hard edge, exact to the texel: the map holds depth at texel centres, so the surface is followed along its
 // own plane from the point to the centre and compared there. What is left for the bias (texels along the normal) is
 // curvature, creases and rounding.
@@ -23,7 +27,7 @@ float hardVisibility(vec3 p, vec3 normal, ShadowMapParams map, ivec2 size, float
     vec3 lookup = p + sideways * (across > 1e-3 ? lookupOffset * map.texelSize / across : 0.0);
     vec2 at = (0.5 + 0.5 * (map.worldToShadow * vec4(lookup, 1.0)).xy) * vec2(size);
     ivec2 texel = ivec2(floor(at));
-    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, size))) {
+    if (outsideMap(texel, size)) {
         return 1.0;  // nothing that the map knows of casts here
     }
     // The normal in shadow space's own axes: depth changes by -n.xy / n.z for each step along x and y.
@@ -35,6 +39,18 @@ float hardVisibility(vec3 p, vec3 normal, ShadowMapParams map, ivec2 size, float
     float metres = dot(slope, toCentre) + bias * map.texelSize / max(facing, 0.05);
     float surface = s.z + metres / map.depthRange;
     return loadShadowDepth(texel) > surface ? 0.0 : 1.0;
+}
+
+// 1: lit. The depth of the texel that the point lies in, compared with the point's own, moved `bias` metres toward the
+// sun (Williams, Casting curved shadows on curved surfaces, 1978). A surface whose depth changes by more than that from
+// the texel's centre to its corner shadows itself; casters that are nearer than that to what they shadow are missed.
+float constantBiasVisibility(vec3 p, ShadowMapParams map, ivec2 size, float bias) {
+    vec3 s = (map.worldToShadow * vec4(p, 1.0)).xyz;
+    ivec2 texel = ivec2(floor((0.5 + 0.5 * s.xy) * vec2(size)));
+    if (outsideMap(texel, size)) {
+        return 1.0;
+    }
+    return loadShadowDepth(texel) > s.z + bias / map.depthRange ? 0.0 : 1.0;
 }
 
 #endif

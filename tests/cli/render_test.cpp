@@ -12,6 +12,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 const std::string cubes = "builtin:cubes";
+const std::string secondLayer = "trace_screen.thicknessFrom=secondLayer";  // without it there is no back_depth
 
 class Render : public ProgramTest {
 protected:
@@ -78,8 +79,8 @@ TEST_F(Render, EveryListedShowMakesAPictureAndValues) {
     ASSERT_GE(shows.size(), 20U);
     for (const std::string& show : shows) {
         const bool map = show == "shadow_map";
-        ASSERT_TRUE(quietSuccess(
-            render(cubes, {"-o", "a.png", "-o", "a.exr", "--show", show, "--set", "shadow.resolution=64"})))
+        ASSERT_TRUE(quietSuccess(render(cubes, {"-o", "a.png", "-o", "a.exr", "--show", show, "--set",
+                                                "shadow.resolution=64", "--set", secondLayer})))
             << show;
         const auto all = layers("a.exr", map ? 64 : 32, map ? 64 : 18);
         ASSERT_EQ(all.size(), 1U) << show;
@@ -97,7 +98,7 @@ TEST_F(Render, EveryBuiltinSceneHasAllImagesWithoutNan) {
     const Names scenes = names("scenes");
     ASSERT_GE(scenes.size(), 7U);
     for (const std::string& scene : scenes) {
-        ASSERT_TRUE(quietSuccess(render(scene, {"-o", "a.exr", "--aov", aovs}))) << scene;
+        ASSERT_TRUE(quietSuccess(render(scene, {"-o", "a.exr", "--aov", aovs, "--set", secondLayer}))) << scene;
         EXPECT_EQ(layers("a.exr").size(), shows.size() + 1) << scene;
     }
 }

@@ -100,6 +100,12 @@ TEST_F(WrongUse, AShadowMapSharesNoFile) {
     EXPECT_TRUE(refused(render(cubes, {"-o", "a.exr", "--show", "shadow_map", "--aov", "depth"}), usage, {"--aov"}));
 }
 
+TEST_F(WrongUse, AnImageThatTheFrameDoesNotMakeIsNamedWithTheSettingThatMakesIt) {
+    EXPECT_TRUE(refused(renderWith({"--show", "back_depth"}), 1, {"back_depth", "thicknessFrom=secondLayer"}));
+    EXPECT_TRUE(quietSuccess(
+        render(cubes, {"-o", "a.png", "--show", "back_depth", "--set", "trace_screen.thicknessFrom=secondLayer"})));
+}
+
 TEST_F(WrongUse, AnOutputOfUnknownFormatIsRefused) {
     EXPECT_TRUE(refused(render(cubes, {"-o", "a.jpg"}), usage, {"a.jpg", ".png", ".exr"}));
     EXPECT_TRUE(refused(render(cubes, {"-o", "picture"}), usage, {"picture", ".png", ".exr"}));

@@ -1,6 +1,7 @@
 // Hard shadows: where their edge lies, and that nothing shadows itself.
 #include "pass/harness.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace reflet::test {
@@ -121,6 +122,50 @@ TEST(Shadow, AClosedBoxIsBlackInside) {
         render(sceneOf(material, builtin::box(vec3(1.0F))), view, size, settingsOf(direct), {"direct", "depth"});
     EXPECT_GT(rangeOf(p.images.at("depth")).min, 0.0F) << "the camera looks at walls only";
     EXPECT_EQ(rangeOf(p.images.at("direct")).max, 0.0F);
+}
+
+TEST(Shadow, ACentimetreOfConstantBiasEndsSelfShadowingInAMapOfTenMetresAndNoneDoesNot) {
+    const Scene scene = sceneOf(lambertMaterial(vec3(0.5F)), builtin::ground({9, 9}, {1, 1}, {1, 1}));
+    const View view = viewOfGround({0.5F, 1.0F, 0.2F});
+    const auto darkShare = [&](const char* bias) {
+        auto settings = direct;
+        settings.insert(settings.end(), {"shadow.extent=10", "shadow.biasKind=constant", bias});
+        const Pictures p = render(scene, view, size, settingsOf(settings), {"sun_visibility"});
+        const auto& data = p.images.at("sun_visibility").data;
+        return static_cast<double>(std::ranges::count(data, 0.0F)) / static_cast<double>(data.size());
+    };
+    EXPECT_GT(darkShare("shadow.constantBias=0"), 0.2);
+    EXPECT_EQ(darkShare("shadow.constantBias=0.01"), 0.0);
+}
+
+TEST(Shadow, OfAMapOfGivenExtentEndsThere) {
+    // The sun at its height; two slabs, one over the origin and one wholly outside of the map.
+    Scene scene = groundWith(builtin::box(vec3(1.0F, 0.02F, 1.0F)), builtin::at({0, 2, 0}));
+    builtin::place(scene, "outside", 0, builtin::box(vec3(1.0F, 0.02F, 1.0F)), builtin::at({6, 2, 0}));
+    View view = viewOfGround({0, 1, 0});
+    view.camera.position = {3, 1.5F, 9};
+    view.camera.target = {3, 0, 0};
+    for (const char* kind : {"shadow.biasKind=slope", "shadow.biasKind=constant"}) {
+        auto settings = direct;
+        settings.insert(settings.end(), {"shadow.extent=4", kind});
+        const Pictures p = render(scene, view, size, settingsOf(settings), {"sun_visibility", "depth"});
+        unsigned dark = 0;
+        unsigned lit = 0;
+        for (unsigned y = 0; y < size.y; ++y) {
+            for (unsigned x = 0; x < size.x; ++x) {
+                const vec3 at = p.hasSurface(x, y) ? p.position(x, y) : vec3(0, 9, 0);
+                if (std::abs(at.y) > 0.01F || std::abs(at.z) > 0.95F) {
+                    continue;
+                }
+                const bool shadowed = std::abs(at.x) < 0.95F;
+                if (shadowed || std::abs(at.x - 6.0F) < 0.95F) {
+                    EXPECT_EQ(p.value("sun_visibility", x, y), shadowed ? 0.0F : 1.0F) << kind << ": " << at.x;
+                    ++(shadowed ? dark : lit);
+                }
+            }
+        }
+        EXPECT_GT(std::min(dark, lit), 50U);
+    }
 }
 
 TEST(Shadow, CutOutMaterialsCastOnlyWhatIsThere) {

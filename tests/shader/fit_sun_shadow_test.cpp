@@ -208,5 +208,23 @@ TEST(FitSunShadow, standsABoxOfOnePoint) {
     }
 }
 
+TEST(CentredSunShadow, HasTheOriginInItsMiddleAndItsSidesAtTheExtent) {
+    const Aabb box = boxOf({-3, -1, 2}, {20, 4, 9});
+    for (const vec3& sun : sunDirections()) {
+        const ShadowMapParams map = centredSunShadow(box, sun, 10.0F, resolution);
+        const vec4 origin = map.worldToShadow * vec4(0, 0, 0, 1);
+        EXPECT_NEAR(origin.x, 0.0F, 1e-6F);
+        EXPECT_NEAR(origin.y, 0.0F, 1e-6F);
+        EXPECT_FLOAT_EQ(map.texelSize, 20.0F / resolution);
+        EXPECT_NEAR(glm::length(vec3(glm::transpose(map.worldToShadow)[0])), 0.1F, 1e-6F);
+        EXPECT_NEAR(glm::length(vec3(glm::transpose(map.worldToShadow)[1])), 0.1F, 1e-6F);
+        for (unsigned i = 0; i < 8; ++i) {
+            const float depth = (map.worldToShadow * vec4(box.corner(i), 1.0F)).z;
+            EXPECT_GT(depth, 0.0F);
+            EXPECT_LT(depth, 1.0F);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace reflet::test

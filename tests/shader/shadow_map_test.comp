@@ -36,6 +36,10 @@ void main() {
         return;
     }
     ShadowCase c = inputs.items[i];
+    if (params.constant != 0u) {
+        outputs.items[i] = constantBiasVisibility(c.point, params.map, ivec2(params.resolution), params.bias);
+        return;
+    }
     vec3 n = params.packedNormal != 0u ? unpackUnitVector(packUnitVector(c.normal)) : c.normal;
     outputs.items[i] = hardVisibility(c.point, n, params.map, ivec2(params.resolution), params.bias);
 }

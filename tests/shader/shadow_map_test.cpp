@@ -164,6 +164,44 @@ TEST_F(ShadowMap, whatTheMapDoesNotHoldIsLit) {
     }
 }
 
+// A texel's corner is half a texel from its centre along both axes: over that way, depth changes by `slope`.
+TEST_F(ShadowMap, aConstantBiasEndsSelfShadowingOnceItIsWhatDepthChangesByFromATexelsCentreToItsCorner) {
+    for (const float degrees : {70.0F, 45.0F, 20.0F}) {
+        ShadowScene scene = sceneOf(toSunAt(glm::radians(degrees), 0.6F), vec3(0, 1, 0));
+        scene.constant = 1;
+        const auto cases = pointsOnReceiver(scene, 20000);
+        // Metres of depth from one side of the map to the other, along both axes, by the plane's own points.
+        const auto depthAt = [&](const vec2& xy) {
+            const vec3 low(scene.shadowToWorld * vec4(xy, 0, 1));
+            const vec3 high(scene.shadowToWorld * vec4(xy, 1, 1));
+            return -low.y / (high.y - low.y) * scene.map.depthRange;
+        };
+        const float across =
+            std::abs(depthAt({1, 0}) - depthAt({-1, 0})) + std::abs(depthAt({0, 1}) - depthAt({0, -1}));
+        const float slope = 0.5F * across / resolution;
+        const auto dark = [&](float bias) {
+            scene.bias = bias;
+            return std::ranges::count(lookUp(scene, cases), 0.0F);
+        };
+        EXPECT_GT(dark(0.0F), 8000) << degrees;  // half of them lie farther than their texel's centre
+        EXPECT_GT(dark(0.9F * slope), 0) << degrees;
+        EXPECT_EQ(dark(1.05F * slope), 0) << degrees;
+    }
+}
+
+TEST_F(ShadowMap, withAConstantBiasAnOccluderCountsAsSoonAsItIsNearerToTheSunByMore) {
+    ShadowScene scene = sceneOf(vec3(0, 1, 0), vec3(0, 1, 0));
+    scene.constant = 1;
+    scene.bias = 0.05F;
+    scene.occluderEdge = vec4(0, 0, 0, -1);  // everywhere
+    auto cases = pointsOnReceiver(scene, 2000);
+    std::erase_if(cases, [&](const ShadowCase& c) { return !isInside(scene, c); });
+    scene.occluder = vec4(0, 1, 0, -0.052F);
+    EXPECT_EQ(std::ranges::count(lookUp(scene, cases), 1.0F), 0);
+    scene.occluder = vec4(0, 1, 0, -0.048F);
+    EXPECT_EQ(std::ranges::count(lookUp(scene, cases), 0.0F), 0);
+}
+
 TEST_F(ShadowMap, whatFacesAwayFromTheSunIsDark) {
     const vec3 toSun = toSunAt(1.0F, 0.0F);
     const ShadowScene scene = sceneOf(toSun, vec3(0, 1, 0));

@@ -13,7 +13,8 @@ struct ShadowScene {
     vec4 receiver;      // plane: dot(receiver, (p, 1)) = 0
     vec4 occluder;      // plane; all zeros: none
     vec4 occluderEdge;  // the occluder is there where dot(occluderEdge, (p, 1)) < 0
-    float bias;
+    float bias;         // in texels, or
+    uint constant;      // 1: in metres, and the bias of constantBiasVisibility
     uint resolution;
     uint packedNormal;  // 1: the normal comes through a G-buffer
 };

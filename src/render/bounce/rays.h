@@ -21,7 +21,9 @@ CHOICES(RayDistribution, RAY_DISTRIBUTIONS)
     VALUE(uint, rays, 4, 0, 256, "Rays per pixel for indirect diffuse light; 0: none is computed.")       \
     CHOICE(RayDistribution, distribution, cosine, "How their directions are spread over the hemisphere.") \
     VALUE(float, radius, 100000.0, 0.01, 100000.0,                                                        \
-          "Metres; what is farther off is left to the sources behind the screen.")
+          "Metres; what is farther off is left to the sources behind the screen.")                        \
+    VALUE(float, gain, 1.0, 0.0, 64.0,                                                                    \
+          "Factor on indirect diffuse light; only 1 keeps energy; pi is what leaving out Lambert's 1/pi does.")
 SETTINGS(DiffuseSettings, DIFFUSE_SETTINGS)
 
 #define SPECULAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                 \

@@ -35,7 +35,7 @@ void main() {
         float nv = dot(n, directionToEye(p, params.view.eye));
         MaterialTexel m = unpackMaterial(texelFetch(material, pixel, 0));
         Surface s = surfaceAt(texelFetch(baseColor, pixel, 0).rgb, m, nv, ggxTable);
-        fromDiffuse = s.diffuse * imageLoad(diffuse, pixel).rgb;
+        fromDiffuse = params.diffuseGain * s.diffuse * imageLoad(diffuse, pixel).rgb;
         fromSpecular = s.specular * imageLoad(specular, pixel).rgb;
     }
     imageStore(indirectDiffuse, pixel, vec4(clampToHalf(fromDiffuse), 1.0));

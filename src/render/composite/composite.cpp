@@ -6,7 +6,7 @@
 namespace reflet {
 
 Composite composite(gpu::Frame& f, const GBuffer& g, gpu::Image direct, const LobeLight& diffuse,
-                    const LobeLight& specular, gpu::Image ggxTable, gpu::Image lit, const ViewParams& view) {
+                    const LobeLight& specular, gpu::Image ggxTable, gpu::Image lit, const CompositeParams& params) {
     constexpr VkFormat radiance = VK_FORMAT_R16G16B16A16_SFLOAT;
     const uvec2 size = g.depth.size;
     const Composite result{.indirectDiffuse = f.image("indirect_diffuse", radiance, size),
@@ -24,7 +24,7 @@ Composite composite(gpu::Frame& f, const GBuffer& g, gpu::Image direct, const Lo
         .write("indirectDiffuse", result.indirectDiffuse)
         .write("indirectSpecular", result.indirectSpecular)
         .write("lit", result.lit)
-        .params(CompositeParams{view})
+        .params(params)
         .dispatch(size);
     return result;
 }

@@ -9,6 +9,7 @@ SHARED_BEGIN
 
 struct CompositeParams {
     ViewParams view;
+    float diffuseGain;  // factor on indirect diffuse light
 };
 
 SHARED_END
@@ -30,7 +31,7 @@ struct Composite {
 
 /// lit: written.
 Composite composite(gpu::Frame& f, const GBuffer& g, gpu::Image direct, const LobeLight& diffuse,
-                    const LobeLight& specular, gpu::Image ggxTable, gpu::Image lit, const ViewParams& view);
+                    const LobeLight& specular, gpu::Image ggxTable, gpu::Image lit, const CompositeParams& params);
 
 }  // namespace reflet
 #endif

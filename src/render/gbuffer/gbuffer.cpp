@@ -26,7 +26,7 @@ GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view,
         .vertices(vertexLayout(), list.materialLayout)
         .params(GBufferParams{view, settings})
         .draw([&](const gpu::DrawCommands& to) {
-            recordDraws(to, list, {[](const Draw&) { return true; }, true, true, view.worldToClip}, true);
+            recordDraws(to, list, {[](const Draw&) { return true; }, Cull::back, true, view.worldToClip}, true);
         });
     return g;
 }

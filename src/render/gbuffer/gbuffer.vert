@@ -23,6 +23,7 @@ layout(location = 3) out vec4 vertexColor;
 layout(location = 4) out vec3 clipNow;
 layout(location = 5) out vec3 clipBefore;
 layout(location = 6) out vec3 fromEye;
+invariant gl_Position;  // back_depth.vert computes the same: a surface must find itself there
 
 void main() {
     mat3 m = mat3(draw.objectToWorld);

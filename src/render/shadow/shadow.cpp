@@ -12,14 +12,15 @@ gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const ShadowMapPar
         .vertices(vertexLayout())
         .params(map.worldToShadow)
         .draw([&](const gpu::DrawCommands& to) {
-            recordDraws(to, list, {[](const Draw& d) { return !d.masked; }, false, false, map.worldToShadow}, false);
+            recordDraws(to, list, {[](const Draw& d) { return !d.masked; }, Cull::none, false, map.worldToShadow},
+                        false);
         });
     f.raster("shadow_map", {"shadow_map_masked.vert", "shadow_map_masked.frag"})
         .depth(depth, std::nullopt)
         .vertices(vertexLayout(), list.materialLayout)
         .params(map.worldToShadow)
         .draw([&](const gpu::DrawCommands& to) {
-            recordDraws(to, list, {[](const Draw& d) { return d.masked; }, false, true, map.worldToShadow}, false);
+            recordDraws(to, list, {[](const Draw& d) { return d.masked; }, Cull::none, true, map.worldToShadow}, false);
         });
     return depth;
 }

@@ -13,10 +13,24 @@ SHARED_BEGIN
     OPTION(ShadowFilter, hard, 1)
 CHOICES(ShadowFilter, SHADOW_FILTERS)
 
-#define SHADOW_SETTINGS(VALUE, SWITCH, CHOICE)                                                              \
-    CHOICE(ShadowFilter, filter, hard, "How the sun's shadow map is read; none: the sun casts no shadows.") \
-    VALUE(uint, resolution, 2048, 64, 8192, "Texels along each side of the sun's shadow map.")              \
-    VALUE(float, bias, 0.75, 0.0, 16.0, "How far above themselves surfaces ask for shadow, in texels of the map.")
+#define SHADOW_BIASES(OPTION)    \
+    OPTION(ShadowBias, slope, 0) \
+    OPTION(ShadowBias, constant, 1)
+CHOICES(ShadowBias, SHADOW_BIASES)
+
+#define SHADOW_SETTINGS(VALUE, SWITCH, CHOICE)                                                                         \
+    CHOICE(ShadowFilter, filter, hard, "How the sun's shadow map is read; none: the sun casts no shadows.")            \
+    VALUE(uint, resolution, 2048, 64, 8192, "Texels along each side of the sun's shadow map.")                         \
+    VALUE(float, extent, 0.0, 0.0, 10000.0,                                                                            \
+          "Metres from the middle of the map, the world's origin, to each side; what is outside is lit; 0: fitted to " \
+          "the view.")                                                                                                 \
+    CHOICE(ShadowBias, biasKind, slope,                                                                                \
+           "What keeps surfaces from shadowing themselves; slope: they are followed along their own plane to the "     \
+           "texel's centre, then `bias`; constant: `constantBias` alone.")                                             \
+    VALUE(float, bias, 0.75, 0.0, 16.0,                                                                                \
+          "How far above themselves surfaces ask for shadow, in texels of the map (slope).")                           \
+    VALUE(float, constantBias, 0.01, 0.0, 10.0,                                                                        \
+          "How much nearer to the sun surfaces are taken to be, in metres (constant).")
 SETTINGS(ShadowSettings, SHADOW_SETTINGS)
 
 // Shadow space: x, y in clip space of the map, z reversed depth (1 nearest to the sun), all of it linear.
@@ -46,6 +60,9 @@ namespace reflet {
 /// Fits an orthographic map of `resolution` texels to the part of `sceneBounds` that the view sees, and lengthens it
 /// toward the sun by all that may cast into it. direction: the way the light travels.
 ShadowMapParams fitSunShadow(const mat4& clipToWorld, const Aabb& sceneBounds, const vec3& direction, uint resolution);
+
+/// An orthographic map of ±extent metres around the world's origin, whatever the view sees, as deep as `sceneBounds`.
+ShadowMapParams centredSunShadow(const Aabb& sceneBounds, const vec3& direction, float extent, uint resolution);
 
 /// Draws depth as the sun sees it, both sides of every surface: D32, reversed (1 nearest to the sun).
 gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const ShadowMapParams& map,

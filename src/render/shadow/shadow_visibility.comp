@@ -21,6 +21,9 @@ float visibilityAt(ivec2 pixel) {
         return 1.0;
     }
     vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
+    if (params.settings.biasKind == ShadowBias_constant) {
+        return constantBiasVisibility(p, params.map, textureSize(shadowMap, 0), params.settings.constantBias);
+    }
     vec3 n = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
     return hardVisibility(p, n, params.map, textureSize(shadowMap, 0), params.settings.bias);
 }

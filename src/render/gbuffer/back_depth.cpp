@@ -1,0 +1,19 @@
+// Draws the second depth layer.
+#include "render/gbuffer/back_depth.h"
+
+namespace reflet {
+
+gpu::Image drawBackDepth(gpu::Frame& f, const DrawList& list, gpu::Image depth, const ViewParams& view) {
+    const gpu::Image back = f.target("back_depth", VK_FORMAT_D32_SFLOAT, depth.size);
+    f.raster("back_depth", {"back_depth.vert", "back_depth.frag"})
+        .read("firstDepth", depth)
+        .depth(back, 0.0F)
+        .vertices(vertexLayout(), list.materialLayout)
+        .params(BackDepthParams{view.worldToClip, view.depthToDistance})
+        .draw([&](const gpu::DrawCommands& to) {
+            recordDraws(to, list, {[](const Draw&) { return true; }, Cull::front, true, view.worldToClip}, false);
+        });
+    return back;
+}
+
+}  // namespace reflet

@@ -1,0 +1,37 @@
+// Records what a depth buffer of another kind would have kept.
+#include "render/gbuffer/kept_depth.h"
+
+#include <algorithm>
+
+namespace reflet {
+
+namespace {
+
+constexpr float farDistance = 1000.0F;  // metres; where a perspective view, which has no far plane, gets one
+
+}  // namespace
+
+KeptDepthParams keptDepthParams(const ViewParams& view, DepthBuffer buffer) {
+    // Reversed depth is near / distance in a perspective view, and 0 at the far plane of an orthographic one. The near
+    // plane may itself be as far as 1000 m.
+    const float near = view.depthToDistance.x;
+    const float farDepth = view.eye.w > 0.0F ? near / std::max(farDistance, 2.0F * near) : 0.0F;
+    const float steps = buffer == DepthBuffer::standard16 ? 65535.0F : 16777215.0F;
+    return {farDepth, steps, uvec2(view.size)};
+}
+
+gpu::Image keptDepth(gpu::Frame& f, std::string_view name, gpu::Image depth, const ViewParams& view,
+                     const DepthSettings& settings) {
+    if (settings.buffer == DepthBuffer::reversedFloat) {
+        return depth;
+    }
+    const gpu::Image kept = f.image(name, VK_FORMAT_R32_SFLOAT, depth.size);
+    f.compute("kept_depth", "kept_depth.comp")
+        .read("depth", depth)
+        .write("kept", kept)
+        .params(keptDepthParams(view, settings.buffer))
+        .dispatch(depth.size);
+    return kept;
+}
+
+}  // namespace reflet

@@ -1,0 +1,50 @@
+// What a depth buffer keeps of each depth: reversed floats keep everything, fixed point with the near plane at 0 does
+// not. For looking at what that costs. Shared by C++ and GLSL.
+#ifndef REFLET_RENDER_KEPT_DEPTH_H
+#define REFLET_RENDER_KEPT_DEPTH_H
+
+#include "base/shared.h"
+
+SHARED_BEGIN
+
+struct KeptDepthParams {
+    float farDepth;  // reversed depth at the far plane
+    float steps;     // highest whole number
+    uvec2 size;
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "gpu/frame.h"
+#include "render/view.h"
+
+namespace reflet {
+
+// Not for shaders, where `buffer` is reserved.
+#define DEPTH_BUFFERS(OPTION)             \
+    OPTION(DepthBuffer, reversedFloat, 0) \
+    OPTION(DepthBuffer, standard24, 1)    \
+    OPTION(DepthBuffer, standard16, 2)
+CHOICES(DepthBuffer, DEPTH_BUFFERS)
+
+#define DEPTH_SETTINGS(VALUE, SWITCH, CHOICE)                                                                   \
+    CHOICE(DepthBuffer, buffer, reversedFloat,                                                                  \
+           "What is kept of each depth; reversedFloat: 32-bit floats, 1 at the near plane, 0 at infinity; "     \
+           "standard24, standard16: whole numbers of so many bits, 0 at the near plane, the highest at 1000 m " \
+           "(orthographic: at the far plane).")
+SETTINGS(DepthSettings, DEPTH_SETTINGS)
+
+/// What is left of `depth` (reversed, 0: sky) after it has been in such a buffer, reversed again: R32F under `name`.
+/// With reversedFloat: `depth` itself, and no pass.
+gpu::Image keptDepth(gpu::Frame& f, std::string_view name, gpu::Image depth, const ViewParams& view,
+                     const DepthSettings& settings);
+
+/// Parameters of that buffer (not reversedFloat) for the view.
+KeptDepthParams keptDepthParams(const ViewParams& view, DepthBuffer buffer);
+
+}  // namespace reflet
+#endif
+
+#endif

@@ -1,0 +1,17 @@
+// What fixed-point depth buffers keep.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "render/gbuffer/kept_depth.h"
+#include "shaders/fixed_point_depth.glsl"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { KeptDepthParams params; };
+layout(set = 0, binding = 1, scalar) readonly buffer InputBlock { float items[]; } inputs;
+layout(set = 0, binding = 2, scalar) buffer OutputBlock { float items[]; } outputs;
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i < outputs.items.length()) {
+        outputs.items[i] = fixedPointDepth(inputs.items[i], params.farDepth, params.steps);
+    }
+}
