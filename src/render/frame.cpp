@@ -66,7 +66,7 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
     }
     {
         const auto scope = f.scope("specular");
-        if (trace.light == HitLight::lit && settings.specular.rays > 0) {
+        if (trace.light == HitLight::lit && settings.specular.rays > 0 && settings.diffuse.rays > 0) {
             const LobeLight none = noLight(f, lobeSpecular, out.g.depth.size, counted);
             const gpu::Image soFar = f.image("lit_so_far", VK_FORMAT_R16G16B16A16_SFLOAT, out.g.depth.size);
             screen.light =

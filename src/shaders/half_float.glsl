@@ -10,4 +10,11 @@ vec3 clampToHalf(vec3 v) {
     return clamp(v, vec3(0.0), vec3(largestHalf));
 }
 
+// The nearest half floats. A device may cut the rest off when it stores them (llvmpipe does), and a sum that is stored
+// after each of its many parts would lose a percent.
+vec4 roundToHalf(vec4 v) {
+    uvec4 bits = floatBitsToUint(v);
+    return uintBitsToFloat((bits + 0xfffu + ((bits >> 13u) & 1u)) & ~0x1fffu);
+}
+
 #endif

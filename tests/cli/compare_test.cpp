@@ -73,7 +73,7 @@ TEST_F(Compare, ARenderedPictureIsEqualToItselfInEveryMetric) {
         const Outcome done = compare({file, file});
         ASSERT_TRUE(quietSuccess(done));
         EXPECT_EQ(firstWords(done.out),
-                  (std::vector<std::string>{"relative_mse", "psnr", "flip", "mean", "max", "pixels"}));
+                  (std::vector<std::string>{"relative_mse", "psnr", "flip", "mean", "bias", "max", "pixels"}));
         EXPECT_NE(done.out.find("flip          0\n"), std::string::npos) << done.out;
         EXPECT_NE(done.out.find("psnr          inf dB\n"), std::string::npos) << done.out;
         EXPECT_NE(done.out.find("pixels        576 of 576\n"), std::string::npos) << done.out;
@@ -230,7 +230,7 @@ TEST_F(Compare, FailAboveExitsWithOneAndNamesMetricValueAndLimit) {
     const Outcome mean = compare({"--fail-above", "mean=0.4", "a.exr", "b.exr"});
     EXPECT_EQ(mean.status, 1);
     EXPECT_EQ(mean.err, "reflet: mean is 0.5, above the limit 0.4\n");
-    EXPECT_EQ(firstWords(mean.out).size(), 6U);
+    EXPECT_EQ(firstWords(mean.out).size(), 7U);
     const Outcome both = compare({"a.exr", "b.exr", "--fail-above", "psnr=6.1", "--fail-above=max=0"});
     EXPECT_EQ(both.status, 1);
     EXPECT_EQ(both.err, "reflet: psnr is 6.0206 dB, below the limit 6.1; max is 0.5, above the limit 0\n");
@@ -239,7 +239,7 @@ TEST_F(Compare, FailAboveExitsWithOneAndNamesMetricValueAndLimit) {
 TEST_F(Compare, LimitsThatAreNoneAreWrongUse) {
     writeLayers("a.exr", {{"", rgb(1.0F)}});
     EXPECT_TRUE(refused(compare({"a.exr", "a.exr", "--fail-above", "flop=1"}), 2,
-                        {"no metric 'flop'", "relative_mse, psnr, flip, mean, max", "did you mean 'flip'"}));
+                        {"no metric 'flop'", "relative_mse, psnr, flip, mean, bias, max", "did you mean 'flip'"}));
     for (const char* limit : {"flip", "flip=", "flip=x", "flip=1x", "flip=nan", "flip=inf"}) {
         EXPECT_TRUE(refused(compare({"a.exr", "a.exr", "--fail-above", limit}), 2, {limit, "METRIC=NUMBER"})) << limit;
     }

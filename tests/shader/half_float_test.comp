@@ -3,6 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/half_float.glsl"
 
+layout(constant_id = 0) const bool rounds = false;
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) readonly buffer InputBlock { vec3 items[]; } inputs;
 layout(set = 0, binding = 1, scalar) buffer OutputBlock { vec3 items[]; } outputs;
@@ -10,6 +11,7 @@ layout(set = 0, binding = 1, scalar) buffer OutputBlock { vec3 items[]; } output
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i < outputs.items.length()) {
-        outputs.items[i] = clampToHalf(inputs.items[i]);
+        vec3 v = inputs.items[i];
+        outputs.items[i] = rounds ? roundToHalf(vec4(v, 0.0)).rgb : clampToHalf(v);
     }
 }

@@ -84,6 +84,12 @@ TEST(Compare, NegativeValuesCountAsTheyAreInAllButFlip) {
     EXPECT_EQ(d.flip, 0.0);
 }
 
+TEST(Compare, BiasIsTheRatioOfTheMeansLessOneAndKeepsItsSign) {
+    EXPECT_NEAR(difference(grey(2, {1, 2}), grey(2, {1, 1})).bias, 0.5, 1e-9);
+    EXPECT_NEAR(difference(grey(2, {0, 1}), grey(2, {2, 2})).bias, -0.75, 1e-9);
+    EXPECT_EQ(difference(grey(1, {0}), grey(1, {0})).bias, 0.0);
+}
+
 TEST(Compare, EveryChannelCountsAsMuch) {
     const Difference d = difference(colors(1, {1, 2, 3}), colors(1, {1, 1, 1}));
     EXPECT_NEAR(d.mean, 1.0, 1e-9);

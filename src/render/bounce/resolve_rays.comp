@@ -48,8 +48,8 @@ void main() {
         light += imageLoad(radiance, pixel);
         colors += imageLoad(source, pixel);
     }
-    imageStore(radiance, pixel, vec4(clampToHalf(light.rgb), min(light.a, largestHalf)));
-    imageStore(source, pixel, colors);
+    imageStore(radiance, pixel, roundToHalf(vec4(clampToHalf(light.rgb), min(light.a, largestHalf))));
+    imageStore(source, pixel, roundToHalf(colors));
     if (countSteps != 0u) {
         resolveSteps(pixel);
     }

@@ -1,0 +1,149 @@
+// What rays through the screen bring, against the path tracer: where the screen knows the answer it must be the truth.
+#include "compare/compare.h"
+#include "pass/harness.h"
+#include "reference/reference.h"
+#include "scene/builtin.h"
+
+#include <algorithm>
+
+namespace reflet::test {
+namespace {
+
+constexpr uvec2 size(160, 90);
+constexpr uvec2 large(320, 180);
+
+FloatImage flipped(const FloatImage& image) {
+    FloatImage result = image;
+    const size_t row = size_t(image.width) * image.channels.size();
+    for (size_t y = 0; y < image.height; ++y) {
+        std::copy_n(image.data.begin() + static_cast<ptrdiff_t>((image.height - 1 - y) * row), row,
+                    result.data.begin() + static_cast<ptrdiff_t>(y * row));
+    }
+    return result;
+}
+
+View boxesView() {
+    View view;
+    view.camera = builtin::camera("eye", {0.5F, 1.6F, 5.0F}, {0, 0.4F, 0}, 50.0F);
+    view.sun = builtin::sun(glm::normalize(vec3(-0.4F, -0.6F, -0.8F)), vec3(3.0F));
+    return view;
+}
+
+void placeBoxes(Scene& scene) {
+    const auto box = [&](const char* name, const vec3& color, const vec3& at, float degrees) {
+        builtin::place(scene, name, builtin::addMaterial(scene, lambertMaterial(color)),
+                       builtin::box({0.5F, 0.7F, 0.5F}), builtin::at(at) * builtin::turned(degrees));
+    };
+    box("red", {0.8F, 0.2F, 0.1F}, {-1.2F, 0.7F, 0}, 20.0F);
+    box("green", {0.2F, 0.7F, 0.2F}, {0.4F, 0.7F, -0.6F}, -35.0F);
+    box("blue", {0.2F, 0.3F, 0.8F}, {1.6F, 0.7F, 0.4F}, 50.0F);
+    builtin::place(scene, "wall", builtin::addMaterial(scene, lambertMaterial(vec3(0.6F))),
+                   builtin::patch({{0, 1.5F, -2}, {4, 0, 0}, {0, 1.5F, 0}, {1, 1}, {1, 1}}));
+}
+
+// The mirrored camera, without the mirror, sees what the mirror shows, upside down.
+TEST(Truth, AFlatMirrorShowsThePathTracersFlippedPictureWhereTheScreenKnowsIt) {
+    const View view = boxesView();
+    Material mirror = lambertMaterial(vec3(1.0F));
+    mirror.metallic = 1.0F;
+    mirror.roughness = 0.0F;
+    Scene scene = sceneOf(mirror, builtin::ground({4, 4}, {1, 1}, {1, 1}));
+    placeBoxes(scene);
+    const Pictures p = render(scene, view, large, settingsOf({"diffuse.rays=0", "trace_screen.light=direct"}),
+                              {"indirect_specular"});
+
+    Scene withoutMirror;
+    placeBoxes(withoutMirror);
+    View below = view;
+    below.camera.position.y *= -1.0F;
+    below.camera.target.y *= -1.0F;
+    const ReferencePicture truth =
+        traceReference(withoutMirror, below, large, {.bounces = 0, .samples = 16, .filter = PixelFilter::center});
+
+    // The screen knows what a ray meets where the camera sees that point, too.
+    const ReferencePicture seen =
+        traceReference(scene, view, large,
+                       {.bounces = 1, .samples = 16, .filter = PixelFilter::center, .visibleOnly = true});
+    const FloatImage expected = flipped(truth.direct);
+    // A hit is a whole pixel of the screen: at the edges of what is reflected it may be the wrong one of two.
+    const auto isEdge = [&](size_t i) {
+        const auto differs = [&](size_t j) {
+            return std::abs(expected.data[3 * i] - expected.data[3 * j]) > 0.05F * expected.data[3 * i];
+        };
+        return differs(i - 1) || differs(i + 1) || differs(i - large.x) || differs(i + large.x);
+    };
+    CompareOptions options;
+    for (size_t i = 0; i < size_t(large.x) * large.y; ++i) {
+        const float* e = &expected.data[3 * i];
+        const float* s = &seen.indirectSpecular.data[3 * i];
+        const unsigned x = i % large.x;
+        const unsigned y = static_cast<unsigned>(i / large.x);
+        const bool inside = x > 0 && y > 0 && x + 1 < large.x && y + 1 < large.y;
+        options.mask.push_back(e[0] > 0.0F && inside && !isEdge(i) && std::abs(s[0] - e[0]) < 0.05F * e[0] && std::abs(s[2] - e[2]) < 0.05F * e[2]);
+    }
+    const Difference d = compareImages(p.images.at("indirect_specular"), expected, options).difference;
+    RecordProperty("relative_mse", std::to_string(d.relativeMse));
+    EXPECT_GT(d.pixels, 8000U);
+    EXPECT_LT(d.relativeMse, 0.01);
+    EXPECT_NEAR(d.bias, 0.0, 0.01);
+    expectSilentValidation("mirror");
+}
+
+class VisibleOnly : public testing::TestWithParam<const char*> {};
+
+// 256 rays a pixel: their noise is under a third of the error that is left.
+TEST_P(VisibleOnly, DiffuseLightOfOneBounceIsThatOfAPathTracerThatSeesWhatTheCameraSees) {
+    const Scene scene = findBuiltinScene(GetParam())->make();
+    const View view = defaultView(scene);
+    const ReferencePicture truth = traceReference(
+        scene, view, size, {.bounces = 1, .samples = 256, .visibleOnly = true});
+    const Pictures p = render(
+        scene, view, size,
+        settingsOf({"diffuse.rays=256", "specular.rays=0", "trace_screen.light=direct", "trace_screen.thickness=0.1"}),
+        {"indirect_diffuse"});
+    const Difference d = compareImages(p.images.at("indirect_diffuse"), truth.indirectDiffuse, {}).difference;
+    RecordProperty("relative_mse", std::to_string(d.relativeMse));
+    EXPECT_LT(d.relativeMse, 0.02);
+    EXPECT_LT(d.bias, 0.05);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, VisibleOnly, testing::Values("cubes", "cornell", "cave"),
+                         [](const auto& scene) { return std::string(scene.param); });
+
+class Energy : public testing::TestWithParam<const BuiltinScene*> {};
+
+TEST_P(Energy, IsAtMostTwoPercentAboveTheTruthWithOneBounceAndWithAll) {
+    const Scene scene = GetParam()->make();
+    const View view = defaultView(scene);
+    for (const bool one : {true, false}) {
+        const ReferencePicture truth = traceReference(scene, view, size,
+                                                      {.bounces = one ? 1U : ReferenceOptions::unlimited,
+                                                       .samples = 64,
+                                                       
+
+                                                       .lampShadows = false});
+        const Pictures p = render(scene, view, size,
+                                  settingsOf({"diffuse.rays=16", "specular.rays=16",
+                                              std::string("trace_screen.light=") + (one ? "direct" : "previous")}),
+                                  {"final"}, one ? 1 : 6);
+        const Difference d = compareImages(p.images.at("final"), truth.final, {}).difference;
+        EXPECT_LT(d.bias, 0.02) << (one ? "one bounce" : "all bounces");
+        RecordProperty(one ? "bias_one_bounce" : "bias_all_bounces", std::to_string(d.bias));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Energy, testing::ValuesIn([] {
+                             std::vector<const BuiltinScene*> all;
+                             for (const BuiltinScene& scene : builtinScenes()) {
+                                 all.push_back(&scene);
+                             }
+                             return all;
+                         }()),
+                         [](const auto& scene) {
+                             std::string name(scene.param->name);
+                             std::ranges::replace(name, '-', '_');
+                             return name;
+                         });
+
+}  // namespace
+}  // namespace reflet::test
