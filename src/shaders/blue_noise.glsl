@@ -1,5 +1,5 @@
-// Points of the unit square for the rays of a pixel: a low-discrepancy sequence for the pixel, shifted (Cranley and
-// Patterson 1976) by a mask of blue noise, so that what error is left differs between neighbours and between frames.
+// Points of the unit square for the rays of a pixel: a low-discrepancy sequence, shifted in each pixel
+// by a mask of blue noise, so that what error is left differs between neighbours and between frames.
 // (Georgiev and Fajardo, Blue-noise Dithered Sampling, SIGGRAPH talks 2016; masks: see noise/blue_noise.h)
 // The includer defines, before it includes this: uint loadBlueNoise(uint texel).
 #ifndef REFLET_BLUE_NOISE_GLSL
@@ -31,12 +31,24 @@ uint blueNoiseTexel(uvec2 pixel, uint stream, uint frame) {
     return (slice * blueNoiseSide + at.y) * blueNoiseSide + at.x;
 }
 
-// For ray `number` of the pixel's `count`. A frame takes the mask's next slice; once all have been used, the rays take
-// the sequence's next points, so that more frames always bring something new.
+// Shifts a point of a sequence's first `count` by `shift`, modulo 1. With 2^k points a shift over the whole square would
+// bring back much the same set 2^k times, and whatever is blue in the shift would be lost: the square is cut into 2^k
+// boxes, which have a point each, and points are shifted within theirs. Which box is whose, `scramble` says (highest and
+// lowest 16 bits); where `count` is no power of two, each ray is spread evenly only by that.
+uvec2 shiftPoint(uvec2 point, uvec2 shift, uint scramble, uint count) {
+    uint k = uint(findMSB(count));
+    uvec2 cuts = uvec2(k / 2u, k - k / 2u);
+    uvec2 inside = uvec2(0xffffffffu) >> cuts;
+    uvec2 box = (point ^ uvec2(scramble, scramble << 16u)) & ~inside;
+    return box | ((point + (shift >> cuts)) & inside);
+}
+
+// For ray `number` of the pixel's `count` (1 to 2^16). A frame takes the mask's next slice; once all have been used, the
+// rays take the sequence's next points, so that more frames always bring something new.
 vec2 blueNoisePoint(uvec2 pixel, uint stream, uint frame, uint number, uint count) {
     uint mask = loadBlueNoise(blueNoiseTexel(pixel, stream, frame));
-    uvec2 point = sobolPoint(frame / blueNoiseSlices * count + number);
-    point += uvec2(mask << 16u, mask & 0xffff0000u);  // modulo 1
+    uvec2 point = shiftPoint(sobolPoint(frame / blueNoiseSlices * count + number),
+                             uvec2(mask << 16u, mask & 0xffff0000u), hashPixel(pixel, stream, frame), count);
     return vec2(hashToUnit(point.x), hashToUnit(point.y));
 }
 
