@@ -1,5 +1,5 @@
-// Points of the unit square for the rays of a pixel: a low-discrepancy sequence, shifted in each pixel
-// by a mask of blue noise, so that what error is left differs between neighbours and between frames.
+// Points of the unit square for the rays of a pixel: a low-discrepancy sequence, shifted in each pixel by a mask of blue
+// noise, so that what error is left differs between neighbours and between frames.
 // (Georgiev and Fajardo, Blue-noise Dithered Sampling, SIGGRAPH talks 2016; masks: see noise/blue_noise.h)
 // The includer defines, before it includes this: uint loadBlueNoise(uint texel).
 #ifndef REFLET_BLUE_NOISE_GLSL
