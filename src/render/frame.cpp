@@ -52,7 +52,7 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
         LobeLight light;
         for (uint32_t first = 0; first < perPixel; first += batch) {
             const uint32_t count = std::min(perPixel - first, batch);
-            Rays rays = generateRays(f, out.g, in.ggxTable, lobe,
+            Rays rays = generateRays(f, out.g, {in.ggxTable, in.blueNoise}, lobe,
                                      {in.view, settings.diffuse, settings.specular, first, count}, counted);
             traceScreen(f, rays, screen, in.view, trace, longest);
             answerEnvironment(f, rays, out.g, in.environment, settings.environment);

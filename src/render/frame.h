@@ -18,7 +18,8 @@ struct FrameInputs {
     vec3 sunIrradiance{0.0F};     ///< on a surface that faces the sun [W/m²]; 0: no sun
     vec3 environment{0.0F};       ///< radiance from all directions [W/(m² sr)]
     const LampBlock& lamps;
-    gpu::Image ggxTable;  ///< of makeGgxTable
+    gpu::Image ggxTable;        ///< of makeGgxTable
+    gpu::BufferView blueNoise;  ///< of blueNoise()
 };
 
 /// Every image of the frame; formats where the effects declare them.

@@ -2,6 +2,7 @@
 #include "render/renderer.h"
 
 #include "base/error.h"
+#include "noise/blue_noise.h"
 
 #include <cmath>
 
@@ -40,7 +41,11 @@ void checkCanRender(const View& view) {
 }
 
 Renderer::Renderer(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn)
-    : frame_(device), scene_(device, scene, warn), ggxTable_(makeGgxTable(frame_)) {}
+    : frame_(device),
+      scene_(device, scene, warn),
+      ggxTable_(makeGgxTable(frame_)),
+      blueNoise_(
+          gpu::uploadBuffer(device, std::as_bytes(blueNoise()), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "blue_noise")) {}
 
 FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const Settings& settings,
                              const std::function<void(gpu::Frame&, const FrameImages&)>& after) {
@@ -57,7 +62,8 @@ FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const 
                                             .sunIrradiance = view.sun.irradiance,
                                             .environment = view.environment.radiance,
                                             .lamps = scene_.lamps(),
-                                            .ggxTable = ggxTable_.image()},
+                                            .ggxTable = ggxTable_.image(),
+                                            .blueNoise = blueNoise_.view()},
                                            settings);
     if (after) {
         after(frame_, images);

@@ -30,6 +30,7 @@ private:
     gpu::Frame frame_;
     GpuScene scene_;
     gpu::Texture ggxTable_;
+    gpu::Buffer blueNoise_;
     std::optional<mat4> previousWorldToClip_;
     uint32_t frameNumber_ = 0;
 };

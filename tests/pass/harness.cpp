@@ -71,6 +71,30 @@ Pictures render(const Scene& scene, const View& view, uvec2 size, const Settings
     return renderFrames(scene, std::vector<TestFrame>(frames, {view, size}), settings, shows);
 }
 
+Pictures renderMean(const Scene& scene, const View& view, uvec2 size, const Settings& settings,
+                    const std::vector<std::string>& shows, uint32_t frames, uint32_t seed) {
+    Renderer renderer(testDevice(), scene, [](const std::string&) {});
+    Pictures mean{size, makeViewParams(view.camera, size, 0, 0), {}};
+    for (uint32_t i = 0; i < frames; ++i) {
+        std::vector<ShowReadback> readbacks;
+        renderer.render(view, size, seed, settings, [&](gpu::Frame& f, const FrameImages& images) {
+            for (const std::string& show : shows) {
+                readbacks.push_back(requestShow(f, images, findShow(show)));
+            }
+        });
+        for (size_t k = 0; k < shows.size(); ++k) {
+            const FloatImage frame = fetchValues(renderer.frame(), readbacks[k], mean.view);
+            FloatImage& sum = mean.images[shows[k]];
+            if (i == 0) {
+                sum = {frame.width, frame.height, frame.channels, std::vector<float>(frame.data.size(), 0.0F)};
+            }
+            std::ranges::transform(sum.data, frame.data, sum.data.begin(),
+                                   [&](float s, float v) { return s + v / static_cast<float>(frames); });
+        }
+    }
+    return mean;
+}
+
 Pictures renderMoved(const Scene& scene, const View& before, const View& now, uvec2 size, const Settings& settings,
                      const std::vector<std::string>& shows) {
     return renderFrames(scene, {{before, size}, {now, size}}, settings, shows);

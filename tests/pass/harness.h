@@ -31,6 +31,10 @@ struct Pictures {
 Pictures render(const Scene& scene, const View& view, uvec2 size, const Settings& settings,
                 const std::vector<std::string>& shows, uint32_t frames = 1);
 
+/// The mean of all of `frames` frames, which differ in their noise.
+Pictures renderMean(const Scene& scene, const View& view, uvec2 size, const Settings& settings,
+                    const std::vector<std::string>& shows, uint32_t frames, uint32_t seed = 0);
+
 /// A frame from `before`, then one from `now`, of which the images are.
 Pictures renderMoved(const Scene& scene, const View& before, const View& now, uvec2 size, const Settings& settings,
                      const std::vector<std::string>& shows);

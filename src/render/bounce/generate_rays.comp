@@ -1,10 +1,9 @@
 // Makes the rays of a lobe: directions, weights, and the list of all that need an answer.
-// In: depth, both normals, material, base colour, GGX table. Out: direction, answer and source (cleared), the list.
+// In: depth, both normals, material, base colour, GGX table, blue noise. Out: direction, answer and source (cleared), the list.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/bounce/rays.glsl"
 #include "render/gbuffer/gbuffer.glsl"
-#include "shaders/noise.glsl"
 #include "shaders/projection.glsl"
 #include "shaders/sampling.glsl"
 
@@ -26,13 +25,26 @@ layout(set = 0, binding = 7, scalar) buffer MissedBlock {
     uint count;
     RayItem items[];
 } missed;
+layout(set = 0, binding = 11, scalar) readonly buffer BlueNoiseBlock { uint texels[]; } blueNoise;
 #include "render/bounce/rays_append.glsl"
+
+uint loadBlueNoise(uint texel) { return blueNoise.texels[texel]; }
+#include "shaders/blue_noise.glsl"
 
 const float lowestRay = 1e-3;  // sine of the angle between a ray and the surface that it leaves
 
+// Two numbers in [0, 1) for a ray of the pixel.
+vec2 randomPair(ivec2 pixel, uint number) {
+    uint seed = params.view.seed + lobe;
+    if ((lobe == lobeDiffuse ? params.diffuse.noise : params.specular.noise) == RayNoise_blue) {
+        uint count = lobe == lobeDiffuse ? params.diffuse.rays : params.specular.rays;
+        return blueNoisePoint(uvec2(pixel), seed, params.view.frame, number, count);
+    }
+    return hashToUnit2(hashPixel(uvec2(pixel), number * 2u + hashPcg(seed), params.view.frame));
+}
+
 Ray diffuseRay(ivec2 pixel, uint number, vec3 n) {
-    uint stream = number * 2u + hashPcg(params.view.seed);
-    vec2 u = hashToUnit2(hashPixel(uvec2(pixel), stream, params.view.frame));
+    vec2 u = randomPair(pixel, number);
     if (params.diffuse.distribution == RayDistribution_uniform) {
         vec3 local = sampleUniformHemisphere(u);
         return Ray(basisAround(n) * local, 2.0 * local.z, 1.0);  // cos / pi over 1 / (2 pi)
@@ -59,8 +71,7 @@ Ray specularRay(ivec2 pixel, uint number, vec3 n, vec3 v, MaterialTexel m) {
     vec3 h = vec3(0.0, 0.0, 1.0);
     float share = 1.0;  // of the light along the ray that is not masked
     if (m.roughness > mirrorRoughness) {
-        uint stream = number * 2u + hashPcg(params.view.seed + 1u);
-        h = sampleGgxVisible(hashToUnit2(hashPixel(uvec2(pixel), stream, params.view.frame)), eye, alpha);
+        h = sampleGgxVisible(randomPair(pixel, number), eye, alpha);
     }
     vec3 l = 2.0 * dot(eye, h) * h - eye;
     if (m.roughness > mirrorRoughness) {

@@ -26,8 +26,8 @@ gpu::BufferView makeRayList(gpu::Frame& f, const Rays& rays, std::string_view na
     return list;
 }
 
-Rays generateRays(gpu::Frame& f, const GBuffer& g, gpu::Image ggxTable, uint32_t lobe, const GenerateRaysParams& params,
-                  bool countSteps) {
+Rays generateRays(gpu::Frame& f, const GBuffer& g, const RayTables& tables, uint32_t lobe,
+                  const GenerateRaysParams& params, bool countSteps) {
     const uvec2 size = g.depth.size;
     const uint32_t layers = raysPerBatch(f, size);
     Rays rays{.direction = f.image("rays.direction", VK_FORMAT_R32G32_UINT, size, layers, true),
@@ -50,7 +50,8 @@ Rays generateRays(gpu::Frame& f, const GBuffer& g, gpu::Image ggxTable, uint32_t
         .read("geometricNormal", g.geometricNormal)
         .read("material", g.material)
         .read("baseColor", g.baseColor)
-        .read("ggxTable", ggxTable, f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
+        .read("ggxTable", tables.ggx, f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
+        .read("blueNoise", tables.blueNoise)
         .write("direction", rays.direction)
         .write("answer", rays.answer)
         .write("source", rays.source)

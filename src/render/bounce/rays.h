@@ -17,20 +17,29 @@ SHARED_BEGIN
     OPTION(RayDistribution, uniform, 1)
 CHOICES(RayDistribution, RAY_DISTRIBUTIONS)
 
+#define RAY_NOISES(OPTION)     \
+    OPTION(RayNoise, white, 0) \
+    OPTION(RayNoise, blue, 1)
+CHOICES(RayNoise, RAY_NOISES)
+
 #define DIFFUSE_SETTINGS(VALUE, SWITCH, CHOICE)                                                           \
     VALUE(uint, rays, 4, 0, 256, "Rays per pixel for indirect diffuse light; 0: none is computed.")       \
     CHOICE(RayDistribution, distribution, cosine, "How their directions are spread over the hemisphere.") \
+    CHOICE(RayNoise, noise, blue,                                                                         \
+           "What chooses their directions; white: chance; blue: a low-discrepancy sequence, shifted by "  \
+           "blue noise in space and time: less error, and what is left is easier to blur away.")          \
     VALUE(float, radius, 100000.0, 0.01, 100000.0,                                                        \
           "Metres; what is farther off is left to the sources behind the screen.")                        \
     VALUE(float, gain, 1.0, 0.0, 64.0,                                                                    \
           "Factor on indirect diffuse light; only 1 keeps energy; pi is what leaving out Lambert's 1/pi does.")
 SETTINGS(DiffuseSettings, DIFFUSE_SETTINGS)
 
-#define SPECULAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                 \
-    VALUE(uint, rays, 1, 0, 256,                                                                 \
-          "Rays per pixel for reflections, spread as the roughness says; 0: none are computed.") \
-    VALUE(float, maxRoughness, 1.0, 0.0, 1.0,                                                    \
-          "Rougher surfaces leave their reflections to the sources behind the screen; 1: none do.")
+#define SPECULAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                    \
+    VALUE(uint, rays, 1, 0, 256,                                                                    \
+          "Rays per pixel for reflections, spread as the roughness says; 0: none are computed.")    \
+    VALUE(float, maxRoughness, 1.0, 0.0, 1.0,                                                       \
+          "Rougher surfaces leave their reflections to the sources behind the screen; 1: none do.") \
+    CHOICE(RayNoise, noise, blue, "What chooses their directions, as for diffuse.noise.")
 SETTINGS(SpecularSettings, SPECULAR_SETTINGS)
 
 // Lobes, as the specialization constant `lobe`.
@@ -97,14 +106,20 @@ struct LobeLight {
     gpu::Image steps;     ///< R32F: mean depth samples per ray; 1x1 unless they are counted
 };
 
+/// What their generator looks up.
+struct RayTables {
+    gpu::Image ggx;             ///< of makeGgxTable
+    gpu::BufferView blueNoise;  ///< noise/blue_noise.h
+};
+
 /// Rays per pixel that one batch may hold, 1 to maxRaysPerBatch: as many as the device's buffers take at this size.
 /// Throws Error where they do not take one.
 uint32_t raysPerBatch(gpu::Frame& f, uvec2 size);
 
 /// Rays firstRay .. firstRay + count of every pixel that has a surface (and the lobe). countSteps: keep how many depth
 /// samples each takes.
-Rays generateRays(gpu::Frame& f, const GBuffer& g, gpu::Image ggxTable, uint32_t lobe, const GenerateRaysParams& params,
-                  bool countSteps);
+Rays generateRays(gpu::Frame& f, const GBuffer& g, const RayTables& tables, uint32_t lobe,
+                  const GenerateRaysParams& params, bool countSteps);
 
 /// An empty list as large as the rays' own, for what a source misses.
 gpu::BufferView makeRayList(gpu::Frame& f, const Rays& rays, std::string_view name);

@@ -1,0 +1,218 @@
+// Void and cluster in space and time: cells are switched on one after another, each where the ones before are farthest.
+//
+// How near they are is the energy of a cell: a sum over the cells that are on, of a Gaussian of their distance. Only
+// those of the same slice (distance in space) and of the same pixel (distance in time) count: what another pixel does
+// in another frame does not matter. Energies are whole numbers, so that switching off takes back exactly what switching
+// on gave, and ties and results do not depend on rounding.
+#include "noise/void_and_cluster.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reflet {
+
+namespace {
+
+constexpr double sigma = 1.9;         // pixels and frames, as Wolfe et al.
+constexpr uint32_t largestReach = 8;  // of a cell's energy, in pixels: beyond 4 sigma is nothing
+constexpr double energyScale = 1 << 20U;
+constexpr uint32_t shareAtFirst = 10;  // one cell in so many is on in the pattern that all starts from
+
+uint32_t energyAt(double squaredDistance) {
+    return static_cast<uint32_t>(std::lround(energyScale * std::exp(-squaredDistance / (2.0 * sigma * sigma))));
+}
+
+class Pattern {
+public:
+    Pattern(uint32_t side, uint32_t slices);
+
+    /// Switches a cell on, or off.
+    void flip(uint32_t cell);
+    /// The cell that is off and farthest from those that are on.
+    uint32_t largestVoid();
+    /// The cell that is on and nearest to the others.
+    uint32_t tightestCluster();
+
+    [[nodiscard]] uint32_t cellCount() const { return static_cast<uint32_t>(energy_.size()); }
+    [[nodiscard]] uint32_t energy(uint32_t cell) const { return energy_[cell]; }
+    [[nodiscard]] bool isOn(uint32_t cell) const { return on_[cell] != 0; }
+
+private:
+    /// The best energy of each row, and whether the row has changed since.
+    struct RowBests {
+        std::vector<uint32_t> energy;
+        std::vector<uint8_t> stale;
+    };
+
+    void addInSpace(uint32_t cell, uint32_t sign);
+    void addInTime(uint32_t cell, uint32_t sign);
+    template <class Key, class Better>
+    uint32_t bestCell(RowBests& bests, const Key& key, const Better& better);
+
+    uint32_t side_;
+    uint32_t slices_;
+    uint32_t reach_;
+    std::vector<uint32_t> spaceKernel_;  ///< (2 reach + 1)²
+    std::vector<uint32_t> timeKernel_;   ///< by frames later
+    std::vector<uint32_t> energy_;
+    std::vector<uint32_t> on_;  ///< all bits, or none
+    RowBests voids_;
+    RowBests clusters_;
+};
+
+Pattern::Pattern(uint32_t side, uint32_t slices)
+    : side_(side),
+      slices_(slices),
+      reach_(std::min(largestReach, (side - 1) / 2)),
+      energy_(size_t{side} * side * slices, 0),
+      on_(energy_.size(), 0) {
+    const auto reach = static_cast<int>(reach_);
+    for (int y = -reach; y <= reach; ++y) {
+        for (int x = -reach; x <= reach; ++x) {
+            spaceKernel_.push_back(energyAt(x * x + y * y));
+        }
+    }
+    timeKernel_.push_back(0);  // itself is counted in space
+    for (uint32_t later = 1; later < slices; ++later) {
+        const uint32_t distance = std::min(later, slices - later);
+        timeKernel_.push_back(energyAt(distance * distance));
+    }
+    const size_t rows = size_t{side} * slices;
+    voids_ = clusters_ = {std::vector<uint32_t>(rows), std::vector<uint8_t>(rows, 1)};
+}
+
+void Pattern::flip(uint32_t cell) {
+    on_[cell] = ~on_[cell];
+    const uint32_t sign = isOn(cell) ? 1 : ~0U;  // times -1, modulo 2^32
+    addInSpace(cell, sign);
+    addInTime(cell, sign);
+}
+
+void Pattern::addInSpace(uint32_t cell, uint32_t sign) {
+    const uint32_t width = 2 * reach_ + 1;
+    const uint32_t firstRow = cell / (side_ * side_) * side_;
+    const uint32_t left = cell % side_ + side_ - reach_;
+    const uint32_t top = cell / side_ % side_ + side_ - reach_;
+    for (uint32_t j = 0; j < width; ++j) {
+        const uint32_t row = firstRow + (top + j) % side_;
+        voids_.stale[row] = clusters_.stale[row] = 1;
+        const uint32_t* kernel = &spaceKernel_[size_t{j} * width];
+        uint32_t* energies = &energy_[size_t{row} * side_];
+        for (uint32_t i = 0; i < width; ++i) {
+            energies[(left + i) % side_] += sign * kernel[i];
+        }
+    }
+}
+
+void Pattern::addInTime(uint32_t cell, uint32_t sign) {
+    for (uint32_t later = 1; later < slices_; ++later) {
+        const uint32_t other = (cell + later * side_ * side_) % cellCount();
+        voids_.stale[other / side_] = clusters_.stale[other / side_] = 1;
+        energy_[other] += sign * timeKernel_[later];
+    }
+}
+
+// Looks again only at rows that have changed: a cell reaches few of them.
+template <class Key, class Better>
+uint32_t Pattern::bestCell(RowBests& bests, const Key& key, const Better& better) {
+    size_t bestRow = 0;
+    for (size_t row = 0; row < bests.energy.size(); ++row) {
+        if (bests.stale[row] != 0) {
+            uint32_t best = key(row * side_);
+            for (size_t cell = row * side_ + 1; cell < (row + 1) * side_; ++cell) {
+                best = better(best, key(cell));
+            }
+            bests.energy[row] = best;
+            bests.stale[row] = 0;
+        }
+        if (bests.energy[row] != bests.energy[bestRow] &&
+            better(bests.energy[row], bests.energy[bestRow]) == bests.energy[row]) {
+            bestRow = row;
+        }
+    }
+    size_t cell = bestRow * side_;
+    while (key(cell) != bests.energy[bestRow]) {
+        ++cell;
+    }
+    return static_cast<uint32_t>(cell);
+}
+
+uint32_t Pattern::largestVoid() {
+    return bestCell(
+        voids_, [&](size_t cell) { return energy_[cell] | on_[cell]; },
+        [](uint32_t a, uint32_t b) { return std::min(a, b); });
+}
+
+uint32_t Pattern::tightestCluster() {
+    return bestCell(
+        clusters_, [&](size_t cell) { return energy_[cell] & on_[cell]; },
+        [](uint32_t a, uint32_t b) { return std::max(a, b); });
+}
+
+// Numbers of our own (constants: Knuth's MMIX), so that every standard library makes the same mask.
+class Random {
+public:
+    explicit Random(uint32_t seed) : state_(seed) {}
+    uint32_t below(uint32_t count) {
+        state_ = state_ * 6364136223846793005U + 1442695040888963407U;
+        return static_cast<uint32_t>((state_ >> 32U) * count >> 32U);
+    }
+
+private:
+    uint64_t state_;
+};
+
+// Some cells at random, moved from the tightest cluster to the largest void until that makes nothing better.
+Pattern startingPattern(uint32_t side, uint32_t slices, uint32_t seed, uint32_t& count) {
+    Pattern pattern(side, slices);
+    Random random(seed);
+    count = std::max(1U, pattern.cellCount() / shareAtFirst);
+    for (uint32_t placed = 0; placed < count;) {
+        if (const uint32_t cell = random.below(pattern.cellCount()); !pattern.isOn(cell)) {
+            pattern.flip(cell);
+            ++placed;
+        }
+    }
+    while (true) {
+        const uint32_t from = pattern.tightestCluster();
+        pattern.flip(from);
+        const uint32_t to = pattern.largestVoid();
+        if (pattern.energy(to) >= pattern.energy(from)) {
+            pattern.flip(from);
+            return pattern;
+        }
+        pattern.flip(to);
+    }
+}
+
+// All cells in the order in which they are switched on. Ulichney's last phase, which fills the tightest clusters of
+// cells that are off, is the second one: on a torus the energies of those on and of those off have the same sum
+// everywhere.
+std::vector<uint32_t> cellsInOrder(uint32_t side, uint32_t slices, uint32_t seed) {
+    uint32_t count = 0;
+    Pattern pattern = startingPattern(side, slices, seed, count);
+    std::vector<uint32_t> order(pattern.cellCount());
+    Pattern emptied = pattern;
+    for (uint32_t i = count; i-- > 0;) {
+        order[i] = emptied.tightestCluster();
+        emptied.flip(order[i]);
+    }
+    for (uint32_t i = count; i < order.size(); ++i) {
+        order[i] = pattern.largestVoid();
+        pattern.flip(order[i]);
+    }
+    return order;
+}
+
+}  // namespace
+
+std::vector<uint32_t> voidAndClusterRanks(uint32_t side, uint32_t slices, uint32_t seed) {
+    std::vector<uint32_t> ranks(size_t{side} * side * slices);
+    std::vector<uint32_t> next(slices, 0);
+    for (const uint32_t cell : cellsInOrder(side, slices, seed)) {
+        ranks[cell] = next[cell / (side * side)]++;
+    }
+    return ranks;
+}
+
+}  // namespace reflet

@@ -1,0 +1,21 @@
+// Points for rays, with a mask that is not blue but white: what is tested does not ask for blue.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "shaders/noise.glsl"
+
+uint loadBlueNoise(uint texel) { return hashPcg(texel); }
+#include "shaders/blue_noise.glsl"
+#include "blue_noise_test.h"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0, scalar) readonly buffer InputBlock { BlueNoiseCase items[]; } inputs;
+layout(set = 0, binding = 1, scalar) buffer OutputBlock { BlueNoiseSample items[]; } outputs;
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i < outputs.items.length()) {
+        BlueNoiseCase c = inputs.items[i];
+        outputs.items[i] = BlueNoiseSample(blueNoiseTexel(c.pixel, c.stream, c.frame), sobolPoint(c.number),
+                                           blueNoisePoint(c.pixel, c.stream, c.frame, c.number, c.count));
+    }
+}

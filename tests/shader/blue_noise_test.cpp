@@ -1,0 +1,145 @@
+// blue_noise.glsl: the sequence's strata, its shift, and the way through the masks.
+#include "shader/blue_noise_test.h"
+
+#include "noise/blue_noise.h"
+#include "shader/harness.h"
+
+#include <cmath>
+#include <set>
+
+namespace reflet::test {
+namespace {
+
+class BlueNoisePoints : public ShaderTest {
+protected:
+    static std::vector<BlueNoiseSample> sample(const std::vector<BlueNoiseCase>& cases) {
+        return mapOnDevice<BlueNoiseSample>("blue_noise_test.comp", cases);
+    }
+
+    static std::vector<BlueNoiseSample> raysOfAPixel(uint32_t count, uvec2 pixel, uint32_t frameNumber) {
+        std::vector<BlueNoiseCase> cases;
+        for (uint32_t i = 0; i < count; ++i) {
+            cases.push_back({pixel, 5, frameNumber, i, count});
+        }
+        return sample(cases);
+    }
+
+    /// One point in each of 2^columns · 2^rows boxes.
+    static void expectOneInEachBox(const std::vector<vec2>& points, uint32_t columns, uint32_t rows) {
+        std::set<std::pair<uint32_t, uint32_t>> boxes;
+        for (const vec2& p : points) {
+            boxes.emplace(static_cast<uint32_t>(std::ldexp(p.x, static_cast<int>(columns))),
+                          static_cast<uint32_t>(std::ldexp(p.y, static_cast<int>(rows))));
+        }
+        EXPECT_EQ(boxes.size(), points.size()) << columns << " + " << rows;
+        EXPECT_LT(boxes.rbegin()->first, 1U << columns);
+    }
+};
+
+TEST_F(BlueNoisePoints, OfTheSequenceEveryPowerOfTwoFillsEveryShapeOfBoxes) {
+    const auto samples = raysOfAPixel(4096, uvec2(0), 0);
+    for (uint32_t k = 0; k <= 8; ++k) {
+        for (uint32_t first = 0; first < 4096; first += 1U << k) {
+            std::vector<vec2> points;
+            for (uint32_t i = first; i < first + (1U << k); ++i) {
+                points.push_back(vec2(samples[i].sobol >> 8U) / 16777216.0F);
+            }
+            for (uint32_t columns = 0; columns <= k; ++columns) {
+                expectOneInEachBox(points, columns, k - columns);
+            }
+        }
+    }
+}
+
+TEST_F(BlueNoisePoints, StayOneInEachBoxWhateverTheShift) {
+    for (uint32_t k = 0; k <= 8; ++k) {
+        for (uint32_t i = 0; i < 64; ++i) {
+            std::vector<vec2> points;
+            for (const BlueNoiseSample& s : raysOfAPixel(1U << k, uvec2(i, 7), 100 * i)) {
+                points.push_back(s.point);
+            }
+            expectOneInEachBox(points, k / 2, k - k / 2);
+        }
+    }
+}
+
+// Over pixels, each ray of however many is uniform by itself: no frame of any number of rays is biased.
+TEST_F(BlueNoisePoints, AreUniformForEachRayOfAPixelByItself) {
+    constexpr uint32_t width = 256;
+    constexpr double count = width * width;
+    constexpr double bins = 64.0;
+    for (const auto& [number, perPixel] :
+         {std::pair(0U, 1U), std::pair(2U, 3U), std::pair(1U, 4U), std::pair(6U, 7U), std::pair(255U, 256U)}) {
+        std::vector<BlueNoiseCase> cases;
+        for (uint32_t i = 0; i < width * width; ++i) {  // all texels of half of the slices
+            cases.push_back({uvec2(i % 64, i / 64 % 64), 9, i / 4096, number, perPixel});
+        }
+        std::vector<double> filled(64, 0.0);
+        for (const BlueNoiseSample& s : sample(cases)) {
+            ASSERT_LT(std::max(s.point.x, s.point.y), 1.0F);
+            filled.at(static_cast<size_t>(s.point.x * 8.0F) + 8 * static_cast<size_t>(s.point.y * 8.0F)) += 1.0;
+        }
+        double chiSquare = 0.0;
+        for (const double n : filled) {
+            chiSquare += (n - count / bins) * (n - count / bins) / (count / bins);
+        }
+        EXPECT_LT(chiSquare, bins - 1.0 + 5.0 * std::sqrt(2.0 * (bins - 1.0))) << number << " of " << perPixel;
+    }
+}
+
+TEST_F(BlueNoisePoints, TakeAllSlicesInTurnAtOnePlaceOfTheMask) {
+    std::vector<BlueNoiseCase> cases;
+    for (uint32_t i = 0; i < blueNoiseSlices; ++i) {
+        cases.push_back({uvec2(1000, 3), 77, 1000 + i, 0, 1});
+    }
+    std::set<uint32_t> texels;
+    const auto samples = sample(cases);
+    for (const BlueNoiseSample& s : samples) {
+        texels.insert(s.texel);
+        EXPECT_LT(s.texel, blueNoise().size());
+        EXPECT_EQ(s.texel % (blueNoiseSide * blueNoiseSide), samples[0].texel % (blueNoiseSide * blueNoiseSide));
+    }
+    EXPECT_EQ(texels.size(), blueNoiseSlices);
+    const uint32_t step = samples[1].texel - samples[0].texel + static_cast<uint32_t>(blueNoise().size());
+    EXPECT_EQ(step % blueNoise().size(), blueNoiseSide * blueNoiseSide) << "the next frame takes the next slice";
+}
+
+TEST_F(BlueNoisePoints, TileTheScreenWithTheMaskMovedByTheStream) {
+    std::vector<BlueNoiseCase> cases;
+    for (const uint32_t stream : {0U, 1U}) {
+        for (uint32_t i = 0; i < 64 * 64; ++i) {
+            cases.push_back({uvec2(300 + i % 64, 500 + i / 64), stream, 0, 0, 1});
+        }
+    }
+    const auto samples = sample(cases);
+    std::set<uint32_t> texels;
+    for (uint32_t i = 0; i < 64 * 64; ++i) {
+        texels.insert(samples[i].texel);
+        EXPECT_NE(samples[i].texel, samples[64 * 64 + i].texel);
+        if (i % 64 != 0 && samples[i].texel % 64 != 0) {
+            EXPECT_EQ(samples[i].texel, samples[i - 1].texel + 1) << "neighbours stay neighbours";
+        }
+    }
+    EXPECT_EQ(texels.size(), 64U * 64U);
+}
+
+TEST_F(BlueNoisePoints, GoOnInTheSequenceOnceAllSlicesHaveBeenUsed) {
+    // The mask is the same every 32 frames. With one ray, what differs over such turns are the sequence's points.
+    constexpr uint32_t turns = 16;
+    std::vector<BlueNoiseCase> cases;
+    for (uint32_t turn = 0; turn < turns; ++turn) {
+        cases.push_back({uvec2(3, 4), 5, 6 + turn * blueNoiseSlices, 0, 1});
+    }
+    const auto samples = sample(cases);
+    const auto sequence = raysOfAPixel(turns, uvec2(3, 4), 0);
+    for (uint32_t turn = 0; turn < turns; ++turn) {
+        EXPECT_EQ(samples[turn].texel, samples[0].texel);
+        const vec2 moved = glm::fract(samples[turn].point - samples[0].point);
+        const vec2 expected = vec2(sequence[turn].sobol >> 8U) / 16777216.0F;
+        EXPECT_NEAR(moved.x, expected.x, 1e-6F);
+        EXPECT_NEAR(moved.y, expected.y, 1e-6F);
+    }
+}
+
+}  // namespace
+}  // namespace reflet::test
