@@ -32,15 +32,7 @@ vec3 fresnelSchlick(vec3 f0, float vh) {
     return f0 + (1.0 - f0) * (m2 * m2 * m);
 }
 
-// About where the middle of the light is that a surface around +Z reflects to v: between mirror and normal. (Lagarde and
-// de Rousiers, Moving Frostbite to Physically Based Rendering, 2014)
-vec3 ggxDominantDirection(vec3 v, float alpha) {
-    float smoothness = 1.0 - alpha;
-    float toMirror = smoothness * (sqrt(smoothness) + alpha);
-    return normalize(mix(vec3(0.0, 0.0, 1.0), vec3(-v.xy, v.z), toMirror));
-}
-
-// Tangent of the angle around the dominant direction that holds about half of that light.
+// Tangent of the angle around the middle of the light that a surface reflects which holds about half of that light.
 float ggxHalfTangent(float alpha) { return 1.5 * alpha; }
 
 // What a material is at one point, ready for light from any side.

@@ -49,6 +49,10 @@ vec3 raiseAbove(vec3 direction, vec3 geometric) {
 // Below this perceptual roughness the lobe is narrower than anything on the screen.
 const float mirrorRoughness = 0.01;
 
+// Where a ray stands for all of the lobe (RougherSurfaces_mips): the share of the visible normals, the middle one first,
+// that it may be any of. The middle alone would print what it hits as a stencil, with edges as hard as a mirror's.
+const float coneShare = 0.1;
+
 // One of the microfacet normals that are seen from v reflects it. The weight is BRDF · cos / pdf over the directional
 // albedo, which composite multiplies in. One number for three colours: F0 by its luminance.
 Ray specularRay(ivec2 pixel, uint number, vec3 n, vec3 v, MaterialTexel m) {
@@ -56,16 +60,18 @@ Ray specularRay(ivec2 pixel, uint number, vec3 n, vec3 v, MaterialTexel m) {
     vec3 eye = v * frame;
     eye = normalize(vec3(eye.xy, max(eye.z, 1e-3)));  // normal maps may turn away from the eye
     float alpha = m.roughness * m.roughness;
-    if (m.roughness > params.specular.maxRoughness && params.specular.rougher == RougherSurfaces_mips) {
-        return Ray(frame * ggxDominantDirection(eye, alpha), 1.0, 1.0);
-    }
+    bool cone = m.roughness > params.specular.maxRoughness && params.specular.rougher == RougherSurfaces_mips;
     vec3 h = vec3(0.0, 0.0, 1.0);
     float share = 1.0;  // of the light along the ray that is not masked
     if (m.roughness > mirrorRoughness) {
         uint stream = number * 2u + hashPcg(params.view.seed + 1u);
-        h = sampleGgxVisible(hashToUnit2(hashPixel(uvec2(pixel), stream, params.view.frame)), eye, alpha);
+        vec2 u = hashToUnit2(hashPixel(uvec2(pixel), stream, params.view.frame));
+        h = sampleGgxVisible(cone ? u * vec2(coneShare, 1.0) : u, eye, alpha);
     }
     vec3 l = 2.0 * dot(eye, h) * h - eye;
+    if (cone) {
+        return Ray(frame * l, 1.0, 1.0);
+    }
     if (m.roughness > mirrorRoughness) {
         float a2 = alpha * alpha;
         share = ggxVisibility(max(l.z, 0.0), eye.z, alpha) * 2.0 * max(l.z, 0.0) *

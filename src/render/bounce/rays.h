@@ -31,14 +31,14 @@ SETTINGS(DiffuseSettings, DIFFUSE_SETTINGS)
     OPTION(RougherSurfaces, mips, 1)
 CHOICES(RougherSurfaces, ROUGHER_SURFACES)
 
-#define SPECULAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                                 \
-    VALUE(uint, rays, 1, 0, 256,                                                                                 \
-          "Rays per pixel for reflections, spread as the roughness says; 0: none are computed.")                 \
-    VALUE(float, maxRoughness, 1.0, 0.0, 1.0,                                                                    \
-          "Where surfaces are too rough for rays that are spread: see `rougher`; 1: none are.")                  \
-    CHOICE(RougherSurfaces, rougher, next,                                                                       \
-           "What those get; next: the sources behind the screen; mips: one ray through the middle of what they " \
-           "reflect, with the screen's light around its hit, blurred as the roughness says.")
+#define SPECULAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                           \
+    VALUE(uint, rays, 1, 0, 256,                                                                           \
+          "Rays per pixel for reflections, spread as the roughness says; 0: none are computed.")           \
+    VALUE(float, maxRoughness, 1.0, 0.0, 1.0,                                                              \
+          "Where surfaces are too rough for rays that are spread: see `rougher`; 1: none are.")            \
+    CHOICE(RougherSurfaces, rougher, next,                                                                 \
+           "What those get; next: the sources behind the screen; mips: rays near the middle of what they " \
+           "reflect, with the screen's light around their hits, blurred as the roughness says.")
 SETTINGS(SpecularSettings, SPECULAR_SETTINGS)
 
 // Lobes, as the specialization constant `lobe`.
