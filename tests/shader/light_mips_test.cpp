@@ -74,7 +74,7 @@ glm::dvec3 meanOfCell(uvec2 size, const LightAt& lightAt, uint32_t level, uvec2 
 
 /// Whole numbers, which half floats hold exactly; neighbours differ by far.
 vec3 uneven(uint32_t x, uint32_t y) {
-    return vec3((x * 37 + y * 101 + x * y * 13) % 512, (x * 71 + y * y * 7) % 1024, x + y == 40 ? 2000 : 0);
+    return {(x * 37 + y * 101 + x * y * 13) % 512, (x * 71 + y * y * 7) % 1024, x + y == 40 ? 2000 : 0};
 }
 
 TEST_F(LightMips, everyCellIsTheMeanOfItsPixelsAtOddSizesToo) {
@@ -114,8 +114,8 @@ TEST_F(LightMips, aConstantImageIsConstantEverywhereAtEveryWidth) {
         const vec3 constant(0.25F, 7.0F, 1023.0F);
         const Images images = make(size, [&](uint32_t, uint32_t) { return constant; });
         std::vector<LightLookup> lookups;
-        for (int i = 0; i < 4000; ++i) {
-            const vec2 part(static_cast<float>(i % 50) / 49.0F, static_cast<float>(i / 50) / 79.0F);
+        for (uint32_t i = 0; i < 4000; ++i) {
+            const vec2 part = vec2(uvec2(i % 50, i / 50)) / vec2(49.0F, 79.0F);
             lookups.push_back({part * (vec2(size) + 6.0F) - 3.0F, std::exp2(static_cast<float>(i % 97) / 10.0F)});
         }
         for (const vec3& light : lookUp(images, lookups)) {
@@ -129,11 +129,10 @@ TEST_F(LightMips, aRampIsTheRampAtEveryWidthAwayFromTheEdges) {
     const auto ramp = [](uint32_t x, uint32_t y) { return vec3(x + 0.5F, y + 0.5F, 300.0F - x); };
     const Images images = make(size, ramp);
     std::vector<LightLookup> lookups;
-    for (int i = 0; i < 5000; ++i) {
+    for (uint32_t i = 0; i < 5000; ++i) {
         const float width = std::exp2(4.0F * static_cast<float>(i % 101) / 100.0F);
-        const float margin =
-            2.5F * 16.0F;  // cells that stand for fewer pixels, and one on each side of a cell's centre
-        const vec2 part(static_cast<float>(i % 71) / 70.0F, static_cast<float>(i / 71) / 70.0F);
+        const float margin = 40.0F;  // more than two cells of 16: those at the edges, and half of their neighbours
+        const vec2 part = vec2(uvec2(i % 71, i / 71)) / 70.0F;
         lookups.push_back({margin + part * (vec2(size) - 2.0F * margin), width});
     }
     const auto found = lookUp(images, lookups);
