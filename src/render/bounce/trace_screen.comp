@@ -53,8 +53,8 @@ vec2 loadCell(ivec2 cell, int level) {
 #include "shaders/march_world.glsl"
 
 // The blur's cells, over the radius that holds half of the lobe's light. 1.7 would spread a point's light as far as the
-// lobe does, were both Gaussian. Of 1.2, 2.4, 3.4 and 4.8, 3.4 is nearest to 64 spread rays on gloss (limit 0.2, 1 and 4
-// rays); on colonnade (limit 0.5) 2.4 is nearer, its relative MSE being 5 % less.
+// lobe does, were both Gaussian. Of 1.2, 2.4, 3.4 and 4.8, 3.4 is nearest to 64 spread rays on gloss (limit 0.2, 1 and
+// 4 rays); on colonnade (limit 0.5) narrower is nearer, 2.4 by 5 % of the relative MSE.
 const float coneWidth = 3.4;
 
 bool fromPrevious() { return params.settings.light == HitLight_previous && params.previousValid != 0u; }
