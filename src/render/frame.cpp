@@ -8,6 +8,7 @@
 #include "render/bounce/answer_environment.h"
 #include "render/bounce/trace_screen.h"
 #include "render/gbuffer/back_depth.h"
+#include "render/light_mips/light_mips.h"
 #include "render/pyramid/pyramid.h"
 #include "render/shadow/shadow.h"
 #include "render/tonemap/tonemap.h"
@@ -72,6 +73,12 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
             screen.light =
                 composite(f, out.g, out.direct, out.diffuse, none, in.ggxTable, soFar, {in.view, settings.diffuse.gain})
                     .lit;
+        }
+        const SpecularSettings& s = settings.specular;
+        if (s.rougher == RougherSurfaces::mips && s.maxRoughness < 1.0F && s.rays > 0) {
+            screen.coneRoughness = s.maxRoughness;
+            screen.lightMips =
+                makeLightMips(f, trace.light == HitLight::previous && lit.valid ? lit.previous : screen.light);
         }
         out.specular = traceLobe(lobeSpecular, settings.specular.rays, trace.maxDistance);
     }

@@ -32,6 +32,9 @@ vec3 fresnelSchlick(vec3 f0, float vh) {
     return f0 + (1.0 - f0) * (m2 * m2 * m);
 }
 
+// Tangent of the angle around the middle of the light that a surface reflects which holds about half of that light.
+float ggxHalfTangent(float alpha) { return 1.5 * alpha; }
+
 // What a material is at one point, ready for light from any side.
 struct Surface {
     vec3 diffuse;       // albedo of the diffuse base, times what the specular layer lets through

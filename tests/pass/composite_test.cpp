@@ -11,8 +11,8 @@ TEST(Composite, GainIsAFactorOnDiffuseLightAloneAndNothingElseChanges) {
     const Scene scene = findBuiltinScene("gloss")->make();
     const std::vector<std::string> shows{"indirect_diffuse", "indirect_specular", "direct"};
     const auto withGain = [&](const char* gain) {
-        return render(scene, defaultView(scene), size, settingsOf({std::string("diffuse.gain=") + gain, "trace_screen.light=direct"}),
-                      shows);
+        return render(scene, defaultView(scene), size,
+                      settingsOf({std::string("diffuse.gain=") + gain, "trace_screen.light=direct"}), shows);
     };
     const Pictures one = withGain("1");
     const Pictures four = withGain("4");

@@ -49,8 +49,8 @@ TEST(Truth, AFlatMirrorShowsThePathTracersFlippedPictureWhereTheScreenKnowsIt) {
     mirror.roughness = 0.0F;
     Scene scene = sceneOf(mirror, builtin::ground({4, 4}, {1, 1}, {1, 1}));
     placeBoxes(scene);
-    const Pictures p = render(scene, view, large, settingsOf({"diffuse.rays=0", "trace_screen.light=direct"}),
-                              {"indirect_specular"});
+    const Pictures p =
+        render(scene, view, large, settingsOf({"diffuse.rays=0", "trace_screen.light=direct"}), {"indirect_specular"});
 
     Scene withoutMirror;
     placeBoxes(withoutMirror);
@@ -61,9 +61,8 @@ TEST(Truth, AFlatMirrorShowsThePathTracersFlippedPictureWhereTheScreenKnowsIt) {
         traceReference(withoutMirror, below, large, {.bounces = 0, .samples = 16, .filter = PixelFilter::center});
 
     // The screen knows what a ray meets where the camera sees that point, too.
-    const ReferencePicture seen =
-        traceReference(scene, view, large,
-                       {.bounces = 1, .samples = 16, .filter = PixelFilter::center, .visibleOnly = true});
+    const ReferencePicture seen = traceReference(
+        scene, view, large, {.bounces = 1, .samples = 16, .filter = PixelFilter::center, .visibleOnly = true});
     const FloatImage expected = flipped(truth.direct);
     // A hit is a whole pixel of the screen: at the edges of what is reflected it may be the wrong one of two.
     const auto isEdge = [&](size_t i) {
@@ -79,7 +78,8 @@ TEST(Truth, AFlatMirrorShowsThePathTracersFlippedPictureWhereTheScreenKnowsIt) {
         const unsigned x = i % large.x;
         const unsigned y = static_cast<unsigned>(i / large.x);
         const bool inside = x > 0 && y > 0 && x + 1 < large.x && y + 1 < large.y;
-        options.mask.push_back(e[0] > 0.0F && inside && !isEdge(i) && std::abs(s[0] - e[0]) < 0.05F * e[0] && std::abs(s[2] - e[2]) < 0.05F * e[2]);
+        options.mask.push_back(e[0] > 0.0F && inside && !isEdge(i) && std::abs(s[0] - e[0]) < 0.05F * e[0] &&
+                               std::abs(s[2] - e[2]) < 0.05F * e[2]);
     }
     const Difference d = compareImages(p.images.at("indirect_specular"), expected, options).difference;
     RecordProperty("relative_mse", std::to_string(d.relativeMse));
@@ -95,8 +95,8 @@ class VisibleOnly : public testing::TestWithParam<const char*> {};
 TEST_P(VisibleOnly, DiffuseLightOfOneBounceIsThatOfAPathTracerThatSeesWhatTheCameraSees) {
     const Scene scene = findBuiltinScene(GetParam())->make();
     const View view = defaultView(scene);
-    const ReferencePicture truth = traceReference(
-        scene, view, size, {.bounces = 1, .samples = 256, .visibleOnly = true});
+    const ReferencePicture truth =
+        traceReference(scene, view, size, {.bounces = 1, .samples = 256, .visibleOnly = true});
     const Pictures p = render(
         scene, view, size,
         settingsOf({"diffuse.rays=256", "specular.rays=0", "trace_screen.light=direct", "trace_screen.thickness=0.1"}),
@@ -119,7 +119,6 @@ TEST_P(Energy, IsAtMostTwoPercentAboveTheTruthWithOneBounceAndWithAll) {
         const ReferencePicture truth = traceReference(scene, view, size,
                                                       {.bounces = one ? 1U : ReferenceOptions::unlimited,
                                                        .samples = 64,
-                                                       
 
                                                        .lampShadows = false});
         const Pictures p = render(scene, view, size,

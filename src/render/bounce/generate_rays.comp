@@ -61,6 +61,10 @@ vec3 raiseAbove(vec3 direction, vec3 geometric) {
 // Below this perceptual roughness the lobe is narrower than anything on the screen.
 const float mirrorRoughness = 0.01;
 
+// Where a ray stands for all of the lobe (RougherSurfaces_mips): the share of the visible normals, the middle one first,
+// that it may be any of. The middle alone would print what it hits as a stencil, with edges as hard as a mirror's.
+const float coneShare = 0.1;
+
 // One of the microfacet normals that are seen from v reflects it. The weight is BRDF · cos / pdf over the directional
 // albedo, which composite multiplies in. One number for three colours: F0 by its luminance.
 Ray specularRay(ivec2 pixel, uint number, vec3 n, vec3 v, MaterialTexel m) {
@@ -68,12 +72,17 @@ Ray specularRay(ivec2 pixel, uint number, vec3 n, vec3 v, MaterialTexel m) {
     vec3 eye = v * frame;
     eye = normalize(vec3(eye.xy, max(eye.z, 1e-3)));  // normal maps may turn away from the eye
     float alpha = m.roughness * m.roughness;
+    bool cone = m.roughness > params.specular.maxRoughness && params.specular.rougher == RougherSurfaces_mips;
     vec3 h = vec3(0.0, 0.0, 1.0);
     float share = 1.0;  // of the light along the ray that is not masked
     if (m.roughness > mirrorRoughness) {
-        h = sampleGgxVisible(randomPair(pixel, number), eye, alpha);
+        vec2 u = randomPair(pixel, number);
+        h = sampleGgxVisible(cone ? u * vec2(coneShare, 1.0) : u, eye, alpha);
     }
     vec3 l = 2.0 * dot(eye, h) * h - eye;
+    if (cone) {
+        return Ray(frame * l, 1.0, 1.0);
+    }
     if (m.roughness > mirrorRoughness) {
         float a2 = alpha * alpha;
         share = ggxVisibility(max(l.z, 0.0), eye.z, alpha) * 2.0 * max(l.z, 0.0) *
@@ -83,7 +92,7 @@ Ray specularRay(ivec2 pixel, uint number, vec3 n, vec3 v, MaterialTexel m) {
     float y = dot(f0, vec3(0.2126, 0.7152, 0.0722));
     vec2 table = textureLod(ggxTable, ggxTableUv(eye.z, m.roughness), 0.0).rg;
     float weight = share * fresnelSchlick(vec3(y), dot(eye, h)).x / max(y * table.x + table.y, 1e-3);
-    float fade = params.specular.maxRoughness < 1.0
+    float fade = params.specular.maxRoughness < 1.0 && params.specular.rougher == RougherSurfaces_next
                      ? smoothstep(params.specular.maxRoughness - 0.1, params.specular.maxRoughness, m.roughness)
                      : 0.0;
     return Ray(frame * l, weight, 1.0 - fade);

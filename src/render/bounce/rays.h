@@ -34,11 +34,19 @@ CHOICES(RayNoise, RAY_NOISES)
           "Factor on indirect diffuse light; only 1 keeps energy; pi is what leaving out Lambert's 1/pi does.")
 SETTINGS(DiffuseSettings, DIFFUSE_SETTINGS)
 
-#define SPECULAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                    \
-    VALUE(uint, rays, 1, 0, 256,                                                                    \
-          "Rays per pixel for reflections, spread as the roughness says; 0: none are computed.")    \
-    VALUE(float, maxRoughness, 1.0, 0.0, 1.0,                                                       \
-          "Rougher surfaces leave their reflections to the sources behind the screen; 1: none do.") \
+#define ROUGHER_SURFACES(OPTION)     \
+    OPTION(RougherSurfaces, next, 0) \
+    OPTION(RougherSurfaces, mips, 1)
+CHOICES(RougherSurfaces, ROUGHER_SURFACES)
+
+#define SPECULAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                           \
+    VALUE(uint, rays, 1, 0, 256,                                                                           \
+          "Rays per pixel for reflections, spread as the roughness says; 0: none are computed.")           \
+    VALUE(float, maxRoughness, 1.0, 0.0, 1.0,                                                              \
+          "Where surfaces are too rough for rays that are spread: see `rougher`; 1: none are.")            \
+    CHOICE(RougherSurfaces, rougher, next,                                                                 \
+           "What those get; next: the sources behind the screen; mips: rays near the middle of what they " \
+           "reflect, with the screen's light around their hits, blurred as the roughness says.")           \
     CHOICE(RayNoise, noise, blue, "What chooses their directions, as for diffuse.noise.")
 SETTINGS(SpecularSettings, SPECULAR_SETTINGS)
 

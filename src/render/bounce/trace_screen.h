@@ -64,7 +64,8 @@ struct TraceScreenParams {
     TraceScreenSettings settings;
     float longest;  // metres: no ray goes farther
     uint firstRay;
-    uint previousValid;  // 0: there is no last frame
+    uint previousValid;   // 0: there is no last frame
+    float coneRoughness;  // rougher surfaces' rays stand for all of the lobe
 };
 
 SHARED_END
@@ -80,10 +81,12 @@ namespace reflet {
 /// What rays are traced through, and the light that they find.
 struct ScreenImages {
     const GBuffer& g;
-    gpu::Image backDepth;  ///< drawBackDepth; only where settings.thicknessFrom is secondLayer
-    gpu::Image pyramid;    ///< makePyramid; for hiz only
-    gpu::Image light;      ///< RGBA16F: of this frame
-    gpu::History lit;      ///< of the last frame, found by the hit's own motion
+    gpu::Image backDepth;        ///< drawBackDepth; only where settings.thicknessFrom is secondLayer
+    gpu::Image pyramid;          ///< makePyramid; for hiz only
+    gpu::Image light;            ///< RGBA16F: of this frame
+    gpu::History lit;            ///< of the last frame, found by the hit's own motion
+    gpu::Image lightMips;        ///< makeLightMips, of the image that hits take their light from; only for cones
+    float coneRoughness = 1.0F;  ///< rays of rougher surfaces are cones: their hits' light is blurred
 };
 
 /// Answers rays that hit what the screen shows with the light there. Hands on the others. longest: of the lobe's rays

@@ -1,7 +1,6 @@
 // The depth pyramid: nearest and farthest depth of ever larger squares of pixels. Shared by C++ and GLSL.
-// All levels lie in one image, below one another: level 1 (2x2 pixels a cell) at the top. Sizes are rounded up, so that
-// cells at the right and lower edges of odd sizes stand for fewer pixels and no pixel is left out. The sky does not
-// count: nothing can hit it. Cells that show nothing else have a nearest depth of 0 and a farthest of 1.
+// All levels lie in one image, as render/levels.h says. The sky does not count: nothing can hit it. Cells that show
+// nothing else have a nearest depth of 0 and a farthest of 1.
 #ifndef REFLET_RENDER_PYRAMID_H
 #define REFLET_RENDER_PYRAMID_H
 

@@ -1,0 +1,25 @@
+// Looks up blurred light in an image and its mips.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "light_mips_test.h"
+#include "render/levels.glsl"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0, scalar) readonly buffer InputBlock { LightLookup items[]; } inputs;
+layout(set = 0, binding = 1, scalar) buffer OutputBlock { vec3 items[]; } outputs;
+layout(set = 0, binding = 2) uniform sampler2D light;
+layout(set = 0, binding = 3) uniform sampler2D mips;
+
+vec3 loadLight(ivec2 cell, int level) {
+    return level > 0 ? texelFetch(mips, cell + ivec2(0, levelRow(textureSize(light, 0), level)), 0).rgb
+                     : texelFetch(light, cell, 0).rgb;
+}
+#include "render/light_mips/light_mips.glsl"
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i < outputs.items.length()) {
+        LightLookup item = inputs.items[i];
+        outputs.items[i] = blurredLight(item.at, item.width, textureSize(light, 0));
+    }
+}
