@@ -2,7 +2,8 @@
 //
 //     G-buffer → sun visibility → direct light → diffuse rays, specular rays → answer chain → composite → tone map
 //
-// There is no graph compiler: an `if` in this file is the only culling.
+// renderFrame, at the end, is all of it; its parts stand above it. There is no graph compiler: an `if` in this file is
+// the only culling.
 #include "render/frame.h"
 
 #include "render/bounce/answer_environment.h"
@@ -17,15 +18,18 @@
 
 namespace reflet {
 
-FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& settings) {
-    FrameImages out;
+namespace {
+
+void drawSurfaces(gpu::Frame& f, const FrameInputs& in, const Settings& settings, FrameImages& out) {
     out.g = drawGBuffer(f, in.draws, in.view, settings.materials);
     if (settings.traceScreen.thicknessFrom == ThicknessFrom::secondLayer) {
         const gpu::Image back = drawBackDepth(f, in.draws, out.g.depth, in.view);
         out.backDepth = keptDepth(f, "kept_back_depth", back, in.view, settings.depth);
     }
     out.g.depth = keptDepth(f, "kept_depth", out.g.depth, in.view, settings.depth);
+}
 
+void lightDirectly(gpu::Frame& f, const FrameInputs& in, const Settings& settings, FrameImages& out) {
     ShadowSettings shadow = settings.shadow;
     if (in.sunIrradiance == vec3(0.0F)) {
         shadow.filter = ShadowFilter::none;
@@ -39,49 +43,68 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
     out.sunVisibility = sunVisibility(f, out.g, out.shadowMap, sunMap, in.view, shadow);
     out.direct = directLight(f, out.g, out.sunVisibility, in.ggxTable,
                              {in.view, -in.sunDirection, in.sunIrradiance, in.environment}, in.lamps);
+}
 
-    // One chain for both lobes: rays, then sources that answer in order of trust, each taking what is left over.
+// One chain for both lobes: rays, then sources that answer in order of trust, each taking what is left over.
+LobeLight traceLobe(gpu::Frame& f, const FrameInputs& in, const Settings& settings, const ScreenImages& screen,
+                    uint32_t lobe) {
+    const bool diffuse = lobe == lobeDiffuse;
+    const auto scope = f.scope(diffuse ? "diffuse" : "specular");
+    const uvec2 size = screen.g.depth.size;
+    const bool counted = settings.traceScreen.countSteps != 0;
+    const uint32_t perPixel = diffuse ? settings.diffuse.rays : settings.specular.rays;
+    const float longest = diffuse ? settings.diffuse.radius : settings.traceScreen.maxDistance;
+    if (perPixel == 0) {
+        return noLight(f, lobe, size, counted);
+    }
+    const uint32_t batch = raysPerBatch(f, size);
+    LobeLight light;
+    for (uint32_t first = 0; first < perPixel; first += batch) {
+        const uint32_t count = std::min(perPixel - first, batch);
+        Rays rays = generateRays(f, screen.g, {in.ggxTable, in.blueNoise}, lobe,
+                                 {in.view, settings.diffuse, settings.specular, first, count}, counted);
+        traceScreen(f, rays, screen, in.view, settings.traceScreen, longest);
+        answerEnvironment(f, rays, screen.g, in.environment, settings.environment);
+        light = resolveRays(f, rays, perPixel);
+    }
+    return light;
+}
+
+// What reflections show: direct light, or what is lit so far; and its mips for those that are too rough for rays.
+void lightForReflections(gpu::Frame& f, const FrameInputs& in, const Settings& settings, const FrameImages& out,
+                         ScreenImages& screen) {
+    const auto scope = f.scope("specular");
+    const SpecularSettings& s = settings.specular;
+    const HitLight light = settings.traceScreen.light;
+    if (light == HitLight::lit && s.rays > 0 && settings.diffuse.rays > 0) {
+        const LobeLight none = noLight(f, lobeSpecular, out.g.depth.size, settings.traceScreen.countSteps != 0);
+        const gpu::Image soFar = f.image("lit_so_far", VK_FORMAT_R16G16B16A16_SFLOAT, out.g.depth.size);
+        screen.light =
+            composite(f, out.g, out.direct, out.diffuse, none, in.ggxTable, soFar, {in.view, settings.diffuse.gain})
+                .lit;
+    }
+    if (s.rougher == RougherSurfaces::mips && s.maxRoughness < 1.0F && s.rays > 0) {
+        screen.coneRoughness = s.maxRoughness;
+        screen.lightMips =
+            makeLightMips(f, light == HitLight::previous && screen.lit.valid ? screen.lit.previous : screen.light);
+    }
+}
+
+}  // namespace
+
+FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& settings) {
+    FrameImages out;
+    drawSurfaces(f, in, settings, out);
+    lightDirectly(f, in, settings, out);
+
     const gpu::History lit = f.history("lit", VK_FORMAT_R16G16B16A16_SFLOAT, out.g.depth.size);
-    const uint32_t batch = raysPerBatch(f, out.g.depth.size);
-    const TraceScreenSettings& trace = settings.traceScreen;
-    const bool counted = trace.countSteps != 0;
     ScreenImages screen{.g = out.g, .backDepth = out.backDepth, .light = out.direct, .lit = lit};
-    if (trace.method == TraceMethod::hiz) {
+    if (settings.traceScreen.method == TraceMethod::hiz) {
         screen.pyramid = makePyramid(f, out.g.depth, screen.backDepth);
     }
-    const auto traceLobe = [&](uint32_t lobe, uint32_t perPixel, float longest) {
-        LobeLight light;
-        for (uint32_t first = 0; first < perPixel; first += batch) {
-            const uint32_t count = std::min(perPixel - first, batch);
-            Rays rays = generateRays(f, out.g, {in.ggxTable, in.blueNoise}, lobe,
-                                     {in.view, settings.diffuse, settings.specular, first, count}, counted);
-            traceScreen(f, rays, screen, in.view, trace, longest);
-            answerEnvironment(f, rays, out.g, in.environment, settings.environment);
-            light = resolveRays(f, rays, perPixel);
-        }
-        return perPixel > 0 ? light : noLight(f, lobe, out.g.depth.size, counted);
-    };
-    {
-        const auto scope = f.scope("diffuse");
-        out.diffuse = traceLobe(lobeDiffuse, settings.diffuse.rays, settings.diffuse.radius);
-    }
-    {
-        const auto scope = f.scope("specular");
-        if (trace.light == HitLight::lit && settings.specular.rays > 0 && settings.diffuse.rays > 0) {
-            const LobeLight none = noLight(f, lobeSpecular, out.g.depth.size, counted);
-            const gpu::Image soFar = f.image("lit_so_far", VK_FORMAT_R16G16B16A16_SFLOAT, out.g.depth.size);
-            screen.light =
-                composite(f, out.g, out.direct, out.diffuse, none, in.ggxTable, soFar, {in.view, settings.diffuse.gain})
-                    .lit;
-        }
-        const SpecularSettings& s = settings.specular;
-        if (s.rougher == RougherSurfaces::mips && s.maxRoughness < 1.0F && s.rays > 0) {
-            screen.coneRoughness = s.maxRoughness;
-            screen.lightMips =
-                makeLightMips(f, trace.light == HitLight::previous && lit.valid ? lit.previous : screen.light);
-        }
-        out.specular = traceLobe(lobeSpecular, settings.specular.rays, trace.maxDistance);
-    }
+    out.diffuse = traceLobe(f, in, settings, screen, lobeDiffuse);
+    lightForReflections(f, in, settings, out, screen);
+    out.specular = traceLobe(f, in, settings, screen, lobeSpecular);
 
     out.light = composite(f, out.g, out.direct, out.diffuse, out.specular, in.ggxTable, lit.next,
                           {in.view, settings.diffuse.gain});
