@@ -51,5 +51,49 @@ TEST_F(RayPacking, keepsTheWeightsThatMeanSomethingExactly) {
     }
 }
 
+/// (rest, clear) of waiting rays, packed and unpacked.
+class WaitingRays : public RayPacking {
+protected:
+    static std::vector<vec2> packed(const std::vector<vec2>& rays) {
+        return mapOnDevice<vec2>("waiting_ray_test.comp", rays);
+    }
+};
+
+TEST_F(WaitingRays, keepAllAndNothingOfTheirWeightExactly) {
+    const auto back = packed({{1.0F, 0.0F}, {0.0F, 0.0F}});
+    EXPECT_EQ(back[0].x, 1.0F);
+    EXPECT_EQ(back[1].x, 0.0F);
+}
+
+TEST_F(WaitingRays, keepWhatIsLeftOfTheirWeightToHalfAStepOfSixteenBits) {
+    std::vector<vec2> rays;
+    for (int i = 0; i <= 200000; ++i) {
+        rays.emplace_back(static_cast<float>(i) / 200000.0F, 0.0F);
+    }
+    const auto back = packed(rays);
+    for (size_t i = 0; i < rays.size(); ++i) {
+        ASSERT_NEAR(back[i].x, rays[i].x, 0.5 / 65535.0 + 1e-7);  // and a rounding of floats near 1
+    }
+}
+
+TEST_F(WaitingRays, neverGoOnFromFartherThanTheyWereFree) {
+    constexpr double largest = 65504.0;
+    constexpr double smallestNormal = 1.0 / 16384.0;  // below it a half float's steps are all of 6e-8
+    std::vector<vec2> rays{{1.0F, 0.0F}};
+    for (float clear = 1e-6F; clear < 1e5F; clear *= 1.0001F) {
+        rays.emplace_back(1.0F, clear);
+    }
+    for (int power = -14; power <= 16; ++power) {
+        rays.emplace_back(1.0F, std::ldexp(1.0F, power));
+    }
+    rays.emplace_back(1.0F, 1e5F);
+    const auto back = packed(rays);
+    for (size_t i = 0; i < rays.size(); ++i) {
+        const double clear = std::min<double>(rays[i].y, largest);
+        ASSERT_LE(back[i].y, clear < smallestNormal ? clear + 3e-8 : clear) << clear;
+        ASSERT_GE(back[i].y, clear * (1.0 - 0.002) - 6e-8) << clear;
+    }
+}
+
 }  // namespace
 }  // namespace reflet::test
