@@ -119,13 +119,13 @@ MarchResult refineDda(MarchResult hit, float before, float last, MarchRay ray, M
 }
 
 // Steps of o.stride pixels along the axis on which the ray is longer. Each sample stands for the part of the ray that is
-// nearer to it than to its neighbours.
+// nearer to it than to its neighbours. The first leaves to the pixel that the ray starts from what is nearer to that.
 MarchResult marchDda(MarchRay ray, MarchOptions o, MarchView view) {
     ScreenRay r = makeScreenRay(ray, o.longest, view);
     float pixels = max(max(abs(r.delta.x), abs(r.delta.y)), 1e-3);
     float sStep = o.stride / pixels;
     MarchResult result = startOfMarch();
-    float first = 0.0;
+    float first = metresAt(r, min(max(o.jitter - 0.5, 0.0) * sStep, 1.0));
     float before = 0.0;
     for (uint i = 0u; i < o.maxSteps; ++i) {
         float s = (float(i) + o.jitter) * sStep;
