@@ -22,11 +22,12 @@ struct Agreement {
     size_t hits = 0;      ///< visiting every pixel finds a hit
     size_t pixels = 0;    ///< so does the other, within one pixel of it
     size_t answers = 0;   ///< the same verdict and, of a hit, the same pixel within one
+    size_t lost = 0;      ///< both went behind something, or neither, and both were free as far, to a millimetre
 };
 
 class OracleRays : public DeviceTest {
 protected:
-    static std::vector<OracleRay> trace(const char* name, uvec2 size) {
+    static std::vector<OracleRay> trace(const char* name, uvec2 size, bool secondLayer = false) {
         registerPassTestShaders();
         const Scene scene = findBuiltinScene(name)->make();
         const View view = defaultView(scene);
@@ -36,12 +37,14 @@ protected:
         OracleParams params{makeViewParams(view.camera, size, 0, 0), {}};
         params.settings.maxSteps = 4096;  // more than any ray needs
         Renderer renderer(device(), scene, [](const std::string&) {});
-        const Settings settings = settingsOf({"diffuse.rays=0", "specular.rays=0", "shadow.filter=none"});
+        Settings settings = settingsOf({"diffuse.rays=0", "specular.rays=0", "shadow.filter=none"});
+        settings.traceScreen.thicknessFrom = secondLayer ? ThicknessFrom::secondLayer : ThicknessFrom::constant;
         renderer.render(view, size, 0, settings, [&](gpu::Frame& f, const FrameImages& images) {
             f.compute("oracle", "oracle_test.comp")
+                .constant("secondLayer", secondLayer ? 1U : 0U)
                 .read("depth", images.g.depth)
-                .read("backDepth", images.g.depth)
-                .read("pyramid", makePyramid(f, images.g.depth))
+                .read("backDepth", secondLayer ? images.backDepth : images.g.depth)
+                .read("pyramid", makePyramid(f, images.g.depth, images.backDepth))
                 .read("geometricNormal", images.g.geometricNormal)
                 .write("outputs", outputs.view())
                 .params(params)
@@ -63,6 +66,7 @@ protected:
             result.verdicts += same ? 1 : 0;
             result.hits += truth.hit;
             result.pixels += truth.hit != 0 && same && near ? 1 : 0;
+            result.lost += answer.lost == truth.lost && std::abs(answer.clear - truth.clear) < 1e-3F ? 1 : 0;
             result.answers += same && (near || truth.hit == 0) ? 1 : 0;
         }
         return result;
@@ -72,6 +76,8 @@ protected:
         const Agreement a = compare(rays, &OracleRay::hiz);
         EXPECT_GE(static_cast<double>(a.verdicts), 0.999 * rayCount);
         EXPECT_GE(static_cast<double>(a.pixels), 0.999 * static_cast<double>(a.hits));
+        EXPECT_GE(static_cast<double>(a.lost), 0.99 * rayCount);
+        RecordProperty("lost", std::to_string(a.lost));
         RecordProperty("hiz", std::to_string(a.pixels) + " of " + std::to_string(a.hits));
     }
 
@@ -128,6 +134,12 @@ TEST_P(Oracle, isFollowedInALargePictureByHierarchicalDepthInAQuarterOfItsSteps)
     const double hiz = meanSteps(rays, &OracleRay::hiz);
     EXPECT_LE(hiz, 0.25 * every);
     RecordProperty("steps", std::to_string(hiz) + " of " + std::to_string(every));
+}
+
+TEST_P(Oracle, isFollowedThroughTheSecondLayer) {
+    const auto rays = trace(GetParam(), {320, 180}, true);
+    expectHizAgrees(rays);
+    expectDdaAgrees(rays, 0.98);
 }
 
 TEST_F(OracleRays, isFollowedAtOddSizes) {

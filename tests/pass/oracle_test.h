@@ -16,6 +16,8 @@ struct OracleAnswer {
     uint hit;
     int x;  // pixel of the hit, else the last one visited
     int y;
+    uint lost;    // 1: it went behind something
+    float clear;  // metres until then
     uint steps;
 };
 

@@ -51,47 +51,61 @@ TEST_F(RayPacking, keepsTheWeightsThatMeanSomethingExactly) {
     }
 }
 
-/// (rest, clear) of waiting rays, packed and unpacked.
 class WaitingRays : public RayPacking {
 protected:
-    static std::vector<vec2> packed(const std::vector<vec2>& rays) {
-        return mapOnDevice<vec2>("waiting_ray_test.comp", rays);
+    static std::vector<WaitingItem> packed(const std::vector<WaitingItem>& rays) {
+        return mapOnDevice<WaitingItem>("waiting_ray_test.comp", rays);
     }
 };
 
 TEST_F(WaitingRays, keepAllAndNothingOfTheirWeightExactly) {
-    const auto back = packed({{1.0F, 0.0F}, {0.0F, 0.0F}});
-    EXPECT_EQ(back[0].x, 1.0F);
-    EXPECT_EQ(back[1].x, 0.0F);
+    const auto back = packed({{1.0F, 0.0F, 0}, {0.0F, 0.0F, 1}});
+    EXPECT_EQ(back[0].rest, 1.0F);
+    EXPECT_EQ(back[1].rest, 0.0F);
 }
 
 TEST_F(WaitingRays, keepWhatIsLeftOfTheirWeightToHalfAStepOfSixteenBits) {
-    std::vector<vec2> rays;
+    std::vector<WaitingItem> rays;
     for (int i = 0; i <= 200000; ++i) {
-        rays.emplace_back(static_cast<float>(i) / 200000.0F, 0.0F);
+        rays.push_back({static_cast<float>(i) / 200000.0F, 0.0F, 0});
     }
     const auto back = packed(rays);
     for (size_t i = 0; i < rays.size(); ++i) {
-        ASSERT_NEAR(back[i].x, rays[i].x, 0.5 / 65535.0 + 1e-7);  // and a rounding of floats near 1
+        ASSERT_NEAR(back[i].rest, rays[i].rest, 0.5 / 65535.0 + 1e-7);  // and a rounding of floats near 1
+    }
+}
+
+TEST_F(WaitingRays, knowWhetherTheScreenLostThem) {
+    std::vector<WaitingItem> rays;
+    for (const float clear : {0.0F, 1e-8F, 1e-3F, 1.0F, 65504.0F, 1e5F}) {
+        for (const uint32_t lost : {0U, 1U}) {
+            rays.push_back({0.4F, clear, lost});
+        }
+    }
+    const auto back = packed(rays);
+    for (size_t i = 0; i < rays.size(); i += 2) {
+        EXPECT_EQ(back[i].lost, 0U);
+        EXPECT_EQ(back[i + 1].lost, 1U);
+        EXPECT_EQ(back[i].clear, back[i + 1].clear);
+        EXPECT_EQ(back[i].rest, back[i + 1].rest);
     }
 }
 
 TEST_F(WaitingRays, neverGoOnFromFartherThanTheyWereFree) {
     constexpr double largest = 65504.0;
-    constexpr double smallestNormal = 1.0 / 16384.0;  // below it a half float's steps are all of 6e-8
-    std::vector<vec2> rays{{1.0F, 0.0F}};
+    constexpr double smallestNormal = 1.0 / 16384.0;  // below it all steps of half floats are 6e-8
+    std::vector<WaitingItem> rays{{1.0F, 0.0F, 0}, {1.0F, 1e5F, 0}};
     for (float clear = 1e-6F; clear < 1e5F; clear *= 1.0001F) {
-        rays.emplace_back(1.0F, clear);
+        rays.push_back({1.0F, clear, 0});
     }
     for (int power = -14; power <= 16; ++power) {
-        rays.emplace_back(1.0F, std::ldexp(1.0F, power));
+        rays.push_back({1.0F, std::ldexp(1.0F, power), 0});
     }
-    rays.emplace_back(1.0F, 1e5F);
     const auto back = packed(rays);
     for (size_t i = 0; i < rays.size(); ++i) {
-        const double clear = std::min<double>(rays[i].y, largest);
-        ASSERT_LE(back[i].y, clear < smallestNormal ? clear + 3e-8 : clear) << clear;
-        ASSERT_GE(back[i].y, clear * (1.0 - 0.002) - 6e-8) << clear;
+        const double clear = std::min<double>(rays[i].clear, largest);
+        ASSERT_LE(back[i].clear, clear < smallestNormal ? clear + 3e-8 : clear) << clear;
+        ASSERT_GE(back[i].clear, clear * (1.0 - 0.002) - 6e-8) << clear;
     }
 }
 
