@@ -110,7 +110,8 @@ bool isBehind(MarchSample s) { return s.onScreen && s.foreign && s.behind > 0.0;
 // Looks for the hit of a wide stride between the samples around it: halves the way on the screen o.binarySteps times, so
 // that it comes down to a pixel, then cuts where a straight surface would be. On the screen, the depths of the ray and
 // of a plane are straight; along the ray in metres, one pixel may be longer than all others together.
-MarchResult refineDda(MarchResult hit, ScreenRay r, float s, float sStep, MarchRay ray, MarchOptions o, MarchView view) {
+MarchResult refineDda(MarchResult hit, ScreenRay r, float s, float sStep, MarchRay ray, MarchOptions o,
+                      MarchView view) {
     bool late = isBehind(sampleAlong(r, s, ray, o, view));
     float a = late ? max(s - sStep, 0.0) : s;
     float b = late ? s : min(s + 0.5 * sStep, 1.0);
@@ -170,7 +171,7 @@ MarchResult marchDda(MarchRay ray, MarchOptions o, MarchView view) {
         if (meetsPixel(ray, result.pixel, first, last, o, view, at, result.lost)) {
             result.outcome = marchHit;
             result.distance = at;
-            bool refine = o.stride > 1.0 && (o.binarySteps > 0u || o.interpolate);  // one pixel leaves nothing to refine
+            bool refine = o.stride > 1.0 && (o.binarySteps > 0u || o.interpolate);  // a pixel leaves nothing to refine
             return refine ? refineDda(result, r, s, sStep, ray, o, view) : result;
         }
         result.distance = last;

@@ -126,7 +126,8 @@ TEST_F(Pyramid, holdsTheFarthestOfTheBackFacesWhereThereAreAny) {
 }
 
 TEST_F(Pyramid, ofNothingButSkyCanBeHitNowhere) {
-    const Layers sky{{33, 18}, std::vector<float>(33 * 18, 0.0F), std::vector<float>(33 * 18, 0.0F)};
+    const std::vector<float> nothing(594, 0.0F);
+    const Layers sky{{33, 18}, nothing, nothing};
     for (const vec2& cell : build(sky, false)) {
         ASSERT_EQ(cell, vec2(0.0F, -1.0F));
     }

@@ -72,8 +72,9 @@ vec2 loadCell(ivec2 cell, int level) {
 layout(constant_id = 0) const uint method = 0u;
 
 MarchResult march(MarchInput i, MarchRay ray, MarchView view) {
-    MarchOptions o = MarchOptions(i.stepLength, i.smallest, i.stepLength, marchLongest, i.jitter, i.maxSteps, i.thickness,
-                                  i.thickAsStep != 0u, secondLayer != 0u, i.binarySteps, i.interpolate != 0u, marchLevels, 0u);
+    MarchOptions o = MarchOptions(i.stepLength, i.smallest, i.stepLength, marchLongest, i.jitter, i.maxSteps,
+                                  i.thickness, i.thickAsStep != 0u, secondLayer != 0u, i.binarySteps,
+                                  i.interpolate != 0u, marchLevels, 0u);
     switch (method) {
         case marchMethodHalving:
             return marchHalving(ray, o, view);

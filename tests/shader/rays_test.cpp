@@ -95,8 +95,8 @@ TEST_F(WaitingRays, neverGoOnFromFartherThanTheyWereFree) {
     constexpr double largest = 65504.0;
     constexpr double smallestNormal = 1.0 / 16384.0;  // below it all steps of half floats are 6e-8
     std::vector<WaitingItem> rays{{1.0F, 0.0F, 0}, {1.0F, 1e5F, 0}};
-    for (float clear = 1e-6F; clear < 1e5F; clear *= 1.0001F) {
-        rays.push_back({1.0F, clear, 0});
+    for (int i = 0; i < 250000; ++i) {  // 1e-6 m to 72 km
+        rays.push_back({1.0F, static_cast<float>(1e-6 * std::pow(1.0001, i)), 0});
     }
     for (int power = -14; power <= 16; ++power) {
         rays.push_back({1.0F, std::ldexp(1.0F, power), 0});

@@ -37,10 +37,11 @@ public:
             const double zStep = (heights_[ring + 1] - heights_[ring]) / parts;
             for (int sector = 0; sector < sectors; ++sector) {
                 double sum = 0.0;
-                for (int i = 0; i < parts * parts; ++i) {
-                    const double z = heights_[ring] + (i % parts + 0.5) * zStep;
-                    const double phi = 2.0 * pi * (sector + (i / parts + 0.5) / parts) / sectors;
-                    sum += density(around(z, phi));
+                for (int i = 0; i < parts; ++i) {
+                    const double z = heights_[ring] + (i + 0.5) * zStep;
+                    for (int j = 0; j < parts; ++j) {
+                        sum += density(around(z, 2.0 * pi * (sector + (j + 0.5) / parts) / sectors));
+                    }
                 }
                 sums.push_back(sum * zStep * 2.0 * pi / (sectors * parts));
             }

@@ -26,7 +26,7 @@ protected:
     /// The centres of strata x strata squares.
     static std::vector<vec2> stratified() {
         std::vector<vec2> u;
-        u.reserve(strata * strata);
+        u.reserve(size_t(strata) * strata);
         for (int i = 0; i < strata * strata; ++i) {
             u.push_back((vec2(i % strata, i / strata) + 0.5F) / static_cast<float>(strata));
         }
