@@ -101,32 +101,63 @@ MarchResult marchExhaustive(MarchRay ray, MarchOptions o, MarchView view) {
     return result;
 }
 
-// Refines a hit that lies between two distances, if the ray is in front of what is shown at the first and behind at the
-// last (a stride of one pixel leaves nothing to refine).
-MarchResult refineDda(MarchResult hit, float before, float last, MarchRay ray, MarchOptions o, MarchView view) {
-    if (o.stride <= 1.0 || (o.binarySteps == 0u && !o.interpolate)) {
+MarchSample sampleAlong(ScreenRay r, float s, MarchRay ray, MarchOptions o, MarchView view) {
+    return sampleAt(ray, metresAt(r, s), o, view);
+}
+
+bool isBehind(MarchSample s) { return s.onScreen && s.foreign && s.behind > 0.0; }
+
+// Looks for the hit of a wide stride between the samples around it: halves the way on the screen o.binarySteps times, so
+// that it comes down to a pixel, then cuts where a straight surface would be. On the screen, the depths of the ray and
+// of a plane are straight; along the ray in metres, one pixel may be longer than all others together.
+MarchResult refineDda(MarchResult hit, ScreenRay r, float s, float sStep, MarchRay ray, MarchOptions o,
+                      MarchView view) {
+    bool late = isBehind(sampleAlong(r, s, ray, o, view));
+    float a = late ? max(s - sStep, 0.0) : s;
+    float b = late ? s : min(s + 0.5 * sStep, 1.0);
+    MarchSample front = sampleAlong(r, a, ray, o, view);
+    MarchSample behind = sampleAlong(r, b, ray, o, view);
+    hit.steps += 2u;  // one of the three had been taken before
+    if (isBehind(front) || !isBehind(behind)) {
         return hit;
     }
-    MarchSample a = sampleAt(ray, before, o, view);
-    MarchSample b = sampleAt(ray, last, o, view);
-    if (!a.onScreen || !b.onScreen || !b.foreign || b.behind <= 0.0 || (a.foreign && a.behind > 0.0)) {
-        return hit;
+    hit.steps += o.binarySteps;
+    for (uint i = 0u; i < o.binarySteps; ++i) {
+        float middle = 0.5 * (a + b);
+        MarchSample m = sampleAlong(r, middle, ray, o, view);
+        if (isBehind(m)) {
+            b = middle;
+            behind = m;
+        } else {
+            a = middle;
+            front = m;
+        }
     }
-    hit.pixel = b.pixel;
-    hit.distance = last;
-    hit.steps += 2u;
-    return refineHit(hit, before, a.foreign ? a.behind : 0.0, b.behind, ray, o, view);
+    hit.pixel = behind.pixel;
+    float awayStep = max(ray.awayStep, 1e-6);  // toward the camera, it came in by the pixel's border
+    hit.distance = max(metresAt(r, b) - behind.behind / awayStep, metresAt(r, a));
+    if (o.interpolate && front.onScreen && front.foreign) {
+        float gapFront = r.start.z + a * r.delta.z - front.depth;
+        float gapBehind = behind.depth - (r.start.z + b * r.delta.z);
+        float cut = mix(a, b, clamp(gapFront / max(gapFront + gapBehind, 1e-20), 0.0, 1.0));
+        MarchSample m = sampleAlong(r, cut, ray, o, view);
+        ++hit.steps;
+        if (m.onScreen && m.foreign) {
+            hit.pixel = m.pixel;
+            hit.distance = metresAt(r, cut);
+        }
+    }
+    return hit;
 }
 
 // Steps of o.stride pixels along the axis on which the ray is longer. Each sample stands for the part of the ray that is
-// nearer to it than to its neighbours.
+// nearer to it than to its neighbours. The first leaves to the pixel that the ray starts from what is nearer to that.
 MarchResult marchDda(MarchRay ray, MarchOptions o, MarchView view) {
     ScreenRay r = makeScreenRay(ray, o.longest, view);
     float pixels = max(max(abs(r.delta.x), abs(r.delta.y)), 1e-3);
     float sStep = o.stride / pixels;
     MarchResult result = startOfMarch();
-    float first = 0.0;
-    float before = 0.0;
+    float first = metresAt(r, min(max(o.jitter - 0.5, 0.0) * sStep, 1.0));
     for (uint i = 0u; i < o.maxSteps; ++i) {
         float s = (float(i) + o.jitter) * sStep;
         if (s >= 1.0) {
@@ -140,12 +171,12 @@ MarchResult marchDda(MarchRay ray, MarchOptions o, MarchView view) {
         if (meetsPixel(ray, result.pixel, first, last, o, view, at, result.lost)) {
             result.outcome = marchHit;
             result.distance = at;
-            return refineDda(result, before, last, ray, o, view);
+            bool refine = o.stride > 1.0 && (o.binarySteps > 0u || o.interpolate);  // a pixel leaves nothing to refine
+            return refine ? refineDda(result, r, s, sStep, ray, o, view) : result;
         }
         result.distance = last;
         result.clear = result.lost ? result.clear : last;
         first = last;
-        before = metresAt(r, s);
     }
     return result;
 }

@@ -10,25 +10,6 @@ std::span<const reflet::gpu::EmbeddedShader> shaderTestShaders();
 
 namespace reflet::test {
 
-namespace {
-
-// Waiting for the device does not by itself let the host see what it wrote.
-void showToHost(gpu::Device& device) {
-    device.runNow([&](VkCommandBuffer commands) {
-        VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-        barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-        barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
-        barrier.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
-        barrier.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
-        VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-        info.memoryBarrierCount = 1;
-        info.pMemoryBarriers = &barrier;
-        device.vk.vkCmdPipelineBarrier2(commands, &info);
-    });
-}
-
-}  // namespace
-
 void ShaderTest::registerTestShaders() {
     static const bool registered = (gpu::registerShaders(shaderTestShaders()), true);
     (void)registered;
@@ -54,7 +35,7 @@ void ShaderTest::runShader(std::string_view shader, const Io& io) {
     pass.dispatch(io.threads);
     f.submit();
     f.wait();
-    showToHost(device());
+    showToHost();
     std::memcpy(io.outputs.data(), outputs.bytes().data(), io.outputs.size());
 }
 

@@ -19,11 +19,6 @@ protected:
         }
         return rays;
     }
-
-    /// How far a ray is from the wall z = -distance.
-    static double toWall(const MarchInput& ray, double distance) {
-        return (ray.origin.z + distance) / -static_cast<double>(ray.direction.z);
-    }
 };
 
 INSTANTIATE_TEST_SUITE_P(Cameras, Methods, ::testing::Bool(), [](const auto& camera) {

@@ -42,9 +42,15 @@ protected:
     }
 
     static std::vector<MarchAnswer> march(const MarchScene& scene, const std::vector<MarchInput>& rays,
-                                          uint32_t method = marchMethodLinear) {
-        return mapOnDevice<MarchAnswer>("march_test.comp", rays, scene,
-                                        [&](gpu::Pass& pass) { pass.constant("method", method); });
+                                          uint32_t method = marchMethodLinear, bool secondLayer = false) {
+        return mapOnDevice<MarchAnswer>("march_test.comp", rays, scene, [&](gpu::Pass& pass) {
+            pass.constant("method", method).constant("secondLayer", secondLayer ? 1U : 0U);
+        });
+    }
+
+    /// How far a ray is from the wall z = -distance [m].
+    static double toWall(const MarchInput& ray, double distance) {
+        return (ray.origin.z + distance) / -static_cast<double>(ray.direction.z);
     }
 
     /// Where a world point is on the screen [pixels], in double precision.

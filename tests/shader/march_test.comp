@@ -8,24 +8,45 @@ layout(set = 0, binding = 0, scalar) uniform ParamsBlock { MarchScene params; };
 layout(set = 0, binding = 1, scalar) readonly buffer InputBlock { MarchInput items[]; } inputs;
 layout(set = 0, binding = 2, scalar) buffer OutputBlock { MarchAnswer items[]; } outputs;
 
+layout(constant_id = 1) const uint secondLayer = 0u;
+
+vec2 uvOf(ivec2 pixel) { return (vec2(pixel) + 0.5) * params.view.pixel; }
+
 // Along a pixel, world points are a + depth · b in homogeneous coordinates.
-float loadDepth(ivec2 pixel) {
-    vec2 uv = (vec2(pixel) + 0.5) * params.view.pixel;
+float depthOf(vec4 plane, vec2 uv) {
     vec4 a = params.view.clipToWorld * vec4(2.0 * uv - 1.0, 0.0, 1.0);
     vec4 b = params.view.clipToWorld[2];
-    float nearest = 0.0;
+    return -dot(plane, a) / dot(plane, b);
+}
+
+// The number of the wall that the pixel shows, and its depth; 0 where there is none.
+uint nearestWall(ivec2 pixel, out float nearest) {
+    vec2 uv = uvOf(pixel);
+    uint number = 0u;
+    nearest = 0.0;
     for (uint i = 0u; i < params.wallCount; ++i) {
         MarchWall wall = params.walls[i];
-        float depth = -dot(wall.plane, a) / dot(wall.plane, b);
+        float depth = depthOf(wall.plane, uv);
         bool inside = all(greaterThanEqual(uv, wall.firstUv)) && all(lessThan(uv, wall.lastUv));
         if (inside && depth > nearest && depth <= 1.0) {
             nearest = depth;
+            number = i;
         }
     }
-    return nearest;
+    return number;
 }
 
-float loadBackDepth(ivec2 pixel) { return 0.0; }
+float loadDepth(ivec2 pixel) {
+    float depth;
+    nearestWall(pixel, depth);
+    return depth;
+}
+
+float loadBackDepth(ivec2 pixel) {
+    float depth;
+    vec4 plane = params.walls[nearestWall(pixel, depth)].backPlane;
+    return depth > 0.0 && plane != vec4(0.0) ? depthOf(plane, uvOf(pixel)) : 0.0;
+}
 
 // By looking at all of the cell's pixels.
 vec2 loadCell(ivec2 cell, int level) {
@@ -37,7 +58,8 @@ vec2 loadCell(ivec2 cell, int level) {
         for (int x = first.x; x < last.x; ++x) {
             float depth = loadDepth(ivec2(x, y));
             if (depth > 0.0) {
-                extremes = vec2(max(extremes.x, depth), min(extremes.y, depth));
+                float back = secondLayer != 0u ? loadBackDepth(ivec2(x, y)) : 0.0;
+                extremes = vec2(max(extremes.x, depth), min(extremes.y, back > 0.0 ? back : depth));
             }
             sky = sky || depth <= 0.0;
         }
@@ -50,8 +72,9 @@ vec2 loadCell(ivec2 cell, int level) {
 layout(constant_id = 0) const uint method = 0u;
 
 MarchResult march(MarchInput i, MarchRay ray, MarchView view) {
-    MarchOptions o = MarchOptions(i.stepLength, i.smallest, i.stepLength, marchLongest, i.jitter, i.maxSteps, i.thickness,
-                                  i.thickAsStep != 0u, false, i.binarySteps, i.interpolate != 0u, marchLevels, 0u);
+    MarchOptions o = MarchOptions(i.stepLength, i.smallest, i.stepLength, marchLongest, i.jitter, i.maxSteps,
+                                  i.thickness, i.thickAsStep != 0u, secondLayer != 0u, i.binarySteps,
+                                  i.interpolate != 0u, marchLevels, 0u);
     switch (method) {
         case marchMethodHalving:
             return marchHalving(ray, o, view);
@@ -79,5 +102,5 @@ void main() {
     vec4 ownPlane = given.normal == vec3(0.0) ? vec4(0.0, 0.0, 0.0, 1.0)  // all is far above it
                                               : planeOnScreen(given.origin, given.normal, params.view.clipToWorld);
     MarchResult r = march(given, makeMarchRay(given.origin, given.direction, ownPlane, view), view);
-    outputs.items[i] = MarchAnswer(r.outcome, r.pixel.x, r.pixel.y, r.distance, r.clear, r.steps);
+    outputs.items[i] = MarchAnswer(r.outcome, r.pixel.x, r.pixel.y, r.distance, r.clear, r.lost ? 1u : 0u, r.steps);
 }

@@ -14,6 +14,7 @@ struct MarchWall {
     vec4 plane;    // dot(plane, (p, 1)) = 0 in world space
     vec2 firstUv;  // only pixels whose centres lie here
     vec2 lastUv;
+    vec4 backPlane;  // where the back face is; 0: there is none
 };
 
 struct MarchScene {
@@ -53,6 +54,7 @@ struct MarchAnswer {
     int pixelY;
     float distance;
     float clear;
+    uint lost;
     uint steps;
 };
 

@@ -51,5 +51,63 @@ TEST_F(RayPacking, keepsTheWeightsThatMeanSomethingExactly) {
     }
 }
 
+class WaitingRays : public RayPacking {
+protected:
+    static std::vector<WaitingItem> packed(const std::vector<WaitingItem>& rays) {
+        return mapOnDevice<WaitingItem>("waiting_ray_test.comp", rays);
+    }
+};
+
+TEST_F(WaitingRays, keepAllAndNothingOfTheirWeightExactly) {
+    const auto back = packed({{1.0F, 0.0F, 0}, {0.0F, 0.0F, 1}});
+    EXPECT_EQ(back[0].rest, 1.0F);
+    EXPECT_EQ(back[1].rest, 0.0F);
+}
+
+TEST_F(WaitingRays, keepWhatIsLeftOfTheirWeightToHalfAStepOfSixteenBits) {
+    std::vector<WaitingItem> rays;
+    for (int i = 0; i <= 200000; ++i) {
+        rays.push_back({static_cast<float>(i) / 200000.0F, 0.0F, 0});
+    }
+    const auto back = packed(rays);
+    for (size_t i = 0; i < rays.size(); ++i) {
+        ASSERT_NEAR(back[i].rest, rays[i].rest, 0.5 / 65535.0 + 1e-7);  // and a rounding of floats near 1
+    }
+}
+
+TEST_F(WaitingRays, knowWhetherTheScreenLostThem) {
+    std::vector<WaitingItem> rays;
+    for (const float clear : {0.0F, 1e-8F, 1e-3F, 1.0F, 65504.0F, 1e5F}) {
+        for (const uint32_t lost : {0U, 1U}) {
+            rays.push_back({0.4F, clear, lost});
+        }
+    }
+    const auto back = packed(rays);
+    for (size_t i = 0; i < rays.size(); i += 2) {
+        EXPECT_EQ(back[i].lost, 0U);
+        EXPECT_EQ(back[i + 1].lost, 1U);
+        EXPECT_EQ(back[i].clear, back[i + 1].clear);
+        EXPECT_EQ(back[i].rest, back[i + 1].rest);
+    }
+}
+
+TEST_F(WaitingRays, neverGoOnFromFartherThanTheyWereFree) {
+    constexpr double largest = 65504.0;
+    constexpr double smallestNormal = 1.0 / 16384.0;  // below it all steps of half floats are 6e-8
+    std::vector<WaitingItem> rays{{1.0F, 0.0F, 0}, {1.0F, 1e5F, 0}};
+    for (int i = 0; i < 250000; ++i) {  // 1e-6 m to 72 km
+        rays.push_back({1.0F, static_cast<float>(1e-6 * std::pow(1.0001, i)), 0});
+    }
+    for (int power = -14; power <= 16; ++power) {
+        rays.push_back({1.0F, std::ldexp(1.0F, power), 0});
+    }
+    const auto back = packed(rays);
+    for (size_t i = 0; i < rays.size(); ++i) {
+        const double clear = std::min<double>(rays[i].clear, largest);
+        ASSERT_LE(back[i].clear, clear < smallestNormal ? clear + 3e-8 : clear) << clear;
+        ASSERT_GE(back[i].clear, clear * (1.0 - 0.002) - 6e-8) << clear;
+    }
+}
+
 }  // namespace
 }  // namespace reflet::test

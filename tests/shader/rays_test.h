@@ -15,6 +15,13 @@ struct RayTexel {
     float trust;
 };
 
+// What a waiting ray says of itself, besides its slot.
+struct WaitingItem {
+    float rest;
+    float clear;  // metres
+    uint lost;
+};
+
 SHARED_END
 
 #endif

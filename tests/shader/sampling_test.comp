@@ -1,23 +1,26 @@
 // Directions from numbers. Which sampler: the constant.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
+#include "sampling_test.h"
 #include "shaders/sampling.glsl"
 
 layout(constant_id = 0) const uint kind = 0u;
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { float alpha; } params;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { SamplingParams params; };
 layout(set = 0, binding = 1, scalar) readonly buffer InputBlock { vec2 items[]; } inputs;
 layout(set = 0, binding = 2, scalar) buffer OutputBlock { vec3 items[]; } outputs;
 
 vec3 direction(vec2 u) {
     switch (kind) {
-        case 0u:
+        case samplerCosineHemisphere:
             return sampleCosineHemisphere(u);
-        case 1u:
+        case samplerUniformHemisphere:
             return sampleUniformHemisphere(u);
-        default:
+        case samplerGgx:
             return sampleGgx(u, params.alpha);
+        default:
+            return sampleGgxVisible(u, params.v, params.alpha);
     }
 }
 

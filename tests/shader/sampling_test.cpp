@@ -1,7 +1,9 @@
 // sampling.glsl
+#include "shader/sampling_test.h"
+
 #include "shader/directions.h"
-#include "support/ggx_truth.h"
 #include "shader/harness.h"
+#include "support/ggx_truth.h"
 
 #include <algorithm>
 #include <functional>
@@ -9,16 +11,14 @@
 namespace reflet::test {
 namespace {
 
-constexpr uint32_t cosineHemisphere = 0;
-constexpr uint32_t uniformHemisphere = 1;
-constexpr uint32_t ggxHalfVector = 2;
 constexpr float alphas[] = {1e-4F, 0.002F, 0.01F, 0.1F, 0.3F, 1.0F};
 constexpr double pi = glm::pi<double>();
 
 class Sampling : public ShaderTest {
 protected:
     static std::vector<vec3> sample(uint32_t kind, const std::vector<vec2>& u, float alpha = 1.0F) {
-        return mapOnDevice<vec3>("sampling_test.comp", u, alpha, [&](gpu::Pass& pass) { pass.constant("kind", kind); });
+        return mapOnDevice<vec3>("sampling_test.comp", u, SamplingParams{alpha, {}},
+                                 [&](gpu::Pass& pass) { pass.constant("kind", kind); });
     }
 
     static constexpr int strata = 512;
@@ -26,7 +26,7 @@ protected:
     /// The centres of strata x strata squares.
     static std::vector<vec2> stratified() {
         std::vector<vec2> u;
-        u.reserve(strata * strata);
+        u.reserve(size_t(strata) * strata);
         for (int i = 0; i < strata * strata; ++i) {
             u.push_back((vec2(i % strata, i / strata) + 0.5F) / static_cast<float>(strata));
         }
@@ -87,15 +87,15 @@ protected:
 };
 
 TEST_F(Sampling, givesDirectionsOfTheHemisphereAtTheEndsOfTheNumbers) {
-    expectUnitAndAbove(sample(cosineHemisphere, extremes()));
-    expectUnitAndAbove(sample(uniformHemisphere, extremes()));
+    expectUnitAndAbove(sample(samplerCosineHemisphere, extremes()));
+    expectUnitAndAbove(sample(samplerUniformHemisphere, extremes()));
     for (const float alpha : alphas) {
-        expectUnitAndAbove(sample(ggxHalfVector, extremes(), alpha));
+        expectUnitAndAbove(sample(samplerGgx, extremes(), alpha));
     }
 }
 
 TEST_F(Sampling, spreadsCosineDirectionsByTheCosine) {
-    const auto directions = sample(cosineHemisphere, stratified());
+    const auto directions = sample(samplerCosineHemisphere, stratified());
     expectUnitAndAbove(directions);
     expectDistribution(directions, [](double z) { return z * z; });
     expectEvenAround(directions);
@@ -104,7 +104,7 @@ TEST_F(Sampling, spreadsCosineDirectionsByTheCosine) {
 }
 
 TEST_F(Sampling, spreadsUniformDirectionsEvenly) {
-    const auto directions = sample(uniformHemisphere, stratified());
+    const auto directions = sample(samplerUniformHemisphere, stratified());
     expectUnitAndAbove(directions);
     expectDistribution(directions, [](double z) { return z; });
     expectEvenAround(directions);
@@ -115,7 +115,7 @@ TEST_F(Sampling, spreadsUniformDirectionsEvenly) {
 // Mean of f / pdf, with the pdf that the comment in sampling.glsl states.
 TEST_F(Sampling, integratesTheCosineToPi) {
     double sum = 0.0;
-    for (const vec3& d : sample(uniformHemisphere, stratified())) {
+    for (const vec3& d : sample(samplerUniformHemisphere, stratified())) {
         sum += d.z * 2.0 * pi;
     }
     EXPECT_NEAR(sum / (strata * strata), pi, 1e-5);
@@ -123,7 +123,7 @@ TEST_F(Sampling, integratesTheCosineToPi) {
 
 TEST_F(Sampling, integratesTheSquaredCosineToTwoThirdsOfPi) {
     double sum = 0.0;
-    for (const vec3& d : sample(cosineHemisphere, stratified())) {
+    for (const vec3& d : sample(samplerCosineHemisphere, stratified())) {
         sum += d.z * d.z / (d.z / pi);
     }
     EXPECT_NEAR(sum / (strata * strata), 2.0 * pi / 3.0, 1e-4);
@@ -131,7 +131,7 @@ TEST_F(Sampling, integratesTheSquaredCosineToTwoThirdsOfPi) {
 
 TEST_F(Sampling, spreadsHalfVectorsByTheGgxDistribution) {
     for (const float alpha : {0.1F, 0.3F, 0.6F, 1.0F}) {
-        const auto directions = sample(ggxHalfVector, stratified(), alpha);
+        const auto directions = sample(samplerGgx, stratified(), alpha);
         expectUnitAndAbove(directions);
         const GgxDistributionTable table(alpha);
         // At alpha 0.1 one rounding of z (6e-8) near 1 is 6e-6 of the distribution; the table adds as much.

@@ -58,6 +58,20 @@ gpu::Frame& DeviceTest::frame() {
     return *shared().frame;
 }
 
+void DeviceTest::showToHost() {
+    device().runNow([&](VkCommandBuffer commands) {
+        VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+        barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+        barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+        barrier.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
+        barrier.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
+        VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+        info.memoryBarrierCount = 1;
+        info.pMemoryBarriers = &barrier;
+        device().vk.vkCmdPipelineBarrier2(commands, &info);
+    });
+}
+
 void DeviceTest::SetUp() {
     messagesBefore_ = shared().messages.size();
 }

@@ -18,6 +18,8 @@ protected:
     static gpu::Device& device();
     /// A frame of that device, shared like it: neither recording nor waiting between tests.
     static gpu::Frame& frame();
+    /// Lets the host see what the device wrote to buffers. Waiting for it does not do so by itself.
+    static void showToHost();
 
 private:
     size_t messagesBefore_ = 0;

@@ -1,0 +1,68 @@
+// Traces rays from random pixels of a G-buffer: even ones are spread by the cosine about the geometric normal, odd ones
+// mirror the view. In: depth, geometric normal, pyramid, as trace_screen reads them. Out: what three tracers say.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "oracle_test.h"
+#include "render/pyramid/pyramid.glsl"
+#include "shaders/noise.glsl"
+#include "shaders/octahedral.glsl"
+#include "shaders/projection.glsl"
+#include "shaders/sampling.glsl"
+
+layout(constant_id = 0) const uint secondLayer = 0u;
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { OracleParams params; };
+layout(set = 0, binding = 1) uniform sampler2D depth;
+layout(set = 0, binding = 2) uniform sampler2D backDepth;
+layout(set = 0, binding = 3) uniform sampler2D pyramid;
+layout(set = 0, binding = 4) uniform usampler2D geometricNormal;
+layout(set = 0, binding = 5, scalar) buffer OutputBlock { OracleRay items[]; } outputs;
+
+float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
+float loadBackDepth(ivec2 pixel) { return texelFetch(backDepth, pixel, 0).r; }
+vec2 loadCell(ivec2 cell, int level) {
+    return texelFetch(pyramid, cell + ivec2(0, pyramidRow(ivec2(params.view.size), level)), 0).rg;
+}
+#include "shaders/march_hiz.glsl"
+
+const uint tries = 64u;
+
+bool findSurface(uint number, out ivec2 pixel) {
+    for (uint i = 0u; i < tries; ++i) {
+        pixel = ivec2(hashToUnit2(hashPixel(uvec2(number, i), 0u, 0u)) * params.view.size);
+        if (loadDepth(pixel) > 0.0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+vec3 directionOf(uint number, vec3 p, vec3 n) {
+    if (number % 2u == 1u) {
+        return reflect(-directionToEye(p, params.view.eye), n);
+    }
+    return basisAround(n) * sampleCosineHemisphere(hashToUnit2(hashPixel(uvec2(number, tries), 0u, 0u)));
+}
+
+OracleAnswer answerOf(MarchResult r) {
+    return OracleAnswer(r.outcome == marchHit ? 1u : 0u, r.pixel.x, r.pixel.y, r.lost ? 1u : 0u, r.clear, r.steps);
+}
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    ivec2 pixel;
+    if (i >= outputs.items.length() || !findSurface(i, pixel)) {
+        return;
+    }
+    MarchView view = MarchView(params.view.worldToClip, params.view.clipToWorld, params.view.viewPlane,
+                               params.view.depthToDistance, params.view.size);
+    vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), loadDepth(pixel), params.view.clipToWorld);
+    vec3 n = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
+    MarchRay ray = makeMarchRay(p, directionOf(i, p, n), planeOnScreen(p, n, params.view.clipToWorld), view);
+    TraceScreenSettings s = params.settings;
+    MarchOptions o = MarchOptions(s.step, s.smallestStep, s.stride, s.maxDistance, 1.0, s.maxSteps, s.thickness, false,
+                                  secondLayer != 0u, 0u, false, int(pyramidLevels), s.firstSteps);
+    outputs.items[i] = OracleRay(1u, pixel.x, pixel.y, answerOf(marchExhaustive(ray, o, view)),
+                                 answerOf(marchHiz(ray, o, view)), answerOf(marchDda(ray, o, view)));
+}

@@ -1,0 +1,19 @@
+// Waiting rays, packed and unpacked.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "render/bounce/rays.glsl"
+#include "rays_test.h"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0, scalar) readonly buffer InputBlock { WaitingItem items[]; } inputs;
+layout(set = 0, binding = 1, scalar) buffer OutputBlock { WaitingItem items[]; } outputs;
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i < outputs.items.length()) {
+        WaitingItem given = inputs.items[i];
+        WaitingRay ray = WaitingRay(ivec3(0), given.rest, given.clear, given.lost != 0u);
+        ray = unpackWaitingRay(packWaitingRay(ray));
+        outputs.items[i] = WaitingItem(ray.rest, ray.clear, ray.lost ? 1u : 0u);
+    }
+}
