@@ -3,7 +3,8 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "oracle_test.h"
-#include "render/pyramid/pyramid.glsl"
+#include "render/levels.glsl"
+#include "render/pyramid/pyramid.h"
 #include "shaders/noise.glsl"
 #include "shaders/octahedral.glsl"
 #include "shaders/projection.glsl"
@@ -22,7 +23,7 @@ layout(set = 0, binding = 5, scalar) buffer OutputBlock { OracleRay items[]; } o
 float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
 float loadBackDepth(ivec2 pixel) { return texelFetch(backDepth, pixel, 0).r; }
 vec2 loadCell(ivec2 cell, int level) {
-    return texelFetch(pyramid, cell + ivec2(0, pyramidRow(ivec2(params.view.size), level)), 0).rg;
+    return texelFetch(pyramid, cell + ivec2(0, levelRow(ivec2(params.view.size), level)), 0).rg;
 }
 #include "shaders/march_hiz.glsl"
 

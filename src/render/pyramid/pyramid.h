@@ -1,6 +1,6 @@
 // The depth pyramid: nearest and farthest depth of ever larger squares of pixels. Shared by C++ and GLSL.
 // All levels lie in one image, as render/levels.h says. The sky does not count: nothing can hit it. Cells that show
-// nothing else have a nearest depth of 0 and a farthest of 1.
+// nothing else have a nearest depth of 0 and a farthest of -1, others that show some sky a negative farthest.
 #ifndef REFLET_RENDER_PYRAMID_H
 #define REFLET_RENDER_PYRAMID_H
 
