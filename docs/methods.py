@@ -123,7 +123,17 @@ def options(scene, settings, view, size, preset):
     return arguments
 
 
-class Render:
+class Frame:
+    """A picture with layers: self.png, self.exr, made with self.arguments."""
+
+    def against(self, truth, layer="final", mask=None):
+        """compare's metrics."""
+        mine = "" if layer == "final" else ":" + layer
+        arguments = ["compare", self.exr + mine, truth.exr + ":" + layer, "--json"]
+        return json.loads(run(arguments + (["--mask", mask] if mask else [])))
+
+
+class Render(Frame):
     """A rendered frame: picture, layers, steps and hits."""
 
     def __init__(self, scene, settings="", view=None, size="320x180", preset=None, show=None, frames=1):
@@ -134,14 +144,8 @@ class Render:
         self.png, self.exr, timings = cached("render", self.arguments + more, [".png", ".exr", ".json"])
         self.rays = json.load(open(timings)).get("rays", {})
 
-    def against(self, truth, layer="final", mask=None):
-        """compare's metrics."""
-        mine = "" if layer == "final" else ":" + layer
-        arguments = ["compare", self.exr + mine, truth.exr + ":" + layer, "--json"]
-        return json.loads(run(arguments + (["--mask", mask] if mask else [])))
 
-
-class Truth:
+class Truth(Frame):
     """A path-traced frame."""
 
     def __init__(self, scene, kind="--bounces 1", settings="", view=None, size="320x180"):
