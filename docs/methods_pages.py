@@ -181,8 +181,9 @@ def uniform_and_cosine(page):
 def mirror_to_matt(page):
     truth, rows = Truth("gloss", ALL), []
     window = (72, 42, 107, 60)
-    settings = ["specular.rays=%d" % n for n in (1, 4, 16, 64)] + ["specular.maxRoughness=%s" % r for r in ("0.5", "0.3")]
-    names = ("rays1", None, "rays16", None, None, "max0_3")
+    settings = ["specular.rays=%d" % n for n in (1, 4, 16, 64)] + ["specular.maxRoughness=0.3"]
+    settings += ["specular.rougher=mips specular.maxRoughness=%s" % r for r in ("0.5", "0.3", "0.1")]
+    names = ("rays1", None, "rays16", None, "max0_3", None, "mips", None)
     for name, setting in zip(names, settings):
         frame = render("gloss", SPECULAR + setting)
         rows.append(["`%s`" % setting, error(frame, truth, "indirect_specular"), bias(frame, truth, "indirect_specular")]
