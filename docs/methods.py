@@ -126,20 +126,18 @@ def options(scene, settings, view, size, preset):
 class Frame:
     """A picture with layers: self.png, self.exr, made with self.arguments."""
 
-    def against(self, truth, layer="final", mask=None):
+    def against(self, truth, layer="final"):
         """compare's metrics."""
         mine = "" if layer == "final" else ":" + layer
-        arguments = ["compare", self.exr + mine, truth.exr + ":" + layer, "--json"]
-        return json.loads(run(arguments + (["--mask", mask] if mask else [])))
+        return json.loads(run(["compare", self.exr + mine, truth.exr + ":" + layer, "--json"]))
 
 
 class Render(Frame):
     """A rendered frame: picture, layers, steps and hits."""
 
-    def __init__(self, scene, settings="", view=None, size="320x180", preset=None, show=None, frames=1):
+    def __init__(self, scene, settings="", view=None, size="320x180", preset=None, show=None):
         self.arguments = options(scene, settings, view, size, preset)
         self.arguments += ["--show", show] if show else []
-        self.arguments += ["--frames", str(frames)] if frames > 1 else []
         more = ["--aov", LAYERS, "--set", "trace_screen.countSteps=true"]
         self.png, self.exr, timings = cached("render", self.arguments + more, [".png", ".exr", ".json"])
         self.rays = json.load(open(timings)).get("rays", {})

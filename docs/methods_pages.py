@@ -258,7 +258,7 @@ def noise(page):
                 figures = frame.against(truth, layer)
                 rows.append([scene, "`%s.noise=%s`, `%s.rays=%d`" % (setting, kind, setting, rays),
                              "%.4f" % figures["relative_mse"], "%.3f" % figures["flip"]])
-                if rays == 4:
+                if rays == (16 if scene == "cornell" else 4):
                     page.picture("%s-%s" % (scene, kind), frame, (90, 50, 107, 60) if scene == "cornell" else (110, 42, 107, 60))
     page.table("noise", ["scene", "setting", "relative MSE to the truth", "FLIP"], rows)
 
