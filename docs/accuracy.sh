@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Makes docs/accuracy.md: every built-in scene and preset against the truth. Takes about ten minutes on two cores, which
-# should have nothing else to do: the table has times. The pages with the pictures stay in out/accuracy*.
+# Makes docs/accuracy.md: every built-in scene and preset, and every tracing method, against the truth. Takes about twenty
+# minutes on two cores, which should have nothing else to do: the tables have times. The pages with the pictures stay in out/accuracy*.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -16,6 +16,31 @@ section() {  # heading folder [option…]
     "$reflet" report $scenes --size 320x180 --spp 256 -o "$folder" "$@"
     printf '\n## %s\n\n' "$heading"
     cat "$folder/table.md"
+}
+
+methods="linear halving fixedPoint dda exhaustive hiz"
+
+# Relative MSE and bias of diffuse light alone, at so many rays that their noise is a small part of it.
+diffuse_table() {
+    local scenes="cubes cornell cave" truth=out/accuracy-diffuse scene method
+    mkdir -p "$truth"
+    echo "| method | $(echo "$scenes" | sed 's/ / | /g') |"
+    echo "|---|--:|--:|--:|"
+    for scene in $scenes; do
+        "$reflet" reference "builtin:$scene" --size 320x180 --spp 256 --bounces 1 --visible-only -o "$truth/$scene.exr" >&2
+    done
+    for method in $methods; do
+        printf '| `%s` |' "$method"
+        for scene in $scenes; do
+            "$reflet" render "builtin:$scene" --size 320x180 -o "$truth/$method.exr" --aov indirect_diffuse \
+                --set "trace_screen.method=$method" --set trace_screen.light=direct --set trace_screen.thickness=0.1 \
+                --set diffuse.rays=256 --set specular.rays=0
+            "$reflet" compare "$truth/$method.exr:indirect_diffuse" "$truth/$scene.exr:indirect_diffuse" --json |
+                LC_ALL=C awk '/"relative_mse"/ { error = $2 + 0 } /"bias"/ { bias = $2 + 0 }
+                    END { printf " %.4f (%+.1f %%) |", error, 100 * bias }'
+        done
+        echo
+    done
 }
 
 {
@@ -37,6 +62,20 @@ scene. Nothing here is chosen to look good.
 - The presets have no denoiser: much of `default`'s and `fast`'s error is the grain of few rays.
 TEXT
     section "All bounces" out/accuracy
-    section "One bounce" out/accuracy-one-bounce --bounces 1
+    section "One bounce" out/accuracy-one-bounce --bounces 1 --set trace_screen.light=direct
+
+    printf '\n## Tracing methods\n\nThe settings of `default` but for `trace_screen.method`; one bounce.\n\n'
+    variants=()
+    for method in $methods; do
+        variants+=(--variant "$method=trace_screen.method=$method")
+    done
+    "$reflet" report builtin:cubes builtin:cave builtin:gloss builtin:mirror-hall --size 320x180 --spp 256 --bounces 1 \
+        -o out/accuracy-methods --set trace_screen.light=direct "${variants[@]}"
+    cat out/accuracy-methods/table.md
+
+    printf '\n## Diffuse light, method by method\n\n'
+    printf 'Relative MSE (and bias) of `indirect_diffuse` against visible-only with one bounce: 256 rays a pixel, %s\n\n' \
+        '`trace_screen.thickness=0.1`, `trace_screen.light=direct`; else the settings of `default`.'
+    diffuse_table
 } >"$table"
 cp "$table" docs/accuracy.md

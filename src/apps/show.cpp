@@ -174,7 +174,9 @@ const std::vector<Show>& table() {
          [](const FrameImages& i) { return Images{i.diffuse.radiance}; }, alpha, y, near},
         {"specular_hit_distance", "the same, of the reflection rays",
          [](const FrameImages& i) { return Images{i.specular.radiance}; }, alpha, y, near},
-        {"steps", "mean depth samples per ray: R diffuse, G specular; PNG 1 is 128 samples",
+        {"steps",
+         "mean depth samples per ray: R diffuse, G specular; PNG 1 is 128 samples; only with "
+         "trace_screen.countSteps=true, which render sets for it",
          [](const FrameImages& i) {
              return Images{i.diffuse.steps, i.specular.steps};
          },

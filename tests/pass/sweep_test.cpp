@@ -39,8 +39,9 @@ std::vector<std::string> allShows() {
 TEST(Sweep, EverySceneRendersInEveryShow) {
     for (const BuiltinScene& builtin : builtinScenes()) {
         const Scene scene = builtin.make();
-        const Settings second = settingsOf({"trace_screen.thicknessFrom=secondLayer"});  // or back_depth is not there
-        const Pictures p = render(scene, defaultView(scene), size, second, allShows());
+        const Settings all =  // or back_depth and the steps would not be there
+            settingsOf({"trace_screen.thicknessFrom=secondLayer", "trace_screen.countSteps=true"});
+        const Pictures p = render(scene, defaultView(scene), size, all, allShows());
         expectSound(p, std::string(builtin.name));
         EXPECT_GT(rangeOf(p.images.at("final")).max, 0.05F) << builtin.name << " is dark";
         EXPECT_GT(rangeOf(p.images.at("depth")).max, 0.0F) << builtin.name << " is empty";

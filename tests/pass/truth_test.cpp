@@ -76,7 +76,7 @@ TEST(Truth, AFlatMirrorShowsThePathTracersFlippedPictureWhereTheScreenKnowsIt) {
         const float* e = &expected.data[3 * i];
         const float* s = &seen.indirectSpecular.data[3 * i];
         const unsigned x = i % large.x;
-        const unsigned y = static_cast<unsigned>(i / large.x);
+        const auto y = static_cast<unsigned>(i / large.x);
         const bool inside = x > 0 && y > 0 && x + 1 < large.x && y + 1 < large.y;
         options.mask.push_back(e[0] > 0.0F && inside && !isEdge(i) && std::abs(s[0] - e[0]) < 0.05F * e[0] &&
                                std::abs(s[2] - e[2]) < 0.05F * e[2]);

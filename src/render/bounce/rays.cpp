@@ -65,11 +65,14 @@ namespace {
 
 LobeLight lobeImages(gpu::Frame& f, uint32_t lobe, uvec2 size, bool countSteps) {
     const bool diffuse = lobe == lobeDiffuse;
-    return {
+    LobeLight light{
         .radiance = f.image(diffuse ? "diffuse.radiance" : "specular.radiance", VK_FORMAT_R16G16B16A16_SFLOAT, size),
         .source = f.image(diffuse ? "diffuse.source" : "specular.source", VK_FORMAT_R16G16B16A16_SFLOAT, size),
-        .steps =
-            f.image(diffuse ? "diffuse.steps" : "specular.steps", VK_FORMAT_R32_SFLOAT, countSteps ? size : uvec2(1))};
+        .steps = {}};
+    if (countSteps) {
+        light.steps = f.image(diffuse ? "diffuse.steps" : "specular.steps", VK_FORMAT_R32_SFLOAT, size);
+    }
+    return light;
 }
 
 }  // namespace
@@ -78,7 +81,9 @@ LobeLight noLight(gpu::Frame& f, uint32_t lobe, uvec2 size, bool countSteps) {
     const LobeLight light = lobeImages(f, lobe, size, countSteps);
     f.clear(light.radiance);
     f.clear(light.source);
-    f.clear(light.steps);
+    if (countSteps) {
+        f.clear(light.steps);
+    }
     return light;
 }
 
@@ -93,7 +98,7 @@ LobeLight resolveRays(gpu::Frame& f, const Rays& rays, uint32_t perPixel) {
         .read("raySteps", rays.steps)
         .write("radiance", light.radiance)
         .write("source", light.source)
-        .write("steps", light.steps)
+        .write("steps", light.steps ? light.steps : f.image("no_steps", VK_FORMAT_R32_SFLOAT, uvec2(1)))
         .params(ResolveRaysParams{rays.count, 1.0F / static_cast<float>(perPixel), rays.firstRay == 0 ? 1U : 0U, size})
         .dispatch(size);
     return light;

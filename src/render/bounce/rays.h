@@ -111,7 +111,7 @@ struct LobeLight {
     gpu::Image radiance;  ///< RGBA16F: mean of radiance · ray weight; alpha: mean hit distance [m]
     gpu::Image source;    ///< RGBA16F: mean colour of the sources that answered; alpha: confidence. Sums of many
                           ///< batches, for which 8 bits are too few
-    gpu::Image steps;     ///< R32F: mean depth samples per ray; 1x1 unless they are counted
+    gpu::Image steps;     ///< R32F: mean depth samples per ray; none unless they are counted
 };
 
 /// What their generator looks up.
