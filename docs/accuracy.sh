@@ -70,7 +70,7 @@ TEXT
         variants+=(--variant "$method=trace_screen.method=$method")
     done
     "$reflet" report builtin:cubes builtin:cave builtin:gloss builtin:mirror-hall --size 320x180 --spp 256 --bounces 1 \
-        -o out/accuracy-methods --set trace_screen.light=direct "${variants[@]}"
+        --preset direct -o out/accuracy-methods --set trace_screen.light=direct "${variants[@]}"
     cat out/accuracy-methods/table.md
 
     printf '\n## Diffuse light, method by method\n\n'

@@ -183,8 +183,8 @@ TEST(Compare, EveryMetricHasANameAndIsItsValue) {
         values.push_back(metric.value(d));
         EXPECT_EQ(metric.largeIsGood, metric.name == "psnr");
     }
-    EXPECT_EQ(names, (std::vector<std::string_view>{"relative_mse", "psnr", "flip", "mean", "max"}));
-    EXPECT_EQ(values, (std::vector<double>{1, 2, 3, 4, 5}));
+    EXPECT_EQ(names, (std::vector<std::string_view>{"relative_mse", "psnr", "flip", "mean", "bias", "max"}));
+    EXPECT_EQ(values, (std::vector<double>{1, 2, 3, 4, 5, 6}));
 }
 
 vec3 labOf(const Bitmap& bitmap, size_t pixel) {
