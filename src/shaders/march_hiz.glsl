@@ -36,11 +36,10 @@ MarchResult marchHiz(MarchRay ray, MarchOptions o, MarchView view) {
     float first = 0.0;
     int level = 0;
     for (uint i = 0u; i < o.maxSteps; ++i) {
-        // The cell's far border, as a whole number of pixels: no error adds up over the way.
+        // The cell's far border.
         ivec2 cell = pixel >> level;
         ivec2 corner = (cell + max(direction, ivec2(0))) << level;
-        vec2 border = vec2(corner) - r.start.xy;
-        vec2 s = vec2(direction.x == 0 ? 1e30 : border.x / r.delta.x, direction.y == 0 ? 1e30 : border.y / r.delta.y);
+        vec2 s = bordersAt(r, corner);
         float sLast = min(min(s.x, s.y), 1.0);
         float last = metresAt(r, sLast);
         result.pixel = pixel;

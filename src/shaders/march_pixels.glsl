@@ -22,6 +22,13 @@ float metresAt(ScreenRay r, float s) {
     return r.end * s * r.wStart / (r.wEnd + s * (r.wStart - r.wEnd));
 }
 
+// Where along s the ray crosses the vertical and the horizontal line through the corner of a pixel. Corners are whole
+// numbers: no error adds up over the way.
+vec2 bordersAt(ScreenRay r, ivec2 corner) {
+    vec2 way = vec2(corner) - r.start.xy;
+    return vec2(r.delta.x == 0.0 ? 1e30 : way.x / r.delta.x, r.delta.y == 0.0 ? 1e30 : way.y / r.delta.y);
+}
+
 // How far the ray may go until a + t · b is negative.
 float lengthInside(float a, float b) { return b < 0.0 ? max(a / -b, 0.0) : 1e30; }
 
@@ -76,9 +83,7 @@ MarchResult marchExhaustive(MarchRay ray, MarchOptions o, MarchView view) {
     uint most = uint(view.size.x + view.size.y) + 2u;
     float first = 0.0;
     for (uint i = 0u; i < most; ++i) {
-        // Borders are whole numbers: no error adds up over the way.
-        vec2 border = vec2(pixel + max(direction, ivec2(0))) - r.start.xy;
-        vec2 s = vec2(direction.x == 0 ? 1e30 : border.x / r.delta.x, direction.y == 0 ? 1e30 : border.y / r.delta.y);
+        vec2 s = bordersAt(r, pixel + max(direction, ivec2(0)));
         float sLast = min(min(s.x, s.y), 1.0);
         float last = metresAt(r, sLast);
         float at;
