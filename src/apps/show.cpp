@@ -21,6 +21,10 @@ using Images = std::vector<gpu::Image>;
 void first(Texels t, const ViewParams&, float* out) {
     out[0] = t[0].x;
 }
+// Negative where no blocker was found: how wide the penumbra could be.
+void penumbraWidth(Texels t, const ViewParams&, float* out) {
+    out[0] = std::max(t[0].x, 0.0F);
+}
 void firstTwo(Texels t, const ViewParams&, float* out) {
     std::memcpy(out, t.data(), 2 * sizeof(float));
 }
@@ -125,6 +129,14 @@ const std::vector<Show>& table() {
          [](const FrameImages& i) { return Images{i.specular.radiance}; }, color, rgb, encoded},
         {"sun_visibility", "0 in the sun's shadow, 1 lit", [](const FrameImages& i) { return Images{i.sunVisibility}; },
          first, y, grey},
+        {"penumbra_width",
+         "full width of the sun's penumbra in metres, across its direction; PNG 1 is a metre; only with shadow.filter "
+         "pcf or pcss",
+         [](const FrameImages& i) { return Images{i.shadowPenumbra}; }, penumbraWidth, y, grey},
+        {"blocker_distance",
+         "mean metres from the surface to what hides the sun from it, toward the sun, 0 nothing found, or no search "
+         "needed; PNG bright is near; only with shadow.filter=pcss",
+         [](const FrameImages& i) { return Images{i.shadowPenumbra}; }, green, y, near},
         {"shadow_map", "depth as the sun sees it, 1 nearest to the sun, 0 nothing; of the map's own size",
          [](const FrameImages& i) { return i.shadowMap ? Images{i.shadowMap} : Images{i.sunVisibility}; }, first, y,
          mapDepth},

@@ -15,6 +15,7 @@
 #include "render/tonemap/tonemap.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace reflet {
 
@@ -40,7 +41,14 @@ void lightDirectly(gpu::Frame& f, const FrameInputs& in, const Settings& setting
     if (shadow.filter != ShadowFilter::none) {
         out.shadowMap = drawShadowMap(f, in.draws, sunMap, shadow);
     }
-    out.sunVisibility = sunVisibility(f, out.g, out.shadowMap, sunMap, in.view, shadow);
+    ShadowInputs maps{.map = out.shadowMap, .range = {}, .blueNoise = in.blueNoise};
+    if (shadow.filter == ShadowFilter::pcss && shadow.earlyOut != 0) {
+        maps.range = makeShadowRange(f, out.shadowMap);
+    }
+    const float sunSlope = std::tan(0.5F * in.sunAngularDiameter);
+    const SunVisibility seen = sunVisibility(f, out.g, maps, {in.view, sunMap, shadow, sunSlope});
+    out.sunVisibility = seen.visibility;
+    out.shadowPenumbra = seen.penumbra;
     out.direct = directLight(f, out.g, out.sunVisibility, in.ggxTable,
                              {in.view, -in.sunDirection, in.sunIrradiance, in.environment}, in.lamps);
 }

@@ -14,9 +14,10 @@ namespace reflet {
 struct FrameInputs {
     const DrawList& draws;
     ViewParams view;
-    vec3 sunDirection{0, -1, 0};  ///< the way the light travels, unit
-    vec3 sunIrradiance{0.0F};     ///< on a surface that faces the sun [W/m²]; 0: no sun
-    vec3 environment{0.0F};       ///< radiance from all directions [W/(m² sr)]
+    vec3 sunDirection{0, -1, 0};      ///< the way the light travels, unit
+    vec3 sunIrradiance{0.0F};         ///< on a surface that faces the sun [W/m²]; 0: no sun
+    float sunAngularDiameter = 0.0F;  ///< radians
+    vec3 environment{0.0F};           ///< radiance from all directions [W/(m² sr)]
     const LampBlock& lamps;
     gpu::Image ggxTable;        ///< of makeGgxTable
     gpu::BufferView blueNoise;  ///< of blueNoise()
@@ -28,6 +29,7 @@ struct FrameImages {
     gpu::Image backDepth;  ///< none unless trace_screen.thicknessFrom is secondLayer
     gpu::Image shadowMap;  ///< none without sun or shadows
     gpu::Image sunVisibility;
+    gpu::Image shadowPenumbra;  ///< of sunVisibility(); none with hard shadows
     gpu::Image direct;
     LobeLight diffuse;
     LobeLight specular;

@@ -60,6 +60,7 @@ FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const 
                                             .view = params,
                                             .sunDirection = view.sun.direction,
                                             .sunIrradiance = view.sun.irradiance,
+                                            .sunAngularDiameter = view.sun.angularDiameter,
                                             .environment = view.environment.radiance,
                                             .lamps = scene_.lamps(),
                                             .ggxTable = ggxTable_.image(),

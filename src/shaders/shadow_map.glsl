@@ -4,53 +4,124 @@
 #define REFLET_SHADOW_MAP_GLSL
 
 #include "render/shadow/shadow.h"
+#include "shaders/shadow_texel.glsl"
 
-const float lookupOffset = 0.75;  // texels: a texel's centre is at most 0.71 from its corner
+const float leastFacing = 0.05;    // cosine under which a surface is followed as if it were this
+const float outsideTheMap = -1e9;  // clearance
+
+// A receiver in a map.
+struct ShadowReceiver {
+    vec3 s;             // in shadow space
+    vec2 at;            // the same in texels of the map
+    vec2 texelsPerMetre;
+    vec2 aside;         // texels: unit, the way that its surface faces, across the sun; 0: straight at the sun
+    vec2 slope;         // metres toward the sun that its plane rises by for each unit along x and y of shadow space
+    float depthRange;   // metres
+    ivec2 size;         // texels of the map
+    float lift;         // metres toward the sun under which nothing blocks: curvature, creases and rounding
+    float depthBelow;   // metres under its plane from which on what the map holds is not its surface
+};
 
 bool outsideMap(ivec2 texel, ivec2 size) {
     return any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, size));
 }
 
-// 1: lit. A hard edge, exact to the texel: the map holds depth at texel centres, so the surface is followed along its
-// own plane from the point to the centre and compared there. What is left for the bias (texels along the normal) is
-// curvature, creases and rounding.
-float hardVisibility(vec3 p, vec3 normal, ShadowMapParams map, ivec2 size, float bias) {
-    float facing = dot(normal, map.toSun);
-    if (facing <= 0.0) {
-        return 0.0;  // the surface is in its own shadow
-    }
-    // Looked up a part of a texel to the side that the surface faces: past the edge of a wall, the centre of the texel
-    // may see what the wall itself does not, and light would leak in along the edge.
-    vec3 s = (map.worldToShadow * vec4(p, 1.0)).xyz;
-    vec3 sideways = normal - facing * map.toSun;
-    float across = length(sideways);
-    vec3 lookup = p + sideways * (across > 1e-3 ? lookupOffset * map.texelSize / across : 0.0);
-    vec2 at = (0.5 + 0.5 * (map.worldToShadow * vec4(lookup, 1.0)).xy) * vec2(size);
-    ivec2 texel = ivec2(floor(at));
-    if (outsideMap(texel, size)) {
-        return 1.0;  // nothing that the map knows of casts here
-    }
-    // The normal in shadow space's own axes: depth changes by -n.xy / n.z for each step along x and y.
-    vec3 axisX = vec3(map.worldToShadow[0].x, map.worldToShadow[1].x, map.worldToShadow[2].x);
-    vec3 axisY = vec3(map.worldToShadow[0].y, map.worldToShadow[1].y, map.worldToShadow[2].y);
-    vec2 slope = -vec2(dot(normal, axisX) / dot(axisX, axisX), dot(normal, axisY) / dot(axisY, axisY)) /
-                 max(facing, 0.05);
-    vec2 toCentre = (2.0 * (vec2(texel) + 0.5) / vec2(size) - 1.0) - s.xy;
-    float metres = dot(slope, toCentre) + bias * map.texelSize / max(facing, 0.05);
-    float surface = s.z + metres / map.depthRange;
-    return loadShadowDepth(texel) > surface ? 0.0 : 1.0;
+vec3 shadowAxis(ShadowMapParams map, int axis) {
+    return vec3(map.worldToShadow[0][axis], map.worldToShadow[1][axis], map.worldToShadow[2][axis]);
 }
 
-// 1: lit. The depth of the texel that the point lies in, compared with the point's own, moved `bias` metres toward the
-// sun (Williams, Casting curved shadows on curved surfaces, 1978). A surface whose depth changes by more than that from
-// the texel's centre to its corner shadows itself; casters that are nearer than that to what they shadow are missed.
-float constantBiasVisibility(vec3 p, ShadowMapParams map, ivec2 size, float bias) {
-    vec3 s = (map.worldToShadow * vec4(p, 1.0)).xyz;
-    ivec2 texel = ivec2(floor((0.5 + 0.5 * s.xy) * vec2(size)));
-    if (outsideMap(texel, size)) {
-        return 1.0;
+ShadowReceiver receiverAt(vec3 p, ShadowMapParams map, ivec2 size) {
+    ShadowReceiver r;
+    r.s = (map.worldToShadow * vec4(p, 1.0)).xyz;
+    r.at = (0.5 + 0.5 * r.s.xy) * vec2(size);
+    r.texelsPerMetre = 0.5 * vec2(size) * vec2(length(shadowAxis(map, 0)), length(shadowAxis(map, 1)));
+    r.aside = vec2(0.0);
+    r.slope = vec2(0.0);
+    r.depthRange = map.depthRange;
+    r.size = size;
+    r.lift = 0.0;
+    r.depthBelow = -outsideTheMap;
+    return r;
+}
+
+// A surface is followed along its own plane to the centre of the texel that is looked up, for there the map holds its
+// depth: planes never shadow themselves, however far to the side a filter looks. Then `bias`, texels along the normal.
+ShadowReceiver slopeReceiver(vec3 p, vec3 normal, ShadowMapParams map, ivec2 size, float bias) {
+    ShadowReceiver r = receiverAt(p, map, size);
+    float facing = dot(normal, map.toSun);
+    // The normal in shadow space's own axes: depth changes by -n.xy / n.z for each step along x and y.
+    vec3 axisX = shadowAxis(map, 0);
+    vec3 axisY = shadowAxis(map, 1);
+    vec2 sideways = vec2(dot(normal, axisX), dot(normal, axisY));
+    r.aside = dot(sideways, sideways) > 1e-6 * dot(axisX, axisX) ? normalize(sideways) : vec2(0.0);
+    r.slope = -vec2(dot(normal, axisX) / dot(axisX, axisX), dot(normal, axisY) / dot(axisY, axisY)) /
+              max(facing, leastFacing);
+    r.lift = bias * map.texelSize / max(facing, leastFacing);
+    r.depthBelow = r.lift;
+    return r;
+}
+
+// The point's own depth, `bias` metres nearer to the sun (Williams, Casting curved shadows on curved surfaces, 1978). A
+// surface whose depth changes by more than that from the texel's centre to its corner shadows itself; casters that are
+// nearer than that to what they shadow are missed.
+ShadowReceiver constantReceiver(vec3 p, ShadowMapParams map, ivec2 size, float bias) {
+    ShadowReceiver r = receiverAt(p, map, size);
+    r.lift = bias;
+    return r;
+}
+
+// offset: metres across the sun, along the map's axes. What the map does not hold cannot cast.
+ShadowTexel texelAt(ShadowReceiver r, vec2 offset) {
+    ivec2 texel = ivec2(floor(r.at + offset * r.texelsPerMetre));
+    if (outsideMap(texel, r.size)) {
+        return ShadowTexel(outsideTheMap, outsideTheMap);
     }
-    return loadShadowDepth(texel) > s.z + bias / map.depthRange ? 0.0 : 1.0;
+    vec2 toCentre = (2.0 * (vec2(texel) + 0.5) / vec2(r.size) - 1.0) - r.s.xy;
+    float height = (loadShadowDepth(texel) - r.s.z) * r.depthRange;
+    return ShadowTexel(height, height - dot(r.slope, toCentre));
+}
+
+// Whether the map holds the receiver's own surface there, or something above it. If not, the texel's centre lies past
+// the surface's edge, and may see the light that goes past a wall which shadows all of it.
+bool knowsSurface(ShadowTexel texel, ShadowReceiver r) { return texel.clearance >= -r.depthBelow; }
+
+// The texel at `offset`; where it does not know the surface, what hides most of the others around that place; where they
+// do not, either, one that lies farther to the side that the surface faces.
+ShadowTexel trustedTexel(ShadowReceiver r, vec2 offset) {
+    ShadowTexel texel = texelAt(r, offset);
+    if (knowsSurface(texel, r)) {
+        return texel;
+    }
+    vec2 next = sign(fract(r.at + offset * r.texelsPerMetre) - 0.5) / r.texelsPerMetre;
+    const float aside = 1.5;  // texels
+    vec2 others[4] = vec2[](vec2(next.x, 0.0), vec2(0.0, next.y), next, aside * r.aside / r.texelsPerMetre);
+    for (int i = 0; i < 4 && (i < 3 || !knowsSurface(texel, r)); ++i) {
+        ShadowTexel other = texelAt(r, offset + others[i]);
+        if (other.clearance > texel.clearance) {
+            texel = other;
+        }
+    }
+    return texel;
+}
+
+// 1: lit. A hard edge, exact to the texel.
+float hardVisibility(ShadowReceiver r) { return trustedTexel(r, vec2(0.0)).clearance > r.lift ? 0.0 : 1.0; }
+
+// Four texels around the point, weighted by how near they are: an edge as sharp as the map allows.
+float sharpVisibility(ShadowReceiver r) {
+    vec2 f = fract(r.at - 0.5);
+    vec2 low = -f / r.texelsPerMetre;
+    vec2 high = (1.0 - f) / r.texelsPerMetre;
+    vec2 offsets[4] = vec2[](low, vec2(high.x, low.y), vec2(low.x, high.y), high);
+    vec4 weights = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
+    vec2 sum = vec2(0.0);
+    for (int i = 0; i < 4; ++i) {
+        ShadowTexel texel = texelAt(r, offsets[i]);
+        if (knowsSurface(texel, r)) {
+            sum += weights[i] * vec2(texel.clearance > r.lift ? 0.0 : 1.0, 1.0);
+        }
+    }
+    return sum.y > 0.0 ? sum.x / sum.y : hardVisibility(r);
 }
 
 #endif

@@ -8,7 +8,7 @@ namespace reflet::test {
 namespace {
 
 constexpr uvec2 size(200, 112);
-const std::vector<std::string> direct{"diffuse.rays=0", "specular.rays=0"};
+const std::vector<std::string> direct{"diffuse.rays=0", "specular.rays=0", "shadow.filter=hard"};
 
 View viewOfGround(const vec3& toSun) {
     View view;

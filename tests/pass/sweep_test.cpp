@@ -98,7 +98,7 @@ TEST(Sweep, AChangedSizeStartsAnew) {
         material.roughness = 0.0F;  // mirror rays, which no noise changes
     }
     const View view = defaultView(scene);
-    const Settings still = settingsOf({"diffuse.rays=0", "trace_screen.jitter=false"});
+    const Settings still = settingsOf({"diffuse.rays=0", "trace_screen.jitter=false", "shadow.filter=hard"});
     const Pictures fresh = render(scene, view, {40, 30}, still, {"final"});
     const Pictures resized = renderResized(scene, view, {64, 36}, {40, 30}, still, {"final"});
     EXPECT_EQ(fresh.images.at("final").data, resized.images.at("final").data);

@@ -37,9 +37,9 @@ void main() {
     }
     ShadowCase c = inputs.items[i];
     if (params.constant != 0u) {
-        outputs.items[i] = constantBiasVisibility(c.point, params.map, ivec2(params.resolution), params.bias);
+        outputs.items[i] = hardVisibility(constantReceiver(c.point, params.map, ivec2(params.resolution), params.bias));
         return;
     }
     vec3 n = params.packedNormal != 0u ? unpackUnitVector(packUnitVector(c.normal)) : c.normal;
-    outputs.items[i] = hardVisibility(c.point, n, params.map, ivec2(params.resolution), params.bias);
+    outputs.items[i] = dot(n, params.map.toSun) > 0.0 ? hardVisibility(slopeReceiver(c.point, n, params.map, ivec2(params.resolution), params.bias)) : 0.0;
 }

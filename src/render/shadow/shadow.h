@@ -10,7 +10,9 @@ SHARED_BEGIN
 
 #define SHADOW_FILTERS(OPTION)    \
     OPTION(ShadowFilter, none, 0) \
-    OPTION(ShadowFilter, hard, 1)
+    OPTION(ShadowFilter, hard, 1) \
+    OPTION(ShadowFilter, pcf, 2)  \
+    OPTION(ShadowFilter, pcss, 3)
 CHOICES(ShadowFilter, SHADOW_FILTERS)
 
 #define SHADOW_BIASES(OPTION)    \
@@ -18,8 +20,20 @@ CHOICES(ShadowFilter, SHADOW_FILTERS)
     OPTION(ShadowBias, constant, 1)
 CHOICES(ShadowBias, SHADOW_BIASES)
 
+#define SHADOW_PATTERNS(OPTION)     \
+    OPTION(ShadowPattern, vogel, 0) \
+    OPTION(ShadowPattern, rings, 1)
+CHOICES(ShadowPattern, SHADOW_PATTERNS)
+
+#define SHADOW_UNITS(OPTION)      \
+    OPTION(ShadowUnit, metres, 0) \
+    OPTION(ShadowUnit, texels, 1)
+CHOICES(ShadowUnit, SHADOW_UNITS)
+
 #define SHADOW_SETTINGS(VALUE, SWITCH, CHOICE)                                                                         \
-    CHOICE(ShadowFilter, filter, hard, "How the sun's shadow map is read; none: the sun casts no shadows.")            \
+    CHOICE(ShadowFilter, filter, pcss,                                                                                 \
+           "How shadow maps are read; none: no shadows; hard: one texel; pcf: a disk of `radius`; pcss: a disk as "    \
+           "large as the light's size and the height of what casts make it.")                                          \
     VALUE(uint, resolution, 2048, 64, 8192, "Texels along each side of the sun's shadow map.")                         \
     VALUE(float, extent, 0.0, 0.0, 10000.0,                                                                            \
           "Metres from the middle of the map, the world's origin, to each side; what is outside is lit; 0: fitted to " \
@@ -27,10 +41,23 @@ CHOICES(ShadowBias, SHADOW_BIASES)
     CHOICE(ShadowBias, biasKind, slope,                                                                                \
            "What keeps surfaces from shadowing themselves; slope: they are followed along their own plane to the "     \
            "texel's centre, then `bias`; constant: `constantBias` alone.")                                             \
-    VALUE(float, bias, 0.75, 0.0, 16.0,                                                                                \
+    VALUE(float, bias, 0.5, 0.0, 16.0,                                                                                \
           "How far above themselves surfaces ask for shadow, in texels of the map (slope).")                           \
     VALUE(float, constantBias, 0.01, 0.0, 10.0,                                                                        \
-          "How much nearer to the sun surfaces are taken to be, in metres (constant).")
+          "How much nearer to the sun surfaces are taken to be, in metres (constant).")                                \
+    VALUE(float, radius, 0.05, 0.0, 100.0, "Radius of the disk that is looked at, in `radiusUnit` (pcf).")             \
+    CHOICE(ShadowUnit, radiusUnit, metres, "What `radius` counts: metres, or texels of the map (pcf).")                \
+    VALUE(uint, samples, 16, 1, 256, "Look-ups in the disk (pcf, pcss).")                                              \
+    VALUE(uint, blockerSamples, 16, 1, 256, "Look-ups of the search for what casts (pcss).")                           \
+    SWITCH(                                                                                                            \
+        earlyOut, 1,                                                                                                   \
+        "Look up the lowest and the highest of a part of the map at once, to shrink the search and to leave it out "   \
+        "where all or nothing is hidden (pcss).")                                                                      \
+    CHOICE(ShadowPattern, pattern, vogel,                                                                              \
+           "Where in the disk samples lie; vogel: evenly, turned for each pixel by blue noise; rings: on a spiral of " \
+           "`rings` turns, denser in the middle, turned by a hash.")                                                   \
+    VALUE(float, rings, 10.0, 0.0, 100.0, "Turns of the spiral (rings).")                                              \
+    SWITCH(mirrored, 0, "Every second sample is the one before, mirrored (rings).")
 SETTINGS(ShadowSettings, SHADOW_SETTINGS)
 
 // Shadow space: x, y in clip space of the map, z reversed depth (1 nearest to the sun), all of it linear.
@@ -45,6 +72,17 @@ struct ShadowVisibilityParams {
     ViewParams view;
     ShadowMapParams map;
     ShadowSettings settings;
+    float sunSlope;  // tangent of half the sun's angular diameter
+};
+
+// The range images: levels 1 to below shadowRangeLevels as render/levels.h says, of which a cell of level l spans
+// 4 · 2^l texels of the map.
+const uint shadowRangeLevels = 8;
+const uint shadowRangeTexels = 4;
+
+struct ShadowRangeParams {
+    uvec2 size;  // of the map
+    uint level;  // to make, from 1
 };
 
 SHARED_END
@@ -68,9 +106,26 @@ ShadowMapParams centredSunShadow(const Aabb& sceneBounds, const vec3& direction,
 gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const ShadowMapParams& map,
                          const ShadowSettings& settings);
 
-/// R8, 1: lit. The sky is lit. Without a map (filter none): 1 everywhere.
-gpu::Image sunVisibility(gpu::Frame& f, const GBuffer& g, gpu::Image shadowMap, const ShadowMapParams& map,
-                         const ViewParams& view, const ShadowSettings& settings);
+/// RG32F: the largest (nearest to the sun) and the smallest depth of ever larger squares of the map.
+gpu::Image makeShadowRange(gpu::Frame& f, gpu::Image shadowMap);
+
+/// What the sun's map tells the pixels.
+struct SunVisibility {
+    gpu::Image visibility;  ///< R8, 1: lit. The sky is lit. Without a map (filter none): 1 everywhere
+    gpu::Image
+        penumbra;  ///< RG16F: x: full width of the penumbra across the sun's direction [m], 0 where the
+                   ///< visibility is exact; negative where no blocker was found: at most so wide; y: mean
+                   ///< distance of the blockers toward the sun [m], 0 none or unknown. None with filter none or hard
+};
+
+struct ShadowInputs {
+    gpu::Image map;    ///< of drawShadowMap; may be none
+    gpu::Image range;  ///< of makeShadowRange; may be none
+    gpu::BufferView blueNoise;
+};
+
+SunVisibility sunVisibility(gpu::Frame& f, const GBuffer& g, const ShadowInputs& in,
+                            const ShadowVisibilityParams& params);
 
 }  // namespace reflet
 #endif

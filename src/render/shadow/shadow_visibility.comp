@@ -1,4 +1,4 @@
-// How much of the sun each pixel sees. In: depth, geometric normal, shadow map. Out: visibility, 1 lit.
+// Whether each pixel sees the sun, by one texel of its map. In: depth, geometric normal, shadow map. Out: visibility, 1 lit.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/shadow/shadow.h"
@@ -21,11 +21,15 @@ float visibilityAt(ivec2 pixel) {
         return 1.0;
     }
     vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
+    ivec2 size = textureSize(shadowMap, 0);
     if (params.settings.biasKind == ShadowBias_constant) {
-        return constantBiasVisibility(p, params.map, textureSize(shadowMap, 0), params.settings.constantBias);
+        return hardVisibility(constantReceiver(p, params.map, size, params.settings.constantBias));
     }
     vec3 n = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
-    return hardVisibility(p, n, params.map, textureSize(shadowMap, 0), params.settings.bias);
+    if (dot(n, params.map.toSun) <= 0.0) {
+        return 0.0;  // the surface is in its own shadow
+    }
+    return hardVisibility(slopeReceiver(p, n, params.map, size, params.settings.bias));
 }
 
 void main() {

@@ -1,0 +1,53 @@
+// Points of the unit disk for shadow filters, one after another, turned for each pixel.
+// Vogel: equal areas, at the golden angle (Vogel, A better way to construct the sunflower head, 1979). Rings: the spiral
+// that courses call a Poisson disk, denser in the middle: radius (i / count)^0.75 over some turns; optionally every
+// second point is the one before, mirrored.
+#ifndef REFLET_SHADOW_PATTERN_GLSL
+#define REFLET_SHADOW_PATTERN_GLSL
+
+#include "render/shadow/shadow.h"
+
+struct ShadowPattern {
+    vec2 direction;  // of the next point
+    vec2 turn;       // cosine and sine of the angle between points
+    float part;      // of the disk's area (Vogel) or of the spiral (rings) inside of the next point
+    float step;      // added to it for each point
+    bool rings;
+    bool mirrored;
+    bool again;  // the next point is the last one, mirrored
+    vec2 last;
+};
+
+vec2 turned(vec2 v, vec2 by) { return vec2(v.x * by.x - v.y * by.y, v.x * by.y + v.y * by.x); }
+
+// noise: two numbers in [0, 1): what the pattern is turned by and, of the Vogel disk, where in its ring a point lies.
+ShadowPattern shadowPattern(ShadowSettings settings, uint count, vec2 noise) {
+    const float goldenAngle = 2.39996323;
+    ShadowPattern p;
+    p.rings = settings.pattern == ShadowPattern_rings;
+    p.mirrored = p.rings && settings.mirrored != 0u;
+    uint points = p.mirrored ? (count + 1u) / 2u : count;
+    p.step = 1.0 / float(points);
+    p.part = p.step * (p.rings ? 1.0 : noise.y);
+    float angle = p.rings ? 6.28318531 * settings.rings * p.step : goldenAngle;
+    p.turn = vec2(cos(angle), sin(angle));
+    p.direction = vec2(cos(6.28318531 * noise.x), sin(6.28318531 * noise.x));
+    p.again = false;
+    p.last = vec2(0.0);
+    return p;
+}
+
+vec2 nextPoint(inout ShadowPattern p) {
+    if (p.again) {
+        p.again = false;
+        return -p.last.yx;
+    }
+    float radius = sqrt(p.part);
+    p.last = p.direction * (p.rings ? radius * sqrt(radius) : radius);
+    p.direction = turned(p.direction, p.turn);
+    p.part += p.step;
+    p.again = p.mirrored;
+    return p.last;
+}
+
+#endif

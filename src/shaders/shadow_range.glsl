@@ -1,0 +1,36 @@
+// How low and how high what a shadow map holds around a receiver lies, from the map's ranges (render/shadow/shadow.h).
+// The includer defines, before it includes this: vec2 loadShadowRange(ivec2 cell), of the image of all levels.
+#ifndef REFLET_SHADOW_RANGE_GLSL
+#define REFLET_SHADOW_RANGE_GLSL
+
+#include "render/levels.glsl"
+#include "shaders/shadow_map.glsl"
+
+// Metres above the receiver, toward the sun: a bound of the lowest and one of the highest within `radius` metres of it
+// across the sun. -1e9 where that leaves the map, 1e9 where it is larger than any level's cells.
+vec2 heightRange(ShadowReceiver r, float radius) {
+    vec2 reach = radius * r.texelsPerMetre;
+    ivec2 low = ivec2(floor(r.at - reach));
+    ivec2 high = ivec2(floor(r.at + reach));
+    bool leaves = outsideMap(low, r.size) || outsideMap(high, r.size);
+    low = clamp(low, ivec2(0), r.size - 1);
+    high = clamp(high, ivec2(0), r.size - 1);
+    int across = max(high.x - low.x, high.y - low.y);
+    // The smallest cells of which two along each axis hold it all.
+    int level = max(across > 1 ? findMSB(across - 1) - 1 : 1, 1);
+    if (level >= int(shadowRangeLevels)) {
+        return vec2(outsideTheMap, -outsideTheMap);
+    }
+    int shift = level + 2;
+    ivec2 row = ivec2(0, levelRow(levelSize(r.size, 2), level));
+    vec2 a = loadShadowRange((low >> shift) + row);
+    vec2 b = loadShadowRange((high >> shift) + row);
+    vec2 c = loadShadowRange(ivec2(low.x >> shift, high.y >> shift) + row);
+    vec2 d = loadShadowRange(ivec2(high.x >> shift, low.y >> shift) + row);
+    float nearest = max(max(a.x, b.x), max(c.x, d.x));
+    float farthest = min(min(a.y, b.y), min(c.y, d.y));
+    vec2 heights = (vec2(farthest, nearest) - r.s.z) * r.depthRange;
+    return leaves ? vec2(outsideTheMap, heights.y) : heights;
+}
+
+#endif

@@ -1,0 +1,60 @@
+// Shadows filtered over a disk: of constant radius (PCF: Reeves, Salesin and Cook, Rendering antialiased shadows with
+// depth maps, 1987), or of the radius that the light's size and the blockers' mean height give (PCSS: Fernando,
+// Percentage-closer soft shadows, 2005). For any light that a map can be looked up for:
+// The includer defines, before it includes this: ShadowTexel shadowTexel(vec2 offset), the map where the line toward
+// the light lies that passes the receiver by `offset` metres.
+#ifndef REFLET_SOFT_SHADOW_GLSL
+#define REFLET_SOFT_SHADOW_GLSL
+
+#include "shaders/shadow_pattern.glsl"
+#include "shaders/shadow_texel.glsl"
+
+struct SoftShadow {
+    float visibility;     // 1: lit
+    float blockerHeight;  // mean height of the blockers that were found; 0: none
+};
+
+// What is nearer to the receiver's plane than `lift` metres (toward the light) does not block.
+bool blocks(ShadowTexel texel, float lift) { return texel.clearance > lift; }
+
+float pcfVisibility(float radius, float lift, ShadowPattern pattern, uint count) {
+    float lit = 0.0;
+    for (uint i = 0u; i < count; ++i) {
+        lit += blocks(shadowTexel(radius * nextPoint(pattern)), lift) ? 0.0 : 1.0;
+    }
+    return lit / float(count);
+}
+
+// Mean height of what hides a part of the light, as far as the search finds it within `radius`; 0: nothing. Of what
+// lies to the side, only that counts which is high enough to be before the light as the receiver sees it: other
+// blockers throw their shadows elsewhere, and would pull the mean down. least: the half width that the map resolves [m].
+float meanBlockerHeight(ShadowCone cone, float radius, float least, float lift, ShadowPattern pattern, uint count) {
+    float spacing = max(radius * inversesqrt(float(count)), least);
+    vec2 sum = vec2(0.0);
+    for (uint i = 0u; i <= count; ++i) {
+        vec2 offset = i == 0u ? vec2(0.0) : radius * nextPoint(pattern);
+        ShadowTexel texel = shadowTexel(offset);
+        float reach = max(penumbraRadius(cone, texel.height), spacing);
+        if (blocks(texel, lift) && length(offset) <= reach) {
+            sum += vec2(max(texel.height, 0.0), 1.0) / (reach * reach);
+        }
+    }
+    return sum.y > 0.0 ? max(sum.x / sum.y, 1e-4) : 0.0;
+}
+
+// Share of the light's disk that what lies in the map leaves free, if all of it is at `height`. A texel well lower
+// than that hides nothing so far from the middle of the disk: it is the receiver's own surroundings.
+float diskVisibility(ShadowCone cone, float height, float least, float lift, ShadowPattern pattern, uint count) {
+    const float steep = 1.0;
+    float radius = max(penumbraRadius(cone, height), least);
+    float lit = 0.0;
+    for (uint i = 0u; i < count; ++i) {
+        vec2 point = nextPoint(pattern);
+        ShadowTexel texel = shadowTexel(radius * point);
+        bool inDisk = texel.height >= steep * radius * length(point);
+        lit += blocks(texel, lift) && inDisk ? 0.0 : 1.0;
+    }
+    return lit / float(count);
+}
+
+#endif
