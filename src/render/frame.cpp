@@ -34,13 +34,13 @@ void lightDirectly(gpu::Frame& f, const FrameInputs& in, const Settings& setting
     if (in.sunIrradiance == vec3(0.0F)) {
         shadow.filter = ShadowFilter::none;
     }
-    const ShadowMapParams sunMap =
-        shadow.extent > 0.0F ? centredSunShadow(in.draws.boundsW, in.sunDirection, shadow.extent, shadow.resolution)
-                             : fitSunShadow(in.view.clipToWorld, in.draws.boundsW, in.sunDirection, shadow.resolution);
+    const SunShadowParams sun = fitSunShadows(in.view, in.draws.boundsW, in.sunDirection, shadow);
     if (shadow.filter != ShadowFilter::none) {
-        out.shadowMap = drawShadowMap(f, in.draws, sunMap, shadow);
+        out.shadowMap = drawShadowMap(f, in.draws, sun, shadow);
     }
-    out.sunVisibility = sunVisibility(f, out.g, out.shadowMap, sunMap, in.view, shadow);
+    const SunVisibility seen = sunVisibility(f, out.g, out.shadowMap, {in.view, sun, shadow});
+    out.sunVisibility = seen.visibility;
+    out.cascadeIndex = seen.cascadeIndex;
     out.direct = directLight(f, out.g, out.sunVisibility, in.ggxTable,
                              {in.view, -in.sunDirection, in.sunIrradiance, in.environment}, in.lamps);
 }

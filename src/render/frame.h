@@ -28,6 +28,7 @@ struct FrameImages {
     gpu::Image backDepth;  ///< none unless trace_screen.thicknessFrom is secondLayer
     gpu::Image shadowMap;  ///< none without sun or shadows
     gpu::Image sunVisibility;
+    gpu::Image cascadeIndex;  ///< of sunVisibility(); none with one cascade
     gpu::Image direct;
     LobeLight diffuse;
     LobeLight specular;

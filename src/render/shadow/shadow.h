@@ -1,4 +1,4 @@
-// Sun visibility: a shadow map fitted to what the view can see or what casts into it, looked up per pixel.
+// Sun visibility: shadow maps fitted to what the view can see or what casts into it, looked up per pixel.
 // Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_SHADOW_H
 #define REFLET_RENDER_SHADOW_H
@@ -20,17 +20,22 @@ CHOICES(ShadowBias, SHADOW_BIASES)
 
 #define SHADOW_SETTINGS(VALUE, SWITCH, CHOICE)                                                                         \
     CHOICE(ShadowFilter, filter, hard, "How the sun's shadow map is read; none: the sun casts no shadows.")            \
-    VALUE(uint, resolution, 2048, 64, 8192, "Texels along each side of the sun's shadow map.")                         \
+    VALUE(uint, resolution, 2048, 64, 8192, "Texels along each side of the sun's shadow map, of each cascade.")        \
     VALUE(float, extent, 0.0, 0.0, 10000.0,                                                                            \
-          "Metres from the middle of the map, the world's origin, to each side; what is outside is lit; 0: fitted to " \
-          "the view.")                                                                                                 \
+          "Metres from the middle of the map, the world's origin, to each side; what is outside is lit, and there is " \
+          "one cascade; 0: fitted to the view.")                                                                       \
     CHOICE(ShadowBias, biasKind, slope,                                                                                \
            "What keeps surfaces from shadowing themselves; slope: they are followed along their own plane to the "     \
            "texel's centre, then `bias`; constant: `constantBias` alone.")                                             \
     VALUE(float, bias, 0.75, 0.0, 16.0,                                                                                \
           "How far above themselves surfaces ask for shadow, in texels of the map (slope).")                           \
     VALUE(float, constantBias, 0.01, 0.0, 10.0,                                                                        \
-          "How much nearer to the sun surfaces are taken to be, in metres (constant).")
+          "How much nearer to the sun surfaces are taken to be, in metres (constant).")                                \
+    VALUE(uint, cascades, 1, 1, 4,                                                                                     \
+          "Shadow maps of the sun that share the view's depth, for large scenes; 1: one, fitted to all that is seen.") \
+    VALUE(float, cascadeSplit, 0.8, 0.0, 1.0,                                                                          \
+          "Where cascades end; 0: at equal steps of distance, 1: at equal ratios (near ones smaller and finer).")      \
+    VALUE(float, cascadeBlend, 0.1, 0.0, 1.0, "Part of a cascade's depth, at its end, that blends into the next.")
 SETTINGS(ShadowSettings, SHADOW_SETTINGS)
 
 // Shadow space: x, y in clip space of the map, z reversed depth (1 nearest to the sun), all of it linear.
@@ -41,9 +46,20 @@ struct ShadowMapParams {
     float depthRange;  // metres from depth 1 to depth 0
 };
 
+const uint maxCascades = 4;
+const float nearestSplit = 0.01;  // where the first of equal ratios begins, as a part of the farthest distance
+
+// Cascade i lies in a tile of the shadow image: i % 2 to the right and i / 2 downwards, `resolution` texels a side.
+struct SunShadowParams {
+    ShadowMapParams maps[maxCascades];  // from near to far
+    float ends[maxCascades];            // where each ends: metres in front of the camera
+    float blends[maxCascades];          // where its blend into the next begins
+    uint count;
+};
+
 struct ShadowVisibilityParams {
     ViewParams view;
-    ShadowMapParams map;
+    SunShadowParams sun;
     ShadowSettings settings;
 };
 
@@ -57,20 +73,37 @@ SHARED_END
 
 namespace reflet {
 
-/// Fits an orthographic map of `resolution` texels to the part of `sceneBounds` that the view sees, and lengthens it
-/// toward the sun by all that may cast into it. direction: the way the light travels.
-ShadowMapParams fitSunShadow(const mat4& clipToWorld, const Aabb& sceneBounds, const vec3& direction, uint resolution);
+/// The maps that the settings ask for: one of fitSunShadow or centredSunShadow, or cascades. `reach`: metres around
+/// what is seen that filters look at, too; two texels are always there.
+SunShadowParams fitSunShadows(const ViewParams& view, const Aabb& sceneBounds, const vec3& direction,
+                              const ShadowSettings& settings, float reach = 0.0F);
+
+/// Fits an orthographic map of `resolution` texels to the part of `sceneBounds` that the view sees, as deep as all of
+/// it. direction: the way the light travels. Texels keep to a grid and change their size in steps of 19 %.
+ShadowMapParams fitSunShadow(const mat4& clipToWorld, const Aabb& sceneBounds, const vec3& direction, uint resolution,
+                             float reach = 0.0F);
+
+/// A map for each part of the view's depth. Their texels keep to a grid and their size, however the camera turns; so
+/// they do when it moves, but for steps of 19 % in how far away the scene begins or ends.
+SunShadowParams fitCascades(const ViewParams& view, const Aabb& sceneBounds, const vec3& direction,
+                            const ShadowSettings& settings, float reach = 0.0F);
 
 /// An orthographic map of ±extent metres around the world's origin, whatever the view sees, as deep as `sceneBounds`.
 ShadowMapParams centredSunShadow(const Aabb& sceneBounds, const vec3& direction, float extent, uint resolution);
 
-/// Draws depth as the sun sees it, both sides of every surface: D32, reversed (1 nearest to the sun).
-gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const ShadowMapParams& map,
+/// Draws depth as the sun sees it, both sides of every surface: D32, reversed (1 nearest to the sun). A tile for each
+/// cascade: one, two beside one another, or two by two.
+gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const SunShadowParams& sun,
                          const ShadowSettings& settings);
 
-/// R8, 1: lit. The sky is lit. Without a map (filter none): 1 everywhere.
-gpu::Image sunVisibility(gpu::Frame& f, const GBuffer& g, gpu::Image shadowMap, const ShadowMapParams& map,
-                         const ViewParams& view, const ShadowSettings& settings);
+/// What the sun's maps tell the pixels.
+struct SunVisibility {
+    gpu::Image visibility;    ///< R8, 1: lit. The sky is lit. Without a map (filter none): 1 everywhere
+    gpu::Image cascadeIndex;  ///< R8: number of the cascade over 3, between two where they blend; none with one cascade
+};
+
+SunVisibility sunVisibility(gpu::Frame& f, const GBuffer& g, gpu::Image shadowMap,
+                            const ShadowVisibilityParams& params);
 
 }  // namespace reflet
 #endif
