@@ -13,7 +13,7 @@ LightSpace lightSpaceOf(const Aabb& sceneBounds, const vec3& direction) {
 }
 
 float steppedUp(float metres) {
-    return std::exp2(std::ceil(4.0F * std::log2(std::max(metres, 1e-3F))) / 4.0F);
+    return std::exp2(std::ceil(8.0F * std::log2(std::max(metres, 1e-3F))) / 8.0F);
 }
 
 ShadowMapParams mapOf(const LightSpace& light, const glm::dvec2& low, const glm::dvec2& high, uint resolution) {

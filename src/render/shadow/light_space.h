@@ -15,7 +15,7 @@ struct LightSpace {
 /// sceneBounds: not empty. direction: the way the light travels.
 LightSpace lightSpaceOf(const Aabb& sceneBounds, const vec3& direction);
 
-/// A quarter of an octave (19 %) or less above what is given.
+/// An eighth of an octave (9 %) or less above what is given.
 float steppedUp(float metres);
 
 /// Of `resolution` texels from `low` to `high`, as they are.

@@ -56,7 +56,7 @@ gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const SunShadowPar
 
 SunVisibility sunVisibility(gpu::Frame& f, const GBuffer& g, gpu::Image shadowMap,
                             const ShadowVisibilityParams& params) {
-    const bool cascades = shadowMap && params.sun.count > 1;
+    const bool cascades = params.sun.count > 1;
     const gpu::Image index =
         f.image("cascade_index", VK_FORMAT_R8_UNORM, cascades ? g.depth.size : uvec2(1));  // bound in any case
     SunVisibility out;

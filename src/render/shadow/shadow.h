@@ -33,7 +33,7 @@ CHOICES(ShadowBias, SHADOW_BIASES)
           "How much nearer to the sun surfaces are taken to be, in metres (constant).")                                \
     VALUE(uint, cascades, 1, 1, 4,                                                                                     \
           "Shadow maps of the sun that share the view's depth, for large scenes; 1: one, fitted to all that is seen.") \
-    VALUE(float, cascadeSplit, 0.8, 0.0, 1.0,                                                                          \
+    VALUE(float, cascadeSplit, 1.0, 0.0, 1.0,                                                                          \
           "Where cascades end; 0: at equal steps of distance, 1: at equal ratios (near ones smaller and finer).")      \
     VALUE(float, cascadeBlend, 0.1, 0.0, 1.0, "Part of a cascade's depth, at its end, that blends into the next.")
 SETTINGS(ShadowSettings, SHADOW_SETTINGS)
@@ -47,7 +47,7 @@ struct ShadowMapParams {
 };
 
 const uint maxCascades = 4;
-const float nearestSplit = 0.01;  // where the first of equal ratios begins, as a part of the farthest distance
+const float nearestSplit = 0.005;  // where the first of equal ratios begins, as a part of the farthest distance
 
 // Cascade i lies in a tile of the shadow image: i % 2 to the right and i / 2 downwards, `resolution` texels a side.
 struct SunShadowParams {
@@ -79,12 +79,12 @@ SunShadowParams fitSunShadows(const ViewParams& view, const Aabb& sceneBounds, c
                               const ShadowSettings& settings, float reach = 0.0F);
 
 /// Fits an orthographic map of `resolution` texels to the part of `sceneBounds` that the view sees, as deep as all of
-/// it. direction: the way the light travels. Texels keep to a grid and change their size in steps of 19 %.
+/// it. direction: the way the light travels. Texels keep to a grid and change their size in steps of 9 %.
 ShadowMapParams fitSunShadow(const mat4& clipToWorld, const Aabb& sceneBounds, const vec3& direction, uint resolution,
                              float reach = 0.0F);
 
 /// A map for each part of the view's depth. Their texels keep to a grid and their size, however the camera turns; so
-/// they do when it moves, but for steps of 19 % in how far away the scene begins or ends.
+/// they do when it moves, but for steps of 9 % in how far away the scene begins or ends.
 SunShadowParams fitCascades(const ViewParams& view, const Aabb& sceneBounds, const vec3& direction,
                             const ShadowSettings& settings, float reach = 0.0F);
 

@@ -38,10 +38,10 @@ void look(ivec2 pixel) {
     float d = texelFetch(depth, pixel, 0).r;
     float lit = 1.0;
     Cascade c = Cascade(params.sun.count - 1u, 0.0);  // of the sky
-    if (d > 0.0 && params.settings.filter != ShadowFilter_none) {
+    if (d > 0.0) {
         vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
         c = cascadeAt(dot(params.view.viewPlane, vec4(p, 1.0)), params.sun);
-        lit = visibilityAt(p, c, pixel);
+        lit = params.settings.filter == ShadowFilter_none ? 1.0 : visibilityAt(p, c, pixel);
     }
     imageStore(visibility, pixel, vec4(lit));
     if (params.sun.count > 1u) {
