@@ -4,6 +4,7 @@
 #include "apps/texels.h"
 #include "base/error.h"
 #include "base/text.h"
+#include "render/shadow/shadow.h"
 #include "render/tonemap/tone_map_image.h"
 
 #include <algorithm>
@@ -24,6 +25,9 @@ void first(Texels t, const ViewParams&, float* out) {
 // Negative where no blocker was found: how wide the penumbra could be.
 void penumbraWidth(Texels t, const ViewParams&, float* out) {
     out[0] = std::max(t[0].x, 0.0F);
+}
+void cascade(Texels t, const ViewParams&, float* out) {
+    out[0] = t[0].x * static_cast<float>(maxCascades - 1);
 }
 void firstTwo(Texels t, const ViewParams&, float* out) {
     std::memcpy(out, t.data(), 2 * sizeof(float));
@@ -102,6 +106,13 @@ vec3 count(const float* v) {
 vec3 countRedGreen(const float* v) {
     return {count(v).x, count(v + 1).x, 0.0F};
 }
+vec3 cascadeColor(const float* v) {
+    constexpr vec3 colors[maxCascades] = {
+        {0.9F, 0.3F, 0.25F}, {0.3F, 0.75F, 0.35F}, {0.3F, 0.45F, 0.9F}, {0.9F, 0.8F, 0.3F}};
+    const float at = std::clamp(v[0], 0.0F, static_cast<float>(maxCascades - 1));
+    const auto first = static_cast<uint>(at);
+    return glm::mix(colors[first], colors[std::min(first + 1, maxCascades - 1)], at - std::floor(at));
+}
 // A shadow map's depths, stretched to be told apart.
 vec3 mapDepth(const float* v) {
     return vec3(v[0]);
@@ -137,7 +148,12 @@ const std::vector<Show>& table() {
          "mean metres from the surface to what hides the sun from it, toward the sun, 0 nothing found, or no search "
          "needed; PNG bright is near; only with shadow.filter=pcss",
          [](const FrameImages& i) { return Images{i.shadowPenumbra}; }, green, y, near},
-        {"shadow_map", "depth as the sun sees it, 1 nearest to the sun, 0 nothing; of the map's own size",
+        {"cascade_index",
+         "which of the sun's shadow maps a surface is looked up in, 0 the nearest, between two where they blend; the "
+         "sky is in the last; PNG red, green, blue, yellow; only with shadow.cascades above 1",
+         [](const FrameImages& i) { return Images{i.cascadeIndex}; }, cascade, y, cascadeColor},
+        {"shadow_map",
+         "depth as the sun sees it, 1 nearest to the sun, 0 nothing; of the map's own size, cascades in rows of two",
          [](const FrameImages& i) { return i.shadowMap ? Images{i.shadowMap} : Images{i.sunVisibility}; }, first, y,
          mapDepth},
         {"depth", "metres in front of the camera, 0 where there is nothing; PNG bright is near",

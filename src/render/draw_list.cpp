@@ -74,7 +74,7 @@ void recordDraws(const gpu::DrawCommands& to, const DrawList& list, const DrawFi
         const DrawConstants constants{glm::mat4x3(draw.objectToWorld), glm::mat4x3(draw.previousObjectToWorld)};
         vk.vkCmdPushConstants(to.commands, to.layout, VK_SHADER_STAGE_ALL, 0,
                               previousTransform ? sizeof(constants) : sizeof(constants.objectToWorld), &constants);
-        vk.vkCmdDrawIndexed(to.commands, draw.indexCount, 1, draw.firstIndex, draw.firstVertex, 0);
+        vk.vkCmdDrawIndexed(to.commands, draw.indexCount, 1, draw.firstIndex, draw.firstVertex, filter.instance);
     }
 }
 

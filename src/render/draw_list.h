@@ -45,6 +45,7 @@ struct DrawFilter {
     Cull cull = Cull::back;
     bool bindMaterials = true;  ///< false: the pipeline has no set 1
     mat4 worldToClip{1.0F};     ///< draws that this puts wholly outside the view are left out
+    uint32_t instance = 0;      ///< the shader's gl_InstanceIndex
 };
 
 /// Records the draws that pass the filter. Push constants of the vertex shader: objectToWorld, then (as far as the

@@ -35,20 +35,20 @@ void lightDirectly(gpu::Frame& f, const FrameInputs& in, const Settings& setting
     if (in.sunIrradiance == vec3(0.0F)) {
         shadow.filter = ShadowFilter::none;
     }
-    const ShadowMapParams sunMap =
-        shadow.extent > 0.0F ? centredSunShadow(in.draws.boundsW, in.sunDirection, shadow.extent, shadow.resolution)
-                             : fitSunShadow(in.view.clipToWorld, in.draws.boundsW, in.sunDirection, shadow.resolution);
+    const float sunSlope = std::tan(0.5F * in.sunAngularDiameter);
+    const SunShadowParams sun = fitSunShadows(in.view, in.draws.boundsW, in.sunDirection, shadow,
+                                              filterReach(in.draws.boundsW, shadow, sunSlope));
     if (shadow.filter != ShadowFilter::none) {
-        out.shadowMap = drawShadowMap(f, in.draws, sunMap, shadow);
+        out.shadowMap = drawShadowMap(f, in.draws, sun, shadow);
     }
     ShadowInputs maps{.map = out.shadowMap, .range = {}, .blueNoise = in.blueNoise};
     if (shadow.filter == ShadowFilter::pcss && shadow.earlyOut != 0) {
         maps.range = makeShadowRange(f, out.shadowMap);
     }
-    const float sunSlope = std::tan(0.5F * in.sunAngularDiameter);
-    const SunVisibility seen = sunVisibility(f, out.g, maps, {in.view, sunMap, shadow, sunSlope});
+    const SunVisibility seen = sunVisibility(f, out.g, maps, {in.view, sun, shadow, sunSlope});
     out.sunVisibility = seen.visibility;
     out.shadowPenumbra = seen.penumbra;
+    out.cascadeIndex = seen.cascadeIndex;
     out.direct = directLight(f, out.g, out.sunVisibility, in.ggxTable,
                              {in.view, -in.sunDirection, in.sunIrradiance, in.environment}, in.lamps);
 }

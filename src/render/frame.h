@@ -30,6 +30,7 @@ struct FrameImages {
     gpu::Image shadowMap;  ///< none without sun or shadows
     gpu::Image sunVisibility;
     gpu::Image shadowPenumbra;  ///< of sunVisibility(); none with hard shadows
+    gpu::Image cascadeIndex;    ///< of sunVisibility(); none with one cascade
     gpu::Image direct;
     LobeLight diffuse;
     LobeLight specular;

@@ -9,6 +9,12 @@
 const float leastFacing = 0.05;    // cosine under which a surface is followed as if it were this
 const float outsideTheMap = -1e9;  // clearance
 
+// Where a map lies in the image that several share.
+struct ShadowTile {
+    ivec2 origin;
+    ivec2 size;
+};
+
 // A receiver in a map.
 struct ShadowReceiver {
     vec3 s;             // in shadow space
@@ -17,7 +23,7 @@ struct ShadowReceiver {
     vec2 aside;         // texels: unit, the way that its surface faces, across the sun; 0: straight at the sun
     vec2 slope;         // metres toward the sun that its plane rises by for each unit along x and y of shadow space
     float depthRange;   // metres
-    ivec2 size;         // texels of the map
+    ShadowTile tile;
     float lift;         // metres toward the sun under which nothing blocks: curvature, creases and rounding
     float depthBelow;   // metres under its plane from which on what the map holds is not its surface
 };
@@ -30,15 +36,15 @@ vec3 shadowAxis(ShadowMapParams map, int axis) {
     return vec3(map.worldToShadow[0][axis], map.worldToShadow[1][axis], map.worldToShadow[2][axis]);
 }
 
-ShadowReceiver receiverAt(vec3 p, ShadowMapParams map, ivec2 size) {
+ShadowReceiver receiverAt(vec3 p, ShadowMapParams map, ShadowTile tile) {
     ShadowReceiver r;
     r.s = (map.worldToShadow * vec4(p, 1.0)).xyz;
-    r.at = (0.5 + 0.5 * r.s.xy) * vec2(size);
-    r.texelsPerMetre = 0.5 * vec2(size) * vec2(length(shadowAxis(map, 0)), length(shadowAxis(map, 1)));
+    r.at = (0.5 + 0.5 * r.s.xy) * vec2(tile.size);
+    r.texelsPerMetre = 0.5 * vec2(tile.size) * vec2(length(shadowAxis(map, 0)), length(shadowAxis(map, 1)));
     r.aside = vec2(0.0);
     r.slope = vec2(0.0);
     r.depthRange = map.depthRange;
-    r.size = size;
+    r.tile = tile;
     r.lift = 0.0;
     r.depthBelow = -outsideTheMap;
     return r;
@@ -46,8 +52,8 @@ ShadowReceiver receiverAt(vec3 p, ShadowMapParams map, ivec2 size) {
 
 // A surface is followed along its own plane to the centre of the texel that is looked up, for there the map holds its
 // depth: planes never shadow themselves, however far to the side a filter looks. Then `bias`, texels along the normal.
-ShadowReceiver slopeReceiver(vec3 p, vec3 normal, ShadowMapParams map, ivec2 size, float bias) {
-    ShadowReceiver r = receiverAt(p, map, size);
+ShadowReceiver slopeReceiver(vec3 p, vec3 normal, ShadowMapParams map, ShadowTile tile, float bias) {
+    ShadowReceiver r = receiverAt(p, map, tile);
     float facing = dot(normal, map.toSun);
     // The normal in shadow space's own axes: depth changes by -n.xy / n.z for each step along x and y.
     vec3 axisX = shadowAxis(map, 0);
@@ -64,8 +70,8 @@ ShadowReceiver slopeReceiver(vec3 p, vec3 normal, ShadowMapParams map, ivec2 siz
 // The point's own depth, `bias` metres nearer to the sun (Williams, Casting curved shadows on curved surfaces, 1978). A
 // surface whose depth changes by more than that from the texel's centre to its corner shadows itself; casters that are
 // nearer than that to what they shadow are missed.
-ShadowReceiver constantReceiver(vec3 p, ShadowMapParams map, ivec2 size, float bias) {
-    ShadowReceiver r = receiverAt(p, map, size);
+ShadowReceiver constantReceiver(vec3 p, ShadowMapParams map, ShadowTile tile, float bias) {
+    ShadowReceiver r = receiverAt(p, map, tile);
     r.lift = bias;
     return r;
 }
@@ -73,11 +79,11 @@ ShadowReceiver constantReceiver(vec3 p, ShadowMapParams map, ivec2 size, float b
 // offset: metres across the sun, along the map's axes. What the map does not hold cannot cast.
 ShadowTexel texelAt(ShadowReceiver r, vec2 offset) {
     ivec2 texel = ivec2(floor(r.at + offset * r.texelsPerMetre));
-    if (outsideMap(texel, r.size)) {
+    if (outsideMap(texel, r.tile.size)) {
         return ShadowTexel(outsideTheMap, outsideTheMap);
     }
-    vec2 toCentre = (2.0 * (vec2(texel) + 0.5) / vec2(r.size) - 1.0) - r.s.xy;
-    float height = (loadShadowDepth(texel) - r.s.z) * r.depthRange;
+    vec2 toCentre = (2.0 * (vec2(texel) + 0.5) / vec2(r.tile.size) - 1.0) - r.s.xy;
+    float height = (loadShadowDepth(r.tile.origin + texel) - r.s.z) * r.depthRange;
     return ShadowTexel(height, height - dot(r.slope, toCentre));
 }
 

@@ -7,14 +7,15 @@
 #include "shaders/shadow_map.glsl"
 
 // Metres above the receiver, toward the sun: a bound of the lowest and one of the highest within `radius` metres of it
-// across the sun. -1e9 where that leaves the map, 1e9 where it is larger than any level's cells.
-vec2 heightRange(ShadowReceiver r, float radius) {
+// across the sun. -1e9 where that leaves the map, 1e9 where it is larger than any level's cells. size: of the
+// image that the maps share.
+vec2 heightRange(ShadowReceiver r, ivec2 size, float radius) {
     vec2 reach = radius * r.texelsPerMetre;
     ivec2 low = ivec2(floor(r.at - reach));
     ivec2 high = ivec2(floor(r.at + reach));
-    bool leaves = outsideMap(low, r.size) || outsideMap(high, r.size);
-    low = clamp(low, ivec2(0), r.size - 1);
-    high = clamp(high, ivec2(0), r.size - 1);
+    bool leaves = outsideMap(low, r.tile.size) || outsideMap(high, r.tile.size);
+    low = clamp(low, ivec2(0), r.tile.size - 1) + r.tile.origin;
+    high = clamp(high, ivec2(0), r.tile.size - 1) + r.tile.origin;
     int across = max(high.x - low.x, high.y - low.y);
     // The smallest cells of which two along each axis hold it all.
     int level = max(across > 1 ? findMSB(across - 1) - 1 : 1, 1);
@@ -22,7 +23,7 @@ vec2 heightRange(ShadowReceiver r, float radius) {
         return vec2(outsideTheMap, -outsideTheMap);
     }
     int shift = level + 2;
-    ivec2 row = ivec2(0, levelRow(levelSize(r.size, 2), level));
+    ivec2 row = ivec2(0, levelRow(levelSize(size, 2), level));
     vec2 a = loadShadowRange((low >> shift) + row);
     vec2 b = loadShadowRange((high >> shift) + row);
     vec2 c = loadShadowRange(ivec2(low.x >> shift, high.y >> shift) + row);

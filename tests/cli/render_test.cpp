@@ -13,6 +13,7 @@ namespace {
 using Names = std::vector<std::string>;
 const std::string cubes = "builtin:cubes";
 const std::string secondLayer = "trace_screen.thicknessFrom=secondLayer";  // without it there is no back_depth
+const std::string cascades = "shadow.cascades=2";                          // without it there is no cascade_index
 
 class Render : public ProgramTest {
 protected:
@@ -80,9 +81,9 @@ TEST_F(Render, EveryListedShowMakesAPictureAndValues) {
     for (const std::string& show : shows) {
         const bool map = show == "shadow_map";
         ASSERT_TRUE(quietSuccess(render(cubes, {"-o", "a.png", "-o", "a.exr", "--show", show, "--set",
-                                                "shadow.resolution=64", "--set", secondLayer})))
+                                                "shadow.resolution=64", "--set", secondLayer, "--set", cascades})))
             << show;
-        const auto all = layers("a.exr", map ? 64 : 32, map ? 64 : 18);
+        const auto all = layers("a.exr", map ? 128 : 32, map ? 64 : 18);
         ASSERT_EQ(all.size(), 1U) << show;
         EXPECT_EQ(readBitmap(path("a.png")).width, all[0].image.width) << show;
     }
@@ -98,7 +99,9 @@ TEST_F(Render, EveryBuiltinSceneHasAllImagesWithoutNan) {
     const Names scenes = names("scenes");
     ASSERT_GE(scenes.size(), 7U);
     for (const std::string& scene : scenes) {
-        ASSERT_TRUE(quietSuccess(render(scene, {"-o", "a.exr", "--aov", aovs, "--set", secondLayer}))) << scene;
+        ASSERT_TRUE(
+            quietSuccess(render(scene, {"-o", "a.exr", "--aov", aovs, "--set", secondLayer, "--set", cascades})))
+            << scene;
         EXPECT_EQ(layers("a.exr").size(), shows.size() + 1) << scene;
     }
 }

@@ -44,24 +44,29 @@ struct TestFrame {
     uvec2 size;
 };
 
-Pictures renderFrames(const Scene& scene, const std::vector<TestFrame>& frames, const Settings& settings,
-                      const std::vector<std::string>& shows) {
-    Renderer renderer(testDevice(), scene, [](const std::string&) {});
+Pictures renderNext(Renderer& renderer, const TestFrame& frame, const Settings& settings,
+                    const std::vector<std::string>& shows) {
+    const auto& [view, size] = frame;
     std::vector<ShowReadback> readbacks;
-    for (const auto& [view, size] : frames) {
-        readbacks.clear();
-        renderer.render(view, size, 0, settings, [&](gpu::Frame& f, const FrameImages& images) {
-            for (const std::string& show : shows) {
-                readbacks.push_back(requestShow(f, images, findShow(show)));
-            }
-        });
-    }
-    const auto& [view, size] = frames.back();
+    renderer.render(view, size, 0, settings, [&](gpu::Frame& f, const FrameImages& images) {
+        for (const std::string& show : shows) {
+            readbacks.push_back(requestShow(f, images, findShow(show)));
+        }
+    });
     Pictures pictures{size, makeViewParams(view.camera, size, 0, 0), {}};
     for (const ShowReadback& readback : readbacks) {
         pictures.images[std::string(readback.show->name)] = fetchValues(renderer.frame(), readback, pictures.view);
     }
     return pictures;
+}
+
+Pictures renderFrames(const Scene& scene, const std::vector<TestFrame>& frames, const Settings& settings,
+                      const std::vector<std::string>& shows) {
+    Renderer renderer(testDevice(), scene, [](const std::string&) {});
+    for (size_t i = 0; i + 1 < frames.size(); ++i) {
+        renderNext(renderer, frames[i], settings, {});
+    }
+    return renderNext(renderer, frames.back(), settings, shows);
 }
 
 }  // namespace
@@ -98,6 +103,16 @@ Pictures renderMean(const Scene& scene, const View& view, uvec2 size, const Sett
 Pictures renderMoved(const Scene& scene, const View& before, const View& now, uvec2 size, const Settings& settings,
                      const std::vector<std::string>& shows) {
     return renderFrames(scene, {{before, size}, {now, size}}, settings, shows);
+}
+
+std::vector<Pictures> renderPath(const Scene& scene, const std::vector<View>& path, uvec2 size,
+                                 const Settings& settings, const std::vector<std::string>& shows) {
+    Renderer renderer(testDevice(), scene, [](const std::string&) {});
+    std::vector<Pictures> pictures;
+    for (const View& view : path) {
+        pictures.push_back(renderNext(renderer, {view, size}, settings, shows));
+    }
+    return pictures;
 }
 
 Pictures renderResized(const Scene& scene, const View& view, uvec2 before, uvec2 now, const Settings& settings,

@@ -39,6 +39,10 @@ Pictures renderMean(const Scene& scene, const View& view, uvec2 size, const Sett
 Pictures renderMoved(const Scene& scene, const View& before, const View& now, uvec2 size, const Settings& settings,
                      const std::vector<std::string>& shows);
 
+/// A frame from each view, one after the other.
+std::vector<Pictures> renderPath(const Scene& scene, const std::vector<View>& path, uvec2 size,
+                                 const Settings& settings, const std::vector<std::string>& shows);
+
 /// A frame of size `before`, then one of size `now`, of which the images are.
 Pictures renderResized(const Scene& scene, const View& view, uvec2 before, uvec2 now, const Settings& settings,
                        const std::vector<std::string>& shows);

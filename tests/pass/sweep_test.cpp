@@ -39,8 +39,8 @@ std::vector<std::string> allShows() {
 TEST(Sweep, EverySceneRendersInEveryShow) {
     for (const BuiltinScene& builtin : builtinScenes()) {
         const Scene scene = builtin.make();
-        const Settings all =  // or back_depth and the steps would not be there
-            settingsOf({"trace_screen.thicknessFrom=secondLayer", "trace_screen.countSteps=true"});
+        const Settings all =  // or back_depth, the steps and cascade_index would not be there
+            settingsOf({"trace_screen.thicknessFrom=secondLayer", "trace_screen.countSteps=true", "shadow.cascades=2"});
         const Pictures p = render(scene, defaultView(scene), size, all, allShows());
         expectSound(p, std::string(builtin.name));
         EXPECT_GT(rangeOf(p.images.at("final")).max, 0.05F) << builtin.name << " is dark";

@@ -36,10 +36,11 @@ void main() {
         return;
     }
     ShadowCase c = inputs.items[i];
+    ShadowTile tile = ShadowTile(ivec2(0), ivec2(params.resolution));
     if (params.constant != 0u) {
-        outputs.items[i] = hardVisibility(constantReceiver(c.point, params.map, ivec2(params.resolution), params.bias));
+        outputs.items[i] = hardVisibility(constantReceiver(c.point, params.map, tile, params.bias));
         return;
     }
     vec3 n = params.packedNormal != 0u ? unpackUnitVector(packUnitVector(c.normal)) : c.normal;
-    outputs.items[i] = dot(n, params.map.toSun) > 0.0 ? hardVisibility(slopeReceiver(c.point, n, params.map, ivec2(params.resolution), params.bias)) : 0.0;
+    outputs.items[i] = dot(n, params.map.toSun) > 0.0 ? hardVisibility(slopeReceiver(c.point, n, params.map, tile, params.bias)) : 0.0;
 }

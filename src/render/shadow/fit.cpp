@@ -1,8 +1,6 @@
-// Fits the sun's shadow map to the view: the visible part of the scene's box, as a convex polyhedron cut by planes.
-// Or leaves it where a user has put it.
-#include "render/shadow/shadow.h"
-
-#include "base/error.h"
+// Fits one shadow map of the sun to the view: the visible part of the scene's box, as a convex polyhedron cut by
+// planes. Or leaves it where a user has put it.
+#include "render/shadow/light_space.h"
 
 #include <array>
 #include <cmath>
@@ -83,68 +81,33 @@ Polygon visibleCorners(const Aabb& box, const mat4& clipToWorld) {
     return corners;
 }
 
-mat3 worldToLightOf(const vec3& toSun) {
-    const vec3 side = glm::normalize(glm::cross(std::abs(toSun.y) < 0.99F ? vec3(0, 1, 0) : vec3(1, 0, 0), toSun));
-    return glm::transpose(mat3(side, glm::cross(toSun, side), toSun));
-}
-
-// `held` is in light space: x and y across, z toward the sun.
-ShadowMapParams mapOf(const Aabb& held, const mat3& worldToLight, const vec3& toSun, uint resolution) {
-    const vec3 size = held.size();
-    mat4 lightToShadow(0.0F);
-    lightToShadow[0][0] = 2.0F / size.x;
-    lightToShadow[1][1] = 2.0F / size.y;
-    lightToShadow[2][2] = 1.0F / size.z;
-    lightToShadow[3] = vec4(-vec2(held.max + held.min) / vec2(size), -held.min.z / size.z, 1.0F);
-    ShadowMapParams map{};
-    map.worldToShadow = lightToShadow * mat4(worldToLight);
-    map.toSun = toSun;
-    map.texelSize = std::max(size.x, size.y) / static_cast<float>(resolution);
-    map.depthRange = size.z;
-    return map;
-}
-
-// What is added to the ends of a map's depth.
-float spareDepth(const Aabb& all) {
-    return std::max(1e-3F, 1e-4F * glm::length(all.size()));
-}
-
 }  // namespace
 
-ShadowMapParams fitSunShadow(const mat4& clipToWorld, const Aabb& sceneBounds, const vec3& direction, uint resolution) {
-    const vec3 toSun = -direction;
+ShadowMapParams fitSunShadow(const mat4& clipToWorld, const Aabb& sceneBounds, const vec3& direction, uint resolution,
+                             float reach) {
     if (sceneBounds.empty()) {
-        return {mat4(1.0F), toSun, 1.0F, 1.0F};
+        return emptyMap(direction);
     }
-    const mat3 worldToLight = worldToLightOf(toSun);
+    const LightSpace light = lightSpaceOf(sceneBounds, direction);
     Aabb seen;
     for (const vec3& p : visibleCorners(sceneBounds, clipToWorld)) {
-        seen.add(worldToLight * p);
+        seen.add(light.worldToLight * p);
     }
-    const Aabb all = transformed(sceneBounds, mat4(worldToLight));
     if (seen.empty()) {  // the view sees nothing of the scene
-        seen = all;
+        seen = light.scene;
     }
-    // A texel's margin on each side, so that look-ups at the edge find their surface.
-    const float extent = std::max({seen.size().x, seen.size().y, 1e-3F});
-    const vec3 margin(vec2(2.0F * extent / static_cast<float>(resolution)), spareDepth(all));
-    Aabb held;
-    held.add(seen.min - margin);
-    held.add(vec3(vec2(seen.max), all.max.z) + margin);
-    return mapOf(held, worldToLight, toSun, resolution);
+    // Rounded up to steps, or texels would change their size with every move of the camera.
+    const vec2 low = glm::max(vec2(seen.min) - reach, vec2(light.scene.min));
+    const vec2 high = glm::min(vec2(seen.max) + reach, vec2(light.scene.max));
+    const vec2 extent(steppedUp(high.x - low.x), steppedUp(high.y - low.y));
+    return snappedMap(light, low, extent, resolution);
 }
 
 ShadowMapParams centredSunShadow(const Aabb& sceneBounds, const vec3& direction, float extent, uint resolution) {
-    const vec3 toSun = -direction;
     if (sceneBounds.empty()) {
-        return {mat4(1.0F), toSun, 1.0F, 1.0F};
+        return emptyMap(direction);
     }
-    const mat3 worldToLight = worldToLightOf(toSun);
-    const Aabb all = transformed(sceneBounds, mat4(worldToLight));
-    Aabb held;
-    held.add(vec3(vec2(-extent), all.min.z - spareDepth(all)));
-    held.add(vec3(vec2(extent), all.max.z + spareDepth(all)));
-    return mapOf(held, worldToLight, toSun, resolution);
+    return mapOf(lightSpaceOf(sceneBounds, direction), glm::dvec2(-extent), glm::dvec2(extent), resolution);
 }
 
 }  // namespace reflet

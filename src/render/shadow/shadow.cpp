@@ -1,31 +1,59 @@
-// Records the sun's shadow map and its look-up.
+// Records the sun's shadow maps and their look-up.
 #include "render/shadow/shadow.h"
 
+#include "gpu/device.h"
 #include "render/levels.h"
 
 #include <string>
 
 namespace reflet {
 
-gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const ShadowMapParams& map,
+namespace {
+
+// The part of the target that a cascade's draws go to.
+void setTile(const gpu::DrawCommands& to, uint cascade, uint resolution) {
+    const VkRect2D tile{
+        {static_cast<int32_t>(cascade % 2 * resolution), static_cast<int32_t>(cascade / 2 * resolution)},
+        {resolution, resolution}};
+    const VkViewport viewport{static_cast<float>(tile.offset.x),
+                              static_cast<float>(tile.offset.y),
+                              static_cast<float>(resolution),
+                              static_cast<float>(resolution),
+                              0,
+                              1};
+    to.device.vk.vkCmdSetViewport(to.commands, 0, 1, &viewport);
+    to.device.vk.vkCmdSetScissor(to.commands, 0, 1, &tile);
+}
+
+}  // namespace
+
+gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const SunShadowParams& sun,
                          const ShadowSettings& settings) {
-    const gpu::Image depth = f.target("shadow_map", VK_FORMAT_D32_SFLOAT, uvec2(settings.resolution));
+    const uvec2 tiles(sun.count > 1 ? 2 : 1, sun.count > 2 ? 2 : 1);
+    const gpu::Image depth = f.target("shadow_map", VK_FORMAT_D32_SFLOAT, tiles * settings.resolution);
+    const auto record = [&](const gpu::DrawCommands& to, bool masked) {
+        for (uint i = 0; i < sun.count; ++i) {
+            setTile(to, i, settings.resolution);
+            recordDraws(to, list,
+                        {.keep = [masked](const Draw& d) { return d.masked == masked; },
+                         .cull = Cull::none,
+                         .bindMaterials = masked,
+                         .worldToClip = sun.maps[i].worldToShadow,
+                         .instance = i},
+                        false);
+        }
+    };
     // Opaque draws need no fragment shader; cut-out ones look up their alpha.
     f.raster("shadow_map", {"shadow_map.vert"})
         .depth(depth, 0.0F)
         .vertices(vertexLayout())
-        .params(map.worldToShadow)
-        .draw([&](const gpu::DrawCommands& to) {
-            recordDraws(to, list, {[](const Draw& d) { return !d.masked; }, Cull::none, false, map.worldToShadow},
-                        false);
-        });
+        .params(sun)
+        .draw([&](const gpu::DrawCommands& to) { record(to, false); });
     f.raster("shadow_map", {"shadow_map_masked.vert", "shadow_map_masked.frag"})
         .depth(depth, std::nullopt)
         .vertices(vertexLayout(), list.materialLayout)
-        .params(map.worldToShadow)
-        .draw([&](const gpu::DrawCommands& to) {
-            recordDraws(to, list, {[](const Draw& d) { return d.masked; }, Cull::none, true, map.worldToShadow}, false);
-        });
+        .params(sun)
+        .draw([&](const gpu::DrawCommands& to) { record(to, true); });
     return depth;
 }
 
@@ -47,24 +75,29 @@ SunVisibility sunVisibility(gpu::Frame& f, const GBuffer& g, const ShadowInputs&
                             const ShadowVisibilityParams& params) {
     const ShadowFilter filter = params.settings.filter;
     const bool soft = filter == ShadowFilter::pcf || filter == ShadowFilter::pcss;
-    const char* shader = soft ? "soft_visibility.comp" : "shadow_visibility.comp";
-    SunVisibility out;
-    out.visibility = f.image("sun_visibility", VK_FORMAT_R8_UNORM, g.depth.size);
-    gpu::Pass pass = f.compute("shadow_visibility", shader);
-    pass.read("depth", g.depth)
+    const bool cascades = params.sun.count > 1;
+    // Bound in any case, but neither read nor written where it is not needed.
+    const auto imageIf = [&](bool needed, const char* name, VkFormat format) {
+        return f.image(name, format, needed ? g.depth.size : uvec2(1));
+    };
+    const gpu::Image map = in.map ? in.map : g.depth;
+    const gpu::Image penumbra = imageIf(soft, "shadow_penumbra", VK_FORMAT_R16G16_SFLOAT);
+    const gpu::Image index = imageIf(cascades, "cascade_index", VK_FORMAT_R8_UNORM);
+    const gpu::Image visibility = imageIf(true, "sun_visibility", VK_FORMAT_R8_UNORM);
+    f.compute("shadow_visibility", "shadow_visibility.comp")
+        .read("depth", g.depth)
         .read("geometricNormal", g.geometricNormal)
-        .read("shadowMap", in.map ? in.map : g.depth)  // bound, but not read without shadows
-        .write("visibility", out.visibility)
-        .params(params);
-    if (soft) {
-        out.penumbra = f.image("shadow_penumbra", VK_FORMAT_R16G16_SFLOAT, g.depth.size);
-        pass.read("range", in.range ? in.range : in.map)
-            .read("blueNoise", in.blueNoise)
-            .write("penumbra", out.penumbra)
-            .constant("searchRanges", in.range ? 1 : 0);
-    }
-    pass.dispatch(out.visibility.size);
-    return out;
+        .read("shadowMap", map)
+        .read("range", in.range ? in.range : map)
+        .read("blueNoise", in.blueNoise)
+        .write("visibility", visibility)
+        .write("penumbra", penumbra)
+        .write("cascadeIndex", index)
+        .params(params)
+        .constant("filterKind", static_cast<uint32_t>(filter))
+        .constant("hasRanges", in.range ? 1 : 0)
+        .dispatch(g.depth.size);
+    return {visibility, soft ? penumbra : gpu::Image{}, cascades ? index : gpu::Image{}};
 }
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// Sun visibility: a shadow map fitted to what the view can see or what casts into it, looked up per pixel.
+// Sun visibility: shadow maps fitted to what the view can see or what casts into it, looked up per pixel.
 // Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_SHADOW_H
 #define REFLET_RENDER_SHADOW_H
@@ -34,14 +34,14 @@ CHOICES(ShadowUnit, SHADOW_UNITS)
     CHOICE(ShadowFilter, filter, pcss,                                                                                 \
            "How shadow maps are read; none: no shadows; hard: one texel; pcf: a disk of `radius`; pcss: a disk as "    \
            "large as the light's size and the height of what casts make it.")                                          \
-    VALUE(uint, resolution, 2048, 64, 8192, "Texels along each side of the sun's shadow map.")                         \
+    VALUE(uint, resolution, 2048, 64, 8192, "Texels along each side of the sun's shadow map, of each cascade.")        \
     VALUE(float, extent, 0.0, 0.0, 10000.0,                                                                            \
-          "Metres from the middle of the map, the world's origin, to each side; what is outside is lit; 0: fitted to " \
-          "the view.")                                                                                                 \
+          "Metres from the middle of the map, the world's origin, to each side; what is outside is lit, and there is " \
+          "one cascade; 0: fitted to the view.")                                                                       \
     CHOICE(ShadowBias, biasKind, slope,                                                                                \
            "What keeps surfaces from shadowing themselves; slope: they are followed along their own plane to the "     \
            "texel's centre, then `bias`; constant: `constantBias` alone.")                                             \
-    VALUE(float, bias, 0.5, 0.0, 16.0,                                                                                \
+    VALUE(float, bias, 0.5, 0.0, 16.0,                                                                                 \
           "How far above themselves surfaces ask for shadow, in texels of the map (slope).")                           \
     VALUE(float, constantBias, 0.01, 0.0, 10.0,                                                                        \
           "How much nearer to the sun surfaces are taken to be, in metres (constant).")                                \
@@ -57,7 +57,12 @@ CHOICES(ShadowUnit, SHADOW_UNITS)
            "Where in the disk samples lie; vogel: evenly, turned for each pixel by blue noise; rings: on a spiral of " \
            "`rings` turns, denser in the middle, turned by a hash.")                                                   \
     VALUE(float, rings, 10.0, 0.0, 100.0, "Turns of the spiral (rings).")                                              \
-    SWITCH(mirrored, 0, "Every second sample is the one before, mirrored (rings).")
+    SWITCH(mirrored, 0, "Every second sample is the one before, mirrored (rings).")                                    \
+    VALUE(uint, cascades, 1, 1, 4,                                                                                     \
+          "Shadow maps of the sun that share the view's depth, for large scenes; 1: one, fitted to all that is seen.") \
+    VALUE(float, cascadeSplit, 1.0, 0.0, 1.0,                                                                          \
+          "Where cascades end; 0: at equal steps of distance, 1: at equal ratios (near ones smaller and finer).")      \
+    VALUE(float, cascadeBlend, 0.1, 0.0, 1.0, "Part of a cascade's depth, at its end, that blends into the next.")
 SETTINGS(ShadowSettings, SHADOW_SETTINGS)
 
 // Shadow space: x, y in clip space of the map, z reversed depth (1 nearest to the sun), all of it linear.
@@ -68,9 +73,20 @@ struct ShadowMapParams {
     float depthRange;  // metres from depth 1 to depth 0
 };
 
+const uint maxCascades = 4;
+const float nearestSplit = 0.005;  // where the first of equal ratios begins, as a part of the farthest distance
+
+// Cascade i lies in a tile of the shadow image: i % 2 to the right and i / 2 downwards, `resolution` texels a side.
+struct SunShadowParams {
+    ShadowMapParams maps[maxCascades];  // from near to far
+    float ends[maxCascades];            // where each ends: metres in front of the camera
+    float blends[maxCascades];          // where its blend into the next begins
+    uint count;
+};
+
 struct ShadowVisibilityParams {
     ViewParams view;
-    ShadowMapParams map;
+    SunShadowParams sun;
     ShadowSettings settings;
     float sunSlope;  // tangent of half the sun's angular diameter
 };
@@ -95,15 +111,31 @@ SHARED_END
 
 namespace reflet {
 
-/// Fits an orthographic map of `resolution` texels to the part of `sceneBounds` that the view sees, and lengthens it
-/// toward the sun by all that may cast into it. direction: the way the light travels.
-ShadowMapParams fitSunShadow(const mat4& clipToWorld, const Aabb& sceneBounds, const vec3& direction, uint resolution);
+/// The maps that the settings ask for: one of fitSunShadow or centredSunShadow, or cascades. `reach`: metres around
+/// what is seen that filters look at, too; two texels are always there.
+SunShadowParams fitSunShadows(const ViewParams& view, const Aabb& sceneBounds, const vec3& direction,
+                              const ShadowSettings& settings, float reach = 0.0F);
+
+/// How far from a surface, across the sun, its filter may look for what hides the sun from it [m]. sunSlope: as in
+/// ShadowVisibilityParams.
+float filterReach(const Aabb& sceneBounds, const ShadowSettings& settings, float sunSlope);
+
+/// Fits an orthographic map of `resolution` texels to the part of `sceneBounds` that the view sees, as deep as all of
+/// it. direction: the way the light travels. Texels keep to a grid and change their size in steps of 9 %.
+ShadowMapParams fitSunShadow(const mat4& clipToWorld, const Aabb& sceneBounds, const vec3& direction, uint resolution,
+                             float reach = 0.0F);
+
+/// A map for each part of the view's depth. Their texels keep to a grid and their size, however the camera turns; so
+/// they do when it moves, but for steps of 9 % in how far away the scene begins or ends.
+SunShadowParams fitCascades(const ViewParams& view, const Aabb& sceneBounds, const vec3& direction,
+                            const ShadowSettings& settings, float reach = 0.0F);
 
 /// An orthographic map of ±extent metres around the world's origin, whatever the view sees, as deep as `sceneBounds`.
 ShadowMapParams centredSunShadow(const Aabb& sceneBounds, const vec3& direction, float extent, uint resolution);
 
-/// Draws depth as the sun sees it, both sides of every surface: D32, reversed (1 nearest to the sun).
-gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const ShadowMapParams& map,
+/// Draws depth as the sun sees it, both sides of every surface: D32, reversed (1 nearest to the sun). A tile for each
+/// cascade: one, two beside one another, or two by two.
+gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const SunShadowParams& sun,
                          const ShadowSettings& settings);
 
 /// RG32F: the largest (nearest to the sun) and the smallest depth of ever larger squares of the map.
@@ -116,6 +148,7 @@ struct SunVisibility {
         penumbra;  ///< RG16F: x: full width of the penumbra across the sun's direction [m], 0 where the
                    ///< visibility is exact; negative where no blocker was found: at most so wide; y: mean
                    ///< distance of the blockers toward the sun [m], 0 none or unknown. None with filter none or hard
+    gpu::Image cascadeIndex;  ///< R8: number of the cascade over 3, between two where they blend; none with one cascade
 };
 
 struct ShadowInputs {

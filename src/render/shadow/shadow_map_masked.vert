@@ -1,8 +1,9 @@
-// Sun shadow map, draws whose material is cut out by alpha.
+// Sun shadow maps, draws whose material is cut out by alpha. The instance is the number of the cascade.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
+#include "render/shadow/shadow.h"
 
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { mat4 worldToShadow; } params;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { SunShadowParams params; };
 layout(push_constant, scalar) uniform DrawBlock { mat4x3 objectToWorld; } draw;
 
 layout(location = 0) in vec3 position;
@@ -14,7 +15,7 @@ layout(location = 0) out vec4 uv;
 layout(location = 1) out vec4 vertexColor;
 
 void main() {
-    gl_Position = params.worldToShadow * vec4(draw.objectToWorld * vec4(position, 1.0), 1.0);
+    gl_Position = params.maps[gl_InstanceIndex].worldToShadow * vec4(draw.objectToWorld * vec4(position, 1.0), 1.0);
     uv = vec4(uv0, uv1);
     vertexColor = color;
 }

@@ -1,40 +1,171 @@
-// Whether each pixel sees the sun, by one texel of its map. In: depth, geometric normal, shadow map. Out: visibility, 1 lit.
+// How much of the sun's disk each pixel sees. In: depth, geometric normal, shadow maps and their ranges, blue noise.
+// Out: visibility, 1 lit; with soft filters also the width of the penumbra and the mean height of the blockers; where
+// there are cascades, which of them was asked.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/shadow/shadow.h"
+#include "shaders/cascades.glsl"
 #include "shaders/octahedral.glsl"
 #include "shaders/projection.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const uint filterKind = ShadowFilter_pcss;
+layout(constant_id = 1) const uint hasRanges = 1;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ShadowVisibilityParams params; };
 layout(set = 0, binding = 1) uniform sampler2D depth;
 layout(set = 0, binding = 2) uniform usampler2D geometricNormal;
 layout(set = 0, binding = 3) uniform sampler2D shadowMap;
-layout(set = 0, binding = 4, r8) uniform writeonly image2D visibility;
+layout(set = 0, binding = 4) uniform sampler2D range;
+layout(set = 0, binding = 5, scalar) readonly buffer BlueNoise { uint texels[]; } blueNoise;
+layout(set = 0, binding = 6, r8) uniform writeonly image2D visibility;
+layout(set = 0, binding = 7, rg16f) uniform writeonly image2D penumbra;
+layout(set = 0, binding = 8, r8) uniform writeonly image2D cascadeIndex;
 
+uint loadBlueNoise(uint texel) { return blueNoise.texels[texel]; }
 float loadShadowDepth(ivec2 texel) { return texelFetch(shadowMap, texel, 0).r; }
-#include "shaders/shadow_map.glsl"
+vec2 loadShadowRange(ivec2 cell) { return texelFetch(range, cell, 0).rg; }
+#include "shaders/blue_noise.glsl"
+#include "shaders/shadow_range.glsl"
 
-float visibilityAt(ivec2 pixel) {
+const float leastFilterRadius = 0.75;  // texels: under it, the four around the point are all there is to know
+const uint shadowStream = 0x5ad0u;   // of the noise
+
+ShadowReceiver receiver;
+ShadowTexel shadowTexel(vec2 offset) { return trustedTexel(receiver, offset); }
+#include "shaders/soft_shadow.glsl"
+
+// What the visibility image and the penumbra image get.
+struct Result {
+    float visibility;
+    float width;
+    float height;
+};
+
+// Noise of this pixel: two numbers for the filter and two for the search.
+vec4 noiseAt(ivec2 pixel) {
+    ViewParams view = params.view;
+    if (params.settings.pattern == ShadowPattern_rings) {
+        uint h = hashPixel(uvec2(pixel), view.seed, view.frame);
+        return vec4(hashToUnit2(h), hashToUnit2(hashPcg(h)));
+    }
+    uvec2 at = uvec2(pixel);
+    uint filterMask = loadBlueNoise(blueNoiseTexel(at, shadowStream + view.seed, view.frame));
+    uint searchMask = loadBlueNoise(blueNoiseTexel(at, shadowStream + 1u + view.seed, view.frame));
+    return vec4(filterMask & 0xffffu, filterMask >> 16u, searchMask & 0xffffu, searchMask >> 16u) / 65536.0;
+}
+
+// Share of the sun's disk above the plane of a surface that faces its middle with cosine `facing`.
+float shareAboveHorizon(float facing, float sine) {
+    float t = clamp(facing / max(sine, 1e-6), -1.0, 1.0);
+    return 0.5 + (t * sqrt(1.0 - t * t) + asin(t)) / 3.14159265;
+}
+
+// Shrinks the search to what can cast from within it: nothing there is higher than the map's highest, and what is not
+// higher hides the sun from no farther. True where the whole disk is hidden.
+bool shrinkSearch(ShadowCone cone, float least, inout float radius) {
+    for (int i = 0; i < 3 && radius > least; ++i) {
+        vec2 heights = heightRange(receiver, textureSize(shadowMap, 0), radius);
+        vec2 rise = abs(receiver.slope) * 2.0 * (radius * receiver.texelsPerMetre + 1.0) / vec2(receiver.tile.size);
+        if (heights.x > rise.x + rise.y + receiver.lift) {
+            return true;
+        }
+        float needed = penumbraRadius(cone, heights.y);
+        bool done = needed > 0.7 * radius;
+        radius = min(radius, needed);
+        if (done) {
+            break;
+        }
+    }
+    return false;
+}
+
+Result pcss(ShadowCone cone, float texelSize, vec4 noise) {
+    ShadowSettings s = params.settings;
+    float least = leastFilterRadius * texelSize;
+    float radius = penumbraRadius(cone, (1.0 - receiver.s.z) * receiver.depthRange);
+    if (hasRanges != 0u && shrinkSearch(cone, least, radius)) {
+        return Result(0.0, 0.0, 0.0);
+    }
+    if (radius <= least) {
+        return Result(sharpVisibility(receiver), 0.0, 0.0);
+    }
+    float height = meanBlockerHeight(cone, radius, least, receiver.lift, shadowPattern(s, s.blockerSamples, noise.zw),
+                                     s.blockerSamples);
+    if (height <= 0.0) {
+        return Result(1.0, -2.0 * radius, 0.0);
+    }
+    float width = 2.0 * max(penumbraRadius(cone, height), least);
+    float visible = diskVisibility(cone, height, least, receiver.lift, shadowPattern(s, s.samples, noise.xy), s.samples);
+    return Result(visible, width, height);
+}
+
+Result pcf(float texelSize, vec4 noise) {
+    ShadowSettings s = params.settings;
+    float radius = s.radius * (s.radiusUnit == ShadowUnit_texels ? texelSize : 1.0);
+    return Result(pcfVisibility(radius, receiver.lift, shadowPattern(s, s.samples, noise.xy), s.samples), 2.0 * radius,
+                  0.0);
+}
+
+// The share of the sun that its surface's own plane leaves free.
+float shareOfNormal(vec3 normal, vec3 toSun) {
+    float facing = dot(normal, toSun);
+    float sine = params.sunSlope * inversesqrt(1.0 + params.sunSlope * params.sunSlope);
+    return filterKind == ShadowFilter_pcss ? shareAboveHorizon(facing, sine) : facing > 0.0 ? 1.0 : 0.0;
+}
+
+Result resultIn(uint cascade, vec3 p, vec3 normal, vec4 noise) {
+    ShadowSettings s = params.settings;
+    ShadowMapParams map = params.sun.maps[cascade];
+    ShadowTile tile = ShadowTile(cascadeTile(cascade, s.resolution), ivec2(s.resolution));
+    receiver = s.biasKind == ShadowBias_constant ? constantReceiver(p, map, tile, s.constantBias)
+                                                 : slopeReceiver(p, normal, map, tile, s.bias);
+    if (filterKind == ShadowFilter_hard) {
+        return Result(hardVisibility(receiver), 0.0, 0.0);
+    }
+    return filterKind == ShadowFilter_pcss ? pcss(ShadowCone(params.sunSlope, 0.0), map.texelSize, noise)
+                                           : pcf(map.texelSize, noise);
+}
+
+Result mixed(Result a, Result b, float share) {
+    return Result(mix(a.visibility, b.visibility, share), mix(a.width, b.width, share), mix(a.height, b.height, share));
+}
+
+Result resultAt(vec3 p, Cascade cascade, ivec2 pixel) {
+    vec3 normal = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
+    float share = params.settings.biasKind == ShadowBias_constant ? 1.0 : shareOfNormal(normal, params.sun.maps[0].toSun);
+    if (filterKind == ShadowFilter_none || share <= 0.0) {
+        return Result(filterKind == ShadowFilter_none ? 1.0 : 0.0, 0.0, 0.0);
+    }
+    vec4 noise = filterKind == ShadowFilter_hard ? vec4(0.0) : noiseAt(pixel);
+    Result r = resultIn(cascade.index, p, normal, noise);
+    if (cascade.next > 0.0) {
+        r = mixed(r, resultIn(cascade.index + 1u, p, normal, noise), cascade.next);
+    }
+    r.visibility *= share;
+    return r;
+}
+
+void look(ivec2 pixel) {
     float d = texelFetch(depth, pixel, 0).r;
-    if (d <= 0.0 || params.settings.filter == ShadowFilter_none) {
-        return 1.0;
+    Result r = Result(1.0, 0.0, 0.0);                 // of the sky
+    Cascade c = Cascade(params.sun.count - 1u, 0.0);
+    if (d > 0.0) {
+        vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
+        c = cascadeAt(dot(params.view.viewPlane, vec4(p, 1.0)), params.sun);
+        r = resultAt(p, c, pixel);
     }
-    vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
-    ivec2 size = textureSize(shadowMap, 0);
-    if (params.settings.biasKind == ShadowBias_constant) {
-        return hardVisibility(constantReceiver(p, params.map, size, params.settings.constantBias));
+    imageStore(visibility, pixel, vec4(r.visibility));
+    if (filterKind == ShadowFilter_pcf || filterKind == ShadowFilter_pcss) {
+        imageStore(penumbra, pixel, vec4(clamp(vec2(r.width, r.height), -60000.0, 60000.0), 0.0, 0.0));
     }
-    vec3 n = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
-    if (dot(n, params.map.toSun) <= 0.0) {
-        return 0.0;  // the surface is in its own shadow
+    if (params.sun.count > 1u) {
+        imageStore(cascadeIndex, pixel, vec4((float(c.index) + c.next) / float(maxCascades - 1u)));
     }
-    return hardVisibility(slopeReceiver(p, n, params.map, size, params.settings.bias));
 }
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (all(lessThan(pixel, ivec2(params.view.size)))) {
-        imageStore(visibility, pixel, vec4(visibilityAt(pixel)));
+        look(pixel);
     }
 }

@@ -1,0 +1,133 @@
+// The sun's shadow maps as cascades: the view's depth is split (Zhang, Sun, Xu and Lun, Parallel-split shadow maps for
+// large-scale virtual environments, 2006), and each part has a map of the same resolution. A part is held by its
+// bounding sphere, whose size neither turning nor moving the camera changes; its map moves by whole texels.
+#include "render/shadow/light_space.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reflet {
+
+namespace {
+
+// Where maps can be of use: distances in front of the camera [m].
+struct DepthRange {
+    float first = 0.0F;  // nothing of the scene is nearer
+    float near = 0.0F;   // where the logarithmic split begins
+    float far = 0.0F;    // nothing of the scene is farther
+};
+
+// Turning a camera leaves all three as they are, and moving it changes them in steps only.
+DepthRange depthRangeOf(const ViewParams& view, const Aabb& scene) {
+    const bool orthographic = view.eye.w == 0.0F;
+    float nearest = std::numeric_limits<float>::max();
+    float farthest = 0.0F;
+    for (unsigned i = 0; i < 8; ++i) {
+        const vec3 corner = scene.corner(i);
+        const float distance =
+            orthographic ? glm::dot(view.viewPlane, vec4(corner, 1.0F)) : glm::length(corner - vec3(view.eye));
+        nearest = std::min(nearest, distance);
+        farthest = std::max(farthest, distance);
+    }
+    if (!orthographic) {
+        const vec3 eye(view.eye);
+        nearest = glm::length(glm::max(glm::max(scene.min - eye, eye - scene.max), vec3(0.0F)));
+    }
+    DepthRange range;
+    range.far = steppedUp(farthest);
+    const float begin = nearest > 0.0F ? 1.0F / steppedUp(1.0F / nearest) : 0.0F;
+    // To the side of the view, what is `begin` away is not so far in front of the camera.
+    const float corner = 0.5F * view.pixelAngle * glm::length(view.size);
+    range.first = orthographic ? begin : begin / std::sqrt(1.0F + corner * corner);
+    range.near = std::max(begin, range.far * nearestSplit);
+    return range;
+}
+
+struct Sphere {
+    vec3 center;  // world space
+    float radius;
+};
+
+// The smallest around what the view sees between two distances.
+Sphere boundingSphere(const ViewParams& view, float begin, float end) {
+    const float slope = 0.5F * view.pixelAngle * glm::length(view.size);  // of the view's corners
+    const bool orthographic = view.eye.w == 0.0F;
+    const float beginRadius = orthographic ? slope : slope * begin;
+    const float endRadius = orthographic ? slope : slope * end;
+    // As far from the corners of the one side as from those of the other, but not beyond the farther side.
+    const float middle = 0.5F * (begin + end + (endRadius * endRadius - beginRadius * beginRadius) / (end - begin));
+    const float along = std::min(middle, end);
+    const vec4 axisPoint = view.clipToWorld * vec4(0, 0, 0.5F, 1);
+    const vec3 onAxis = vec3(axisPoint) / axisPoint.w;
+    const float ahead = glm::dot(view.viewPlane, vec4(onAxis, 1.0F));
+    return {onAxis + vec3(view.viewPlane) * (along - ahead), std::hypot(end - along, endRadius)};
+}
+
+float splitAt(const DepthRange& range, float part, float logarithmic) {
+    const float uniform = range.near + (range.far - range.near) * part;
+    return glm::mix(uniform, range.near * std::pow(range.far / range.near, part), logarithmic);
+}
+
+SunShadowParams oneMap(const ShadowMapParams& map) {
+    SunShadowParams sun{};
+    sun.maps[0] = map;
+    sun.count = 1;
+    return sun;
+}
+
+}  // namespace
+
+SunShadowParams fitCascades(const ViewParams& view, const Aabb& sceneBounds, const vec3& direction,
+                            const ShadowSettings& settings, float reach) {
+    if (sceneBounds.empty()) {
+        return oneMap(emptyMap(direction));
+    }
+    const LightSpace light = lightSpaceOf(sceneBounds, direction);
+    const DepthRange range = depthRangeOf(view, sceneBounds);
+    SunShadowParams sun{};
+    sun.count = settings.cascades;
+    float begin = range.first;  // where the blend into this cascade begins
+    float lastEnd = begin;
+    for (uint i = 0; i < sun.count; ++i) {
+        const float part = static_cast<float>(i + 1) / static_cast<float>(sun.count);
+        sun.ends[i] = splitAt(range, part, settings.cascadeSplit);
+        sun.blends[i] = glm::mix(sun.ends[i], lastEnd, settings.cascadeBlend);
+        const Sphere sphere = boundingSphere(view, begin, sun.ends[i]);
+        const vec2 center(light.worldToLight * sphere.center);
+        const float half = sphere.radius + reach;
+        sun.maps[i] = snappedMap(light, center - half, vec2(2.0F * half), settings.resolution);
+        begin = sun.blends[i];
+        lastEnd = sun.ends[i];
+    }
+    return sun;
+}
+
+float filterReach(const Aabb& sceneBounds, const ShadowSettings& settings, float sunSlope) {
+    if (sceneBounds.empty()) {
+        return 0.0F;
+    }
+    const float longest = glm::length(sceneBounds.size());
+    switch (settings.filter) {
+        case ShadowFilter::pcss:
+            return longest * sunSlope;
+        case ShadowFilter::pcf:
+            return settings.radius * (settings.radiusUnit == ShadowUnit::metres
+                                          ? 1.0F
+                                          : longest / static_cast<float>(settings.resolution));
+        default:
+            return 0.0F;
+    }
+}
+
+SunShadowParams fitSunShadows(const ViewParams& view, const Aabb& sceneBounds, const vec3& direction,
+                              const ShadowSettings& settings, float reach) {
+    if (settings.extent > 0.0F) {
+        return oneMap(centredSunShadow(sceneBounds, direction, settings.extent, settings.resolution));
+    }
+    if (settings.cascades == 1) {
+        return oneMap(fitSunShadow(view.clipToWorld, sceneBounds, direction, settings.resolution, reach));
+    }
+    return fitCascades(view, sceneBounds, direction, settings, reach);
+}
+
+}  // namespace reflet

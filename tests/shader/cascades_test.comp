@@ -1,0 +1,18 @@
+// cascadeAt for each distance.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "shaders/cascades.glsl"
+#include "cascades_test.h"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { SunShadowParams params; };
+layout(set = 0, binding = 1, scalar) readonly buffer InputBlock { float items[]; } inputs;
+layout(set = 0, binding = 2, scalar) buffer OutputBlock { CascadeAnswer items[]; } outputs;
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i < outputs.items.length()) {
+        Cascade c = cascadeAt(inputs.items[i], params);
+        outputs.items[i] = CascadeAnswer(c.index, c.next);
+    }
+}

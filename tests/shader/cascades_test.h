@@ -1,0 +1,16 @@
+// What cascadeAt answers. Shared by C++ and GLSL.
+#ifndef REFLET_TESTS_CASCADES_TEST_H
+#define REFLET_TESTS_CASCADES_TEST_H
+
+#include "base/shared.h"
+
+SHARED_BEGIN
+
+struct CascadeAnswer {
+    uint index;
+    float next;
+};
+
+SHARED_END
+
+#endif
