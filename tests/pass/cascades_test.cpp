@@ -45,7 +45,7 @@ float insideShadow(const vec3& ground) {
 }
 
 View walkingView(int frame) {
-    const float t = static_cast<float>(frame);
+    const auto t = static_cast<float>(frame);
     View view;
     view.camera.position = {4.0F + 0.05F * t, 2.0F, 40.0F - 0.13F * t};
     const float turn = glm::radians(1.7F * t);
@@ -74,7 +74,7 @@ void countGround(const Pictures& p, const SunShadowParams& sun, Counts& counts) 
                 ++coarsest;
             }
             const float inside = insideShadow(at);
-            // Thick slabs throw wider shadows; and the sun's slant stretches a texel on the ground.
+            // Slabs are a little thick; and the sun's slant stretches a texel on the ground.
             if (std::abs(inside) > 3.0F * sun.maps[coarsest].texelSize / toSun.y + 0.03F) {
                 const float truth = inside > 0.0F ? 0.0F : 1.0F;
                 ++(inside > 0.0F ? counts.dark : counts.lit);
@@ -86,10 +86,8 @@ void countGround(const Pictures& p, const SunShadowParams& sun, Counts& counts) 
 
 TEST(Cascades, NoPointInFullShadowOrFullLightChangesOver60FramesOfATurningWalk) {
     const Scene scene = slabsOverGround();
-    std::vector<View> path;
-    for (int frame = 0; frame < 60; ++frame) {
-        path.push_back(walkingView(frame));
-    }
+    std::vector<View> path(60);
+    std::ranges::generate(path, [frame = 0]() mutable { return walkingView(frame++); });
     for (const char* cascades : {"1", "2", "4"}) {
         const Settings settings = settingsWith(cascades, "512");
         Counts counts;

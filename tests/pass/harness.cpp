@@ -109,6 +109,7 @@ std::vector<Pictures> renderPath(const Scene& scene, const std::vector<View>& pa
                                  const Settings& settings, const std::vector<std::string>& shows) {
     Renderer renderer(testDevice(), scene, [](const std::string&) {});
     std::vector<Pictures> pictures;
+    pictures.reserve(path.size());
     for (const View& view : path) {
         pictures.push_back(renderNext(renderer, {view, size}, settings, shows));
     }
