@@ -7,6 +7,8 @@
 #include "shaders/shadow_texel.glsl"
 
 const float leastFacing = 0.05;    // cosine under which a surface is followed as if it were this
+const float edgeLift = 0.75;        // part of the lift that is left out at edges
+const float bentAway = 2.0;         // metres that a surface may bend away from its plane by for each to the side
 const float outsideTheMap = -1e9;  // clearance
 
 // Where a map lies in the image that several share.
@@ -25,7 +27,7 @@ struct ShadowReceiver {
     float depthRange;   // metres
     ShadowTile tile;
     float lift;         // metres toward the sun under which nothing blocks: curvature, creases and rounding
-    float depthBelow;   // metres under its plane from which on what the map holds is not its surface
+    bool ownPlane;      // its surface is followed along its own plane
 };
 
 bool outsideMap(ivec2 texel, ivec2 size) {
@@ -46,7 +48,7 @@ ShadowReceiver receiverAt(vec3 p, ShadowMapParams map, ShadowTile tile) {
     r.depthRange = map.depthRange;
     r.tile = tile;
     r.lift = 0.0;
-    r.depthBelow = -outsideTheMap;
+    r.ownPlane = false;
     return r;
 }
 
@@ -63,7 +65,7 @@ ShadowReceiver slopeReceiver(vec3 p, vec3 normal, ShadowMapParams map, ShadowTil
     r.slope = -vec2(dot(normal, axisX) / dot(axisX, axisX), dot(normal, axisY) / dot(axisY, axisY)) /
               max(facing, leastFacing);
     r.lift = bias * map.texelSize / max(facing, leastFacing);
-    r.depthBelow = r.lift;
+    r.ownPlane = true;
     return r;
 }
 
@@ -80,54 +82,37 @@ ShadowReceiver constantReceiver(vec3 p, ShadowMapParams map, ShadowTile tile, fl
 ShadowTexel texelAt(ShadowReceiver r, vec2 offset) {
     ivec2 texel = ivec2(floor(r.at + offset * r.texelsPerMetre));
     if (outsideMap(texel, r.tile.size)) {
-        return ShadowTexel(outsideTheMap, outsideTheMap);
+        return ShadowTexel(outsideTheMap, outsideTheMap, !r.ownPlane);
     }
     vec2 toCentre = (2.0 * (vec2(texel) + 0.5) / vec2(r.tile.size) - 1.0) - r.s.xy;
-    float height = (loadShadowDepth(r.tile.origin + texel) - r.s.z) * r.depthRange;
-    return ShadowTexel(height, height - dot(r.slope, toCentre));
+    float depth = loadShadowDepth(r.tile.origin + texel);
+    float height = (depth - r.s.z) * r.depthRange;
+    float clearance = height - dot(r.slope, toCentre);
+    // Depth 0: nothing lies there.
+    return ShadowTexel(height, clearance, !r.ownPlane || (depth > 0.0 && clearance >= -r.lift - bentAway * length(offset)));
 }
 
-// Whether the map holds the receiver's own surface there, or something above it. If not, the texel's centre lies past
-// the surface's edge, and may see the light that goes past a wall which shadows all of it.
-bool knowsSurface(ShadowTexel texel, ShadowReceiver r) { return texel.clearance >= -r.depthBelow; }
-
-// The texel at `offset`; where it does not know the surface, what hides most of the others around that place; where they
-// do not, either, one that lies farther to the side that the surface faces.
-ShadowTexel trustedTexel(ShadowReceiver r, vec2 offset) {
-    ShadowTexel texel = texelAt(r, offset);
-    if (knowsSurface(texel, r)) {
+// The texel that the receiver is in; where it does not know the surface, what hides most of the others around and of one
+// that lies farther to the side that the surface faces. Near its edges a surface casts on itself by less than `lift`.
+ShadowTexel trustedTexel(ShadowReceiver r) {
+    ShadowTexel texel = texelAt(r, vec2(0.0));
+    if (texel.known) {
         return texel;
     }
-    vec2 next = sign(fract(r.at + offset * r.texelsPerMetre) - 0.5) / r.texelsPerMetre;
+    vec2 next = sign(fract(r.at) - 0.5) / r.texelsPerMetre;
     const float aside = 1.5;  // texels
     vec2 others[4] = vec2[](vec2(next.x, 0.0), vec2(0.0, next.y), next, aside * r.aside / r.texelsPerMetre);
-    for (int i = 0; i < 4 && (i < 3 || !knowsSurface(texel, r)); ++i) {
-        ShadowTexel other = texelAt(r, offset + others[i]);
+    for (int i = 0; i < 4; ++i) {
+        ShadowTexel other = texelAt(r, others[i]);
         if (other.clearance > texel.clearance) {
             texel = other;
         }
     }
+    texel.clearance += edgeLift * r.lift;
     return texel;
 }
 
 // 1: lit. A hard edge, exact to the texel.
-float hardVisibility(ShadowReceiver r) { return trustedTexel(r, vec2(0.0)).clearance > r.lift ? 0.0 : 1.0; }
-
-// Four texels around the point, weighted by how near they are: an edge as sharp as the map allows.
-float sharpVisibility(ShadowReceiver r) {
-    vec2 f = fract(r.at - 0.5);
-    vec2 low = -f / r.texelsPerMetre;
-    vec2 high = (1.0 - f) / r.texelsPerMetre;
-    vec2 offsets[4] = vec2[](low, vec2(high.x, low.y), vec2(low.x, high.y), high);
-    vec4 weights = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
-    vec2 sum = vec2(0.0);
-    for (int i = 0; i < 4; ++i) {
-        ShadowTexel texel = texelAt(r, offsets[i]);
-        if (knowsSurface(texel, r)) {
-            sum += weights[i] * vec2(texel.clearance > r.lift ? 0.0 : 1.0, 1.0);
-        }
-    }
-    return sum.y > 0.0 ? sum.x / sum.y : hardVisibility(r);
-}
+float hardVisibility(ShadowReceiver r) { return trustedTexel(r).clearance > r.lift ? 0.0 : 1.0; }
 
 #endif

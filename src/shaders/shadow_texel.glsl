@@ -5,6 +5,8 @@
 struct ShadowTexel {
     float height;     // metres above the receiver's point, toward the light, of what the map holds
     float clearance;  // metres above the receiver's own plane, toward the light; outside the map: far below
+    bool known;       // the map holds the receiver's surface there, or something above it. If not, the texel's centre
+                      // lies past the surface's edge, and may see the light that goes past a wall that shadows all of it
 };
 
 // The directions from a receiver to all of a light's disk.

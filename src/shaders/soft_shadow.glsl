@@ -17,12 +17,34 @@ struct SoftShadow {
 // What is nearer to the receiver's plane than `lift` metres (toward the light) does not block.
 bool blocks(ShadowTexel texel, float lift) { return texel.clearance > lift; }
 
-float pcfVisibility(float radius, float lift, ShadowPattern pattern, uint count) {
-    float lit = 0.0;
+// What look-ups found so far.
+struct LitSum {
+    float lit;       // of all, by weight
+    float all;
+    float knownLit;  // of those that know the surface
+    float known;
+};
+
+void addTexel(inout LitSum sum, bool lit, bool known, float weight) {
+    sum.lit += lit ? weight : 0.0;
+    sum.all += weight;
+    sum.knownLit += lit && known ? weight : 0.0;
+    sum.known += known ? weight : 0.0;
+}
+
+// What is past a surface's edges is lit as long as some of the surface is. Where all that is known is in shadow, light
+// that goes past is that outside of a wall, and must not come in. `otherwise`: where nothing is known.
+float litShare(LitSum sum, float otherwise) {
+    return sum.known <= 0.0 ? otherwise : sum.knownLit <= 0.0 ? 0.0 : sum.lit / sum.all;
+}
+
+float pcfVisibility(float radius, float lift, ShadowPattern pattern, uint count, float otherwise) {
+    LitSum sum = LitSum(0.0, 0.0, 0.0, 0.0);
     for (uint i = 0u; i < count; ++i) {
-        lit += blocks(shadowTexel(radius * nextPoint(pattern)), lift) ? 0.0 : 1.0;
+        ShadowTexel texel = shadowTexel(radius * nextPoint(pattern));
+        addTexel(sum, !blocks(texel, lift), texel.known, 1.0);
     }
-    return lit / float(count);
+    return litShare(sum, otherwise);
 }
 
 // Mean height of what hides a part of the light, as far as the search finds it within `radius`; 0: nothing. Of what
@@ -42,19 +64,20 @@ float meanBlockerHeight(ShadowCone cone, float radius, float least, float lift, 
     return sum.y > 0.0 ? max(sum.x / sum.y, 1e-4) : 0.0;
 }
 
-// Share of the light's disk that what lies in the map leaves free, if all of it is at `height`. A texel well lower
-// than that hides nothing so far from the middle of the disk: it is the receiver's own surroundings.
-float diskVisibility(ShadowCone cone, float height, float least, float lift, ShadowPattern pattern, uint count) {
+// Share of the light's disk that what lies in the map leaves free, if all of it is at `height`. What
+// rises no more steeply than `steep` is the receiver's own surroundings, which face the sun.
+float diskVisibility(ShadowCone cone, float height, float least, float lift, ShadowPattern pattern, uint count,
+                     float otherwise) {
     const float steep = 1.0;
     float radius = max(penumbraRadius(cone, height), least);
-    float lit = 0.0;
+    LitSum sum = LitSum(0.0, 0.0, 0.0, 0.0);
     for (uint i = 0u; i < count; ++i) {
         vec2 point = nextPoint(pattern);
         ShadowTexel texel = shadowTexel(radius * point);
-        bool inDisk = texel.height >= steep * radius * length(point);
-        lit += blocks(texel, lift) && inDisk ? 0.0 : 1.0;
+        bool before = texel.height >= steep * radius * length(point);
+        addTexel(sum, !(blocks(texel, lift) && before), texel.known, 1.0);
     }
-    return lit / float(count);
+    return litShare(sum, otherwise);
 }
 
 #endif

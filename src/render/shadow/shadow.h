@@ -41,7 +41,7 @@ CHOICES(ShadowUnit, SHADOW_UNITS)
     CHOICE(ShadowBias, biasKind, slope,                                                                                \
            "What keeps surfaces from shadowing themselves; slope: they are followed along their own plane to the "     \
            "texel's centre, then `bias`; constant: `constantBias` alone.")                                             \
-    VALUE(float, bias, 0.5, 0.0, 16.0,                                                                                 \
+    VALUE(float, bias, 0.4, 0.0, 16.0,                                                                                 \
           "How far above themselves surfaces ask for shadow, in texels of the map (slope).")                           \
     VALUE(float, constantBias, 0.01, 0.0, 10.0,                                                                        \
           "How much nearer to the sun surfaces are taken to be, in metres (constant).")                                \
@@ -93,7 +93,7 @@ struct ShadowVisibilityParams {
 
 // The range images: levels 1 to below shadowRangeLevels as render/levels.h says, of which a cell of level l spans
 // 4 · 2^l texels of the map.
-const uint shadowRangeLevels = 8;
+const uint shadowRangeLevels = 11;
 const uint shadowRangeTexels = 4;
 
 struct ShadowRangeParams {

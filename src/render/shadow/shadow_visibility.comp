@@ -31,8 +31,23 @@ const float leastFilterRadius = 0.75;  // texels: under it, the four around the 
 const uint shadowStream = 0x5ad0u;   // of the noise
 
 ShadowReceiver receiver;
-ShadowTexel shadowTexel(vec2 offset) { return trustedTexel(receiver, offset); }
+ShadowTexel shadowTexel(vec2 offset) { return texelAt(receiver, offset); }
 #include "shaders/soft_shadow.glsl"
+
+// Four texels around the point, weighted by how near they are: an edge as sharp as the map allows.
+float sharpVisibility() {
+    vec2 f = fract(receiver.at - 0.5);
+    vec2 low = -f / receiver.texelsPerMetre;
+    vec2 high = (1.0 - f) / receiver.texelsPerMetre;
+    vec2 offsets[4] = vec2[](low, vec2(high.x, low.y), vec2(low.x, high.y), high);
+    vec4 weights = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
+    LitSum sum = LitSum(0.0, 0.0, 0.0, 0.0);
+    for (int i = 0; i < 4; ++i) {
+        ShadowTexel texel = shadowTexel(offsets[i]);
+        addTexel(sum, !blocks(texel, receiver.lift), texel.known, weights[i]);
+    }
+    return litShare(sum, hardVisibility(receiver));
+}
 
 // What the visibility image and the penumbra image get.
 struct Result {
@@ -87,7 +102,7 @@ Result pcss(ShadowCone cone, float texelSize, vec4 noise) {
         return Result(0.0, 0.0, 0.0);
     }
     if (radius <= least) {
-        return Result(sharpVisibility(receiver), 0.0, 0.0);
+        return Result(sharpVisibility(), 0.0, 0.0);
     }
     float height = meanBlockerHeight(cone, radius, least, receiver.lift, shadowPattern(s, s.blockerSamples, noise.zw),
                                      s.blockerSamples);
@@ -95,15 +110,17 @@ Result pcss(ShadowCone cone, float texelSize, vec4 noise) {
         return Result(1.0, -2.0 * radius, 0.0);
     }
     float width = 2.0 * max(penumbraRadius(cone, height), least);
-    float visible = diskVisibility(cone, height, least, receiver.lift, shadowPattern(s, s.samples, noise.xy), s.samples);
+    float visible = diskVisibility(cone, height, least, receiver.lift, shadowPattern(s, s.samples, noise.xy), s.samples,
+                                   hardVisibility(receiver));
     return Result(visible, width, height);
 }
 
 Result pcf(float texelSize, vec4 noise) {
     ShadowSettings s = params.settings;
     float radius = s.radius * (s.radiusUnit == ShadowUnit_texels ? texelSize : 1.0);
-    return Result(pcfVisibility(radius, receiver.lift, shadowPattern(s, s.samples, noise.xy), s.samples), 2.0 * radius,
-                  0.0);
+    float lift = receiver.lift * (1.0 + 0.1 * radius / texelSize);  // nothing else tells the receiver's surroundings
+    float visible = pcfVisibility(radius, lift, shadowPattern(s, s.samples, noise.xy), s.samples, hardVisibility(receiver));
+    return Result(visible, 2.0 * radius, 0.0);
 }
 
 // The share of the sun that its surface's own plane leaves free.
