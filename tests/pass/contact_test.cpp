@@ -176,9 +176,15 @@ TEST(Contact, IsOffByDefaultWhateverItsOtherSettingsAre) {
     EXPECT_NE(picture({"contact.distance=0.25"}), plain);
 }
 
+View footOfAColumn(const Scene& colonnade) {
+    View view = defaultView(colonnade);
+    view.camera = *std::ranges::find(colonnade.cameras, "contact", &Camera::name);
+    return view;
+}
+
 TEST(Contact, VisibilityIsTheMapsOrLess) {
     const Scene scene = findBuiltinScene("colonnade")->make();
-    const View view = defaultView(scene);
+    const View view = footOfAColumn(scene);
     const auto visibility = [&](const char* distance) {
         return render(scene, view, size, with({"shadow.resolution=256", distance}), {"sun_visibility"})
             .images.at("sun_visibility")
@@ -191,12 +197,12 @@ TEST(Contact, VisibilityIsTheMapsOrLess) {
         EXPECT_LE(both[i], byMap[i]) << i;
         darker += both[i] < byMap[i] ? 1 : 0;
     }
-    EXPECT_GT(darker, 100U);
+    EXPECT_GT(darker, 20U);
 }
 
 TEST(Contact, BringsACoarseMapNearerToTheTruth) {
     const Scene scene = findBuiltinScene("colonnade")->make();
-    const View view = defaultView(scene);
+    const View view = footOfAColumn(scene);
     const ReferencePicture truth =
         traceReference(scene, view, size, {.bounces = 0, .samples = 64, .filter = PixelFilter::center});
     const auto differs = [&](const char* distance) {
