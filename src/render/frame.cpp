@@ -1,6 +1,7 @@
 // The frame, top to bottom: values in, values out. Start reading here.
 //
-//     G-buffer → sun visibility → direct light → diffuse rays, specular rays → answer chain → composite → tone map
+//     G-buffer → depth pyramid → sun visibility → direct light → diffuse rays, specular rays → answer chain → composite
+//     → tone map
 //
 // renderFrame, at the end, is all of it; its parts stand above it. There is no graph compiler: an `if` in this file is
 // the only culling.
@@ -8,6 +9,7 @@
 
 #include "render/bounce/answer_environment.h"
 #include "render/bounce/trace_screen.h"
+#include "render/contact/contact.h"
 #include "render/gbuffer/back_depth.h"
 #include "render/light_mips/light_mips.h"
 #include "render/pyramid/pyramid.h"
@@ -28,6 +30,9 @@ void drawSurfaces(gpu::Frame& f, const FrameInputs& in, const Settings& settings
         out.backDepth = keptDepth(f, "kept_back_depth", back, in.view, settings.depth);
     }
     out.g.depth = keptDepth(f, "kept_depth", out.g.depth, in.view, settings.depth);
+    if (settings.traceScreen.method == TraceMethod::hiz || settings.contact.distance > 0.0F) {
+        out.pyramid = makePyramid(f, out.g.depth, out.backDepth);
+    }
 }
 
 void lightDirectly(gpu::Frame& f, const FrameInputs& in, const Settings& settings, FrameImages& out) {
@@ -49,6 +54,10 @@ void lightDirectly(gpu::Frame& f, const FrameInputs& in, const Settings& setting
     out.sunVisibility = seen.visibility;
     out.shadowPenumbra = seen.penumbra;
     out.cascadeIndex = seen.cascadeIndex;
+    if (settings.contact.distance > 0.0F && in.sunIrradiance != vec3(0.0F)) {
+        out.sunVisibility =
+            contactShadow(f, out.g, out.pyramid, out.sunVisibility, {in.view, settings.contact, -in.sunDirection});
+    }
     out.direct = directLight(f, out.g, out.sunVisibility, in.ggxTable,
                              {in.view, -in.sunDirection, in.sunIrradiance, in.environment}, in.lamps);
 }
@@ -106,10 +115,8 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
     lightDirectly(f, in, settings, out);
 
     const gpu::History lit = f.history("lit", VK_FORMAT_R16G16B16A16_SFLOAT, out.g.depth.size);
-    ScreenImages screen{.g = out.g, .backDepth = out.backDepth, .light = out.direct, .lit = lit};
-    if (settings.traceScreen.method == TraceMethod::hiz) {
-        screen.pyramid = makePyramid(f, out.g.depth, screen.backDepth);
-    }
+    ScreenImages screen{
+        .g = out.g, .backDepth = out.backDepth, .pyramid = out.pyramid, .light = out.direct, .lit = lit};
     out.diffuse = traceLobe(f, in, settings, screen, lobeDiffuse);
     lightForReflections(f, in, settings, out, screen);
     out.specular = traceLobe(f, in, settings, screen, lobeSpecular);

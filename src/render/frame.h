@@ -27,6 +27,7 @@ struct FrameInputs {
 struct FrameImages {
     GBuffer g;
     gpu::Image backDepth;  ///< none unless trace_screen.thicknessFrom is secondLayer
+    gpu::Image pyramid;    ///< none unless trace_screen.method is hiz or there are contact shadows
     gpu::Image shadowMap;  ///< none without sun or shadows
     gpu::Image sunVisibility;
     gpu::Image shadowPenumbra;  ///< of sunVisibility(); none with hard shadows

@@ -5,6 +5,7 @@
 #include "render/bounce/answer_environment.h"
 #include "render/bounce/rays.h"
 #include "render/bounce/trace_screen.h"
+#include "render/contact/contact.h"
 #include "render/gbuffer/gbuffer.h"
 #include "render/gbuffer/kept_depth.h"
 #include "render/shadow/shadow.h"
@@ -22,6 +23,7 @@ struct Settings {
     MaterialsSettings materials;
     DepthSettings depth;
     ShadowSettings shadow;
+    ContactSettings contact;
     TraceScreenSettings traceScreen;
     EnvironmentSettings environment;
     DiffuseSettings diffuse;

@@ -1,0 +1,68 @@
+// Shadows of what is near, by a march through the depth buffer toward the sun. In: depth and its pyramid, geometric normal,
+// sun visibility by the shadow map. Out: the lesser of that and of what the march finds.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "render/contact/contact.h"
+#include "render/levels.glsl"
+#include "render/pyramid/pyramid.h"
+#include "shaders/octahedral.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ContactParams params; };
+layout(set = 0, binding = 1) uniform sampler2D depth;
+layout(set = 0, binding = 2) uniform usampler2D geometricNormal;
+layout(set = 0, binding = 3) uniform sampler2D pyramid;
+layout(set = 0, binding = 4) uniform sampler2D sunVisibility;
+layout(set = 0, binding = 5, r8) uniform writeonly image2D visibility;
+
+float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
+float loadBackDepth(ivec2 pixel) { return 0.0; }  // casters are as thick as the setting says
+vec2 loadCell(ivec2 cell, int level) {
+    return texelFetch(pyramid, cell + ivec2(0, levelRow(ivec2(params.view.size), level)), 0).rg;
+}
+#include "shaders/march_hiz.glsl"
+
+vec3 normalAt(ivec2 pixel) { return unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r); }
+vec3 positionAt(ivec2 pixel) {
+    return uvToWorld(pixelToUv(pixel, params.view.pixel), loadDepth(pixel), params.view.clipToWorld);
+}
+
+// Whether the plane of what the pixel shows is between p and the end of the search. One depth stands for a pixel's whole
+// width: without this, a wall that the sun shines on would darken the ground at its foot, which it only rises beside.
+bool isBetween(ivec2 pixel, vec3 p) {
+    vec3 n = normalAt(pixel);
+    float t = dot(n, positionAt(pixel) - p) / dot(n, params.toSun);
+    return t > 0.0 && t <= params.settings.distance;
+}
+
+// A ray that is lost behind something thicker, or that leaves the screen, has found nothing.
+bool findsCaster(ivec2 pixel) {
+    vec3 n = normalAt(pixel);
+    if (dot(n, params.toSun) <= 0.0) {
+        return false;  // faces away: it is dark by itself
+    }
+    vec3 p = positionAt(pixel);
+    ContactSettings s = params.settings;
+    MarchView view = MarchView(params.view.worldToClip, params.view.clipToWorld, params.view.viewPlane,
+                               params.view.depthToDistance, params.view.size);
+    MarchRay ray = makeMarchRay(p, params.toSun, planeOnScreen(p, n, params.view.clipToWorld), view);
+    MarchOptions o;  // hierarchical depth reads no others
+    o.longest = s.distance;
+    o.maxSteps = s.maxSteps;
+    o.thickness = s.thickness;
+    o.secondLayer = false;
+    o.levels = int(pyramidLevels);
+    o.firstSteps = 2u;
+    MarchResult hit = marchHiz(ray, o, view);
+    return hit.outcome == marchHit && isBetween(hit.pixel, p);
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, ivec2(params.view.size)))) {
+        return;
+    }
+    float byMap = texelFetch(sunVisibility, pixel, 0).r;
+    bool search = loadDepth(pixel) > 0.0 && byMap > 0.0;
+    imageStore(visibility, pixel, vec4(search && findsCaster(pixel) ? 0.0 : byMap));
+}
