@@ -210,6 +210,57 @@ TEST(Shadow, OfAKnifeEdgeUnderTheSunsDiskIsAsWideAsSimilarTrianglesSay) {
     }
 }
 
+TEST(Shadow, OfAKnifeEdgeUnderALampsDiskIsAsWideAsSimilarTrianglesSay) {
+    constexpr uint32_t width = 512;
+    constexpr float lampHeight = 4.0F;
+    for (const float radius : {0.02F, 0.2F}) {
+        for (const float height : {0.5F, 2.0F, 3.0F}) {
+            Scene scene;
+            add(scene, matt(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 50.0F));
+            const float penumbra = 2.0F * radius * height / (lampHeight - height);
+            View view = darkView({0, 0.4F, 0}, {0, 0, 0});
+            view.camera.orthographicHeight = 2.0F * penumbra * 3.0F / width;
+            Lamp lamp;
+            lamp.type = Lamp::Type::spot;
+            lamp.position = {0, lampHeight, 0};
+            lamp.intensity = vec3(10.0F);
+            lamp.radius = radius;
+            scene.lamps.push_back(lamp);
+            const ReferencePicture open = traceReference(scene, view, {width, 3}, lambert(0, 16));
+            Material blade = matt(vec3(0.5F));
+            blade.doubleSided = true;
+            add(scene, blade, square({20, height, 0}, {0, 1, 0}, 20.0F));  // its edge is at x = 0
+            const ReferencePicture p = traceReference(scene, view, {width, 3}, lambert(0, 256));
+            // As under the sun, but that the disk faces each point.
+            for (uint32_t x = 0; x < width; ++x) {
+                const double at = ((x + 0.5) / width - 0.5) * 2.0 * penumbra;
+                const double distance = std::hypot(at, double(lampHeight));
+                const double edge = at * (lampHeight - height) / height;  // at the lamp's height, from its centre
+                const double c = std::clamp(edge * lampHeight / (distance * radius), -1.0, 1.0);
+                const double expected = (std::acos(c) - c * std::sqrt(1.0 - c * c)) / pi;
+                ASSERT_NEAR(pixel(p.direct, x, 1) / pixel(open.direct, x, 1), expected, 0.02)
+                    << radius << ", " << height << ", " << x;
+            }
+        }
+    }
+}
+
+TEST(Shadow, IsCastByNothingNearerToALampThanItsRadius) {
+    Scene scene;
+    add(scene, matt(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 20.0F));
+    Lamp lamp;
+    lamp.position = {0, 2, 0};
+    lamp.intensity = vec3(10.0F);
+    lamp.radius = 0.1F;
+    scene.lamps.push_back(lamp);
+    const float open = mean(traceReference(scene, pointView(), {4, 4}, lambert(0, 64)).direct).x;
+    ASSERT_GT(open, 0.1F);
+    add(scene, matt(vec3(0.5F)), builtin::sphere(0.098F, 32), builtin::at(lamp.position));
+    EXPECT_NEAR(mean(traceReference(scene, pointView(), {4, 4}, lambert(0, 64)).direct).x, open, 1e-4F * open);
+    scene.lamps.front().radius = 0.05F;
+    EXPECT_EQ(mean(traceReference(scene, pointView(), {4, 4}, lambert(0, 64)).direct).x, 0.0F);
+}
+
 TEST(GgxAlbedo, EqualsAnIndependentQuadratureAndNeverExceedsOne) {
     for (const float roughness : {0.1F, 0.2F, 0.4F, 0.6F, 0.8F, 1.0F}) {
         for (const float cosine : {0.1F, 0.3F, 0.55F, 0.8F, 1.0F}) {
