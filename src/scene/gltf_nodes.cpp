@@ -77,19 +77,6 @@ Camera placeCamera(const tinygltf::Camera& source, const mat4& toWorld, const st
     return camera;
 }
 
-// No property of KHR_lights_punctual, but what Lamp::radius is, where a file gives it.
-float lampRadius(const tinygltf::Light& source, const std::string& part, const GltfReport& report) {
-    if (!source.extras.IsObject() || !source.extras.Has("radius")) {
-        return 0.0F;
-    }
-    const tinygltf::Value& radius = source.extras.Get("radius");
-    const auto metres = static_cast<float>(radius.IsNumber() ? radius.GetNumberAsDouble() : -1.0);
-    if (!(metres >= 0.0F) || !std::isfinite(metres)) {
-        report.fail(part + ".extras.radius", "is no number of metres, 0 or more, that a float holds");
-    }
-    return metres;
-}
-
 Lamp placeLamp(const tinygltf::Light& source, const mat4& toWorld, const std::string& part, const GltfReport& report) {
     Lamp lamp;
     lamp.name = source.name;
@@ -112,7 +99,9 @@ Lamp placeLamp(const tinygltf::Light& source, const mat4& toWorld, const std::st
                         source.spot.innerConeAngle, source.spot.outerConeAngle);
         }
     }
-    lamp.radius = lampRadius(source, part, report);
+    if (source.extras.Has("radius")) {
+        lamp.radius = static_cast<float>(source.extras.Get("radius").GetNumberAsDouble());
+    }
     return lamp;
 }
 
