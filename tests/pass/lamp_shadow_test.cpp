@@ -1,7 +1,8 @@
-// Shadows of point and spot lamps: where their edges lie, that nothing shadows itself, who casts them.
-#include "pass/harness.h"
+// Shadows of point and spot lamps: where their edges lie, who casts them.
+#include "pass/lamp_room.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace reflet::test {
@@ -9,88 +10,6 @@ namespace {
 
 constexpr uvec2 size(160, 90);
 const std::vector<std::string> direct{"diffuse.rays=0", "specular.rays=0", "shadow.filter=hard"};
-constexpr float roomHalf = 3.0F;
-
-Material bothSides() {
-    Material material = lambertMaterial(vec3(0.5F));
-    material.doubleSided = true;
-    return material;
-}
-
-Lamp lampAt(Lamp::Type type, const vec3& position, const vec3& direction = {0, -1, 0}) {
-    Lamp lamp;
-    lamp.type = type;
-    lamp.position = position;
-    lamp.direction = glm::normalize(direction);
-    lamp.intensity = vec3(10.0F);
-    return lamp;
-}
-
-// Whether the way from p to the lamp meets a box.
-bool meets(const Aabb& box, const vec3& p, const vec3& lamp) {
-    float from = 0.0F;
-    float to = 1.0F;
-    for (int axis = 0; axis < 3; ++axis) {
-        const float way = lamp[axis] - p[axis];
-        const float a = (box.min[axis] - p[axis]) / way;
-        const float b = (box.max[axis] - p[axis]) / way;
-        from = std::max(from, std::min(a, b));
-        to = std::min(to, std::max(a, b));
-    }
-    return from < to;
-}
-
-Aabb boxAround(const vec3& center, const vec3& half) {
-    return {center - half, center + half};
-}
-
-// A room of walls without thickness, and boxes in it.
-struct Room {
-    Scene scene = sceneOf(bothSides(), builtin::box(vec3(roomHalf)));
-    std::vector<Aabb> boxes;
-
-    void add(const Aabb& box) {
-        boxes.push_back(box);
-        builtin::place(scene, "box", 0, builtin::box(0.5F * box.size()), builtin::at(box.center()));
-    }
-};
-
-// Views from one corner and from the opposite one: together they show all walls.
-std::vector<View> viewsOfRoom() {
-    std::vector<View> views(2);
-    for (size_t i = 0; i < views.size(); ++i) {
-        const float sign = i == 0 ? 1.0F : -1.0F;
-        views[i].camera.position = vec3(sign * 0.95F * roomHalf);
-        views[i].camera.target = vec3(0.0F);
-        views[i].camera.fovY = glm::radians(95.0F);
-    }
-    return views;
-}
-
-// Metres from a point on a wall to the next wall.
-float distanceToCrease(const vec3& p) {
-    std::array<float, 3> toWalls{};
-    for (int axis = 0; axis < 3; ++axis) {
-        toWalls[static_cast<size_t>(axis)] = std::abs(roomHalf - std::abs(p[axis]));
-    }
-    std::ranges::sort(toWalls);
-    return toWalls[1];
-}
-
-// Not on a box, and in no crease.
-bool onOneWall(const vec3& p) {
-    return std::abs(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) - roomHalf) < 1e-3F &&
-           distanceToCrease(p) > 0.06F;
-}
-
-size_t wallOf(const vec3& p) {
-    for (int axis = 0; axis < 2; ++axis) {
-        if (std::abs(p[axis]) > roomHalf - 0.01F) {
-            return 2U * static_cast<size_t>(axis) + (p[axis] < 0.0F ? 1U : 0U);
-        }
-    }
-    return p.z < 0.0F ? 5U : 4U;
-}
 
 struct Counts {
     unsigned dark = 0;
@@ -207,128 +126,6 @@ TEST(LampShadow, OfAWideSpotIsThatOfAPointLamp) {
                 if (wide.position(x, y).y < lamp.position.y - 0.2F) {  // in the cone
                     EXPECT_EQ(wide.value("lamp_visibility", x, y), point.value("lamp_visibility", x, y));
                 }
-            }
-        }
-    }
-}
-
-TEST(LampShadow, WallsAroundAPointLampAreLitWithoutSeamsWhereverItHangs) {
-    for (const vec3& lamp : {vec3(0.0F), vec3(0.5F, 1.1F, -0.3F), vec3(2.9F, 0.1F, 0.2F), vec3(-2.8F, -2.8F, -2.8F)}) {
-        Room room;
-        room.scene.lamps.push_back(lampAt(Lamp::Type::point, lamp));
-        for (const unsigned resolution : {64U, 512U}) {
-            auto settings = direct;
-            settings.emplace_back("shadow.lampResolution=" + std::to_string(resolution));
-            for (const View& view : viewsOfRoom()) {
-                const Pictures p = render(room.scene, view, size, settingsOf(settings), {"lamp_visibility", "depth"});
-                unsigned dark = 0;
-                for (unsigned y = 0; y < size.y; ++y) {
-                    for (unsigned x = 0; x < size.x; ++x) {
-                        const vec3 at = p.position(x, y);
-                        // Creases are known to six texels.
-                        const float crease = 12.0F / static_cast<float>(resolution) * glm::distance(at, lamp);
-                        dark += distanceToCrease(at) > crease && p.value("lamp_visibility", x, y) < 1.0F ? 1U : 0U;
-                    }
-                }
-                EXPECT_EQ(dark, 0U) << resolution << ", lamp at " << lamp.x << ", " << lamp.y << ", " << lamp.z;
-            }
-        }
-    }
-}
-
-TEST(LampShadow, AClosedBoxIsBlackInsideToATexelFromItsCreases) {
-    for (const Lamp::Type type : {Lamp::Type::point, Lamp::Type::spot}) {
-        for (const vec3& lamp : {vec3(0, 5, 0), vec3(4, 4, 4), vec3(0.3F, 0.2F, 3.2F), vec3(3.1F, 3.1F, 0)}) {
-            Room room;
-            room.scene.lamps.push_back(lampAt(type, lamp, -lamp));
-            for (const unsigned resolution : {64U, 512U, 2048U}) {
-                auto settings = direct;
-                settings.emplace_back("shadow.lampResolution=" + std::to_string(resolution));
-                for (const View& view : viewsOfRoom()) {
-                    const Pictures p = render(room.scene, view, size, settingsOf(settings), {"direct", "depth"});
-                    for (unsigned y = 0; y < size.y; ++y) {
-                        for (unsigned x = 0; x < size.x; ++x) {
-                            const vec3 at = p.position(x, y);
-                            const float texel = 2.0F / static_cast<float>(resolution) * glm::distance(at, lamp);
-                            if (distanceToCrease(at) > texel) {
-                                EXPECT_EQ(p.value("direct", x, y), 0.0F) << at.x << ", " << at.y << ", " << at.z;
-                            }
-                        }
-                    }
-                }
-            }
-        }
-    }
-}
-
-// Where a rising profile first reaches `level`, in columns.
-double crossing(const std::vector<double>& profile, double level) {
-    for (size_t x = 1; x < profile.size(); ++x) {
-        if (profile[x] >= level) {
-            const double before = profile[x - 1];
-            return static_cast<double>(x) - (profile[x] - level) / std::max(profile[x] - before, 1e-9);
-        }
-    }
-    return static_cast<double>(profile.size());
-}
-
-TEST(LampShadow, OfAKnifeEdgeUnderALampsDiskIsAsWideAsSimilarTrianglesSayWithinATenth) {
-    constexpr float lampHeight = 4.0F;
-    int recorded = 0;
-    constexpr double tenPercent = 0.6870;  // radii from its middle, a straight edge leaves a tenth of a disk open
-    for (const Lamp::Type type : {Lamp::Type::spot, Lamp::Type::point}) {
-        for (const auto& [radius, height] : {std::pair(0.2F, 0.5F), {0.2F, 2.0F}, {0.1F, 1.0F}, {0.1F, 3.0F}}) {
-            Scene scene = sceneOf(bothSides(), builtin::ground({10, 10}, {1, 1}, {1, 1}));
-            // Its edge is at x = 0, which light passes on the side of positive x.
-            builtin::place(scene, "blade", 0, builtin::ground({3, 3}, {1, 1}, {1, 1}), builtin::at({-3, height, 0}));
-            scene.lamps.push_back(lampAt(type, {0, lampHeight, 0}));
-            View view;
-            view.lampRadius = radius;
-            const float penumbra = 2.0F * radius * height / (lampHeight - height);
-            view.camera.position = {0, 0.4F, 0};
-            view.camera.target = {0, 0, 0};
-            view.camera.up = {0, 0, -1};
-            view.camera.orthographicHeight = 2.0F * penumbra * static_cast<float>(size.y) / static_cast<float>(size.x);
-            const Pictures p = renderMean(
-                scene, view, size, settingsOf({"diffuse.rays=0", "specular.rays=0", "shadow.lampResolution=1024"}),
-                {"lamp_visibility"}, 4);
-            std::vector<double> profile(size.x);
-            for (unsigned x = 0; x < size.x; ++x) {
-                for (unsigned y = 0; y < size.y; ++y) {
-                    profile[x] += p.value("lamp_visibility", x, y) / size.y;
-                }
-            }
-            const double width = (crossing(profile, 0.9) - crossing(profile, 0.1)) * 2.0 * penumbra / size.x;
-            EXPECT_NEAR(width, tenPercent * penumbra, 0.1 * tenPercent * penumbra) << radius << ", " << height;
-            EXPECT_NEAR(crossing(profile, 0.5) / size.x, 0.5, 0.03) << "its middle: " << radius << ", " << height;
-            RecordProperty("width_over_truth_" + std::to_string(recorded++), std::to_string(width / (tenPercent * penumbra)));
-        }
-    }
-}
-
-TEST(LampShadow, OfALampsDiskLeavesWallsLitAndAClosedBoxBlackInEveryFilter) {
-    for (const char* filter : {"shadow.filter=pcf", "shadow.filter=pcss"}) {
-        for (const float radius : {0.0F, 0.1F}) {
-            for (const vec3& lamp : {vec3(0.5F, 1.1F, -0.3F), vec3(0.4F, 5, 0.1F)}) {
-                Room room;
-                room.scene.lamps.push_back(lampAt(Lamp::Type::point, lamp));
-                const bool inside = lamp.y < roomHalf;
-                unsigned wrong = 0;
-                for (View view : viewsOfRoom()) {
-                    view.lampRadius = radius;
-                    const Pictures p =
-                        render(room.scene, view, size, settingsOf({"diffuse.rays=0", "specular.rays=0", filter}),
-                               {"lamp_visibility", "depth"});
-                    for (unsigned y = 0; y < size.y; ++y) {
-                        for (unsigned x = 0; x < size.x; ++x) {
-                            const vec3 at = p.position(x, y);
-                            if (distanceToCrease(at) > 0.13F) {
-                                wrong += p.value("lamp_visibility", x, y) == (inside ? 1.0F : 0.0F) ? 0U : 1U;
-                            }
-                        }
-                    }
-                }
-                EXPECT_EQ(wrong, 0U) << filter << ", radius " << radius << ", lamp at y = " << lamp.y;
             }
         }
     }
