@@ -156,6 +156,10 @@ const std::vector<Show>& table() {
          "depth as the sun sees it, 1 nearest to the sun, 0 nothing; of the map's own size, cascades in rows of two",
          [](const FrameImages& i) { return i.shadowMap ? Images{i.shadowMap} : Images{i.sunVisibility}; }, first, y,
          mapDepth},
+        {"lamp_visibility",
+         "0 in a lamp's shadow or out of its light, 1 lit: R, G, B the three strongest lamps that cast shadows; "
+         "only where lamps cast shadows",
+         [](const FrameImages& i) { return Images{i.lampVisibility}; }, color, rgb, asIs},
         {"depth", "metres in front of the camera, 0 where there is nothing; PNG bright is near",
          [](const FrameImages& i) { return Images{i.g.depth}; }, viewDistance, y, near},
         {"back_depth",

@@ -69,6 +69,9 @@ Lights::Lights(const RayScene& rays, const View& view)
       sunSine_(std::sin(0.5F * view.sun.angularDiameter)),
       lamps_(rays.scene().lamps),
       environment_(view.environment) {
+    for (Lamp& lamp : lamps_) {
+        lamp.radius = view.lampRadius.value_or(lamp.radius);
+    }
     collectTriangles();
     prepareEnvironment();
 }
@@ -104,7 +107,7 @@ LightSample Lights::drawSun(const vec2& u) const {
     return s;
 }
 
-LightSample Lights::drawLamp(const SurfacePoint& point, float u) const {
+LightSample Lights::drawLamp(const SurfacePoint& point, float choice, const vec2& u) const {
     const auto strength = [&](const LightSample& s) {
         return glm::dot(s.toLight, point.geometricNormal) > 0.0F ? luminance(s.light) : 0.0F;
     };
@@ -112,20 +115,25 @@ LightSample Lights::drawLamp(const SurfacePoint& point, float u) const {
     for (const Lamp& lamp : lamps_) {
         total += strength(lampAt(lamp, point.position));
     }
-    float left = u * total;
+    float left = choice * total;
     LightSample chosen;
+    float radius = 0.0F;
     for (const Lamp& lamp : lamps_) {
         const LightSample s = lampAt(lamp, point.position);
         const float mine = strength(s);
         if (mine > 0.0F) {
             chosen = s;
             chosen.light *= total / mine;
+            radius = lamp.radius;
             if (left < mine) {
                 break;
             }
         }
         left -= mine;
     }
+    const float r = radius * std::sqrt(u.x);
+    chosen.aside = frameAround(chosen.toLight) * vec3(r * std::cos(2.0F * pi * u.y), r * std::sin(2.0F * pi * u.y), 0);
+    chosen.clearance = lampClearance(radius);
     return chosen;
 }
 

@@ -14,6 +14,9 @@ struct LightSample {
         0.0F};  ///< radiance / pdf; of the sun and of lamps irradiance / chance: times BRDF · cosine is reflected
     float pdf = 0.0F;  ///< per solid angle; 0 for what scattered rays do not meet (sun, lamps)
     Hit hit;           ///< of a glowing surface
+    /// Of lamps: from the centre to the place of the disk that shadow rays go to, across the way to the centre [m].
+    vec3 aside{0.0F};
+    float clearance = 0.0F;  ///< what is nearer to the lamp's centre casts no shadow [m]
     bool onSurface = false;
 };
 
@@ -46,8 +49,9 @@ public:
     /// A place on the sun's disk. Irradiance is that of a surface that faces the drawn place, such that one that faces
     /// the sun's centre gets the sun's irradiance from the whole disk.
     [[nodiscard]] LightSample drawSun(const vec2& u) const;
-    /// One of the lamps, with a chance in proportion to the light that it sends to the point.
-    [[nodiscard]] LightSample drawLamp(const SurfacePoint& point, float u) const;
+    /// One of the lamps, with a chance in proportion to the light that it sends to the point, and a place on its disk:
+    /// light and direction are those of the centre.
+    [[nodiscard]] LightSample drawLamp(const SurfacePoint& point, float choice, const vec2& u) const;
     /// A place on a glowing surface or in the environment's image; light 0 where nothing of it arrives.
     [[nodiscard]] LightSample drawEmitter(const SurfacePoint& point, float choice, const vec2& u) const;
 
@@ -65,8 +69,8 @@ private:
     const RayScene& rays_;
     mat3 sunFrame_{1.0F};  ///< the last column points to the sun's centre
     vec3 sunIrradiance_;
-    float sunSine_;  ///< of half its angular diameter
-    const std::vector<Lamp>& lamps_;
+    float sunSine_;            ///< of half its angular diameter
+    std::vector<Lamp> lamps_;  ///< with the radius that the view gives them
     Environment environment_;
 
     struct GlowingTriangle {

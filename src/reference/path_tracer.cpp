@@ -10,13 +10,25 @@ namespace {
 constexpr uint32_t rouletteStart = 4;  // bounces that every path may take
 
 // Pairs of random numbers: one for the place in the pixel, then these for each surface.
-enum Purpose : uint32_t { forSun, forLampAndLobe, forEmitter, forEmitterChoice, forScattering, purposes };
+enum Purpose : uint32_t { forSun, forLampAndLobe, forEmitter, forEmitterChoice, forScattering, forLampDisk, purposes };
 
 uint32_t pairFor(uint32_t vertex, Purpose purpose) {
     return 1 + vertex * purposes + purpose;
 }
 
 }  // namespace
+
+// A shadow ray to a place on a lamp's disk, which ends where the lamp's clearance begins. Its direction is as long as
+// the way to that place.
+Ray rayToLamp(const vec3& origin, const vec3& center, const LightSample& lamp) {
+    Ray ray{origin, center + lamp.aside - origin};
+    const float length = glm::length(ray.direction);
+    const float square = glm::dot(lamp.aside, lamp.aside);
+    const float inward = square / length;  // from the ray's point nearest to the centre to its end
+    const float rest = inward * inward + lamp.clearance * lamp.clearance - square;
+    ray.far = 1.0F - (inward + std::sqrt(std::max(rest, 0.0F))) / length;
+    return ray;
+}
 
 // A path on its way: where it is, and what share of light from here reaches the camera through each lobe of the first
 // surface.
@@ -76,10 +88,10 @@ bool PathTracer::lit(const SurfacePoint& point, const LightSample& light, PathSa
         const vec3 place = point.position + light.toLight * light.distance;
         ray.direction = place - origin;
         ray.far = 1.0F - 1e-4F;
-    } else if (light.distance < ray.far) {
-        ray.far = light.distance;
+    } else if (std::isfinite(light.distance)) {
+        ray = rayToLamp(origin, point.position + light.toLight * light.distance, light);
     }
-    return !rays_.occluded(ray, RayKind::light);
+    return ray.far <= 0.0F || !rays_.occluded(ray, RayKind::light);
 }
 
 // Sun and lamps, which no scattered ray can meet.
@@ -98,7 +110,7 @@ void PathTracer::addLamps(Walk& walk, const Bsdf& bsdf) const {
         }
     }
     if (lights_.hasLamps()) {
-        const LightSample lamp = lights_.drawLamp(walk.point, walk.pair(forLampAndLobe).x);
+        const LightSample lamp = lights_.drawLamp(walk.point, walk.pair(forLampAndLobe).x, walk.pair(forLampDisk));
         const vec3 reflected = bsdf.reflectLamp(lamp.toLight).sum() * lamp.light;
         if (reflected != vec3(0.0F) && (!options_.lampShadows || lit(walk.point, lamp, walk.out))) {
             sum += reflected;

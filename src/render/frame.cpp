@@ -1,7 +1,7 @@
 // The frame, top to bottom: values in, values out. Start reading here.
 //
-//     G-buffer → depth pyramid → sun visibility → direct light → diffuse rays, specular rays → answer chain → composite
-//     → tone map
+//     G-buffer → depth pyramid → sun and lamp visibility → direct light → diffuse rays, specular rays → answer chain
+//     → composite → tone map
 //
 // renderFrame, at the end, is all of it; its parts stand above it. There is no graph compiler: an `if` in this file is
 // the only culling.
@@ -58,7 +58,12 @@ void lightDirectly(gpu::Frame& f, const FrameInputs& in, const Settings& setting
         out.sunVisibility =
             contactShadow(f, out.g, out.pyramid, out.sunVisibility, {in.view, settings.contact, -in.sunDirection});
     }
-    out.direct = directLight(f, out.g, out.sunVisibility, in.ggxTable,
+    if (in.lampShadows.count > 0) {
+        out.lampShadowMap = drawLampShadowMap(f, in.draws, in.lampShadows);
+        out.lampVisibility =
+            lampVisibility(f, out.g, {out.lampShadowMap, {}, in.blueNoise}, in.lampShadows, {in.view, settings.shadow});
+    }
+    out.direct = directLight(f, out.g, {out.sunVisibility, out.lampVisibility}, in.ggxTable,
                              {in.view, -in.sunDirection, in.sunIrradiance, in.environment}, in.lamps);
 }
 

@@ -8,6 +8,7 @@
 #include "render/draw_list.h"
 #include "render/gbuffer/gbuffer.h"
 #include "render/settings.h"
+#include "render/shadow/lamp_shadow.h"
 
 namespace reflet {
 
@@ -19,8 +20,9 @@ struct FrameInputs {
     float sunAngularDiameter = 0.0F;  ///< radians
     vec3 environment{0.0F};           ///< radiance from all directions [W/(m² sr)]
     const LampBlock& lamps;
-    gpu::Image ggxTable;        ///< of makeGgxTable
-    gpu::BufferView blueNoise;  ///< of blueNoise()
+    const LampShadows& lampShadows;  ///< of planLampShadows
+    gpu::Image ggxTable;             ///< of makeGgxTable
+    gpu::BufferView blueNoise;       ///< of blueNoise()
 };
 
 /// Every image of the frame; formats where the effects declare them.
@@ -32,6 +34,8 @@ struct FrameImages {
     gpu::Image sunVisibility;
     gpu::Image shadowPenumbra;  ///< of sunVisibility(); none with hard shadows
     gpu::Image cascadeIndex;    ///< of sunVisibility(); none with one cascade
+    gpu::Image lampShadowMap;   ///< none where no lamp casts a shadow
+    gpu::Image lampVisibility;  ///< alike
     gpu::Image direct;
     LobeLight diffuse;
     LobeLight specular;

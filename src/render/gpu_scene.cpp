@@ -102,6 +102,9 @@ LampParams lampParams(const Lamp& lamp) {
     const float outer = std::cos(lamp.outerAngle);
     p.spotScale = 1.0F / std::max(inner - outer, 1e-4F);
     p.spotOffset = -outer * p.spotScale;
+    p.cosOuter = outer;
+    p.radius = lamp.radius;
+    p.shadow = noLampShadow;
     return p;
 }
 

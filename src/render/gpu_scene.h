@@ -3,8 +3,8 @@
 
 #include "gpu/device.h"
 #include "gpu/resource.h"
-#include "render/direct/direct.h"
 #include "render/draw_list.h"
+#include "render/lamps.h"
 #include "render/material.h"
 #include "scene/scene.h"
 

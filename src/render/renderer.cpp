@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "noise/blue_noise.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace reflet {
@@ -45,7 +46,21 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const std::function<
       scene_(device, scene, warn),
       ggxTable_(makeGgxTable(frame_)),
       blueNoise_(
-          gpu::uploadBuffer(device, std::as_bytes(blueNoise()), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "blue_noise")) {}
+          gpu::uploadBuffer(device, std::as_bytes(blueNoise()), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "blue_noise")),
+      warn_(warn) {}
+
+LampShadows Renderer::planLamps(LampBlock& lamps, const View& view, const ShadowSettings& settings) {
+    for (uint32_t i = 0; i < lamps.count; ++i) {
+        lamps.lamps[i].radius = view.lampRadius.value_or(lamps.lamps[i].radius);
+    }
+    // Images larger than that are more memory (1 GiB) than shadows of lamps are worth.
+    const uint32_t largestSide = std::min(frame_.device().limits().maxImageDimension2D, 16384U);
+    return planLampShadows(lamps, settings, largestSide, [&](const std::string& text) {
+        if (warned_.insert(text).second) {
+            warn_(text);
+        }
+    });
+}
 
 FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const Settings& settings,
                              const std::function<void(gpu::Frame&, const FrameImages&)>& after) {
@@ -53,6 +68,8 @@ FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const 
     ViewParams params = makeViewParams(view.camera, size, frameNumber_++, seed);
     params.previousWorldToClip = previousWorldToClip_.value_or(params.worldToClip);
     previousWorldToClip_ = params.worldToClip;
+    LampBlock lamps = scene_.lamps();
+    const LampShadows lampShadows = planLamps(lamps, view, settings.shadow);
     scene_.setAnisotropy(settings.materials.anisotropy);
     frame_.begin();
     const FrameImages images = renderFrame(frame_,
@@ -62,7 +79,8 @@ FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const 
                                             .sunIrradiance = view.sun.irradiance,
                                             .sunAngularDiameter = view.sun.angularDiameter,
                                             .environment = view.environment.radiance,
-                                            .lamps = scene_.lamps(),
+                                            .lamps = lamps,
+                                            .lampShadows = lampShadows,
                                             .ggxTable = ggxTable_.image(),
                                             .blueNoise = blueNoise_.view()},
                                            settings);

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace reflet {
@@ -27,10 +28,15 @@ public:
     [[nodiscard]] const gpu::Frame& frame() const { return frame_; }
 
 private:
+    /// Radii that the view gives; who casts a shadow. Warns, but only once of the same.
+    LampShadows planLamps(LampBlock& lamps, const View& view, const ShadowSettings& settings);
+
     gpu::Frame frame_;
     GpuScene scene_;
     gpu::Texture ggxTable_;
     gpu::Buffer blueNoise_;
+    std::function<void(const std::string&)> warn_;
+    std::set<std::string> warned_;
     std::optional<mat4> previousWorldToClip_;
     uint32_t frameNumber_ = 0;
 };

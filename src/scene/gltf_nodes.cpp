@@ -99,6 +99,9 @@ Lamp placeLamp(const tinygltf::Light& source, const mat4& toWorld, const std::st
                         source.spot.innerConeAngle, source.spot.outerConeAngle);
         }
     }
+    if (source.extras.Has("radius")) {
+        lamp.radius = static_cast<float>(source.extras.Get("radius").GetNumberAsDouble());
+    }
     return lamp;
 }
 

@@ -59,6 +59,9 @@ public:
         for (const Field& field : fields) {
             const auto found = value.find(field.name);
             const Place inner{.parent = place, .name = field.name};
+            if (found != value.end() && field.anyType && !found->is_object()) {
+                continue;
+            }
             if (found != value.end()) {
                 result[field.name] = property(*found, field, inner);
             } else if (field.required) {

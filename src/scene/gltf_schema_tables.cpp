@@ -188,6 +188,9 @@ constexpr std::array spot{
     Field{.name = "innerConeAngle", .min = 0, .max = halfPi},
     Field{.name = "outerConeAngle", .min = 0, .max = halfPi},
 };
+constexpr std::array lightExtras{
+    Field{.name = "radius", .min = 0},  // of ours: Lamp::radius
+};
 constexpr std::array light{
     Field{.name = "name", .type = Type::text},
     Field{.name = "color", .array = true, .items = 3, .min = 0},
@@ -195,6 +198,7 @@ constexpr std::array light{
     Field{.name = "type", .type = Type::text, .required = true, .words = lightTypes},
     Field{.name = "range", .min = 1e-6},
     Field{.name = "spot", .type = Type::object, .fields = spot},
+    Field{.name = "extras", .type = Type::object, .fields = lightExtras, .anyType = true},
 };
 constexpr std::array lights{
     Field{.name = "lights", .type = Type::object, .required = true, .array = true, .fields = light},

@@ -26,6 +26,7 @@ struct Field {
     std::span<const std::string_view> words{};  ///< text: the only ones; empty: any
     std::span<const uint64_t> numbers{};        ///< integer: the only ones; empty: any
     std::span<const Field> fields{};            ///< object
+    bool anyType = false;                       ///< may be of any type; what is no object is left out
 };
 
 /// The document itself.

@@ -82,6 +82,10 @@ Aabb Scene::bounds() const {
     return result;
 }
 
+float lampClearance(float radius) {
+    return std::max(radius, 1e-3F);
+}
+
 View defaultView(const Scene& scene) {
     View view;
     view.camera = scene.cameras.empty() ? framingCamera(scene.bounds()) : scene.cameras.front();

@@ -121,7 +121,13 @@ struct Lamp {
     float range = 0.0F;                           ///< metres; 0: without end
     float innerAngle = 0.0F;                      ///< spot: from the axis, full strength inside
     float outerAngle = glm::quarter_pi<float>();  ///< spot: from the axis, dark outside
+    /// Metres; of a disk that faces whoever looks at it. It softens the lamp's shadow, and nothing else: the light is
+    /// that of a point, as KHR_lights_punctual has it. 0: a point. Directional lamps have none.
+    float radius = 0.0F;
 };
+
+/// Metres round a lamp in which nothing casts its shadow: its own glass, or what rounding makes of the lamp's place.
+float lampClearance(float radius);
 
 /// What rays meet that meet nothing else. scene/environment.h says which direction is where in the image.
 struct Environment {
@@ -153,7 +159,8 @@ struct View {
     Camera camera;
     Sun sun;
     Environment environment;
-    bool sunStandsIn = false;  ///< the scene has no light; the sun is there so that something is seen
+    std::optional<float> lampRadius;  ///< of all lamps [m], in the place of their own
+    bool sunStandsIn = false;         ///< the scene has no light; the sun is there so that something is seen
 };
 
 /// The scene's first camera, its sun and its environment; where it has none, a camera that frames the whole scene

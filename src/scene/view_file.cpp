@@ -1,4 +1,4 @@
-// View files: camera, sun and environment as JSON, checked before anything of the view is changed.
+// View files: camera, sun, lamps and environment as JSON, checked before anything of the view is changed.
 #include "scene/view_file.h"
 
 #include "base/error.h"
@@ -92,6 +92,15 @@ Sun readSun(const JsonNode& node, Sun sun) {
     return sun;
 }
 
+std::optional<float> readLampRadius(const JsonNode& node, std::optional<float> radius) {
+    static const std::array<std::string, 1> keys{"radius"};
+    node.requireKeys(keys);
+    if (const auto given = node.find("radius")) {
+        radius = static_cast<float>(given->number(0.0, 1000.0, "metres"));
+    }
+    return radius;
+}
+
 /// An image with its intensity and rotation, in the place of the whole old environment.
 Environment readImage(const JsonNode& node, const JsonNode& imageNode, const std::filesystem::path& folder) {
     if (const auto radiance = node.find("radiance")) {
@@ -138,7 +147,7 @@ Environment readEnvironment(const JsonNode& node, const Environment& environment
 }  // namespace
 
 void applyViewFile(const std::filesystem::path& path, View& view) {
-    static const std::array<std::string, 3> keys{"camera", "sun", "environment"};
+    static const std::array<std::string, 4> keys{"camera", "sun", "lamps", "environment"};
     const nlohmann::json file = parseJsonFile(path);
     const JsonNode root(file, path);
     root.requireKeys(keys);
@@ -149,6 +158,9 @@ void applyViewFile(const std::filesystem::path& path, View& view) {
     if (const auto sun = root.find("sun")) {
         changed.sun = readSun(*sun, view.sun);
         changed.sunStandsIn = false;
+    }
+    if (const auto lamps = root.find("lamps")) {
+        changed.lampRadius = readLampRadius(*lamps, view.lampRadius);
     }
     if (const auto environment = root.find("environment")) {
         changed.environment = readEnvironment(*environment, view.environment, path.parent_path());

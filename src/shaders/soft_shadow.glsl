@@ -17,6 +17,12 @@ struct SoftShadow {
 // What is nearer to the receiver's plane than `lift` metres (toward the light) does not block.
 bool blocks(ShadowTexel texel, float lift) { return texel.clearance > lift; }
 
+// Share of the light's disk above the plane of a surface that faces its middle with cosine `facing`.
+float shareAboveHorizon(float facing, float sine) {
+    float t = clamp(facing / max(sine, 1e-6), -1.0, 1.0);
+    return 0.5 + (t * sqrt(1.0 - t * t) + asin(t)) / 3.14159265;
+}
+
 // What look-ups found so far.
 struct LitSum {
     float lit;       // of all, by weight

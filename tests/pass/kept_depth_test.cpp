@@ -79,7 +79,8 @@ TEST(KeptDepth, IsWhatLightIsComputedWith) {
     scene.lamps.push_back(lamp);
     const auto wallDistance = [&](const std::string& buffer) {
         const Pictures p = render(
-            scene, view, size, settingsOf({buffer, "materials.lambertOnly=true", "diffuse.rays=0", "specular.rays=0"}),
+            scene, view, size,
+            settingsOf({buffer, "materials.lambertOnly=true", "diffuse.rays=0", "specular.rays=0", "shadow.lamps=0"}),
             {"direct", "depth"});
         const float distance = p.value("depth", size.x / 2, size.y / 2);
         const float toLamp = distance - 3.0F;

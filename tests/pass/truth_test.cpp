@@ -116,11 +116,8 @@ TEST_P(Energy, IsAtMostTwoPercentAboveTheTruthWithOneBounceAndWithAll) {
     const Scene scene = GetParam()->make();
     const View view = defaultView(scene);
     for (const bool one : {true, false}) {
-        const ReferencePicture truth = traceReference(scene, view, size,
-                                                      {.bounces = one ? 1U : ReferenceOptions::unlimited,
-                                                       .samples = 64,
-
-                                                       .lampShadows = false});
+        const ReferencePicture truth =
+            traceReference(scene, view, size, {.bounces = one ? 1U : ReferenceOptions::unlimited, .samples = 64});
         const Pictures p = render(scene, view, size,
                                   settingsOf({"diffuse.rays=16", "specular.rays=16",
                                               std::string("trace_screen.light=") + (one ? "direct" : "previous")}),

@@ -184,32 +184,6 @@ TEST(FormFactor, OfTwoParallelSquaresIsWithinHalfAPercent) {
     EXPECT_NEAR(mean(p.indirectDiffuse).x, parallelSquares(), 0.005 * parallelSquares());
 }
 
-TEST(Shadow, OfAKnifeEdgeUnderTheSunsDiskIsAsWideAsSimilarTrianglesSay) {
-    constexpr uint32_t width = 512;
-    for (const float degrees : {0.53F, 2.0F, 10.0F}) {
-        for (const float height : {1.0F, 5.0F}) {
-            Scene scene;
-            add(scene, matt(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 50.0F));
-            Material blade = matt(vec3(0.5F));
-            blade.doubleSided = true;
-            add(scene, blade, square({20, height, 0}, {0, 1, 0}, 20.0F));  // its edge is at x = 0
-            const double penumbra = 2.0 * height * std::tan(glm::radians(degrees) * 0.5);
-            View view = darkView({0, 0.5F, 0}, {0, 0, 0});
-            view.camera.orthographicHeight = static_cast<float>(2.0 * penumbra * 3.0 / width);
-            view.sun.direction = {0, -1, 0};
-            view.sun.irradiance = vec3(1.0F);
-            view.sun.angularDiameter = glm::radians(degrees);
-            const ReferencePicture p = traceReference(scene, view, {width, 3}, lambert(0, 256));
-            // The picture is twice the penumbra wide. What of a disk a straight edge at c radii leaves open:
-            for (uint32_t x = 0; x < width; ++x) {
-                const double c = std::clamp(((x + 0.5) / width - 0.5) * 4.0, -1.0, 1.0);
-                const double open = (std::acos(c) - c * std::sqrt(1.0 - c * c)) / pi;
-                ASSERT_NEAR(pixel(p.sunVisibility, x, 1), open, 0.02) << degrees << ", " << height << ", " << x;
-            }
-        }
-    }
-}
-
 TEST(GgxAlbedo, EqualsAnIndependentQuadratureAndNeverExceedsOne) {
     for (const float roughness : {0.1F, 0.2F, 0.4F, 0.6F, 0.8F, 1.0F}) {
         for (const float cosine : {0.1F, 0.3F, 0.55F, 0.8F, 1.0F}) {

@@ -130,6 +130,22 @@ TEST(GltfScene, TheFirstDirectionalLightIsTheSunAndTheOthersAreLamps) {
     EXPECT_EQ(scene.lamps[2].direction, vec3(0, 0, -1));
 }
 
+TEST(GltfScene, ALampsRadiusIsReadFromItsExtrasAndMustBeZeroOrMore) {
+    const auto loadLamp = [](const json& extras) {
+        GltfBuilder b = withNodes(json::array({lightNode(0)}));
+        b.document["extensions"]["KHR_lights_punctual"]["lights"] =
+            json::array({{{"type", "point"}, {"extras", extras}}});
+        return load(std::move(b)).scene.lamps.at(0).radius;
+    };
+    EXPECT_EQ(loadLamp(json::object({{"radius", 0.25}})), 0.25F);
+    EXPECT_EQ(loadLamp(json::object({{"radius", 2}})), 2.0F);
+    EXPECT_EQ(loadLamp(json::object({{"size", 1}})), 0.0F);
+    EXPECT_EQ(loadLamp("no object"), 0.0F);
+    for (const json& wrong : {json(-0.1), json("wide"), json(1e300), json(nullptr)}) {
+        EXPECT_THROW(loadLamp(json::object({{"radius", wrong}})), Error) << wrong;
+    }
+}
+
 TEST(GltfScene, CamerasStandAtTheirNodesAndLookAlongMinusZ) {
     const double s = std::sqrt(0.5);
     GltfBuilder b = withNodes(json::array({{{"children", {1}}, {"translation", {0, 0, 10}}},

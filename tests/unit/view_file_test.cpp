@@ -69,6 +69,7 @@ void expectNear(const vec3& a, const vec3& b) {
 TEST_F(ViewFile, SetsEverythingThatItNames) {
     apply(R"({ "camera": { "position": [6,1,0], "target": [0,0,0], "up": [0,2,0], "fov_y": 75, "near": 0.5 },
                "sun": { "direction": [0,-3,4], "irradiance": [3.14,0,1e3], "angular_diameter": 0.5 },
+               "lamps": { "radius": 0.25 },
                "environment": { "radiance": [0.1,0.2,0.3] } })");
     EXPECT_EQ(view_.camera.position, vec3(6, 1, 0));
     EXPECT_EQ(view_.camera.target, vec3(0));
@@ -78,6 +79,7 @@ TEST_F(ViewFile, SetsEverythingThatItNames) {
     expectNear(view_.sun.direction, {0, -0.6F, 0.8F});
     EXPECT_EQ(view_.sun.irradiance, vec3(3.14F, 0, 1e3F));
     EXPECT_FLOAT_EQ(view_.sun.angularDiameter, glm::radians(0.5F));
+    EXPECT_EQ(view_.lampRadius, 0.25F);
     EXPECT_EQ(view_.environment.radiance, vec3(0.1F, 0.2F, 0.3F));
 }
 
@@ -86,7 +88,8 @@ TEST_F(ViewFile, LeavesWhatItDoesNotName) {
     view_.sun.irradiance = vec3(7);
     view_.environment.radiance = vec3(8);
     apply("{}");
-    apply(R"({"camera": {}, "sun": {}, "environment": {}})");
+    apply(R"({"camera": {}, "sun": {}, "lamps": {}, "environment": {}})");
+    EXPECT_EQ(view_.lampRadius, std::nullopt);
     apply(R"({"camera": {"target": [4,5,6]}, "sun": {"direction": [1,0,0]}})");
     EXPECT_EQ(view_.camera.position, vec3(1, 2, 3));
     EXPECT_EQ(view_.camera.target, vec3(4, 5, 6));
@@ -156,6 +159,8 @@ TEST_F(ViewFile, WithANumberOutOfRangeIsAnError) {
               "FILE: sun.angular_diameter: must be between 0 and 90 degrees, is 90.5");
     EXPECT_EQ(errorOf(R"({"sun": {"irradiance": [1,-1,1]}})"),
               "FILE: sun.irradiance[1]: must be between 0 and 1e+12, is -1");
+    EXPECT_EQ(errorOf(R"({"lamps": {"radius": -0.1}})"),
+              "FILE: lamps.radius: must be between 0 and 1000 metres, is -0.1");
     EXPECT_EQ(errorOf(R"({"environment": {"radiance": [0,0,-0.5]}})"),
               "FILE: environment.radiance[2]: must be between 0 and 1e+12, is -0.5");
 }

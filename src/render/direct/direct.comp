@@ -1,4 +1,4 @@
-// Direct light of sun and lamps, emission and background. In: G-buffer, sun visibility. Out: direct radiance.
+// Direct light of sun and lamps, emission and background. In: G-buffer, visibility of sun and lamps. Out: direct radiance.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/direct/direct.h"
@@ -16,8 +16,13 @@ layout(set = 0, binding = 4) uniform sampler2D baseColor;
 layout(set = 0, binding = 5) uniform sampler2D material;
 layout(set = 0, binding = 6) uniform sampler2D emissive;
 layout(set = 0, binding = 7) uniform sampler2D sunVisibility;
-layout(set = 0, binding = 8) uniform sampler2D ggxTable;
-layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D direct;
+layout(set = 0, binding = 8) uniform sampler2DArray lampVisibility;
+layout(set = 0, binding = 9) uniform sampler2D ggxTable;
+layout(set = 0, binding = 10, rgba16f) uniform writeonly image2D direct;
+
+float visibilityOfLamp(uint shadow, ivec2 pixel) {
+    return shadow == noLampShadow ? 1.0 : texelFetch(lampVisibility, ivec3(pixel, shadow / 4u), 0)[shadow % 4u];
+}
 
 vec3 radianceAt(ivec2 pixel) {
     float d = texelFetch(depth, pixel, 0).r;
@@ -36,7 +41,7 @@ vec3 radianceAt(ivec2 pixel) {
     for (uint i = 0u; i < lampBlock.count; ++i) {
         vec3 toLamp;
         vec3 irradiance = lampIrradiance(lampBlock.lamps[i], p, toLamp);
-        radiance += reflectLight(s, n, v, toLamp) * irradiance;
+        radiance += reflectLight(s, n, v, toLamp) * irradiance * visibilityOfLamp(lampBlock.lamps[i].shadow, pixel);
     }
     return radiance;
 }

@@ -18,9 +18,13 @@ gpu::Texture makeGgxTable(gpu::Frame& f) {
     return table;
 }
 
-gpu::Image directLight(gpu::Frame& f, const GBuffer& g, gpu::Image sunVisibility, gpu::Image ggxTable,
+gpu::Image directLight(gpu::Frame& f, const GBuffer& g, const LightVisibility& visibility, gpu::Image ggxTable,
                        const DirectParams& params, const LampBlock& lamps) {
     const gpu::Image direct = f.image("direct", VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size);
+    // Bound, but not read where no lamp casts a shadow.
+    const gpu::Image lampVisibility =
+        visibility.lamps ? visibility.lamps
+                         : f.image("no_lamp_visibility", VK_FORMAT_R8G8B8A8_UNORM, uvec2(1), 1, /*array=*/true);
     const VkSampler linear = f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR});
     f.compute("direct", "direct.comp")
         .read("depth", g.depth)
@@ -28,7 +32,8 @@ gpu::Image directLight(gpu::Frame& f, const GBuffer& g, gpu::Image sunVisibility
         .read("baseColor", g.baseColor)
         .read("material", g.material)
         .read("emissive", g.emissive)
-        .read("sunVisibility", sunVisibility)
+        .read("sunVisibility", visibility.sun)
+        .read("lampVisibility", lampVisibility)
         .read("ggxTable", ggxTable, linear)
         .write("direct", direct)
         .params(params)

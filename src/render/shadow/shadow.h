@@ -62,7 +62,11 @@ CHOICES(ShadowUnit, SHADOW_UNITS)
           "Shadow maps of the sun that share the view's depth, for large scenes; 1: one, fitted to all that is seen.") \
     VALUE(float, cascadeSplit, 1.0, 0.0, 1.0,                                                                          \
           "Where cascades end; 0: at equal steps of distance, 1: at equal ratios (near ones smaller and finer).")      \
-    VALUE(float, cascadeBlend, 0.1, 0.0, 1.0, "Part of a cascade's depth, at its end, that blends into the next.")
+    VALUE(float, cascadeBlend, 0.1, 0.0, 1.0, "Part of a cascade's depth, at its end, that blends into the next.")     \
+    VALUE(uint, lamps, 8, 0, 16,                                                                                       \
+          "How many point and spot lamps cast shadows at most: the strongest; the others shine through everything.")   \
+    VALUE(uint, lampResolution, 512, 64, 4096,                                                                         \
+          "Texels along each side of a lamp's shadow map; a point lamp has six, a spot one.")
 SETTINGS(ShadowSettings, SHADOW_SETTINGS)
 
 // Shadow space: x, y in clip space of the map, z reversed depth (1 nearest to the sun), all of it linear.

@@ -24,11 +24,11 @@ layout(set = 0, binding = 8, r8) uniform writeonly image2D cascadeIndex;
 uint loadBlueNoise(uint texel) { return blueNoise.texels[texel]; }
 float loadShadowDepth(ivec2 texel) { return texelFetch(shadowMap, texel, 0).r; }
 vec2 loadShadowRange(ivec2 cell) { return texelFetch(range, cell, 0).rg; }
-#include "shaders/blue_noise.glsl"
+#include "shaders/shadow_noise.glsl"
 #include "shaders/shadow_range.glsl"
 
 const float leastFilterRadius = 0.75;  // texels: under it, the four around the point are all there is to know
-const uint shadowStream = 0x5ad0u;   // of the noise
+const uint sunStream = 0x5ad0u;        // of the noise
 
 ShadowReceiver receiver;
 ShadowTexel shadowTexel(vec2 offset) { return texelAt(receiver, offset); }
@@ -55,25 +55,6 @@ struct Result {
     float width;
     float height;
 };
-
-// Noise of this pixel: two numbers for the filter and two for the search.
-vec4 noiseAt(ivec2 pixel) {
-    ViewParams view = params.view;
-    if (params.settings.pattern == ShadowPattern_rings) {
-        uint h = hashPixel(uvec2(pixel), view.seed, view.frame);
-        return vec4(hashToUnit2(h), hashToUnit2(hashPcg(h)));
-    }
-    uvec2 at = uvec2(pixel);
-    uint filterMask = loadBlueNoise(blueNoiseTexel(at, shadowStream + view.seed, view.frame));
-    uint searchMask = loadBlueNoise(blueNoiseTexel(at, shadowStream + 1u + view.seed, view.frame));
-    return vec4(filterMask & 0xffffu, filterMask >> 16u, searchMask & 0xffffu, searchMask >> 16u) / 65536.0;
-}
-
-// Share of the sun's disk above the plane of a surface that faces its middle with cosine `facing`.
-float shareAboveHorizon(float facing, float sine) {
-    float t = clamp(facing / max(sine, 1e-6), -1.0, 1.0);
-    return 0.5 + (t * sqrt(1.0 - t * t) + asin(t)) / 3.14159265;
-}
 
 // Shrinks the search to what can cast from within it: nothing there is higher than the map's highest, and what is not
 // higher hides the sun from no farther. True where the whole disk is hidden.
@@ -153,7 +134,8 @@ Result resultAt(vec3 p, Cascade cascade, ivec2 pixel) {
     if (filterKind == ShadowFilter_none || share <= 0.0) {
         return Result(filterKind == ShadowFilter_none ? 1.0 : 0.0, 0.0, 0.0);
     }
-    vec4 noise = filterKind == ShadowFilter_hard ? vec4(0.0) : noiseAt(pixel);
+    bool rings = params.settings.pattern == ShadowPattern_rings;
+    vec4 noise = filterKind == ShadowFilter_hard ? vec4(0.0) : shadowNoise(pixel, params.view, rings, sunStream);
     Result r = resultIn(cascade.index, p, normal, noise);
     if (cascade.next > 0.0) {
         r = mixed(r, resultIn(cascade.index + 1u, p, normal, noise), cascade.next);

@@ -1,0 +1,197 @@
+// Plans and records the lamps' shadow maps and their look-up.
+#include "render/shadow/lamp_shadow.h"
+
+#include "gpu/device.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace reflet {
+
+namespace {
+
+constexpr float widestSpot = 60.0F;  // degrees from the axis: one tile wider than that wastes more than a cube does
+
+float strength(const LampParams& lamp) {
+    return std::max({lamp.intensity.x, lamp.intensity.y, lamp.intensity.z});
+}
+
+// Indices of the lamps that can cast shadows, the strongest first.
+std::vector<uint32_t> casters(const LampBlock& lamps) {
+    std::vector<uint32_t> indices;
+    for (uint32_t i = 0; i < lamps.count; ++i) {
+        if (lamps.lamps[i].type != lampDirectional && strength(lamps.lamps[i]) > 0.0F) {
+            indices.push_back(i);
+        }
+    }
+    std::ranges::stable_sort(indices, std::greater<>(), [&](uint32_t i) { return strength(lamps.lamps[i]); });
+    return indices;
+}
+
+bool hasOneTile(const LampParams& lamp) {
+    return lamp.type == lampSpot && lamp.cosOuter > std::cos(glm::radians(widestSpot));
+}
+
+LampShadow shadowOf(const LampParams& lamp, uint32_t firstTile, uint32_t tileSize) {
+    LampShadow shadow{};
+    shadow.lamp = lamp;
+    shadow.near = std::max(lamp.radius, 1e-3F);  // lampClearance of scene.h
+    shadow.firstTile = firstTile;
+    shadow.tiles = cubeFaces;
+    shadow.halfTangent = 1.0F;
+    if (hasOneTile(lamp)) {
+        const vec3 axis = -lamp.toLamp;
+        const vec3 side = glm::normalize(glm::cross(std::abs(axis.y) < 0.99F ? vec3(0, 1, 0) : vec3(1, 0, 0), axis));
+        shadow.tiles = 1;
+        shadow.worldToTile = glm::transpose(mat3(side, glm::cross(axis, side), axis));
+        // Two texels to spare for look-ups at the cone's edge, and a disk is seen past the cone.
+        const float tangent = std::sqrt(1.0F - lamp.cosOuter * lamp.cosOuter) / lamp.cosOuter;
+        shadow.halfTangent =
+            (tangent + (lamp.radius > 0.0F ? lampSearchTangent : 0.0F)) * (1.0F + 4.0F / static_cast<float>(tileSize));
+    }
+    return shadow;
+}
+
+// Rows are the tile's axes.
+mat3 tileRotation(const LampShadow& shadow, uint32_t face) {
+    if (shadow.tiles == 1) {
+        return shadow.worldToTile;
+    }
+    const auto axis = static_cast<int>(face / 2);
+    mat3 tileToWorld(0.0F);
+    tileToWorld[0][(axis + 1) % 3] = 1.0F;
+    tileToWorld[1][(axis + 2) % 3] = 1.0F;
+    tileToWorld[2][axis] = face % 2 == 0 ? 1.0F : -1.0F;
+    return glm::transpose(tileToWorld);
+}
+
+mat4 worldToClip(const LampShadow& shadow, uint32_t face) {
+    mat4 tileToClip(0.0F);
+    tileToClip[0][0] = 1.0F / shadow.halfTangent;
+    tileToClip[1][1] = 1.0F / shadow.halfTangent;
+    tileToClip[2][3] = 1.0F;
+    tileToClip[3][2] = shadow.near;
+    return tileToClip * mat4(tileRotation(shadow, face)) * glm::translate(mat4(1.0F), -shadow.lamp.position);
+}
+
+float distanceTo(const Aabb& box, const vec3& p) {
+    return glm::distance(p, glm::clamp(p, box.min, box.max));
+}
+
+void useTile(const gpu::DrawCommands& to, const LampShadows& shadows, uint32_t tile) {
+    const uvec2 at = uvec2(tile % shadows.columns, tile / shadows.columns) * shadows.tileSize;
+    const auto side = static_cast<float>(shadows.tileSize);
+    const VkViewport viewport{static_cast<float>(at.x), static_cast<float>(at.y), side, side, 0, 1};
+    const VkRect2D scissor{{static_cast<int32_t>(at.x), static_cast<int32_t>(at.y)},
+                           {shadows.tileSize, shadows.tileSize}};
+    to.device.vk.vkCmdSetViewport(to.commands, 0, 1, &viewport);
+    to.device.vk.vkCmdSetScissor(to.commands, 0, 1, &scissor);
+    to.device.vk.vkCmdPushConstants(to.commands, to.layout, VK_SHADER_STAGE_ALL, sizeof(glm::mat4x3), sizeof(tile),
+                                    &tile);
+}
+
+// All draws, or all cut-out draws, into the tiles that they can be seen in.
+void drawTiles(const gpu::DrawCommands& to, const DrawList& list, const LampShadows& shadows,
+               const LampTileParams& params, bool masked) {
+    for (uint32_t i = 0; i < shadows.count; ++i) {
+        const LampShadow& shadow = shadows.lamps[i];
+        const auto lit = [&](const Draw& d) {
+            return d.masked == masked && distanceTo(d.boundsW, shadow.lamp.position) * shadow.lamp.inverseRange < 1.0F;
+        };
+        for (uint32_t face = 0; face < shadow.tiles; ++face) {
+            const uint32_t tile = shadow.firstTile + face;
+            useTile(to, shadows, tile);
+            recordDraws(to, list, {lit, Cull::none, masked, params.worldToTile[tile]}, false);
+        }
+    }
+}
+
+uint32_t tilesOf(const LampShadows& shadows) {
+    const LampShadow& last = shadows.lamps[shadows.count - 1];
+    return last.firstTile + last.tiles;
+}
+
+}  // namespace
+
+LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, uint32_t largestSide,
+                            const std::function<void(const std::string&)>& warn) {
+    LampShadows shadows{};
+    std::vector<uint32_t> indices = casters(lamps);
+    if (settings.filter == ShadowFilter::none || settings.lamps == 0 || indices.empty()) {
+        return shadows;
+    }
+    shadows.count = std::min({settings.lamps, maxShadowedLamps, static_cast<uint32_t>(indices.size())});
+    shadows.tileSize = settings.lampResolution;
+    if (indices.size() > shadows.count) {
+        warn(fmt::format("the scene has {} point and spot lamps, of which the strongest {} cast shadows (shadow.lamps)",
+                         indices.size(), shadows.count));
+    }
+    indices.resize(shadows.count);
+    uint32_t tiles = 0;
+    for (const uint32_t i : indices) {
+        tiles += hasOneTile(lamps.lamps[i]) ? 1 : cubeFaces;
+    }
+    shadows.columns = static_cast<uint32_t>(std::ceil(std::sqrt(static_cast<float>(tiles))));
+    while (shadows.columns * shadows.tileSize > largestSide) {
+        shadows.tileSize /= 2;
+    }
+    for (uint32_t i = 0, tile = 0; i < shadows.count; tile += shadows.lamps[i++].tiles) {
+        LampParams& lamp = lamps.lamps[indices[i]];
+        lamp.shadow = i;
+        shadows.lamps[i] = shadowOf(lamp, tile, shadows.tileSize);
+    }
+    if (shadows.tileSize < settings.lampResolution) {
+        warn(
+            fmt::format("{} shadow maps of {} texels a side do not fit into one image; they have {} (shadow.lamps, "
+                        "shadow.lampResolution)",
+                        tiles, settings.lampResolution, shadows.tileSize));
+    }
+    return shadows;
+}
+
+gpu::Image drawLampShadowMap(gpu::Frame& f, const DrawList& list, const LampShadows& shadows) {
+    LampTileParams params{};
+    for (uint32_t i = 0; i < shadows.count; ++i) {
+        for (uint32_t face = 0; face < shadows.lamps[i].tiles; ++face) {
+            params.worldToTile[shadows.lamps[i].firstTile + face] = worldToClip(shadows.lamps[i], face);
+        }
+    }
+    const uint32_t rows = (tilesOf(shadows) + shadows.columns - 1) / shadows.columns;
+    const gpu::Image map =
+        f.target("lamp_shadow_map", VK_FORMAT_D32_SFLOAT, uvec2(shadows.columns, rows) * shadows.tileSize);
+    // Opaque draws need no fragment shader; cut-out ones look up their alpha.
+    f.raster("lamp_shadow_map", {"lamp_shadow_map.vert"})
+        .depth(map, 0.0F)
+        .vertices(vertexLayout())
+        .params(params)
+        .draw([&](const gpu::DrawCommands& to) { drawTiles(to, list, shadows, params, false); });
+    f.raster("lamp_shadow_map", {"lamp_shadow_map_masked.vert", "shadow_map_masked.frag"})
+        .depth(map, std::nullopt)
+        .vertices(vertexLayout(), list.materialLayout)
+        .params(params)
+        .draw([&](const gpu::DrawCommands& to) { drawTiles(to, list, shadows, params, true); });
+    return map;
+}
+
+gpu::Image lampVisibility(gpu::Frame& f, const GBuffer& g, const ShadowInputs& in, const LampShadows& shadows,
+                          const LampVisibilityParams& params) {
+    const uint32_t layers = (shadows.count + 3) / 4;
+    const gpu::Image visibility =
+        f.image("lamp_visibility", VK_FORMAT_R8G8B8A8_UNORM, g.depth.size, layers, /*array=*/true);
+    f.compute("lamp_visibility", "lamp_visibility.comp")
+        .read("depth", g.depth)
+        .read("geometricNormal", g.geometricNormal)
+        .read("shadowMap", in.map)
+        .read("blueNoise", in.blueNoise)
+        .write("visibility", visibility)
+        .params(params)
+        .params(shadows, "shadowBlock")
+        .constant("filterKind", static_cast<uint32_t>(params.settings.filter))
+        .dispatch(visibility.size.x, visibility.size.y, layers);
+    return visibility;
+}
+
+}  // namespace reflet

@@ -1,0 +1,118 @@
+// How much of each lamp that casts shadows a pixel sees, four lamps at a time: one texel, PCF or PCSS. In: depth,
+// geometric normal, the lamps' shadow maps, blue noise. Out: visibility, 1 lit.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "render/shadow/lamp_shadow.h"
+#include "shaders/lamp.glsl"
+#include "shaders/octahedral.glsl"
+#include "shaders/projection.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const uint filterKind = ShadowFilter_pcss;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { LampVisibilityParams params; };
+layout(set = 0, binding = 1, scalar) uniform ShadowUniforms { LampShadows shadowBlock; };
+layout(set = 0, binding = 2) uniform sampler2D depth;
+layout(set = 0, binding = 3) uniform usampler2D geometricNormal;
+layout(set = 0, binding = 4) uniform sampler2D shadowMap;
+layout(set = 0, binding = 5, scalar) readonly buffer BlueNoise { uint texels[]; } blueNoise;
+layout(set = 0, binding = 6, rgba8) uniform writeonly image2DArray visibility;
+
+uint loadBlueNoise(uint texel) { return blueNoise.texels[texel]; }
+float loadLampDepth(ivec2 texel) { return texelFetch(shadowMap, texel, 0).r; }
+#include "shaders/lamp_shadow.glsl"
+#include "shaders/shadow_noise.glsl"
+
+const float leastFilterRadius = 0.75;  // texels: under it, the four around the point are all there is to know
+const uint lampStream = 0x1a90u;       // of the noise
+
+LampReceiver receiver;
+ShadowTexel shadowTexel(vec2 offset) { return lampTexel(receiver, offset); }
+#include "shaders/soft_shadow.glsl"
+
+// Shrinks the search to the blockers that samples of it find: none higher, none that hides the lamp from farther. Else a
+// few samples in a disk as wide as a lamp's surroundings would miss narrow penumbras. 0: nothing casts.
+float shrunkSearch(ShadowCone cone, float radius, float least, vec2 noise) {
+    for (int i = 0; i < 3; ++i) {
+        uint count = params.settings.blockerSamples;
+        ShadowPattern pattern = shadowPattern(params.settings, count, fract(noise + 0.618 * float(i)));
+        float highest = -1.0;
+        for (uint k = 0u; k <= count; ++k) {
+            ShadowTexel texel = shadowTexel(k == 0u ? vec2(0.0) : radius * nextPoint(pattern));
+            highest = blocks(texel, receiver.lift) ? max(highest, max(texel.height, 0.0)) : highest;
+        }
+        float needed = highest < 0.0 ? 0.0 : max(penumbraRadius(cone, highest), least);
+        if (needed > 0.7 * radius) {
+            break;
+        }
+        radius = needed;
+        if (needed <= least) {
+            break;
+        }
+    }
+    return radius;
+}
+
+float pcss(ShadowCone cone, vec4 noise) {
+    ShadowSettings s = params.settings;
+    float least = leastFilterRadius * receiver.texel;
+    // All of the tile's depth could cast, but what is nearer to the lamp than ten radii is found only by what it hides of
+    // the lamp's middle: a search for it would be as wide as the room (planLampShadows).
+    float radius = min(penumbraRadius(cone, receiver.distance - receiver.shadow.near),
+                       lampSearchTangent * receiver.distance);
+    if (radius <= least) {
+        return sharpLampVisibility(receiver);
+    }
+    radius = shrunkSearch(cone, radius, least, noise.wz);
+    if (radius == 0.0) {
+        return 1.0;
+    }
+    float height = meanBlockerHeight(cone, radius, least, receiver.lift, shadowPattern(s, s.blockerSamples, noise.zw),
+                                     s.blockerSamples);
+    if (height <= 0.0) {
+        return 1.0;
+    }
+    return diskVisibility(cone, height, least, receiver.lift, shadowPattern(s, s.samples, noise.xy), s.samples,
+                              hardLampVisibility(receiver));
+}
+
+float visibilityAt(ivec2 pixel, uint index, vec3 p, vec3 n) {
+    LampShadow shadow = shadowBlock.lamps[index];
+    vec3 toLamp;
+    vec3 irradiance = lampIrradiance(shadow.lamp, p, toLamp);
+    float facing = dot(n, toLamp);
+    if (irradiance == vec3(0.0) || facing <= 0.0) {
+        return 0.0;  // out of its range or cone, or in the surface's own shadow
+    }
+    ShadowSettings s = params.settings;
+    receiver = lampReceiver(shadow, shadowBlock.tileSize, shadowBlock.columns, p, n, s.bias);
+    if (filterKind == ShadowFilter_hard) {
+        return hardLampVisibility(receiver);
+    }
+    vec4 noise = shadowNoise(pixel, params.view, s.pattern == ShadowPattern_rings, lampStream + 2u * index);
+    if (filterKind == ShadowFilter_pcf) {
+        float radius = s.radius * (s.radiusUnit == ShadowUnit_texels ? receiver.texel : 1.0);
+        return pcfVisibility(radius, receiver.lift, shadowPattern(s, s.samples, noise.xy), s.samples,
+                              hardLampVisibility(receiver));
+    }
+    float slope = shadow.lamp.radius / receiver.distance;
+    float share = shareAboveHorizon(facing, slope * inversesqrt(1.0 + slope * slope));
+    return share * pcss(ShadowCone(slope, 1.0 / receiver.distance), noise);
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, ivec2(params.view.size)))) {
+        return;
+    }
+    float d = texelFetch(depth, pixel, 0).r;
+    vec4 result = vec4(0.0);
+    if (d > 0.0) {
+        vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
+        vec3 n = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
+        uint first = 4u * gl_GlobalInvocationID.z;
+        for (uint i = first; i < min(first + 4u, shadowBlock.count); ++i) {
+            result[i - first] = visibilityAt(pixel, i, p, n);
+        }
+    }
+    imageStore(visibility, ivec3(pixel, gl_GlobalInvocationID.z), result);
+}

@@ -1,0 +1,21 @@
+// Noise for the samples of shadow filters.
+// The includer defines, before it includes this: uint loadBlueNoise(uint texel).
+#ifndef REFLET_SHADOW_NOISE_GLSL
+#define REFLET_SHADOW_NOISE_GLSL
+
+#include "render/shadow/shadow.h"
+#include "shaders/blue_noise.glsl"
+
+// Of a pixel: two numbers for the filter and two for the search. stream: an even number, one for each light.
+vec4 shadowNoise(ivec2 pixel, ViewParams view, bool rings, uint stream) {
+    uvec2 at = uvec2(pixel);
+    if (rings) {
+        uint h = hashPixel(at, view.seed + stream, view.frame);
+        return vec4(hashToUnit2(h), hashToUnit2(hashPcg(h)));
+    }
+    uint filterMask = loadBlueNoise(blueNoiseTexel(at, stream + view.seed, view.frame));
+    uint searchMask = loadBlueNoise(blueNoiseTexel(at, stream + 1u + view.seed, view.frame));
+    return vec4(filterMask & 0xffffu, filterMask >> 16u, searchMask & 0xffffu, searchMask >> 16u) / 65536.0;
+}
+
+#endif
