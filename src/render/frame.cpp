@@ -12,6 +12,7 @@
 #include "render/light_mips/light_mips.h"
 #include "render/pyramid/pyramid.h"
 #include "render/shadow/shadow.h"
+#include "render/shadow/shadow_clean.h"
 #include "render/tonemap/tonemap.h"
 
 #include <algorithm>
@@ -46,8 +47,12 @@ void lightDirectly(gpu::Frame& f, const FrameInputs& in, const Settings& setting
         maps.range = makeShadowRange(f, out.shadowMap);
     }
     const SunVisibility seen = sunVisibility(f, out.g, maps, {in.view, sun, shadow, sunSlope});
-    out.sunVisibility = seen.visibility;
+    out.rawSunVisibility = seen.visibility;
     out.shadowPenumbra = seen.penumbra;
+    out.sunVisibility = shadow.clean != 0 && seen.penumbra
+                            ? cleanShadow(f, out.g, seen.visibility, seen.penumbra,
+                                          {in.view, -in.sunDirection, shadow.history, shadow.samples, 0})
+                            : seen.visibility;
     out.cascadeIndex = seen.cascadeIndex;
     out.direct = directLight(f, out.g, out.sunVisibility, in.ggxTable,
                              {in.view, -in.sunDirection, in.sunIrradiance, in.environment}, in.lamps);

@@ -47,4 +47,11 @@ vec3 metresAcross(vec2 uv, float depth, ScreenPlane plane, mat4 clipToWorld, vec
     return vec3(dot(x, x), dot(x, y), dot(y, y));
 }
 
+// Whether two visibilities of so many samples may differ by noise alone: 1 the same, 0 they cannot. Noise falls a little
+// faster than the root of their number; of 16 samples a difference of 0.25 is more than noise.
+float likeness(float difference, uint samples) {
+    float unlike = 0.5 * pow(float(samples), 0.75) * difference;
+    return max(1.0 - unlike * unlike, 0.0);
+}
+
 #endif

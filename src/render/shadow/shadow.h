@@ -62,7 +62,9 @@ CHOICES(ShadowUnit, SHADOW_UNITS)
           "Shadow maps of the sun that share the view's depth, for large scenes; 1: one, fitted to all that is seen.") \
     VALUE(float, cascadeSplit, 1.0, 0.0, 1.0,                                                                          \
           "Where cascades end; 0: at equal steps of distance, 1: at equal ratios (near ones smaller and finer).")      \
-    VALUE(float, cascadeBlend, 0.1, 0.0, 1.0, "Part of a cascade's depth, at its end, that blends into the next.")
+    VALUE(float, cascadeBlend, 0.1, 0.0, 1.0, "Part of a cascade's depth, at its end, that blends into the next.")     \
+    SWITCH(clean, 1, "Blur what few samples leave of noise along and within penumbras (pcf, pcss).")                   \
+    VALUE(uint, history, 32, 0, 1024, "Frames whose mean is taken where nothing moves; 0: none is kept (clean).")
 SETTINGS(ShadowSettings, SHADOW_SETTINGS)
 
 // Shadow space: x, y in clip space of the map, z reversed depth (1 nearest to the sun), all of it linear.

@@ -1,6 +1,6 @@
-// Before shadows are blurred: each pixel's mean over the last frames as far as they still hold, and its kernel.
-// In: depth, geometric normal, motion, visibility, penumbra, history. Out: texels as the blur reads them, kernels where
-// there is a penumbra, history.
+// Before shadows are blurred, each pixel's mean over the last frames as far as they still hold, and its kernel.
+// In: tiles, depth, geometric normal, motion, visibility, penumbra, history. Out, where there is a penumbra: texels as the
+// blur reads them, kernels, history.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/shadow/shadow_clean.h"
@@ -17,18 +17,21 @@ layout(set = 0, binding = 4, r8) uniform readonly image2D visibility;
 layout(set = 0, binding = 5, rg16f) uniform readonly image2D penumbra;
 layout(set = 0, binding = 6, rg32ui) uniform readonly uimage2D previous;  // mean, frames; depth
 layout(set = 0, binding = 7, rg32ui) uniform writeonly uimage2D next;
-layout(set = 0, binding = 8, rg32ui) uniform writeonly uimage2D gathered;
+layout(set = 0, binding = 8, r32ui) uniform writeonly uimage2D gathered;
 layout(set = 0, binding = 9, rgba32ui) uniform writeonly uimage2D kernel;
+layout(set = 0, binding = 10, scalar) readonly buffer TilesBlock {
+    uint groups[3];
+    uint count;
+    uint items[];
+} tiles;
 
 // Standard deviation of a pass across the edge, of the penumbra's width: both together widen it by 3 %.
-const float acrossEdge = 0.055;
+const float acrossEdge = 0.05;
 const float alongEdge = 3.0;     // standard deviation of a pass along a straight edge, pixels
 const float longest = 6.0;       // of either, pixels
+const float shortest = 0.15;     // pixels; reaches no neighbour
 const float allowance = 0.06;    // how far beyond what the neighbours show the history may lie
 const float historySlack = 4.0;  // for surfaces, times what neighbours are allowed
-
-shared bool someLit;
-shared bool someDark;
 
 struct Neighbours {
     vec2 gradient;  // of the visibility, per pixel
@@ -94,55 +97,46 @@ vec3 formAt(vec2 uv, float d, ScreenPlane plane, Neighbours n, float shrink) {
     float steep = sqrt(max(quadratic(pixels, n.gradient), 0.0)) * n.width;
     vec2 along = vec2(-n.gradient.y, n.gradient.x) * inversesqrt(max(dot(n.gradient, n.gradient), 1e-12));
     along *= alongEdge * shrink * min(0.8 * steep, 1.0);
-    return inverseSymmetric(inverseSymmetric(disk) + vec3(along.x * along.x, along.x * along.y, along.y * along.y));
+    vec3 edge = vec3(along.x * along.x, along.x * along.y, along.y * along.y);
+    return inverseSymmetric(inverseSymmetric(disk) + edge + vec3(1.0, 0.0, 1.0) * (shortest * shortest));
+}
+
+void gather(ivec2 pixel) {
+    float d = texelFetch(depth, pixel, 0).r;
+    if (d <= 0.0) {
+        return;
+    }
+    vec2 uv = pixelToUv(pixel, params.view.pixel);
+    vec3 p = uvToWorld(uv, d, params.view.clipToWorld);
+    vec3 normal = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
+    ScreenPlane plane = screenPlane(p, normal, params.view.clipToWorld, params.view.pixel, params.view.pixelAngle);
+    float seen = imageLoad(visibility, pixel).r;
+    Neighbours n = look(pixel, d, seen, plane);
+    if (n.width <= 0.0) {
+        return;
+    }
+    vec2 before = params.hasPrevious != 0u ? remembered(pixel, p, plane) : vec2(0.0);
+    float held = clamp(before.x, n.lowest - allowance, n.highest + allowance);
+    before.y *= max(1.0 - 8.0 * abs(held - before.x), 0.0) * likeness(seen - held, params.samples);
+    float mean = (held * before.y + seen) / (before.y + 1.0);
+    vec3 form = min(formAt(uv, d, plane, n, inversesqrt(sqrt(before.y + 1.0))), vec3(1e4));
+    imageStore(kernel, pixel,
+               uvec4(packHalf2x16(form.xy), packHalf2x16(vec2(form.z, 0.0)), packHalf2x16(plane.perPixel),
+                     floatBitsToUint(plane.perDepth)));
+    uint meanBits = uint(clamp(mean, 0.0, 1.0) * 65535.0 + 0.5);
+    imageStore(gathered, pixel, uvec4(meanBits | packHalf2x16(vec2(0.0, n.width))));
+    if (params.historyFrames > 0u) {
+        uint frames = min(uint(before.y + 1.5), params.historyFrames);
+        imageStore(next, pixel, uvec4(meanBits | frames << 16u, floatBitsToUint(d), 0u, 0u));
+    }
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    bool inside = all(lessThan(pixel, ivec2(params.view.size)));
-    if (gl_LocalInvocationIndex == 0u) {
-        someLit = false;
-        someDark = false;
-    }
-    barrier();
-    float seen = inside ? imageLoad(visibility, pixel).r : 0.0;
-    if (inside && seen > 0.0) {
-        someLit = true;
-    }
-    if (inside && seen < 1.0) {
-        someDark = true;
-    }
-    barrier();
-    if (!inside) {
-        return;
-    }
-    float d = texelFetch(depth, pixel, 0).r;
-    float mean = seen;
-    float width = 0.0;
-    uint frames = 0u;
-    if (someLit && someDark && d > 0.0) {
-        vec2 uv = pixelToUv(pixel, params.view.pixel);
-        vec3 p = uvToWorld(uv, d, params.view.clipToWorld);
-        vec3 normal = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
-        ScreenPlane plane = screenPlane(p, normal, params.view.clipToWorld, params.view.pixel, params.view.pixelAngle);
-        Neighbours n = look(pixel, d, seen, plane);
-        width = n.width;
-        if (width > 0.0) {
-            vec2 before = params.hasPrevious != 0u ? remembered(pixel, p, plane) : vec2(0.0);
-            float held = clamp(before.x, n.lowest - allowance, n.highest + allowance);
-            before.y *= max(1.0 - 8.0 * abs(held - before.x), 0.0);
-            mean = (held * before.y + seen) / (before.y + 1.0);
-            frames = min(uint(before.y + 1.5), params.historyFrames);
-            float shrink = inversesqrt(sqrt(before.y + 1.0));
-            vec3 form = min(formAt(uv, d, plane, n, shrink), vec3(1e4));
-            imageStore(kernel, pixel,
-                       uvec4(packHalf2x16(form.xy), packHalf2x16(vec2(form.z, 0.0)),
-                             packHalf2x16(plane.perPixel), floatBitsToUint(plane.perDepth)));
+    for (uint i = gl_WorkGroupID.x; i < tiles.count; i += gl_NumWorkGroups.x) {
+        ivec2 tile = ivec2(tiles.items[i] & 0xffffu, tiles.items[i] >> 16u);
+        ivec2 pixel = tile * int(shadowTileSide) + ivec2(gl_LocalInvocationID.xy);
+        if (all(lessThan(pixel, ivec2(params.view.size)))) {
+            gather(pixel);
         }
-    }
-    uint meanBits = uint(mean * 65535.0 + 0.5);
-    imageStore(gathered, pixel, uvec4(meanBits | (packHalf2x16(vec2(0.0, width)) & 0xffff0000u), floatBitsToUint(d), 0u, 0u));
-    if (params.historyFrames > 0u) {
-        imageStore(next, pixel, uvec4(meanBits | (frames << 16u), floatBitsToUint(d), 0u, 0u));
     }
 }
