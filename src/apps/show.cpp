@@ -140,6 +140,8 @@ const std::vector<Show>& table() {
          [](const FrameImages& i) { return Images{i.specular.radiance}; }, color, rgb, encoded},
         {"sun_visibility", "0 in the sun's shadow, 1 lit", [](const FrameImages& i) { return Images{i.sunVisibility}; },
          first, y, grey},
+        {"sun_visibility_raw", "the same before the cleaning pass",
+         [](const FrameImages& i) { return Images{i.rawSunVisibility}; }, first, y, grey},
         {"penumbra_width",
          "full width of the sun's penumbra in metres, across its direction; PNG 1 is a metre; only with shadow.filter "
          "pcf or pcss",

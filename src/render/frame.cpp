@@ -14,6 +14,7 @@
 #include "render/light_mips/light_mips.h"
 #include "render/pyramid/pyramid.h"
 #include "render/shadow/shadow.h"
+#include "render/shadow/shadow_clean.h"
 #include "render/tonemap/tonemap.h"
 
 #include <algorithm>
@@ -35,7 +36,8 @@ void drawSurfaces(gpu::Frame& f, const FrameInputs& in, const Settings& settings
     }
 }
 
-void lightDirectly(gpu::Frame& f, const FrameInputs& in, const Settings& settings, FrameImages& out) {
+// How much of the sun each pixel sees: its shadow map, cleaned, and contact shadows.
+void seeSun(gpu::Frame& f, const FrameInputs& in, const Settings& settings, FrameImages& out) {
     ShadowSettings shadow = settings.shadow;
     if (in.sunIrradiance == vec3(0.0F)) {
         shadow.filter = ShadowFilter::none;
@@ -51,13 +53,21 @@ void lightDirectly(gpu::Frame& f, const FrameInputs& in, const Settings& setting
         maps.range = makeShadowRange(f, out.shadowMap);
     }
     const SunVisibility seen = sunVisibility(f, out.g, maps, {in.view, sun, shadow, sunSlope});
-    out.sunVisibility = seen.visibility;
+    out.rawSunVisibility = seen.visibility;
     out.shadowPenumbra = seen.penumbra;
+    out.sunVisibility = shadow.clean != 0 && seen.penumbra
+                            ? cleanShadow(f, out.g, seen.visibility, seen.penumbra,
+                                          {in.view, -in.sunDirection, shadow.history, shadow.samples, 0})
+                            : seen.visibility;
     out.cascadeIndex = seen.cascadeIndex;
     if (settings.contact.distance > 0.0F && in.sunIrradiance != vec3(0.0F)) {
         out.sunVisibility =
             contactShadow(f, out.g, out.pyramid, out.sunVisibility, {in.view, settings.contact, -in.sunDirection});
     }
+}
+
+void lightDirectly(gpu::Frame& f, const FrameInputs& in, const Settings& settings, FrameImages& out) {
+    seeSun(f, in, settings, out);
     if (in.lampShadows.count > 0) {
         out.lampShadowMap = drawLampShadowMap(f, in.draws, in.lampShadows);
         out.lampVisibility =

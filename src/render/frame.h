@@ -28,14 +28,15 @@ struct FrameInputs {
 /// Every image of the frame; formats where the effects declare them.
 struct FrameImages {
     GBuffer g;
-    gpu::Image backDepth;  ///< none unless trace_screen.thicknessFrom is secondLayer
-    gpu::Image pyramid;    ///< none unless trace_screen.method is hiz or there are contact shadows
-    gpu::Image shadowMap;  ///< none without sun or shadows
-    gpu::Image sunVisibility;
-    gpu::Image shadowPenumbra;  ///< of sunVisibility(); none with hard shadows
-    gpu::Image cascadeIndex;    ///< of sunVisibility(); none with one cascade
-    gpu::Image lampShadowMap;   ///< none where no lamp casts a shadow
-    gpu::Image lampVisibility;  ///< alike
+    gpu::Image backDepth;         ///< none unless trace_screen.thicknessFrom is secondLayer
+    gpu::Image pyramid;           ///< none unless trace_screen.method is hiz or there are contact shadows
+    gpu::Image shadowMap;         ///< none without sun or shadows
+    gpu::Image rawSunVisibility;  ///< before it was cleaned
+    gpu::Image sunVisibility;     ///< that direct light uses
+    gpu::Image shadowPenumbra;    ///< of sunVisibility(); none with hard shadows
+    gpu::Image cascadeIndex;      ///< of sunVisibility(); none with one cascade
+    gpu::Image lampShadowMap;     ///< none where no lamp casts a shadow
+    gpu::Image lampVisibility;    ///< alike
     gpu::Image direct;
     LobeLight diffuse;
     LobeLight specular;

@@ -101,8 +101,10 @@ Pictures renderMean(const Scene& scene, const View& view, uvec2 size, const Sett
 }
 
 Pictures renderMoved(const Scene& scene, const View& before, const View& now, uvec2 size, const Settings& settings,
-                     const std::vector<std::string>& shows) {
-    return renderFrames(scene, {{before, size}, {now, size}}, settings, shows);
+                     const std::vector<std::string>& shows, uint32_t framesBefore) {
+    std::vector<TestFrame> frames(framesBefore, {before, size});
+    frames.push_back({now, size});
+    return renderFrames(scene, frames, settings, shows);
 }
 
 std::vector<Pictures> renderPath(const Scene& scene, const std::vector<View>& path, uvec2 size,

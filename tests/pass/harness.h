@@ -35,9 +35,9 @@ Pictures render(const Scene& scene, const View& view, uvec2 size, const Settings
 Pictures renderMean(const Scene& scene, const View& view, uvec2 size, const Settings& settings,
                     const std::vector<std::string>& shows, uint32_t frames, uint32_t seed = 0);
 
-/// A frame from `before`, then one from `now`, of which the images are.
+/// Frames from `before`, then one from `now`, of which the images are.
 Pictures renderMoved(const Scene& scene, const View& before, const View& now, uvec2 size, const Settings& settings,
-                     const std::vector<std::string>& shows);
+                     const std::vector<std::string>& shows, uint32_t framesBefore = 1);
 
 /// A frame from each view, one after the other.
 std::vector<Pictures> renderPath(const Scene& scene, const std::vector<View>& path, uvec2 size,

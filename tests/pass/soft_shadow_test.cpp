@@ -15,7 +15,7 @@ namespace {
 constexpr uvec2 size(256, 64);
 
 std::vector<std::string> with(const std::vector<std::string>& more) {
-    std::vector<std::string> all{"diffuse.rays=0", "specular.rays=0"};
+    std::vector<std::string> all{"diffuse.rays=0", "specular.rays=0", "shadow.clean=false"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
 }

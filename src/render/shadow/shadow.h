@@ -66,7 +66,9 @@ CHOICES(ShadowUnit, SHADOW_UNITS)
     VALUE(uint, lamps, 8, 0, 16,                                                                                       \
           "How many point and spot lamps cast shadows at most: the strongest; the others shine through everything.")   \
     VALUE(uint, lampResolution, 512, 64, 4096,                                                                         \
-          "Texels along each side of a lamp's shadow map; a point lamp has six, a spot one.")
+          "Texels along each side of a lamp's shadow map; a point lamp has six, a spot one.")                          \
+    SWITCH(clean, 1, "Blur what few samples leave of noise along and within penumbras (pcf, pcss).")                   \
+    VALUE(uint, history, 32, 0, 1024, "Frames whose mean is taken where nothing moves; 0: none is kept (clean).")
 SETTINGS(ShadowSettings, SHADOW_SETTINGS)
 
 // Shadow space: x, y in clip space of the map, z reversed depth (1 nearest to the sun), all of it linear.
