@@ -54,10 +54,10 @@ protected:
         return cases;
     }
 
-    /// Away from the map's edges, where a look-up may leave it.
+    /// Away from the map's edges, where a look-up may leave it, and above its lowest depth, which stands for nothing.
     static bool isInside(const ShadowScene& scene, const ShadowCase& c) {
         const vec4 s = scene.map.worldToShadow * vec4(c.point, 1.0F);
-        return std::max(std::abs(s.x), std::abs(s.y)) < 0.98F;
+        return std::max(std::abs(s.x), std::abs(s.y)) < 0.98F && s.z > 0.02F;
     }
 
     static std::vector<float> lookUp(const ShadowScene& scene, const std::vector<ShadowCase>& cases) {
