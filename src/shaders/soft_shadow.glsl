@@ -39,18 +39,16 @@ void addTexel(inout LitSum sum, bool lit, bool known, float weight) {
 }
 
 // What is past a surface's edges is lit as long as some of the surface is. Where all that is known is in shadow, light
-// that goes past is that outside of a wall, and must not come in. `otherwise`: where nothing is known.
-float litShare(LitSum sum, float otherwise) {
-    return sum.known <= 0.0 ? otherwise : sum.knownLit <= 0.0 ? 0.0 : sum.lit / sum.all;
-}
+// that goes past is that outside of a wall, and must not come in. -1: nothing is known.
+float litShare(LitSum sum) { return sum.known <= 0.0 ? -1.0 : sum.knownLit <= 0.0 ? 0.0 : sum.lit / sum.all; }
 
-float pcfVisibility(float radius, float lift, ShadowPattern pattern, uint count, float otherwise) {
+float pcfVisibility(float radius, float lift, ShadowPattern pattern, uint count) {
     LitSum sum = LitSum(0.0, 0.0, 0.0, 0.0);
     for (uint i = 0u; i < count; ++i) {
         ShadowTexel texel = shadowTexel(radius * nextPoint(pattern));
         addTexel(sum, !blocks(texel, lift), texel.known, 1.0);
     }
-    return litShare(sum, otherwise);
+    return litShare(sum);
 }
 
 // Mean height of what hides a part of the light, as far as the search finds it within `radius`; 0: nothing. Of what
@@ -70,10 +68,9 @@ float meanBlockerHeight(ShadowCone cone, float radius, float least, float lift, 
     return sum.y > 0.0 ? max(sum.x / sum.y, 1e-4) : 0.0;
 }
 
-// Share of the light's disk that what lies in the map leaves free, if all of it is at `height`. What
+// Share of the light's disk that what lies in the map leaves free, if all of it is at `height`; -1: unknown. What
 // rises no more steeply than `steep` is the receiver's own surroundings, which face the sun.
-float diskVisibility(ShadowCone cone, float height, float least, float lift, ShadowPattern pattern, uint count,
-                     float otherwise) {
+float diskVisibility(ShadowCone cone, float height, float least, float lift, ShadowPattern pattern, uint count) {
     const float steep = 1.0;
     float radius = max(penumbraRadius(cone, height), least);
     LitSum sum = LitSum(0.0, 0.0, 0.0, 0.0);
@@ -83,7 +80,7 @@ float diskVisibility(ShadowCone cone, float height, float least, float lift, Sha
         bool before = texel.height >= steep * radius * length(point);
         addTexel(sum, !(blocks(texel, lift) && before), texel.known, 1.0);
     }
-    return litShare(sum, otherwise);
+    return litShare(sum);
 }
 
 #endif

@@ -71,8 +71,7 @@ float pcss(ShadowCone cone, vec4 noise) {
     if (height <= 0.0) {
         return 1.0;
     }
-    return diskVisibility(cone, height, least, receiver.lift, shadowPattern(s, s.samples, noise.xy), s.samples,
-                              hardLampVisibility(receiver));
+    return diskVisibility(cone, height, least, receiver.lift, shadowPattern(s, s.samples, noise.xy), s.samples);
 }
 
 float visibilityAt(ivec2 pixel, uint index, vec3 p, vec3 n) {
@@ -91,8 +90,7 @@ float visibilityAt(ivec2 pixel, uint index, vec3 p, vec3 n) {
     vec4 noise = shadowNoise(pixel, params.view, s.pattern == ShadowPattern_rings, lampStream + 2u * index);
     if (filterKind == ShadowFilter_pcf) {
         float radius = s.radius * (s.radiusUnit == ShadowUnit_texels ? receiver.texel : 1.0);
-        return pcfVisibility(radius, receiver.lift, shadowPattern(s, s.samples, noise.xy), s.samples,
-                              hardLampVisibility(receiver));
+        return pcfVisibility(radius, receiver.lift, shadowPattern(s, s.samples, noise.xy), s.samples);
     }
     float slope = shadow.lamp.radius / receiver.distance;
     float share = shareAboveHorizon(facing, slope * inversesqrt(1.0 + slope * slope));

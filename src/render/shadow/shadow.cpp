@@ -96,6 +96,7 @@ SunVisibility sunVisibility(gpu::Frame& f, const GBuffer& g, const ShadowInputs&
         .params(params)
         .constant("filterKind", static_cast<uint32_t>(filter))
         .constant("hasRanges", in.range ? 1 : 0)
+        .constant("cascades", params.sun.count)
         .dispatch(g.depth.size);
     return {visibility, soft ? penumbra : gpu::Image{}, cascades ? index : gpu::Image{}};
 }

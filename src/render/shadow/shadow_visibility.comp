@@ -11,6 +11,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint filterKind = ShadowFilter_pcss;
 layout(constant_id = 1) const uint hasRanges = 1;
+layout(constant_id = 2) const uint cascades = 1;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ShadowVisibilityParams params; };
 layout(set = 0, binding = 1) uniform sampler2D depth;
 layout(set = 0, binding = 2) uniform usampler2D geometricNormal;
@@ -46,7 +47,7 @@ float sharpVisibility() {
         ShadowTexel texel = shadowTexel(offsets[i]);
         addTexel(sum, !blocks(texel, receiver.lift), texel.known, weights[i]);
     }
-    return litShare(sum, hardVisibility(receiver));
+    return litShare(sum);
 }
 
 // What the visibility image and the penumbra image get.
@@ -91,8 +92,7 @@ Result pcss(ShadowCone cone, float texelSize, vec4 noise) {
         return Result(1.0, -2.0 * radius, 0.0);
     }
     float width = 2.0 * max(penumbraRadius(cone, height), least);
-    float visible = diskVisibility(cone, height, least, receiver.lift, shadowPattern(s, s.samples, noise.xy), s.samples,
-                                   hardVisibility(receiver));
+    float visible = diskVisibility(cone, height, least, receiver.lift, shadowPattern(s, s.samples, noise.xy), s.samples);
     return Result(visible, width, height);
 }
 
@@ -100,7 +100,7 @@ Result pcf(float texelSize, vec4 noise) {
     ShadowSettings s = params.settings;
     float radius = s.radius * (s.radiusUnit == ShadowUnit_texels ? texelSize : 1.0);
     float lift = receiver.lift * (1.0 + 0.1 * radius / texelSize);  // nothing else tells the receiver's surroundings
-    float visible = pcfVisibility(radius, lift, shadowPattern(s, s.samples, noise.xy), s.samples, hardVisibility(receiver));
+    float visible = pcfVisibility(radius, lift, shadowPattern(s, s.samples, noise.xy), s.samples);
     return Result(visible, 2.0 * radius, 0.0);
 }
 
@@ -120,8 +120,10 @@ Result resultIn(uint cascade, vec3 p, vec3 normal, vec4 noise) {
     if (filterKind == ShadowFilter_hard) {
         return Result(hardVisibility(receiver), 0.0, 0.0);
     }
-    return filterKind == ShadowFilter_pcss ? pcss(ShadowCone(params.sunSlope, 0.0), map.texelSize, noise)
-                                           : pcf(map.texelSize, noise);
+    Result r = filterKind == ShadowFilter_pcss ? pcss(ShadowCone(params.sunSlope, 0.0), map.texelSize, noise)
+                                               : pcf(map.texelSize, noise);
+    r.visibility = r.visibility < 0.0 ? hardVisibility(receiver) : r.visibility;
+    return r;
 }
 
 Result mixed(Result a, Result b, float share) {
@@ -137,7 +139,7 @@ Result resultAt(vec3 p, Cascade cascade, ivec2 pixel) {
     bool rings = params.settings.pattern == ShadowPattern_rings;
     vec4 noise = filterKind == ShadowFilter_hard ? vec4(0.0) : shadowNoise(pixel, params.view, rings, sunStream);
     Result r = resultIn(cascade.index, p, normal, noise);
-    if (cascade.next > 0.0) {
+    if (cascades > 1u && cascade.next > 0.0) {
         r = mixed(r, resultIn(cascade.index + 1u, p, normal, noise), cascade.next);
     }
     r.visibility *= share;
