@@ -31,6 +31,8 @@ const float alongEdge = 3.0;     // standard deviation of a pass along a straigh
 const float longest = 6.0;       // of either, pixels
 const float shortest = 0.15;     // pixels; reaches no neighbour
 const float allowance = 0.06;    // how far beyond what the neighbours show the history may lie
+const float enoughFound = 2.0;   // of eight neighbours
+const float wideEnough = 8.0;    // pixels
 const float historySlack = 4.0;  // for surfaces, times what neighbours are allowed
 
 struct Neighbours {
@@ -38,12 +40,13 @@ struct Neighbours {
     float lowest;
     float highest;
     float width;  // of the penumbra, mean of those that know [m]; 0: none does
+    vec2 found;   // visibility of those that know, and how many they are
 };
 
 // Of the 3x3 around, those that lie on the same surface.
 Neighbours look(ivec2 pixel, float d, float middle, ScreenPlane plane) {
     ivec2 last = ivec2(params.view.size) - 1;
-    Neighbours n = Neighbours(vec2(0.0), middle, middle, 0.0);
+    Neighbours n = Neighbours(vec2(0.0), middle, middle, 0.0, vec2(0.0));
     vec2 widths = vec2(0.0);
     for (int i = 0; i < 9; ++i) {
         ivec2 o = ivec2(i % 3, i / 3) - 1;
@@ -55,6 +58,7 @@ Neighbours look(ivec2 pixel, float d, float middle, ScreenPlane plane) {
             n.highest = max(n.highest, v);
             n.gradient += (v - middle) * vec2(o) * vec2(o.y == 0 ? 0.25 : 0.125, o.x == 0 ? 0.25 : 0.125);
             widths += w > 0.0 ? vec2(w, 1.0) : vec2(0.0);
+            n.found += w > 0.0 ? vec2(v, 1.0) : vec2(0.0);
         }
     }
     n.width = widths.y > 0.0 ? widths.x / widths.y : 0.0;
@@ -87,8 +91,8 @@ vec2 remembered(ivec2 pixel, vec3 p, ScreenPlane plane) {
 }
 
 // The quadratic form (inverse covariance) of the Gauss kernel of a pass, in pixels.
-vec3 formAt(vec2 uv, float d, ScreenPlane plane, Neighbours n, float shrink) {
-    vec3 metres = metresAcross(uv, d, plane, params.view.clipToWorld, params.view.pixel, params.toSun);
+// metres: of metresAcross.
+vec3 formAt(vec3 metres, Neighbours n, float shrink) {
     float deviation = acrossEdge * n.width * shrink;
     vec3 disk = metres / (deviation * deviation) + vec3(1.0, 0.0, 1.0) / (longest * longest);
     // Along the edge, what lies side by side is equally lit; where the gradient is as steep as the penumbra's width says,
@@ -115,11 +119,18 @@ void gather(ivec2 pixel) {
     if (n.width <= 0.0) {
         return;
     }
+    // Where the search for blockers missed what it found all around, in a penumbra that is wider than what is around, the
+    // pixel is not lit: it does not know.
+    vec3 metres = metresAcross(uv, d, plane, params.view.clipToWorld, params.view.pixel, params.toSun);
+    bool wide = n.width > wideEnough * sqrt(max(metres.x, metres.z));
+    if (imageLoad(penumbra, pixel).r < 0.0 && n.found.y >= enoughFound && wide) {
+        seen = n.found.x / n.found.y;
+    }
     vec2 before = params.hasPrevious != 0u ? remembered(pixel, p, plane) : vec2(0.0);
     float held = clamp(before.x, n.lowest - allowance, n.highest + allowance);
     before.y *= max(1.0 - 8.0 * abs(held - before.x), 0.0) * likeness(seen - held, params.samples);
     float mean = (held * before.y + seen) / (before.y + 1.0);
-    vec3 form = min(formAt(uv, d, plane, n, inversesqrt(sqrt(before.y + 1.0))), vec3(1e4));
+    vec3 form = min(formAt(metres, n, inversesqrt(sqrt(before.y + 1.0))), vec3(1e4));
     imageStore(kernel, pixel,
                uvec4(packHalf2x16(form.xy), packHalf2x16(vec2(form.z, 0.0)), packHalf2x16(plane.perPixel),
                      floatBitsToUint(plane.perDepth)));
