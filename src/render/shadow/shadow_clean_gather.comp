@@ -31,7 +31,7 @@ const float alongEdge = 3.0;     // standard deviation of a pass along a straigh
 const float longest = 6.0;       // of either, pixels
 const float shortest = 0.15;     // pixels; reaches no neighbour
 const float allowance = 0.06;    // how far beyond what the neighbours show the history may lie
-const float enoughFound = 2.0;   // of eight neighbours
+const float enoughFound = 3.0;   // of eight neighbours
 const float wideEnough = 8.0;    // pixels
 const float historySlack = 4.0;  // for surfaces, times what neighbours are allowed
 
