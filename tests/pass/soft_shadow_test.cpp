@@ -28,11 +28,13 @@ double diskShare(double t) {
 
 /// Between the distances at which 10 % and 90 % of it are seen.
 double diskWidth() {
-    double t = 0.0;
-    for (double step = 0.5; step > 1e-9; step *= 0.5) {
-        t += diskShare(t) < 0.9 ? step : -step;
+    double low = 0.0;
+    double high = 1.0;
+    for (int i = 0; i < 40; ++i) {
+        const double middle = 0.5 * (low + high);
+        (diskShare(middle) < 0.9 ? low : high) = middle;
     }
-    return 2.0 * t;
+    return 2.0 * low;
 }
 
 /// A sheet from far on the left to x = 0 at some height over the ground, seen from below it: the camera looks straight
