@@ -1,8 +1,8 @@
 // The sun's shadows against the path tracer: the same disk of a sun, rays through the pixels' centres. A pixel that is
 // lit and should be dark counts a hundred times in a relative error of visibility.
 //
-// Where 16 samples and more are wrong, it is by the shadow map's texels and by the method, hardly by noise. The cleaning
-// takes away noise alone; it is measured apart: against the mean of many frames of the same shadows.
+// Where 16 samples and more are wrong, it is by the shadow map's texels and by the method, hardly by noise. The
+// cleaning takes away noise alone; it is measured apart: against the mean of many frames of the same shadows.
 #include "compare/compare.h"
 #include "pass/harness.h"
 #include "reference/reference.h"
