@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Makes docs/accuracy.md: every built-in scene and preset, and every tracing method, against the truth. Takes about twenty
-# minutes on two cores, which should have nothing else to do: the tables have times. The pages with the pictures stay in out/accuracy*.
+# Makes docs/accuracy.md: every built-in scene and preset, every tracing method and shadow filter, against the truth. Takes
+# about half an hour on two cores, which should have nothing else to do: the tables have times. The pages with the pictures
+# stay in out/accuracy*. `docs/accuracy.sh shadows` makes the last section, "Shadows", alone, and leaves the rest as it is.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -8,6 +9,13 @@ reflet=build/bin/reflet
 scenes=$("$reflet" list scenes | cut -d ' ' -f 1)
 table=$(mktemp)
 trap 'rm -f "$table"' EXIT
+
+if [[ ${1:-} == shadows ]]; then
+    sed '/^## Shadows$/,$d' docs/accuracy.md >"$table"
+    docs/accuracy_shadows.py >>"$table"
+    cp "$table" docs/accuracy.md
+    exit
+fi
 
 section() {  # heading folder [option…]
     local heading=$1 folder=$2
@@ -77,5 +85,7 @@ TEXT
     printf 'Relative MSE (and bias) of `indirect_diffuse` against visible-only with one bounce: 256 rays a pixel, %s\n\n' \
         '`trace_screen.thickness=0.1`, `trace_screen.light=direct`; else the settings of `default`.'
     diffuse_table
+    echo
+    docs/accuracy_shadows.py
 } >"$table"
 cp "$table" docs/accuracy.md
