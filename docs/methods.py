@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Makes the pictures, figures and commands of docs/methods/: docs/methods.py [PAGE...], all pages if none is named.
 
-Needs a built program (./demo.sh) and Python's standard library. What each page shows is in methods_pages.py. Tables and
-commands are written into the pages between <!-- table:NAME --> or <!-- commands --> and <!-- end -->; the prose around
-them is by hand. References and renders are kept in out/methods/; delete it after the program has changed.
+Needs a built program (./demo.sh) and Python's standard library. What each page shows is in methods_pages.py, and of
+shadows in methods_shadows.py. Tables and commands are written into the pages between <!-- table:NAME --> or
+<!-- commands --> and <!-- end -->; the prose around them is by hand. References and renders are kept in out/methods/;
+delete it after the program has changed.
 """
 import hashlib
 import json
@@ -115,7 +116,7 @@ def cached(kind, arguments, outputs):
 
 
 def options(scene, settings, view, size, preset):
-    arguments = ["builtin:" + scene, "--size", size]
+    arguments = [scene if "/" in scene else "builtin:" + scene, "--size", size]
     arguments += ["--view-file", "docs/methods/views/%s.json" % view] if view else []
     arguments += ["--preset", preset] if preset else []
     for setting in settings.split():
