@@ -16,6 +16,8 @@ FIGURES = ["relative MSE to the truth", "FLIP"]
 BARS = (96, 104, 107, 60)  # colonnade: what the bars at 1 m and 2 m cast
 PANEL = (20, 112, 107, 60)  # colonnade: the pierced panel's shadow
 FOOT = (0, 80, 107, 60)  # colonnade, camera contact: the foot of the nearest column
+UNDER_PANEL = (128, 95, 107, 60)  # the same: between the panel, 10 cm above the ground, and its shadow
+BLUE_CUBE = (200, 90, 53, 30)  # cubes
 
 
 class Shadows(Render):
@@ -37,6 +39,10 @@ def errors(frame, truth):
     return ["%.4f" % figures["relative_mse"], "%.4f" % figures["flip"]]
 
 
+def visibility(page, name, frame, window):
+    page.picture(name, frame, window, layer="sun_visibility")
+
+
 def short(settings):
     return "`%s`" % settings.replace("@", "").strip()
 
@@ -51,9 +57,9 @@ def soft_shadows(page):
                 frame = Shadows(scene, setting, view)
                 rows.append(["%s, sun of %s" % (scene, sun), short(setting)] + errors(frame, truth))
                 if scene == "colonnade":
-                    page.picture("%s-%s" % (name, "small" if view is None else "large"), frame, BARS)
+                    visibility(page, "%s-%s" % (name, "small" if view is None else "large"), frame, BARS)
             if scene == "colonnade":
-                page.picture("truth-%s" % ("small" if view is None else "large"), truth, BARS)
+                visibility(page, "truth-%s" % ("small" if view is None else "large"), truth, BARS)
     page.table("filters", ["scene", "setting"] + FIGURES, rows)
     page.picture("whole", Shadows("colonnade", "", SUNS[1][1]))
     page.picture("whole-truth", Truth("colonnade", TRUTH, view=SUNS[1][1]))
@@ -75,7 +81,7 @@ def shadow_noise(page):
         settings, more = sampled(samples, pattern, clean, frames)
         both = [Shadows("colonnade", settings, view, more) for _, view in SUNS]
         if name:
-            page.picture(name, both[1], PANEL)
+            visibility(page, name, both[1], PANEL)
         return [cell for frame, truth in zip(both, truths) for cell in errors(frame, truth)]
 
     head = ["relative MSE, sun of 0.53°", "FLIP", "relative MSE, sun of 5°", "FLIP"]
@@ -92,38 +98,45 @@ def shadow_noise(page):
             picture = "clean%d-frames%d" % (samples, frames) if samples == 4 else None
             rows.append([str(samples), "frame %d" % frames] + row(picture, samples, "", "true", frames))
     page.table("cleaning", ["samples", "cleaning"] + head, rows)
-    page.picture("truth", truths[1], PANEL)
+    visibility(page, "truth", truths[1], PANEL)
     rows = []
     for resolution in (512, 1024, 2048, 4096, 8192):
         rows.append([str(resolution)] + row(None, 64, "@resolution=%d" % resolution))
     page.table("resolution", ["`shadow.resolution`"] + head, rows)
 
 
-def shadow_bias(page):
-    views = (("colonnade, camera contact", "colonnade", "--camera contact", FOOT), ("cubes", "cubes", "", None))
-    constant = ["@biasKind=constant @constantBias=%s" % b for b in ("0", "0.01", "0.1")]
-    slope = ["@bias=%s" % b for b in ("0", "0.4", "4")]
-    names = dict(zip(constant + slope, ("constant0", "constant0_01", "constant0_1", "slope0", "slope0_4", "slope4")))
-    rows, contact = [], []
-    for title, scene, camera, window in views:
+def contact_shadows(page):
+    rows = []
+    for scene, camera in (("colonnade", "--camera contact"), ("cubes", "")):
         truth = Truth(scene, " ".join((TRUTH, camera)).strip())
-        for kind in ("@filter=hard", "@filter=pcss"):
-            for setting in constant + slope:
-                frame = Shadows(scene, "%s %s" % (kind, setting), more=camera)
-                rows.append([title, short("%s %s" % (kind, setting))] + errors(frame, truth))
-                if window and kind == "@filter=hard":
-                    page.picture(names[setting], frame, window)
         for resolution in (256, 2048):
             for distance in ("0", "0.1", "0.25"):
                 setting = "@resolution=%d contact.distance=%s" % (resolution, distance)
                 frame = Shadows(scene, setting, more=camera)
-                contact.append([title, short(setting)] + errors(frame, truth))
-                if window and resolution == 256:
-                    page.picture("contact" + distance.replace(".", "_"), frame, window)
-        if window:
-            page.picture("truth", truth, window)
-    page.table("bias", ["view", "setting"] + FIGURES, rows)
-    page.table("contact", ["view", "setting"] + FIGURES, contact)
+                rows.append([scene, short(setting)] + errors(frame, truth))
+                if camera and (resolution, distance) in ((256, "0"), (256, "0.25"), (2048, "0")):
+                    page.picture("contact%s-%d" % (distance.replace(".", "_"), resolution), frame, UNDER_PANEL)
+        if camera:
+            page.picture("contact-truth", truth, UNDER_PANEL)
+    page.table("contact", ["scene", "setting"] + FIGURES, rows)
+
+
+def shadow_bias(page):
+    settings = ["@biasKind=constant @constantBias=%s" % b for b in ("0", "0.01", "0.1")] + ["@bias=%s" % b for b in ("0", "0.4", "4")]
+    names = ("constant0", "constant0_01", "constant0_1", "slope0", "slope0_4", "slope4")
+    rows = []
+    for scene, camera, window, zoom in (("colonnade", "--camera contact", FOOT, 3), ("cubes", "", BLUE_CUBE, 6)):
+        truth = Truth(scene, " ".join((TRUTH, camera)).strip())
+        for kind in ("@filter=hard", "@filter=pcss"):
+            for name, setting in zip(names, settings):
+                frame = Shadows(scene, "%s %s" % (kind, setting), more=camera)
+                light = "%.4f" % frame.against(truth)["relative_mse"]
+                rows.append([scene, short("%s %s" % (kind, setting))] + errors(frame, truth) + [light])
+                if kind == "@filter=hard":
+                    page.picture("%s-%s" % (scene, name), frame, window, zoom)
+        page.picture(scene + "-truth", truth, window, zoom)
+    page.table("bias", ["scene", "setting"] + FIGURES + ["relative MSE of direct light"], rows)
+    contact_shadows(page)
 
 
 def box(x, height, z, half):
