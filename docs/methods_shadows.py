@@ -2,7 +2,6 @@
 command line; a leading @ stands for shadow. What a picture must show, and what the figures say, is in the pages' prose."""
 import base64
 import json
-import os
 import struct
 
 from methods import CACHE, Render, Truth, cached, options
