@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Makes the pictures, figures and commands of docs/methods/: docs/methods.py [PAGE...], all pages if none is named.
 
-Needs a built program (./demo.sh) and Python's standard library. What each page shows is in methods_pages.py. Tables and
-commands are written into the pages between <!-- table:NAME --> or <!-- commands --> and <!-- end -->; the prose around
-them is by hand. References and renders are kept in out/methods/; delete it after the program has changed.
+Needs a built program (./demo.sh) and Python's standard library. What each page shows is in methods_pages.py, and of
+shadows in methods_shadows.py. Tables and commands are written into the pages between <!-- table:NAME --> or
+<!-- commands --> and <!-- end -->; the prose around them is by hand. References and renders are kept in out/methods/;
+delete it after the program has changed.
 """
 import hashlib
 import json
@@ -14,6 +15,7 @@ import struct
 import subprocess
 import sys
 import zlib
+from itertools import accumulate
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 REFLET = "build/bin/reflet"
@@ -83,6 +85,42 @@ def write_png(path, picture):
                 + chunk(b"IDAT", zlib.compress(raw, 9)) + chunk(b"IEND", b""))
 
 
+# EXR, as the program writes it: floats, ZIP in blocks of 16 rows.
+
+def unzip_exr(block, size):
+    """Undoes a block's compression: byte differences, then even and odd bytes apart."""
+    if len(block) == size:  # larger if compressed
+        return block
+    packed = zlib.decompress(block)
+    apart = bytes(accumulate(packed, lambda a, b: (a + b - 128) & 255))
+    together = bytearray(size)
+    together[0::2], together[1::2] = apart[:(size + 1) // 2], apart[(size + 1) // 2:]
+    return together
+
+
+def read_exr(path, channel):
+    """A channel's values 0 to 1 as a grey picture."""
+    data = open(path, "rb").read()
+    at, attributes = 8, {}
+    while data[at]:
+        name, kind = data[at:at + 512].split(b"\0", 2)[:2]
+        at += len(name) + len(kind) + 2
+        size, = struct.unpack_from("<i", data, at)
+        attributes[name] = data[at + 4:at + 4 + size]
+        at += 4 + size
+    right, bottom = struct.unpack("<4i", attributes[b"dataWindow"])[2:]
+    width, height = right + 1, bottom + 1
+    names = re.findall(rb"([^\x00]+)\x00\x02\x00\x00\x00.{12}", attributes[b"channels"], re.S)
+    first, row, rows = names.index(channel.encode()), 4 * width * len(names), []
+    for offset in struct.unpack_from("<%dQ" % ((height + 15) // 16), data, at + 1):
+        y, size = struct.unpack_from("<ii", data, offset)
+        block = unzip_exr(data[offset + 8:offset + 8 + size], row * min(16, height - y))
+        for start in range(4 * width * first, len(block), row):
+            values = struct.unpack_from("<%df" % width, block, start)
+            rows.append(b"".join(bytes([round(255 * min(max(v, 0.0), 1.0))] * 3) for v in values))
+    return width, height, rows
+
+
 def crop(picture, x, y, width, height, zoom):
     """A part of it, every pixel zoom x zoom times."""
     rows = []
@@ -115,7 +153,7 @@ def cached(kind, arguments, outputs):
 
 
 def options(scene, settings, view, size, preset):
-    arguments = ["builtin:" + scene, "--size", size]
+    arguments = [scene if "/" in scene else "builtin:" + scene, "--size", size]
     arguments += ["--view-file", "docs/methods/views/%s.json" % view] if view else []
     arguments += ["--preset", preset] if preset else []
     for setting in settings.split():
@@ -159,16 +197,19 @@ class Page:
         self.path = "docs/methods/%s.md" % name
         self.commands = []
 
-    def picture(self, name, frame, window=None, zoom=3):
-        """Writes pictures/PAGE-NAME.png: all of the frame, or a window (x, y, width, height) of it, enlarged."""
+    def picture(self, name, frame, window=None, zoom=3, layer=None):
+        """Writes pictures/PAGE-NAME.png: all of the frame, or a window (x, y, width, height) of it, enlarged. layer: of
+        its EXR, one channel, in grey."""
         path = "docs/methods/pictures/%s-%s.png" % (self.name, name)
-        whole = read_png(frame.png)
+        whole = read_exr(frame.exr, layer + ".Y") if layer else read_png(frame.png)
         write_png(path, crop(whole, *window, zoom) if window else whole)
         if os.path.getsize(path) > 100 * 1024:
             sys.exit("%s has over 100 KiB" % path)
         kind = "reference" if isinstance(frame, Truth) else "render"
-        part = " # then %dx%d from (%d, %d)" % (window[2:] + window[:2]) if window else ""
-        self.commands.append("%s %s -o %s.png%s" % (kind, shlex.join(frame.arguments), name, part))
+        parts = (["layer " + layer] if layer else []) + (["%dx%d from (%d, %d)" % (window[2:] + window[:2])] if window else [])
+        aov = " --aov " + layer if layer and kind == "render" else ""
+        note = " # then " + ", ".join(parts) if parts else ""
+        self.commands.append("%s %s%s -o %s.%s%s" % (kind, shlex.join(frame.arguments), aov, name, "exr" if layer else "png", note))
 
     def table(self, name, header, rows):
         """Writes a table: left column text, the others figures."""
