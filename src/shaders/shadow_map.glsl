@@ -6,10 +6,10 @@
 #include "render/shadow/shadow.h"
 #include "shaders/shadow_texel.glsl"
 
-const float leastFacing = 0.05;    // cosine under which a surface is followed as if it were this
+const float leastFacing = 0.05;     // cosine under which a surface is followed as if it were this
 const float edgeLift = 0.75;        // part of the lift that is left out at edges
 const float bentAway = 2.0;         // metres that a surface may bend away from its plane by for each to the side
-const float outsideTheMap = -1e9;  // clearance
+const float outsideTheMap = -1e9;   // clearance
 
 // Where a map lies in the image that several share.
 struct ShadowTile {
@@ -62,8 +62,7 @@ ShadowReceiver slopeReceiver(vec3 p, vec3 normal, ShadowMapParams map, ShadowTil
     vec3 axisY = shadowAxis(map, 1);
     vec2 sideways = vec2(dot(normal, axisX), dot(normal, axisY));
     r.aside = dot(sideways, sideways) > 1e-6 * dot(axisX, axisX) ? normalize(sideways) : vec2(0.0);
-    r.slope = -vec2(dot(normal, axisX) / dot(axisX, axisX), dot(normal, axisY) / dot(axisY, axisY)) /
-              max(facing, leastFacing);
+    r.slope = -sideways / vec2(dot(axisX, axisX), dot(axisY, axisY)) / max(facing, leastFacing);
     r.lift = bias * map.texelSize / max(facing, leastFacing);
     r.ownPlane = true;
     return r;

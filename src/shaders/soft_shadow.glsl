@@ -9,10 +9,7 @@
 #include "shaders/shadow_pattern.glsl"
 #include "shaders/shadow_texel.glsl"
 
-struct SoftShadow {
-    float visibility;     // 1: lit
-    float blockerHeight;  // mean height of the blockers that were found; 0: none
-};
+const float leastFilterRadius = 0.75;  // texels: under it, the four around the point are all there is to know
 
 // What is nearer to the receiver's plane than `lift` metres (toward the light) does not block.
 bool blocks(ShadowTexel texel, float lift) { return texel.clearance > lift; }
@@ -53,7 +50,9 @@ float pcfVisibility(float radius, float lift, ShadowPattern pattern, uint count)
 
 // Mean height of what hides a part of the light, as far as the search finds it within `radius`; 0: nothing. Of what
 // lies to the side, only that counts which is high enough to be before the light as the receiver sees it: other
-// blockers throw their shadows elsewhere, and would pull the mean down. least: the half width that the map resolves [m].
+// blockers throw their shadows elsewhere, and would pull the mean down. Each counts by how much of the light it hides: by
+// one over the square of its own penumbra, or of what lies between samples. least: the half width that the map resolves
+// [m].
 float meanBlockerHeight(ShadowCone cone, float radius, float least, float lift, ShadowPattern pattern, uint count) {
     float spacing = max(radius * inversesqrt(float(count)), least);
     vec2 sum = vec2(0.0);

@@ -282,7 +282,9 @@ TEST(SoftShadow, OpenGroundIsFullyLitAtEverySunHeightAboveFiveDegreesWithEveryFi
     }
 }
 
-TEST(SoftShadow, EarlyOutsChangeNoiseOnly) {
+// Without them the search is as wide as the highest that could cast, and its samples miss some of what is low: a little
+// more light, measured at 0.0015 in the mean.
+TEST(SoftShadow, EarlyOutsChangeLittle) {
     const Scene scene = findBuiltinScene("colonnade")->make();
     View view = defaultView(scene);
     view.sun.angularDiameter = glm::radians(3.0F);

@@ -22,7 +22,6 @@ float loadLampDepth(ivec2 texel) { return texelFetch(shadowMap, texel, 0).r; }
 #include "shaders/lamp_shadow.glsl"
 #include "shaders/shadow_noise.glsl"
 
-const float leastFilterRadius = 0.75;  // texels: under it, the four around the point are all there is to know
 const uint lampStream = 0x1a90u;       // of the noise
 
 LampReceiver receiver;

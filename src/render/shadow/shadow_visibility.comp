@@ -28,7 +28,6 @@ vec2 loadShadowRange(ivec2 cell) { return texelFetch(range, cell, 0).rg; }
 #include "shaders/shadow_noise.glsl"
 #include "shaders/shadow_range.glsl"
 
-const float leastFilterRadius = 0.75;  // texels: under it, the four around the point are all there is to know
 const uint sunStream = 0x5ad0u;        // of the noise
 
 ShadowReceiver receiver;
@@ -159,7 +158,7 @@ void look(ivec2 pixel) {
     if (filterKind == ShadowFilter_pcf || filterKind == ShadowFilter_pcss) {
         imageStore(penumbra, pixel, vec4(clamp(vec2(r.width, r.height), -60000.0, 60000.0), 0.0, 0.0));
     }
-    if (params.sun.count > 1u) {
+    if (cascades > 1u) {
         imageStore(cascadeIndex, pixel, vec4((float(c.index) + c.next) / float(maxCascades - 1u)));
     }
 }
