@@ -52,6 +52,15 @@ struct DrawConstants {
 
 }  // namespace
 
+void drawIntoTile(const gpu::DrawCommands& to, const uvec2& tile, uint32_t side) {
+    const glm::ivec2 corner(tile * side);
+    const auto length = static_cast<float>(side);
+    const VkViewport viewport{static_cast<float>(corner.x), static_cast<float>(corner.y), length, length, 0, 1};
+    const VkRect2D scissor{{corner.x, corner.y}, {side, side}};
+    to.device.vk.vkCmdSetViewport(to.commands, 0, 1, &viewport);
+    to.device.vk.vkCmdSetScissor(to.commands, 0, 1, &scissor);
+}
+
 void recordDraws(const gpu::DrawCommands& to, const DrawList& list, const DrawFilter& filter, bool previousTransform) {
     const VolkDeviceTable& vk = to.device.vk;
     const VkBuffer buffers[] = {list.positions, list.attributes};

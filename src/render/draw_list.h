@@ -48,6 +48,9 @@ struct DrawFilter {
     uint32_t instance = 0;      ///< the shader's gl_InstanceIndex
 };
 
+/// What is drawn next goes to a square part of the target, `side` pixels a side; tile: its column and row.
+void drawIntoTile(const gpu::DrawCommands& to, const uvec2& tile, uint32_t side);
+
 /// Records the draws that pass the filter. Push constants of the vertex shader: objectToWorld, then (as far as the
 /// shader's block reaches) previousObjectToWorld, both mat4x3 in scalar layout.
 void recordDraws(const gpu::DrawCommands& to, const DrawList& list, const DrawFilter& filter, bool previousTransform);

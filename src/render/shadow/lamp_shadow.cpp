@@ -81,18 +81,6 @@ float distanceTo(const Aabb& box, const vec3& p) {
     return glm::distance(p, glm::clamp(p, box.min, box.max));
 }
 
-void useTile(const gpu::DrawCommands& to, const LampShadows& shadows, uint32_t tile) {
-    const uvec2 at = uvec2(tile % shadows.columns, tile / shadows.columns) * shadows.tileSize;
-    const auto side = static_cast<float>(shadows.tileSize);
-    const VkViewport viewport{static_cast<float>(at.x), static_cast<float>(at.y), side, side, 0, 1};
-    const VkRect2D scissor{{static_cast<int32_t>(at.x), static_cast<int32_t>(at.y)},
-                           {shadows.tileSize, shadows.tileSize}};
-    to.device.vk.vkCmdSetViewport(to.commands, 0, 1, &viewport);
-    to.device.vk.vkCmdSetScissor(to.commands, 0, 1, &scissor);
-    to.device.vk.vkCmdPushConstants(to.commands, to.layout, VK_SHADER_STAGE_ALL, sizeof(glm::mat4x3), sizeof(tile),
-                                    &tile);
-}
-
 // All draws, or all cut-out draws, into the tiles that they can be seen in.
 void drawTiles(const gpu::DrawCommands& to, const DrawList& list, const LampShadows& shadows,
                const LampTileParams& params, bool masked) {
@@ -103,7 +91,7 @@ void drawTiles(const gpu::DrawCommands& to, const DrawList& list, const LampShad
         };
         for (uint32_t face = 0; face < shadow.tiles; ++face) {
             const uint32_t tile = shadow.firstTile + face;
-            useTile(to, shadows, tile);
+            drawIntoTile(to, uvec2(tile % shadows.columns, tile / shadows.columns), shadows.tileSize);
             recordDraws(to, list, {lit, Cull::none, masked, params.worldToTile[tile]}, false);
         }
     }

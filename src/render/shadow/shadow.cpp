@@ -1,31 +1,11 @@
 // Records the sun's shadow maps and their look-up.
 #include "render/shadow/shadow.h"
 
-#include "gpu/device.h"
 #include "render/levels.h"
 
 #include <string>
 
 namespace reflet {
-
-namespace {
-
-// The part of the target that a cascade's draws go to.
-void setTile(const gpu::DrawCommands& to, uint cascade, uint resolution) {
-    const VkRect2D tile{
-        {static_cast<int32_t>(cascade % 2 * resolution), static_cast<int32_t>(cascade / 2 * resolution)},
-        {resolution, resolution}};
-    const VkViewport viewport{static_cast<float>(tile.offset.x),
-                              static_cast<float>(tile.offset.y),
-                              static_cast<float>(resolution),
-                              static_cast<float>(resolution),
-                              0,
-                              1};
-    to.device.vk.vkCmdSetViewport(to.commands, 0, 1, &viewport);
-    to.device.vk.vkCmdSetScissor(to.commands, 0, 1, &tile);
-}
-
-}  // namespace
 
 gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const SunShadowParams& sun,
                          const ShadowSettings& settings) {
@@ -33,7 +13,7 @@ gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const SunShadowPar
     const gpu::Image depth = f.target("shadow_map", VK_FORMAT_D32_SFLOAT, tiles * settings.resolution);
     const auto record = [&](const gpu::DrawCommands& to, bool masked) {
         for (uint i = 0; i < sun.count; ++i) {
-            setTile(to, i, settings.resolution);
+            drawIntoTile(to, uvec2(i % 2, i / 2), settings.resolution);
             recordDraws(to, list,
                         {.keep = [masked](const Draw& d) { return d.masked == masked; },
                          .cull = Cull::none,
