@@ -73,7 +73,10 @@ void lightDirectly(gpu::Frame& f, const FrameInputs& in, const Settings& setting
         out.lampVisibility =
             lampVisibility(f, out.g, {out.lampShadowMap, {}, in.blueNoise}, in.lampShadows, {in.view, settings.shadow});
     }
-    out.direct = directLight(f, out.g, {out.sunVisibility, out.lampVisibility}, in.ggxTable,
+    if (in.lamps.count > 0 && settings.direct.lampTiles != 0) {
+        out.lampTiles = findLampTiles(f, out.g.depth, in.lamps, in.view);
+    }
+    out.direct = directLight(f, out.g, {out.sunVisibility, out.lampVisibility, out.lampTiles.masks}, in.ggxTable,
                              {in.view, -in.sunDirection, in.sunIrradiance, in.environment}, in.lamps);
 }
 

@@ -5,6 +5,7 @@
 #include "render/bounce/rays.h"
 #include "render/composite/composite.h"
 #include "render/direct/direct.h"
+#include "render/direct/lamp_tiles.h"
 #include "render/draw_list.h"
 #include "render/gbuffer/gbuffer.h"
 #include "render/settings.h"
@@ -37,6 +38,7 @@ struct FrameImages {
     gpu::Image cascadeIndex;      ///< of sunVisibility(); none with one cascade
     gpu::Image lampShadowMap;     ///< none where no lamp casts a shadow
     gpu::Image lampVisibility;    ///< alike
+    LampTiles lampTiles;          ///< none without lamps or direct.lampTiles
     gpu::Image direct;
     LobeLight diffuse;
     LobeLight specular;
