@@ -166,8 +166,7 @@ const std::vector<Show>& table() {
          "only where lamps cast shadows",
          [](const FrameImages& i) { return Images{i.lampVisibility}; }, color, rgb, asIs},
         {"lamp_count",
-         "how many lamps may light a tile of 16x16 pixels; of the tiles' size; PNG 1 is 32 lamps; only with lamps and "
-         "direct.lampTiles",
+         "how many lamps may light a tile of 16x16 pixels; of the tiles' size; PNG 1 is 32 lamps; only with lamps",
          [](const FrameImages& i) { return Images{i.lampTiles.count}; }, first, y, lampsCounted},
         {"depth", "metres in front of the camera, 0 where there is nothing; PNG bright is near",
          [](const FrameImages& i) { return Images{i.g.depth}; }, viewDistance, y, near},

@@ -4,6 +4,7 @@
 #define REFLET_LAMP_REACH_GLSL
 
 #include "render/lamps.h"
+#include "render/view.h"
 #include "shaders/projection.glsl"
 
 // World space. The space behind all planes, and inside of the sphere.
@@ -11,13 +12,14 @@ struct TileBounds {
     vec4 sides[4];  // dot(side, (p, 1)): metres from the side into the tile
     vec3 center;    // of a sphere around all of it
     float radius;
-    vec2 distances;  // nearest and farthest, in front of the camera
+    vec2 distances;  // nearest and farthest, by the view's plane
 };
 
-// uv: of the upper left and the lower right corner. depths: the nearest and the farthest (reversed, so the largest first).
-TileBounds tileBounds(vec2 uvMin, vec2 uvMax, vec2 depths, mat4 worldToClip, mat4 clipToWorld, vec4 depthToDistance) {
+// uv: of the upper left and the lower right corner. depths: of the nearest and of the farthest surface. Any projection will
+// do: what lies between two depths is the hull of its eight corners.
+TileBounds tileBounds(vec2 uvMin, vec2 uvMax, vec2 depths, ViewParams view) {
     TileBounds tile;
-    mat4 rows = transpose(worldToClip);
+    mat4 rows = transpose(view.worldToClip);
     vec2 low = uvToNdc(uvMin);
     vec2 high = uvToNdc(uvMax);
     tile.sides = vec4[4](rows[0] - low.x * rows[3], high.x * rows[3] - rows[0], rows[1] - low.y * rows[3],
@@ -29,8 +31,10 @@ TileBounds tileBounds(vec2 uvMin, vec2 uvMax, vec2 depths, mat4 worldToClip, mat
     tile.center = vec3(0.0);
     for (int i = 0; i < 8; ++i) {
         vec2 uv = vec2((i & 1) == 0 ? uvMin.x : uvMax.x, (i & 2) == 0 ? uvMin.y : uvMax.y);
-        corners[i] = uvToWorld(uv, (i & 4) == 0 ? depths.x : depths.y, clipToWorld);
+        corners[i] = uvToWorld(uv, (i & 4) == 0 ? depths.x : depths.y, view.clipToWorld);
         tile.center += 0.125 * corners[i];
+        float distance = dot(view.viewPlane, vec4(corners[i], 1.0));
+        tile.distances = i == 0 ? vec2(distance) : vec2(min(tile.distances.x, distance), max(tile.distances.y, distance));
     }
     float square = 0.0;
     for (int i = 0; i < 8; ++i) {
@@ -38,7 +42,6 @@ TileBounds tileBounds(vec2 uvMin, vec2 uvMax, vec2 depths, mat4 worldToClip, mat
         square = max(square, dot(d, d));
     }
     tile.radius = sqrt(square);
-    tile.distances = vec2(depthToViewDistance(depths.x, depthToDistance), depthToViewDistance(depths.y, depthToDistance));
     return tile;
 }
 
@@ -70,7 +73,7 @@ bool lampReaches(LampParams lamp, TileBounds tile, vec4 viewPlane) {
         return true;
     }
     // What positions, rounded to floats, may be off.
-    float slack = 1e-5 * (length(tile.center) + tile.radius + tile.distances.y + length(lamp.position));
+    float slack = 1e-5 * (length(tile.center) + tile.radius + abs(tile.distances.y) + length(lamp.position));
     if (lamp.inverseRange > 0.0 && !rangeReaches(lamp.position, 1.0 / lamp.inverseRange + slack, tile, viewPlane)) {
         return false;
     }

@@ -2,14 +2,12 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/direct/direct.h"
-#include "render/direct/lamp_tiles.h"
 #include "render/gbuffer/gbuffer.glsl"
 #include "shaders/half_float.glsl"
 #include "shaders/lamp.glsl"
 #include "shaders/projection.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const uint lampTiles = 1u;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { DirectParams params; };
 layout(set = 0, binding = 1, scalar) uniform LampUniforms { LampBlock lampBlock; };
 layout(set = 0, binding = 2) uniform sampler2D depth;
@@ -23,17 +21,11 @@ layout(set = 0, binding = 9) uniform sampler2D ggxTable;
 layout(set = 0, binding = 10) uniform usampler2DArray lampMasks;
 layout(set = 0, binding = 11, rgba16f) uniform writeonly image2D direct;
 
+uvec4 loadLampMask(ivec3 texel) { return texelFetch(lampMasks, texel, 0); }
+#include "shaders/lamp_mask.glsl"
+
 float visibilityOfLamp(uint shadow, ivec2 pixel) {
     return shadow == noLampShadow ? 1.0 : texelFetch(lampVisibility, ivec3(pixel, shadow / 4u), 0)[shadow % 4u];
-}
-
-// The lamps from 32 · word on that may light a pixel, a bit for each.
-uint lampsOf(ivec2 pixel, uint word) {
-    if (lampTiles != 0u) {
-        return texelFetch(lampMasks, ivec3(pixel >> int(lampTileShift), word / 4u), 0)[word % 4u];
-    }
-    uint left = lampBlock.count - 32u * word;
-    return left >= 32u ? 0xFFFFFFFFu : (1u << left) - 1u;
 }
 
 vec3 lampLight(uint index, Surface s, vec3 p, vec3 n, vec3 v, ivec2 pixel) {
@@ -56,9 +48,10 @@ vec3 radianceAt(ivec2 pixel) {
     float visibility = texelFetch(sunVisibility, pixel, 0).r;
     vec3 radiance = texelFetch(emissive, pixel, 0).rgb;
     radiance += reflectLight(s, n, v, params.toSun) * params.sunIrradiance * visibility;
-    for (uint word = 0u; 32u * word < lampBlock.count; ++word) {
-        for (uint bits = lampsOf(pixel, word); bits != 0u; bits &= bits - 1u) {
-            radiance += lampLight(32u * word + uint(findLSB(bits)), s, p, n, v, pixel);
+    for (uint first = 0u; first < lampBlock.count; first += lampsPerLayer) {
+        uvec4 bits = lampsOfPixel(pixel, first / lampsPerLayer);
+        while (bits != uvec4(0u)) {
+            radiance += lampLight(first + takeFirstLamp(bits), s, p, n, v, pixel);
         }
     }
     return radiance;

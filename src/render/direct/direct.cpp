@@ -25,10 +25,6 @@ gpu::Image directLight(gpu::Frame& f, const GBuffer& g, const LightVisibility& v
     const gpu::Image lampVisibility =
         visibility.lamps ? visibility.lamps
                          : f.image("no_lamp_visibility", VK_FORMAT_R8G8B8A8_UNORM, uvec2(1), 1, /*array=*/true);
-    // Alike, where every lamp may light every pixel.
-    const gpu::Image lampMasks =
-        visibility.lampTiles ? visibility.lampTiles
-                             : f.image("no_lamp_tiles", VK_FORMAT_R32G32B32A32_UINT, uvec2(1), 1, /*array=*/true);
     const VkSampler linear = f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR});
     f.compute("direct", "direct.comp")
         .read("depth", g.depth)
@@ -39,11 +35,10 @@ gpu::Image directLight(gpu::Frame& f, const GBuffer& g, const LightVisibility& v
         .read("sunVisibility", visibility.sun)
         .read("lampVisibility", lampVisibility)
         .read("ggxTable", ggxTable, linear)
-        .read("lampMasks", lampMasks)
+        .read("lampMasks", visibility.lampMasks)
         .write("direct", direct)
         .params(params)
         .params(lamps, "lampBlock")
-        .constant("lampTiles", visibility.lampTiles ? 1 : 0)
         .dispatch(direct.size);
     return direct;
 }

@@ -31,7 +31,7 @@ gpu::Texture makeGgxTable(gpu::Frame& f);
 struct LightVisibility {
     gpu::Image sun;
     gpu::Image lamps;      ///< a layer for four lamps, by LampParams::shadow; none where no lamp casts a shadow
-    gpu::Image lampTiles;  ///< LampTiles::masks; none: every lamp may light every pixel
+    gpu::Image lampMasks;  ///< of findLampTiles
 };
 
 /// RGBA16F: radiance of direct light, emission and background, alpha 1.

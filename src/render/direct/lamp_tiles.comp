@@ -6,6 +6,7 @@
 #include "shaders/lamp_reach.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const uint all = 0u;  // 1: every tile has every lamp
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { LampTilesParams params; };
 layout(set = 0, binding = 1, scalar) uniform LampUniforms { LampBlock lampBlock; };
 layout(set = 0, binding = 2) uniform sampler2D depth;
@@ -46,13 +47,12 @@ void main() {
     ivec2 first = ivec2(gl_WorkGroupID.xy * lampTileSide);
     findDepths(first);
     barrier();
-    if (nearest > 0u) {
+    if (nearest > 0u || all != 0u) {
         vec2 uvMin = vec2(first) * params.view.pixel;
         vec2 uvMax = min(uvMin + float(lampTileSide) * params.view.pixel, vec2(1.0));
-        TileBounds tile = tileBounds(uvMin, uvMax, uintBitsToFloat(uvec2(nearest, farthest)), params.view.worldToClip,
-                                     params.view.clipToWorld, params.view.depthToDistance);
+        TileBounds tile = tileBounds(uvMin, uvMax, uintBitsToFloat(uvec2(nearest, farthest)), params.view);
         for (uint i = thread; i < lampBlock.count; i += threads) {
-            if (lampReaches(lampBlock.lamps[i], tile, params.view.viewPlane)) {
+            if (all != 0u || lampReaches(lampBlock.lamps[i], tile, params.view.viewPlane)) {
                 atomicOr(mask[i / 32u], 1u << (i % 32u));
             }
         }

@@ -17,12 +17,6 @@ SHARED_BEGIN
            "looks at every lamp. The light is the same.")
 SETTINGS(DirectSettings, DIRECT_SETTINGS)
 
-const uint lampTileShift = 4;  // a tile has 16x16 pixels
-const uint lampTileSide = 1u << lampTileShift;
-
-// Lamp i is bit i % 32 of component i / 32 % 4 of layer i / 128 of the tile's texel.
-const uint lampsPerLayer = 128;
-
 struct LampTilesParams {
     ViewParams view;
 };
@@ -35,14 +29,15 @@ SHARED_END
 
 namespace reflet {
 
-/// Of the screen's tiles, rounded up to whole ones.
+/// Of the screen's tiles, as many as touch it.
 struct LampTiles {
-    gpu::Image masks;  ///< RGBA32_UINT, layers as lampsPerLayer says
-    gpu::Image count;  ///< R32F: number of lamps in the mask
+    gpu::Image masks;  ///< as lamps.h says
+    gpu::Image count;  ///< R32F: number of lamps that may light the tile; none without lamps
 };
 
-/// No lamp is missing that brings light to a surface of the tile. Tiles without a surface have none.
-LampTiles findLampTiles(gpu::Frame& f, gpu::Image depth, const LampBlock& lamps, const ViewParams& view);
+/// No lamp is missing that brings light to a surface of the tile; with lampTiles off every tile has all lamps.
+LampTiles findLampTiles(gpu::Frame& f, gpu::Image depth, const LampBlock& lamps, const ViewParams& view,
+                        const DirectSettings& settings);
 
 }  // namespace reflet
 #endif

@@ -35,9 +35,11 @@ bool hasOneTile(const LampParams& lamp) {
     return lamp.type == lampSpot && lamp.cosOuter > std::cos(glm::radians(widestSpot));
 }
 
-LampShadow shadowOf(const LampParams& lamp, uint32_t firstTile, uint32_t tileSize) {
+LampShadow shadowOf(const LampBlock& lamps, uint32_t index, uint32_t firstTile, uint32_t tileSize) {
+    const LampParams& lamp = lamps.lamps[index];
     LampShadow shadow{};
     shadow.lamp = lamp;
+    shadow.index = index;
     shadow.near = std::max(lamp.radius, 1e-3F);  // lampClearance of scene.h
     shadow.firstTile = firstTile;
     shadow.tiles = cubeFaces;
@@ -92,6 +94,8 @@ void drawTiles(const gpu::DrawCommands& to, const DrawList& list, const LampShad
         for (uint32_t face = 0; face < shadow.tiles; ++face) {
             const uint32_t tile = shadow.firstTile + face;
             drawIntoTile(to, uvec2(tile % shadows.columns, tile / shadows.columns), shadows.tileSize);
+            to.device.vk.vkCmdPushConstants(to.commands, to.layout, VK_SHADER_STAGE_ALL, sizeof(glm::mat4x3),
+                                            sizeof(tile), &tile);
             recordDraws(to, list, {lit, Cull::none, masked, params.worldToTile[tile]}, false);
         }
     }
@@ -127,9 +131,8 @@ LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, ui
         shadows.tileSize /= 2;
     }
     for (uint32_t i = 0, tile = 0; i < shadows.count; tile += shadows.lamps[i++].tiles) {
-        LampParams& lamp = lamps.lamps[indices[i]];
-        lamp.shadow = i;
-        shadows.lamps[i] = shadowOf(lamp, tile, shadows.tileSize);
+        lamps.lamps[indices[i]].shadow = i;
+        shadows.lamps[i] = shadowOf(lamps, indices[i], tile, shadows.tileSize);
     }
     if (shadows.tileSize < settings.lampResolution) {
         warn(
@@ -164,7 +167,7 @@ gpu::Image drawLampShadowMap(gpu::Frame& f, const DrawList& list, const LampShad
     return map;
 }
 
-gpu::Image lampVisibility(gpu::Frame& f, const GBuffer& g, const ShadowInputs& in, const LampShadows& shadows,
+gpu::Image lampVisibility(gpu::Frame& f, const GBuffer& g, const LampShadowInputs& in, const LampShadows& shadows,
                           const LampVisibilityParams& params) {
     const uint32_t layers = (shadows.count + 3) / 4;
     const gpu::Image visibility =
@@ -173,6 +176,7 @@ gpu::Image lampVisibility(gpu::Frame& f, const GBuffer& g, const ShadowInputs& i
         .read("depth", g.depth)
         .read("geometricNormal", g.geometricNormal)
         .read("shadowMap", in.map)
+        .read("lampMasks", in.masks)
         .read("blueNoise", in.blueNoise)
         .write("visibility", visibility)
         .params(params)

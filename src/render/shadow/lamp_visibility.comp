@@ -15,10 +15,13 @@ layout(set = 0, binding = 2) uniform sampler2D depth;
 layout(set = 0, binding = 3) uniform usampler2D geometricNormal;
 layout(set = 0, binding = 4) uniform sampler2D shadowMap;
 layout(set = 0, binding = 5, scalar) readonly buffer BlueNoise { uint texels[]; } blueNoise;
+layout(set = 0, binding = 7) uniform usampler2DArray lampMasks;
 layout(set = 0, binding = 6, rgba8) uniform writeonly image2DArray visibility;
 
 uint loadBlueNoise(uint texel) { return blueNoise.texels[texel]; }
 float loadLampDepth(ivec2 texel) { return texelFetch(shadowMap, texel, 0).r; }
+uvec4 loadLampMask(ivec3 texel) { return texelFetch(lampMasks, texel, 0); }
+#include "shaders/lamp_mask.glsl"
 #include "shaders/lamp_shadow.glsl"
 #include "shaders/shadow_noise.glsl"
 
@@ -107,8 +110,13 @@ void main() {
         vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
         vec3 n = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
         uint first = 4u * gl_GlobalInvocationID.z;
+        uint lamps = 0u;  // of the four, those that may light the pixel: a bit for each
         for (uint i = first; i < min(first + 4u, shadowBlock.count); ++i) {
-            result[i - first] = visibilityAt(pixel, i, p, n);
+            lamps |= lampMayReach(pixel, shadowBlock.lamps[i].index) ? 1u << (i - first) : 0u;
+        }
+        for (; lamps != 0u; lamps &= lamps - 1u) {
+            int i = findLSB(lamps);
+            result[i] = visibilityAt(pixel, first + uint(i), p, n);
         }
     }
     imageStore(visibility, ivec3(pixel, gl_GlobalInvocationID.z), result);
