@@ -182,7 +182,7 @@ gpu::Image lampVisibility(gpu::Frame& f, const GBuffer& g, const LampShadowInput
         .params(params)
         .params(shadows, "shadowBlock")
         .constant("filterKind", static_cast<uint32_t>(params.settings.filter))
-        .dispatch(visibility.size.x, visibility.size.y, layers);
+        .dispatch(visibility.size);
     return visibility;
 }
 
