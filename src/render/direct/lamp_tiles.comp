@@ -13,6 +13,7 @@ layout(set = 0, binding = 2) uniform sampler2D depth;
 layout(set = 0, binding = 3, rgba32ui) uniform writeonly uimage2DArray masks;
 layout(set = 0, binding = 4, r32f) uniform writeonly image2D lampCount;
 
+const int groupSide = 8;
 const uint threads = 64u;
 const uint words = 4u * ((maxLamps + lampsPerLayer - 1u) / lampsPerLayer);
 
@@ -24,11 +25,13 @@ void findDepths(ivec2 first) {
     ivec2 last = ivec2(params.view.size) - 1;
     float highest = 0.0;
     float lowest = 2.0;
-    for (int i = 0; i < 4; ++i) {
-        ivec2 pixel = first + ivec2(gl_LocalInvocationID.xy) + 8 * ivec2(i & 1, i >> 1);
-        float d = texelFetch(depth, min(pixel, last), 0).r;
-        highest = max(highest, d);
-        lowest = d > 0.0 ? min(lowest, d) : lowest;
+    for (int y = 0; y < int(lampTileSide); y += groupSide) {
+        for (int x = 0; x < int(lampTileSide); x += groupSide) {
+            ivec2 pixel = first + ivec2(gl_LocalInvocationID.xy) + ivec2(x, y);
+            float d = texelFetch(depth, min(pixel, last), 0).r;
+            highest = max(highest, d);
+            lowest = d > 0.0 ? min(lowest, d) : lowest;
+        }
     }
     atomicMax(nearest, floatBitsToUint(highest));
     atomicMin(farthest, floatBitsToUint(lowest));
