@@ -123,8 +123,9 @@ void addSculptures(Scene& scene) {
     const uint32_t plinth = addMesh(scene, "plinth", stone, box({0.3F, 0.25F, 0.3F}));
     const uint32_t beam = addMesh(scene, "beam", wood, box({court.x, 0.08F, 0.08F}, 0.5F));
     for (int i = 0; i < 8; ++i) {
+        const int row = i / 2;
         const float x = i % 2 == 0 ? -2.2F : 2.2F;
-        const float z = 4.2F - 3.6F * static_cast<float>(i / 2);
+        const float z = 4.2F - 3.6F * static_cast<float>(row);
         const std::string number = std::to_string(i);
         place(scene, "plinth " + number, plinth, at({x, 0.25F, z}));
         place(scene, "sculpture " + number, sculpture(scene, i), at({x, 0.5F, z}));
