@@ -56,12 +56,13 @@ void seeSun(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewI
 }
 
 void seeLamps(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
+    out.lampTiles = findLampTiles(f, out.g.depth, in.lamps, in.view, settings.direct);
     if (in.lampShadows.count > 0) {
         if (!out.lampShadowMap) {
             out.lampShadowMap = drawLampShadowMap(f, in.draws, in.lampShadows);
         }
-        out.lampVisibility =
-            lampVisibility(f, out.g, {out.lampShadowMap, {}, in.blueNoise}, in.lampShadows, {in.view, settings.shadow});
+        out.lampVisibility = lampVisibility(f, out.g, {out.lampShadowMap, out.lampTiles.masks, in.blueNoise},
+                                            in.lampShadows, {in.view, settings.shadow});
     }
 }
 
@@ -73,7 +74,7 @@ ViewImages directView(gpu::Frame& f, const ViewInputs& in, const Settings& setti
     drawSurfaces(f, in, settings, out);
     seeSun(f, in, settings, out);
     seeLamps(f, in, settings, out);
-    out.direct = directLight(f, out.g, {out.sunVisibility, out.lampVisibility}, in.ggxTable,
+    out.direct = directLight(f, out.g, {out.sunVisibility, out.lampVisibility, out.lampTiles.masks}, in.ggxTable,
                              {in.view, -in.sunDirection, in.sunIrradiance, in.environment}, in.lamps);
     return out;
 }

@@ -4,6 +4,7 @@
 
 #include "gpu/frame.h"
 #include "render/direct/direct.h"
+#include "render/direct/lamp_tiles.h"
 #include "render/draw_list.h"
 #include "render/gbuffer/gbuffer.h"
 #include "render/settings.h"
@@ -35,7 +36,8 @@ struct ViewImages {
     gpu::Image shadowPenumbra;    ///< of sunVisibility(); none with hard shadows
     gpu::Image cascadeIndex;      ///< of sunVisibility(); none with one cascade
     gpu::Image lampShadowMap;     ///< none where no lamp casts a shadow
-    gpu::Image lampVisibility;    ///< alike
+    LampTiles lampTiles;          ///< of all lamps
+    gpu::Image lampVisibility;    ///< none where no lamp casts a shadow
     gpu::Image direct;
 };
 

@@ -30,6 +30,7 @@ std::vector<SettingEntry> makeEntries() {
     addEffect<DepthSettings>(entries, "depth", offsetof(Settings, depth));
     addEffect<ShadowSettings>(entries, "shadow", offsetof(Settings, shadow));
     addEffect<ContactSettings>(entries, "contact", offsetof(Settings, contact));
+    addEffect<DirectSettings>(entries, "direct", offsetof(Settings, direct));
     addEffect<TraceScreenSettings>(entries, "trace_screen", offsetof(Settings, traceScreen));
     addEffect<EnvironmentSettings>(entries, "environment", offsetof(Settings, environment));
     addEffect<DiffuseSettings>(entries, "diffuse", offsetof(Settings, diffuse));

@@ -6,6 +6,7 @@
 #include "render/bounce/rays.h"
 #include "render/bounce/trace_screen.h"
 #include "render/contact/contact.h"
+#include "render/direct/lamp_tiles.h"
 #include "render/gbuffer/gbuffer.h"
 #include "render/gbuffer/kept_depth.h"
 #include "render/shadow/shadow.h"
@@ -24,6 +25,7 @@ struct Settings {
     DepthSettings depth;
     ShadowSettings shadow;
     ContactSettings contact;
+    DirectSettings direct;
     TraceScreenSettings traceScreen;
     EnvironmentSettings environment;
     DiffuseSettings diffuse;

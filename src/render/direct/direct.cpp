@@ -35,6 +35,7 @@ gpu::Image directLight(gpu::Frame& f, const GBuffer& g, const LightVisibility& v
         .read("sunVisibility", visibility.sun)
         .read("lampVisibility", lampVisibility)
         .read("ggxTable", ggxTable, linear)
+        .read("lampMasks", visibility.lampMasks)
         .write("direct", direct)
         .params(params)
         .params(lamps, "lampBlock")

@@ -30,7 +30,8 @@ gpu::Texture makeGgxTable(gpu::Frame& f);
 /// What of the lights reaches a pixel.
 struct LightVisibility {
     gpu::Image sun;
-    gpu::Image lamps;  ///< a layer for four lamps, by LampParams::shadow; none where no lamp casts a shadow
+    gpu::Image lamps;      ///< a layer for four lamps, by LampParams::shadow; none where no lamp casts a shadow
+    gpu::Image lampMasks;  ///< of findLampTiles
 };
 
 /// RGBA16F: radiance of direct light, emission and background, alpha 1.
