@@ -19,6 +19,6 @@ struct Bvh {
 };
 
 /// The same hierarchy for the same triangles.
-Bvh buildBvh(std::vector<SceneTriangle> triangles);
+Bvh buildBvh(const std::vector<SceneTriangle>& triangles);
 
 }  // namespace reflet
