@@ -17,7 +17,7 @@ void SceneRaysTest::SetUpTestSuite() {
 }
 
 bool SceneRaysTest::hasRayQuery() {
-    return false;
+    return device().hasRayQuery();
 }
 
 std::vector<TestHit> SceneRaysTest::trace(const SceneRays& scene, const std::vector<TestRay>& rays) {
