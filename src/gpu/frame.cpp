@@ -132,11 +132,11 @@ void Frame::readTimers() {
 }
 
 Pass Frame::compute(std::string_view name, std::string_view shader) {
-    return {*this, prefix_ + std::string(name), {std::string(shader)}};
+    return {*this, passPrefix_ + std::string(name), {std::string(shader)}};
 }
 
 Pass Frame::raster(std::string_view name, std::vector<std::string> shaders) {
-    return {*this, prefix_ + std::string(name), std::move(shaders)};
+    return {*this, passPrefix_ + std::string(name), std::move(shaders)};
 }
 
 void Frame::update(BufferView buffer, std::span<const std::byte> bytes) {
@@ -159,42 +159,41 @@ void Frame::clear(Image image) {
 }
 
 // A texture of that name and kind; one of another kind (a new size, say) is replaced.
-Image Frame::transient(std::string_view name, const ImageInfo& info, bool array) {
-    auto known = images_.find(name);
-    if (known == images_.end()) {
-        known = images_.emplace(std::string(name), Texture()).first;
+Image Frame::transient(std::string_view name, const ImageInfo& info) {
+    const std::string fullName = imagePrefix_ + std::string(name);
+    Texture& texture = images_[fullName];
+    if (!(texture.info() == info)) {
+        texture = Texture(device_, info, fullName);
     }
-    if (!(known->second.info() == info)) {
-        known->second = Texture(device_, info, std::string(name), array);
-    }
-    return known->second.image();
+    return texture.image();
 }
 
 Image Frame::image(std::string_view name, VkFormat format, uvec2 size, uint32_t layers, bool array) {
-    return transient(name, {format, size, 1, layers, storageUsage}, array);
+    return transient(name, {format, size, 1, layers, storageUsage, array ? ViewKind::array : ViewKind::byLayers});
 }
 
 Image Frame::target(std::string_view name, VkFormat format, uvec2 size) {
     const VkImageUsageFlags attachment = aspectOf(format) == VK_IMAGE_ASPECT_DEPTH_BIT
                                              ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
                                              : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-    return transient(name, {format, size, 1, 1, attachment | VK_IMAGE_USAGE_SAMPLED_BIT | copied}, false);
+    return transient(name, {format, size, 1, 1, attachment | VK_IMAGE_USAGE_SAMPLED_BIT | copied});
 }
 
 BufferView Frame::buffer(std::string_view name, VkDeviceSize size) {
-    auto known = buffers_.find(name);
+    const std::string fullName = imagePrefix_ + std::string(name);
+    auto known = buffers_.find(fullName);
     if (known == buffers_.end() || known->second.view().size != size) {
         Buffer made(device_, size,
                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
                         VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                    MemoryUse::device, std::string(name));
-        known = buffers_.insert_or_assign(std::string(name), std::move(made)).first;
+                    MemoryUse::device, fullName);
+        known = buffers_.insert_or_assign(fullName, std::move(made)).first;
     }
     return known->second.view();
 }
 
 History Frame::history(std::string_view name, VkFormat format, uvec2 size) {
-    HistoryPair& pair = histories_[std::string(name)];
+    HistoryPair& pair = histories_[imagePrefix_ + std::string(name)];
     const ImageInfo info{format, size, 1, 1, storageUsage};
     const bool fresh = !(pair.textures[0].info() == info);
     if (fresh) {
@@ -238,13 +237,18 @@ std::span<const std::byte> Frame::bytes(Readback readback) const {
     return readbacks_.at(readback.index).bytes();
 }
 
-Frame::Scope::Scope(Frame& frame, std::string_view prefix) : frame_(frame), length_(frame.prefix_.size()) {
-    frame.prefix_ += prefix;
-    frame.prefix_ += '.';
+Frame::Scope::Scope(Frame& frame, std::string_view prefix, bool images)
+    : frame_(frame), passes_(frame.passPrefix_.size()), images_(frame.imagePrefix_.size()) {
+    const std::string added = std::string(prefix) + '.';
+    frame.passPrefix_ += added;
+    if (images) {
+        frame.imagePrefix_ += added;
+    }
 }
 
 Frame::Scope::~Scope() {
-    frame_.prefix_.resize(length_);
+    frame_.passPrefix_.resize(passes_);
+    frame_.imagePrefix_.resize(images_);
 }
 
 Frame::UniformSlice Frame::uploadUniform(std::span<const std::byte> bytes) {

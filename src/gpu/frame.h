@@ -74,16 +74,19 @@ public:
     /// Names of passes recorded while it lives get a prefix: "diffuse." + "trace_screen".
     class Scope {
     public:
-        Scope(Frame& frame, std::string_view prefix);
+        Scope(Frame& frame, std::string_view prefix, bool images);
         ~Scope();
         Scope(const Scope&) = delete;
         Scope& operator=(const Scope&) = delete;
 
     private:
         Frame& frame_;
-        size_t length_;
+        size_t passes_;
+        size_t images_;
     };
-    [[nodiscard]] Scope scope(std::string_view prefix) { return {*this, prefix}; }
+    [[nodiscard]] Scope scope(std::string_view prefix) { return {*this, prefix, false}; }
+    /// And so do names of images, buffers and histories: for another view, whose images leave the first one's alone.
+    [[nodiscard]] Scope viewScope(std::string_view prefix) { return {*this, prefix, true}; }
 
     /// Of the last frame waited for, in the order of recording. The first is "frame": from start to end.
     [[nodiscard]] const std::vector<PassTime>& passTimes() const { return times_; }
@@ -104,7 +107,7 @@ private:
     void readTimers();
     UniformSlice uploadUniform(std::span<const std::byte> bytes);
     VkDescriptorSet allocateSet(VkDescriptorSetLayout layout);
-    Image transient(std::string_view name, const ImageInfo& info, bool array);
+    Image transient(std::string_view name, const ImageInfo& info);
 
     Device& device_;
     VkCommandPool commandPool_ = VK_NULL_HANDLE;
@@ -113,7 +116,8 @@ private:
     VkQueryPool queries_ = VK_NULL_HANDLE;
     uint64_t serial_ = 0;
     uint64_t number_ = 0;
-    std::string prefix_;
+    std::string passPrefix_;
+    std::string imagePrefix_;
 
     std::map<std::string, Texture, std::less<>> images_;
     std::map<std::string, Buffer, std::less<>> buffers_;

@@ -79,6 +79,7 @@ std::vector<std::string> missingOfFloor(VkPhysicalDevice device, const VkPhysica
     has.chain();
     vkGetPhysicalDeviceFeatures2(device, &has.core);
     need(has.core.features.shaderStorageImageExtendedFormats != 0, "extended storage image formats");
+    need(has.core.features.imageCubeArray != 0, "arrays of cube maps");
     need(has.v12.scalarBlockLayout != 0, "scalar block layout");
     need(has.v12.timelineSemaphore != 0, "timeline semaphores");
     need(has.v13.dynamicRendering != 0, "dynamic rendering");
@@ -199,6 +200,7 @@ std::string resultName(VkResult result) {
 FloorFeatures floorFeatures() {
     FloorFeatures floor;
     floor.core.features.shaderStorageImageExtendedFormats = VK_TRUE;
+    floor.core.features.imageCubeArray = VK_TRUE;
     floor.v12.scalarBlockLayout = VK_TRUE;
     floor.v12.timelineSemaphore = VK_TRUE;
     floor.v13.dynamicRendering = VK_TRUE;

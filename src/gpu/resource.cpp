@@ -41,7 +41,40 @@ uint32_t bytesPerTexel(VkFormat format) {
     return 0;
 }
 
-Texture::Texture(Device& device, const ImageInfo& info, const std::string& name, bool arrayView)
+namespace {
+
+VkImageViewType viewType(const ImageInfo& info) {
+    switch (info.view) {
+        case ViewKind::cube:
+            return VK_IMAGE_VIEW_TYPE_CUBE;
+        case ViewKind::cubeArray:
+            return VK_IMAGE_VIEW_TYPE_CUBE_ARRAY;
+        case ViewKind::array:
+            return VK_IMAGE_VIEW_TYPE_2D_ARRAY;
+        default:
+            return info.layers > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
+    }
+}
+
+bool isCube(const ImageInfo& info) {
+    return info.view == ViewKind::cube || info.view == ViewKind::cubeArray;
+}
+
+VkImageView makeView(Device& device, VkImage image, VkImageViewType type, const ImageInfo& info,
+                     const VkImageSubresourceRange& range) {
+    VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+    view.image = image;
+    view.viewType = type;
+    view.format = info.format;
+    view.subresourceRange = range;
+    VkImageView made = VK_NULL_HANDLE;
+    vkCheck(device.vk.vkCreateImageView(device.handle(), &view, nullptr, &made), "creating an image view");
+    return made;
+}
+
+}  // namespace
+
+Texture::Texture(Device& device, const ImageInfo& info, const std::string& name)
     : device_(&device), info_(info), state_(std::make_unique<ImageState>()) {
     const uint32_t limit = device.limits().maxImageDimension2D;
     if (info.size.x == 0 || info.size.y == 0 || info.size.x > limit || info.size.y > limit) {
@@ -49,6 +82,7 @@ Texture::Texture(Device& device, const ImageInfo& info, const std::string& name,
              limit, limit);
     }
     VkImageCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
+    create.flags = isCube(info) ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0;
     create.imageType = VK_IMAGE_TYPE_2D;
     create.format = info.format;
     create.extent = {info.size.x, info.size.y, 1};
@@ -62,19 +96,28 @@ Texture::Texture(Device& device, const ImageInfo& info, const std::string& name,
     allocation_ = device.memory().allocate(needs, MemoryUse::device, false);
     vkCheck(device.vk.vkBindImageMemory(device.handle(), state_->image, allocation_.memory, allocation_.offset),
             "binding image memory");
-    VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
-    view.image = state_->image;
-    view.viewType = info.layers > 1 || arrayView ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
-    view.format = info.format;
-    view.subresourceRange = {aspectOf(info.format), 0, info.mips, 0, info.layers};
-    vkCheck(device.vk.vkCreateImageView(device.handle(), &view, nullptr, &view_), "creating an image view");
+    const VkImageAspectFlags aspect = aspectOf(info.format);
+    view_ = makeView(device, state_->image, viewType(info), info, {aspect, 0, info.mips, 0, info.layers});
+    const bool written = (info.usage & VK_IMAGE_USAGE_STORAGE_BIT) != 0;
+    for (uint32_t level = 0; written && (info.mips > 1 || isCube(info)) && level < info.mips; ++level) {
+        mips_.push_back(
+            makeView(device, state_->image, VK_IMAGE_VIEW_TYPE_2D_ARRAY, info, {aspect, level, 1, 0, info.layers}));
+    }
+}
+
+Image Texture::mip(uint32_t level) const {
+    REFLET_CHECK(level < mips_.size(), "level {} of {}", level, mips_.size());
+    return {state_.get(), mips_[level], info_.format, max(info_.size >> level, uvec2(1)), info_.layers};
 }
 
 void Texture::retire() {
     if (device_ == nullptr || !state_) {
         return;
     }
-    device_->retire([device = device_, image = state_->image, view = view_, allocation = allocation_] {
+    device_->retire([device = device_, image = state_->image, view = view_, mips = mips_, allocation = allocation_] {
+        for (VkImageView mip : mips) {
+            device->vk.vkDestroyImageView(device->handle(), mip, nullptr);
+        }
         device->vk.vkDestroyImageView(device->handle(), view, nullptr);
         device->vk.vkDestroyImage(device->handle(), image, nullptr);
         device->memory().release(allocation);
@@ -95,6 +138,7 @@ Texture& Texture::operator=(Texture&& other) noexcept {
     std::swap(info_, other.info_);
     std::swap(state_, other.state_);
     std::swap(view_, other.view_);
+    std::swap(mips_, other.mips_);
     std::swap(allocation_, other.allocation_);
     return *this;
 }

@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace reflet::gpu {
 
@@ -34,17 +35,26 @@ struct BufferState {
     AccessState access;
 };
 
+/// How shaders see a texture.
+enum class ViewKind : uint8_t {
+    byLayers,   ///< 2D for one layer, else a 2D array
+    array,      ///< a 2D array, of one layer too
+    cube,       ///< six layers: +X, -X, +Y, -Y, +Z, -Z
+    cubeArray,  ///< six layers for each cube
+};
+
 struct ImageInfo {
     VkFormat format = VK_FORMAT_UNDEFINED;
     uvec2 size{0};
     uint32_t mips = 1;
     uint32_t layers = 1;
     VkImageUsageFlags usage = 0;
+    ViewKind view = ViewKind::byLayers;
 
     bool operator==(const ImageInfo&) const = default;
 };
 
-/// A view of a texture, all of its mips and layers. Valid as long as its owner. Empty: `!image`.
+/// A view of a texture: all of its mips and layers, or one mip. Valid as long as its owner. Empty: `!image`.
 struct Image {
     ImageState* state = nullptr;
     VkImageView view = VK_NULL_HANDLE;
@@ -71,8 +81,8 @@ uint32_t bytesPerTexel(VkFormat format);
 class Texture {
 public:
     Texture() = default;
-    /// `name` shows in messages. More than one layer: a 2D array view; `arrayView` makes it one for a single layer.
-    Texture(Device& device, const ImageInfo& info, const std::string& name, bool arrayView = false);
+    /// `name` shows in messages.
+    Texture(Device& device, const ImageInfo& info, const std::string& name);
     ~Texture();
     Texture(Texture&& other) noexcept;
     Texture& operator=(Texture&& other) noexcept;
@@ -81,6 +91,9 @@ public:
 
     [[nodiscard]] const ImageInfo& info() const { return info_; }
     [[nodiscard]] Image image() const { return {state_.get(), view_, info_.format, info_.size, info_.layers}; }
+    /// One level as a 2D array of all layers (cubes: their faces), for passes that write it. Only of textures with
+    /// storage usage and more than one mip, or a cube view.
+    [[nodiscard]] Image mip(uint32_t level) const;
 
 private:
     void retire();
@@ -89,6 +102,7 @@ private:
     ImageInfo info_;
     std::unique_ptr<ImageState> state_;
     VkImageView view_ = VK_NULL_HANDLE;
+    std::vector<VkImageView> mips_;
     Allocation allocation_;
 };
 

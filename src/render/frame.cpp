@@ -1,81 +1,22 @@
 // The frame, top to bottom: values in, values out. Start reading here.
 //
-//     G-buffer → depth pyramid → sun and lamp visibility → direct light → diffuse rays, specular rays → answer chain
-//     → composite → tone map
+//     direct view (G-buffer → depth pyramid → sun and lamp visibility → direct light) → diffuse rays, specular rays
+//     → answer chain → composite → tone map
 //
-// renderFrame, at the end, is all of it; its parts stand above it. There is no graph compiler: an `if` in this file is
-// the only culling.
+// renderFrame, at the end, is all of it; its parts stand above it, and in direct_view.cpp what other views need, too.
+// There is no graph compiler: an `if` in these two files is the only culling.
 #include "render/frame.h"
 
 #include "render/bounce/answer_environment.h"
 #include "render/bounce/trace_screen.h"
-#include "render/contact/contact.h"
-#include "render/gbuffer/back_depth.h"
 #include "render/light_mips/light_mips.h"
-#include "render/pyramid/pyramid.h"
-#include "render/shadow/shadow.h"
-#include "render/shadow/shadow_clean.h"
 #include "render/tonemap/tonemap.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace reflet {
 
 namespace {
-
-void drawSurfaces(gpu::Frame& f, const FrameInputs& in, const Settings& settings, FrameImages& out) {
-    out.g = drawGBuffer(f, in.draws, in.view, settings.materials);
-    if (settings.traceScreen.thicknessFrom == ThicknessFrom::secondLayer) {
-        const gpu::Image back = drawBackDepth(f, in.draws, out.g.depth, in.view);
-        out.backDepth = keptDepth(f, "kept_back_depth", back, in.view, settings.depth);
-    }
-    out.g.depth = keptDepth(f, "kept_depth", out.g.depth, in.view, settings.depth);
-    if (settings.traceScreen.method == TraceMethod::hiz || settings.contact.distance > 0.0F) {
-        out.pyramid = makePyramid(f, out.g.depth, out.backDepth);
-    }
-}
-
-// How much of the sun each pixel sees: its shadow map, cleaned, and contact shadows.
-void seeSun(gpu::Frame& f, const FrameInputs& in, const Settings& settings, FrameImages& out) {
-    ShadowSettings shadow = settings.shadow;
-    if (in.sunIrradiance == vec3(0.0F)) {
-        shadow.filter = ShadowFilter::none;
-    }
-    const float sunSlope = std::tan(0.5F * in.sunAngularDiameter);
-    const SunShadowParams sun = fitSunShadows(in.view, in.draws.boundsW, in.sunDirection, shadow,
-                                              filterReach(in.draws.boundsW, shadow, sunSlope));
-    if (shadow.filter != ShadowFilter::none) {
-        out.shadowMap = drawShadowMap(f, in.draws, sun, shadow);
-    }
-    ShadowInputs maps{.map = out.shadowMap, .range = {}, .blueNoise = in.blueNoise};
-    if (shadow.filter == ShadowFilter::pcss && shadow.earlyOut != 0) {
-        maps.range = makeShadowRange(f, out.shadowMap);
-    }
-    const SunVisibility seen = sunVisibility(f, out.g, maps, {in.view, sun, shadow, sunSlope});
-    out.rawSunVisibility = seen.visibility;
-    out.shadowPenumbra = seen.penumbra;
-    out.sunVisibility = shadow.clean != 0 && seen.penumbra
-                            ? cleanShadow(f, out.g, seen.visibility, seen.penumbra,
-                                          {in.view, -in.sunDirection, shadow.history, shadow.samples, 0})
-                            : seen.visibility;
-    out.cascadeIndex = seen.cascadeIndex;
-    if (settings.contact.distance > 0.0F && in.sunIrradiance != vec3(0.0F)) {
-        out.sunVisibility =
-            contactShadow(f, out.g, out.pyramid, out.sunVisibility, {in.view, settings.contact, -in.sunDirection});
-    }
-}
-
-void lightDirectly(gpu::Frame& f, const FrameInputs& in, const Settings& settings, FrameImages& out) {
-    seeSun(f, in, settings, out);
-    if (in.lampShadows.count > 0) {
-        out.lampShadowMap = drawLampShadowMap(f, in.draws, in.lampShadows);
-        out.lampVisibility =
-            lampVisibility(f, out.g, {out.lampShadowMap, {}, in.blueNoise}, in.lampShadows, {in.view, settings.shadow});
-    }
-    out.direct = directLight(f, out.g, {out.sunVisibility, out.lampVisibility}, in.ggxTable,
-                             {in.view, -in.sunDirection, in.sunIrradiance, in.environment}, in.lamps);
-}
 
 // One chain for both lobes: rays, then sources that answer in order of trust, each taking what is left over.
 LobeLight traceLobe(gpu::Frame& f, const FrameInputs& in, const Settings& settings, const ScreenImages& screen,
@@ -95,7 +36,9 @@ LobeLight traceLobe(gpu::Frame& f, const FrameInputs& in, const Settings& settin
         const uint32_t count = std::min(perPixel - first, batch);
         Rays rays = generateRays(f, screen.g, {in.ggxTable, in.blueNoise}, lobe,
                                  {in.view, settings.diffuse, settings.specular, first, count}, counted);
-        traceScreen(f, rays, screen, in.view, settings.traceScreen, longest);
+        if (settings.traceScreen.enabled != 0) {
+            traceScreen(f, rays, screen, in.view, settings.traceScreen, longest);
+        }
         answerEnvironment(f, rays, screen.g, in.environment, settings.environment);
         light = resolveRays(f, rays, perPixel);
     }
@@ -116,7 +59,6 @@ void lightForReflections(gpu::Frame& f, const FrameInputs& in, const Settings& s
                 .lit;
     }
     if (s.rougher == RougherSurfaces::mips && s.maxRoughness < 1.0F && s.rays > 0) {
-        screen.coneRoughness = s.maxRoughness;
         screen.lightMips =
             makeLightMips(f, light == HitLight::previous && screen.lit.valid ? screen.lit.previous : screen.light);
     }
@@ -125,9 +67,7 @@ void lightForReflections(gpu::Frame& f, const FrameInputs& in, const Settings& s
 }  // namespace
 
 FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& settings) {
-    FrameImages out;
-    drawSurfaces(f, in, settings, out);
-    lightDirectly(f, in, settings, out);
+    FrameImages out{directView(f, in, settings)};
 
     const gpu::History lit = f.history("lit", VK_FORMAT_R16G16B16A16_SFLOAT, out.g.depth.size);
     ScreenImages screen{

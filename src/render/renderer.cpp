@@ -72,18 +72,17 @@ FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const 
     const LampShadows lampShadows = planLamps(lamps, view, settings.shadow);
     scene_.setAnisotropy(settings.materials.anisotropy);
     frame_.begin();
-    const FrameImages images = renderFrame(frame_,
-                                           {.draws = scene_.draws(),
-                                            .view = params,
-                                            .sunDirection = view.sun.direction,
-                                            .sunIrradiance = view.sun.irradiance,
-                                            .sunAngularDiameter = view.sun.angularDiameter,
-                                            .environment = view.environment.radiance,
-                                            .lamps = lamps,
-                                            .lampShadows = lampShadows,
-                                            .ggxTable = ggxTable_.image(),
-                                            .blueNoise = blueNoise_.view()},
-                                           settings);
+    const FrameInputs inputs{{.draws = scene_.draws(),
+                              .view = params,
+                              .sunDirection = view.sun.direction,
+                              .sunIrradiance = view.sun.irradiance,
+                              .sunAngularDiameter = view.sun.angularDiameter,
+                              .environment = view.environment.radiance,
+                              .lamps = lamps,
+                              .lampShadows = lampShadows,
+                              .ggxTable = ggxTable_.image(),
+                              .blueNoise = blueNoise_.view()}};
+    const FrameImages images = renderFrame(frame_, inputs, settings);
     if (after) {
         after(frame_, images);
     }

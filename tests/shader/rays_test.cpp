@@ -14,7 +14,7 @@ TEST_F(RayPacking, keepsEverySlotExactly) {
     for (const int x : {0, 1, 255, 8191, 8192, 16382, 16383}) {
         for (const int y : {0, 1, 1023, 8192, 16383}) {
             for (int layer = 0; layer < 16; ++layer) {
-                texels.push_back({x, y, layer, vec3(0, 0, 1), 1.0F, 1.0F});
+                texels.push_back({x, y, layer, vec3(0, 0, 1), 1.0F, 1.0F, 0.0F});
             }
         }
     }
@@ -26,27 +26,30 @@ TEST_F(RayPacking, keepsEverySlotExactly) {
     }
 }
 
-TEST_F(RayPacking, keepsDirectionWeightAndTrust) {
+TEST_F(RayPacking, keepsDirectionWeightTrustAndSpread) {
     const auto directions = spreadDirections(5000);
     std::vector<RayTexel> texels;
     for (size_t i = 0; i < directions.size(); ++i) {
         const float part = static_cast<float>(i) / static_cast<float>(directions.size() - 1);
-        texels.push_back({0, 0, 0, directions[i], 2.0F * part, 1.0F - part});
+        texels.push_back({0, 0, 0, directions[i], 2.0F * part, 1.0F - part, part * part});
     }
     const auto back = mapOnDevice<RayTexel>("rays_test.comp", texels);
     for (size_t i = 0; i < texels.size(); ++i) {
         ASSERT_LT(angleBetween(back[i].direction, texels[i].direction), glm::radians(0.005));
         ASSERT_NEAR(back[i].weight, texels[i].weight, 1e-3F * texels[i].weight + 1e-7F);  // 11 bits of a half float
-        ASSERT_NEAR(back[i].trust, texels[i].trust, 1e-3F * texels[i].trust + 1e-7F);
+        ASSERT_NEAR(back[i].trust, texels[i].trust, 0.5 / 255.0 + 1e-6);
+        ASSERT_NEAR(back[i].spread, texels[i].spread, 0.5 / 255.0 + 1e-6);
     }
 }
 
 TEST_F(RayPacking, keepsTheWeightsThatMeanSomethingExactly) {
-    const std::vector<RayTexel> texels = {{0, 0, 0, vec3(0, 1, 0), 1.0F, 0.0F}, {0, 0, 0, vec3(0, 1, 0), 0.0F, 1.0F}};
+    const std::vector<RayTexel> texels = {{0, 0, 0, vec3(0, 1, 0), 1.0F, 0.0F, 1.0F},
+                                          {0, 0, 0, vec3(0, 1, 0), 0.0F, 1.0F, 0.0F}};
     const auto back = mapOnDevice<RayTexel>("rays_test.comp", texels);
     for (size_t i = 0; i < texels.size(); ++i) {
         EXPECT_EQ(back[i].weight, texels[i].weight);
         EXPECT_EQ(back[i].trust, texels[i].trust);
+        EXPECT_EQ(back[i].spread, texels[i].spread);
         EXPECT_EQ(back[i].direction, texels[i].direction);
     }
 }

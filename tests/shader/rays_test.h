@@ -13,6 +13,7 @@ struct RayTexel {
     vec3 direction;
     float weight;
     float trust;
+    float spread;
 };
 
 // What a waiting ray says of itself, besides its slot.

@@ -47,9 +47,12 @@ Ray diffuseRay(ivec2 pixel, uint number, vec3 n) {
     vec2 u = randomPair(pixel, number);
     if (params.diffuse.distribution == RayDistribution_uniform) {
         vec3 local = sampleUniformHemisphere(u);
-        return Ray(basisAround(n) * local, 2.0 * local.z, 1.0);  // cos / pi over 1 / (2 pi)
+        return Ray(basisAround(n) * local, 2.0 * local.z, 1.0, 0.0);  // cos / pi over 1 / (2 pi)
     }
-    return Ray(basisAround(n) * sampleCosineHemisphere(u), 1.0, 1.0);
+    if (params.diffuse.distribution == RayDistribution_normal) {
+        return Ray(n, 1.0, 0.0, 1.0);
+    }
+    return Ray(basisAround(n) * sampleCosineHemisphere(u), 1.0, 1.0, 0.0);
 }
 
 // Normal maps and smooth normals send some rays into the surface; they leave along it.
@@ -81,7 +84,7 @@ Ray specularRay(ivec2 pixel, uint number, vec3 n, vec3 v, MaterialTexel m) {
     }
     vec3 l = 2.0 * dot(eye, h) * h - eye;
     if (cone) {
-        return Ray(frame * l, 1.0, 1.0);
+        return Ray(frame * l, 1.0, 1.0, m.roughness);
     }
     if (m.roughness > mirrorRoughness) {
         float a2 = alpha * alpha;
@@ -95,7 +98,7 @@ Ray specularRay(ivec2 pixel, uint number, vec3 n, vec3 v, MaterialTexel m) {
     float fade = params.specular.maxRoughness < 1.0 && params.specular.rougher == RougherSurfaces_next
                      ? smoothstep(params.specular.maxRoughness - 0.1, params.specular.maxRoughness, m.roughness)
                      : 0.0;
-    return Ray(frame * l, weight, 1.0 - fade);
+    return Ray(frame * l, weight, 1.0 - fade, 0.0);
 }
 
 void main() {
@@ -112,7 +115,7 @@ void main() {
         ivec3 slot = ivec3(pixel, i);
         imageStore(answer, slot, vec4(0.0));
         imageStore(source, slot, vec4(0.0));
-        Ray ray = Ray(vec3(0.0, 0.0, 1.0), 0.0, 0.0);
+        Ray ray = Ray(vec3(0.0, 0.0, 1.0), 0.0, 0.0, 0.0);
         if (needed) {
             ray = lobe == lobeDiffuse ? diffuseRay(pixel, params.firstRay + i, n)
                                       : specularRay(pixel, params.firstRay + i, n, directionToEye(p, params.view.eye), m);

@@ -32,13 +32,18 @@ WaitingRay unpackWaitingRay(RayItem item) {
 struct Ray {
     vec3 direction;  // world space, unit
     float weight;    // of its radiance in the pixel's mean
-    float trust;     // how far the screen may answer it, 0..1
+    float trust;     // how far the screen may answer it, 0..1, in steps of 1/255
+    float spread;    // what it stands for, in steps of 1/255. 0: its direction alone. Specular: all of the lobe of this
+                     // perceptual roughness around it. Diffuse, 1: the hemisphere around it
 };
 
-uvec2 packRay(Ray ray) { return uvec2(packUnitVector(ray.direction), packHalf2x16(vec2(ray.weight, ray.trust))); }
+uvec2 packRay(Ray ray) {
+    uint shares = packUnorm4x8(vec4(ray.trust, ray.spread, 0.0, 0.0));
+    return uvec2(packUnitVector(ray.direction), (packHalf2x16(vec2(ray.weight, 0.0)) & 0xffffu) | (shares << 16u));
+}
 Ray unpackRay(uvec2 bits) {
-    vec2 halves = unpackHalf2x16(bits.y);
-    return Ray(unpackUnitVector(bits.x), halves.x, halves.y);
+    vec2 shares = unpackUnorm4x8(bits.y >> 16u).xy;
+    return Ray(unpackUnitVector(bits.x), unpackHalf2x16(bits.y).x, shares.x, shares.y);
 }
 
 // What a source says of a ray. confidence: the share of the ray's weight that it answers, 0..1.
@@ -48,10 +53,13 @@ struct RayAnswer {
     float hitDistance;  // metres
 };
 
-// The image `source`: a colour for each, and in alpha whether it knows what the ray met (the confidence). The environment
-// only stands in.
-const vec4 sourceScreen = vec4(0.2, 0.8, 0.3, 1.0);
-const vec4 sourceEnvironment = vec4(0.25, 0.45, 0.9, 0.0);
+// The image `source`: a colour for each, and in alpha whether it knows what the ray met (the confidence). Probes and the
+// environment only stand in.
+const vec4 sourceScreen = vec4(0.2, 0.8, 0.3, 1.0);        // green
+const vec4 sourcePlanar = vec4(0.2, 0.8, 0.85, 1.0);       // cyan
+const vec4 sourceScene = vec4(0.95, 0.75, 0.2, 1.0);       // yellow
+const vec4 sourceProbe = vec4(0.8, 0.3, 0.75, 0.0);        // magenta
+const vec4 sourceEnvironment = vec4(0.25, 0.45, 0.9, 0.0); // blue
 
 // Vulkan promises this many groups; threads of a list take several rays where there are more.
 const uint maxListGroups = 65535u;

@@ -12,9 +12,10 @@
 
 SHARED_BEGIN
 
-#define RAY_DISTRIBUTIONS(OPTION)      \
-    OPTION(RayDistribution, cosine, 0) \
-    OPTION(RayDistribution, uniform, 1)
+#define RAY_DISTRIBUTIONS(OPTION)       \
+    OPTION(RayDistribution, cosine, 0)  \
+    OPTION(RayDistribution, uniform, 1) \
+    OPTION(RayDistribution, normal, 2)
 CHOICES(RayDistribution, RAY_DISTRIBUTIONS)
 
 #define RAY_NOISES(OPTION)     \
@@ -22,15 +23,17 @@ CHOICES(RayDistribution, RAY_DISTRIBUTIONS)
     OPTION(RayNoise, blue, 1)
 CHOICES(RayNoise, RAY_NOISES)
 
-#define DIFFUSE_SETTINGS(VALUE, SWITCH, CHOICE)                                                           \
-    VALUE(uint, rays, 4, 0, 256, "Rays per pixel for indirect diffuse light; 0: none is computed.")       \
-    CHOICE(RayDistribution, distribution, cosine, "How their directions are spread over the hemisphere.") \
-    CHOICE(RayNoise, noise, blue,                                                                         \
-           "What chooses their directions; white: chance; blue: a low-discrepancy sequence, shifted by "  \
-           "blue noise in space and time: less error, and what is left is easier to blur away.")          \
-    VALUE(float, radius, 100000.0, 0.01, 100000.0,                                                        \
-          "Metres; what is farther off is left to the sources behind the screen.")                        \
-    VALUE(float, gain, 1.0, 0.0, 64.0,                                                                    \
+#define DIFFUSE_SETTINGS(VALUE, SWITCH, CHOICE)                                                             \
+    VALUE(uint, rays, 4, 0, 256, "Rays per pixel for indirect diffuse light; 0: none is computed.")         \
+    CHOICE(RayDistribution, distribution, cosine,                                                           \
+           "How their directions are spread over the hemisphere; normal: not at all: one along the normal " \
+           "stands for all, and only sources that know irradiance (probes, environment) answer it.")        \
+    CHOICE(RayNoise, noise, blue,                                                                           \
+           "What chooses their directions; white: chance; blue: a low-discrepancy sequence, shifted by "    \
+           "blue noise in space and time: less error, and what is left is easier to blur away.")            \
+    VALUE(float, radius, 100000.0, 0.01, 100000.0,                                                          \
+          "Metres; what is farther off is left to the sources behind the screen.")                          \
+    VALUE(float, gain, 1.0, 0.0, 64.0,                                                                      \
           "Factor on indirect diffuse light; only 1 keeps energy; pi is what leaving out Lambert's 1/pi does.")
 SETTINGS(DiffuseSettings, DIFFUSE_SETTINGS)
 
@@ -95,10 +98,10 @@ namespace reflet {
 
 /// One batch of rays of one lobe. A layer per ray of a pixel.
 struct Rays {
-    gpu::Image direction;  ///< RG32_UINT array: direction (packUnitVector, world), half2(weight, trust of the screen)
-    gpu::Image answer;     ///< RGBA16F array: radiance · weights so far, hit distance · weights [m]
-    gpu::Image source;     ///< RGBA8 array: colours of the sources · weights; alpha: confidence
-    gpu::Image steps;      ///< R32F array: depth samples that the screen took; 1x1 unless they are counted
+    gpu::Image direction;     ///< RG32_UINT array: direction (packUnitVector, world), packRay: weight, trust, spread
+    gpu::Image answer;        ///< RGBA16F array: radiance · weights so far, hit distance · weights [m]
+    gpu::Image source;        ///< RGBA8 array: colours of the sources · weights; alpha: confidence
+    gpu::Image steps;         ///< R32F array: depth samples that the screen took; 1x1 unless they are counted
     gpu::BufferView waiting;  ///< rays without (all of) an answer
     uint32_t firstRay = 0;
     uint32_t count = 0;  ///< per pixel, in this batch

@@ -1,5 +1,5 @@
 // Marches waiting rays through the depth buffer; a hit takes the light that the screen shows there.
-// In: depth of both layers, geometric normal, motion, material, pyramid, light of this and the last frame and mips of
+// In: depth of both layers, geometric normal, motion, pyramid, light of this and the last frame and mips of
 // one of them, ray directions, the list. Out: answers, sources, steps, the list of misses.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -25,7 +25,6 @@ layout(set = 0, binding = 9, rgba16f) uniform readonly image2D previousLit;
 layout(set = 0, binding = 10) uniform sampler2D motion;
 layout(set = 0, binding = 11) uniform sampler2D pyramid;
 layout(set = 0, binding = 12) uniform sampler2D backDepth;
-layout(set = 0, binding = 14) uniform sampler2D material;
 layout(set = 0, binding = 15) uniform sampler2D lightMips;
 layout(set = 0, binding = 13, r32f) uniform writeonly image2DArray steps;
 layout(set = 0, binding = 4, rg32ui) uniform readonly uimage2DArray direction;
@@ -84,9 +83,8 @@ vec3 lightAt(ivec2 pixel, float width) {
 }
 
 // How many pixels wide the screen's light is to be blurred at the hit, where the ray stands for all of the lobe.
-float widthOfHit(ivec2 from, MarchResult hit) {
-    float roughness = unpackMaterial(texelFetch(material, from, 0)).roughness;
-    if (roughness <= params.coneRoughness) {
+float widthOfHit(float roughness, MarchResult hit) {
+    if (roughness == 0.0) {
         return 1.0;
     }
     float away = depthToViewDistance(loadDepth(hit.pixel), params.view.depthToDistance);
@@ -152,7 +150,7 @@ RayAnswer answerRay(ivec3 slot, Ray ray, inout WaitingRay w) {
     if (hit.outcome != marchHit || facesAway) {
         return RayAnswer(vec3(0.0), 0.0, 0.0);
     }
-    float width = cones != 0u ? widthOfHit(slot.xy, hit) : 1.0;
+    float width = cones != 0u ? widthOfHit(ray.spread, hit) : 1.0;
     return RayAnswer(lightAt(hit.pixel, width), ray.trust * fadeOf(hit, p, ray.direction), hit.distance);
 }
 

@@ -19,7 +19,6 @@ void traceScreen(gpu::Frame& f, Rays& rays, const ScreenImages& screen, const Vi
         .read("pyramid", screen.pyramid ? screen.pyramid : g.depth)
         .read("geometricNormal", g.geometricNormal)
         .read("motion", g.motion)
-        .read("material", g.material)
         .read("light", screen.light)
         .read("previousLit", screen.lit.previous)
         .read("lightMips", screen.lightMips ? screen.lightMips : screen.light)
@@ -30,7 +29,7 @@ void traceScreen(gpu::Frame& f, Rays& rays, const ScreenImages& screen, const Vi
         .write("steps", rays.steps)
         .write("missed", missed)
         .params(TraceScreenParams{view, settings, std::min(longest, settings.maxDistance), rays.firstRay,
-                                  screen.lit.valid ? 1U : 0U, screen.coneRoughness})
+                                  screen.lit.valid ? 1U : 0U})
         .dispatchIndirect(rays.waiting, 0);
     rays.waiting = missed;
 }

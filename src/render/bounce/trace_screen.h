@@ -29,6 +29,7 @@ CHOICES(ThicknessFrom, THICKNESSES)
 CHOICES(HitLight, HIT_LIGHTS)
 
 #define TRACE_SCREEN_SETTINGS(VALUE, SWITCH, CHOICE)                                                                   \
+    SWITCH(enabled, 1, "Ask what the camera sees; off: rays go on to the next source at once.")                        \
     CHOICE(TraceMethod, method, hiz,                                                                                   \
            "How rays find what they hit; linear: fixed steps in the world; halving: steps halved before what they "    \
            "would go behind; fixedPoint: the distance is replaced by that of what the screen shows; dda: steps of "    \
@@ -64,8 +65,7 @@ struct TraceScreenParams {
     TraceScreenSettings settings;
     float longest;  // metres: no ray goes farther
     uint firstRay;
-    uint previousValid;   // 0: there is no last frame
-    float coneRoughness;  // rougher surfaces' rays stand for all of the lobe
+    uint previousValid;  // 0: there is no last frame
 };
 
 SHARED_END
@@ -81,12 +81,12 @@ namespace reflet {
 /// What rays are traced through, and the light that they find.
 struct ScreenImages {
     const GBuffer& g;
-    gpu::Image backDepth;        ///< drawBackDepth; only where settings.thicknessFrom is secondLayer
-    gpu::Image pyramid;          ///< makePyramid; for hiz only
-    gpu::Image light;            ///< RGBA16F: of this frame
-    gpu::History lit;            ///< of the last frame, found by the hit's own motion
-    gpu::Image lightMips;        ///< makeLightMips, of the image that hits take their light from; only for cones
-    float coneRoughness = 1.0F;  ///< rays of rougher surfaces are cones: their hits' light is blurred
+    gpu::Image backDepth;  ///< drawBackDepth; only where settings.thicknessFrom is secondLayer
+    gpu::Image pyramid;    ///< makePyramid; for hiz only
+    gpu::Image light;      ///< RGBA16F: of this frame
+    gpu::History lit;      ///< of the last frame, found by the hit's own motion
+    gpu::Image lightMips;  ///< makeLightMips, of the image that hits take their light from; where rays stand for all of
+                           ///< the lobe (Ray.spread), their hits' light is blurred
 };
 
 /// Answers rays that hit what the screen shows with the light there. Hands on the others. longest: of the lobe's rays

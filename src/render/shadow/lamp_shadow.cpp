@@ -92,6 +92,8 @@ void drawTiles(const gpu::DrawCommands& to, const DrawList& list, const LampShad
         for (uint32_t face = 0; face < shadow.tiles; ++face) {
             const uint32_t tile = shadow.firstTile + face;
             drawIntoTile(to, uvec2(tile % shadows.columns, tile / shadows.columns), shadows.tileSize);
+            to.device.vk.vkCmdPushConstants(to.commands, to.layout, VK_SHADER_STAGE_ALL, sizeof(glm::mat4x3),
+                                            sizeof(tile), &tile);
             recordDraws(to, list, {lit, Cull::none, masked, params.worldToTile[tile]}, false);
         }
     }

@@ -1,0 +1,81 @@
+// Records what one camera sees under direct light.
+#include "render/direct_view.h"
+
+#include "render/contact/contact.h"
+#include "render/gbuffer/back_depth.h"
+#include "render/pyramid/pyramid.h"
+#include "render/shadow/shadow.h"
+#include "render/shadow/shadow_clean.h"
+
+#include <cmath>
+
+namespace reflet {
+
+namespace {
+
+void drawSurfaces(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
+    out.g = drawGBuffer(f, in.draws, in.view, settings.materials);
+    if (settings.traceScreen.thicknessFrom == ThicknessFrom::secondLayer) {
+        const gpu::Image back = drawBackDepth(f, in.draws, out.g.depth, in.view);
+        out.backDepth = keptDepth(f, "kept_back_depth", back, in.view, settings.depth);
+    }
+    out.g.depth = keptDepth(f, "kept_depth", out.g.depth, in.view, settings.depth);
+    if (settings.traceScreen.method == TraceMethod::hiz || settings.contact.distance > 0.0F) {
+        out.pyramid = makePyramid(f, out.g.depth, out.backDepth);
+    }
+}
+
+// How much of the sun each pixel sees: its shadow map, cleaned, and contact shadows.
+void seeSun(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
+    ShadowSettings shadow = settings.shadow;
+    if (in.sunIrradiance == vec3(0.0F)) {
+        shadow.filter = ShadowFilter::none;
+    }
+    const float sunSlope = std::tan(0.5F * in.sunAngularDiameter);
+    const SunShadowParams sun = fitSunShadows(in.view, in.draws.boundsW, in.sunDirection, shadow,
+                                              filterReach(in.draws.boundsW, shadow, sunSlope));
+    if (shadow.filter != ShadowFilter::none) {
+        out.shadowMap = drawShadowMap(f, in.draws, sun, shadow);
+    }
+    ShadowInputs maps{.map = out.shadowMap, .range = {}, .blueNoise = in.blueNoise};
+    if (shadow.filter == ShadowFilter::pcss && shadow.earlyOut != 0) {
+        maps.range = makeShadowRange(f, out.shadowMap);
+    }
+    const SunVisibility seen = sunVisibility(f, out.g, maps, {in.view, sun, shadow, sunSlope});
+    out.rawSunVisibility = seen.visibility;
+    out.shadowPenumbra = seen.penumbra;
+    out.sunVisibility = shadow.clean != 0 && seen.penumbra
+                            ? cleanShadow(f, out.g, seen.visibility, seen.penumbra,
+                                          {in.view, -in.sunDirection, shadow.history, shadow.samples, 0})
+                            : seen.visibility;
+    out.cascadeIndex = seen.cascadeIndex;
+    if (settings.contact.distance > 0.0F && in.sunIrradiance != vec3(0.0F)) {
+        out.sunVisibility =
+            contactShadow(f, out.g, out.pyramid, out.sunVisibility, {in.view, settings.contact, -in.sunDirection});
+    }
+}
+
+void seeLamps(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
+    if (in.lampShadows.count > 0) {
+        if (!out.lampShadowMap) {
+            out.lampShadowMap = drawLampShadowMap(f, in.draws, in.lampShadows);
+        }
+        out.lampVisibility =
+            lampVisibility(f, out.g, {out.lampShadowMap, {}, in.blueNoise}, in.lampShadows, {in.view, settings.shadow});
+    }
+}
+
+}  // namespace
+
+ViewImages directView(gpu::Frame& f, const ViewInputs& in, const Settings& settings, gpu::Image lampShadowMap) {
+    ViewImages out;
+    out.lampShadowMap = lampShadowMap;
+    drawSurfaces(f, in, settings, out);
+    seeSun(f, in, settings, out);
+    seeLamps(f, in, settings, out);
+    out.direct = directLight(f, out.g, {out.sunVisibility, out.lampVisibility}, in.ggxTable,
+                             {in.view, -in.sunDirection, in.sunIrradiance, in.environment}, in.lamps);
+    return out;
+}
+
+}  // namespace reflet
