@@ -140,9 +140,10 @@ private:
         const vec3 size = centers.size();
         const int axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
         const size_t half = items.size() / 2;
-        std::ranges::nth_element(items, items.begin() + static_cast<std::ptrdiff_t>(half), [&](const auto& a, const auto& b) {
-            return std::pair(a.center()[axis], a.triangle) < std::pair(b.center()[axis], b.triangle);
-        });
+        std::ranges::nth_element(
+            items, items.begin() + static_cast<std::ptrdiff_t>(half), [&](const auto& a, const auto& b) {
+                return std::pair(a.center()[axis], a.triangle) < std::pair(b.center()[axis], b.triangle);
+            });
         return {items.first(half), items.subspan(half)};
     }
 
