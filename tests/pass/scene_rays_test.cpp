@@ -1,0 +1,82 @@
+// Rays through the scene's triangles on the device: a million through each scene, against Embree's; and by ray query
+// against those, on devices that have it.
+#include "pass/scene_rays_harness.h"
+
+#include "scene/builtin.h"
+#include "scene/gltf.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+
+namespace reflet::test {
+namespace {
+
+constexpr size_t rayCount = 1000000;
+constexpr size_t otherwiseAtMost = rayCount / 10000;
+
+// Prints how they differ, too.
+void expectSame(const std::string& name, const Difference& d) {
+    std::cout << name << ": " << d << '\n';
+    EXPECT_LE(d.other, otherwiseAtMost) << name;
+    EXPECT_EQ(d.any, 0U) << name;
+    EXPECT_LT(d.distance, 3.0) << name;
+    EXPECT_LT(d.barycentric, 2e-3) << name;
+}
+
+// Files named by REFLET_TEST_SCENES, with colons between them.
+std::vector<std::filesystem::path> filesToTest() {
+    const char* list = std::getenv("REFLET_TEST_SCENES");
+    std::vector<std::filesystem::path> files;
+    std::istringstream text(list != nullptr ? list : "");
+    for (std::string file; std::getline(text, file, ':');) {
+        files.emplace_back(file);
+    }
+    return files;
+}
+
+class SceneRaysBothWays : public SceneRaysTest {
+protected:
+    // Traversal against Embree, and ray query against traversal where the device has it.
+    static void expectSameOf(const std::string& name, const Scene& scene) {
+        const auto rays = randomRays(scene, rayCount);
+        const auto hits = trace(SceneRays(device(), scene, RayMethod::traversal), rays);
+        const Difference d = difference(scene, rays, traceWithEmbree(scene, rays), hits);
+        expectSame(name, d);
+        EXPECT_EQ(d.elsewhere, 0U) << name;
+        if (hasRayQuery()) {
+            const auto queried = trace(SceneRays(device(), scene, RayMethod::query), rays);
+            expectSame(name + " by ray query", difference(scene, rays, hits, queried));
+        }
+    }
+};
+
+class SceneRaysOfScene : public SceneRaysBothWays, public ::testing::WithParamInterface<BuiltinScene> {};
+
+TEST_P(SceneRaysOfScene, HitWhatEmbreeHits) {
+    expectSameOf(std::string(GetParam().name), withoutCutOuts(GetParam().make()));
+}
+
+std::string sceneName(const ::testing::TestParamInfo<BuiltinScene>& scene) {
+    std::string name(scene.param.name);
+    std::erase(name, '-');
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Builtin, SceneRaysOfScene, ::testing::ValuesIn(builtinScenes().begin(), builtinScenes().end()),
+                         sceneName);
+
+using SceneRaysOfFile = SceneRaysBothWays;
+
+TEST_F(SceneRaysOfFile, HitWhatEmbreeHits) {
+    const auto files = filesToTest();
+    if (files.empty()) {
+        GTEST_SKIP() << "REFLET_TEST_SCENES names no scene files";
+    }
+    for (const auto& file : files) {
+        expectSameOf(file.filename(), withoutCutOuts(loadGltf(file)));
+    }
+}
+
+}  // namespace
+}  // namespace reflet::test
