@@ -1,0 +1,14 @@
+// Rays through the scene's hierarchy, traversed in the shader. Bindings 24 and 25 of set 0: SceneRays::bind.
+// The includer defines askEveryHit and acceptHit (shaders/bvh.glsl), after scene_triangles.glsl, before this.
+#ifndef REFLET_SCENE_RAYS_GLSL
+#define REFLET_SCENE_RAYS_GLSL
+
+#include "render/trace_scene/scene_triangles.glsl"
+
+layout(set = 0, binding = 24, scalar) readonly buffer SceneNodeBlock { BvhNode items[]; } sceneNodes;
+
+BvhNode loadBvhNode(uint node) { return sceneNodes.items[node]; }
+
+#include "shaders/bvh.glsl"
+
+#endif

@@ -1,0 +1,266 @@
+// Builds the hierarchy: from the root down, cut where the surface area heuristic says, at the bounds of bins.
+#include "scene/bvh.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <optional>
+
+namespace reflet {
+
+namespace {
+
+constexpr uint32_t binCount = 16;
+constexpr uint32_t nodeCost = 1;  // in triangle tests
+constexpr uint32_t maxTriangles = bvhFirstMask;
+
+// A triangle on its way into a leaf.
+struct Item {
+    Aabb box;
+    uint32_t triangle = 0;
+
+    // Twice the centre of the box.
+    [[nodiscard]] vec3 center() const { return box.min + box.max; }
+};
+
+using Items = std::span<Item>;
+
+float halfArea(const Aabb& box) {
+    const vec3 s = box.size();
+    return s.x * s.y + s.y * s.z + s.z * s.x;
+}
+
+struct Bin {
+    Aabb box;
+    uint32_t count = 0;
+
+    void add(const Bin& other) {
+        box.add(other.box);
+        count += other.count;
+    }
+    [[nodiscard]] float cost() const { return count == 0 ? 0.0F : halfArea(box) * static_cast<float>(count); }
+};
+
+// Which bin a centre falls into.
+struct Binning {
+    vec3 start;
+    vec3 scale;
+
+    explicit Binning(const Aabb& centers) : start(centers.min) {
+        const vec3 size = centers.size();
+        for (int axis = 0; axis < 3; ++axis) {
+            // Slightly less than the number of bins; 0 where all centres are in one plane.
+            scale[axis] = size[axis] > 0.0F ? 0.99999F * static_cast<float>(binCount) / size[axis] : 0.0F;
+            scale[axis] = std::isfinite(scale[axis]) ? scale[axis] : 0.0F;
+        }
+    }
+    [[nodiscard]] uint32_t bin(const vec3& center, int axis) const {
+        return std::min(static_cast<uint32_t>((center[axis] - start[axis]) * scale[axis]), binCount - 1);
+    }
+};
+
+// Items of bins below `bin` go to the left.
+struct Cut {
+    int axis = 0;
+    uint32_t bin = 0;
+    float cost = 0.0F;
+};
+
+std::optional<Cut> bestCutOfAxis(const std::array<Bin, binCount>& bins, int axis) {
+    std::array<float, binCount> right{};
+    Bin sum;
+    for (uint32_t i = binCount - 1; i > 0; --i) {
+        sum.add(bins[i]);
+        right[i] = sum.count > 0 ? sum.cost() : -1.0F;
+    }
+    std::optional<Cut> best;
+    sum = {};
+    for (uint32_t i = 1; i < binCount; ++i) {
+        sum.add(bins[i - 1]);
+        const float cost = sum.cost() + right[i];
+        if (sum.count > 0 && right[i] >= 0.0F && (!best || cost < best->cost)) {
+            best = Cut{axis, i, cost};
+        }
+    }
+    return best;
+}
+
+std::optional<Cut> bestCut(Items items, const Binning& binning) {
+    std::array<std::array<Bin, binCount>, 3> bins;
+    for (const Item& item : items) {
+        const vec3 center = item.center();
+        for (int axis = 0; axis < 3; ++axis) {
+            Bin& bin = bins[static_cast<size_t>(axis)][binning.bin(center, axis)];
+            bin.box.add(item.box);
+            ++bin.count;
+        }
+    }
+    std::optional<Cut> best;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto cut = bestCutOfAxis(bins[static_cast<size_t>(axis)], axis);
+        if (cut && (!best || cut->cost < best->cost)) {
+            best = cut;
+        }
+    }
+    return best;
+}
+
+class Builder {
+public:
+    explicit Builder(const std::vector<SceneTriangle>& triangles) : triangles_(triangles) {
+        items_.reserve(triangles.size());
+        for (const SceneTriangle& t : triangles) {
+            Item item;
+            item.box.add(t.a);
+            item.box.add(t.b);
+            item.box.add(t.c);
+            item.triangle = static_cast<uint32_t>(items_.size());
+            items_.push_back(item);
+        }
+    }
+
+    Bvh build() {
+        Bvh bvh;
+        bvh.nodes.reserve(items_.size());
+        bvh.nodes.emplace_back();
+        bvh.triangles.reserve(items_.size());
+        // The root has two children, whatever there is.
+        const auto [left, right] = items_.size() < 2 ? std::pair(Items(items_), Items(items_)) : cut(items_, 0).value();
+        fill(bvh, 0, left, right, 1);
+        return bvh;
+    }
+
+private:
+    // Halves by the centres along the longest axis: what is left where bins do not help.
+    static std::pair<Items, Items> cutInHalves(Items items, const Aabb& centers) {
+        const vec3 size = centers.size();
+        const int axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
+        const size_t half = items.size() / 2;
+        std::ranges::nth_element(items, items.begin() + static_cast<std::ptrdiff_t>(half), [&](const auto& a, const auto& b) {
+            return std::pair(a.center()[axis], a.triangle) < std::pair(b.center()[axis], b.triangle);
+        });
+        return {items.first(half), items.subspan(half)};
+    }
+
+    // None: they are better off in one leaf. `depth` is that of the node that would hold the two parts.
+    static std::optional<std::pair<Items, Items>> cut(Items items, uint32_t depth) {
+        Aabb box;
+        Aabb centers;
+        for (const Item& item : items) {
+            box.add(item.box);
+            centers.add(item.center());
+        }
+        const auto levels = static_cast<uint32_t>(std::bit_width(items.size() - 1));  // that halving needs
+        const Binning binning(centers);
+        const auto best = depth + levels < bvhMaxDepth ? bestCut(items, binning) : std::nullopt;
+        const bool fits = items.size() <= bvhMaxLeaf && depth > 0;
+        const float area = halfArea(box);
+        const auto count = static_cast<float>(items.size());
+        if (fits && (!best || best->cost + static_cast<float>(nodeCost) * area >= count * area)) {
+            return std::nullopt;
+        }
+        if (!best) {
+            return cutInHalves(items, centers);
+        }
+        const auto right = std::ranges::partition(
+            items, [&](const Item& item) { return binning.bin(item.center(), best->axis) < best->bin; });
+        return std::pair(items.first(items.size() - right.size()), items.last(right.size()));
+    }
+
+    void fill(Bvh& bvh, uint32_t node, Items left, Items right, uint32_t depth) {
+        BvhNode n{};
+        setBox(left, n.leftMin, n.leftMax);
+        setBox(right, n.rightMin, n.rightMax);
+        n.left = child(bvh, left, depth);
+        n.right = child(bvh, right, depth);
+        bvh.nodes[node] = n;
+    }
+
+    static void setBox(Items items, vec3& min, vec3& max) {
+        Aabb box;
+        for (const Item& item : items) {
+            box.add(item.box);
+        }
+        min = box.min;
+        max = box.max;
+    }
+
+    uint32_t child(Bvh& bvh, Items items, uint32_t depth) {
+        const auto parts = items.empty() ? std::nullopt : cut(items, depth);
+        if (!parts) {
+            return leaf(bvh, items);
+        }
+        const auto node = static_cast<uint32_t>(bvh.nodes.size());
+        bvh.nodes.emplace_back();
+        fill(bvh, node, parts->first, parts->second, depth + 1);
+        return node;
+    }
+
+    uint32_t leaf(Bvh& bvh, Items items) const {
+        const auto first = static_cast<uint32_t>(bvh.triangles.size());
+        for (const Item& item : items) {
+            bvh.triangles.push_back(triangles_[item.triangle]);
+        }
+        const auto count = std::max(static_cast<uint32_t>(items.size()), 1U);
+        if (items.empty()) {
+            bvh.triangles.push_back({});  // without area: nothing hits it
+        }
+        return bvhLeaf | ((count - 1) << bvhCountShift) | first;
+    }
+
+    const std::vector<SceneTriangle>& triangles_;
+    std::vector<Item> items_;
+};
+
+bool isFinite(const vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+uint32_t flagsOf(const Material& material, const mat4& objectToWorld) {
+    return (material.alphaCutoff > 0.0F ? triangleCutOut : 0U) | (material.doubleSided ? triangleDoubleSided : 0U) |
+           (glm::determinant(mat3(objectToWorld)) < 0.0F ? triangleMirrored : 0U);
+}
+
+}  // namespace
+
+std::vector<SceneTriangle> sceneTriangles(const Scene& scene) {
+    std::vector<uint32_t> firstIndices;  // of meshes
+    uint64_t indices = 0;
+    for (const Mesh& mesh : scene.meshes) {
+        firstIndices.push_back(static_cast<uint32_t>(indices));
+        indices += mesh.indices.size();
+    }
+    std::vector<SceneTriangle> triangles;
+    for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        const Mesh& mesh = scene.meshes.at(instance.mesh);
+        SceneTriangle t{};
+        t.instance = i;
+        t.flags = flagsOf(scene.materials.at(mesh.material), instance.objectToWorld);
+        const auto corner = [&](size_t index) {
+            return vec3(instance.objectToWorld * vec4(mesh.positions[mesh.indices[index]], 1.0F));
+        };
+        if (triangles.size() + mesh.indices.size() / 3 > maxTriangles) {
+            fail("the scene has more than {} triangles, the most that rays on the device can tell apart", maxTriangles);
+        }
+        for (uint32_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
+            t.a = corner(k);
+            t.b = corner(k + 1);
+            t.c = corner(k + 2);
+            t.firstIndex = firstIndices[instance.mesh] + k;
+            if (isFinite(t.a) && isFinite(t.b) && isFinite(t.c)) {
+                triangles.push_back(t);
+            }
+        }
+    }
+    return triangles;
+}
+
+Bvh buildBvh(const std::vector<SceneTriangle>& triangles) {
+    return Builder(triangles).build();
+}
+
+}  // namespace reflet

@@ -1,0 +1,9 @@
+// Rays through the hierarchy in the shader.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "scene_rays_test.h"
+#include "render/trace_scene/scene_triangles.glsl"
+const bool askEveryHit = false;
+bool acceptHit(uint triangle, vec2 barycentrics, vec3 direction) { return false; }
+#include "render/trace_scene/scene_rays.glsl"
+#include "scene_rays_test.glsl"
