@@ -30,6 +30,9 @@ public:
 
     [[nodiscard]] const DrawList& draws() const { return draws_; }
     [[nodiscard]] const LampBlock& lamps() const { return lamps_; }
+    /// For rays: VertexAttributes and indices of all meshes, mesh after mesh; indices count within their mesh.
+    [[nodiscard]] gpu::BufferView attributes() const { return attributes_.view(); }
+    [[nodiscard]] gpu::BufferView indices() const { return indices_.view(); }
 
 private:
     struct MeshRange {
