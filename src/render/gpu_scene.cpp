@@ -159,7 +159,8 @@ void GpuScene::writeMaterialSet(const MaterialBinding& binding) {
         writes[i].pBufferInfo = &block;
         if (i > 0) {
             gpu::SamplerInfo info = binding.samplers[i - 1];
-            info.anisotropy = static_cast<float>(anisotropy_);
+            info.anisotropy = mips_ ? static_cast<float>(anisotropy_) : 1.0F;
+            info.maxLod = mips_ ? info.maxLod : 0.0F;
             images[i - 1] = {device_.sampler(info), binding.views[i - 1], VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
             writes[i].pImageInfo = &images[i - 1];
         }
@@ -168,9 +169,10 @@ void GpuScene::writeMaterialSet(const MaterialBinding& binding) {
                                       nullptr);
 }
 
-void GpuScene::setAnisotropy(uint32_t samples) {
-    if (samples != anisotropy_) {
-        anisotropy_ = samples;
+void GpuScene::setTextureFilter(uint32_t anisotropy, bool mips) {
+    if (anisotropy != anisotropy_ || mips != mips_) {
+        anisotropy_ = anisotropy;
+        mips_ = mips;
         for (const MaterialBinding& binding : materialBindings_) {
             writeMaterialSet(binding);
         }

@@ -84,7 +84,7 @@ FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const 
     previousWorldToClip_ = params.worldToClip;
     LampBlock lamps = scene_.lamps();
     const LampShadows lampShadows = planLamps(lamps, view, settings.shadow);
-    scene_.setAnisotropy(settings.materials.anisotropy);
+    scene_.setTextureFilter(settings.materials.anisotropy, settings.materials.mips != 0);
     const TracedScene* traced = tracedScene(settings);
     frame_.begin();
     const FrameInputs inputs{{.draws = scene_.draws(),

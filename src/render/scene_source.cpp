@@ -61,6 +61,7 @@ void answerFromScene(gpu::Frame& f, Rays& rays, const FrameInputs& in, const Set
                 .rayLimit = 1000.0F * static_cast<float>(settings.traceScene.maxRays) * share,
                 .bounces = scattering.bounces,
                 .diffuseOnly = scattering.diffuseOnly ? 1U : 0U,
+                .mips = settings.materials.mips,
                 .fromPrevious = previous ? 1U : 0U,
                 .firstRay = rays.firstRay});
 }

@@ -155,9 +155,8 @@ vec3 sceneShadingNormal(SceneTriangle t, ScenePlace place, vec3 fallback) {
     return normalize(tangentW * bent.x + cross(n, tangentW) * (tangent.w * handedness * bent.y) + n * bent.z);
 }
 
-// direction: of the ray, unit. spread: how wide what is seen at once is, per metre of the ray; start: and where it begins
-// [m].
-SceneSurface sceneSurface(SceneHit hit, vec3 direction, float start, float spread) {
+// direction: of the ray, unit. width: of what is seen at once, across the ray [m]; 0: textures are read in full detail.
+SceneSurface sceneSurface(SceneHit hit, vec3 direction, float width) {
     SceneTriangle t = loadSceneTriangle(hit.triangle);
     ScenePlace place = scenePlace(t, hit.barycentrics);
     SceneSurface s;
@@ -170,7 +169,7 @@ SceneSurface sceneSurface(SceneHit hit, vec3 direction, float start, float sprea
     s.geometricNormal = facing <= 0.0 ? front : -front;
     s.hiddenBack = facing > 0.0 && (t.flags & triangleDoubleSided) == 0u;
     // A footprint at a slant is as large as its area.
-    place.width = (start + spread * hit.distance) * inversesqrt(max(abs(facing), 0.01));
+    place.width = width * inversesqrt(max(abs(facing), 0.01));
     MaterialParams material = sceneMaterials.items[place.material].params;
     s.baseColor = clamp(sceneBaseColor(place).rgb, 0.0, 1.0);
     vec3 shading = sceneShadingNormal(t, place, front);

@@ -169,7 +169,8 @@ vec3 radianceAlong(SceneRay ray, inout uint random, out float hitDistance) {
             return radiance + (bounce > 0u ? throughput * environmentRadiance(ray.direction) : vec3(0.0));
         }
         hitDistance = bounce == 0u ? hit.distance : hitDistance;
-        SceneSurface found = sceneSurface(hit, ray.direction, ray.width, ray.spread);
+        float width = params.mips != 0u ? ray.width + ray.spread * hit.distance : 0.0;
+        SceneSurface found = sceneSurface(hit, ray.direction, width);
         vec3 shown;
         if (reuseScreen != 0u && (bounce == 0u || params.fromPrevious != 0u) && screenLight(found, shown)) {
             return radiance + throughput * shown;
@@ -183,7 +184,7 @@ vec3 radianceAlong(SceneRay ray, inout uint random, out float hitDistance) {
         }
         SceneRay next;
         throughput *= scatter(at, params.diffuseOnly != 0u, random, next);
-        next.width = ray.width + ray.spread * hit.distance;
+        next.width = width;
         if (bounce + 1u >= rouletteStart) {
             float survival = min(max(throughput.x, max(throughput.y, throughput.z)), 0.95);
             throughput = nextRandom(random) < survival ? throughput / survival : vec3(0.0);

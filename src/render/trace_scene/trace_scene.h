@@ -63,6 +63,7 @@ struct TraceSceneParams {
     float rayLimit;     // rays that this batch may answer, about
     uint bounces;       // scattered rays after a hit
     uint diffuseOnly;   // 1: they are diffuse ones
+    uint mips;          // 0: textures are read in full detail
     uint fromPrevious;  // 1: the screen's light is the last frame's
     uint firstRay;
 };
