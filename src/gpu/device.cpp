@@ -33,7 +33,7 @@ Device::Device(const DeviceOptions& options) : onMessage_(options.onMessage) {
     vkGetPhysicalDeviceProperties(physical_, &properties);
     limits_ = properties.limits;
     createDevice();
-    memory_ = std::make_unique<Memory>(vk, device_, physical_);
+    memory_ = std::make_unique<Memory>(vk, device_, physical_, rayQuery_);
     pipelines_ = std::make_unique<PipelineCache>(*this);
 }
 
@@ -96,8 +96,18 @@ void Device::createDevice() {
     anisotropic_ = has.samplerAnisotropy != 0;
     FloorFeatures floor = floorFeatures();
     floor.core.features.samplerAnisotropy = has.samplerAnisotropy;
+    RayQueryFeatures rays;
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
     info.pNext = floor.chain();
+    rayQuery_ = gpu::hasRayQuery(physical_);
+    if (rayQuery_) {
+        floor.v12.bufferDeviceAddress = VK_TRUE;
+        rays.structures.accelerationStructure = VK_TRUE;
+        rays.query.rayQuery = VK_TRUE;
+        floor.v13.pNext = rays.chain();
+        info.enabledExtensionCount = static_cast<uint32_t>(rayQueryExtensions.size());
+        info.ppEnabledExtensionNames = rayQueryExtensions.data();
+    }
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queueInfo;
     vkCheck(vkCreateDevice(physical_, &info, nullptr, &device_), "opening the device");

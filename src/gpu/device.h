@@ -60,6 +60,9 @@ public:
 
     [[nodiscard]] const DeviceDescription& description() const { return description_; }
     [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return limits_; }
+    /// Acceleration structures can be built and shaders can query them.
+    [[nodiscard]] bool hasRayQuery() const { return rayQuery_; }
+    [[nodiscard]] VkPhysicalDevice physical() const { return physical_; }
     [[nodiscard]] VkDevice handle() const { return device_; }
     [[nodiscard]] VkQueue queue() const { return queue_; }
     [[nodiscard]] uint32_t queueFamily() const { return queueFamily_; }
@@ -112,6 +115,7 @@ private:
     DeviceDescription description_;
     VkPhysicalDeviceLimits limits_{};
     bool anisotropic_ = false;
+    bool rayQuery_ = false;
     std::unique_ptr<Memory> memory_;
     std::unique_ptr<PipelineCache> pipelines_;
     std::vector<std::pair<SamplerInfo, VkSampler>> samplers_;

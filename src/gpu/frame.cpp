@@ -21,14 +21,17 @@ constexpr VkImageUsageFlags copied = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_
 constexpr VkImageUsageFlags storageUsage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | copied;
 
 VkDescriptorPool makeDescriptorPool(Device& device) {
-    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2048},
-                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2048},
-                                          {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 4096},
-                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 8192}};
+    std::vector<VkDescriptorPoolSize> sizes{{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2048},
+                                            {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2048},
+                                            {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 4096},
+                                            {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 8192}};
+    if (device.hasRayQuery()) {
+        sizes.push_back({VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, maxTimedPasses});
+    }
     VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
     info.maxSets = maxTimedPasses;
-    info.poolSizeCount = static_cast<uint32_t>(std::size(sizes));
-    info.pPoolSizes = sizes;
+    info.poolSizeCount = static_cast<uint32_t>(sizes.size());
+    info.pPoolSizes = sizes.data();
     VkDescriptorPool pool = VK_NULL_HANDLE;
     vkCheck(device.vk.vkCreateDescriptorPool(device.handle(), &info, nullptr, &pool), "creating a descriptor pool");
     return pool;

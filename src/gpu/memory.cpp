@@ -62,7 +62,8 @@ struct MemoryBlock {
     }
 };
 
-Memory::Memory(const VolkDeviceTable& vk, VkDevice device, VkPhysicalDevice physical) : vk_(vk), device_(device) {
+Memory::Memory(const VolkDeviceTable& vk, VkDevice device, VkPhysicalDevice physical, bool addresses)
+    : vk_(vk), device_(device), addresses_(addresses) {
     vkGetPhysicalDeviceMemoryProperties(physical, &properties_);
 }
 
@@ -94,7 +95,9 @@ uint32_t Memory::chooseType(uint32_t allowed, MemoryUse use) const {
 
 MemoryBlock& Memory::addBlock(uint32_t type, bool linear, VkDeviceSize size) {
     auto block = std::make_unique<MemoryBlock>();
-    const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, size, type};
+    VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
+    flags.flags = addresses_ && linear ? VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT : 0;
+    const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &flags, size, type};
     const VkResult result = vk_.vkAllocateMemory(device_, &info, nullptr, &block->memory);
     if (result != VK_SUCCESS) {
         fail("out of device memory: {} MiB more are needed beside the {} MiB in use ({}); render at a smaller --size",

@@ -29,7 +29,8 @@ enum class MemoryUse : uint8_t {
 
 class Memory {
 public:
-    Memory(const VolkDeviceTable& vk, VkDevice device, VkPhysicalDevice physical);
+    /// `addresses`: shaders may be given addresses of buffers in it.
+    Memory(const VolkDeviceTable& vk, VkDevice device, VkPhysicalDevice physical, bool addresses);
     ~Memory();
     Memory(const Memory&) = delete;
     Memory& operator=(const Memory&) = delete;
@@ -44,6 +45,7 @@ private:
 
     const VolkDeviceTable& vk_;
     VkDevice device_;
+    bool addresses_;
     VkPhysicalDeviceMemoryProperties properties_{};
     std::vector<std::unique_ptr<MemoryBlock>> blocks_;
     VkDeviceSize reserved_ = 0;  ///< bytes taken from the device

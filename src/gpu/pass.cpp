@@ -42,13 +42,19 @@ Pass::Pass(Frame& frame, std::string name, std::vector<std::string> shaders) : f
 
 Pass& Pass::read(std::string_view binding, Image image, VkSampler sampler) {
     REFLET_CHECK(image, "{}: '{}' is given no image", name_, binding);
-    bound_.push_back({std::string(binding), image, {}, sampler, false});
+    bound_.push_back({std::string(binding), image, {}, {}, sampler, false});
     return *this;
 }
 
 Pass& Pass::read(std::string_view binding, BufferView buffer) {
     REFLET_CHECK(buffer, "{}: '{}' is given no buffer", name_, binding);
-    bound_.push_back({std::string(binding), {}, buffer, VK_NULL_HANDLE, false});
+    bound_.push_back({std::string(binding), {}, buffer, {}, VK_NULL_HANDLE, false});
+    return *this;
+}
+
+Pass& Pass::read(std::string_view binding, AccelerationView structure) {
+    REFLET_CHECK(structure, "{}: '{}' is given no acceleration structure", name_, binding);
+    bound_.push_back({std::string(binding), {}, {}, structure, VK_NULL_HANDLE, false});
     return *this;
 }
 
@@ -92,8 +98,11 @@ Pass& Pass::vertices(const VertexLayout& layout, VkDescriptorSetLayout drawSet) 
 
 void Pass::checkAccess(const ShaderBinding& binding, const Bound& bound) const {
     const bool wantsBuffer = binding.type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    REFLET_CHECK(static_cast<bool>(bound.buffer) == wantsBuffer, "{}: '{}' is {} in the shader", name_, bound.name,
-                 wantsBuffer ? "a buffer" : "an image");
+    const bool wantsStructure = binding.type == VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR;
+    const char* wanted = wantsStructure ? "an acceleration structure" : wantsBuffer ? "a buffer" : "an image";
+    REFLET_CHECK(
+        static_cast<bool>(bound.buffer) == wantsBuffer && static_cast<bool>(bound.structure) == wantsStructure,
+        "{}: '{}' is {} in the shader", name_, bound.name, wanted);
     const bool writable = !binding.readOnly;
     const bool canWrite = binding.type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE || wantsBuffer;
     REFLET_CHECK(bound.write == (canWrite && writable), "{}: '{}' is {} here, and {} in the shader", name_, bound.name,
@@ -150,7 +159,7 @@ void Pass::collectUses(const Pipeline& pipeline) {
                                   : Access{stages, VK_ACCESS_2_SHADER_READ_BIT, false};
         if (bound.image) {
             use(bound.image, access);
-        } else {
+        } else if (bound.buffer) {
             use(bound.buffer, access);
         }
     }
@@ -178,6 +187,7 @@ VkDescriptorSet Pass::writeSet(const Pipeline& pipeline) {
     const size_t count = pipeline.bindings.size();
     std::vector<VkDescriptorImageInfo> images(count);
     std::vector<VkDescriptorBufferInfo> buffers(count);
+    std::vector<VkWriteDescriptorSetAccelerationStructureKHR> structures(count);
     std::vector<VkWriteDescriptorSet> writes;
     for (size_t i = 0; i < count; ++i) {
         const ShaderBinding& binding = pipeline.bindings[i];
@@ -198,6 +208,10 @@ VkDescriptorSet Pass::writeSet(const Pipeline& pipeline) {
                                              ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
                                              : VK_IMAGE_LAYOUT_GENERAL;
             images[i] = {sampler, bound->image.view, layout};
+        } else if (bound->structure) {
+            structures[i] = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR, nullptr, 1,
+                             &bound->structure.structure};
+            write.pNext = &structures[i];
         } else {
             buffers[i] = {bound->buffer.state->buffer, 0, VK_WHOLE_SIZE};
         }

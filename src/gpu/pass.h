@@ -9,6 +9,7 @@
 // declared readonly: std::logic_error naming the pass and the binding, in every build.
 #pragma once
 
+#include "gpu/acceleration.h"
 #include "gpu/pipeline.h"
 #include "gpu/resource.h"
 
@@ -45,6 +46,8 @@ public:
 
     Pass& read(std::string_view binding, Image image, VkSampler sampler = VK_NULL_HANDLE);
     Pass& read(std::string_view binding, BufferView buffer);
+    /// One that was built before this frame began.
+    Pass& read(std::string_view binding, AccelerationView structure);
     /// What a pass writes it may read as well.
     Pass& write(std::string_view binding, Image image);
     Pass& write(std::string_view binding, BufferView buffer);
@@ -79,6 +82,7 @@ private:
         std::string name;
         Image image;
         BufferView buffer;
+        AccelerationView structure;
         VkSampler sampler = VK_NULL_HANDLE;
         bool write = false;
     };

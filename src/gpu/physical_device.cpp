@@ -95,14 +95,19 @@ std::vector<std::string> missingOfFloor(VkPhysicalDevice device, const VkPhysica
     return missing;
 }
 
-std::vector<std::string> extrasOf(VkPhysicalDevice device) {
+// All of them.
+bool hasExtensions(VkPhysicalDevice device, std::span<const char* const> names) {
     uint32_t count = 0;
     vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
     std::vector<VkExtensionProperties> extensions(count);
     vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
-    const auto has = [&](const char* name) {
+    return std::ranges::all_of(names, [&](const char* name) {
         return std::ranges::any_of(extensions, [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
-    };
+    });
+}
+
+std::vector<std::string> extrasOf(VkPhysicalDevice device) {
+    const char* pipeline = VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME;
     VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
     VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v12};
     vkGetPhysicalDeviceFeatures2(device, &features);
@@ -112,8 +117,8 @@ std::vector<std::string> extrasOf(VkPhysicalDevice device) {
             extras.emplace_back(what);
         }
     };
-    add(has("VK_KHR_ray_query"), "ray query");
-    add(has("VK_KHR_ray_tracing_pipeline"), "ray tracing pipeline");
+    add(hasRayQuery(device), "ray query");
+    add(hasExtensions(device, std::span(&pipeline, 1)), "ray tracing pipeline");
     add(v12.runtimeDescriptorArray != 0 && v12.shaderSampledImageArrayNonUniformIndexing != 0, "descriptor indexing");
     add(v12.shaderFloat16 != 0, "fp16");
     add(features.features.samplerAnisotropy != 0, "anisotropic filtering");
@@ -201,6 +206,17 @@ FloorFeatures floorFeatures() {
     floor.v13.dynamicRendering = VK_TRUE;
     floor.v13.synchronization2 = VK_TRUE;
     return floor;
+}
+
+bool hasRayQuery(VkPhysicalDevice device) {
+    if (!hasExtensions(device, rayQueryExtensions)) {
+        return false;
+    }
+    RayQueryFeatures rays;
+    VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, rays.chain()};
+    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v12};
+    vkGetPhysicalDeviceFeatures2(device, &features);
+    return rays.structures.accelerationStructure != 0 && rays.query.rayQuery != 0 && v12.bufferDeviceAddress != 0;
 }
 
 VkInstance makeInstance(const char* layer) {

@@ -3,6 +3,7 @@
 
 #include "gpu/device.h"
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -21,6 +22,22 @@ struct FloorFeatures {
     }
 };
 FloorFeatures floorFeatures();
+
+/// What VK_KHR_ray_query takes, as a chain. Shader addresses of buffers (FloorFeatures::v12) belong to it, too.
+struct RayQueryFeatures {
+    VkPhysicalDeviceAccelerationStructureFeaturesKHR structures{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR};
+    VkPhysicalDeviceRayQueryFeaturesKHR query{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR};
+
+    void* chain() {
+        structures.pNext = &query;
+        return &structures;
+    }
+};
+inline constexpr std::array rayQueryExtensions{VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
+                                               VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
+                                               VK_KHR_RAY_QUERY_EXTENSION_NAME};
+bool hasRayQuery(VkPhysicalDevice device);
 
 /// Throws Error when there is no loader, or when the layer (may be nullptr) is not installed.
 VkInstance makeInstance(const char* layer);

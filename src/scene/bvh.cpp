@@ -16,6 +16,7 @@ namespace {
 constexpr uint32_t binCount = 16;
 constexpr uint32_t nodeCost = 1;  // in triangle tests
 constexpr uint32_t maxTriangles = bvhFirstMask;
+constexpr float smallestMargin = 1e-10F;  // metres, of boxes about 0
 
 // A triangle on its way into a leaf.
 struct Item {
@@ -179,13 +180,17 @@ private:
         bvh.nodes[node] = n;
     }
 
+    // A little larger than what is in it: a ray that runs along a side, within a rounding, does not miss it.
     static void setBox(Items items, vec3& min, vec3& max) {
         Aabb box;
         for (const Item& item : items) {
             box.add(item.box);
         }
-        min = box.min;
-        max = box.max;
+        if (items.empty()) {
+            box.add(vec3(0.0F));
+        }
+        min = box.min - glm::max(glm::abs(box.min) * 0x1p-22F, vec3(smallestMargin));
+        max = box.max + glm::max(glm::abs(box.max) * 0x1p-22F, vec3(smallestMargin));
     }
 
     uint32_t child(Bvh& bvh, Items items, uint32_t depth) {
@@ -215,8 +220,11 @@ private:
     std::vector<Item> items_;
 };
 
-bool isFinite(const vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+// Farther out than this [m] products of coordinates are no longer finite.
+constexpr float farthest = 1e18F;
+
+bool isSomewhere(const vec3& v) {
+    return std::abs(v.x) < farthest && std::abs(v.y) < farthest && std::abs(v.z) < farthest;
 }
 
 uint32_t flagsOf(const Material& material, const mat4& objectToWorld) {
@@ -251,7 +259,7 @@ std::vector<SceneTriangle> sceneTriangles(const Scene& scene) {
             t.b = corner(k + 1);
             t.c = corner(k + 2);
             t.firstIndex = firstIndices[instance.mesh] + k;
-            if (isFinite(t.a) && isFinite(t.b) && isFinite(t.c)) {
+            if (isSomewhere(t.a) && isSomewhere(t.b) && isSomewhere(t.c)) {
                 triangles.push_back(t);
             }
         }

@@ -10,7 +10,7 @@
 namespace reflet {
 
 /// All triangles of all instances, in the world, in the order of instances and indices. Those with a corner that is not
-/// finite are left out. Throws Error: more than the hierarchy can number (2^28).
+/// finite (or beyond 1e18 m) are left out. Throws Error: more than the hierarchy can number (2^28).
 std::vector<SceneTriangle> sceneTriangles(const Scene& scene);
 
 struct Bvh {

@@ -20,7 +20,7 @@ struct BvhRay {
     vec3 direction;
     vec3 inverse;  // 1 / direction, finite
     int axis;      // along which the direction is longest
-    vec3 shear;    // takes the direction to that axis, with length 1
+    vec2 shear;    // takes the direction to that axis
 };
 
 // x, y and the ray's longest axis, as z.
@@ -33,7 +33,7 @@ BvhRay makeBvhRay(vec3 origin, vec3 direction) {
     // A component near 0 is as good as a very small one: 1 / it stays finite.
     vec3 safe = mix(direction, mix(vec3(1e-18), vec3(-1e-18), lessThan(direction, vec3(0.0))),
                     lessThan(size, vec3(1e-18)));
-    return BvhRay(origin, direction, 1.0 / safe, axis, vec3(last.xy, 1.0) / last.z);
+    return BvhRay(origin, direction, 1.0 / safe, axis, last.xy / last.z);
 }
 
 // Where the ray enters a box; beyond `farthest`: it does not.
@@ -54,16 +54,18 @@ bool hitTriangle(BvhRay ray, SceneTriangle t, float nearest, float farthest, out
     precise vec3 a = axisLast(t.a - ray.origin, ray.axis);
     precise vec3 b = axisLast(t.b - ray.origin, ray.axis);
     precise vec3 c = axisLast(t.c - ray.origin, ray.axis);
-    precise vec2 as = a.xy - ray.shear.xy * a.z;
-    precise vec2 bs = b.xy - ray.shear.xy * b.z;
-    precise vec2 cs = c.xy - ray.shear.xy * c.z;
+    precise vec2 as = a.xy - ray.shear * a.z;
+    precise vec2 bs = b.xy - ray.shear * b.z;
+    precise vec2 cs = c.xy - ray.shear * c.z;
     precise float u = cs.x * bs.y - cs.y * bs.x;
     precise float v = as.x * cs.y - as.y * cs.x;
     precise float w = bs.x * as.y - bs.y * as.x;
     float sum = u + v + w;
     bool inside = (min(u, min(v, w)) >= 0.0 || max(u, max(v, w)) <= 0.0) && sum != 0.0;
-    float inverse = 1.0 / sum;
-    hit = vec3((u * a.z + v * b.z + w * c.z) * ray.shear.z * inverse, v * inverse, w * inverse);
+    // Where the triangle's plane is: for thin triangles far more exact than the corners' weighted depths.
+    vec3 normal = cross(t.b - t.a, t.c - t.a);
+    float distance = dot(normal, t.a - ray.origin) / dot(normal, ray.direction);
+    hit = vec3(distance, vec2(v, w) / sum);
     return inside && hit.x >= nearest && hit.x <= farthest;
 }
 

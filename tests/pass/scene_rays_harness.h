@@ -1,10 +1,11 @@
-// Traces rays through a scene on the device.
+// Traces rays through a scene on the device and by Embree, and compares what they hit.
 #pragma once
 
 #include "pass/scene_rays_test.h"
 #include "render/trace_scene/scene_rays.h"
 #include "support/device_fixture.h"
 
+#include <iosfwd>
 #include <vector>
 
 namespace reflet::test {
@@ -12,12 +13,32 @@ namespace reflet::test {
 class SceneRaysTest : public DeviceTest {
 protected:
     static void SetUpTestSuite();
-    /// What each ray hits; `passMs`: device time.
-    static std::vector<TestHit> trace(const SceneRays& scene, const std::vector<TestRay>& rays,
-                                      double* passMs = nullptr, uint32_t which = 3);
-    /// Origins in the scene's bounds grown by a tenth, directions over the sphere.
-    static std::vector<TestRay> randomRays(const Scene& scene, size_t count);
+    /// What each ray hits.
+    static std::vector<TestHit> trace(const SceneRays& scene, const std::vector<TestRay>& rays);
+    static bool hasRayQuery();
 };
+
+/// Origins in the scene's bounds grown by a tenth on each side, directions over the sphere.
+std::vector<TestRay> randomRays(const Scene& scene, size_t count);
+
+std::vector<TestHit> traceWithEmbree(const Scene& scene, const std::vector<TestRay>& rays);
+
+/// How two ways of tracing the same rays differ.
+struct Difference {
+    size_t rays = 0;
+    size_t hits = 0;  ///< of the first way
+    /// Not the same triangle, or only one way hits. Not counted: two triangles on top of each other, of which either
+    /// is right.
+    size_t other = 0;
+    size_t coincident = 0;   ///< triangles on top of each other
+    size_t any = 0;          ///< anyHit and closestHit do not agree, one way or the other
+    double distance = 0.0;   ///< largest difference of distances, in what rounding may come to (1: just that)
+    double barycentric = 0;  ///< largest, where the triangle is the same [m]
+};
+std::ostream& operator<<(std::ostream& out, const Difference& difference);
+
+Difference difference(const Scene& scene, const std::vector<TestRay>& rays, const std::vector<TestHit>& one,
+                      const std::vector<TestHit>& another);
 
 /// The scene with all materials whole.
 Scene withoutCutOuts(Scene scene);

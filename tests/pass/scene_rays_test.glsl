@@ -2,7 +2,6 @@
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) readonly buffer RayBlock { TestRay items[]; } rays;
 layout(set = 0, binding = 1, scalar) writeonly buffer HitBlock { TestHit items[]; } hits;
-layout(constant_id = 0) const uint which = 3u;  // 1: closestHit, 2: anyHit
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
@@ -11,8 +10,8 @@ void main() {
     }
     TestRay ray = rays.items[i];
     SceneHit hit = SceneHit(0.0, vec2(0.0), 0u);
-    bool found = (which & 1u) != 0u && closestHit(ray.origin, ray.direction, ray.nearest, ray.farthest, hit);
-    bool any = (which & 2u) != 0u && anyHit(ray.origin, ray.direction, ray.nearest, ray.farthest);
+    bool found = closestHit(ray.origin, ray.direction, ray.nearest, ray.farthest, hit);
+    bool any = anyHit(ray.origin, ray.direction, ray.nearest, ray.farthest);
     SceneTriangle t = loadSceneTriangle(hit.triangle);
     hits.items[i] = TestHit(hit.distance, hit.barycentrics, t.instance, t.firstIndex, uint(found), uint(any));
 }

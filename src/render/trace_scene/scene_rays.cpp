@@ -6,6 +6,8 @@
 #include "gpu/pass.h"
 #include "scene/bvh.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <span>
 
 namespace reflet {
@@ -13,20 +15,38 @@ namespace reflet {
 namespace {
 
 template <class T>
-gpu::Buffer upload(gpu::Device& device, const std::vector<T>& items, const char* name) {
-    return gpu::uploadBuffer(device, std::as_bytes(std::span(items)), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, name);
+gpu::Buffer upload(gpu::Device& device, const std::vector<T>& items, const char* name, VkBufferUsageFlags usage = 0) {
+    return gpu::uploadBuffer(device, std::as_bytes(std::span(items)), usage | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, name);
 }
+
+// A triangle's corners, as acceleration structures are built from them, begin every 16 bytes.
+constexpr uint32_t cornerStride = offsetof(SceneTriangle, b);
+static_assert(sizeof(SceneTriangle) == 3 * cornerStride && offsetof(SceneTriangle, c) == 2 * cornerStride);
 
 }  // namespace
 
-SceneRays::SceneRays(gpu::Device& device, const Scene& scene) : SceneRays(device, scene, RayMethod::traversal) {}
+SceneRays::SceneRays(gpu::Device& device, const Scene& scene) : SceneRays(device, scene, device.hasRayQuery() ? RayMethod::query : RayMethod::traversal) {}
 
 SceneRays::SceneRays(gpu::Device& device, const Scene& scene, RayMethod method) : method_(method) {
-    const std::vector<SceneTriangle> triangles = sceneTriangles(scene);
+    std::vector<SceneTriangle> triangles = sceneTriangles(scene);
     triangleCount_ = static_cast<uint32_t>(triangles.size());
-    const Bvh bvh = buildBvh(triangles);
-    nodes_ = upload(device, bvh.nodes, "scene nodes");
-    triangles_ = upload(device, bvh.triangles, "scene triangles");
+    if (method == RayMethod::traversal) {
+        const Bvh bvh = buildBvh(triangles);
+        nodes_ = upload(device, bvh.nodes, "scene nodes");
+        triangles_ = upload(device, bvh.triangles, "scene triangles");
+        return;
+    }
+    if (!device.hasRayQuery()) {
+        fail("the device '{}' has no ray query", device.description().name);
+    }
+    if (triangles.empty()) {
+        triangles.push_back({});  // without area: nothing hits it
+    }
+    triangles_ = upload(device, triangles, "scene triangles", gpu::accelerationInput);
+    const bool cutOut =
+        std::ranges::any_of(triangles, [](const SceneTriangle& t) { return (t.flags & triangleCutOut) != 0; });
+    acceleration_ = gpu::AccelerationStructure(
+        device, {triangles_, cornerStride, static_cast<uint32_t>(triangles.size()), !cutOut});
 }
 
 std::string SceneRays::shader(std::string_view name) const {
@@ -34,7 +54,9 @@ std::string SceneRays::shader(std::string_view name) const {
 }
 
 gpu::Pass& SceneRays::bind(gpu::Pass& pass) const {
-    return pass.read("sceneNodes", nodes_.view()).read("sceneTriangles", triangles_.view());
+    pass.read("sceneTriangles", triangles_.view());
+    return method_ == RayMethod::query ? pass.read("sceneHierarchy", acceleration_.view())
+                                       : pass.read("sceneNodes", nodes_.view());
 }
 
 }  // namespace reflet

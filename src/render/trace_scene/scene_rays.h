@@ -6,6 +6,7 @@
 //     SceneTriangle loadSceneTriangle(uint triangle)
 #pragma once
 
+#include "gpu/acceleration.h"
 #include "gpu/resource.h"
 #include "scene/scene.h"
 
@@ -30,7 +31,7 @@ class SceneRays {
 public:
     /// By ray query where the device has it. Keeps no reference to the scene.
     SceneRays(gpu::Device& device, const Scene& scene);
-    /// Throws Error: the device has no ray query.
+    /// Throws Error: the device has no ray query, but it is asked for.
     SceneRays(gpu::Device& device, const Scene& scene, RayMethod method);
 
     [[nodiscard]] RayMethod method() const { return method_; }
@@ -44,8 +45,9 @@ public:
 private:
     RayMethod method_;
     uint32_t triangleCount_ = 0;
-    gpu::Buffer nodes_;
     gpu::Buffer triangles_;
+    gpu::Buffer nodes_;                         ///< traversal
+    gpu::AccelerationStructure acceleration_;  ///< query
 };
 
 }  // namespace reflet

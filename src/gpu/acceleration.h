@@ -1,0 +1,59 @@
+// Triangles as the device's own ray tracing wants them: one bottom level, placed once by a top level. Only on devices
+// with Device::hasRayQuery. (VK_KHR_ray_tracing_pipeline without VK_KHR_ray_query is not served: drivers that have the
+// one have the other.)
+#pragma once
+
+#include "gpu/resource.h"
+
+#include <cstdint>
+
+namespace reflet::gpu {
+
+/// What passes read. Valid as long as its owner. Empty: `!view`.
+struct AccelerationView {
+    VkAccelerationStructureKHR structure = VK_NULL_HANDLE;
+
+    explicit operator bool() const { return structure != VK_NULL_HANDLE; }
+};
+
+/// What the buffers that AccelerationStructure is built from are used as, besides all else.
+constexpr VkBufferUsageFlags accelerationInput =
+    VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+
+/// Triangles in a buffer: corners one after the other, three floats every `stride` bytes, without indices.
+struct TriangleInput {
+    const Buffer& corners;
+    uint32_t stride = 0;
+    uint32_t count = 0;  ///< triangles, at least 1
+    bool opaque = true;  ///< false: shaders are asked about each hit
+};
+
+class AccelerationStructure {
+public:
+    AccelerationStructure() = default;
+    /// Builds it and waits. `primitiveIndex` of shaders is the triangle's place in the buffer. Throws Error where
+    /// memory does not suffice; std::logic_error on a device without ray query.
+    AccelerationStructure(Device& device, const TriangleInput& triangles);
+    ~AccelerationStructure();
+    AccelerationStructure(AccelerationStructure&& other) noexcept;
+    AccelerationStructure& operator=(AccelerationStructure&& other) noexcept;
+    AccelerationStructure(const AccelerationStructure&) = delete;
+    AccelerationStructure& operator=(const AccelerationStructure&) = delete;
+
+    [[nodiscard]] AccelerationView view() const { return {top_.structure}; }
+
+private:
+    struct Level {
+        Buffer memory;
+        VkAccelerationStructureKHR structure = VK_NULL_HANDLE;
+    };
+    Level build(VkAccelerationStructureTypeKHR type, const VkAccelerationStructureGeometryKHR& geometry,
+                uint32_t primitives);
+    void retire(Level& level);
+
+    Device* device_ = nullptr;
+    Level bottom_;
+    Level top_;
+};
+
+}  // namespace reflet::gpu
