@@ -32,16 +32,16 @@ void seeSun(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewI
         shadow.filter = ShadowFilter::none;
     }
     const float sunSlope = std::tan(0.5F * in.sunAngularDiameter);
-    const SunShadowParams sun = fitSunShadows(in.view, in.draws.boundsW, in.sunDirection, shadow,
-                                              filterReach(in.draws.boundsW, shadow, sunSlope));
+    out.sun = fitSunShadows(in.view, in.draws.boundsW, in.sunDirection, shadow,
+                            filterReach(in.draws.boundsW, shadow, sunSlope));
     if (shadow.filter != ShadowFilter::none) {
-        out.shadowMap = drawShadowMap(f, in.draws, sun, shadow);
+        out.shadowMap = drawShadowMap(f, in.draws, out.sun, shadow);
     }
     ShadowInputs maps{.map = out.shadowMap, .range = {}, .blueNoise = in.blueNoise};
     if (shadow.filter == ShadowFilter::pcss && shadow.earlyOut != 0) {
         maps.range = makeShadowRange(f, out.shadowMap);
     }
-    const SunVisibility seen = sunVisibility(f, out.g, maps, {in.view, sun, shadow, sunSlope});
+    const SunVisibility seen = sunVisibility(f, out.g, maps, {in.view, out.sun, shadow, sunSlope});
     out.rawSunVisibility = seen.visibility;
     out.shadowPenumbra = seen.penumbra;
     out.sunVisibility = shadow.clean != 0 && seen.penumbra

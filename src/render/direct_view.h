@@ -9,6 +9,7 @@
 #include "render/gbuffer/gbuffer.h"
 #include "render/settings.h"
 #include "render/shadow/lamp_shadow.h"
+#include "render/trace_scene/trace_scene.h"
 
 namespace reflet {
 
@@ -20,9 +21,10 @@ struct ViewInputs {
     float sunAngularDiameter = 0.0F;  ///< radians
     vec3 environment{0.0F};           ///< radiance from all directions [W/(m² sr)]
     const LampBlock& lamps;
-    const LampShadows& lampShadows;  ///< of planLampShadows
-    gpu::Image ggxTable;             ///< of makeGgxTable
-    gpu::BufferView blueNoise;       ///< of blueNoise()
+    const LampShadows& lampShadows;       ///< of planLampShadows
+    gpu::Image ggxTable;                  ///< of makeGgxTable
+    gpu::BufferView blueNoise;            ///< of blueNoise()
+    const TracedScene* traced = nullptr;  ///< for settings that trace rays through the scene (tracesScene)
 };
 
 /// Formats where the effects declare them.
@@ -31,6 +33,7 @@ struct ViewImages {
     gpu::Image backDepth;         ///< none unless trace_screen.thicknessFrom is secondLayer
     gpu::Image pyramid;           ///< none unless trace_screen.method is hiz or there are contact shadows
     gpu::Image shadowMap;         ///< none without sun or shadows
+    SunShadowParams sun{};        ///< its parts
     gpu::Image rawSunVisibility;  ///< before it was cleaned
     gpu::Image sunVisibility;     ///< that direct light uses
     gpu::Image shadowPenumbra;    ///< of sunVisibility(); none with hard shadows
@@ -40,6 +43,9 @@ struct ViewImages {
     gpu::Image lampVisibility;    ///< none where no lamp casts a shadow
     gpu::Image direct;
 };
+
+/// What rays that are traced through the scene are lit with.
+SceneLights sceneLights(const ViewInputs& in, const Settings& settings);
 
 /// Records the passes of one view. Views besides the frame's own go within a viewScope, lest they write over its
 /// images. lampShadowMap: of another view of the same frame, which serves all; none: it is drawn.

@@ -10,6 +10,7 @@
 #include "render/bounce/answer_environment.h"
 #include "render/bounce/trace_screen.h"
 #include "render/light_mips/light_mips.h"
+#include "render/scene_source.h"
 #include "render/tonemap/tonemap.h"
 
 #include <algorithm>
@@ -19,8 +20,8 @@ namespace reflet {
 namespace {
 
 // One chain for both lobes: rays, then sources that answer in order of trust, each taking what is left over.
-LobeLight traceLobe(gpu::Frame& f, const FrameInputs& in, const Settings& settings, const ScreenImages& screen,
-                    uint32_t lobe) {
+LobeLight traceLobe(gpu::Frame& f, const FrameInputs& in, const Settings& settings, const ViewImages& seen,
+                    const ScreenImages& screen, uint32_t lobe) {
     const bool diffuse = lobe == lobeDiffuse;
     const auto scope = f.scope(diffuse ? "diffuse" : "specular");
     const uvec2 size = screen.g.depth.size;
@@ -39,6 +40,7 @@ LobeLight traceLobe(gpu::Frame& f, const FrameInputs& in, const Settings& settin
         if (settings.traceScreen.enabled != 0) {
             traceScreen(f, rays, screen, in.view, settings.traceScreen, longest);
         }
+        answerFromScene(f, rays, in, settings, seen, screen);
         answerEnvironment(f, rays, screen.g, in.environment, settings.environment);
         light = resolveRays(f, rays, perPixel);
     }
@@ -72,9 +74,9 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
     const gpu::History lit = f.history("lit", VK_FORMAT_R16G16B16A16_SFLOAT, out.g.depth.size);
     ScreenImages screen{
         .g = out.g, .backDepth = out.backDepth, .pyramid = out.pyramid, .light = out.direct, .lit = lit};
-    out.diffuse = traceLobe(f, in, settings, screen, lobeDiffuse);
+    out.diffuse = traceLobe(f, in, settings, out, screen, lobeDiffuse);
     lightForReflections(f, in, settings, out, screen);
-    out.specular = traceLobe(f, in, settings, screen, lobeSpecular);
+    out.specular = traceLobe(f, in, settings, out, screen, lobeSpecular);
 
     out.light = composite(f, out.g, out.direct, out.diffuse, out.specular, in.ggxTable, lit.next,
                           {in.view, settings.diffuse.gain});

@@ -43,34 +43,6 @@ VkDescriptorPool makeMaterialPool(gpu::Device& device, uint32_t materials) {
     return pool;
 }
 
-std::array<const TextureSlot*, slotCount> slotsOf(const Material& m) {
-    return {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.occlusionTexture,
-            &m.emissiveTexture};
-}
-
-bool isSrgb(uint32_t slot) {
-    return slot == slotBaseColor || slot == slotEmissive;
-}
-
-MaterialParams materialParams(const Material& m) {
-    MaterialParams p{};
-    p.baseColor = m.baseColor;
-    p.emissive = m.emissive;
-    p.alphaCutoff = m.alphaCutoff;
-    p.metallic = m.metallic;
-    p.roughness = m.roughness;
-    p.normalScale = m.normalScale;
-    p.occlusionStrength = m.occlusionStrength;
-    const auto slots = slotsOf(m);
-    for (size_t i = 0; i < slotCount; ++i) {
-        p.textured |= slots[i]->image >= 0 ? 1U << i : 0U;
-        p.secondUv |= slots[i]->uvSet == 1 ? 1U << i : 0U;
-        p.uvRows[2 * i] = slots[i]->uvTransform[0];
-        p.uvRows[2 * i + 1] = slots[i]->uvTransform[1];
-    }
-    return p;
-}
-
 VkSamplerAddressMode addressMode(Wrap wrap) {
     switch (wrap) {
         case Wrap::mirror:
@@ -143,9 +115,10 @@ void GpuScene::uploadMeshes(const Scene& scene) {
         attributes.insert(attributes.end(), mesh.attributes.begin(), mesh.attributes.end());
         indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
     }
+    constexpr VkBufferUsageFlags forRays = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     positions_ = uploadVector(device_, positions, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "positions");
-    attributes_ = uploadVector(device_, attributes, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "attributes");
-    indices_ = uploadVector(device_, indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, "indices");
+    attributes_ = uploadVector(device_, attributes, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | forRays, "attributes");
+    indices_ = uploadVector(device_, indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT | forRays, "indices");
 }
 
 gpu::Image GpuScene::texture(const Scene& scene, int32_t image, bool srgb) {
@@ -163,7 +136,7 @@ gpu::Image GpuScene::texture(const Scene& scene, int32_t image, bool srgb) {
 }
 
 void GpuScene::bindMaterial(const Scene& scene, const Material& material, MaterialBinding& binding) {
-    const auto slots = slotsOf(material);
+    const auto slots = textureSlots(material);
     for (uint32_t i = 0; i < slotCount; ++i) {
         const TextureSlot& slot = *slots[i];
         binding.samplers[i] =
@@ -186,7 +159,8 @@ void GpuScene::writeMaterialSet(const MaterialBinding& binding) {
         writes[i].pBufferInfo = &block;
         if (i > 0) {
             gpu::SamplerInfo info = binding.samplers[i - 1];
-            info.anisotropy = static_cast<float>(anisotropy_);
+            info.anisotropy = mips_ ? static_cast<float>(anisotropy_) : 1.0F;
+            info.maxLod = mips_ ? info.maxLod : 0.0F;
             images[i - 1] = {device_.sampler(info), binding.views[i - 1], VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
             writes[i].pImageInfo = &images[i - 1];
         }
@@ -195,9 +169,10 @@ void GpuScene::writeMaterialSet(const MaterialBinding& binding) {
                                       nullptr);
 }
 
-void GpuScene::setAnisotropy(uint32_t samples) {
-    if (samples != anisotropy_) {
-        anisotropy_ = samples;
+void GpuScene::setTextureFilter(uint32_t anisotropy, bool mips) {
+    if (anisotropy != anisotropy_ || mips != mips_) {
+        anisotropy_ = anisotropy;
+        mips_ = mips;
         for (const MaterialBinding& binding : materialBindings_) {
             writeMaterialSet(binding);
         }

@@ -25,11 +25,15 @@ public:
     GpuScene(const GpuScene&) = delete;
     GpuScene& operator=(const GpuScene&) = delete;
 
-    /// Texture samples along a slanted surface, at most. No frame that draws the scene may be in flight.
-    void setAnisotropy(uint32_t samples);
+    /// anisotropy: texture samples along a slanted surface, at most. mips: false: only the finest level is read. No
+    /// frame that draws the scene may be in flight.
+    void setTextureFilter(uint32_t anisotropy, bool mips);
 
     [[nodiscard]] const DrawList& draws() const { return draws_; }
     [[nodiscard]] const LampBlock& lamps() const { return lamps_; }
+    /// For rays: VertexAttributes and indices of all meshes, mesh after mesh; indices count within their mesh.
+    [[nodiscard]] gpu::BufferView attributes() const { return attributes_.view(); }
+    [[nodiscard]] gpu::BufferView indices() const { return indices_.view(); }
 
 private:
     struct MeshRange {
@@ -63,6 +67,7 @@ private:
     VkDescriptorPool materialPool_ = VK_NULL_HANDLE;
     std::vector<MaterialBinding> materialBindings_;
     uint32_t anisotropy_ = 1;
+    bool mips_ = true;
     LampBlock lamps_{};
     DrawList draws_;
 };

@@ -1,4 +1,4 @@
-// A material as shaders see it: set 1, bound by each draw. Shared by C++ and GLSL.
+// A material as shaders see it: draws bind it as set 1, rays find it in a buffer. Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_MATERIAL_H
 #define REFLET_RENDER_MATERIAL_H
 
@@ -28,5 +28,24 @@ struct MaterialParams {
 };
 
 SHARED_END
+
+#ifdef __cplusplus
+
+#include "scene/scene.h"
+
+#include <array>
+
+namespace reflet {
+
+/// Its textures, in the order of the slots.
+std::array<const TextureSlot*, slotCount> textureSlots(const Material& material);
+
+/// Whether the slot's colours are sRGB.
+bool isSrgb(uint slot);
+
+MaterialParams materialParams(const Material& material);
+
+}  // namespace reflet
+#endif
 
 #endif

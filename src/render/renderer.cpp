@@ -43,6 +43,7 @@ void checkCanRender(const View& view) {
 
 Renderer::Renderer(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn)
     : frame_(device),
+      source_(scene),
       scene_(device, scene, warn),
       ggxTable_(makeGgxTable(frame_)),
       blueNoise_(
@@ -62,6 +63,19 @@ LampShadows Renderer::planLamps(LampBlock& lamps, const View& view, const Shadow
     });
 }
 
+const TracedScene* Renderer::tracedScene(const Settings& settings) {
+    if (!tracesScene(settings)) {
+        return nullptr;
+    }
+    if (!traced_ || tracedTextureSize_ != settings.traceScene.textureSize) {
+        tracedTextureSize_ = settings.traceScene.textureSize;
+        gpu::Device& device = frame_.device();
+        traced_.emplace(
+            TracedScene{SceneRays(device, source_), SceneSurfaces(device, source_, scene_, tracedTextureSize_, warn_)});
+    }
+    return &*traced_;
+}
+
 FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const Settings& settings,
                              const std::function<void(gpu::Frame&, const FrameImages&)>& after) {
     checkCanRender(view);
@@ -70,7 +84,8 @@ FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const 
     previousWorldToClip_ = params.worldToClip;
     LampBlock lamps = scene_.lamps();
     const LampShadows lampShadows = planLamps(lamps, view, settings.shadow);
-    scene_.setAnisotropy(settings.materials.anisotropy);
+    scene_.setTextureFilter(settings.materials.anisotropy, settings.materials.mips != 0);
+    const TracedScene* traced = tracedScene(settings);
     frame_.begin();
     const FrameInputs inputs{{.draws = scene_.draws(),
                               .view = params,
@@ -81,7 +96,8 @@ FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const 
                               .lamps = lamps,
                               .lampShadows = lampShadows,
                               .ggxTable = ggxTable_.image(),
-                              .blueNoise = blueNoise_.view()}};
+                              .blueNoise = blueNoise_.view(),
+                              .traced = traced}};
     const FrameImages images = renderFrame(frame_, inputs, settings);
     if (after) {
         after(frame_, images);

@@ -18,6 +18,7 @@ void checkCanRender(const View& view);
 
 class Renderer {
 public:
+    /// The scene must outlive the renderer: what only rays need is made of it when it is first needed.
     Renderer(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn);
 
     /// Records one frame; `after` may record more (read-backs). Returns when the device is done. Throws Error where
@@ -31,8 +32,14 @@ private:
     /// Radii that the view gives; who casts a shadow. Warns, but only once of the same.
     LampShadows planLamps(LampBlock& lamps, const View& view, const ShadowSettings& settings);
 
+    /// What rays are traced through; nothing where the settings trace none.
+    const TracedScene* tracedScene(const Settings& settings);
+
     gpu::Frame frame_;
+    const Scene& source_;
     GpuScene scene_;
+    std::optional<TracedScene> traced_;
+    uint32_t tracedTextureSize_ = 0;
     gpu::Texture ggxTable_;
     gpu::Buffer blueNoise_;
     std::function<void(const std::string&)> warn_;

@@ -32,6 +32,7 @@ std::vector<SettingEntry> makeEntries() {
     addEffect<ContactSettings>(entries, "contact", offsetof(Settings, contact));
     addEffect<DirectSettings>(entries, "direct", offsetof(Settings, direct));
     addEffect<TraceScreenSettings>(entries, "trace_screen", offsetof(Settings, traceScreen));
+    addEffect<TraceSceneSettings>(entries, "trace_scene", offsetof(Settings, traceScene));
     addEffect<EnvironmentSettings>(entries, "environment", offsetof(Settings, environment));
     addEffect<DiffuseSettings>(entries, "diffuse", offsetof(Settings, diffuse));
     addEffect<SpecularSettings>(entries, "specular", offsetof(Settings, specular));
@@ -128,6 +129,10 @@ void applyEffectJson(Settings& settings, const std::string& effect, const nlohma
 }
 
 }  // namespace
+
+bool tracesScene(const Settings& settings) {
+    return settings.traceScene.enabled != 0 || settings.shadow.filter == ShadowFilter::traced;
+}
 
 const std::vector<SettingEntry>& settingEntries() {
     static const std::vector<SettingEntry> entries = makeEntries();

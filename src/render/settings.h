@@ -11,6 +11,7 @@
 #include "render/gbuffer/kept_depth.h"
 #include "render/shadow/shadow.h"
 #include "render/tonemap/tonemap.h"
+#include "render/trace_scene/trace_scene.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -27,11 +28,15 @@ struct Settings {
     ContactSettings contact;
     DirectSettings direct;
     TraceScreenSettings traceScreen;
+    TraceSceneSettings traceScene;
     EnvironmentSettings environment;
     DiffuseSettings diffuse;
     SpecularSettings specular;
     TonemapSettings tonemap;
 };
+
+/// Whether a frame with these settings traces rays through the scene's triangles.
+bool tracesScene(const Settings& settings);
 
 /// A setting with its full name and its place in Settings.
 struct SettingEntry {

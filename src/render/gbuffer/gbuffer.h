@@ -7,8 +7,11 @@
 
 SHARED_BEGIN
 
-#define MATERIALS_SETTINGS(VALUE, SWITCH, CHOICE)                                                             \
-    SWITCH(lambertOnly, 0, "Treat every material as pure Lambert of its base colour: no specular, no metal.") \
+#define MATERIALS_SETTINGS(VALUE, SWITCH, CHOICE)                                                                   \
+    SWITCH(lambertOnly, 0, "Treat every material as pure Lambert of its base colour: no specular, no metal.")       \
+    SWITCH(mips, 1,                                                                                                 \
+           "Read textures through their mips; off: in full detail always, as the reference does, for many samples " \
+           "a pixel.")                                                                                              \
     VALUE(uint, anisotropy, 8, 1, 16, "Texture samples along a slanted surface, at most; 1: blurred at grazing angles.")
 SETTINGS(MaterialsSettings, MATERIALS_SETTINGS)
 

@@ -12,7 +12,8 @@ SHARED_BEGIN
     OPTION(ShadowFilter, none, 0) \
     OPTION(ShadowFilter, hard, 1) \
     OPTION(ShadowFilter, pcf, 2)  \
-    OPTION(ShadowFilter, pcss, 3)
+    OPTION(ShadowFilter, pcss, 3) \
+    OPTION(ShadowFilter, traced, 4)
 CHOICES(ShadowFilter, SHADOW_FILTERS)
 
 #define SHADOW_BIASES(OPTION)    \
@@ -33,7 +34,9 @@ CHOICES(ShadowUnit, SHADOW_UNITS)
 #define SHADOW_SETTINGS(VALUE, SWITCH, CHOICE)                                                                         \
     CHOICE(ShadowFilter, filter, pcss,                                                                                 \
            "How shadow maps are read; none: no shadows; hard: one texel; pcf: a disk of `radius`; pcss: a disk as "    \
-           "large as the light's size and the height of what casts make it.")                                          \
+           "large as the light's size and the height of what casts make it; traced: `rays` through the scene, no "     \
+           "maps, and all lamps cast shadows.")                                                                        \
+    VALUE(uint, rays, 1, 1, 64, "Rays to the sun, and as many to lamps (traced).")                                     \
     VALUE(uint, resolution, 2048, 64, 8192, "Texels along each side of the sun's shadow map, of each cascade.")        \
     VALUE(float, extent, 0.0, 0.0, 10000.0,                                                                            \
           "Metres from the middle of the map, the world's origin, to each side; what is outside is lit, and there is " \

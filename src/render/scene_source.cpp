@@ -1,0 +1,69 @@
+// Records the scene's source with the frame's values.
+#include "render/scene_source.h"
+
+#include "render/trace_scene/trace_scene.h"
+
+#include <cmath>
+
+namespace reflet {
+
+namespace {
+
+// What a hit brings besides direct light: scattered rays, and whether they are diffuse ones alone.
+struct Scattering {
+    uint32_t bounces = 0;
+    bool diffuseOnly = false;
+};
+
+Scattering scatteringAtHits(const Settings& settings, uint32_t lobe) {
+    const HitLight screen = settings.traceScreen.light;
+    if (settings.traceScene.light == SceneHitLight::path || screen == HitLight::previous) {
+        return {settings.traceScene.bounces, false};
+    }
+    const bool lit = screen == HitLight::lit && lobe == lobeSpecular && settings.diffuse.rays > 0;
+    return {lit ? 1U : 0U, true};
+}
+
+uint32_t sunShadowsAtHits(const Settings& settings, const ViewImages& seen) {
+    if (settings.shadow.filter == ShadowFilter::none) {
+        return sunShadowNone;
+    }
+    return settings.traceScene.shadows == SceneShadows::map && seen.shadowMap ? sunShadowMap : sunShadowRay;
+}
+
+}  // namespace
+
+SceneLights sceneLights(const ViewInputs& in, const Settings& settings) {
+    return {.toSun = -in.sunDirection,
+            .sunSine = std::sin(0.5F * in.sunAngularDiameter),
+            .sunIrradiance = in.sunIrradiance,
+            .allLampsCast = settings.shadow.filter == ShadowFilter::traced ? 1U : 0U,
+            .environment = in.environment,
+            .lambertOnly = settings.materials.lambertOnly};
+}
+
+void answerFromScene(gpu::Frame& f, Rays& rays, const FrameInputs& in, const Settings& settings, const ViewImages& seen,
+                     const ScreenImages& screen) {
+    if (settings.traceScene.enabled == 0 || in.traced == nullptr) {
+        return;
+    }
+    const Scattering scattering = scatteringAtHits(settings, rays.lobe);
+    const float share =
+        static_cast<float>(rays.count) / static_cast<float>(settings.diffuse.rays + settings.specular.rays);
+    const bool previous = settings.traceScreen.light == HitLight::previous && screen.lit.valid;
+    traceScene(f, rays, {*in.traced, screen, seen.shadowMap, in.ggxTable, in.blueNoise, in.lamps},
+               sunShadowsAtHits(settings, seen),
+               {.view = in.view,
+                .settings = settings.traceScene,
+                .lights = sceneLights(in, settings),
+                .sun = seen.sun,
+                .shadowBias = settings.shadow.bias,
+                .rayLimit = 1000.0F * static_cast<float>(settings.traceScene.maxRays) * share,
+                .bounces = scattering.bounces,
+                .diffuseOnly = scattering.diffuseOnly ? 1U : 0U,
+                .mips = settings.materials.mips,
+                .fromPrevious = previous ? 1U : 0U,
+                .firstRay = rays.firstRay});
+}
+
+}  // namespace reflet

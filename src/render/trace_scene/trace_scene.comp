@@ -1,0 +1,6 @@
+// The scene as a source of answers, by a hierarchy traversed in the shader (trace_scene.glsl).
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "render/trace_scene/scene_surfaces.glsl"
+#include "render/trace_scene/scene_rays.glsl"
+#include "render/trace_scene/trace_scene.glsl"

@@ -1,0 +1,40 @@
+// Records the scene as a source of answers.
+#include "render/trace_scene/trace_scene.h"
+
+#include "gpu/device.h"
+
+namespace reflet {
+
+void traceScene(gpu::Frame& f, Rays& rays, const TraceSceneInputs& in, uint32_t sunShadows,
+                const TraceSceneParams& params) {
+    const GBuffer& g = in.screen.g;
+    const gpu::BufferView missed = makeRayList(f, rays, "rays.missed_by_scene");
+    const bool reuse = params.settings.reuseScreen != 0 &&
+                       (params.settings.light == SceneHitLight::screen || params.fromPrevious != 0);
+    gpu::Pass pass = f.compute("trace_scene", in.scene.rays.shader("trace_scene"));
+    in.scene.rays.bind(pass);
+    in.scene.surfaces.bind(pass);
+    pass.constant("lobe", rays.lobe)
+        .constant("sunShadows", sunShadows)
+        .constant("reuseScreen", reuse ? 1U : 0U)
+        .read("depth", g.depth)
+        .read("geometricNormal", g.geometricNormal)
+        .read("material", g.material)
+        .read("motion", g.motion)
+        .read("light", in.screen.light)
+        .read("previousLit", in.screen.lit.previous)
+        .read("shadowMap", in.shadowMap ? in.shadowMap : g.depth)
+        .read("ggxTable", in.ggxTable, f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
+        .read("blueNoise", in.blueNoise)
+        .read("direction", rays.direction)
+        .read("waiting", rays.waiting)
+        .write("answer", rays.answer)
+        .write("source", rays.source)
+        .write("missed", missed)
+        .params(params)
+        .params(in.lamps, "lampBlock")
+        .dispatchIndirect(rays.waiting, 0);
+    rays.waiting = missed;
+}
+
+}  // namespace reflet

@@ -1,0 +1,253 @@
+// Traces waiting rays through the scene and shades what they hit. trace_scene.comp and trace_scene_query.comp include it
+// after their traversal.
+// In: depth, geometric normal, material, motion, light of this and the last frame, the sun's shadow map, GGX table, blue
+// noise, lamps, ray directions, the list. Out: answers, sources, the list of what it has not answered.
+#include "render/bounce/rays.glsl"
+#include "render/gbuffer/gbuffer.glsl"
+#include "render/lamps.h"
+#include "render/trace_scene/trace_scene.h"
+#include "shaders/cascades.glsl"
+#include "shaders/projection.glsl"
+
+layout(constant_id = 0) const uint lobe = 0u;
+layout(constant_id = 1) const uint sunShadows = sunShadowRay;
+layout(constant_id = 2) const uint reuseScreen = 0u;
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { TraceSceneParams params; };
+layout(set = 0, binding = 1, scalar) uniform LampUniforms { LampBlock lampBlock; };
+layout(set = 0, binding = 2) uniform sampler2D depth;
+layout(set = 0, binding = 3) uniform usampler2D geometricNormal;
+layout(set = 0, binding = 4) uniform sampler2D material;
+layout(set = 0, binding = 5) uniform sampler2D motion;
+layout(set = 0, binding = 6, rgba16f) uniform readonly image2D light;
+layout(set = 0, binding = 7, rgba16f) uniform readonly image2D previousLit;
+layout(set = 0, binding = 8) uniform sampler2D shadowMap;
+layout(set = 0, binding = 9) uniform sampler2D ggxTable;
+layout(set = 0, binding = 10, scalar) readonly buffer BlueNoiseBlock { uint texels[]; } blueNoise;
+layout(set = 0, binding = 11, rg32ui) uniform readonly uimage2DArray direction;
+layout(set = 0, binding = 12, scalar) readonly buffer WaitingBlock {
+    uint groups[3];
+    uint count;
+    RayItem items[];
+} waiting;
+layout(set = 0, binding = 13, rgba16f) uniform image2DArray answer;
+layout(set = 0, binding = 14, rgba8) uniform image2DArray source;
+layout(set = 0, binding = 15, scalar) buffer MissedBlock {
+    uint groups[3];
+    uint count;
+    RayItem items[];
+} missed;
+#include "render/bounce/rays_answer.glsl"
+#include "render/bounce/rays_append.glsl"
+
+uint loadBlueNoise(uint texel) { return blueNoise.texels[texel]; }
+float loadShadowDepth(ivec2 texel) { return texelFetch(shadowMap, texel, 0).r; }
+#include "shaders/blue_noise.glsl"
+#include "shaders/shadow_map.glsl"
+
+SceneLights sceneLights() { return params.lights; }
+LampParams loadLamp(uint index) { return lampBlock.lamps[index]; }
+uint lampCount() { return lampBlock.count; }
+
+// The first map that has the point: they go from fine to coarse.
+float sunMapVisibility(vec3 p, vec3 normal) {
+    if (sunShadows != sunShadowMap) {
+        return sunShadows == sunShadowNone ? 1.0 : -1.0;
+    }
+    ivec2 side = textureSize(shadowMap, 0) / (params.sun.count > 1u ? 2 : 1);
+    for (uint i = 0u; i < params.sun.count; ++i) {
+        ShadowTile tile = ShadowTile(cascadeTile(i, uint(side.x)), side);
+        ShadowReceiver receiver = slopeReceiver(p, normal, params.sun.maps[i], tile, params.shadowBias);
+        if (all(greaterThan(receiver.at, vec2(1.0))) && all(lessThan(receiver.at, vec2(side) - 1.0))) {
+            return hardVisibility(receiver);
+        }
+    }
+    return -1.0;
+}
+#include "render/trace_scene/scene_light.glsl"
+
+vec3 environmentRadiance(vec3 towards) { return params.lights.environment; }
+
+// Below this perceptual roughness a lobe is narrower than anything it could show.
+const float mirrorRoughness = 0.01;
+const uint rouletteStart = 4u;  // bounces that every path may take
+// How wide what a scattered ray stands for is taken to be, of what its lobe spans: little enough not to be seen.
+const float shareOfLobe = 0.1;
+
+// A ray through the scene.
+struct SceneRay {
+    vec3 origin;
+    vec3 direction;
+    float nearest;  // metres
+    float width;    // at its origin, of what it stands for [m]
+    float spread;   // by which that grows for each metre
+};
+
+// A hit that the camera sees, too, and the light there. Depth is that of a pixel's centre: a slanted surface may be half
+// a pixel nearer or farther at the hit.
+bool screenLight(SceneSurface at, out vec3 radiance) {
+    radiance = vec3(0.0);
+    vec4 clip = params.view.worldToClip * vec4(at.position, 1.0);
+    vec2 uv = ndcToUv(clip.xy / clip.w);
+    if (at.hiddenBack || clip.w <= 0.0 || clip.z > clip.w || any(lessThan(uv, vec2(0.0))) || any(greaterThanEqual(uv, vec2(1.0)))) {
+        return false;
+    }
+    ivec2 pixel = ivec2(uv * params.view.size);
+    float d = texelFetch(depth, pixel, 0).r;
+    vec3 n = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
+    vec3 shown = uvToWorld(pixelToUv(pixel, params.view.pixel), max(d, 1e-12), params.view.clipToWorld);
+    float away = dot(params.view.viewPlane, vec4(at.position, 1.0));
+    float pixelWidth = params.view.pixelAngle * (params.view.eye.w > 0.0 ? away : 1.0);
+    // The hit must lie in the plane that the pixel shows, and on its side.
+    bool same = d > 0.0 && abs(dot(at.position - shown, n)) < 0.1 * pixelWidth && dot(at.geometricNormal, n) > 0.99 &&
+                distance(at.position, shown) < 4.0 * pixelWidth;
+    if (!same) {
+        return false;
+    }
+    if (params.fromPrevious == 0u) {
+        radiance = imageLoad(light, pixel).rgb;
+        return true;
+    }
+    uv -= texelFetch(motion, pixel, 0).xy;
+    bool inside = all(greaterThanEqual(uv, vec2(0.0))) && all(lessThan(uv, vec2(1.0)));
+    if (inside) {
+        radiance = imageLoad(previousLit, ivec2(uv * params.view.size)).rgb;
+    }
+    return inside;
+}
+
+Surface surfaceOf(SceneSurface at, vec3 toViewer) {
+    bool lambert = params.lights.lambertOnly != 0u;
+    float nv = dot(at.normal, toViewer);
+    vec2 table = lambert ? vec2(0.0) : textureLod(ggxTable, ggxTableUv(nv, at.roughness), 0.0).rg;
+    return makeSurface(at.baseColor, at.metallic, at.roughness, table, lambert);
+}
+
+// The next ray of a path, by one lobe or the other, and what share of its light goes on along the one before. 0: it would
+// go below the surface.
+vec3 scatter(LitPoint at, bool diffuseOnly, inout uint random, out SceneRay next) {
+    float specularLight = dot(at.surface.specular, vec3(1.0));
+    float both = specularLight + dot(at.surface.diffuse, vec3(1.0));
+    float chance = both > 0.0 ? specularLight / both : 0.0;
+    chance = diffuseOnly ? 0.0 : chance > 0.0 && chance < 1.0 ? clamp(chance, 0.1, 0.9) : chance;
+    float choice = nextRandom(random);
+    vec2 u = nextRandom2(random);
+    mat3 frame = basisAround(at.normal);
+    vec3 l;
+    vec3 weight;
+    float lobeWidth = 1.0;
+    if (choice < chance) {
+        vec3 eye = at.toViewer * frame;
+        eye = normalize(vec3(eye.xy, max(eye.z, 1e-3)));
+        float alpha = at.surface.roughness * at.surface.roughness;
+        bool mirror = at.surface.roughness <= mirrorRoughness;
+        vec3 h = mirror ? vec3(0.0, 0.0, 1.0) : sampleGgxVisible(u, eye, alpha);
+        l = 2.0 * dot(eye, h) * h - eye;
+        float a2 = alpha * alpha;
+        float unmasked = mirror ? 1.0 : ggxVisibility(max(l.z, 0.0), eye.z, alpha) * 2.0 * max(l.z, 0.0) *
+                                            (eye.z + sqrt(eye.z * eye.z * (1.0 - a2) + a2));
+        weight = fresnelSchlick(at.surface.f0, dot(eye, h)) * at.surface.compensation * (unmasked / chance);
+        lobeWidth = ggxHalfTangent(alpha);
+    } else {
+        l = sampleCosineHemisphere(u);
+        weight = at.surface.diffuse / (1.0 - chance);
+    }
+    vec3 towards = frame * l;
+    next = SceneRay(at.position + at.geometricNormal * at.clearance, towards, 0.0, 0.0, shareOfLobe * lobeWidth);
+    return l.z > 0.0 && dot(towards, at.geometricNormal) > 0.0 ? weight : vec3(0.0);
+}
+
+// Radiance along the ray from what it hits. hitDistance: metres; negative: it hits nothing.
+vec3 radianceAlong(SceneRay ray, inout uint random, out float hitDistance) {
+    vec3 radiance = vec3(0.0);
+    vec3 throughput = vec3(1.0);
+    hitDistance = -1.0;
+    for (uint bounce = 0u;; ++bounce) {
+        SceneHit hit;
+        if (!closestHit(ray.origin, ray.direction, ray.nearest, sceneFar, hit)) {
+            return radiance + (bounce > 0u ? throughput * environmentRadiance(ray.direction) : vec3(0.0));
+        }
+        hitDistance = bounce == 0u ? hit.distance : hitDistance;
+        float width = params.mips != 0u ? ray.width + ray.spread * hit.distance : 0.0;
+        SceneSurface found = sceneSurface(hit, ray.direction, width);
+        vec3 shown;
+        if (reuseScreen != 0u && (bounce == 0u || params.fromPrevious != 0u) && screenLight(found, shown)) {
+            return radiance + throughput * shown;
+        }
+        LitPoint at = LitPoint(found.position, found.geometricNormal, found.normal, -ray.direction, found.clearance,
+                               surfaceOf(found, -ray.direction));
+        float sunVisible;
+        radiance += throughput * (found.emissive + sunAndLamps(at, random, sunVisible));
+        if (bounce >= params.bounces) {
+            return radiance;
+        }
+        SceneRay next;
+        throughput *= scatter(at, params.diffuseOnly != 0u, random, next);
+        next.width = width;
+        if (bounce + 1u >= rouletteStart) {
+            float survival = min(max(throughput.x, max(throughput.y, throughput.z)), 0.95);
+            throughput = nextRandom(random) < survival ? throughput / survival : vec3(0.0);
+        }
+        if (throughput == vec3(0.0)) {
+            return radiance;
+        }
+        ray = next;
+    }
+}
+
+// Rounding of what the depth buffer holds, of the point made of it, and of the normal.
+float clearanceAt(vec3 p, float away) {
+    vec3 size = abs(p);
+    return 4.0 * relativeClearance * max(max(size.x, size.y), max(size.z, away));
+}
+
+SceneRay rayOfPixel(ivec3 slot, Ray ray, WaitingRay w) {
+    float d = texelFetch(depth, slot.xy, 0).r;
+    vec3 p = uvToWorld(pixelToUv(slot.xy, params.view.pixel), d, params.view.clipToWorld);
+    vec3 n = unpackUnitVector(texelFetch(geometricNormal, slot.xy, 0).r);
+    float away = depthToViewDistance(d, params.view.depthToDistance);
+    float roughness = unpackMaterial(texelFetch(material, slot.xy, 0)).roughness;
+    float lobeWidth = lobe == 0u ? 1.0 : ggxHalfTangent(roughness * roughness);
+    float pixelWidth = params.view.pixelAngle * (params.view.eye.w > 0.0 ? away : 1.0);
+    float nearest = params.settings.fromClear != 0u ? w.clear : 0.0;
+    return SceneRay(p + n * clearanceAt(p, away), ray.direction, nearest, pixelWidth,
+                    params.view.pixelAngle * params.view.eye.w + shareOfLobe * lobeWidth);
+}
+
+// Whether the ray is among those that the limit allows.
+bool isChosen(ivec3 slot) {
+    float chance = params.rayLimit / float(waiting.count);
+    uint stream = params.firstRay + uint(slot.z) + 16u * lobe + hashPcg(params.view.seed + 7u);
+    uint mask = loadBlueNoise(blueNoiseTexel(uvec2(slot.xy), stream, params.view.frame));
+    return float(mask & 0xffffu) < 65536.0 * chance;
+}
+
+RayAnswer answerRay(inout WaitingRay w, Ray ray) {
+    uint stream = ((params.firstRay + uint(w.slot.z)) * 2u + lobe) * 4u + hashPcg(params.view.seed + 3u);
+    uint random = hashPixel(uvec2(w.slot.xy), stream, params.view.frame);
+    float hitDistance;
+    vec3 radiance = radianceAlong(rayOfPixel(w.slot, ray, w), random, hitDistance);
+    if (hitDistance < 0.0) {
+        w.lost = false;
+        w.clear = largestHalf;  // it is known to meet nothing
+        return RayAnswer(vec3(0.0), 0.0, 0.0);
+    }
+    return RayAnswer(radiance, 1.0, hitDistance);
+}
+
+void main() {
+    uint stride = gl_NumWorkGroups.x * listGroupSize;
+    for (uint i = gl_GlobalInvocationID.x; i < waiting.count; i += stride) {
+        WaitingRay w = unpackWaitingRay(waiting.items[i]);
+        Ray ray = unpackRay(imageLoad(direction, w.slot).xy);
+        RayAnswer a = RayAnswer(vec3(0.0), 0.0, 0.0);
+        if (ray.spread == 0.0 && isChosen(w.slot)) {
+            a = answerRay(w, ray);
+        }
+        w.rest = addAnswer(w.slot, a, w.rest, sourceScene);
+        if (w.rest > 0.0) {
+            appendRay(w);
+        }
+    }
+}
