@@ -6,6 +6,7 @@
 #include "render/direct/direct.h"
 #include "render/direct/lamp_tiles.h"
 #include "render/draw_list.h"
+#include "render/environment/environment_light.h"
 #include "render/gbuffer/gbuffer.h"
 #include "render/settings.h"
 #include "render/shadow/lamp_shadow.h"
@@ -19,7 +20,7 @@ struct ViewInputs {
     vec3 sunDirection{0, -1, 0};      ///< the way the light travels, unit
     vec3 sunIrradiance{0.0F};         ///< on a surface that faces the sun [W/m²]; 0: no sun
     float sunAngularDiameter = 0.0F;  ///< radians
-    vec3 environment{0.0F};           ///< radiance from all directions [W/(m² sr)]
+    EnvironmentLight environment;     ///< of EnvironmentMaps::update
     const LampBlock& lamps;
     const LampShadows& lampShadows;       ///< of planLampShadows
     gpu::Image ggxTable;                  ///< of makeGgxTable

@@ -19,6 +19,10 @@ namespace reflet {
 
 namespace {
 
+// Rays that stand for all of a lobe go to the middle of it, and are spread a little where the screen is asked: the
+// middle alone would print what it hits as a stencil, with edges as hard as a mirror's. Filtered sources have no edges.
+constexpr float coneShareOnScreen = 0.1F;
+
 // One chain for both lobes: rays, then sources that answer in order of trust, each taking what is left over.
 LobeLight traceLobe(gpu::Frame& f, const FrameInputs& in, const Settings& settings, const ViewImages& seen,
                     const ScreenImages& screen, uint32_t lobe) {
@@ -31,12 +35,13 @@ LobeLight traceLobe(gpu::Frame& f, const FrameInputs& in, const Settings& settin
     if (perPixel == 0) {
         return noLight(f, lobe, size, counted);
     }
+    const float coneShare = settings.traceScreen.enabled != 0 ? coneShareOnScreen : 0.0F;
     const uint32_t batch = raysPerBatch(f, size);
     LobeLight light;
     for (uint32_t first = 0; first < perPixel; first += batch) {
         const uint32_t count = std::min(perPixel - first, batch);
         Rays rays = generateRays(f, screen.g, {in.ggxTable, in.blueNoise}, lobe,
-                                 {in.view, settings.diffuse, settings.specular, first, count}, counted);
+                                 {in.view, settings.diffuse, settings.specular, first, count, coneShare}, counted);
         if (settings.traceScreen.enabled != 0) {
             traceScreen(f, rays, screen, in.view, settings.traceScreen, longest);
         }

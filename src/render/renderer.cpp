@@ -1,7 +1,6 @@
 // Renders a scene.
 #include "render/renderer.h"
 
-#include "base/error.h"
 #include "noise/blue_noise.h"
 
 #include <algorithm>
@@ -31,14 +30,6 @@ ViewParams makeViewParams(const Camera& camera, uvec2 size, uint32_t frame, uint
     v.frame = frame;
     v.seed = seed;
     return v;
-}
-
-void checkCanRender(const View& view) {
-    if (view.environment.image) {
-        fail(
-            "environment images are only used by 'reflet reference' in this version; give environment.radiance in the "
-            "view file instead");
-    }
 }
 
 Renderer::Renderer(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn)
@@ -78,7 +69,6 @@ const TracedScene* Renderer::tracedScene(const Settings& settings) {
 
 FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const Settings& settings,
                              const std::function<void(gpu::Frame&, const FrameImages&)>& after) {
-    checkCanRender(view);
     ViewParams params = makeViewParams(view.camera, size, frameNumber_++, seed);
     params.previousWorldToClip = previousWorldToClip_.value_or(params.worldToClip);
     previousWorldToClip_ = params.worldToClip;
@@ -92,7 +82,7 @@ FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const 
                               .sunDirection = view.sun.direction,
                               .sunIrradiance = view.sun.irradiance,
                               .sunAngularDiameter = view.sun.angularDiameter,
-                              .environment = view.environment.radiance,
+                              .environment = environment_.update(frame_, view.environment),
                               .lamps = lamps,
                               .lampShadows = lampShadows,
                               .ggxTable = ggxTable_.image(),

@@ -13,16 +13,12 @@
 
 namespace reflet {
 
-/// Throws Error for what a view can say and this version cannot render: an environment image.
-void checkCanRender(const View& view);
-
 class Renderer {
 public:
     /// The scene must outlive the renderer: what only rays need is made of it when it is first needed.
     Renderer(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn);
 
-    /// Records one frame; `after` may record more (read-backs). Returns when the device is done. Throws Error where
-    /// checkCanRender does.
+    /// Records one frame; `after` may record more (read-backs). Returns when the device is done.
     FrameImages render(const View& view, uvec2 size, uint32_t seed, const Settings& settings,
                        const std::function<void(gpu::Frame&, const FrameImages&)>& after = {});
 
@@ -42,6 +38,7 @@ private:
     uint32_t tracedTextureSize_ = 0;
     gpu::Texture ggxTable_;
     gpu::Buffer blueNoise_;
+    EnvironmentMaps environment_;
     std::function<void(const std::string&)> warn_;
     std::set<std::string> warned_;
     std::optional<mat4> previousWorldToClip_;

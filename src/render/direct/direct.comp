@@ -3,6 +3,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/direct/direct.h"
+#include "render/environment/environment.glsl"
 #include "render/gbuffer/gbuffer.glsl"
 #include "shaders/half_float.glsl"
 #include "shaders/lamp.glsl"
@@ -38,7 +39,7 @@ vec3 lampLight(uint index, Surface s, vec3 p, vec3 n, vec3 v, ivec2 pixel) {
 vec3 radianceAt(ivec2 pixel) {
     float d = texelFetch(depth, pixel, 0).r;
     if (d <= 0.0) {
-        return params.background;
+        return environmentRadiance(viewDirection(pixelToUv(pixel, params.view.pixel), params.view.clipToWorld, params.view.eye));
     }
     vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
     vec3 n = unpackUnitVector(texelFetch(normal, pixel, 0).r);
