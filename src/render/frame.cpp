@@ -10,6 +10,7 @@
 #include "render/bounce/answer_environment.h"
 #include "render/bounce/trace_screen.h"
 #include "render/light_mips/light_mips.h"
+#include "render/probe/answer_probes.h"
 #include "render/tonemap/tonemap.h"
 
 #include <algorithm>
@@ -38,6 +39,9 @@ LobeLight traceLobe(gpu::Frame& f, const FrameInputs& in, const Settings& settin
                                  {in.view, settings.diffuse, settings.specular, first, count}, counted);
         if (settings.traceScreen.enabled != 0) {
             traceScreen(f, rays, screen, in.view, settings.traceScreen, longest);
+        }
+        if (in.probes) {
+            answerProbes(f, rays, screen.g, in.view, in.probes, settings.probes);
         }
         answerEnvironment(f, rays, screen.g, in.environment, settings.environment);
         light = resolveRays(f, rays, perPixel);

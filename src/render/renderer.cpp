@@ -3,35 +3,11 @@
 
 #include "base/error.h"
 #include "noise/blue_noise.h"
+#include "render/probe/place_probes.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace reflet {
-
-ViewParams makeViewParams(const Camera& camera, uvec2 size, uint32_t frame, uint32_t seed) {
-    const vec2 pixels(size);
-    const mat4 toView = worldToView(camera);
-    const mat4 toClip = viewToClip(camera, pixels.x / pixels.y);
-    const bool orthographic = camera.orthographicHeight > 0.0F;
-    const vec3 toCamera(glm::transpose(toView)[2]);
-    ViewParams v{};
-    v.worldToClip = toClip * toView;
-    // Inverted in double: an infinite far plane makes the matrix badly conditioned.
-    v.clipToWorld = mat4(glm::inverse(glm::dmat4(toView)) * glm::inverse(glm::dmat4(toClip)));
-    v.previousWorldToClip = v.worldToClip;
-    v.eye = orthographic ? vec4(toCamera, 0.0F) : vec4(camera.position, 1.0F);
-    v.viewPlane = -glm::transpose(toView)[2];
-    v.depthToDistance =
-        orthographic ? vec4(camera.far, camera.near - camera.far, 1.0F, 0.0F) : vec4(camera.near, 0.0F, 0.0F, 1.0F);
-    v.size = pixels;
-    v.pixel = 1.0F / pixels;
-    const float height = orthographic ? camera.orthographicHeight : 2.0F * std::tan(0.5F * camera.fovY);
-    v.pixelAngle = height / pixels.y;
-    v.frame = frame;
-    v.seed = seed;
-    return v;
-}
 
 void checkCanRender(const View& view) {
     if (view.environment.image) {
@@ -43,10 +19,12 @@ void checkCanRender(const View& view) {
 
 Renderer::Renderer(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn)
     : frame_(device),
+      source_(scene),
       scene_(device, scene, warn),
       ggxTable_(makeGgxTable(frame_)),
       blueNoise_(
           gpu::uploadBuffer(device, std::as_bytes(blueNoise()), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "blue_noise")),
+      probes_(device),
       warn_(warn) {}
 
 LampShadows Renderer::planLamps(LampBlock& lamps, const View& view, const ShadowSettings& settings) {
@@ -62,6 +40,17 @@ LampShadows Renderer::planLamps(LampBlock& lamps, const View& view, const Shadow
     });
 }
 
+const std::vector<Probe>& Renderer::probesOf(const View& view, const ProbesSettings& settings) {
+    if (view.probes) {
+        return *view.probes;
+    }
+    if (settings.enabled != 0 && placedCount_ != settings.count) {
+        placed_ = placeProbes(source_, settings.count);
+        placedCount_ = settings.count;
+    }
+    return placed_;
+}
+
 FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const Settings& settings,
                              const std::function<void(gpu::Frame&, const FrameImages&)>& after) {
     checkCanRender(view);
@@ -72,16 +61,17 @@ FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const 
     const LampShadows lampShadows = planLamps(lamps, view, settings.shadow);
     scene_.setAnisotropy(settings.materials.anisotropy);
     frame_.begin();
-    const FrameInputs inputs{{.draws = scene_.draws(),
-                              .view = params,
-                              .sunDirection = view.sun.direction,
-                              .sunIrradiance = view.sun.irradiance,
-                              .sunAngularDiameter = view.sun.angularDiameter,
-                              .environment = view.environment.radiance,
-                              .lamps = lamps,
-                              .lampShadows = lampShadows,
-                              .ggxTable = ggxTable_.image(),
-                              .blueNoise = blueNoise_.view()}};
+    FrameInputs inputs{{.draws = scene_.draws(),
+                        .view = params,
+                        .sunDirection = view.sun.direction,
+                        .sunIrradiance = view.sun.irradiance,
+                        .sunAngularDiameter = view.sun.angularDiameter,
+                        .environment = view.environment.radiance,
+                        .lamps = lamps,
+                        .lampShadows = lampShadows,
+                        .ggxTable = ggxTable_.image(),
+                        .blueNoise = blueNoise_.view()}};
+    inputs.probes = probes_.update(frame_, inputs, probesOf(view, settings.probes), settings);
     const FrameImages images = renderFrame(frame_, inputs, settings);
     if (after) {
         after(frame_, images);

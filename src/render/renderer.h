@@ -4,12 +4,15 @@
 #include "gpu/frame.h"
 #include "render/frame.h"
 #include "render/gpu_scene.h"
+#include "render/probe/capture_probe.h"
+#include "render/view_params.h"
 #include "scene/scene.h"
 
 #include <functional>
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace reflet {
 
@@ -18,6 +21,7 @@ void checkCanRender(const View& view);
 
 class Renderer {
 public:
+    /// The scene must outlive it.
     Renderer(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn);
 
     /// Records one frame; `after` may record more (read-backs). Returns when the device is done. Throws Error where
@@ -31,17 +35,21 @@ private:
     /// Radii that the view gives; who casts a shadow. Warns, but only once of the same.
     LampShadows planLamps(LampBlock& lamps, const View& view, const ShadowSettings& settings);
 
+    /// The view's probes, or those that are placed where it has none.
+    const std::vector<Probe>& probesOf(const View& view, const ProbesSettings& settings);
+
     gpu::Frame frame_;
+    const Scene& source_;
     GpuScene scene_;
     gpu::Texture ggxTable_;
     gpu::Buffer blueNoise_;
+    Probes probes_;
+    std::vector<Probe> placed_;
+    std::optional<uint32_t> placedCount_;  ///< that placed_ were asked for
     std::function<void(const std::string&)> warn_;
     std::set<std::string> warned_;
     std::optional<mat4> previousWorldToClip_;
     uint32_t frameNumber_ = 0;
 };
-
-/// The camera as passes see it. previousWorldToClip is set to the camera's own.
-ViewParams makeViewParams(const Camera& camera, uvec2 size, uint32_t frame, uint32_t seed);
 
 }  // namespace reflet
