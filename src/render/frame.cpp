@@ -72,6 +72,7 @@ void lightForReflections(gpu::Frame& f, const FrameInputs& in, const Settings& s
 
 FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& settings) {
     FrameImages out{directView(f, in, settings)};
+    out.probeAtlas = in.probes.atlas;
 
     const gpu::History lit = f.history("lit", VK_FORMAT_R16G16B16A16_SFLOAT, out.g.depth.size);
     ScreenImages screen{

@@ -16,6 +16,7 @@ struct FrameInputs : ViewInputs {
 
 /// Every image of the frame; formats where the effects declare them.
 struct FrameImages : ViewImages {
+    gpu::Image probeAtlas;  ///< of ProbeMaps; none without probes
     LobeLight diffuse;
     LobeLight specular;
     Composite light;

@@ -12,7 +12,7 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { AnswerProbesParams params; };
 layout(set = 0, binding = 1) uniform sampler2D depth;
 layout(set = 0, binding = 2) uniform sampler2D material;
-layout(set = 0, binding = 3) uniform samplerCubeArray probeRadiance;
+layout(set = 0, binding = 3) uniform samplerCubeArray probeLobes;
 layout(set = 0, binding = 4) uniform samplerCubeArray probeDistance;
 layout(set = 0, binding = 5, rg32ui) uniform readonly uimage2DArray direction;
 layout(set = 0, binding = 6, scalar) readonly buffer WaitingBlock {
@@ -27,6 +27,7 @@ layout(set = 0, binding = 9, scalar) buffer MissedBlock {
     uint count;
     RayItem items[];
 } missed;
+layout(set = 0, binding = 10) uniform sampler2D probeIrradiance;
 #include "render/bounce/rays_append.glsl"
 #include "render/bounce/rays_answer.glsl"
 #include "render/probe/probes.glsl"
@@ -34,7 +35,9 @@ layout(set = 0, binding = 9, scalar) buffer MissedBlock {
 RayAnswer answerRay(ivec2 pixel, Ray ray) {
     float d = texelFetch(depth, pixel, 0).r;
     vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
-    ProbeQuestion q = ProbeQuestion(p, ray.direction, 0.0, params.settings.blend, params.settings.parallax != 0u);
+    bool hemisphere = lobe == lobeDiffuse && ray.spread > 0.0;
+    ProbeQuestion q = ProbeQuestion(p, ray.direction, hemisphere ? 0.0 : ray.spread, hemisphere,
+                                    params.settings.parallax != 0u, params.settings.blend);
     float hitDistance;
     vec4 seen = askProbes(params.probes, q, hitDistance);
     // Occlusion maps know of nearby surfaces that the rays could not meet.

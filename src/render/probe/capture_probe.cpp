@@ -1,10 +1,12 @@
 // Records the captures of probes, and knows when they are out of date.
 #include "render/probe/capture_probe.h"
 
+#include "gpu/device.h"
 #include "render/view_params.h"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 namespace reflet {
 
@@ -54,65 +56,105 @@ void append(std::vector<std::byte>& bytes, const T& value) {
     std::ranges::copy(std::as_bytes(std::span(&value, 1)), std::back_inserter(bytes));
 }
 
-// All that the maps depend on but the scene, which does not change.
+VkSampler probeSampler(gpu::Device& device) {
+    return device.sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
+}
+
+// All that the maps depend on but the scene, which does not change. Captures of one face a frame follow the lights by
+// themselves.
 std::vector<std::byte> keyOf(const ProbeBlock& block, const ViewInputs& in, const Settings& settings) {
     std::vector<std::byte> key;
     append(key, block);
-    append(key, settings.probes.resolution);
     append(key, settings.probes.refresh);
+    append(key, settings.probes.resolution);
+    if (settings.probes.refresh == ProbeRefresh::face) {
+        return key;
+    }
     append(key, settings.materials);
     append(key, settings.shadow);
     append(key, in.sunDirection);
     append(key, in.sunIrradiance);
     append(key, in.lamps);
+    append(key, settings.probes.bounces);
+    if (settings.probes.bounces > 0) {
+        append(key, settings.probes.blend);
+        append(key, in.environment);
+    }
     return key;
 }
 
 }  // namespace
 
 void Probes::makeMaps(uint32_t resolution) {
-    constexpr VkImageUsageFlags usage =
-        VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    constexpr VkImageUsageFlags usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                                        VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    const uint32_t side = std::bit_floor(resolution);
     const uint32_t layers = block_.count * probeFaces;
-    const gpu::ImageInfo radiance{VK_FORMAT_R16G16B16A16_SFLOAT, uvec2(resolution), 1, layers, usage,
-                                  gpu::ViewKind::cubeArray};
-    const gpu::ImageInfo distance{VK_FORMAT_R32_SFLOAT, uvec2(resolution), 1, layers, usage, gpu::ViewKind::cubeArray};
-    if (!(radiance_.info() == radiance)) {
-        radiance_ = gpu::Texture(device_, radiance, "probe_radiance");
-        distance_ = gpu::Texture(device_, distance, "probe_distance");
+    const gpu::ImageInfo distance{VK_FORMAT_R32_SFLOAT, uvec2(side), 1, layers, usage, gpu::ViewKind::cubeArray};
+    if (distance_.info() == distance) {
+        return;
     }
+    map_ = CubeMap(device_, side, block_.count, "probes");
+    distance_ = gpu::Texture(device_, distance, "probes.distance");
+    const uvec2 all = side * uvec2(probeFaces, block_.count);
+    atlas_ = gpu::Texture(device_, {VK_FORMAT_R16G16B16A16_SFLOAT, all, 1, 1, usage}, "probes.atlas");
 }
 
-gpu::Image Probes::captureFace(gpu::Frame& f, const ViewInputs& in, const Settings& settings, uint32_t face,
-                               gpu::Image lampShadowMap) {
+gpu::Image Probes::captureFace(gpu::Frame& f, const Capture& capture, uint32_t face, gpu::Image lampShadowMap) {
     const auto scope = f.viewScope("probe");
+    const uvec2 size = distance_.info().size;
     const vec3& position = block_.probes[face / probeFaces].position;
-    ViewInputs seen = in;
-    seen.view =
-        makeViewParams(cubeFaceCamera(position, face % probeFaces), radiance_.info().size, in.view.frame, in.view.seed);
-    seen.environment = vec3(0.0F);
-    const ViewImages images = directView(f, seen, captureSettings(settings), lampShadowMap);
+    ViewInputs in = capture.in;
+    in.view = makeViewParams(cubeFaceCamera(position, face % probeFaces), size, in.view.frame, in.view.seed);
+    in.environment = vec3(0.0F);
+    const ViewImages images = directView(f, in, captureSettings(capture.settings), lampShadowMap);
     f.compute("capture_probe", "capture_probe.comp")
+        .constant("furtherLight", capture.furtherLight ? 1U : 0U)
         .read("depth", images.g.depth)
+        .read("normal", images.g.normal)
+        .read("baseColor", images.g.baseColor)
+        .read("material", images.g.material)
+        .read("ggxTable", in.ggxTable, f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
         .read("direct", images.direct)
-        .write("radiance", radiance_.mip(0))
+        .read("probeLobes", map_.lobes.image(), probeSampler(f.device()))
+        .read("probeIrradiance", map_.irradiance.image())
+        .read("probeDistance", map_.lobes.image())  // no look-up here asks for it, and it is being written
+        .write("sharp", map_.sharp.mip(0))
         .write("distance", distance_.mip(0))
-        .params(CaptureProbeParams{seen.view, face})
-        .dispatch(radiance_.info().size);
+        .write("atlas", atlas_.image())
+        .params(CaptureProbeParams{in.view, face, capture.settings.probes.blend, capture.in.environment, block_})
+        .dispatch(size);
     return images.lampShadowMap;
 }
 
 // A frame for each probe: one holds only so many passes.
 void Probes::captureAll(const ViewInputs& in, const Settings& settings) {
     gpu::Frame f(device_);
-    for (uint32_t probe = 0; probe < block_.count; ++probe) {
-        f.begin();
-        gpu::Image lampShadowMap;
-        for (uint32_t face = 0; face < probeFaces; ++face) {
-            lampShadowMap = captureFace(f, in, settings, probe * probeFaces + face, lampShadowMap);
+    for (uint32_t bounce = 0; bounce <= settings.probes.bounces; ++bounce) {
+        for (uint32_t probe = 0; probe < block_.count; ++probe) {
+            f.begin();
+            gpu::Image lampShadowMap;
+            for (uint32_t face = 0; face < probeFaces; ++face) {
+                lampShadowMap = captureFace(f, {in, settings, bounce > 0}, probe * probeFaces + face, lampShadowMap);
+            }
+            f.submit();
+            f.wait();
         }
+        f.begin();
+        filterCubeMap(f, map_, 0, block_.count);
         f.submit();
         f.wait();
+    }
+}
+
+void Probes::captureNextFace(gpu::Frame& f, const ViewInputs& in, const Settings& settings) {
+    const uint32_t faces = block_.count * probeFaces;
+    const uint32_t face = facesCaptured_ % faces;
+    captureFace(f, {in, settings, settings.probes.bounces > 0 && facesCaptured_ >= faces}, face);
+    ++facesCaptured_;
+    if (face % probeFaces == probeFaces - 1) {
+        const auto scope = f.scope("probe");
+        filterCubeMap(f, map_, face / probeFaces, 1);
     }
 }
 
@@ -126,19 +168,19 @@ ProbeMaps Probes::update(gpu::Frame& f, const ViewInputs& in, std::span<const Pr
     key_ = std::move(key);
     if (changed) {
         makeMaps(settings.probes.resolution);
+        facesCaptured_ = 0;
     }
     if (settings.probes.refresh == ProbeRefresh::face) {
-        if (changed) {
-            f.clear(radiance_.image());
-            f.clear(distance_.image());
-            nextFace_ = 0;
+        if (changed) {  // nothing is known yet
+            f.clear(map_.lobes.image());
+            f.clear(map_.irradiance.image());
+            f.clear(atlas_.image());
         }
-        captureFace(f, in, settings, nextFace_);
-        nextFace_ = (nextFace_ + 1) % (block_.count * probeFaces);
+        captureNextFace(f, in, settings);
     } else if (changed) {
         captureAll(in, settings);
     }
-    return {radiance_.image(), distance_.image(), block_};
+    return {map_.lobes.image(), map_.irradiance.image(), distance_.image(), atlas_.image(), block_};
 }
 
 }  // namespace reflet

@@ -1,8 +1,9 @@
 // What probes know of a ray: cube maps that are looked up where the ray leaves the probe's box.
-// The includer declares `probeRadiance` and `probeDistance`.
+// The includer declares `probeLobes`, `probeIrradiance` and `probeDistance`.
 #ifndef REFLET_PROBES_GLSL
 #define REFLET_PROBES_GLSL
 
+#include "render/cube_map/cube_map.glsl"
 #include "render/probe/probes.h"
 
 // 1 in the box, 0 from `blend` metres outside of it. Walls lie on the box itself, so it fades outside, not inside.
@@ -44,14 +45,34 @@ float probeWeights(ProbeBlock block, vec3 p, float blend, out float weights[maxP
     return inside;
 }
 
-// Of all that a ray asks of probes.
+// Light on a surface that faces along n, over pi. rgb: radiance · alpha.
+vec4 irradianceOfProbe(uint probe, vec3 n) {
+    float[irradianceCoefficients] basis = sphericalHarmonics(n);
+    vec4 sum = vec4(0.0);
+    for (uint i = 0u; i < irradianceCoefficients; ++i) {
+        sum += texelFetch(probeIrradiance, ivec2(i, probe), 0) * basis[i];
+    }
+    return vec4(max(sum.rgb, vec3(0.0)), clamp(sum.a, 0.0, 1.0));
+}
+
 struct ProbeQuestion {
     vec3 origin;
-    vec3 direction;
-    float level;     // of the cube maps
-    float blend;     // metres
+    vec3 direction;    // unit
+    float roughness;   // perceptual, of the lobe around the direction; 0: the direction alone
+    bool hemisphere;   // instead: all of it around the direction
     bool parallax;
+    float blend;  // metres
 };
+
+// Adds a share of what one probe knows.
+void askProbe(uint i, ProbeParams probe, ProbeQuestion q, float share, inout vec4 radiance, inout float hitDistance) {
+    float t = distanceToBox(probe, q.origin, q.direction);
+    vec3 at = q.parallax ? q.origin + t * q.direction - probe.position : q.direction;
+    vec4 seen = share * (q.hemisphere ? irradianceOfProbe(i, q.direction)
+                                      : textureLod(probeLobes, vec4(at, float(i)), lobeLevel(probeLobes, q.roughness)));
+    radiance += seen;
+    hitDistance += seen.a * (q.parallax ? t : textureLod(probeDistance, vec4(at, float(i)), 0.0).r);
+}
 
 // rgb: radiance · a; a: the share that is answered, 0..1: less at the boxes' ends and toward the sky.
 vec4 askProbes(ProbeBlock block, ProbeQuestion q, out float hitDistance) {
@@ -61,12 +82,7 @@ vec4 askProbes(ProbeBlock block, ProbeQuestion q, out float hitDistance) {
     hitDistance = 0.0;
     for (uint i = 0u; i < block.count && inside > 0.0; ++i) {
         if (weights[i] > 0.0) {
-            ProbeParams probe = block.probes[i];
-            float t = distanceToBox(probe, q.origin, q.direction);
-            vec3 at = q.parallax ? q.origin + t * q.direction - probe.position : q.direction;
-            vec4 seen = weights[i] * textureLod(probeRadiance, vec4(at, float(i)), q.level);
-            sum += seen;
-            hitDistance += seen.a * (q.parallax ? t : textureLod(probeDistance, vec4(at, float(i)), 0.0).r);
+            askProbe(i, block.probes[i], q, weights[i], sum, hitDistance);
         }
     }
     hitDistance /= max(sum.a, 1e-6);

@@ -17,10 +17,14 @@ CHOICES(ProbeRefresh, PROBE_REFRESHES)
 #define PROBES_SETTINGS(VALUE, SWITCH, CHOICE)                                                                         \
     SWITCH(enabled, 0, "Ask cube maps of the scene, captured at some places in it, before the environment.")           \
     VALUE(uint, count, 4, 0, 16, "Probes that are placed, at most, where the view file names none.")                   \
-    VALUE(uint, resolution, 128, 16, 512, "Texels along each side of a cube map's faces.")                             \
+    VALUE(uint, resolution, 128, 16, 512,                                                                              \
+          "Texels along each side of a cube map's faces; a power of two, others are rounded down to one.")             \
     CHOICE(ProbeRefresh, refresh, once,                                                                                \
            "When they are captured; once: all, and anew when lights or probes change; face: one face a frame, always " \
            "in the light of now.")                                                                                     \
+    VALUE(uint, bounces, 1, 0, 8,                                                                                      \
+          "Bounces of light in the captures beyond direct light; each is one more capture, lit by the one before. "    \
+          "face: 0 none, else one more with every round of the faces.")                                                \
     SWITCH(parallax, 1, "Take what a cube map shows to lie on its box; off: infinitely far away.")                     \
     VALUE(float, blend, 0.25, 0.0, 100.0, "Metres outside of its box over which a probe fades out.")
 SETTINGS(ProbesSettings, PROBES_SETTINGS)
@@ -49,8 +53,10 @@ namespace reflet {
 
 /// Cube maps for passes to read.
 struct ProbeMaps {
-    gpu::Image radiance;  ///< RGBA16F cube array: radiance · alpha; alpha: 1 a surface, 0 the sky
-    gpu::Image distance;  ///< R32F cube array: metres from the probe, 0 the sky
+    gpu::Image lobes;       ///< of CubeMap (cube_map.h): radiance · alpha; alpha: 1 a surface, 0 the sky
+    gpu::Image irradiance;  ///< of CubeMap, alike
+    gpu::Image distance;    ///< R32F cube array: metres from the probe, 0 the sky
+    gpu::Image atlas;       ///< RGBA16F: the faces as they were captured, a row of six for each probe
     ProbeBlock block{};
 
     explicit operator bool() const { return block.count > 0; }
