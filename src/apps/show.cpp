@@ -225,7 +225,11 @@ const std::vector<Show>& table() {
          first, y, count},
         {"specular_steps", "the same, of the reflection rays",
          [](const FrameImages& i) { return Images{i.specular.steps}; }, first, y, count},
-        {"source", "who answered the rays, both lobes: green the screen, blue the environment",
+        {"probe_atlas",
+         "what probes have captured, radiance: a row for each, of the faces +X -X +Y -Y +Z -Z as cube maps have them; "
+         "black is the sky; of its own size; only with probes.enabled",
+         [](const FrameImages& i) { return Images{i.probeAtlas}; }, color, rgb, encoded},
+        {"source", "who answered the rays, both lobes: green the screen, magenta probes, blue the environment",
          [](const FrameImages& i) {
              return Images{i.diffuse.source, i.specular.source};
          },

@@ -11,6 +11,7 @@
 #include "render/bounce/trace_screen.h"
 #include "render/light_mips/light_mips.h"
 #include "render/scene_source.h"
+#include "render/probe/answer_probes.h"
 #include "render/tonemap/tonemap.h"
 
 #include <algorithm>
@@ -46,6 +47,9 @@ LobeLight traceLobe(gpu::Frame& f, const FrameInputs& in, const Settings& settin
             traceScreen(f, rays, screen, in.view, settings.traceScreen, longest);
         }
         answerFromScene(f, rays, in, settings, seen, screen);
+        if (in.probes) {
+            answerProbes(f, rays, screen.g, in.view, in.probes, settings.probes);
+        }
         answerEnvironment(f, rays, screen.g, in.environment, settings.environment);
         light = resolveRays(f, rays, perPixel);
     }
@@ -75,6 +79,7 @@ void lightForReflections(gpu::Frame& f, const FrameInputs& in, const Settings& s
 
 FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& settings) {
     FrameImages out{directView(f, in, settings)};
+    out.probeAtlas = in.probes.atlas;
 
     const gpu::History lit = f.history("lit", VK_FORMAT_R16G16B16A16_SFLOAT, out.g.depth.size);
     ScreenImages screen{

@@ -5,14 +5,18 @@
 #include "render/bounce/rays.h"
 #include "render/composite/composite.h"
 #include "render/direct_view.h"
+#include "render/probe/probes.h"
 #include "render/settings.h"
 
 namespace reflet {
 
-struct FrameInputs : ViewInputs {};
+struct FrameInputs : ViewInputs {
+    ProbeMaps probes{};  ///< none: no rays ask them
+};
 
 /// Every image of the frame; formats where the effects declare them.
 struct FrameImages : ViewImages {
+    gpu::Image probeAtlas;  ///< of ProbeMaps; none without probes
     LobeLight diffuse;
     LobeLight specular;
     Composite light;

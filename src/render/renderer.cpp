@@ -2,35 +2,11 @@
 #include "render/renderer.h"
 
 #include "noise/blue_noise.h"
+#include "render/probe/place_probes.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace reflet {
-
-ViewParams makeViewParams(const Camera& camera, uvec2 size, uint32_t frame, uint32_t seed) {
-    const vec2 pixels(size);
-    const mat4 toView = worldToView(camera);
-    const mat4 toClip = viewToClip(camera, pixels.x / pixels.y);
-    const bool orthographic = camera.orthographicHeight > 0.0F;
-    const vec3 toCamera(glm::transpose(toView)[2]);
-    ViewParams v{};
-    v.worldToClip = toClip * toView;
-    // Inverted in double: an infinite far plane makes the matrix badly conditioned.
-    v.clipToWorld = mat4(glm::inverse(glm::dmat4(toView)) * glm::inverse(glm::dmat4(toClip)));
-    v.previousWorldToClip = v.worldToClip;
-    v.eye = orthographic ? vec4(toCamera, 0.0F) : vec4(camera.position, 1.0F);
-    v.viewPlane = -glm::transpose(toView)[2];
-    v.depthToDistance =
-        orthographic ? vec4(camera.far, camera.near - camera.far, 1.0F, 0.0F) : vec4(camera.near, 0.0F, 0.0F, 1.0F);
-    v.size = pixels;
-    v.pixel = 1.0F / pixels;
-    const float height = orthographic ? camera.orthographicHeight : 2.0F * std::tan(0.5F * camera.fovY);
-    v.pixelAngle = height / pixels.y;
-    v.frame = frame;
-    v.seed = seed;
-    return v;
-}
 
 Renderer::Renderer(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn)
     : frame_(device),
@@ -39,6 +15,7 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const std::function<
       ggxTable_(makeGgxTable(frame_)),
       blueNoise_(
           gpu::uploadBuffer(device, std::as_bytes(blueNoise()), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "blue_noise")),
+      probes_(device),
       warn_(warn) {}
 
 LampShadows Renderer::planLamps(LampBlock& lamps, const View& view, const ShadowSettings& settings) {
@@ -67,6 +44,17 @@ const TracedScene* Renderer::tracedScene(const Settings& settings) {
     return &*traced_;
 }
 
+const std::vector<Probe>& Renderer::probesOf(const View& view, const ProbesSettings& settings) {
+    if (view.probes) {
+        return *view.probes;
+    }
+    if (settings.enabled != 0 && placedCount_ != settings.count) {
+        placed_ = placeProbes(source_, settings.count);
+        placedCount_ = settings.count;
+    }
+    return placed_;
+}
+
 FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const Settings& settings,
                              const std::function<void(gpu::Frame&, const FrameImages&)>& after) {
     ViewParams params = makeViewParams(view.camera, size, frameNumber_++, seed);
@@ -77,17 +65,18 @@ FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const 
     scene_.setTextureFilter(settings.materials.anisotropy, settings.materials.mips != 0);
     const TracedScene* traced = tracedScene(settings);
     frame_.begin();
-    const FrameInputs inputs{{.draws = scene_.draws(),
-                              .view = params,
-                              .sunDirection = view.sun.direction,
-                              .sunIrradiance = view.sun.irradiance,
-                              .sunAngularDiameter = view.sun.angularDiameter,
-                              .environment = environment_.update(frame_, view.environment),
-                              .lamps = lamps,
-                              .lampShadows = lampShadows,
-                              .ggxTable = ggxTable_.image(),
-                              .blueNoise = blueNoise_.view(),
-                              .traced = traced}};
+    FrameInputs inputs{{.draws = scene_.draws(),
+                        .view = params,
+                        .sunDirection = view.sun.direction,
+                        .sunIrradiance = view.sun.irradiance,
+                        .sunAngularDiameter = view.sun.angularDiameter,
+                        .environment = environment_.update(frame_, view.environment),
+                        .lamps = lamps,
+                        .lampShadows = lampShadows,
+                        .ggxTable = ggxTable_.image(),
+                        .blueNoise = blueNoise_.view(),
+                         .traced = traced}};
+    inputs.probes = probes_.update(frame_, inputs, probesOf(view, settings.probes), settings);
     const FrameImages images = renderFrame(frame_, inputs, settings);
     if (after) {
         after(frame_, images);

@@ -4,18 +4,21 @@
 #include "gpu/frame.h"
 #include "render/frame.h"
 #include "render/gpu_scene.h"
+#include "render/probe/capture_probe.h"
+#include "render/view_params.h"
 #include "scene/scene.h"
 
 #include <functional>
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace reflet {
 
 class Renderer {
 public:
-    /// The scene must outlive the renderer: what only rays need is made of it when it is first needed.
+    /// The scene must outlive the renderer: what only rays or probes need is made of it when it is first needed.
     Renderer(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn);
 
     /// Records one frame; `after` may record more (read-backs). Returns when the device is done.
@@ -30,6 +33,8 @@ private:
 
     /// What rays are traced through; nothing where the settings trace none.
     const TracedScene* tracedScene(const Settings& settings);
+    /// The view's probes, or those that are placed where it has none.
+    const std::vector<Probe>& probesOf(const View& view, const ProbesSettings& settings);
 
     gpu::Frame frame_;
     const Scene& source_;
@@ -39,13 +44,13 @@ private:
     gpu::Texture ggxTable_;
     gpu::Buffer blueNoise_;
     EnvironmentMaps environment_;
+    Probes probes_;
+    std::vector<Probe> placed_;
+    std::optional<uint32_t> placedCount_;  ///< that placed_ were asked for
     std::function<void(const std::string&)> warn_;
     std::set<std::string> warned_;
     std::optional<mat4> previousWorldToClip_;
     uint32_t frameNumber_ = 0;
 };
-
-/// The camera as passes see it. previousWorldToClip is set to the camera's own.
-ViewParams makeViewParams(const Camera& camera, uvec2 size, uint32_t frame, uint32_t seed);
 
 }  // namespace reflet

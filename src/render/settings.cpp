@@ -33,6 +33,7 @@ std::vector<SettingEntry> makeEntries() {
     addEffect<DirectSettings>(entries, "direct", offsetof(Settings, direct));
     addEffect<TraceScreenSettings>(entries, "trace_screen", offsetof(Settings, traceScreen));
     addEffect<TraceSceneSettings>(entries, "trace_scene", offsetof(Settings, traceScene));
+    addEffect<ProbesSettings>(entries, "probes", offsetof(Settings, probes));
     addEffect<EnvironmentSettings>(entries, "environment", offsetof(Settings, environment));
     addEffect<DiffuseSettings>(entries, "diffuse", offsetof(Settings, diffuse));
     addEffect<SpecularSettings>(entries, "specular", offsetof(Settings, specular));

@@ -9,6 +9,7 @@
 #include "render/direct/lamp_tiles.h"
 #include "render/gbuffer/gbuffer.h"
 #include "render/gbuffer/kept_depth.h"
+#include "render/probe/probes.h"
 #include "render/shadow/shadow.h"
 #include "render/tonemap/tonemap.h"
 #include "render/trace_scene/trace_scene.h"
@@ -29,6 +30,7 @@ struct Settings {
     DirectSettings direct;
     TraceScreenSettings traceScreen;
     TraceSceneSettings traceScene;
+    ProbesSettings probes;
     EnvironmentSettings environment;
     DiffuseSettings diffuse;
     SpecularSettings specular;

@@ -11,7 +11,7 @@ layout(set = 0, binding = 0, scalar) uniform ParamsBlock { CubeIrradianceParams 
 layout(set = 0, binding = 1) uniform sampler2DArray sharp;
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D irradiance;
 
-shared vec3 sums[threads][irradianceCoefficients];
+shared vec4 sums[threads][irradianceCoefficients];
 
 // What is left of each degree by the cosine over the hemisphere, over pi.
 float cosineFactor(uint coefficient) { return coefficient == 0u ? 1.0 : coefficient < 4u ? 2.0 / 3.0 : 0.25; }
@@ -20,15 +20,15 @@ void main() {
     uint cube = params.firstCube + gl_WorkGroupID.x;
     uint thread = gl_LocalInvocationIndex;
     int side = textureSize(sharp, 0).x;
-    vec3[irradianceCoefficients] own;
+    vec4[irradianceCoefficients] own;
     for (uint c = 0u; c < irradianceCoefficients; ++c) {
-        own[c] = vec3(0.0);
+        own[c] = vec4(0.0);
     }
     int texels = 6 * side * side;
     for (int i = int(thread); i < texels; i += int(threads)) {
         ivec3 at = ivec3(i % side, (i / side) % side, i / (side * side));
         vec3 n = normalize(cubeFaceDirection(cubeTexelCenter(at.xy, side), uint(at.z)));
-        vec3 light = texelFetch(sharp, ivec3(at.xy, 6 * int(cube) + at.z), 0).rgb * cubeTexelSolidAngle(at.xy, side);
+        vec4 light = texelFetch(sharp, ivec3(at.xy, 6 * int(cube) + at.z), 0) * cubeTexelSolidAngle(at.xy, side);
         float[irradianceCoefficients] basis = sphericalHarmonics(n);
         for (uint c = 0u; c < irradianceCoefficients; ++c) {
             own[c] += light * basis[c];
@@ -37,10 +37,10 @@ void main() {
     sums[thread] = own;
     barrier();
     if (thread < irradianceCoefficients) {
-        vec3 sum = vec3(0.0);
+        vec4 sum = vec4(0.0);
         for (uint i = 0u; i < threads; ++i) {
             sum += sums[i][thread];
         }
-        imageStore(irradiance, ivec2(thread, cube), vec4(sum * cosineFactor(thread), 0.0));
+        imageStore(irradiance, ivec2(thread, cube), sum * cosineFactor(thread));
     }
 }

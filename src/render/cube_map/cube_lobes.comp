@@ -17,12 +17,13 @@ layout(set = 0, binding = 2, rgba16f) uniform writeonly image2DArray lobes;
 // Samples overlap: each is of twice its share of the lobe.
 const float overlap = 1.0;
 
-vec3 filterAround(vec3 n, float cube) {
+vec4 filterAround(vec3 n, float cube) {
     mat3 frame = basisAround(n);
     float alpha = params.roughness * params.roughness;
     float side = float(textureSize(sharp, 0).x);
     float texels = 6.0 * side * side / (4.0 * pi);  // of level 0, per steradian
     vec4 sum = vec4(0.0);
+    float weights = 0.0;
     for (uint i = 0u; i < params.samples; ++i) {
         // Evenly spread over the lobe: the golden ratio's turns.
         vec2 u = vec2((float(i) + 0.5) / float(params.samples), fract(float(i) * 0.618033989));
@@ -32,10 +33,11 @@ vec3 filterAround(vec3 n, float cube) {
             float solidAngle = 4.0 / (float(params.samples) * ggxDistribution(h.z, alpha));
             float level = max(0.5 * log2(overlap * solidAngle * texels), 0.0);
             float weight = 4.0 * l.z * ggxVisibility(l.z, 1.0, alpha);  // BRDF · cos / pdf
-            sum += vec4(textureLod(sharp, vec4(frame * l, cube), level).rgb, 1.0) * weight;
+            sum += textureLod(sharp, vec4(frame * l, cube), level) * weight;
+            weights += weight;
         }
     }
-    return sum.rgb / sum.a;
+    return sum / weights;
 }
 
 void main() {
@@ -47,6 +49,6 @@ void main() {
     uint face = params.firstFace + gl_GlobalInvocationID.z;
     vec3 n = normalize(cubeFaceDirection(cubeTexelCenter(texel, side), face % 6u));
     float cube = float(face / 6u);
-    vec3 radiance = params.roughness == 0.0 ? textureLod(sharp, vec4(n, cube), 0.0).rgb : filterAround(n, cube);
-    imageStore(lobes, ivec3(texel, face), roundToHalf(vec4(clampToHalf(radiance), 1.0)));
+    vec4 light = params.roughness == 0.0 ? textureLod(sharp, vec4(n, cube), 0.0) : filterAround(n, cube);
+    imageStore(lobes, ivec3(texel, face), roundToHalf(vec4(clampToHalf(light.rgb), light.a)));
 }

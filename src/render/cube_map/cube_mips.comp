@@ -24,9 +24,13 @@ void main() {
     }
     int face = int(params.firstFace + gl_GlobalInvocationID.z);
     vec4 sum = vec4(0.0);
+    float weights = 0.0;
     for (int i = 0; i < 4; ++i) {
         ivec2 child = 2 * texel + ivec2(i & 1, i >> 1);
-        sum += vec4(texelFetch(finer, ivec3(child, face), 0).rgb, 1.0) * weightOf(child, 2 * side);
+        float weight = weightOf(child, 2 * side);
+        sum += texelFetch(finer, ivec3(child, face), 0) * weight;
+        weights += weight;
     }
-    imageStore(coarser, ivec3(texel, face), roundToHalf(vec4(clampToHalf(sum.rgb / sum.a), 1.0)));
+    sum /= weights;
+    imageStore(coarser, ivec3(texel, face), roundToHalf(vec4(clampToHalf(sum.rgb), sum.a)));
 }
