@@ -45,6 +45,8 @@ public:
 
     Pass& read(std::string_view binding, Image image, VkSampler sampler = VK_NULL_HANDLE);
     Pass& read(std::string_view binding, BufferView buffer);
+    /// An image that the draws' own set binds. Raster only.
+    Pass& read(Image image);
     /// What a pass writes it may read as well.
     Pass& write(std::string_view binding, Image image);
     Pass& write(std::string_view binding, BufferView buffer);

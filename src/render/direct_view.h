@@ -22,6 +22,7 @@ struct ViewInputs {
     const LampShadows& lampShadows;  ///< of planLampShadows
     gpu::Image ggxTable;             ///< of makeGgxTable
     gpu::BufferView blueNoise;       ///< of blueNoise()
+    vec4 clipPlane{0.0F};            ///< as of drawGBuffer; zero: none
 };
 
 /// Formats where the effects declare them.

@@ -5,11 +5,14 @@
 #include "render/bounce/rays.h"
 #include "render/composite/composite.h"
 #include "render/direct_view.h"
+#include "render/planar/mirrors.h"
 #include "render/settings.h"
 
 namespace reflet {
 
-struct FrameInputs : ViewInputs {};
+struct FrameInputs : ViewInputs {
+    std::span<const Mirror> mirrors;  ///< of planMirrors
+};
 
 /// Every image of the frame; formats where the effects declare them.
 struct FrameImages : ViewImages {

@@ -31,8 +31,12 @@ private:
     /// Radii that the view gives; who casts a shadow. Warns, but only once of the same.
     LampShadows planLamps(LampBlock& lamps, const View& view, const ShadowSettings& settings);
 
+    std::vector<Mirror> planMirrors(const View& view, const ViewParams& params, const Settings& settings);
+    void warnOnce(const std::string& text);
+
     gpu::Frame frame_;
     GpuScene scene_;
+    std::vector<FlatPiece> flatPieces_;
     gpu::Texture ggxTable_;
     gpu::Buffer blueNoise_;
     std::function<void(const std::string&)> warn_;

@@ -31,6 +31,7 @@ std::vector<SettingEntry> makeEntries() {
     addEffect<ShadowSettings>(entries, "shadow", offsetof(Settings, shadow));
     addEffect<ContactSettings>(entries, "contact", offsetof(Settings, contact));
     addEffect<TraceScreenSettings>(entries, "trace_screen", offsetof(Settings, traceScreen));
+    addEffect<PlanarSettings>(entries, "planar", offsetof(Settings, planar));
     addEffect<EnvironmentSettings>(entries, "environment", offsetof(Settings, environment));
     addEffect<DiffuseSettings>(entries, "diffuse", offsetof(Settings, diffuse));
     addEffect<SpecularSettings>(entries, "specular", offsetof(Settings, specular));

@@ -8,6 +8,7 @@
 #include "render/contact/contact.h"
 #include "render/gbuffer/gbuffer.h"
 #include "render/gbuffer/kept_depth.h"
+#include "render/planar/planar.h"
 #include "render/shadow/shadow.h"
 #include "render/tonemap/tonemap.h"
 
@@ -25,6 +26,7 @@ struct Settings {
     ShadowSettings shadow;
     ContactSettings contact;
     TraceScreenSettings traceScreen;
+    PlanarSettings planar;
     EnvironmentSettings environment;
     DiffuseSettings diffuse;
     SpecularSettings specular;

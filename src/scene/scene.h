@@ -159,8 +159,9 @@ struct View {
     Camera camera;
     Sun sun;
     Environment environment;
-    std::optional<float> lampRadius;  ///< of all lamps [m], in the place of their own
-    bool sunStandsIn = false;         ///< the scene has no light; the sun is there so that something is seen
+    std::optional<float> lampRadius;   ///< of all lamps [m], in the place of their own
+    std::vector<std::string> mirrors;  ///< names of instances that planar views are for; empty: they are found
+    bool sunStandsIn = false;          ///< the scene has no light; the sun is there so that something is seen
 };
 
 /// The scene's first camera, its sun and its environment; where it has none, a camera that frames the whole scene
