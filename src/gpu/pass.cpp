@@ -58,6 +58,12 @@ Pass& Pass::read(std::string_view binding, AccelerationView structure) {
     return *this;
 }
 
+Pass& Pass::read(Image image) {
+    use(image, {VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+                VK_ACCESS_2_SHADER_READ_BIT, false});
+    return *this;
+}
+
 Pass& Pass::write(std::string_view binding, Image image) {
     read(binding, image).bound_.back().write = true;
     return *this;

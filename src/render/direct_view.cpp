@@ -14,7 +14,7 @@ namespace reflet {
 namespace {
 
 void drawSurfaces(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
-    out.g = drawGBuffer(f, in.draws, in.view, settings.materials);
+    out.g = drawGBuffer(f, in.draws, in.view, settings.materials, in.clipPlane);
     if (settings.traceScreen.thicknessFrom == ThicknessFrom::secondLayer) {
         const gpu::Image back = drawBackDepth(f, in.draws, out.g.depth, in.view);
         out.backDepth = keptDepth(f, "kept_back_depth", back, in.view, settings.depth);

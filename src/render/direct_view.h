@@ -8,6 +8,7 @@
 #include "render/draw_list.h"
 #include "render/environment/environment_light.h"
 #include "render/gbuffer/gbuffer.h"
+#include "render/probe/probes.h"
 #include "render/settings.h"
 #include "render/shadow/lamp_shadow.h"
 #include "render/trace_scene/trace_scene.h"
@@ -26,6 +27,8 @@ struct ViewInputs {
     gpu::Image ggxTable;                  ///< of makeGgxTable
     gpu::BufferView blueNoise;            ///< of blueNoise()
     const TracedScene* traced = nullptr;  ///< for settings that trace rays through the scene (tracesScene)
+    ProbeMaps probes{};                   ///< that rays ask; none: they do not
+    vec4 clipPlane{0.0F};                 ///< as of drawGBuffer; zero: none
 };
 
 /// Formats where the effects declare them.

@@ -5,13 +5,13 @@
 #include "render/bounce/rays.h"
 #include "render/composite/composite.h"
 #include "render/direct_view.h"
-#include "render/probe/probes.h"
+#include "render/planar/mirrors.h"
 #include "render/settings.h"
 
 namespace reflet {
 
 struct FrameInputs : ViewInputs {
-    ProbeMaps probes{};  ///< none: no rays ask them
+    std::span<const Mirror> mirrors;  ///< of planMirrors
 };
 
 /// Every image of the frame; formats where the effects declare them.

@@ -1,10 +1,13 @@
 // Renders a scene.
 #include "render/renderer.h"
 
+#include "base/error.h"
+#include "base/text.h"
 #include "noise/blue_noise.h"
 #include "render/probe/place_probes.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace reflet {
 
@@ -12,6 +15,7 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const std::function<
     : frame_(device),
       source_(scene),
       scene_(device, scene, warn),
+      flatPieces_(findFlatPieces(scene)),
       ggxTable_(makeGgxTable(frame_)),
       blueNoise_(
           gpu::uploadBuffer(device, std::as_bytes(blueNoise()), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "blue_noise")),
@@ -24,11 +28,27 @@ LampShadows Renderer::planLamps(LampBlock& lamps, const View& view, const Shadow
     }
     // Images larger than that are more memory (1 GiB) than shadows of lamps are worth.
     const uint32_t largestSide = std::min(frame_.device().limits().maxImageDimension2D, 16384U);
-    return planLampShadows(lamps, settings, largestSide, [&](const std::string& text) {
-        if (warned_.insert(text).second) {
-            warn_(text);
+    return planLampShadows(lamps, settings, largestSide, [&](const std::string& text) { warnOnce(text); });
+}
+
+std::vector<Mirror> Renderer::planMirrors(const View& view, const ViewParams& params, const Settings& settings) {
+    if (settings.planar.enabled == 0 || settings.specular.rays == 0 || settings.materials.lambertOnly != 0) {
+        return {};
+    }
+    for (const std::string& name : view.mirrors) {
+        if (std::ranges::find(flatPieces_, name, &FlatPiece::name) == flatPieces_.end()) {
+            std::vector<std::string> names;
+            std::ranges::transform(flatPieces_, std::back_inserter(names), &FlatPiece::name);
+            warnOnce(fmt::format("mirrors: no flat thing is called '{}'{}", name, suggestion(name, names)));
         }
-    });
+    }
+    return reflet::planMirrors(flatPieces_, params, view.mirrors, settings.planar);
+}
+
+void Renderer::warnOnce(const std::string& text) {
+    if (warned_.insert(text).second) {
+        warn_(text);
+    }
 }
 
 const TracedScene* Renderer::tracedScene(const Settings& settings) {
@@ -62,6 +82,7 @@ FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const 
     previousWorldToClip_ = params.worldToClip;
     LampBlock lamps = scene_.lamps();
     const LampShadows lampShadows = planLamps(lamps, view, settings.shadow);
+    const std::vector<Mirror> mirrors = planMirrors(view, params, settings);
     scene_.setTextureFilter(settings.materials.anisotropy, settings.materials.mips != 0);
     const TracedScene* traced = tracedScene(settings);
     frame_.begin();
@@ -70,12 +91,13 @@ FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const 
                         .sunDirection = view.sun.direction,
                         .sunIrradiance = view.sun.irradiance,
                         .sunAngularDiameter = view.sun.angularDiameter,
-                        .environment = environment_.update(frame_, view.environment),
+                        .environment = environment_.update(frame_.device(), view.environment),
                         .lamps = lamps,
                         .lampShadows = lampShadows,
                         .ggxTable = ggxTable_.image(),
                         .blueNoise = blueNoise_.view(),
-                         .traced = traced}};
+                        .traced = traced},
+                       mirrors};
     inputs.probes = probes_.update(frame_, inputs, probesOf(view, settings.probes), settings);
     const FrameImages images = renderFrame(frame_, inputs, settings);
     if (after) {

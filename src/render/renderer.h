@@ -35,12 +35,15 @@ private:
     const TracedScene* tracedScene(const Settings& settings);
     /// The view's probes, or those that are placed where it has none.
     const std::vector<Probe>& probesOf(const View& view, const ProbesSettings& settings);
+    std::vector<Mirror> planMirrors(const View& view, const ViewParams& params, const Settings& settings);
+    void warnOnce(const std::string& text);
 
     gpu::Frame frame_;
     const Scene& source_;
     GpuScene scene_;
     std::optional<TracedScene> traced_;
     uint32_t tracedTextureSize_ = 0;
+    std::vector<FlatPiece> flatPieces_;
     gpu::Texture ggxTable_;
     gpu::Buffer blueNoise_;
     EnvironmentMaps environment_;

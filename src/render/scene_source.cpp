@@ -38,11 +38,10 @@ SceneLights sceneLights(const ViewInputs& in, const Settings& settings) {
             .sunSine = std::sin(0.5F * in.sunAngularDiameter),
             .sunIrradiance = in.sunIrradiance,
             .allLampsCast = settings.shadow.filter == ShadowFilter::traced ? 1U : 0U,
-            .environment = in.environment,
             .lambertOnly = settings.materials.lambertOnly};
 }
 
-void answerFromScene(gpu::Frame& f, Rays& rays, const FrameInputs& in, const Settings& settings, const ViewImages& seen,
+void answerFromScene(gpu::Frame& f, Rays& rays, const ViewInputs& in, const Settings& settings, const ViewImages& seen,
                      const ScreenImages& screen) {
     if (settings.traceScene.enabled == 0 || in.traced == nullptr) {
         return;
@@ -51,7 +50,7 @@ void answerFromScene(gpu::Frame& f, Rays& rays, const FrameInputs& in, const Set
     const float share =
         static_cast<float>(rays.count) / static_cast<float>(settings.diffuse.rays + settings.specular.rays);
     const bool previous = settings.traceScreen.light == HitLight::previous && screen.lit.valid;
-    traceScene(f, rays, {*in.traced, screen, seen.shadowMap, in.ggxTable, in.blueNoise, in.lamps},
+    traceScene(f, rays, {*in.traced, screen, seen.shadowMap, in.ggxTable, in.blueNoise, in.environment, in.lamps},
                sunShadowsAtHits(settings, seen),
                {.view = in.view,
                 .settings = settings.traceScene,

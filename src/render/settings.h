@@ -9,6 +9,7 @@
 #include "render/direct/lamp_tiles.h"
 #include "render/gbuffer/gbuffer.h"
 #include "render/gbuffer/kept_depth.h"
+#include "render/planar/planar.h"
 #include "render/probe/probes.h"
 #include "render/shadow/shadow.h"
 #include "render/tonemap/tonemap.h"
@@ -31,6 +32,7 @@ struct Settings {
     TraceScreenSettings traceScreen;
     TraceSceneSettings traceScene;
     ProbesSettings probes;
+    PlanarSettings planar;
     EnvironmentSettings environment;
     DiffuseSettings diffuse;
     SpecularSettings specular;

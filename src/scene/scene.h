@@ -169,6 +169,7 @@ struct View {
     Environment environment;
     std::optional<float> lampRadius;           ///< of all lamps [m], in the place of their own
     std::optional<std::vector<Probe>> probes;  ///< at most maxProbes; not given: the renderer places them itself
+    std::vector<std::string> mirrors;          ///< names of instances that planar views are for; empty: they are found
     bool sunStandsIn = false;                  ///< the scene has no light; the sun is there so that something is seen
 };
 

@@ -62,27 +62,31 @@ void bindEnvironmentLobes(gpu::Pass& pass, gpu::Device& device, const Environmen
     pass.read("environmentLobes", light.lobes, linear).read("environmentIrradiance", light.irradiance);
 }
 
-void EnvironmentMaps::load(gpu::Frame& f) {
+// In a frame of its own: others, that capture probes, may be submitted before the one that shows the picture.
+void EnvironmentMaps::load(gpu::Device& device) {
+    gpu::Frame f(device);
     const FloatImage& image = image_ ? *image_ : whiteImage();
     scale_ = image_ ? scaleFor(image) : 1.0F;
     const std::vector<uint64_t> texels = halfTexels(image, scale_);
-    texels_ = gpu::uploadTexels(f.device(), {VK_FORMAT_R16G16B16A16_SFLOAT, uvec2(image.width, image.height)},
+    texels_ = gpu::uploadTexels(device, {VK_FORMAT_R16G16B16A16_SFLOAT, uvec2(image.width, image.height)},
                                 std::as_bytes(std::span(texels)), "environment");
-    cube_ = CubeMap(f.device(), image_ ? sideFor(image) : 1, 1, "environment");
-    const auto scope = f.scope("environment");
+    cube_ = CubeMap(device, image_ ? sideFor(image) : 1, 1, "environment");
+    f.begin();
     const gpu::Image faces = cube_.sharp.mip(0);
     f.compute("environment_cube", "environment_cube.comp")
         .read("texels", texels_.image())
         .write("faces", faces)
         .dispatch(faces.size.x, faces.size.y, faces.layers);
     filterCubeMap(f, cube_, 0, 1);
+    f.submit();
+    f.wait();
 }
 
-EnvironmentLight EnvironmentMaps::update(gpu::Frame& f, const Environment& environment) {
+EnvironmentLight EnvironmentMaps::update(gpu::Device& device, const Environment& environment) {
     const bool first = texels_.info().size.x == 0;
     if (first || image_ != environment.image) {
         image_ = environment.image;
-        load(f);
+        load(device);
     }
     const vec3 factor = image_ ? vec3(environment.intensity * scale_) : environment.radiance;
     const float angle = image_ ? environment.rotation : 0.0F;

@@ -40,13 +40,13 @@ void bindEnvironmentLobes(gpu::Pass& pass, gpu::Device& device, const Environmen
 /// Owns the images. Constant radiance is an image of one white texel.
 class EnvironmentMaps {
 public:
-    /// Within a recorded frame. Records the passes that filter an image when it is another one than last time; its
-    /// intensity and rotation are free to change. Values above what 16-bit floats hold are kept as long as the image's
+    /// Filters the image, and waits for it, when it is another one than last time; its intensity and rotation are free
+    /// to change. Values above what 16-bit floats hold are kept as long as the image's
     /// largest value is at most 6.7e7, and cut off there: images are stored over a power of two of up to 1024.
-    EnvironmentLight update(gpu::Frame& f, const Environment& environment);
+    EnvironmentLight update(gpu::Device& device, const Environment& environment);
 
 private:
-    void load(gpu::Frame& f);
+    void load(gpu::Device& device);
 
     std::shared_ptr<const FloatImage> image_;
     gpu::Texture texels_;

@@ -3,6 +3,7 @@
 // distance; the same radiance in an image of all faces.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
+#include "render/environment/environment_lobes.glsl"
 #include "render/gbuffer/gbuffer.glsl"
 #include "render/probe/capture_probe.h"
 #include "shaders/half_float.glsl"
@@ -26,10 +27,10 @@ layout(set = 0, binding = 11, r32f) uniform writeonly image2DArray distance;
 layout(set = 0, binding = 12, rgba16f) uniform writeonly image2D atlas;
 #include "render/probe/probes.glsl"
 
-vec3 probesOrSky(ProbeQuestion q) {
+vec3 probesOrSky(ProbeQuestion q, vec3 sky) {
     float hitDistance;
     vec4 seen = askProbes(params.probes, q, hitDistance);
-    return seen.rgb + (1.0 - seen.a) * params.environment;
+    return seen.rgb + (1.0 - seen.a) * sky;
 }
 
 vec3 indirectAt(ivec2 pixel, vec3 p) {
@@ -37,8 +38,11 @@ vec3 indirectAt(ivec2 pixel, vec3 p) {
     vec3 v = directionToEye(p, params.view.eye);
     MaterialTexel m = unpackMaterial(texelFetch(material, pixel, 0));
     Surface s = surfaceAt(texelFetch(baseColor, pixel, 0).rgb, m, dot(n, v), ggxTable);
-    vec3 radiance = s.diffuse * m.occlusion * probesOrSky(ProbeQuestion(p, n, 0.0, true, true, params.blend));
-    return radiance + s.specular * probesOrSky(ProbeQuestion(p, reflect(-v, n), m.roughness, false, true, params.blend));
+    vec3 r = reflect(-v, n);
+    ProbeQuestion around = ProbeQuestion(p, n, 0.0, true, true, params.blend);
+    ProbeQuestion mirrored = ProbeQuestion(p, r, m.roughness, false, true, params.blend);
+    vec3 radiance = s.diffuse * m.occlusion * probesOrSky(around, environmentIrradianceOverPi(n));
+    return radiance + s.specular * probesOrSky(mirrored, environmentLobe(r, m.roughness));
 }
 
 void main() {

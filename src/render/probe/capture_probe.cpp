@@ -78,7 +78,8 @@ std::vector<std::byte> keyOf(const ProbeBlock& block, const ViewInputs& in, cons
     append(key, settings.probes.bounces);
     if (settings.probes.bounces > 0) {
         append(key, settings.probes.blend);
-        append(key, in.environment);
+        append(key, in.environment.params);
+        append(key, in.environment.texels.state);
     }
     return key;
 }
@@ -106,10 +107,11 @@ gpu::Image Probes::captureFace(gpu::Frame& f, const Capture& capture, uint32_t f
     const vec3& position = block_.probes[face / probeFaces].position;
     ViewInputs in = capture.in;
     in.view = makeViewParams(cubeFaceCamera(position, face % probeFaces), size, in.view.frame, in.view.seed);
-    in.environment = vec3(0.0F);
     const ViewImages images = directView(f, in, captureSettings(capture.settings), lampShadowMap);
-    f.compute("capture_probe", "capture_probe.comp")
-        .constant("furtherLight", capture.furtherLight ? 1U : 0U)
+    gpu::Pass pass = f.compute("capture_probe", "capture_probe.comp");
+    pass.params(in.environment.params, "environment");  // and not its texels, which no look-up here asks
+    bindEnvironmentLobes(pass, f.device(), in.environment);
+    pass.constant("furtherLight", capture.furtherLight ? 1U : 0U)
         .read("depth", images.g.depth)
         .read("normal", images.g.normal)
         .read("baseColor", images.g.baseColor)
@@ -122,7 +124,7 @@ gpu::Image Probes::captureFace(gpu::Frame& f, const Capture& capture, uint32_t f
         .write("sharp", map_.sharp.mip(0))
         .write("distance", distance_.mip(0))
         .write("atlas", atlas_.image())
-        .params(CaptureProbeParams{in.view, face, capture.settings.probes.blend, capture.in.environment, block_})
+        .params(CaptureProbeParams{in.view, face, capture.settings.probes.blend, block_})
         .dispatch(size);
     return images.lampShadowMap;
 }

@@ -12,7 +12,6 @@ struct CaptureProbeParams {
     ViewParams view;
     uint face;         // 6 · probe + its number
     float blend;       // ProbesSettings
-    vec3 environment;  // radiance where earlier captures saw the sky
     ProbeBlock probes;
 };
 
