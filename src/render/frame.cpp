@@ -53,6 +53,9 @@ LobeLight traceLobe(gpu::Frame& f, const FrameInputs& in, const Settings& settin
 // What reflections show: direct light, or what is lit so far; and its mips for those that are too rough for rays.
 void lightForReflections(gpu::Frame& f, const FrameInputs& in, const Settings& settings, const FrameImages& out,
                          ScreenImages& screen) {
+    if (settings.traceScreen.enabled == 0) {
+        return;
+    }
     const auto scope = f.scope("specular");
     const SpecularSettings& s = settings.specular;
     const HitLight light = settings.traceScreen.light;
