@@ -95,6 +95,9 @@ SeenView seenView(const ViewInputs& in, const ViewImages& images) {
 // What reflections show: direct light, or what is lit so far; and its mips for those that are too rough for rays.
 void lightForReflections(gpu::Frame& f, const ViewInputs& in, const Settings& settings, const LobeLight& diffuse,
                          ScreenImages& screen) {
+    if (settings.traceScreen.enabled == 0) {
+        return;
+    }
     const auto scope = f.scope("specular");
     const SpecularSettings& s = settings.specular;
     const HitLight light = settings.traceScreen.light;

@@ -74,6 +74,9 @@ Ray specularRay(ivec2 pixel, uint number, vec3 n, vec3 v, MaterialTexel m) {
     bool cone = m.roughness > params.specular.maxRoughness && params.specular.rougher == RougherSurfaces_mips;
     vec3 h = vec3(0.0, 0.0, 1.0);
     float share = 1.0;  // of the light along the ray that is not masked
+    if (cone && params.coneShare == 0.0) {
+        return Ray(frame * ggxMeanDirection(eye, alpha), 1.0, 1.0, m.roughness);
+    }
     if (m.roughness > mirrorRoughness) {
         vec2 u = randomPair(pixel, number);
         h = sampleGgxVisible(cone ? u * vec2(params.coneShare, 1.0) : u, eye, alpha);
