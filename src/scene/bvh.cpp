@@ -167,9 +167,11 @@ private:
         if (!best) {
             return cutInHalves(items, centers);
         }
-        const auto right = std::ranges::partition(
-            items, [&](const Item& item) { return binning.bin(item.center(), best->axis) < best->bin; });
-        return std::pair(items.first(items.size() - right.size()), items.last(right.size()));
+        const auto middle = std::partition(items.begin(), items.end(), [&](const Item& item) {
+            return binning.bin(item.center(), best->axis) < best->bin;
+        });
+        const auto left = static_cast<size_t>(middle - items.begin());
+        return std::pair(items.first(left), items.subspan(left));
     }
 
     void fill(Bvh& bvh, uint32_t node, Items left, Items right, uint32_t depth) {
