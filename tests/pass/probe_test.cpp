@@ -251,7 +251,7 @@ TEST(Probe, BouncesKeepAWhiteFurnaceWhite) {
         return meanOfSphere(render(scene, view, {64, 36}, settingsOf(all), {"final", "albedo"}));
     };
     EXPECT_NEAR(mean("false", "0"), 1.0, 0.001);
-    EXPECT_LT(mean("true", "0"), 0.97) << "what is black in the captures takes light away";
+    EXPECT_LT(mean("true", "0"), 0.985) << "what is black in the captures takes light away";
     EXPECT_NEAR(mean("true", "2"), 1.0, 0.01);
 }
 
@@ -272,12 +272,9 @@ TEST(Probe, OneBoxBlendsIntoTheNextWithoutAStep) {
     view.camera.orthographicHeight = 0.4F;  // 8 m wide
     view.probes = {
         {{{-2, 1, 0}, {vec3(-4, -0.1F, -2), vec3(0, 3, 2)}}, {{2, 1, 0}, {vec3(0, -0.1F, -2), vec3(4, 3, 2)}}}};
-    const auto row = [&](const char* parallax) {
-        return render(scene, view, size,
-                      probeSettings({"probes.bounces=0", "probes.blend=1", std::string("probes.parallax=") + parallax}),
-                      {"specular_radiance", "specular_confidence"});
-    };
-    const Pictures p = row("false");
+    const Pictures p =
+        render(scene, view, size, probeSettings({"probes.bounces=0", "probes.blend=1", "probes.parallax=false"}),
+               {"specular_radiance"});
     EXPECT_NEAR(p.value("specular_radiance", 40, 4, 0), 1.0F, 0.01F) << "beside the first probe";
     EXPECT_NEAR(p.value("specular_radiance", 40, 4, 1), 0.0F, 0.01F);
     EXPECT_NEAR(p.value("specular_radiance", 120, 4, 1), 1.0F, 0.01F) << "beside the second";

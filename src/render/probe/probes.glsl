@@ -13,11 +13,13 @@ float insideBox(ProbeParams probe, vec3 p, float blend) {
     return 1.0 - smoothstep(0.0, max(blend, rounding), length(outside));
 }
 
-// Metres along the ray to the box's far side. p may be a little outside.
+// Metres along the ray to the box's far side. For a point outside, that side goes through the point.
 float distanceToBox(ProbeParams probe, vec3 p, vec3 direction) {
-    vec3 d = mix(direction, vec3(1e-9), lessThan(abs(direction), vec3(1e-9)));
-    vec3 far = max((probe.boxMin - p) / d, (probe.boxMax - p) / d);
-    return max(min(far.x, min(far.y, far.z)), 0.0);
+    bvec3 along = lessThan(abs(direction), vec3(1e-6));  // such sides are never met
+    vec3 d = mix(direction, vec3(1.0), along);
+    vec3 far = max((min(probe.boxMin, p) - p) / d, (max(probe.boxMax, p) - p) / d);
+    far = mix(far, vec3(1e6), along);
+    return min(far.x, min(far.y, far.z));
 }
 
 // Nearer probes count more, and none counts where it would make a step by coming in: continuous everywhere inside of
