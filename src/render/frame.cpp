@@ -7,6 +7,7 @@
 // There is no graph compiler: an `if` in these two files is the only culling.
 #include "render/frame.h"
 
+#include "render/accumulate/accumulate.h"
 #include "render/bounce/answer_environment.h"
 #include "render/bounce/trace_screen.h"
 #include "render/light_mips/light_mips.h"
@@ -80,6 +81,11 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
 
     out.light = composite(f, out.g, out.direct, out.diffuse, out.specular, in.ggxTable, lit.next,
                           {in.view, settings.diffuse.gain});
+    if (settings.accumulate.enabled != 0) {
+        const LightLayers means = accumulate(f, {out.direct, out.light}, in.framesBefore);
+        out.direct = means.direct;
+        out.light = means.light;
+    }
     out.display = tonemap(f, out.light.lit, settings.tonemap);
     return out;
 }

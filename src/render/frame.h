@@ -9,7 +9,9 @@
 
 namespace reflet {
 
-struct FrameInputs : ViewInputs {};
+struct FrameInputs : ViewInputs {
+    uint32_t framesBefore = 0;  ///< this one, in which view, light and settings have been the same
+};
 
 /// Every image of the frame; formats where the effects declare them.
 struct FrameImages : ViewImages {
