@@ -25,6 +25,7 @@ struct Aabb {
     vec3 min{std::numeric_limits<float>::max()};
     vec3 max{std::numeric_limits<float>::lowest()};
 
+    bool operator==(const Aabb&) const = default;
     [[nodiscard]] bool empty() const { return min.x > max.x; }
     [[nodiscard]] vec3 center() const { return 0.5F * (min + max); }
     [[nodiscard]] vec3 size() const { return max - min; }

@@ -6,6 +6,7 @@
 #include "render/pyramid/pyramid.h"
 #include "render/shadow/shadow.h"
 #include "render/shadow/shadow_clean.h"
+#include "render/trace_scene/direct_rays.h"
 
 #include <cmath>
 
@@ -68,10 +69,26 @@ void seeLamps(gpu::Frame& f, const ViewInputs& in, const Settings& settings, Vie
 
 }  // namespace
 
+SceneLights sceneLights(const ViewInputs& in, const Settings& settings) {
+    return {.toSun = -in.sunDirection,
+            .sunSine = std::sin(0.5F * in.sunAngularDiameter),
+            .sunIrradiance = in.sunIrradiance,
+            .allLampsCast = settings.shadow.filter == ShadowFilter::traced ? 1U : 0U,
+            .lambertOnly = settings.materials.lambertOnly};
+}
+
 ViewImages directView(gpu::Frame& f, const ViewInputs& in, const Settings& settings, gpu::Image lampShadowMap) {
     ViewImages out;
     out.lampShadowMap = lampShadowMap;
     drawSurfaces(f, in, settings, out);
+    if (settings.shadow.filter == ShadowFilter::traced && in.traced != nullptr) {
+        const DirectRays rays = directByRays(f, out.g, {*in.traced, in.ggxTable, in.environment, in.lamps},
+                                             {in.view, sceneLights(in, settings), settings.shadow.rays});
+        out.direct = rays.direct;
+        out.sunVisibility = rays.sunVisibility;
+        out.rawSunVisibility = rays.sunVisibility;
+        return out;
+    }
     seeSun(f, in, settings, out);
     seeLamps(f, in, settings, out);
     out.direct = directLight(f, out.g, {out.sunVisibility, out.lampVisibility, out.lampTiles.masks}, in.ggxTable,

@@ -8,6 +8,7 @@
 #include "render/frame.h"
 
 #include "gpu/device.h"
+#include "render/accumulate/accumulate.h"
 #include "render/bounce/answer_environment.h"
 #include "render/bounce/trace_screen.h"
 #include "render/light_mips/light_mips.h"
@@ -138,7 +139,11 @@ ScreenImages seeMirror(gpu::Frame& f, const FrameInputs& in, const Settings& set
         ViewInputs behind = behindMirror(in, mirror, s, room);
         behind.traced = nullptr;  // what these know is on this side
         behind.probes = {};
-        return seeReflected(f, behind, settings, {});
+        Settings there = settings;
+        if (there.shadow.filter == ShadowFilter::traced) {
+            there.shadow.filter = ShadowFilter::pcss;
+        }
+        return seeReflected(f, behind, there, {});
     }
     return seeReflected(f, beforeMirror(in, mirror, s), settings, lampShadowMap);
 }
@@ -170,6 +175,11 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
 
     out.light = composite(f, out.g, out.direct, out.diffuse, out.specular, in.ggxTable, lit.next,
                           {in.view, settings.diffuse.gain});
+    if (settings.accumulate.enabled != 0) {
+        const LightLayers means = accumulate(f, {out.direct, out.light}, in.framesBefore);
+        out.direct = means.direct;
+        out.light = means.light;
+    }
     out.display = tonemap(f, out.light.lit, settings.tonemap);
     return out;
 }

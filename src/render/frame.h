@@ -12,6 +12,7 @@ namespace reflet {
 
 struct FrameInputs : ViewInputs {
     std::span<const Mirror> mirrors;  ///< of planMirrors
+    uint32_t framesBefore = 0;        ///< this one, in which view, light and settings have been the same
 };
 
 /// Every image of the frame; formats where the effects declare them.

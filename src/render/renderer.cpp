@@ -7,7 +7,10 @@
 #include "render/probe/place_probes.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <iterator>
+#include <type_traits>
 
 namespace reflet {
 
@@ -75,11 +78,57 @@ const std::vector<Probe>& Renderer::probesOf(const View& view, const ProbesSetti
     return placed_;
 }
 
+namespace {
+
+bool sameView(const View& a, const View& b) {
+    return worldToView(a.camera) == worldToView(b.camera) && viewToClip(a.camera, 1.0F) == viewToClip(b.camera, 1.0F) &&
+           a.sun.direction == b.sun.direction && a.sun.irradiance == b.sun.irradiance &&
+           a.sun.angularDiameter == b.sun.angularDiameter && a.lampRadius == b.lampRadius && a.mirrors == b.mirrors &&
+           a.probes == b.probes && a.environment.radiance == b.environment.radiance &&
+           a.environment.image == b.environment.image && a.environment.intensity == b.environment.intensity &&
+           a.environment.rotation == b.environment.rotation;
+}
+
+// The R2 sequence: spread evenly over the pixel, however many there are. -0.5 to 0.5, the first in the middle.
+// (M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018)
+vec2 placeInPixel(uint32_t index) {
+    constexpr double step[] = {0.7548776662466927, 0.5698402909980532};
+    const auto at = [&](double s) { return static_cast<float>(std::fmod(0.5 + index * s, 1.0) - 0.5); };
+    return {at(step[0]), at(step[1])};
+}
+
+// Moves the picture such that pixels' centres show what was `place` pixels off them.
+void lookThrough(ViewParams& view, const vec2& place) {
+    const vec2 shift = -2.0F * place * view.pixel;  // in clip space, where w is 1
+    mat4 move(1.0F);
+    move[3] = vec4(shift, 0.0F, 1.0F);
+    mat4 back(1.0F);
+    back[3] = vec4(-shift, 0.0F, 1.0F);
+    view.worldToClip = move * view.worldToClip;
+    view.clipToWorld = view.clipToWorld * back;
+}
+
+}  // namespace
+
+uint32_t Renderer::countFramesBefore(const View& view, const ViewParams& params, const Settings& settings) {
+    // All members are four bytes: there is no padding.
+    static_assert(std::is_trivially_copyable_v<Settings>);
+    const bool same = asked_ && sameView(asked_->view, view) && asked_->size == params.size &&
+                      asked_->seed == params.seed && std::memcmp(&asked_->settings, &settings, sizeof(settings)) == 0;
+    framesBefore_ = same ? framesBefore_ + 1 : 0;
+    asked_ = Asked{view, settings, params.size, params.seed};
+    return framesBefore_;
+}
+
 FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const Settings& settings,
                              const std::function<void(gpu::Frame&, const FrameImages&)>& after) {
     ViewParams params = makeViewParams(view.camera, size, frameNumber_++, seed);
     params.previousWorldToClip = previousWorldToClip_.value_or(params.worldToClip);
     previousWorldToClip_ = params.worldToClip;
+    const uint32_t framesBefore = countFramesBefore(view, params, settings);
+    if (settings.accumulate.enabled != 0 && settings.accumulate.jitter != 0) {
+        lookThrough(params, placeInPixel(framesBefore));
+    }
     LampBlock lamps = scene_.lamps();
     const LampShadows lampShadows = planLamps(lamps, view, settings.shadow);
     const std::vector<Mirror> mirrors = planMirrors(view, params, settings);
@@ -97,7 +146,8 @@ FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const 
                         .ggxTable = ggxTable_.image(),
                         .blueNoise = blueNoise_.view(),
                         .traced = traced},
-                       mirrors};
+                       mirrors,
+                       framesBefore};
     inputs.probes = probes_.update(frame_, inputs, probesOf(view, settings.probes), settings);
     const FrameImages images = renderFrame(frame_, inputs, settings);
     if (after) {

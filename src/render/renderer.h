@@ -52,6 +52,17 @@ private:
     std::optional<uint32_t> placedCount_;  ///< that placed_ were asked for
     std::function<void(const std::string&)> warn_;
     std::set<std::string> warned_;
+    /// In which the picture has been what it is asked to be now: how many there were.
+    uint32_t countFramesBefore(const View& view, const ViewParams& params, const Settings& settings);
+    struct Asked {
+        View view;
+        Settings settings;
+        vec2 size;
+        uint32_t seed;
+    };
+
+    std::optional<Asked> asked_;  ///< of the last frame
+    uint32_t framesBefore_ = 0;
     std::optional<mat4> previousWorldToClip_;
     uint32_t frameNumber_ = 0;
 };

@@ -3,8 +3,6 @@
 
 #include "render/trace_scene/trace_scene.h"
 
-#include <cmath>
-
 namespace reflet {
 
 namespace {
@@ -32,14 +30,6 @@ uint32_t sunShadowsAtHits(const Settings& settings, const ViewImages& seen) {
 }
 
 }  // namespace
-
-SceneLights sceneLights(const ViewInputs& in, const Settings& settings) {
-    return {.toSun = -in.sunDirection,
-            .sunSine = std::sin(0.5F * in.sunAngularDiameter),
-            .sunIrradiance = in.sunIrradiance,
-            .allLampsCast = settings.shadow.filter == ShadowFilter::traced ? 1U : 0U,
-            .lambertOnly = settings.materials.lambertOnly};
-}
 
 void answerFromScene(gpu::Frame& f, Rays& rays, const ViewInputs& in, const Settings& settings, const ViewImages& seen,
                      const ScreenImages& screen) {

@@ -38,6 +38,7 @@ std::vector<SettingEntry> makeEntries() {
     addEffect<EnvironmentSettings>(entries, "environment", offsetof(Settings, environment));
     addEffect<DiffuseSettings>(entries, "diffuse", offsetof(Settings, diffuse));
     addEffect<SpecularSettings>(entries, "specular", offsetof(Settings, specular));
+    addEffect<AccumulateSettings>(entries, "accumulate", offsetof(Settings, accumulate));
     addEffect<TonemapSettings>(entries, "tonemap", offsetof(Settings, tonemap));
     return entries;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/setting_info.h"
+#include "render/accumulate/accumulate.h"
 #include "render/bounce/answer_environment.h"
 #include "render/bounce/rays.h"
 #include "render/bounce/trace_screen.h"
@@ -36,6 +37,7 @@ struct Settings {
     EnvironmentSettings environment;
     DiffuseSettings diffuse;
     SpecularSettings specular;
+    AccumulateSettings accumulate;
     TonemapSettings tonemap;
 };
 

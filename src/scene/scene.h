@@ -158,6 +158,8 @@ struct Scene {
 struct Probe {
     vec3 position{0.0F};  ///< inside the box
     Aabb box;             ///< world space, not empty
+
+    bool operator==(const Probe&) const = default;
 };
 
 /// From where, and in which light, a scene is seen: what a view file can change.

@@ -35,7 +35,8 @@ void main() {
     uint stride = gl_NumWorkGroups.x * listGroupSize;
     for (uint i = gl_GlobalInvocationID.x; i < waiting.count; i += stride) {
         WaitingRay ray = unpackWaitingRay(waiting.items[i]);
-        float occlusion = lobe == lobeDiffuse ? texelFetch(material, ray.slot.xy, 0).b : 1.0;
+        // Occlusion maps know of nearby surfaces, which a ray may be known not to meet.
+        float occlusion = lobe == lobeDiffuse && !meetsNothing(ray) ? texelFetch(material, ray.slot.xy, 0).b : 1.0;
         vec3 radiance = radianceFor(unpackRay(imageLoad(direction, ray.slot).xy));
         float share = occlusion * (ray.lost ? params.settings.lostShare : 1.0);
         RayAnswer a = RayAnswer(radiance * share, 1.0, environmentDistance);

@@ -29,6 +29,9 @@ WaitingRay unpackWaitingRay(RayItem item) {
                       unpackHalf2x16((item.restAndClear >> 16u) & 0x7fffu).x, (item.restAndClear & 0x80000000u) != 0u);
 }
 
+// Known to meet nothing at all.
+bool meetsNothing(WaitingRay ray) { return ray.clear > 0.99 * largestHalf; }
+
 struct Ray {
     vec3 direction;  // world space, unit
     float weight;    // of its radiance in the pixel's mean

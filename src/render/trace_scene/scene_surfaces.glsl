@@ -126,6 +126,13 @@ vec3 largestOf(vec3 a, vec3 b, vec3 c) { return max(abs(a), max(abs(b), abs(c)))
 // Rays that leave a point whose coordinates were rounded start this much off its surface.
 const float relativeClearance = 4e-6;
 
+// The same for a point made of a pixel's depth, so many metres in front of the camera: the depth and the geometric normal
+// were rounded, too.
+float clearanceOfPixel(vec3 p, float away) {
+    vec3 size = abs(p);
+    return 4.0 * relativeClearance * max(max(size.x, size.y), max(size.z, away));
+}
+
 vec3 sceneShadingNormal(SceneTriangle t, ScenePlace place, vec3 fallback) {
     SceneInstance instance = sceneInstances.items[t.instance];
     mat3 m = mat3(instance.axisX, instance.axisY, instance.axisZ);

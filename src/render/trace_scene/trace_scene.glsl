@@ -195,12 +195,6 @@ vec3 radianceAlong(SceneRay ray, inout uint random, out float hitDistance) {
     }
 }
 
-// Rounding of what the depth buffer holds, of the point made of it, and of the normal.
-float clearanceAt(vec3 p, float away) {
-    vec3 size = abs(p);
-    return 4.0 * relativeClearance * max(max(size.x, size.y), max(size.z, away));
-}
-
 SceneRay rayOfPixel(ivec3 slot, Ray ray, WaitingRay w) {
     float d = texelFetch(depth, slot.xy, 0).r;
     vec3 p = uvToWorld(pixelToUv(slot.xy, params.view.pixel), d, params.view.clipToWorld);
@@ -210,7 +204,7 @@ SceneRay rayOfPixel(ivec3 slot, Ray ray, WaitingRay w) {
     float lobeWidth = lobe == 0u ? 1.0 : ggxHalfTangent(roughness * roughness);
     float pixelWidth = params.view.pixelAngle * (params.view.eye.w > 0.0 ? away : 1.0);
     float nearest = params.settings.fromClear != 0u ? w.clear : 0.0;
-    return SceneRay(p + n * clearanceAt(p, away), ray.direction, nearest, pixelWidth,
+    return SceneRay(p + n * clearanceOfPixel(p, away), ray.direction, nearest, pixelWidth,
                     params.view.pixelAngle * params.view.eye.w + shareOfLobe * lobeWidth);
 }
 

@@ -1,0 +1,44 @@
+// Running means of the layers of light over frames of the same view: what is left of the noise of few rays falls with
+// the number of frames. Shared by C++ and GLSL.
+#ifndef REFLET_RENDER_ACCUMULATE_H
+#define REFLET_RENDER_ACCUMULATE_H
+
+#include "base/shared.h"
+
+SHARED_BEGIN
+
+#define ACCUMULATE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                 \
+    SWITCH(enabled, 0,                                                                                             \
+           "Show the mean over all frames in which view, light and settings have stayed (--frames): direct, both " \
+           "indirect layers, and so the picture.")                                                                 \
+    SWITCH(jitter, 1, "Look through another place in the pixel in every frame: the mean is over the pixel's area.")
+SETTINGS(AccumulateSettings, ACCUMULATE_SETTINGS)
+
+struct AccumulateParams {
+    uvec2 size;
+    float weight;  // of this frame: 1 over the number of frames, itself included
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "gpu/frame.h"
+#include "render/composite/composite.h"
+
+namespace reflet {
+
+/// Layers of light, of one frame or of many.
+struct LightLayers {
+    gpu::Image direct;
+    Composite light;
+};
+
+/// The means of the layers over this frame and the `framesBefore`, RGBA32F: half floats would lose what each of many
+/// frames adds.
+LightLayers accumulate(gpu::Frame& f, const LightLayers& frame, uint32_t framesBefore);
+
+}  // namespace reflet
+#endif
+
+#endif

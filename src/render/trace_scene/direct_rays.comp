@@ -1,0 +1,6 @@
+// Direct light with shadows by rays, by a hierarchy traversed in the shader (direct_rays.glsl).
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "render/trace_scene/scene_surfaces.glsl"
+#include "render/trace_scene/scene_rays.glsl"
+#include "render/trace_scene/direct_rays.glsl"

@@ -1,0 +1,7 @@
+// The scene as a source of answers, by ray query (trace_scene.glsl).
+#version 460
+#extension GL_EXT_ray_query : require
+#extension GL_EXT_scalar_block_layout : require
+#include "render/trace_scene/scene_surfaces.glsl"
+#include "render/trace_scene/scene_rays_query.glsl"
+#include "render/trace_scene/trace_scene.glsl"

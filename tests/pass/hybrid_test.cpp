@@ -1,0 +1,104 @@
+// The screen and, where it has no answer, the scene, against the path tracer with one bounce: with and without things
+// off screen.
+#include "compare/compare.h"
+#include "pass/harness.h"
+#include "reference/reference.h"
+#include "scene/builtin.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace reflet::test {
+namespace {
+
+constexpr uvec2 size(160, 90);
+
+const std::vector<std::string> screenOnly{"diffuse.rays=64", "specular.rays=64", "trace_screen.light=direct",
+                                          "trace_screen.thickness=0.05", "materials.mips=off"};
+
+std::vector<std::string> with(std::vector<std::string> settings, const std::vector<std::string>& more) {
+    settings.insert(settings.end(), more.begin(), more.end());
+    return settings;
+}
+
+ReferencePicture oneBounce(const Scene& scene, const View& view, uint32_t samples, uint32_t seed) {
+    return traceReference(scene, view, size,
+                          {.bounces = 1, .samples = samples, .filter = PixelFilter::center, .seed = seed});
+}
+
+// The pixels of which two runs of the path tracer say the same: where the sun is reflected by one mirror and seen in
+// another, neither run, nor ours, has met it as often as it counts.
+std::vector<bool> settled(const FloatImage& a, const FloatImage& b, double limit) {
+    std::vector<bool> mask;
+    for (size_t i = 0; i < a.data.size(); i += 3) {
+        double error = 0.0;
+        for (size_t c = i; c < i + 3; ++c) {
+            const double mean = 0.5 * (a.data[c] + b.data[c]);
+            const double half = 0.5 * (a.data[c] - b.data[c]);
+            error += half * half / (mean * mean + 0.01) / 3.0;
+        }
+        mask.push_back(error < limit);
+    }
+    return mask;
+}
+
+FloatImage meanOf(const FloatImage& a, const FloatImage& b) {
+    FloatImage mean = a;
+    for (size_t i = 0; i < a.data.size(); ++i) {
+        mean.data[i] = 0.5F * (a.data[i] + b.data[i]);
+    }
+    return mean;
+}
+
+struct HybridCase {
+    const char* scene;
+    const char* layer;
+    double limit;  ///< of the relative MSE
+};
+
+class Hybrid : public testing::TestWithParam<HybridCase> {};
+
+TEST_P(Hybrid, IsThePathTracersPictureWhereTheScreenAloneIsNot) {
+    const auto& [name, layer, limit] = GetParam();
+    const Scene scene = findBuiltinScene(name)->make();
+    const View view = defaultView(scene);
+    const ReferencePicture one = oneBounce(scene, view, 256, 1);
+    const ReferencePicture two = oneBounce(scene, view, 256, 2);
+    const bool diffuse = std::string(layer) == "indirect_diffuse";
+    const FloatImage& a = diffuse ? one.indirectDiffuse : one.indirectSpecular;
+    const FloatImage& b = diffuse ? two.indirectDiffuse : two.indirectSpecular;
+    CompareOptions options;
+    options.mask = settled(a, b, 0.01);
+    const std::string other = diffuse ? "specular.rays=0" : "diffuse.rays=0";
+    const auto errorOf = [&](const std::vector<std::string>& more, const char* what) {
+        const Pictures p = renderMean(scene, view, size, settingsOf(with(with(screenOnly, {other}), more)), {layer}, 4);
+        const Difference d = compareImages(p.images.at(layer), meanOf(a, b), options).difference;
+        std::printf("%s %s, %s: relative MSE %.4f, bias %+.3f, of %d pixels\n", name, layer, what, d.relativeMse,
+                    d.bias, int(d.pixels));
+        RecordProperty(std::string("relative_mse_") + what, std::to_string(d.relativeMse));
+        return d;
+    };
+    const Difference screen = errorOf({}, "screen alone");
+    const Difference hybrid = errorOf({"trace_scene.enabled=on"}, "hybrid");
+    errorOf({"trace_scene.enabled=on", "trace_scene.reuseScreen=off"}, "hybrid without reuse");
+    errorOf({"trace_scene.enabled=on", "trace_scene.fromClear=on"}, "hybrid from clear");
+    errorOf({"trace_scene.enabled=on", "trace_screen.enabled=off", "trace_scene.reuseScreen=off"}, "scene alone");
+    EXPECT_LT(hybrid.relativeMse, limit);
+    EXPECT_LT(hybrid.relativeMse, screen.relativeMse);
+    EXPECT_GT(hybrid.pixels, 10000U);
+    expectSilentValidation(name);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Hybrid,
+                         testing::Values(HybridCase{"mirror-hall", "indirect_specular", 0.01},
+                                         HybridCase{"gloss", "indirect_specular", 0.01},
+                                         HybridCase{"cave", "indirect_diffuse", 0.02},
+                                         HybridCase{"cornell", "indirect_diffuse", 0.02}),
+                         [](const auto& c) {
+                             std::string name(c.param.scene);
+                             std::ranges::replace(name, '-', '_');
+                             return name;
+                         });
+
+}  // namespace
+}  // namespace reflet::test
