@@ -78,13 +78,6 @@ TEST_F(WrongFile, AnEnvironmentImageThatCannotBeReadIsNamed) {
     EXPECT_TRUE(refused(withView(R"({"environment": {"image": "sky.hdr"}})"), failed, {"sky.hdr", "Radiance HDR"}));
 }
 
-TEST_F(WrongFile, AnEnvironmentImageIsNotRenderedInThisVersionWhichIsSaidBeforeAnyDeviceWork) {
-    write("sky.hdr", std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n") + "\x80\x80\x80\x81");
-    write("v.json", R"({"environment": {"image": "sky.hdr"}})");
-    EXPECT_TRUE(refused(render(cubes, {"-o", "a.png", "--view-file", "v.json"}, noDriver), failed,
-                        {"environment images", "'reflet reference'", "environment.radiance"}));
-}
-
 TEST_F(WrongFile, AnOutputThatCannotBeWrittenIsNamedBeforeAnyWork) {
     EXPECT_TRUE(refused(render(cubes, {"-o", "absent/a.png"}), failed, {"absent/a.png", "create the folder 'absent'"}));
     std::filesystem::create_directory(path("folder.png"));

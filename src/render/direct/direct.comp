@@ -39,7 +39,8 @@ vec3 lampLight(uint index, Surface s, vec3 p, vec3 n, vec3 v, ivec2 pixel) {
 vec3 radianceAt(ivec2 pixel) {
     float d = texelFetch(depth, pixel, 0).r;
     if (d <= 0.0) {
-        return environmentRadiance(viewDirection(pixelToUv(pixel, params.view.pixel), params.view.clipToWorld, params.view.eye));
+        vec2 uv = pixelToUv(pixel, params.view.pixel);
+        return environmentRadiance(viewDirection(uv, params.view.clipToWorld, params.view.eye));
     }
     vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
     vec3 n = unpackUnitVector(texelFetch(normal, pixel, 0).r);
