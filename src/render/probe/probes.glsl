@@ -88,6 +88,8 @@ vec4 askProbes(ProbeBlock block, ProbeQuestion q, out float hitDistance) {
         }
     }
     hitDistance /= max(sum.a, 1e-6);
+    // Devices filter with weights of 8 bits, whose sum may be 1/256 short: what is all but known is known.
+    sum *= clamp(1.0 / max(sum.a, 1e-6), 1.0, 1.01);
     return inside * sum;
 }
 
