@@ -190,5 +190,17 @@ def shadow_cascades(page):
     page.picture("map", Shadows(avenue, "@cascades=4 @resolution=160", "avenue", show="shadow_map"))
 
 
+def many_lamps(page):
+    truth, frame = Truth("lamps", TRUTH), Shadows("lamps")
+    page.picture("tiles", frame)
+    page.picture("truth", truth)
+    page.picture("count", Shadows("lamps", show="lamp_count"), (0, 0, 20, 12), 16)
+    rows = []
+    for name, more in (("8 lamps with shadows", ""), ("none", "@lamps=0")):
+        figures = Shadows("lamps", more).against(truth)
+        rows.append([name] + ["%.4f" % figures[k] for k in ("relative_mse", "flip")] + ["%+.2f %%" % (100 * figures["bias"])])
+    page.table("errors", ["shadows"] + FIGURES + ["bias"], rows)
+
+
 PAGES = {"soft-shadows": soft_shadows, "shadow-noise": shadow_noise, "shadow-bias": shadow_bias,
-         "shadow-cascades": shadow_cascades}
+         "shadow-cascades": shadow_cascades, "many-lamps": many_lamps}

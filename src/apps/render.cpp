@@ -151,7 +151,6 @@ void render(const RenderOptions& options) {
     checkOutputs(options);
     const Scene scene = loadScene(options.scene);
     const View view = loadView(options.scene, scene);
-    checkCanRender(view);
 
     gpu::Device device({.select = options.device, .validation = options.validate, .onMessage = printWarning});
     requireSize(device, size);

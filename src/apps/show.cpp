@@ -106,6 +106,9 @@ vec3 count(const float* v) {
 vec3 countRedGreen(const float* v) {
     return {count(v).x, count(v + 1).x, 0.0F};
 }
+vec3 lampsCounted(const float* v) {
+    return vec3(std::clamp(v[0] / 32.0F, 0.0F, 1.0F));
+}
 vec3 cascadeColor(const float* v) {
     constexpr vec3 colors[maxCascades] = {
         {0.9F, 0.3F, 0.25F}, {0.3F, 0.75F, 0.35F}, {0.3F, 0.45F, 0.9F}, {0.9F, 0.8F, 0.3F}};
@@ -162,6 +165,9 @@ const std::vector<Show>& table() {
          "0 in a lamp's shadow or out of its light, 1 lit: R, G, B the three strongest lamps that cast shadows; "
          "only where lamps cast shadows",
          [](const FrameImages& i) { return Images{i.lampVisibility}; }, color, rgb, asIs},
+        {"lamp_count",
+         "how many lamps may light a tile of 16x16 pixels; of the tiles' size; PNG 1 is 32 lamps; only with lamps",
+         [](const FrameImages& i) { return Images{i.lampTiles.count}; }, first, y, lampsCounted},
         {"depth", "metres in front of the camera, 0 where there is nothing; PNG bright is near",
          [](const FrameImages& i) { return Images{i.g.depth}; }, viewDistance, y, near},
         {"back_depth",
@@ -219,7 +225,11 @@ const std::vector<Show>& table() {
          first, y, count},
         {"specular_steps", "the same, of the reflection rays",
          [](const FrameImages& i) { return Images{i.specular.steps}; }, first, y, count},
-        {"source", "who answered the rays, both lobes: green the screen, blue the environment",
+        {"probe_atlas",
+         "what probes have captured, radiance: a row for each, of the faces +X -X +Y -Y +Z -Z as cube maps have them; "
+         "black is the sky; of its own size; only with probes.enabled",
+         [](const FrameImages& i) { return Images{i.probeAtlas}; }, color, rgb, encoded},
+        {"source", "who answered the rays, both lobes: green the screen, magenta probes, blue the environment",
          [](const FrameImages& i) {
              return Images{i.diffuse.source, i.specular.source};
          },

@@ -81,8 +81,8 @@ void recordBuild(Device& device, VkCommandBuffer commands, const VkAccelerationS
 
 AccelerationStructure::AccelerationStructure(Device& device, const TriangleInput& triangles) : device_(&device) {
     REFLET_CHECK(device.hasRayQuery(), "'{}' has no ray query", device.description().name);
-    bottom_ = build(VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, triangleGeometry(device, triangles),
-                    triangles.count);
+    bottom_ =
+        build(VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, triangleGeometry(device, triangles), triangles.count);
     const Buffer instance = makeInstance(device, bottom_.structure);
     top_ = build(VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, instanceGeometry(device, instance), 1);
 }
@@ -98,8 +98,8 @@ AccelerationStructure::Level AccelerationStructure::build(VkAccelerationStructur
     info.pGeometries = &geometry;
     VkAccelerationStructureBuildSizesInfoKHR sizes{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR};
     const VolkDeviceTable& vk = device_->vk;
-    vk.vkGetAccelerationStructureBuildSizesKHR(
-        device_->handle(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR, &info, &primitives, &sizes);
+    vk.vkGetAccelerationStructureBuildSizesKHR(device_->handle(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR,
+                                               &info, &primitives, &sizes);
 
     Level level;
     level.memory = Buffer(*device_, sizes.accelerationStructureSize,

@@ -58,6 +58,12 @@ Pass& Pass::read(std::string_view binding, AccelerationView structure) {
     return *this;
 }
 
+Pass& Pass::read(Image image) {
+    use(image, {VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+                VK_ACCESS_2_SHADER_READ_BIT, false});
+    return *this;
+}
+
 Pass& Pass::write(std::string_view binding, Image image) {
     read(binding, image).bound_.back().write = true;
     return *this;
@@ -100,9 +106,8 @@ void Pass::checkAccess(const ShaderBinding& binding, const Bound& bound) const {
     const bool wantsBuffer = binding.type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     const bool wantsStructure = binding.type == VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR;
     const char* wanted = wantsStructure ? "an acceleration structure" : wantsBuffer ? "a buffer" : "an image";
-    REFLET_CHECK(
-        static_cast<bool>(bound.buffer) == wantsBuffer && static_cast<bool>(bound.structure) == wantsStructure,
-        "{}: '{}' is {} in the shader", name_, bound.name, wanted);
+    REFLET_CHECK(static_cast<bool>(bound.buffer) == wantsBuffer && static_cast<bool>(bound.structure) == wantsStructure,
+                 "{}: '{}' is {} in the shader", name_, bound.name, wanted);
     const bool writable = !binding.readOnly;
     const bool canWrite = binding.type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE || wantsBuffer;
     REFLET_CHECK(bound.write == (canWrite && writable), "{}: '{}' is {} here, and {} in the shader", name_, bound.name,

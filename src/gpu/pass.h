@@ -48,6 +48,8 @@ public:
     Pass& read(std::string_view binding, BufferView buffer);
     /// One that was built before this frame began.
     Pass& read(std::string_view binding, AccelerationView structure);
+    /// An image that the draws' own set binds. Raster only.
+    Pass& read(Image image);
     /// What a pass writes it may read as well.
     Pass& write(std::string_view binding, Image image);
     Pass& write(std::string_view binding, BufferView buffer);

@@ -59,6 +59,7 @@ constexpr std::array neededFormats{
     NeededFormat{"B10G11R11_UFLOAT", VK_FORMAT_B10G11R11_UFLOAT_PACK32, target},
     NeededFormat{"R16G16_SFLOAT", VK_FORMAT_R16G16_SFLOAT, target | storage},
     NeededFormat{"R16G16B16A16_SFLOAT", VK_FORMAT_R16G16B16A16_SFLOAT, target | storage},
+    NeededFormat{"R32G32B32A32_SFLOAT", VK_FORMAT_R32G32B32A32_SFLOAT, storage},
     NeededFormat{"R32_UINT", VK_FORMAT_R32_UINT, target | storage},
     NeededFormat{"R32_SFLOAT", VK_FORMAT_R32_SFLOAT, storage},
     NeededFormat{"R32G32_UINT", VK_FORMAT_R32G32_UINT, storage},

@@ -232,29 +232,34 @@ Buffer stagingBuffer(Device& device, std::span<const std::byte> bytes, const std
 
 }  // namespace
 
-Texture uploadTexture(Device& device, uvec2 size, std::span<const uint8_t> rgba, bool srgb, bool mips,
-                      const std::string& name) {
-    REFLET_CHECK(rgba.size() == size_t(size.x) * size.y * 4, "'{}': {} bytes for {}x{}", name, rgba.size(), size.x,
-                 size.y);
-    const uint32_t levels = mips ? static_cast<uint32_t>(std::bit_width(std::max(size.x, size.y))) : 1;
-    Texture texture(device,
-                    {srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM, size, levels, 1,
-                     VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
-                    name);
-    const Buffer staging = stagingBuffer(device, std::as_bytes(rgba), name);
+Texture uploadTexels(Device& device, const ImageInfo& info, std::span<const std::byte> texels,
+                     const std::string& name) {
+    REFLET_CHECK(texels.size() == size_t(info.size.x) * info.size.y * bytesPerTexel(info.format) && info.layers == 1,
+                 "'{}': {} bytes for {}x{}", name, texels.size(), info.size.x, info.size.y);
+    ImageInfo full = info;
+    full.usage |= VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    Texture texture(device, full, name);
+    const Buffer staging = stagingBuffer(device, texels, name);
     ImageState& state = *texture.image().state;
     device.runNow([&](VkCommandBuffer commands) {
-        layoutBarrier(device, commands, state.image, 0, levels, VK_IMAGE_LAYOUT_UNDEFINED,
+        layoutBarrier(device, commands, state.image, 0, info.mips, VK_IMAGE_LAYOUT_UNDEFINED,
                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
         VkBufferImageCopy copy{};
         copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-        copy.imageExtent = {size.x, size.y, 1};
+        copy.imageExtent = {info.size.x, info.size.y, 1};
         device.vk.vkCmdCopyBufferToImage(commands, staging.handle(), state.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                                          1, &copy);
-        generateMips(device, commands, state.image, size, levels);
+        generateMips(device, commands, state.image, info.size, info.mips);
     });
     state.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     return texture;
+}
+
+Texture uploadTexture(Device& device, uvec2 size, std::span<const uint8_t> rgba, bool srgb, bool mips,
+                      const std::string& name) {
+    const uint32_t levels = mips ? static_cast<uint32_t>(std::bit_width(std::max(size.x, size.y))) : 1;
+    return uploadTexels(device, {srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM, size, levels},
+                        std::as_bytes(rgba), name);
 }
 
 Buffer uploadBuffer(Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage,

@@ -136,6 +136,10 @@ private:
 Texture uploadTexture(Device& device, uvec2 size, std::span<const uint8_t> rgba, bool srgb, bool mips,
                       const std::string& name);
 
+/// A sampled texture of one layer, ready alike. texels: of level 0, rows from the top, tightly packed; the other levels
+/// are made from it.
+Texture uploadTexels(Device& device, const ImageInfo& info, std::span<const std::byte> texels, const std::string& name);
+
 /// A device buffer with these bytes.
 Buffer uploadBuffer(Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage,
                     const std::string& name);

@@ -15,7 +15,7 @@ namespace reflet {
 namespace {
 
 void drawSurfaces(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
-    out.g = drawGBuffer(f, in.draws, in.view, settings.materials);
+    out.g = drawGBuffer(f, in.draws, in.view, settings.materials, in.clipPlane);
     if (settings.traceScreen.thicknessFrom == ThicknessFrom::secondLayer) {
         const gpu::Image back = drawBackDepth(f, in.draws, out.g.depth, in.view);
         out.backDepth = keptDepth(f, "kept_back_depth", back, in.view, settings.depth);
@@ -57,12 +57,13 @@ void seeSun(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewI
 }
 
 void seeLamps(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
+    out.lampTiles = findLampTiles(f, out.g.depth, in.lamps, in.view, settings.direct);
     if (in.lampShadows.count > 0) {
         if (!out.lampShadowMap) {
             out.lampShadowMap = drawLampShadowMap(f, in.draws, in.lampShadows);
         }
-        out.lampVisibility =
-            lampVisibility(f, out.g, {out.lampShadowMap, {}, in.blueNoise}, in.lampShadows, {in.view, settings.shadow});
+        out.lampVisibility = lampVisibility(f, out.g, {out.lampShadowMap, out.lampTiles.masks, in.blueNoise},
+                                            in.lampShadows, {in.view, settings.shadow});
     }
 }
 
@@ -73,7 +74,6 @@ SceneLights sceneLights(const ViewInputs& in, const Settings& settings) {
             .sunSine = std::sin(0.5F * in.sunAngularDiameter),
             .sunIrradiance = in.sunIrradiance,
             .allLampsCast = settings.shadow.filter == ShadowFilter::traced ? 1U : 0U,
-            .environment = in.environment,
             .lambertOnly = settings.materials.lambertOnly};
 }
 
@@ -82,9 +82,8 @@ ViewImages directView(gpu::Frame& f, const ViewInputs& in, const Settings& setti
     out.lampShadowMap = lampShadowMap;
     drawSurfaces(f, in, settings, out);
     if (settings.shadow.filter == ShadowFilter::traced && in.traced != nullptr) {
-        const DirectRays rays =
-            directByRays(f, out.g, *in.traced, in.ggxTable, in.lamps,
-                         {in.view, sceneLights(in, settings), in.environment, settings.shadow.rays});
+        const DirectRays rays = directByRays(f, out.g, {*in.traced, in.ggxTable, in.environment, in.lamps},
+                                             {in.view, sceneLights(in, settings), settings.shadow.rays});
         out.direct = rays.direct;
         out.sunVisibility = rays.sunVisibility;
         out.rawSunVisibility = rays.sunVisibility;
@@ -92,8 +91,8 @@ ViewImages directView(gpu::Frame& f, const ViewInputs& in, const Settings& setti
     }
     seeSun(f, in, settings, out);
     seeLamps(f, in, settings, out);
-    out.direct = directLight(f, out.g, {out.sunVisibility, out.lampVisibility}, in.ggxTable,
-                             {in.view, -in.sunDirection, in.sunIrradiance, in.environment}, in.lamps);
+    out.direct = directLight(f, out.g, {out.sunVisibility, out.lampVisibility, out.lampTiles.masks}, in.ggxTable,
+                             {in.view, -in.sunDirection, in.sunIrradiance}, {in.lamps, in.environment});
     return out;
 }
 

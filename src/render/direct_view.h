@@ -4,8 +4,11 @@
 
 #include "gpu/frame.h"
 #include "render/direct/direct.h"
+#include "render/direct/lamp_tiles.h"
 #include "render/draw_list.h"
+#include "render/environment/environment_light.h"
 #include "render/gbuffer/gbuffer.h"
+#include "render/probe/probes.h"
 #include "render/settings.h"
 #include "render/shadow/lamp_shadow.h"
 #include "render/trace_scene/trace_scene.h"
@@ -18,12 +21,14 @@ struct ViewInputs {
     vec3 sunDirection{0, -1, 0};      ///< the way the light travels, unit
     vec3 sunIrradiance{0.0F};         ///< on a surface that faces the sun [W/m²]; 0: no sun
     float sunAngularDiameter = 0.0F;  ///< radians
-    vec3 environment{0.0F};           ///< radiance from all directions [W/(m² sr)]
+    EnvironmentLight environment;     ///< of EnvironmentMaps::update
     const LampBlock& lamps;
     const LampShadows& lampShadows;       ///< of planLampShadows
     gpu::Image ggxTable;                  ///< of makeGgxTable
     gpu::BufferView blueNoise;            ///< of blueNoise()
     const TracedScene* traced = nullptr;  ///< for settings that trace rays through the scene (tracesScene)
+    ProbeMaps probes{};                   ///< that rays ask; none: they do not
+    vec4 clipPlane{0.0F};                 ///< as of drawGBuffer; zero: none
 };
 
 /// Formats where the effects declare them.
@@ -38,7 +43,8 @@ struct ViewImages {
     gpu::Image shadowPenumbra;    ///< of sunVisibility(); none with hard shadows
     gpu::Image cascadeIndex;      ///< of sunVisibility(); none with one cascade
     gpu::Image lampShadowMap;     ///< none where no lamp casts a shadow
-    gpu::Image lampVisibility;    ///< alike
+    LampTiles lampTiles;          ///< of all lamps
+    gpu::Image lampVisibility;    ///< none where no lamp casts a shadow
     gpu::Image direct;
 };
 

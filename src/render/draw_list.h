@@ -28,7 +28,8 @@ struct DrawList {
     VkBuffer indices = VK_NULL_HANDLE;     ///< uint32
     VkDescriptorSetLayout materialLayout = VK_NULL_HANDLE;
     std::vector<Draw> draws;
-    Aabb boundsW;  ///< of all
+    Aabb boundsW;                          ///< of all
+    std::vector<gpu::Image> livePictures;  ///< that materials show, and that passes write
 };
 
 /// The vertex buffers of a draw list: position; normal, tangent, uv0, uv1, color.

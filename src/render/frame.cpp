@@ -1,28 +1,60 @@
 // The frame, top to bottom: values in, values out. Start reading here.
 //
-//     direct view (G-buffer → depth pyramid → sun and lamp visibility → direct light) → diffuse rays, specular rays
-//     → answer chain → composite → tone map
+//     direct view (G-buffer → depth pyramid → sun and lamp visibility → direct light) → diffuse rays → answer chain
+//     → planar views → specular rays → answer chain → composite → tone map
 //
 // renderFrame, at the end, is all of it; its parts stand above it, and in direct_view.cpp what other views need, too.
 // There is no graph compiler: an `if` in these two files is the only culling.
 #include "render/frame.h"
 
+#include "gpu/device.h"
 #include "render/accumulate/accumulate.h"
 #include "render/bounce/answer_environment.h"
 #include "render/bounce/trace_screen.h"
 #include "render/light_mips/light_mips.h"
+#include "render/planar/planar_view.h"
+#include "render/probe/answer_probes.h"
 #include "render/scene_source.h"
 #include "render/tonemap/tonemap.h"
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 namespace reflet {
 
 namespace {
 
+// Rays that stand for all of a lobe go to the middle of it, and are spread a little where the screen is asked: the
+// middle alone would print what it hits as a stencil, with edges as hard as a mirror's. Filtered sources have no edges.
+constexpr float coneShareOnScreen = 0.1F;
+
+// A view's images, and what its rays ask.
+struct SeenView {
+    ViewImages images;
+    ScreenImages screen;
+    std::vector<PlanarView> mirrors;
+};
+
+// The screen, and the mirrors in it. A mirror's view knows more than the screen, and guesses no thickness.
+void answerFromViews(gpu::Frame& f, Rays& rays, const SeenView& seen, const Settings& settings, float longest) {
+    const bool screenFirst = settings.planar.first == 0;
+    for (const bool asksScreen : {screenFirst, !screenFirst}) {
+        if (asksScreen && settings.traceScreen.enabled != 0) {
+            traceScreen(f, rays, seen.screen, settings.traceScreen, longest);
+        }
+        if (!asksScreen && rays.lobe == lobeSpecular) {
+            for (const PlanarView& mirror : seen.mirrors) {
+                traceMirror(f, rays, seen.screen, mirror, settings.traceScreen, longest);
+            }
+        }
+    }
+}
+
 // One chain for both lobes: rays, then sources that answer in order of trust, each taking what is left over.
-LobeLight traceLobe(gpu::Frame& f, const FrameInputs& in, const Settings& settings, const ViewImages& seen,
-                    const ScreenImages& screen, uint32_t lobe) {
+LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& settings, const SeenView& seen,
+                    uint32_t lobe) {
+    const ScreenImages& screen = seen.screen;
     const bool diffuse = lobe == lobeDiffuse;
     const auto scope = f.scope(diffuse ? "diffuse" : "specular");
     const uvec2 size = screen.g.depth.size;
@@ -32,33 +64,50 @@ LobeLight traceLobe(gpu::Frame& f, const FrameInputs& in, const Settings& settin
     if (perPixel == 0) {
         return noLight(f, lobe, size, counted);
     }
+    const float coneShare = settings.traceScreen.enabled != 0 ? coneShareOnScreen : 0.0F;
     const uint32_t batch = raysPerBatch(f, size);
     LobeLight light;
     for (uint32_t first = 0; first < perPixel; first += batch) {
         const uint32_t count = std::min(perPixel - first, batch);
         Rays rays = generateRays(f, screen.g, {in.ggxTable, in.blueNoise}, lobe,
-                                 {in.view, settings.diffuse, settings.specular, first, count}, counted);
-        if (settings.traceScreen.enabled != 0) {
-            traceScreen(f, rays, screen, in.view, settings.traceScreen, longest);
+                                 {in.view, settings.diffuse, settings.specular, first, count, coneShare}, counted);
+        answerFromViews(f, rays, seen, settings, longest);
+        answerFromScene(f, rays, in, settings, seen.images, screen);
+        if (in.probes) {
+            answerProbes(f, rays, screen.g, in.view, in.probes, settings.probes);
         }
-        answerFromScene(f, rays, in, settings, seen, screen);
         answerEnvironment(f, rays, screen.g, in.environment, settings.environment);
         light = resolveRays(f, rays, perPixel);
     }
     return light;
 }
 
+SeenView seenView(const ViewInputs& in, const ViewImages& images) {
+    const ScreenImages screen{.g = images.g,
+                              .view = in.view,
+                              .backDepth = images.backDepth,
+                              .pyramid = images.pyramid,
+                              .light = images.direct,
+                              .lit = {},
+                              .lightMips = {}};
+    return {images, screen, {}};
+}
+
 // What reflections show: direct light, or what is lit so far; and its mips for those that are too rough for rays.
-void lightForReflections(gpu::Frame& f, const FrameInputs& in, const Settings& settings, const FrameImages& out,
+void lightForReflections(gpu::Frame& f, const ViewInputs& in, const Settings& settings, const LobeLight& diffuse,
                          ScreenImages& screen) {
+    const bool reused = settings.traceScene.enabled != 0 && settings.traceScene.reuseScreen != 0;
+    if (settings.traceScreen.enabled == 0 && !reused) {
+        return;
+    }
     const auto scope = f.scope("specular");
     const SpecularSettings& s = settings.specular;
     const HitLight light = settings.traceScreen.light;
     if (light == HitLight::lit && s.rays > 0 && settings.diffuse.rays > 0) {
-        const LobeLight none = noLight(f, lobeSpecular, out.g.depth.size, settings.traceScreen.countSteps != 0);
-        const gpu::Image soFar = f.image("lit_so_far", VK_FORMAT_R16G16B16A16_SFLOAT, out.g.depth.size);
+        const LobeLight none = noLight(f, lobeSpecular, screen.light.size, settings.traceScreen.countSteps != 0);
+        const gpu::Image soFar = f.image("lit_so_far", VK_FORMAT_R16G16B16A16_SFLOAT, screen.light.size);
         screen.light =
-            composite(f, out.g, out.direct, out.diffuse, none, in.ggxTable, soFar, {in.view, settings.diffuse.gain})
+            composite(f, screen.g, screen.light, diffuse, none, in.ggxTable, soFar, {in.view, settings.diffuse.gain})
                 .lit;
     }
     if (s.rougher == RougherSurfaces::mips && s.maxRoughness < 1.0F && s.rays > 0) {
@@ -67,17 +116,59 @@ void lightForReflections(gpu::Frame& f, const FrameInputs& in, const Settings& s
     }
 }
 
+// What one view besides the frame's own shows to reflections. There is no last frame of it: `previous` is `lit` there.
+ScreenImages seeReflected(gpu::Frame& f, const ViewInputs& in, Settings settings, gpu::Image lampShadowMap) {
+    settings.shadow.history = 0;  // the view's edges move with the camera, and with them its pixels
+    SeenView seen = seenView(in, directView(f, in, settings, lampShadowMap));
+    if (settings.traceScreen.light != HitLight::direct && settings.planar.diffuse != 0) {
+        settings.traceScreen.light = HitLight::lit;
+        const LobeLight diffuse = traceLobe(f, in, settings, seen, lobeDiffuse);
+        lightForReflections(f, in, settings, diffuse, seen.screen);
+    } else {
+        settings.traceScreen.light = HitLight::direct;
+        lightForReflections(f, in, settings, {}, seen.screen);
+    }
+    return seen.screen;
+}
+
+ScreenImages seeMirror(gpu::Frame& f, const FrameInputs& in, const Settings& settings, const Mirror& mirror,
+                       gpu::Image lampShadowMap) {
+    const PlanarSettings& s = settings.planar;
+    if (s.form == PlanarForm::duplicate) {
+        const uint32_t largestMap = f.device().limits().maxImageDimension2D;
+        const MirroredRoom room = mirroredRoom(in, mirror, settings.shadow, largestMap);
+        ViewInputs behind = behindMirror(in, mirror, s, room);
+        behind.traced = nullptr;  // what these know is on this side
+        behind.probes = {};
+        return seeReflected(f, behind, settings, {});
+    }
+    return seeReflected(f, beforeMirror(in, mirror, s), settings, lampShadowMap);
+}
+
+std::vector<PlanarView> seeMirrors(gpu::Frame& f, const FrameInputs& in, const Settings& settings,
+                                   gpu::Image lampShadowMap) {
+    std::vector<PlanarView> views;
+    for (const Mirror& mirror : in.mirrors) {
+        const std::string name = "planar" + std::to_string(views.size());
+        const auto scope = f.viewScope(name);
+        views.push_back({name, seeMirror(f, in, settings, mirror, lampShadowMap), mirrorParams(mirror, settings.planar),
+                         settings.planar.form});
+    }
+    return views;
+}
+
 }  // namespace
 
 FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& settings) {
-    FrameImages out{directView(f, in, settings)};
-
-    const gpu::History lit = f.history("lit", VK_FORMAT_R16G16B16A16_SFLOAT, out.g.depth.size);
-    ScreenImages screen{
-        .g = out.g, .backDepth = out.backDepth, .pyramid = out.pyramid, .light = out.direct, .lit = lit};
-    out.diffuse = traceLobe(f, in, settings, out, screen, lobeDiffuse);
-    lightForReflections(f, in, settings, out, screen);
-    out.specular = traceLobe(f, in, settings, out, screen, lobeSpecular);
+    SeenView seen = seenView(in, directView(f, in, settings));
+    const gpu::History lit = f.history("lit", VK_FORMAT_R16G16B16A16_SFLOAT, seen.images.g.depth.size);
+    seen.screen.lit = lit;
+    FrameImages out{seen.images};
+    out.probeAtlas = in.probes.atlas;
+    out.diffuse = traceLobe(f, in, settings, seen, lobeDiffuse);
+    lightForReflections(f, in, settings, out.diffuse, seen.screen);
+    seen.mirrors = seeMirrors(f, in, settings, out.lampShadowMap);
+    out.specular = traceLobe(f, in, settings, seen, lobeSpecular);
 
     out.light = composite(f, out.g, out.direct, out.diffuse, out.specular, in.ggxTable, lit.next,
                           {in.view, settings.diffuse.gain});

@@ -5,16 +5,19 @@
 #include "render/bounce/rays.h"
 #include "render/composite/composite.h"
 #include "render/direct_view.h"
+#include "render/planar/mirrors.h"
 #include "render/settings.h"
 
 namespace reflet {
 
 struct FrameInputs : ViewInputs {
-    uint32_t framesBefore = 0;  ///< this one, in which view, light and settings have been the same
+    std::span<const Mirror> mirrors;  ///< of planMirrors
+    uint32_t framesBefore = 0;        ///< this one, in which view, light and settings have been the same
 };
 
 /// Every image of the frame; formats where the effects declare them.
 struct FrameImages : ViewImages {
+    gpu::Image probeAtlas;  ///< of ProbeMaps; none without probes
     LobeLight diffuse;
     LobeLight specular;
     Composite light;

@@ -34,6 +34,12 @@ struct LampBlock {
     LampParams lamps[maxLamps];
 };
 
+// Which lamps may light which tile of the screen: a bit for each lamp, in RGBA32_UINT images with a texel for each
+// tile. Lamp i is bit i % 32 of component i / 32 % 4 of layer i / 128.
+const uint lampTileShift = 4;
+const uint lampTileSide = 1u << lampTileShift;  // pixels
+const uint lampsPerLayer = 128;
+
 SHARED_END
 
 #endif

@@ -4,25 +4,24 @@
 #include "gpu/frame.h"
 #include "render/frame.h"
 #include "render/gpu_scene.h"
+#include "render/probe/capture_probe.h"
+#include "render/view_params.h"
 #include "scene/scene.h"
 
 #include <functional>
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace reflet {
 
-/// Throws Error for what a view can say and this version cannot render: an environment image.
-void checkCanRender(const View& view);
-
 class Renderer {
 public:
-    /// The scene must outlive the renderer: what only rays need is made of it when it is first needed.
+    /// The scene must outlive the renderer: what only rays or probes need is made of it when it is first needed.
     Renderer(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn);
 
-    /// Records one frame; `after` may record more (read-backs). Returns when the device is done. Throws Error where
-    /// checkCanRender does.
+    /// Records one frame; `after` may record more (read-backs). Returns when the device is done.
     FrameImages render(const View& view, uvec2 size, uint32_t seed, const Settings& settings,
                        const std::function<void(gpu::Frame&, const FrameImages&)>& after = {});
 
@@ -34,14 +33,23 @@ private:
 
     /// What rays are traced through; nothing where the settings trace none.
     const TracedScene* tracedScene(const Settings& settings);
+    /// The view's probes, or those that are placed where it has none.
+    const std::vector<Probe>& probesOf(const View& view, const ProbesSettings& settings);
+    std::vector<Mirror> planMirrors(const View& view, const ViewParams& params, const Settings& settings);
+    void warnOnce(const std::string& text);
 
     gpu::Frame frame_;
     const Scene& source_;
     GpuScene scene_;
     std::optional<TracedScene> traced_;
     uint32_t tracedTextureSize_ = 0;
+    std::vector<FlatPiece> flatPieces_;
     gpu::Texture ggxTable_;
     gpu::Buffer blueNoise_;
+    EnvironmentMaps environment_;
+    Probes probes_;
+    std::vector<Probe> placed_;
+    std::optional<uint32_t> placedCount_;  ///< that placed_ were asked for
     std::function<void(const std::string&)> warn_;
     std::set<std::string> warned_;
     /// In which the picture has been what it is asked to be now: how many there were.
@@ -58,8 +66,5 @@ private:
     std::optional<mat4> previousWorldToClip_;
     uint32_t frameNumber_ = 0;
 };
-
-/// The camera as passes see it. previousWorldToClip is set to the camera's own.
-ViewParams makeViewParams(const Camera& camera, uvec2 size, uint32_t frame, uint32_t seed);
 
 }  // namespace reflet

@@ -31,7 +31,7 @@ uint32_t sunShadowsAtHits(const Settings& settings, const ViewImages& seen) {
 
 }  // namespace
 
-void answerFromScene(gpu::Frame& f, Rays& rays, const FrameInputs& in, const Settings& settings, const ViewImages& seen,
+void answerFromScene(gpu::Frame& f, Rays& rays, const ViewInputs& in, const Settings& settings, const ViewImages& seen,
                      const ScreenImages& screen) {
     if (settings.traceScene.enabled == 0 || in.traced == nullptr) {
         return;
@@ -40,7 +40,7 @@ void answerFromScene(gpu::Frame& f, Rays& rays, const FrameInputs& in, const Set
     const float share =
         static_cast<float>(rays.count) / static_cast<float>(settings.diffuse.rays + settings.specular.rays);
     const bool previous = settings.traceScreen.light == HitLight::previous && screen.lit.valid;
-    traceScene(f, rays, {*in.traced, screen, seen.shadowMap, in.ggxTable, in.blueNoise, in.lamps},
+    traceScene(f, rays, {*in.traced, screen, seen.shadowMap, in.ggxTable, in.blueNoise, in.environment, in.lamps},
                sunShadowsAtHits(settings, seen),
                {.view = in.view,
                 .settings = settings.traceScene,

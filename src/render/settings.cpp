@@ -30,8 +30,11 @@ std::vector<SettingEntry> makeEntries() {
     addEffect<DepthSettings>(entries, "depth", offsetof(Settings, depth));
     addEffect<ShadowSettings>(entries, "shadow", offsetof(Settings, shadow));
     addEffect<ContactSettings>(entries, "contact", offsetof(Settings, contact));
+    addEffect<DirectSettings>(entries, "direct", offsetof(Settings, direct));
     addEffect<TraceScreenSettings>(entries, "trace_screen", offsetof(Settings, traceScreen));
     addEffect<TraceSceneSettings>(entries, "trace_scene", offsetof(Settings, traceScene));
+    addEffect<ProbesSettings>(entries, "probes", offsetof(Settings, probes));
+    addEffect<PlanarSettings>(entries, "planar", offsetof(Settings, planar));
     addEffect<EnvironmentSettings>(entries, "environment", offsetof(Settings, environment));
     addEffect<DiffuseSettings>(entries, "diffuse", offsetof(Settings, diffuse));
     addEffect<SpecularSettings>(entries, "specular", offsetof(Settings, specular));

@@ -7,8 +7,11 @@
 #include "render/bounce/rays.h"
 #include "render/bounce/trace_screen.h"
 #include "render/contact/contact.h"
+#include "render/direct/lamp_tiles.h"
 #include "render/gbuffer/gbuffer.h"
 #include "render/gbuffer/kept_depth.h"
+#include "render/planar/planar.h"
+#include "render/probe/probes.h"
 #include "render/shadow/shadow.h"
 #include "render/tonemap/tonemap.h"
 #include "render/trace_scene/trace_scene.h"
@@ -26,8 +29,11 @@ struct Settings {
     DepthSettings depth;
     ShadowSettings shadow;
     ContactSettings contact;
+    DirectSettings direct;
     TraceScreenSettings traceScreen;
     TraceSceneSettings traceScene;
+    ProbesSettings probes;
+    PlanarSettings planar;
     EnvironmentSettings environment;
     DiffuseSettings diffuse;
     SpecularSettings specular;

@@ -140,9 +140,10 @@ private:
         const vec3 size = centers.size();
         const int axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
         const size_t half = items.size() / 2;
-        std::ranges::nth_element(items, items.begin() + static_cast<std::ptrdiff_t>(half), [&](const auto& a, const auto& b) {
-            return std::pair(a.center()[axis], a.triangle) < std::pair(b.center()[axis], b.triangle);
-        });
+        std::ranges::nth_element(
+            items, items.begin() + static_cast<std::ptrdiff_t>(half), [&](const auto& a, const auto& b) {
+                return std::pair(a.center()[axis], a.triangle) < std::pair(b.center()[axis], b.triangle);
+            });
         return {items.first(half), items.subspan(half)};
     }
 
@@ -166,9 +167,11 @@ private:
         if (!best) {
             return cutInHalves(items, centers);
         }
-        const auto right = std::ranges::partition(
-            items, [&](const Item& item) { return binning.bin(item.center(), best->axis) < best->bin; });
-        return std::pair(items.first(items.size() - right.size()), items.last(right.size()));
+        const auto middle = std::partition(items.begin(), items.end(), [&](const Item& item) {
+            return binning.bin(item.center(), best->axis) < best->bin;
+        });
+        const auto left = static_cast<size_t>(middle - items.begin());
+        return std::pair(items.first(left), items.subspan(left));
     }
 
     void fill(Bvh& bvh, uint32_t node, Items left, Items right, uint32_t depth) {

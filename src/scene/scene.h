@@ -154,13 +154,23 @@ struct Scene {
     [[nodiscard]] Aabb bounds() const;
 };
 
+/// A place from which reflections see the scene, and the box whose walls stand in for what is seen from there.
+struct Probe {
+    vec3 position{0.0F};  ///< inside the box
+    Aabb box;             ///< world space, not empty
+};
+
 /// From where, and in which light, a scene is seen: what a view file can change.
 struct View {
+    static constexpr uint32_t maxProbes = 16;
+
     Camera camera;
     Sun sun;
     Environment environment;
-    std::optional<float> lampRadius;  ///< of all lamps [m], in the place of their own
-    bool sunStandsIn = false;         ///< the scene has no light; the sun is there so that something is seen
+    std::optional<float> lampRadius;           ///< of all lamps [m], in the place of their own
+    std::optional<std::vector<Probe>> probes;  ///< at most maxProbes; not given: the renderer places them itself
+    std::vector<std::string> mirrors;          ///< names of instances that planar views are for; empty: they are found
+    bool sunStandsIn = false;                  ///< the scene has no light; the sun is there so that something is seen
 };
 
 /// The scene's first camera, its sun and its environment; where it has none, a camera that frames the whole scene

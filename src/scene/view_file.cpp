@@ -1,4 +1,4 @@
-// View files: camera, sun, lamps and environment as JSON, checked before anything of the view is changed.
+// View files: camera, sun, lamps, environment and probes as JSON, checked before anything of the view is changed.
 #include "scene/view_file.h"
 
 #include "base/error.h"
@@ -144,10 +144,52 @@ Environment readEnvironment(const JsonNode& node, const Environment& environment
     return environment;
 }
 
+JsonNode required(const JsonNode& node, const std::string& key) {
+    const auto value = node.find(key);
+    if (!value) {
+        node.complain(fmt::format("'{}' is missing", key));
+    }
+    return *value;
+}
+
+Probe readProbe(const JsonNode& node) {
+    static const std::array<std::string, 3> keys{"position", "box_min", "box_max"};
+    node.requireKeys(keys);
+    const JsonNode position = required(node, "position");
+    const JsonNode boxMax = required(node, "box_max");
+    Probe probe;
+    probe.position = readVec3(position, -largest, largest, "metres");
+    probe.box.min = readVec3(required(node, "box_min"), -largest, largest, "metres");
+    probe.box.max = readVec3(boxMax, -largest, largest, "metres");
+    if (glm::any(glm::lessThanEqual(probe.box.max, probe.box.min))) {
+        boxMax.complainMustBe("more than box_min in all three");
+    }
+    if (glm::any(glm::lessThanEqual(probe.position, probe.box.min)) ||
+        glm::any(glm::greaterThanEqual(probe.position, probe.box.max))) {
+        position.complainMustBe("inside the box");
+    }
+    return probe;
+}
+
+std::vector<Probe> readProbes(const JsonNode& node) {
+    if (!node.json().is_array()) {
+        node.complainMustBe("an array of probes");
+    }
+    const size_t count = node.json().size();
+    if (count > View::maxProbes) {
+        node.complain(fmt::format("must be at most {} probes, are {}", View::maxProbes, count));
+    }
+    std::vector<Probe> probes;
+    for (size_t i = 0; i < count; ++i) {
+        probes.push_back(readProbe(node.at(i)));
+    }
+    return probes;
+}
+
 }  // namespace
 
 void applyViewFile(const std::filesystem::path& path, View& view) {
-    static const std::array<std::string, 4> keys{"camera", "sun", "lamps", "environment"};
+    static const std::array<std::string, 5> keys{"camera", "sun", "lamps", "environment", "probes"};
     const nlohmann::json file = parseJsonFile(path);
     const JsonNode root(file, path);
     root.requireKeys(keys);
@@ -168,6 +210,9 @@ void applyViewFile(const std::filesystem::path& path, View& view) {
         if (changed.sunStandsIn && shines) {
             changed.sun.irradiance = vec3(0.0F);
         }
+    }
+    if (const auto probes = root.find("probes")) {
+        changed.probes = readProbes(*probes);
     }
     view = changed;
 }

@@ -1,4 +1,4 @@
-// View files: camera, sun, lamps and environment as JSON, to see one scene from other places in other light.
+// View files: camera, sun, lamps, environment and probes as JSON, to see one scene from other places in other light.
 #pragma once
 
 #include "scene/scene.h"
@@ -11,8 +11,10 @@ namespace reflet {
 ///   { "camera": { "position": [6,1,0], "target": [0,0,0], "up": [0,1,0], "fov_y": 75, "near": 0.05 },
 ///     "sun": { "direction": [0.4,-0.9,-0.2], "irradiance": [3.14,3.14,3.14], "angular_diameter": 0.53 },
 ///     "lamps": { "radius": 0.05 },
-///     "environment": { "radiance": [0,0,0] } }      or { "image": "sky.hdr", "intensity": 1, "rotation": 0 }
-/// Angles in degrees, paths relative to the file. An image or a radiance replaces the whole environment. Throws Error:
+///     "environment": { "radiance": [0,0,0] },       or { "image": "sky.hdr", "intensity": 1, "rotation": 0 }
+///     "probes": [{ "position": [0,1,0], "box_min": [-2,0,-2], "box_max": [2,3,2] }] }
+/// Angles in degrees, paths relative to the file. An image or a radiance replaces the whole environment, a list
+/// of probes, an empty one too, all others. Throws Error:
 /// a file that cannot be read, JSON that is malformed (with its line), a key that is unknown (naming the nearest), a
 /// value of the wrong type, length or range.
 void applyViewFile(const std::filesystem::path& path, View& view);

@@ -26,6 +26,13 @@ vec4 planeOnScreen(vec3 p, vec3 n, mat4 clipToWorld) {
     return vec4(2.0 * onClip.xy, onClip.z, onClip.w - onClip.x - onClip.y);
 }
 
+// Unit direction along which the camera looks through this uv. From what lies at infinity, where the camera's place does
+// not count: near points differ from it by too little.
+vec3 viewDirection(vec2 uv, mat4 clipToWorld, vec4 eye) {
+    vec4 p = clipToWorld * vec4(uvToNdc(uv), 0.0, 1.0);
+    return eye.w > 0.0 ? normalize(p.xyz - eye.xyz * p.w) : -eye.xyz;
+}
+
 // Unit direction from the point toward the camera. eye: position with w = 1, or direction with w = 0.
 vec3 directionToEye(vec3 positionW, vec4 eye) { return normalize(eye.xyz - positionW * eye.w); }
 

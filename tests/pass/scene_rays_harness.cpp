@@ -74,6 +74,8 @@ std::vector<uint32_t> firstIndices(const Scene& scene) {
     return first;
 }
 
+constexpr double roundings = 3.0;  // that distances of the same place may be apart
+
 // A ray and a hit triangle's plane, in double precision.
 struct Meeting {
     double distance = 0.0;
@@ -112,19 +114,23 @@ public:
         d.hits += a.found;
         if (a.found != b.found) {
             ++d.other;
+            ++d.oneOnly;
         } else if (a.found != 0) {
             const Meeting first(triangle(a), ray);
             const Meeting second(triangle(b), ray);
             const double rounding = std::max(first.rounding(), second.rounding());
+            const double apart = std::abs(a.distance - b.distance) / rounding;
             if (a.instance == b.instance && a.firstIndex == b.firstIndex) {
+                d.distance = std::max(d.distance, apart);
                 d.barycentric = std::max<double>(d.barycentric, glm::length(a.barycentrics - b.barycentrics));
             } else if (std::min(first.inside, second.inside) >= 0.0 &&
                        std::abs(first.distance - second.distance) < rounding) {
+                d.distance = std::max(d.distance, apart);
                 ++d.coincident;
             } else {
                 ++d.other;
+                d.elsewhere += apart > roundings ? 1 : 0;
             }
-            d.distance = std::max(d.distance, std::abs(a.distance - b.distance) / rounding);
         }
     }
 
@@ -171,7 +177,8 @@ Difference difference(const Scene& scene, const std::vector<TestRay>& rays, cons
 }
 
 std::ostream& operator<<(std::ostream& out, const Difference& d) {
-    return out << d.rays << " rays, " << d.hits << " hit; " << d.other << " otherwise, " << d.coincident
+    return out << d.rays << " rays, " << d.hits << " hit; " << d.other << " otherwise (" << d.oneOnly
+               << " one way only, " << d.elsewhere << " at another distance), " << d.coincident
                << " one of two coincident triangles; distances within " << d.distance
                << " roundings, barycentrics within " << d.barycentric;
 }

@@ -30,10 +30,12 @@ struct Difference {
     /// Not the same triangle, or only one way hits. Not counted: two triangles on top of each other, of which either
     /// is right.
     size_t other = 0;
-    size_t coincident = 0;   ///< triangles on top of each other
-    size_t any = 0;          ///< anyHit and closestHit do not agree, one way or the other
-    double distance = 0.0;   ///< largest difference of distances, in what rounding may come to (1: just that)
-    double barycentric = 0;  ///< largest, where the triangle is the same [m]
+    size_t oneOnly = 0;        ///< of those: only one way hits
+    size_t elsewhere = 0;      ///< of those: both hit, but not at the same distance, either
+    size_t coincident = 0;     ///< triangles on top of each other
+    size_t any = 0;            ///< anyHit and closestHit do not agree, one way or the other
+    double distance = 0.0;     ///< largest difference where they are the same, in what rounding may come to
+    double barycentric = 0.0;  ///< largest, where the triangle is the same
 };
 std::ostream& operator<<(std::ostream& out, const Difference& difference);
 

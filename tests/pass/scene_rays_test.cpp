@@ -1,4 +1,5 @@
-// Rays through the scene's triangles on the device: a million through each scene, against Embree's.
+// Rays through the scene's triangles on the device: a million through each scene, against Embree's; and by ray query
+// against those, on devices that have it.
 #include "pass/scene_rays_harness.h"
 
 #include "scene/builtin.h"
@@ -34,13 +35,26 @@ std::vector<std::filesystem::path> filesToTest() {
     return files;
 }
 
-class SceneRaysOfScene : public SceneRaysTest, public ::testing::WithParamInterface<BuiltinScene> {};
+class SceneRaysBothWays : public SceneRaysTest {
+protected:
+    // Traversal against Embree, and ray query against traversal where the device has it.
+    static void expectSameOf(const std::string& name, const Scene& scene) {
+        const auto rays = randomRays(scene, rayCount);
+        const auto hits = trace(SceneRays(device(), scene, RayMethod::traversal), rays);
+        const Difference d = difference(scene, rays, traceWithEmbree(scene, rays), hits);
+        expectSame(name, d);
+        EXPECT_EQ(d.elsewhere, 0U) << name;
+        if (hasRayQuery()) {
+            const auto queried = trace(SceneRays(device(), scene, RayMethod::query), rays);
+            expectSame(name + " by ray query", difference(scene, rays, hits, queried));
+        }
+    }
+};
+
+class SceneRaysOfScene : public SceneRaysBothWays, public ::testing::WithParamInterface<BuiltinScene> {};
 
 TEST_P(SceneRaysOfScene, HitWhatEmbreeHits) {
-    const Scene scene = withoutCutOuts(GetParam().make());
-    const auto rays = randomRays(scene, rayCount);
-    const auto hits = trace(SceneRays(device(), scene, RayMethod::traversal), rays);
-    expectSame(std::string(GetParam().name), difference(scene, rays, traceWithEmbree(scene, rays), hits));
+    expectSameOf(std::string(GetParam().name), withoutCutOuts(GetParam().make()));
 }
 
 std::string sceneName(const ::testing::TestParamInfo<BuiltinScene>& scene) {
@@ -52,7 +66,7 @@ std::string sceneName(const ::testing::TestParamInfo<BuiltinScene>& scene) {
 INSTANTIATE_TEST_SUITE_P(Builtin, SceneRaysOfScene, ::testing::ValuesIn(builtinScenes().begin(), builtinScenes().end()),
                          sceneName);
 
-using SceneRaysOfFile = SceneRaysTest;
+using SceneRaysOfFile = SceneRaysBothWays;
 
 TEST_F(SceneRaysOfFile, HitWhatEmbreeHits) {
     const auto files = filesToTest();
@@ -60,10 +74,7 @@ TEST_F(SceneRaysOfFile, HitWhatEmbreeHits) {
         GTEST_SKIP() << "REFLET_TEST_SCENES names no scene files";
     }
     for (const auto& file : files) {
-        const Scene scene = withoutCutOuts(loadGltf(file));
-        const auto rays = randomRays(scene, rayCount);
-        const auto hits = trace(SceneRays(device(), scene, RayMethod::traversal), rays);
-        expectSame(file.filename(), difference(scene, rays, traceWithEmbree(scene, rays), hits));
+        expectSameOf(file.filename(), withoutCutOuts(loadGltf(file)));
     }
 }
 

@@ -39,11 +39,13 @@ std::vector<std::string> allShows() {
 TEST(Sweep, EverySceneRendersInEveryShow) {
     for (const BuiltinScene& builtin : builtinScenes()) {
         const Scene scene = builtin.make();
-        const Settings all =  // or back_depth, the steps and cascade_index would not be there
-            settingsOf({"trace_screen.thicknessFrom=secondLayer", "trace_screen.countSteps=true", "shadow.cascades=2"});
+        const Settings all =  // or back_depth, the steps, cascade_index and probe_atlas would not be there
+            settingsOf({"trace_screen.thicknessFrom=secondLayer", "trace_screen.countSteps=true", "shadow.cascades=2",
+                        "probes.enabled=true", "probes.count=2", "probes.resolution=32"});
         std::vector<std::string> names = allShows();
         if (scene.lamps.empty()) {
             std::erase(names, "lamp_visibility");
+            std::erase(names, "lamp_count");
         }
         const Pictures p = render(scene, defaultView(scene), size, all, names);
         expectSound(p, std::string(builtin.name));
@@ -66,8 +68,11 @@ TEST(Sweep, EverySettingWorksAtItsEnds) {
         }
         for (const std::string& value : values) {
             const std::string assignment = entry.name + "=" + value;
-            expectSound(render(scene, defaultView(scene), size, settingsOf({assignment}), {"final", "source"}),
-                        assignment);
+            const bool asksProbes = entry.name.starts_with("probes.");  // else few settings of theirs do anything
+            const Settings settings = asksProbes
+                                          ? settingsOf({"probes.enabled=true", "probes.resolution=32", assignment})
+                                          : settingsOf({assignment});
+            expectSound(render(scene, defaultView(scene), size, settings, {"final", "source"}), assignment);
         }
     }
 }

@@ -87,5 +87,20 @@ TEST_F(GgxMiddle, aSmoothSurfacesDirectionIsTheMirrors) {
     }
 }
 
+TEST_F(GgxMiddle, theMeanDirectionIsThatOfTheLobeAtEveryAngle) {
+    std::vector<vec2> cases;
+    for (const float nv : {0.99F, 0.9F, 0.8F, 0.6F, 0.4F, 0.2F, 0.1F, 0.05F}) {
+        for (const float roughness : {0.02F, 0.1F, 0.2F, 0.3F, 0.4F, 0.5F, 0.6F, 0.7F, 0.8F, 0.9F, 1.0F}) {
+            cases.emplace_back(nv, roughness * roughness);
+        }
+    }
+    const auto found = mapOnDevice<vec3>("ggx_mean_test.comp", cases);
+    for (size_t i = 0; i < cases.size(); ++i) {
+        EXPECT_NEAR(glm::length(found[i]), 1.0F, 1e-5F);
+        const double cosine = glm::dot(glm::dvec3(found[i]), middleOf(lobeParts(cases[i].x, cases[i].y)));
+        EXPECT_LT(glm::degrees(std::acos(std::min(cosine, 1.0))), 3.0) << cases[i].x << ", alpha " << cases[i].y;
+    }
+}
+
 }  // namespace
 }  // namespace reflet::test

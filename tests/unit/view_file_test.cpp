@@ -83,6 +83,40 @@ TEST_F(ViewFile, SetsEverythingThatItNames) {
     EXPECT_EQ(view_.environment.radiance, vec3(0.1F, 0.2F, 0.3F));
 }
 
+TEST_F(ViewFile, NamesProbes) {
+    EXPECT_FALSE(view_.probes);
+    apply(R"({"probes": [{"position": [0,1,0], "box_min": [-1,0,-2], "box_max": [1,3,2]}]})");
+    ASSERT_TRUE(view_.probes);
+    ASSERT_EQ(view_.probes->size(), 1U);
+    EXPECT_EQ(view_.probes->front().position, vec3(0, 1, 0));
+    EXPECT_EQ(view_.probes->front().box.min, vec3(-1, 0, -2));
+    EXPECT_EQ(view_.probes->front().box.max, vec3(1, 3, 2));
+    apply("{}");
+    EXPECT_EQ(view_.probes->size(), 1U) << "what it does not name stays";
+    apply(R"({"probes": []})");
+    EXPECT_TRUE(view_.probes->empty());
+}
+
+TEST_F(ViewFile, WithAProbeThatCannotBeIsAnError) {
+    EXPECT_EQ(errorOf(R"({"probes": {}})"), "FILE: probes: must be an array of probes, is {}");
+    EXPECT_EQ(errorOf(R"({"probes": [{"position": [0,1,0], "box_min": [-1,0,-2]}]})"),
+              "FILE: probes[0]: 'box_max' is missing");
+    EXPECT_EQ(errorOf(R"({"probes": [{"position": [0,1,0], "box_min": [-1,0,-2], "box_max": [1,0,2]}]})"),
+              "FILE: probes[0].box_max: must be more than box_min in all three, is [1,0,2]");
+    EXPECT_EQ(errorOf(R"({"probes": [{"position": [0,3,0], "box_min": [-1,0,-2], "box_max": [1,3,2]}]})"),
+              "FILE: probes[0].position: must be inside the box, is [0,3,0]");
+    EXPECT_EQ(errorOf(R"({"probes": [{"position": [0,1], "box_min": [-1,0,-2], "box_max": [1,3,2]}]})"),
+              "FILE: probes[0].position: must be 3 numbers, is [0,1]");
+    EXPECT_EQ(errorOf(R"({"probes": [{"positoin": [0,1,0]}]})"),
+              "FILE: probes[0].positoin: unknown key; did you mean 'position'?");
+    std::string many = R"({"probes": [)";
+    for (int i = 0; i < 17; ++i) {
+        many += std::string(i > 0 ? "," : "") + R"({"position": [0,1,0], "box_min": [-1,0,-2], "box_max": [1,3,2]})";
+    }
+    EXPECT_EQ(errorOf(many + "]}"), "FILE: probes: must be at most 16 probes, are 17");
+    EXPECT_FALSE(view_.probes);
+}
+
 TEST_F(ViewFile, LeavesWhatItDoesNotName) {
     view_.camera.position = {1, 2, 3};
     view_.sun.irradiance = vec3(7);

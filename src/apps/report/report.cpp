@@ -76,7 +76,6 @@ std::vector<ReportInput> loadInputs(const ReportCommand& command) {
         options.scene = source;
         ReportInput input{.name = nameOf(source), .source = source, .scene = loadScene(options)};
         input.view = loadView(options, input.scene);
-        checkCanRender(input.view);
         input.description = describe(source, input.scene);
         input.filePrefix = prefixes.take(fileNameOf(input.name));
         input.position = fmt::format("{} ({} of {})", input.name, inputs.size() + 1, command.scenes.size());

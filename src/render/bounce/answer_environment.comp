@@ -1,8 +1,10 @@
-// Gives every waiting ray the environment's radiance. In: the list, material. Out: answers, sources.
+// Gives every waiting ray the environment's radiance: along it, or around it where it stands for more (Ray.spread).
+// In: the list, directions, material, the environment. Out: answers, sources.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/bounce/answer_environment.h"
 #include "render/bounce/rays.glsl"
+#include "render/environment/environment_lobes.glsl"
 
 layout(constant_id = 0) const uint lobe = 0u;
 
@@ -16,7 +18,18 @@ layout(set = 0, binding = 2, scalar) readonly buffer WaitingBlock {
 } waiting;
 layout(set = 0, binding = 3, rgba16f) uniform image2DArray answer;
 layout(set = 0, binding = 4, rgba8) uniform image2DArray source;
+layout(set = 0, binding = 5, rg32ui) uniform readonly uimage2DArray direction;
 #include "render/bounce/rays_answer.glsl"
+
+vec3 radianceFor(Ray ray) {
+    if (params.settings.enabled == 0u) {
+        return vec3(0.0);
+    }
+    if (ray.spread == 0.0) {
+        return environmentRadiance(ray.direction);
+    }
+    return lobe == lobeDiffuse ? environmentIrradianceOverPi(ray.direction) : environmentLobe(ray.direction, ray.spread);
+}
 
 void main() {
     uint stride = gl_NumWorkGroups.x * listGroupSize;
@@ -24,7 +37,9 @@ void main() {
         WaitingRay ray = unpackWaitingRay(waiting.items[i]);
         // Occlusion maps know of nearby surfaces, which a ray may be known not to meet.
         float occlusion = lobe == lobeDiffuse && !meetsNothing(ray) ? texelFetch(material, ray.slot.xy, 0).b : 1.0;
-        RayAnswer a = RayAnswer(params.radiance * occlusion * (ray.lost ? params.settings.lostShare : 1.0), 1.0, environmentDistance);
+        vec3 radiance = radianceFor(unpackRay(imageLoad(direction, ray.slot).xy));
+        float share = occlusion * (ray.lost ? params.settings.lostShare : 1.0);
+        RayAnswer a = RayAnswer(radiance * share, 1.0, environmentDistance);
         addAnswer(ray.slot, a, ray.rest, sourceEnvironment);
     }
 }

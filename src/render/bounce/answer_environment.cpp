@@ -3,15 +3,18 @@
 
 namespace reflet {
 
-void answerEnvironment(gpu::Frame& f, Rays& rays, const GBuffer& g, const vec3& radiance,
+void answerEnvironment(gpu::Frame& f, Rays& rays, const GBuffer& g, const EnvironmentLight& environment,
                        const EnvironmentSettings& settings) {
-    f.compute("answer_environment", "answer_environment.comp")
-        .constant("lobe", rays.lobe)
+    gpu::Pass pass = f.compute("answer_environment", "answer_environment.comp");
+    bindEnvironment(pass, environment);
+    bindEnvironmentLobes(pass, f.device(), environment);
+    pass.constant("lobe", rays.lobe)
         .read("material", g.material)
+        .read("direction", rays.direction)
         .read("waiting", rays.waiting)
         .write("answer", rays.answer)
         .write("source", rays.source)
-        .params(AnswerEnvironmentParams{radiance, settings})
+        .params(AnswerEnvironmentParams{settings})
         .dispatchIndirect(rays.waiting, 0);
     rays.waiting = {};
 }

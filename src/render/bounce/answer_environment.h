@@ -9,13 +9,13 @@ SHARED_BEGIN
 // Hit distance of what has none [m]: far, and a half float.
 const float environmentDistance = 10000.0;
 
-#define ENVIRONMENT_SETTINGS(VALUE, SWITCH, CHOICE) \
-    VALUE(float, lostShare, 0.5, 0.0, 1.0,          \
+#define ENVIRONMENT_SETTINGS(VALUE, SWITCH, CHOICE)                                                              \
+    SWITCH(enabled, 1, "Rays that meet nothing get the environment; off: they get black. The background stays.") \
+    VALUE(float, lostShare, 0.5, 0.0, 1.0,                                                                       \
           "How much of the environment rays get of which the screen only knows that they went behind something.")
 SETTINGS(EnvironmentSettings, ENVIRONMENT_SETTINGS)
 
 struct AnswerEnvironmentParams {
-    vec3 radiance;  // the same in all directions
     EnvironmentSettings settings;
 };
 
@@ -25,13 +25,15 @@ SHARED_END
 
 #include "gpu/frame.h"
 #include "render/bounce/rays.h"
+#include "render/environment/environment_light.h"
 #include "render/gbuffer/gbuffer.h"
 
 namespace reflet {
 
-/// Answers all that waits. Diffuse rays from surfaces with an occlusion map get less of it: the map knows of nearby
-/// surfaces that the rays could not meet.
-void answerEnvironment(gpu::Frame& f, Rays& rays, const GBuffer& g, const vec3& radiance,
+/// Answers all that waits: single rays with the exact radiance, those that stand for a lobe or for the hemisphere
+/// (Ray.spread) with the filtered one. Diffuse rays from surfaces with an occlusion map get less of it: the map knows
+/// of nearby surfaces that the rays could not meet.
+void answerEnvironment(gpu::Frame& f, Rays& rays, const GBuffer& g, const EnvironmentLight& environment,
                        const EnvironmentSettings& settings);
 
 }  // namespace reflet

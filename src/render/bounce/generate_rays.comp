@@ -64,10 +64,6 @@ vec3 raiseAbove(vec3 direction, vec3 geometric) {
 // Below this perceptual roughness the lobe is narrower than anything on the screen.
 const float mirrorRoughness = 0.01;
 
-// Where a ray stands for all of the lobe (RougherSurfaces_mips): the share of the visible normals, the middle one first,
-// that it may be any of. The middle alone would print what it hits as a stencil, with edges as hard as a mirror's.
-const float coneShare = 0.1;
-
 // One of the microfacet normals that are seen from v reflects it. The weight is BRDF · cos / pdf over the directional
 // albedo, which composite multiplies in. One number for three colours: F0 by its luminance.
 Ray specularRay(ivec2 pixel, uint number, vec3 n, vec3 v, MaterialTexel m) {
@@ -78,9 +74,12 @@ Ray specularRay(ivec2 pixel, uint number, vec3 n, vec3 v, MaterialTexel m) {
     bool cone = m.roughness > params.specular.maxRoughness && params.specular.rougher == RougherSurfaces_mips;
     vec3 h = vec3(0.0, 0.0, 1.0);
     float share = 1.0;  // of the light along the ray that is not masked
+    if (cone && params.coneShare == 0.0) {
+        return Ray(frame * ggxMeanDirection(eye, alpha), 1.0, 1.0, m.roughness);
+    }
     if (m.roughness > mirrorRoughness) {
         vec2 u = randomPair(pixel, number);
-        h = sampleGgxVisible(cone ? u * vec2(coneShare, 1.0) : u, eye, alpha);
+        h = sampleGgxVisible(cone ? u * vec2(params.coneShare, 1.0) : u, eye, alpha);
     }
     vec3 l = 2.0 * dot(eye, h) * h - eye;
     if (cone) {

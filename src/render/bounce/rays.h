@@ -76,8 +76,10 @@ struct GenerateRaysParams {
     ViewParams view;
     DiffuseSettings diffuse;
     SpecularSettings specular;
-    uint firstRay;  // number of the batch's first ray in its pixel
-    uint rayCount;  // of the batch
+    uint firstRay;    // number of the batch's first ray in its pixel
+    uint rayCount;    // of the batch
+    float coneShare;  // where a ray stands for all of the lobe (RougherSurfaces_mips): the share of the visible
+                      // normals, the middle one first, that it may be any of; 0: it goes the lobe's mean way
 };
 
 struct ResolveRaysParams {

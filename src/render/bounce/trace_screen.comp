@@ -1,8 +1,11 @@
-// Marches waiting rays through the depth buffer; a hit takes the light that the screen shows there.
-// In: depth of both layers, geometric normal, motion, pyramid, light of this and the last frame and mips of
-// one of them, ray directions, the list. Out: answers, sources, steps, the list of misses.
+// Marches waiting rays through the depth buffer; a hit takes the light that the screen shows there. Or a mirror's picture
+// in the screen's place, for rays that start on the mirror.
+// In: depth and geometric normal that rays start from; of what they are traced through: depth of both layers, geometric
+// normal, motion, pyramid, light of this and the last frame and mips of one of them; ray directions, the list.
+// Out: answers, sources, steps, the list of misses.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
+#include "render/bounce/answer_environment.h"
 #include "render/bounce/rays.glsl"
 #include "render/bounce/trace_screen.h"
 #include "render/gbuffer/gbuffer.glsl"
@@ -15,9 +18,12 @@ layout(constant_id = 0) const uint method = 0u;
 layout(constant_id = 1) const uint secondLayer = 0u;
 layout(constant_id = 2) const uint countSteps = 0u;
 layout(constant_id = 3) const uint cones = 0u;
+layout(constant_id = 4) const uint through = 0u;
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { TraceScreenParams params; };
+layout(set = 0, binding = 14) uniform sampler2D ownDepth;
+layout(set = 0, binding = 16) uniform usampler2D ownGeometricNormal;
 layout(set = 0, binding = 1) uniform sampler2D depth;
 layout(set = 0, binding = 2) uniform usampler2D geometricNormal;
 layout(set = 0, binding = 3, rgba16f) uniform readonly image2D light;
@@ -100,6 +106,10 @@ MarchOptions marchOptions(float jitter) {
 }
 
 MarchResult traceRay(MarchRay ray, MarchOptions o, MarchView view) {
+    // An even mirror's rays go straight away from the mirrored camera, and stay in one pixel. Steps would pass over it.
+    if (through == throughMirror && all(lessThan(abs(makeScreenRay(ray, o.longest, view).delta.xy), vec2(1.0)))) {
+        return marchExhaustive(ray, o, view);
+    }
     switch (method) {
         case TraceMethod_halving:
             return marchHalving(ray, o, view);
@@ -127,17 +137,27 @@ float fadeOf(MarchResult hit, vec3 p, vec3 direction) {
     return edge * near * clamp(turned / max(s.cameraFade, 1e-6), 0.0, 1.0);
 }
 
-RayAnswer answerRay(ivec3 slot, Ray ray, inout WaitingRay w) {
+const RayAnswer noAnswer = RayAnswer(vec3(0.0), 0.0, 0.0);
+#include "render/planar/mirror_answers.glsl"
+
+// What the ray tells of its way goes to the next source, unless the one before knew more.
+void noteWay(MarchResult hit, bool lost, inout WaitingRay w) {
+    if (hit.clear >= w.clear) {
+        w.clear = hit.clear;
+        w.lost = lost;
+    }
+}
+
+RayAnswer traceAnswer(ivec3 slot, Ray ray, vec3 p, vec3 n, inout WaitingRay w) {
     float jitter = 1.0;
     if (params.settings.jitter != 0u) {
-        uint stream = (params.firstRay + uint(slot.z)) * 2u + 1u + hashPcg(params.view.seed);
-        jitter = 1.0 - hashToUnit(hashPixel(uvec2(slot.xy), stream, params.view.frame));
+        uint stream = (params.firstRay + uint(slot.z)) * 2u + 1u + hashPcg(params.own.seed);
+        jitter = 1.0 - hashToUnit(hashPixel(uvec2(slot.xy), stream, params.own.frame));
     }
     MarchView view = MarchView(params.view.worldToClip, params.view.clipToWorld, params.view.viewPlane,
                                params.view.depthToDistance, params.view.size);
-    vec3 p = uvToWorld(pixelToUv(slot.xy, params.view.pixel), loadDepth(slot.xy), params.view.clipToWorld);
-    vec3 n = unpackUnitVector(texelFetch(geometricNormal, slot.xy, 0).r);
-    vec4 ownPlane = planeOnScreen(p, n, params.view.clipToWorld);
+    // The mirror is not in its own view: all that the view shows can be hit.
+    vec4 ownPlane = through == throughScreen ? planeOnScreen(p, n, params.view.clipToWorld) : vec4(0.0, 0.0, 0.0, 1.0);
     MarchResult hit = traceRay(makeMarchRay(p, ray.direction, ownPlane, view), marchOptions(jitter), view);
     if (countSteps != 0u) {
         imageStore(steps, slot, vec4(float(hit.steps)));
@@ -145,13 +165,33 @@ RayAnswer answerRay(ivec3 slot, Ray ray, inout WaitingRay w) {
     // What it would see of a surface from behind, the screen does not show.
     bool facesAway = params.settings.rejectFacingAway != 0u && hit.outcome == marchHit &&
                      dot(unpackUnitVector(texelFetch(geometricNormal, hit.pixel, 0).r), ray.direction) > 0.0;
-    w.clear = hit.clear;
-    w.lost = hit.lost || facesAway;
+    noteWay(hit, hit.lost || facesAway, w);
+    if (through == throughMirror) {
+        return facesAway ? noAnswer : answerOfMirror(hit, p, ray);
+    }
     if (hit.outcome != marchHit || facesAway) {
-        return RayAnswer(vec3(0.0), 0.0, 0.0);
+        return noAnswer;
     }
     float width = cones != 0u ? widthOfHit(ray.spread, hit) : 1.0;
     return RayAnswer(lightAt(hit.pixel, width), ray.trust * fadeOf(hit, p, ray.direction), hit.distance);
+}
+
+RayAnswer answerRay(ivec3 slot, Ray ray, inout WaitingRay w) {
+    if (through == throughScreen && ray.trust == 0.0) {
+        return noAnswer;
+    }
+    vec3 p = uvToWorld(pixelToUv(slot.xy, params.own.pixel), texelFetch(ownDepth, slot.xy, 0).r, params.own.clipToWorld);
+    vec3 n = unpackUnitVector(texelFetch(ownGeometricNormal, slot.xy, 0).r);
+    if (through != throughScreen && !liesOnMirror(p, n)) {
+        return noAnswer;
+    }
+    if (through == throughMirrorLookup) {
+        return lookUpMirror(p);
+    }
+    if (through == throughMirrorCamera) {
+        return lookUpCamera(p);
+    }
+    return traceAnswer(slot, ray, p, n, w);
 }
 
 void main() {
@@ -159,11 +199,8 @@ void main() {
     for (uint i = gl_GlobalInvocationID.x; i < waiting.count; i += stride) {
         WaitingRay w = unpackWaitingRay(waiting.items[i]);
         Ray ray = unpackRay(imageLoad(direction, w.slot).xy);
-        RayAnswer a = RayAnswer(vec3(0.0), 0.0, 0.0);
-        if (ray.trust > 0.0) {
-            a = answerRay(w.slot, ray, w);
-        }
-        w.rest = addAnswer(w.slot, a, w.rest, sourceScreen);
+        RayAnswer a = answerRay(w.slot, ray, w);
+        w.rest = addAnswer(w.slot, a, w.rest, through == throughScreen ? sourceScreen : sourcePlanar);
         if (w.rest > 0.0) {
             appendRay(w);
         }

@@ -1,37 +1,79 @@
-// Records the screen as a source of answers.
+// Records the screen, and planar views, as sources of answers.
 #include "render/bounce/trace_screen.h"
 
 #include <algorithm>
+#include <string>
 
 namespace reflet {
 
-void traceScreen(gpu::Frame& f, Rays& rays, const ScreenImages& screen, const ViewParams& view,
-                 const TraceScreenSettings& settings, float longest) {
-    const GBuffer& g = screen.g;
-    const gpu::BufferView missed = makeRayList(f, rays, "rays.missed_by_screen");
-    f.compute("trace_screen", "trace_screen.comp")
-        .constant("method", static_cast<uint32_t>(settings.method))
-        .constant("secondLayer", screen.backDepth ? 1U : 0U)
-        .constant("cones", screen.lightMips ? 1U : 0U)
-        .constant("countSteps", rays.countSteps ? 1U : 0U)
-        .read("depth", g.depth)
-        .read("backDepth", screen.backDepth ? screen.backDepth : g.depth)
-        .read("pyramid", screen.pyramid ? screen.pyramid : g.depth)
-        .read("geometricNormal", g.geometricNormal)
-        .read("motion", g.motion)
-        .read("light", screen.light)
-        .read("previousLit", screen.lit.previous)
-        .read("lightMips", screen.lightMips ? screen.lightMips : screen.light)
+namespace {
+
+struct Trace {
+    const ScreenImages& own;
+    const ScreenImages& seen;
+    std::string_view missed;  // name of the list
+    uint32_t through = throughScreen;
+    MirrorParams mirror{};
+};
+
+// The pass as far as both sources have it in common. rays.waiting: what it answers, and then what it has missed.
+void record(gpu::Frame& f, gpu::Pass pass, Rays& rays, const Trace& trace, const TraceScreenSettings& settings,
+            float longest) {
+    const ScreenImages& seen = trace.seen;
+    const bool countSteps = rays.countSteps && trace.through == throughScreen;
+    const bool previous = trace.through == throughScreen && seen.lit.valid;
+    const gpu::BufferView missed = makeRayList(f, rays, trace.missed);
+    pass.constant("method", static_cast<uint32_t>(settings.method))
+        .constant("secondLayer", seen.backDepth ? 1U : 0U)
+        .constant("cones", seen.lightMips ? 1U : 0U)
+        .constant("countSteps", countSteps ? 1U : 0U)
+        .constant("through", trace.through)
+        .read("ownDepth", trace.own.g.depth)
+        .read("ownGeometricNormal", trace.own.g.geometricNormal)
+        .read("depth", seen.g.depth)
+        .read("backDepth", seen.backDepth ? seen.backDepth : seen.g.depth)
+        .read("pyramid", seen.pyramid ? seen.pyramid : seen.g.depth)
+        .read("geometricNormal", seen.g.geometricNormal)
+        .read("motion", seen.g.motion)
+        .read("light", seen.light)
+        .read("previousLit", previous ? seen.lit.previous : seen.light)
+        .read("lightMips", seen.lightMips ? seen.lightMips : seen.light)
         .read("direction", rays.direction)
         .read("waiting", rays.waiting)
         .write("answer", rays.answer)
         .write("source", rays.source)
         .write("steps", rays.steps)
         .write("missed", missed)
-        .params(TraceScreenParams{view, settings, std::min(longest, settings.maxDistance), rays.firstRay,
-                                  screen.lit.valid ? 1U : 0U})
+        .params(TraceScreenParams{trace.own.view, seen.view, trace.mirror, settings,
+                                  std::min(longest, settings.maxDistance), rays.firstRay, previous ? 1U : 0U})
         .dispatchIndirect(rays.waiting, 0);
     rays.waiting = missed;
+}
+
+uint32_t throughOf(PlanarForm form) {
+    switch (form) {
+        case PlanarForm::traced:
+            return throughMirror;
+        case PlanarForm::camera:
+            return throughMirrorCamera;
+        default:
+            return throughMirrorLookup;
+    }
+}
+
+}  // namespace
+
+void traceScreen(gpu::Frame& f, Rays& rays, const ScreenImages& screen, const TraceScreenSettings& settings,
+                 float longest) {
+    record(f, f.compute("trace_screen", "trace_screen.comp"), rays, {screen, screen, "rays.missed_by_screen"}, settings,
+           longest);
+}
+
+void traceMirror(gpu::Frame& f, Rays& rays, const ScreenImages& screen, const PlanarView& mirror,
+                 const TraceScreenSettings& settings, float longest) {
+    const std::string missed = "rays.missed_by_" + mirror.name;
+    record(f, f.compute("trace_mirror", "trace_screen.comp"), rays,
+           {screen, mirror.seen, missed, throughOf(mirror.form), mirror.mirror}, settings, longest);
 }
 
 }  // namespace reflet

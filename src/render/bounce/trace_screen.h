@@ -1,8 +1,10 @@
-// The first source of the chain: rays marched through what the camera sees. Shared by C++ and GLSL.
+// The first source of the chain: rays marched through what the camera sees; and, by the same passes, the planar views:
+// rays marched through what the mirrored camera sees. Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_TRACE_SCREEN_H
 #define REFLET_RENDER_TRACE_SCREEN_H
 
 #include "base/shared.h"
+#include "render/planar/planar.h"
 #include "render/view.h"
 
 SHARED_BEGIN
@@ -60,8 +62,16 @@ CHOICES(HitLight, HIT_LIGHTS)
     SWITCH(countSteps, 0, "Keep how many depth samples each ray took (--show steps does so by itself).")
 SETTINGS(TraceScreenSettings, TRACE_SCREEN_SETTINGS)
 
+// What rays are asked of, as the specialization constant `through`.
+const uint throughScreen = 0;
+const uint throughMirror = 1;        // a mirrored camera's picture: marched
+const uint throughMirrorLookup = 2;  // any camera's picture, where it shows the ray's own start
+const uint throughMirrorCamera = 3;  // a picture that lies on the mirror
+
 struct TraceScreenParams {
-    ViewParams view;
+    ViewParams own;   // of the surfaces that rays leave
+    ViewParams view;  // that they are traced through
+    MirrorParams mirror;
     TraceScreenSettings settings;
     float longest;  // metres: no ray goes farther
     uint firstRay;
@@ -76,11 +86,14 @@ SHARED_END
 #include "render/bounce/rays.h"
 #include "render/gbuffer/gbuffer.h"
 
+#include <string>
+
 namespace reflet {
 
 /// What rays are traced through, and the light that they find.
 struct ScreenImages {
-    const GBuffer& g;
+    GBuffer g;
+    ViewParams view;
     gpu::Image backDepth;  ///< drawBackDepth; only where settings.thicknessFrom is secondLayer
     gpu::Image pyramid;    ///< makePyramid; for hiz only
     gpu::Image light;      ///< RGBA16F: of this frame
@@ -91,7 +104,21 @@ struct ScreenImages {
 
 /// Answers rays that hit what the screen shows with the light there. Hands on the others. longest: of the lobe's rays
 /// [m].
-void traceScreen(gpu::Frame& f, Rays& rays, const ScreenImages& screen, const ViewParams& view,
+void traceScreen(gpu::Frame& f, Rays& rays, const ScreenImages& screen, const TraceScreenSettings& settings,
+                 float longest);
+
+/// What a mirror shows.
+struct PlanarView {
+    std::string name;   ///< another for each of a frame's
+    ScreenImages seen;  ///< by the mirrored camera (traced, lookup), from the camera itself (duplicate), by the
+                        ///< mirror's (camera); `lit` is not used
+    MirrorParams mirror;
+    PlanarForm form = PlanarForm::traced;
+};
+
+/// Answers rays that start on the mirror with what its view shows; what that cannot say, it hands on. screen: which
+/// they start from.
+void traceMirror(gpu::Frame& f, Rays& rays, const ScreenImages& screen, const PlanarView& mirror,
                  const TraceScreenSettings& settings, float longest);
 
 }  // namespace reflet

@@ -1,7 +1,9 @@
-// Direct light of sun and lamps, emission and background. In: G-buffer, visibility of sun and lamps. Out: direct radiance.
+// Direct light of sun and lamps, emission and background. In: G-buffer, visibility of sun and lamps, lamps of each tile.
+// Out: direct radiance.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/direct/direct.h"
+#include "render/environment/environment.glsl"
 #include "render/gbuffer/gbuffer.glsl"
 #include "shaders/half_float.glsl"
 #include "shaders/lamp.glsl"
@@ -18,16 +20,26 @@ layout(set = 0, binding = 6) uniform sampler2D emissive;
 layout(set = 0, binding = 7) uniform sampler2D sunVisibility;
 layout(set = 0, binding = 8) uniform sampler2DArray lampVisibility;
 layout(set = 0, binding = 9) uniform sampler2D ggxTable;
-layout(set = 0, binding = 10, rgba16f) uniform writeonly image2D direct;
+layout(set = 0, binding = 10) uniform usampler2DArray lampMasks;
+layout(set = 0, binding = 11, rgba16f) uniform writeonly image2D direct;
+
+uvec4 loadLampMask(ivec3 texel) { return texelFetch(lampMasks, texel, 0); }
+#include "shaders/lamp_mask.glsl"
 
 float visibilityOfLamp(uint shadow, ivec2 pixel) {
     return shadow == noLampShadow ? 1.0 : texelFetch(lampVisibility, ivec3(pixel, shadow / 4u), 0)[shadow % 4u];
 }
 
+vec3 lampLight(uint index, Surface s, vec3 p, vec3 n, vec3 v, ivec2 pixel) {
+    vec3 toLamp;
+    vec3 irradiance = lampIrradiance(lampBlock.lamps[index], p, toLamp);
+    return reflectLight(s, n, v, toLamp) * irradiance * visibilityOfLamp(lampBlock.lamps[index].shadow, pixel);
+}
+
 vec3 radianceAt(ivec2 pixel) {
     float d = texelFetch(depth, pixel, 0).r;
     if (d <= 0.0) {
-        return params.background;
+        return environmentRadiance(viewDirection(pixelToUv(pixel, params.view.pixel), params.view.clipToWorld, params.view.eye));
     }
     vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
     vec3 n = unpackUnitVector(texelFetch(normal, pixel, 0).r);
@@ -38,10 +50,11 @@ vec3 radianceAt(ivec2 pixel) {
     float visibility = texelFetch(sunVisibility, pixel, 0).r;
     vec3 radiance = texelFetch(emissive, pixel, 0).rgb;
     radiance += reflectLight(s, n, v, params.toSun) * params.sunIrradiance * visibility;
-    for (uint i = 0u; i < lampBlock.count; ++i) {
-        vec3 toLamp;
-        vec3 irradiance = lampIrradiance(lampBlock.lamps[i], p, toLamp);
-        radiance += reflectLight(s, n, v, toLamp) * irradiance * visibilityOfLamp(lampBlock.lamps[i].shadow, pixel);
+    for (uint first = 0u; first < lampBlock.count; first += lampsPerLayer) {
+        uvec4 bits = lampsOfPixel(pixel, first / lampsPerLayer);
+        while (bits != uvec4(0u)) {
+            radiance += lampLight(first + takeFirstLamp(bits), s, p, n, v, pixel);
+        }
     }
     return radiance;
 }

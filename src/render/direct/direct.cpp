@@ -19,15 +19,16 @@ gpu::Texture makeGgxTable(gpu::Frame& f) {
 }
 
 gpu::Image directLight(gpu::Frame& f, const GBuffer& g, const LightVisibility& visibility, gpu::Image ggxTable,
-                       const DirectParams& params, const LampBlock& lamps) {
+                       const DirectParams& params, const DirectLights& lights) {
     const gpu::Image direct = f.image("direct", VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size);
     // Bound, but not read where no lamp casts a shadow.
     const gpu::Image lampVisibility =
         visibility.lamps ? visibility.lamps
                          : f.image("no_lamp_visibility", VK_FORMAT_R8G8B8A8_UNORM, uvec2(1), 1, /*array=*/true);
     const VkSampler linear = f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR});
-    f.compute("direct", "direct.comp")
-        .read("depth", g.depth)
+    gpu::Pass pass = f.compute("direct", "direct.comp");
+    bindEnvironment(pass, lights.environment);
+    pass.read("depth", g.depth)
         .read("normal", g.normal)
         .read("baseColor", g.baseColor)
         .read("material", g.material)
@@ -35,9 +36,10 @@ gpu::Image directLight(gpu::Frame& f, const GBuffer& g, const LightVisibility& v
         .read("sunVisibility", visibility.sun)
         .read("lampVisibility", lampVisibility)
         .read("ggxTable", ggxTable, linear)
+        .read("lampMasks", visibility.lampMasks)
         .write("direct", direct)
         .params(params)
-        .params(lamps, "lampBlock")
+        .params(lights.lamps, "lampBlock")
         .dispatch(direct.size);
     return direct;
 }

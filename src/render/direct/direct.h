@@ -12,7 +12,6 @@ struct DirectParams {
     ViewParams view;
     vec3 toSun;
     vec3 sunIrradiance;  // on a surface that faces it [W/m²]
-    vec3 background;     // radiance of the sky
 };
 
 SHARED_END
@@ -20,6 +19,7 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "gpu/frame.h"
+#include "render/environment/environment_light.h"
 #include "render/gbuffer/gbuffer.h"
 
 namespace reflet {
@@ -30,12 +30,19 @@ gpu::Texture makeGgxTable(gpu::Frame& f);
 /// What of the lights reaches a pixel.
 struct LightVisibility {
     gpu::Image sun;
-    gpu::Image lamps;  ///< a layer for four lamps, by LampParams::shadow; none where no lamp casts a shadow
+    gpu::Image lamps;      ///< a layer for four lamps, by LampParams::shadow; none where no lamp casts a shadow
+    gpu::Image lampMasks;  ///< of findLampTiles
+};
+
+/// What shines, besides the sun.
+struct DirectLights {
+    const LampBlock& lamps;
+    const EnvironmentLight& environment;  ///< the background
 };
 
 /// RGBA16F: radiance of direct light, emission and background, alpha 1.
 gpu::Image directLight(gpu::Frame& f, const GBuffer& g, const LightVisibility& visibility, gpu::Image ggxTable,
-                       const DirectParams& params, const LampBlock& lamps);
+                       const DirectParams& params, const DirectLights& lights);
 
 }  // namespace reflet
 #endif

@@ -3,7 +3,18 @@
 
 namespace reflet {
 
-GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view, const MaterialsSettings& settings) {
+namespace {
+
+bool isInFront(const Aabb& box, const vec4& plane) {
+    const vec3 farthest = glm::mix(box.min, box.max, glm::greaterThan(vec3(plane), vec3(0.0F)));
+    return glm::dot(plane, vec4(farthest, 1.0F)) > 0.0F;
+}
+
+}  // namespace
+
+GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view, const MaterialsSettings& settings,
+                    const vec4& clipPlane) {
+    const bool clipped = clipPlane != vec4(0.0F);
     const uvec2 size(view.size);
     const GBuffer g{
         .depth = f.target("depth", VK_FORMAT_D32_SFLOAT, size),
@@ -15,7 +26,11 @@ GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view,
         .motion = f.target("motion", VK_FORMAT_R16G16_SFLOAT, size),
     };
     const VkClearColorValue zero{};
-    f.raster("gbuffer", {"gbuffer.vert", "gbuffer.frag"})
+    gpu::Pass pass = f.raster("gbuffer", {"gbuffer.vert", "gbuffer.frag"});
+    for (const gpu::Image picture : list.livePictures) {
+        pass.read(picture);
+    }
+    pass.constant("clipped", clipped ? 1U : 0U)
         .color("outBaseColor", g.baseColor, zero)
         .color("outNormal", g.normal, zero)
         .color("outGeometricNormal", g.geometricNormal, zero)
@@ -24,9 +39,10 @@ GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view,
         .color("outMotion", g.motion, zero)
         .depth(g.depth, 0.0F)
         .vertices(vertexLayout(), list.materialLayout)
-        .params(GBufferParams{view, settings})
+        .params(GBufferParams{view, settings, clipPlane})
         .draw([&](const gpu::DrawCommands& to) {
-            recordDraws(to, list, {[](const Draw&) { return true; }, Cull::back, true, view.worldToClip}, true);
+            const auto keep = [&](const Draw& draw) { return !clipped || isInFront(draw.boundsW, clipPlane); };
+            recordDraws(to, list, {keep, Cull::back, true, view.worldToClip}, true);
         });
     return g;
 }

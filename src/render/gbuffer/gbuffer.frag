@@ -4,6 +4,8 @@
 #include "render/gbuffer/gbuffer.glsl"
 #include "render/material.glsl"
 
+layout(constant_id = 0) const uint clipped = 0u;
+
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { GBufferParams params; };
 
 layout(location = 0) in vec3 normalW;
@@ -47,6 +49,10 @@ vec3 shadingNormal() {
 void main() {
     vec3 n = shadingNormal();
     uint packedGeometric = packUnitVector(geometricNormal(n));  // derivatives come before any discard
+    vec3 positionW = fromEye + params.view.eye.xyz * params.view.eye.w;
+    if (clipped != 0u && dot(params.clipPlane, vec4(positionW, 1.0)) <= 0.0) {
+        discard;
+    }
     vec4 baseColor;
     if (!materialBaseColor(uv.xy, uv.zw, vertexColor, baseColor)) {
         discard;

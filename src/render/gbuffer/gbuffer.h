@@ -21,6 +21,7 @@ const uint materialFlagLambert = 1;
 struct GBufferParams {
     ViewParams view;
     MaterialsSettings settings;
+    vec4 clipPlane;  // world space: only what is in front of it, dot(clipPlane, (p, 1)) > 0, is drawn
 };
 
 SHARED_END
@@ -46,8 +47,12 @@ struct GBuffer {
     gpu::Image motion;     ///< RG16F: uv now minus uv last frame
 };
 
-/// Draws the list as seen by the view: reversed Z, back faces of single-sided draws culled.
-GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view, const MaterialsSettings& settings);
+/// Draws the list as seen by the view: reversed Z, back faces of single-sided draws culled. clipPlane: as in
+/// GBufferParams; zero: everything is drawn. A plane that pixels are tested against leaves depth as it is; one that is
+/// the projection's near plane (Lengyel, Oblique View Frustum Depth Projection and Clipping, 2005) would bend it, and
+/// rays that are marched through depth rely on distance = near / depth.
+GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view, const MaterialsSettings& settings,
+                    const vec4& clipPlane = vec4(0.0F));
 
 }  // namespace reflet
 #endif

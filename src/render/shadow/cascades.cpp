@@ -17,6 +17,24 @@ struct DepthRange {
     float far = 0.0F;    // nothing of the scene is farther
 };
 
+vec3 middleOfView(const ViewParams& view) {
+    const vec4 p = view.clipToWorld * vec4(0, 0, 0.5F, 1);
+    return vec3(p) / p.w;
+}
+
+// From the camera's axis to the corners of what the view shows, per metre from the camera (orthographic: metres). A
+// view may be a part of a wider one, with its middle off the axis.
+float cornerSlope(const ViewParams& view) {
+    const float half = 0.5F * view.pixelAngle * glm::length(view.size);
+    if (view.eye.w == 0.0F) {
+        return half;
+    }
+    const vec3 toMiddle = middleOfView(view) - vec3(view.eye);
+    const float ahead = glm::dot(vec3(view.viewPlane), toMiddle);
+    const float aside = glm::length(toMiddle - vec3(view.viewPlane) * ahead) / ahead;
+    return half + (aside > 1e-3F ? aside : 0.0F);  // less is rounding, which would change with every turn
+}
+
 // Turning a camera leaves all three as they are, and moving it changes them in steps only.
 DepthRange depthRangeOf(const ViewParams& view, const Aabb& scene) {
     const bool orthographic = view.eye.w == 0.0F;
@@ -37,7 +55,7 @@ DepthRange depthRangeOf(const ViewParams& view, const Aabb& scene) {
     range.far = steppedUp(farthest);
     const float begin = nearest > 0.0F ? 1.0F / steppedUp(1.0F / nearest) : 0.0F;
     // To the side of the view, what is `begin` away is not so far in front of the camera.
-    const float corner = 0.5F * view.pixelAngle * glm::length(view.size);
+    const float corner = cornerSlope(view);
     range.first = orthographic ? begin : begin / std::sqrt(1.0F + corner * corner);
     range.near = std::max(begin, range.far * nearestSplit);
     return range;
@@ -50,15 +68,14 @@ struct Sphere {
 
 // The smallest around what the view sees between two distances.
 Sphere boundingSphere(const ViewParams& view, float begin, float end) {
-    const float slope = 0.5F * view.pixelAngle * glm::length(view.size);  // of the view's corners
+    const float slope = cornerSlope(view);
     const bool orthographic = view.eye.w == 0.0F;
     const float beginRadius = orthographic ? slope : slope * begin;
     const float endRadius = orthographic ? slope : slope * end;
     // As far from the corners of the one side as from those of the other, but not beyond the farther side.
     const float middle = 0.5F * (begin + end + (endRadius * endRadius - beginRadius * beginRadius) / (end - begin));
     const float along = std::min(middle, end);
-    const vec4 axisPoint = view.clipToWorld * vec4(0, 0, 0.5F, 1);
-    const vec3 onAxis = vec3(axisPoint) / axisPoint.w;
+    const vec3 onAxis = orthographic ? middleOfView(view) : vec3(view.eye);
     const float ahead = glm::dot(view.viewPlane, vec4(onAxis, 1.0F));
     return {onAxis + vec3(view.viewPlane) * (along - ahead), std::hypot(end - along, endRadius)};
 }

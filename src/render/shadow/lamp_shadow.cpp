@@ -35,9 +35,11 @@ bool hasOneTile(const LampParams& lamp) {
     return lamp.type == lampSpot && lamp.cosOuter > std::cos(glm::radians(widestSpot));
 }
 
-LampShadow shadowOf(const LampParams& lamp, uint32_t firstTile, uint32_t tileSize) {
+LampShadow shadowOf(const LampBlock& lamps, uint32_t index, uint32_t firstTile, uint32_t tileSize) {
+    const LampParams& lamp = lamps.lamps[index];
     LampShadow shadow{};
     shadow.lamp = lamp;
+    shadow.index = index;
     shadow.near = std::max(lamp.radius, 1e-3F);  // lampClearance of scene.h
     shadow.firstTile = firstTile;
     shadow.tiles = cubeFaces;
@@ -129,9 +131,8 @@ LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, ui
         shadows.tileSize /= 2;
     }
     for (uint32_t i = 0, tile = 0; i < shadows.count; tile += shadows.lamps[i++].tiles) {
-        LampParams& lamp = lamps.lamps[indices[i]];
-        lamp.shadow = i;
-        shadows.lamps[i] = shadowOf(lamp, tile, shadows.tileSize);
+        lamps.lamps[indices[i]].shadow = i;
+        shadows.lamps[i] = shadowOf(lamps, indices[i], tile, shadows.tileSize);
     }
     if (shadows.tileSize < settings.lampResolution) {
         warn(
@@ -166,7 +167,7 @@ gpu::Image drawLampShadowMap(gpu::Frame& f, const DrawList& list, const LampShad
     return map;
 }
 
-gpu::Image lampVisibility(gpu::Frame& f, const GBuffer& g, const ShadowInputs& in, const LampShadows& shadows,
+gpu::Image lampVisibility(gpu::Frame& f, const GBuffer& g, const LampShadowInputs& in, const LampShadows& shadows,
                           const LampVisibilityParams& params) {
     const uint32_t layers = (shadows.count + 3) / 4;
     const gpu::Image visibility =
@@ -175,12 +176,13 @@ gpu::Image lampVisibility(gpu::Frame& f, const GBuffer& g, const ShadowInputs& i
         .read("depth", g.depth)
         .read("geometricNormal", g.geometricNormal)
         .read("shadowMap", in.map)
+        .read("lampMasks", in.masks)
         .read("blueNoise", in.blueNoise)
         .write("visibility", visibility)
         .params(params)
         .params(shadows, "shadowBlock")
         .constant("filterKind", static_cast<uint32_t>(params.settings.filter))
-        .dispatch(visibility.size.x, visibility.size.y, layers);
+        .dispatch(visibility.size);
     return visibility;
 }
 

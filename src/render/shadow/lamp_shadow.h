@@ -23,6 +23,7 @@ const float lampSearchTangent = 0.1;
 // axes a + 1, a + 2 (modulo 3) for x and y, and plus or minus a for z.
 struct LampShadow {
     LampParams lamp;
+    uint index;         // of the lamp, among all
     mat3 worldToTile;   // of directions, for a single tile
     float halfTangent;  // the tile reaches to ±halfTangent · z along x and y
     float near;         // what is nearer along z casts nothing; depth = near / z [m]
@@ -68,9 +69,15 @@ LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, ui
 /// Draws depth as the lamps see it, both sides of every surface: D32, reversed (near / distance along the tile's axis).
 gpu::Image drawLampShadowMap(gpu::Frame& f, const DrawList& list, const LampShadows& shadows);
 
-/// `in` has no range. RGBA8, a layer for four lamps, a channel for each: 1 lit; 0 in shadow and where none of the
+struct LampShadowInputs {
+    gpu::Image map;    ///< of drawLampShadowMap
+    gpu::Image masks;  ///< which lamps may light which tile, as lamps.h says
+    gpu::BufferView blueNoise;
+};
+
+/// RGBA8, a layer for four lamps, a channel for each: 1 lit; 0 in shadow and where none of the
 /// lamp's light arrives.
-gpu::Image lampVisibility(gpu::Frame& f, const GBuffer& g, const ShadowInputs& in, const LampShadows& shadows,
+gpu::Image lampVisibility(gpu::Frame& f, const GBuffer& g, const LampShadowInputs& in, const LampShadows& shadows,
                           const LampVisibilityParams& params);
 
 }  // namespace reflet

@@ -1,5 +1,5 @@
-// How much of each lamp that casts shadows a pixel sees, four lamps at a time: one texel, PCF or PCSS. In: depth,
-// geometric normal, the lamps' shadow maps, blue noise. Out: visibility, 1 lit.
+// How much a pixel sees of each lamp that casts shadows and may reach it: one texel, PCF or PCSS. In: depth, geometric
+// normal, the lamps' shadow maps, which lamps reach which tile, blue noise. Out: visibility, 1 lit.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/shadow/lamp_shadow.h"
@@ -15,10 +15,13 @@ layout(set = 0, binding = 2) uniform sampler2D depth;
 layout(set = 0, binding = 3) uniform usampler2D geometricNormal;
 layout(set = 0, binding = 4) uniform sampler2D shadowMap;
 layout(set = 0, binding = 5, scalar) readonly buffer BlueNoise { uint texels[]; } blueNoise;
+layout(set = 0, binding = 7) uniform usampler2DArray lampMasks;
 layout(set = 0, binding = 6, rgba8) uniform writeonly image2DArray visibility;
 
 uint loadBlueNoise(uint texel) { return blueNoise.texels[texel]; }
 float loadLampDepth(ivec2 texel) { return texelFetch(shadowMap, texel, 0).r; }
+uvec4 loadLampMask(ivec3 texel) { return texelFetch(lampMasks, texel, 0); }
+#include "shaders/lamp_mask.glsl"
 #include "shaders/lamp_shadow.glsl"
 #include "shaders/shadow_noise.glsl"
 
@@ -101,15 +104,24 @@ void main() {
     if (any(greaterThanEqual(pixel, ivec2(params.view.size)))) {
         return;
     }
+    float results[maxShadowedLamps];
+    for (uint i = 0u; i < maxShadowedLamps; ++i) {
+        results[i] = 0.0;
+    }
+    uint lamps = 0u;  // that may light the pixel: a bit for each
+    for (uint i = 0u; i < shadowBlock.count; ++i) {
+        lamps |= lampMayReach(pixel, shadowBlock.lamps[i].index) ? 1u << i : 0u;
+    }
     float d = texelFetch(depth, pixel, 0).r;
-    vec4 result = vec4(0.0);
     if (d > 0.0) {
         vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
         vec3 n = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
-        uint first = 4u * gl_GlobalInvocationID.z;
-        for (uint i = first; i < min(first + 4u, shadowBlock.count); ++i) {
-            result[i - first] = visibilityAt(pixel, i, p, n);
+        for (; lamps != 0u; lamps &= lamps - 1u) {
+            uint i = uint(findLSB(lamps));
+            results[i] = visibilityAt(pixel, i, p, n);
         }
     }
-    imageStore(visibility, ivec3(pixel, gl_GlobalInvocationID.z), result);
+    for (uint i = 0u; i < shadowBlock.count; i += 4u) {
+        imageStore(visibility, ivec3(pixel, i / 4u), vec4(results[i], results[i + 1u], results[i + 2u], results[i + 3u]));
+    }
 }

@@ -5,25 +5,25 @@
 
 namespace reflet {
 
-DirectRays directByRays(gpu::Frame& f, const GBuffer& g, const TracedScene& scene, gpu::Image ggxTable,
-                        const LampBlock& lamps, const DirectRaysParams& params) {
+DirectRays directByRays(gpu::Frame& f, const GBuffer& g, const DirectRaysInputs& in, const DirectRaysParams& params) {
     const uvec2 size = g.depth.size;
     const DirectRays out{.direct = f.image("direct", VK_FORMAT_R16G16B16A16_SFLOAT, size),
                          .sunVisibility = f.image("sun_visibility", VK_FORMAT_R8_UNORM, size)};
-    gpu::Pass pass = f.compute("direct_rays", scene.rays.shader("direct_rays"));
-    scene.rays.bind(pass);
-    scene.surfaces.bind(pass);
+    gpu::Pass pass = f.compute("direct_rays", in.scene.rays.shader("direct_rays"));
+    in.scene.rays.bind(pass);
+    in.scene.surfaces.bind(pass);
+    bindEnvironment(pass, in.environment);
     pass.read("depth", g.depth)
         .read("normal", g.normal)
         .read("geometricNormal", g.geometricNormal)
         .read("baseColor", g.baseColor)
         .read("material", g.material)
         .read("emissive", g.emissive)
-        .read("ggxTable", ggxTable, f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
+        .read("ggxTable", in.ggxTable, f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
         .write("direct", out.direct)
         .write("sunVisibility", out.sunVisibility)
         .params(params)
-        .params(lamps, "lampBlock")
+        .params(in.lamps, "lampBlock")
         .dispatch(size);
     return out;
 }

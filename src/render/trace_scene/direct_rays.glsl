@@ -1,5 +1,6 @@
 // Direct light of sun and lamps with shadow rays, emission and background. direct_rays.comp and direct_rays_query.comp
 // include it after their traversal. In: G-buffer, GGX table, lamps. Out: direct radiance, the sun's visibility.
+#include "render/environment/environment.glsl"
 #include "render/gbuffer/gbuffer.glsl"
 #include "render/lamps.h"
 #include "render/trace_scene/direct_rays.h"
@@ -45,7 +46,7 @@ void main() {
         return;
     }
     float d = texelFetch(depth, pixel, 0).r;
-    vec3 radiance = params.background;
+    vec3 radiance;
     float visible = 1.0;
     if (d > 0.0) {
         LitPoint at = pointAt(pixel, d);
@@ -59,6 +60,10 @@ void main() {
         }
         radiance = texelFetch(emissive, pixel, 0).rgb + sum / float(params.rays);
         visible /= float(params.rays);
+    }
+    if (d <= 0.0) {
+        radiance = environmentRadiance(
+            viewDirection(pixelToUv(pixel, params.view.pixel), params.view.clipToWorld, params.view.eye));
     }
     imageStore(direct, pixel, vec4(clampToHalf(radiance), 1.0));
     imageStore(sunVisibility, pixel, vec4(visible));

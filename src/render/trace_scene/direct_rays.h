@@ -11,8 +11,7 @@ SHARED_BEGIN
 struct DirectRaysParams {
     ViewParams view;
     SceneLights lights;
-    vec3 background;  // radiance of the sky
-    uint rays;        // to the sun, and to lamps
+    uint rays;  // to the sun, and to lamps
 };
 
 SHARED_END
@@ -24,13 +23,20 @@ SHARED_END
 
 namespace reflet {
 
+/// What is lit, and by what.
+struct DirectRaysInputs {
+    const TracedScene& scene;
+    gpu::Image ggxTable;
+    const EnvironmentLight& environment;  ///< the background
+    const LampBlock& lamps;
+};
+
 struct DirectRays {
     gpu::Image direct;         ///< RGBA16F, as of directLight
     gpu::Image sunVisibility;  ///< R8: share of the rays to the sun's disk that nothing hides, 1 in the sky
 };
 
-DirectRays directByRays(gpu::Frame& f, const GBuffer& g, const TracedScene& scene, gpu::Image ggxTable,
-                        const LampBlock& lamps, const DirectRaysParams& params);
+DirectRays directByRays(gpu::Frame& f, const GBuffer& g, const DirectRaysInputs& in, const DirectRaysParams& params);
 
 }  // namespace reflet
 #endif

@@ -20,12 +20,13 @@ gpu::Buffer upload(gpu::Device& device, const std::vector<T>& items, const char*
 }
 
 // A triangle's corners, as acceleration structures are built from them, begin every 16 bytes.
-constexpr uint32_t cornerStride = offsetof(SceneTriangle, b);
+constexpr size_t cornerStride = offsetof(SceneTriangle, b);
 static_assert(sizeof(SceneTriangle) == 3 * cornerStride && offsetof(SceneTriangle, c) == 2 * cornerStride);
 
 }  // namespace
 
-SceneRays::SceneRays(gpu::Device& device, const Scene& scene) : SceneRays(device, scene, device.hasRayQuery() ? RayMethod::query : RayMethod::traversal) {}
+SceneRays::SceneRays(gpu::Device& device, const Scene& scene)
+    : SceneRays(device, scene, device.hasRayQuery() ? RayMethod::query : RayMethod::traversal) {}
 
 SceneRays::SceneRays(gpu::Device& device, const Scene& scene, RayMethod method) : method_(method) {
     std::vector<SceneTriangle> triangles = sceneTriangles(scene);
@@ -46,7 +47,7 @@ SceneRays::SceneRays(gpu::Device& device, const Scene& scene, RayMethod method) 
     const bool cutOut =
         std::ranges::any_of(triangles, [](const SceneTriangle& t) { return (t.flags & triangleCutOut) != 0; });
     acceleration_ = gpu::AccelerationStructure(
-        device, {triangles_, cornerStride, static_cast<uint32_t>(triangles.size()), !cutOut});
+        device, {triangles_, static_cast<uint32_t>(cornerStride), static_cast<uint32_t>(triangles.size()), !cutOut});
 }
 
 std::string SceneRays::shader(std::string_view name) const {

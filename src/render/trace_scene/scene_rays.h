@@ -46,7 +46,7 @@ private:
     RayMethod method_;
     uint32_t triangleCount_ = 0;
     gpu::Buffer triangles_;
-    gpu::Buffer nodes_;                         ///< traversal
+    gpu::Buffer nodes_;                        ///< traversal
     gpu::AccelerationStructure acceleration_;  ///< query
 };
 

@@ -14,6 +14,7 @@ void traceScene(gpu::Frame& f, Rays& rays, const TraceSceneInputs& in, uint32_t 
     gpu::Pass pass = f.compute("trace_scene", in.scene.rays.shader("trace_scene"));
     in.scene.rays.bind(pass);
     in.scene.surfaces.bind(pass);
+    bindEnvironment(pass, in.environment);
     pass.constant("lobe", rays.lobe)
         .constant("sunShadows", sunShadows)
         .constant("reuseScreen", reuse ? 1U : 0U)
@@ -22,7 +23,7 @@ void traceScene(gpu::Frame& f, Rays& rays, const TraceSceneInputs& in, uint32_t 
         .read("material", g.material)
         .read("motion", g.motion)
         .read("light", in.screen.light)
-        .read("previousLit", in.screen.lit.previous)
+        .read("previousLit", in.screen.lit.previous ? in.screen.lit.previous : in.screen.light)
         .read("shadowMap", in.shadowMap ? in.shadowMap : g.depth)
         .read("ggxTable", in.ggxTable, f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
         .read("blueNoise", in.blueNoise)

@@ -2,6 +2,7 @@
 // after their traversal.
 // In: depth, geometric normal, material, motion, light of this and the last frame, the sun's shadow map, GGX table, blue
 // noise, lamps, ray directions, the list. Out: answers, sources, the list of what it has not answered.
+#include "render/environment/environment.glsl"
 #include "render/bounce/rays.glsl"
 #include "render/gbuffer/gbuffer.glsl"
 #include "render/lamps.h"
@@ -66,8 +67,6 @@ float sunMapVisibility(vec3 p, vec3 normal) {
     return -1.0;
 }
 #include "render/trace_scene/scene_light.glsl"
-
-vec3 environmentRadiance(vec3 towards) { return params.lights.environment; }
 
 // Below this perceptual roughness a lobe is narrower than anything it could show.
 const float mirrorRoughness = 0.01;

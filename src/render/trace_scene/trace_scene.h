@@ -47,7 +47,6 @@ struct SceneLights {
     float sunSine;       // of half the sun's angular diameter
     vec3 sunIrradiance;  // on a surface that faces it [W/m²]
     uint allLampsCast;   // 1: all lamps cast shadows; 0: those that LampParams::shadow says
-    vec3 environment;    // radiance from all directions
     uint lambertOnly;    // 1: materials are Lambert of their base colour
 };
 
@@ -76,6 +75,7 @@ SHARED_END
 
 #include "gpu/frame.h"
 #include "render/bounce/trace_screen.h"
+#include "render/environment/environment_light.h"
 #include "render/lamps.h"
 #include "render/trace_scene/scene_rays.h"
 #include "render/trace_scene/scene_surfaces.h"
@@ -95,6 +95,7 @@ struct TraceSceneInputs {
     gpu::Image shadowMap;  ///< of the sun; none: it has no shadows, or rays find them
     gpu::Image ggxTable;
     gpu::BufferView blueNoise;
+    const EnvironmentLight& environment;
     const LampBlock& lamps;
 };
 

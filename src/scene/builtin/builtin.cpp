@@ -9,7 +9,7 @@
 namespace reflet {
 namespace {
 
-constexpr std::array<BuiltinScene, 7> scenes{{
+constexpr std::array<BuiltinScene, 8> scenes{{
     {"cubes", "a polished box and painted cubes on labelled tiles: first steps, reflections, contact",
      builtin::makeCubes},
     {"tilted-cube", "a tilted patterned box above a plain glossy ground: what a reflection can and cannot know",
@@ -20,6 +20,7 @@ constexpr std::array<BuiltinScene, 7> scenes{{
     {"colonnade", "columns, thin bars at 1, 2 and 5 m and a pierced panel: shadows", builtin::makeColonnade},
     {"mirror-hall", "a hall with a mirror wall and a mirror floor: reflections of reflections",
      builtin::makeMirrorHall},
+    {"lamps", "a court at night under a hundred lamps: many lamps of limited range", builtin::makeLamps},
 }};
 
 }  // namespace

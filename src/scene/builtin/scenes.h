@@ -12,5 +12,6 @@ Scene makeCave();
 Scene makeGloss();
 Scene makeColonnade();
 Scene makeMirrorHall();
+Scene makeLamps();
 
 }  // namespace reflet::builtin

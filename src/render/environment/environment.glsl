@@ -1,0 +1,23 @@
+// Radiance of the environment along a direction, exactly. bindEnvironment (environment_light.h) binds it. A pass that
+// includes this leaves the bindings from 100 on alone.
+#ifndef REFLET_ENVIRONMENT_GLSL
+#define REFLET_ENVIRONMENT_GLSL
+
+#include "render/environment/environment_light.h"
+#include "render/environment/equirectangular.glsl"
+
+layout(set = 0, binding = 100, scalar) uniform EnvironmentUniforms { EnvironmentParams environment; };
+layout(set = 0, binding = 101) uniform sampler2D environmentTexels;
+
+// A direction of the world, in the image's own directions.
+vec3 toEnvironment(vec3 direction) {
+    vec2 turn = environment.turn;
+    return vec3(direction.x * turn.x - direction.z * turn.y, direction.y, direction.z * turn.x + direction.x * turn.y);
+}
+
+// direction: world space, of any length but 0 [W/(m² sr)].
+vec3 environmentRadiance(vec3 direction) {
+    return environment.factor * equirectangularTexel(environmentTexels, toEnvironment(direction));
+}
+
+#endif

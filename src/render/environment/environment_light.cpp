@@ -1,0 +1,99 @@
+// The environment's images: uploaded, and filtered on the device.
+#include "render/environment/environment_light.h"
+
+#include "gpu/device.h"
+
+#include <glm/gtc/packing.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <vector>
+
+namespace reflet {
+
+namespace {
+
+constexpr float largestHalf = 65504.0F;
+
+// Powers of two. A larger one would leave too little of the dim parts of an image with a sun in it.
+constexpr int largestScale = 10;
+constexpr int smallestScale = -20;
+
+// Pixels of a cube's side: about as many on a quarter turn as the image has. More than 256 only serve surfaces that
+// are almost mirrors and take no rays; fewer than 64 would blur small images, whose texels are constant.
+uint32_t sideFor(const FloatImage& image) {
+    return std::clamp(std::bit_ceil(image.width / 4), 64U, 256U);
+}
+
+// A power of two which makes the brightest value at most what a half float holds.
+float scaleFor(const FloatImage& image) {
+    const float brightest = *std::ranges::max_element(image.data);
+    if (brightest <= 0.0F) {
+        return 1.0F;
+    }
+    const int power = static_cast<int>(std::ceil(std::log2(brightest / largestHalf)));
+    return std::exp2(static_cast<float>(std::clamp(power, smallestScale, largestScale)));
+}
+
+std::vector<uint64_t> halfTexels(const FloatImage& image, float scale) {
+    std::vector<uint64_t> texels;
+    texels.reserve(image.data.size() / 3);
+    for (size_t i = 0; i + 2 < image.data.size(); i += 3) {
+        const vec3 radiance = vec3(image.data[i], image.data[i + 1], image.data[i + 2]) / scale;
+        texels.push_back(glm::packHalf4x16(vec4(glm::min(radiance, vec3(largestHalf)), 1.0F)));
+    }
+    return texels;
+}
+
+const FloatImage& whiteImage() {
+    static const FloatImage white{1, 1, {"R", "G", "B"}, {1.0F, 1.0F, 1.0F}};
+    return white;
+}
+
+}  // namespace
+
+void bindEnvironment(gpu::Pass& pass, const EnvironmentLight& light) {
+    pass.read("environmentTexels", light.texels).params(light.params, "environment");
+}
+
+void bindEnvironmentLobes(gpu::Pass& pass, gpu::Device& device, const EnvironmentLight& light) {
+    const VkSampler linear = device.sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
+    pass.read("environmentLobes", light.lobes, linear).read("environmentIrradiance", light.irradiance);
+}
+
+// In a frame of its own: others, that capture probes, may be submitted before the one that shows the picture.
+void EnvironmentMaps::load(gpu::Device& device) {
+    gpu::Frame f(device);
+    const FloatImage& image = image_ ? *image_ : whiteImage();
+    scale_ = image_ ? scaleFor(image) : 1.0F;
+    const std::vector<uint64_t> texels = halfTexels(image, scale_);
+    texels_ = gpu::uploadTexels(device, {VK_FORMAT_R16G16B16A16_SFLOAT, uvec2(image.width, image.height)},
+                                std::as_bytes(std::span(texels)), "environment");
+    cube_ = CubeMap(device, image_ ? sideFor(image) : 1, 1, "environment");
+    f.begin();
+    const gpu::Image faces = cube_.sharp.mip(0);
+    f.compute("environment_cube", "environment_cube.comp")
+        .read("texels", texels_.image())
+        .write("faces", faces)
+        .dispatch(faces.size.x, faces.size.y, faces.layers);
+    filterCubeMap(f, cube_, 0, 1);
+    f.submit();
+    f.wait();
+}
+
+EnvironmentLight EnvironmentMaps::update(gpu::Device& device, const Environment& environment) {
+    const bool first = texels_.info().size.x == 0;
+    if (first || image_ != environment.image) {
+        image_ = environment.image;
+        load(device);
+    }
+    const vec3 factor = image_ ? vec3(environment.intensity * scale_) : environment.radiance;
+    const float angle = image_ ? environment.rotation : 0.0F;
+    return {texels_.image(),
+            cube_.lobes.image(),
+            cube_.irradiance.image(),
+            {factor, vec2(std::cos(angle), std::sin(angle))}};
+}
+
+}  // namespace reflet

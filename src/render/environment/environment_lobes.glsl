@@ -1,0 +1,21 @@
+// Radiance of the environment around a direction. bindEnvironmentLobes (environment_light.h) binds it.
+#ifndef REFLET_ENVIRONMENT_LOBES_GLSL
+#define REFLET_ENVIRONMENT_LOBES_GLSL
+
+#include "render/cube_map/cube_map.glsl"
+#include "render/environment/environment.glsl"
+
+layout(set = 0, binding = 102) uniform samplerCubeArray environmentLobes;
+layout(set = 0, binding = 103) uniform sampler2D environmentIrradiance;
+
+// Mean, weighted by the GGX lobe of this perceptual roughness around the direction.
+vec3 environmentLobe(vec3 direction, float roughness) {
+    return environment.factor * cubeMapLobe(environmentLobes, 0u, toEnvironment(direction), roughness);
+}
+
+// Irradiance / pi on a surface that faces along n (unit): the mean radiance of cosine-spread rays.
+vec3 environmentIrradianceOverPi(vec3 n) {
+    return environment.factor * cubeMapIrradiance(environmentIrradiance, 0u, toEnvironment(n));
+}
+
+#endif

@@ -1,0 +1,58 @@
+// Answers waiting rays with what probes see. In: the list, ray directions, depth, material, cube maps. Out: answers,
+// sources, the list of what is left.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "render/bounce/rays.glsl"
+#include "render/probe/answer_probes.h"
+#include "shaders/projection.glsl"
+
+layout(constant_id = 0) const uint lobe = 0u;
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { AnswerProbesParams params; };
+layout(set = 0, binding = 1) uniform sampler2D depth;
+layout(set = 0, binding = 2) uniform sampler2D material;
+layout(set = 0, binding = 3) uniform samplerCubeArray probeLobes;
+layout(set = 0, binding = 4) uniform samplerCubeArray probeDistance;
+layout(set = 0, binding = 5, rg32ui) uniform readonly uimage2DArray direction;
+layout(set = 0, binding = 6, scalar) readonly buffer WaitingBlock {
+    uint groups[3];
+    uint count;
+    RayItem items[];
+} waiting;
+layout(set = 0, binding = 7, rgba16f) uniform image2DArray answer;
+layout(set = 0, binding = 8, rgba8) uniform image2DArray source;
+layout(set = 0, binding = 9, scalar) buffer MissedBlock {
+    uint groups[3];
+    uint count;
+    RayItem items[];
+} missed;
+layout(set = 0, binding = 10) uniform sampler2D probeIrradiance;
+#include "render/bounce/rays_append.glsl"
+#include "render/bounce/rays_answer.glsl"
+#include "render/probe/probes.glsl"
+
+RayAnswer answerRay(ivec2 pixel, Ray ray) {
+    float d = texelFetch(depth, pixel, 0).r;
+    vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
+    bool hemisphere = lobe == lobeDiffuse && ray.spread > 0.0;
+    ProbeQuestion q = ProbeQuestion(p, ray.direction, hemisphere ? 0.0 : ray.spread, hemisphere,
+                                    params.settings.parallax != 0u, params.settings.blend);
+    float hitDistance;
+    vec4 seen = askProbes(params.probes, q, hitDistance);
+    // Occlusion maps know of nearby surfaces that the rays could not meet.
+    float occlusion = lobe == lobeDiffuse ? texelFetch(material, pixel, 0).b : 1.0;
+    return RayAnswer(seen.rgb * occlusion / max(seen.a, 1e-4), seen.a, hitDistance);
+}
+
+void main() {
+    uint stride = gl_NumWorkGroups.x * listGroupSize;
+    for (uint i = gl_GlobalInvocationID.x; i < waiting.count; i += stride) {
+        WaitingRay w = unpackWaitingRay(waiting.items[i]);
+        Ray ray = unpackRay(imageLoad(direction, w.slot).xy);
+        w.rest = addAnswer(w.slot, answerRay(w.slot.xy, ray), w.rest, sourceProbe);
+        if (w.rest > 0.0) {
+            appendRay(w);
+        }
+    }
+}

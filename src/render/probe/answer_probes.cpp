@@ -1,0 +1,29 @@
+// Records local probes as a source of answers.
+#include "render/probe/answer_probes.h"
+
+#include "gpu/device.h"
+
+namespace reflet {
+
+void answerProbes(gpu::Frame& f, Rays& rays, const GBuffer& g, const ViewParams& view, const ProbeMaps& probes,
+                  const ProbesSettings& settings) {
+    const gpu::BufferView missed = makeRayList(f, rays, "rays.missed_by_probes");
+    const VkSampler trilinear = f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
+    f.compute("answer_probes", "answer_probes.comp")
+        .constant("lobe", rays.lobe)
+        .read("depth", g.depth)
+        .read("material", g.material)
+        .read("probeLobes", probes.lobes, trilinear)
+        .read("probeIrradiance", probes.irradiance)
+        .read("probeDistance", probes.distance)
+        .read("direction", rays.direction)
+        .read("waiting", rays.waiting)
+        .write("answer", rays.answer)
+        .write("source", rays.source)
+        .write("missed", missed)
+        .params(AnswerProbesParams{view, settings, probes.block})
+        .dispatchIndirect(rays.waiting, 0);
+    rays.waiting = missed;
+}
+
+}  // namespace reflet

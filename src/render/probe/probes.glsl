@@ -1,0 +1,94 @@
+// What probes know of a ray: cube maps that are looked up where the ray leaves the probe's box.
+// The includer declares `probeLobes`, `probeIrradiance` and `probeDistance`.
+#ifndef REFLET_PROBES_GLSL
+#define REFLET_PROBES_GLSL
+
+#include "render/cube_map/cube_map.glsl"
+#include "render/probe/probes.h"
+
+// 1 in the box, 0 from `blend` metres outside of it. Walls lie on the box itself, so it fades outside, not inside.
+float insideBox(ProbeParams probe, vec3 p, float blend) {
+    vec3 outside = max(max(probe.boxMin - p, p - probe.boxMax), vec3(0.0));
+    float rounding = 1e-3 * length(probe.boxMax - probe.boxMin);  // surfaces on the box are in it
+    return 1.0 - smoothstep(0.0, max(blend, rounding), length(outside));
+}
+
+// Metres along the ray to the box's far side. For a point outside, that side goes through the point.
+float distanceToBox(ProbeParams probe, vec3 p, vec3 direction) {
+    bvec3 along = lessThan(abs(direction), vec3(1e-6));  // such sides are never met
+    vec3 d = mix(direction, vec3(1.0), along);
+    vec3 far = max((min(probe.boxMin, p) - p) / d, (max(probe.boxMax, p) - p) / d);
+    far = mix(far, vec3(1e6), along);
+    return min(far.x, min(far.y, far.z));
+}
+
+// Nearer probes count more, and none counts where it would make a step by coming in: continuous everywhere inside of
+// any box. Sum 1 (0 outside of all boxes). Returns how far p is inside of any box.
+const float smallestShare = 0.05;  // of the largest; what has less has nothing
+float probeWeights(ProbeBlock block, vec3 p, float blend, out float weights[maxProbes]) {
+    float inside = 0.0;
+    float largest = 0.0;
+    for (uint i = 0u; i < block.count; ++i) {
+        float b = insideBox(block.probes[i], p, blend);
+        vec3 away = p - block.probes[i].position;
+        float d2 = dot(away, away) + 1e-4;
+        weights[i] = b / (d2 * d2);
+        inside = max(inside, b);
+        largest = max(largest, weights[i]);
+    }
+    float sum = 0.0;
+    for (uint i = 0u; i < block.count; ++i) {
+        weights[i] = max(weights[i] - smallestShare * largest, 0.0);
+        sum += weights[i];
+    }
+    for (uint i = 0u; i < block.count; ++i) {
+        weights[i] /= max(sum, 1e-30);
+    }
+    return inside;
+}
+
+// Light on a surface that faces along n, over pi. rgb: radiance · alpha.
+vec4 irradianceOfProbe(uint probe, vec3 n) {
+    float[irradianceCoefficients] basis = sphericalHarmonics(n);
+    vec4 sum = vec4(0.0);
+    for (uint i = 0u; i < irradianceCoefficients; ++i) {
+        sum += texelFetch(probeIrradiance, ivec2(i, probe), 0) * basis[i];
+    }
+    return vec4(max(sum.rgb, vec3(0.0)), clamp(sum.a, 0.0, 1.0));
+}
+
+struct ProbeQuestion {
+    vec3 origin;
+    vec3 direction;    // unit
+    float roughness;   // perceptual, of the lobe around the direction; 0: the direction alone
+    bool hemisphere;   // instead: all of it around the direction
+    bool parallax;
+    float blend;  // metres
+};
+
+// Adds a share of what one probe knows.
+void askProbe(uint i, ProbeParams probe, ProbeQuestion q, float share, inout vec4 radiance, inout float hitDistance) {
+    float t = distanceToBox(probe, q.origin, q.direction);
+    vec3 at = q.parallax ? q.origin + t * q.direction - probe.position : q.direction;
+    vec4 seen = share * (q.hemisphere ? irradianceOfProbe(i, q.direction)
+                                      : textureLod(probeLobes, vec4(at, float(i)), lobeLevel(probeLobes, q.roughness)));
+    radiance += seen;
+    hitDistance += seen.a * (q.parallax ? t : textureLod(probeDistance, vec4(at, float(i)), 0.0).r);
+}
+
+// rgb: radiance · a; a: the share that is answered, 0..1: less at the boxes' ends and toward the sky.
+vec4 askProbes(ProbeBlock block, ProbeQuestion q, out float hitDistance) {
+    float weights[maxProbes];
+    float inside = probeWeights(block, q.origin, q.blend, weights);
+    vec4 sum = vec4(0.0);
+    hitDistance = 0.0;
+    for (uint i = 0u; i < block.count && inside > 0.0; ++i) {
+        if (weights[i] > 0.0) {
+            askProbe(i, block.probes[i], q, weights[i], sum, hitDistance);
+        }
+    }
+    hitDistance /= max(sum.a, 1e-6);
+    return inside * sum;
+}
+
+#endif

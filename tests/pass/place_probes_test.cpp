@@ -1,0 +1,87 @@
+// Where probes are placed that nobody has named.
+#include "render/probe/place_probes.h"
+
+#include "pass/harness.h"
+#include "scene/builtin.h"
+
+namespace reflet::test {
+namespace {
+
+// Six slabs around the inside of a room.
+Scene closedRoom(const vec3& half) {
+    constexpr float thick = 0.1F;
+    Scene scene;
+    const uint32_t material = builtin::addMaterial(scene, lambertMaterial(vec3(0.5F)));
+    for (int axis = 0; axis < 3; ++axis) {
+        vec3 slab = half + 2.0F * thick;
+        slab[axis] = thick;
+        vec3 out(0.0F);
+        out[axis] = half[axis] + thick;
+        builtin::place(scene, "wall", material, builtin::box(slab), builtin::at(out));
+        builtin::place(scene, "wall", material, builtin::box(slab), builtin::at(-out));
+    }
+    return scene;
+}
+
+void expectNear(const vec3& a, const vec3& b, float margin) {
+    EXPECT_LT(glm::length(a - b), margin) << a.x << ' ' << a.y << ' ' << a.z;
+}
+
+TEST(PlaceProbes, OneInTheMiddleOfARoomHasItsWallsForABox) {
+    const vec3 half(2.0F, 1.5F, 3.0F);
+    const auto probes = placeProbes(closedRoom(half), 1);
+    ASSERT_EQ(probes.size(), 1U);
+    expectNear(probes[0].position, vec3(0.0F), 1e-3F);
+    expectNear(probes[0].box.min, -half, 2e-3F);
+    expectNear(probes[0].box.max, half, 2e-3F);
+}
+
+TEST(PlaceProbes, ThingsInTheRoomDoNotMakeTheBoxSmaller) {
+    const vec3 half(2.0F, 1.5F, 3.0F);
+    Scene scene = closedRoom(half);
+    builtin::place(scene, "post", 0, builtin::box({0.1F, 1.5F, 0.1F}), builtin::at({0.05F, 0, -1.5F}));
+    const auto probes = placeProbes(scene, 1);
+    expectNear(probes.at(0).box.min, -half, 2e-3F);
+}
+
+TEST(PlaceProbes, OneThatWouldStandInABlockStandsBesideIt) {
+    Scene scene = closedRoom({2.0F, 1.5F, 3.0F});
+    builtin::place(scene, "block", 0, builtin::box({0.8F, 0.9F, 0.7F}));
+    const auto probes = placeProbes(scene, 1);
+    const vec3 p = probes.at(0).position;
+    EXPECT_GT(std::max({std::abs(p.x) - 0.8F, std::abs(p.y) - 0.9F, std::abs(p.z) - 0.7F}), 0.1F);
+    EXPECT_LT(std::abs(p.x), 2.0F);
+    EXPECT_LT(std::abs(p.y), 1.5F);
+    EXPECT_LT(std::abs(p.z), 3.0F);
+}
+
+TEST(PlaceProbes, AreAsManyAsAskedForAtMostAndLieAlongTheLongestSides) {
+    const Scene scene = closedRoom({8.0F, 1.5F, 2.0F});
+    EXPECT_TRUE(placeProbes(scene, 0).empty());
+    for (uint32_t count = 1; count <= View::maxProbes; ++count) {
+        const auto probes = placeProbes(scene, count);
+        EXPECT_GE(probes.size(), 1U);
+        EXPECT_LE(probes.size(), count);
+        EXPECT_GE(2 * probes.size(), count);
+    }
+    const auto four = placeProbes(scene, 4);
+    for (size_t i = 1; i < four.size(); ++i) {
+        EXPECT_GT(four[i].position.x, four[i - 1].position.x + 3.0F);
+    }
+}
+
+TEST(PlaceProbes, AnEmptySceneHasNone) {
+    EXPECT_TRUE(placeProbes({}, 4).empty());
+}
+
+TEST(PlaceProbes, EveryBuiltinSceneHasThemInsideOfTheirBoxes) {
+    for (const BuiltinScene& builtin : builtinScenes()) {
+        for (const Probe& probe : placeProbes(builtin.make(), 16)) {
+            EXPECT_TRUE(glm::all(glm::lessThan(probe.box.min, probe.position))) << builtin.name;
+            EXPECT_TRUE(glm::all(glm::greaterThan(probe.box.max, probe.position))) << builtin.name;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace reflet::test

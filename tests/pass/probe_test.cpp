@@ -1,0 +1,371 @@
+// Local probes: captures and reflections against the path tracer, blending, energy, and when they are captured.
+#include "pass/probe_room.h"
+
+#include "compare/compare.h"
+#include "reference/reference.h"
+#include "render/probe/capture_probe.h"
+#include "scene/builtin.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace reflet::test {
+namespace {
+
+float at(const FloatImage& image, unsigned x, unsigned y, unsigned channel) {
+    return image.data[(size_t(y) * image.width + x) * image.channels.size() + channel];
+}
+
+// Smallest and largest of a value in the pixel and those around it.
+struct Around {
+    float low = 0.0F;
+    float high = 0.0F;
+};
+Around around(const FloatImage& image, unsigned x, unsigned y, unsigned channel) {
+    Around result{at(image, x, y, channel), at(image, x, y, channel)};
+    for (unsigned j = std::max(y, 1U) - 1; j <= std::min(y + 1, image.height - 1); ++j) {
+        for (unsigned i = std::max(x, 1U) - 1; i <= std::min(x + 1, image.width - 1); ++i) {
+            result.low = std::min(result.low, at(image, i, j, channel));
+            result.high = std::max(result.high, at(image, i, j, channel));
+        }
+    }
+    return result;
+}
+
+// Whether what the pixel shows is in the truth, there or a pixel beside it, or lies between what is there.
+bool liesWithinAPixel(const FloatImage& image, const FloatImage& truth, unsigned x, unsigned y) {
+    for (unsigned c = 0; c < 3; ++c) {
+        const auto [low, high] = around(truth, x, y, c);
+        const float value = at(image, x, y, c);
+        if (value < 0.98F * low - 0.005F || value > 1.02F * high + 0.005F) {
+            return false;
+        }
+    }
+    return true;
+}
+
+const std::vector<std::string> onlyProbes{"trace_screen.enabled=false", "diffuse.rays=0", "probes.enabled=true"};
+
+Settings probeSettings(const std::vector<std::string>& more) {
+    std::vector<std::string> all = onlyProbes;
+    all.insert(all.end(), more.begin(), more.end());
+    return settingsOf(all);
+}
+
+// The faces of one probe, cut out of the atlas.
+FloatImage faceOf(const FloatImage& atlas, unsigned face) {
+    const unsigned side = atlas.width / probeFaces;
+    FloatImage image{side, side, atlas.channels, {}};
+    for (unsigned y = 0; y < side; ++y) {
+        for (unsigned x = 0; x < side; ++x) {
+            for (unsigned c = 0; c < 3; ++c) {
+                image.data.push_back(at(atlas, face * side + side - 1 - x, y, c));  // as the camera saw it
+            }
+        }
+    }
+    return image;
+}
+
+TEST(Probe, AtItsOwnCentreSeesWhatThePathTracerSees) {
+    const Scene scene = findBuiltinScene("mirror-hall")->make();
+    View view = defaultView(scene);
+    view.sun.angularDiameter = 0.0F;
+    view.environment.radiance = vec3(0.0F);  // the atlas has none
+    view.probes = {{{{0.2F, 1.6F, 0.9F}, {vec3(-4.0F, 0.0F, -6.0F), vec3(4.0F, 4.0F, 6.0F)}}}};
+    const Pictures p = render(scene, view, {16, 16},
+                              probeSettings({"probes.bounces=0", "probes.resolution=128", "materials.anisotropy=16"}),
+                              {"probe_atlas"});
+    ReferenceOptions options;
+    options.bounces = 0;
+    options.samples = 4;
+    options.filter = PixelFilter::center;
+    for (unsigned face = 0; face < probeFaces; ++face) {
+        const FloatImage seen = faceOf(p.images.at("probe_atlas"), face);
+        view.camera = cubeFaceCamera(view.probes->front().position, face);
+        const FloatImage truth = traceReference(scene, view, {seen.width, seen.height}, options).final;
+        std::vector<bool> smooth;
+        unsigned displaced = 0;
+        for (unsigned y = 0; y < seen.height; ++y) {
+            for (unsigned x = 0; x < seen.width; ++x) {
+                const Around green = around(truth, x, y, 1);
+                smooth.push_back(green.high - green.low < 0.05F * green.high + 0.005F);
+                displaced += liesWithinAPixel(seen, truth, x, y) ? 0 : 1;
+            }
+        }
+        const Difference d = compareImages(seen, truth, {.mask = smooth}).difference;
+        EXPECT_GT(d.pixels, seen.width * seen.height / 4) << face;
+        EXPECT_LT(d.relativeMse, 1e-3) << face;
+        EXPECT_LT(displaced, seen.width * seen.height / 50) << face;
+        RecordProperty("face" + std::to_string(face), fmt::format("relative MSE {:.2e}, {} texels of {} displaced",
+                                                                  d.relativeMse, displaced, seen.width * seen.height));
+    }
+    expectSilentValidation("captures");
+}
+
+struct MirrorCase {
+    const char* name;
+    bool sphere;
+};
+
+class MirrorInARoom : public testing::TestWithParam<MirrorCase> {
+protected:
+    // Pixels of the mirror whose colour is not within a pixel of its true place, of all that are away from its edge.
+    struct Count {
+        unsigned displaced = 0;
+        unsigned all = 0;
+    };
+    static Count countDisplaced(const FloatImage& picture, const FloatImage& truth, const FloatImage& metallic) {
+        Count count;
+        for (unsigned y = 1; y + 1 < picture.height; ++y) {
+            for (unsigned x = 1; x + 1 < picture.width; ++x) {
+                if (around(metallic, x, y, 0).low > 0.5F) {
+                    ++count.all;
+                    count.displaced += liesWithinAPixel(picture, truth, x, y) ? 0 : 1;
+                }
+            }
+        }
+        return count;
+    }
+};
+
+// The probe stands within the sphere, which it does not see, or above the plate, which sends no ray to where it is
+// seen.
+TEST_P(MirrorInARoom, ShowsTheWallsWithinAPixelOfTheirTruePlaces) {
+    constexpr uvec2 size(160, 90);
+    const ProbeRoom room{.center = {0.5F, 0, 0}, .half = {2.0F, 1.5F, 2.5F}};
+    const vec3 sphereAt(0.2F, -0.3F, -0.8F);
+    Scene scene;
+    addProbeRoom(scene, room);
+    const uint32_t metal = builtin::addMaterial(scene, whiteMetal(0.0F));
+    if (GetParam().sphere) {
+        builtin::place(scene, "mirror", metal, builtin::sphere(0.6F, 192), builtin::at(sphereAt));
+    } else {
+        builtin::place(scene, "mirror", metal, builtin::ground({1.2F, 1.2F}, {1, 1}, {1, 1}),
+                       builtin::at({0.5F, -1.4F, -0.5F}));
+    }
+    View view;
+    view.camera.position = {0.3F, 0.6F, 2.0F};
+    view.camera.target = GetParam().sphere ? sphereAt : vec3(0.4F, -1.4F, -0.5F);
+    view.probes = {{probeIn(room, GetParam().sphere ? sphereAt : vec3(1.2F, 0.4F, 0.7F))}};
+    ReferenceOptions options;
+    options.bounces = 1;
+    options.samples = 4;
+    options.filter = PixelFilter::center;
+    const FloatImage truth = traceReference(scene, view, size, options).indirectSpecular;
+    const std::vector<std::string> sharp{"probes.bounces=0", "probes.resolution=512"};
+    const Pictures corrected =
+        render(scene, view, size, probeSettings(sharp), {"indirect_specular", "metallic", "specular_hit_distance"});
+    const FloatImage& metallic = corrected.images.at("metallic");
+    const Count with = countDisplaced(corrected.images.at("indirect_specular"), truth, metallic);
+    EXPECT_GT(with.all, 1000U);
+    EXPECT_EQ(with.displaced, 0U) << "of " << with.all;
+    const Pictures plain =
+        render(scene, view, size, probeSettings({"probes.bounces=0", "probes.resolution=512", "probes.parallax=false"}),
+               {"indirect_specular"});
+    const Count without = countDisplaced(plain.images.at("indirect_specular"), truth, metallic);
+    EXPECT_GT(without.displaced, without.all / 5) << "without parallax, much is elsewhere";
+    RecordProperty("displaced",
+                   fmt::format("{} of {}; without parallax {}", with.displaced, with.all, without.displaced));
+    expectSilentValidation("mirrors");
+}
+
+INSTANTIATE_TEST_SUITE_P(Probe, MirrorInARoom, testing::Values(MirrorCase{"sphere", true}, MirrorCase{"plate", false}),
+                         [](const auto& mirror) { return mirror.param.name; });
+
+// Every material and every kind of look-up, in a room that glows alike all over. The probe stands in the sphere, so it
+// sees nothing else.
+struct FurnaceCase {
+    const char* name;
+    float roughness;
+    float metallic;
+    std::vector<std::string> settings;
+};
+
+class ProbeFurnace : public testing::TestWithParam<FurnaceCase> {};
+
+double meanOfSphere(const Pictures& p) {
+    double sum = 0.0;
+    unsigned count = 0;
+    for (unsigned y = 0; y < p.size.y; ++y) {
+        for (unsigned x = 0; x < p.size.x; ++x) {
+            if (p.value("albedo", x, y) > 0.5F) {
+                sum += p.value("final", x, y);
+                ++count;
+            }
+        }
+    }
+    return sum / count;
+}
+
+TEST_P(ProbeFurnace, IsAsBrightAsItsWalls) {
+    const ProbeRoom room{.half = {2.0F, 1.5F, 2.5F}, .tiles = 1, .radiance = vec3(1.0F)};
+    Scene scene;
+    addProbeRoom(scene, room);
+    Material material = lambertMaterial(vec3(1.0F));
+    material.roughness = GetParam().roughness;
+    material.metallic = GetParam().metallic;
+    builtin::place(scene, "sphere", builtin::addMaterial(scene, material), builtin::sphere(0.7F, 64));
+    View view;
+    view.camera.position = {0, 0.2F, 2.2F};
+    view.camera.target = vec3(0.0F);
+    view.probes = {{probeIn(room, vec3(0.0F))}};
+    view.environment.radiance = vec3(5.0F);  // must not come in
+    std::vector<std::string> assignments{"trace_screen.enabled=false", "probes.enabled=true", "probes.resolution=64",
+                                         "specular.rays=16"};
+    assignments.insert(assignments.end(), GetParam().settings.begin(), GetParam().settings.end());
+    const Pictures p = render(scene, view, {64, 36}, settingsOf(assignments), {"final", "albedo"});
+    EXPECT_NEAR(meanOfSphere(p), 1.0, 0.01);
+    expectSilentValidation("a furnace");
+}
+
+const std::vector<std::string> filtered{"specular.maxRoughness=0", "specular.rougher=mips", "diffuse.rays=1",
+                                        "diffuse.distribution=normal"};
+INSTANTIATE_TEST_SUITE_P(Probe, ProbeFurnace,
+                         testing::Values(FurnaceCase{"matt_by_rays", 1.0F, 0.0F, {}},
+                                         FurnaceCase{"glossy_by_rays", 0.4F, 0.0F, {}},
+                                         FurnaceCase{"metal_by_rays", 0.5F, 1.0F, {}},
+                                         FurnaceCase{"mirror", 0.0F, 1.0F, {}},
+                                         FurnaceCase{"matt_filtered", 1.0F, 0.0F, filtered},
+                                         FurnaceCase{"glossy_filtered", 0.4F, 0.0F, filtered},
+                                         FurnaceCase{"metal_filtered", 0.5F, 1.0F, filtered},
+                                         FurnaceCase{"rough_metal_filtered", 1.0F, 1.0F, filtered}),
+                         [](const auto& furnace) { return furnace.param.name; });
+
+// Two white spheres in a white environment stay white: each is in the other's light, which the captures must bring.
+TEST(Probe, BouncesKeepAWhiteFurnaceWhite) {
+    const ProbeRoom open{.half = vec3(3.0F)};
+    Scene scene = sceneOf(lambertMaterial(vec3(1.0F)), builtin::sphere(0.7F, 64));
+    builtin::place(scene, "other", 0U, builtin::at({0.5F, 0, -1.5F}));
+    View view;
+    view.camera.position = {0, 0.2F, 4.0F};
+    view.camera.target = vec3(0.0F);
+    view.environment.radiance = vec3(1.0F);
+    view.probes = {{probeIn(open, {1.5F, 0.5F, 0.8F})}};
+    const std::vector<std::string> base{"trace_screen.enabled=false", "materials.lambertOnly=true",
+                                        "probes.resolution=64", "diffuse.rays=64"};
+    const auto mean = [&](const char* enabled, const char* bounces) {
+        std::vector<std::string> all = base;
+        all.insert(all.end(), {std::string("probes.enabled=") + enabled, std::string("probes.bounces=") + bounces});
+        return meanOfSphere(render(scene, view, {64, 36}, settingsOf(all), {"final", "albedo"}));
+    };
+    EXPECT_NEAR(mean("false", "0"), 1.0, 0.001);
+    EXPECT_LT(mean("true", "0"), 0.985) << "what is black in the captures takes light away";
+    EXPECT_NEAR(mean("true", "2"), 1.0, 0.01);
+}
+
+// A long mirror floor that leads from one box into the next. Straight up, one probe sees red, the other green.
+TEST(Probe, OneBoxBlendsIntoTheNextWithoutAStep) {
+    constexpr uvec2 size(160, 8);
+    Scene scene = sceneOf(whiteMetal(0.0F), builtin::ground({4, 1}, {1, 1}, {1, 1}));
+    for (const float side : {-1.0F, 1.0F}) {
+        Material lamp = lambertMaterial(vec3(0.0F));
+        lamp.emissive = side < 0.0F ? vec3(1, 0, 0) : vec3(0, 1, 0);
+        builtin::place(scene, "ceiling", builtin::addMaterial(scene, lamp),
+                       builtin::patch({{2.0F * side, 3, 0}, {2, 0, 0}, {0, 0, 4}}));
+    }
+    View view;
+    view.camera.position = {0, 2.9F, 0};
+    view.camera.target = vec3(0.0F);
+    view.camera.up = {0, 0, -1};
+    view.camera.orthographicHeight = 0.4F;  // 8 m wide
+    view.probes = {
+        {{{-2, 1, 0}, {vec3(-4, -0.1F, -2), vec3(0, 3, 2)}}, {{2, 1, 0}, {vec3(0, -0.1F, -2), vec3(4, 3, 2)}}}};
+    const Pictures p =
+        render(scene, view, size, probeSettings({"probes.bounces=0", "probes.blend=1", "probes.parallax=false"}),
+               {"specular_radiance"});
+    EXPECT_NEAR(p.value("specular_radiance", 40, 4, 0), 1.0F, 0.01F) << "beside the first probe";
+    EXPECT_NEAR(p.value("specular_radiance", 40, 4, 1), 0.0F, 0.01F);
+    EXPECT_NEAR(p.value("specular_radiance", 120, 4, 1), 1.0F, 0.01F) << "beside the second";
+    float largestStep = 0.0F;
+    for (unsigned x = 1; x < size.x; ++x) {
+        for (unsigned c = 0; c < 2; ++c) {
+            largestStep = std::max(largestStep, std::abs(p.value("specular_radiance", x, 4, c) -
+                                                         p.value("specular_radiance", x - 1, 4, c)));
+        }
+        EXPECT_NEAR(p.value("specular_radiance", x, 4, 0) + p.value("specular_radiance", x, 4, 1), 1.0F, 0.01F) << x;
+    }
+    EXPECT_LT(largestStep, 0.06F) << "5 cm a pixel; the blend is 2 m wide";
+    RecordProperty("largestStep", std::to_string(largestStep));
+}
+
+// Toward the outer end of all boxes, the environment takes over by and by.
+TEST(Probe, FadesIntoTheEnvironmentOutsideOfItsBox) {
+    constexpr uvec2 size(160, 8);
+    Scene scene = sceneOf(whiteMetal(0.0F), builtin::ground({4, 1}, {1, 1}, {1, 1}));
+    Material lamp = lambertMaterial(vec3(0.0F));
+    lamp.emissive = vec3(1, 0, 0);
+    builtin::place(scene, "ceiling", builtin::addMaterial(scene, lamp),
+                   builtin::patch({{0, 3, 0}, {20, 0, 0}, {0, 0, 20}}));
+    View view;
+    view.camera.position = {0, 2.9F, 0};
+    view.camera.target = vec3(0.0F);
+    view.camera.up = {0, 0, -1};
+    view.camera.orthographicHeight = 0.4F;
+    view.environment.radiance = vec3(0, 0, 1);
+    view.probes = {{{{0, 1, 0}, {vec3(-1, -0.1F, -2), vec3(1, 3, 2)}}}};
+    const Pictures p = render(scene, view, size, probeSettings({"probes.bounces=0", "probes.blend=1"}),
+                              {"specular_radiance", "specular_source"});
+    EXPECT_NEAR(p.value("specular_radiance", 62, 4, 0), 1.0F, 0.01F) << "in the box, near its end";
+    EXPECT_NEAR(p.value("specular_radiance", 30, 4, 2), 1.0F, 0.01F) << "beyond it";
+    EXPECT_NEAR(p.value("specular_source", 30, 4, 2), 0.9F, 0.01F) << "the environment's blue";
+    EXPECT_NEAR(p.value("specular_source", 80, 4, 0), 0.8F, 0.01F) << "the probes' magenta";
+    for (unsigned x = 1; x < size.x; ++x) {
+        EXPECT_NEAR(p.value("specular_radiance", x, 4, 0) + p.value("specular_radiance", x, 4, 2), 1.0F, 0.01F) << x;
+        EXPECT_NEAR(p.value("specular_radiance", x, 4, 0), p.value("specular_radiance", x - 1, 4, 0), 0.1F) << x;
+    }
+}
+
+TEST(Probe, LeavesTheSkyToTheEnvironment) {
+    const Scene scene = sceneOf(whiteMetal(0.0F), builtin::ground({4, 4}, {1, 1}, {1, 1}));
+    View view;
+    view.camera.position = {0, 2, 3};
+    view.camera.target = vec3(0.0F);
+    view.environment.radiance = {0.25F, 0.5F, 0.75F};
+    view.probes = {{{{0, 1, 0}, {vec3(-4, -0.1F, -4), vec3(4, 3, 4)}}}};
+    const Pictures p = render(scene, view, {32, 18}, probeSettings({}), {"specular_radiance", "specular_source"});
+    const vec3 light = p.color("specular_radiance", 16, 12);
+    EXPECT_LT(glm::length(light - view.environment.radiance), 1e-3F);
+    EXPECT_NEAR(p.value("specular_source", 16, 12, 2), 0.9F, 0.01F);
+}
+
+// What the probes' maps are after so many frames, and what is drawn with them.
+Pictures afterFrames(const Scene& scene, const View& view, const char* refresh, uint32_t frames) {
+    return render(scene, view, {64, 36},
+                  probeSettings({"probes.bounces=0", "probes.resolution=64", std::string("probes.refresh=") + refresh}),
+                  {"probe_atlas", "specular_radiance", "specular_source"}, frames);
+}
+
+TEST(Probe, IsAfterSixFramesOfAFaceEachWhatItIsAtOnce) {
+    const Scene scene = findBuiltinScene("cornell")->make();
+    View view = defaultView(scene);
+    view.probes = {{{{0, 2.2F, 0.5F}, {vec3(-3, 0, -2.3F), vec3(3, 4, 2.3F)}}}};
+    const Pictures once = afterFrames(scene, view, "once", 1);
+    const Pictures sixth = afterFrames(scene, view, "face", 6);
+    EXPECT_EQ(once.images.at("probe_atlas").data, sixth.images.at("probe_atlas").data);
+    EXPECT_EQ(once.value("specular_source", 60, 18, 0), sixth.value("specular_source", 60, 18, 0));
+    const Pictures fifth = afterFrames(scene, view, "face", 5);
+    EXPECT_EQ(rangeOf(fifth.images.at("specular_source")).max, 0.9F) << "until then the environment answers";
+    EXPECT_NE(once.images.at("probe_atlas").data, fifth.images.at("probe_atlas").data);
+    expectSilentValidation("captures of a face each");
+}
+
+TEST(Probe, IsCapturedAnewWhenLightChangesAndOnlyThen) {
+    const Scene scene = findBuiltinScene("cornell")->make();
+    View view = defaultView(scene);
+    view.probes = {{{{0, 2.2F, 0.5F}, {vec3(-3, 0, -2.3F), vec3(3, 4, 2.3F)}}}};
+    View darker = view;
+    darker.sun.irradiance *= 0.25F;
+    View elsewhere = darker;
+    elsewhere.camera.position += vec3(0.5F);
+    const std::vector<Pictures> p = renderPath(scene, {view, darker, elsewhere, view}, {32, 18},
+                                               probeSettings({"probes.resolution=32"}), {"probe_atlas"});
+    const auto atlas = [&](size_t i) { return p[i].images.at("probe_atlas").data; };
+    EXPECT_NE(atlas(0), atlas(1));
+    EXPECT_EQ(atlas(1), atlas(2));
+    EXPECT_EQ(atlas(0), atlas(3));
+}
+
+}  // namespace
+}  // namespace reflet::test

@@ -1,0 +1,22 @@
+// Looks up a filtered cube map.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "cube_map_test.h"
+#include "render/cube_map/cube_map.glsl"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0, scalar) readonly buffer InputBlock { CubeLookup items[]; } inputs;
+layout(set = 0, binding = 1, scalar) buffer OutputBlock { CubeLight items[]; } outputs;
+layout(set = 0, binding = 2) uniform samplerCubeArray sharp;
+layout(set = 0, binding = 3) uniform samplerCubeArray lobes;
+layout(set = 0, binding = 4) uniform sampler2D irradiance;
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i < outputs.items.length()) {
+        CubeLookup at = inputs.items[i];
+        outputs.items[i] = CubeLight(cubeMapRadiance(sharp, at.cube, at.direction),
+                                     cubeMapLobe(lobes, at.cube, at.direction, at.roughness),
+                                     cubeMapIrradiance(irradiance, at.cube, at.direction));
+    }
+}
