@@ -229,7 +229,9 @@ const std::vector<Show>& table() {
          "what probes have captured, radiance: a row for each, of the faces +X -X +Y -Y +Z -Z as cube maps have them; "
          "black is the sky; of its own size; only with probes.enabled",
          [](const FrameImages& i) { return Images{i.probeAtlas}; }, color, rgb, encoded},
-        {"source", "who answered the rays, both lobes: green the screen, magenta probes, blue the environment",
+        {"source",
+         "who answered the rays, both lobes: green the screen, yellow the traced scene, magenta probes, blue the "
+         "environment",
          [](const FrameImages& i) {
              return Images{i.diffuse.source, i.specular.source};
          },

@@ -96,9 +96,6 @@ SeenView seenView(const ViewInputs& in, const ViewImages& images) {
 // What reflections show: direct light, or what is lit so far; and its mips for those that are too rough for rays.
 void lightForReflections(gpu::Frame& f, const ViewInputs& in, const Settings& settings, const LobeLight& diffuse,
                          ScreenImages& screen) {
-    if (settings.traceScreen.enabled == 0) {
-        return;
-    }
     const auto scope = f.scope("specular");
     const SpecularSettings& s = settings.specular;
     const HitLight light = settings.traceScreen.light;
@@ -169,7 +166,10 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
     FrameImages out{seen.images};
     out.probeAtlas = in.probes.atlas;
     out.diffuse = traceLobe(f, in, settings, seen, lobeDiffuse);
-    lightForReflections(f, in, settings, out.diffuse, seen.screen);
+    const bool reused = settings.traceScene.enabled != 0 && settings.traceScene.reuseScreen != 0;
+    if (settings.traceScreen.enabled != 0 || reused) {
+        lightForReflections(f, in, settings, out.diffuse, seen.screen);
+    }
     seen.mirrors = seeMirrors(f, in, settings, out.lampShadowMap);
     out.specular = traceLobe(f, in, settings, seen, lobeSpecular);
 

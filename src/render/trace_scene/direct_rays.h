@@ -23,16 +23,17 @@ SHARED_END
 
 namespace reflet {
 
-struct DirectRays {
-    gpu::Image direct;         ///< RGBA16F, as of directLight
-    gpu::Image sunVisibility;  ///< R8: share of the rays to the sun's disk that nothing hides, 1 in the sky
-};
-
+/// What is lit, and by what.
 struct DirectRaysInputs {
     const TracedScene& scene;
     gpu::Image ggxTable;
-    const EnvironmentLight& environment;
+    const EnvironmentLight& environment;  ///< the background
     const LampBlock& lamps;
+};
+
+struct DirectRays {
+    gpu::Image direct;         ///< RGBA16F, as of directLight
+    gpu::Image sunVisibility;  ///< R8: share of the rays to the sun's disk that nothing hides, 1 in the sky
 };
 
 DirectRays directByRays(gpu::Frame& f, const GBuffer& g, const DirectRaysInputs& in, const DirectRaysParams& params);

@@ -36,9 +36,6 @@ CHOICES(SceneShadows, SCENE_SHADOWS)
     SWITCH(reuseScreen, 1,                                                                                          \
            "A hit that the camera sees takes the light that the screen shows there, where that is all it is to "    \
            "bring: less noise, fewer rays.")                                                                        \
-    SWITCH(fromClear, 0,                                                                                            \
-           "Rays begin where the screen has shown nothing up to, instead of at their surface: faster, but what is " \
-           "thinner than a pixel is lost.")                                                                         \
     VALUE(uint, maxRays, 1000000, 0, 1000000,                                                                       \
           "Thousands of rays that a frame answers so, about; the others, spread evenly, go on to the next source.") \
     VALUE(uint, textureSize, 1024, 16, 8192, "Texels along each side up to which hits see textures in full.")
