@@ -12,6 +12,7 @@ namespace reflet {
 
 struct FrameInputs : ViewInputs {
     std::span<const Mirror> mirrors;  ///< of planMirrors
+    std::span<const LiveView> live;   ///< pictures that the materials of `draws` show
 };
 
 /// Every image of the frame; formats where the effects declare them.

@@ -91,6 +91,13 @@ FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const 
     const LampShadows lampShadows = planLamps(lamps, view, settings.shadow);
     const std::vector<Mirror> mirrors = planMirrors(view, params, settings);
     scene_.setAnisotropy(settings.materials.anisotropy);
+    scene_.setLiveHeight(settings.live.height);
+    std::vector<LiveView> live;
+    for (GpuScene::LivePicture& p : scene_.livePictures()) {
+        const gpu::Image picture = p.texture.image();
+        live.push_back({makeViewParams(p.camera, picture.size, params.frame, seed), picture, p.fresh});
+        p.fresh = false;
+    }
     frame_.begin();
     const FrameInputs inputs{{.draws = scene_.draws(),
                               .view = params,
@@ -102,7 +109,8 @@ FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const 
                               .lampShadows = lampShadows,
                               .ggxTable = ggxTable_.image(),
                               .blueNoise = blueNoise_.view()},
-                             mirrors};
+                             mirrors,
+                             live};
     const FrameImages images = renderFrame(frame_, inputs, settings);
     if (after) {
         after(frame_, images);

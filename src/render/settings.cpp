@@ -32,6 +32,7 @@ std::vector<SettingEntry> makeEntries() {
     addEffect<ContactSettings>(entries, "contact", offsetof(Settings, contact));
     addEffect<TraceScreenSettings>(entries, "trace_screen", offsetof(Settings, traceScreen));
     addEffect<PlanarSettings>(entries, "planar", offsetof(Settings, planar));
+    addEffect<LiveSettings>(entries, "live", offsetof(Settings, live));
     addEffect<EnvironmentSettings>(entries, "environment", offsetof(Settings, environment));
     addEffect<DiffuseSettings>(entries, "diffuse", offsetof(Settings, diffuse));
     addEffect<SpecularSettings>(entries, "specular", offsetof(Settings, specular));

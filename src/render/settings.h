@@ -8,6 +8,7 @@
 #include "render/contact/contact.h"
 #include "render/gbuffer/gbuffer.h"
 #include "render/gbuffer/kept_depth.h"
+#include "render/live/live_picture.h"
 #include "render/planar/planar.h"
 #include "render/shadow/shadow.h"
 #include "render/tonemap/tonemap.h"
@@ -27,6 +28,7 @@ struct Settings {
     ContactSettings contact;
     TraceScreenSettings traceScreen;
     PlanarSettings planar;
+    LiveSettings live;
     EnvironmentSettings environment;
     DiffuseSettings diffuse;
     SpecularSettings specular;

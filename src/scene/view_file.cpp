@@ -1,4 +1,4 @@
-// View files: camera, sun, lamps and environment as JSON, checked before anything of the view is changed.
+// View files: camera, sun, lamps, environment and mirrors as JSON, checked before anything of the view is changed.
 #include "scene/view_file.h"
 
 #include "base/error.h"
@@ -10,6 +10,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace reflet {
 namespace {
@@ -144,10 +145,25 @@ Environment readEnvironment(const JsonNode& node, const Environment& environment
     return environment;
 }
 
+std::vector<std::string> readNames(const JsonNode& node) {
+    if (!node.json().is_array()) {
+        node.complainMustBe("a list of names");
+    }
+    std::vector<std::string> names;
+    for (size_t i = 0; i < node.json().size(); ++i) {
+        const JsonNode name = node.at(i);
+        if (!name.json().is_string()) {
+            name.complainMustBe("a name");
+        }
+        names.push_back(name.json().get<std::string>());
+    }
+    return names;
+}
+
 }  // namespace
 
 void applyViewFile(const std::filesystem::path& path, View& view) {
-    static const std::array<std::string, 4> keys{"camera", "sun", "lamps", "environment"};
+    static const std::array<std::string, 5> keys{"camera", "sun", "lamps", "environment", "mirrors"};
     const nlohmann::json file = parseJsonFile(path);
     const JsonNode root(file, path);
     root.requireKeys(keys);
@@ -168,6 +184,9 @@ void applyViewFile(const std::filesystem::path& path, View& view) {
         if (changed.sunStandsIn && shines) {
             changed.sun.irradiance = vec3(0.0F);
         }
+    }
+    if (const auto mirrors = root.find("mirrors")) {
+        changed.mirrors = readNames(*mirrors);
     }
     view = changed;
 }

@@ -11,7 +11,8 @@ namespace reflet {
 ///   { "camera": { "position": [6,1,0], "target": [0,0,0], "up": [0,1,0], "fov_y": 75, "near": 0.05 },
 ///     "sun": { "direction": [0.4,-0.9,-0.2], "irradiance": [3.14,3.14,3.14], "angular_diameter": 0.53 },
 ///     "lamps": { "radius": 0.05 },
-///     "environment": { "radiance": [0,0,0] } }      or { "image": "sky.hdr", "intensity": 1, "rotation": 0 }
+///     "environment": { "radiance": [0,0,0] },       or { "image": "sky.hdr", "intensity": 1, "rotation": 0 }
+///     "mirrors": ["looking glass"] }
 /// Angles in degrees, paths relative to the file. An image or a radiance replaces the whole environment. Throws Error:
 /// a file that cannot be read, JSON that is malformed (with its line), a key that is unknown (naming the nearest), a
 /// value of the wrong type, length or range.
