@@ -114,15 +114,25 @@ void lightForReflections(gpu::Frame& f, const ViewInputs& in, const Settings& se
 
 // What one view besides the frame's own shows to reflections. There is no last frame of it: `previous` is `lit` there.
 ScreenImages seeReflected(gpu::Frame& f, const ViewInputs& in, Settings settings, gpu::Image lampShadowMap) {
+    const bool lit = settings.traceScreen.light != HitLight::direct;
+    settings.traceScreen.light = lit ? HitLight::lit : HitLight::direct;
+    settings.traceScreen.countSteps = 0;
+    settings.diffuse.rays = lit && settings.planar.diffuse != 0 ? settings.diffuse.rays : 0;
     settings.shadow.history = 0;  // the view's edges move with the camera, and with them its pixels
-    SeenView seen = seenView(in, directView(f, in, settings, lampShadowMap));
-    if (settings.traceScreen.light != HitLight::direct && settings.planar.diffuse != 0) {
-        settings.traceScreen.light = HitLight::lit;
-        const LobeLight diffuse = traceLobe(f, in, settings, seen, lobeDiffuse);
-        lightForReflections(f, in, settings, diffuse, seen.screen);
-    } else {
-        settings.traceScreen.light = HitLight::direct;
-        lightForReflections(f, in, settings, {}, seen.screen);
+    const ViewImages images = directView(f, in, settings, lampShadowMap);
+    SeenView seen = seenView(in, images);
+    const LobeLight diffuse = traceLobe(f, in, settings, seen, lobeDiffuse);
+    lightForReflections(f, in, settings, diffuse, seen.screen);
+    if (lit && settings.planar.specular != 0) {
+        const LobeLight specular = traceLobe(f, in, settings, seen, lobeSpecular);
+        const gpu::Image all = f.image("lit", VK_FORMAT_R16G16B16A16_SFLOAT, images.direct.size);
+        seen.screen.light =
+            composite(f, images.g, images.direct, diffuse, specular, in.ggxTable, all, {in.view, settings.diffuse.gain})
+                .lit;
+    }
+    const bool blurred = settings.planar.form == PlanarForm::camera && settings.planar.cameraBlur > 1.0F;
+    if (seen.screen.lightMips || blurred) {
+        seen.screen.lightMips = makeLightMips(f, seen.screen.light);
     }
     return seen.screen;
 }
@@ -157,10 +167,24 @@ std::vector<PlanarView> seeMirrors(gpu::Frame& f, const FrameInputs& in, const S
     return views;
 }
 
+// What cameras see that materials show. Returns the lamps' shadow map, if it was drawn for them.
+gpu::Image seeLive(gpu::Frame& f, const FrameInputs& in, const Settings& settings) {
+    gpu::Image lampShadowMap;
+    for (size_t i = 0; i < in.live.size(); ++i) {
+        const auto scope = f.viewScope("live" + std::to_string(i));
+        ViewInputs view = in;
+        view.view = in.live[i].view;
+        const ViewImages seen = directView(f, view, settings, lampShadowMap);
+        lampShadowMap = seen.lampShadowMap;
+        showLive(f, seen.direct, in.live[i].picture);
+    }
+    return lampShadowMap;
+}
+
 }  // namespace
 
 FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& settings) {
-    SeenView seen = seenView(in, directView(f, in, settings));
+    SeenView seen = seenView(in, directView(f, in, settings, seeLive(f, in, settings)));
     const gpu::History lit = f.history("lit", VK_FORMAT_R16G16B16A16_SFLOAT, seen.images.g.depth.size);
     seen.screen.lit = lit;
     FrameImages out{seen.images};

@@ -12,6 +12,7 @@ namespace reflet {
 
 struct FrameInputs : ViewInputs {
     std::span<const Mirror> mirrors;  ///< of planMirrors
+    std::span<const LiveView> live;   ///< pictures that the materials of `draws` show
     uint32_t framesBefore = 0;        ///< this one, in which view, light and settings have been the same
 };
 

@@ -3,12 +3,14 @@
 
 #include "base/error.h"
 #include "gpu/device.h"
+#include "render/live/live_picture.h"
 #include "render/material.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <span>
 
 namespace reflet {
@@ -93,7 +95,7 @@ gpu::Buffer uploadVector(gpu::Device& device, const std::vector<T>& values, VkBu
 GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn)
     : device_(device), materialLayout_(makeMaterialLayout(device)) {
     uploadMeshes(scene);
-    uploadMaterials(scene);
+    uploadMaterials(scene, warn);
     addLamps(scene, warn);
     addDraws(scene);
 }
@@ -161,7 +163,9 @@ void GpuScene::writeMaterialSet(const MaterialBinding& binding) {
             gpu::SamplerInfo info = binding.samplers[i - 1];
             info.anisotropy = mips_ ? static_cast<float>(anisotropy_) : 1.0F;
             info.maxLod = mips_ ? info.maxLod : 0.0F;
-            images[i - 1] = {device_.sampler(info), binding.views[i - 1], VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+            images[i - 1] = {device_.sampler(info), binding.views[i - 1],
+                             binding.live && i - 1 == slotEmissive ? VK_IMAGE_LAYOUT_GENERAL
+                                                                   : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
             writes[i].pImageInfo = &images[i - 1];
         }
     }
@@ -179,14 +183,66 @@ void GpuScene::setTextureFilter(uint32_t anisotropy, bool mips) {
     }
 }
 
-void GpuScene::uploadMaterials(const Scene& scene) {
+std::optional<size_t> GpuScene::livePictureOf(const Scene& scene, const Material& material,
+                                              const std::function<void(const std::string&)>& warn) {
+    if (material.camera.empty()) {
+        return std::nullopt;
+    }
+    const auto known = std::ranges::find(live_, material.camera, [](const LivePicture& p) { return p.camera.name; });
+    if (known != live_.end()) {
+        return known - live_.begin();
+    }
+    const auto camera = std::ranges::find(scene.cameras, material.camera, &Camera::name);
+    if (camera == scene.cameras.end()) {
+        std::vector<std::string> names;
+        std::ranges::transform(scene.cameras, std::back_inserter(names),
+                               [](const Camera& c) { return fmt::format("'{}'", c.name); });
+        warn(fmt::format("material '{}' shows the camera '{}', which the scene does not have; it has: {}",
+                         material.name, material.camera,
+                         names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+        return std::nullopt;
+    }
+    live_.push_back({*camera, {}});
+    return live_.size() - 1;
+}
+
+void GpuScene::setLiveHeight(uint32_t pixels) {
+    if (live_.empty() || live_.front().texture.info().size.y == pixels) {
+        return;
+    }
+    const uvec2 size(std::max(1U, pixels * 16 / 9), pixels);
+    draws_.livePictures.clear();
+    for (LivePicture& picture : live_) {
+        picture.texture =
+            gpu::Texture(device_,
+                         {VK_FORMAT_R16G16B16A16_SFLOAT, size, 1, 1,
+                          VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
+                         "live picture");
+        picture.fresh = true;
+        draws_.livePictures.push_back(picture.texture.image());
+    }
+    for (MaterialBinding& binding : materialBindings_) {
+        if (binding.live) {
+            binding.views[slotEmissive] = live_[*binding.live].texture.image().view;
+            writeMaterialSet(binding);
+        }
+    }
+}
+
+void GpuScene::uploadMaterials(const Scene& scene, const std::function<void(const std::string&)>& warn) {
     const auto count = static_cast<uint32_t>(scene.materials.size());
     materialPool_ = makeMaterialPool(device_, std::max(count, 1U));
     const VkDeviceSize alignment = std::max<VkDeviceSize>(device_.limits().minUniformBufferOffsetAlignment, 4);
     const VkDeviceSize stride = (sizeof(MaterialParams) + alignment - 1) / alignment * alignment;
+    std::vector<std::optional<size_t>> live(count);
     std::vector<std::byte> blocks(std::max<size_t>(count, 1) * stride);
     for (uint32_t i = 0; i < count; ++i) {
-        const MaterialParams params = materialParams(scene.materials[i]);
+        MaterialParams params = materialParams(scene.materials[i]);
+        live[i] = livePictureOf(scene, scene.materials[i], warn);
+        if (live[i]) {
+            params.emissive = vec3(1.0F);
+            params.textured |= 1U << slotEmissive;
+        }
         std::memcpy(blocks.data() + i * stride, &params, sizeof(params));
     }
     materials_ = gpu::uploadBuffer(device_, blocks, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, "materials");
@@ -201,10 +257,12 @@ void GpuScene::uploadMaterials(const Scene& scene) {
     info.pSetLayouts = layouts.data();
     gpu::vkCheck(device_.vk.vkAllocateDescriptorSets(device_.handle(), &info, sets.data()), "allocating material sets");
     for (uint32_t i = 0; i < count; ++i) {
-        MaterialBinding& binding = materialBindings_.emplace_back(MaterialBinding{sets[i], i * stride, {}, {}});
+        MaterialBinding& binding =
+            materialBindings_.emplace_back(MaterialBinding{sets[i], i * stride, {}, {}, live[i]});
         bindMaterial(scene, scene.materials[i], binding);
         writeMaterialSet(binding);
     }
+    setLiveHeight(LiveSettings{}.height);
 }
 
 void GpuScene::addLamps(const Scene& scene, const std::function<void(const std::string&)>& warn) {

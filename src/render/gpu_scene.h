@@ -11,6 +11,7 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,6 +30,17 @@ public:
     /// frame that draws the scene may be in flight.
     void setTextureFilter(uint32_t anisotropy, bool mips);
 
+    /// Pixels from top to bottom of live pictures. No frame that draws the scene may be in flight.
+    void setLiveHeight(uint32_t pixels);
+
+    /// A picture for each camera that a material shows.
+    struct LivePicture {
+        Camera camera;
+        gpu::Texture texture;  ///< RGBA16F, 16:9
+        bool fresh = true;     ///< nothing has been drawn in it yet
+    };
+    [[nodiscard]] std::vector<LivePicture>& livePictures() { return live_; }
+
     [[nodiscard]] const DrawList& draws() const { return draws_; }
     [[nodiscard]] const LampBlock& lamps() const { return lamps_; }
     /// For rays: VertexAttributes and indices of all meshes, mesh after mesh; indices count within their mesh.
@@ -42,7 +54,9 @@ private:
     };
 
     void uploadMeshes(const Scene& scene);
-    void uploadMaterials(const Scene& scene);
+    void uploadMaterials(const Scene& scene, const std::function<void(const std::string&)>& warn);
+    std::optional<size_t> livePictureOf(const Scene& scene, const Material& material,
+                                        const std::function<void(const std::string&)>& warn);
     void addLamps(const Scene& scene, const std::function<void(const std::string&)>& warn);
     void addDraws(const Scene& scene);
     gpu::Image texture(const Scene& scene, int32_t image, bool srgb);
@@ -52,6 +66,7 @@ private:
         VkDeviceSize offset = 0;  ///< of its MaterialParams in materials_
         std::array<gpu::SamplerInfo, slotCount> samplers;
         std::array<VkImageView, slotCount> views{};
+        std::optional<size_t> live;  ///< number of the picture in the emissive slot
     };
     void bindMaterial(const Scene& scene, const Material& material, MaterialBinding& binding);
     void writeMaterialSet(const MaterialBinding& binding);
@@ -66,6 +81,7 @@ private:
     VkDescriptorSetLayout materialLayout_ = VK_NULL_HANDLE;
     VkDescriptorPool materialPool_ = VK_NULL_HANDLE;
     std::vector<MaterialBinding> materialBindings_;
+    std::vector<LivePicture> live_;
     uint32_t anisotropy_ = 1;
     bool mips_ = true;
     LampBlock lamps_{};

@@ -120,6 +120,25 @@ uint32_t Renderer::countFramesBefore(const View& view, const ViewParams& params,
     return framesBefore_;
 }
 
+// New pictures are cleared first, in a frame of their own: what captures probes may show them before this frame is
+// submitted.
+std::vector<LiveView> Renderer::liveViews(const ViewParams& view) {
+    std::vector<LiveView> live;
+    for (GpuScene::LivePicture& p : scene_.livePictures()) {
+        const gpu::Image picture = p.texture.image();
+        if (p.fresh) {
+            gpu::Frame f(frame_.device());
+            f.begin();
+            f.clear(picture);
+            f.submit();
+            f.wait();
+            p.fresh = false;
+        }
+        live.push_back({makeViewParams(p.camera, picture.size, view.frame, view.seed), picture});
+    }
+    return live;
+}
+
 FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const Settings& settings,
                              const std::function<void(gpu::Frame&, const FrameImages&)>& after) {
     ViewParams params = makeViewParams(view.camera, size, frameNumber_++, seed);
@@ -133,6 +152,8 @@ FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const 
     const LampShadows lampShadows = planLamps(lamps, view, settings.shadow);
     const std::vector<Mirror> mirrors = planMirrors(view, params, settings);
     scene_.setTextureFilter(settings.materials.anisotropy, settings.materials.mips != 0);
+    scene_.setLiveHeight(settings.live.height);
+    const std::vector<LiveView> live = liveViews(params);
     const TracedScene* traced = tracedScene(settings);
     frame_.begin();
     FrameInputs inputs{{.draws = scene_.draws(),
@@ -147,6 +168,7 @@ FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const 
                         .blueNoise = blueNoise_.view(),
                         .traced = traced},
                        mirrors,
+                       live,
                        framesBefore};
     inputs.probes = probes_.update(frame_, inputs, probesOf(view, settings.probes), settings);
     const FrameImages images = renderFrame(frame_, inputs, settings);

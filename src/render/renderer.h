@@ -35,6 +35,8 @@ private:
     const TracedScene* tracedScene(const Settings& settings);
     /// The view's probes, or those that are placed where it has none.
     const std::vector<Probe>& probesOf(const View& view, const ProbesSettings& settings);
+    /// What materials show live, as of the frame of this view.
+    std::vector<LiveView> liveViews(const ViewParams& view);
     std::vector<Mirror> planMirrors(const View& view, const ViewParams& params, const Settings& settings);
     void warnOnce(const std::string& text);
 

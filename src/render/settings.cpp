@@ -35,6 +35,7 @@ std::vector<SettingEntry> makeEntries() {
     addEffect<TraceSceneSettings>(entries, "trace_scene", offsetof(Settings, traceScene));
     addEffect<ProbesSettings>(entries, "probes", offsetof(Settings, probes));
     addEffect<PlanarSettings>(entries, "planar", offsetof(Settings, planar));
+    addEffect<LiveSettings>(entries, "live", offsetof(Settings, live));
     addEffect<EnvironmentSettings>(entries, "environment", offsetof(Settings, environment));
     addEffect<DiffuseSettings>(entries, "diffuse", offsetof(Settings, diffuse));
     addEffect<SpecularSettings>(entries, "specular", offsetof(Settings, specular));

@@ -10,6 +10,7 @@
 #include "render/direct/lamp_tiles.h"
 #include "render/gbuffer/gbuffer.h"
 #include "render/gbuffer/kept_depth.h"
+#include "render/live/live_picture.h"
 #include "render/planar/planar.h"
 #include "render/probe/probes.h"
 #include "render/shadow/shadow.h"
@@ -34,6 +35,7 @@ struct Settings {
     TraceSceneSettings traceScene;
     ProbesSettings probes;
     PlanarSettings planar;
+    LiveSettings live;
     EnvironmentSettings environment;
     DiffuseSettings diffuse;
     SpecularSettings specular;

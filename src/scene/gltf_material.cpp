@@ -96,6 +96,11 @@ Material GltfMaterials::convert(int material) {
     result.normalTexture = slotOf(source.normalTexture, "normalTexture");
     result.occlusionTexture = slotOf(source.occlusionTexture, "occlusionTexture");
     result.emissiveTexture = slotOf(source.emissiveTexture, "emissiveTexture");
+    if (source.extras.Has("camera")) {
+        result.camera = source.extras.Get("camera").Get<std::string>();
+        result.emissive = vec3(0.0F);
+        result.emissiveTexture = {};
+    }
     return result;
 }
 

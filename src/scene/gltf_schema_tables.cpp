@@ -109,6 +109,9 @@ constexpr std::array emissiveStrength{Field{.name = "emissiveStrength", .min = 0
 constexpr std::array materialExtensions{
     Field{.name = "KHR_materials_emissive_strength", .type = Type::object, .fields = emissiveStrength},
 };
+constexpr std::array materialExtras{
+    Field{.name = "camera", .type = Type::text},  // of ours: Material::camera
+};
 constexpr std::array material{
     Field{.name = "name", .type = Type::text},
     Field{.name = "pbrMetallicRoughness", .type = Type::object, .fields = metallicRoughness},
@@ -120,6 +123,7 @@ constexpr std::array material{
     Field{.name = "alphaCutoff", .min = 0},
     Field{.name = "doubleSided", .type = Type::boolean},
     Field{.name = "extensions", .type = Type::object, .fields = materialExtensions},
+    Field{.name = "extras", .type = Type::object, .fields = materialExtras, .anyType = true},
 };
 
 // Meshes.

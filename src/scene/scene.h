@@ -57,6 +57,7 @@ struct Material {
     float occlusionStrength = 1.0F;
     float alphaCutoff = 0.0F;  ///< a fragment with alpha < cutoff is not there; 0: opaque
     bool doubleSided = false;
+    std::string camera;            ///< the surface shows what that camera sees, and emits nothing else; empty: none
     TextureSlot baseColorTexture;  ///< sRGB
     TextureSlot metallicRoughnessTexture;
     TextureSlot normalTexture;

@@ -1,4 +1,5 @@
-// View files: camera, sun, lamps, environment and probes as JSON, checked before anything of the view is changed.
+// View files: camera, sun, lamps, environment, probes and mirrors as JSON, checked before anything of the view is
+// changed.
 #include "scene/view_file.h"
 
 #include "base/error.h"
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace reflet {
 namespace {
@@ -186,10 +188,25 @@ std::vector<Probe> readProbes(const JsonNode& node) {
     return probes;
 }
 
+std::vector<std::string> readNames(const JsonNode& node) {
+    if (!node.json().is_array()) {
+        node.complainMustBe("a list of names");
+    }
+    std::vector<std::string> names;
+    for (size_t i = 0; i < node.json().size(); ++i) {
+        const JsonNode name = node.at(i);
+        if (!name.json().is_string()) {
+            name.complainMustBe("a name");
+        }
+        names.push_back(name.json().get<std::string>());
+    }
+    return names;
+}
+
 }  // namespace
 
 void applyViewFile(const std::filesystem::path& path, View& view) {
-    static const std::array<std::string, 5> keys{"camera", "sun", "lamps", "environment", "probes"};
+    static const std::array<std::string, 6> keys{"camera", "sun", "lamps", "environment", "probes", "mirrors"};
     const nlohmann::json file = parseJsonFile(path);
     const JsonNode root(file, path);
     root.requireKeys(keys);
@@ -213,6 +230,9 @@ void applyViewFile(const std::filesystem::path& path, View& view) {
     }
     if (const auto probes = root.find("probes")) {
         changed.probes = readProbes(*probes);
+    }
+    if (const auto mirrors = root.find("mirrors")) {
+        changed.mirrors = readNames(*mirrors);
     }
     view = changed;
 }

@@ -12,7 +12,8 @@ namespace reflet {
 ///     "sun": { "direction": [0.4,-0.9,-0.2], "irradiance": [3.14,3.14,3.14], "angular_diameter": 0.53 },
 ///     "lamps": { "radius": 0.05 },
 ///     "environment": { "radiance": [0,0,0] },       or { "image": "sky.hdr", "intensity": 1, "rotation": 0 }
-///     "probes": [{ "position": [0,1,0], "box_min": [-2,0,-2], "box_max": [2,3,2] }] }
+///     "probes": [{ "position": [0,1,0], "box_min": [-2,0,-2], "box_max": [2,3,2] }],
+///     "mirrors": ["looking glass"] }
 /// Angles in degrees, paths relative to the file. An image or a radiance replaces the whole environment, a list
 /// of probes, an empty one too, all others. Throws Error:
 /// a file that cannot be read, JSON that is malformed (with its line), a key that is unknown (naming the nearest), a

@@ -117,6 +117,15 @@ TEST_F(ViewFile, WithAProbeThatCannotBeIsAnError) {
     EXPECT_FALSE(view_.probes);
 }
 
+TEST_F(ViewFile, NamesMirrors) {
+    apply(R"({ "mirrors": ["looking glass", "pond"] })");
+    EXPECT_EQ(view_.mirrors, (std::vector<std::string>{"looking glass", "pond"}));
+    apply("{}");
+    EXPECT_EQ(view_.mirrors.size(), 2U);
+    EXPECT_EQ(errorOf(R"({ "mirrors": "pond" })"), "FILE: mirrors: must be a list of names, is \"pond\"");
+    EXPECT_EQ(errorOf(R"({ "mirrors": [1] })"), "FILE: mirrors[0]: must be a name, is 1");
+}
+
 TEST_F(ViewFile, LeavesWhatItDoesNotName) {
     view_.camera.position = {1, 2, 3};
     view_.sun.irradiance = vec3(7);

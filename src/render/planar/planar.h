@@ -28,6 +28,7 @@ CHOICES(PlanarForm, PLANAR_FORMS)
     VALUE(float, margin, 0.05, 0.0, 1.0,                                                                          \
           "How far a view goes beyond its mirror, in heights of the screen: rays of uneven mirrors end there.")   \
     SWITCH(diffuse, 1, "Light the views diffusely, too, where trace_screen.light is not direct.")                 \
+    SWITCH(specular, 1, "And with reflections of the screen and the environment: mirrors in mirrors.")            \
     VALUE(uint, cameraSize, 128, 8, 1024, "Form camera: height of its picture in pixels.")                        \
     VALUE(float, cameraFov, 75.0, 10.0, 150.0, "Form camera: its field of view from bottom to top, in degrees.")  \
     VALUE(float, cameraBlur, 3.0, 1.0, 64.0, "Form camera: pixels of its picture that are blurred into one.")

@@ -1,0 +1,190 @@
+// Planar views: what flat mirrors show, against the path tracer and against one another.
+#include "compare/compare.h"
+#include "pass/mirror_room.h"
+#include "reference/reference.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+
+namespace reflet::test {
+namespace {
+
+constexpr uvec2 size(160, 90);
+
+const std::vector<std::string> shows{"indirect_specular", "specular_confidence", "metallic", "depth", "final"};
+
+// Direct light alone in the mirror, as a reference with one bounce has it.
+Pictures mirrored(const Scene& scene, const View& view, const std::vector<std::string>& more) {
+    std::vector<std::string> all{"diffuse.rays=0", "shadow.filter=hard", "planar.enabled=true",
+                                 "trace_screen.light=direct"};
+    all.insert(all.end(), more.begin(), more.end());
+    return render(scene, view, size, settingsOf(all), shows);
+}
+
+FloatImage truthOf(const Scene& scene, const View& view, uint32_t samples = 64) {
+    ReferenceOptions options;
+    options.bounces = 1;
+    options.samples = samples;
+    options.filter = PixelFilter::center;
+    return traceReference(scene, view, size, options).indirectSpecular;
+}
+
+double relativeMse(const Pictures& p, const FloatImage& truth, const std::vector<bool>& mask) {
+    return compareImages(p.images.at("indirect_specular"), truth, {.mask = mask}).difference.relativeMse;
+}
+
+size_t countOf(const std::vector<bool>& mask) {
+    return static_cast<size_t>(std::count(mask.begin(), mask.end(), true));
+}
+
+void expectTheReferencesMirror(const Scene& scene, const View& view, const std::string& what) {
+    const FloatImage truth = truthOf(scene, view);
+    std::vector<Pictures> forms;
+    for (const char* form : {"traced", "lookup", "duplicate"}) {
+        forms.push_back(mirrored(scene, view, {std::string("planar.form=") + form}));
+        expectSilentValidation(what + ", " + form);
+    }
+    const std::vector<bool> mask = smoothMirrorPixels(forms[0], truth);
+    EXPECT_GT(countOf(mask), 1500U) << what;
+    for (size_t i = 0; i < forms.size(); ++i) {
+        const double toTruth = relativeMse(forms[i], truth, mask);
+        EXPECT_LT(toTruth, 0.005) << what << ", form " << i;
+        testing::Test::RecordProperty(fmt::format("{}, form {}", what, i), std::to_string(toTruth));
+        for (size_t k = 0; k < i; ++k) {
+            EXPECT_LT(relativeMse(forms[i], forms[k].images.at("indirect_specular"), mask), 0.005)
+                << what << ", forms " << i << " and " << k;
+        }
+    }
+}
+
+TEST(Planar, AFlatMirrorShowsWhatTheReferenceShowsInEveryForm) {
+    expectTheReferencesMirror(makeMirrorRoom(), viewOfMirrorRoom(), "upright");
+}
+
+TEST(Planar, ATiltedMirrorSeenFromAboveShowsWhatTheReferenceShows) {
+    View view = viewOfMirrorRoom();
+    view.camera.position = {1.5F, 3.2F, 2.5F};
+    expectTheReferencesMirror(makeMirrorRoom({.turn = builtin::turned(25, {1, 0.3F, 0})}), view, "tilted");
+}
+
+TEST(Planar, AMirroringInstanceAndAnOrthographicCameraShowTheSame) {
+    View view = viewOfMirrorRoom();
+    view.camera.orthographicHeight = 3.5F;
+    const mat4 mirroring = glm::scale(mat4(1.0F), vec3(-1, 1, 1));
+    expectTheReferencesMirror(makeMirrorRoom({.turn = mirroring}), view, "orthographic");
+}
+
+TEST(Planar, EveryMethodOfTracingFindsWhatAnEvenMirrorShows) {
+    const Scene scene = makeMirrorRoom();
+    const View view = viewOfMirrorRoom();
+    const Pictures expected = mirrored(scene, view, {"trace_screen.method=exhaustive"});
+    const std::vector<bool> mask = smoothMirrorPixels(expected, expected.images.at("indirect_specular"), 1e9F);
+    EXPECT_GT(countOf(mask), 2500U);
+    for (const char* method : {"linear", "halving", "fixedPoint", "dda", "hiz"}) {
+        const Pictures p = mirrored(scene, view, {std::string("trace_screen.method=") + method});
+        EXPECT_LT(relativeMse(p, expected.images.at("indirect_specular"), mask), 1e-6) << method;
+    }
+    const Pictures hiz = mirrored(scene, view, {"trace_screen.enabled=false"});
+    for (size_t i = 0; i < mask.size(); ++i) {
+        EXPECT_TRUE(!mask[i] || hiz.images.at("specular_confidence").data[i] > 0.99F) << i;
+    }
+}
+
+TEST(Planar, TheScreenAgreesWhereItIsSure) {
+    const Scene scene = makeMirrorRoom();
+    const View view = viewOfMirrorRoom();
+    const Pictures planar = mirrored(scene, view, {});
+    const Pictures screen = mirrored(scene, view, {"planar.enabled=false", "trace_screen.thickness=0.05"});
+    std::vector<bool> mask = smoothMirrorPixels(planar, planar.images.at("indirect_specular"));
+    const std::vector<bool> smooth = smoothMirrorPixels(screen, screen.images.at("indirect_specular"));
+    for (size_t i = 0; i < mask.size(); ++i) {
+        mask[i] = mask[i] && smooth[i] && screen.images.at("specular_confidence").data[i] > 0.999F;
+    }
+    EXPECT_GT(countOf(mask), 300U);
+    EXPECT_LT(relativeMse(screen, planar.images.at("indirect_specular"), mask), 0.005);
+}
+
+TEST(Planar, UnevenAndRoughMirrorsAreNearerToTheReferenceTracedThanLookedUp) {
+    for (const bool waves : {true, false}) {
+        const Scene scene = makeMirrorRoom({.roughness = waves ? 0.0F : 0.15F, .waves = waves});
+        const View view = viewOfMirrorRoom();
+        const std::vector<std::string> rays{"specular.rays=64", "planar.margin=0.3", "materials.anisotropy=1"};
+        const auto error = [&](const char* form) {
+            std::vector<std::string> all = rays;
+            all.push_back(std::string("planar.form=") + form);
+            const Pictures p = mirrored(scene, view, all);
+            const FloatImage truth = truthOf(scene, view, 256);
+            return relativeMse(p, truth, smoothMirrorPixels(p, truth, 0.3F));
+        };
+        const double traced = error("traced");
+        const double lookedUp = error("lookup");
+        EXPECT_LT(traced, 0.01) << waves;
+        EXPECT_LT(traced, 0.5 * lookedUp) << waves;
+        RecordProperty(waves ? "waves" : "rough", fmt::format("{} traced, {} looked up", traced, lookedUp));
+    }
+}
+
+TEST(Planar, AMirrorThatIsSeenFromBehindOrNotAtAllAsksNothing) {
+    const Scene scene = makeMirrorRoom();
+    View behind = viewOfMirrorRoom();
+    behind.camera.position = {0, 1.5F, -3.5F};
+    View away = viewOfMirrorRoom();
+    away.camera.target = {0.9F, 1.7F, 9.0F};
+    for (const View& view : {behind, away}) {
+        const Pictures with = mirrored(scene, view, {});
+        const Pictures without = mirrored(scene, view, {"planar.enabled=false"});
+        EXPECT_EQ(with.images.at("final").data, without.images.at("final").data);
+    }
+}
+
+TEST(Planar, AWhiteMirrorInAWhiteEnvironmentStaysWhite) {
+    for (const float roughness : {0.0F, 0.1F, 0.2F}) {
+        Material metal = lambertMaterial(vec3(1.0F));
+        metal.metallic = 1.0F;
+        metal.roughness = roughness;
+        const Scene scene = sceneOf(metal, builtin::ground({1, 1}, {1, 1}, {1, 1}));
+        View view;
+        view.camera.position = {0.3F, 0.8F, 1.5F};
+        view.camera.target = vec3(0.0F);
+        view.environment.radiance = vec3(1.0F);
+        for (const char* form : {"traced", "lookup", "duplicate", "camera"}) {
+            const Settings settings =
+                settingsOf({"planar.enabled=true", "specular.rays=4", std::string("planar.form=") + form});
+            const Range range = rangeOf(render(scene, view, size, settings, {"final"}).images.at("final"));
+            EXPECT_NEAR(range.min, 1.0F, 0.01F) << form << ", roughness " << roughness;
+            EXPECT_NEAR(range.max, 1.0F, 0.01F) << form << ", roughness " << roughness;
+        }
+    }
+}
+
+TEST(Planar, SmallerViewsShowMuchTheSame) {
+    const Scene scene = makeMirrorRoom();
+    const View view = viewOfMirrorRoom();
+    const Pictures full = mirrored(scene, view, {});
+    const Pictures half = mirrored(scene, view, {"planar.scale=0.5"});
+    const std::vector<bool> mask = smoothMirrorPixels(full, full.images.at("indirect_specular"), 0.1F);
+    EXPECT_LT(relativeMse(half, full.images.at("indirect_specular"), mask), 0.01);
+    EXPECT_NE(half.images.at("indirect_specular").data, full.images.at("indirect_specular").data);
+}
+
+TEST(Planar, EverySettingWorksAtItsEndsInEveryForm) {
+    const Scene scene = makeMirrorRoom({.waves = true});
+    for (const char* form : {"traced", "lookup", "duplicate", "camera"}) {
+        for (const char* more :
+             {"planar.first=false", "planar.count=4", "planar.count=0", "planar.find=false", "planar.scale=0.25",
+              "planar.margin=1", "planar.diffuse=false", "planar.specular=false", "planar.cameraSize=8",
+              "planar.cameraBlur=64", "shadow.cascades=3", "trace_screen.thicknessFrom=secondLayer",
+              "trace_screen.countSteps=true", "trace_screen.light=previous", "specular.rougher=mips"}) {
+            const Settings settings = settingsOf(
+                {"planar.enabled=true", "specular.maxRoughness=0.1", std::string("planar.form=") + form, more});
+            const Pictures p = render(scene, viewOfMirrorRoom(), {64, 36}, settings, {"final", "source"}, 2);
+            const Range range = rangeOf(p.images.at("final"));
+            EXPECT_TRUE(range.finite && range.min >= 0.0F) << form << ", " << more;
+            expectSilentValidation(std::string(form) + ", " + more);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace reflet::test
