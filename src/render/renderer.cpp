@@ -8,9 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <iterator>
-#include <type_traits>
 
 namespace reflet {
 
@@ -111,10 +109,8 @@ void lookThrough(ViewParams& view, const vec2& place) {
 }  // namespace
 
 uint32_t Renderer::countFramesBefore(const View& view, const ViewParams& params, const Settings& settings) {
-    // All members are four bytes: there is no padding.
-    static_assert(std::is_trivially_copyable_v<Settings>);
     const bool same = asked_ && sameView(asked_->view, view) && asked_->size == params.size &&
-                      asked_->seed == params.seed && std::memcmp(&asked_->settings, &settings, sizeof(settings)) == 0;
+                      asked_->seed == params.seed && sameSettings(asked_->settings, settings);
     framesBefore_ = same ? framesBefore_ + 1 : 0;
     asked_ = Asked{view, settings, params.size, params.seed};
     return framesBefore_;

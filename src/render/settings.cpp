@@ -143,6 +143,11 @@ const std::vector<SettingEntry>& settingEntries() {
     return entries;
 }
 
+bool sameSettings(const Settings& a, const Settings& b) {
+    return std::ranges::all_of(settingEntries(),
+                               [&](const SettingEntry& entry) { return load(a, entry.info) == load(b, entry.info); });
+}
+
 std::string rangeText(const SettingInfo& info) {
     switch (info.type) {
         case SettingType::toggle:

@@ -55,6 +55,8 @@ struct SettingEntry {
 /// All of them, in the order of the tables.
 const std::vector<SettingEntry>& settingEntries();
 
+bool sameSettings(const Settings& a, const Settings& b);
+
 /// Sets one from text. Throws UsageError: an unknown name (naming the nearest), a value that is none of its type, or
 /// out of its range (naming the range).
 void setSetting(Settings& settings, std::string_view name, const std::string& value);
