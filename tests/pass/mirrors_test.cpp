@@ -24,7 +24,7 @@ TEST(Mirrors, TheMirrorIsFoundWithItsPlaneItsSidesAndItsPlaceOnTheScreen) {
     EXPECT_LT(glm::length(m.up - vec3(0, 1, 0)), 1e-5F);
     EXPECT_LT(glm::length(m.low - vec2(-2.5F, 0.1F)) + glm::length(m.high - vec2(2.5F, 2.9F)), 1e-4F);
     EXPECT_LT(glm::length(pointOn(m, m.high) - vec3(2.5F, 2.9F, -2)), 1e-4F);
-    EXPECT_GT(m.area, 0.2F);
+    EXPECT_GT(m.area, 0.15F);
     EXPECT_LT(m.area, (m.uvHigh.x - m.uvLow.x) * (m.uvHigh.y - m.uvLow.y));
     const ViewParams view = paramsOf(viewOfMirrorRoom());
     const vec4 corner = view.worldToClip * vec4(-2.5F, 2.9F, -2, 1);

@@ -6,6 +6,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace reflet::test {
 namespace {
@@ -80,7 +81,7 @@ TEST(Planar, EveryMethodOfTracingFindsWhatAnEvenMirrorShows) {
     const View view = viewOfMirrorRoom();
     const Pictures expected = mirrored(scene, view, {"trace_screen.method=exhaustive"});
     const std::vector<bool> mask = smoothMirrorPixels(expected, expected.images.at("indirect_specular"), 1e9F);
-    EXPECT_GT(countOf(mask), 2500U);
+    EXPECT_GT(countOf(mask), 2000U);
     for (const char* method : {"linear", "halving", "fixedPoint", "dda", "hiz"}) {
         const Pictures p = mirrored(scene, view, {std::string("trace_screen.method=") + method});
         EXPECT_LT(relativeMse(p, expected.images.at("indirect_specular"), mask), 1e-6) << method;
@@ -101,7 +102,7 @@ TEST(Planar, TheScreenAgreesWhereItIsSure) {
     for (size_t i = 0; i < mask.size(); ++i) {
         mask[i] = mask[i] && smooth[i] && screen.images.at("specular_confidence").data[i] > 0.999F;
     }
-    EXPECT_GT(countOf(mask), 300U);
+    EXPECT_GT(countOf(mask), 80U);
     EXPECT_LT(relativeMse(screen, planar.images.at("indirect_specular"), mask), 0.005);
 }
 
@@ -138,7 +139,8 @@ TEST(Planar, AMirrorThatIsSeenFromBehindOrNotAtAllAsksNothing) {
     }
 }
 
-TEST(Planar, AWhiteMirrorInAWhiteEnvironmentStaysWhite) {
+// Single rays may be weighted with more or less than 1, and those that would enter the mirror bring nothing.
+TEST(Planar, AWhiteMirrorInAWhiteEnvironmentIsAsBrightAsWithoutPlanarViews) {
     for (const float roughness : {0.0F, 0.1F, 0.2F}) {
         Material metal = lambertMaterial(vec3(1.0F));
         metal.metallic = 1.0F;
@@ -148,12 +150,16 @@ TEST(Planar, AWhiteMirrorInAWhiteEnvironmentStaysWhite) {
         view.camera.position = {0.3F, 0.8F, 1.5F};
         view.camera.target = vec3(0.0F);
         view.environment.radiance = vec3(1.0F);
+        const auto final = [&](const std::vector<std::string>& assignments) {
+            return render(scene, view, size, settingsOf(assignments), {"final"}).images.at("final");
+        };
+        const FloatImage without = final({"specular.rays=4"});
+        EXPECT_NEAR(std::accumulate(without.data.begin(), without.data.end(), 0.0) / double(without.data.size()), 1.0,
+                    0.01);
         for (const char* form : {"traced", "lookup", "duplicate", "camera"}) {
-            const Settings settings =
-                settingsOf({"planar.enabled=true", "specular.rays=4", std::string("planar.form=") + form});
-            const Range range = rangeOf(render(scene, view, size, settings, {"final"}).images.at("final"));
-            EXPECT_NEAR(range.min, 1.0F, 0.01F) << form << ", roughness " << roughness;
-            EXPECT_NEAR(range.max, 1.0F, 0.01F) << form << ", roughness " << roughness;
+            const FloatImage with =
+                final({"specular.rays=4", "planar.enabled=true", std::string("planar.form=") + form});
+            EXPECT_LT(compareImages(with, without, {}).difference.max, 0.01) << form << ", roughness " << roughness;
         }
     }
 }
@@ -168,21 +174,34 @@ TEST(Planar, SmallerViewsShowMuchTheSame) {
     EXPECT_NE(half.images.at("indirect_specular").data, full.images.at("indirect_specular").data);
 }
 
-TEST(Planar, EverySettingWorksAtItsEndsInEveryForm) {
-    const Scene scene = makeMirrorRoom({.waves = true});
-    for (const char* form : {"traced", "lookup", "duplicate", "camera"}) {
-        for (const char* more :
-             {"planar.first=false", "planar.count=4", "planar.count=0", "planar.find=false", "planar.scale=0.25",
-              "planar.margin=1", "planar.diffuse=false", "planar.specular=false", "planar.cameraSize=8",
-              "planar.cameraBlur=64", "shadow.cascades=3", "trace_screen.thicknessFrom=secondLayer",
-              "trace_screen.countSteps=true", "trace_screen.light=previous", "specular.rougher=mips"}) {
-            const Settings settings = settingsOf(
-                {"planar.enabled=true", "specular.maxRoughness=0.1", std::string("planar.form=") + form, more});
-            const Pictures p = render(scene, viewOfMirrorRoom(), {64, 36}, settings, {"final", "source"}, 2);
-            const Range range = rangeOf(p.images.at("final"));
-            EXPECT_TRUE(range.finite && range.min >= 0.0F) << form << ", " << more;
-            expectSilentValidation(std::string(form) + ", " + more);
-        }
+void expectSound(const std::vector<std::string>& assignments) {
+    std::vector<std::string> all{"planar.enabled=true", "specular.maxRoughness=0.1"};
+    all.insert(all.end(), assignments.begin(), assignments.end());
+    const Pictures p =
+        render(makeMirrorRoom({.waves = true}), viewOfMirrorRoom(), {64, 36}, settingsOf(all), {"final", "source"}, 2);
+    const Range range = rangeOf(p.images.at("final"));
+    const std::string during = fmt::format("{}", fmt::join(assignments, ", "));
+    EXPECT_TRUE(range.finite && range.min >= 0.0F) << during;
+    expectSilentValidation(during);
+}
+
+TEST(Planar, EverySettingWorksAtItsEnds) {
+    expectSound({"planar.first=false", "planar.count=4", "planar.scale=0.25", "planar.margin=1"});
+    expectSound({"planar.count=0", "planar.diffuse=false"});
+    expectSound({"planar.find=false", "planar.specular=false"});
+    expectSound({"planar.specular=false", "specular.rougher=mips"});
+    expectSound({"planar.maxRoughness=1", "planar.count=4", "shadow.cascades=3"});
+    expectSound({"trace_screen.thicknessFrom=secondLayer", "trace_screen.countSteps=true"});
+    expectSound({"trace_screen.light=previous", "trace_screen.enabled=false"});
+    expectSound({"depth.buffer=standard24", "contact.distance=0.1"});
+}
+
+TEST(Planar, EveryFormWorksWithOtherSettings) {
+    for (const char* form : {"lookup", "duplicate", "camera"}) {
+        const std::string chosen = std::string("planar.form=") + form;
+        expectSound({chosen, "planar.count=4", "planar.scale=0.25", "specular.rougher=mips", "shadow.cascades=3"});
+        expectSound({chosen, "planar.cameraSize=8", "planar.cameraBlur=64", "planar.cameraFov=150",
+                     "trace_screen.thicknessFrom=secondLayer", "trace_screen.light=previous"});
     }
 }
 

@@ -48,6 +48,14 @@ TEST(GltfMaterial, FactorsAreRead) {
     EXPECT_TRUE(m.doubleSided);
 }
 
+TEST(GltfMaterial, AMaterialThatShowsACameraEmitsNothingElse) {
+    const Material m = materialOf(withMaterial({{"emissiveFactor", {1, 1, 1}}, {"extras", {{"camera", "door"}}}}));
+    EXPECT_EQ(m.camera, "door");
+    EXPECT_EQ(m.emissive, vec3(0));
+    EXPECT_EQ(materialOf(withMaterial({{"extras", {{"other", 1}}}})).camera, "");
+    EXPECT_EQ(materialOf(withMaterial({{"extras", 7}})).camera, "");
+}
+
 TEST(GltfMaterial, MaskHasItsCutoffAndBlendIsDrawnAsMaskWithOneWarning) {
     EXPECT_EQ(materialOf(withMaterial({{"alphaMode", "MASK"}})).alphaCutoff, 0.5F);
     EXPECT_EQ(materialOf(withMaterial({{"alphaMode", "MASK"}, {"alphaCutoff", 0.25}})).alphaCutoff, 0.25F);
