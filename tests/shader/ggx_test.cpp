@@ -2,8 +2,8 @@
 #include "shader/ggx_test.h"
 
 #include "render/direct/direct.h"
-#include "support/ggx_truth.h"
 #include "shader/harness.h"
+#include "support/ggx_truth.h"
 
 #include <optional>
 #include <string>

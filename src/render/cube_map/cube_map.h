@@ -36,7 +36,8 @@ SHARED_END
 
 namespace reflet {
 
-/// Cubes of one size. Alpha is filtered as the colours are: 1, or the share of a texel that is known. Whoever fills them writes level 0 of `sharp` (`sharp.mip(0)`, a 2D array of faces).
+/// Cubes of one size. Alpha is filtered as the colours are: 1, or the share of a texel that is known. Whoever fills
+/// them writes level 0 of `sharp` (`sharp.mip(0)`, a 2D array of faces).
 struct CubeMap {
     CubeMap() = default;
     /// side: of a face [pixels], a power of 2.

@@ -10,8 +10,8 @@ SHARED_BEGIN
 
 struct CaptureProbeParams {
     ViewParams view;
-    uint face;         // 6 · probe + its number
-    float blend;       // ProbesSettings
+    uint face;    // 6 · probe + its number
+    float blend;  // ProbesSettings
     ProbeBlock probes;
 };
 
