@@ -141,7 +141,8 @@ FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const 
                         .ggxTable = ggxTable_.image(),
                         .blueNoise = blueNoise_.view(),
                         .traced = traced},
-                       mirrors};
+                       mirrors,
+                       framesBefore};
     inputs.probes = probes_.update(frame_, inputs, probesOf(view, settings.probes), settings);
     const FrameImages images = renderFrame(frame_, inputs, settings);
     if (after) {
