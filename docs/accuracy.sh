@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Makes docs/accuracy.md: every built-in scene and preset, every tracing method and shadow filter, against the truth. Takes
 # about half an hour on two cores, which should have nothing else to do: the tables have times. The pages with the pictures
-# stay in out/accuracy*. `docs/accuracy.sh shadows` makes the last section, "Shadows", alone, and leaves the rest as it is.
+# stay in out/accuracy*. `docs/accuracy.sh shadows` makes the sections "Shadows" and "Sources", the last two, alone, and
+# leaves the rest as it is; `docs/accuracy.sh sources` only the last.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -12,7 +13,13 @@ trap 'rm -f "$table"' EXIT
 
 if [[ ${1:-} == shadows ]]; then
     sed '/^## Shadows$/,$d' docs/accuracy.md >"$table"
-    docs/accuracy_shadows.py >>"$table"
+    { docs/accuracy_shadows.py && echo && docs/accuracy_sources.py; } >>"$table"
+    cp "$table" docs/accuracy.md
+    exit
+fi
+if [[ ${1:-} == sources ]]; then
+    sed '/^## Sources$/,$d' docs/accuracy.md >"$table"
+    docs/accuracy_sources.py >>"$table"
     cp "$table" docs/accuracy.md
     exit
 fi
@@ -87,5 +94,7 @@ TEXT
     diffuse_table
     echo
     docs/accuracy_shadows.py
+    echo
+    docs/accuracy_sources.py
 } >"$table"
 cp "$table" docs/accuracy.md

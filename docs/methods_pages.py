@@ -1,5 +1,6 @@
 """What each page of docs/methods/ shows: a function per page, run by methods.py. Settings are as on the command line; a
 leading @ stands for trace_screen. What a picture must show, and what the figures say, is in the page's own prose."""
+import methods_reflections
 import methods_shadows
 from methods import Render, Truth
 
@@ -288,4 +289,4 @@ PAGES = {"steps-too-large": steps_too_large, "jitter": jitter, "refinement": ref
          "leaking": leaking, "adaptive-steps": adaptive_steps, "hierarchical-depth": hierarchical_depth,
          "uniform-and-cosine": uniform_and_cosine, "mirror-to-matt": mirror_to_matt, "unknown": unknown,
          "second-layer": second_layer, "depth-precision": depth_precision, "noise": noise, "games202": games202,
-         **methods_shadows.PAGES}
+         **methods_shadows.PAGES, **methods_reflections.PAGES}
