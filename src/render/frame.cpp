@@ -168,15 +168,15 @@ std::vector<PlanarView> seeMirrors(gpu::Frame& f, const FrameInputs& in, const S
 }
 
 // What cameras see that materials show. Returns the lamps' shadow map, if it was drawn for them.
-gpu::Image seeLive(gpu::Frame& f, const FrameInputs& in, const Settings& settings) {
+gpu::Image seeLive(gpu::Frame& f, const ViewInputs& in, const Settings& settings, std::span<const LiveView> pictures) {
     gpu::Image lampShadowMap;
-    for (size_t i = 0; i < in.live.size(); ++i) {
+    for (size_t i = 0; i < pictures.size(); ++i) {
         const auto scope = f.viewScope("live" + std::to_string(i));
         ViewInputs view = in;
-        view.view = in.live[i].view;
+        view.view = pictures[i].view;
         const ViewImages seen = directView(f, view, settings, lampShadowMap);
         lampShadowMap = seen.lampShadowMap;
-        showLive(f, seen.direct, in.live[i].picture);
+        showLive(f, seen.direct, pictures[i].picture);
     }
     return lampShadowMap;
 }
@@ -184,7 +184,7 @@ gpu::Image seeLive(gpu::Frame& f, const FrameInputs& in, const Settings& setting
 }  // namespace
 
 FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& settings) {
-    SeenView seen = seenView(in, directView(f, in, settings, seeLive(f, in, settings)));
+    SeenView seen = seenView(in, directView(f, in, settings, seeLive(f, in, settings, in.live)));
     const gpu::History lit = f.history("lit", VK_FORMAT_R16G16B16A16_SFLOAT, seen.images.g.depth.size);
     seen.screen.lit = lit;
     FrameImages out{seen.images};

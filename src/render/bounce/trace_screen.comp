@@ -1,5 +1,5 @@
-// Marches waiting rays through the depth buffer; a hit takes the light that the screen shows there. Or a mirror's picture
-// in the screen's place, for rays that start on the mirror.
+// Marches waiting rays through the depth buffer; a hit takes the light that the screen shows there. Or through a mirror's
+// picture, for rays that start on the mirror.
 // In: depth and geometric normal that rays start from; of what they are traced through: depth of both layers, geometric
 // normal, motion, pyramid, light of this and the last frame and mips of one of them; ray directions, the list.
 // Out: answers, sources, steps, the list of misses.
@@ -180,7 +180,8 @@ RayAnswer answerRay(ivec3 slot, Ray ray, inout WaitingRay w) {
     if (through == throughScreen && ray.trust == 0.0) {
         return noAnswer;
     }
-    vec3 p = uvToWorld(pixelToUv(slot.xy, params.own.pixel), texelFetch(ownDepth, slot.xy, 0).r, params.own.clipToWorld);
+    float d = texelFetch(ownDepth, slot.xy, 0).r;
+    vec3 p = uvToWorld(pixelToUv(slot.xy, params.own.pixel), d, params.own.clipToWorld);
     vec3 n = unpackUnitVector(texelFetch(ownGeometricNormal, slot.xy, 0).r);
     if (through != throughScreen && !liesOnMirror(p, n)) {
         return noAnswer;

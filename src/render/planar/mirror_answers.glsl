@@ -61,8 +61,8 @@ RayAnswer lookUpMirror(vec3 p) {
 // A picture that is stretched over the mirror's rectangle, turned left to right.
 RayAnswer lookUpCamera(vec3 p) {
     vec3 fromCenter = p - params.mirror.center;
-    vec2 across = vec2(dot(fromCenter, params.mirror.right), dot(fromCenter, params.mirror.up)) / params.mirror.halfSize;
-    vec2 uv = 0.5 - 0.5 * across;
+    vec2 across = vec2(dot(fromCenter, params.mirror.right), dot(fromCenter, params.mirror.up));
+    vec2 uv = 0.5 - 0.5 * across / params.mirror.halfSize;
     if (!isInside(uv)) {
         return noAnswer;
     }
