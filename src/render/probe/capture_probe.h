@@ -54,7 +54,7 @@ private:
     void makeMaps(uint32_t resolution);
     void captureAll(const ViewInputs& in, const Settings& settings);
     void captureNextFace(gpu::Frame& f, const ViewInputs& in, const Settings& settings);
-    /// face: 6 · probe + its number. Returns the map of the lamps' shadows, which serves other faces of the same frame.
+    /// face: 6 · probe + its number. Returns the map of the lamps' shadows, which serves other faces of the frame.
     gpu::Image captureFace(gpu::Frame& f, const Capture& capture, uint32_t face, gpu::Image lampShadowMap = {});
 
     gpu::Device& device_;

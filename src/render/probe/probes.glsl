@@ -22,30 +22,15 @@ float distanceToBox(ProbeParams probe, vec3 p, vec3 direction) {
     return min(far.x, min(far.y, far.z));
 }
 
-// Nearer probes count more, and none counts where it would make a step by coming in: continuous everywhere inside of
-// any box. Sum 1 (0 outside of all boxes). Returns how far p is inside of any box.
-const float smallestShare = 0.05;  // of the largest; what has less has nothing
-float probeWeights(ProbeBlock block, vec3 p, float blend, out float weights[maxProbes]) {
-    float inside = 0.0;
-    float largest = 0.0;
-    for (uint i = 0u; i < block.count; ++i) {
-        float b = insideBox(block.probes[i], p, blend);
-        vec3 away = p - block.probes[i].position;
-        float d2 = dot(away, away) + 1e-4;
-        weights[i] = b / (d2 * d2);
-        inside = max(inside, b);
-        largest = max(largest, weights[i]);
-    }
-    float sum = 0.0;
-    for (uint i = 0u; i < block.count; ++i) {
-        weights[i] = max(weights[i] - smallestShare * largest, 0.0);
-        sum += weights[i];
-    }
-    for (uint i = 0u; i < block.count; ++i) {
-        weights[i] /= max(sum, 1e-30);
-    }
-    return inside;
+// Nearer probes count more.
+float weightOfProbe(ProbeParams probe, vec3 p, float inside) {
+    vec3 away = p - probe.position;
+    float d2 = dot(away, away) + 1e-4;
+    return inside / (d2 * d2);
 }
+
+// Of the largest weight: what has less has none, and what has more has so much less, that none makes a step.
+const float smallestShare = 0.05;
 
 // Light on a surface that faces along n, over pi. rgb: radiance · alpha.
 vec4 irradianceOfProbe(uint probe, vec3 n) {
@@ -76,20 +61,29 @@ void askProbe(uint i, ProbeParams probe, ProbeQuestion q, float share, inout vec
     hitDistance += seen.a * (q.parallax ? t : textureLod(probeDistance, vec4(at, float(i)), 0.0).r);
 }
 
-// rgb: radiance · a; a: the share that is answered, 0..1: less at the boxes' ends and toward the sky.
+// rgb: radiance · a; a: the share that is answered, 0..1: less at the boxes' ends and toward the sky. Continuous
+// wherever the origin goes.
 vec4 askProbes(ProbeBlock block, ProbeQuestion q, out float hitDistance) {
-    float weights[maxProbes];
-    float inside = probeWeights(block, q.origin, q.blend, weights);
+    float inside = 0.0;
+    float largest = 0.0;
+    for (uint i = 0u; i < block.count; ++i) {
+        float b = insideBox(block.probes[i], q.origin, q.blend);
+        inside = max(inside, b);
+        largest = max(largest, weightOfProbe(block.probes[i], q.origin, b));
+    }
     vec4 sum = vec4(0.0);
+    float weights = 0.0;
     hitDistance = 0.0;
     for (uint i = 0u; i < block.count && inside > 0.0; ++i) {
-        if (weights[i] > 0.0) {
-            askProbe(i, block.probes[i], q, weights[i], sum, hitDistance);
+        float b = insideBox(block.probes[i], q.origin, q.blend);
+        float weight = weightOfProbe(block.probes[i], q.origin, b) / largest - smallestShare;
+        if (weight > 0.0) {
+            askProbe(i, block.probes[i], q, weight, sum, hitDistance);
+            weights += weight;
         }
     }
     hitDistance /= max(sum.a, 1e-6);
-    // Devices filter with weights of 8 bits, whose sum may be 1/256 short: what is all but known is known.
-    sum *= clamp(1.0 / max(sum.a, 1e-6), 1.0, 1.01);
+    sum /= max(weights, 1e-6);
     return inside * sum;
 }
 
