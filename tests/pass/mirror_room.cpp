@@ -44,6 +44,7 @@ Scene makeMirrorRoom(const MirrorRoom& room) {
     addBox(scene, "right", {0.1F, 0.2F, 0.8F}, {1.3F, 0.4F, -0.6F}, {0.3F, 0.4F, 0.4F});
     addBox(scene, "behind the camera", {0.8F, 0.7F, 0.1F}, {0.3F, 1.0F, 6.0F}, {0.8F, 1.0F, 0.3F});
     addBox(scene, "behind the mirror", {0.1F, 0.8F, 0.1F}, {0.3F, 1.5F, -4.5F}, {1.5F, 1.4F, 0.3F});
+    addBox(scene, "through the mirror", {0.5F, 0.1F, 0.6F}, {-1.0F, 2.0F, -4.0F}, {0.25F, 0.25F, 2.1F});
     return scene;
 }
 
