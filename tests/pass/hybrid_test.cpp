@@ -88,7 +88,7 @@ TEST_P(Hybrid, IsThePathTracersPictureWhereTheScreenAloneIsNot) {
         return std::pair(renderMean(scene, view, size, settings, {layer}, 1, 1).images.at(layer),
                          renderMean(scene, view, size, settings, {layer}, 1, 2).images.at(layer));
     };
-    const auto scenes = draw({"trace_scene.enabled=on"});
+    const auto scenes = draw({"trace_scene.enabled=on", "planar.enabled=on", "planar.count=2"});
     CompareOptions options;
     options.mask = settled(a, b, 0.01);
     const std::vector<bool> ours = settled(scenes.first, scenes.second, 0.04);

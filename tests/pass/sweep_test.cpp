@@ -68,10 +68,13 @@ TEST(Sweep, EverySettingWorksAtItsEnds) {
         }
         for (const std::string& value : values) {
             const std::string assignment = entry.name + "=" + value;
-            const bool asksProbes = entry.name.starts_with("probes.");  // else few settings of theirs do anything
-            const Settings settings = asksProbes
-                                          ? settingsOf({"probes.enabled=true", "probes.resolution=32", assignment})
-                                          : settingsOf({assignment});
+            std::vector<std::string> assignments{assignment};
+            for (const std::string source : {"probes", "planar", "trace_scene"}) {  // off, they would not be asked
+                if (entry.name.starts_with(source + ".")) {
+                    assignments.insert(assignments.begin(), {source + ".enabled=true", "probes.resolution=32"});
+                }
+            }
+            const Settings settings = settingsOf(assignments);
             expectSound(render(scene, defaultView(scene), size, settings, {"final", "source"}), assignment);
         }
     }
