@@ -350,7 +350,11 @@ TEST(Probe, IsAfterSixFramesOfAFaceEachWhatItIsAtOnce) {
     const Pictures once = afterFrames(scene, view, "once", 6);
     const Pictures sixth = afterFrames(scene, view, "face", 6);
     EXPECT_EQ(once.images.at("probe_atlas").data, sixth.images.at("probe_atlas").data);
-    EXPECT_EQ(once.images.at("specular_radiance").data, sixth.images.at("specular_radiance").data);
+    // Not to the last bit: which rays a device looks up together in a cube map is left to chance, and llvmpipe's filter
+    // rounds otherwise where one of them is near an edge.
+    const Difference looked =
+        compareImages(once.images.at("specular_radiance"), sixth.images.at("specular_radiance"), {}).difference;
+    EXPECT_LT(looked.relativeMse, 1e-8);
     const Pictures fifth = afterFrames(scene, view, "face", 5);
     for (unsigned x = 0; x < fifth.size.x; ++x) {
         EXPECT_LT(fifth.value("specular_source", x, 18, 0), 0.3F) << "until then the environment answers";
