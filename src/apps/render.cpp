@@ -131,12 +131,12 @@ Pictures choosePictures(const RenderOptions& options) {
             pictures.aovs.push_back(aov);
         }
     }
-    const auto isShadowMap = [](const Show* s) { return s->name == "shadow_map"; };
-    if (std::ranges::any_of(pictures.aovs, isShadowMap)) {
-        failUsage("--aov shadow_map: it has a size of its own; render it alone with --show shadow_map");
+    const auto ownSize = [](const Show* s) { return hasOwnSize(*s); };
+    if (const auto found = std::ranges::find_if(pictures.aovs, ownSize); found != pictures.aovs.end()) {
+        failUsage("--aov {0}: it has a size of its own; render it alone with --show {0}", (*found)->name);
     }
-    if (isShadowMap(pictures.main) && !pictures.aovs.empty()) {
-        failUsage("--show shadow_map has a size of its own and cannot share a file with --aov");
+    if (hasOwnSize(*pictures.main) && !pictures.aovs.empty()) {
+        failUsage("--show {} has a size of its own and cannot share a file with --aov", pictures.main->name);
     }
     return pictures;
 }

@@ -166,7 +166,7 @@ const std::vector<Show>& table() {
          "only where lamps cast shadows",
          [](const FrameImages& i) { return Images{i.lampVisibility}; }, color, rgb, asIs},
         {"lamp_count",
-         "how many lamps may light a tile of 16x16 pixels; of the tiles' size; PNG 1 is 32 lamps; only with lamps",
+         "how many lamps may light a tile of 16x16 pixels; of its own size; PNG 1 is 32 lamps; only with lamps",
          [](const FrameImages& i) { return Images{i.lampTiles.count}; }, first, y, lampsCounted},
         {"depth", "metres in front of the camera, 0 where there is nothing; PNG bright is near",
          [](const FrameImages& i) { return Images{i.g.depth}; }, viewDistance, y, near},
@@ -230,8 +230,8 @@ const std::vector<Show>& table() {
          "black is the sky; of its own size; only with probes.enabled",
          [](const FrameImages& i) { return Images{i.probeAtlas}; }, color, rgb, encoded},
         {"source",
-         "who answered the rays, both lobes: green the screen, yellow the traced scene, magenta probes, blue the "
-         "environment",
+         "who answered the rays, both lobes: cyan mirrors' views, green the screen, yellow the traced scene, magenta "
+         "probes, blue the environment",
          [](const FrameImages& i) {
              return Images{i.diffuse.source, i.specular.source};
          },
@@ -245,6 +245,10 @@ const std::vector<Show>& table() {
 }
 
 }  // namespace
+
+bool hasOwnSize(const Show& show) {
+    return show.name == "shadow_map" || show.name == "lamp_count" || show.name == "probe_atlas";
+}
 
 bool countsSteps(const Show& show) {
     return show.name.ends_with("steps");

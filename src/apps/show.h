@@ -29,6 +29,9 @@ std::span<const Show> shows();
 /// Throws UsageError naming the nearest.
 const Show& findShow(std::string_view name);
 
+/// Whether its images have another size than the picture.
+bool hasOwnSize(const Show& show);
+
 /// Whether it needs trace_screen.countSteps.
 bool countsSteps(const Show& show);
 
