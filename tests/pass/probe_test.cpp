@@ -343,6 +343,21 @@ Pictures afterFrames(const Scene& scene, const View& view, const char* refresh, 
                   {"probe_atlas", "specular_radiance", "specular_source"}, frames);
 }
 
+TEST(Probe, IsNotAskedAboutRaysThatAreKnownToMeetNothing) {
+    const Scene scene = findBuiltinScene("gloss")->make();
+    const auto reflections = [&](const char* probes) {
+        return render(scene, defaultView(scene), {64, 36},
+                      settingsOf({"diffuse.rays=0", "specular.rays=4", "trace_screen.enabled=false",
+                                  "trace_scene.enabled=true", "probes.resolution=32", probes}),
+                      {"specular_radiance"})
+            .images.at("specular_radiance");
+    };
+    const Difference d =
+        compareImages(reflections("probes.enabled=true"), reflections("probes.enabled=false"), {}).difference;
+    EXPECT_EQ(d.relativeMse, 0.0);
+    expectSilentValidation("probes behind the scene");
+}
+
 TEST(Probe, IsAfterSixFramesOfAFaceEachWhatItIsAtOnce) {
     const Scene scene = findBuiltinScene("cornell")->make();
     View view = defaultView(scene);

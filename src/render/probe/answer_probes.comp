@@ -49,8 +49,10 @@ void main() {
     uint stride = gl_NumWorkGroups.x * listGroupSize;
     for (uint i = gl_GlobalInvocationID.x; i < waiting.count; i += stride) {
         WaitingRay w = unpackWaitingRay(waiting.items[i]);
-        Ray ray = unpackRay(imageLoad(direction, w.slot).xy);
-        w.rest = addAnswer(w.slot, answerRay(w.slot.xy, ray), w.rest, sourceProbe);
+        if (!meetsNothing(w)) {  // else it is known that the sky is what it sees, which a probe's box would hide
+            Ray ray = unpackRay(imageLoad(direction, w.slot).xy);
+            w.rest = addAnswer(w.slot, answerRay(w.slot.xy, ray), w.rest, sourceProbe);
+        }
         if (w.rest > 0.0) {
             appendRay(w);
         }
