@@ -46,6 +46,10 @@ void expectTheReferencesMirror(const Scene& scene, const View& view, const std::
         forms.push_back(mirrored(scene, view, {std::string("planar.form=") + form}));
         expectSilentValidation(what + ", " + form);
     }
+    forms.push_back(mirrored(scene, view,
+                             {"planar.enabled=false", "trace_screen.enabled=false", "trace_scene.enabled=true",
+                              "trace_scene.reuseScreen=false", "materials.mips=false"}));
+    expectSilentValidation(what + ", ray traced");
     const std::vector<bool> mask = smoothMirrorPixels(forms[0], truth);
     EXPECT_GT(countOf(mask), 1500U) << what;
     for (size_t i = 0; i < forms.size(); ++i) {

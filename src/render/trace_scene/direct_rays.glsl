@@ -34,7 +34,8 @@ LitPoint pointAt(ivec2 pixel, float d) {
     at.geometricNormal = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
     at.normal = unpackUnitVector(texelFetch(normal, pixel, 0).r);
     at.toViewer = directionToEye(at.position, params.view.eye);
-    at.clearance = clearanceOfPixel(at.position, depthToViewDistance(d, params.view.depthToDistance));
+    at.clearance = clearanceOfPixel(at.position, depthToViewDistance(d, params.view.depthToDistance),
+                                    params.view.depthToDistance);
     at.surface = surfaceAt(texelFetch(baseColor, pixel, 0).rgb, unpackMaterial(texelFetch(material, pixel, 0)),
                            dot(at.normal, at.toViewer), ggxTable);
     return at;

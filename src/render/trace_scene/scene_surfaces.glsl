@@ -127,10 +127,10 @@ vec3 largestOf(vec3 a, vec3 b, vec3 c) { return max(abs(a), max(abs(b), abs(c)))
 const float relativeClearance = 4e-6;
 
 // The same for a point made of a pixel's depth, so many metres in front of the camera: the depth and the geometric normal
-// were rounded, too.
-float clearanceOfPixel(vec3 p, float away) {
+// were rounded, too. Orthographic depths are rounded to some 1e-7 of all the way to the far plane.
+float clearanceOfPixel(vec3 p, float away, vec4 depthToDistance) {
     vec3 size = abs(p);
-    return 4.0 * relativeClearance * max(max(size.x, size.y), max(size.z, away));
+    return max(4.0 * relativeClearance * max(max(size.x, size.y), max(size.z, away)), 4e-7 * abs(depthToDistance.y));
 }
 
 vec3 sceneShadingNormal(SceneTriangle t, ScenePlace place, vec3 fallback) {

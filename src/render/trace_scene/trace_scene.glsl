@@ -204,7 +204,7 @@ SceneRay rayOfPixel(ivec3 slot, Ray ray) {
     float roughness = unpackMaterial(texelFetch(material, slot.xy, 0)).roughness;
     float lobeWidth = lobe == 0u ? 1.0 : ggxHalfTangent(roughness * roughness);
     float pixelWidth = params.view.pixelAngle * (params.view.eye.w > 0.0 ? away : 1.0);
-    return SceneRay(p + n * clearanceOfPixel(p, away), ray.direction, pixelWidth,
+    return SceneRay(p + n * clearanceOfPixel(p, away, params.view.depthToDistance), ray.direction, pixelWidth,
                     params.view.pixelAngle * params.view.eye.w + shareOfLobe * lobeWidth);
 }
 
