@@ -12,6 +12,15 @@ namespace reflet::gpu {
 /// Two uses by one pass as one.
 Access merged(const Access& a, const Access& b);
 
+struct MipRange {
+    uint32_t first = 0;
+    uint32_t count = VK_REMAINING_MIP_LEVELS;
+};
+
+/// Between two copies or blits of a colour image, all layers; and, where the layouts differ, from one to the other.
+void layoutBarrier(const VolkDeviceTable& vk, VkCommandBuffer commands, VkImage image, const MipRange& mips,
+                   VkImageLayout from, VkImageLayout to);
+
 /// The barriers before one pass.
 class BarrierBatch {
 public:

@@ -2,6 +2,7 @@
 #include "gpu/resource.h"
 
 #include "base/error.h"
+#include "gpu/barrier.h"
 #include "gpu/device.h"
 
 #include <algorithm>
@@ -186,23 +187,6 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
 
 namespace {
 
-void layoutBarrier(Device& device, VkCommandBuffer commands, VkImage image, uint32_t mip, uint32_t mipCount,
-                   VkImageLayout from, VkImageLayout to) {
-    VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
-    barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
-    barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
-    barrier.oldLayout = from;
-    barrier.newLayout = to;
-    barrier.image = image;
-    barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, mip, mipCount, 0, 1};
-    VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-    info.imageMemoryBarrierCount = 1;
-    info.pImageMemoryBarriers = &barrier;
-    device.vk.vkCmdPipelineBarrier2(commands, &info);
-}
-
 // Each level from the one above it; ends with all levels readable by shaders.
 void generateMips(Device& device, VkCommandBuffer commands, VkImage image, uvec2 size, uint32_t mips) {
     constexpr VkImageLayout source = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
@@ -212,7 +196,7 @@ void generateMips(Device& device, VkCommandBuffer commands, VkImage image, uvec2
                           static_cast<int32_t>(std::max(size.y >> mip, 1U)), 1};
     };
     for (uint32_t mip = 1; mip < mips; ++mip) {
-        layoutBarrier(device, commands, image, mip - 1, 1, target, source);
+        layoutBarrier(device.vk, commands, image, {mip - 1, 1}, target, source);
         VkImageBlit blit{};
         blit.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, mip - 1, 0, 1};
         blit.srcOffsets[1] = extent(mip - 1);
@@ -220,8 +204,8 @@ void generateMips(Device& device, VkCommandBuffer commands, VkImage image, uvec2
         blit.dstOffsets[1] = extent(mip);
         device.vk.vkCmdBlitImage(commands, image, source, image, target, 1, &blit, VK_FILTER_LINEAR);
     }
-    layoutBarrier(device, commands, image, mips - 1, 1, target, source);
-    layoutBarrier(device, commands, image, 0, mips, source, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    layoutBarrier(device.vk, commands, image, {mips - 1, 1}, target, source);
+    layoutBarrier(device.vk, commands, image, {0, mips}, source, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 
 Buffer stagingBuffer(Device& device, std::span<const std::byte> bytes, const std::string& name) {
@@ -242,7 +226,7 @@ Texture uploadTexels(Device& device, const ImageInfo& info, std::span<const std:
     const Buffer staging = stagingBuffer(device, texels, name);
     ImageState& state = *texture.image().state;
     device.runNow([&](VkCommandBuffer commands) {
-        layoutBarrier(device, commands, state.image, 0, info.mips, VK_IMAGE_LAYOUT_UNDEFINED,
+        layoutBarrier(device.vk, commands, state.image, {0, info.mips}, VK_IMAGE_LAYOUT_UNDEFINED,
                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
         VkBufferImageCopy copy{};
         copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};

@@ -2,6 +2,7 @@
 #include "gpu/texture_array.h"
 
 #include "base/error.h"
+#include "gpu/barrier.h"
 #include "gpu/device.h"
 
 #include <algorithm>
@@ -13,23 +14,6 @@ namespace {
 
 uvec2 levelExtent(uvec2 size, uint32_t level) {
     return max(size >> level, uvec2(1));
-}
-
-// Between two copies; and, where the layouts differ, from one to the other.
-void orderCopies(Device& device, VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to) {
-    VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
-    barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
-    barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
-    barrier.oldLayout = from;
-    barrier.newLayout = to;
-    barrier.image = image;
-    barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
-    VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-    info.imageMemoryBarrierCount = 1;
-    info.pImageMemoryBarriers = &barrier;
-    device.vk.vkCmdPipelineBarrier2(commands, &info);
 }
 
 struct Subimage {
@@ -83,8 +67,9 @@ Texture uploadTextureArray(Device& device, uvec2 size, std::span<const LayerImag
                   name);
     const VkImage target = array.image().state->image;
     constexpr VkImageLayout general = VK_IMAGE_LAYOUT_GENERAL;
-    device.runNow(
-        [&](VkCommandBuffer commands) { orderCopies(device, commands, target, VK_IMAGE_LAYOUT_UNDEFINED, general); });
+    device.runNow([&](VkCommandBuffer commands) {
+        layoutBarrier(device.vk, commands, target, {}, VK_IMAGE_LAYOUT_UNDEFINED, general);
+    });
     for (uint32_t layer = 0; layer < layers; ++layer) {
         const LayerImage& image = images[layer];
         const uint32_t first = layerLevel(size, image.size);
@@ -92,18 +77,18 @@ Texture uploadTextureArray(Device& device, uvec2 size, std::span<const LayerImag
         const Texture whole = uploadTexture(device, image.size, image.rgba, srgb, shrunk > 0, image.name);
         const VkImage source = whole.image().state->image;
         device.runNow([&](VkCommandBuffer commands) {
-            orderCopies(device, commands, source, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, general);
+            layoutBarrier(device.vk, commands, source, {}, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, general);
             stretch(device, commands, {source, levelExtent(image.size, shrunk), shrunk, 0},
                     {target, levelExtent(size, first), first, layer});
             for (uint32_t level = first + 1; level < levels; ++level) {
-                orderCopies(device, commands, target, general, general);
+                layoutBarrier(device.vk, commands, target, {}, general, general);
                 stretch(device, commands, {target, levelExtent(size, level - 1), level - 1, layer},
                         {target, levelExtent(size, level), level, layer});
             }
         });
     }
     device.runNow([&](VkCommandBuffer commands) {
-        orderCopies(device, commands, target, general, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+        layoutBarrier(device.vk, commands, target, {}, general, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     });
     array.image().state->layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     return array;
