@@ -11,6 +11,7 @@
 #include "render/accumulate/accumulate.h"
 #include "render/bounce/answer_environment.h"
 #include "render/bounce/trace_screen.h"
+#include "render/denoise/denoise.h"
 #include "render/light_mips/light_mips.h"
 #include "render/planar/planar_view.h"
 #include "render/probe/answer_probes.h"
@@ -45,7 +46,7 @@ void answerFromViews(gpu::Frame& f, Rays& rays, const SeenView& seen, const Sett
         }
         if (!asksScreen && rays.lobe == lobeSpecular) {
             for (const PlanarView& mirror : seen.mirrors) {
-                traceMirror(f, rays, seen.screen, mirror, settings.traceScreen, longest);
+                traceMirror(f, rays, mirror, settings.traceScreen, longest);
             }
         }
     }
@@ -57,29 +58,30 @@ LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& setting
     const ScreenImages& screen = seen.screen;
     const bool diffuse = lobe == lobeDiffuse;
     const auto scope = f.scope(diffuse ? "diffuse" : "specular");
-    const uvec2 size = screen.g.depth.size;
     const bool counted = settings.traceScreen.countSteps != 0;
     const uint32_t perPixel = diffuse ? settings.diffuse.rays : settings.specular.rays;
     const float longest = diffuse ? settings.diffuse.radius : settings.traceScreen.maxDistance;
     if (perPixel == 0) {
-        return noLight(f, lobe, size, counted);
+        return noLight(f, lobe, {screen.g, in.view}, counted);
     }
+    const RaySurfaces from =
+        pickSurfaces(f, screen.g, in.view, diffuse ? settings.diffuse.scale : settings.specular.scale);
     const float coneShare = settings.traceScreen.enabled != 0 ? coneShareOnScreen : 0.0F;
-    const uint32_t batch = raysPerBatch(f, size);
+    const uint32_t batch = raysPerBatch(f, from.g.depth.size);
     LobeLight light;
     for (uint32_t first = 0; first < perPixel; first += batch) {
         const uint32_t count = std::min(perPixel - first, batch);
-        Rays rays = generateRays(f, screen.g, {in.ggxTable, in.blueNoise}, lobe,
-                                 {in.view, settings.diffuse, settings.specular, first, count, coneShare}, counted);
+        Rays rays = generateRays(f, from, {in.ggxTable, in.blueNoise}, lobe,
+                                 {{}, settings.diffuse, settings.specular, first, count, coneShare}, counted);
         answerFromViews(f, rays, seen, settings, longest);
         answerFromScene(f, rays, in, settings, seen.images, screen);
         if (in.probes) {
-            answerProbes(f, rays, screen.g, in.view, in.probes, settings.probes);
+            answerProbes(f, rays, in.probes, settings.probes);
         }
-        answerEnvironment(f, rays, screen.g, in.environment, settings.environment);
+        answerEnvironment(f, rays, in.environment, settings.environment);
         light = resolveRays(f, rays, perPixel);
     }
-    return light;
+    return settings.denoise.enabled != 0 ? denoise(f, light, lobe, in.view, settings.denoise) : light;
 }
 
 SeenView seenView(const ViewInputs& in, const ViewImages& images) {
@@ -100,7 +102,7 @@ void lightForReflections(gpu::Frame& f, const ViewInputs& in, const Settings& se
     const SpecularSettings& s = settings.specular;
     const HitLight light = settings.traceScreen.light;
     if (light == HitLight::lit && s.rays > 0 && settings.diffuse.rays > 0) {
-        const LobeLight none = noLight(f, lobeSpecular, screen.light.size, settings.traceScreen.countSteps != 0);
+        const LobeLight none = noLight(f, lobeSpecular, {screen.g, in.view}, settings.traceScreen.countSteps != 0);
         const gpu::Image soFar = f.image("lit_so_far", VK_FORMAT_R16G16B16A16_SFLOAT, screen.light.size);
         screen.light =
             composite(f, screen.g, screen.light, diffuse, none, in.ggxTable, soFar, {in.view, settings.diffuse.gain})
@@ -119,6 +121,7 @@ ScreenImages seeReflected(gpu::Frame& f, const ViewInputs& in, Settings settings
     settings.traceScreen.countSteps = 0;
     settings.diffuse.rays = lit && settings.planar.diffuse != 0 ? settings.diffuse.rays : 0;
     settings.shadow.history = 0;  // the view's edges move with the camera, and with them its pixels
+    settings.denoise.history = 0;
     const ViewImages images = directView(f, in, settings, lampShadowMap);
     SeenView seen = seenView(in, images);
     const LobeLight diffuse = traceLobe(f, in, settings, seen, lobeDiffuse);

@@ -42,7 +42,8 @@ void answerFromScene(gpu::Frame& f, Rays& rays, const ViewInputs& in, const Sett
     const bool previous = settings.traceScreen.light == HitLight::previous && screen.lit.valid;
     traceScene(f, rays, {*in.traced, screen, seen.shadowMap, in.ggxTable, in.blueNoise, in.environment, in.lamps},
                sunShadowsAtHits(settings, seen),
-               {.view = in.view,
+               {.own = rays.from.view,
+                .view = in.view,
                 .settings = settings.traceScene,
                 .lights = sceneLights(in, settings),
                 .sun = seen.sun,

@@ -39,6 +39,7 @@ std::vector<SettingEntry> makeEntries() {
     addEffect<EnvironmentSettings>(entries, "environment", offsetof(Settings, environment));
     addEffect<DiffuseSettings>(entries, "diffuse", offsetof(Settings, diffuse));
     addEffect<SpecularSettings>(entries, "specular", offsetof(Settings, specular));
+    addEffect<DenoiseSettings>(entries, "denoise", offsetof(Settings, denoise));
     addEffect<AccumulateSettings>(entries, "accumulate", offsetof(Settings, accumulate));
     addEffect<TonemapSettings>(entries, "tonemap", offsetof(Settings, tonemap));
     return entries;

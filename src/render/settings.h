@@ -7,6 +7,7 @@
 #include "render/bounce/rays.h"
 #include "render/bounce/trace_screen.h"
 #include "render/contact/contact.h"
+#include "render/denoise/denoise.h"
 #include "render/direct/lamp_tiles.h"
 #include "render/gbuffer/gbuffer.h"
 #include "render/gbuffer/kept_depth.h"
@@ -39,6 +40,7 @@ struct Settings {
     EnvironmentSettings environment;
     DiffuseSettings diffuse;
     SpecularSettings specular;
+    DenoiseSettings denoise;
     AccumulateSettings accumulate;
     TonemapSettings tonemap;
 };

@@ -3,13 +3,13 @@
 
 namespace reflet {
 
-void answerEnvironment(gpu::Frame& f, Rays& rays, const GBuffer& g, const EnvironmentLight& environment,
+void answerEnvironment(gpu::Frame& f, Rays& rays, const EnvironmentLight& environment,
                        const EnvironmentSettings& settings) {
     gpu::Pass pass = f.compute("answer_environment", "answer_environment.comp");
     bindEnvironment(pass, environment);
     bindEnvironmentLobes(pass, f.device(), environment);
     pass.constant("lobe", rays.lobe)
-        .read("material", g.material)
+        .read("material", rays.from.g.material)
         .read("direction", rays.direction)
         .read("waiting", rays.waiting)
         .write("answer", rays.answer)

@@ -33,7 +33,7 @@ namespace reflet {
 /// Answers all that waits: single rays with the exact radiance, those that stand for a lobe or for the hemisphere
 /// (Ray.spread) with the filtered one. Diffuse rays from surfaces with an occlusion map get less of it: the map knows
 /// of nearby surfaces that the rays could not meet.
-void answerEnvironment(gpu::Frame& f, Rays& rays, const GBuffer& g, const EnvironmentLight& environment,
+void answerEnvironment(gpu::Frame& f, Rays& rays, const EnvironmentLight& environment,
                        const EnvironmentSettings& settings);
 
 }  // namespace reflet

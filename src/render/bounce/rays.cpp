@@ -26,11 +26,14 @@ gpu::BufferView makeRayList(gpu::Frame& f, const Rays& rays, std::string_view na
     return list;
 }
 
-Rays generateRays(gpu::Frame& f, const GBuffer& g, const RayTables& tables, uint32_t lobe,
-                  const GenerateRaysParams& params, bool countSteps) {
+Rays generateRays(gpu::Frame& f, const RaySurfaces& from, const RayTables& tables, uint32_t lobe,
+                  GenerateRaysParams params, bool countSteps) {
+    const GBuffer& g = from.g;
     const uvec2 size = g.depth.size;
+    params.view = from.view;
     const uint32_t layers = raysPerBatch(f, size);
-    Rays rays{.direction = f.image("rays.direction", VK_FORMAT_R32G32_UINT, size, layers, true),
+    Rays rays{.from = from,
+              .direction = f.image("rays.direction", VK_FORMAT_R32G32_UINT, size, layers, true),
               .answer = f.image("rays.answer", VK_FORMAT_R16G16B16A16_SFLOAT, size, layers, true),
               .source = f.image("rays.source", VK_FORMAT_R8G8B8A8_UNORM, size, layers, true),
               .steps = f.image("rays.steps", VK_FORMAT_R32_SFLOAT, countSteps ? size : uvec2(1), layers, true),
@@ -63,9 +66,11 @@ Rays generateRays(gpu::Frame& f, const GBuffer& g, const RayTables& tables, uint
 
 namespace {
 
-LobeLight lobeImages(gpu::Frame& f, uint32_t lobe, uvec2 size, bool countSteps) {
+LobeLight lobeImages(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps) {
     const bool diffuse = lobe == lobeDiffuse;
+    const uvec2 size = from.g.depth.size;
     LobeLight light{
+        .from = from,
         .radiance = f.image(diffuse ? "diffuse.radiance" : "specular.radiance", VK_FORMAT_R16G16B16A16_SFLOAT, size),
         .source = f.image(diffuse ? "diffuse.source" : "specular.source", VK_FORMAT_R16G16B16A16_SFLOAT, size),
         .steps = {}};
@@ -77,8 +82,8 @@ LobeLight lobeImages(gpu::Frame& f, uint32_t lobe, uvec2 size, bool countSteps) 
 
 }  // namespace
 
-LobeLight noLight(gpu::Frame& f, uint32_t lobe, uvec2 size, bool countSteps) {
-    const LobeLight light = lobeImages(f, lobe, size, countSteps);
+LobeLight noLight(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps) {
+    const LobeLight light = lobeImages(f, lobe, from, countSteps);
     f.clear(light.radiance);
     f.clear(light.source);
     if (countSteps) {
@@ -89,7 +94,7 @@ LobeLight noLight(gpu::Frame& f, uint32_t lobe, uvec2 size, bool countSteps) {
 
 LobeLight resolveRays(gpu::Frame& f, const Rays& rays, uint32_t perPixel) {
     const uvec2 size = rays.direction.size;
-    const LobeLight light = lobeImages(f, rays.lobe, size, rays.countSteps);
+    const LobeLight light = lobeImages(f, rays.lobe, rays.from, rays.countSteps);
     f.compute("resolve_rays", "resolve_rays.comp")
         .constant("countSteps", rays.countSteps ? 1U : 0U)
         .read("direction", rays.direction)

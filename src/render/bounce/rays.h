@@ -23,17 +23,20 @@ CHOICES(RayDistribution, RAY_DISTRIBUTIONS)
     OPTION(RayNoise, blue, 1)
 CHOICES(RayNoise, RAY_NOISES)
 
-#define DIFFUSE_SETTINGS(VALUE, SWITCH, CHOICE)                                                             \
-    VALUE(uint, rays, 4, 0, 256, "Rays per pixel for indirect diffuse light; 0: none is computed.")         \
-    CHOICE(RayDistribution, distribution, cosine,                                                           \
-           "How their directions are spread over the hemisphere; normal: not at all: one along the normal " \
-           "stands for all, and only sources that know irradiance (probes, environment) answer it.")        \
-    CHOICE(RayNoise, noise, blue,                                                                           \
-           "What chooses their directions; white: chance; blue: a low-discrepancy sequence, shifted by "    \
-           "blue noise in space and time: less error, and what is left is easier to blur away.")            \
-    VALUE(float, radius, 100000.0, 0.01, 100000.0,                                                          \
-          "Metres; what is farther off is left to the sources behind the screen.")                          \
-    VALUE(float, gain, 1.0, 0.0, 64.0,                                                                      \
+#define DIFFUSE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                \
+    VALUE(uint, rays, 4, 0, 256, "Rays per pixel for indirect diffuse light; 0: none is computed.")            \
+    CHOICE(RayDistribution, distribution, cosine,                                                              \
+           "How their directions are spread over the hemisphere; normal: not at all: one along the normal "    \
+           "stands for all, and only sources that know irradiance (probes, environment) answer it.")           \
+    CHOICE(RayNoise, noise, blue,                                                                              \
+           "What chooses their directions; white: chance; blue: a low-discrepancy sequence, shifted by "       \
+           "blue noise in space and time: less error, and what is left is easier to blur away.")               \
+    VALUE(uint, scale, 1, 1, 4,                                                                                \
+          "Pixels along each side of the blocks that share rays; 2: half resolution. What is found is spread " \
+          "over the block's pixels by their depths and normals.")                                              \
+    VALUE(float, radius, 100000.0, 0.01, 100000.0,                                                             \
+          "Metres; what is farther off is left to the sources behind the screen.")                             \
+    VALUE(float, gain, 1.0, 0.0, 64.0,                                                                         \
           "Factor on indirect diffuse light; only 1 keeps energy; pi is what leaving out Lambert's 1/pi does.")
 SETTINGS(DiffuseSettings, DIFFUSE_SETTINGS)
 
@@ -42,14 +45,15 @@ SETTINGS(DiffuseSettings, DIFFUSE_SETTINGS)
     OPTION(RougherSurfaces, mips, 1)
 CHOICES(RougherSurfaces, ROUGHER_SURFACES)
 
-#define SPECULAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                           \
-    VALUE(uint, rays, 1, 0, 256,                                                                           \
-          "Rays per pixel for reflections, spread as the roughness says; 0: none are computed.")           \
-    VALUE(float, maxRoughness, 1.0, 0.0, 1.0,                                                              \
-          "Where surfaces are too rough for rays that are spread: see `rougher`; 1: none are.")            \
-    CHOICE(RougherSurfaces, rougher, next,                                                                 \
-           "What those get; next: the sources behind the screen; mips: rays near the middle of what they " \
-           "reflect, with the screen's light around their hits, blurred as the roughness says.")           \
+#define SPECULAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                               \
+    VALUE(uint, rays, 1, 0, 256,                                                                               \
+          "Rays per pixel for reflections, spread as the roughness says; 0: none are computed.")               \
+    VALUE(uint, scale, 1, 1, 4, "Pixels along each side of the blocks that share rays, as for diffuse.scale.") \
+    VALUE(float, maxRoughness, 1.0, 0.0, 1.0,                                                                  \
+          "Where surfaces are too rough for rays that are spread: see `rougher`; 1: none are.")                \
+    CHOICE(RougherSurfaces, rougher, next,                                                                     \
+           "What those get; next: the sources behind the screen; mips: rays near the middle of what they "     \
+           "reflect, with the screen's light around their hits, blurred as the roughness says.")               \
     CHOICE(RayNoise, noise, blue, "What chooses their directions, as for diffuse.noise.")
 SETTINGS(SpecularSettings, SPECULAR_SETTINGS)
 
@@ -94,12 +98,13 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "gpu/frame.h"
-#include "render/gbuffer/gbuffer.h"
+#include "render/bounce/ray_surfaces.h"
 
 namespace reflet {
 
 /// One batch of rays of one lobe. A layer per ray of a pixel.
 struct Rays {
+    RaySurfaces from;         ///< that they leave
     gpu::Image direction;     ///< RG32_UINT array: direction (packUnitVector, world), packRay: weight, trust, spread
     gpu::Image answer;        ///< RGBA16F array: radiance · weights so far, hit distance · weights [m]
     gpu::Image source;        ///< RGBA8 array: colours of the sources · weights; alpha: confidence
@@ -113,6 +118,7 @@ struct Rays {
 
 /// What a lobe's rays brought, averaged per pixel; not yet multiplied by the surface's own colour.
 struct LobeLight {
+    RaySurfaces from;     ///< that the images have a pixel for
     gpu::Image radiance;  ///< RGBA16F: mean of radiance · ray weight; alpha: mean hit distance [m]
     gpu::Image source;    ///< RGBA16F: mean colour of the sources that answered; alpha: confidence. Sums of many
                           ///< batches, for which 8 bits are too few
@@ -129,16 +135,16 @@ struct RayTables {
 /// Throws Error where they do not take one.
 uint32_t raysPerBatch(gpu::Frame& f, uvec2 size);
 
-/// Rays firstRay .. firstRay + count of every pixel that has a surface (and the lobe). countSteps: keep how many depth
-/// samples each takes.
-Rays generateRays(gpu::Frame& f, const GBuffer& g, const RayTables& tables, uint32_t lobe,
-                  const GenerateRaysParams& params, bool countSteps);
+/// Rays firstRay .. firstRay + count of every pixel of `from` that has a surface (and the lobe). params.view is set
+/// here. countSteps: keep how many depth samples each takes.
+Rays generateRays(gpu::Frame& f, const RaySurfaces& from, const RayTables& tables, uint32_t lobe,
+                  GenerateRaysParams params, bool countSteps);
 
 /// An empty list as large as the rays' own, for what a source misses.
 gpu::BufferView makeRayList(gpu::Frame& f, const Rays& rays, std::string_view name);
 
 /// A lobe without rays: black.
-LobeLight noLight(gpu::Frame& f, uint32_t lobe, uvec2 size, bool countSteps);
+LobeLight noLight(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps);
 
 /// Adds the batch to the lobe's images, `perPixel` rays making the whole.
 LobeLight resolveRays(gpu::Frame& f, const Rays& rays, uint32_t perPixel);

@@ -9,7 +9,6 @@ namespace reflet {
 namespace {
 
 struct Trace {
-    const ScreenImages& own;
     const ScreenImages& seen;
     std::string_view missed;  // name of the list
     uint32_t through = throughScreen;
@@ -28,8 +27,8 @@ void record(gpu::Frame& f, gpu::Pass pass, Rays& rays, const Trace& trace, const
         .constant("cones", seen.lightMips ? 1U : 0U)
         .constant("countSteps", countSteps ? 1U : 0U)
         .constant("through", trace.through)
-        .read("ownDepth", trace.own.g.depth)
-        .read("ownGeometricNormal", trace.own.g.geometricNormal)
+        .read("ownDepth", rays.from.g.depth)
+        .read("ownGeometricNormal", rays.from.g.geometricNormal)
         .read("depth", seen.g.depth)
         .read("backDepth", seen.backDepth ? seen.backDepth : seen.g.depth)
         .read("pyramid", seen.pyramid ? seen.pyramid : seen.g.depth)
@@ -44,7 +43,7 @@ void record(gpu::Frame& f, gpu::Pass pass, Rays& rays, const Trace& trace, const
         .write("source", rays.source)
         .write("steps", rays.steps)
         .write("missed", missed)
-        .params(TraceScreenParams{trace.own.view, seen.view, trace.mirror, settings,
+        .params(TraceScreenParams{rays.from.view, seen.view, trace.mirror, settings,
                                   std::min(longest, settings.maxDistance), rays.firstRay, previous ? 1U : 0U})
         .dispatchIndirect(rays.waiting, 0);
     rays.waiting = missed;
@@ -65,15 +64,15 @@ uint32_t throughOf(PlanarForm form) {
 
 void traceScreen(gpu::Frame& f, Rays& rays, const ScreenImages& screen, const TraceScreenSettings& settings,
                  float longest) {
-    record(f, f.compute("trace_screen", "trace_screen.comp"), rays, {screen, screen, "rays.missed_by_screen"}, settings,
+    record(f, f.compute("trace_screen", "trace_screen.comp"), rays, {screen, "rays.missed_by_screen"}, settings,
            longest);
 }
 
-void traceMirror(gpu::Frame& f, Rays& rays, const ScreenImages& screen, const PlanarView& mirror,
-                 const TraceScreenSettings& settings, float longest) {
+void traceMirror(gpu::Frame& f, Rays& rays, const PlanarView& mirror, const TraceScreenSettings& settings,
+                 float longest) {
     const std::string missed = "rays.missed_by_" + mirror.name;
     record(f, f.compute("trace_mirror", "trace_screen.comp"), rays,
-           {screen, mirror.seen, missed, throughOf(mirror.form), mirror.mirror}, settings, longest);
+           {mirror.seen, missed, throughOf(mirror.form), mirror.mirror}, settings, longest);
 }
 
 }  // namespace reflet

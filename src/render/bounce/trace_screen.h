@@ -116,10 +116,9 @@ struct PlanarView {
     PlanarForm form = PlanarForm::traced;
 };
 
-/// Answers rays that start on the mirror with what its view shows; what that cannot say, it hands on. screen: which
-/// they start from.
-void traceMirror(gpu::Frame& f, Rays& rays, const ScreenImages& screen, const PlanarView& mirror,
-                 const TraceScreenSettings& settings, float longest);
+/// Answers rays that start on the mirror with what its view shows; what that cannot say, it hands on.
+void traceMirror(gpu::Frame& f, Rays& rays, const PlanarView& mirror, const TraceScreenSettings& settings,
+                 float longest);
 
 }  // namespace reflet
 #endif

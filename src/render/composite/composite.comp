@@ -1,11 +1,15 @@
 // Indirect light times what the surface reflects of it, and the sum of all light. In: G-buffer, direct light, the
-// lobes' mean radiance. Out: both indirect layers, and lit = direct + both.
+// lobes' mean radiance, with the surfaces that they belong to where those are fewer than pixels. Out: both indirect layers, and lit = direct + both.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/composite/composite.h"
 #include "render/gbuffer/gbuffer.glsl"
 #include "shaders/half_float.glsl"
 #include "shaders/projection.glsl"
+#include "shaders/shadow_kernel.glsl"
+
+layout(constant_id = 0) const uint diffuseScale = 1u;
+layout(constant_id = 1) const uint specularScale = 1u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { CompositeParams params; };
@@ -21,6 +25,67 @@ layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D indirectDiffuse;
 layout(set = 0, binding = 10, rgba16f) uniform writeonly image2D indirectSpecular;
 layout(set = 0, binding = 11, rgba16f) uniform writeonly image2D lit;
 
+layout(set = 0, binding = 12) uniform usampler2D geometricNormal;
+layout(set = 0, binding = 13) uniform sampler2D diffuseDepth;
+layout(set = 0, binding = 14) uniform usampler2D diffuseNormal;
+layout(set = 0, binding = 15) uniform sampler2D specularDepth;
+layout(set = 0, binding = 16) uniform usampler2D specularNormal;
+
+// A pixel, and the surface that it shows.
+struct Shown {
+    ivec2 pixel;
+    float depth;
+    vec3 normal;
+    ScreenPlane plane;
+};
+
+// The four block pixels around a pixel, and how much each counts (after Kopf et al., Joint Bilateral Upsampling, 2007).
+struct Blocks {
+    ivec2 corner;
+    vec4 weights;  // their sum is 1
+};
+
+// Bilinear, times how far they show the same surface. None is quite 0: a pixel that no block knows gets what is around.
+Blocks blocksAround(Shown shown, uint scale, uint place, sampler2D blockDepth, usampler2D blockNormal) {
+    vec2 at = vec2(shown.pixel - int(place)) / float(scale);
+    ivec2 last = textureSize(blockDepth, 0) - 1;
+    Blocks b;
+    b.corner = clamp(ivec2(floor(at)), ivec2(0), max(last - 1, ivec2(0)));
+    vec2 f = clamp(at - vec2(b.corner), vec2(0.0), vec2(1.0));
+    for (int i = 0; i < 4; ++i) {
+        ivec2 o = ivec2(i & 1, i >> 1);
+        ivec2 block = min(b.corner + o, last);
+        vec2 away = vec2(block * int(scale) + int(place) - shown.pixel);
+        float d = texelFetch(blockDepth, block, 0).r;
+        float height = heightAbove(shown.plane, away, d - shown.depth) / max(length(away), 1.0);
+        float facing = max(dot(unpackUnitVector(texelFetch(blockNormal, block, 0).r), shown.normal), 0.0);
+        float facing4 = facing * facing * facing * facing;
+        float same = facing4 * facing4 / (1.0 + height * height * height * height);
+        vec2 share = mix(1.0 - f, f, vec2(o));
+        b.weights[i] = d > 0.0 ? share.x * share.y * (same + 1e-4) + 1e-7 : 0.0;
+    }
+    b.weights /= max(dot(b.weights, vec4(1.0)), 1e-12);
+    return b;
+}
+
+vec3 diffuseRadiance(Shown shown) {
+    if (diffuseScale == 1u) {
+        return imageLoad(diffuse, shown.pixel).rgb;
+    }
+    Blocks b = blocksAround(shown, diffuseScale, params.diffusePlace, diffuseDepth, diffuseNormal);
+    return b.weights.x * imageLoad(diffuse, b.corner).rgb + b.weights.y * imageLoad(diffuse, b.corner + ivec2(1, 0)).rgb +
+           b.weights.z * imageLoad(diffuse, b.corner + ivec2(0, 1)).rgb + b.weights.w * imageLoad(diffuse, b.corner + 1).rgb;
+}
+
+vec3 specularRadiance(Shown shown) {
+    if (specularScale == 1u) {
+        return imageLoad(specular, shown.pixel).rgb;
+    }
+    Blocks b = blocksAround(shown, specularScale, params.specularPlace, specularDepth, specularNormal);
+    return b.weights.x * imageLoad(specular, b.corner).rgb + b.weights.y * imageLoad(specular, b.corner + ivec2(1, 0)).rgb +
+           b.weights.z * imageLoad(specular, b.corner + ivec2(0, 1)).rgb + b.weights.w * imageLoad(specular, b.corner + 1).rgb;
+}
+
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, ivec2(params.view.size)))) {
@@ -35,8 +100,15 @@ void main() {
         float nv = dot(n, directionToEye(p, params.view.eye));
         MaterialTexel m = unpackMaterial(texelFetch(material, pixel, 0));
         Surface s = surfaceAt(texelFetch(baseColor, pixel, 0).rgb, m, nv, ggxTable);
-        fromDiffuse = params.diffuseGain * s.diffuse * imageLoad(diffuse, pixel).rgb;
-        fromSpecular = s.specular * imageLoad(specular, pixel).rgb;
+        Shown shown;
+        shown.pixel = pixel;
+        if (diffuseScale > 1u || specularScale > 1u) {
+            vec3 geometric = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
+            shown = Shown(pixel, d, n,
+                          screenPlane(p, geometric, params.view.clipToWorld, params.view.pixel, params.view.pixelAngle));
+        }
+        fromDiffuse = params.diffuseGain * s.diffuse * diffuseRadiance(shown);
+        fromSpecular = s.specular * specularRadiance(shown);
     }
     imageStore(indirectDiffuse, pixel, vec4(clampToHalf(fromDiffuse), 1.0));
     imageStore(indirectSpecular, pixel, vec4(clampToHalf(fromSpecular), 1.0));

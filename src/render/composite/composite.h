@@ -10,6 +10,8 @@ SHARED_BEGIN
 struct CompositeParams {
     ViewParams view;
     float diffuseGain;  // factor on indirect diffuse light
+    uint diffusePlace;  // which pixel of a block its rays leave, along each side (RaySurfaces)
+    uint specularPlace;
 };
 
 SHARED_END
@@ -29,9 +31,9 @@ struct Composite {
     gpu::Image lit;
 };
 
-/// lit: written.
+/// Lobes whose rays leave a coarser grid are spread over all pixels. params: places are set here. lit: written.
 Composite composite(gpu::Frame& f, const GBuffer& g, gpu::Image direct, const LobeLight& diffuse,
-                    const LobeLight& specular, gpu::Image ggxTable, gpu::Image lit, const CompositeParams& params);
+                    const LobeLight& specular, gpu::Image ggxTable, gpu::Image lit, CompositeParams params);
 
 }  // namespace reflet
 #endif

@@ -9,7 +9,9 @@
 layout(constant_id = 0) const uint lobe = 0u;
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { AnswerProbesParams params; };
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock {
+    AnswerProbesParams params;
+};
 layout(set = 0, binding = 1) uniform sampler2D depth;
 layout(set = 0, binding = 2) uniform sampler2D material;
 layout(set = 0, binding = 3) uniform samplerCubeArray probeLobes;
@@ -19,17 +21,19 @@ layout(set = 0, binding = 6, scalar) readonly buffer WaitingBlock {
     uint groups[3];
     uint count;
     RayItem items[];
-} waiting;
+}
+waiting;
 layout(set = 0, binding = 7, rgba16f) uniform image2DArray answer;
 layout(set = 0, binding = 8, rgba8) uniform image2DArray source;
 layout(set = 0, binding = 9, scalar) buffer MissedBlock {
     uint groups[3];
     uint count;
     RayItem items[];
-} missed;
+}
+missed;
 layout(set = 0, binding = 10) uniform sampler2D probeIrradiance;
-#include "render/bounce/rays_append.glsl"
 #include "render/bounce/rays_answer.glsl"
+#include "render/bounce/rays_append.glsl"
 #include "render/probe/probes.glsl"
 
 RayAnswer answerRay(ivec2 pixel, Ray ray) {

@@ -5,14 +5,13 @@
 
 namespace reflet {
 
-void answerProbes(gpu::Frame& f, Rays& rays, const GBuffer& g, const ViewParams& view, const ProbeMaps& probes,
-                  const ProbesSettings& settings) {
+void answerProbes(gpu::Frame& f, Rays& rays, const ProbeMaps& probes, const ProbesSettings& settings) {
     const gpu::BufferView missed = makeRayList(f, rays, "rays.missed_by_probes");
     const VkSampler trilinear = f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
     f.compute("answer_probes", "answer_probes.comp")
         .constant("lobe", rays.lobe)
-        .read("depth", g.depth)
-        .read("material", g.material)
+        .read("depth", rays.from.g.depth)
+        .read("material", rays.from.g.material)
         .read("probeLobes", probes.lobes, trilinear)
         .read("probeIrradiance", probes.irradiance)
         .read("probeDistance", probes.distance)
@@ -21,7 +20,7 @@ void answerProbes(gpu::Frame& f, Rays& rays, const GBuffer& g, const ViewParams&
         .write("answer", rays.answer)
         .write("source", rays.source)
         .write("missed", missed)
-        .params(AnswerProbesParams{view, settings, probes.block})
+        .params(AnswerProbesParams{rays.from.view, settings, probes.block})
         .dispatchIndirect(rays.waiting, 0);
     rays.waiting = missed;
 }

@@ -20,13 +20,11 @@ SHARED_END
 
 #include "gpu/frame.h"
 #include "render/bounce/rays.h"
-#include "render/gbuffer/gbuffer.h"
 
 namespace reflet {
 
 /// Answers rays from points in a probe's box, as far as the probes there do not see the sky. Hands on the others.
-void answerProbes(gpu::Frame& f, Rays& rays, const GBuffer& g, const ViewParams& view, const ProbeMaps& probes,
-                  const ProbesSettings& settings);
+void answerProbes(gpu::Frame& f, Rays& rays, const ProbeMaps& probes, const ProbesSettings& settings);
 
 }  // namespace reflet
 #endif

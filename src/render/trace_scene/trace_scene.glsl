@@ -1,6 +1,6 @@
 // Traces waiting rays through the scene and shades what they hit. trace_scene.comp and trace_scene_query.comp include it
 // after their traversal.
-// In: depth, geometric normal, material, motion, light of this and the last frame, the sun's shadow map, GGX table, blue
+// In: depth, geometric normal and material that rays leave; of the screen: depth, geometric normal, motion, light of this and the last frame, the sun's shadow map, GGX table, blue
 // noise, lamps, ray directions, the list. Out: answers, sources, the list of what it has not answered.
 #include "render/environment/environment.glsl"
 #include "render/bounce/rays.glsl"
@@ -17,6 +17,8 @@ layout(constant_id = 2) const uint reuseScreen = 0u;
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { TraceSceneParams params; };
 layout(set = 0, binding = 1, scalar) uniform LampUniforms { LampBlock lampBlock; };
+layout(set = 0, binding = 16) uniform sampler2D ownDepth;
+layout(set = 0, binding = 17) uniform usampler2D ownGeometricNormal;
 layout(set = 0, binding = 2) uniform sampler2D depth;
 layout(set = 0, binding = 3) uniform usampler2D geometricNormal;
 layout(set = 0, binding = 4) uniform sampler2D material;
@@ -197,28 +199,28 @@ vec3 radianceAlong(SceneRay ray, inout uint random, out float hitDistance) {
 // From the surface on, not from where the screen has met nothing up to: that knows nothing of what is thinner than a pixel
 // (in the built-in cave it loses a tenth of the light).
 SceneRay rayOfPixel(ivec3 slot, Ray ray) {
-    float d = texelFetch(depth, slot.xy, 0).r;
-    vec3 p = uvToWorld(pixelToUv(slot.xy, params.view.pixel), d, params.view.clipToWorld);
-    vec3 n = unpackUnitVector(texelFetch(geometricNormal, slot.xy, 0).r);
-    float away = depthToViewDistance(d, params.view.depthToDistance);
+    float d = texelFetch(ownDepth, slot.xy, 0).r;
+    vec3 p = uvToWorld(pixelToUv(slot.xy, params.own.pixel), d, params.own.clipToWorld);
+    vec3 n = unpackUnitVector(texelFetch(ownGeometricNormal, slot.xy, 0).r);
+    float away = depthToViewDistance(d, params.own.depthToDistance);
     float roughness = unpackMaterial(texelFetch(material, slot.xy, 0)).roughness;
     float lobeWidth = lobe == 0u ? 1.0 : ggxHalfTangent(roughness * roughness);
-    float pixelWidth = params.view.pixelAngle * (params.view.eye.w > 0.0 ? away : 1.0);
-    return SceneRay(p + n * clearanceOfPixel(p, away, params.view.depthToDistance), ray.direction, pixelWidth,
-                    params.view.pixelAngle * params.view.eye.w + shareOfLobe * lobeWidth);
+    float pixelWidth = params.own.pixelAngle * (params.own.eye.w > 0.0 ? away : 1.0);
+    return SceneRay(p + n * clearanceOfPixel(p, away, params.own.depthToDistance), ray.direction, pixelWidth,
+                    params.own.pixelAngle * params.own.eye.w + shareOfLobe * lobeWidth);
 }
 
 // Whether the ray is among those that the limit allows.
 bool isChosen(ivec3 slot) {
     float chance = params.rayLimit / float(waiting.count);
-    uint stream = params.firstRay + uint(slot.z) + 16u * lobe + hashPcg(params.view.seed + 7u);
-    uint mask = loadBlueNoise(blueNoiseTexel(uvec2(slot.xy), stream, params.view.frame));
+    uint stream = params.firstRay + uint(slot.z) + 16u * lobe + hashPcg(params.own.seed + 7u);
+    uint mask = loadBlueNoise(blueNoiseTexel(uvec2(slot.xy), stream, params.own.frame));
     return float(mask & 0xffffu) < 65536.0 * chance;
 }
 
 RayAnswer answerRay(inout WaitingRay w, Ray ray) {
-    uint stream = ((params.firstRay + uint(w.slot.z)) * 2u + lobe) * 4u + hashPcg(params.view.seed + 3u);
-    uint random = hashPixel(uvec2(w.slot.xy), stream, params.view.frame);
+    uint stream = ((params.firstRay + uint(w.slot.z)) * 2u + lobe) * 4u + hashPcg(params.own.seed + 3u);
+    uint random = hashPixel(uvec2(w.slot.xy), stream, params.own.frame);
     float hitDistance;
     vec3 radiance = radianceAlong(rayOfPixel(w.slot, ray), random, hitDistance);
     if (hitDistance < 0.0) {

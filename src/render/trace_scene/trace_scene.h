@@ -51,7 +51,8 @@ struct SceneLights {
 };
 
 struct TraceSceneParams {
-    ViewParams view;
+    ViewParams own;   // of the surfaces that rays leave
+    ViewParams view;  // of the screen
     TraceSceneSettings settings;
     SceneLights lights;
     SunShadowParams sun;

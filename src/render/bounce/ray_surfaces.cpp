@@ -1,0 +1,66 @@
+// Records the choice of surfaces that rays leave.
+#include "render/bounce/ray_surfaces.h"
+
+#include <string>
+
+namespace reflet {
+
+ViewParams viewOfBlocks(const ViewParams& view, uint32_t scale) {
+    const auto s = static_cast<float>(scale);
+    const vec2 size = glm::ceil(view.size / s);
+    // uv of the whole picture to that of the coarser: a · uv + b
+    const vec2 a = view.size / (s * size);
+    const vec2 b = (0.5F - (static_cast<float>(placeInBlock(scale)) + 0.5F) / s) / size;
+    const vec2 shift = a + 2.0F * b - 1.0F;  // of clip space, where w is 1
+    mat4 toBlocks(1.0F);
+    mat4 fromBlocks(1.0F);
+    for (int i = 0; i < 2; ++i) {
+        toBlocks[i][i] = a[i];
+        toBlocks[3][i] = shift[i];
+        fromBlocks[i][i] = 1.0F / a[i];
+        fromBlocks[3][i] = -shift[i] / a[i];
+    }
+    ViewParams v = view;
+    v.worldToClip = toBlocks * view.worldToClip;
+    v.clipToWorld = view.clipToWorld * fromBlocks;
+    v.previousWorldToClip = toBlocks * view.previousWorldToClip;
+    v.size = size;
+    v.pixel = 1.0F / size;
+    return v;
+}
+
+RaySurfaces pickSurfaces(gpu::Frame& f, const GBuffer& g, const ViewParams& view, uint32_t scale) {
+    if (scale == 1) {
+        return {g, view, scale};
+    }
+    const ViewParams blocks = viewOfBlocks(view, scale);
+    const uvec2 size(blocks.size);
+    const auto image = [&](std::string_view name, VkFormat format) {
+        return f.image("surfaces_" + std::to_string(scale) + "." + std::string(name), format, size);
+    };
+    const GBuffer picked{.depth = image("depth", VK_FORMAT_R32_SFLOAT),
+                         .normal = image("normal", VK_FORMAT_R32_UINT),
+                         .geometricNormal = image("geometric_normal", VK_FORMAT_R32_UINT),
+                         .baseColor = image("base_color", VK_FORMAT_R8G8B8A8_UNORM),
+                         .material = image("material", VK_FORMAT_R8G8B8A8_UNORM),
+                         .emissive = {},
+                         .motion = image("motion", VK_FORMAT_R16G16_SFLOAT)};
+    f.compute("pick_surfaces", "pick_surfaces.comp")
+        .read("depth", g.depth)
+        .read("normal", g.normal)
+        .read("geometricNormal", g.geometricNormal)
+        .read("baseColor", g.baseColor)
+        .read("material", g.material)
+        .read("motion", g.motion)
+        .write("pickedDepth", picked.depth)
+        .write("pickedNormal", picked.normal)
+        .write("pickedGeometricNormal", picked.geometricNormal)
+        .write("pickedBaseColor", picked.baseColor)
+        .write("pickedMaterial", picked.material)
+        .write("pickedMotion", picked.motion)
+        .params(PickSurfacesParams{uvec2(view.size), size, scale, placeInBlock(scale)})
+        .dispatch(size);
+    return {picked, blocks, scale};
+}
+
+}  // namespace reflet

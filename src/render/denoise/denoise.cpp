@@ -1,0 +1,102 @@
+// Records the cleaning of indirect light.
+#include "render/denoise/denoise.h"
+
+#include <string>
+
+namespace reflet {
+
+namespace {
+
+constexpr VkFormat lightFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+constexpr VkFormat surfaceFormat = VK_FORMAT_R32G32_UINT;
+constexpr VkFormat momentsFormat = VK_FORMAT_R16G16_SFLOAT;
+
+// What the passes hand on: light, and of what it is the mean.
+struct Gathered {
+    gpu::Image light;
+    gpu::Image surface;
+    gpu::Image moments;
+    gpu::Image nextLight;  // that the next frame remembers
+};
+
+gpu::Image tileLimits(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const DenoiseSettings& settings) {
+    const uvec2 size = light.radiance.size;
+    const uvec2 tiles = (size + denoiseTileSide - 1U) / denoiseTileSide;
+    const gpu::Image limits = f.image("denoise.limits", VK_FORMAT_R32G32_SFLOAT, tiles);
+    f.compute("denoise_tiles", "denoise_tiles.comp")
+        .constant("lobe", lobe)
+        .read("material", light.from.g.material)
+        .read("depth", light.from.g.depth)
+        .read("radiance", light.radiance)
+        .write("limits", limits)
+        .params(DenoiseTilesParams{size, settings.fireflies})
+        .dispatch(tiles);
+    return limits;
+}
+
+Gathered gather(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
+                const DenoiseSettings& settings) {
+    const uvec2 size = light.radiance.size;
+    const uvec2 kept = settings.history > 0 ? size : uvec2(1);
+    const std::string name = lobe == lobeDiffuse ? "denoise_diffuse" : "denoise_specular";
+    const gpu::History past = f.history(name + ".light", lightFormat, kept);
+    const gpu::History surfaces = f.history(name + ".surface", surfaceFormat, size);
+    const gpu::History moments = f.history(name + ".moments", momentsFormat, size);
+    const Gathered out{f.image("denoise.gathered", lightFormat, size), surfaces.next, moments.next, past.next};
+    const bool remembers = settings.history > 0 && past.valid && surfaces.valid;
+    f.compute("denoise_gather", "denoise_gather.comp")
+        .constant("lobe", lobe)
+        .read("limits", tileLimits(f, light, lobe, settings))
+        .read("depth", light.from.g.depth)
+        .read("normal", light.from.g.normal)
+        .read("geometricNormal", light.from.g.geometricNormal)
+        .read("material", light.from.g.material)
+        .read("motion", light.from.g.motion)
+        .read("radiance", light.radiance)
+        .read("previousLight", past.previous)
+        .read("previousSurface", surfaces.previous)
+        .read("previousMoments", moments.previous)
+        .write("nextLight", past.next)
+        .write("surface", surfaces.next)
+        .write("moments", moments.next)
+        .write("gathered", out.light)
+        .params(DenoiseGatherParams{light.from.view, settings, picture.size / static_cast<float>(light.from.scale),
+                                    remembers ? 1U : 0U})
+        .dispatch(size);
+    return out;
+}
+
+}  // namespace
+
+LobeLight denoise(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
+                  const DenoiseSettings& settings) {
+    const uvec2 size = light.radiance.size;
+    const Gathered gathered = gather(f, light, lobe, picture, settings);
+    const auto scale = static_cast<float>(light.from.scale);
+    DenoiseBlurParams params{light.from.view, settings.radius / scale, picture.pixelAngle * scale, 0};
+    gpu::Image from = gathered.light;
+    for (; params.pass < settings.passes; ++params.pass) {
+        const gpu::Image to = f.image(params.pass % 2 == 0 ? "denoise.even" : "denoise.odd", lightFormat, size);
+        const bool last = params.pass + 1 == settings.passes;
+        const gpu::Image written =
+            last ? f.image(lobe == lobeDiffuse ? "denoise.diffuse" : "denoise.specular", lightFormat, size) : to;
+        f.compute("denoise_blur", "denoise_blur.comp")
+            .constant("lobe", lobe)
+            .constant("feedsBack", params.pass == 0 && settings.history > 0 ? 1U : 0U)
+            .read("from", from)
+            .read("surface", gathered.surface)
+            .read("moments", gathered.moments)
+            .read("geometricNormal", light.from.g.geometricNormal)
+            .write("nextLight", gathered.nextLight)
+            .write("blurred", written)
+            .params(params)
+            .dispatch(size);
+        from = written;
+        params.radius *= 0.5F;
+    }
+    LobeLight clean = light;
+    clean.radiance = from;
+    return clean;
+}
+
+}  // namespace reflet

@@ -1,0 +1,69 @@
+// Cleans what few rays per pixel brought: over frames, then over neighbours on the same surface. One for both lobes, on
+// the grid of pixels that the rays leave. Shared by C++ and GLSL.
+//
+// tiles: how bright 8x8 pixels are → gather: fireflies spread, what of the last frames still holds → blur, several
+// times. What it cleans is light before the surface's own colour comes in. (After: Schied et al., Spatiotemporal
+// Variance-Guided Filtering, HPG 2017: moments over time; Zhdan, ReBLUR, Ray Tracing Gems II, 2021: a recurrent blur
+// whose radius follows history and hit distance; Stachowiak and Uludag, Stochastic Screen-Space Reflections, SIGGRAPH
+// 2015: reflections are reprojected by where they seem to be.)
+#ifndef REFLET_RENDER_DENOISE_H
+#define REFLET_RENDER_DENOISE_H
+
+#include "base/shared.h"
+#include "render/view.h"
+
+SHARED_BEGIN
+
+#define DENOISE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                    \
+    SWITCH(enabled, 0, "Clean indirect light of the noise that few rays leave.")                                   \
+    VALUE(uint, history, 64, 0, 1024, "Frames whose mean is kept, at most; 0: each frame is cleaned by itself.")   \
+    VALUE(uint, passes, 2, 0, 4, "Times that neighbours are asked, eight each; every time half as far away.")      \
+    VALUE(float, radius, 24.0, 0.0, 256.0,                                                                         \
+          "Pixels of the picture up to which neighbours are asked where nothing is remembered; less the longer "   \
+          "it is remembered, and where what rays hit is near or the lobe narrow.")                                 \
+    VALUE(float, fireflies, 8.0, 0.0, 1000.0,                                                                      \
+          "What is brighter than so many times the mean around it is spread over its neighbours; 0: it is not.")   \
+    VALUE(float, clip, 1.0, 0.0, 100.0,                                                                            \
+          "How far the past may differ from what neighbours show now, in standard deviations of a pixel's light; " \
+          "less: nothing trails behind; more: less noise. 0: as far as it likes.")
+SETTINGS(DenoiseSettings, DENOISE_SETTINGS)
+
+const uint denoiseTileSide = 8;  // pixels of the grid
+
+struct DenoiseTilesParams {
+    uvec2 size;   // of the grid
+    float limit;  // DenoiseSettings.fireflies
+};
+
+struct DenoiseGatherParams {
+    ViewParams view;  // of the grid
+    DenoiseSettings settings;
+    vec2 motionToPixels;  // pixels of the grid that a motion of 1 moves
+    uint hasPrevious;     // 1: the history holds the last frame
+};
+
+struct DenoiseBlurParams {
+    ViewParams view;  // of the grid
+    float radius;     // pixels of the grid, without history
+    float gridAngle;  // what a pixel of the grid covers at distance 1 [m/m]; orthographic: at any distance [m]
+    uint pass;        // 0, 1, …
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "gpu/frame.h"
+#include "render/bounce/rays.h"
+
+namespace reflet {
+
+/// The same light with less noise. picture: the whole picture's view, of which light.from is a grid. Mean radiance is
+/// kept; what comes in as inf, NaN or beyond half floats goes out as finite.
+LobeLight denoise(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
+                  const DenoiseSettings& settings);
+
+}  // namespace reflet
+#endif
+
+#endif

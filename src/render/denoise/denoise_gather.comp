@@ -1,0 +1,197 @@
+// The first step of cleaning: fireflies are spread over their neighbours, then each pixel becomes the mean of this frame
+// and of those before as far as they still hold.
+// In: the limits of fireflies, surfaces, motion, radiance with hit distance, history. Out: the mean, with hit distance;
+// the same as history; surfaces; moments: how many frames it is the mean of, mean square of the luminance.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "render/denoise/denoise.glsl"
+#include "render/gbuffer/gbuffer.h"
+
+layout(constant_id = 0) const uint lobe = 0u;
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { DenoiseGatherParams params; };
+layout(set = 0, binding = 1, rg32f) uniform readonly image2D limits;
+layout(set = 0, binding = 2) uniform sampler2D depth;
+layout(set = 0, binding = 3) uniform usampler2D normal;
+layout(set = 0, binding = 4) uniform usampler2D geometricNormal;
+layout(set = 0, binding = 5) uniform sampler2D material;
+layout(set = 0, binding = 6) uniform sampler2D motion;
+layout(set = 0, binding = 7, rgba16f) uniform readonly image2D radiance;
+layout(set = 0, binding = 8, rgba16f) uniform readonly image2D previousLight;
+layout(set = 0, binding = 9, rg32ui) uniform readonly uimage2D previousSurface;
+layout(set = 0, binding = 10, rg16f) uniform readonly image2D previousMoments;
+layout(set = 0, binding = 11, rgba16f) uniform writeonly image2D nextLight;
+layout(set = 0, binding = 12, rg32ui) uniform writeonly uimage2D surface;
+layout(set = 0, binding = 13, rg16f) uniform writeonly image2D moments;
+layout(set = 0, binding = 14, rgba16f) uniform writeonly image2D gathered;
+
+const float heightSlack = 4.0;     // by which a remembered surface may lie off this one, times what neighbours may
+const float distanceSlack = 0.02;  // or this share of its distance: things move
+// Reflections up to this perceptual roughness move as what they show, those above the second as their surface.
+const float movesAsImage = 0.25;
+const float movesAsSurface = 0.6;
+
+// What the pixel and its neighbours on the same surface show in this frame.
+struct Seen {
+    vec4 light;     // fireflies clipped, and what the neighbours' fireflies lost added; mean hit distance around it
+    vec3 mean;      // of the neighbourhood
+    vec3 variance;  // of a pixel in it
+};
+
+// What earlier frames brought.
+struct Past {
+    vec4 light;
+    float frames;  // 0: nothing
+    float square;  // mean of the luminance's
+};
+
+const Past noPast = Past(vec4(0.0), 0.0, 0.0);
+
+Seen look(ivec2 pixel, float d, ScreenPlane plane) {
+    ivec2 last = ivec2(params.view.size) - 1;
+    Seen s;
+    vec3 spread = vec3(0.0);
+    vec3 sum = vec3(0.0);
+    vec3 squares = vec3(0.0);
+    float found = 0.0;
+    float away = 0.0;
+    for (int i = 0; i < 9; ++i) {
+        ivec2 o = ivec2(i % 3, i / 3) - 1;
+        ivec2 at = pixel + o;
+        if (any(lessThan(at, ivec2(0))) || any(greaterThan(at, last))) {
+            continue;
+        }
+        vec4 texel = imageLoad(radiance, at);
+        vec3 light = clampToHalf(texel.rgb);
+        float bright = luminance(light);
+        float limit = imageLoad(limits, at / int(denoiseTileSide)).r;
+        vec3 kept = light * min(1.0, limit / max(bright, 1e-12));
+        // A pixel shares what it loses with all neighbours that it has, fewer at the picture's edges.
+        ivec2 neighbours = 3 - ivec2(equal(at, ivec2(0))) - ivec2(equal(at, last));
+        spread += (light - kept) / float(neighbours.x * neighbours.y);
+        if (i == 4) {
+            s.light.rgb = kept;
+        }
+        if (onSurface(plane, vec2(o), texelFetch(depth, at, 0).r - d)) {
+            sum += kept;
+            squares += kept * kept;
+            found += 1.0;
+            away += clamp(texel.a, 0.0, largestHalf);
+        }
+    }
+    s.light.rgb += spread;
+    s.light.a = away / max(found, 1.0);
+    s.mean = sum / max(found, 1.0);
+    s.variance = max(squares / max(found, 1.0) - s.mean * s.mean, imageLoad(limits, pixel / int(denoiseTileSide)).g);
+    return s;
+}
+
+// What the last frame kept at `at` (pixels of the grid), of a surface like this one. home: where it had the pixel's own
+// point, whose depth was to be `expected`.
+Past pastAt(vec2 at, vec2 home, float expected, KeptSurface own, ScreenPlane plane) {
+    float allowed = heightSlack + distanceSlack / params.view.pixelAngle;
+    vec2 nearest = round(at);
+    at = all(lessThan(abs(at - nearest), vec2(1.0 / 64.0))) ? nearest : at;  // what did not move stays what it is
+    ivec2 corner = ivec2(floor(at));
+    vec2 f = at - vec2(corner);
+    Past sum = noPast;
+    float weights = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 o = ivec2(i & 1, i >> 1);
+        ivec2 texel = corner + o;
+        vec2 share = mix(1.0 - f, f, vec2(o));
+        if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(params.view.size))) || share.x * share.y == 0.0) {
+            continue;
+        }
+        KeptSurface there = unpackSurface(imageLoad(previousSurface, texel).xy);
+        vec2 away = vec2(texel) - home;
+        float height = heightAbove(plane, away, there.depth - expected) / max(length(away), 1.0);
+        if (there.depth > 0.0 && abs(height) <= allowed && alike(own, there, lobe) > 0.3) {
+            float weight = share.x * share.y;
+            vec2 m = imageLoad(previousMoments, texel).xy;
+            sum.light += weight * imageLoad(previousLight, texel);
+            sum.frames += weight * m.x;
+            sum.square += weight * m.y;
+            weights += weight;
+        }
+    }
+    if (weights < 0.01) {
+        return noPast;
+    }
+    return Past(sum.light / weights, sum.frames / weights, sum.square / weights);
+}
+
+vec2 pixelOf(vec4 clip) { return ndcToUv(clip.xy / clip.w) * params.view.size - 0.5; }
+
+// The past of what is seen in a mirror moves as the image behind it does.
+Past remembered(ivec2 pixel, vec3 p, KeptSurface own, ScreenPlane plane, float hitDistance) {
+    vec4 before = params.view.previousWorldToClip * vec4(p, 1.0);
+    float expected = before.z / before.w;
+    vec2 home = vec2(pixel) - texelFetch(motion, pixel, 0).rg * params.motionToPixels;
+    float asImage = lobe == 1u ? 1.0 - smoothstep(movesAsImage, movesAsSurface, own.roughness) : 0.0;
+    Past image = noPast;
+    if (asImage > 0.0) {
+        vec3 behind = p - directionToEye(p, params.view.eye) * hitDistance;
+        vec4 clip = params.view.previousWorldToClip * vec4(behind, 1.0);
+        if (clip.w > 0.0) {
+            image = pastAt(pixelOf(clip), home, expected, own, plane);
+        }
+    }
+    if (image.frames > 0.0 && asImage == 1.0) {
+        return image;
+    }
+    Past still = pastAt(home, home, expected, own, plane);
+    if (image.frames == 0.0 || still.frames == 0.0) {
+        return image.frames > 0.0 ? image : still;
+    }
+    return Past(mix(still.light, image.light, asImage), mix(still.frames, image.frames, asImage),
+                mix(still.square, image.square, asImage));
+}
+
+// Holds the past to what neighbours show now, as far as that is no chance. What had to give way counts for less.
+void holdTo(Seen seen, inout Past past) {
+    float ownVariance = max(past.square - luminance(past.light.rgb) * luminance(past.light.rgb), 0.0);
+    vec3 deviation = params.settings.clip * sqrt(max(seen.variance, vec3(ownVariance)));
+    vec3 held = clamp(past.light.rgb, seen.mean - deviation, seen.mean + deviation);
+    float moved = luminance(abs(held - past.light.rgb)) / max(luminance(past.light.rgb), 1e-6);
+    past.frames *= max(1.0 - moved, 0.0);
+    past.light.rgb = held;
+}
+
+void keep(ivec2 pixel, vec4 light, KeptSurface own, vec2 m) {
+    light = roundToHalf(light);
+    imageStore(gathered, pixel, light);
+    imageStore(surface, pixel, uvec4(packSurface(own), 0u, 0u));
+    imageStore(moments, pixel, roundToHalf(vec4(m, 0.0, 0.0)));
+    if (params.settings.history > 0u) {
+        imageStore(nextLight, pixel, light);
+    }
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, ivec2(params.view.size)))) {
+        return;
+    }
+    float d = texelFetch(depth, pixel, 0).r;
+    vec4 m = texelFetch(material, pixel, 0);
+    KeptSurface own = KeptSurface(d, unpackUnitVector(texelFetch(normal, pixel, 0).r), m.r);
+    if (d <= 0.0 || (lobe == 1u && (uint(m.a * 255.0 + 0.5) & materialFlagLambert) != 0u)) {
+        own.depth = 0.0;
+        keep(pixel, vec4(0.0), own, vec2(0.0));
+        return;
+    }
+    vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
+    vec3 geometric = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
+    ScreenPlane plane = screenPlane(p, geometric, params.view.clipToWorld, params.view.pixel, params.view.pixelAngle);
+    Seen seen = look(pixel, d, plane);
+    float bright = min(luminance(seen.light.rgb), 255.0);  // its square is a half float, too
+    Past past = params.hasPrevious != 0u ? remembered(pixel, p, own, plane, seen.light.a) : noPast;
+    if (past.frames > 0.0 && params.settings.clip > 0.0) {
+        holdTo(seen, past);
+    }
+    float share = 1.0 / (past.frames + 1.0);
+    float frames = min(past.frames + 1.0, float(params.settings.history));
+    keep(pixel, mix(past.light, seen.light, share), own, vec2(frames, mix(past.square, bright * bright, share)));
+}
