@@ -56,11 +56,13 @@ const TracedScene* Renderer::tracedScene(const Settings& settings) {
     if (!tracesScene(settings)) {
         return nullptr;
     }
-    if (!traced_ || tracedTextureSize_ != settings.traceScene.textureSize) {
-        tracedTextureSize_ = settings.traceScene.textureSize;
-        gpu::Device& device = frame_.device();
-        traced_.emplace(
-            TracedScene{SceneRays(device, source_), SceneSurfaces(device, source_, scene_, tracedTextureSize_, warn_)});
+    gpu::Device& device = frame_.device();
+    const TraceSceneSettings& s = settings.traceScene;
+    const RayMethod method = s.rayQuery != 0 && device.hasRayQuery() ? RayMethod::query : RayMethod::traversal;
+    if (!traced_ || tracedTextureSize_ != s.textureSize || traced_->rays.method() != method) {
+        tracedTextureSize_ = s.textureSize;
+        traced_.emplace(TracedScene{SceneRays(device, source_, method),
+                                    SceneSurfaces(device, source_, scene_, tracedTextureSize_, warn_)});
     }
     return &*traced_;
 }
