@@ -56,11 +56,13 @@ const TracedScene* Renderer::tracedScene(const Settings& settings) {
     if (!tracesScene(settings)) {
         return nullptr;
     }
-    if (!traced_ || tracedTextureSize_ != settings.traceScene.textureSize) {
-        tracedTextureSize_ = settings.traceScene.textureSize;
-        gpu::Device& device = frame_.device();
-        traced_.emplace(
-            TracedScene{SceneRays(device, source_), SceneSurfaces(device, source_, scene_, tracedTextureSize_, warn_)});
+    gpu::Device& device = frame_.device();
+    const TraceSceneSettings& s = settings.traceScene;
+    const RayMethod method = s.rayQuery != 0 && device.hasRayQuery() ? RayMethod::query : RayMethod::traversal;
+    if (!traced_ || tracedTextureSize_ != s.textureSize || traced_->rays.method() != method) {
+        tracedTextureSize_ = s.textureSize;
+        traced_.emplace(TracedScene{SceneRays(device, source_, method),
+                                    SceneSurfaces(device, source_, scene_, tracedTextureSize_, warn_)});
     }
     return &*traced_;
 }
@@ -77,15 +79,6 @@ const std::vector<Probe>& Renderer::probesOf(const View& view, const ProbesSetti
 }
 
 namespace {
-
-bool sameView(const View& a, const View& b) {
-    return worldToView(a.camera) == worldToView(b.camera) && viewToClip(a.camera, 1.0F) == viewToClip(b.camera, 1.0F) &&
-           a.sun.direction == b.sun.direction && a.sun.irradiance == b.sun.irradiance &&
-           a.sun.angularDiameter == b.sun.angularDiameter && a.lampRadius == b.lampRadius && a.mirrors == b.mirrors &&
-           a.probes == b.probes && a.environment.radiance == b.environment.radiance &&
-           a.environment.image == b.environment.image && a.environment.intensity == b.environment.intensity &&
-           a.environment.rotation == b.environment.rotation;
-}
 
 // The R2 sequence: spread evenly over the pixel, however many there are. -0.5 to 0.5, the first in the middle.
 // (M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018)
@@ -109,8 +102,8 @@ void lookThrough(ViewParams& view, const vec2& place) {
 }  // namespace
 
 uint32_t Renderer::countFramesBefore(const View& view, const ViewParams& params, const Settings& settings) {
-    const bool same = asked_ && sameView(asked_->view, view) && asked_->size == params.size &&
-                      asked_->seed == params.seed && sameSettings(asked_->settings, settings);
+    const bool same = asked_ && asked_->view == view && asked_->size == params.size && asked_->seed == params.seed &&
+                      sameSettings(asked_->settings, settings);
     framesBefore_ = same ? framesBefore_ + 1 : 0;
     asked_ = Asked{view, settings, params.size, params.seed};
     return framesBefore_;

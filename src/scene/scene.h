@@ -101,6 +101,8 @@ struct Camera {
     float near = 0.05F;               ///< metres, > 0
     float orthographicHeight = 0.0F;  ///< metres from the lower to the upper edge; > 0: orthographic
     float far = 1000.0F;              ///< metres; of an orthographic camera only
+
+    bool operator==(const Camera&) const = default;
 };
 
 /// Directional light. `irradiance` is what a surface that faces it receives [W/m²].
@@ -108,6 +110,8 @@ struct Sun {
     vec3 direction{0, -1, 0};  ///< the way the light travels, unit length
     vec3 irradiance{0.0F};
     float angularDiameter = glm::radians(0.53F);
+
+    bool operator==(const Sun&) const = default;
 };
 
 /// KHR_lights_punctual. Point and spot: intensity [W/sr]; directional: irradiance [W/m²].
@@ -130,13 +134,16 @@ struct Lamp {
 /// Metres round a lamp in which nothing casts its shadow: its own glass, or what rounding makes of the lamp's place.
 float lampClearance(float radius);
 
-/// What rays meet that meet nothing else. scene/environment.h says which direction is where in the image.
+/// What rays meet that meet nothing else. scene/environment.h says which direction is where in the image. Two are the
+/// same only if they share their image.
 struct Environment {
     vec3 radiance{0.0F};  ///< constant over all directions [W/(m² sr)]; not used where there is an image
     /// Equirectangular, "R" "G" "B", linear, finite, not negative [W/(m² sr)], rows from the top (+Y). May be null.
     std::shared_ptr<const FloatImage> image;
     float intensity = 1.0F;  ///< factor on the image, not negative
     float rotation = 0.0F;   ///< of the image about +Y; 0: its centre is seen along -Z; 90 degrees: along -X
+
+    bool operator==(const Environment&) const = default;
 };
 
 struct Scene {
@@ -174,6 +181,8 @@ struct View {
     std::optional<std::vector<Probe>> probes;  ///< at most maxProbes; not given: the renderer places them itself
     std::vector<std::string> mirrors;          ///< names of instances that planar views are for; empty: they are found
     bool sunStandsIn = false;                  ///< the scene has no light; the sun is there so that something is seen
+
+    bool operator==(const View&) const = default;
 };
 
 /// The scene's first camera, its sun and its environment; where it has none, a camera that frames the whole scene

@@ -13,7 +13,8 @@ namespace {
 
 constexpr uvec2 size(160, 90);
 
-const std::vector<std::string> shows{"indirect_specular", "specular_confidence", "metallic", "depth", "final"};
+const std::vector<std::string> shows{
+    "indirect_specular", "specular_confidence", "specular_source", "metallic", "depth", "final"};
 
 // Direct light alone in the mirror, as a reference with one bounce has it.
 Pictures mirrored(const Scene& scene, const View& view, const std::vector<std::string>& more) {
@@ -108,6 +109,25 @@ TEST(Planar, TheScreenAgreesWhereItIsSure) {
     }
     EXPECT_GT(countOf(mask), 80U);
     EXPECT_LT(relativeMse(screen, planar.images.at("indirect_specular"), mask), 0.005);
+}
+
+TEST(Planar, WhoAnsweredIsGreenForTheScreenAndCyanForAMirrorsView) {
+    const auto answeredBy = [&](const vec3& color, const std::vector<std::string>& more) {
+        const Pictures p = mirrored(makeMirrorRoom(), viewOfMirrorRoom(), more);
+        size_t pixels = 0;
+        for (unsigned y = 0; y < size.y; ++y) {
+            for (unsigned x = 0; x < size.x; ++x) {
+                pixels += glm::distance(p.color("specular_source", x, y), color) < 0.01F ? 1 : 0;
+            }
+        }
+        return pixels;
+    };
+    const vec3 green(0.2F, 0.8F, 0.3F);
+    const vec3 cyan(0.2F, 0.8F, 0.85F);
+    EXPECT_GT(answeredBy(green, {"planar.enabled=false"}), 80U);
+    EXPECT_EQ(answeredBy(cyan, {"planar.enabled=false"}), 0U);
+    EXPECT_GT(answeredBy(cyan, {"trace_screen.enabled=false"}), 2000U);
+    EXPECT_EQ(answeredBy(green, {"trace_screen.enabled=false"}), 0U);
 }
 
 TEST(Planar, UnevenAndRoughMirrorsAreNearerToTheReferenceTracedThanLookedUp) {

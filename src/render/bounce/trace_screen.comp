@@ -201,7 +201,12 @@ void main() {
         WaitingRay w = unpackWaitingRay(waiting.items[i]);
         Ray ray = unpackRay(imageLoad(direction, w.slot).xy);
         RayAnswer a = answerRay(w.slot, ray, w);
-        w.rest = addAnswer(w.slot, a, w.rest, through == throughScreen ? sourceScreen : sourcePlanar);
+        // Not by ?: of two vectors: where a specialization constant decides, Mesa 22 gets all but their x wrong.
+        vec4 color = sourcePlanar;
+        if (through == throughScreen) {
+            color = sourceScreen;
+        }
+        w.rest = addAnswer(w.slot, a, w.rest, color);
         if (w.rest > 0.0) {
             appendRay(w);
         }

@@ -25,9 +25,6 @@ static_assert(sizeof(SceneTriangle) == 3 * cornerStride && offsetof(SceneTriangl
 
 }  // namespace
 
-SceneRays::SceneRays(gpu::Device& device, const Scene& scene)
-    : SceneRays(device, scene, device.hasRayQuery() ? RayMethod::query : RayMethod::traversal) {}
-
 SceneRays::SceneRays(gpu::Device& device, const Scene& scene, RayMethod method) : method_(method) {
     std::vector<SceneTriangle> triangles = sceneTriangles(scene);
     triangleCount_ = static_cast<uint32_t>(triangles.size());

@@ -29,9 +29,7 @@ enum class RayMethod : uint8_t {
 
 class SceneRays {
 public:
-    /// By ray query where the device has it. Keeps no reference to the scene.
-    SceneRays(gpu::Device& device, const Scene& scene);
-    /// Throws Error: the device has no ray query, but it is asked for.
+    /// Keeps no reference to the scene. Throws Error: the device has no ray query, but it is asked for.
     SceneRays(gpu::Device& device, const Scene& scene, RayMethod method);
 
     [[nodiscard]] RayMethod method() const { return method_; }

@@ -38,7 +38,10 @@ CHOICES(SceneShadows, SCENE_SHADOWS)
            "bring: less noise, fewer rays.")                                                                        \
     VALUE(uint, maxRays, 1000000, 0, 1000000,                                                                       \
           "Thousands of rays that a frame answers so, about; the others, spread evenly, go on to the next source.") \
-    VALUE(uint, textureSize, 1024, 16, 8192, "Texels along each side up to which hits see textures in full.")
+    VALUE(uint, textureSize, 1024, 16, 8192, "Texels along each side up to which hits see textures in full.")       \
+    SWITCH(rayQuery, 1,                                                                                             \
+           "Rays are traced by the device, where it has ray query; off, or where it has none: by a hierarchy that " \
+           "a shader goes through.")
 SETTINGS(TraceSceneSettings, TRACE_SCENE_SETTINGS)
 
 // What shines, besides lamps and glowing surfaces.

@@ -1,0 +1,165 @@
+// What the options of `reflet reference`, its scene and its view file change.
+#include "cli/reference_program.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace reflet {
+namespace {
+
+const std::string tiltedCube = "builtin:tilted-cube";  // stands before a background
+
+class ReferenceOptions : public Reference {
+protected:
+    [[nodiscard]] double relativeMse(const std::string& a, const std::string& b) const {
+        const Outcome done = run({"compare", a, b, "--json"});
+        EXPECT_TRUE(quietSuccess(done));
+        return nlohmann::json::parse(done.out)["relative_mse"].get<double>();
+    }
+};
+
+/// How many values are neither 0 nor 1.
+ptrdiff_t between(const FloatImage& image) {
+    return std::ranges::count_if(image.data, [](float v) { return v > 0.0F && v < 1.0F; });
+}
+
+TEST_F(ReferenceOptions, WithoutBouncesThereIsNoIndirectLight) {
+    Images none = traced(cubes, {"--spp", "2", "--bounces", "0"});
+    EXPECT_EQ(largest(none["indirect_diffuse"]), 0.0F);
+    EXPECT_EQ(largest(none["indirect_specular"]), 0.0F);
+    EXPECT_EQ(none[""].data, none["direct"].data);
+}
+
+TEST_F(ReferenceOptions, EachBounceBringsMoreLight) {
+    const Arguments common{"--spp", "8", "--bounces"};
+    float before = 0.0F;
+    for (const char* bounces : {"0", "1", "2", "4"}) {
+        Arguments all = common;
+        all.emplace_back(bounces);
+        const float light = mean(traced("builtin:cornell", all)[""]);
+        EXPECT_GT(light, before) << bounces << " bounces";
+        before = light;
+    }
+    EXPECT_GE(mean(traced("builtin:cornell", {"--spp", "8"})[""]), before);  // with no limit
+}
+
+TEST_F(ReferenceOptions, WhatTheCameraSeesNeverBringsMoreLightThanEverything) {
+    Images all = traced(cubes, {"--spp", "8"});
+    Images visible = traced(cubes, {"--spp", "8", "--visible-only"});
+    for (const char* layer : {"", "direct", "indirect_diffuse", "indirect_specular"}) {
+        EXPECT_LE(mean(visible[layer]), mean(all[layer])) << layer;
+    }
+    EXPECT_LT(mean(visible["indirect_diffuse"]), mean(all["indirect_diffuse"]));
+    EXPECT_LT(mean(visible["indirect_specular"]), mean(all["indirect_specular"]));
+    for (const char* layer : {"direct", "albedo", "normal", "depth", "sun_visibility"}) {
+        EXPECT_EQ(visible[layer].data, all[layer].data) << layer;  // of the same paths
+    }
+}
+
+TEST_F(ReferenceOptions, ANoiseThatIsReachedEndsEarlier) {
+    const Outcome early = reference(cubes, {"--noise", "0.2", "--spp", "1000", "-o", "a.exr"});
+    ASSERT_TRUE(quietSuccess(early));
+    const int samples = std::stoi(early.out);
+    EXPECT_GE(samples, 2);
+    EXPECT_LT(samples, 1000);
+    const std::string words = "noise ";
+    EXPECT_LT(std::stod(early.out.substr(early.out.find(words) + words.size())), 0.2) << early.out;
+    const Outcome same = reference(cubes, {"--spp", std::to_string(samples), "-o", "b.exr"});
+    ASSERT_TRUE(quietSuccess(same));
+    EXPECT_EQ(read("a.exr"), read("b.exr"));  // which samples a picture is made of does not depend on why it ended
+    const Outcome limited = reference(cubes, {"--noise", "0.0001", "--spp", "3", "-o", "a.exr"});
+    EXPECT_TRUE(limited.out.starts_with("3 samples per pixel, ")) << limited.out;
+}
+
+TEST_F(ReferenceOptions, SamplesThroughThePixelsCentreSeeTheSilhouetteOfTheDepth) {
+    for (const std::string filter : {"box", "center"}) {
+        Images a = traced(tiltedCube, {"--spp", "16", "--filter", filter});
+        size_t split = 0;  // background at the centre, and yet something of the cube, or the other way round
+        for (size_t i = 0; i < a["depth"].data.size(); ++i) {
+            const float depth = a["depth"].data[i];
+            const float albedo = a["albedo"].data[3 * i];
+            split += (depth > 0.0F) != (albedo > 0.0F) ? 1 : 0;
+        }
+        EXPECT_EQ(split == 0, filter == "center") << split;
+    }
+}
+
+TEST_F(ReferenceOptions, DepthIsTheRenderers) {
+    for (const std::string& scene : {cubes, tiltedCube}) {
+        ASSERT_TRUE(quietSuccess(reference(scene, {"--spp", "1", "--filter", "center", "-o", "ref.exr"})));
+        ASSERT_TRUE(quietSuccess(render(scene, {"-o", "render.exr", "--aov", "depth"})));
+        EXPECT_LT(relativeMse("ref.exr:depth", "render.exr:depth"), 1e-6) << scene;
+    }
+}
+
+TEST_F(ReferenceOptions, UniformSamplingIsAnotherNoiseOfTheSamePicture) {
+    Images cosine = traced(cubes, {"--spp", "256", "--sampling", "cosine"});
+    Images uniform = traced(cubes, {"--spp", "256", "--sampling", "uniform"});
+    EXPECT_NE(cosine["indirect_diffuse"].data, uniform["indirect_diffuse"].data);
+    const float expected = mean(cosine["indirect_diffuse"]);
+    EXPECT_NEAR(mean(uniform["indirect_diffuse"]), expected, 0.02F * expected);
+    EXPECT_EQ(cosine["direct"].data, uniform["direct"].data);
+}
+
+TEST_F(ReferenceOptions, LambertOnlyHasNoSpecularLight) {
+    EXPECT_GT(mean(traced(cubes, {"--spp", "2"})["indirect_specular"]), 0.0F);
+    EXPECT_EQ(largest(traced(cubes, {"--spp", "2", "--set", "materials.lambertOnly=true"})["indirect_specular"]), 0.0F);
+}
+
+// Scene and view.
+
+TEST_F(ReferenceOptions, ACameraIsChosenByNumberOrName) {
+    EXPECT_EQ(bytes({"--camera", "1"}), bytes({"--camera", "side"}));
+    EXPECT_NE(bytes({"--camera", "1"}), bytes({"--camera", "main"}));
+}
+
+TEST_F(ReferenceOptions, AViewFileChangesCameraSunAndEnvironmentAsItDoesForTheRenderer) {
+    write("v.json", R"({"camera": {"position": [1, 2, 7], "target": [0, 0, 0], "fov_y": 50},
+                        "sun": {"irradiance": [0, 0, 0]}, "environment": {"radiance": [0, 0, 2]}})");
+    Images a = traced(tiltedCube, {"--view-file", "v.json", "--spp", "4"});
+    EXPECT_EQ(std::vector<float>(a["direct"].data.begin(), a["direct"].data.begin() + 3),
+              (std::vector<float>{0, 0, 2}));
+    EXPECT_NE(a["depth"].data, traced(tiltedCube, {"--spp", "1"})["depth"].data);
+    ASSERT_TRUE(quietSuccess(reference(tiltedCube, {"--view-file", "v.json", "--spp", "1", "-o", "ref.exr"})));
+    ASSERT_TRUE(quietSuccess(render(tiltedCube, {"--view-file", "v.json", "-o", "render.exr", "--aov", "depth"})));
+    EXPECT_LT(relativeMse("ref.exr:depth", "render.exr:depth"), 1e-6);
+    write("dark.json", R"({"sun": {"irradiance": [0, 0, 0]}, "environment": {"radiance": [0, 0, 0]}})");
+    EXPECT_EQ(largest(traced(tiltedCube, {"--view-file", "dark.json", "--spp", "2"})[""]), 0.0F);
+}
+
+TEST_F(ReferenceOptions, AWideSunHasPenumbrasAndAPointHasNone) {
+    const auto visibility = [&](const std::string& diameter) {
+        write("v.json", R"({"sun": {"angular_diameter": )" + diameter + "}}");
+        return traced(cubes, {"--view-file", "v.json", "--spp", "16", "--filter", "center"})["sun_visibility"];
+    };
+    EXPECT_EQ(between(visibility("0")), 0);
+    EXPECT_GT(between(visibility("30")), 10);
+}
+
+TEST_F(ReferenceOptions, AnEnvironmentImageShinesHereAndInTheRenderer) {
+    // One texel, 1 in all channels.
+    write("sky.hdr", std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n") + "\x80\x80\x80\x81");
+    write("image.json", R"({"sun": {"irradiance": [0, 0, 0]}, "environment": {"image": "sky.hdr", "intensity": 3}})");
+    write("plain.json", R"({"sun": {"irradiance": [0, 0, 0]}, "environment": {"radiance": [3, 3, 3]}})");
+    Images image = traced(tiltedCube, {"--view-file", "image.json", "--spp", "256"});
+    Images plain = traced(tiltedCube, {"--view-file", "plain.json", "--spp", "256"});
+    EXPECT_EQ(image["direct"].data.front(), 3.0F);  // the background
+    EXPECT_EQ(image["direct"].data, plain["direct"].data);
+    const float expected = mean(plain["indirect_diffuse"]);
+    EXPECT_GT(expected, 0.01F);
+    EXPECT_NEAR(mean(image["indirect_diffuse"]), expected, 0.02F * expected);
+    ASSERT_TRUE(quietSuccess(render(tiltedCube, {"--view-file", "image.json", "-o", "image.exr", "--aov", "direct"})));
+    ASSERT_TRUE(quietSuccess(render(tiltedCube, {"--view-file", "plain.json", "-o", "plain.exr", "--aov", "direct"})));
+    EXPECT_EQ(relativeMse("image.exr", "plain.exr"), 0.0);
+    EXPECT_EQ(relativeMse("image.exr:direct", "plain.exr:direct"), 0.0);
+}
+
+TEST_F(ReferenceOptions, NoVulkanDeviceIsNeeded) {
+    EXPECT_TRUE(
+        quietSuccess(run(arguments(cubes, {"--spp", "1", "-o", "a.exr", "-o", "a.png"}),
+                         {{"VK_ICD_FILENAMES", "/nowhere/none.json"}, {"VK_DRIVER_FILES", "/nowhere/none.json"}})));
+}
+
+}  // namespace
+}  // namespace reflet
