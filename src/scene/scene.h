@@ -167,9 +167,12 @@ struct Probe {
 struct View {
     static constexpr uint32_t maxProbes = 16;
 
+    static constexpr double largestTime = 1e6;  // seconds; doubles count them to a ten-millionth of a millisecond
+
     Camera camera;
     Sun sun;
     Environment environment;
+    double time = 0.0;                         ///< of the scene's animations [s], 0 to largestTime
     std::optional<float> lampRadius;           ///< of all lamps [m], in the place of their own
     std::optional<std::vector<Probe>> probes;  ///< at most maxProbes; not given: the renderer places them itself
     std::vector<std::string> mirrors;          ///< names of instances that planar views are for; empty: they are found

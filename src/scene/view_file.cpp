@@ -1,4 +1,4 @@
-// View files: camera, sun, lamps, environment, probes and mirrors as JSON, checked before anything of the view is
+// View files: camera, sun, lamps, environment, probes, mirrors and time as JSON, checked before anything of the view is
 // changed.
 #include "scene/view_file.h"
 
@@ -206,7 +206,7 @@ std::vector<std::string> readNames(const JsonNode& node) {
 }  // namespace
 
 void applyViewFile(const std::filesystem::path& path, View& view) {
-    static const std::array<std::string, 6> keys{"camera", "sun", "lamps", "environment", "probes", "mirrors"};
+    static const std::array<std::string, 7> keys{"camera", "sun", "lamps", "environment", "probes", "mirrors", "time"};
     const nlohmann::json file = parseJsonFile(path);
     const JsonNode root(file, path);
     root.requireKeys(keys);
@@ -233,6 +233,9 @@ void applyViewFile(const std::filesystem::path& path, View& view) {
     }
     if (const auto mirrors = root.find("mirrors")) {
         changed.mirrors = readNames(*mirrors);
+    }
+    if (const auto time = root.find("time")) {
+        changed.time = time->number(0.0, View::largestTime, "seconds");
     }
     view = changed;
 }
