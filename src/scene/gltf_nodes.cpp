@@ -61,6 +61,7 @@ Camera placeCamera(const tinygltf::Camera& source, const mat4& toWorld, const st
     // Far enough ahead that a float tells the target from the position.
     const float farthest =
         std::max({1.0F, std::abs(camera.position.x), std::abs(camera.position.y), std::abs(camera.position.z)});
+    camera.aims = false;
     camera.target = camera.position + forward * (farthest < 1000.0F ? 1.0F : farthest / 1000.0F);
     if (source.type == "orthographic") {
         const auto& ortho = source.orthographic;

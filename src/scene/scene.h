@@ -101,6 +101,7 @@ struct Camera {
     float near = 0.05F;               ///< metres, > 0
     float orthographicHeight = 0.0F;  ///< metres from the lower to the upper edge; > 0: orthographic
     float far = 1000.0F;              ///< metres; of an orthographic camera only
+    bool aims = true;                 ///< at its target; false: that only says which way it looks
 };
 
 /// Directional light. `irradiance` is what a surface that faces it receives [W/m²].
