@@ -209,6 +209,10 @@ History Frame::history(std::string_view name, VkFormat format, uvec2 size) {
     return {pair.textures[pair.current ^ 1U].image(), pair.textures[pair.current].image(), valid};
 }
 
+void Frame::forgetHistories() {
+    histories_.clear();
+}
+
 Readback Frame::readback(Image image) {
     const VkDeviceSize size = VkDeviceSize(image.size.x) * image.size.y * bytesPerTexel(image.format);
     const size_t index = readbacksUsed_++;

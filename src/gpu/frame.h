@@ -65,6 +65,8 @@ public:
     BufferView buffer(std::string_view name, VkDeviceSize size);
     /// Two images that change places each frame.
     History history(std::string_view name, VkFormat format, uvec2 size);
+    /// No history is valid in the next frame, as if it were the first.
+    void forgetHistories();
 
     /// Copies an image of one layer for the host to read after `wait`.
     Readback readback(Image image);

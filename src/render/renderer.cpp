@@ -135,6 +135,18 @@ std::vector<LiveView> Renderer::liveViews(const ViewParams& view) {
     return live;
 }
 
+void Renderer::restart(uint32_t frameNumber) {
+    frameNumber_ = frameNumber;
+    frame_.forgetHistories();
+    previousWorldToClip_.reset();
+    asked_.reset();
+    framesBefore_ = 0;
+    probes_.restart();
+    for (GpuScene::LivePicture& picture : scene_.livePictures()) {
+        picture.fresh = true;
+    }
+}
+
 FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const Settings& settings,
                              const std::function<void(gpu::Frame&, const FrameImages&)>& after) {
     ViewParams params = makeViewParams(view.camera, size, frameNumber_++, seed);

@@ -25,6 +25,10 @@ public:
     FrameImages render(const View& view, uvec2 size, uint32_t seed, const Settings& settings,
                        const std::function<void(gpu::Frame&, const FrameImages&)>& after = {});
 
+    /// The next frame starts from nothing, as the first of a renderer does, and its noise is that of the frame of this
+    /// number: nothing that was rendered before shows in it.
+    void restart(uint32_t frameNumber);
+
     [[nodiscard]] const gpu::Frame& frame() const { return frame_; }
 
 private:

@@ -200,8 +200,8 @@ CameraPath loadCameraPath(const std::filesystem::path& path, const Camera& camer
         const JsonNode node = list.at(i);
         keyframes.push_back(readKeyframe(node, camera));
         if (i > 0 && keyframes[i].time <= keyframes[i - 1].time) {
-            required(node, "time").complainMustBe(
-                fmt::format("more than that of the keyframe before ({:g})", keyframes[i - 1].time));
+            required(node, "time")
+                .complainMustBe(fmt::format("more than that of the keyframe before ({:g})", keyframes[i - 1].time));
         }
     }
     const auto loop = root.find("loop");

@@ -22,7 +22,7 @@ protected:
     /// Without the file's name.
     [[nodiscard]] std::string errorOf(const std::string& json) const {
         try {
-            load(json);
+            (void)load(json);
         } catch (const Error& error) {
             return std::string(error.what()).substr(file_.string().size());
         }
@@ -32,8 +32,9 @@ protected:
     Camera camera_;
 
 private:
-    std::filesystem::path file_ = std::filesystem::path(testing::TempDir()) /
-                                  (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".json");
+    std::filesystem::path file_ =
+        std::filesystem::path(testing::TempDir()) /
+        (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".json");
 };
 
 const std::string threeKeyframes = R"({"keyframes": [
@@ -90,7 +91,8 @@ TEST_F(CameraPathTest, EvenKeyframesOnALineGiveEvenMotion) {
 TEST_F(CameraPathTest, EasingsRestWhereTheySay) {
     const auto xAt = [&](const std::string& easing, double time) {
         const std::string format = R"({"keyframes": [{"time": 0, "position": [0, 0, 0], "target": [0, 0, -1],
-            "easing": ")" + easing + R"("}, {"time": 1, "position": [1, 0, 0], "target": [1, 0, -1]}]})";
+            "easing": ")" + easing +
+                                   R"("}, {"time": 1, "position": [1, 0, 0], "target": [1, 0, -1]}]})";
         return load(format).at(time).position.x;
     };
     EXPECT_FLOAT_EQ(xAt("linear", 0.25), 0.25F);

@@ -160,6 +160,12 @@ void Probes::captureNextFace(gpu::Frame& f, const ViewInputs& in, const Settings
     }
 }
 
+void Probes::restart() {
+    if (byFace_) {
+        key_.clear();
+    }
+}
+
 ProbeMaps Probes::update(gpu::Frame& f, const ViewInputs& in, std::span<const Probe> probes, const Settings& settings) {
     if (settings.probes.enabled == 0 || probes.empty()) {
         return {};
@@ -167,12 +173,13 @@ ProbeMaps Probes::update(gpu::Frame& f, const ViewInputs& in, std::span<const Pr
     block_ = blockOf(probes);
     std::vector<std::byte> key = keyOf(block_, in, settings);
     const bool changed = key != key_;
+    byFace_ = settings.probes.refresh == ProbeRefresh::face;
     key_ = std::move(key);
     if (changed) {
         makeMaps(settings.probes.resolution);
         facesCaptured_ = 0;
     }
-    if (settings.probes.refresh == ProbeRefresh::face) {
+    if (byFace_) {
         if (changed) {  // nothing is known yet
             f.clear(map_.lobes.image());
             f.clear(map_.irradiance.image());

@@ -45,6 +45,9 @@ public:
     /// sixth.
     ProbeMaps update(gpu::Frame& f, const ViewInputs& in, std::span<const Probe> probes, const Settings& settings);
 
+    /// With refresh=face captures begin anew. What was captured at once stays: it is the same whenever that is done.
+    void restart();
+
 private:
     struct Capture {
         const ViewInputs& in;
@@ -63,6 +66,7 @@ private:
     gpu::Texture atlas_;
     ProbeBlock block_{};
     std::vector<std::byte> key_;  ///< all that the maps depend on, as they were captured
+    bool byFace_ = false;         ///< the maps are those of refresh=face
     uint32_t facesCaptured_ = 0;  ///< with refresh=face, since it began
 };
 
