@@ -101,14 +101,15 @@ std::vector<std::string> differences(const nlohmann::json& old, const nlohmann::
 void compareRecords(const FrameNames& names, const ordered_json& record,
                     const std::function<void(const std::string&)>& warn) {
     nlohmann::json old = parseJsonFile(names.record());
+    if (!old.is_object()) {
+        fail("{}: is no record of a sequence: --overwrite replaces it", names.record().string());
+    }
     nlohmann::json now = nlohmann::json::parse(record.dump());  // as it reads after it was written
-    if (old.is_object() && old.value("device", now.at("device")) != now.at("device")) {
-        warn(fmt::format("{}: was begun on '{}'; frames of this device may differ in last bits", names.pattern(),
+    if (old.value("device", now.at("device")) != now.at("device")) {
+        warn(fmt::format("{}: was begun on {}; frames of this device may differ in last bits", names.pattern(),
                          old.at("device").dump()));
     }
-    if (old.is_object()) {
-        old.erase("device");
-    }
+    old.erase("device");
     now.erase("device");
     if (const std::vector<std::string> found = differences(old, now); !found.empty()) {
         constexpr size_t most = 3;

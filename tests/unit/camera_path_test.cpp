@@ -105,8 +105,10 @@ TEST_F(CameraPathTest, EasingsRestWhereTheySay) {
 
 TEST_F(CameraPathTest, ALoopGoesRoundWithoutAJerk) {
     const CameraPath path = load(R"({"loop": true, "keyframes": [
-        {"time": 1, "position": [0, 0, 5], "target": [0, 0, 0]}, {"time": 2, "position": [5, 2, 0], "target": [0, 0, 0]},
-        {"time": 3, "position": [0, 3, -5], "target": [0, 0, 0]}, {"time": 4, "position": [-5, 1, 0], "target": [0, 0, 0]},
+        {"time": 1, "position": [0, 0, 5], "target": [0, 0, 0]},
+        {"time": 2, "position": [5, 2, 0], "target": [0, 0, 0]},
+        {"time": 3, "position": [0, 3, -5], "target": [0, 0, 0]},
+        {"time": 4, "position": [-5, 1, 0], "target": [0, 0, 0]},
         {"time": 5, "position": [0, 0, 5], "target": [0, 0, 0]}]})");
     EXPECT_EQ(path.at(5.0).position, path.at(1.0).position);
     EXPECT_EQ(path.at(10.0).position, path.at(2.0).position);
