@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/json.h"
 #include "scene/camera_path.h"
+#include "scene/pose.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -44,7 +45,9 @@ class Views {
 public:
     explicit Views(const RenderJob& job) : first_(job.view), options_(job.options) {
         if (options_.sequence.path == orbitPath) {
-            pivot_ = orbitPivot(first_.camera, job.scene);
+            first_.camera = posed(first_, job.scene).camera;
+            pivot_ = job.scene.nodes.empty() ? orbitPivot(first_.camera, job.scene)
+                                             : orbitPivot(first_.camera, frozen(job.scene, first_.time));
         } else if (!options_.sequence.path.empty()) {
             path_ = loadCameraPath(options_.sequence.path, first_.camera);
         }

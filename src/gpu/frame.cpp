@@ -147,6 +147,13 @@ void Frame::update(BufferView buffer, std::span<const std::byte> bytes) {
     device_.vk.vkCmdUpdateBuffer(commands_, buffer.state->buffer, 0, bytes.size(), bytes.data());
 }
 
+void Frame::readByDraws(BufferView buffer) {
+    BarrierBatch batch;
+    batch.use(buffer.state->access,
+              {VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT, false});
+    batch.record(device_.vk, commands_);
+}
+
 void Frame::clear(Image image) {
     BarrierBatch batch;
     batch.use(*image.state, aspectOf(image.format),

@@ -53,6 +53,9 @@ public:
     /// Overwrites the start of a buffer (at most 64 KiB, a multiple of 4 bytes).
     void update(BufferView buffer, std::span<const std::byte> bytes);
 
+    /// What was written to the buffer is there for draws that follow, which bind it as vertices.
+    void readByDraws(BufferView buffer);
+
     /// Fills a colour image with zeros.
     void clear(Image image);
 

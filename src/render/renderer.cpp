@@ -17,11 +17,33 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const std::function<
       source_(scene),
       scene_(device, scene, warn),
       flatPieces_(findFlatPieces(scene)),
+      posedPieces_(flatPieces_),
       ggxTable_(makeGgxTable(frame_)),
       blueNoise_(
           gpu::uploadBuffer(device, std::as_bytes(blueNoise()), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "blue_noise")),
       probes_(device),
       warn_(warn) {}
+
+void Renderer::pose(const View& view, const Settings& settings) {
+    if (source_.nodes.empty()) {
+        return;
+    }
+    ScenePose now = scenePose(source_, view.time);
+    if (!pose_ || pose_->time != now.time) {
+        posedPieces_ = posedFlatPieces(flatPieces_, source_, now);
+    }
+    scene_.pose(source_, now, pose_.value_or(now));
+    pose_ = std::move(now);
+    skins_ = scene_.hasSkins();
+    if (skins_ && settings.probes.enabled != 0) {  // they are captured in frames of their own, before this one
+        gpu::Frame f(frame_.device());
+        f.begin();
+        scene_.skin(f);
+        f.submit();
+        f.wait();
+        skins_ = false;
+    }
+}
 
 LampShadows Renderer::planLamps(LampBlock& lamps, const View& view, const ShadowSettings& settings) {
     for (uint32_t i = 0; i < lamps.count; ++i) {
@@ -37,13 +59,13 @@ std::vector<Mirror> Renderer::planMirrors(const View& view, const ViewParams& pa
         return {};
     }
     for (const std::string& name : view.mirrors) {
-        if (std::ranges::find(flatPieces_, name, &FlatPiece::name) == flatPieces_.end()) {
+        if (std::ranges::find(posedPieces_, name, &FlatPiece::name) == posedPieces_.end()) {
             std::vector<std::string> names;
-            std::ranges::transform(flatPieces_, std::back_inserter(names), &FlatPiece::name);
+            std::ranges::transform(posedPieces_, std::back_inserter(names), &FlatPiece::name);
             warnOnce(fmt::format("mirrors: no flat thing is called '{}'{}", name, suggestion(name, names)));
         }
     }
-    return reflet::planMirrors(flatPieces_, params, view.mirrors, settings.planar);
+    return reflet::planMirrors(posedPieces_, params, view.mirrors, settings.planar);
 }
 
 void Renderer::warnOnce(const std::string& text) {
@@ -61,6 +83,12 @@ const TracedScene* Renderer::tracedScene(const Settings& settings) {
         gpu::Device& device = frame_.device();
         traced_.emplace(
             TracedScene{SceneRays(device, source_), SceneSurfaces(device, source_, scene_, tracedTextureSize_, warn_)});
+        tracedTime_.reset();
+    }
+    if (pose_ && tracedTime_ != pose_->time) {
+        tracedTime_ = pose_->time;
+        traced_->rays.pose(frame_.device(), source_, *pose_);
+        traced_->surfaces.pose(frame_.device(), source_, scene_);
     }
     return &*traced_;
 }
@@ -70,7 +98,8 @@ const std::vector<Probe>& Renderer::probesOf(const View& view, const ProbesSetti
         return *view.probes;
     }
     if (settings.enabled != 0 && placedCount_ != settings.count) {
-        placed_ = placeProbes(source_, settings.count);
+        placed_ = source_.nodes.empty() ? placeProbes(source_, settings.count)
+                                        : placeProbes(frozen(source_, 0.0), settings.count);
         placedCount_ = settings.count;
     }
     return placed_;
@@ -79,12 +108,12 @@ const std::vector<Probe>& Renderer::probesOf(const View& view, const ProbesSetti
 namespace {
 
 bool sameView(const View& a, const View& b) {
-    return worldToView(a.camera) == worldToView(b.camera) && viewToClip(a.camera, 1.0F) == viewToClip(b.camera, 1.0F) &&
-           a.sun.direction == b.sun.direction && a.sun.irradiance == b.sun.irradiance &&
-           a.sun.angularDiameter == b.sun.angularDiameter && a.lampRadius == b.lampRadius && a.mirrors == b.mirrors &&
-           a.probes == b.probes && a.environment.radiance == b.environment.radiance &&
-           a.environment.image == b.environment.image && a.environment.intensity == b.environment.intensity &&
-           a.environment.rotation == b.environment.rotation;
+    return a.time == b.time && worldToView(a.camera) == worldToView(b.camera) &&
+           viewToClip(a.camera, 1.0F) == viewToClip(b.camera, 1.0F) && a.sun.direction == b.sun.direction &&
+           a.sun.irradiance == b.sun.irradiance && a.sun.angularDiameter == b.sun.angularDiameter &&
+           a.lampRadius == b.lampRadius && a.mirrors == b.mirrors && a.probes == b.probes &&
+           a.environment.radiance == b.environment.radiance && a.environment.image == b.environment.image &&
+           a.environment.intensity == b.environment.intensity && a.environment.rotation == b.environment.rotation;
 }
 
 // The R2 sequence: spread evenly over the pixel, however many there are. -0.5 to 0.5, the first in the middle.
@@ -130,7 +159,7 @@ std::vector<LiveView> Renderer::liveViews(const ViewParams& view) {
             f.wait();
             p.fresh = false;
         }
-        live.push_back({makeViewParams(p.camera, picture.size, view.frame, view.seed), picture});
+        live.push_back({makeViewParams(p.posed, picture.size, view.frame, view.seed), picture});
     }
     return live;
 }
@@ -141,14 +170,17 @@ void Renderer::restart(uint32_t frameNumber) {
     previousWorldToClip_.reset();
     asked_.reset();
     framesBefore_ = 0;
-    probes_.restart();
+    pose_.reset();
+    probes_.restart(!source_.nodes.empty());
     for (GpuScene::LivePicture& picture : scene_.livePictures()) {
         picture.fresh = true;
     }
 }
 
-FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const Settings& settings,
+FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const Settings& settings,
                              const std::function<void(gpu::Frame&, const FrameImages&)>& after) {
+    const View view = posed(asked, source_);
+    pose(view, settings);
     ViewParams params = makeViewParams(view.camera, size, frameNumber_++, seed);
     params.previousWorldToClip = previousWorldToClip_.value_or(params.worldToClip);
     previousWorldToClip_ = params.worldToClip;
@@ -164,6 +196,9 @@ FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const 
     const std::vector<LiveView> live = liveViews(params);
     const TracedScene* traced = tracedScene(settings);
     frame_.begin();
+    if (skins_) {
+        scene_.skin(frame_);
+    }
     FrameInputs inputs{{.draws = scene_.draws(),
                         .view = params,
                         .sunDirection = view.sun.direction,
@@ -174,7 +209,8 @@ FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const 
                         .lampShadows = lampShadows,
                         .ggxTable = ggxTable_.image(),
                         .blueNoise = blueNoise_.view(),
-                        .traced = traced},
+                        .traced = traced,
+                        .time = view.time},
                        mirrors,
                        live,
                        framesBefore};

@@ -69,6 +69,7 @@ CameraPath::Keyframe readKeyframe(const JsonNode& node, const Camera& camera) {
     static const std::array<std::string, 6> keys{"time", "position", "target", "up", "fov_y", "easing"};
     node.requireKeys(keys);
     CameraPath::Keyframe keyframe{0.0, camera, Easing::linear};
+    keyframe.camera.node = -1;  // it moves by itself
     keyframe.time = required(node, "time").number(0.0, View::largestTime, "seconds");
     keyframe.camera.position = readPosition(required(node, "position"));
     keyframe.camera.target = readPosition(required(node, "target"));
@@ -238,6 +239,7 @@ Camera orbit(Camera camera, const vec3& pivot, double turns) {
     camera.position = turned(camera.position);
     camera.target = turned(camera.target);
     camera.up = turn * glm::dvec3(camera.up);
+    camera.node = -1;  // it moves by itself
     return camera;
 }
 

@@ -37,6 +37,9 @@ void checkOrientation(const JsonNode& node, Camera& camera) {
 Camera readCamera(const JsonNode& node, Camera camera) {
     static const std::array<std::string, 5> keys{"position", "target", "up", "fov_y", "near"};
     node.requireKeys(keys);
+    if (node.find("position") || node.find("target") || node.find("up")) {
+        camera.node = -1;  // stays where it is put
+    }
     if (const auto position = node.find("position")) {
         camera.position = readPosition(*position);
     }
@@ -66,6 +69,7 @@ Sun readSun(const JsonNode& node, Sun sun) {
     node.requireKeys(keys);
     if (const auto direction = node.find("direction")) {
         sun.direction = readDirection(*direction);
+        sun.node = -1;
     }
     if (const auto irradiance = node.find("irradiance")) {
         sun.irradiance = readVec3(*irradiance, 0.0, largestInView);

@@ -1,4 +1,5 @@
-// View files: camera, sun, lamps, environment, probes, mirrors and time as JSON, to see one scene from other places in other light.
+// View files: camera, sun, lamps, environment, probes, mirrors and time as JSON, to see one scene from other places in
+// other light.
 #pragma once
 
 #include "scene/scene.h"
