@@ -51,7 +51,7 @@ TEST_F(CameraPathTest, GoesThroughEveryKeyframeExactlyWhateverTheEasing) {
     for (const std::string easing : {"linear", "smooth", "step", "ease-in", "ease-out"}) {
         const CameraPath path = load(withEasing(easing));
         EXPECT_EQ(path.at(0.1).position, vec3(0.3F, 0.1F, 5));
-        EXPECT_EQ(path.at(0.1).fovY, glm::radians(50.0F));
+        EXPECT_FLOAT_EQ(path.at(0.1).fovY, glm::radians(50.0F));
         EXPECT_EQ(path.at(0.7).position, vec3(1.7F, 2.1F, 5)) << easing;
         EXPECT_EQ(path.at(0.7).target, vec3(0, 0.7F, 0)) << easing;
         EXPECT_EQ(path.at(0.7).up, vec3(0, 0, 1)) << easing;
