@@ -29,7 +29,7 @@ void Renderer::pose(const View& view, const Settings& settings) {
         return;
     }
     ScenePose now = scenePose(source_, view.time);
-    if (pose_ && pose_->time != now.time) {
+    if (!pose_ || pose_->time != now.time) {
         posedPieces_ = posedFlatPieces(flatPieces_, source_, now);
     }
     scene_.pose(source_, now, pose_.value_or(now));
