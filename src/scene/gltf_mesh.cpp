@@ -106,16 +106,11 @@ void readAttributes(Mesh& mesh, const PrimitiveSource& source, const std::vector
 }
 
 /// Weights are made to sum to 1; a vertex without any hangs from the first joint.
-void readSkin(Mesh& mesh, const PrimitiveSource& source, const std::vector<uint32_t>& used, const std::string& part,
-              const GltfReport& report) {
+void readSkin(Mesh& mesh, const PrimitiveSource& source, const std::vector<uint32_t>& used) {
     const AccessorView* joints = source.find("JOINTS_0");
     const AccessorView* weights = source.find("WEIGHTS_0");
     if (joints == nullptr || weights == nullptr) {
         return;
-    }
-    if (joints->componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
-        joints->componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) {
-        report.fail(part + ".attributes.JOINTS_0", "is of a type that no joint has");
     }
     for (const uint32_t v : used) {
         const vec4 weight = glm::max(weights->at(v), 0.0F);
@@ -126,7 +121,9 @@ void readSkin(Mesh& mesh, const PrimitiveSource& source, const std::vector<uint3
         }
         vertex.weights = weight / sum;
         for (int k = 0; k < 4; ++k) {
-            vertex.joints[k] = vertex.weights[k] > 0.0F ? static_cast<uint16_t>(joints->at(v)[k]) : uint16_t(0);
+            const float named = joints->at(v)[k];
+            const float joint = named > 0.0F ? std::min(named, 65535.0F) : 0.0F;  // a NaN becomes 0
+            vertex.joints[k] = vertex.weights[k] > 0.0F ? static_cast<uint16_t>(joint) : uint16_t(0);
         }
     }
 }
@@ -191,7 +188,7 @@ void GltfMeshes::loadPrimitive(size_t mesh, size_t primitive) {
     result.material = materials_.use(source.material);
     readPositions(result, opened, used, part, report_);
     readAttributes(result, opened, used);
-    readSkin(result, opened, used, part, report_);
+    readSkin(result, opened, used);
     result.indices = std::move(opened.triangles);
     completeFrames(result, opened, scene_.materials[result.material].normalTexture, part, report_);
     meshes_[mesh].push_back(static_cast<uint32_t>(scene_.meshes.size()));

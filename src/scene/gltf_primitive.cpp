@@ -30,7 +30,10 @@ void checkType(const tinygltf::Accessor& accessor, const SemanticRule& rule, int
         report.fail(fmt::format("accessors[{}]", index), "has {} components{}, a {} has {}", components,
                     isVector ? "" : " that are no vector", rule.semantic, rule.minComponents);
     }
-    if (accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
+    const bool isJoint = accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                         accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+    if (accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT ||
+        (std::string_view(rule.semantic) == "JOINTS_0" && !isJoint)) {
         report.fail(fmt::format("accessors[{}].componentType", index), "is {}, which no {} has", accessor.componentType,
                     rule.semantic);
     }

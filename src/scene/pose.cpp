@@ -26,6 +26,17 @@ void apply(const Channel& channel, double time, Node& node) {
     }
 }
 
+// Products of large numbers may be past what a float holds; such a place is no place.
+mat4 finiteOr(const glm::dmat4& m, const mat4& otherwise) {
+    const mat4 rounded(m);
+    for (int i = 0; i < 16; ++i) {
+        if (!std::isfinite(rounded[i / 4][i % 4])) {
+            return otherwise;
+        }
+    }
+    return rounded;
+}
+
 bool isMoving(int32_t node, const ScenePose& pose) {
     return node >= 0 && pose.moving[static_cast<size_t>(node)];
 }
@@ -101,7 +112,7 @@ ScenePose scenePose(const Scene& scene, double time) {
         const bool hangs = nodes[i].parent >= 0;
         pose.moving[i] = pose.moving[i] || (hangs && pose.moving[parent]);
         toWorld.push_back((hangs ? toWorld[parent] : glm::dmat4(1.0)) * localTransform(nodes[i]));
-        pose.nodeToWorld.emplace_back(toWorld.back());
+        pose.nodeToWorld.push_back(finiteOr(toWorld.back(), mat4(1.0F)));
     }
     for (const Instance& instance : scene.instances) {
         pose.objectToWorld.push_back(instance.skin >= 0              ? mat4(1.0F)
@@ -111,7 +122,7 @@ ScenePose scenePose(const Scene& scene, double time) {
     for (const Skin& skin : scene.skins) {
         std::vector<mat4>& joints = pose.skins.emplace_back();
         for (size_t j = 0; j < skin.joints.size(); ++j) {
-            joints.emplace_back(toWorld[skin.joints[j]] * glm::dmat4(skin.inverseBind[j]));
+            joints.push_back(finiteOr(toWorld[skin.joints[j]] * glm::dmat4(skin.inverseBind[j]), mat4(1.0F)));
         }
     }
     return pose;

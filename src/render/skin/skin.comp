@@ -13,7 +13,7 @@ struct Attributes {
     uvec2 color;
 };
 
-layout(local_size_x = 64) in;
+layout(local_size_x = 128) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { SkinParams params; };
 layout(set = 0, binding = 1, scalar) readonly buffer VertexBlock { SkinnedVertex items[]; } vertices;
 layout(set = 0, binding = 2, scalar) readonly buffer JointBlock { mat4x3 items[]; } joints;
