@@ -79,6 +79,22 @@ TEST_F(Sequence, SharesTogetherGiveTheWholeAndItsRecord) {
     EXPECT_EQ(read("shares/a_###.png.sequence.json"), read("whole/a_###.png.sequence.json"));
 }
 
+TEST_F(Sequence, SharesOfASceneThatMovesGiveTheWhole) {
+    const auto frames = [&](const std::string& name, const Arguments& more) {
+        Arguments all{"--frames", "4", "--fps", "5", "--time", "0.5", "--segment", "2", "--warmup", "3", "-o", name};
+        all.insert(all.end(), history.begin(), history.end());
+        all.insert(all.end(), {"--set", "probes.enabled=true", "--aov", "motion"});
+        all.insert(all.end(), more.begin(), more.end());
+        EXPECT_TRUE(quietSuccess(render("builtin:moving", all)));
+    };
+    frames("a_#.exr", {});
+    frames("b_#.exr", {"--share", "2/2"});
+    EXPECT_FALSE(fs::exists(path("b_1.exr")));
+    EXPECT_EQ(read("b_2.exr"), read("a_2.exr"));
+    EXPECT_EQ(read("b_3.exr"), read("a_3.exr"));
+    EXPECT_NE(read("a_3.exr"), read("a_2.exr"));
+}
+
 TEST_F(Sequence, GoesOnWhereItWasKilledWithTheSameBytes) {
     const Bytes whole = orbitIn("whole");
     fs::create_directory(path("killed"));
