@@ -83,7 +83,7 @@ TEST_F(Sequence, SharesOfASceneThatMovesGiveTheWhole) {
     const auto frames = [&](const std::string& name, const Arguments& more) {
         Arguments all{"--frames", "4", "--fps", "5", "--time", "0.5", "--segment", "2", "--warmup", "3", "-o", name};
         all.insert(all.end(), history.begin(), history.end());
-        all.insert(all.end(), {"--set", "probes.enabled=true", "--aov", "motion"});
+        all.insert(all.end(), {"--aov", "motion"});
         all.insert(all.end(), more.begin(), more.end());
         EXPECT_TRUE(quietSuccess(render("builtin:moving", all)));
     };
