@@ -1,6 +1,7 @@
 // `reflet reference`: the path-traced truth.
 #include "reference/reference.h"
 #include "apps/commands.h"
+#include "apps/interrupt.h"
 #include "apps/sample_progress.h"
 #include "apps/scene_options.h"
 #include "base/error.h"
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <new>
@@ -33,32 +33,6 @@ struct ReferenceCommand {
 constexpr uint32_t standardSamples = 64;
 constexpr uint32_t largestSamples = 1U << 20U;
 constexpr uint32_t largestSide = 65536;  // pixels; EXR files that are larger cannot be read
-
-volatile std::sig_atomic_t interrupted = 0;
-
-// While it lives, the first interrupt is only noted; the second one ends the program.
-class InterruptNote {
-public:
-    InterruptNote() {
-        struct sigaction action {};
-        action.sa_handler = [](int) { interrupted = 1; };
-        action.sa_flags = static_cast<int>(SA_RESETHAND);
-        sigaction(SIGINT, &action, &oldInterrupt_);
-        sigaction(SIGTERM, &action, &oldTerminate_);
-    }
-    ~InterruptNote() {
-        sigaction(SIGINT, &oldInterrupt_, nullptr);
-        sigaction(SIGTERM, &oldTerminate_, nullptr);
-    }
-    InterruptNote(const InterruptNote&) = delete;
-    InterruptNote& operator=(const InterruptNote&) = delete;
-    InterruptNote(InterruptNote&&) = delete;
-    InterruptNote& operator=(InterruptNote&&) = delete;
-
-private:
-    struct sigaction oldInterrupt_ {};
-    struct sigaction oldTerminate_ {};
-};
 
 bool isExr(const std::string& file) {
     return std::filesystem::path(file).extension() == ".exr";
@@ -104,7 +78,7 @@ ReferencePicture tracePicture(const Scene& scene, const View& view, uvec2 size, 
     try {
         return traceReference(scene, view, size, options, [&](const ReferenceProgress& now) {
             progress.set(now);
-            return interrupted == 0;
+            return !InterruptNote::arrived();
         });
     } catch (const std::bad_alloc&) {
         fail("a picture of {}x{} pixels takes more memory than there is: choose a smaller --size", size.x, size.y);

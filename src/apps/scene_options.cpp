@@ -65,6 +65,10 @@ void addViewOptions(CLI::App& command, SceneOptions& options) {
     command.add_option("--camera", options.camera, "Which of the scene's cameras, by number from 0 or by name");
     command.add_option("--view-file", options.viewFile, "Camera, sun and environment from a JSON file")
         ->type_name("V.json");
+    command
+        .add_option("--time", options.time,
+                    "Where the scene's animations are, in seconds; they begin again at their end")
+        ->type_name("SECONDS");
     command.add_option("--size", options.size, "Width and height in pixels")->type_name("WxH")->capture_default_str();
     // One value for each time that they are given: what follows may be the scene.
     command.add_option("--settings", options.settingsFiles, "Settings from a JSON file, over the preset's")
@@ -100,6 +104,12 @@ View loadView(const SceneOptions& options, const Scene& scene) {
     }
     if (!options.viewFile.empty()) {
         applyViewFile(options.viewFile, view);
+    }
+    if (options.time) {
+        if (!(*options.time >= 0.0 && *options.time <= View::largestTime)) {
+            failUsage("--time must be 0 to {:g} seconds, is {}", View::largestTime, *options.time);
+        }
+        view.time = *options.time;
     }
     return view;
 }

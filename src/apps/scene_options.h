@@ -17,6 +17,7 @@ struct SceneOptions {
     std::optional<int> sceneIndex;
     std::string camera;
     std::string viewFile;
+    std::optional<double> time;  ///< seconds, over the view file's
     std::string size = "1280x720";
     std::string preset;
     std::vector<std::string> settingsFiles;
@@ -35,7 +36,7 @@ void printWarning(const std::string& message);
 /// A file, or `builtin:NAME`. Warnings are printed.
 Scene loadScene(const SceneOptions& options);
 
-/// The scene's view, changed by --camera and --view-file.
+/// The scene's view, changed by --camera, --view-file and --time.
 View loadView(const SceneOptions& options, const Scene& scene);
 
 /// "1280x720". Throws UsageError.

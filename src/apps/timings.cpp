@@ -22,7 +22,7 @@ double median(std::vector<double> values) {
 
 void Timings::add(const std::vector<gpu::PassTime>& times) {
     ++frames_;
-    if (frames_ == 2) {
+    if (frames_ == 2 && leaveOutFirst_) {
         samples_.clear();
         order_.clear();
     }

@@ -16,6 +16,9 @@ namespace reflet {
 /// Medians over all frames but the first, in which pipelines are made; over the first where it is the only one.
 class Timings {
 public:
+    /// leaveOutFirst: false: medians over all frames.
+    explicit Timings(bool leaveOutFirst = true) : leaveOutFirst_(leaveOutFirst) {}
+
     /// The times of one more frame: what Frame::passTimes() says, with the whole as "frame".
     void add(const std::vector<gpu::PassTime>& times);
 
@@ -28,6 +31,7 @@ public:
     [[nodiscard]] nlohmann::ordered_json json(const std::string& device, uvec2 size) const;
 
 private:
+    bool leaveOutFirst_;
     uint32_t frames_ = 0;
     std::map<std::string, std::vector<double>> samples_;
     std::vector<std::string> order_;

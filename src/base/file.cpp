@@ -100,17 +100,31 @@ std::string readFile(const fs::path& path) {
     }
 }
 
-void writeFileAtomically(const fs::path& path, std::string_view content) {
-    AtomicFile file(path);
+namespace {
+
+void writeTemporary(const AtomicFile& file, std::string_view content, const fs::path& name) {
     Descriptor descriptor(::open(file.tempPath().c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC));
     if (!descriptor.valid()) {
-        failWrite(path, errno);
+        failWrite(name, errno);
     }
-    writeAll(descriptor.get(), content, path);
+    writeAll(descriptor.get(), content, name);
     if (!descriptor.close()) {
-        failWrite(path, errno);
+        failWrite(name, errno);
     }
+}
+
+}  // namespace
+
+void writeFileAtomically(const fs::path& path, std::string_view content) {
+    AtomicFile file(path);
+    writeTemporary(file, content, path);
     file.commit();
+}
+
+bool writeNewFile(const fs::path& path, std::string_view content) {
+    AtomicFile file(path);
+    writeTemporary(file, content, path);
+    return file.commitNew();
 }
 
 AtomicFile::AtomicFile(const fs::path& target) : name_(target), target_(target) {
@@ -151,6 +165,16 @@ void AtomicFile::commit() {
         failWrite(name_, errno);
     }
     pending_ = false;
+}
+
+bool AtomicFile::commitNew() {
+    if (pending_ && ::link(tempPath_.c_str(), target_.c_str()) != 0) {
+        if (errno == EEXIST) {
+            return false;
+        }
+        commit();  // a file system without hard links
+    }
+    return true;  // the temporary name goes with this object
 }
 
 }  // namespace reflet

@@ -14,6 +14,9 @@ std::string readFile(const std::filesystem::path& path);
 /// the old content is still there.
 void writeFileAtomically(const std::filesystem::path& path, std::string_view content);
 
+/// The same for a file that must be new. False if `path` exists, also if another process makes it at this moment.
+bool writeNewFile(const std::filesystem::path& path, std::string_view content);
+
 /// For libraries that write to a path themselves: have them write to tempPath(), then commit(). Without commit()
 /// nothing happens to the target. A target that is no regular file (/dev/null, a pipe) is written to directly.
 class AtomicFile {
@@ -30,6 +33,8 @@ public:
 
     /// Gives the temporary file the target's name. At most once. Throws Error.
     void commit();
+    /// The same, but false if the target exists: then nothing happens to it.
+    bool commitNew();
 
 private:
     std::filesystem::path name_;      ///< as the caller said it, for messages

@@ -147,6 +147,13 @@ void Frame::update(BufferView buffer, std::span<const std::byte> bytes) {
     device_.vk.vkCmdUpdateBuffer(commands_, buffer.state->buffer, 0, bytes.size(), bytes.data());
 }
 
+void Frame::readByDraws(BufferView buffer) {
+    BarrierBatch batch;
+    batch.use(buffer.state->access,
+              {VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT, false});
+    batch.record(device_.vk, commands_);
+}
+
 void Frame::clear(Image image) {
     BarrierBatch batch;
     batch.use(*image.state, aspectOf(image.format),
@@ -207,6 +214,10 @@ History Frame::history(std::string_view name, VkFormat format, uvec2 size) {
     const bool valid = !fresh && (pair.lastUse + 1 == number_ || pair.lastUse == number_);
     pair.lastUse = number_;
     return {pair.textures[pair.current ^ 1U].image(), pair.textures[pair.current].image(), valid};
+}
+
+void Frame::forgetHistories() {
+    histories_.clear();
 }
 
 Readback Frame::readback(Image image) {

@@ -53,6 +53,9 @@ public:
     /// Overwrites the start of a buffer (at most 64 KiB, a multiple of 4 bytes).
     void update(BufferView buffer, std::span<const std::byte> bytes);
 
+    /// What was written to the buffer is there for draws that follow, which bind it as vertices.
+    void readByDraws(BufferView buffer);
+
     /// Fills a colour image with zeros.
     void clear(Image image);
 
@@ -65,6 +68,8 @@ public:
     BufferView buffer(std::string_view name, VkDeviceSize size);
     /// Two images that change places each frame.
     History history(std::string_view name, VkFormat format, uvec2 size);
+    /// No history is valid in the next frame, as if it were the first.
+    void forgetHistories();
 
     /// Copies an image of one layer for the host to read after `wait`.
     Readback readback(Image image);

@@ -5,6 +5,7 @@
 #include "base/color.h"
 #include "base/error.h"
 #include "reference/path_tracer.h"
+#include "scene/pose.h"
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -216,8 +217,11 @@ ReferencePicture traceReference(const Scene& scene, const View& view, uvec2 size
     }
     tbb::task_arena arena(options.threads > 0 ? static_cast<int>(options.threads) : tbb::task_arena::automatic);
     arena.execute([&] {
-        const RayScene rays(scene);
-        const PathTracer tracer(rays, view, size, options);
+        const bool stands = scene.nodes.empty();
+        const Scene still = stands ? Scene{} : frozen(scene, view.time);
+        const RayScene rays(stands ? scene : still);
+        const View seen = posed(view, scene);
+        const PathTracer tracer(rays, seen, size, options);
         (void)ggxAlbedo(1.0F, 1.0F);  // integrates its table, which is not tracing
         const auto start = std::chrono::steady_clock::now();
         Tracing tracing(tracer, size, options, proceed);

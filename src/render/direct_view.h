@@ -27,6 +27,7 @@ struct ViewInputs {
     gpu::Image ggxTable;                  ///< of makeGgxTable
     gpu::BufferView blueNoise;            ///< of blueNoise()
     const TracedScene* traced = nullptr;  ///< for settings that trace rays through the scene (tracesScene)
+    double time = 0.0;                    ///< of the scene's animations [s]
     ProbeMaps probes{};                   ///< that rays ask; none: they do not
     vec4 clipPlane{0.0F};                 ///< as of drawGBuffer; zero: none
 };

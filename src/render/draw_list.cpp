@@ -10,13 +10,14 @@ namespace reflet {
 
 const gpu::VertexLayout& vertexLayout() {
     static const gpu::VertexLayout layout{
-        {sizeof(vec3), sizeof(VertexAttributes)},
+        {sizeof(vec3), sizeof(VertexAttributes), sizeof(vec3)},
         {{"position", 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
          {"normal", 1, VK_FORMAT_R32G32B32_SFLOAT, offsetof(VertexAttributes, normal)},
          {"tangent", 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(VertexAttributes, tangent)},
          {"uv0", 1, VK_FORMAT_R32G32_SFLOAT, offsetof(VertexAttributes, uv0)},
          {"uv1", 1, VK_FORMAT_R32G32_SFLOAT, offsetof(VertexAttributes, uv1)},
-         {"color", 1, VK_FORMAT_R16G16B16A16_UNORM, offsetof(VertexAttributes, color)}}};
+         {"color", 1, VK_FORMAT_R16G16B16A16_UNORM, offsetof(VertexAttributes, color)},
+         {"previousPosition", 2, VK_FORMAT_R32G32B32_SFLOAT, 0}}};
     return layout;
 }
 
@@ -63,9 +64,10 @@ void drawIntoTile(const gpu::DrawCommands& to, const uvec2& tile, uint32_t side)
 
 void recordDraws(const gpu::DrawCommands& to, const DrawList& list, const DrawFilter& filter, bool previousTransform) {
     const VolkDeviceTable& vk = to.device.vk;
-    const VkBuffer buffers[] = {list.positions, list.attributes};
-    const VkDeviceSize offsets[] = {0, 0};
-    vk.vkCmdBindVertexBuffers(to.commands, 0, 2, buffers, offsets);
+    const VkBuffer previous = list.previousPositions != VK_NULL_HANDLE ? list.previousPositions : list.positions;
+    const VkBuffer buffers[] = {list.positions, list.attributes, previous};
+    const VkDeviceSize offsets[] = {0, 0, 0};
+    vk.vkCmdBindVertexBuffers(to.commands, 0, 3, buffers, offsets);
     vk.vkCmdBindIndexBuffer(to.commands, list.indices, 0, VK_INDEX_TYPE_UINT32);
     VkDescriptorSet boundMaterial = VK_NULL_HANDLE;
     for (const Draw& draw : list.draws) {
@@ -77,7 +79,7 @@ void recordDraws(const gpu::DrawCommands& to, const DrawList& list, const DrawFi
             vk.vkCmdBindDescriptorSets(to.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, to.layout, 1, 1, &boundMaterial, 0,
                                        nullptr);
         }
-        const bool mirrored = glm::determinant(mat3(draw.objectToWorld)) < 0.0F;
+        const bool mirrored = (glm::determinant(mat3(draw.objectToWorld)) < 0.0F) != draw.turnedOver;
         vk.vkCmdSetFrontFace(to.commands, mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
         vk.vkCmdSetCullMode(to.commands, cullMode(filter.cull, draw));
         const DrawConstants constants{glm::mat4x3(draw.objectToWorld), glm::mat4x3(draw.previousObjectToWorld)};

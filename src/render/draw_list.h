@@ -20,19 +20,21 @@ struct Draw {
     VkDescriptorSet material = VK_NULL_HANDLE;
     bool masked = false;  ///< has an alpha cutoff
     bool doubleSided = false;
+    bool turnedOver = false;  ///< its triangles are clockwise as its vertices have them
 };
 
 struct DrawList {
-    VkBuffer positions = VK_NULL_HANDLE;   ///< vec3
-    VkBuffer attributes = VK_NULL_HANDLE;  ///< VertexAttributes
-    VkBuffer indices = VK_NULL_HANDLE;     ///< uint32
+    VkBuffer positions = VK_NULL_HANDLE;          ///< vec3
+    VkBuffer previousPositions = VK_NULL_HANDLE;  ///< vec3, as in the last frame; none: all draws are rigid
+    VkBuffer attributes = VK_NULL_HANDLE;         ///< VertexAttributes
+    VkBuffer indices = VK_NULL_HANDLE;            ///< uint32
     VkDescriptorSetLayout materialLayout = VK_NULL_HANDLE;
     std::vector<Draw> draws;
     Aabb boundsW;                          ///< of all
     std::vector<gpu::Image> livePictures;  ///< that materials show, and that passes write
 };
 
-/// The vertex buffers of a draw list: position; normal, tangent, uv0, uv1, color.
+/// The vertex buffers of a draw list: position; normal, tangent, uv0, uv1, color; previousPosition.
 const gpu::VertexLayout& vertexLayout();
 
 enum class Cull : uint8_t {

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <span>
 
 namespace reflet {
@@ -116,8 +117,14 @@ void GpuScene::uploadMeshes(const Scene& scene) {
         attributes.insert(attributes.end(), mesh.attributes.begin(), mesh.attributes.end());
         indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
     }
+    addSkinned(scene, positions, attributes);
     constexpr VkBufferUsageFlags forRays = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-    positions_ = uploadVector(device_, positions, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "positions");
+    const VkBufferUsageFlags forSkins = skinned_.empty() ? 0U : forRays;
+    positions_ = uploadVector(device_, positions, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | forSkins, "positions");
+    if (!skinned_.empty()) {
+        previousPositions_ =
+            uploadVector(device_, positions, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | forSkins, "previous positions");
+    }
     attributes_ = uploadVector(device_, attributes, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | forRays, "attributes");
     indices_ = uploadVector(device_, indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT | forRays, "indices");
 }
@@ -219,19 +226,24 @@ void GpuScene::uploadMaterials(const Scene& scene, const std::function<void(cons
 }
 
 void GpuScene::addLamps(const Scene& scene, const std::function<void(const std::string&)>& warn) {
-    std::vector<Lamp> lamps = scene.lamps;
-    if (lamps.size() > maxLamps) {
-        warn(fmt::format("the scene has {} lamps, of which the strongest {} are used", lamps.size(), maxLamps));
-        const auto strength = [](const Lamp& l) { return std::max({l.intensity.x, l.intensity.y, l.intensity.z}); };
-        std::ranges::stable_sort(lamps, std::greater<>(), strength);
-        lamps.resize(maxLamps);
+    lampSources_.resize(scene.lamps.size());
+    std::iota(lampSources_.begin(), lampSources_.end(), size_t(0));
+    if (lampSources_.size() > maxLamps) {
+        warn(fmt::format("the scene has {} lamps, of which the strongest {} are used", lampSources_.size(), maxLamps));
+        const auto strength = [&](size_t i) {
+            const vec3& intensity = scene.lamps[i].intensity;
+            return std::max({intensity.x, intensity.y, intensity.z});
+        };
+        std::ranges::stable_sort(lampSources_, std::greater<>(), strength);
+        lampSources_.resize(maxLamps);
     }
-    lamps_.count = static_cast<uint32_t>(lamps.size());
-    std::ranges::transform(lamps, lamps_.lamps, lampParams);
+    lamps_.count = static_cast<uint32_t>(lampSources_.size());
+    std::ranges::transform(lampSources_, lamps_.lamps, [&](size_t i) { return lampParams(scene.lamps[i]); });
 }
 
 void GpuScene::addDraws(const Scene& scene) {
     draws_.positions = positions_.handle();
+    draws_.previousPositions = skinned_.empty() ? VK_NULL_HANDLE : previousPositions_.handle();
     draws_.attributes = attributes_.handle();
     draws_.indices = indices_.handle();
     draws_.materialLayout = materialLayout_;

@@ -6,6 +6,7 @@
 #include "render/draw_list.h"
 #include "render/lamps.h"
 #include "render/material.h"
+#include "render/skin/skin.h"
 #include "scene/scene.h"
 
 #include <array>
@@ -30,12 +31,20 @@ public:
     /// frame that draws the scene may be in flight.
     void setTextureFilter(uint32_t anisotropy, bool mips);
 
+    /// Puts everything where it is now, and was in the last frame: draws, lamps, cameras of live pictures. What is
+    /// skinned follows with skin(). No frame that draws the scene may be in flight.
+    void pose(const Scene& scene, const ScenePose& now, const ScenePose& before);
+    /// Records the pass that bends skinned meshes as of pose().
+    void skin(gpu::Frame& f) const;
+    [[nodiscard]] bool hasSkins() const { return !skinned_.empty(); }
+
     /// Pixels from top to bottom of live pictures. No frame that draws the scene may be in flight.
     void setLiveHeight(uint32_t pixels);
 
     /// A picture for each camera that a material shows.
     struct LivePicture {
-        Camera camera;
+        Camera camera;         ///< as the scene has it
+        Camera posed;          ///< where it is now
         gpu::Texture texture;  ///< RGBA16F, 16:9
         bool fresh = true;     ///< nothing has been drawn in it yet
     };
@@ -59,6 +68,7 @@ private:
                                         const std::function<void(const std::string&)>& warn);
     void addLamps(const Scene& scene, const std::function<void(const std::string&)>& warn);
     void addDraws(const Scene& scene);
+    void addSkinned(const Scene& scene, std::vector<vec3>& positions, std::vector<VertexAttributes>& attributes);
     gpu::Image texture(const Scene& scene, int32_t image, bool srgb);
     // What a material's set binds.
     struct MaterialBinding {
@@ -72,11 +82,15 @@ private:
     void writeMaterialSet(const MaterialBinding& binding);
 
     gpu::Device& device_;
-    gpu::Buffer positions_;
-    gpu::Buffer attributes_;
+    gpu::Buffer positions_;          ///< of meshes, then of instances with a skin
+    gpu::Buffer previousPositions_;  ///< as many; none without skins
+    gpu::Buffer attributes_;         ///< as many
     gpu::Buffer indices_;
     gpu::Buffer materials_;
     std::vector<MeshRange> ranges_;
+    SkinnedVertices skinned_;
+    std::map<size_t, int32_t> skinnedFirst_;                     ///< first vertex of an instance with a skin
+    std::map<size_t, std::vector<Aabb>> skinnedBounds_;          ///< by joint, of an instance with a skin
     std::map<std::pair<int32_t, bool>, gpu::Texture> textures_;  ///< by image and sRGB
     VkDescriptorSetLayout materialLayout_ = VK_NULL_HANDLE;
     VkDescriptorPool materialPool_ = VK_NULL_HANDLE;
@@ -85,6 +99,7 @@ private:
     uint32_t anisotropy_ = 1;
     bool mips_ = true;
     LampBlock lamps_{};
+    std::vector<size_t> lampSources_;  ///< indices into Scene::lamps
     DrawList draws_;
 };
 

@@ -27,7 +27,7 @@ std::optional<size_t> GpuScene::livePictureOf(const Scene& scene, const Material
                          names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
         return std::nullopt;
     }
-    live_.push_back({*camera, {}});
+    live_.push_back({*camera, *camera, {}});
     return live_.size() - 1;
 }
 

@@ -17,11 +17,33 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const std::function<
       source_(scene),
       scene_(device, scene, warn),
       flatPieces_(findFlatPieces(scene)),
+      posedPieces_(flatPieces_),
       ggxTable_(makeGgxTable(frame_)),
       blueNoise_(
           gpu::uploadBuffer(device, std::as_bytes(blueNoise()), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "blue_noise")),
       probes_(device),
       warn_(warn) {}
+
+void Renderer::pose(const View& view, const Settings& settings) {
+    if (source_.nodes.empty()) {
+        return;
+    }
+    ScenePose now = scenePose(source_, view.time);
+    if (!pose_ || pose_->time != now.time) {
+        posedPieces_ = posedFlatPieces(flatPieces_, source_, now);
+    }
+    scene_.pose(source_, now, pose_.value_or(now));
+    pose_ = std::move(now);
+    skins_ = scene_.hasSkins();
+    if (skins_ && settings.probes.enabled != 0) {  // they are captured in frames of their own, before this one
+        gpu::Frame f(frame_.device());
+        f.begin();
+        scene_.skin(f);
+        f.submit();
+        f.wait();
+        skins_ = false;
+    }
+}
 
 LampShadows Renderer::planLamps(LampBlock& lamps, const View& view, const ShadowSettings& settings) {
     for (uint32_t i = 0; i < lamps.count; ++i) {
@@ -37,13 +59,13 @@ std::vector<Mirror> Renderer::planMirrors(const View& view, const ViewParams& pa
         return {};
     }
     for (const std::string& name : view.mirrors) {
-        if (std::ranges::find(flatPieces_, name, &FlatPiece::name) == flatPieces_.end()) {
+        if (std::ranges::find(posedPieces_, name, &FlatPiece::name) == posedPieces_.end()) {
             std::vector<std::string> names;
-            std::ranges::transform(flatPieces_, std::back_inserter(names), &FlatPiece::name);
+            std::ranges::transform(posedPieces_, std::back_inserter(names), &FlatPiece::name);
             warnOnce(fmt::format("mirrors: no flat thing is called '{}'{}", name, suggestion(name, names)));
         }
     }
-    return reflet::planMirrors(flatPieces_, params, view.mirrors, settings.planar);
+    return reflet::planMirrors(posedPieces_, params, view.mirrors, settings.planar);
 }
 
 void Renderer::warnOnce(const std::string& text) {
@@ -63,6 +85,12 @@ const TracedScene* Renderer::tracedScene(const Settings& settings) {
         tracedTextureSize_ = s.textureSize;
         traced_.emplace(TracedScene{SceneRays(device, source_, method),
                                     SceneSurfaces(device, source_, scene_, tracedTextureSize_, warn_)});
+        tracedTime_.reset();
+    }
+    if (pose_ && tracedTime_ != pose_->time) {
+        tracedTime_ = pose_->time;
+        traced_->rays.pose(device, source_, *pose_);
+        traced_->surfaces.pose(device, source_, scene_);
     }
     return &*traced_;
 }
@@ -72,7 +100,8 @@ const std::vector<Probe>& Renderer::probesOf(const View& view, const ProbesSetti
         return *view.probes;
     }
     if (settings.enabled != 0 && placedCount_ != settings.count) {
-        placed_ = placeProbes(source_, settings.count);
+        placed_ = source_.nodes.empty() ? placeProbes(source_, settings.count)
+                                        : placeProbes(frozen(source_, 0.0), settings.count);
         placedCount_ = settings.count;
     }
     return placed_;
@@ -123,13 +152,28 @@ std::vector<LiveView> Renderer::liveViews(const ViewParams& view) {
             f.wait();
             p.fresh = false;
         }
-        live.push_back({makeViewParams(p.camera, picture.size, view.frame, view.seed), picture});
+        live.push_back({makeViewParams(p.posed, picture.size, view.frame, view.seed), picture});
     }
     return live;
 }
 
-FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const Settings& settings,
+void Renderer::restart(uint32_t frameNumber) {
+    frameNumber_ = frameNumber;
+    frame_.forgetHistories();
+    previousWorldToClip_.reset();
+    asked_.reset();
+    framesBefore_ = 0;
+    pose_.reset();
+    probes_.restart(!source_.nodes.empty());
+    for (GpuScene::LivePicture& picture : scene_.livePictures()) {
+        picture.fresh = true;
+    }
+}
+
+FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const Settings& settings,
                              const std::function<void(gpu::Frame&, const FrameImages&)>& after) {
+    const View view = posed(asked, source_);
+    pose(view, settings);
     ViewParams params = makeViewParams(view.camera, size, frameNumber_++, seed);
     params.previousWorldToClip = previousWorldToClip_.value_or(params.worldToClip);
     previousWorldToClip_ = params.worldToClip;
@@ -145,6 +189,9 @@ FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const 
     const std::vector<LiveView> live = liveViews(params);
     const TracedScene* traced = tracedScene(settings);
     frame_.begin();
+    if (skins_) {
+        scene_.skin(frame_);
+    }
     FrameInputs inputs{{.draws = scene_.draws(),
                         .view = params,
                         .sunDirection = view.sun.direction,
@@ -155,7 +202,8 @@ FrameImages Renderer::render(const View& view, uvec2 size, uint32_t seed, const 
                         .lampShadows = lampShadows,
                         .ggxTable = ggxTable_.image(),
                         .blueNoise = blueNoise_.view(),
-                        .traced = traced},
+                        .traced = traced,
+                        .time = view.time},
                        mirrors,
                        live,
                        framesBefore};

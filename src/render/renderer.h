@@ -6,7 +6,7 @@
 #include "render/gpu_scene.h"
 #include "render/probe/capture_probe.h"
 #include "render/view_params.h"
-#include "scene/scene.h"
+#include "scene/pose.h"
 
 #include <functional>
 #include <optional>
@@ -21,13 +21,20 @@ public:
     /// The scene must outlive the renderer: what only rays or probes need is made of it when it is first needed.
     Renderer(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn);
 
-    /// Records one frame; `after` may record more (read-backs). Returns when the device is done.
+    /// Records one frame; `after` may record more (read-backs). Returns when the device is done. Motion is that since
+    /// the last frame, whatever its view and time were; in the first frame there is none.
     FrameImages render(const View& view, uvec2 size, uint32_t seed, const Settings& settings,
                        const std::function<void(gpu::Frame&, const FrameImages&)>& after = {});
+
+    /// The next frame starts from nothing, as the first of a renderer does, and its noise is that of the frame of this
+    /// number: nothing that was rendered before shows in it.
+    void restart(uint32_t frameNumber);
 
     [[nodiscard]] const gpu::Frame& frame() const { return frame_; }
 
 private:
+    /// Puts everything where it is at the time of the view.
+    void pose(const View& view, const Settings& settings);
     /// Radii that the view gives; who casts a shadow. Warns, but only once of the same.
     LampShadows planLamps(LampBlock& lamps, const View& view, const ShadowSettings& settings);
 
@@ -45,7 +52,11 @@ private:
     GpuScene scene_;
     std::optional<TracedScene> traced_;
     uint32_t tracedTextureSize_ = 0;
-    std::vector<FlatPiece> flatPieces_;
+    std::vector<FlatPiece> flatPieces_;  ///< at time 0
+    std::vector<FlatPiece> posedPieces_;
+    std::optional<ScenePose> pose_;  ///< of the last frame; none before the first one, and of scenes that stand still
+    std::optional<double> tracedTime_;
+    bool skins_ = false;  ///< skinned meshes are to be bent in the frame
     gpu::Texture ggxTable_;
     gpu::Buffer blueNoise_;
     EnvironmentMaps environment_;

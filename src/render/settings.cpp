@@ -139,6 +139,14 @@ bool tracesScene(const Settings& settings) {
     return settings.traceScene.enabled != 0 || settings.shadow.filter == ShadowFilter::traced;
 }
 
+bool keepsHistory(const Settings& settings) {
+    const ShadowSettings& shadow = settings.shadow;
+    const bool penumbras = shadow.filter == ShadowFilter::pcf || shadow.filter == ShadowFilter::pcss;
+    return settings.traceScreen.light == HitLight::previous || (penumbras && shadow.clean != 0 && shadow.history > 0) ||
+           (settings.probes.enabled != 0 && settings.probes.refresh == ProbeRefresh::face) ||
+           settings.accumulate.enabled != 0;
+}
+
 const std::vector<SettingEntry>& settingEntries() {
     static const std::vector<SettingEntry> entries = makeEntries();
     return entries;

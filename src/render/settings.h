@@ -48,6 +48,9 @@ struct Settings {
 /// Whether a frame with these settings traces rays through the scene's triangles.
 bool tracesScene(const Settings& settings);
 
+/// Whether the picture of a frame depends on the frames before it.
+bool keepsHistory(const Settings& settings);
+
 /// A setting with its full name and its place in Settings.
 struct SettingEntry {
     std::string name;  ///< "trace_screen.maxSteps"

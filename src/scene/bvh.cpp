@@ -1,8 +1,6 @@
 // Builds the hierarchy: from the root down, cut where the surface area heuristic says, at the bounds of bins.
 #include "scene/bvh.h"
 
-#include "base/error.h"
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -14,8 +12,7 @@ namespace reflet {
 namespace {
 
 constexpr uint32_t binCount = 16;
-constexpr uint32_t nodeCost = 1;  // in triangle tests
-constexpr uint32_t maxTriangles = bvhFirstMask;
+constexpr uint32_t nodeCost = 1;          // in triangle tests
 constexpr float smallestMargin = 1e-10F;  // metres, of boxes about 0
 
 // A triangle on its way into a leaf.
@@ -111,7 +108,8 @@ std::optional<Cut> bestCut(Items items, const Binning& binning) {
 
 class Builder {
 public:
-    explicit Builder(const std::vector<SceneTriangle>& triangles) : triangles_(triangles) {
+    Builder(const std::vector<SceneTriangle>& triangles, uint32_t maxDepth)
+        : triangles_(triangles), maxDepth_(maxDepth) {
         items_.reserve(triangles.size());
         for (const SceneTriangle& t : triangles) {
             Item item;
@@ -148,7 +146,7 @@ private:
     }
 
     // None: they are better off in one leaf. `depth` is that of the node that would hold the two parts.
-    static std::optional<std::pair<Items, Items>> cut(Items items, uint32_t depth) {
+    [[nodiscard]] std::optional<std::pair<Items, Items>> cut(Items items, uint32_t depth) const {
         Aabb box;
         Aabb centers;
         for (const Item& item : items) {
@@ -157,7 +155,7 @@ private:
         }
         const auto levels = static_cast<uint32_t>(std::bit_width(items.size() - 1));  // that halving needs
         const Binning binning(centers);
-        const auto best = depth + levels < bvhMaxDepth ? bestCut(items, binning) : std::nullopt;
+        const auto best = depth + levels < maxDepth_ ? bestCut(items, binning) : std::nullopt;
         const bool fits = items.size() <= bvhMaxLeaf && depth > 0;
         const float area = halfArea(box);
         const auto count = static_cast<float>(items.size());
@@ -220,58 +218,50 @@ private:
     }
 
     const std::vector<SceneTriangle>& triangles_;
+    uint32_t maxDepth_;
     std::vector<Item> items_;
 };
 
-// Farther out than this [m] products of coordinates are no longer finite.
-constexpr float farthest = 1e18F;
-
-bool isSomewhere(const vec3& v) {
-    return std::abs(v.x) < farthest && std::abs(v.y) < farthest && std::abs(v.z) < farthest;
+// Box of all that hangs from a node.
+void setBounds(const BvhNode& node, vec3& min, vec3& max) {
+    min = glm::min(node.leftMin, node.rightMin);
+    max = glm::max(node.leftMax, node.rightMax);
 }
 
-uint32_t flagsOf(const Material& material, const mat4& objectToWorld) {
-    return (material.alphaCutoff > 0.0F ? triangleCutOut : 0U) | (material.doubleSided ? triangleDoubleSided : 0U) |
-           (glm::determinant(mat3(objectToWorld)) < 0.0F ? triangleMirrored : 0U);
+// Nodes and triangles of `from` behind those that are there.
+void append(Bvh& to, const Bvh& from) {
+    const auto firstNode = static_cast<uint32_t>(to.nodes.size());
+    const auto firstTriangle = static_cast<uint32_t>(to.triangles.size());
+    const auto moved = [&](uint32_t child) {
+        return child +
+               ((child & bvhLeaf) != 0 ? firstTriangle : firstNode);  // a leaf's first triangle has the low bits
+    };
+    for (BvhNode node : from.nodes) {
+        node.left = moved(node.left);
+        node.right = moved(node.right);
+        to.nodes.push_back(node);
+    }
+    to.triangles.insert(to.triangles.end(), from.triangles.begin(), from.triangles.end());
 }
 
 }  // namespace
 
-std::vector<SceneTriangle> sceneTriangles(const Scene& scene) {
-    std::vector<uint32_t> firstIndices;  // of meshes
-    uint64_t indices = 0;
-    for (const Mesh& mesh : scene.meshes) {
-        firstIndices.push_back(static_cast<uint32_t>(indices));
-        indices += mesh.indices.size();
-    }
-    std::vector<SceneTriangle> triangles;
-    for (uint32_t i = 0; i < scene.instances.size(); ++i) {
-        const Instance& instance = scene.instances[i];
-        const Mesh& mesh = scene.meshes.at(instance.mesh);
-        SceneTriangle t{};
-        t.instance = i;
-        t.flags = flagsOf(scene.materials.at(mesh.material), instance.objectToWorld);
-        const auto corner = [&](size_t index) {
-            return vec3(instance.objectToWorld * vec4(mesh.positions[mesh.indices[index]], 1.0F));
-        };
-        if (triangles.size() + mesh.indices.size() / 3 > maxTriangles) {
-            fail("the scene has more than {} triangles, the most that rays on the device can tell apart", maxTriangles);
-        }
-        for (uint32_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
-            t.a = corner(k);
-            t.b = corner(k + 1);
-            t.c = corner(k + 2);
-            t.firstIndex = firstIndices[instance.mesh] + k;
-            if (isSomewhere(t.a) && isSomewhere(t.b) && isSomewhere(t.c)) {
-                triangles.push_back(t);
-            }
-        }
-    }
-    return triangles;
+Bvh buildBvh(const std::vector<SceneTriangle>& triangles, uint32_t maxDepth) {
+    return Builder(triangles, maxDepth).build();
 }
 
-Bvh buildBvh(const std::vector<SceneTriangle>& triangles) {
-    return Builder(triangles).build();
+Bvh joined(const Bvh& a, const Bvh& b) {
+    Bvh both;
+    both.nodes.reserve(1 + a.nodes.size() + b.nodes.size());
+    both.triangles.reserve(a.triangles.size() + b.triangles.size());
+    BvhNode& root = both.nodes.emplace_back();
+    setBounds(a.nodes.front(), root.leftMin, root.leftMax);
+    setBounds(b.nodes.front(), root.rightMin, root.rightMax);
+    root.left = 1;
+    root.right = static_cast<uint32_t>(1 + a.nodes.size());
+    append(both, a);
+    append(both, b);
+    return both;
 }
 
 }  // namespace reflet

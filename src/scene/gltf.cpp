@@ -39,9 +39,6 @@ Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
     GltfReport report(path.string(), options.warn);
     try {
         const GltfDocument document = readGltfDocument(path, report);
-        if (document.animated) {
-            report.warn("animations", "animations", "animations are left out: the scene is drawn as it is stored");
-        }
         Scene scene;
         const std::vector<int> roots = chooseScene(document, options.scene, scene.name, report);
         if (scene.name.empty()) {

@@ -19,7 +19,8 @@ struct GltfOptions {
 /// Reads the file and everything it refers to. Throws Error with one line that names the file and the part of it
 /// that is broken; never crashes or hangs on any input. URIs that leave the file's folder are refused.
 /// Understood: KHR_mesh_quantization, KHR_draco_mesh_compression, KHR_texture_transform, KHR_lights_punctual,
-/// KHR_materials_emissive_strength. Required but unknown: an error; used but unknown: a warning.
+/// KHR_materials_emissive_strength. Animations of translation, rotation and scale, and skins of four joints a vertex;
+/// morph targets are left out, with a warning. Required but unknown: an error; used but unknown: a warning.
 Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options = {});
 
 }  // namespace reflet

@@ -110,6 +110,16 @@ vec4 AccessorView::at(uint32_t i) const {
     return result;
 }
 
+mat4 AccessorView::matrixAt(uint32_t i) const {
+    mat4 result(0.0F);
+    const uint8_t* bytes = element(i);
+    for (int c = 0; bytes != nullptr && c < 16; ++c) {
+        result[c / 4][c % 4] =
+            component(bytes + static_cast<size_t>(c) * bytesOf(componentType), componentType, normalized);
+    }
+    return result;
+}
+
 uint32_t AccessorView::integerAt(uint32_t i) const {
     const uint8_t* bytes = element(i);
     return bytes != nullptr ? integer(bytes, componentType) : 0;

@@ -26,6 +26,8 @@ struct AccessorView {
 
     /// Up to four components as floats, those that are absent 0. i < count.
     [[nodiscard]] vec4 at(uint32_t i) const;
+    /// Sixteen components, column after column. i < count.
+    [[nodiscard]] mat4 matrixAt(uint32_t i) const;
     /// The first component of an unsigned integer type. i < count.
     [[nodiscard]] uint32_t integerAt(uint32_t i) const;
 

@@ -157,18 +157,12 @@ void listImages(const json& document, GltfDocument& result) {
     }
 }
 
-bool hasElements(const json& document, const char* name) {
-    const auto found = document.find(name);
-    return found != document.end() && found->is_array() && !found->empty();
-}
-
 }  // namespace
 
 GltfDocument readGltfDocument(const std::filesystem::path& path, GltfReport& report) {
     GltfContainer container = readGltfContainer(path, report);
     GltfDocument result;
     result.folder = path.parent_path();
-    result.animated = container.document.is_object() && hasElements(container.document, "animations");
     const json document = checkedGltfDocument(container.document, report);
     container.document = nullptr;
     checkVersion(document, report);

@@ -15,7 +15,6 @@ namespace reflet {
 struct GltfDocument {
     std::filesystem::path folder;  ///< of the file: URIs are relative to it
     tinygltf::Model model;
-    bool animated = false;      ///< has animations; they are not read
     std::vector<bool> isChild;  ///< per node: has a parent
 };
 

@@ -11,7 +11,7 @@ namespace reflet {
 
 namespace {
 
-constexpr uint64_t vertexBytes = sizeof(vec3) + sizeof(VertexAttributes);
+constexpr uint64_t vertexBytes = sizeof(vec3) + sizeof(VertexAttributes) + sizeof(VertexSkin);
 
 bool isFinite(const vec4& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
@@ -105,6 +105,29 @@ void readAttributes(Mesh& mesh, const PrimitiveSource& source, const std::vector
     }
 }
 
+/// Weights are made to sum to 1; a vertex without any hangs from the first joint.
+void readSkin(Mesh& mesh, const PrimitiveSource& source, const std::vector<uint32_t>& used) {
+    const AccessorView* joints = source.find("JOINTS_0");
+    const AccessorView* weights = source.find("WEIGHTS_0");
+    if (joints == nullptr || weights == nullptr) {
+        return;
+    }
+    for (const uint32_t v : used) {
+        const vec4 weight = glm::max(weights->at(v), 0.0F);
+        const float sum = weight.x + weight.y + weight.z + weight.w;
+        VertexSkin& vertex = mesh.skin.emplace_back();
+        if (!(sum > 0.0F) || !std::isfinite(sum)) {
+            continue;
+        }
+        vertex.weights = weight / sum;
+        for (int k = 0; k < 4; ++k) {
+            const float named = joints->at(v)[k];
+            const float joint = named > 0.0F ? std::min(named, 65535.0F) : 0.0F;  // a NaN becomes 0
+            vertex.joints[k] = vertex.weights[k] > 0.0F ? static_cast<uint16_t>(joint) : uint16_t(0);
+        }
+    }
+}
+
 /// glTF 2.0, 3.7.2.1: without normals they are flat, and tangents that are there do not count.
 void completeFrames(Mesh& mesh, const PrimitiveSource& source, const TextureSlot& normalTexture,
                     const std::string& part, GltfReport& report) {
@@ -154,6 +177,9 @@ void GltfMeshes::loadPrimitive(size_t mesh, size_t primitive) {
     if (!source.targets.empty()) {
         report_.warn("morph targets", part + ".targets", "morph targets are left out");
     }
+    if (source.attributes.contains("JOINTS_1")) {
+        report_.warn("joints", part + ".attributes.JOINTS_1", "a vertex hangs from its first four joints only");
+    }
     PrimitiveSource opened = openPrimitive(document_, source, part, report_);
     const std::vector<uint32_t> used = takeUsed(opened.triangles, opened.find("POSITION")->count);
     report_.charge(part, used.size() * vertexBytes + document_.model.meshes[mesh].name.size());
@@ -162,6 +188,7 @@ void GltfMeshes::loadPrimitive(size_t mesh, size_t primitive) {
     result.material = materials_.use(source.material);
     readPositions(result, opened, used, part, report_);
     readAttributes(result, opened, used);
+    readSkin(result, opened, used);
     result.indices = std::move(opened.triangles);
     completeFrames(result, opened, scene_.materials[result.material].normalTexture, part, report_);
     meshes_[mesh].push_back(static_cast<uint32_t>(scene_.meshes.size()));

@@ -1,7 +1,8 @@
 // Places the nodes of a glTF scene: instances, cameras, lamps, the sun.
 #include "scene/gltf_nodes.h"
 
-#include "scene/gltf_normals.h"
+#include "scene/gltf_motion.h"
+#include "scene/pose.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,41 +28,12 @@ glm::dvec3 vectorOr(const std::vector<double>& values, const glm::dvec3& otherwi
     return values.size() == 3 ? glm::dvec3(values[0], values[1], values[2]) : otherwise;
 }
 
-glm::dmat4 localTransform(const tinygltf::Node& node, const std::string& part, const GltfReport& report) {
-    glm::dmat4 result(1.0);
-    if (node.matrix.size() == 16) {
-        for (int i = 0; i < 16; ++i) {
-            result[i / 4][i % 4] = node.matrix[static_cast<size_t>(i)];
-        }
-        if (result[0].w != 0.0 || result[1].w != 0.0 || result[2].w != 0.0 || result[3].w != 1.0) {
-            report.fail(part + ".matrix", "its last row is not 0 0 0 1");
-        }
-        return result;
-    }
-    result = glm::translate(result, vectorOr(node.translation, glm::dvec3(0.0)));
-    if (node.rotation.size() == 4) {
-        const glm::dquat rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
-        const double length = glm::length(rotation);
-        if (length == 0.0 || !std::isfinite(length)) {
-            report.fail(part + ".rotation", "is no rotation: its length is {}", length);
-        }
-        result *= glm::mat4_cast(rotation / length);
-    }
-    return glm::scale(result, vectorOr(node.scale, glm::dvec3(1.0)));
-}
-
 Camera placeCamera(const tinygltf::Camera& source, const mat4& toWorld, const std::string& part,
                    const GltfReport& report) {
     Camera camera;
     camera.name = source.name;
-    camera.position = vec3(toWorld[3]);
-    const vec3 forward = unitOr(-vec3(toWorld[2]), vec3(0, 0, -1));
-    const vec3 up = vec3(toWorld[1]) - forward * glm::dot(vec3(toWorld[1]), forward);
-    camera.up = unitOr(up, perpendicular(forward));
-    // Far enough ahead that a float tells the target from the position.
-    const float farthest =
-        std::max({1.0F, std::abs(camera.position.x), std::abs(camera.position.y), std::abs(camera.position.z)});
-    camera.target = camera.position + forward * (farthest < 1000.0F ? 1.0F : farthest / 1000.0F);
+    putAt(camera, toWorld);
+    camera.aims = false;
     if (source.type == "orthographic") {
         const auto& ortho = source.orthographic;
         if (!(ortho.zfar > ortho.znear)) {
@@ -83,8 +55,7 @@ Lamp placeLamp(const tinygltf::Light& source, const mat4& toWorld, const std::st
     lamp.type = source.type == "spot"          ? Lamp::Type::spot
                 : source.type == "directional" ? Lamp::Type::directional
                                                : Lamp::Type::point;
-    lamp.position = vec3(toWorld[3]);
-    lamp.direction = unitOr(-vec3(toWorld[2]), vec3(0, 0, -1));
+    putAt(lamp, toWorld);
     const glm::dvec3 intensity = vectorOr(source.color, glm::dvec3(1.0)) * source.intensity;
     lamp.intensity = vec3(intensity);
     if (!std::isfinite(glm::length(glm::dvec3(lamp.intensity)))) {
@@ -107,52 +78,57 @@ Lamp placeLamp(const tinygltf::Light& source, const mat4& toWorld, const std::st
 
 class NodePlacer {
 public:
-    NodePlacer(const GltfDocument& document, GltfMeshes& meshes, Scene& scene, GltfReport& report)
-        : document_(document), meshes_(meshes), scene_(scene), report_(report) {}
+    NodePlacer(const GltfDocument& document, GltfMeshes& meshes, const GltfMotion& motion, Scene& scene,
+               GltfReport& report)
+        : document_(document), meshes_(meshes), motion_(motion), scene_(scene), report_(report) {}
 
     /// Returns the node's own object-to-world matrix.
     glm::dmat4 place(int index, const glm::dmat4& parentToWorld) {
         const tinygltf::Node& node = document_.model.nodes[static_cast<size_t>(index)];
         const std::string part = fmt::format("nodes[{}]", index);
-        const glm::dmat4 exact = parentToWorld * localTransform(node, part, report_);
+        const glm::dmat4 exact = parentToWorld * localTransform(readGltfNode(node, part, report_));
         const mat4 toWorld(exact);
         if (!isFinite(toWorld)) {
             report_.fail(part, "its place in the world is not finite");
         }
         if (node.mesh >= 0) {
-            addInstances(node, toWorld, part);
+            addInstances(index, toWorld, part);
         }
         if (node.camera >= 0) {
             const auto& camera = document_.model.cameras[static_cast<size_t>(node.camera)];
             scene_.cameras.push_back(placeCamera(camera, toWorld, fmt::format("cameras[{}]", node.camera), report_));
+            scene_.cameras.back().node = motion_.node(index);
         }
         const auto light = node.extensions.find("KHR_lights_punctual");
         if (light != node.extensions.end()) {
-            addLight(light->second.Get("light").GetNumberAsInt(), toWorld);
+            addLight(light->second.Get("light").GetNumberAsInt(), index, toWorld);
         }
         return exact;
     }
 
 private:
-    void addInstances(const tinygltf::Node& node, const mat4& toWorld, const std::string& part) {
-        if (node.skin >= 0) {
-            report_.warn("skins", part + ".skin", "skins are left out: the mesh is drawn as it is stored");
-        }
+    void addInstances(int index, const mat4& toWorld, const std::string& part) {
+        const tinygltf::Node& node = document_.model.nodes[static_cast<size_t>(index)];
         for (const uint32_t mesh : meshes_.use(node.mesh)) {
             const Aabb box = transformed(scene_.meshes[mesh].bounds, toWorld);
             if (!std::isfinite(glm::length(glm::dvec3(box.min) - glm::dvec3(box.max)))) {
                 report_.fail(part, "its mesh reaches past what a float holds");
             }
             report_.charge(part, sizeof(Instance) + node.name.size());
-            scene_.instances.push_back({.name = node.name, .mesh = mesh, .objectToWorld = toWorld});
+            scene_.instances.push_back({.name = node.name,
+                                        .mesh = mesh,
+                                        .objectToWorld = toWorld,
+                                        .node = motion_.node(index),
+                                        .skin = node.skin >= 0 ? motion_.skin(node.skin, mesh, part) : -1});
         }
     }
 
-    void addLight(int light, const mat4& toWorld) {
+    void addLight(int light, int node, const mat4& toWorld) {
         const std::string part = fmt::format("extensions.KHR_lights_punctual.lights[{}]", light);
         Lamp lamp = placeLamp(document_.model.lights[static_cast<size_t>(light)], toWorld, part, report_);
+        lamp.node = motion_.node(node);
         if (lamp.type == Lamp::Type::directional && !scene_.sun) {
-            scene_.sun = Sun{.direction = lamp.direction, .irradiance = lamp.intensity};
+            scene_.sun = Sun{.direction = lamp.direction, .irradiance = lamp.intensity, .node = lamp.node};
         } else {
             scene_.lamps.push_back(std::move(lamp));
         }
@@ -160,6 +136,7 @@ private:
 
     const GltfDocument& document_;
     GltfMeshes& meshes_;
+    const GltfMotion& motion_;
     Scene& scene_;
     GltfReport& report_;
 };
@@ -172,7 +149,8 @@ void placeGltfNodes(const GltfDocument& document, const std::vector<int>& roots,
         int node;
         glm::dmat4 parentToWorld;
     };
-    NodePlacer placer(document, meshes, scene, report);
+    const GltfMotion motion(document, scene, report);
+    NodePlacer placer(document, meshes, motion, scene, report);
     std::vector<Open> open;  // a stack of our own: a chain of nodes may be longer than the program's
     const auto push = [&](const std::vector<int>& nodes, const glm::dmat4& parentToWorld) {
         for (size_t i = nodes.size(); i-- > 0;) {  // the first one last, so that it is the next

@@ -40,18 +40,23 @@ vec3 perpendicular(const vec3& n) {
 void makeFlat(Mesh& mesh) {
     std::vector<vec3> positions;
     std::vector<VertexAttributes> attributes;
+    std::vector<VertexSkin> skin;
     positions.reserve(mesh.indices.size());
     attributes.reserve(mesh.indices.size());
     for (size_t i = 0; i < mesh.indices.size(); ++i) {
         positions.push_back(mesh.positions[mesh.indices[i]]);
         attributes.push_back(mesh.attributes[mesh.indices[i]]);
         attributes.back().normal = unitOr(areaVector(mesh, i / 3), vec3(0, 1, 0));
+        if (!mesh.skin.empty()) {
+            skin.push_back(mesh.skin[mesh.indices[i]]);
+        }
     }
     for (size_t i = 0; i < mesh.indices.size(); ++i) {
         mesh.indices[i] = static_cast<uint32_t>(i);
     }
     mesh.positions = std::move(positions);
     mesh.attributes = std::move(attributes);
+    mesh.skin = std::move(skin);
 }
 
 size_t repairNormals(Mesh& mesh) {

@@ -12,12 +12,14 @@ struct SemanticRule {
     int minComponents;
     int maxComponents;
 };
-constexpr std::array<SemanticRule, 6> semantics{{{"POSITION", 3, 3},
+constexpr std::array<SemanticRule, 8> semantics{{{"POSITION", 3, 3},
                                                  {"NORMAL", 3, 3},
                                                  {"TANGENT", 4, 4},
                                                  {"TEXCOORD_0", 2, 2},
                                                  {"TEXCOORD_1", 2, 2},
-                                                 {"COLOR_0", 3, 4}}};
+                                                 {"COLOR_0", 3, 4},
+                                                 {"JOINTS_0", 4, 4},
+                                                 {"WEIGHTS_0", 4, 4}}};
 
 /// The types of glTF 2.0 and of KHR_mesh_quantization: all but 32-bit integers, which floats do not hold.
 void checkType(const tinygltf::Accessor& accessor, const SemanticRule& rule, int index, const GltfReport& report) {
@@ -28,7 +30,10 @@ void checkType(const tinygltf::Accessor& accessor, const SemanticRule& rule, int
         report.fail(fmt::format("accessors[{}]", index), "has {} components{}, a {} has {}", components,
                     isVector ? "" : " that are no vector", rule.semantic, rule.minComponents);
     }
-    if (accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
+    const bool isJoint = accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                         accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+    if (accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT ||
+        (std::string_view(rule.semantic) == "JOINTS_0" && !isJoint)) {
         report.fail(fmt::format("accessors[{}].componentType", index), "is {}, which no {} has", accessor.componentType,
                     rule.semantic);
     }

@@ -20,8 +20,9 @@ constexpr std::array<std::string_view, 7> accessorTypes{"SCALAR", "VEC2", "VEC3"
 constexpr std::array<std::string_view, 3> alphaModes{"OPAQUE", "MASK", "BLEND"};
 constexpr std::array<std::string_view, 2> cameraTypes{"perspective", "orthographic"};
 constexpr std::array<std::string_view, 3> lightTypes{"directional", "point", "spot"};
-constexpr std::array<std::string_view, 8> attributes{"POSITION",   "NORMAL",  "TANGENT",  "TEXCOORD_0",
-                                                     "TEXCOORD_1", "COLOR_0", "JOINTS_0", "WEIGHTS_0"};
+constexpr std::array<std::string_view, 9> attributes{"POSITION", "NORMAL",   "TANGENT",   "TEXCOORD_0", "TEXCOORD_1",
+                                                     "COLOR_0",  "JOINTS_0", "WEIGHTS_0", "JOINTS_1"};
+constexpr std::array<std::string_view, 3> interpolations{"STEP", "LINEAR", "CUBICSPLINE"};
 
 constexpr std::array asset{
     Field{.name = "version", .type = Type::text, .required = true},
@@ -166,6 +167,29 @@ constexpr std::array node{
     Field{.name = "scale", .array = true, .items = 3},
     Field{.name = "extensions", .type = Type::object, .fields = nodeExtensions},
 };
+constexpr std::array skin{
+    Field{.name = "name", .type = Type::text},
+    Field{.name = "inverseBindMatrices", .type = Type::index, .refersTo = "accessors"},
+    Field{.name = "joints", .type = Type::index, .required = true, .array = true, .refersTo = "nodes"},
+};
+constexpr std::array animationSampler{
+    Field{.name = "input", .type = Type::index, .required = true, .refersTo = "accessors"},
+    Field{.name = "output", .type = Type::index, .required = true, .refersTo = "accessors"},
+    Field{.name = "interpolation", .type = Type::text, .words = interpolations},
+};
+constexpr std::array channelTarget{
+    Field{.name = "node", .type = Type::index, .refersTo = "nodes"},
+    Field{.name = "path", .type = Type::text, .required = true},
+};
+constexpr std::array channel{
+    Field{.name = "sampler", .type = Type::integer, .required = true, .max = maxInt},
+    Field{.name = "target", .type = Type::object, .required = true, .fields = channelTarget},
+};
+constexpr std::array animation{
+    Field{.name = "name", .type = Type::text},
+    Field{.name = "channels", .type = Type::object, .required = true, .array = true, .fields = channel},
+    Field{.name = "samplers", .type = Type::object, .required = true, .array = true, .fields = animationSampler},
+};
 constexpr std::array scene{
     Field{.name = "name", .type = Type::text},
     Field{.name = "nodes", .type = Type::index, .array = true, .refersTo = "nodes"},
@@ -225,6 +249,8 @@ constexpr std::array root{
     Field{.name = "meshes", .type = Type::object, .array = true, .fields = mesh},
     Field{.name = "nodes", .type = Type::object, .array = true, .fields = node},
     Field{.name = "cameras", .type = Type::object, .array = true, .fields = camera},
+    Field{.name = "skins", .type = Type::object, .array = true, .fields = skin},
+    Field{.name = "animations", .type = Type::object, .array = true, .fields = animation},
     Field{.name = "scenes", .type = Type::object, .array = true, .fields = scene},
     Field{.name = "scene", .type = Type::index, .refersTo = "scenes"},
     Field{.name = "extensions", .type = Type::object, .fields = documentExtensions},

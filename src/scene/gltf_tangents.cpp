@@ -120,6 +120,9 @@ private:
                 copy[v] = static_cast<uint32_t>(mesh_.positions.size());
                 mesh_.positions.push_back(mesh_.positions[v]);
                 mesh_.attributes.push_back(mesh_.attributes[v]);
+                if (!mesh_.skin.empty()) {
+                    mesh_.skin.push_back(mesh_.skin[v]);
+                }
                 group_.push_back(group_[v]);
                 side_.push_back(side);
             }

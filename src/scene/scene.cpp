@@ -2,6 +2,8 @@
 #include "scene/scene.h"
 
 #include "base/error.h"
+#include "scene/gltf_normals.h"
+#include "scene/pose.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,14 +74,30 @@ bool isLit(const Scene& scene) {
 }  // namespace
 
 Aabb Scene::bounds() const {
+    const ScenePose pose = scenePose(*this, 0.0);
     Aabb result;
-    for (const Instance& instance : instances) {
-        const Aabb& box = meshes.at(instance.mesh).bounds;
-        if (!box.empty()) {
-            result.add(transformed(box, instance.objectToWorld));
-        }
+    for (size_t i = 0; i < instances.size(); ++i) {
+        const int32_t skin = instances[i].skin;
+        const size_t joints = skin < 0 ? 0 : skins[static_cast<size_t>(skin)].joints.size();
+        result.add(instanceBounds(*this, pose, i, jointBounds(meshes.at(instances[i].mesh), joints)));
     }
     return result;
+}
+
+void putAt(Camera& camera, const mat4& toWorld) {
+    camera.position = vec3(toWorld[3]);
+    const vec3 forward = unitOr(-vec3(toWorld[2]), vec3(0, 0, -1));
+    const vec3 up = vec3(toWorld[1]) - forward * glm::dot(vec3(toWorld[1]), forward);
+    camera.up = unitOr(up, perpendicular(forward));
+    // Far enough ahead that a float tells the target from the position.
+    const float farthest =
+        std::max({1.0F, std::abs(camera.position.x), std::abs(camera.position.y), std::abs(camera.position.z)});
+    camera.target = camera.position + forward * (farthest < 1000.0F ? 1.0F : farthest / 1000.0F);
+}
+
+void putAt(Lamp& lamp, const mat4& toWorld) {
+    lamp.position = vec3(toWorld[3]);
+    lamp.direction = unitOr(-vec3(toWorld[2]), vec3(0, 0, -1));
 }
 
 float lampClearance(float radius) {

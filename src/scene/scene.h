@@ -5,6 +5,7 @@
 
 #include "base/image_file.h"
 #include "base/math.h"
+#include "scene/animation.h"
 
 #include <array>
 #include <cstdint>
@@ -79,6 +80,7 @@ struct Mesh {
     std::string name;
     std::vector<vec3> positions;
     std::vector<VertexAttributes> attributes;  ///< as many as positions
+    std::vector<VertexSkin> skin;              ///< as many as positions, or none
     std::vector<uint32_t> indices;
     uint32_t material = 0;  ///< index into Scene::materials
     Aabb bounds;
@@ -88,7 +90,9 @@ struct Mesh {
 struct Instance {
     std::string name;  ///< of the glTF node, may be empty
     uint32_t mesh = 0;
-    mat4 objectToWorld{1.0F};
+    mat4 objectToWorld{1.0F};  ///< where it is, unless its node moves or it has a skin
+    int32_t node = -1;         ///< index into Scene::nodes; < 0: none
+    int32_t skin = -1;         ///< index into Scene::skins, whose joints place the mesh; < 0: none
 };
 
 /// Perspective where orthographicHeight is 0, with reversed depth and an infinite far plane.
@@ -101,6 +105,8 @@ struct Camera {
     float near = 0.05F;               ///< metres, > 0
     float orthographicHeight = 0.0F;  ///< metres from the lower to the upper edge; > 0: orthographic
     float far = 1000.0F;              ///< metres; of an orthographic camera only
+    bool aims = true;                 ///< at its target; false: that only says which way it looks
+    int32_t node = -1;                ///< index into Scene::nodes: moves with it; < 0: does not move
 
     bool operator==(const Camera&) const = default;
 };
@@ -110,6 +116,7 @@ struct Sun {
     vec3 direction{0, -1, 0};  ///< the way the light travels, unit length
     vec3 irradiance{0.0F};
     float angularDiameter = glm::radians(0.53F);
+    int32_t node = -1;  ///< index into Scene::nodes: turns with it; < 0: does not move
 
     bool operator==(const Sun&) const = default;
 };
@@ -129,7 +136,12 @@ struct Lamp {
     /// Metres; of a disk that faces whoever looks at it. It softens the lamp's shadow, and nothing else: the light is
     /// that of a point, as KHR_lights_punctual has it. 0: a point. Directional lamps have none.
     float radius = 0.0F;
+    int32_t node = -1;  ///< index into Scene::nodes: moves with it; < 0: does not move
 };
+
+/// Puts a camera or a lamp where a node is: they look, and shine, along its -Z.
+void putAt(Camera& camera, const mat4& toWorld);
+void putAt(Lamp& lamp, const mat4& toWorld);
 
 /// Metres round a lamp in which nothing casts its shadow: its own glass, or what rounding makes of the lamp's place.
 float lampClearance(float radius);
@@ -157,8 +169,11 @@ struct Scene {
     std::vector<Camera> cameras;
     std::optional<Sun> sun;  ///< the first directional light
     Environment environment;
+    std::vector<Node> nodes;            ///< parents first; none where there are neither animations nor skins
+    std::vector<Animation> animations;  ///< all play at once
+    std::vector<Skin> skins;
 
-    /// World-space box around all instances; empty if there are none.
+    /// World-space box around all instances (at time 0); empty if there are none.
     [[nodiscard]] Aabb bounds() const;
 };
 
@@ -174,9 +189,12 @@ struct Probe {
 struct View {
     static constexpr uint32_t maxProbes = 16;
 
+    static constexpr double largestTime = 1e6;  // seconds; doubles count them to a ten-millionth of a millisecond
+
     Camera camera;
     Sun sun;
     Environment environment;
+    double time = 0.0;                         ///< of the scene's animations [s], 0 to largestTime
     std::optional<float> lampRadius;           ///< of all lamps [m], in the place of their own
     std::optional<std::vector<Probe>> probes;  ///< at most maxProbes; not given: the renderer places them itself
     std::vector<std::string> mirrors;          ///< names of instances that planar views are for; empty: they are found

@@ -1,10 +1,11 @@
-// View files: camera, sun, lamps, environment, probes and mirrors as JSON, checked before anything of the view is
+// View files: camera, sun, lamps, environment, probes, mirrors and time as JSON, checked before anything of the view is
 // changed.
 #include "scene/view_file.h"
 
 #include "base/error.h"
 #include "base/json.h"
 #include "scene/environment.h"
+#include "scene/json_values.h"
 
 #include <algorithm>
 #include <array>
@@ -15,26 +16,6 @@
 
 namespace reflet {
 namespace {
-
-// Far beyond any scene, and far from where float arithmetic overflows.
-constexpr double largest = 1e12;
-constexpr double degree = glm::pi<double>() / 180.0;
-
-vec3 readVec3(const JsonNode& node, double min, double max, std::string_view unit = "") {
-    const std::vector<double> values = node.numbers(3, min, max, unit);
-    return {static_cast<float>(values[0]), static_cast<float>(values[1]), static_cast<float>(values[2])};
-}
-
-/// A unit vector from three numbers that are not all zero.
-vec3 readDirection(const JsonNode& node) {
-    const std::vector<double> values = node.numbers(3, -largest, largest);
-    const glm::dvec3 direction(values[0], values[1], values[2]);
-    const double length = glm::length(direction);
-    if (!(length > 0.0)) {
-        node.complainMustBe("a direction that is not zero");
-    }
-    return direction / length;
-}
 
 /// Keeps Camera's promise that position, target and up span a view.
 void checkOrientation(const JsonNode& node, Camera& camera) {
@@ -56,17 +37,21 @@ void checkOrientation(const JsonNode& node, Camera& camera) {
 Camera readCamera(const JsonNode& node, Camera camera) {
     static const std::array<std::string, 5> keys{"position", "target", "up", "fov_y", "near"};
     node.requireKeys(keys);
+    if (node.find("position") || node.find("target") || node.find("up")) {
+        camera.node = -1;  // stays where it is put
+    }
     if (const auto position = node.find("position")) {
-        camera.position = readVec3(*position, -largest, largest, "metres");
+        camera.position = readPosition(*position);
     }
     if (const auto target = node.find("target")) {
-        camera.target = readVec3(*target, -largest, largest, "metres");
+        camera.target = readPosition(*target);
+        camera.aims = true;
     }
     if (const auto up = node.find("up")) {
         camera.up = readDirection(*up);
     }
     if (const auto fovY = node.find("fov_y")) {
-        camera.fovY = static_cast<float>(fovY->number(1.0, 179.0, "degrees") * degree);
+        camera.fovY = readFovY(*fovY);
         camera.orthographicHeight = 0.0F;  // a field of view asks for a perspective
     }
     if (const auto near = node.find("near")) {
@@ -84,12 +69,13 @@ Sun readSun(const JsonNode& node, Sun sun) {
     node.requireKeys(keys);
     if (const auto direction = node.find("direction")) {
         sun.direction = readDirection(*direction);
+        sun.node = -1;
     }
     if (const auto irradiance = node.find("irradiance")) {
-        sun.irradiance = readVec3(*irradiance, 0.0, largest);
+        sun.irradiance = readVec3(*irradiance, 0.0, largestInView);
     }
     if (const auto diameter = node.find("angular_diameter")) {
-        sun.angularDiameter = static_cast<float>(diameter->number(0.0, 90.0, "degrees") * degree);
+        sun.angularDiameter = static_cast<float>(diameter->number(0.0, 90.0, "degrees") * radiansPerDegree);
     }
     return sun;
 }
@@ -124,7 +110,7 @@ Environment readImage(const JsonNode& node, const JsonNode& imageNode, const std
         environment.intensity = static_cast<float>(factor);
     }
     if (const auto rotation = node.find("rotation")) {
-        environment.rotation = static_cast<float>(rotation->number(-360.0, 360.0, "degrees") * degree);
+        environment.rotation = static_cast<float>(rotation->number(-360.0, 360.0, "degrees") * radiansPerDegree);
     }
     return environment;
 }
@@ -146,23 +132,15 @@ Environment readEnvironment(const JsonNode& node, const Environment& environment
     return environment;
 }
 
-JsonNode required(const JsonNode& node, const std::string& key) {
-    const auto value = node.find(key);
-    if (!value) {
-        node.complain(fmt::format("'{}' is missing", key));
-    }
-    return *value;
-}
-
 Probe readProbe(const JsonNode& node) {
     static const std::array<std::string, 3> keys{"position", "box_min", "box_max"};
     node.requireKeys(keys);
     const JsonNode position = required(node, "position");
     const JsonNode boxMax = required(node, "box_max");
     Probe probe;
-    probe.position = readVec3(position, -largest, largest, "metres");
-    probe.box.min = readVec3(required(node, "box_min"), -largest, largest, "metres");
-    probe.box.max = readVec3(boxMax, -largest, largest, "metres");
+    probe.position = readPosition(position);
+    probe.box.min = readPosition(required(node, "box_min"));
+    probe.box.max = readPosition(boxMax);
     if (glm::any(glm::lessThanEqual(probe.box.max, probe.box.min))) {
         boxMax.complainMustBe("more than box_min in all three");
     }
@@ -206,7 +184,7 @@ std::vector<std::string> readNames(const JsonNode& node) {
 }  // namespace
 
 void applyViewFile(const std::filesystem::path& path, View& view) {
-    static const std::array<std::string, 6> keys{"camera", "sun", "lamps", "environment", "probes", "mirrors"};
+    static const std::array<std::string, 7> keys{"camera", "sun", "lamps", "environment", "probes", "mirrors", "time"};
     const nlohmann::json file = parseJsonFile(path);
     const JsonNode root(file, path);
     root.requireKeys(keys);
@@ -233,6 +211,9 @@ void applyViewFile(const std::filesystem::path& path, View& view) {
     }
     if (const auto mirrors = root.find("mirrors")) {
         changed.mirrors = readNames(*mirrors);
+    }
+    if (const auto time = root.find("time")) {
+        changed.time = time->number(0.0, View::largestTime, "seconds");
     }
     view = changed;
 }

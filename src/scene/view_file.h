@@ -1,4 +1,5 @@
-// View files: camera, sun, lamps, environment and probes as JSON, to see one scene from other places in other light.
+// View files: camera, sun, lamps, environment, probes, mirrors and time as JSON, to see one scene from other places in
+// other light.
 #pragma once
 
 #include "scene/scene.h"
@@ -13,7 +14,8 @@ namespace reflet {
 ///     "lamps": { "radius": 0.05 },
 ///     "environment": { "radiance": [0,0,0] },       or { "image": "sky.hdr", "intensity": 1, "rotation": 0 }
 ///     "probes": [{ "position": [0,1,0], "box_min": [-2,0,-2], "box_max": [2,3,2] }],
-///     "mirrors": ["looking glass"] }
+///     "mirrors": ["looking glass"],
+///     "time": 1.5 }
 /// Angles in degrees, paths relative to the file. An image or a radiance replaces the whole environment, a list
 /// of probes, an empty one too, all others. Throws Error:
 /// a file that cannot be read, JSON that is malformed (with its line), a key that is unknown (naming the nearest), a

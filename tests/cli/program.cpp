@@ -162,6 +162,15 @@ Outcome ProgramTest::interrupt(const Arguments& arguments, const std::vector<int
     return {status, readFile(said_ / "out"), readFile(said_ / "err")};
 }
 
+Outcome ProgramTest::killWhen(const Arguments& arguments, const std::function<bool()>& reached) const {
+    const pid_t child = start(REFLET_PROGRAM, arguments, {}, {folder_, said_ / "out", said_ / "err"});
+    if (waitUntil(child, reached)) {
+        ::kill(child, SIGKILL);
+    }
+    const int status = waitFor(child);
+    return {status, readFile(said_ / "out"), readFile(said_ / "err")};
+}
+
 Outcome ProgramTest::render(const std::string& scene, const Arguments& more, const Environment& added) const {
     Arguments all{"render", scene, "--size", "32x18"};
     all.insert(all.end(), more.begin(), more.end());

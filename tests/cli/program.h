@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
 #include <map>
 #include <string>
@@ -43,6 +44,9 @@ protected:
     /// cores, each other one when the one before has reached it.
     [[nodiscard]] Outcome interrupt(const Arguments& arguments, const std::vector<int>& signals,
                                     double work = 0.0) const;
+
+    /// As run(), but killed (SIGKILL) as soon as `reached` is true, if it has not ended before.
+    [[nodiscard]] Outcome killWhen(const Arguments& arguments, const std::function<bool()>& reached) const;
 
     [[nodiscard]] std::filesystem::path path(std::string_view file) const { return folder_ / file; }
     void write(std::string_view file, std::string_view content) const;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <set>
+#include <tuple>
 
 namespace reflet {
 namespace {
@@ -72,6 +73,31 @@ TEST(Bvh, HoldsEveryTriangleOfASceneInOneLeafInsideItsBoxes) {
         names.emplace(t.instance, t.firstIndex);
     }
     EXPECT_EQ(names.size(), triangles.size());
+}
+
+TEST(Bvh, OverTwoHoldsTheTrianglesOfBothWhereTheyAreAtThatTime) {
+    const Scene scene = findBuiltinScene("moving")->make();
+    const ScenePose pose = scenePose(scene, 0.6);
+    const auto standing = sceneTriangles(scene, pose, Instances::standing);
+    const auto moving = sceneTriangles(scene, pose, Instances::moving);
+    const auto all = sceneTriangles(scene, pose);
+    ASSERT_GT(standing.size(), 0U);
+    ASSERT_GT(moving.size(), 0U);
+    const Bvh bvh = joined(buildBvh(standing, bvhMaxDepth - 1), buildBvh(moving, bvhMaxDepth - 1));
+    const Walk walk(bvh);
+    EXPECT_TRUE(walk.everyTriangleIsInOneLeaf());
+    EXPECT_LE(walk.depth(), bvhMaxDepth);
+    const auto key = [](const SceneTriangle& t) { return std::tuple(t.instance, t.firstIndex, t.a.x, t.b.y, t.c.z); };
+    std::set<std::tuple<uint32_t, uint32_t, float, float, float>> expected;
+    std::set<std::tuple<uint32_t, uint32_t, float, float, float>> found;
+    for (const SceneTriangle& t : all) {
+        expected.insert(key(t));
+    }
+    for (const SceneTriangle& t : bvh.triangles) {
+        found.insert(key(t));
+    }
+    EXPECT_EQ(found, expected);
+    EXPECT_EQ(bvh.triangles.size(), all.size());
 }
 
 TEST(Bvh, IsTheSameForTheSameTriangles) {

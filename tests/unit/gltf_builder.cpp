@@ -150,6 +150,37 @@ GltfBuilder triangle() {
     return b;
 }
 
+GltfBuilder slider() {
+    GltfBuilder b = triangle();
+    const int times = b.addFloats({0, 2}, "SCALAR");
+    const int places = b.addFloats({0, 0, 0, 4, 0, 0}, "VEC3");
+    b.add("animations", {{"name", "slide"},
+                         {"samplers", {{{"input", times}, {"output", places}}}},
+                         {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}});
+    return b;
+}
+
+GltfBuilder bent() {
+    GltfBuilder b = triangle();
+    const int joints = b.addAccessor<uint8_t>({0, 9, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0}, "VEC4", ubyteType);
+    const int weights = b.addFloats({2, 0, 0, 0, 1, 0, 0, 0, 1, 3, 0, 0}, "VEC4");
+    auto& attributes = b.document["meshes"][0]["primitives"][0]["attributes"];
+    attributes["JOINTS_0"] = joints;
+    attributes["WEIGHTS_0"] = weights;
+    std::vector<float> inverse(32, 0.0F);
+    for (const size_t i : {0, 5, 10, 15}) {
+        inverse[i] = 1.0F;
+        inverse[16 + i] = 1.0F;
+    }
+    inverse[16 + 13] = -1.0F;  // the second joint was at y = 1
+    b.add("skins", {{"joints", {1, 2}}, {"inverseBindMatrices", b.addFloats(inverse, "MAT4")}});
+    b.document["nodes"][0]["skin"] = 0;
+    b.document["nodes"][0]["translation"] = {100, 0, 0};  // of no account
+    b.addRoot({{"name", "hip"}, {"children", {2}}});
+    b.add("nodes", {{"name", "knee"}, {"translation", {0, 1, 2}}});  // moved by 2 along z since it was bound
+    return b;
+}
+
 namespace {
 
 /// mesh 0: a textured square with normals and uvs, and the same square with a sparse corner.

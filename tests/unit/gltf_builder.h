@@ -72,6 +72,13 @@ public:
 /// A unit right triangle in the xy-plane: positions (0,0,0) (1,0,0) (0,1,0), as a root node.
 GltfBuilder triangle();
 
+/// A triangle whose node moves from x = 0 to 4 in 2 s.
+GltfBuilder slider();
+
+/// A triangle with a skin: of its third corner three quarters hang from a second joint, which is one metre up, and has
+/// moved by 2 along z since it was bound.
+GltfBuilder bent();
+
 /// A scene with one of everything that the loader reads; all of it is used.
 GltfBuilder everything();
 

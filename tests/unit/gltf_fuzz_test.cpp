@@ -1,6 +1,7 @@
 // Damaged glTF files by the thousand: loading returns a scene or throws Error, and the scene is sound.
 #include "base/error.h"
 #include "gltf_builder.h"
+#include "scene/pose.h"
 
 #include <gtest/gtest.h>
 
@@ -30,6 +31,14 @@ void expectSound(const Scene& scene) {
     for (const Instance& instance : scene.instances) {
         ASSERT_LT(instance.mesh, scene.meshes.size());
         ASSERT_TRUE(isFinite(vec3(instance.objectToWorld[3])));
+    }
+    for (const double time : {0.0, 1.3}) {
+        const ScenePose pose = scenePose(scene, time);
+        ASSERT_TRUE(std::isfinite(pose.time));
+        for (size_t i = 0; i < scene.instances.size(); ++i) {
+            ASSERT_TRUE(isFinite(vec3(pose.objectToWorld[i][3])));
+            ASSERT_EQ(worldPositions(scene, pose, i).size(), scene.meshes[scene.instances[i].mesh].positions.size());
+        }
     }
 }
 
@@ -85,7 +94,8 @@ std::string damaged(std::string bytes, std::mt19937& random) {
 TEST(GltfFuzz, DamagedBytesNeverDoMoreThanThrow) {
     std::mt19937 random(1);
     const auto folder = testFolder();
-    for (const std::string& whole : {everything().glbBytes(), everything().gltfBytes()}) {
+    for (const std::string& whole :
+         {everything().glbBytes(), everything().gltfBytes(), slider().gltfBytes(), bent().gltfBytes()}) {
         int loaded = 0;
         for (int i = 0; i < 2000; ++i) {
             loaded += survives(folder / "scene.gltf", damaged(whole, random)) ? 1 : 0;

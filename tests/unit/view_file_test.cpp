@@ -319,5 +319,14 @@ TEST_F(ViewFile, ShowsNoLongValueAndNoSecondLineInItsErrors) {
     EXPECT_EQ(errorOf("{\"sun\": \"\xff\"}").find('\n'), std::string::npos);
 }
 
+TEST_F(ViewFile, SaysWhereTheAnimationsAre) {
+    EXPECT_EQ(view_.time, 0.0);
+    apply(R"({"time": 1.25})");
+    EXPECT_EQ(view_.time, 1.25);
+    apply(R"({"camera": {"fov_y": 40}})");
+    EXPECT_EQ(view_.time, 1.25) << "what is not named stays";
+    EXPECT_EQ(errorOf(R"({"time": -1})"), "FILE: time: must be between 0 and 1e+06 seconds, is -1");
+}
+
 }  // namespace
 }  // namespace reflet

@@ -3,6 +3,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "render/gbuffer/gbuffer.h"
 
+layout(constant_id = 1) const uint bent = 0u;  // 1: some vertices move by themselves
+
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { GBufferParams params; };
 layout(push_constant, scalar) uniform DrawBlock {
     mat4x3 objectToWorld;
@@ -15,6 +17,7 @@ layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec2 uv0;
 layout(location = 4) in vec2 uv1;
 layout(location = 5) in vec4 color;
+layout(location = 6) in vec3 previousPosition;
 
 layout(location = 0) out vec3 normalW;
 layout(location = 1) out vec4 tangentW;
@@ -38,6 +41,7 @@ void main() {
     gl_Position = params.view.worldToClip * vec4(positionW, 1.0);
     fromEye = positionW - params.view.eye.xyz * params.view.eye.w;
     clipNow = gl_Position.xyw;
-    vec4 before = params.view.previousWorldToClip * vec4(draw.previousObjectToWorld * vec4(position, 1.0), 1.0);
+    vec3 beforeO = bent != 0u ? previousPosition : position;
+    vec4 before = params.view.previousWorldToClip * vec4(draw.previousObjectToWorld * vec4(beforeO, 1.0), 1.0);
     clipBefore = before.xyw;
 }

@@ -159,13 +159,19 @@ void addPiece(std::vector<Mirror>& mirrors, const FlatPiece& piece, const mat4& 
 std::vector<FlatPiece> findFlatPieces(const Scene& scene) {
     std::map<uint32_t, float> roughness;  // by material: a texture's mean is worked out once
     std::vector<FlatPiece> all;
-    for (const Instance& instance : scene.instances) {
+    const ScenePose pose = scenePose(scene, 0.0);
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
         const Mesh& mesh = scene.meshes.at(instance.mesh);
         const Material& material = scene.materials.at(mesh.material);
+        if (instance.skin >= 0) {
+            continue;
+        }
         if (!roughness.contains(mesh.material)) {
             roughness[mesh.material] = meanRoughness(scene, material);
         }
-        for (FlatPiece& piece : piecesOf(mesh, instance.objectToWorld)) {
+        for (FlatPiece& piece : piecesOf(mesh, pose.objectToWorld[i])) {
+            piece.instance = i;
             piece.name = instance.name;
             piece.roughness = roughness[mesh.material];
             piece.doubleSided = material.doubleSided;
@@ -173,6 +179,31 @@ std::vector<FlatPiece> findFlatPieces(const Scene& scene) {
         }
     }
     return all;
+}
+
+std::vector<FlatPiece> posedFlatPieces(std::span<const FlatPiece> pieces, const Scene& scene, const ScenePose& pose) {
+    std::vector<FlatPiece> posed;
+    for (size_t i = 0; i < pieces.size();) {
+        const size_t first = i;
+        const size_t instance = pieces[first].instance;
+        while (i < pieces.size() && pieces[i].instance == instance) {
+            ++i;
+        }
+        if (!moves(pose, scene.instances[instance])) {
+            posed.insert(posed.end(), pieces.begin() + static_cast<std::ptrdiff_t>(first),
+                         pieces.begin() + static_cast<std::ptrdiff_t>(i));
+            continue;
+        }
+        const Mesh& mesh = scene.meshes.at(scene.instances[instance].mesh);
+        for (FlatPiece& piece : piecesOf(mesh, pose.objectToWorld[instance])) {
+            piece.instance = instance;
+            piece.name = pieces[first].name;
+            piece.roughness = pieces[first].roughness;
+            piece.doubleSided = pieces[first].doubleSided;
+            posed.push_back(std::move(piece));
+        }
+    }
+    return posed;
 }
 
 std::vector<Mirror> planMirrors(std::span<const FlatPiece> pieces, const ViewParams& view,

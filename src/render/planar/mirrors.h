@@ -3,7 +3,7 @@
 
 #include "render/planar/planar.h"
 #include "render/view.h"
-#include "scene/scene.h"
+#include "scene/pose.h"
 
 #include <span>
 #include <string>
@@ -13,6 +13,7 @@ namespace reflet {
 
 /// A rectangle in a plane, its sides along `right` and `up`, that holds a flat piece of an instance.
 struct FlatPiece {
+    size_t instance = 0;     ///< index into Scene::instances
     std::string name;        ///< of the instance
     vec4 plane{0, 1, 0, 0};  ///< unit normal toward the front; dot(plane, (p, 1)): metres in front of it
     vec3 right{1, 0, 0};     ///< unit, as seen from the front
@@ -24,8 +25,13 @@ struct FlatPiece {
     bool doubleSided = false;
 };
 
-/// Instances whose triangles lie in few planes: one piece for each plane. Others have none.
+/// Instances whose triangles lie in few planes: one piece for each plane, at time 0. Others have none, and neither have
+/// those with a skin.
 std::vector<FlatPiece> findFlatPieces(const Scene& scene);
+
+/// Where the pieces of the same scene are at the pose. pieces: of findFlatPieces; what is flat at time 0 is flat
+/// always.
+std::vector<FlatPiece> posedFlatPieces(std::span<const FlatPiece> pieces, const Scene& scene, const ScenePose& pose);
 
 /// A plane to mirror the camera in, and what of it is on the screen.
 struct Mirror {

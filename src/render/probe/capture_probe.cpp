@@ -60,8 +60,8 @@ VkSampler probeSampler(gpu::Device& device) {
     return device.sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
 }
 
-// All that the maps depend on but the scene, which does not change. Captures of one face a frame follow the lights by
-// themselves.
+// All that the maps depend on but the scene: whether they follow what moves in it is the settings' to say. Captures of
+// one face a frame follow the lights by themselves.
 std::vector<std::byte> keyOf(const ProbeBlock& block, const ViewInputs& in, const Settings& settings) {
     std::vector<std::byte> key;
     append(key, block);
@@ -75,6 +75,7 @@ std::vector<std::byte> keyOf(const ProbeBlock& block, const ViewInputs& in, cons
     append(key, in.sunDirection);
     append(key, in.sunIrradiance);
     append(key, in.lamps);
+    append(key, settings.probes.refresh == ProbeRefresh::moving ? in.time : 0.0);
     append(key, settings.probes.bounces);
     if (settings.probes.bounces > 0) {
         append(key, settings.probes.blend);
@@ -160,6 +161,12 @@ void Probes::captureNextFace(gpu::Frame& f, const ViewInputs& in, const Settings
     }
 }
 
+void Probes::restart(bool sceneMoves) {
+    if (byFace_ || sceneMoves) {
+        key_.clear();
+    }
+}
+
 ProbeMaps Probes::update(gpu::Frame& f, const ViewInputs& in, std::span<const Probe> probes, const Settings& settings) {
     if (settings.probes.enabled == 0 || probes.empty()) {
         return {};
@@ -167,12 +174,13 @@ ProbeMaps Probes::update(gpu::Frame& f, const ViewInputs& in, std::span<const Pr
     block_ = blockOf(probes);
     std::vector<std::byte> key = keyOf(block_, in, settings);
     const bool changed = key != key_;
+    byFace_ = settings.probes.refresh == ProbeRefresh::face;
     key_ = std::move(key);
     if (changed) {
         makeMaps(settings.probes.resolution);
         facesCaptured_ = 0;
     }
-    if (settings.probes.refresh == ProbeRefresh::face) {
+    if (byFace_) {
         if (changed) {  // nothing is known yet
             f.clear(map_.lobes.image());
             f.clear(map_.irradiance.image());

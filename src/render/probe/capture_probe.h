@@ -39,11 +39,15 @@ class Probes {
 public:
     explicit Probes(gpu::Device& device) : device_(device) {}
 
-    /// Maps of these probes (at most maxProbes) in the lights of `in`. refresh=once: captures all of them, within
-    /// frames of its own, unless that has been done for the same probes, lights and settings; nothing of `f` may have
-    /// been recorded before. refresh=face: records the capture of one face into `f`; a probe's map changes with its
-    /// sixth.
+    /// Maps of these probes (at most maxProbes) in the lights of `in`. refresh=once and moving: captures all of them,
+    /// within frames of its own, unless that has been done for the same probes, lights and settings; nothing of `f` may
+    /// have been recorded before. refresh=face: records the capture of one face into `f`; a probe's map changes with
+    /// its sixth.
     ProbeMaps update(gpu::Frame& f, const ViewInputs& in, std::span<const Probe> probes, const Settings& settings);
+
+    /// With refresh=face captures begin anew. What was captured at once stays, as it is the same whenever that is done,
+    /// unless the scene moves.
+    void restart(bool sceneMoves);
 
 private:
     struct Capture {
@@ -63,6 +67,7 @@ private:
     gpu::Texture atlas_;
     ProbeBlock block_{};
     std::vector<std::byte> key_;  ///< all that the maps depend on, as they were captured
+    bool byFace_ = false;         ///< the maps are those of refresh=face
     uint32_t facesCaptured_ = 0;  ///< with refresh=face, since it began
 };
 

@@ -11,7 +11,8 @@ SHARED_BEGIN
 
 #define PROBE_REFRESHES(OPTION)   \
     OPTION(ProbeRefresh, once, 0) \
-    OPTION(ProbeRefresh, face, 1)
+    OPTION(ProbeRefresh, face, 1) \
+    OPTION(ProbeRefresh, moving, 2)
 CHOICES(ProbeRefresh, PROBE_REFRESHES)
 
 #define PROBES_SETTINGS(VALUE, SWITCH, CHOICE)                                                                         \
@@ -21,7 +22,7 @@ CHOICES(ProbeRefresh, PROBE_REFRESHES)
           "Texels along each side of a cube map's faces; a power of two, others are rounded down to one.")             \
     CHOICE(ProbeRefresh, refresh, once,                                                                                \
            "When they are captured; once: all, and anew when lights or probes change; face: one face a frame, always " \
-           "in the light of now.")                                                                                     \
+           "in the light of now; moving: as once, and anew whenever something has moved.")                             \
     VALUE(uint, bounces, 1, 0, 8,                                                                                      \
           "Bounces of light in the captures beyond direct light; each is one more capture, lit by the one before. "    \
           "face: 0 none, else one more with every round of the faces.")                                                \

@@ -29,18 +29,42 @@ SceneRays::SceneRays(gpu::Device& device, const Scene& scene, RayMethod method) 
     std::vector<SceneTriangle> triangles = sceneTriangles(scene);
     triangleCount_ = static_cast<uint32_t>(triangles.size());
     if (method == RayMethod::traversal) {
-        const Bvh bvh = buildBvh(triangles);
-        nodes_ = upload(device, bvh.nodes, "scene nodes");
-        triangles_ = upload(device, bvh.triangles, "scene triangles");
-        return;
+        upload(device, buildBvh(triangles));
+    } else {
+        upload(device, std::move(triangles));
     }
+}
+
+void SceneRays::pose(gpu::Device& device, const Scene& scene, const ScenePose& pose) {
+    if (!standing_) {
+        standing_ = sceneTriangles(scene, pose, Instances::standing);
+        if (method_ == RayMethod::traversal) {
+            standingBvh_ = buildBvh(*standing_, bvhMaxDepth - 1);
+            standing_->clear();
+        }
+    }
+    std::vector<SceneTriangle> moving = sceneTriangles(scene, pose, Instances::moving);
+    if (method_ == RayMethod::traversal) {
+        upload(device, joined(*standingBvh_, buildBvh(moving, bvhMaxDepth - 1)));
+    } else {
+        moving.insert(moving.begin(), standing_->begin(), standing_->end());
+        upload(device, std::move(moving));
+    }
+}
+
+void SceneRays::upload(gpu::Device& device, const Bvh& bvh) {
+    nodes_ = reflet::upload(device, bvh.nodes, "scene nodes");
+    triangles_ = reflet::upload(device, bvh.triangles, "scene triangles");
+}
+
+void SceneRays::upload(gpu::Device& device, std::vector<SceneTriangle> triangles) {
     if (!device.hasRayQuery()) {
         fail("the device '{}' has no ray query", device.description().name);
     }
     if (triangles.empty()) {
         triangles.push_back({});  // without area: nothing hits it
     }
-    triangles_ = upload(device, triangles, "scene triangles", gpu::accelerationInput);
+    triangles_ = reflet::upload(device, triangles, "scene triangles", gpu::accelerationInput);
     const bool cutOut =
         std::ranges::any_of(triangles, [](const SceneTriangle& t) { return (t.flags & triangleCutOut) != 0; });
     acceleration_ = gpu::AccelerationStructure(

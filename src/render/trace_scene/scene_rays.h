@@ -8,11 +8,13 @@
 
 #include "gpu/acceleration.h"
 #include "gpu/resource.h"
-#include "scene/scene.h"
+#include "scene/bvh.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace reflet::gpu {
 class Device;
@@ -32,6 +34,10 @@ public:
     /// Keeps no reference to the scene. Throws Error: the device has no ray query, but it is asked for.
     SceneRays(gpu::Device& device, const Scene& scene, RayMethod method);
 
+    /// Everything to where it is at the pose, of the same scene. What stands still is not built anew. No frame that
+    /// traces may be in flight.
+    void pose(gpu::Device& device, const Scene& scene, const ScenePose& pose);
+
     [[nodiscard]] RayMethod method() const { return method_; }
     [[nodiscard]] uint32_t triangleCount() const { return triangleCount_; }
 
@@ -41,7 +47,12 @@ public:
     gpu::Pass& bind(gpu::Pass& pass) const;
 
 private:
+    void upload(gpu::Device& device, const Bvh& bvh);
+    void upload(gpu::Device& device, std::vector<SceneTriangle> triangles);
+
     RayMethod method_;
+    std::optional<std::vector<SceneTriangle>> standing_;  ///< what stands still, once something has moved
+    std::optional<Bvh> standingBvh_;                      ///< traversal: over those, which are dropped
     uint32_t triangleCount_ = 0;
     gpu::Buffer triangles_;
     gpu::Buffer nodes_;                        ///< traversal

@@ -91,20 +91,15 @@ private:
     uvec2 size_{1};
 };
 
-std::vector<SceneInstance> sceneInstances(const Scene& scene) {
-    std::vector<uint32_t> firstVertices;
-    uint32_t vertices = 0;
-    for (const Mesh& mesh : scene.meshes) {
-        firstVertices.push_back(vertices);
-        vertices += static_cast<uint32_t>(mesh.positions.size());
-    }
+// Draws are one for each instance, in their order.
+std::vector<SceneInstance> sceneInstances(const Scene& scene, const DrawList& draws) {
     std::vector<SceneInstance> instances;
-    for (const Instance& instance : scene.instances) {
-        const mat3 m(instance.objectToWorld);
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        const mat3 m(draws.draws[i].objectToWorld);
         instances.push_back({.axisX = m[0],
-                             .material = scene.meshes.at(instance.mesh).material,
+                             .material = scene.meshes.at(scene.instances[i].mesh).material,
                              .axisY = m[1],
-                             .firstVertex = firstVertices[instance.mesh],
+                             .firstVertex = static_cast<uint32_t>(draws.draws[i].firstVertex),
                              .axisZ = m[2],
                              .unused = 0});
     }
@@ -117,7 +112,7 @@ SceneSurfaces::SceneSurfaces(gpu::Device& device, const Scene& scene, const GpuS
                              const std::function<void(const std::string&)>& warn)
     : attributes_(onDevice.attributes()),
       indices_(onDevice.indices()),
-      instances_(upload(device, sceneInstances(scene), "scene instances")) {
+      instances_(upload(device, sceneInstances(scene, onDevice.draws()), "scene instances")) {
     Layers colors(scene, true);
     Layers data(scene, false);
     colors_ = colors.upload(device, textureSize, warn);
@@ -139,6 +134,10 @@ SceneSurfaces::SceneSurfaces(gpu::Device& device, const Scene& scene, const GpuS
                                .mip = VK_SAMPLER_MIPMAP_MODE_LINEAR,
                                .u = VK_SAMPLER_ADDRESS_MODE_REPEAT,
                                .v = VK_SAMPLER_ADDRESS_MODE_REPEAT});
+}
+
+void SceneSurfaces::pose(gpu::Device& device, const Scene& scene, const GpuScene& onDevice) {
+    instances_ = upload(device, sceneInstances(scene, onDevice.draws()), "scene instances");
 }
 
 gpu::Pass& SceneSurfaces::bind(gpu::Pass& pass) const {

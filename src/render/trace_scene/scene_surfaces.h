@@ -24,6 +24,9 @@ public:
     SceneSurfaces(gpu::Device& device, const Scene& scene, const GpuScene& onDevice, uint32_t textureSize,
                   const std::function<void(const std::string&)>& warn);
 
+    /// Instances to where the draws of `onDevice` are. No frame that traces may be in flight.
+    void pose(gpu::Device& device, const Scene& scene, const GpuScene& onDevice);
+
     /// States what scene_surfaces.glsl reads.
     gpu::Pass& bind(gpu::Pass& pass) const;
 

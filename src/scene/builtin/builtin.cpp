@@ -9,7 +9,7 @@
 namespace reflet {
 namespace {
 
-constexpr std::array<BuiltinScene, 8> scenes{{
+constexpr std::array<BuiltinScene, 9> scenes{{
     {"cubes", "a polished box and painted cubes on labelled tiles: first steps, reflections, contact",
      builtin::makeCubes},
     {"tilted-cube", "a tilted patterned box above a plain glossy ground: what a reflection can and cannot know",
@@ -21,6 +21,8 @@ constexpr std::array<BuiltinScene, 8> scenes{{
     {"mirror-hall", "a hall with a mirror wall and a mirror floor: reflections of reflections",
      builtin::makeMirrorHall},
     {"lamps", "a court at night under a hundred lamps: many lamps of limited range", builtin::makeLamps},
+    {"moving", "a box that slides and stops at 1 s, a turning cube, a bending tube over gloss and mirror: motion",
+     builtin::makeMoving},
 }};
 
 }  // namespace

@@ -13,5 +13,6 @@ Scene makeGloss();
 Scene makeColonnade();
 Scene makeMirrorHall();
 Scene makeLamps();
+Scene makeMoving();
 
 }  // namespace reflet::builtin

@@ -1,0 +1,100 @@
+// Copies images of a frame to the host and writes them.
+#include "apps/pictures.h"
+
+#include "base/error.h"
+#include "base/image_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace reflet {
+
+bool isExr(const std::string& file) {
+    return std::filesystem::path(file).extension() == ".exr";
+}
+
+Pictures::Pictures(const std::string& show, const std::vector<std::string>& aovs) : main_(&findShow(show)) {
+    for (const std::string& name : aovs) {
+        const Show* aov = &findShow(name);
+        if (std::ranges::find(aovs_, aov) == aovs_.end()) {
+            aovs_.push_back(aov);
+        }
+    }
+    const auto ownSize = [](const Show* s) { return hasOwnSize(*s); };
+    if (const auto found = std::ranges::find_if(aovs_, ownSize); found != aovs_.end()) {
+        failUsage("--aov {0}: it has a size of its own; render it alone with --show {0}", (*found)->name);
+    }
+    if (hasOwnSize(*main_) && !aovs_.empty()) {
+        failUsage("--show {} has a size of its own and cannot share a file with --aov", main_->name);
+    }
+}
+
+bool Pictures::countsSteps() const {
+    return reflet::countsSteps(*main_) ||
+           std::ranges::any_of(aovs_, [](const Show* s) { return reflet::countsSteps(*s); });
+}
+
+bool Pictures::contains(std::string_view show) const {
+    return main_->name == show || std::ranges::find(aovs_, show, &Show::name) != aovs_.end();
+}
+
+void Pictures::request(gpu::Frame& f, const FrameImages& images, bool rays) {
+    std::vector<const Show*> wanted = aovs_;
+    wanted.push_back(main_);
+    if (rays) {
+        for (const char* name : {"diffuse_steps", "specular_steps", "diffuse_confidence", "specular_confidence"}) {
+            wanted.push_back(&findShow(name));
+        }
+    }
+    readbacks_.clear();
+    for (const Show* show : wanted) {
+        if (!readbacks_.contains(show)) {
+            readbacks_.emplace(show, requestShow(f, images, *show));
+        }
+    }
+    display_ = f.readback(images.display);
+}
+
+nlohmann::ordered_json Pictures::rayStatistics(const gpu::Frame& f, const ViewParams& view) const {
+    nlohmann::ordered_json json;
+    for (const std::string lobe : {"diffuse", "specular"}) {
+        const FloatImage steps = fetchValues(f, readbacks_.at(&findShow(lobe + "_steps")), view);
+        const FloatImage hits = fetchValues(f, readbacks_.at(&findShow(lobe + "_confidence")), view);
+        double pixels = 0.0;
+        double stepSum = 0.0;
+        double hitSum = 0.0;
+        for (size_t i = 0; i < steps.data.size(); ++i) {
+            pixels += steps.data[i] > 0.0F ? 1.0 : 0.0;  // others have no rays
+            stepSum += steps.data[i];
+            hitSum += hits.data[i];
+        }
+        json[lobe] = {{"steps", stepSum / std::max(pixels, 1.0)}, {"hits", hitSum / std::max(pixels, 1.0)}};
+    }
+    return json;
+}
+
+void Pictures::write(const std::string& file, const gpu::Frame& f, const ViewParams& view) const {
+    if (isExr(file)) {
+        writeExrFile(file, f, view);
+    } else {
+        writePngFile(file, f, view);
+    }
+}
+
+void Pictures::writePngFile(const std::string& file, const gpu::Frame& f, const ViewParams& view) const {
+    writePng(file, main_->picture == nullptr ? fetchDisplay(f, display_, view.size)
+                                             : makePicture(*main_, fetchValues(f, readbacks_.at(main_), view)));
+}
+
+// The --show image under plain channel names, so that every viewer opens it; then a named layer for each AOV.
+void Pictures::writeExrFile(const std::string& file, const gpu::Frame& f, const ViewParams& view) const {
+    std::vector<ImageLayer> layers{{"", fetchValues(f, readbacks_.at(main_), view), PixelType::float32}};
+    for (const Show* aov : aovs_) {
+        layers.push_back({std::string(aov->name), fetchValues(f, readbacks_.at(aov), view), PixelType::float32});
+    }
+    writeExr(file, layers);
+}
+
+}  // namespace reflet

@@ -1,0 +1,48 @@
+// The files that are made of one frame: what --show and --aov ask for, as PNG and EXR.
+#pragma once
+
+#include "apps/show.h"
+#include "gpu/frame.h"
+#include "render/frame.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace reflet {
+
+bool isExr(const std::string& file);
+
+class Pictures {
+public:
+    /// Throws UsageError for an unknown name, or for images that cannot be in one file.
+    Pictures(const std::string& show, const std::vector<std::string>& aovs);
+
+    /// Whether they need trace_screen.countSteps.
+    [[nodiscard]] bool countsSteps() const;
+    /// Whether the image of that name is among them.
+    [[nodiscard]] bool contains(std::string_view show) const;
+
+    /// Copies what they need of a frame that is being recorded; `rays`: and what rayStatistics needs.
+    void request(gpu::Frame& f, const FrameImages& images, bool rays);
+
+    /// Of the rays of each lobe: mean depth samples, and the share that the screen answered. After the frame is done.
+    [[nodiscard]] nlohmann::ordered_json rayStatistics(const gpu::Frame& f, const ViewParams& view) const;
+
+    /// Writes a .png or .exr file after the frame is done. Throws Error.
+    void write(const std::string& file, const gpu::Frame& f, const ViewParams& view) const;
+
+private:
+    void writePngFile(const std::string& file, const gpu::Frame& f, const ViewParams& view) const;
+    void writeExrFile(const std::string& file, const gpu::Frame& f, const ViewParams& view) const;
+
+    const Show* main_ = nullptr;
+    std::vector<const Show*> aovs_;
+    std::map<const Show*, ShowReadback> readbacks_;
+    gpu::Readback display_;
+};
+
+}  // namespace reflet

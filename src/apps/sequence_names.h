@@ -1,0 +1,38 @@
+// Names of a sequence's files: a run of # stands for the frame's number.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace reflet {
+
+/// "out/picture_####.png": at least as many digits as there are #, filled with zeros.
+class FrameNames {
+public:
+    /// Whether the file's name (not its folder's) has a #.
+    static bool isPattern(const std::string& output);
+
+    /// Throws UsageError for a second run of #.
+    explicit FrameNames(const std::string& pattern);
+
+    [[nodiscard]] const std::string& pattern() const { return pattern_; }
+    [[nodiscard]] std::filesystem::path file(uint32_t number) const;
+    /// All files there are with such a name.
+    [[nodiscard]] std::vector<std::filesystem::path> existing() const;
+    /// Beside the pictures: "out/picture_####.png.sequence.json".
+    [[nodiscard]] std::filesystem::path record() const { return pattern_ + ".sequence.json"; }
+
+private:
+    [[nodiscard]] bool matches(std::string_view name) const;
+
+    std::string pattern_;
+    std::filesystem::path folder_;
+    std::string before_;  ///< of the file's name
+    std::string after_;
+    size_t digits_ = 0;
+};
+
+}  // namespace reflet

@@ -1,0 +1,56 @@
+// A scene on the device that moves: where its draws, lamps and skinned meshes are.
+#include "render/gpu_scene.h"
+
+#include <algorithm>
+
+namespace reflet {
+
+// Each instance with a skin has vertices of its own behind those of all meshes.
+void GpuScene::addSkinned(const Scene& scene, std::vector<vec3>& positions, std::vector<VertexAttributes>& attributes) {
+    const auto first = static_cast<uint32_t>(positions.size());
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        if (instance.skin < 0) {
+            continue;
+        }
+        const Mesh& mesh = scene.meshes.at(instance.mesh);
+        skinnedFirst_[i] = static_cast<int32_t>(positions.size());
+        skinnedBounds_[i] = jointBounds(mesh, scene.skins[static_cast<size_t>(instance.skin)].joints.size());
+        skinned_.add(scene, instance, static_cast<uint32_t>(ranges_[instance.mesh].firstVertex));
+        positions.insert(positions.end(), mesh.positions.begin(), mesh.positions.end());
+        attributes.insert(attributes.end(), mesh.attributes.begin(), mesh.attributes.end());
+    }
+    skinned_.upload(device_, scene, first);
+}
+
+void GpuScene::pose(const Scene& scene, const ScenePose& now, const ScenePose& before) {
+    draws_.boundsW = Aabb{};
+    for (size_t i = 0; i < draws_.draws.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        Draw& draw = draws_.draws[i];
+        if (moves(now, instance)) {
+            const bool skinned = instance.skin >= 0;
+            draw.objectToWorld = now.objectToWorld[i];
+            draw.previousObjectToWorld = before.objectToWorld[i];
+            draw.boundsW = instanceBounds(scene, now, i, skinned ? skinnedBounds_.at(i) : std::vector<Aabb>{});
+            draw.firstVertex = skinned ? skinnedFirst_.at(i) : draw.firstVertex;
+            draw.turnedOver = skinned && turnsOver(now.skins[static_cast<size_t>(instance.skin)]);
+        }
+        draws_.boundsW.add(draw.boundsW);
+    }
+    for (size_t i = 0; i < lampSources_.size(); ++i) {
+        const Lamp lamp = posed(scene.lamps[lampSources_[i]], now);
+        lamps_.lamps[i].position = lamp.position;
+        lamps_.lamps[i].toLamp = -lamp.direction;
+    }
+    for (LivePicture& picture : live_) {
+        picture.posed = posed(picture.camera, now);
+    }
+    skinned_.pose(now, before);
+}
+
+void GpuScene::skin(gpu::Frame& f) const {
+    skinned_.record(f, {positions_.view(), previousPositions_.view(), attributes_.view()});
+}
+
+}  // namespace reflet

@@ -1,0 +1,108 @@
+// Reads the key frames of one channel of a glTF animation, and checks them.
+#include "scene/gltf_channel.h"
+
+#include "scene/gltf_accessor.h"
+
+#include <cmath>
+
+namespace reflet {
+
+namespace {
+
+std::optional<Channel::Target> targetOf(const std::string& path) {
+    return path == "translation" ? std::optional(Channel::Target::translation)
+           : path == "rotation"  ? std::optional(Channel::Target::rotation)
+           : path == "scale"     ? std::optional(Channel::Target::scale)
+                                 : std::nullopt;
+}
+
+Interpolation interpolationOf(const std::string& name) {
+    return name == "STEP"          ? Interpolation::step
+           : name == "CUBICSPLINE" ? Interpolation::cubicSpline
+                                   : Interpolation::linear;
+}
+
+std::vector<float> readTimes(const GltfDocument& document, int input, GltfReport& report) {
+    const std::string part = fmt::format("accessors[{}]", input);
+    const auto& accessor = document.model.accessors[static_cast<size_t>(input)];
+    if (accessor.type != TINYGLTF_TYPE_SCALAR || accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
+        report.fail(part, "holds no times, which are SCALAR floats");
+    }
+    const AccessorView view = viewAccessor(document, input, report);
+    report.charge(part, uint64_t(view.count) * sizeof(float));
+    std::vector<float> times;
+    times.reserve(view.count);
+    for (uint32_t i = 0; i < view.count; ++i) {
+        const float time = view.at(i).x;
+        if (!(time >= 0.0F) || !std::isfinite(time)) {
+            report.fail(part, "time {} is {}, which is no time", i, time);
+        }
+        if (!times.empty() && time <= times.back()) {
+            report.fail(part, "time {} is not after the one before it", i);
+        }
+        times.push_back(time);
+    }
+    return times;
+}
+
+bool isFinite(const vec4& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
+}
+
+// Tangents of splines are no rotations, and may be of any length.
+void makeUnit(Channel& channel, const std::string& part, const GltfReport& report) {
+    const bool spline = channel.interpolation == Interpolation::cubicSpline;
+    for (size_t i = spline ? 1 : 0; i < channel.values.size(); i += spline ? 3 : 1) {
+        const double length = glm::length(glm::dvec4(channel.values[i]));
+        if (!(length > 0.0)) {
+            report.fail(part, "value {} is no rotation: its length is 0", i);
+        }
+        channel.values[i] = vec4(glm::dvec4(channel.values[i]) / length);
+    }
+}
+
+}  // namespace
+
+std::optional<Channel> readGltfChannel(const GltfDocument& document, const GltfChannelSource& source,
+                                       GltfReport& report) {
+    const auto target = targetOf(source.channel.target_path);
+    if (!target) {
+        report.warn("path " + source.channel.target_path, source.part + ".target.path", "{} is not known and left out",
+                    source.channel.target_path);
+        return std::nullopt;
+    }
+    const auto& samplers = source.animation.samplers;
+    if (source.channel.sampler < 0 || static_cast<size_t>(source.channel.sampler) >= samplers.size()) {
+        report.fail(source.part + ".sampler", "is {}, but there are {} samplers", source.channel.sampler,
+                    samplers.size());
+    }
+    const tinygltf::AnimationSampler& sampler = samplers[static_cast<size_t>(source.channel.sampler)];
+    Channel channel;
+    channel.target = *target;
+    channel.interpolation = interpolationOf(sampler.interpolation);
+    channel.times = readTimes(document, sampler.input, report);
+    const std::string part = fmt::format("accessors[{}]", sampler.output);
+    const AccessorView view = viewAccessor(document, sampler.output, report);
+    const bool rotation = *target == Channel::Target::rotation;
+    const uint32_t each = channel.interpolation == Interpolation::cubicSpline ? 3 : 1;
+    if (view.components != (rotation ? 4 : 3)) {
+        report.fail(part, "has {} components, a {} has {}", view.components, source.channel.target_path,
+                    rotation ? 4 : 3);
+    }
+    if (view.count != uint64_t(each) * channel.times.size()) {
+        report.fail(part, "has {} elements for {} times, not {} for each", view.count, channel.times.size(), each);
+    }
+    report.charge(part, uint64_t(view.count) * sizeof(vec4));
+    for (uint32_t i = 0; i < view.count; ++i) {
+        channel.values.push_back(view.at(i));
+        if (!isFinite(channel.values.back())) {
+            report.fail(part, "value {} is not finite", i);
+        }
+    }
+    if (rotation) {
+        makeUnit(channel, part, report);
+    }
+    return channel;
+}
+
+}  // namespace reflet

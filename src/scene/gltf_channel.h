@@ -1,0 +1,22 @@
+// Reads the key frames of one channel of a glTF animation.
+#pragma once
+
+#include "scene/animation.h"
+#include "scene/gltf_document.h"
+
+#include <optional>
+#include <string>
+
+namespace reflet {
+
+struct GltfChannelSource {
+    const tinygltf::Animation& animation;
+    const tinygltf::AnimationChannel& channel;
+    std::string part;  ///< JSON path of the channel
+};
+
+/// Without its node. Nothing: a property that is not read, of which there is a warning. Throws Error.
+std::optional<Channel> readGltfChannel(const GltfDocument& document, const GltfChannelSource& source,
+                                       GltfReport& report);
+
+}  // namespace reflet

@@ -1,0 +1,37 @@
+// Reads what moves in a glTF file: nodes, animations, skins.
+#pragma once
+
+#include "scene/gltf_document.h"
+#include "scene/scene.h"
+
+#include <vector>
+
+namespace reflet {
+
+/// The node's own transform: its matrix, or translation, rotation and scale. Throws Error.
+Node readGltfNode(const tinygltf::Node& node, const std::string& part, const GltfReport& report);
+
+class GltfMotion {
+public:
+    /// Fills nodes, animations and skins of the scene, unless the file has neither of the latter. Throws Error. All
+    /// three must live as long as this.
+    GltfMotion(const GltfDocument& document, Scene& scene, GltfReport& report);
+
+    /// Index into Scene::nodes of the file's node; < 0: nothing moves.
+    [[nodiscard]] int32_t node(int index) const { return nodes_.empty() ? -1 : nodes_[static_cast<size_t>(index)]; }
+    /// Index into Scene::skins of the file's skin; < 0: the mesh has nothing that joints could move. Throws Error: the
+    /// mesh names a joint that the skin does not have. part: of the node.
+    [[nodiscard]] int32_t skin(int index, uint32_t mesh, const std::string& part) const;
+
+private:
+    void readNodes();
+    void readAnimation(size_t index);
+    void readSkin(size_t index);
+
+    const GltfDocument& document_;
+    Scene& scene_;
+    GltfReport& report_;
+    std::vector<int32_t> nodes_;  ///< from the file's index to the scene's
+};
+
+}  // namespace reflet

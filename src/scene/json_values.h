@@ -1,0 +1,50 @@
+// Vectors and directions of view files and camera paths, checked.
+#pragma once
+
+#include "base/json.h"
+#include "base/math.h"
+
+#include <string_view>
+#include <vector>
+
+namespace reflet {
+
+/// Far beyond any scene, and far from where float arithmetic overflows.
+constexpr double largestInView = 1e12;
+constexpr double radiansPerDegree = glm::pi<double>() / 180.0;
+
+inline vec3 readVec3(const JsonNode& node, double min, double max, std::string_view unit = "") {
+    const std::vector<double> values = node.numbers(3, min, max, unit);
+    return {static_cast<float>(values[0]), static_cast<float>(values[1]), static_cast<float>(values[2])};
+}
+
+inline vec3 readPosition(const JsonNode& node) {
+    return readVec3(node, -largestInView, largestInView, "metres");
+}
+
+/// A unit vector from three numbers that are not all zero.
+inline vec3 readDirection(const JsonNode& node) {
+    const std::vector<double> values = node.numbers(3, -largestInView, largestInView);
+    const glm::dvec3 direction(values[0], values[1], values[2]);
+    const double length = glm::length(direction);
+    if (!(length > 0.0)) {
+        node.complainMustBe("a direction that is not zero");
+    }
+    return direction / length;
+}
+
+/// Degrees in the file, radians here.
+inline float readFovY(const JsonNode& node) {
+    return static_cast<float>(node.number(1.0, 179.0, "degrees") * radiansPerDegree);
+}
+
+/// The value of a key that must be there.
+inline JsonNode required(const JsonNode& node, const std::string& key) {
+    const auto value = node.find(key);
+    if (!value) {
+        node.complain(fmt::format("'{}' is missing", key));
+    }
+    return *value;
+}
+
+}  // namespace reflet

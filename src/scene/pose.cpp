@@ -1,0 +1,256 @@
+// Where everything of a scene is at a time: key frames, then nodes, then what hangs from them.
+#include "scene/pose.h"
+
+#include "scene/gltf_normals.h"
+#include "scene/sample_channel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reflet {
+
+namespace {
+
+void apply(const Channel& channel, double time, Node& node) {
+    const glm::dvec4 value = sampleChannel(channel, time);
+    switch (channel.target) {
+        case Channel::Target::translation:
+            node.translation = glm::dvec3(value);
+            break;
+        case Channel::Target::rotation:
+            node.rotation = glm::dquat(value.w, value.x, value.y, value.z);
+            break;
+        case Channel::Target::scale:
+            node.scale = glm::dvec3(value);
+            break;
+    }
+}
+
+// Products of large numbers may be past what a float holds; such a place is no place.
+mat4 finiteOr(const glm::dmat4& m, const mat4& otherwise) {
+    const mat4 rounded(m);
+    for (int i = 0; i < 16; ++i) {
+        if (!std::isfinite(rounded[i / 4][i % 4])) {
+            return otherwise;
+        }
+    }
+    return rounded;
+}
+
+bool isMoving(int32_t node, const ScenePose& pose) {
+    return node >= 0 && pose.moving[static_cast<size_t>(node)];
+}
+
+const mat4& placeOf(int32_t node, const ScenePose& pose) {
+    return pose.nodeToWorld[static_cast<size_t>(node)];
+}
+
+/// The instance's mesh as its skin bends it, in the world.
+Mesh skinned(const Mesh& source, const std::vector<mat4>& joints) {
+    Mesh mesh = source;
+    mesh.skin.clear();
+    mesh.bounds = Aabb{};
+    for (size_t i = 0; i < mesh.positions.size(); ++i) {
+        const mat4 m = skinToWorld(source.skin[i], joints);
+        const mat3 turn(m);
+        const mat3 cofactors(glm::cross(turn[1], turn[2]), glm::cross(turn[2], turn[0]), glm::cross(turn[0], turn[1]));
+        const float side = glm::dot(turn[0], cofactors[0]) < 0.0F ? -1.0F : 1.0F;
+        VertexAttributes& a = mesh.attributes[i];
+        mesh.positions[i] = vec3(m * vec4(source.positions[i], 1.0F));
+        a.normal = unitOr(side * (cofactors * a.normal), a.normal);
+        a.tangent = vec4(unitOr(turn * vec3(a.tangent), vec3(a.tangent)), side * a.tangent.w);
+        mesh.bounds.add(mesh.positions[i]);
+    }
+    if (turnsOver(joints)) {
+        for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+            std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
+        }
+    }
+    return mesh;
+}
+
+}  // namespace
+
+glm::dmat4 localTransform(const Node& node) {
+    if (node.matrix) {
+        return *node.matrix;
+    }
+    const glm::dmat4 moved = glm::translate(glm::dmat4(1.0), node.translation) * glm::mat4_cast(node.rotation);
+    return glm::scale(moved, node.scale);
+}
+
+double animationDuration(const Scene& scene) {
+    double last = 0.0;
+    for (const Animation& animation : scene.animations) {
+        for (const Channel& channel : animation.channels) {
+            last = std::max<double>(last, channel.times.back());
+        }
+    }
+    return last;
+}
+
+double loopedTime(const Scene& scene, double time) {
+    const double duration = animationDuration(scene);
+    return duration > 0.0 ? std::fmod(time, duration) : 0.0;
+}
+
+ScenePose scenePose(const Scene& scene, double time) {
+    ScenePose pose;
+    pose.time = loopedTime(scene, time);
+    std::vector<Node> nodes = scene.nodes;
+    pose.moving.assign(nodes.size(), false);
+    for (const Animation& animation : scene.animations) {
+        for (const Channel& channel : animation.channels) {
+            apply(channel, pose.time, nodes[channel.node]);
+            pose.moving[channel.node] = true;
+        }
+    }
+    std::vector<glm::dmat4> toWorld;
+    toWorld.reserve(nodes.size());
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        const auto parent = static_cast<size_t>(std::max(nodes[i].parent, 0));
+        const bool hangs = nodes[i].parent >= 0;
+        pose.moving[i] = pose.moving[i] || (hangs && pose.moving[parent]);
+        toWorld.push_back((hangs ? toWorld[parent] : glm::dmat4(1.0)) * localTransform(nodes[i]));
+        pose.nodeToWorld.push_back(finiteOr(toWorld.back(), mat4(1.0F)));
+    }
+    for (const Instance& instance : scene.instances) {
+        pose.objectToWorld.push_back(instance.skin >= 0              ? mat4(1.0F)
+                                     : isMoving(instance.node, pose) ? placeOf(instance.node, pose)
+                                                                     : instance.objectToWorld);
+    }
+    for (const Skin& skin : scene.skins) {
+        std::vector<mat4>& joints = pose.skins.emplace_back();
+        for (size_t j = 0; j < skin.joints.size(); ++j) {
+            joints.push_back(finiteOr(toWorld[skin.joints[j]] * glm::dmat4(skin.inverseBind[j]), mat4(1.0F)));
+        }
+    }
+    return pose;
+}
+
+bool moves(const ScenePose& pose, const Instance& instance) {
+    return instance.skin >= 0 || isMoving(instance.node, pose);
+}
+
+mat4 skinToWorld(const VertexSkin& vertex, const std::vector<mat4>& joints) {
+    mat4 sum(0.0F);
+    for (int i = 0; i < 4; ++i) {
+        if (vertex.weights[i] != 0.0F) {
+            sum += vertex.weights[i] * joints[vertex.joints[i]];
+        }
+    }
+    return sum;
+}
+
+bool turnsOver(const std::vector<mat4>& joints) {
+    return glm::determinant(mat3(joints.front())) < 0.0F;
+}
+
+std::vector<vec3> worldPositions(const Scene& scene, const ScenePose& pose, size_t instance) {
+    const Instance& placed = scene.instances[instance];
+    const Mesh& mesh = scene.meshes.at(placed.mesh);
+    std::vector<vec3> positions;
+    positions.reserve(mesh.positions.size());
+    for (size_t i = 0; i < mesh.positions.size(); ++i) {
+        const mat4 toWorld = placed.skin >= 0 ? skinToWorld(mesh.skin[i], pose.skins[static_cast<size_t>(placed.skin)])
+                                              : pose.objectToWorld[instance];
+        positions.emplace_back(toWorld * vec4(mesh.positions[i], 1.0F));
+    }
+    return positions;
+}
+
+std::vector<Aabb> jointBounds(const Mesh& mesh, size_t joints) {
+    std::vector<Aabb> bounds(joints);
+    for (size_t i = 0; joints > 0 && i < mesh.skin.size(); ++i) {
+        for (int k = 0; k < 4; ++k) {
+            if (mesh.skin[i].weights[k] != 0.0F) {
+                bounds[mesh.skin[i].joints[k]].add(mesh.positions[i]);
+            }
+        }
+    }
+    return bounds;
+}
+
+Aabb instanceBounds(const Scene& scene, const ScenePose& pose, size_t instance, const std::vector<Aabb>& byJoint) {
+    const Instance& placed = scene.instances[instance];
+    const Aabb& box = scene.meshes.at(placed.mesh).bounds;
+    if (box.empty()) {
+        return {};
+    }
+    if (placed.skin < 0) {
+        return transformed(box, pose.objectToWorld[instance]);
+    }
+    const std::vector<mat4>& joints = pose.skins[static_cast<size_t>(placed.skin)];
+    Aabb result;
+    for (size_t j = 0; j < byJoint.size(); ++j) {
+        if (!byJoint[j].empty()) {
+            result.add(transformed(byJoint[j], joints[j]));
+        }
+    }
+    return result;
+}
+
+Camera posed(Camera camera, const ScenePose& pose) {
+    if (isMoving(camera.node, pose)) {
+        putAt(camera, placeOf(camera.node, pose));
+    }
+    return camera;
+}
+
+Lamp posed(Lamp lamp, const ScenePose& pose) {
+    if (isMoving(lamp.node, pose)) {
+        putAt(lamp, placeOf(lamp.node, pose));
+    }
+    return lamp;
+}
+
+Sun posed(Sun sun, const ScenePose& pose) {
+    if (isMoving(sun.node, pose)) {
+        sun.direction = unitOr(-vec3(placeOf(sun.node, pose)[2]), vec3(0, 0, -1));
+    }
+    return sun;
+}
+
+View posed(View view, const Scene& scene) {
+    view.time = loopedTime(scene, view.time);
+    if (view.camera.node >= 0 || view.sun.node >= 0) {
+        const ScenePose pose = scenePose(scene, view.time);
+        view.camera = posed(view.camera, pose);
+        view.sun = posed(view.sun, pose);
+    }
+    return view;
+}
+
+Scene frozen(const Scene& scene, double time) {
+    const ScenePose pose = scenePose(scene, time);
+    Scene still = scene;
+    for (size_t i = 0; i < still.instances.size(); ++i) {
+        Instance& instance = still.instances[i];
+        if (instance.skin >= 0) {
+            still.meshes.push_back(
+                skinned(scene.meshes.at(instance.mesh), pose.skins[static_cast<size_t>(instance.skin)]));
+            instance.mesh = static_cast<uint32_t>(still.meshes.size() - 1);
+        }
+        instance.objectToWorld = pose.objectToWorld[i];
+        instance.skin = -1;
+        instance.node = -1;
+    }
+    for (Lamp& lamp : still.lamps) {
+        lamp = posed(lamp, pose);
+        lamp.node = -1;
+    }
+    for (Camera& camera : still.cameras) {
+        camera = posed(camera, pose);
+        camera.node = -1;
+    }
+    if (still.sun) {
+        still.sun = posed(*still.sun, pose);
+        still.sun->node = -1;
+    }
+    still.nodes.clear();
+    still.animations.clear();
+    still.skins.clear();
+    return still;
+}
+
+}  // namespace reflet

@@ -1,0 +1,80 @@
+// Key frames at a time, after: Khronos, glTF 2.0 Specification, 2021, appendix C.
+#include "scene/sample_channel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reflet {
+
+namespace {
+
+// Around which both ways between two rotations are as good as a straight line, and an angle is too small to divide by.
+constexpr double nearlyOne = 1.0 - 1e-12;
+
+/// Between unit quaternions, at an even speed, the short way round (Shoemake 1985).
+glm::dvec4 spherical(const glm::dvec4& from, const glm::dvec4& to, double share) {
+    const double cosine = glm::dot(from, to);
+    const glm::dvec4 near = cosine < 0.0 ? -to : to;
+    if (std::abs(cosine) > nearlyOne) {
+        return glm::normalize(glm::mix(from, near, share));
+    }
+    const double angle = std::acos(std::abs(cosine));
+    return (std::sin((1.0 - share) * angle) * from + std::sin(share * angle) * near) / std::sin(angle);
+}
+
+struct Between {
+    size_t key;    // the one before
+    double share;  // of the way to the next one; 0: at the key
+    double seconds;
+};
+
+Between findKeys(const std::vector<float>& times, double time) {
+    const auto next = std::upper_bound(times.begin(), times.end(), time,
+                                       [](double t, float key) { return t < static_cast<double>(key); });
+    if (next == times.begin()) {
+        return {0, 0.0, 0.0};
+    }
+    const auto key = static_cast<size_t>(next - times.begin()) - 1;
+    if (next == times.end()) {
+        return {key, 0.0, 0.0};
+    }
+    const double seconds = double(times[key + 1]) - double(times[key]);
+    return {key, (time - double(times[key])) / seconds, seconds};
+}
+
+// Hermite's cubic; tangents are per second.
+glm::dvec4 spline(const std::vector<vec4>& values, const Between& at) {
+    const glm::dvec4 from(values[3 * at.key + 1]);
+    if (at.share == 0.0) {
+        return from;
+    }
+    const glm::dvec4 leaving(values[3 * at.key + 2]);
+    const glm::dvec4 arriving(values[3 * at.key + 3]);
+    const glm::dvec4 to(values[3 * at.key + 4]);
+    const double t = at.share;
+    const double t2 = t * t;
+    const double t3 = t2 * t;
+    return (2.0 * t3 - 3.0 * t2 + 1.0) * from + at.seconds * (t3 - 2.0 * t2 + t) * leaving +
+           (3.0 * t2 - 2.0 * t3) * to + at.seconds * (t3 - t2) * arriving;
+}
+
+}  // namespace
+
+glm::dvec4 sampleChannel(const Channel& channel, double time) {
+    const bool rotation = channel.target == Channel::Target::rotation;
+    const Between at = findKeys(channel.times, time);
+    if (channel.interpolation == Interpolation::cubicSpline) {
+        const glm::dvec4 value = spline(channel.values, at);
+        const double length = glm::length(value);
+        return rotation && length > 0.0 ? value / length : rotation ? glm::dvec4(0, 0, 0, 1) : value;
+    }
+    const glm::dvec4 from(channel.values[at.key]);
+    const glm::dvec4 start = rotation ? glm::normalize(from) : from;
+    if (channel.interpolation == Interpolation::step || at.share == 0.0) {
+        return start;
+    }
+    const glm::dvec4 to(channel.values[at.key + 1]);
+    return rotation ? spherical(start, glm::normalize(to), at.share) : glm::mix(start, to, at.share);
+}
+
+}  // namespace reflet
