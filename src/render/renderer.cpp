@@ -116,6 +116,13 @@ uint32_t Renderer::countFramesBefore(const View& view, const ViewParams& params,
     return framesBefore_;
 }
 
+void Renderer::forgetHistory() {
+    frame_.forgetHistory();
+    asked_.reset();
+    previousWorldToClip_.reset();
+    frameNumber_ = 0;
+}
+
 // New pictures are cleared first, in a frame of their own: what captures probes may show them before this frame is
 // submitted.
 std::vector<LiveView> Renderer::liveViews(const ViewParams& view) {

@@ -25,6 +25,10 @@ public:
     FrameImages render(const View& view, uvec2 size, uint32_t seed, const Settings& settings,
                        const std::function<void(gpu::Frame&, const FrameImages&)>& after = {});
 
+    /// The next frame is as the first one was, but that all that is worked out once (pipelines, probes, the
+    /// environment) is there.
+    void forgetHistory();
+
     [[nodiscard]] const gpu::Frame& frame() const { return frame_; }
 
 private:
