@@ -32,12 +32,12 @@ constexpr uint32_t chainFramesBefore = 8;
 const std::array<std::string, 4> layerNames{"final", "direct", "indirect_diffuse", "indirect_specular"};
 
 // What does not belong into a mean over many frames, as far as this program has it.
-constexpr std::array<std::pair<const char*, const char*>, 6> plainSettings{{{"denoise.enabled", "off"},
-                                                                            {"temporal.enabled", "off"},
+constexpr std::array<std::pair<const char*, const char*>, 6> plainSettings{{{"denoise.enabled", "false"},
+                                                                            {"temporal.enabled", "false"},
                                                                             {"diffuse.scale", "1"},
                                                                             {"specular.scale", "1"},
-                                                                            {"diffuse.adaptive", "off"},
-                                                                            {"specular.adaptive", "off"}}};
+                                                                            {"diffuse.adaptive", "false"},
+                                                                            {"specular.adaptive", "false"}}};
 
 const SettingEntry* findEntry(std::string_view name) {
     const auto& entries = settingEntries();
@@ -47,7 +47,7 @@ const SettingEntry* findEntry(std::string_view name) {
 
 bool isOn(const Settings& settings, std::string_view name) {
     const SettingEntry* entry = findEntry(name);
-    return entry != nullptr && settingText(settings, *entry) != "off";
+    return entry != nullptr && settingText(settings, *entry) == "true";
 }
 
 // Of all that chainSettings leaves at work.
