@@ -156,6 +156,33 @@ def rest(folder, targets):
     targets.add(what, limit, f"{flip:.4f} (`{short(worst['scene'])}`)", flip < 0.02)
 
 
+def motion(folder, targets):
+    data = load(folder, "motion")
+    flips, flicker = "mean FLIP in motion (60 frames), over that at rest, worst scene", "flicker over the truth's, worst scene"
+    if data is None:
+        targets.missing(flips, "1.5")
+        targets.missing(flicker, "1.3")
+        return
+
+    def flip_ratio(run):
+        return sum(run["motion"]["flip"]) / len(run["motion"]["flip"]) / run["steady"]["error"]["flip"]
+
+    def flicker_ratio(run):
+        return run["motion"]["flicker"] / run["motion"]["truth_flicker"]
+    for what, limit, of in ((flips, 1.5, flip_ratio), (flicker, 1.3, flicker_ratio)):
+        worst = max(data["runs"], key=of)
+        targets.add(what, str(limit), f"{of(worst):.2f} (`{short(worst['scene'])}`)", of(worst) <= limit)
+
+
+def motion_table(data):
+    lines = ["| scene | FLIP at rest | in motion, mean | most | flicker | of the truth |", "|---|--:|--:|--:|--:|--:|"]
+    for run in data["runs"]:
+        flips = run["motion"]["flip"]
+        lines.append(f"| {short(run['scene'])} | {run['steady']['error']['flip']:.4f} | {sum(flips) / len(flips):.4f} | "
+                     f"{max(flips):.4f} | {run['motion']['flicker']:.5f} | {run['motion']['truth_flicker']:.5f} |")
+    return "\n".join(lines)
+
+
 def gpu(folder, targets):
     data = load(folder, "gpu")
     limits = (("specular", 0.5), ("diffuse", 0.5))
@@ -222,7 +249,7 @@ def main():
     folder = sys.argv[1] if len(sys.argv) > 1 else os.path.join(ROOT, "out", "performance")
     notes = read_notes()
     targets = Targets()
-    for add in (against_games202, mirror, shadow, pixels_and_triangles, rest, gpu):
+    for add in (against_games202, mirror, shadow, pixels_and_triangles, rest, motion, gpu):
         add(folder, targets)
     presets = load(folder, "presets")
     parts = ["# Performance", "Made by `docs/performance.sh`; what is written by hand stands in `performance-notes.md`. "
@@ -246,6 +273,8 @@ def main():
         data = [d for d in data if d]
         if data:
             parts.append(section(heading, "\n\n".join(frames_table(d) for d in data), notes))
+    if moved := load(folder, "motion"):
+        parts.append(section("In motion", motion_table(moved), notes))
     for name, heading in (("sizes", "Each pass and its floor"), ("gpu", "Each pass and its floor on a GPU")):
         data = load(folder, name)
         if data:

@@ -39,6 +39,8 @@ struct BenchCommand {
     std::string truthCache;
     std::string layer = "final";
     bool noBandwidth = false;
+    uint32_t motionFrames = 0;
+    float orbit = 30.0F;
     std::string device;
     bool validate = false;
     std::string json;
@@ -121,6 +123,10 @@ BenchPlan makePlan(const BenchCommand& command) {
     plan.warmup = command.warmup;
     plan.frames = command.frames;
     plan.layer = command.layer;
+    plan.motion = {command.motionFrames, command.orbit, command.warmup};
+    if (plan.motion.frames > 0 && plan.truth.kind == TruthKind::none) {
+        failUsage("--motion needs a truth: --truth reference or --truth chain:RAYS");
+    }
     if (std::ranges::find(comparable, plan.layer) == comparable.end()) {
         failUsage("--layer wants one of {}, is '{}'", fmt::join(comparable, ", "), plan.layer);
     }
@@ -235,6 +241,12 @@ void addTimesOptions(CLI::App& command, BenchCommand& options) {
         ->capture_default_str();
     command.add_option("--frames", options.frames, "Measured frames with history")
         ->check(CLI::Range(1U, 1000000U))
+        ->capture_default_str();
+    command.add_option("--motion", options.motionFrames, "Frames that are compared while the camera turns; 0: none")
+        ->check(CLI::Range(0U, 100000U))
+        ->capture_default_str();
+    command.add_option("--orbit", options.orbit, "Degrees that it turns round what it looks at, over all of them")
+        ->check(CLI::Range(-360.0F, 360.0F))
         ->capture_default_str();
     command.add_option("--rounds", options.rounds, "With --against: runs of each program")
         ->check(CLI::Range(1U, 1000U))

@@ -151,6 +151,16 @@ TEST_F(BenchTest, SeveralSizesSayWhatAPixelCosts) {
     EXPECT_GE(json["scaling"][0]["spread"], 0.0);
 }
 
+TEST_F(BenchTest, FramesInMotionAreHeldAgainstATruthEach) {
+    ASSERT_TRUE(quietSuccess(bench({"--preset", "direct", "--motion", "3", "--orbit", "10"})));
+    const nlohmann::json motion = numbers()["runs"][0]["motion"];
+    EXPECT_EQ(motion.at("flip").size(), 3U);
+    EXPECT_GT(motion.at("flicker"), 0.0);
+    EXPECT_GT(motion.at("truth_flicker"), 0.0);
+    EXPECT_EQ(truths(), 2U * 4U);  // at rest, and three more
+    EXPECT_TRUE(refused(bench({"--motion", "3", "--truth", "none"}), 2, {"--motion", "--truth"}));
+}
+
 TEST_F(BenchTest, AnotherBuildTakesTurnsWithThisOne) {
     ASSERT_TRUE(quietSuccess(
         bench({"--against", REFLET_PROGRAM, "--rounds", "2", "--preset", "fast", "--set", "diffuse.rays=2"})));

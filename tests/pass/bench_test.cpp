@@ -1,4 +1,5 @@
 // apps/bench: what is made of times, and what a truth's name depends on; and what the frame counts for it.
+#include "apps/bench/motion.h"
 #include "apps/bench/output.h"
 #include "apps/bench/samples.h"
 #include "apps/bench/truth.h"
@@ -200,6 +201,34 @@ TEST(Truth, KindsAreSaidByName) {
     for (const char* wrong : {"", "chain", "chain:", "chain:0", "chain:4x", "chain:-1", "truth"}) {
         EXPECT_THROW(parseTruth(wrong, options), UsageError) << wrong;
     }
+}
+
+TEST(Motion, APictureThatOnlyMovesDoesNotChangeBeyondItsMotion) {
+    FloatImage before{8, 4, {"Y"}, {}};
+    FloatImage now = before;
+    FloatImage motion{8, 4, {"X", "Y"}, {}};
+    for (uint32_t i = 0; i < 32; ++i) {
+        before.data.push_back(static_cast<float>((i % 8) * (i % 8)));
+        now.data.push_back(i % 8 >= 2 ? static_cast<float>((i % 8 - 2) * (i % 8 - 2)) : 77.0F);  // two pixels right
+        motion.data.insert(motion.data.end(), {0.25F, 0.0F});
+    }
+    EXPECT_EQ(changeBeyondMotion(now, before, motion), 0.0);
+    EXPECT_GT(changeBeyondMotion(before, before, motion), 1.0);
+    now.data[10] += 6.0F;  // one of the 24 pixels that were in the picture
+    EXPECT_DOUBLE_EQ(changeBeyondMotion(now, before, motion), 6.0 / 24.0);
+}
+
+TEST(Motion, TheCameraTurnsRoundWhatItLooksAt) {
+    View view;
+    view.camera.position = {2, 1, 5};
+    view.camera.target = {2, 0, 1};
+    const MotionPlan plan{10, 90.0F, 0};
+    EXPECT_EQ(viewInMotion(view, plan, 0).camera.position, view.camera.position);
+    const vec3 last = viewInMotion(view, plan, 10).camera.position;
+    EXPECT_NEAR(last.x, 6.0F, 1e-5F);
+    EXPECT_NEAR(last.y, 1.0F, 1e-5F);
+    EXPECT_NEAR(last.z, 1.0F, 1e-5F);
+    EXPECT_EQ(viewInMotion(view, plan, 10).camera.target, view.camera.target);
 }
 
 TEST_F(BenchDeviceTest, APassCountsTheBytesOfWhatItBinds) {

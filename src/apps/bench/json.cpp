@@ -55,12 +55,17 @@ Json stateJson(const BenchState& state, double bandwidth) {
     return json;
 }
 
+Json motionJson(const MotionResult& motion) {
+    return {{"flip", motion.flip}, {"flicker", motion.flicker}, {"truth_flicker", motion.truthFlicker}};
+}
+
 Json runJson(const BenchRun& run, double bandwidth) {
     Json json = {{"scene", run.scene},         {"variant", run.variant},     {"settings", run.settings},
                  {"size", sizeJson(run.size)}, {"triangles", run.triangles}, {"memory_bytes", run.memory}};
     json["truth"] = run.truthFile.empty()
                         ? Json()
                         : Json{{"file", run.truthFile}, {"samples", run.truthSamples}, {"noise", run.truthNoise}};
+    json["motion"] = run.motion ? motionJson(*run.motion) : Json();
     json["first"] = stateJson(run.first, bandwidth);
     json["steady"] = stateJson(run.steady, bandwidth);
     return json;

@@ -99,6 +99,25 @@ std::string pairTable(const BenchPair& pair, const std::vector<BenchRun>& runs) 
     return text;
 }
 
+std::string motionTable(const BenchResult& result) {
+    std::string text =
+        "\n### In motion\n\nFLIP of every frame to its own truth, while the camera turns; flicker: change beyond "
+        "motion.\n\n"
+        "| scene | variant | size | FLIP at rest | in motion (quartiles) | most | flicker | of the truth |\n"
+        "|---|---|---|--:|--:|--:|--:|--:|\n";
+    for (const BenchRun& run : result.runs) {
+        if (!run.motion) {
+            continue;
+        }
+        const Spread flip = spreadOf(run.motion->flip);
+        text += fmt::format("| {} | {} | {} | {} | {} ({}–{}) | {} | {} | {} |\n", escapeMarkdown(run.scene),
+                            escapeMarkdown(run.variant), sizeText(run.size), flipText(run.steady.error->flip),
+                            flipText(flip.median), flipText(flip.lowerQuartile), flipText(flip.upperQuartile),
+                            flipText(flip.max), flipText(run.motion->flicker), flipText(run.motion->truthFlicker));
+    }
+    return text;
+}
+
 std::string scalingTable(const std::vector<Scaling>& all) {
     std::string text =
         "\n### Cost per pixel\n\nNanoseconds from submission to fence over the number of pixels; spread: largest over "
@@ -151,6 +170,9 @@ std::string benchMarkdown(const BenchHead& head, const BenchPlan& plan, const Be
     }
     if (const auto scaling = scalingOf(result); !scaling.empty()) {
         text += scalingTable(scaling);
+    }
+    if (plan.motion.frames > 0) {
+        text += motionTable(result);
     }
     for (const BenchRun& run : result.runs) {
         text += passTable(run, head.bandwidth);

@@ -22,7 +22,8 @@ uint64_t usedMemory(gpu::Device& device) {
 }  // namespace
 
 Subject::Subject(gpu::Device& device, const BenchScene& scene, uvec2 size, const Settings& settings)
-    : scene_(scene),
+    : view_(scene.view),
+      seed_(scene.seed),
       size_(size),
       settings_(settings),
       memoryBefore_(usedMemory(device)),
@@ -35,7 +36,7 @@ Subject::Subject(gpu::Device& device, const BenchScene& scene, uvec2 size, const
 }
 
 void Subject::render() {
-    renderer_.render(scene_.view, size_, scene_.seed, settings_);
+    renderer_.render(view_, size_, seed_, settings_);
 }
 
 void Subject::render(Samples& samples) {
@@ -47,12 +48,12 @@ void Subject::render(Samples& samples) {
 
 Layers Subject::picture(const std::vector<std::string>& names) {
     std::vector<ShowReadback> readbacks;
-    renderer_.render(scene_.view, size_, scene_.seed, settings_, [&](gpu::Frame& f, const FrameImages& images) {
+    renderer_.render(view_, size_, seed_, settings_, [&](gpu::Frame& f, const FrameImages& images) {
         for (const std::string& name : names) {
             readbacks.push_back(requestShow(f, images, findShow(name)));
         }
     });
-    const ViewParams params = makeViewParams(scene_.view.camera, size_, 0, scene_.seed);
+    const ViewParams params = makeViewParams(view_.camera, size_, 0, seed_);
     Layers layers;
     for (size_t i = 0; i < names.size(); ++i) {
         layers[names[i]] = fetchValues(renderer_.frame(), readbacks[i], params);

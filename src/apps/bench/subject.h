@@ -40,9 +40,12 @@ public:
     [[nodiscard]] uint64_t memory() const { return memory_; }
     [[nodiscard]] const Settings& settings() const { return settings_; }
     void change(const Settings& settings) { settings_ = settings; }
+    /// From the next frame on.
+    void look(const View& view) { view_ = view; }
 
 private:
-    const BenchScene& scene_;
+    View view_;
+    uint32_t seed_;
     uvec2 size_;
     Settings settings_;
     uint64_t memoryBefore_;

@@ -131,6 +131,11 @@ std::vector<BenchRun> Turns::measure(gpu::Device& device) {
         run.truthFile = truth.file;
         run.truthNoise = truth.noise;
         run.truthSamples = truth.samples;
+        if (plan_.motion.frames > 0) {
+            MotionPlan motion = plan_.motion;
+            motion.warmup = plan_.warmup;
+            run.motion = measureMotion(device, scene_, size_, variants_[v]->settings, plan_.truth, motion);
+        }
     }
     return std::move(runs_);
 }

@@ -1,6 +1,7 @@
 // What a bench measures, and what it found, as plain values.
 #pragma once
 
+#include "apps/bench/motion.h"
 #include "apps/bench/samples.h"
 #include "apps/bench/subject.h"
 #include "apps/bench/truth.h"
@@ -24,6 +25,7 @@ struct BenchPlan {
     uint32_t warmup = 11;                            ///< frames from the last one without history to the measured ones
     uint32_t frames = 20;                            ///< measured, with history
     TruthOptions truth;
+    MotionPlan motion;            ///< its warmup is that of the plan
     std::string layer = "final";  ///< that errors are of
     float pixelsPerDegree = 67.0F;
 };
@@ -43,6 +45,7 @@ struct BenchRun {
     uint64_t memory = 0;  ///< bytes of the device's own: scene, frame and history
     BenchState first;
     BenchState steady;  ///< the error is that of frame warmup + frames + 1
+    std::optional<MotionResult> motion;
     std::string truthFile;
     double truthNoise = 0.0;
     uint32_t truthSamples = 0;
