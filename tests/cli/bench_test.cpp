@@ -107,6 +107,14 @@ TEST_F(BenchTest, OneSettingAgainstItselfHasARatioForEveryTurnAndEqualErrors) {
     }
 }
 
+TEST_F(BenchTest, TheCommandThatIsRecordedDoesTheSameAgain) {
+    ASSERT_TRUE(quietSuccess(bench({"--compare", "direct", "fast,diffuse.rays=2", "--truth-all-light"})));
+    const auto command = numbers().at("command").get<std::string>();
+    EXPECT_TRUE(command.starts_with("reflet bench builtin:cubes")) << command;
+    EXPECT_NE(command.find(" --compare direct fast,diffuse.rays=2"), std::string::npos) << command;
+    EXPECT_NE(command.find(" --truth-all-light"), std::string::npos) << command;
+}
+
 TEST_F(BenchTest, ATruthIsMadeOnceForAllThatItIsTheSameFor) {
     ASSERT_TRUE(quietSuccess(bench({"--preset", "fast,direct"})));
     EXPECT_EQ(truths(), 2U);  // one picture and its facts: both presets have the same truth
