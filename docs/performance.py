@@ -88,7 +88,7 @@ def against_games202(folder, targets):
             continue
         pair, (own, other) = data["comparisons"][0], data["runs"]
         for what, state, limit in ((frame, "steady", 30), (first, "first", 8)):
-            # The faster of ours and of the original, in proportion to this machine's pace.
+            # The faster of our form of it and of the original.
             base = min(submitted(other, state), ORIGINAL_MS)
             times = base / submitted(own, state)
             error = own[state]["error"]["relative_mse"], other[state]["error"]["relative_mse"]

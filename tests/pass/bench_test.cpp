@@ -291,8 +291,12 @@ TEST_F(BenchDeviceTest, ASubjectThatForgetsRepeatsItsFirstPicture) {
     const FloatImage first = subject.picture({"final"}).at("final");
     const FloatImage second = subject.picture({"final"}).at("final");
     subject.forgetHistory();
-    EXPECT_EQ(subject.picture({"final"}).at("final").data, first.data);
-    EXPECT_NE(second.data, first.data);
+    const auto error = [&](const FloatImage& picture) {
+        return compareImages(picture, first, {}).difference.relativeMse;
+    };
+    // Cube maps may differ in the last bit (docs/conventions.md).
+    EXPECT_LT(error(subject.picture({"final"}).at("final")), 1e-9);
+    EXPECT_GT(error(second), 1e-6);
     EXPECT_GT(subject.memory(), 32U * 18U * 8U);
 }
 
