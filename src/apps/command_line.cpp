@@ -3,6 +3,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+
 namespace reflet {
 
 namespace {
@@ -34,14 +36,19 @@ std::string commandLine(const CLI::App& command) {
                 arguments += " " + shellWord(result);
             }
         } else if (option->get_expected_max() == 0 && option->count() > 0) {
-            options += " " + optionName(*option);
+            // A flag with two names, one for on and one for off.
+            const std::vector<std::string>& off = option->get_fnames();
+            options +=
+                !off.empty() && option->results().front() == "false" ? " --" + off.front() : " " + optionName(*option);
         } else if (option->get_delimiter() != '\0' && option->count() > 0) {
             const std::string delimiter(1, option->get_delimiter());
             options += fmt::format(" {} {}", optionName(*option),
                                    shellWord(fmt::format("{}", fmt::join(option->results(), delimiter))));
         } else {
-            for (const std::string& result : option->results()) {
-                options += fmt::format(" {} {}", optionName(*option), shellWord(result));
+            const auto atOnce = static_cast<size_t>(std::max(option->get_type_size_max(), 1));
+            for (size_t i = 0; i < option->count(); ++i) {
+                options += i % atOnce == 0 ? " " + optionName(*option) : "";
+                options += " " + shellWord(option->results()[i]);
             }
         }
     }

@@ -9,6 +9,7 @@ void addRenderCommand(CLI::App& app);
 void addReferenceCommand(CLI::App& app);
 void addCompareCommand(CLI::App& app);
 void addReportCommand(CLI::App& app);
+void addBenchCommand(CLI::App& app);
 void addListCommand(CLI::App& app);
 
 }  // namespace reflet

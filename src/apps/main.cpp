@@ -81,6 +81,7 @@ int run(int argc, char** argv) {
     reflet::addRenderCommand(app);
     reflet::addReferenceCommand(app);
     reflet::addCompareCommand(app);
+    reflet::addBenchCommand(app);
     reflet::addReportCommand(app);
     reflet::addListCommand(app);
     checkSubcommand(app, std::span(argv, static_cast<size_t>(argc)).subspan(1));

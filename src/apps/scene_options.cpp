@@ -22,8 +22,8 @@ namespace {
 constexpr std::string_view builtinPrefix = "builtin:";
 
 Scene makeBuiltin(std::string_view name) {
-    if (const BuiltinScene* builtin = findBuiltinScene(name)) {
-        return builtin->make();
+    if (std::optional<Scene> builtin = makeBuiltinScene(name)) {
+        return std::move(*builtin);
     }
     std::vector<std::string> names;
     std::ranges::transform(builtinScenes(), std::back_inserter(names),

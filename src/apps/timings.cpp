@@ -1,24 +1,11 @@
 // Device times of passes over several frames.
 #include "apps/timings.h"
 
+#include "apps/spread.h"
+
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-
 namespace reflet {
-
-namespace {
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    if (values.size() % 2 == 1) {
-        return *middle;
-    }
-    return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
-
-}  // namespace
 
 void Timings::add(const std::vector<gpu::PassTime>& times) {
     ++frames_;
@@ -35,14 +22,14 @@ void Timings::add(const std::vector<gpu::PassTime>& times) {
 }
 
 double Timings::frameMs() const {
-    return median(samples_.at("frame"));
+    return spreadOf(samples_.at("frame")).median;
 }
 
 std::vector<gpu::PassTime> Timings::passes() const {
     std::vector<gpu::PassTime> result;
     for (const std::string& name : order_) {
         if (name != "frame") {
-            result.push_back({name, median(samples_.at(name))});
+            result.push_back({name, spreadOf(samples_.at(name)).median});
         }
     }
     return result;

@@ -85,22 +85,24 @@ void Frame::begin() {
 
 void Frame::submit() {
     vkCheck(device_.vk.vkEndCommandBuffer(commands_), "ending commands");
+    submitted_ = std::chrono::steady_clock::now();
     serial_ = device_.submit(commands_);
 }
 
 void Frame::wait() {
     device_.wait(serial_);
+    submittedMs_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - submitted_).count();
     readTimers();
 }
 
-void Frame::beginTimer(const std::string& name) {
+void Frame::beginTimer(const PassTime& pass) {
     REFLET_CHECK(timed_.size() < maxTimedPasses, "{} passes in one frame", timed_.size());
     // The second one is not read. llvmpipe takes a timestamp when the next one flushes it, which without this would be
     // after the pass.
     const auto query = static_cast<uint32_t>(queriesPerPass * timed_.size());
     device_.vk.vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, query);
     device_.vk.vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, query + 1);
-    timed_.push_back(name);
+    timed_.push_back(pass);
 }
 
 void Frame::endTimer() {
@@ -122,12 +124,13 @@ void Frame::readTimers() {
     times_.push_back({"frame", static_cast<double>(ticks.back() - ticks.front()) * tick});
     for (size_t i = 0; i < timed_.size(); ++i) {
         const double ms = static_cast<double>(ticks[queriesPerPass * i + 2] - ticks[queriesPerPass * i]) * tick;
-        const auto same = std::ranges::find(times_, timed_[i], &PassTime::name);
+        auto same = std::ranges::find(times_, timed_[i].name, &PassTime::name);
         if (same == times_.end()) {
-            times_.push_back({timed_[i], ms});
-        } else {
-            same->ms += ms;
+            same = times_.insert(times_.end(), {timed_[i].name, 0.0, 0, timed_[i].raster});
         }
+        same->ms += ms;
+        same->bytes += timed_[i].bytes;
+        times_.front().bytes += timed_[i].bytes;
     }
 }
 

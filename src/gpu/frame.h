@@ -5,6 +5,7 @@
 #include "gpu/pass.h"
 #include "gpu/resource.h"
 
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -20,6 +21,10 @@ class Device;
 struct PassTime {
     std::string name;
     double ms = 0.0;
+    /// Of the images and buffers that it binds, each counted once: the least that it moves if it reads or writes all of
+    /// them. What the draws of a raster pass bind themselves (vertices, textures of materials) is not in it.
+    uint64_t bytes = 0;
+    bool raster = false;  ///< draws triangles
 };
 
 /// An image of this frame and the same of the last one.
@@ -95,6 +100,9 @@ public:
 
     /// Of the last frame waited for, in the order of recording. The first is "frame": from start to end.
     [[nodiscard]] const std::vector<PassTime>& passTimes() const { return times_; }
+    /// Of the last frame waited for, milliseconds by the host's clock from its submission until it was known to be
+    /// done.
+    [[nodiscard]] double submittedMs() const { return submittedMs_; }
 
     [[nodiscard]] Device& device() { return device_; }
 
@@ -107,7 +115,8 @@ private:
         VkDeviceSize offset;
     };
 
-    void beginTimer(const std::string& name);
+    /// `pass` says all but the time.
+    void beginTimer(const PassTime& pass);
     void endTimer();
     void readTimers();
     UniformSlice uploadUniform(std::span<const std::byte> bytes);
@@ -137,8 +146,10 @@ private:
     VkDeviceSize uniformsUsed_ = 0;
     std::vector<Buffer> readbacks_;
     size_t readbacksUsed_ = 0;
-    std::vector<std::string> timed_;
+    std::vector<PassTime> timed_;  ///< in this frame, still without their times
     std::vector<PassTime> times_;
+    std::chrono::steady_clock::time_point submitted_;
+    double submittedMs_ = 0.0;
 };
 
 }  // namespace reflet::gpu

@@ -120,7 +120,8 @@ Allocation Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, bo
     const uint32_t type = chooseType(needs.memoryTypeBits, use);
     const auto placed = [&](MemoryBlock& block, VkDeviceSize offset) {
         std::byte* mapped = block.mapped != nullptr ? block.mapped + offset : nullptr;
-        return Allocation{&block, block.memory, offset, needs.size, mapped};
+        used_[static_cast<size_t>(use)] += needs.size;
+        return Allocation{&block, block.memory, offset, needs.size, mapped, use};
     };
     for (const auto& block : blocks_) {
         if (block->type == type && block->linear == linear) {
@@ -138,6 +139,7 @@ void Memory::release(const Allocation& allocation) {
         return;
     }
     MemoryBlock& block = *allocation.block;
+    used_[static_cast<size_t>(allocation.use)] -= allocation.size;
     block.giveBack(allocation.offset, allocation.size);
     if (block.holes.size() == 1 && block.holes.begin()->second == block.size) {
         vk_.vkFreeMemory(device_, block.memory, nullptr);

@@ -3,7 +3,9 @@
 
 #include "gpu/vulkan.h"
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <vector>
@@ -12,6 +14,12 @@ namespace reflet::gpu {
 
 struct MemoryBlock;
 
+enum class MemoryUse : uint8_t {
+    device,    ///< the device's own, the host never looks
+    upload,    ///< written by the host, coherent
+    readback,  ///< read by the host, cached where there is such
+};
+
 /// A piece of device memory. Values; give it back with Memory::release.
 struct Allocation {
     MemoryBlock* block = nullptr;
@@ -19,12 +27,7 @@ struct Allocation {
     VkDeviceSize offset = 0;
     VkDeviceSize size = 0;
     std::byte* mapped = nullptr;  ///< where memory is host visible, for all of its life
-};
-
-enum class MemoryUse : uint8_t {
-    device,    ///< the device's own, the host never looks
-    upload,    ///< written by the host, coherent
-    readback,  ///< read by the host, cached where there is such
+    MemoryUse use = MemoryUse::device;
 };
 
 class Memory {
@@ -39,6 +42,9 @@ public:
     Allocation allocate(const VkMemoryRequirements& needs, MemoryUse use, bool linear);
     void release(const Allocation& allocation);
 
+    /// Bytes in use by resources of `use`; those that retired resources hold still count.
+    [[nodiscard]] VkDeviceSize used(MemoryUse use) const { return used_[static_cast<size_t>(use)]; }
+
 private:
     uint32_t chooseType(uint32_t allowed, MemoryUse use) const;
     MemoryBlock& addBlock(uint32_t type, bool linear, VkDeviceSize size);
@@ -49,6 +55,7 @@ private:
     VkPhysicalDeviceMemoryProperties properties_{};
     std::vector<std::unique_ptr<MemoryBlock>> blocks_;
     VkDeviceSize reserved_ = 0;  ///< bytes taken from the device
+    std::array<VkDeviceSize, 3> used_{};
 };
 
 }  // namespace reflet::gpu

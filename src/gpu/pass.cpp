@@ -187,6 +187,18 @@ void Pass::emitBarriers() {
     batch.record(frame_.device_.vk, frame_.commands_);
 }
 
+// What is written is taken to be written only: whoever reads it, too, moves more. A clear is no read.
+uint64_t Pass::boundBytes() const {
+    uint64_t bytes = 0;
+    for (const Bound& bound : bound_) {
+        bytes += bound.image ? bytesOf(bound.image) : bound.buffer.size;
+    }
+    for (const Attachment& color : colors_) {
+        bytes += bytesOf(color.image);
+    }
+    return bytes + (depth_ ? bytesOf(depth_) : 0);
+}
+
 VkDescriptorSet Pass::writeSet(const Pipeline& pipeline) {
     const VkDescriptorSet set = frame_.allocateSet(pipeline.set);
     const size_t count = pipeline.bindings.size();
@@ -243,7 +255,7 @@ void Pass::prepare(const Pipeline& pipeline) {
 const Pipeline& Pass::startCompute() {
     const Pipeline& pipeline = frame_.device_.pipelines().get(info_);
     prepare(pipeline);
-    frame_.beginTimer(name_);
+    frame_.beginTimer({name_, 0.0, boundBytes(), false});
     return pipeline;
 }
 
@@ -299,7 +311,7 @@ void Pass::draw(const std::function<void(const DrawCommands&)>& record) {
 
     const VolkDeviceTable& vk = frame_.device_.vk;
     const VkCommandBuffer commands = frame_.commands_;
-    frame_.beginTimer(name_);
+    frame_.beginTimer({name_, 0.0, boundBytes(), true});
     vk.vkCmdBeginRendering(commands, &rendering);
     const VkViewport viewport{0, 0, static_cast<float>(size.x), static_cast<float>(size.y), 0, 1};
     vk.vkCmdSetViewport(commands, 0, 1, &viewport);

@@ -104,6 +104,7 @@ private:
     void checkAccess(const ShaderBinding& binding, const Bound& bound) const;
     void collectUses(const Pipeline& pipeline);
     void emitBarriers();
+    [[nodiscard]] uint64_t boundBytes() const;
     void use(Image image, const Access& access);
     void use(BufferView buffer, const Access& access);
     const Pipeline& startCompute();

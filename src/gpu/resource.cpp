@@ -42,6 +42,15 @@ uint32_t bytesPerTexel(VkFormat format) {
     return 0;
 }
 
+uint64_t bytesOf(const Image& image) {
+    uint64_t texels = 0;
+    for (uint32_t level = 0; level < image.mips; ++level) {
+        const uvec2 size = max(image.size >> level, uvec2(1));
+        texels += uint64_t(size.x) * size.y;
+    }
+    return texels * image.layers * bytesPerTexel(image.format);
+}
+
 namespace {
 
 VkImageViewType viewType(const ImageInfo& info) {

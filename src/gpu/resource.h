@@ -61,6 +61,7 @@ struct Image {
     VkFormat format = VK_FORMAT_UNDEFINED;
     uvec2 size{0};
     uint32_t layers = 1;
+    uint32_t mips = 1;
 
     explicit operator bool() const { return state != nullptr; }
 };
@@ -77,6 +78,8 @@ struct BufferView {
 VkImageAspectFlags aspectOf(VkFormat format);
 /// Bytes of one texel of the formats the renderer uses.
 uint32_t bytesPerTexel(VkFormat format);
+/// Bytes of all the texels of a view.
+uint64_t bytesOf(const Image& image);
 
 class Texture {
 public:
@@ -90,7 +93,9 @@ public:
     Texture& operator=(const Texture&) = delete;
 
     [[nodiscard]] const ImageInfo& info() const { return info_; }
-    [[nodiscard]] Image image() const { return {state_.get(), view_, info_.format, info_.size, info_.layers}; }
+    [[nodiscard]] Image image() const {
+        return {state_.get(), view_, info_.format, info_.size, info_.layers, info_.mips};
+    }
     /// One level as a 2D array of all layers (cubes: their faces), for passes that write it. Only of textures with
     /// storage usage and more than one mip, or a cube view.
     [[nodiscard]] Image mip(uint32_t level) const;

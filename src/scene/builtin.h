@@ -3,6 +3,7 @@
 
 #include "scene/scene.h"
 
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -19,5 +20,9 @@ std::span<const BuiltinScene> builtinScenes();
 
 /// nullptr: there is none of that name.
 const BuiltinScene* findBuiltinScene(std::string_view name);
+
+/// One of the list, or "tessellated-N": a room that looks the same with any number N of triangles, which is 100 times
+/// the square of 1 to 100. That one is for measuring alone and not in the list. None: there is none of that name.
+std::optional<Scene> makeBuiltinScene(std::string_view name);
 
 }  // namespace reflet

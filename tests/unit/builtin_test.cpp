@@ -158,6 +158,24 @@ TEST(BuiltinScenes, AnUnknownNameIsNotFound) {
     EXPECT_EQ(findBuiltinScene("cube"), nullptr);
 }
 
+TEST(BuiltinScenes, TheTessellatedRoomHasAsManyTrianglesAsItsNameSays) {
+    for (const size_t wanted : {100U, 400U, 10000U}) {
+        const auto scene = makeBuiltinScene("tessellated-" + std::to_string(wanted));
+        ASSERT_TRUE(scene);
+        size_t indices = 0;
+        for (const Instance& instance : scene->instances) {
+            indices += scene->meshes[instance.mesh].indices.size();
+        }
+        EXPECT_EQ(indices, 3 * wanted);
+        EXPECT_EQ(scene->bounds().max, makeBuiltinScene("tessellated-100")->bounds().max);
+    }
+    for (const char* name : {"tessellated-", "tessellated-0", "tessellated-101", "tessellated-200",
+                             "tessellated-1020100", "tessellated-100x", "tessellated", "cube"}) {
+        EXPECT_FALSE(makeBuiltinScene(name)) << name;
+    }
+    EXPECT_EQ(makeBuiltinScene("cubes")->name, findBuiltinScene("cubes")->make().name);
+}
+
 TEST_P(EveryBuiltinScene, CarriesItsOwnName) {
     EXPECT_EQ(scene.name, GetParam().name);
 }

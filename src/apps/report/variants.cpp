@@ -27,23 +27,28 @@ Variant parseVariant(const std::string& text, const SceneOptions& shared) {
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
         failUsage("--variant wants NAME=KEY=VALUE,… or NAME=PRESET,KEY=VALUE,…, is '{}'", text);
     }
-    SceneOptions options = shared;
-    Settings settings;
-    std::vector<std::string> parts = split(std::string_view(text).substr(equals + 1), ',');
-    const auto isPreset = [](const std::string& part) { return part.find('=') == std::string::npos; };
-    const auto rest = std::ranges::find_if_not(parts, isPreset);
-    for (auto preset = parts.begin(); preset != rest; ++preset) {
-        applyPreset(settings, *preset);
-    }
-    if (const auto late = std::find_if(rest, parts.end(), isPreset); late != parts.end()) {
-        failUsage("--variant {}: '{}' is no KEY=VALUE; a preset must come first", text, *late);
-    }
-    options.set.insert(options.set.end(), rest, parts.end());
-    changeSettings(settings, options);
-    return {text.substr(0, equals), settings};
+    return {text.substr(0, equals), settingsOfList(text.substr(equals + 1), shared, "--variant " + text)};
 }
 
 }  // namespace
+
+Settings settingsOfList(const std::string& list, const SceneOptions& shared, const std::string& where) {
+    constexpr std::string_view presetPrefix = "preset:";
+    SceneOptions options = shared;
+    Settings settings;
+    std::vector<std::string> parts = split(list, ',');
+    const auto isPreset = [](const std::string& part) { return part.find('=') == std::string::npos; };
+    const auto rest = std::ranges::find_if_not(parts, isPreset);
+    for (auto preset = parts.begin(); preset != rest; ++preset) {
+        applyPreset(settings, preset->starts_with(presetPrefix) ? preset->substr(presetPrefix.size()) : *preset);
+    }
+    if (const auto late = std::find_if(rest, parts.end(), isPreset); late != parts.end()) {
+        failUsage("{}: '{}' is no KEY=VALUE; a preset must come first", where, *late);
+    }
+    options.set.insert(options.set.end(), rest, parts.end());
+    changeSettings(settings, options);
+    return settings;
+}
 
 std::vector<Variant> makeVariants(const std::vector<std::string>& presets, const std::vector<std::string>& own,
                                   const SceneOptions& shared) {

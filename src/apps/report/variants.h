@@ -20,6 +20,10 @@ struct Variant {
 std::vector<Variant> makeVariants(const std::vector<std::string>& presets, const std::vector<std::string>& own,
                                   const SceneOptions& shared);
 
+/// "fast,diffuse.rays=2" or "preset:fast,diffuse.rays=2": presets, then what `shared` says of settings, then the list's
+/// own. `where` starts messages. Throws UsageError.
+Settings settingsOfList(const std::string& list, const SceneOptions& shared, const std::string& where);
+
 /// "diffuse.rays=1 trace_screen.step=0.3": what differs from the defaults, as --set takes it.
 std::string changedSettings(const Settings& settings);
 

@@ -36,4 +36,12 @@ const BuiltinScene* findBuiltinScene(std::string_view name) {
     return found == scenes.end() ? nullptr : found;
 }
 
+std::optional<Scene> makeBuiltinScene(std::string_view name) {
+    if (const BuiltinScene* builtin = findBuiltinScene(name)) {
+        return builtin->make();
+    }
+    const std::optional<uint32_t> triangles = builtin::tessellatedTriangles(name);
+    return triangles ? std::optional(builtin::makeTessellated(*triangles)) : std::nullopt;
+}
+
 }  // namespace reflet

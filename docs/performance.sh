@@ -1,0 +1,83 @@
+#!/usr/bin/env bash
+# Makes docs/performance.md and docs/pictures/performance.svg from measurements by
+# `reflet bench`, which stay in out/performance/ as JSON. A measurement that is there is not made again; delete the folder
+# after the program has changed. Takes about an hour on two cores, which should have nothing else to do.
+#
+#     docs/performance.sh           measures what is missing, then writes the page
+#     docs/performance.sh page      writes the page from what is there
+#     docs/performance.sh NAME...   makes these measurements anew (games202, mirror, …), then writes the page
+#     docs/performance.sh gpu       for a machine with a GPU: out/performance/gpu*.json
+#
+# CUBE1=FILE.gltf with FILE.view.json beside it: the course's scene, which is not part of the project. PRESET: what is held
+# against the targets [balanced]. What is written by hand stands in docs/performance-notes.md.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+reflet=${REFLET:-build/bin/reflet}
+out=out/performance
+mkdir -p "$out"
+preset=${PRESET:-balanced}
+"$reflet" list presets | grep -q "^$preset " || preset=default
+lambert=(--set materials.lambertOnly=true)
+one_bounce=(--truth-bounces 1 --truth-visible-only --truth-spp 1024)
+all_scenes=$("$reflet" list scenes | cut -d ' ' -f 1)
+wanted=("$@")
+
+# NAME ARGUMENT…: `reflet bench ARGUMENT…` into NAME.json.
+measure() {
+    local name=$1
+    shift
+    local file="$out/$name.json"
+    if [[ ${#wanted[@]} -gt 0 && " ${wanted[*]} " != *" $name "* ]]; then
+        return
+    fi
+    if [[ -f $file && ${#wanted[@]} -eq 0 ]]; then
+        return
+    fi
+    echo "== $name: reflet bench $*" >&2
+    "$reflet" bench "$@" --json "$file" --markdown "$out/$name.md" >/dev/null
+}
+
+if [[ ${1:-} == gpu ]]; then
+    wanted=()
+    # shellcheck disable=SC2086  # a word for each scene
+    measure gpu $all_scenes --preset "$preset" --size 1920x1080 "${one_bounce[@]}"
+    measure gpu-sizes builtin:cave --preset "$preset" --sizes 640x360,1280x720,1920x1080,3840x2160 --truth none
+    exit
+fi
+
+if [[ ${1:-} != page ]]; then
+    # Error against time: every preset, and the course's with 32 rays.
+    names=$("$reflet" list presets | grep -v '^ ' | cut -d ' ' -f 1 | grep -v '^pathtrace$' | paste -sd ,)
+    measure presets builtin:cubes builtin:cave builtin:gloss --preset "$names" --variant games202-32=games202,diffuse.rays=32 \
+        --size 640x360 "${one_bounce[@]}" --first 3 --frames 5 --plot "$out/presets.svg"
+    # A whole frame against the course's method.
+    against=(--compare "preset:$preset" preset:games202,diffuse.rays=32 --size 1280x720 "${lambert[@]}"
+        --set specular.rays=0 "${one_bounce[@]}" --first 3 --frames 5)
+    measure games202 builtin:cave "${against[@]}"
+    if [[ -n ${CUBE1:-} ]]; then
+        measure games202-cube1 "$CUBE1" --view-file "${CUBE1%.gltf}.view.json" "${against[@]}"
+    fi
+    # Reflections: a mirror over the whole screen.
+    measure mirror builtin:mirror-hall --view-file docs/methods/views/into-the-mirror.json --size 1280x720 \
+        --compare "preset:$preset,diffuse.rays=0" \
+        preset:games202-linear,materials.lambertOnly=false,specular.rays=1,diffuse.rays=0,trace_screen.maxSteps=150 \
+        --layer indirect_specular "${one_bounce[@]}" --first 3 --frames 5
+    # Soft shadows over hard ones.
+    measure shadow builtin:colonnade builtin:cave --size 1280x720 --truth none --first 3 \
+        --compare "preset:$preset,diffuse.rays=0,specular.rays=0,shadow.filter=pcss" \
+        "preset:$preset,diffuse.rays=0,specular.rays=0,shadow.filter=hard"
+    # Pixels and triangles.
+    measure sizes builtin:cave --preset "$preset" --sizes 640x360,1280x720,1920x1080,3840x2160 --truth none --first 2 \
+        --warmup 3 --frames 9
+    measure triangles-100 builtin:tessellated-100 --preset "$preset" --size 1280x720 --truth none
+    measure triangles-1000000 builtin:tessellated-1000000 --preset "$preset" --size 1280x720 --truth none
+    # At rest.
+    # shellcheck disable=SC2086  # a word for each scene
+    measure rest $all_scenes --preset "$preset" --size 320x180 --truth chain:1024 --first 1 --warmup 11 --frames 20
+    # In motion.
+    # shellcheck disable=SC2086  # a word for each scene
+    measure motion $all_scenes --preset "$preset" --size 320x180 --truth chain:256 --first 1 --motion 60 --orbit 30
+fi
+
+docs/performance.py "$out"

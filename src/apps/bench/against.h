@@ -1,0 +1,29 @@
+// Another build of the program against this one, both run as programs of their own, in turn.
+#pragma once
+
+#include "apps/bench/work.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace reflet {
+
+struct AgainstPlan {
+    std::string other;                ///< the other program
+    uint32_t rounds = 5;              ///< of each program
+    std::vector<std::string> scenes;  ///< as typed
+    std::vector<uvec2> sizes;
+    std::vector<std::vector<std::string>> variants;  ///< the options that choose each: {"--preset", "fast"}
+    std::vector<std::string> shared;                 ///< options that both understand: view, settings, seed, device
+    uint32_t firstFrames = 5;
+    uint32_t warmup = 11;
+    uint32_t frames = 20;
+};
+
+/// Adds two runs and a pair for each scene, size and variant; a sample is the median of one run of a program. Where one
+/// of the two has no `bench`, both are asked for `render --timings`: device times of frames with history only. Throws
+/// Error.
+void measureAgainst(const AgainstPlan& plan, BenchResult& result);
+
+}  // namespace reflet

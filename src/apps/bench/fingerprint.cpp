@@ -1,0 +1,162 @@
+// Fingerprints. Structured bindings name every member: one that is added to a struct must be added here, or it will not
+// compile.
+#include "apps/bench/fingerprint.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <memory>
+#include <type_traits>
+
+namespace reflet {
+
+void Fingerprint::add(std::span<const std::byte> bytes) {
+    constexpr uint64_t prime = 0x100000001B3ULL;
+    for (const std::byte byte : bytes) {
+        hash_ = (hash_ ^ static_cast<uint64_t>(byte)) * prime;
+    }
+}
+
+void Fingerprint::add(std::string_view text) {
+    const uint64_t size = text.size();
+    add(std::as_bytes(std::span(&size, 1)));
+    add(std::as_bytes(std::span(text)));
+}
+
+std::string Fingerprint::text() const {
+    return fmt::format("{:016x}", hash_);
+}
+
+namespace {
+
+// What has no padding.
+template <class T>
+concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T> || requires(T value) {
+    value.length();
+};
+
+class Adder {
+public:
+    explicit Adder(Fingerprint& print) : print_(print) {}
+
+    template <class... T>
+    void all(const T&... values) {
+        (add(values), ...);
+    }
+
+private:
+    template <Plain T>
+    void add(const T& value) {
+        print_.add(std::as_bytes(std::span(&value, 1)));
+    }
+
+    void add(const std::string& text) { print_.add(text); }
+
+    template <class T>
+    void add(const std::vector<T>& values) {
+        add(uint64_t(values.size()));
+        for (const T& value : values) {
+            add(value);
+        }
+    }
+
+    template <class T>
+    void add(const std::optional<T>& value) {
+        add(value.has_value());
+        if (value) {
+            add(*value);
+        }
+    }
+
+    void add(const Image& image) {
+        const auto& [name, width, height, rgba] = image;
+        all(name, width, height, rgba);
+    }
+
+    void add(const FloatImage& image) {
+        const auto& [width, height, channels, data] = image;
+        all(width, height, channels, data);
+    }
+
+    void add(const Sampler& sampler) {
+        const auto& [wrapU, wrapV, magLinear, minLinear, mips, mipLinear] = sampler;
+        all(wrapU, wrapV, magLinear, minLinear, mips, mipLinear);
+    }
+
+    void add(const TextureSlot& slot) {
+        const auto& [image, sampler, uvSet, uvTransform] = slot;
+        all(image, sampler, uvSet, uvTransform[0], uvTransform[1]);
+    }
+
+    void add(const Material& material) {
+        const auto& [name, baseColor, metallic, roughness, emissive, normalScale, occlusionStrength, alphaCutoff,
+                     doubleSided, camera, baseColorTexture, metallicRoughnessTexture, normalTexture, occlusionTexture,
+                     emissiveTexture] = material;
+        all(name, baseColor, metallic, roughness, emissive, normalScale, occlusionStrength, alphaCutoff, doubleSided,
+            camera, baseColorTexture, metallicRoughnessTexture, normalTexture, occlusionTexture, emissiveTexture);
+    }
+
+    void add(const VertexAttributes& vertex) {
+        const auto& [normal, tangent, uv0, uv1, color] = vertex;
+        all(normal, tangent, uv0, uv1, color);
+    }
+
+    void add(const Mesh& mesh) {
+        const auto& [name, positions, attributes, indices, material, bounds] =
+            mesh;  // bounds are those of the positions
+        (void)bounds;
+        all(name, positions, attributes, indices, material);
+    }
+
+    void add(const Instance& instance) {
+        const auto& [name, mesh, objectToWorld] = instance;
+        all(name, mesh, objectToWorld);
+    }
+
+    void add(const Camera& camera) {
+        const auto& [name, position, target, up, fovY, near, orthographicHeight, far] = camera;
+        all(name, position, target, up, fovY, near, orthographicHeight, far);
+    }
+
+    void add(const Sun& sun) {
+        const auto& [direction, irradiance, angularDiameter] = sun;
+        all(direction, irradiance, angularDiameter);
+    }
+
+    void add(const Lamp& lamp) {
+        const auto& [name, type, position, direction, intensity, range, innerAngle, outerAngle, radius] = lamp;
+        all(name, type, position, direction, intensity, range, innerAngle, outerAngle, radius);
+    }
+
+    void add(const Environment& environment) {
+        const auto& [radiance, image, intensity, rotation] = environment;
+        all(radiance, image != nullptr, intensity, rotation);
+        if (image != nullptr) {
+            add(*image);
+        }
+    }
+
+    Fingerprint& print_;
+};
+
+}  // namespace
+
+void addTo(Fingerprint& print, const Scene& scene) {
+    const auto& [name, images, samplers, materials, meshes, instances, lamps, cameras, sun, environment] = scene;
+    Adder(print).all(name, images, samplers, materials, meshes, instances, lamps, cameras, sun, environment);
+}
+
+void addTo(Fingerprint& print, const View& view) {
+    const auto& [camera, sun, environment, lampRadius, probes, mirrors, sunStandsIn] = view;
+    (void)probes;
+    (void)mirrors;
+    Adder(print).all(camera, sun, environment, lampRadius, sunStandsIn);
+}
+
+void addTo(Fingerprint& print, const ReferenceOptions& options) {
+    const auto& [bounces, samples, noise, filter, diffuse, visibleOnly, lambertOnly, lampShadows, seed, threads] =
+        options;
+    (void)threads;
+    Adder(print).all(bounces, samples, noise, filter, diffuse, visibleOnly, lambertOnly, lampShadows, seed);
+}
+
+}  // namespace reflet

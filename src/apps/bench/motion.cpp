@@ -1,0 +1,112 @@
+// Frames in motion.
+#include "apps/bench/motion.h"
+
+#include "apps/progress.h"
+#include "base/error.h"
+#include "compare/compare.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reflet {
+
+namespace {
+
+// Between the four pixels around it; `at` in pixels, centres at halves, inside of the picture.
+float bilinear(const FloatImage& image, vec2 at, size_t channel) {
+    const vec2 last(static_cast<float>(image.width - 1), static_cast<float>(image.height - 1));
+    const vec2 place = glm::clamp(at - 0.5F, vec2(0.0F), last);
+    const uvec2 low(place);
+    const uvec2 high = glm::min(low + 1U, uvec2(last));
+    const vec2 share = place - vec2(low);
+    const auto texel = [&](uint32_t x, uint32_t y) {
+        return image.data[(size_t(y) * image.width + x) * image.channels.size() + channel];
+    };
+    return std::lerp(std::lerp(texel(low.x, low.y), texel(high.x, low.y), share.x),
+                     std::lerp(texel(low.x, high.y), texel(high.x, high.y), share.x), share.y);
+}
+
+struct Moved {
+    FloatImage picture;
+    FloatImage motion;
+};
+
+std::vector<Moved> renderMotion(gpu::Device& device, const BenchScene& scene, uvec2 size, const Settings& settings,
+                                const MotionPlan& plan) {
+    Subject subject(device, scene, size, settings);
+    Progress progress(scene.name + ", in motion: frame", plan.frames);
+    for (uint32_t i = 0; i < plan.warmup; ++i) {
+        subject.render();
+    }
+    std::vector<Moved> frames;
+    for (uint32_t i = 0; i < plan.frames; ++i) {
+        subject.look(viewInMotion(scene.view, plan, i + 1));
+        Layers layers = subject.picture({"final", "motion"});
+        frames.push_back({std::move(layers.at("final")), std::move(layers.at("motion"))});
+        progress.advance();
+    }
+    return frames;
+}
+
+}  // namespace
+
+View viewInMotion(const View& view, const MotionPlan& plan, uint32_t frame) {
+    const float angle =
+        glm::radians(plan.degrees) * static_cast<float>(frame) / static_cast<float>(std::max(plan.frames, 1U));
+    const vec3 arm = view.camera.position - view.camera.target;
+    const float c = std::cos(angle);
+    const float s = std::sin(angle);
+    View moved = view;
+    moved.camera.position = view.camera.target + vec3(c * arm.x + s * arm.z, arm.y, c * arm.z - s * arm.x);
+    moved.camera.up = {c * view.camera.up.x + s * view.camera.up.z, view.camera.up.y,
+                       c * view.camera.up.z - s * view.camera.up.x};
+    return moved;
+}
+
+double changeBeyondMotion(const FloatImage& now, const FloatImage& before, const FloatImage& motion) {
+    REFLET_CHECK(now.data.size() == before.data.size() && motion.width == now.width && motion.height == now.height,
+                 "pictures of {}x{} and {}x{}", now.width, now.height, motion.width, motion.height);
+    const size_t channels = now.channels.size();
+    const vec2 size(static_cast<float>(now.width), static_cast<float>(now.height));
+    double sum = 0.0;
+    uint64_t count = 0;
+    for (uint32_t y = 0; y < now.height; ++y) {
+        for (uint32_t x = 0; x < now.width; ++x) {
+            const size_t pixel = size_t(y) * now.width + x;
+            const vec2 moved(motion.data[pixel * motion.channels.size()],
+                             motion.data[pixel * motion.channels.size() + 1]);
+            const vec2 at = vec2(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F) - moved * size;
+            if (glm::any(glm::lessThan(at, vec2(0.0F))) || glm::any(glm::greaterThan(at, size))) {
+                continue;
+            }
+            for (size_t c = 0; c < channels; ++c) {
+                sum += std::abs(double(now.data[pixel * channels + c]) - bilinear(before, at, c));
+            }
+            ++count;
+        }
+    }
+    return count > 0 ? sum / static_cast<double>(count * channels) : 0.0;
+}
+
+MotionResult measureMotion(gpu::Device& device, const BenchScene& scene, uvec2 size, const Settings& settings,
+                           const TruthOptions& truth, const MotionPlan& plan) {
+    const std::vector<Moved> frames = renderMotion(device, scene, size, settings, plan);
+    MotionResult result;
+    BenchScene moved = scene;
+    FloatImage truthBefore;
+    for (uint32_t i = 0; i < plan.frames; ++i) {
+        moved.view = viewInMotion(scene.view, plan, i + 1);
+        const Truth own = getTruth(device, moved, size, settings, truth);
+        const FloatImage& picture = own.layers.at("final");
+        result.flip.push_back(compareImages(frames[i].picture, picture, {}).difference.flip);
+        if (i > 0) {
+            const double turns = plan.frames - 1;
+            result.flicker += changeBeyondMotion(frames[i].picture, frames[i - 1].picture, frames[i].motion) / turns;
+            result.truthFlicker += changeBeyondMotion(picture, truthBefore, frames[i].motion) / turns;
+        }
+        truthBefore = picture;
+    }
+    return result;
+}
+
+}  // namespace reflet

@@ -1,0 +1,47 @@
+// The command line of `reflet bench`.
+#pragma once
+
+#include "apps/scene_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace reflet {
+
+/// What was typed, as it was typed.
+struct BenchCommand {
+    SceneOptions shared;
+    std::vector<std::string> scenes;
+    std::vector<std::string> sizes;
+    std::vector<std::string> presets;
+    std::vector<std::string> variants;
+    std::vector<std::pair<std::string, std::string>> pairs;
+    std::string against;
+    uint32_t rounds = 5;
+    uint32_t firstFrames = 5;
+    uint32_t warmup = 11;
+    uint32_t frames = 20;
+    std::string truth = "reference";
+    std::string truthBounces = "1";
+    bool truthVisibleOnly = true;
+    uint32_t truthSamples = 256;
+    std::string truthFilter = "box";
+    std::string truthCache;
+    std::string layer = "final";
+    bool noBandwidth = false;
+    uint32_t motionFrames = 0;
+    float orbit = 30.0F;
+    std::string device;
+    bool validate = false;
+    std::string json;
+    std::string markdown;
+    std::string plot;
+};
+
+void addBenchOptions(CLI::App& command, BenchCommand& options);
+
+}  // namespace reflet

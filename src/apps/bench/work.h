@@ -1,0 +1,68 @@
+// What a bench measures, and what it found, as plain values.
+#pragma once
+
+#include "apps/bench/motion.h"
+#include "apps/bench/samples.h"
+#include "apps/bench/subject.h"
+#include "apps/bench/truth.h"
+#include "apps/report/variants.h"
+#include "compare/compare.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace reflet {
+
+struct BenchPlan {
+    std::vector<BenchScene> scenes;
+    std::vector<uvec2> sizes;
+    std::vector<Variant> variants;                   ///< each by itself
+    std::vector<std::pair<Variant, Variant>> pairs;  ///< each frame by frame in turn
+    uint32_t firstFrames = 5;                        ///< frames without history
+    uint32_t warmup = 11;                            ///< frames from the last one without history to the measured ones
+    uint32_t frames = 20;                            ///< measured, with history
+    TruthOptions truth;
+    MotionPlan motion;            ///< its warmup is that of the plan
+    std::string layer = "final";  ///< that errors are of
+    float pixelsPerDegree = 67.0F;
+};
+
+/// A frame in one state: without any history, or with that of the frames before it.
+struct BenchState {
+    Samples samples;
+    std::optional<Difference> error;
+};
+
+struct BenchRun {
+    std::string scene;
+    std::string variant;
+    std::string settings;  ///< as --set takes them, what differs from the defaults
+    uvec2 size{0};
+    uint64_t triangles = 0;
+    uint64_t memory = 0;  ///< bytes of the device's own: scene, frame and history
+    BenchState first;
+    BenchState steady;  ///< the error is that of frame warmup + frames + 1
+    std::optional<MotionResult> motion;
+    std::string truthFile;
+    double truthNoise = 0.0;
+    uint32_t truthSamples = 0;
+};
+
+/// Two runs whose frames took turns.
+struct BenchPair {
+    size_t a = 0;  ///< of BenchResult::runs
+    size_t b = 0;
+};
+
+struct BenchResult {
+    std::vector<BenchRun> runs;
+    std::vector<BenchPair> pairs;
+};
+
+/// Shows progress. Throws Error.
+BenchResult measure(const BenchPlan& plan, gpu::Device& device);
+
+}  // namespace reflet

@@ -1,0 +1,28 @@
+// What many measurements of one thing say: the middle, and how far they lie apart.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstddef>
+#include <span>
+
+namespace reflet {
+
+/// Quartiles lie between two values where none stands at a quarter: linear between neighbours, as the median of an even
+/// number of values is.
+struct Spread {
+    size_t count = 0;
+    double median = 0.0;
+    double lowerQuartile = 0.0;
+    double upperQuartile = 0.0;
+    double min = 0.0;
+    double max = 0.0;
+};
+
+/// All 0 where there are no values.
+Spread spreadOf(std::span<const double> values);
+
+/// { "median", "lower_quartile", "upper_quartile", "min", "max", "count" }
+nlohmann::ordered_json spreadJson(const Spread& spread);
+
+}  // namespace reflet

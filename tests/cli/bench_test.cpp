@@ -1,0 +1,220 @@
+// `reflet bench` as a user runs it: what it writes, and what it refuses. Nothing here depends on how long anything
+// takes.
+#include "cli/program.h"
+
+#include <spdlog/fmt/fmt.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace reflet {
+
+namespace {
+
+class BenchTest : public ProgramTest {
+protected:
+    /// `reflet bench builtin:cubes` in little time, with numbers in out.json.
+    [[nodiscard]] Outcome bench(const Arguments& more) const {
+        Arguments all{"bench",  "builtin:cubes", "--first",     "2", "--warmup",      "1",     "--frames", "3",
+                      "--json", "out.json",      "--truth-spp", "2", "--truth-cache", "truths"};
+        if (std::ranges::find(more, "--sizes") == more.end()) {
+            all.insert(all.end(), {"--size", "32x18"});
+        }
+        all.insert(all.end(), more.begin(), more.end());
+        return run(all);
+    }
+
+    [[nodiscard]] nlohmann::json numbers() const { return nlohmann::json::parse(read("out.json")); }
+    [[nodiscard]] size_t truths() const {
+        return static_cast<size_t>(
+            std::distance(std::filesystem::directory_iterator(path("truths")), std::filesystem::directory_iterator()));
+    }
+};
+
+void expectSpread(const nlohmann::json& spread, size_t count) {
+    EXPECT_EQ(spread.at("count"), count);
+    EXPECT_LE(spread.at("min"), spread.at("lower_quartile"));
+    EXPECT_LE(spread.at("lower_quartile"), spread.at("median"));
+    EXPECT_LE(spread.at("median"), spread.at("upper_quartile"));
+    EXPECT_LE(spread.at("upper_quartile"), spread.at("max"));
+}
+
+void expectState(const nlohmann::json& state, size_t frames) {
+    EXPECT_EQ(state.at("frames"), frames);
+    for (const char* total : {"wall_ms", "submitted_ms", "frame_ms"}) {
+        expectSpread(state.at(total), frames);
+        EXPECT_GT(state.at(total).at("median"), 0.0);
+    }
+    for (const char* kind : {"groups", "passes"}) {
+        ASSERT_FALSE(state.at(kind).empty());
+        for (const auto& [name, pass] : state.at(kind).items()) {
+            SCOPED_TRACE(name);
+            expectSpread(pass, frames);
+            EXPECT_TRUE(pass.at("bytes").is_number_unsigned());
+        }
+    }
+    for (const char* metric : {"relative_mse", "flip", "psnr", "bias"}) {
+        EXPECT_TRUE(state.at("error").at(metric).is_number()) << metric;
+    }
+}
+
+}  // namespace
+
+TEST_F(BenchTest, NumbersAreThereForEveryStateOfEveryPreset) {
+    const Outcome outcome = bench({"--preset", "fast,games202"});
+    ASSERT_TRUE(quietSuccess(outcome));
+    const nlohmann::json json = numbers();
+    for (const char* text : {"reflet", "command", "device", "driver"}) {
+        EXPECT_FALSE(json.at(text).get<std::string>().empty()) << text;
+    }
+    EXPECT_GT(json.at("bandwidth_bytes_per_s"), 0.0);
+    ASSERT_EQ(json.at("runs").size(), 2U);
+    EXPECT_EQ(json.at("runs")[0].at("variant"), "fast");
+    EXPECT_EQ(json.at("runs")[1].at("variant"), "games202");
+    for (const nlohmann::json& run : json.at("runs")) {
+        SCOPED_TRACE(run.at("variant"));
+        EXPECT_EQ(run.at("size"), (nlohmann::json{32, 18}));
+        EXPECT_GT(run.at("triangles"), 0);
+        EXPECT_GT(run.at("memory_bytes"), 32 * 18 * 8);
+        expectState(run.at("first"), 2);
+        expectState(run.at("steady"), 3);
+        EXPECT_TRUE(run.at("steady").at("passes").contains("diffuse.trace_screen"));
+        EXPECT_GT(run.at("steady").at("passes").at("gbuffer").at("floor_ms"), 0.0);
+        EXPECT_TRUE(run.at("steady").at("passes").at("gbuffer").at("raster"));
+        EXPECT_TRUE(std::filesystem::is_regular_file(path(run.at("truth").at("file").get<std::string>())));
+    }
+    EXPECT_NE(outcome.out.find("| builtin:cubes | fast | 32x18 |"), std::string::npos);
+}
+
+TEST_F(BenchTest, OneSettingAgainstItselfHasARatioForEveryTurnAndEqualErrors) {
+    ASSERT_TRUE(quietSuccess(bench({"--compare", "preset:fast,diffuse.rays=2", "fast,diffuse.rays=2"})));
+    const nlohmann::json json = numbers();
+    EXPECT_EQ(json.at("runs").size(), 2U);
+    ASSERT_EQ(json.at("comparisons").size(), 1U);
+    const nlohmann::json& pair = json.at("comparisons")[0];
+    EXPECT_EQ(pair.at("a"), "preset:fast,diffuse.rays=2");
+    EXPECT_EQ(pair.at("b"), "fast,diffuse.rays=2");
+    for (const auto& [state, turns] : {std::pair("first", 2U), std::pair("steady", 3U)}) {
+        for (const char* total : {"wall", "submitted", "frame"}) {
+            const nlohmann::json& ratio = pair.at(state).at(total);
+            ASSERT_EQ(ratio.at("ratios").size(), turns) << state << ' ' << total;
+            expectSpread(ratio.at("ratio"), turns);
+            expectSpread(ratio.at("difference_ms"), turns);
+        }
+        // Cube maps may differ in the last bit (docs/conventions.md).
+        EXPECT_NEAR(pair.at(state).at("error_ratio").at("relative_mse"), 1.0, 1e-4);
+        EXPECT_TRUE(pair.at(state).at("passes").contains("diffuse.trace_screen"));
+        EXPECT_TRUE(pair.at(state).at("groups").contains("effects"));
+    }
+}
+
+TEST_F(BenchTest, TheCommandThatIsRecordedDoesTheSameAgain) {
+    ASSERT_TRUE(quietSuccess(bench({"--compare", "direct", "fast,diffuse.rays=2", "--truth-all-light"})));
+    const auto command = numbers().at("command").get<std::string>();
+    EXPECT_TRUE(command.starts_with("reflet bench builtin:cubes")) << command;
+    EXPECT_NE(command.find(" --compare direct fast,diffuse.rays=2"), std::string::npos) << command;
+    EXPECT_NE(command.find(" --truth-all-light"), std::string::npos) << command;
+}
+
+TEST_F(BenchTest, ATruthIsMadeOnceForAllThatItIsTheSameFor) {
+    ASSERT_TRUE(quietSuccess(bench({"--preset", "fast,direct"})));
+    EXPECT_EQ(truths(), 2U);  // one picture and its facts: both presets have the same truth
+    const nlohmann::json first = numbers();
+    ASSERT_TRUE(quietSuccess(bench({"--preset", "fast,direct"})));
+    EXPECT_EQ(truths(), 2U);
+    const nlohmann::json second = numbers();
+    for (size_t i = 0; i < 2; ++i) {
+        const double error = first["runs"][i]["steady"]["error"]["relative_mse"];
+        EXPECT_NEAR(second["runs"][i]["steady"]["error"]["relative_mse"], error, 1e-4 * error);
+        EXPECT_EQ(second["runs"][i]["truth"], first["runs"][i]["truth"]);
+    }
+    ASSERT_TRUE(quietSuccess(bench({"--preset", "fast", "--truth-bounces", "2"})));
+    EXPECT_EQ(truths(), 4U);
+    ASSERT_TRUE(quietSuccess(bench({"--preset", "fast", "--truth-all-light"})));
+    EXPECT_EQ(truths(), 6U);
+}
+
+TEST_F(BenchTest, WithManyRaysOfItsOwnASettingComesNearTheChain) {
+    ASSERT_TRUE(quietSuccess(bench({"--truth", "chain:64", "--variant", "few=diffuse.rays=1,specular.rays=1",
+                                    "--variant", "many=diffuse.rays=32,specular.rays=32"})));
+    const nlohmann::json runs = numbers().at("runs");
+    const auto error = [&](size_t i) { return runs[i]["first"]["error"]["relative_mse"].get<double>(); };
+    EXPECT_LT(error(1), 0.2 * error(0));
+    EXPECT_EQ(runs[0]["truth"]["samples"], 64);
+}
+
+TEST_F(BenchTest, WithoutATruthThereAreNoErrors) {
+    ASSERT_TRUE(quietSuccess(bench({"--truth", "none", "--no-bandwidth"})));
+    EXPECT_TRUE(numbers().at("truth").is_null());
+    EXPECT_TRUE(numbers()["runs"][0]["steady"]["error"].is_null());
+    EXPECT_FALSE(std::filesystem::exists(path("truths")));
+    EXPECT_FALSE(numbers()["runs"][0]["steady"]["passes"]["gbuffer"].contains("floor_ms"));
+}
+
+TEST_F(BenchTest, SeveralSizesSayWhatAPixelCosts) {
+    ASSERT_TRUE(quietSuccess(bench({"--truth", "none", "--sizes", "32x18,64x36,48x27", "--preset", "direct"})));
+    const nlohmann::json json = numbers();
+    EXPECT_EQ(json.at("runs").size(), 3U);
+    ASSERT_EQ(json.at("scaling").size(), 1U);
+    EXPECT_EQ(json["scaling"][0]["sizes"], (nlohmann::json{{32, 18}, {64, 36}, {48, 27}}));
+    EXPECT_EQ(json["scaling"][0]["ns_per_pixel"].size(), 3U);
+    EXPECT_GE(json["scaling"][0]["spread"], 0.0);
+}
+
+TEST_F(BenchTest, FramesInMotionAreHeldAgainstATruthEach) {
+    ASSERT_TRUE(quietSuccess(bench({"--preset", "direct", "--motion", "3", "--orbit", "10"})));
+    const nlohmann::json motion = numbers()["runs"][0]["motion"];
+    EXPECT_EQ(motion.at("flip").size(), 3U);
+    EXPECT_GT(motion.at("flicker"), 0.0);
+    EXPECT_GT(motion.at("truth_flicker"), 0.0);
+    EXPECT_EQ(truths(), 2U * 4U);  // at rest, and three more
+    EXPECT_TRUE(refused(bench({"--motion", "3", "--truth", "none"}), 2, {"--motion", "--truth"}));
+}
+
+TEST_F(BenchTest, AnotherBuildTakesTurnsWithThisOne) {
+    ASSERT_TRUE(quietSuccess(
+        bench({"--against", REFLET_PROGRAM, "--rounds", "2", "--preset", "fast", "--set", "diffuse.rays=2"})));
+    const nlohmann::json json = numbers();
+    ASSERT_EQ(json.at("runs").size(), 2U);
+    EXPECT_EQ(json["runs"][0]["variant"], "this build, fast");
+    EXPECT_NE(json["runs"][1]["settings"].get<std::string>().find("diffuse.rays=2"), std::string::npos);
+    ASSERT_EQ(json.at("comparisons").size(), 1U);
+    EXPECT_EQ(json["comparisons"][0]["steady"]["frame"]["ratios"].size(), 2U);
+    EXPECT_EQ(json["comparisons"][0]["first"]["submitted"]["ratios"].size(), 2U);
+    EXPECT_TRUE(json["comparisons"][0]["steady"]["passes"].contains("gbuffer"));
+}
+
+TEST_F(BenchTest, ABuildWithoutABenchIsAskedForItsTimings) {
+    write("old", fmt::format("#!/bin/sh\n[ \"$1\" = bench ] && exit 2\nexec '{}' \"$@\"\n", REFLET_PROGRAM));
+    std::filesystem::permissions(path("old"), std::filesystem::perms::owner_all);
+    ASSERT_TRUE(quietSuccess(bench({"--against", "./old", "--rounds", "1", "--preset", "direct"})));
+    EXPECT_EQ(numbers()["comparisons"][0]["steady"]["frame"]["ratios"].size(), 1U);
+}
+
+TEST_F(BenchTest, WritesTablesAndAPlotWhereAsked) {
+    const Outcome outcome = bench({"--preset", "direct", "--markdown", "t.md", "--plot", "p.svg"});
+    ASSERT_TRUE(quietSuccess(outcome));
+    EXPECT_EQ(read("t.md"), outcome.out);
+    EXPECT_TRUE(read("p.svg").starts_with("<svg "));
+    EXPECT_NE(read("p.svg").find("direct"), std::string::npos);
+}
+
+TEST_F(BenchTest, IsSilentUnderValidation) {
+    EXPECT_TRUE(quietSuccess(bench({"--preset", "fast", "--validate"})));
+}
+
+TEST_F(BenchTest, RefusesWhatItDoesNotKnowAndNamesTheNearest) {
+    EXPECT_TRUE(refused(bench({"--preset", "fats"}), 2, {"'fats'", "did you mean 'fast'?"}));
+    EXPECT_TRUE(refused(bench({"--compare", "fast", "preset:qualty"}), 2, {"'qualty'", "did you mean 'quality'?"}));
+    EXPECT_TRUE(refused(bench({"--compare", "fast", "diffuse.ray=1"}), 2, {"diffuse.rays"}));
+    EXPECT_TRUE(refused(bench({"--compare", "diffuse.rays=1,fast", "fast"}), 2, {"a preset must come first"}));
+    EXPECT_TRUE(refused(bench({"--truth", "guess"}), 2, {"--truth", "chain:RAYS"}));
+    EXPECT_TRUE(refused(bench({"--truth-bounces", "many"}), 2, {"--truth-bounces", "unlimited"}));
+    EXPECT_TRUE(refused(bench({"--layer", "depth"}), 2, {"--layer", "indirect_diffuse"}));
+    EXPECT_TRUE(refused(bench({"--sizes", "32x18,big"}), 2, {"'big'"}));
+    EXPECT_TRUE(refused(bench({"--against", "./no-such-program"}), 2, {"no-such-program", "cannot be run"}));
+    EXPECT_TRUE(refused(bench({"--compare", "fast", "fast", "--against", REFLET_PROGRAM}), 2, {"--compare"}));
+    EXPECT_FALSE(std::filesystem::exists(path("out.json")));
+}
+
+}  // namespace reflet
