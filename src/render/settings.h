@@ -14,6 +14,7 @@
 #include "render/planar/planar.h"
 #include "render/probe/probes.h"
 #include "render/shadow/shadow.h"
+#include "render/temporal/temporal.h"
 #include "render/tonemap/tonemap.h"
 #include "render/trace_scene/trace_scene.h"
 
@@ -40,6 +41,7 @@ struct Settings {
     DiffuseSettings diffuse;
     SpecularSettings specular;
     AccumulateSettings accumulate;
+    TemporalSettings temporal;
     TonemapSettings tonemap;
 };
 
