@@ -1,4 +1,4 @@
-// Temporal antialiasing. In: this frame's radiance, depth, motion; mean, number of frames and flicker of the last ones.
+// Temporal antialiasing. In: this frame's radiance, depth, motion; mean, number of frames and deviations of the last ones.
 // Out: the same with this frame.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -14,12 +14,19 @@ layout(set = 0, binding = 1, rgba16f) uniform readonly image2D radiance;
 layout(set = 0, binding = 2) uniform sampler2D depth;
 layout(set = 0, binding = 3) uniform sampler2D motion;
 layout(set = 0, binding = 4, rgba16f) uniform readonly image2D previousMean;    // radiance, number of frames
-layout(set = 0, binding = 5, r16f) uniform readonly image2D previousFlicker;  // variance of the frames, compressed luma
+layout(set = 0, binding = 5, rg16f) uniform readonly image2D previousDeviations;
 layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D mean;
-layout(set = 0, binding = 7, r16f) uniform writeonly image2D flicker;
+layout(set = 0, binding = 7, rg16f) uniform writeonly image2D deviations;
 
 // What rounding alone may make of a constant, in tone-compressed radiance.
 const float slack = 0.002;
+const float stillest = 0.25;     // pixels a frame, from where on nothing is taken to be at rest
+const float restAllowance = 1.25;  // factor on the limits at rest
+// At rest, an edge or a thin bar is in a pixel's frames by turns: limits are widened by how much frames have differed
+// from their mean. If they differ to the same side again and again, the mean is out of date. That is told by the square
+// of the recent mean difference, over the variance, within these limits.
+const vec2 staleness = vec2(0.4, 0.8);
+const float recent = 0.2;  // weight of a frame in the recent mean difference
 
 // Three pixels side by side.
 struct Row {
@@ -71,32 +78,42 @@ float insideShare(vec3 c, vec3 middle, vec3 halfSize) {
     return 1.0 / max(max(out3.x, out3.y), max(out3.z, 1.0));
 }
 
+// The pixel whose surface is nearest of the nine.
+ivec2 nearestAround(Row above, Row row, Row below) {
+    ivec2 at = above.nearest > row.nearest ? above.at : row.at;
+    return below.nearest > max(above.nearest, row.nearest) ? below.at : at;
+}
+
 void resolve(ivec2 pixel, Row above, Row row, Row below) {
-    ivec2 front = above.nearest > row.nearest ? above.at : row.at;
-    front = below.nearest > max(above.nearest, row.nearest) ? below.at : front;
-    vec2 moved = texelFetch(motion, front, 0).rg * vec2(params.size);
+    vec2 moved = texelFetch(motion, nearestAround(above, row, below), 0).rg * vec2(params.size);
     vec2 at = vec2(pixel) - moved;
     bool known = params.hasPrevious != 0u && all(greaterThan(at, vec2(-0.5))) &&
                  all(lessThan(at, vec2(params.size) - 0.5));
-    float still = max(1.0 - length(moved), 0.0);
+    float still = known ? max(1.0 - length(moved) / stillest, 0.0) : 0.0;
     vec4 before = known ? remembered(at) : vec4(0.0);
+    vec2 differed = still > 0.0 ? imageLoad(previousDeviations, ivec2(at + 0.5)).rg : vec2(0.0);
+    float stale = differed.y * differed.y / (differed.x + 1e-5);
+    float trust = still * clamp((staleness.y - stale) / (staleness.y - staleness.x), 0.0, 1.0);
+    float variance = trust * differed.x;
 
-    vec3 now = toneCompress(row.middle);
     vec3 held = toneCompress(before.rgb);
     vec3 middle = (above.sum + row.sum + below.sum) / 9.0;
-    vec3 variance = max((above.squares + row.squares + below.squares) / 9.0 - middle * middle, 0.0);
-    float varied = known ? still * imageLoad(previousFlicker, ivec2(at + 0.5)).r : 0.0;
-    float share = insideShare(held, middle, params.settings.deviations * sqrt(variance + varied) + slack);
+    vec3 around = max((above.squares + row.squares + below.squares) / 9.0 - middle * middle, 0.0);
+    float allowed = params.settings.deviations * mix(1.0, restAllowance, still);
+    float share = insideShare(held, middle, allowed * sqrt(around + variance) + slack);
     vec3 clipped = mix(middle, held, share);
     vec3 kept = share < 1.0 ? toneExpand(clipped) : before.rgb;
 
     float most = mix(float(params.settings.framesInMotion), float(params.settings.frames), still);
-    float frames = min(before.a * share, most - 1.0) + 1.0;
-    float off = now.x - clipped.x;
+    float fresh = still > 0.0 ? trust / still : 1.0;
+    float frames = min(before.a * share * fresh, most - 1.0) + 1.0;
+    float weight = 1.0 / frames;
+    vec3 sum = frames > 1.0 ? mix(kept, row.middle, weight) : row.middle;
     uint random = hashPixel(uvec2(pixel), 0u, params.frame);
-    vec3 sum = frames > 1.0 ? mix(kept, row.middle, 1.0 / frames) : row.middle;
     imageStore(mean, pixel, vec4(ditherToHalf(clampToHalf(sum), random), frames));
-    imageStore(flicker, pixel, vec4(still * mix(varied, off * off, 1.0 / frames)));
+    float off = toneCompress(row.middle).x - clipped.x;
+    vec2 differs = vec2(still * mix(variance, off * off, weight), trust * mix(differed.y, off, max(weight, recent)));
+    imageStore(deviations, pixel, vec4(differs, 0.0, 0.0));
 }
 
 void main() {
