@@ -128,8 +128,8 @@ TEST_F(Temporal, RestComesToTheMeanOverThePixelsArea) {
     const double rested = errorOf(last, vec2(0.0F));
     RecordProperty("first", std::to_string(first));
     RecordProperty("rested", std::to_string(rested));
-    EXPECT_LT(rested, 0.01 * first) << first;
-    for (uint32_t i = 32; i < 96; ++i) {  // and it stays there
+    EXPECT_LT(rested, 0.06 * first) << rested << " of " << first;  // the mean of 32 samples: 0.04
+    for (uint32_t i = 32; i < 96; ++i) {                           // and it stays there
         last = run.add([&](uvec2 p) { return MadeUpPixel{patternAt(vec2(p) + 0.5F + placeInPixel(i))}; });
     }
     EXPECT_LT(errorOf(last, vec2(0.0F)), 1.2 * rested);
@@ -194,7 +194,7 @@ TEST_F(Temporal, WhatAMovingThingUncoversIsFreeOfIt) {
     for (const float speed : {2.0F, 5.0F}) {
         TemporalRun run(device(), size);
         std::vector<vec4> last;
-        Square square{{4.0F, 24.0F}};
+        Square square{{4.0F, 32.0F}};  // below the bright spot
         Square before = square;
         Square twoBefore = square;
         for (uint32_t i = 0; i < 12; ++i) {
@@ -213,13 +213,13 @@ TEST_F(Temporal, WhatAMovingThingUncoversIsFreeOfIt) {
         for (uint32_t y = 0; y < size.y; ++y) {
             for (uint32_t x = 0; x < size.x; ++x) {
                 const vec2 at = vec2(x, y) + 0.5F;
-                Square wide{square.low - 1.5F, square.side + 3.0F};  // where neighbours show the square
+                const Square wide{square.low - 0.5F, square.side + 1.0F};  // of which no jittered frame shows it
                 if (wide.holds(at) || !twoBefore.holds(at)) {
                     continue;
                 }
                 const int age = before.holds(at) ? 0 : 1;
                 // How red it is beyond the pattern's brightest red here.
-                const double trail = double(last[y * size.x + x].r) - 0.8;
+                const double trail = double(last[y * size.x + x].r) - 0.9;
                 worst[age] = std::max(worst[age], trail / double(color.r));
                 sum[age] += std::max(trail, 0.0) / double(color.r);
                 count[age] += 1.0;

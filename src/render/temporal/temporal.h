@@ -19,8 +19,9 @@ SHARED_BEGIN
            "Antialias the picture over frames (--frames): each looks through another place in the pixel. Not with " \
            "accumulate.enabled, whose mean is over the pixel already.")                                             \
     VALUE(uint, frames, 32, 1, 1024, "Frames whose mean is taken where nothing moves.")                             \
-    VALUE(uint, framesInMotion, 8, 1, 1024, "The same where something moves by a pixel a frame, or faster.")        \
-    VALUE(float, deviations, 1.0, 0.0, 16.0,                                                                       \
+    VALUE(uint, framesInMotion, 8, 1, 1024,                                                                         \
+          "The same where something moves by a quarter of a pixel a frame, or faster.")                             \
+    VALUE(float, deviations, 1.0, 0.0, 16.0,                                                                        \
           "How far the mean over frames may be from the pixels around it now, in standard deviations of theirs.")
 SETTINGS(TemporalSettings, TEMPORAL_SETTINGS)
 
