@@ -26,7 +26,7 @@ const float restAllowance = 1.25;  // factor on the limits at rest
 // from their mean. If they differ to the same side again and again, the mean is out of date. That is told by the square
 // of the recent mean difference, over the variance, within these limits.
 const vec2 staleness = vec2(0.4, 0.8);
-const float recent = 0.2;  // weight of a frame in the recent mean difference
+const float recent = 0.25;  // weight of a frame in the recent mean difference
 
 // Three pixels side by side.
 struct Row {
