@@ -27,7 +27,7 @@ vec3 patternAt(vec2 at) {
     const vec2 middle = 0.5F * vec2(size);
     const vec2 p = at - middle;
     if (p.x * p.x + p.y * p.y < 9.0F) {
-        return vec3(20.0F, 15.0F, 10.0F);
+        return {20.0F, 15.0F, 10.0F};
     }
     if (at.y < 12.0F) {
         return std::fmod(at.x + 0.21F * at.y + 100.0F, 7.0F) < 0.4F ? vec3(1.0F) : vec3(0.1F);  // thin bars
