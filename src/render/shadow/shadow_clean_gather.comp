@@ -69,8 +69,8 @@ Neighbours look(ivec2 pixel, float d, float middle, ScreenPlane plane) {
 vec2 remembered(ivec2 pixel, vec3 p, ScreenPlane plane) {
     vec4 before = params.view.previousWorldToClip * vec4(p, 1.0);
     float expected = before.z / before.w;
-    // Under jitter, pixels' means are over their area: they are read as if there were none, which does not blur them while
-    // nothing moves. Where in its pixel the last frame has met the surface counts for its depth alone.
+    // Under jitter, pixels' means are over their area: they are read as if there were none, which does not blur them
+    // while nothing moves. Where in its pixel the last frame has met the surface counts for its depth alone.
     vec2 jitter = params.view.jitterChange * params.view.size;
     vec2 at = (pixelToUv(pixel, params.view.pixel) - texelFetch(motion, pixel, 0).rg) * params.view.size - 0.5;
     ivec2 corner = ivec2(floor(at));

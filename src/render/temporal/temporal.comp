@@ -1,5 +1,5 @@
-// Temporal antialiasing. In: this frame's radiance, depth, motion; mean, number of frames and deviations of the last ones.
-// Out: the same with this frame.
+// Temporal antialiasing. In: this frame's radiance, depth, motion; mean, number of frames and deviations of the last
+// ones. Out: the same with this frame.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/temporal/temporal.h"
