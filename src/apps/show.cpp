@@ -109,6 +109,9 @@ vec3 countRedGreen(const float* v) {
 vec3 lampsCounted(const float* v) {
     return vec3(std::clamp(v[0] / 32.0F, 0.0F, 1.0F));
 }
+vec3 framesCounted(const float* v) {
+    return vec3(std::clamp(v[0] / 32.0F, 0.0F, 1.0F));
+}
 vec3 cascadeColor(const float* v) {
     constexpr vec3 colors[maxCascades] = {
         {0.9F, 0.3F, 0.25F}, {0.3F, 0.75F, 0.35F}, {0.3F, 0.45F, 0.9F}, {0.9F, 0.8F, 0.3F}};
@@ -131,6 +134,11 @@ const std::vector<Show>& table() {
     static const std::vector<Show> all{
         {"final", "the whole picture: radiance; PNG tone mapped",
          [](const FrameImages& i) { return Images{i.light.lit}; }, color, rgb, nullptr},
+        {"unfiltered", "the same before temporal antialiasing: radiance",
+         [](const FrameImages& i) { return Images{i.unfiltered}; }, color, rgb, encoded},
+        {"temporal_frames",
+         "how many frames are in the pixel's mean over frames; PNG 1 is 32 frames; only with temporal.enabled",
+         [](const FrameImages& i) { return Images{i.temporal}; }, alpha, y, framesCounted},
         {"direct", "sun, lamps, emission and background: radiance",
          [](const FrameImages& i) { return Images{i.direct}; }, color, rgb, encoded},
         {"indirect_diffuse", "light by way of diffuse rays: radiance",

@@ -1,7 +1,7 @@
 // The frame, top to bottom: values in, values out. Start reading here.
 //
 //     direct view (G-buffer → depth pyramid → sun and lamp visibility → direct light) → diffuse rays → answer chain
-//     → planar views → specular rays → answer chain → composite → tone map
+//     → planar views → specular rays → answer chain → composite → temporal antialiasing → tone map
 //
 // renderFrame, at the end, is all of it; its parts stand above it, and in direct_view.cpp what other views need, too.
 // There is no graph compiler: an `if` in these two files is the only culling.
@@ -16,6 +16,7 @@
 #include "render/planar/planar_view.h"
 #include "render/probe/answer_probes.h"
 #include "render/scene_source.h"
+#include "render/temporal/temporal.h"
 #include "render/tonemap/tonemap.h"
 
 #include <algorithm>
@@ -206,6 +207,11 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
         const LightLayers means = accumulate(f, {out.direct, out.light}, in.framesBefore);
         out.direct = means.direct;
         out.light = means.light;
+    }
+    out.unfiltered = out.light.lit;
+    if (settings.temporal.enabled != 0 && settings.accumulate.enabled == 0) {
+        out.temporal = temporal(f, out.g, out.light.lit, settings.temporal, in.view.frame);
+        out.light.lit = out.temporal;
     }
     out.display = tonemap(f, out.light.lit, settings.tonemap);
     return out;

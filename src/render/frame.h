@@ -22,6 +22,8 @@ struct FrameImages : ViewImages {
     LobeLight diffuse;
     LobeLight specular;
     Composite light;
+    gpu::Image unfiltered;  ///< light.lit before temporal antialiasing
+    gpu::Image temporal;    ///< radiance, number of frames; none without temporal antialiasing
     gpu::Image display;
 };
 

@@ -4,10 +4,10 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "noise/blue_noise.h"
+#include "render/jitter.h"
 #include "render/probe/place_probes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 namespace reflet {
@@ -109,23 +109,12 @@ const std::vector<Probe>& Renderer::probesOf(const View& view, const ProbesSetti
 
 namespace {
 
-// The R2 sequence: spread evenly over the pixel, however many there are. -0.5 to 0.5, the first in the middle.
-// (M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018)
-vec2 placeInPixel(uint32_t index) {
-    constexpr double step[] = {0.7548776662466927, 0.5698402909980532};
-    const auto at = [&](double s) { return static_cast<float>(std::fmod(0.5 + index * s, 1.0) - 0.5); };
-    return {at(step[0]), at(step[1])};
-}
-
-// Moves the picture such that pixels' centres show what was `place` pixels off them.
-void lookThrough(ViewParams& view, const vec2& place) {
-    const vec2 shift = -2.0F * place * view.pixel;  // in clip space, where w is 1
-    mat4 move(1.0F);
-    move[3] = vec4(shift, 0.0F, 1.0F);
-    mat4 back(1.0F);
-    back[3] = vec4(-shift, 0.0F, 1.0F);
-    view.worldToClip = move * view.worldToClip;
-    view.clipToWorld = view.clipToWorld * back;
+// Pixels off the centre.
+vec2 jitterOf(const Settings& settings, uint32_t frame, uint32_t framesBefore) {
+    if (settings.accumulate.enabled != 0) {
+        return settings.accumulate.jitter != 0 ? placeInPixel(framesBefore) : vec2(0.0F);
+    }
+    return settings.temporal.enabled != 0 ? placeInPixel(frame) : vec2(0.0F);
 }
 
 }  // namespace
@@ -161,6 +150,7 @@ void Renderer::restart(uint32_t frameNumber) {
     frameNumber_ = frameNumber;
     frame_.forgetHistories();
     previousWorldToClip_.reset();
+    previousPlace_ = vec2(0.0F);
     asked_.reset();
     framesBefore_ = 0;
     pose_.reset();
@@ -178,12 +168,12 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
     params.previousWorldToClip = previousWorldToClip_.value_or(params.worldToClip);
     previousWorldToClip_ = params.worldToClip;
     const uint32_t framesBefore = countFramesBefore(view, params, settings);
-    if (settings.accumulate.enabled != 0 && settings.accumulate.jitter != 0) {
-        lookThrough(params, placeInPixel(framesBefore));
-    }
+    const std::vector<Mirror> mirrors = planMirrors(view, params, settings);  // their pictures' sizes do not jitter
+    const vec2 place = jitterOf(settings, params.frame, framesBefore);
+    lookThrough(params, place, previousPlace_);
+    previousPlace_ = place;
     LampBlock lamps = scene_.lamps();
     const LampShadows lampShadows = planLamps(lamps, view, settings.shadow);
-    const std::vector<Mirror> mirrors = planMirrors(view, params, settings);
     scene_.setTextureFilter(settings.materials.anisotropy, settings.materials.mips != 0);
     scene_.setLiveHeight(settings.live.height);
     const std::vector<LiveView> live = liveViews(params);

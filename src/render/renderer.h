@@ -76,7 +76,8 @@ private:
 
     std::optional<Asked> asked_;  ///< of the last frame
     uint32_t framesBefore_ = 0;
-    std::optional<mat4> previousWorldToClip_;
+    std::optional<mat4> previousWorldToClip_;  ///< without jitter
+    vec2 previousPlace_{0.0F};                 ///< in the pixel, that the last frame looked through
     uint32_t frameNumber_ = 0;
 };
 

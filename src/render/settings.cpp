@@ -41,6 +41,7 @@ std::vector<SettingEntry> makeEntries() {
     addEffect<SpecularSettings>(entries, "specular", offsetof(Settings, specular));
     addEffect<DenoiseSettings>(entries, "denoise", offsetof(Settings, denoise));
     addEffect<AccumulateSettings>(entries, "accumulate", offsetof(Settings, accumulate));
+    addEffect<TemporalSettings>(entries, "temporal", offsetof(Settings, temporal));
     addEffect<TonemapSettings>(entries, "tonemap", offsetof(Settings, tonemap));
     return entries;
 }
@@ -144,7 +145,8 @@ bool keepsHistory(const Settings& settings) {
     const bool penumbras = shadow.filter == ShadowFilter::pcf || shadow.filter == ShadowFilter::pcss;
     return settings.traceScreen.light == HitLight::previous || (penumbras && shadow.clean != 0 && shadow.history > 0) ||
            (settings.probes.enabled != 0 && settings.probes.refresh == ProbeRefresh::face) ||
-           settings.accumulate.enabled != 0;
+           settings.accumulate.enabled != 0 || settings.temporal.enabled != 0 ||
+           (settings.denoise.enabled != 0 && settings.denoise.history > 0);
 }
 
 const std::vector<SettingEntry>& settingEntries() {

@@ -15,6 +15,7 @@
 #include "render/planar/planar.h"
 #include "render/probe/probes.h"
 #include "render/shadow/shadow.h"
+#include "render/temporal/temporal.h"
 #include "render/tonemap/tonemap.h"
 #include "render/trace_scene/trace_scene.h"
 
@@ -42,6 +43,7 @@ struct Settings {
     SpecularSettings specular;
     DenoiseSettings denoise;
     AccumulateSettings accumulate;
+    TemporalSettings temporal;
     TonemapSettings tonemap;
 };
 

@@ -17,4 +17,14 @@ vec4 roundToHalf(vec4 v) {
     return uintBitsToFloat((bits + 0xfffu + ((bits >> 13u) & 1u)) & ~0x1fffu);
 }
 
+// One of the two nearest half floats of values from 0 to largestHalf, by chance, such that the mean is kept: a mean
+// over frames whose steps are smaller than half floats tell apart does not get stuck. What is a half float but for
+// rounding stays what it is. random: 32 bits.
+vec3 ditherToHalf(vec3 v, uint random) {
+    const uint margin = 64u;  // of 8192 steps of floats between two half floats
+    uvec3 part = uvec3(random, random >> 10u, random >> 19u) & 0x1fffu;
+    uvec3 bits = floatBitsToUint(v) + margin + part - ((part * margin) >> 12u);
+    return uintBitsToFloat(bits & ~0x1fffu);
+}
+
 #endif

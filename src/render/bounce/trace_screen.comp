@@ -77,7 +77,7 @@ vec3 loadLight(ivec2 cell, int level) {
 vec3 lightAt(ivec2 pixel, float width) {
     vec2 uv = pixelToUv(pixel, params.view.pixel);
     if (fromPrevious()) {
-        uv -= texelFetch(motion, pixel, 0).xy;
+        uv += params.view.jitterChange - texelFetch(motion, pixel, 0).xy;
         if (any(lessThan(uv, vec2(0.0))) || any(greaterThanEqual(uv, vec2(1.0)))) {
             return imageLoad(light, pixel).rgb;
         }

@@ -23,7 +23,7 @@ SHARED_BEGIN
           "it is remembered, and where what rays hit is near or the lobe narrow.")                                 \
     VALUE(float, fireflies, 8.0, 0.0, 1000.0,                                                                      \
           "What is brighter than so many times the mean around it is spread over its neighbours; 0: it is not.")   \
-    VALUE(float, clip, 1.0, 0.0, 100.0,                                                                            \
+    VALUE(float, clip, 2.0, 0.0, 100.0,                                                                            \
           "How far the past may differ from what neighbours show now, in standard deviations of a pixel's light; " \
           "less: nothing trails behind; more: less noise. 0: as far as it likes.")
 SETTINGS(DenoiseSettings, DENOISE_SETTINGS)

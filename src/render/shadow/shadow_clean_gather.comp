@@ -69,6 +69,9 @@ Neighbours look(ivec2 pixel, float d, float middle, ScreenPlane plane) {
 vec2 remembered(ivec2 pixel, vec3 p, ScreenPlane plane) {
     vec4 before = params.view.previousWorldToClip * vec4(p, 1.0);
     float expected = before.z / before.w;
+    // Under jitter, pixels' means are over their area: they are read as if there were none, which does not blur them
+    // while nothing moves. Where in its pixel the last frame has met the surface counts for its depth alone.
+    vec2 jitter = params.view.jitterChange * params.view.size;
     vec2 at = (pixelToUv(pixel, params.view.pixel) - texelFetch(motion, pixel, 0).rg) * params.view.size - 0.5;
     ivec2 corner = ivec2(floor(at));
     vec2 f = at - vec2(corner);
@@ -81,7 +84,7 @@ vec2 remembered(ivec2 pixel, vec3 p, ScreenPlane plane) {
         }
         uvec2 bits = imageLoad(previous, texel).xy;
         float frames = float(bits.x >> 16u);
-        float height = heightAbove(plane, vec2(texel) - at, uintBitsToFloat(bits.y) - expected);
+        float height = heightAbove(plane, vec2(texel) - at - jitter, uintBitsToFloat(bits.y) - expected);
         if (frames > 0.0 && abs(height) <= historySlack) {
             vec2 share = mix(1.0 - f, f, vec2(o));
             sum += share.x * share.y * vec3(float(bits.x & 0xffffu) / 65535.0, frames, 1.0);

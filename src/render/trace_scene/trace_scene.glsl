@@ -109,7 +109,7 @@ bool screenLight(SceneSurface at, out vec3 radiance) {
         radiance = imageLoad(light, pixel).rgb;
         return true;
     }
-    uv -= texelFetch(motion, pixel, 0).xy;
+    uv += params.view.jitterChange - texelFetch(motion, pixel, 0).xy;
     bool inside = all(greaterThanEqual(uv, vec2(0.0))) && all(lessThan(uv, vec2(1.0)));
     if (inside) {
         radiance = imageLoad(previousLit, ivec2(uv * params.view.size)).rgb;

@@ -1,0 +1,133 @@
+// Temporal antialiasing. In: this frame's radiance, depth, motion; mean, number of frames and deviations of the last
+// ones. Out: the same with this frame.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "render/temporal/temporal.h"
+#include "shaders/catmull_rom.glsl"
+#include "shaders/half_float.glsl"
+#include "shaders/noise.glsl"
+#include "shaders/tone_compressed.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { TemporalParams params; };
+layout(set = 0, binding = 1, rgba16f) uniform readonly image2D radiance;
+layout(set = 0, binding = 2) uniform sampler2D depth;
+layout(set = 0, binding = 3) uniform sampler2D motion;
+layout(set = 0, binding = 4, rgba16f) uniform readonly image2D previousMean;    // radiance, number of frames
+layout(set = 0, binding = 5, rg16f) uniform readonly image2D previousDeviations;
+layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D mean;
+layout(set = 0, binding = 7, rg16f) uniform writeonly image2D deviations;
+
+// What rounding alone may make of a constant, in tone-compressed radiance.
+const float slack = 0.002;
+const float stillest = 0.25;     // pixels a frame, from where on nothing is taken to be at rest
+const float restAllowance = 1.25;  // factor on the limits at rest
+// At rest, an edge or a thin bar is in a pixel's frames by turns: limits are widened by how much frames have differed
+// from their mean. If they differ to the same side again and again, the mean is out of date. That is told by the square
+// of the recent mean difference, over the variance, within these limits.
+const vec2 staleness = vec2(0.4, 0.8);
+const float recent = 0.25;  // weight of a frame in the recent mean difference
+
+// Three pixels side by side.
+struct Row {
+    vec3 middle;   // linear
+    vec3 sum;      // tone-compressed
+    vec3 squares;
+    float nearest;  // reversed depth
+    ivec2 at;       // of that
+};
+
+Row loadRow(ivec2 pixel) {
+    ivec2 last = ivec2(params.size) - 1;
+    Row row = Row(vec3(0.0), vec3(0.0), vec3(0.0), -1.0, pixel);
+    for (int x = -1; x <= 1; ++x) {
+        ivec2 at = clamp(pixel + ivec2(x, 0), ivec2(0), last);
+        vec3 c = clampToHalf(imageLoad(radiance, at).rgb);
+        row.middle = x == 0 ? c : row.middle;
+        vec3 t = toneCompress(c);
+        row.sum += t;
+        row.squares += t * t;
+        float d = texelFetch(depth, at, 0).r;
+        row.at = d > row.nearest ? at : row.at;
+        row.nearest = max(d, row.nearest);
+    }
+    return row;
+}
+
+// Mean radiance and number of frames at this place, in texels from the first one's centre.
+vec4 remembered(vec2 at) {
+    ivec2 last = ivec2(params.size) - 1;
+    CatmullRom taps = catmullRom(at);
+    vec4 sum = vec4(0.0);
+    float total = 0.0;
+    for (int y = taps.first.y; y <= taps.last.y; ++y) {
+        bool outer = y == -1 || y == 2;
+        int end = outer ? min(taps.last.x, 1) : taps.last.x;
+        for (int x = outer ? max(taps.first.x, 0) : taps.first.x; x <= end; ++x) {
+            float weight = taps.x[x + 1] * taps.y[y + 1];
+            sum += weight * imageLoad(previousMean, clamp(taps.corner + ivec2(x, y), ivec2(0), last));
+            total += weight;
+        }
+    }
+    return max(sum / total, vec4(0.0));
+}
+
+// How far from the middle of a box toward c its side is, at most 1.
+float insideShare(vec3 c, vec3 middle, vec3 halfSize) {
+    vec3 out3 = abs(c - middle) / halfSize;
+    return 1.0 / max(max(out3.x, out3.y), max(out3.z, 1.0));
+}
+
+// The pixel whose surface is nearest of the nine.
+ivec2 nearestAround(Row above, Row row, Row below) {
+    ivec2 at = above.nearest > row.nearest ? above.at : row.at;
+    return below.nearest > max(above.nearest, row.nearest) ? below.at : at;
+}
+
+void resolve(ivec2 pixel, Row above, Row row, Row below) {
+    vec2 moved = texelFetch(motion, nearestAround(above, row, below), 0).rg * vec2(params.size);
+    vec2 at = vec2(pixel) - moved;
+    bool known = params.hasPrevious != 0u && all(greaterThan(at, vec2(-0.5))) &&
+                 all(lessThan(at, vec2(params.size) - 0.5));
+    float still = known ? max(1.0 - length(moved) / stillest, 0.0) : 0.0;
+    vec4 before = known ? remembered(at) : vec4(0.0);
+    vec2 differed = still > 0.0 ? imageLoad(previousDeviations, ivec2(at + 0.5)).rg : vec2(0.0);
+    float stale = differed.y * differed.y / (differed.x + 1e-5);
+    float trust = still * clamp((staleness.y - stale) / (staleness.y - staleness.x), 0.0, 1.0);
+    float variance = trust * differed.x;
+
+    vec3 held = toneCompress(before.rgb);
+    vec3 middle = (above.sum + row.sum + below.sum) / 9.0;
+    vec3 around = max((above.squares + row.squares + below.squares) / 9.0 - middle * middle, 0.0);
+    float allowed = params.settings.deviations * mix(1.0, restAllowance, still);
+    float share = insideShare(held, middle, allowed * sqrt(around + variance) + slack);
+    vec3 clipped = mix(middle, held, share);
+    vec3 kept = share < 1.0 ? toneExpand(clipped) : before.rgb;
+
+    float most = mix(float(params.settings.framesInMotion), float(params.settings.frames), still);
+    float fresh = still > 0.0 ? trust / still : 1.0;
+    float frames = min(before.a * share * fresh, most - 1.0) + 1.0;
+    float weight = 1.0 / frames;
+    vec3 sum = frames > 1.0 ? mix(kept, row.middle, weight) : row.middle;
+    uint random = hashPixel(uvec2(pixel), 0u, params.frame);
+    imageStore(mean, pixel, vec4(ditherToHalf(clampToHalf(sum), random), frames));
+    float off = toneCompress(row.middle).x - clipped.x;
+    vec2 differs = vec2(still * mix(variance, off * off, weight), trust * mix(differed.y, off, max(weight, recent)));
+    imageStore(deviations, pixel, vec4(differs, 0.0, 0.0));
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.x, gl_GlobalInvocationID.y * temporalColumn);
+    if (any(greaterThanEqual(uvec2(pixel), params.size))) {
+        return;
+    }
+    int end = min(pixel.y + int(temporalColumn), int(params.size.y));
+    Row above = loadRow(pixel - ivec2(0, 1));
+    Row row = loadRow(pixel);
+    for (; pixel.y < end; ++pixel.y) {
+        Row below = loadRow(pixel + ivec2(0, 1));
+        resolve(pixel, above, row, below);
+        above = row;
+        row = below;
+    }
+}

@@ -1,0 +1,25 @@
+// Records the temporal antialiasing.
+#include "render/temporal/temporal.h"
+
+namespace reflet {
+
+gpu::Image temporal(gpu::Frame& f, const GBuffer& g, gpu::Image radiance, const TemporalSettings& settings,
+                    uint32_t frame) {
+    const uvec2 size = radiance.size;
+    const gpu::History mean = f.history("temporal", VK_FORMAT_R16G16B16A16_SFLOAT, size);
+    // Of the tone-compressed luma of frames at rest, from their mean: variance, and mean over the last few frames.
+    const gpu::History deviations = f.history("temporal_deviations", VK_FORMAT_R16G16_SFLOAT, size);
+    f.compute("temporal", "temporal.comp")
+        .read("radiance", radiance)
+        .read("depth", g.depth)
+        .read("motion", g.motion)
+        .read("previousMean", mean.previous)
+        .read("previousDeviations", deviations.previous)
+        .write("mean", mean.next)
+        .write("deviations", deviations.next)
+        .params(TemporalParams{settings, size, frame, mean.valid ? 1U : 0U})
+        .dispatch(size.x, (size.y + temporalColumn - 1) / temporalColumn);
+    return mean.next;
+}
+
+}  // namespace reflet

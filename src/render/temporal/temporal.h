@@ -1,0 +1,55 @@
+// Temporal antialiasing: the picture's mean over the last frames, each of which looked through another place in the
+// pixel, as far as they still hold. Shared by C++ and GLSL.
+//
+// Each pixel finds where it was (by the motion of the nearest surface around it, so that edges move with what is in
+// front), reads the mean there (Catmull-Rom, so that it stays sharp), pulls it to what the pixels around it show now if
+// it is too far from that, and adds this frame to it with a weight of one over the number of frames in the mean.
+// (Karis, High Quality Temporal Supersampling, SIGGRAPH 2014: jitter, clipping in YCoCg, tone-compressed;
+// Salvi, An Excursion in Temporal Supersampling, GDC 2016: limits from local mean and variance;
+// Jimenez, Filmic SMAA: Sharp Morphological and Temporal Antialiasing, SIGGRAPH 2016: Catmull-Rom without its corners.)
+#ifndef REFLET_RENDER_TEMPORAL_H
+#define REFLET_RENDER_TEMPORAL_H
+
+#include "base/shared.h"
+
+SHARED_BEGIN
+
+#define TEMPORAL_SETTINGS(VALUE, SWITCH, CHOICE)                                                                    \
+    SWITCH(enabled, 0,                                                                                              \
+           "Antialias the picture over frames (--frames): each looks through another place in the pixel. Not with " \
+           "accumulate.enabled, whose mean is over the pixel already.")                                             \
+    VALUE(uint, frames, 32, 1, 1024, "Frames whose mean is taken where nothing moves.")                             \
+    VALUE(uint, framesInMotion, 8, 1, 1024,                                                                         \
+          "The same where something moves by a quarter of a pixel a frame, or faster.")                             \
+    VALUE(float, deviations, 1.0, 0.0, 16.0,                                                                        \
+          "How far the mean over frames may be from the pixels around it now, in standard deviations of theirs.")
+SETTINGS(TemporalSettings, TEMPORAL_SETTINGS)
+
+// Pixels below one another that a thread makes: they share what they read of their neighbours.
+const uint temporalColumn = 4;
+
+struct TemporalParams {
+    TemporalSettings settings;
+    uvec2 size;
+    uint frame;        // counts up; decorrelates the rounding of successive frames
+    uint hasPrevious;  // 1: the history holds the last frame
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "gpu/frame.h"
+#include "render/gbuffer/gbuffer.h"
+
+namespace reflet {
+
+/// radiance: RGBA16F, of a view that looked through a place in the pixel (jitter.h); motion: without jitter. Anything
+/// is allowed in it; what comes out is finite and at least 0. Gives RGBA16F: radiance, and the number of frames in it.
+gpu::Image temporal(gpu::Frame& f, const GBuffer& g, gpu::Image radiance, const TemporalSettings& settings,
+                    uint32_t frame);
+
+}  // namespace reflet
+#endif
+
+#endif

@@ -1,0 +1,32 @@
+// Taps and weights of a Catmull-Rom filter, which goes through the texels and stays sharp when it is applied again and
+// again. (Catmull and Rom, A Class of Local Interpolating Splines, 1974)
+#ifndef REFLET_CATMULL_ROM_GLSL
+#define REFLET_CATMULL_ROM_GLSL
+
+struct CatmullRom {
+    ivec2 corner;
+    ivec2 first;  // taps around the corner that count: -1 to 2, or 0 alone on a texel's centre
+    ivec2 last;
+    vec4 x;  // weights of the taps from -1 on; their sum is 1
+    vec4 y;
+};
+
+vec4 catmullRomWeights(float f) {
+    float g = 1.0 - f;
+    float before = -0.5 * f * g * g;
+    float after = -0.5 * g * f * f;
+    float second = f * (0.5 + f * (2.0 - 1.5 * f));
+    return vec4(before, 1.0 - before - after - second, second, after);
+}
+
+// at: in texels from the centre of the first. Places within 1/64 of a texel's centre are taken for it.
+CatmullRom catmullRom(vec2 at) {
+    vec2 whole = floor(at + 0.5);
+    bvec2 onCentre = lessThan(abs(at - whole), vec2(1.0 / 64.0));
+    vec2 corner = mix(floor(at), whole, onCentre);
+    vec2 f = mix(at - corner, vec2(0.0), onCentre);
+    ivec2 off = ivec2(not(onCentre));
+    return CatmullRom(ivec2(corner), -off, 2 * off, catmullRomWeights(f.x), catmullRomWeights(f.y));
+}
+
+#endif

@@ -1,0 +1,176 @@
+// Temporal antialiasing of whole frames: against the mean over the pixel's area, motion without jitter, and what else
+// keeps histories.
+#include "pass/harness.h"
+#include "scene/builtin.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reflet::test {
+namespace {
+
+constexpr uvec2 size(160, 90);
+const std::vector<std::string> plain{"diffuse.rays=0", "specular.rays=0", "shadow.filter=hard"};
+
+Settings settingsWith(std::vector<std::string> more) {
+    more.insert(more.end(), plain.begin(), plain.end());
+    return settingsOf(more);
+}
+
+double relativeMse(const FloatImage& image, const FloatImage& truth) {
+    double sum = 0.0;
+    for (size_t i = 0; i < image.data.size(); i += 3) {
+        const vec3 t(truth.data[i], truth.data[i + 1], truth.data[i + 2]);
+        const vec3 off = vec3(image.data[i], image.data[i + 1], image.data[i + 2]) - t;
+        sum += double(glm::dot(off, off)) / (double(glm::dot(t, t)) + 0.01);
+    }
+    return sum / (double(image.data.size()) / 3.0);
+}
+
+TEST(TemporalFrame, RestComesToTheMeanOverThePixelsArea) {
+    for (const char* name : {"cubes", "colonnade"}) {
+        const Scene scene = findBuiltinScene(name)->make();
+        const View view = defaultView(scene);
+        const FloatImage truth =
+            render(scene, view, size, settingsWith({"accumulate.enabled=on"}), {"final"}, 256).images.at("final");
+        const Pictures p =
+            render(scene, view, size, settingsWith({"temporal.enabled=on"}), {"final", "unfiltered"}, 32);
+        const double with = relativeMse(p.images.at("final"), truth);
+        const double without =
+            relativeMse(render(scene, view, size, settingsWith({}), {"final"}).images.at("final"), truth);
+        RecordProperty(std::string(name) + "_with", std::to_string(with));
+        RecordProperty(std::string(name) + "_without", std::to_string(without));
+        EXPECT_LT(with, 0.1 * without) << name << ": " << with << " of " << without;
+    }
+    expectSilentValidation("temporal antialiasing");
+}
+
+TEST(TemporalFrame, MotionIsZeroAtRestWhateverTheJitterAndWithoutItWhenTheCameraMoves) {
+    const Scene scene = findBuiltinScene("cubes")->make();
+    const View view = defaultView(scene);
+    const Settings settings = settingsWith({"temporal.enabled=on"});
+    for (const uint32_t frames : {1U, 2U, 5U}) {
+        const Range motion = rangeOf(render(scene, view, size, settings, {"motion"}, frames).images.at("motion"));
+        EXPECT_EQ(motion.min, 0.0F) << frames;
+        EXPECT_EQ(motion.max, 0.0F) << frames;
+    }
+    // Of a plane, what is half a pixel off moves almost alike.
+    Scene plane = sceneOf(lambertMaterial(vec3(0.5F)), builtin::ground({50, 50}, {1, 1}, {1, 1}));
+    View before;
+    before.camera.position = {0, 2, 6};
+    before.camera.target = {0, 0, 0};
+    View now = before;
+    now.camera.position.x += 0.2F;
+    const std::vector<std::string> shows{"motion", "depth"};
+    const Pictures still = renderMoved(plane, before, now, size, settingsWith({}), shows, 3);
+    const Pictures jittered = renderMoved(plane, before, now, size, settings, shows, 3);
+    for (unsigned y = size.y / 2; y < size.y; ++y) {
+        for (unsigned x = 0; x < size.x; ++x) {
+            for (unsigned channel = 0; channel < 2; ++channel) {
+                EXPECT_NEAR(jittered.value("motion", x, y, channel), still.value("motion", x, y, channel),
+                            0.1F / float(size.y))
+                    << x << ", " << y;  // a tenth of a pixel; the jitter's own steps are half of one
+            }
+        }
+    }
+}
+
+TEST(TemporalFrame, ACameraThatMovesSeesEdgesNearerToTheTruthThanASingleFrame) {
+    const Scene scene = findBuiltinScene("cubes")->make();
+    std::vector<View> path(12, defaultView(scene));
+    for (size_t i = 0; i < path.size(); ++i) {
+        path[i].camera.position += vec3(0.02F, 0.005F, 0.01F) * float(i);
+    }
+    const FloatImage truth =
+        render(scene, path.back(), size, settingsWith({"accumulate.enabled=on"}), {"final"}, 128).images.at("final");
+    const Pictures p =
+        renderPath(scene, path, size, settingsWith({"temporal.enabled=on"}), {"final", "unfiltered"}).back();
+    const double with = relativeMse(p.images.at("final"), truth);
+    const double without =
+        relativeMse(render(scene, path.back(), size, settingsWith({}), {"final"}).images.at("final"), truth);
+    RecordProperty("with", std::to_string(with));
+    RecordProperty("without", std::to_string(without));
+    EXPECT_LT(with, 0.5 * without) << with << " of " << without;
+}
+
+TEST(TemporalFrame, LayersAreThoseOfTheFrameAndTheirSumIsThePictureBefore) {
+    const Scene scene = findBuiltinScene("gloss")->make();
+    const std::vector<std::string> shows{"final", "unfiltered", "direct", "indirect_diffuse", "indirect_specular"};
+    const Pictures p = render(scene, defaultView(scene), size, settingsOf({"temporal.enabled=on"}), shows, 3);
+    for (size_t i = 0; i < p.images.at("final").data.size(); ++i) {
+        const float sum = p.images.at("direct").data[i] + p.images.at("indirect_diffuse").data[i] +
+                          p.images.at("indirect_specular").data[i];
+        ASSERT_NEAR(p.images.at("unfiltered").data[i], sum, 0.002F * sum + 1e-4F);
+    }
+    EXPECT_NE(p.images.at("final").data, p.images.at("unfiltered").data);
+    const Pictures without = render(scene, defaultView(scene), size, settingsOf({}), {"final", "unfiltered"}, 2);
+    EXPECT_EQ(without.images.at("final").data, without.images.at("unfiltered").data);
+}
+
+TEST(TemporalFrame, TheSameFramesGiveTheSameBytes) {
+    const Scene scene = findBuiltinScene("cubes")->make();
+    const auto picture = [&] {
+        return render(scene, defaultView(scene), size,
+                      settingsOf({"temporal.enabled=on", "trace_screen.light=previous"}), {"final", "temporal_frames"},
+                      6);
+    };
+    const Pictures a = picture();
+    const Pictures b = picture();
+    EXPECT_EQ(a.images.at("final").data, b.images.at("final").data);
+    EXPECT_EQ(a.images.at("temporal_frames").data, b.images.at("temporal_frames").data);
+}
+
+TEST(TemporalFrame, ReflectionsOfTheLastFramesLightStayWhereTheyAreUnderJitter) {
+    // A mirror before striped walls, which reflect nothing themselves: the last frame's light is this one's.
+    const Scene scene = findBuiltinScene("tilted-cube")->make();
+    const View view = defaultView(scene);
+    const auto reflections = [&](const char* light, const char* jitter) {
+        return render(scene, view, size,
+                      settingsOf({"diffuse.rays=0", "shadow.filter=hard", "planar.enabled=false", jitter,
+                                  "trace_screen.method=exhaustive", std::string("trace_screen.light=") + light}),
+                      {"indirect_specular"}, 3)
+            .images.at("indirect_specular");
+    };
+    const auto difference = [&](const char* jitter) {
+        return relativeMse(reflections("previous", jitter), reflections("direct", jitter));
+    };
+    const double still = difference("temporal.enabled=off");
+    const double jittered = difference("temporal.enabled=on");
+    RecordProperty("still", std::to_string(still));
+    RecordProperty("jittered", std::to_string(jittered));
+    EXPECT_LT(jittered, still + 0.01);
+}
+
+TEST(TemporalFrame, CleanedShadowsRestAsWellUnderJitter) {
+    Scene scene = sceneOf(lambertMaterial(vec3(0.5F)), builtin::ground({8, 8}, {1, 1}, {1, 1}));
+    builtin::place(scene, "ceiling", 0, builtin::box({3.0F, 0.005F, 6.0F}), builtin::at({-3, 2, 0}));
+    View view;
+    view.camera.position = {0.4F, 1.5F, 4.5F};
+    view.camera.target = {0.1F, 0, 0.5F};
+    view.sun = builtin::sun({0, -1, 0}, vec3(1.0F));
+    view.sun.angularDiameter = glm::radians(6.0F);
+    const std::vector<std::string> soft{"diffuse.rays=0", "specular.rays=0", "shadow.filter=pcss"};
+    const auto visibility = [&](const char* more, uint32_t frames) {
+        std::vector<std::string> all = soft;
+        all.emplace_back(more);
+        return render(scene, view, size, settingsOf(all), {"sun_visibility"}, frames).images.at("sun_visibility").data;
+    };
+    const std::vector<float> truth = visibility("shadow.samples=256", 64);
+    const auto errorOf = [&](const std::vector<float>& v) {
+        double sum = 0.0;
+        for (size_t i = 0; i < v.size(); ++i) {
+            sum += (v[i] - truth[i]) * (v[i] - truth[i]);
+        }
+        return sum / double(v.size());
+    };
+    const double first = errorOf(visibility("temporal.enabled=off", 1));
+    const double still = errorOf(visibility("temporal.enabled=off", 32));
+    const double jittered = errorOf(visibility("temporal.enabled=on", 32));
+    RecordProperty("first", std::to_string(first));
+    RecordProperty("still", std::to_string(still));
+    RecordProperty("jittered", std::to_string(jittered));
+    EXPECT_LT(jittered, 0.5 * first) << still << ", first frame " << first;
+}
+
+}  // namespace
+}  // namespace reflet::test

@@ -1,0 +1,46 @@
+// Runs the pass of temporal antialiasing on made-up pictures.
+#include "pass/temporal_harness.h"
+
+#include "apps/texels.h"
+#include "pass/test_shaders.h"
+
+namespace reflet::test {
+
+TemporalRun::TemporalRun(gpu::Device& device, uvec2 size, const TemporalSettings& settings)
+    : frame_(device), size_(size), settings_(settings) {
+    registerPassTestShaders();
+}
+
+std::vector<vec4> TemporalRun::add(const MadeUpFrame& picture) {
+    std::vector<vec4> radiance;
+    std::vector<vec4> motion;
+    std::vector<vec4> depth;
+    for (uint32_t i = 0; i < size_.x * size_.y; ++i) {
+        const MadeUpPixel p = picture({i % size_.x, i / size_.x});
+        radiance.emplace_back(p.radiance, 1.0F);
+        motion.emplace_back(p.motion / vec2(size_), 0.0F, 0.0F);
+        depth.emplace_back(p.depth);
+    }
+    std::vector<gpu::Buffer> uploads;
+    const auto fill = [&](const char* name, const std::vector<vec4>& texels) {
+        uploads.push_back(gpu::uploadBuffer(frame_.device(), std::as_bytes(std::span(texels)),
+                                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, name));
+        const gpu::Image image = frame_.image(name, VK_FORMAT_R16G16B16A16_SFLOAT, size_);
+        frame_.compute(name, "fill_color_test.comp")
+            .read("inputs", uploads.back().view())
+            .write("image", image)
+            .dispatch(size_);
+        return image;
+    };
+    frame_.begin();
+    const gpu::Image shown = fill("radiance", radiance);
+    GBuffer g{};
+    g.motion = fill("motion", motion);
+    g.depth = fill("depth", depth);
+    const gpu::Readback copy = frame_.readback(temporal(frame_, g, shown, settings_, count_++));
+    frame_.submit();
+    frame_.wait();
+    return decodeTexels(VK_FORMAT_R16G16B16A16_SFLOAT, frame_.bytes(copy));
+}
+
+}  // namespace reflet::test
