@@ -31,6 +31,7 @@ struct DrawList {
     VkDescriptorSetLayout materialLayout = VK_NULL_HANDLE;
     std::vector<Draw> draws;
     Aabb boundsW;                          ///< of all
+    uint32_t textureSlots = 0;             ///< a bit for each that some material has a texture in (material.h)
     std::vector<gpu::Image> livePictures;  ///< that materials show, and that passes write
 };
 

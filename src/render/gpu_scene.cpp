@@ -203,6 +203,7 @@ void GpuScene::uploadMaterials(const Scene& scene, const std::function<void(cons
             params.emissive = vec3(1.0F);
             params.textured |= 1U << slotEmissive;
         }
+        draws_.textureSlots |= params.textured;
         std::memcpy(blocks.data() + i * stride, &params, sizeof(params));
     }
     materials_ = gpu::uploadBuffer(device_, blocks, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, "materials");

@@ -1,4 +1,6 @@
 // Reads the material that a draw has bound: textures where there are any, times the factors.
+// The includer defines, before it includes this: const uint usedSlots, a bit for each that any draw has a texture in. What
+// is not used costs nothing; on a CPU device, what is used by one draw costs all of them.
 #ifndef REFLET_MATERIAL_GLSL
 #define REFLET_MATERIAL_GLSL
 
@@ -11,7 +13,7 @@ layout(set = 1, binding = 3) uniform sampler2D normalTexture;
 layout(set = 1, binding = 4) uniform sampler2D occlusionTexture;
 layout(set = 1, binding = 5) uniform sampler2D emissiveTexture;
 
-bool hasTexture(uint slot) { return (material.textured & (1u << slot)) != 0u; }
+bool hasTexture(uint slot) { return (usedSlots & (1u << slot)) != 0u && (material.textured & (1u << slot)) != 0u; }
 
 vec2 slotUv(uint slot, vec2 uv0, vec2 uv1) {
     vec3 uv = vec3((material.secondUv & (1u << slot)) != 0u ? uv1 : uv0, 1.0);

@@ -8,6 +8,8 @@
 #include "shaders/sampling.glsl"
 
 layout(constant_id = 0) const uint lobe = 0u;
+layout(constant_id = 1) const uint noise = RayNoise_blue;
+layout(constant_id = 2) const uint distribution = RayDistribution_cosine;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { GenerateRaysParams params; };
@@ -36,7 +38,7 @@ const float lowestRay = 1e-3;  // sine of the angle between a ray and the surfac
 // Two numbers in [0, 1) for a ray of the pixel.
 vec2 randomPair(ivec2 pixel, uint number) {
     uint seed = params.view.seed + lobe;
-    if ((lobe == lobeDiffuse ? params.diffuse.noise : params.specular.noise) == RayNoise_blue) {
+    if (noise == RayNoise_blue) {
         uint count = lobe == lobeDiffuse ? params.diffuse.rays : params.specular.rays;
         return blueNoisePoint(uvec2(pixel), seed, params.view.frame, number, count);
     }
@@ -45,11 +47,11 @@ vec2 randomPair(ivec2 pixel, uint number) {
 
 Ray diffuseRay(ivec2 pixel, uint number, vec3 n) {
     vec2 u = randomPair(pixel, number);
-    if (params.diffuse.distribution == RayDistribution_uniform) {
+    if (distribution == RayDistribution_uniform) {
         vec3 local = sampleUniformHemisphere(u);
         return Ray(basisAround(n) * local, 2.0 * local.z, 1.0, 0.0);  // cos / pi over 1 / (2 pi)
     }
-    if (params.diffuse.distribution == RayDistribution_normal) {
+    if (distribution == RayDistribution_normal) {
         return Ray(n, 1.0, 0.0, 1.0);
     }
     return Ray(basisAround(n) * sampleCosineHemisphere(u), 1.0, 1.0, 0.0);

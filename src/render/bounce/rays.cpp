@@ -48,6 +48,9 @@ Rays generateRays(gpu::Frame& f, const RaySurfaces& from, const RayTables& table
     rays.waiting = makeRayList(f, rays, "rays.generated");
     f.compute("generate_rays", "generate_rays.comp")
         .constant("lobe", lobe)
+        .constant("noise",
+                  static_cast<uint32_t>(lobe == lobeDiffuse ? params.diffuse.noise : params.specular.noise))
+        .constant("distribution", static_cast<uint32_t>(params.diffuse.distribution))
         .read("depth", g.depth)
         .read("normal", g.normal)
         .read("geometricNormal", g.geometricNormal)

@@ -2,6 +2,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/gbuffer/back_depth.h"
+const uint usedSlots = 1u;  // the colour, for its alpha
 #include "render/material.glsl"
 #include "shaders/projection.glsl"
 

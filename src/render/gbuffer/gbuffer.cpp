@@ -31,6 +31,7 @@ GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view,
         pass.read(picture);
     }
     pass.constant("clipped", clipped ? 1U : 0U)
+        .constant("usedSlots", list.textureSlots)
         .constant("bent", list.previousPositions != VK_NULL_HANDLE ? 1U : 0U)
         .color("outBaseColor", g.baseColor, zero)
         .color("outNormal", g.normal, zero)

@@ -2,9 +2,10 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/gbuffer/gbuffer.glsl"
-#include "render/material.glsl"
 
 layout(constant_id = 0) const uint clipped = 0u;
+layout(constant_id = 2) const uint usedSlots = 31u;
+#include "render/material.glsl"
 
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { GBufferParams params; };
 
