@@ -33,6 +33,7 @@ uint32_t bytesPerTexel(VkFormat format) {
         case VK_FORMAT_R32G32_UINT:
         case VK_FORMAT_R32G32_SFLOAT:
             return 8;
+        case VK_FORMAT_R32G32B32A32_UINT:
         case VK_FORMAT_R32G32B32A32_SFLOAT:
             return 16;
         default:
