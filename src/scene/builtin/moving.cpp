@@ -78,7 +78,7 @@ void addTurningCube(Scene& scene) {
         channel.values.push_back(rotation(90.0 * time, {0, 1, 0}));
     }
     animate(scene, node, std::move(channel));
-    const auto board = addTexture(scene, emblem("emblem", "R", 0x8A2F2F, 0xF2E3C4, 0xF8F1E0));
+    const auto board = addTexture(scene, emblem("emblem", "F", 0x8A2F2F, 0xF2E3C4, 0xF8F1E0));
     place(scene, "turning cube", addMaterial(scene, textured("emblem", board, 0.6F)), box(vec3(0.45F)),
           at({-1.7F, 1.0F, -1.2F}));
     scene.instances.back().node = node;
