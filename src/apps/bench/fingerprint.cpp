@@ -101,30 +101,55 @@ private:
     }
 
     void add(const Mesh& mesh) {
-        const auto& [name, positions, attributes, indices, material, bounds] =
-            mesh;  // bounds are those of the positions
-        (void)bounds;
-        all(name, positions, attributes, indices, material);
+        const auto& [name, positions, attributes, skin, indices, material, bounds] = mesh;
+        (void)bounds;  // those of the positions
+        all(name, positions, attributes, skin, indices, material);
+    }
+
+    void add(const VertexSkin& vertex) {
+        const auto& [joints, weights] = vertex;
+        all(joints, weights);
+    }
+
+    void add(const Node& node) {
+        const auto& [parent, translation, rotation, scale, matrix] = node;
+        all(parent, translation, rotation, scale, matrix);
+    }
+
+    void add(const Channel& channel) {
+        const auto& [node, target, interpolation, times, values] = channel;
+        all(node, target, interpolation, times, values);
+    }
+
+    void add(const Animation& animation) {
+        const auto& [name, channels] = animation;
+        all(name, channels);
+    }
+
+    void add(const Skin& skin) {
+        const auto& [joints, inverseBind] = skin;
+        all(joints, inverseBind);
     }
 
     void add(const Instance& instance) {
-        const auto& [name, mesh, objectToWorld] = instance;
-        all(name, mesh, objectToWorld);
+        const auto& [name, mesh, objectToWorld, node, skin] = instance;
+        all(name, mesh, objectToWorld, node, skin);
     }
 
     void add(const Camera& camera) {
-        const auto& [name, position, target, up, fovY, near, orthographicHeight, far] = camera;
-        all(name, position, target, up, fovY, near, orthographicHeight, far);
+        const auto& [name, position, target, up, fovY, near, orthographicHeight, far, aims, node] = camera;
+        (void)aims;  // says what others may do with the target
+        all(name, position, target, up, fovY, near, orthographicHeight, far, node);
     }
 
     void add(const Sun& sun) {
-        const auto& [direction, irradiance, angularDiameter] = sun;
-        all(direction, irradiance, angularDiameter);
+        const auto& [direction, irradiance, angularDiameter, node] = sun;
+        all(direction, irradiance, angularDiameter, node);
     }
 
     void add(const Lamp& lamp) {
-        const auto& [name, type, position, direction, intensity, range, innerAngle, outerAngle, radius] = lamp;
-        all(name, type, position, direction, intensity, range, innerAngle, outerAngle, radius);
+        const auto& [name, type, position, direction, intensity, range, innerAngle, outerAngle, radius, node] = lamp;
+        all(name, type, position, direction, intensity, range, innerAngle, outerAngle, radius, node);
     }
 
     void add(const Environment& environment) {
@@ -141,15 +166,17 @@ private:
 }  // namespace
 
 void addTo(Fingerprint& print, const Scene& scene) {
-    const auto& [name, images, samplers, materials, meshes, instances, lamps, cameras, sun, environment] = scene;
-    Adder(print).all(name, images, samplers, materials, meshes, instances, lamps, cameras, sun, environment);
+    const auto& [name, images, samplers, materials, meshes, instances, lamps, cameras, sun, environment, nodes,
+                 animations, skins] = scene;
+    Adder(print).all(name, images, samplers, materials, meshes, instances, lamps, cameras, sun, environment, nodes,
+                     animations, skins);
 }
 
 void addTo(Fingerprint& print, const View& view) {
-    const auto& [camera, sun, environment, lampRadius, probes, mirrors, sunStandsIn] = view;
+    const auto& [camera, sun, environment, time, lampRadius, probes, mirrors, sunStandsIn] = view;
     (void)probes;
     (void)mirrors;
-    Adder(print).all(camera, sun, environment, lampRadius, sunStandsIn);
+    Adder(print).all(camera, sun, environment, time, lampRadius, sunStandsIn);
 }
 
 void addTo(Fingerprint& print, const ReferenceOptions& options) {
