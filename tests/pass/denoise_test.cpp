@@ -161,12 +161,15 @@ TEST_F(DenoisePlain, AMirrorImageMovesAsWhatItShowsAndNotAsTheMirror) {
     constexpr float behind = 12.0F;  // metres from the mirror to what it shows
     DenoiseRun run(device(), size, lobeSpecular, pastAlone());
     const float step = 4.0F / run.pixelsPerMetre(wallDistance + behind);  // 4 pixels of the image, 16 of the mirror
-    run.add([](uvec2 p) { return LitPixel{vec3(pattern(p)), behind}; }, {.roughness = 0.0F});
-    const std::vector<vec4> second = run.add(
-        [](uvec2) {
-            return LitPixel{vec3(0.0F), behind};
-        },
-        {.cameraX = step, .roughness = 0.0F});
+    const auto away = [&](uvec2 p) {  // along the ray, to a wall that faces the camera
+        const vec2 slope = (vec2(p) + 0.5F - 0.5F * vec2(size)) / run.pixelsPerMetre(1.0F);
+        return behind * glm::length(vec3(slope, 1.0F));
+    };
+    const auto show = [&](float share) {
+        return [&away, share](uvec2 p) { return LitPixel{vec3(share * pattern(p)), away(p)}; };
+    };
+    run.add(show(1.0F), {.roughness = 0.0F});
+    const std::vector<vec4> second = run.add(show(0.0F), {.cameraX = step, .roughness = 0.0F});
     for (uint32_t y = 1; y + 1 < size.y; ++y) {
         for (uint32_t x = 1; x + 5 < size.x; ++x) {
             ASSERT_NEAR(second[y * size.x + x].x, 0.5F * pattern({x + 4, y}), 0.02F) << x << ' ' << y;

@@ -25,7 +25,7 @@ const float restAllowance = 1.25;  // factor on the limits at rest
 // At rest, an edge or a thin bar is in a pixel's frames by turns: limits are widened by how much frames have differed
 // from their mean. If they differ to the same side again and again, the mean is out of date. That is told by the square
 // of the recent mean difference, over the variance, within these limits.
-const vec2 staleness = vec2(0.4, 0.8);
+const vec2 staleness = vec2(0.25, 0.5);
 const float recent = 0.25;  // weight of a frame in the recent mean difference
 
 // Three pixels side by side.
@@ -100,7 +100,9 @@ void resolve(ivec2 pixel, Row above, Row row, Row below) {
     vec3 middle = (above.sum + row.sum + below.sum) / 9.0;
     vec3 around = max((above.squares + row.squares + below.squares) / 9.0 - middle * middle, 0.0);
     float allowed = params.settings.deviations * mix(1.0, restAllowance, still);
-    float share = insideShare(held, middle, allowed * sqrt(around + variance) + slack);
+    // What this frame shows itself is always allowed: it may be a bar of a pixel.
+    vec3 halfSize = max(allowed * sqrt(around + variance) + slack, abs(toneCompress(row.middle) - middle));
+    float share = insideShare(held, middle, halfSize);
     vec3 clipped = mix(middle, held, share);
     vec3 kept = share < 1.0 ? toneExpand(clipped) : before.rgb;
 
