@@ -83,9 +83,10 @@ TEST_F(Render, EveryListedShowMakesAPictureAndValues) {
     for (const std::string& show : shows) {
         const std::string scene = show.starts_with("lamp_") ? "builtin:cornell" : cubes;  // cubes has no lamps
         const std::string probes = show == "probe_atlas" ? "probes.enabled=true" : "probes.count=1";
-        ASSERT_TRUE(quietSuccess(
-            render(scene, {"-o", "a.png", "-o", "a.exr", "--show", show, "--set", "shadow.resolution=64", "--set",
-                           secondLayer, "--set", cascades, "--set", "probes.resolution=16", "--set", probes})))
+        ASSERT_TRUE(
+            quietSuccess(render(scene, {"-o", "a.png", "-o", "a.exr", "--show", show, "--set", "shadow.resolution=64",
+                                        "--set", secondLayer, "--set", cascades, "--set", "probes.resolution=16",
+                                        "--set", probes, "--set", "temporal.enabled=true"})))
             << show;
         const std::map<std::string, uvec2> ownSizes{
             {"shadow_map", {128, 64}}, {"lamp_count", {2, 2}}, {"probe_atlas", {6 * 16, 4 * 16}}};
@@ -111,7 +112,8 @@ TEST_F(Render, EveryBuiltinSceneHasAllImagesWithoutNan) {
     ASSERT_GE(scenes.size(), 7U);
     for (const std::string& scene : scenes) {
         // lamps has more of them than cast shadows, and is told so.
-        const Outcome run = render(scene, {"-o", "a.exr", "--aov", aovs, "--set", secondLayer, "--set", cascades});
+        const Outcome run = render(scene, {"-o", "a.exr", "--aov", aovs, "--set", secondLayer, "--set", cascades,
+                                           "--set", "temporal.enabled=true"});
         ASSERT_EQ(run.status, 0) << scene << run.err;
         EXPECT_EQ(run.err.empty(), scene != "builtin:lamps") << scene << run.err;
         EXPECT_EQ(layers("a.exr").size(), shows.size() + 1) << scene;
