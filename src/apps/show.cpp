@@ -288,19 +288,38 @@ ShowReadback requestShow(gpu::Frame& f, const FrameImages& images, const Show& s
     return readback;
 }
 
-FloatImage fetchValues(const gpu::Frame& f, const ShowReadback& readback, const ViewParams& view) {
-    std::vector<std::vector<vec4>> decoded;
-    for (size_t i = 0; i < readback.images.size(); ++i) {
-        decoded.push_back(decodeTexels(readback.images[i].format, f.bytes(readback.copies[i])));
+namespace {
+
+struct Decoded {
+    uvec2 size;
+    std::vector<vec4> texels;
+
+    // Where a picture of another size has this pixel: lobes whose rays leave a coarser grid are smaller.
+    [[nodiscard]] const vec4& at(const uvec2& pixel, const uvec2& picture) const {
+        const uvec2 texel = pixel * size / picture;
+        return texels[size_t(texel.y) * size.x + texel.x];
     }
-    const uvec2 size = readback.images.front().size;
+};
+
+}  // namespace
+
+FloatImage fetchValues(const gpu::Frame& f, const ShowReadback& readback, const ViewParams& view) {
+    std::vector<Decoded> decoded;
+    for (size_t i = 0; i < readback.images.size(); ++i) {
+        const gpu::Image& image = readback.images[i];
+        decoded.push_back({image.size, decodeTexels(image.format, f.bytes(readback.copies[i]))});
+    }
+    const uvec2 size = hasOwnSize(*readback.show) ? decoded.front().size : uvec2(view.size);
     const std::vector<std::string>& channels = readback.show->channels;
     FloatImage values{size.x, size.y, channels, {}};
-    values.data.resize(decoded.front().size() * channels.size());
+    values.data.resize(size_t(size.x) * size.y * channels.size());
     std::vector<vec4> texels(decoded.size());
-    for (size_t i = 0; i < decoded.front().size(); ++i) {
-        std::ranges::transform(decoded, texels.begin(), [&](const auto& image) { return image[i]; });
-        readback.show->values(texels, view, &values.data[i * channels.size()]);
+    float* out = values.data.data();
+    for (uvec2 pixel(0); pixel.y < size.y; ++pixel.y) {
+        for (pixel.x = 0; pixel.x < size.x; ++pixel.x, out += channels.size()) {
+            std::ranges::transform(decoded, texels.begin(), [&](const Decoded& d) { return d.at(pixel, size); });
+            readback.show->values(texels, view, out);
+        }
     }
     return values;
 }

@@ -6,6 +6,7 @@
 #include "render/environment/environment_light.h"
 #include "render/environment/equirectangular.glsl"
 
+layout(constant_id = 100) const uint environmentIsOneColor = 0u;  // no image: one texel
 layout(set = 0, binding = 100, scalar) uniform EnvironmentUniforms { EnvironmentParams environment; };
 layout(set = 0, binding = 101) uniform sampler2D environmentTexels;
 
@@ -17,6 +18,9 @@ vec3 toEnvironment(vec3 direction) {
 
 // direction: world space, of any length but 0 [W/(m² sr)].
 vec3 environmentRadiance(vec3 direction) {
+    if (environmentIsOneColor != 0u) {
+        return environment.factor * texelFetch(environmentTexels, ivec2(0), 0).rgb;
+    }
     return environment.factor * equirectangularTexel(environmentTexels, toEnvironment(direction));
 }
 

@@ -54,7 +54,9 @@ const FloatImage& whiteImage() {
 }  // namespace
 
 void bindEnvironment(gpu::Pass& pass, const EnvironmentLight& light) {
-    pass.read("environmentTexels", light.texels).params(light.params, "environment");
+    pass.constant("environmentIsOneColor", light.texels.size == uvec2(1) ? 1U : 0U)
+        .read("environmentTexels", light.texels)
+        .params(light.params, "environment");
 }
 
 void bindEnvironmentLobes(gpu::Pass& pass, gpu::Device& device, const EnvironmentLight& light) {

@@ -77,6 +77,7 @@ SunVisibility sunVisibility(gpu::Frame& f, const GBuffer& g, const ShadowInputs&
         .constant("filterKind", static_cast<uint32_t>(filter))
         .constant("hasRanges", in.range ? 1 : 0)
         .constant("cascades", params.sun.count)
+        .constant("biasKind", static_cast<uint32_t>(params.settings.biasKind))
         .dispatch(g.depth.size);
     return {visibility, soft ? penumbra : gpu::Image{}, cascades ? index : gpu::Image{}};
 }

@@ -12,6 +12,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint filterKind = ShadowFilter_pcss;
 layout(constant_id = 1) const uint hasRanges = 1;
 layout(constant_id = 2) const uint cascades = 1;
+layout(constant_id = 3) const uint biasKind = ShadowBias_slope;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ShadowVisibilityParams params; };
 layout(set = 0, binding = 1) uniform sampler2D depth;
 layout(set = 0, binding = 2) uniform usampler2D geometricNormal;
@@ -114,7 +115,7 @@ Result resultIn(uint cascade, vec3 p, vec3 normal, vec4 noise) {
     ShadowSettings s = params.settings;
     ShadowMapParams map = params.sun.maps[cascade];
     ShadowTile tile = ShadowTile(cascadeTile(cascade, s.resolution), ivec2(s.resolution));
-    receiver = s.biasKind == ShadowBias_constant ? constantReceiver(p, map, tile, s.constantBias)
+    receiver = biasKind == ShadowBias_constant ? constantReceiver(p, map, tile, s.constantBias)
                                                  : slopeReceiver(p, normal, map, tile, s.bias);
     if (filterKind == ShadowFilter_hard) {
         return Result(hardVisibility(receiver), 0.0, 0.0);
@@ -131,7 +132,7 @@ Result mixed(Result a, Result b, float share) {
 
 Result resultAt(vec3 p, Cascade cascade, ivec2 pixel) {
     vec3 normal = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
-    float share = params.settings.biasKind == ShadowBias_constant ? 1.0 : shareOfNormal(normal, params.sun.maps[0].toSun);
+    float share = biasKind == ShadowBias_constant ? 1.0 : shareOfNormal(normal, params.sun.maps[0].toSun);
     if (filterKind == ShadowFilter_none || share <= 0.0) {
         return Result(filterKind == ShadowFilter_none ? 1.0 : 0.0, 0.0, 0.0);
     }
