@@ -2,7 +2,7 @@
 # Makes docs/accuracy.md: every built-in scene and preset, every tracing method and shadow filter, against the truth. Takes
 # about half an hour on two cores, which should have nothing else to do: the tables have times. The pages with the pictures
 # stay in out/accuracy*. `docs/accuracy.sh shadows` makes the sections "Shadows" and "Sources", the last two, alone, and
-# leaves the rest as it is; `docs/accuracy.sh sources` only the last.
+# leaves the rest as it is; `docs/accuracy.sh sources` only the last; `docs/accuracy.sh tables` all but these two.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -74,7 +74,7 @@ scene. Nothing here is chosen to look good.
   `reflet compare --help` has all definitions.
 - **noise of the references**: the relative MSE that a second run of the reference would have against the first one's
   limit; smaller differences mean nothing. FLIP sees that noise, too.
-- The presets have no denoiser: much of `default`'s and `fast`'s error is the grain of few rays.
+- These presets do not clean what few rays bring (`denoise.enabled`): much of `default`'s and `fast`'s error is grain.
 TEXT
     section "All bounces" out/accuracy
     section "One bounce" out/accuracy-one-bounce --bounces 1 --set trace_screen.light=direct
@@ -93,8 +93,12 @@ TEXT
         '`trace_screen.thickness=0.1`, `trace_screen.light=direct`; else the settings of `default`.'
     diffuse_table
     echo
-    docs/accuracy_shadows.py
-    echo
-    docs/accuracy_sources.py
+    if [[ ${1:-} == tables ]]; then
+        sed -n '/^## Shadows$/,$p' docs/accuracy.md
+    else
+        docs/accuracy_shadows.py
+        echo
+        docs/accuracy_sources.py
+    fi
 } >"$table"
 cp "$table" docs/accuracy.md
