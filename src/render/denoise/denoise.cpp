@@ -76,10 +76,10 @@ LobeLight denoise(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const Vi
     DenoiseBlurParams params{light.from.view, settings.radius / scale, picture.pixelAngle * scale, 0};
     gpu::Image from = gathered.light;
     for (; params.pass < settings.passes; ++params.pass) {
-        const gpu::Image to = f.image(params.pass % 2 == 0 ? "denoise.even" : "denoise.odd", lightFormat, size);
         const bool last = params.pass + 1 == settings.passes;
-        const gpu::Image written =
-            last ? f.image(lobe == lobeDiffuse ? "denoise.diffuse" : "denoise.specular", lightFormat, size) : to;
+        const std::string_view result = lobe == lobeDiffuse ? "denoise.diffuse" : "denoise.specular";
+        const std::string_view between = params.pass % 2 == 0 ? "denoise.even" : "denoise.odd";
+        const gpu::Image to = f.image(last ? result : between, lightFormat, size);
         f.compute("denoise_blur", "denoise_blur.comp")
             .constant("lobe", lobe)
             .constant("feedsBack", params.pass == 0 && settings.history > 0 ? 1U : 0U)
@@ -88,10 +88,10 @@ LobeLight denoise(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const Vi
             .read("moments", gathered.moments)
             .read("geometricNormal", light.from.g.geometricNormal)
             .write("nextLight", gathered.nextLight)
-            .write("blurred", written)
+            .write("blurred", to)
             .params(params)
             .dispatch(size);
-        from = written;
+        from = to;
         params.radius *= 0.5F;
     }
     LobeLight clean = light;
