@@ -36,6 +36,10 @@ bool Pictures::countsSteps() const {
            std::ranges::any_of(aovs_, [](const Show* s) { return reflet::countsSteps(*s); });
 }
 
+bool Pictures::needsLayers() const {
+    return contains("indirect_diffuse") || contains("indirect_specular");
+}
+
 bool Pictures::contains(std::string_view show) const {
     return main_->name == show || std::ranges::find(aovs_, show, &Show::name) != aovs_.end();
 }

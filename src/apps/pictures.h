@@ -23,6 +23,8 @@ public:
 
     /// Whether they need trace_screen.countSteps.
     [[nodiscard]] bool countsSteps() const;
+    /// Whether they need composite.layers.
+    [[nodiscard]] bool needsLayers() const;
     /// Whether the image of that name is among them.
     [[nodiscard]] bool contains(std::string_view show) const;
 

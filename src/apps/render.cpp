@@ -80,6 +80,7 @@ void render(const RenderOptions& options) {
     if (pictures.countsSteps()) {
         settings.traceScreen.countSteps = 1;
     }
+    settings.composite.layers = pictures.needsLayers() ? 1 : 0;
     checkOutputs(options);
     const bool sequence = isSequence(options);
     const Scene scene = loadScene(options.scene);

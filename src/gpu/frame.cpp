@@ -219,8 +219,20 @@ History Frame::history(std::string_view name, VkFormat format, uvec2 size) {
     return {pair.textures[pair.current ^ 1U].image(), pair.textures[pair.current].image(), valid};
 }
 
+bool Frame::holds(Image image, std::span<const std::byte> key) {
+    std::vector<std::byte>& known = image.state->contents;
+    if (std::ranges::equal(known, key)) {
+        return true;
+    }
+    known.assign(key.begin(), key.end());
+    return false;
+}
+
 void Frame::forgetHistories() {
     histories_.clear();
+    for (auto& [name, texture] : images_) {
+        texture.image().state->contents.clear();
+    }
 }
 
 Readback Frame::readback(Image image) {

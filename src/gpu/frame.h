@@ -73,7 +73,16 @@ public:
     BufferView buffer(std::string_view name, VkDeviceSize size);
     /// Two images that change places each frame.
     History history(std::string_view name, VkFormat format, uvec2 size);
-    /// No history is valid in the next frame, as if it were the first.
+    /// Whether the image, of `image` or `target`, still holds what an earlier frame wrote under the same key, and need
+    /// not be written again. Where not, the caller writes all of it; then it holds that. Keys: all that the contents
+    /// depend on, of types without padding.
+    template <class T>
+    bool holds(Image image, const T& key) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        return holds(image, std::as_bytes(std::span(&key, 1)));
+    }
+    bool holds(Image image, std::span<const std::byte> key);
+    /// No history is valid in the next frame, as if it were the first; and images hold nothing.
     void forgetHistories();
 
     /// Copies an image of one layer for the host to read after `wait`.

@@ -5,6 +5,7 @@
 #include "base/math.h"
 #include "gpu/memory.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -28,6 +29,7 @@ struct ImageState {
     VkImage image = VK_NULL_HANDLE;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
     AccessState access;
+    std::vector<std::byte> contents;  ///< what Frame::holds was told last
 };
 
 struct BufferState {

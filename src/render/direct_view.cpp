@@ -92,7 +92,8 @@ ViewImages directView(gpu::Frame& f, const ViewInputs& in, const Settings& setti
     seeSun(f, in, settings, out);
     seeLamps(f, in, settings, out);
     out.direct = directLight(f, out.g, {out.sunVisibility, out.lampVisibility, out.lampTiles.masks}, in.ggxTable,
-                             {in.view, -in.sunDirection, in.sunIrradiance}, {in.lamps, in.environment});
+                             {in.view, -in.sunDirection, in.sunIrradiance},
+                             {in.lamps, in.environment, settings.materials.lambertOnly != 0});
     return out;
 }
 

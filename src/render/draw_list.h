@@ -33,6 +33,8 @@ struct DrawList {
     Aabb boundsW;                          ///< of all
     uint32_t textureSlots = 0;             ///< a bit for each that some material has a texture in (material.h)
     std::vector<gpu::Image> livePictures;  ///< that materials show, and that passes write
+    /// Another number whenever draws cover other places than before. 0: whoever asks takes them for others.
+    uint64_t version = 0;
 };
 
 /// The vertex buffers of a draw list: position; normal, tangent, uv0, uv1, color; previousPosition.

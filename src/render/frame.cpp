@@ -105,9 +105,9 @@ void lightForReflections(gpu::Frame& f, const ViewInputs& in, const Settings& se
     if (light == HitLight::lit && s.rays > 0 && settings.diffuse.rays > 0) {
         const LobeLight none = noLight(f, lobeSpecular, {screen.g, in.view}, settings.traceScreen.countSteps != 0);
         const gpu::Image soFar = f.image("lit_so_far", VK_FORMAT_R16G16B16A16_SFLOAT, screen.light.size);
-        screen.light =
-            composite(f, screen.g, screen.light, diffuse, none, in.ggxTable, soFar, {in.view, settings.diffuse.gain})
-                .lit;
+        const CompositeInputs parts{
+            screen.g, screen.light, diffuse, none, in.ggxTable, settings.materials.lambertOnly != 0, false};
+        screen.light = composite(f, parts, soFar, {in.view, settings.diffuse.gain}).lit;
     }
     if (s.rougher == RougherSurfaces::mips && s.maxRoughness < 1.0F && s.rays > 0) {
         screen.lightMips =
@@ -130,9 +130,9 @@ ScreenImages seeReflected(gpu::Frame& f, const ViewInputs& in, Settings settings
     if (lit && settings.planar.specular != 0) {
         const LobeLight specular = traceLobe(f, in, settings, seen, lobeSpecular);
         const gpu::Image all = f.image("lit", VK_FORMAT_R16G16B16A16_SFLOAT, images.direct.size);
-        seen.screen.light =
-            composite(f, images.g, images.direct, diffuse, specular, in.ggxTable, all, {in.view, settings.diffuse.gain})
-                .lit;
+        const CompositeInputs parts{
+            images.g, images.direct, diffuse, specular, in.ggxTable, settings.materials.lambertOnly != 0, false};
+        seen.screen.light = composite(f, parts, all, {in.view, settings.diffuse.gain}).lit;
     }
     const bool blurred = settings.planar.form == PlanarForm::camera && settings.planar.cameraBlur > 1.0F;
     if (seen.screen.lightMips || blurred) {
@@ -201,8 +201,10 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
     seen.mirrors = seeMirrors(f, in, settings, out.lampShadowMap);
     out.specular = traceLobe(f, in, settings, seen, lobeSpecular);
 
-    out.light = composite(f, out.g, out.direct, out.diffuse, out.specular, in.ggxTable, lit.next,
-                          {in.view, settings.diffuse.gain});
+    const bool layers = settings.composite.layers != 0 || settings.accumulate.enabled != 0;
+    const CompositeInputs parts{
+        out.g, out.direct, out.diffuse, out.specular, in.ggxTable, settings.materials.lambertOnly != 0, layers};
+    out.light = composite(f, parts, lit.next, {in.view, settings.diffuse.gain});
     if (settings.accumulate.enabled != 0) {
         const LightLayers means = accumulate(f, {out.direct, out.light}, in.framesBefore);
         out.direct = means.direct;

@@ -183,6 +183,7 @@ void GpuScene::setTextureFilter(uint32_t anisotropy, bool mips) {
     if (anisotropy != anisotropy_ || mips != mips_) {
         anisotropy_ = anisotropy;
         mips_ = mips;
+        ++draws_.version;  // what is cut out may be so elsewhere
         for (const MaterialBinding& binding : materialBindings_) {
             writeMaterialSet(binding);
         }

@@ -100,7 +100,8 @@ private:
     bool mips_ = true;
     LampBlock lamps_{};
     std::vector<size_t> lampSources_;  ///< indices into Scene::lamps
-    DrawList draws_;
+    std::optional<double> posedTime_;  ///< that the draws are as of
+    DrawList draws_{.version = 1};
 };
 
 }  // namespace reflet

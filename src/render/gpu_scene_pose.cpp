@@ -24,6 +24,10 @@ void GpuScene::addSkinned(const Scene& scene, std::vector<vec3>& positions, std:
 }
 
 void GpuScene::pose(const Scene& scene, const ScenePose& now, const ScenePose& before) {
+    if (posedTime_ != now.time) {
+        posedTime_ = now.time;
+        ++draws_.version;
+    }
     draws_.boundsW = Aabb{};
     for (size_t i = 0; i < draws_.draws.size(); ++i) {
         const Instance& instance = scene.instances[i];

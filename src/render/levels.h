@@ -14,13 +14,15 @@ inline uvec2 levelSize(uvec2 pixels, uint32_t level) {
     return (pixels + (1U << level) - 1U) >> level;
 }
 
+/// The first row of a level, from 1 on. A row or two between levels may be left over: that way there is a formula for
+/// it, where rays that march through levels would have to add up heights at every step.
+inline uint32_t levelRow(uvec2 pixels, uint32_t level) {
+    return pixels.y - (pixels.y >> (level - 1)) + level - 1;
+}
+
 /// What the levels from 1 to below `levels` need. At least one texel.
 inline uvec2 levelsImageSize(uvec2 pixels, uint32_t levels) {
-    uint32_t rows = 0;
-    for (uint32_t level = 1; level < levels; ++level) {
-        rows += levelSize(pixels, level).y;
-    }
-    return glm::max(uvec2(levelSize(pixels, 1).x, rows), uvec2(1));
+    return glm::max(uvec2(levelSize(pixels, 1).x, levelRow(pixels, levels)), uvec2(1));
 }
 
 }  // namespace reflet

@@ -40,6 +40,7 @@ std::vector<SettingEntry> makeEntries() {
     addEffect<DiffuseSettings>(entries, "diffuse", offsetof(Settings, diffuse));
     addEffect<SpecularSettings>(entries, "specular", offsetof(Settings, specular));
     addEffect<DenoiseSettings>(entries, "denoise", offsetof(Settings, denoise));
+    addEffect<CompositeSettings>(entries, "composite", offsetof(Settings, composite));
     addEffect<AccumulateSettings>(entries, "accumulate", offsetof(Settings, accumulate));
     addEffect<TemporalSettings>(entries, "temporal", offsetof(Settings, temporal));
     addEffect<TonemapSettings>(entries, "tonemap", offsetof(Settings, tonemap));

@@ -6,6 +6,7 @@
 #include "render/bounce/answer_environment.h"
 #include "render/bounce/rays.h"
 #include "render/bounce/trace_screen.h"
+#include "render/composite/composite.h"
 #include "render/contact/contact.h"
 #include "render/denoise/denoise.h"
 #include "render/direct/lamp_tiles.h"
@@ -42,6 +43,7 @@ struct Settings {
     DiffuseSettings diffuse;
     SpecularSettings specular;
     DenoiseSettings denoise;
+    CompositeSettings composite;
     AccumulateSettings accumulate;
     TemporalSettings temporal;
     TonemapSettings tonemap;

@@ -45,6 +45,7 @@ struct MarchView {
     vec4 viewPlane;
     vec4 depthToDistance;
     vec2 size;
+    vec2 pixel;  // 1 / size
 };
 
 // Clip coordinates and view distance ("away") are linear along the ray: one multiply-add each.
@@ -81,7 +82,14 @@ struct MarchSample {
 // rays that have only just left it, because one depth stands for all of a pixel's width. (Interpolated depth would tell
 // as much, but wears half a pixel off every silhouette.) Nor can the sky be hit.
 bool isForeign(MarchRay ray, ivec2 pixel, float depth, MarchView view) {
-    return depth > 0.0 && dot(ray.ownPlane, vec4((vec2(pixel) + 0.5) / view.size, depth, 1.0)) > ownPlaneSlack;
+    return depth > 0.0 && dot(ray.ownPlane, vec4((vec2(pixel) + 0.5) * view.pixel, depth, 1.0)) > ownPlaneSlack;
+}
+
+// Whether a point `away` metres in front of the camera is no farther than what has this depth. A comparison of fractions
+// by their products: marches ask it at every step, and CPUs divide slowly.
+bool isInFrontOf(float away, float depth, MarchView view) {
+    return away * (view.depthToDistance.z + view.depthToDistance.w * depth) <=
+           view.depthToDistance.x + view.depthToDistance.y * depth;
 }
 
 // How thick, in metres along the view, what the pixel shows at the distance `front` is taken to be.

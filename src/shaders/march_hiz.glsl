@@ -15,11 +15,10 @@
 bool mustLookInto(vec2 depths, MarchRay ray, float first, float last, MarchOptions o, MarchView view, inout bool lost) {
     float awayFirst = ray.awayStart + first * ray.awayStep;
     float awayLast = ray.awayStart + last * ray.awayStep;
-    if (max(awayFirst, awayLast) <= depthToViewDistance(depths.x, view.depthToDistance)) {
+    if (isInFrontOf(max(awayFirst, awayLast), depths.x, view)) {
         return false;
     }
-    float back = depthToViewDistance(abs(depths.y), view.depthToDistance) + o.thickness;
-    if (min(awayFirst, awayLast) < back || (depths.y < 0.0 && !lost)) {
+    if (isInFrontOf(min(awayFirst, awayLast) - o.thickness, abs(depths.y), view) || (depths.y < 0.0 && !lost)) {
         return true;
     }
     lost = true;
@@ -44,20 +43,15 @@ MarchResult marchHiz(MarchRay ray, MarchOptions o, MarchView view) {
         float last = metresAt(r, sLast);
         result.pixel = pixel;
         result.steps = i + 1u;
-        if (level > 0) {
-            if (mustLookInto(loadCell(cell, level), ray, first, last, o, view, result.lost)) {
-                --level;
-                continue;
-            }
-        } else {
-            float at;
-            if (meetsPixel(ray, pixel, first, last, o, view, at, result.lost)) {
-                result.outcome = marchHit;
-                result.distance = at;
-                break;
-            }
+        if (level > 0 && mustLookInto(loadCell(cell, level), ray, first, last, o, view, result.lost)) {
+            --level;
+            continue;
         }
         result.distance = last;
+        if (level == 0 && meetsPixel(ray, pixel, first, last, o, view, result.lost)) {
+            result.outcome = marchHit;
+            break;
+        }
         result.clear = result.lost ? result.clear : last;
         // Across one border exactly; along the other axis, where the ray is then, but not out of the cell.
         ivec2 there = clamp(ivec2(floor(r.start.xy + sLast * r.delta.xy)), cell << level, ((cell + 1) << level) - 1);
@@ -71,7 +65,7 @@ MarchResult marchHiz(MarchRay ray, MarchOptions o, MarchView view) {
         first = last;
         level = i + 1u < o.firstSteps ? 0 : min(level + 1, o.levels - 1);
     }
-    return result;
+    return placed(result, first, ray, o, view);
 }
 
 #endif

@@ -12,6 +12,7 @@
 struct ScreenRay {
     vec3 start;
     vec3 delta;
+    vec2 perPixel;  // 1 / delta.xy
     float end;     // metres
     float wStart;
     float wEnd;
@@ -25,8 +26,8 @@ float metresAt(ScreenRay r, float s) {
 // Where along s the ray crosses the vertical and the horizontal line through the corner of a pixel. Corners are whole
 // numbers: no error adds up over the way.
 vec2 bordersAt(ScreenRay r, ivec2 corner) {
-    vec2 way = vec2(corner) - r.start.xy;
-    return vec2(r.delta.x == 0.0 ? 1e30 : way.x / r.delta.x, r.delta.y == 0.0 ? 1e30 : way.y / r.delta.y);
+    vec2 way = (vec2(corner) - r.start.xy) * r.perPixel;
+    return vec2(r.delta.x == 0.0 ? 1e30 : way.x, r.delta.y == 0.0 ? 1e30 : way.y);
 }
 
 // How far the ray may go until a + t · b is negative.
@@ -47,30 +48,45 @@ ScreenRay makeScreenRay(MarchRay ray, float longest, MarchView view) {
     vec3 first = vec3(ndcToUv(a.xy / a.w) * view.size, a.z / a.w);
     r.start = first;
     r.delta = vec3(ndcToUv(last.xy / last.w) * view.size, last.z / last.w) - first;
+    r.perPixel = 1.0 / r.delta.xy;
     return r;
 }
 
-// Whether the ray, between two distances, is behind what the pixel shows by less than its thickness; `at`: where first.
-// lost: set if it is behind it at all.
-bool meetsPixel(MarchRay ray, ivec2 pixel, float first, float last, MarchOptions o, MarchView view, out float at,
-                inout bool lost) {
+// Whether the ray, between two distances, is behind what the pixel shows by less than its thickness. lost: set if it is
+// behind it at all.
+bool meetsPixel(MarchRay ray, ivec2 pixel, float first, float last, MarchOptions o, MarchView view, inout bool lost) {
     float depth = loadDepth(pixel);
-    float front = depthToViewDistance(depth, view.depthToDistance);
     float awayFirst = ray.awayStart + first * ray.awayStep;
     float awayLast = ray.awayStart + last * ray.awayStep;
-    at = first;
-    if (max(awayFirst, awayLast) <= front || !isForeign(ray, pixel, depth, view)) {
+    if (isInFrontOf(max(awayFirst, awayLast), depth, view) || !isForeign(ray, pixel, depth, view)) {
         return false;
     }
     lost = true;
+    float nearest = min(awayFirst, awayLast);
+    if (o.secondLayer) {
+        return nearest < depthToViewDistance(depth, view.depthToDistance) +
+                             thicknessAt(pixel, depthToViewDistance(depth, view.depthToDistance), o, view);
+    }
+    return isInFrontOf(nearest - o.thickness, depth, view);
+}
+
+// Where between two distances a ray that meets the pixel first does.
+float meetingPoint(MarchRay ray, ivec2 pixel, float first, float last, MarchOptions o, MarchView view) {
+    float front = depthToViewDistance(loadDepth(pixel), view.depthToDistance);
     float back = front + thicknessAt(pixel, front, o, view);
-    if (min(awayFirst, awayLast) >= back) {
-        return false;
+    float awayFirst = ray.awayStart + first * ray.awayStep;
+    if (awayFirst >= front && awayFirst <= back) {
+        return first;
     }
-    if (awayFirst < front || awayFirst > back) {
-        at = clamp(((awayFirst < front ? front : back) - ray.awayStart) / ray.awayStep, first, last);
+    return clamp(((awayFirst < front ? front : back) - ray.awayStart) / ray.awayStep, first, last);
+}
+
+// A march's result, whose last step began at `first` and ended at its distance, with the distance of its hit.
+MarchResult placed(MarchResult result, float first, MarchRay ray, MarchOptions o, MarchView view) {
+    if (result.outcome == marchHit) {
+        result.distance = meetingPoint(ray, result.pixel, first, result.distance, o, view);
     }
-    return true;
+    return result;
 }
 
 // Every pixel that the ray crosses, in order, however many.
@@ -86,15 +102,13 @@ MarchResult marchExhaustive(MarchRay ray, MarchOptions o, MarchView view) {
         vec2 s = bordersAt(r, pixel + max(direction, ivec2(0)));
         float sLast = min(min(s.x, s.y), 1.0);
         float last = metresAt(r, sLast);
-        float at;
         result.pixel = pixel;
+        result.distance = last;
         result.steps = i + 1u;
-        if (meetsPixel(ray, pixel, first, last, o, view, at, result.lost)) {
+        if (meetsPixel(ray, pixel, first, last, o, view, result.lost)) {
             result.outcome = marchHit;
-            result.distance = at;
             break;
         }
-        result.distance = last;
         result.clear = result.lost ? result.clear : last;
         pixel += s.x <= s.y ? ivec2(direction.x, 0) : ivec2(0, direction.y);
         if (sLast >= 1.0 || any(lessThan(pixel, ivec2(0))) || any(greaterThan(pixel, lastPixel))) {
@@ -103,7 +117,7 @@ MarchResult marchExhaustive(MarchRay ray, MarchOptions o, MarchView view) {
         }
         first = last;
     }
-    return result;
+    return placed(result, first, ray, o, view);
 }
 
 MarchSample sampleAlong(ScreenRay r, float s, MarchRay ray, MarchOptions o, MarchView view) {
@@ -170,12 +184,11 @@ MarchResult marchDda(MarchRay ray, MarchOptions o, MarchView view) {
             break;
         }
         float last = metresAt(r, min(s + 0.5 * sStep, 1.0));
-        float at;
         result.pixel = clamp(ivec2(floor(r.start.xy + s * r.delta.xy)), ivec2(0), ivec2(view.size) - 1);
         result.steps = i + 1u;
-        if (meetsPixel(ray, result.pixel, first, last, o, view, at, result.lost)) {
+        if (meetsPixel(ray, result.pixel, first, last, o, view, result.lost)) {
             result.outcome = marchHit;
-            result.distance = at;
+            result.distance = meetingPoint(ray, result.pixel, first, last, o, view);
             bool refine = o.stride > 1.0 && (o.binarySteps > 0u || o.interpolate);  // a pixel leaves nothing to refine
             return refine ? refineDda(result, r, s, sStep, ray, o, view) : result;
         }

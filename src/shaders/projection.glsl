@@ -10,7 +10,7 @@ vec2 pixelToUv(ivec2 pixel, vec2 pixelSize) { return (vec2(pixel) + 0.5) * pixel
 // The point at this uv whose depth the buffer holds. depth > 0: the sky has no position.
 vec3 uvToWorld(vec2 uv, float depth, mat4 clipToWorld) {
     vec4 p = clipToWorld * vec4(uvToNdc(uv), depth, 1.0);
-    return p.xyz / p.w;
+    return p.xyz * (1.0 / p.w);
 }
 
 // Distance in front of the camera [m], along its axis, for a depth; very large for the sky.

@@ -15,7 +15,7 @@ struct ScreenPlane {
 };
 
 ScreenPlane screenPlane(vec3 p, vec3 n, mat4 clipToWorld, vec2 pixelSize, float pixelAngle) {
-    vec4 plane = planeOnScreen(p, n, clipToWorld) / (surfaceSlope * pixelAngle);
+    vec4 plane = planeOnScreen(p, n, clipToWorld) * (1.0 / (surfaceSlope * pixelAngle));
     return ScreenPlane(plane.xy * pixelSize, plane.z);
 }
 

@@ -95,19 +95,19 @@ ShadowTexel texelAt(ShadowReceiver r, vec2 offset) {
 // that lies farther to the side that the surface faces. Near its edges a surface casts on itself by less than `lift`.
 ShadowTexel trustedTexel(ShadowReceiver r) {
     ShadowTexel texel = texelAt(r, vec2(0.0));
-    if (texel.known) {
-        return texel;
-    }
+    // A count that is not known before: CPUs leave such a loop where none of a group's pixels needs more, and would
+    // always run all of one that can be unrolled.
+    int others = texel.known ? 0 : 4;
     vec2 next = sign(fract(r.at) - 0.5) / r.texelsPerMetre;
     const float aside = 1.5;  // texels
-    vec2 others[4] = vec2[](vec2(next.x, 0.0), vec2(0.0, next.y), next, aside * r.aside / r.texelsPerMetre);
-    for (int i = 0; i < 4; ++i) {
-        ShadowTexel other = texelAt(r, others[i]);
+    for (int i = 0; i < others; ++i) {
+        vec2 offset = i == 3 ? aside * r.aside / r.texelsPerMetre : next * vec2((i & 1) == 0 ? 1.0 : 0.0, i > 0 ? 1.0 : 0.0);
+        ShadowTexel other = texelAt(r, offset);
         if (other.clearance > texel.clearance) {
             texel = other;
         }
     }
-    texel.clearance += edgeLift * r.lift;
+    texel.clearance += others > 0 ? edgeLift * r.lift : 0.0;
     return texel;
 }
 

@@ -16,14 +16,14 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { OracleParams params; };
 layout(set = 0, binding = 1) uniform sampler2D depth;
 layout(set = 0, binding = 2) uniform sampler2D backDepth;
-layout(set = 0, binding = 3) uniform sampler2D pyramid;
+layout(set = 0, binding = 3, rg32f) uniform readonly image2D pyramid;
 layout(set = 0, binding = 4) uniform usampler2D geometricNormal;
 layout(set = 0, binding = 5, scalar) buffer OutputBlock { OracleRay items[]; } outputs;
 
 float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
 float loadBackDepth(ivec2 pixel) { return texelFetch(backDepth, pixel, 0).r; }
 vec2 loadCell(ivec2 cell, int level) {
-    return texelFetch(pyramid, cell + ivec2(0, levelRow(ivec2(params.view.size), level)), 0).rg;
+    return imageLoad(pyramid, cell + ivec2(0, levelRow(ivec2(params.view.size), level))).rg;
 }
 #include "shaders/march_hiz.glsl"
 
@@ -57,7 +57,7 @@ void main() {
         return;
     }
     MarchView view = MarchView(params.view.worldToClip, params.view.clipToWorld, params.view.viewPlane,
-                               params.view.depthToDistance, params.view.size);
+                               params.view.depthToDistance, params.view.size, params.view.pixel);
     vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), loadDepth(pixel), params.view.clipToWorld);
     vec3 n = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
     MarchRay ray = makeMarchRay(p, directionOf(i, p, n), planeOnScreen(p, n, params.view.clipToWorld), view);

@@ -98,7 +98,7 @@ void main() {
     }
     MarchInput given = inputs.items[i];
     MarchView view = MarchView(params.view.worldToClip, params.view.clipToWorld, params.view.viewPlane,
-                               params.view.depthToDistance, params.view.size);
+                               params.view.depthToDistance, params.view.size, params.view.pixel);
     vec4 ownPlane = given.normal == vec3(0.0) ? vec4(0.0, 0.0, 0.0, 1.0)  // all is far above it
                                               : planeOnScreen(given.origin, given.normal, params.view.clipToWorld);
     MarchResult r = march(given, makeMarchRay(given.origin, given.direction, ownPlane, view), view);

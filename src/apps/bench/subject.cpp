@@ -28,6 +28,9 @@ Subject::Subject(gpu::Device& device, const BenchScene& scene, uvec2 size, const
       settings_(settings),
       memoryBefore_(usedMemory(device)),
       renderer_(device, scene.scene, printWarning) {
+    if (settings_.accumulate.enabled == 0) {  // means begin anew with other settings
+        settings_.composite.layers = 0;       // pictures ask for them
+    }
     for (int i = 0; i < compilingFrames; ++i) {
         render();
     }
@@ -48,7 +51,9 @@ void Subject::render(Samples& samples) {
 
 Layers Subject::picture(const std::vector<std::string>& names) {
     std::vector<ShowReadback> readbacks;
-    renderer_.render(view_, size_, seed_, settings_, [&](gpu::Frame& f, const FrameImages& images) {
+    Settings settings = settings_;
+    settings.composite.layers = 1;
+    renderer_.render(view_, size_, seed_, settings, [&](gpu::Frame& f, const FrameImages& images) {
         for (const std::string& name : names) {
             readbacks.push_back(requestShow(f, images, findShow(name)));
         }

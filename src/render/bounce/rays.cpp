@@ -48,8 +48,7 @@ Rays generateRays(gpu::Frame& f, const RaySurfaces& from, const RayTables& table
     rays.waiting = makeRayList(f, rays, "rays.generated");
     f.compute("generate_rays", "generate_rays.comp")
         .constant("lobe", lobe)
-        .constant("noise",
-                  static_cast<uint32_t>(lobe == lobeDiffuse ? params.diffuse.noise : params.specular.noise))
+        .constant("noise", static_cast<uint32_t>(lobe == lobeDiffuse ? params.diffuse.noise : params.specular.noise))
         .constant("distribution", static_cast<uint32_t>(params.diffuse.distribution))
         .read("depth", g.depth)
         .read("normal", g.normal)
@@ -86,7 +85,8 @@ LobeLight lobeImages(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool
 }  // namespace
 
 LobeLight noLight(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps) {
-    const LobeLight light = lobeImages(f, lobe, from, countSteps);
+    LobeLight light = lobeImages(f, lobe, from, countSteps);
+    light.dark = true;
     f.clear(light.radiance);
     f.clear(light.source);
     if (countSteps) {

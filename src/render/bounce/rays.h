@@ -123,6 +123,7 @@ struct LobeLight {
     gpu::Image source;    ///< RGBA16F: mean colour of the sources that answered; alpha: confidence. Sums of many
                           ///< batches, for which 8 bits are too few
     gpu::Image steps;     ///< R32F: mean depth samples per ray; none unless they are counted
+    bool dark = false;    ///< of noLight
 };
 
 /// What their generator looks up.

@@ -29,7 +29,7 @@ layout(set = 0, binding = 2) uniform usampler2D geometricNormal;
 layout(set = 0, binding = 3, rgba16f) uniform readonly image2D light;
 layout(set = 0, binding = 9, rgba16f) uniform readonly image2D previousLit;
 layout(set = 0, binding = 10) uniform sampler2D motion;
-layout(set = 0, binding = 11) uniform sampler2D pyramid;
+layout(set = 0, binding = 11, rg32f) uniform readonly image2D pyramid;
 layout(set = 0, binding = 12) uniform sampler2D backDepth;
 layout(set = 0, binding = 15) uniform sampler2D lightMips;
 layout(set = 0, binding = 13, r32f) uniform writeonly image2DArray steps;
@@ -52,7 +52,7 @@ layout(set = 0, binding = 8, scalar) buffer MissedBlock {
 float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
 float loadBackDepth(ivec2 pixel) { return texelFetch(backDepth, pixel, 0).r; }
 vec2 loadCell(ivec2 cell, int level) {
-    return texelFetch(pyramid, cell + ivec2(0, levelRow(ivec2(params.view.size), level)), 0).rg;
+    return imageLoad(pyramid, cell + ivec2(0, levelRow(ivec2(params.view.size), level))).rg;
 }
 #include "shaders/march_hiz.glsl"
 #include "shaders/march_world.glsl"
@@ -155,7 +155,7 @@ RayAnswer traceAnswer(ivec3 slot, Ray ray, vec3 p, vec3 n, inout WaitingRay w) {
         jitter = 1.0 - hashToUnit(hashPixel(uvec2(slot.xy), stream, params.own.frame));
     }
     MarchView view = MarchView(params.view.worldToClip, params.view.clipToWorld, params.view.viewPlane,
-                               params.view.depthToDistance, params.view.size);
+                               params.view.depthToDistance, params.view.size, params.view.pixel);
     // The mirror is not in its own view: all that the view shows can be hit.
     vec4 ownPlane = through == throughScreen ? planeOnScreen(p, n, params.view.clipToWorld) : vec4(0.0, 0.0, 0.0, 1.0);
     MarchResult hit = traceRay(makeMarchRay(p, ray.direction, ownPlane, view), marchOptions(jitter), view);

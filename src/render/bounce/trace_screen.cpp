@@ -31,7 +31,7 @@ void record(gpu::Frame& f, gpu::Pass pass, Rays& rays, const Trace& trace, const
         .read("ownGeometricNormal", rays.from.g.geometricNormal)
         .read("depth", seen.g.depth)
         .read("backDepth", seen.backDepth ? seen.backDepth : seen.g.depth)
-        .read("pyramid", seen.pyramid ? seen.pyramid : seen.g.depth)
+        .read("pyramid", seen.pyramid ? seen.pyramid : f.image("no_pyramid", VK_FORMAT_R32G32_SFLOAT, uvec2(1)))
         .read("geometricNormal", seen.g.geometricNormal)
         .read("motion", seen.g.motion)
         .read("light", seen.light)

@@ -8,8 +8,10 @@
 #include "shaders/projection.glsl"
 #include "shaders/shadow_kernel.glsl"
 
-layout(constant_id = 0) const uint diffuseScale = 1u;
+layout(constant_id = 0) const uint diffuseScale = 1u;  // 0: the lobe is dark
 layout(constant_id = 1) const uint specularScale = 1u;
+layout(constant_id = 2) const uint lambertOnly = 0u;
+layout(constant_id = 3) const uint layers = 1u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { CompositeParams params; };
@@ -26,10 +28,10 @@ layout(set = 0, binding = 10, rgba16f) uniform writeonly image2D indirectSpecula
 layout(set = 0, binding = 11, rgba16f) uniform writeonly image2D lit;
 
 layout(set = 0, binding = 12) uniform usampler2D geometricNormal;
-layout(set = 0, binding = 13) uniform sampler2D diffuseDepth;
-layout(set = 0, binding = 14) uniform usampler2D diffuseNormal;
-layout(set = 0, binding = 15) uniform sampler2D specularDepth;
-layout(set = 0, binding = 16) uniform usampler2D specularNormal;
+layout(set = 0, binding = 13, r32f) uniform readonly image2D diffuseDepth;
+layout(set = 0, binding = 14, r32ui) uniform readonly uimage2D diffuseNormal;
+layout(set = 0, binding = 15, r32f) uniform readonly image2D specularDepth;
+layout(set = 0, binding = 16, r32ui) uniform readonly uimage2D specularNormal;
 
 // A pixel, and the surface that it shows.
 struct Shown {
@@ -42,48 +44,67 @@ struct Shown {
 // The four block pixels around a pixel, and how much each counts (after Kopf et al., Joint Bilateral Upsampling, 2007).
 struct Blocks {
     ivec2 corner;
-    vec4 weights;  // their sum is 1
+    vec4 weights;  // of bilinear interpolation
 };
 
-// Bilinear, times how far they show the same surface. None is quite 0: a pixel that no block knows gets what is around.
-Blocks blocksAround(Shown shown, uint scale, uint place, sampler2D blockDepth, usampler2D blockNormal) {
+Blocks blocksAt(Shown shown, uint scale, uint place, ivec2 size) {
     vec2 at = vec2(shown.pixel - int(place)) / float(scale);
-    ivec2 last = textureSize(blockDepth, 0) - 1;
     Blocks b;
-    b.corner = clamp(ivec2(floor(at)), ivec2(0), max(last - 1, ivec2(0)));
+    b.corner = clamp(ivec2(floor(at)), ivec2(0), max(size - 2, ivec2(0)));
     vec2 f = clamp(at - vec2(b.corner), vec2(0.0), vec2(1.0));
-    for (int i = 0; i < 4; ++i) {
-        ivec2 o = ivec2(i & 1, i >> 1);
-        ivec2 block = min(b.corner + o, last);
-        vec2 away = vec2(block * int(scale) + int(place) - shown.pixel);
-        float d = texelFetch(blockDepth, block, 0).r;
-        float height = heightAbove(shown.plane, away, d - shown.depth) / max(length(away), 1.0);
-        float facing = max(dot(unpackUnitVector(texelFetch(blockNormal, block, 0).r), shown.normal), 0.0);
-        float facing4 = facing * facing * facing * facing;
-        float same = facing4 * facing4 / (1.0 + height * height * height * height);
-        vec2 share = mix(1.0 - f, f, vec2(o));
-        b.weights[i] = d > 0.0 ? share.x * share.y * (same + 1e-4) + 1e-7 : 0.0;
-    }
-    b.weights /= max(dot(b.weights, vec4(1.0)), 1e-12);
+    b.weights = vec4(1.0 - f.x, f.x, 1.0 - f.x, f.x) * vec4(1.0 - f.yy, f.yy);
     return b;
 }
 
+// How far a block of this depth and packed normal shows the same surface, 0..1.
+float sameSurface(Shown shown, vec2 away, float blockDepth, uint blockNormal) {
+    float length2 = max(dot(away, away), 1.0);
+    float height = heightAbove(shown.plane, away, blockDepth - shown.depth);
+    float height2 = height * height;
+    float facing = max(dot(unpackUnitVector(blockNormal), shown.normal), 0.0);
+    float facing2 = facing * facing;
+    float facing4 = facing2 * facing2;
+    float length4 = length2 * length2;
+    return facing4 * facing4 * length4 / (length4 + height2 * height2);
+}
+
+// None is quite 0: a pixel that no block knows gets what is around.
+float weighed(float share, float same, float blockDepth) {
+    return blockDepth > 0.0 ? share * (same + 1e-4) + 1e-7 : 0.0;
+}
+
+// GLSL hands no images to functions: a macro is a loop over the four for each lobe.
+#define BLOCK_SUM(radiance, blockDepth, blockNormal, scale, place)                                            \
+    ivec2 size = imageSize(blockDepth);                                                                      \
+    Blocks b = blocksAt(shown, scale, place, size);                                                          \
+    vec4 sum = vec4(0.0);                                                                                    \
+    for (int i = 0; i < 4; ++i) {                                                                            \
+        ivec2 block = min(b.corner + ivec2(i & 1, i >> 1), size - 1);                                        \
+        vec2 away = vec2(block * int(scale) + int(place) - shown.pixel);                                     \
+        float d = imageLoad(blockDepth, block).r;                                                            \
+        float same = sameSurface(shown, away, d, imageLoad(blockNormal, block).r);                           \
+        sum += weighed(b.weights[i], same, d) * vec4(imageLoad(radiance, block).rgb, 1.0);                   \
+    }                                                                                                        \
+    return sum.rgb * (1.0 / max(sum.a, 1e-12));
+
 vec3 diffuseRadiance(Shown shown) {
+    if (diffuseScale == 0u) {
+        return vec3(0.0);
+    }
     if (diffuseScale == 1u) {
         return imageLoad(diffuse, shown.pixel).rgb;
     }
-    Blocks b = blocksAround(shown, diffuseScale, params.diffusePlace, diffuseDepth, diffuseNormal);
-    return b.weights.x * imageLoad(diffuse, b.corner).rgb + b.weights.y * imageLoad(diffuse, b.corner + ivec2(1, 0)).rgb +
-           b.weights.z * imageLoad(diffuse, b.corner + ivec2(0, 1)).rgb + b.weights.w * imageLoad(diffuse, b.corner + 1).rgb;
+    BLOCK_SUM(diffuse, diffuseDepth, diffuseNormal, diffuseScale, params.diffusePlace)
 }
 
 vec3 specularRadiance(Shown shown) {
+    if (specularScale == 0u) {
+        return vec3(0.0);
+    }
     if (specularScale == 1u) {
         return imageLoad(specular, shown.pixel).rgb;
     }
-    Blocks b = blocksAround(shown, specularScale, params.specularPlace, specularDepth, specularNormal);
-    return b.weights.x * imageLoad(specular, b.corner).rgb + b.weights.y * imageLoad(specular, b.corner + ivec2(1, 0)).rgb +
-           b.weights.z * imageLoad(specular, b.corner + ivec2(0, 1)).rgb + b.weights.w * imageLoad(specular, b.corner + 1).rgb;
+    BLOCK_SUM(specular, specularDepth, specularNormal, specularScale, params.specularPlace)
 }
 
 void main() {
@@ -99,7 +120,7 @@ void main() {
         vec3 n = unpackUnitVector(texelFetch(normal, pixel, 0).r);
         float nv = dot(n, directionToEye(p, params.view.eye));
         MaterialTexel m = unpackMaterial(texelFetch(material, pixel, 0));
-        Surface s = surfaceAt(texelFetch(baseColor, pixel, 0).rgb, m, nv, ggxTable);
+        Surface s = surfaceAt(texelFetch(baseColor, pixel, 0).rgb, m, nv, ggxTable, lambertOnly != 0u);
         Shown shown;
         shown.pixel = pixel;
         if (diffuseScale > 1u || specularScale > 1u) {
@@ -110,8 +131,10 @@ void main() {
         fromDiffuse = params.diffuseGain * s.diffuse * diffuseRadiance(shown);
         fromSpecular = s.specular * specularRadiance(shown);
     }
-    imageStore(indirectDiffuse, pixel, vec4(clampToHalf(fromDiffuse), 1.0));
-    imageStore(indirectSpecular, pixel, vec4(clampToHalf(fromSpecular), 1.0));
+    if (layers != 0u) {
+        imageStore(indirectDiffuse, pixel, vec4(clampToHalf(fromDiffuse), 1.0));
+        imageStore(indirectSpecular, pixel, vec4(clampToHalf(fromSpecular), 1.0));
+    }
     vec3 sum = imageLoad(direct, pixel).rgb + fromDiffuse + fromSpecular;
     imageStore(lit, pixel, vec4(clampToHalf(sum), 1.0));
 }

@@ -5,33 +5,51 @@
 
 namespace reflet {
 
-Composite composite(gpu::Frame& f, const GBuffer& g, gpu::Image direct, const LobeLight& diffuse,
-                    const LobeLight& specular, gpu::Image ggxTable, gpu::Image lit, CompositeParams params) {
-    constexpr VkFormat radiance = VK_FORMAT_R16G16B16A16_SFLOAT;
-    const uvec2 size = g.depth.size;
-    const Composite result{.indirectDiffuse = f.image("indirect_diffuse", radiance, size),
-                           .indirectSpecular = f.image("indirect_specular", radiance, size),
-                           .lit = lit};
-    params.diffusePlace = placeInBlock(diffuse.from.scale);
-    params.specularPlace = placeInBlock(specular.from.scale);
+namespace {
+
+// 0: the lobe brings nothing, and is not looked at.
+uint32_t scaleOf(const LobeLight& light) {
+    return light.dark ? 0 : light.from.scale;
+}
+
+}  // namespace
+
+Composite composite(gpu::Frame& f, const CompositeInputs& in, gpu::Image lit, CompositeParams params) {
+    const uvec2 size = in.g.depth.size;
+    const auto layer = [&](const char* name) {
+        return in.layers ? f.image(name, VK_FORMAT_R16G16B16A16_SFLOAT, size) : gpu::Image{};
+    };
+    const Composite result{
+        .indirectDiffuse = layer("indirect_diffuse"), .indirectSpecular = layer("indirect_specular"), .lit = lit};
+    const gpu::Image unwritten = in.layers ? lit : f.image("no_layer", VK_FORMAT_R16G16B16A16_SFLOAT, uvec2(1));
+    // Lobes of the picture's own size have no blocks.
+    const auto blockImage = [&](const LobeLight& light, gpu::Image image, VkFormat format) {
+        return light.from.scale > 1
+                   ? image
+                   : f.image(format == VK_FORMAT_R32_UINT ? "no_normals" : "no_depths", format, uvec2(1));
+    };
+    params.diffusePlace = placeInBlock(in.diffuse.from.scale);
+    params.specularPlace = placeInBlock(in.specular.from.scale);
     f.compute("composite", "composite.comp")
-        .constant("diffuseScale", diffuse.from.scale)
-        .constant("specularScale", specular.from.scale)
-        .read("depth", g.depth)
-        .read("normal", g.normal)
-        .read("baseColor", g.baseColor)
-        .read("material", g.material)
-        .read("ggxTable", ggxTable, f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
-        .read("geometricNormal", g.geometricNormal)
-        .read("diffuseDepth", diffuse.from.g.depth)
-        .read("diffuseNormal", diffuse.from.g.normal)
-        .read("specularDepth", specular.from.g.depth)
-        .read("specularNormal", specular.from.g.normal)
-        .read("direct", direct)
-        .read("diffuse", diffuse.radiance)
-        .read("specular", specular.radiance)
-        .write("indirectDiffuse", result.indirectDiffuse)
-        .write("indirectSpecular", result.indirectSpecular)
+        .constant("diffuseScale", scaleOf(in.diffuse))
+        .constant("specularScale", scaleOf(in.specular))
+        .constant("lambertOnly", in.lambertOnly ? 1U : 0U)
+        .constant("layers", in.layers ? 1U : 0U)
+        .read("depth", in.g.depth)
+        .read("normal", in.g.normal)
+        .read("baseColor", in.g.baseColor)
+        .read("material", in.g.material)
+        .read("ggxTable", in.ggxTable, f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
+        .read("geometricNormal", in.g.geometricNormal)
+        .read("diffuseDepth", blockImage(in.diffuse, in.diffuse.from.g.depth, VK_FORMAT_R32_SFLOAT))
+        .read("diffuseNormal", blockImage(in.diffuse, in.diffuse.from.g.normal, VK_FORMAT_R32_UINT))
+        .read("specularDepth", blockImage(in.specular, in.specular.from.g.depth, VK_FORMAT_R32_SFLOAT))
+        .read("specularNormal", blockImage(in.specular, in.specular.from.g.normal, VK_FORMAT_R32_UINT))
+        .read("direct", in.direct)
+        .read("diffuse", in.diffuse.radiance)
+        .read("specular", in.specular.radiance)
+        .write("indirectDiffuse", in.layers ? result.indirectDiffuse : unwritten)
+        .write("indirectSpecular", in.layers ? result.indirectSpecular : unwritten)
         .write("lit", result.lit)
         .params(params)
         .dispatch(size);

@@ -7,6 +7,12 @@
 
 SHARED_BEGIN
 
+#define COMPOSITE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                 \
+    SWITCH(layers, 1,                                                                                             \
+           "Keep indirect diffuse and specular light as images of their own; render and bench do where they are " \
+           "asked for, and only then.")
+SETTINGS(CompositeSettings, COMPOSITE_SETTINGS)
+
 struct CompositeParams {
     ViewParams view;
     float diffuseGain;  // factor on indirect diffuse light
@@ -24,16 +30,25 @@ SHARED_END
 
 namespace reflet {
 
+struct CompositeInputs {
+    GBuffer g;
+    gpu::Image direct;
+    LobeLight diffuse;  ///< lobes whose rays leave a coarser grid are spread over all pixels
+    LobeLight specular;
+    gpu::Image ggxTable;
+    bool lambertOnly = false;  ///< MaterialsSettings
+    bool layers = true;        ///< false: only their sum is written
+};
+
 /// RGBA16F radiance: lit = direct + indirectDiffuse + indirectSpecular.
 struct Composite {
-    gpu::Image indirectDiffuse;
+    gpu::Image indirectDiffuse;  ///< none without layers
     gpu::Image indirectSpecular;
     gpu::Image lit;
 };
 
-/// Lobes whose rays leave a coarser grid are spread over all pixels. params: places are set here. lit: written.
-Composite composite(gpu::Frame& f, const GBuffer& g, gpu::Image direct, const LobeLight& diffuse,
-                    const LobeLight& specular, gpu::Image ggxTable, gpu::Image lit, CompositeParams params);
+/// params: places are set here. lit: written.
+Composite composite(gpu::Frame& f, const CompositeInputs& in, gpu::Image lit, CompositeParams params);
 
 }  // namespace reflet
 #endif

@@ -11,14 +11,14 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ContactParams params; };
 layout(set = 0, binding = 1) uniform sampler2D depth;
 layout(set = 0, binding = 2) uniform usampler2D geometricNormal;
-layout(set = 0, binding = 3) uniform sampler2D pyramid;
+layout(set = 0, binding = 3, rg32f) uniform readonly image2D pyramid;
 layout(set = 0, binding = 4) uniform sampler2D sunVisibility;
 layout(set = 0, binding = 5, r8) uniform writeonly image2D visibility;
 
 float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
 float loadBackDepth(ivec2 pixel) { return 0.0; }  // casters are as thick as the setting says
 vec2 loadCell(ivec2 cell, int level) {
-    return texelFetch(pyramid, cell + ivec2(0, levelRow(ivec2(params.view.size), level)), 0).rg;
+    return imageLoad(pyramid, cell + ivec2(0, levelRow(ivec2(params.view.size), level))).rg;
 }
 #include "shaders/march_hiz.glsl"
 
@@ -44,7 +44,7 @@ bool findsCaster(ivec2 pixel) {
     vec3 p = positionAt(pixel);
     ContactSettings s = params.settings;
     MarchView view = MarchView(params.view.worldToClip, params.view.clipToWorld, params.view.viewPlane,
-                               params.view.depthToDistance, params.view.size);
+                               params.view.depthToDistance, params.view.size, params.view.pixel);
     MarchRay ray = makeMarchRay(p, params.toSun, planeOnScreen(p, n, params.view.clipToWorld), view);
     MarchOptions o;  // hierarchical depth reads no others
     o.longest = s.distance;

@@ -9,6 +9,9 @@
 #include "shaders/lamp.glsl"
 #include "shaders/projection.glsl"
 
+layout(constant_id = 0) const uint lambertOnly = 0u;
+layout(constant_id = 1) const uint anyLamps = 1u;
+
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { DirectParams params; };
 layout(set = 0, binding = 1, scalar) uniform LampUniforms { LampBlock lampBlock; };
@@ -46,12 +49,12 @@ vec3 radianceAt(ivec2 pixel) {
     vec3 n = unpackUnitVector(texelFetch(normal, pixel, 0).r);
     vec3 v = directionToEye(p, params.view.eye);
     MaterialTexel m = unpackMaterial(texelFetch(material, pixel, 0));
-    Surface s = surfaceAt(texelFetch(baseColor, pixel, 0).rgb, m, dot(n, v), ggxTable);
+    Surface s = surfaceAt(texelFetch(baseColor, pixel, 0).rgb, m, dot(n, v), ggxTable, lambertOnly != 0u);
 
     float visibility = texelFetch(sunVisibility, pixel, 0).r;
     vec3 radiance = texelFetch(emissive, pixel, 0).rgb;
     radiance += reflectLight(s, n, v, params.toSun) * params.sunIrradiance * visibility;
-    for (uint first = 0u; first < lampBlock.count; first += lampsPerLayer) {
+    for (uint first = 0u; anyLamps != 0u && first < lampBlock.count; first += lampsPerLayer) {
         uvec4 bits = lampsOfPixel(pixel, first / lampsPerLayer);
         while (bits != uvec4(0u)) {
             radiance += lampLight(first + takeFirstLamp(bits), s, p, n, v, pixel);

@@ -38,6 +38,8 @@ gpu::Image directLight(gpu::Frame& f, const GBuffer& g, const LightVisibility& v
         .read("ggxTable", ggxTable, linear)
         .read("lampMasks", visibility.lampMasks)
         .write("direct", direct)
+        .constant("lambertOnly", lights.lambertOnly ? 1U : 0U)
+        .constant("anyLamps", lights.lamps.count > 0 ? 1U : 0U)
         .params(params)
         .params(lights.lamps, "lampBlock")
         .dispatch(direct.size);

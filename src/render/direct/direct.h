@@ -38,6 +38,7 @@ struct LightVisibility {
 struct DirectLights {
     const LampBlock& lamps;
     const EnvironmentLight& environment;  ///< the background
+    bool lambertOnly = false;             ///< MaterialsSettings
 };
 
 /// RGBA16F: radiance of direct light, emission and background, alpha 1.

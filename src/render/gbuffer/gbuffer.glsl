@@ -19,10 +19,11 @@ struct MaterialTexel {
 MaterialTexel unpackMaterial(vec4 texel) {
     return MaterialTexel(texel.r, texel.g, texel.b, uint(texel.a * 255.0 + 0.5));
 }
+bool isLambert(MaterialTexel m) { return (m.flags & materialFlagLambert) != 0u; }
 
-// The surface seen at a pixel, its specular directional albedo taken from the table toward nv.
-Surface surfaceAt(vec3 baseColorTexel, MaterialTexel m, float nv, sampler2D ggxTable) {
-    bool lambert = (m.flags & materialFlagLambert) != 0u;
+// The surface seen at a pixel, its specular directional albedo taken from the table toward nv. lambert: as its flag has
+// it; where a constant says it for all, CPUs need not work out both.
+Surface surfaceAt(vec3 baseColorTexel, MaterialTexel m, float nv, sampler2D ggxTable, bool lambert) {
     vec2 table = lambert ? vec2(0.0) : textureLod(ggxTable, ggxTableUv(nv, m.roughness), 0.0).rg;
     return makeSurface(unpackBaseColor(baseColorTexel), m.metallic, m.roughness, table, lambert);
 }

@@ -93,6 +93,7 @@ MirroredRoom mirroredRoom(const ViewInputs& in, const Mirror& mirror, const Shad
     const mat4 reflection = reflectionIn(mirror.plane);
     MirroredRoom room{in.draws, in.lamps, {}, mat3(reflection) * in.sunDirection};
     room.draws.boundsW = Aabb{};
+    room.draws.version = 0;
     for (Draw& draw : room.draws.draws) {
         draw.objectToWorld = reflection * draw.objectToWorld;
         draw.previousObjectToWorld = reflection * draw.previousObjectToWorld;

@@ -37,7 +37,7 @@ vec3 indirectAt(ivec2 pixel, vec3 p) {
     vec3 n = unpackUnitVector(texelFetch(normal, pixel, 0).r);
     vec3 v = directionToEye(p, params.view.eye);
     MaterialTexel m = unpackMaterial(texelFetch(material, pixel, 0));
-    Surface s = surfaceAt(texelFetch(baseColor, pixel, 0).rgb, m, dot(n, v), ggxTable);
+    Surface s = surfaceAt(texelFetch(baseColor, pixel, 0).rgb, m, dot(n, v), ggxTable, isLambert(m));
     vec3 r = reflect(-v, n);
     ProbeQuestion around = ProbeQuestion(p, n, 0.0, true, true, params.blend);
     ProbeQuestion mirrored = ProbeQuestion(p, r, m.roughness, false, true, params.blend);

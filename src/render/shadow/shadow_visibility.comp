@@ -149,10 +149,12 @@ Result resultAt(vec3 p, Cascade cascade, ivec2 pixel) {
 void look(ivec2 pixel) {
     float d = texelFetch(depth, pixel, 0).r;
     Result r = Result(1.0, 0.0, 0.0);                 // of the sky
-    Cascade c = Cascade(params.sun.count - 1u, 0.0);
+    Cascade c = Cascade(cascades - 1u, 0.0);
     if (d > 0.0) {
         vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
-        c = cascadeAt(dot(params.view.viewPlane, vec4(p, 1.0)), params.sun);
+        if (cascades > 1u) {  // a map whose number is no constant is read lane by lane on CPUs
+            c = cascadeAt(dot(params.view.viewPlane, vec4(p, 1.0)), params.sun);
+        }
         r = resultAt(p, c, pixel);
     }
     imageStore(visibility, pixel, vec4(r.visibility));

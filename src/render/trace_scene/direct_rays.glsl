@@ -36,8 +36,8 @@ LitPoint pointAt(ivec2 pixel, float d) {
     at.toViewer = directionToEye(at.position, params.view.eye);
     at.clearance = clearanceOfPixel(at.position, depthToViewDistance(d, params.view.depthToDistance),
                                     params.view.depthToDistance);
-    at.surface = surfaceAt(texelFetch(baseColor, pixel, 0).rgb, unpackMaterial(texelFetch(material, pixel, 0)),
-                           dot(at.normal, at.toViewer), ggxTable);
+    MaterialTexel m = unpackMaterial(texelFetch(material, pixel, 0));
+    at.surface = surfaceAt(texelFetch(baseColor, pixel, 0).rgb, m, dot(at.normal, at.toViewer), ggxTable, isLambert(m));
     return at;
 }
 
