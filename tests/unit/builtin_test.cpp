@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace reflet {
+namespace reflet::builtin_test {
 
 /// How GoogleTest names a parameter; without it, its bytes, addresses included.
 static void PrintTo(const BuiltinScene& scene, std::ostream* out) {
@@ -394,4 +394,4 @@ TEST(BuiltinMirrorHall, IsClosedOnAllSidesButTheRoof) {
 }
 
 }  // namespace
-}  // namespace reflet
+}  // namespace reflet::builtin_test
