@@ -11,13 +11,14 @@
 #include <string>
 #include <vector>
 
-namespace reflet::builtin_test {
+namespace reflet {
 
 /// How GoogleTest names a parameter; without it, its bytes, addresses included.
 static void PrintTo(const BuiltinScene& scene, std::ostream* out) {
     *out << scene.name;
 }
 
+namespace builtin_test {
 namespace {
 
 struct Triangle {
@@ -394,4 +395,5 @@ TEST(BuiltinMirrorHall, IsClosedOnAllSidesButTheRoof) {
 }
 
 }  // namespace
-}  // namespace reflet::builtin_test
+}  // namespace builtin_test
+}  // namespace reflet
