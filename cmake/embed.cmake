@@ -13,11 +13,11 @@ function(reflet_embed target function)
 #include \"base/embedded.h\"
 namespace reflet {
 namespace {
-constexpr EmbeddedFile table[] = {
+constexpr EmbeddedFile @function@Table[] = {
 @table@};
 }  // namespace
 std::span<const EmbeddedFile> @function@();
-std::span<const EmbeddedFile> @function@() { return table; }
+std::span<const EmbeddedFile> @function@() { return @function@Table; }
 }  // namespace reflet
 ")
     target_sources(${target} PRIVATE ${source})

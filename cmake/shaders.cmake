@@ -27,12 +27,13 @@ function(reflet_shaders target function)
     file(GENERATE OUTPUT ${source} CONTENT "// Generated: shaders of ${target}.
 #include \"gpu/shader.h\"
 namespace {
-${arrays}constexpr reflet::gpu::EmbeddedShader shaders[] = {
+${arrays}constexpr reflet::gpu::EmbeddedShader ${function}Table[] = {
 ${table}};
 }  // namespace
 std::span<const reflet::gpu::EmbeddedShader> ${function}();
-std::span<const reflet::gpu::EmbeddedShader> ${function}() { return shaders; }
+std::span<const reflet::gpu::EmbeddedShader> ${function}() { return ${function}Table; }
 ")
-    set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${outputs}")
+    # By itself in a unity build, too: CMake forgets there what an object depends on, and it changes with every shader.
+    set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${outputs}" SKIP_UNITY_BUILD_INCLUSION ON)
     target_sources(${target} PRIVATE ${source})
 endfunction()

@@ -141,7 +141,7 @@ void compare(const CompareCommand& command) {
     checkLimits(limits, result.difference);
 }
 
-std::string footer() {
+std::string compareFooter() {
     std::string text = "Metrics, a being a value of A and b that of B:\n";
     for (const Metric& metric : metrics()) {
         text += fmt::format("  {:<13} {}{}\n", metric.name, metric.definition,
@@ -184,7 +184,7 @@ void addCompareCommand(CLI::App& app) {
                      "Of the eye before the screen, for FLIP; 67 is 0.7 m before a screen 0.7 m wide with 3840 pixels")
         ->check(CLI::Range(1.0F, 1000.0F))
         ->capture_default_str();
-    command->footer(footer());
+    command->footer(compareFooter());
     command->callback([options] { compare(*options); });
 }
 

@@ -35,7 +35,7 @@ std::optional<ImageKind> kindOf(const std::string& file) {
 }
 
 // File and layer. Layers may hold colons, so the first split whose file exists is taken, or else the first of all.
-std::optional<std::pair<std::string, std::string>> split(const std::string& text) {
+std::optional<std::pair<std::string, std::string>> splitLayer(const std::string& text) {
     if (kindOf(text)) {
         return std::nullopt;
     }
@@ -134,7 +134,7 @@ FloatImage readKnowledge(const PictureName& name) {
 PictureName parsePictureName(const std::string& text) {
     PictureName name{text, text, "", ImageKind::linear, false};
     std::string ending = text;
-    if (const auto parts = split(text)) {
+    if (const auto parts = splitLayer(text)) {
         ending = parts->first;
         std::error_code ignored;
         if (!fs::exists(text, ignored)) {

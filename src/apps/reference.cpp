@@ -2,6 +2,7 @@
 #include "reference/reference.h"
 #include "apps/commands.h"
 #include "apps/interrupt.h"
+#include "apps/pictures.h"
 #include "apps/sample_progress.h"
 #include "apps/scene_options.h"
 #include "base/error.h"
@@ -31,12 +32,7 @@ struct ReferenceCommand {
 };
 
 constexpr uint32_t standardSamples = 64;
-constexpr uint32_t largestSamples = 1U << 20U;
 constexpr uint32_t largestSide = 65536;  // pixels; EXR files that are larger cannot be read
-
-bool isExr(const std::string& file) {
-    return std::filesystem::path(file).extension() == ".exr";
-}
 
 void checkOutputs(const std::vector<std::string>& outputs) {
     if (outputs.empty()) {
@@ -120,7 +116,7 @@ void trace(const ReferenceCommand& command) {
     fmt::print("{}\n", summary(picture));
 }
 
-constexpr const char* footer =
+constexpr const char* referenceFooter =
     "The EXR holds the layers final (also without a name, for viewers), direct, indirect_diffuse, indirect_specular,\n"
     "albedo, normal, depth and sun_visibility, as `reflet render --aov` names them. Light of the sun and of lamps "
     "that\n"
@@ -169,7 +165,7 @@ void addReferenceCommand(CLI::App& app) {
     command->add_option("--threads", options->threads, "0: one per core; the picture is the same")
         ->check(CLI::Range(0U, 4096U))
         ->capture_default_str();
-    command->footer(footer);
+    command->footer(referenceFooter);
     command->callback([options] { trace(*options); });
 }
 

@@ -8,6 +8,9 @@
 
 namespace reflet {
 
+/// The most samples per pixel that may be asked for.
+constexpr uint32_t largestSamples = 1U << 20U;
+
 /// Shows how many samples are done. Of those that a noise takes nobody knows the number, but that noise falls with its
 /// root.
 class SampleProgress {

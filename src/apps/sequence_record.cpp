@@ -1,6 +1,7 @@
 // Records of sequences.
 #include "apps/sequence_record.h"
 
+#include "apps/bench/fingerprint.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json.h"
@@ -16,20 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-
-// G. Fowler, L. C. Noll, K.-P. Vo: FNV-1a, 64 bits. It need only notice changes, not withstand anybody.
-class Fingerprint {
-public:
-    void add(std::span<const std::byte> bytes) {
-        for (const std::byte byte : bytes) {
-            value_ = (value_ ^ static_cast<uint64_t>(byte)) * 0x100000001b3U;
-        }
-    }
-    [[nodiscard]] std::string text() const { return fmt::format("{:016x}", value_); }
-
-private:
-    uint64_t value_ = 0xcbf29ce484222325U;
-};
 
 // The JSON of a .gltf file, or of a .glb file's first chunk.
 nlohmann::json gltfJson(const std::string& content) {

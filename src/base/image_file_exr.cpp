@@ -68,7 +68,7 @@ private:
 };
 
 /// OpenEXR's messages read: Cannot do this with file "". Reason.
-std::string reasonOf(const std::exception& error) {
+std::string exrReason(const std::exception& error) {
     std::string text = error.what();
     if (const size_t end = text.rfind("\". "); end != std::string::npos) {
         text.erase(0, end + 3);
@@ -233,7 +233,7 @@ void writeExr(const std::filesystem::path& path, std::span<const ImageLayer> lay
     } catch (const std::logic_error&) {
         throw;  // a broken check
     } catch (const std::exception& error) {
-        fail("{}: cannot be encoded as EXR: {}", path.string(), reasonOf(error));
+        fail("{}: cannot be encoded as EXR: {}", path.string(), exrReason(error));
     }
     writeFileAtomically(path, content);
 }
@@ -243,7 +243,7 @@ std::vector<ImageLayer> readExr(const std::filesystem::path& path) {
     try {
         return decodeExr(content);
     } catch (const std::exception& error) {
-        fail("{}: cannot be read as EXR: {}", path.string(), reasonOf(error));
+        fail("{}: cannot be read as EXR: {}", path.string(), exrReason(error));
     }
 }
 

@@ -60,7 +60,7 @@ std::string lineAndColumn(std::string_view text, size_t byte) {
 }
 
 /// Without nlohmann's "[json.exception.parse_error.101] parse error at line 1, column 2: ".
-std::string reasonOf(const json::exception& error) {
+std::string jsonReason(const json::exception& error) {
     std::string text = error.what();
     if (text.starts_with('[')) {
         text.erase(0, text.find("] ") + 2);
@@ -89,9 +89,9 @@ json parseJsonFile(const std::filesystem::path& path) {
         DuplicateKeys duplicateKeys(path.string());
         return json::parse(text, std::ref(duplicateKeys));
     } catch (const json::parse_error& error) {
-        fail("{}:{}: {}", path.string(), lineAndColumn(text, error.byte), reasonOf(error));
+        fail("{}:{}: {}", path.string(), lineAndColumn(text, error.byte), jsonReason(error));
     } catch (const json::exception& error) {
-        fail("{}: {}", path.string(), reasonOf(error));
+        fail("{}: {}", path.string(), jsonReason(error));
     }
 }
 

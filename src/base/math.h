@@ -8,6 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include <cmath>
 #include <limits>
 
 namespace reflet {
@@ -19,6 +20,17 @@ using glm::uvec2;
 using glm::vec2;
 using glm::vec3;
 using glm::vec4;
+
+constexpr auto pi = glm::pi<float>();
+constexpr float largestHalf = 65504.0F;  ///< of 16-bit floats
+
+inline bool isFinite(const vec4& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
+}
+
+inline bool isFinite(const mat4& m) {
+    return isFinite(m[0]) && isFinite(m[1]) && isFinite(m[2]) && isFinite(m[3]);
+}
 
 /// An axis-aligned box. Empty until a point is added.
 struct Aabb {

@@ -11,7 +11,7 @@ namespace reflet {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+constexpr double piSquared = std::numbers::pi * std::numbers::pi;
 
 // Section 4.1.1. The eye's contrast sensitivity per channel as one or two Gaussians: a is the weight, b the width.
 struct Sensitivity {
@@ -35,7 +35,7 @@ Kernel gaussian(double scale, double b, int radius, double pixelsPerDegree) {
     Kernel kernel;
     for (int x = -radius; x <= radius; ++x) {
         const double degrees = x / pixelsPerDegree;
-        kernel.push_back(static_cast<float>(scale * std::exp(-pi * pi * degrees * degrees / b)));
+        kernel.push_back(static_cast<float>(scale * std::exp(-piSquared * degrees * degrees / b)));
     }
     return kernel;
 }
@@ -62,12 +62,13 @@ struct SpatialFilter {
 
 SpatialFilter makeSpatialFilter(const Sensitivity& s, double pixelsPerDegree) {
     const int radius =
-        static_cast<int>(std::ceil(3.0 * std::sqrt(widestSensitivity / (2.0 * pi * pi)) * pixelsPerDegree));
+        static_cast<int>(std::ceil(3.0 * std::sqrt(widestSensitivity / (2.0 * piSquared)) * pixelsPerDegree));
     // Applied twice, along rows and columns: each takes the root of the weight a · sqrt(pi / b).
-    SpatialFilter filter{gaussian(std::sqrt(s.a1 * std::sqrt(pi / s.b1)), s.b1, radius, pixelsPerDegree), {}};
+    SpatialFilter filter{gaussian(std::sqrt(s.a1 * std::sqrt(std::numbers::pi / s.b1)), s.b1, radius, pixelsPerDegree),
+                         {}};
     double total = std::pow(sum(filter.first), 2.0);
     if (s.a2 > 0.0) {
-        filter.second = gaussian(std::sqrt(s.a2 * std::sqrt(pi / s.b2)), s.b2, radius, pixelsPerDegree);
+        filter.second = gaussian(std::sqrt(s.a2 * std::sqrt(std::numbers::pi / s.b2)), s.b2, radius, pixelsPerDegree);
         total += std::pow(sum(filter.second), 2.0);
         scale(filter.second, 1.0 / std::sqrt(total));
     }

@@ -36,7 +36,7 @@ VkAccelerationStructureGeometryKHR triangleGeometry(Device& device, const Triang
 }
 
 // One instance, where it is.
-Buffer makeInstance(Device& device, VkAccelerationStructureKHR bottom) {
+Buffer uploadInstance(Device& device, VkAccelerationStructureKHR bottom) {
     const VkAccelerationStructureDeviceAddressInfoKHR info{
         VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR, nullptr, bottom};
     VkAccelerationStructureInstanceKHR instance{};
@@ -83,7 +83,7 @@ AccelerationStructure::AccelerationStructure(Device& device, const TriangleInput
     REFLET_CHECK(device.hasRayQuery(), "'{}' has no ray query", device.description().name);
     bottom_ =
         build(VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, triangleGeometry(device, triangles), triangles.count);
-    const Buffer instance = makeInstance(device, bottom_.structure);
+    const Buffer instance = uploadInstance(device, bottom_.structure);
     top_ = build(VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, instanceGeometry(device, instance), 1);
 }
 

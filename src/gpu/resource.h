@@ -151,4 +151,12 @@ Texture uploadTexels(Device& device, const ImageInfo& info, std::span<const std:
 Buffer uploadBuffer(Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage,
                     const std::string& name);
 
+/// A device buffer with these values; with one that is zero where there are none, since no buffer can be empty.
+template <class T>
+Buffer uploadVector(Device& device, const std::vector<T>& values, VkBufferUsageFlags usage, const std::string& name) {
+    const T none{};
+    const std::span<const T> span = values.empty() ? std::span(&none, 1) : std::span(values);
+    return uploadBuffer(device, std::as_bytes(span), usage, name);
+}
+
 }  // namespace reflet::gpu

@@ -11,7 +11,6 @@ namespace reflet {
 
 namespace {
 
-constexpr float pi = glm::pi<float>();
 constexpr float dielectricF0 = 0.04F;
 constexpr float leastLampRoughness = 0.045F;
 constexpr float mirrorAlpha = 1e-4F;  // a lobe narrower than a hundredth of a degree is a mirror

@@ -10,8 +10,6 @@ namespace reflet {
 
 namespace {
 
-constexpr float pi = glm::pi<float>();
-
 // KHR_lights_punctual. Irradiance on a surface at p that faces the lamp.
 LightSample lampAt(const Lamp& lamp, const vec3& p) {
     LightSample s;

@@ -10,15 +10,13 @@ namespace reflet {
 
 namespace {
 
-constexpr double pi = glm::pi<double>();
-
 // Cosine of the angle from +Y at the upper edge of a row.
 double edgeCosine(size_t row, size_t height) {
-    return std::cos(pi * static_cast<double>(row) / static_cast<double>(height));
+    return std::cos(glm::pi<double>() * static_cast<double>(row) / static_cast<double>(height));
 }
 
 double texelSolidAngle(const FloatImage& image, size_t row) {
-    return 2.0 * pi / image.width * (edgeCosine(row, image.height) - edgeCosine(row + 1, image.height));
+    return 2.0 * glm::pi<double>() / image.width * (edgeCosine(row, image.height) - edgeCosine(row + 1, image.height));
 }
 
 }  // namespace
@@ -45,7 +43,7 @@ LightSample Lights::drawEnvironment(float choice, const vec2& u) const {
     const size_t row = texel / image.width;
     const double cosine = glm::mix(edgeCosine(row, image.height), edgeCosine(row + 1, image.height), double(u.y));
     const vec2 uv((static_cast<float>(texel % image.width) + u.x) / static_cast<float>(image.width),
-                  std::acos(std::clamp(cosine, -1.0, 1.0)) / pi);
+                  std::acos(std::clamp(cosine, -1.0, 1.0)) / glm::pi<double>());
     LightSample s;
     s.toLight = environmentDirection(uv, environment_.rotation);
     s.pdf = environmentPdf(s.toLight);

@@ -15,10 +15,8 @@
 
 namespace reflet {
 
-namespace {
-
 // What a filter needs to know of an instance.
-struct Geometry {
+struct EmbreeGeometry {
     const RayScene* owner = nullptr;
     uint32_t instance = 0;
     bool mirrored = false;
@@ -27,17 +25,19 @@ struct Geometry {
     const vec3* positions = nullptr;  ///< world space; Embree owns them
 };
 
+namespace {
+
 vec2 barycentricOf(const RTCFilterFunctionNArguments& args) {
     return {RTCHitN_u(args.hit, args.N, 0), RTCHitN_v(args.hit, args.N, 0)};
 }
 
-const Geometry& geometryOf(const RTCFilterFunctionNArguments& args) {
-    return *static_cast<const Geometry*>(args.geometryUserPtr);
+const EmbreeGeometry& geometryOf(const RTCFilterFunctionNArguments& args) {
+    return *static_cast<const EmbreeGeometry*>(args.geometryUserPtr);
 }
 
 // Rays go through where the material is cut out.
 void passCutOut(const RTCFilterFunctionNArguments* args) {
-    const Geometry& g = geometryOf(*args);
+    const EmbreeGeometry& g = geometryOf(*args);
     const Hit hit{0.0F, g.instance, RTCHitN_primID(args->hit, args->N, 0), barycentricOf(*args)};
     if (isCutOut(*g.owner, hit)) {
         args->valid[0] = 0;
@@ -46,7 +46,7 @@ void passCutOut(const RTCFilterFunctionNArguments* args) {
 
 // Camera rays also go through the backs of single-sided surfaces.
 void passBacks(const RTCFilterFunctionNArguments* args) {
-    const Geometry& g = geometryOf(*args);
+    const EmbreeGeometry& g = geometryOf(*args);
     if (g.doubleSided) {
         return;
     }
@@ -126,7 +126,7 @@ RTCRay embreeRay(const Ray& ray) {
 
 struct RayScene::State {
     const Scene& scene;
-    std::vector<Geometry> geometries;  ///< one per instance; Embree keeps pointers into it
+    std::vector<EmbreeGeometry> geometries;  ///< one per instance; Embree keeps pointers into it
     RTCDevice device = nullptr;
     RTCScene hierarchy = nullptr;
 
@@ -143,7 +143,7 @@ struct RayScene::State {
         }
     }
 
-    void add(Geometry& g) {
+    void add(EmbreeGeometry& g) {
         const Instance& instance = scene.instances[g.instance];
         const Mesh& mesh = scene.meshes.at(instance.mesh);
         const Material& material = scene.materials.at(mesh.material);
@@ -185,7 +185,7 @@ RayScene::RayScene(const Scene& scene) : state_(new State{scene, {}, nullptr, nu
     rtcSetSceneFlags(state_->hierarchy, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | filterFlag));
     state_->geometries.resize(scene.instances.size());
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
-        Geometry& g = state_->geometries[i];
+        EmbreeGeometry& g = state_->geometries[i];
         g.owner = this;
         g.instance = i;
         if (!scene.meshes.at(scene.instances[i].mesh).indices.empty()) {

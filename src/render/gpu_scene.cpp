@@ -82,14 +82,6 @@ LampParams lampParams(const Lamp& lamp) {
     return p;
 }
 
-template <class T>
-gpu::Buffer uploadVector(gpu::Device& device, const std::vector<T>& values, VkBufferUsageFlags usage,
-                         const char* name) {
-    const T none{};
-    const std::span<const T> span = values.empty() ? std::span(&none, 1) : std::span(values);
-    return gpu::uploadBuffer(device, std::as_bytes(span), usage, name);
-}
-
 }  // namespace
 
 GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn)
@@ -120,13 +112,13 @@ void GpuScene::uploadMeshes(const Scene& scene) {
     addSkinned(scene, positions, attributes);
     constexpr VkBufferUsageFlags forRays = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     const VkBufferUsageFlags forSkins = skinned_.empty() ? 0U : forRays;
-    positions_ = uploadVector(device_, positions, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | forSkins, "positions");
+    positions_ = gpu::uploadVector(device_, positions, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | forSkins, "positions");
     if (!skinned_.empty()) {
         previousPositions_ =
-            uploadVector(device_, positions, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | forSkins, "previous positions");
+            gpu::uploadVector(device_, positions, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | forSkins, "previous positions");
     }
-    attributes_ = uploadVector(device_, attributes, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | forRays, "attributes");
-    indices_ = uploadVector(device_, indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT | forRays, "indices");
+    attributes_ = gpu::uploadVector(device_, attributes, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | forRays, "attributes");
+    indices_ = gpu::uploadVector(device_, indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT | forRays, "indices");
 }
 
 gpu::Image GpuScene::texture(const Scene& scene, int32_t image, bool srgb) {

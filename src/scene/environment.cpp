@@ -12,8 +12,6 @@
 namespace reflet {
 namespace {
 
-constexpr auto pi = glm::pi<float>();
-
 /// The texel that a coordinate in 0..1 is in; 1 is in the last one.
 uint32_t texelOf(float coordinate, uint32_t count) {
     return std::min(static_cast<uint32_t>(coordinate * static_cast<float>(count)), count - 1);

@@ -45,10 +45,6 @@ std::vector<float> readTimes(const GltfDocument& document, int input, GltfReport
     return times;
 }
 
-bool isFinite(const vec4& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
-}
-
 // Tangents of splines are no rotations, and may be of any length.
 void makeUnit(Channel& channel, const std::string& part, const GltfReport& report) {
     const bool spline = channel.interpolation == Interpolation::cubicSpline;

@@ -1,6 +1,7 @@
 // A glTF file as tinygltf's structures, with everything in them checked.
 #pragma once
 
+#include "base/math.h"
 #include "scene/gltf_report.h"
 
 #include <tiny_gltf.h>
@@ -24,5 +25,10 @@ GltfDocument readGltfDocument(const std::filesystem::path& path, GltfReport& rep
 /// Checks what takes more than one value to check (see GltfDocument), and fills isChild. Part of readGltfDocument.
 void checkGltfBuffers(const tinygltf::Model& model, const GltfReport& report);
 void checkGltfNodes(GltfDocument& document, const GltfReport& report);
+
+/// A node's or an extension's three numbers, which the file may leave out.
+inline glm::dvec3 vectorOr(const std::vector<double>& values, const glm::dvec3& otherwise) {
+    return values.size() == 3 ? glm::dvec3(values[0], values[1], values[2]) : otherwise;
+}
 
 }  // namespace reflet

@@ -144,7 +144,7 @@ std::vector<vec4> readAttribute(const draco::Mesh& mesh, uint32_t id, bool norma
     return values;
 }
 
-std::vector<uint32_t> readIndices(const draco::Mesh& mesh, const std::string& part, GltfReport& report) {
+std::vector<uint32_t> readDracoIndices(const draco::Mesh& mesh, const std::string& part, GltfReport& report) {
     report.charge(part, uint64_t(mesh.num_faces()) * 3 * sizeof(uint32_t));
     std::vector<uint32_t> indices;
     indices.reserve(size_t(mesh.num_faces()) * 3);
@@ -171,7 +171,7 @@ DracoPrimitive decodeDraco(const GltfDocument& document, const tinygltf::Primiti
     const auto mesh = decodeMesh(bytes.subspan(view.byteOffset, view.byteLength), here, report);
 
     DracoPrimitive result;
-    result.indices = readIndices(*mesh, here, report);
+    result.indices = readDracoIndices(*mesh, here, report);
     for (const std::string& name : extension.Get("attributes").Keys()) {
         const std::string attributePart = fmt::format("{}.attributes.{}", here, name);
         const auto found = primitive.attributes.find(name);

@@ -14,7 +14,7 @@ namespace reflet {
 
 namespace {
 
-constexpr uint64_t maxFileBytes = 1ULL << 30U;
+constexpr uint64_t maxImageBytes = 1ULL << 30U;
 constexpr int maxSide = 16384;
 constexpr uint64_t maxDeflateRatio = 1032;
 constexpr uint64_t maxJpegPixelsPerByte = 512;  // a block of 8 x 8 takes at least one bit
@@ -55,8 +55,8 @@ Image decode(std::span<const uint8_t> bytes, const std::string& part, GltfReport
     if (!isPng(bytes) && !isJpeg(bytes)) {  // stb_image reads more than glTF has
         report.fail(part, "is neither PNG nor JPEG");
     }
-    if (bytes.size() > maxFileBytes) {
-        report.fail(part, "has {} bytes, more than {} MiB", bytes.size(), maxFileBytes >> 20U);
+    if (bytes.size() > maxImageBytes) {
+        report.fail(part, "has {} bytes, more than {} MiB", bytes.size(), maxImageBytes >> 20U);
     }
     const int size = static_cast<int>(bytes.size());
     int width = 0;
@@ -95,7 +95,7 @@ Image decodeGltfImage(const GltfDocument& document, size_t index, GltfReport& re
         const std::span bytes(document.model.buffers[static_cast<size_t>(view.buffer)].data);
         image = decode(bytes.subspan(view.byteOffset, view.byteLength), part, report);
     } else if (!source.uri.empty()) {
-        image = decode(readUri(source.uri, document.folder, maxFileBytes + 1, part + ".uri", report), part, report);
+        image = decode(readUri(source.uri, document.folder, maxImageBytes + 1, part + ".uri", report), part, report);
     } else {
         report.fail(part, "has neither a uri nor a bufferView");
     }

@@ -13,10 +13,6 @@ namespace {
 
 constexpr uint64_t vertexBytes = sizeof(vec3) + sizeof(VertexAttributes) + sizeof(VertexSkin);
 
-bool isFinite(const vec4& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
-}
-
 /// The vertices that the triangles use, ascending; the triangles are renumbered to match. Primitives often share one
 /// long list of vertices, and each takes only its own.
 std::vector<uint32_t> takeUsed(std::vector<uint32_t>& triangles, uint32_t vertices) {

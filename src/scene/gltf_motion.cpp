@@ -9,14 +9,6 @@
 
 namespace reflet {
 
-namespace {
-
-glm::dvec3 vectorOr(const std::vector<double>& values, const glm::dvec3& otherwise) {
-    return values.size() == 3 ? glm::dvec3(values[0], values[1], values[2]) : otherwise;
-}
-
-}  // namespace
-
 Node readGltfNode(const tinygltf::Node& node, const std::string& part, const GltfReport& report) {
     Node result;
     if (node.matrix.size() == 16) {

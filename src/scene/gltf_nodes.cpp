@@ -13,21 +13,6 @@ namespace {
 
 constexpr float minNear = 1e-3F;  // metres; of orthographic cameras, which may have 0 in glTF
 
-bool isFinite(const mat4& m) {
-    for (int c = 0; c < 4; ++c) {
-        for (int r = 0; r < 4; ++r) {
-            if (!std::isfinite(m[c][r])) {
-                return false;
-            }
-        }
-    }
-    return true;
-}
-
-glm::dvec3 vectorOr(const std::vector<double>& values, const glm::dvec3& otherwise) {
-    return values.size() == 3 ? glm::dvec3(values[0], values[1], values[2]) : otherwise;
-}
-
 Camera placeCamera(const tinygltf::Camera& source, const mat4& toWorld, const std::string& part,
                    const GltfReport& report) {
     Camera camera;

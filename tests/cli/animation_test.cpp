@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-namespace reflet {
+namespace reflet::animation_test {
 namespace {
 
 using nlohmann::json;
@@ -100,4 +100,4 @@ TEST_F(Animation, ATimeThatIsNoneIsRefused) {
 }
 
 }  // namespace
-}  // namespace reflet
+}  // namespace reflet::animation_test

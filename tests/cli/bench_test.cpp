@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace reflet {
+namespace reflet::bench_test {
 
 namespace {
 
@@ -57,8 +57,6 @@ void expectState(const nlohmann::json& state, size_t frames) {
         EXPECT_TRUE(state.at("error").at(metric).is_number()) << metric;
     }
 }
-
-}  // namespace
 
 TEST_F(BenchTest, NumbersAreThereForEveryStateOfEveryPreset) {
     const Outcome outcome = bench({"--preset", "fast,games202"});
@@ -217,4 +215,5 @@ TEST_F(BenchTest, RefusesWhatItDoesNotKnowAndNamesTheNearest) {
     EXPECT_FALSE(std::filesystem::exists(path("out.json")));
 }
 
-}  // namespace reflet
+}  // namespace
+}  // namespace reflet::bench_test

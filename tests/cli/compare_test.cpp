@@ -9,7 +9,7 @@
 #include <limits>
 #include <sstream>
 
-namespace reflet {
+namespace reflet::compare_test {
 namespace {
 
 constexpr uint32_t width = 8;
@@ -247,4 +247,4 @@ TEST_F(Compare, LimitsThatAreNoneAreWrongUse) {
 }
 
 }  // namespace
-}  // namespace reflet
+}  // namespace reflet::compare_test

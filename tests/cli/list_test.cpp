@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
-namespace reflet {
+namespace reflet::list_test {
 namespace {
 
 class Lists : public ProgramTest {
@@ -79,4 +79,4 @@ TEST_F(Lists, AListThatCannotBeWrittenIsAFailure) {
 }
 
 }  // namespace
-}  // namespace reflet
+}  // namespace reflet::list_test

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace reflet {
+namespace reflet::reference_options_test {
 namespace {
 
 const std::string tiltedCube = "builtin:tilted-cube";  // stands before a background
@@ -162,4 +162,4 @@ TEST_F(ReferenceOptions, NoVulkanDeviceIsNeeded) {
 }
 
 }  // namespace
-}  // namespace reflet
+}  // namespace reflet::reference_options_test

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <regex>
 
-namespace reflet {
+namespace reflet::reference_test {
 namespace {
 
 constexpr int failed = 1;
@@ -169,4 +169,4 @@ TEST_F(Reference, ASecondInterruptEndsAtOnceAndLeavesNoFile) {
 }
 
 }  // namespace
-}  // namespace reflet
+}  // namespace reflet::reference_test

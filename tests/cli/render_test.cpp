@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <map>
 
-namespace reflet {
+namespace reflet::render_test {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -219,4 +219,4 @@ TEST_F(Render, TheValidationLayersHaveNothingToSay) {
 }
 
 }  // namespace
-}  // namespace reflet
+}  // namespace reflet::render_test

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <sstream>
 
-namespace reflet {
+namespace reflet::report_browser_test {
 
 namespace {
 
@@ -131,8 +131,6 @@ std::vector<std::string> consoleLines(const Outcome& run) {
     return found;
 }
 
-}  // namespace
-
 TEST_F(ReportBrowserTest, TheDividerAndTheChoicesWork) {
     extendPage("test.html", userScript);
     const Outcome shown = open("test.html", "1280,900");
@@ -174,4 +172,5 @@ TEST_F(ReportBrowserTest, AMistakeOfTheScriptWouldBeSeen) {
     EXPECT_EQ(consoleLines(open("test.html", "1280,900")).size(), 1U);
 }
 
-}  // namespace reflet
+}  // namespace
+}  // namespace reflet::report_browser_test

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace reflet {
+namespace reflet::report_test {
 
 namespace {
 
@@ -44,8 +44,6 @@ nlohmann::json withoutTimes(nlohmann::json numbers) {
     }
     return numbers;
 }
-
-}  // namespace
 
 TEST_F(ReportTest, EveryFileThatThePageNamesIsThere) {
     ASSERT_TRUE(quietSuccess(report({"builtin:cubes"}, {"--preset", "direct,fast"})));
@@ -144,4 +142,5 @@ TEST_F(ReportTest, AFolderThatCannotBeMadeIsSaidAtOnce) {
     EXPECT_EQ(read("out"), "a file");
 }
 
-}  // namespace reflet
+}  // namespace
+}  // namespace reflet::report_test

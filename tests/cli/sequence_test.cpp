@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <map>
 
-namespace reflet {
+namespace reflet::sequence_test {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -225,4 +225,4 @@ TEST_F(Sequence, WrongUseIsToldWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace reflet
+}  // namespace reflet::sequence_test

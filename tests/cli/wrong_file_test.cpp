@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-namespace reflet {
+namespace reflet::wrong_file_test {
 namespace {
 
 constexpr int failed = 1;
@@ -101,4 +101,4 @@ TEST_F(WrongFile, APictureThatIsThereSurvivesAFailingRender) {
 }
 
 }  // namespace
-}  // namespace reflet
+}  // namespace reflet::wrong_file_test

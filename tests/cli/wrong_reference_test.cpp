@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-namespace reflet {
+namespace reflet::wrong_reference_test {
 namespace {
 
 constexpr int failed = 1;
@@ -85,4 +85,4 @@ TEST_F(WrongReference, AnOutputThatCannotBeWrittenIsNamedBeforeAnyWork) {
 }
 
 }  // namespace
-}  // namespace reflet
+}  // namespace reflet::wrong_reference_test

@@ -1,7 +1,7 @@
 // What the program says, and which status it ends with, when the command line asks for what cannot be.
 #include "cli/program.h"
 
-namespace reflet {
+namespace reflet::wrong_use_test {
 namespace {
 
 constexpr int failed = 1;
@@ -148,4 +148,4 @@ TEST_F(WrongUse, LeavesNoFiles) {
 }
 
 }  // namespace
-}  // namespace reflet
+}  // namespace reflet::wrong_use_test

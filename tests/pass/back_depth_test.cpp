@@ -11,7 +11,7 @@
 #include <iterator>
 #include <optional>
 
-namespace reflet::test {
+namespace reflet::test::back_depth_test {
 namespace {
 
 constexpr uvec2 size(160, 90);
@@ -147,4 +147,4 @@ TEST_F(BackDepth, LooksThroughWhatIsCutOut) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::back_depth_test

@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace reflet::test {
+namespace reflet::test::bench_test {
 namespace {
 
 class BenchDeviceTest : public DeviceTest {};
@@ -53,8 +53,6 @@ Samples twoFrames() {
     samples.add(9.0, 8.5, second);
     return samples;
 }
-
-}  // namespace
 
 TEST(Spread, TheMedianIsTheMiddleValueOrTheMeanOfTheTwoInTheMiddle) {
     EXPECT_EQ(spread({5.0}).median, 5.0);
@@ -311,4 +309,5 @@ TEST_F(BenchDeviceTest, FewTrianglesAndAMillionLookAlike) {
     EXPECT_LT(compareImages(pictures[0], pictures[1], options).difference.relativeMse, 1e-3);
 }
 
-}  // namespace reflet::test
+}  // namespace
+}  // namespace reflet::test::bench_test

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reflet::test {
+namespace reflet::test::cascades_test {
 namespace {
 
 const vec3 toSun = glm::normalize(vec3(0.35F, 1.0F, 0.2F));
@@ -205,4 +205,4 @@ TEST(Cascades, WhereTwoBlendTheVisibilityIsTheirMixture) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::cascades_test

@@ -2,7 +2,7 @@
 #include "pass/harness.h"
 #include "scene/builtin.h"
 
-namespace reflet::test {
+namespace reflet::test::composite_test {
 namespace {
 
 constexpr uvec2 size(160, 90);
@@ -32,4 +32,4 @@ TEST(Composite, GainIsAFactorOnDiffuseLightAloneAndNothingElseChanges) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::composite_test

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reflet::test {
+namespace reflet::test::contact_test {
 namespace {
 
 constexpr uvec2 size(200, 112);
@@ -220,4 +220,4 @@ TEST(Contact, BringsACoarseMapNearerToTheTruth) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::contact_test

@@ -9,7 +9,7 @@
 #include <random>
 #include <string>
 
-namespace reflet::test {
+namespace reflet::test::denoise_test {
 
 namespace {
 
@@ -47,8 +47,6 @@ float pattern(uvec2 pixel) {
 std::string lobeName(const ::testing::TestParamInfo<uint32_t>& info) {
     return info.param == lobeDiffuse ? "Diffuse" : "Specular";
 }
-
-}  // namespace
 
 INSTANTIATE_TEST_SUITE_P(Lobes, Denoise, ::testing::Values(lobeDiffuse, lobeSpecular), lobeName);
 
@@ -203,4 +201,5 @@ TEST_F(DenoisePlain, TwoRunsAreTheSame) {
     EXPECT_EQ(last(), last());
 }
 
-}  // namespace reflet::test
+}  // namespace
+}  // namespace reflet::test::denoise_test

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace reflet::test {
+namespace reflet::test::direct_test {
 namespace {
 
 constexpr uvec2 size(160, 90);
@@ -156,4 +156,4 @@ TEST(DirectLight, EmissionIsWhatTheMaterialEmits) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::direct_test

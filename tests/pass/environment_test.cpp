@@ -8,7 +8,7 @@
 #include <functional>
 #include <memory>
 
-namespace reflet::test {
+namespace reflet::test::environment_test {
 namespace {
 
 constexpr uvec2 size(96, 96);
@@ -289,4 +289,4 @@ TEST(EnvironmentImage, ChangingItFromFrameToFrameShowsTheNewOne) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::environment_test

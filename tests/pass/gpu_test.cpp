@@ -6,7 +6,7 @@
 
 #include <functional>
 
-namespace reflet::test {
+namespace reflet::test::gpu_test {
 namespace {
 
 class Gpu : public DeviceTest {
@@ -142,4 +142,4 @@ TEST_F(Gpu, TimesAreThereForEveryPassByItsScopedName) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::gpu_test

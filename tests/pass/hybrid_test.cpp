@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace reflet::test {
+namespace reflet::test::hybrid_test {
 namespace {
 
 constexpr uvec2 size(96, 54);
@@ -125,4 +125,4 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Hybrid,
                          });
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::hybrid_test

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace reflet::test {
+namespace reflet::test::indirect_test {
 namespace {
 
 constexpr uvec2 size(160, 90);
@@ -284,4 +284,4 @@ TEST(Indirect, LambertOnlyHasNoReflections) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::indirect_test

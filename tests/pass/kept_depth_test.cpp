@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reflet::test {
+namespace reflet::test::kept_depth_test {
 namespace {
 
 constexpr uvec2 size(160, 90);
@@ -94,4 +94,4 @@ TEST(KeptDepth, IsWhatLightIsComputedWith) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::kept_depth_test

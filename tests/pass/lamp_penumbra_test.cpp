@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace reflet::test {
+namespace reflet::test::lamp_penumbra_test {
 namespace {
 
 constexpr uvec2 size(160, 90);
@@ -135,4 +135,4 @@ TEST(LampShadow, OfALampsDiskLeavesWallsLitAndAClosedBoxBlackInEveryFilter) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::lamp_penumbra_test

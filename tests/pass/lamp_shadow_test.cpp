@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace reflet::test {
+namespace reflet::test::lamp_shadow_test {
 namespace {
 
 constexpr uvec2 size(160, 90);
@@ -235,4 +235,4 @@ TEST(LampShadow, WithoutShadowsLampsShineThroughEverything) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::lamp_shadow_test

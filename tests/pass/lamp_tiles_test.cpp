@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reflet::test {
+namespace reflet::test::lamp_tiles_test {
 namespace {
 
 constexpr uvec2 size(150, 90);  // the last tiles are parts of tiles
@@ -184,4 +184,4 @@ TEST(LampTiles, AHundredLampsLightTheCourtAsThePathTracerSays) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::lamp_tiles_test

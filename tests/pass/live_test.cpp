@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace reflet::test {
+namespace reflet::test::live_test {
 namespace {
 
 constexpr uvec2 size(160, 90);
@@ -88,4 +88,4 @@ TEST_F(LiveWarnings, NameTheCamerasThatThereAre) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::live_test

@@ -3,7 +3,7 @@
 
 #include "pass/mirror_room.h"
 
-namespace reflet::test {
+namespace reflet::test::mirrors_test {
 namespace {
 
 ViewParams paramsOf(const View& view) {
@@ -97,4 +97,4 @@ TEST(Mirrors, ATexturesMeanRoughnessCounts) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::mirrors_test

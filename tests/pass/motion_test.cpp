@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace reflet::test {
+namespace reflet::test::motion_test {
 namespace {
 
 constexpr uvec2 size(160, 90);
@@ -214,4 +214,4 @@ TEST(Moving, TheRendererShowsTheReferencesDepthAndDirectLightAtItsTime) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::motion_test

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace reflet::test {
+namespace reflet::test::oracle_test {
 namespace {
 
 constexpr size_t rayCount = 10000;
@@ -151,4 +151,4 @@ TEST_F(OracleRays, isFollowedAtOddSizes) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::oracle_test

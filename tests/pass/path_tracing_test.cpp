@@ -7,7 +7,7 @@
 
 #include <cstdio>
 
-namespace reflet::test {
+namespace reflet::test::path_tracing_test {
 namespace {
 
 constexpr uvec2 size(80, 45);
@@ -73,4 +73,4 @@ TEST(Accumulate, IsTheMeanOfItsFrames) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::path_tracing_test

@@ -4,7 +4,7 @@
 #include "pass/harness.h"
 #include "scene/builtin.h"
 
-namespace reflet::test {
+namespace reflet::test::place_probes_test {
 namespace {
 
 // Six slabs around the inside of a room.
@@ -84,4 +84,4 @@ TEST(PlaceProbes, EveryBuiltinSceneHasThemInsideOfTheirBoxes) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::place_probes_test

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace reflet::test {
+namespace reflet::test::planar_test {
 namespace {
 
 constexpr uvec2 size(160, 90);
@@ -230,4 +230,4 @@ TEST(Planar, EveryFormWorksWithOtherSettings) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::planar_test

@@ -13,7 +13,7 @@
 #include <regex>
 #include <string>
 
-namespace reflet::test {
+namespace reflet::test::plot_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -275,4 +275,4 @@ TEST(PlotLabels, StandBesideTheirPointWithoutALeaderWhereThereIsRoom) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::plot_test

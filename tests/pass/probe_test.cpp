@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reflet::test {
+namespace reflet::test::probe_test {
 namespace {
 
 float at(const FloatImage& image, unsigned x, unsigned y, unsigned channel) {
@@ -395,4 +395,4 @@ TEST(Probe, IsCapturedAnewWhenLightChangesAndOnlyThen) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::probe_test

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <random>
 
-namespace reflet::test {
+namespace reflet::test::pyramid_test {
 namespace {
 
 constexpr uvec2 sizes[] = {{1, 1}, {2, 2}, {3, 5}, {17, 9}, {64, 64}, {319, 181}};
@@ -134,4 +134,4 @@ TEST_F(Pyramid, ofNothingButSkyCanBeHitNowhere) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::pyramid_test

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace reflet::test {
+namespace reflet::test::ray_noise_test {
 namespace {
 
 constexpr uvec2 size(64, 36);
@@ -141,4 +141,4 @@ TEST_F(NoiseOfRays, OfAFrameIsTheSameEveryTimeAndAnotherInTheNext) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::ray_noise_test

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace reflet::test {
+namespace reflet::test::ray_surfaces_test {
 
 namespace {
 
@@ -17,8 +17,6 @@ vec3 pointAt(const ViewParams& view, uvec2 pixel, float depth) {
     const vec4 p = view.clipToWorld * vec4(ndc, depth, 1.0F);
     return vec3(p) / p.w;
 }
-
-}  // namespace
 
 TEST(RaySurfaces, ABlocksPixelSeesWhatThePickedPixelOfThePictureSees) {
     const Camera perspective = defaultView(findBuiltinScene("cubes")->make()).camera;
@@ -92,4 +90,5 @@ TEST(RaySurfaces, EverySourceAnswersRaysFromACoarserGrid) {
     expectSilentValidation("coarser grids, every source");
 }
 
-}  // namespace reflet::test
+}  // namespace
+}  // namespace reflet::test::ray_surfaces_test

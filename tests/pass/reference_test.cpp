@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reflet::test {
+namespace reflet::test::reference_test {
 namespace {
 
 constexpr uvec2 size(160, 90);
@@ -137,4 +137,4 @@ std::string sceneName(const testing::TestParamInfo<const BuiltinScene*>& info) {
 INSTANTIATE_TEST_SUITE_P(Reference, EveryBuiltinScene, testing::ValuesIn(allScenes()), sceneName);
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::reference_test

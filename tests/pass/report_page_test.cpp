@@ -11,7 +11,7 @@
 #include <set>
 #include <sstream>
 
-namespace reflet::test {
+namespace reflet::test::report_page_test {
 
 namespace {
 
@@ -43,8 +43,6 @@ ReportPage oneScene() {
     page.scenes.pop_back();
     return page;
 }
-
-}  // namespace
 
 TEST(ReportPage, IsWellFormed) {
     const Html html = parseHtml(reportHtml(sampleReport()));
@@ -204,4 +202,5 @@ TEST(ReportNumbers, TheJsonHoldsEveryNumber) {
     EXPECT_EQ(json["scenes"][0]["truth"]["noise"], 0.01);
 }
 
-}  // namespace reflet::test
+}  // namespace
+}  // namespace reflet::test::report_page_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace reflet::test {
+namespace reflet::test::rough_reflections_test {
 namespace {
 
 constexpr uvec2 size(160, 90);
@@ -183,4 +183,4 @@ TEST(RoughReflections, AnOrthographicCameraBlursAsMuchAsADistantOne) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::rough_reflections_test

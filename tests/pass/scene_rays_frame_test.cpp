@@ -6,7 +6,7 @@
 
 #include <cstdio>
 
-namespace reflet::test {
+namespace reflet::test::scene_rays_frame_test {
 namespace {
 
 constexpr uvec2 size(96, 54);
@@ -48,4 +48,4 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SceneRaysInAFrame, testing::Values("colonnade",
                          });
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::scene_rays_frame_test

@@ -109,7 +109,7 @@ class HitComparison {
 public:
     explicit HitComparison(const Scene& scene) : scene_(scene), firstIndices_(firstIndices(scene)) {}
 
-    void add(Difference& d, const TestRay& ray, const TestHit& a, const TestHit& b) const {
+    void add(HitDifference& d, const TestRay& ray, const TestHit& a, const TestHit& b) const {
         d.any += (a.any != a.found ? 1 : 0) + (b.any != b.found ? 1 : 0);
         d.hits += a.found;
         if (a.found != b.found) {
@@ -165,10 +165,10 @@ std::vector<TestHit> traceWithEmbree(const Scene& scene, const std::vector<TestR
     return hits;
 }
 
-Difference difference(const Scene& scene, const std::vector<TestRay>& rays, const std::vector<TestHit>& one,
-                      const std::vector<TestHit>& another) {
+HitDifference difference(const Scene& scene, const std::vector<TestRay>& rays, const std::vector<TestHit>& one,
+                         const std::vector<TestHit>& another) {
     const HitComparison comparison(scene);
-    Difference d;
+    HitDifference d;
     d.rays = rays.size();
     for (size_t i = 0; i < rays.size(); ++i) {
         comparison.add(d, rays[i], one[i], another[i]);
@@ -176,7 +176,7 @@ Difference difference(const Scene& scene, const std::vector<TestRay>& rays, cons
     return d;
 }
 
-std::ostream& operator<<(std::ostream& out, const Difference& d) {
+std::ostream& operator<<(std::ostream& out, const HitDifference& d) {
     return out << d.rays << " rays, " << d.hits << " hit; " << d.other << " otherwise (" << d.oneOnly
                << " one way only, " << d.elsewhere << " at another distance), " << d.coincident
                << " one of two coincident triangles; distances within " << d.distance

@@ -24,7 +24,7 @@ std::vector<TestRay> randomRays(const Scene& scene, size_t count);
 std::vector<TestHit> traceWithEmbree(const Scene& scene, const std::vector<TestRay>& rays);
 
 /// How two ways of tracing the same rays differ.
-struct Difference {
+struct HitDifference {
     size_t rays = 0;
     size_t hits = 0;  ///< of the first way
     /// Not the same triangle, or only one way hits. Not counted: two triangles on top of each other, of which either
@@ -37,10 +37,10 @@ struct Difference {
     double distance = 0.0;     ///< largest difference where they are the same, in what rounding may come to
     double barycentric = 0.0;  ///< largest, where the triangle is the same
 };
-std::ostream& operator<<(std::ostream& out, const Difference& difference);
+std::ostream& operator<<(std::ostream& out, const HitDifference& difference);
 
-Difference difference(const Scene& scene, const std::vector<TestRay>& rays, const std::vector<TestHit>& one,
-                      const std::vector<TestHit>& another);
+HitDifference difference(const Scene& scene, const std::vector<TestRay>& rays, const std::vector<TestHit>& one,
+                         const std::vector<TestHit>& another);
 
 /// The scene with all materials whole.
 Scene withoutCutOuts(Scene scene);

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reflet::test {
+namespace reflet::test::scene_rays_small_test {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -187,4 +187,4 @@ std::string methodName(const ::testing::TestParamInfo<RayMethod>& method) {
 INSTANTIATE_TEST_SUITE_P(By, SmallSceneRays, ::testing::Values(RayMethod::traversal, RayMethod::query), methodName);
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::scene_rays_small_test

@@ -9,14 +9,14 @@
 #include <filesystem>
 #include <iostream>
 
-namespace reflet::test {
+namespace reflet::test::scene_rays_test {
 namespace {
 
 constexpr size_t rayCount = 1000000;
 constexpr size_t otherwiseAtMost = rayCount / 10000;
 
 // Prints how they differ, too.
-void expectSame(const std::string& name, const Difference& d) {
+void expectSame(const std::string& name, const HitDifference& d) {
     std::cout << name << ": " << d << '\n';
     EXPECT_LE(d.other, otherwiseAtMost) << name;
     EXPECT_EQ(d.any, 0U) << name;
@@ -41,7 +41,7 @@ protected:
     static void expectSameOf(const std::string& name, const Scene& scene) {
         const auto rays = randomRays(scene, rayCount);
         const auto hits = trace(SceneRays(device(), scene, RayMethod::traversal), rays);
-        const Difference d = difference(scene, rays, traceWithEmbree(scene, rays), hits);
+        const HitDifference d = difference(scene, rays, traceWithEmbree(scene, rays), hits);
         expectSame(name, d);
         EXPECT_EQ(d.elsewhere, 0U) << name;
         if (hasRayQuery()) {
@@ -79,4 +79,4 @@ TEST_F(SceneRaysOfFile, HitWhatEmbreeHits) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::scene_rays_test

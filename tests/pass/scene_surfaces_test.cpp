@@ -13,7 +13,7 @@
 #include <cstdio>
 #include <cstring>
 
-namespace reflet::test {
+namespace reflet::test::scene_surfaces_test {
 namespace {
 
 constexpr uvec2 size(240, 160);
@@ -233,4 +233,4 @@ TEST_F(SceneSurfacesTest, AreSeenShrunkWithAWordWhereImagesAreLargerThanTheLimit
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::scene_surfaces_test

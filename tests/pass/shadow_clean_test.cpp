@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reflet::test {
+namespace reflet::test::shadow_clean_test {
 namespace {
 
 constexpr uvec2 size(320, 180);
@@ -210,4 +210,4 @@ TEST(ShadowClean, RemembersWhatTheCameraSawBeforeItMoved) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::shadow_clean_test

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace reflet::test {
+namespace reflet::test::shadow_rays_test {
 namespace {
 
 struct Triangle {
@@ -81,4 +81,4 @@ INSTANTIATE_TEST_SUITE_P(Scenes, ShadowRays,
                          });
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::shadow_rays_test

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reflet::test {
+namespace reflet::test::shadow_test {
 namespace {
 
 constexpr uvec2 size(200, 112);
@@ -199,4 +199,4 @@ TEST(Shadow, CutOutMaterialsCastOnlyWhatIsThere) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::shadow_test

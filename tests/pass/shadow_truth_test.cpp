@@ -14,7 +14,7 @@
 #include <map>
 #include <string>
 
-namespace reflet::test {
+namespace reflet::test::shadow_truth_test {
 namespace {
 
 constexpr uvec2 size(160, 90);
@@ -160,4 +160,4 @@ TEST_P(ShadowNoise, OfSixteenSamplesIsLessWhereTheyAreCleanedAndOverFramesLessTh
 INSTANTIATE_TEST_SUITE_P(Scenes, ShadowNoise, testing::Values(colonnadeWide, cubesWide), nameOf);
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::shadow_truth_test

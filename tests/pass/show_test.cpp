@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace reflet::test {
+namespace reflet::test::show_test {
 namespace {
 
 TEST(ShowPicture, NeedsNoDeviceForTheLayersOfTheReference) {
@@ -24,4 +24,4 @@ TEST(ShowPicture, NeedsNoDeviceForTheLayersOfTheReference) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::show_test

@@ -9,7 +9,7 @@
 #include <functional>
 #include <numbers>
 
-namespace reflet::test {
+namespace reflet::test::soft_shadow_test {
 namespace {
 
 constexpr uvec2 size(256, 64);
@@ -312,4 +312,4 @@ TEST(SoftShadow, EarlyOutsChangeLittle) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::soft_shadow_test

@@ -8,7 +8,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
-namespace reflet::test {
+namespace reflet::test::sweep_test {
 namespace {
 
 constexpr uvec2 size(64, 36);
@@ -146,4 +146,4 @@ TEST(Sweep, AnOrthographicCameraSeesParallel) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::sweep_test

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reflet::test {
+namespace reflet::test::temporal_frame_test {
 namespace {
 
 constexpr uvec2 size(160, 90);
@@ -180,4 +180,4 @@ TEST(TemporalFrame, CleanedShadowsRestAsWellUnderJitter) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::temporal_frame_test

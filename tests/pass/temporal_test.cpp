@@ -11,7 +11,7 @@
 #include <limits>
 #include <random>
 
-namespace reflet::test {
+namespace reflet::test::temporal_test {
 namespace {
 
 constexpr uvec2 size(96, 54);
@@ -260,4 +260,4 @@ TEST_F(Temporal, LightThatChangesAtRestIsTakenOverInAFewFrames) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::temporal_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-namespace reflet::test {
+namespace reflet::test::trace_scene_test {
 namespace {
 
 constexpr uvec2 size(160, 90);
@@ -210,4 +210,4 @@ TEST(TraceScene, TheSunsMapGivesTheLightThatShadowRaysGive) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::trace_scene_test

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace reflet::test {
+namespace reflet::test::truth_test {
 namespace {
 
 constexpr uvec2 size(160, 90);
@@ -142,4 +142,4 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Energy, testing::ValuesIn([] {
                          });
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::truth_test

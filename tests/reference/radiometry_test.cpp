@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace reflet::test {
+namespace reflet::test::radiometry_test {
 namespace {
 
 constexpr double pi = glm::pi<double>();
@@ -223,4 +223,4 @@ TEST(GgxAlbedo, IsWhatAPathTracedMetalReflectsOfUniformLight) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::radiometry_test

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reflet::test {
+namespace reflet::test::shadow_test {
 namespace {
 
 constexpr double pi = glm::pi<double>();
@@ -87,4 +87,4 @@ TEST(Shadow, IsCastByNothingNearerToALampThanItsRadius) {
     EXPECT_EQ(mean(traceReference(scene, view, {4, 4}, lambert(0, 64)).direct).x, 0.0F);
 }
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::shadow_test

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <set>
 
-namespace reflet::test {
+namespace reflet::test::tracing_test {
 namespace {
 
 Scene builtinScene(std::string_view name) {
@@ -388,4 +388,4 @@ TEST(PixelSampler, PairsAreNotCorrelatedWithOneAnother) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::tracing_test

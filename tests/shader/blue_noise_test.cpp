@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-namespace reflet::test {
+namespace reflet::test::blue_noise_test {
 namespace {
 
 class BlueNoisePoints : public ShaderTest {
@@ -142,4 +142,4 @@ TEST_F(BlueNoisePoints, GoOnInTheSequenceOnceAllSlicesHaveBeenUsed) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::blue_noise_test

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <functional>
 
-namespace reflet::test {
+namespace reflet::test::cube_map_test {
 namespace {
 
 using LightFrom = std::function<glm::dvec3(const glm::dvec3& direction, uint32_t cube)>;
@@ -256,4 +256,4 @@ TEST_F(CubeMaps, filteringSomeFacesLeavesTheOthersAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::cube_map_test

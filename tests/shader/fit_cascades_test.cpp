@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace reflet::test {
+namespace reflet::test::fit_cascades_test {
 namespace {
 
 constexpr uvec2 pixels{640, 360};
@@ -261,4 +261,4 @@ TEST_F(Cascades, followOneAnotherByDistanceAndBlendEvenly) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::fit_cascades_test

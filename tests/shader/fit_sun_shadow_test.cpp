@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace reflet::test {
+namespace reflet::test::fit_sun_shadow_test {
 namespace {
 
 constexpr uint32_t resolution = 1024;
@@ -174,4 +174,4 @@ TEST(CentredSunShadow, HasTheOriginInItsMiddleAndItsSidesAtTheExtent) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::fit_sun_shadow_test

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reflet::test {
+namespace reflet::test::fixed_point_depth_test {
 namespace {
 
 class FixedPointDepth : public ShaderTest {
@@ -84,4 +84,4 @@ TEST_F(FixedPointDepth, keepsSkySkyAndSurfacesSurfaces) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::fixed_point_depth_test

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace reflet::test {
+namespace reflet::test::ggx_middle_test {
 namespace {
 
 struct LobePart {
@@ -103,4 +103,4 @@ TEST_F(GgxMiddle, theMeanDirectionIsThatOfTheLobeAtEveryAngle) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::ggx_middle_test

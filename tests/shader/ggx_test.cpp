@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace reflet::test {
+namespace reflet::test::ggx_test {
 namespace {
 
 constexpr double pi = glm::pi<double>();
@@ -287,4 +287,4 @@ TEST_F(Ggx, makesNoLightAtAnyRoughness) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::ggx_test

@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-namespace reflet::test {
+namespace reflet::test::half_float_test {
 namespace {
 
 class HalfFloat : public ShaderTest {};
@@ -49,4 +49,4 @@ TEST_F(HalfFloat, roundingGivesTheNearestOneAndNoBias) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::half_float_test

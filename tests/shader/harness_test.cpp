@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace reflet::test {
+namespace reflet::test::harness_test {
 namespace {
 
 TEST(Validation, noticesTwoWritesWithoutABarrier) {
@@ -29,4 +29,4 @@ TEST(Validation, noticesAWrongUse) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::harness_test

@@ -5,7 +5,7 @@
 #include "shader/directions.h"
 #include "shader/harness.h"
 
-namespace reflet::test {
+namespace reflet::test::lamp_test {
 namespace {
 
 class Lamps : public ShaderTest {
@@ -138,4 +138,4 @@ TEST_F(Lamps, directionalLightIsTheSameEverywhere) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::lamp_test

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <functional>
 
-namespace reflet::test {
+namespace reflet::test::light_mips_test {
 namespace {
 
 using LightAt = std::function<vec3(uint32_t x, uint32_t y)>;
@@ -170,4 +170,4 @@ TEST_F(LightMips, blurringSpreadsALightOverTheWidthAndLosesNoneOfIt) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::light_mips_test

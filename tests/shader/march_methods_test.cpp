@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace reflet::test {
+namespace reflet::test::march_methods_test {
 namespace {
 
 constexpr uint32_t methods[] = {marchMethodHalving, marchMethodDda, marchMethodExhaustive, marchMethodHiz};
@@ -196,4 +196,4 @@ TEST_P(Oracle, isFollowedByHierarchicalDepthInFarFewerSteps) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::march_methods_test

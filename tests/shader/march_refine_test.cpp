@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace reflet::test {
+namespace reflet::test::march_refine_test {
 namespace {
 
 class Refinement : public March {
@@ -143,4 +143,4 @@ TEST_P(StrideRefinement, bringsATiltedPlaneFromAStrideToAPixel) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::march_refine_test

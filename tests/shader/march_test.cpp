@@ -2,7 +2,7 @@
 // it.
 #include "shader/march_scene.h"
 
-namespace reflet::test {
+namespace reflet::test::march_test {
 namespace {
 
 INSTANTIATE_TEST_SUITE_P(Cameras, March, ::testing::Bool(), [](const auto& camera) {
@@ -189,4 +189,4 @@ TEST_P(MarchOffTheFloor, stillMeetsTheWallBehindIt) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::march_test

@@ -2,7 +2,7 @@
 // were free.
 #include "shader/march_scene.h"
 
-namespace reflet::test {
+namespace reflet::test::march_thickness_test {
 namespace {
 
 constexpr uint32_t passing[] = {marchMethodLinear, marchMethodDda, marchMethodExhaustive, marchMethodHiz};
@@ -186,4 +186,4 @@ TEST_P(Clear, isAsFarAsTheBudgetWent) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::march_thickness_test

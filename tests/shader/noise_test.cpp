@@ -6,7 +6,7 @@
 
 #include <functional>
 
-namespace reflet::test {
+namespace reflet::test::noise_test {
 namespace {
 
 using uvec4 = glm::uvec4;
@@ -139,4 +139,4 @@ TEST_F(Noise, givesTwoIndependentNumbers) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::noise_test

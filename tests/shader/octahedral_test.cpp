@@ -2,7 +2,7 @@
 #include "shader/directions.h"
 #include "shader/harness.h"
 
-namespace reflet::test {
+namespace reflet::test::octahedral_test {
 namespace {
 
 class Octahedral : public ShaderTest {
@@ -36,4 +36,4 @@ TEST_F(Octahedral, givesAxesBackExactly) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::octahedral_test

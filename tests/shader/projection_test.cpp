@@ -5,7 +5,7 @@
 #include "shader/directions.h"
 #include "shader/harness.h"
 
-namespace reflet::test {
+namespace reflet::test::projection_test {
 namespace {
 
 constexpr uvec2 pixels{1920, 1080};
@@ -146,4 +146,4 @@ TEST_F(Projection, pointsFromEverySurfaceTheSameWayToTheOrthographicEye) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::projection_test

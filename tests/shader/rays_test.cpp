@@ -4,7 +4,7 @@
 #include "shader/directions.h"
 #include "shader/harness.h"
 
-namespace reflet::test {
+namespace reflet::test::rays_test {
 namespace {
 
 class RayPacking : public ShaderTest {};
@@ -113,4 +113,4 @@ TEST_F(WaitingRays, neverGoOnFromFartherThanTheyWereFree) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::rays_test

@@ -9,7 +9,7 @@
 #include <functional>
 #include <random>
 
-namespace reflet::test {
+namespace reflet::test::sampling_pdf_test {
 namespace {
 
 constexpr double pi = glm::pi<double>();
@@ -239,4 +239,4 @@ TEST_F(SamplingPdf, ofVisibleHalfVectorsHasNoHoleAtTheEndsOfTheNumbers) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::sampling_pdf_test

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <functional>
 
-namespace reflet::test {
+namespace reflet::test::sampling_test {
 namespace {
 
 constexpr float alphas[] = {1e-4F, 0.002F, 0.01F, 0.1F, 0.3F, 1.0F};
@@ -177,4 +177,4 @@ TEST_F(Basis, isARightHandedFrameAroundAxesAndWhereItsSignsChange) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::sampling_test

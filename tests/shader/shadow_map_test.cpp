@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <random>
 
-namespace reflet::test {
+namespace reflet::test::shadow_map_test {
 namespace {
 
 constexpr uint32_t resolution = 512;
@@ -221,4 +221,4 @@ TEST_F(ShadowMap, whatFacesAwayFromTheSunIsDark) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::shadow_map_test

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace reflet::test {
+namespace reflet::test::tone_curves_test {
 namespace {
 
 constexpr uint32_t srgb = 0;
@@ -173,4 +173,4 @@ TEST_F(ToneCurves, encodeWhatIsOutsideAsItsNearestEnd) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::tone_curves_test

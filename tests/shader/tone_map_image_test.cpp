@@ -9,7 +9,7 @@
 #include <limits>
 #include <string>
 
-namespace reflet::test {
+namespace reflet::test::tone_map_image_test {
 namespace {
 
 constexpr ToneCurve curves[] = {ToneCurve::gamma22, ToneCurve::srgb, ToneCurve::aces, ToneCurve::agx,
@@ -100,4 +100,4 @@ TEST_F(ToneMapImage, showsEveryFloatingPointNumber) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::tone_map_image_test

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reflet {
+namespace reflet::blue_noise_test {
 namespace {
 
 constexpr uint32_t side = blueNoiseSide;
@@ -120,4 +120,4 @@ TEST(VoidAndCluster, KeepsCellsOfOneThresholdApartAcrossTheEdgesToo) {
 }
 
 }  // namespace
-}  // namespace reflet
+}  // namespace reflet::blue_noise_test

@@ -18,6 +18,7 @@ static void PrintTo(const BuiltinScene& scene, std::ostream* out) {
     *out << scene.name;
 }
 
+namespace builtin_test {
 namespace {
 
 struct Triangle {
@@ -394,4 +395,5 @@ TEST(BuiltinMirrorHall, IsClosedOnAllSidesButTheRoof) {
 }
 
 }  // namespace
+}  // namespace builtin_test
 }  // namespace reflet

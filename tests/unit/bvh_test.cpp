@@ -11,7 +11,7 @@
 #include <set>
 #include <tuple>
 
-namespace reflet {
+namespace reflet::bvh_test {
 namespace {
 
 SceneTriangle triangleAt(const vec3& place, float size, uint32_t number) {
@@ -167,4 +167,4 @@ TEST(SceneTriangles, SayWhereTheyAreFromAndWhichSideIsTheirFront) {
 }
 
 }  // namespace
-}  // namespace reflet
+}  // namespace reflet::bvh_test

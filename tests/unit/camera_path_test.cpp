@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace reflet {
+namespace reflet::camera_path_test {
 namespace {
 
 class CameraPathTest : public testing::Test {
@@ -177,4 +177,4 @@ TEST(Orbit, GoesRoundWhatIsSeenWhereTheTargetIsOnlyADirection) {
 }
 
 }  // namespace
-}  // namespace reflet
+}  // namespace reflet::camera_path_test

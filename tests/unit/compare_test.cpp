@@ -12,7 +12,7 @@
 #include <functional>
 #include <limits>
 
-namespace reflet {
+namespace reflet::compare_test {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -219,4 +219,4 @@ TEST(HeatMap, OfWhatIsOutsideOfZeroToOneIsThatOfTheLimit) {
 }
 
 }  // namespace
-}  // namespace reflet
+}  // namespace reflet::compare_test

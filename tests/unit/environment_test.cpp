@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace reflet {
+namespace reflet::environment_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -205,4 +205,4 @@ TEST_F(EnvironmentFile, ThatIsMissingOrOfAnotherKindIsAnError) {
 }
 
 }  // namespace
-}  // namespace reflet
+}  // namespace reflet::environment_test

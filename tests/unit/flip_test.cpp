@@ -11,7 +11,7 @@
 #include <functional>
 #include <numeric>
 
-namespace reflet {
+namespace reflet::flip_test {
 namespace {
 
 constexpr float ppd = 67.0F;
@@ -278,4 +278,4 @@ TEST(HdrFlip, SurvivesTheSmallestAndTheLargestRadiance) {
 }
 
 }  // namespace
-}  // namespace reflet
+}  // namespace reflet::flip_test

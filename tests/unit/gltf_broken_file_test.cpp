@@ -7,7 +7,7 @@
 
 #include <ostream>
 
-namespace reflet::test {
+namespace reflet::test::gltf_broken_file_test {
 namespace {
 
 using nlohmann::json;
@@ -115,4 +115,4 @@ TEST(BrokenGltfFile, ASceneThatIsNotThereIsAUsageErrorThatSaysHowManyThereAre) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::gltf_broken_file_test

@@ -7,7 +7,7 @@
 #include <limits>
 #include <ostream>
 
-namespace reflet::test {
+namespace reflet::test::gltf_broken_test {
 namespace {
 
 using nlohmann::json;
@@ -268,4 +268,4 @@ INSTANTIATE_TEST_SUITE_P(
     caseName);
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::gltf_broken_test

@@ -5,7 +5,7 @@
 #include <draco/mesh/triangle_soup_mesh_builder.h>
 #include <gtest/gtest.h>
 
-namespace reflet::test {
+namespace reflet::test::gltf_draco_test {
 namespace {
 
 using nlohmann::json;
@@ -100,4 +100,4 @@ TEST(GltfDraco, AttributesMayHaveAnyTypeAndTheAccessorSaysWhetherTheyAreNormalis
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::gltf_draco_test

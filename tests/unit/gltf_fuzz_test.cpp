@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-namespace reflet::test {
+namespace reflet::test::gltf_fuzz_test {
 namespace {
 
 bool isFinite(const vec3& v) {
@@ -121,4 +121,4 @@ TEST(GltfFuzz, NumbersThatAreReplacedNeverDoMoreThanThrow) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::gltf_fuzz_test

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <stb/stb_image_write.h>
 
-namespace reflet::test {
+namespace reflet::test::gltf_material_test {
 namespace {
 
 using nlohmann::json;
@@ -277,4 +277,4 @@ TEST(GltfUri, ABufferDataUriNeedNotBeBase64) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::gltf_material_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace reflet::test {
+namespace reflet::test::gltf_motion_test {
 namespace {
 
 using nlohmann::json;
@@ -113,4 +113,4 @@ TEST(GltfMotion, BrokenAnimationsAndSkinsAreToldOf) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::gltf_motion_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace reflet::test {
+namespace reflet::test::gltf_scene_test {
 namespace {
 
 using nlohmann::json;
@@ -214,4 +214,4 @@ TEST(GltfScene, IntegersMayBeWrittenWithAFraction) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::gltf_scene_test

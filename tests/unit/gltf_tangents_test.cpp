@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace reflet::test {
+namespace reflet::test::gltf_tangents_test {
 namespace {
 
 using nlohmann::json;
@@ -100,4 +100,4 @@ TEST(GltfTangents, AreTheSameAcrossTrianglesThatShareNoIndex) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::gltf_tangents_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace reflet::test {
+namespace reflet::test::gltf_test {
 namespace {
 
 using nlohmann::json;
@@ -283,4 +283,4 @@ TEST(Gltf, APrimitiveWithoutPositionsIsLeftOutWithAWarning) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::gltf_test

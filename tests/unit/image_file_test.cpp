@@ -14,7 +14,7 @@
 #include <functional>
 #include <limits>
 
-namespace reflet {
+namespace reflet::image_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -317,4 +317,4 @@ TEST_F(ExrFile, WithAnyByteOfItsHeaderDamagedIsReadOrIsAnError) {
 }
 
 }  // namespace
-}  // namespace reflet
+}  // namespace reflet::image_file_test

@@ -11,7 +11,7 @@
 #include <functional>
 #include <string>
 
-namespace reflet {
+namespace reflet::json_test {
 namespace {
 
 std::string messageOf(const std::function<void()>& action) {
@@ -75,4 +75,4 @@ TEST(JsonNode, OnAnyJsonTheTypedReadersAnswerOrComplain) {
 }
 
 }  // namespace
-}  // namespace reflet
+}  // namespace reflet::json_test

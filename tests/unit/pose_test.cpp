@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace reflet {
+namespace reflet::pose_test {
 namespace {
 
 Channel channelOf(Channel::Target target, Interpolation interpolation, std::vector<float> times,
@@ -291,4 +291,4 @@ TEST(BuiltinMoving, ABoxSlidesFromTimeZeroAndStandsStillFromOneSecondOnWhileOthe
 }
 
 }  // namespace
-}  // namespace reflet
+}  // namespace reflet::pose_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace reflet {
+namespace reflet::scene_test {
 namespace {
 
 constexpr float aspect = 16.0F / 9.0F;
@@ -236,4 +236,4 @@ TEST(DefaultView, AddsNoSunWhereALampOrTheEnvironmentLights) {
 }
 
 }  // namespace
-}  // namespace reflet
+}  // namespace reflet::scene_test

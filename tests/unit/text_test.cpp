@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace reflet {
+namespace reflet::text_test {
 namespace {
 
 const std::array<std::string, 6> names{"position", "target", "up", "fov_y", "near", "trace_screen.maxSteps"};
@@ -51,4 +51,4 @@ TEST(Suggestion, EndsAMessageOrIsNothing) {
 }
 
 }  // namespace
-}  // namespace reflet
+}  // namespace reflet::text_test

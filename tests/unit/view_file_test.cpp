@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace reflet {
+namespace reflet::view_file_test {
 namespace {
 
 /// Writes view files, applies them to a view, and gives error messages with the path shortened to "FILE".
@@ -329,4 +329,4 @@ TEST_F(ViewFile, SaysWhereTheAnimationsAre) {
 }
 
 }  // namespace
-}  // namespace reflet
+}  // namespace reflet::view_file_test

@@ -11,7 +11,7 @@
 
 namespace reflet {
 
-/// FNV-1a of 64 bits.
+/// FNV-1a of 64 bits, by G. Fowler, L. C. Noll, K.-P. Vo. It need only notice changes, not withstand anybody.
 class Fingerprint {
 public:
     void add(std::span<const std::byte> bytes);

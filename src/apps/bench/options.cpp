@@ -2,12 +2,13 @@
 #include "apps/bench/options.h"
 
 #include "apps/device_options.h"
+#include "apps/sample_progress.h"
 
 namespace reflet {
 
 namespace {
 
-constexpr const char* footer =
+constexpr const char* benchFooter =
     "Device time is what the device's timestamps say, pass by pass; submitted: from submission to fence, by the host's "
     "clock; wall: the whole call. 'first': frames without history, with all shaders compiled; 'steady': frames after "
     "the warm-up, errors those of frame warmup + frames + 1.\n"
@@ -53,7 +54,7 @@ void addTruthOptions(CLI::App& command, BenchCommand& options) {
     command.add_flag("--truth-visible-only,!--truth-all-light", options.truthVisibleOnly,
                      "Scattered rays bring light only from points that the camera sees [on]");
     command.add_option("--truth-spp", options.truthSamples, "The path tracer's samples per pixel")
-        ->check(CLI::Range(2U, 1U << 20U))
+        ->check(CLI::Range(2U, largestSamples))
         ->capture_default_str();
     command.add_option("--truth-filter", options.truthFilter, "Where in the pixel the path tracer's samples are")
         ->check(CLI::IsMember({"box", "center"}))
@@ -98,7 +99,7 @@ void addBenchOptions(CLI::App& command, BenchCommand& options) {
     addTruthOptions(command, options);
     addDeviceOption(command, options.device);
     addOutputOptions(command, options);
-    command.footer(footer);
+    command.footer(benchFooter);
 }
 
 }  // namespace reflet

@@ -136,7 +136,7 @@ void writeTruth(const Truth& truth, const std::string& key, const fs::path& fact
     writeFileAtomically(facts, json.dump(2) + "\n");
 }
 
-void makeFolder(const fs::path& folder) {
+void makeTruthFolder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) {
@@ -227,7 +227,7 @@ Truth getTruth(gpu::Device& device, const BenchScene& scene, uvec2 size, const S
     if (auto kept = readTruth(picture, facts)) {
         return std::move(*kept);
     }
-    makeFolder(options.folder);
+    makeTruthFolder(options.folder);
     Truth truth = options.kind == TruthKind::chain ? renderChain(device, scene, size, settings, options.chainRays)
                                                    : traceTruth(scene, size, referenceOptions(options, settings));
     truth.file = picture.string();

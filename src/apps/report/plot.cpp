@@ -22,9 +22,9 @@ constexpr float headLeft = 8.0F;
 constexpr float plotLeft = 64.0F;
 constexpr float plotRight = width - 20.0F;
 constexpr float plotHeight = 340.0F;
-constexpr float footer = 52.0F;     // under the plot: numbers and the x axis's name
-constexpr float row = 22.0F;        // of the header
-constexpr float floorRoom = 26.0F;  // from the y axis's lowest positive value to 0
+constexpr float footerHeight = 52.0F;  // under the plot: numbers and the x axis's name
+constexpr float row = 22.0F;           // of the header
+constexpr float floorRoom = 26.0F;     // from the y axis's lowest positive value to 0
 constexpr float markerRadius = 5.0F;
 constexpr float textHeight = 13.0F;
 constexpr size_t longestName = 80;  // of the plot and of an axis
@@ -248,7 +248,7 @@ void Drawing::addPoints() {
 }
 
 std::string Drawing::draw() {
-    const float height = area_.bottom + footer;
+    const float height = area_.bottom + footerHeight;
     add("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\" width=\"{:.0f}\" height=\"{:.0f}\" "
         "style=\"max-width:100%;height:auto\" role=\"img\" fill=\"currentColor\" font-size=\"12\" "
         "font-family=\"system-ui, 'Segoe UI', 'Liberation Sans', sans-serif\">\n",

@@ -5,6 +5,7 @@
 #include "apps/report/plot.h"
 #include "apps/report/scene_work.h"
 #include "apps/report/text.h"
+#include "apps/sample_progress.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/image_file.h"
@@ -26,8 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr uint32_t standardSamples = 256;
-constexpr uint32_t largestSamples = 1U << 20U;
+constexpr uint32_t truthSamples = 256;
 
 struct ReportCommand {
     SceneOptions shared;
@@ -101,7 +101,7 @@ ReportWork makeWork(const ReportCommand& command) {
     work.seed = command.shared.seed;
     work.frames = command.frames;
     work.reference.bounces = command.bounces.value_or(ReferenceOptions::unlimited);
-    work.reference.samples = command.samples.value_or(command.noise > 0.0F ? largestSamples : standardSamples);
+    work.reference.samples = command.samples.value_or(command.noise > 0.0F ? largestSamples : truthSamples);
     work.reference.noise = command.noise;
     work.reference.lambertOnly = settings.materials.lambertOnly != 0;
     work.reference.seed = command.shared.seed;
@@ -114,7 +114,7 @@ ReportWork makeWork(const ReportCommand& command) {
     return work;
 }
 
-void makeFolder(const fs::path& folder) {
+void makeReportFolder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) {
@@ -151,7 +151,7 @@ std::string errorTimePlot(const ReportPage& page) {
 void report(const ReportCommand& command, const std::string& typed) {
     const ReportWork work = makeWork(command);
     const std::vector<ReportInput> inputs = loadInputs(command);
-    makeFolder(work.folder);
+    makeReportFolder(work.folder);
     gpu::Device device({.select = command.device, .onMessage = printWarning});
     requireSize(device, work.size);
 
@@ -174,7 +174,7 @@ void report(const ReportCommand& command, const std::string& typed) {
     writeFileAtomically(work.folder / "index.html", reportHtml(page));
 }
 
-constexpr const char* footer =
+constexpr const char* reportFooter =
     "DIR/index.html is the page; it needs no network and no server. Beside it: its pictures, report.json with all "
     "numbers and table.md.\n"
     "--set and --settings hold for all variants, over their presets; the truth is tone mapped with them.\n"
@@ -189,9 +189,9 @@ void addTruthOptions(CLI::App& command, ReportCommand& options) {
                     "Scattered rays of the truth's paths; not given: as many as the light takes")
         ->type_name("N");
     command
-        .add_option("--spp", options.samples,
-                    fmt::format("The truth's samples per pixel, at most [{}; with --noise {}]", standardSamples,
-                                largestSamples))
+        .add_option(
+            "--spp", options.samples,
+            fmt::format("The truth's samples per pixel, at most [{}; with --noise {}]", truthSamples, largestSamples))
         ->type_name("N")
         ->check(CLI::Range(2U, largestSamples));  // one tells nothing about noise
     command.add_option("--noise", options.noise, "The truth is done when its noise is under this (0.01: 1 %)")
@@ -222,7 +222,7 @@ void addReportCommand(CLI::App& app) {
         ->capture_default_str();
     addTruthOptions(*command, *options);
     addDeviceOption(*command, options->device);
-    command->footer(footer);
+    command->footer(reportFooter);
     command->callback([options, command] { report(*options, commandLine(*command)); });
 }
 

@@ -35,7 +35,7 @@ private:
     FileNames& names_;
 };
 
-ReferencePicture trace(const ReportWork& work, const ReportInput& input, bool visibleOnly) {
+ReferencePicture traceReference(const ReportWork& work, const ReportInput& input, bool visibleOnly) {
     ReferenceOptions options = work.reference;
     options.visibleOnly = visibleOnly;
     SampleProgress progress(fmt::format("{}, {}", input.position, visibleOnly ? "visible-only" : "truth"), options,
@@ -121,8 +121,8 @@ ReportScene workOn(const ReportWork& work, const ReportInput& input, gpu::Device
             rendered.push_back(renderVariant(work, input, variant.settings, device, progress));
         }
     }
-    const ReferencePicture truth = trace(work, input, false);
-    const ReferencePicture visible = trace(work, input, true);
+    const ReferencePicture truth = traceReference(work, input, false);
+    const ReferencePicture visible = traceReference(work, input, true);
     const Comparison unknown = compareNamed(visible.final, "visible-only", truth.final, "the truth");
 
     ReportScene result;

@@ -14,8 +14,6 @@ namespace reflet {
 
 namespace {
 
-constexpr float largestHalf = 65504.0F;
-
 // Powers of two. A larger one would leave too little of the dim parts of an image with a sun in it.
 constexpr int largestScale = 10;
 constexpr int smallestScale = -20;

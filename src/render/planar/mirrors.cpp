@@ -97,11 +97,11 @@ bool samePlane(const Mirror& mirror, const FlatPiece& piece) {
            std::abs(glm::dot(mirror.plane, vec4(middle, 1.0F))) <= mirror.tolerance + piece.tolerance;
 }
 
-using Polygon = std::vector<vec4>;  // clip space
+using ClipPolygon = std::vector<vec4>;  // clip space
 
 // Cuts away what has a negative product with the plane. (Sutherland and Hodgman, Reentrant Polygon Clipping, 1974)
-Polygon cut(const Polygon& polygon, const vec4& plane) {
-    Polygon result;
+ClipPolygon cut(const ClipPolygon& polygon, const vec4& plane) {
+    ClipPolygon result;
     for (size_t i = 0; i < polygon.size(); ++i) {
         const vec4& a = polygon[i];
         const vec4& b = polygon[(i + 1) % polygon.size()];
@@ -119,7 +119,7 @@ Polygon cut(const Polygon& polygon, const vec4& plane) {
 
 // Adds what the screen shows of the piece to the mirror's area and bounds.
 void addOnScreen(Mirror& mirror, const FlatPiece& piece, const mat4& worldToClip) {
-    Polygon polygon;
+    ClipPolygon polygon;
     for (const vec2 corner :
          {piece.low, vec2(piece.high.x, piece.low.y), piece.high, vec2(piece.low.x, piece.high.y)}) {
         const vec3 p = vec3(piece.plane) * -piece.plane.w + piece.right * corner.x + piece.up * corner.y;

@@ -10,10 +10,10 @@ namespace reflet {
 namespace {
 
 // The words that GLSL has built in. Headers that the file includes have all been included above.
+namespace glsl {
 using namespace glm;
 #include "render/tonemap/display_color.glsl"
-
-constexpr float largestHalf = 65504.0F;
+}  // namespace glsl
 
 vec3 pixelRadiance(const float* values) {
     vec3 c(0.0F);
@@ -30,8 +30,8 @@ Bitmap toneMapped(const FloatImage& radiance, const TonemapSettings& settings) {
     Bitmap bitmap{radiance.width, radiance.height, 3, {}};
     bitmap.data.reserve(radiance.data.size());
     for (size_t i = 0; i < radiance.data.size(); i += 3) {
-        const vec3 shown =
-            displayColor(pixelRadiance(&radiance.data[i]), static_cast<uint>(settings.curve), settings.exposure);
+        const vec3 shown = glsl::displayColor(pixelRadiance(&radiance.data[i]), static_cast<uint32_t>(settings.curve),
+                                              settings.exposure);
         for (int channel = 0; channel < 3; ++channel) {
             bitmap.data.push_back(static_cast<uint8_t>(std::lround(shown[channel] * 255.0F)));
         }
@@ -40,7 +40,7 @@ Bitmap toneMapped(const FloatImage& radiance, const TonemapSettings& settings) {
 }
 
 vec3 srgbEncoded(const vec3& linear) {
-    return encodeSrgb(linear);
+    return glsl::encodeSrgb(linear);
 }
 
 }  // namespace reflet

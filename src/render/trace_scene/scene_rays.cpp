@@ -14,11 +14,6 @@ namespace reflet {
 
 namespace {
 
-template <class T>
-gpu::Buffer upload(gpu::Device& device, const std::vector<T>& items, const char* name, VkBufferUsageFlags usage = 0) {
-    return gpu::uploadBuffer(device, std::as_bytes(std::span(items)), usage | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, name);
-}
-
 // A triangle's corners, as acceleration structures are built from them, begin every 16 bytes.
 constexpr size_t cornerStride = offsetof(SceneTriangle, b);
 static_assert(sizeof(SceneTriangle) == 3 * cornerStride && offsetof(SceneTriangle, c) == 2 * cornerStride);
@@ -53,8 +48,8 @@ void SceneRays::pose(gpu::Device& device, const Scene& scene, const ScenePose& p
 }
 
 void SceneRays::upload(gpu::Device& device, const Bvh& bvh) {
-    nodes_ = reflet::upload(device, bvh.nodes, "scene nodes");
-    triangles_ = reflet::upload(device, bvh.triangles, "scene triangles");
+    nodes_ = gpu::uploadVector(device, bvh.nodes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "scene nodes");
+    triangles_ = gpu::uploadVector(device, bvh.triangles, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "scene triangles");
 }
 
 void SceneRays::upload(gpu::Device& device, std::vector<SceneTriangle> triangles) {
@@ -64,7 +59,8 @@ void SceneRays::upload(gpu::Device& device, std::vector<SceneTriangle> triangles
     if (triangles.empty()) {
         triangles.push_back({});  // without area: nothing hits it
     }
-    triangles_ = reflet::upload(device, triangles, "scene triangles", gpu::accelerationInput);
+    triangles_ = gpu::uploadVector(device, triangles, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | gpu::accelerationInput,
+                                   "scene triangles");
     const bool cutOut =
         std::ranges::any_of(triangles, [](const SceneTriangle& t) { return (t.flags & triangleCutOut) != 0; });
     acceleration_ = gpu::AccelerationStructure(

@@ -15,13 +15,6 @@ namespace reflet {
 
 namespace {
 
-template <class T>
-gpu::Buffer upload(gpu::Device& device, const std::vector<T>& items, const char* name) {
-    const T none{};
-    const std::span<const T> span = items.empty() ? std::span(&none, 1) : std::span(items);
-    return gpu::uploadBuffer(device, std::as_bytes(span), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, name);
-}
-
 uint32_t wrapOf(Wrap wrap) {
     return wrap == Wrap::mirror ? wrapMirror : wrap == Wrap::clamp ? wrapClamp : wrapRepeat;
 }
@@ -112,7 +105,8 @@ SceneSurfaces::SceneSurfaces(gpu::Device& device, const Scene& scene, const GpuS
                              const std::function<void(const std::string&)>& warn)
     : attributes_(onDevice.attributes()),
       indices_(onDevice.indices()),
-      instances_(upload(device, sceneInstances(scene, onDevice.draws()), "scene instances")) {
+      instances_(gpu::uploadVector(device, sceneInstances(scene, onDevice.draws()), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                                   "scene instances")) {
     Layers colors(scene, true);
     Layers data(scene, false);
     colors_ = colors.upload(device, textureSize, warn);
@@ -128,7 +122,7 @@ SceneSurfaces::SceneSurfaces(gpu::Device& device, const Scene& scene, const GpuS
         }
         materials.push_back(m);
     }
-    materials_ = upload(device, materials, "scene materials");
+    materials_ = gpu::uploadVector(device, materials, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "scene materials");
     sampler_ = device.sampler({.mag = VK_FILTER_LINEAR,
                                .min = VK_FILTER_LINEAR,
                                .mip = VK_SAMPLER_MIPMAP_MODE_LINEAR,
@@ -137,7 +131,8 @@ SceneSurfaces::SceneSurfaces(gpu::Device& device, const Scene& scene, const GpuS
 }
 
 void SceneSurfaces::pose(gpu::Device& device, const Scene& scene, const GpuScene& onDevice) {
-    instances_ = upload(device, sceneInstances(scene, onDevice.draws()), "scene instances");
+    instances_ = gpu::uploadVector(device, sceneInstances(scene, onDevice.draws()), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                                   "scene instances");
 }
 
 gpu::Pass& SceneSurfaces::bind(gpu::Pass& pass) const {

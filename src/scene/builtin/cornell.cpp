@@ -6,18 +6,18 @@
 namespace reflet::builtin {
 namespace {
 
-constexpr vec3 room{3.0F, 2.0F, 2.25F};  // half size, metres; the floor is at y = 0
-constexpr float wall = 0.1F;             // half thickness
+constexpr vec3 boxHalf{3.0F, 2.0F, 2.25F};  // half size, metres; the floor is at y = 0
+constexpr float wall = 0.1F;                // half thickness
 
-void addRoom(Scene& scene, uint32_t white, uint32_t red, uint32_t green) {
-    const vec3 middle(0, room.y, 0);
-    const float depth = room.z + wall;
-    const Mesh slab = box({room.x + 2 * wall, wall, depth});
+void addCornellBox(Scene& scene, uint32_t white, uint32_t red, uint32_t green) {
+    const vec3 middle(0, boxHalf.y, 0);
+    const float depth = boxHalf.z + wall;
+    const Mesh slab = box({boxHalf.x + 2 * wall, wall, depth});
     place(scene, "floor", white, slab, at({0, -wall, -wall}));
-    place(scene, "ceiling", white, slab, at({0, 2 * room.y + wall, -wall}));
-    place(scene, "back wall", white, box({room.x, room.y, wall}), at(middle - vec3(0, 0, room.z + wall)));
-    place(scene, "left wall", red, box({wall, room.y, depth}), at(middle + vec3(-room.x - wall, 0, -wall)));
-    place(scene, "right wall", green, box({wall, room.y, depth}), at(middle + vec3(room.x + wall, 0, -wall)));
+    place(scene, "ceiling", white, slab, at({0, 2 * boxHalf.y + wall, -wall}));
+    place(scene, "back wall", white, box({boxHalf.x, boxHalf.y, wall}), at(middle - vec3(0, 0, boxHalf.z + wall)));
+    place(scene, "left wall", red, box({wall, boxHalf.y, depth}), at(middle + vec3(-boxHalf.x - wall, 0, -wall)));
+    place(scene, "right wall", green, box({wall, boxHalf.y, depth}), at(middle + vec3(boxHalf.x + wall, 0, -wall)));
 }
 
 /// A spot on the wall that the sun cannot reach, from close to the ceiling and clear of the blocks.
@@ -42,7 +42,7 @@ Scene makeCornell() {
     const uint32_t white = addMaterial(scene, plain("white", {0xE6E1D8, 0.95F}));
     const uint32_t red = addMaterial(scene, plain("red", {0xC2321F, 0.95F}));
     const uint32_t green = addMaterial(scene, plain("green", {0x3F9A35, 0.95F}));
-    addRoom(scene, white, red, green);
+    addCornellBox(scene, white, red, green);
     place(scene, "tall block", white, box({0.62F, 1.25F, 0.62F}), at({-1.05F, 1.25F, -0.75F}) * turned(18));
     place(scene, "short block", white, box({0.62F, 0.62F, 0.62F}), at({1.1F, 0.62F, 0.35F}) * turned(-17));
     scene.lamps.push_back(wallLamp());

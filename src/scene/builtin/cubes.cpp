@@ -8,7 +8,7 @@
 namespace reflet::builtin {
 namespace {
 
-uint32_t tiles(Scene& scene) {
+uint32_t cubesGround(Scene& scene) {
     static constexpr std::array<Hex, 5> colors{0xD9CBB0, 0xB8A98C, 0x8FA3A6, 0xC98F62, 0x5E7480};
     const LabelledTiles style{.size = 1024, .tiles = 8, .colors = colors, .joint = 0x3A3835, .letters = 0x2B2724};
     return addMaterial(scene, textured("tiles", addTexture(scene, labelledTiles("tiles", style)), 0.55F));
@@ -19,7 +19,7 @@ uint32_t tiles(Scene& scene) {
 Scene makeCubes() {
     Scene scene;
     scene.name = "cubes";
-    place(scene, "ground", tiles(scene), ground({5, 5}, {8, 8}, {1, 1}), at({0, -1, 0}) * turned(90));
+    place(scene, "ground", cubesGround(scene), ground({5, 5}, {8, 8}, {1, 1}), at({0, -1, 0}) * turned(90));
 
     const uint32_t polished = addMaterial(scene, plain("polished metal", {0xE9A67C, 0.05F, 1.0F}));
     place(scene, "box", polished, box({1, 1, 1}));

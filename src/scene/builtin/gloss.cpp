@@ -11,7 +11,7 @@ namespace {
 constexpr int steps = 6;
 constexpr float spacing = 1.3F;
 
-uint32_t tiles(Scene& scene) {
+uint32_t glossGround(Scene& scene) {
     static constexpr std::array<Hex, 5> colors{0xE6DECF, 0xCFC4B0, 0x2F6F7E, 0xD98E4A, 0x47525A};
     const LabelledTiles style{
         .size = 1024, .tiles = 10, .colors = colors, .joint = 0x2E2C2A, .letters = 0x1E1C1B, .seed = 5};
@@ -49,7 +49,7 @@ void addBoards(Scene& scene) {
 Scene makeGloss() {
     Scene scene;
     scene.name = "gloss";
-    place(scene, "ground", tiles(scene), ground({6, 6}, {8, 8}, {1, 1}));
+    place(scene, "ground", glossGround(scene), ground({6, 6}, {8, 8}, {1, 1}));
     addRows(scene);
     addBoards(scene);
     scene.cameras.push_back(camera("main", {0.0F, 3.3F, 7.4F}, {0.1F, 0.5F, -0.3F}, 36));

@@ -23,7 +23,7 @@ Material mirrorFloor(Scene& scene) {
     return m;
 }
 
-void addShell(Scene& scene) {
+void addHall(Scene& scene) {
     static constexpr std::array<Hex, 4> colors{0xE9DDC6, 0xDDB98A, 0xC96F4A, 0x7E9C93};
     const LabelledTiles style{
         .size = 1024, .tiles = 8, .colors = colors, .joint = 0x544A40, .letters = 0x33291F, .seed = 11};
@@ -80,7 +80,7 @@ void addThings(Scene& scene) {
 Scene makeMirrorHall() {
     Scene scene;
     scene.name = "mirror-hall";
-    addShell(scene);
+    addHall(scene);
     addThings(scene);
     scene.cameras.push_back(camera("main", {-1.9F, 1.75F, 4.6F}, {0.6F, 0.95F, -1.5F}, 52));
     scene.sun = sun({-0.45F, -0.75F, -0.48F}, {5.2F, 4.8F, 4.1F});

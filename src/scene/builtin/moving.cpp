@@ -31,7 +31,7 @@ vec4 rotation(double degrees, const glm::dvec3& axis) {
     return {vec3(std::sin(half) * axis), static_cast<float>(std::cos(half))};
 }
 
-void addShell(Scene& scene) {
+void addTiledRoom(Scene& scene) {
     static constexpr std::array<Hex, 4> wallColors{0xE9DDC6, 0xDDB98A, 0xC96F4A, 0x7E9C93};
     const LabelledTiles wall{
         .size = 1024, .tiles = 8, .colors = wallColors, .joint = 0x544A40, .letters = 0x33291F, .seed = 21};
@@ -141,7 +141,7 @@ Scene makeMoving() {
     Scene scene;
     scene.name = "moving";
     scene.animations.push_back({.name = "all", .channels = {}});
-    addShell(scene);
+    addTiledRoom(scene);
     addSlidingBox(scene);
     addTurningCube(scene);
     addBendingTube(scene);

@@ -10,7 +10,7 @@ vec3 quintic(const vec3& t) {
     return t * t * t * (t * (t * 6.0F - 15.0F) + 10.0F);
 }
 
-uint32_t mixed(uint32_t h) {
+uint32_t mixBits(uint32_t h) {
     h ^= h >> 15U;
     h *= 0x2C1B3C6DU;
     h ^= h >> 12U;
@@ -24,7 +24,7 @@ uint32_t mixed(uint32_t h) {
 uint32_t hash(int32_t x, int32_t y, int32_t z, uint32_t seed) {
     const uint32_t lattice = 0x8DA6B343U * static_cast<uint32_t>(x) + 0xD8163841U * static_cast<uint32_t>(y) +
                              0xCB1AB31FU * static_cast<uint32_t>(z);
-    return mixed(lattice ^ (0x9E3779B9U * (seed + 1U)));
+    return mixBits(lattice ^ (0x9E3779B9U * (seed + 1U)));
 }
 
 float hash01(int32_t x, int32_t y, int32_t z, uint32_t seed) {

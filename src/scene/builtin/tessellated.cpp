@@ -18,7 +18,7 @@ void addSide(Scene& scene, uint32_t material, Patch side, uint32_t cuts, const m
     place(scene, "side", material, patch(side), toWorld);
 }
 
-void addRoom(Scene& scene, uint32_t cuts) {
+void addTessellatedRoom(Scene& scene, uint32_t cuts) {
     const uint32_t white = addMaterial(scene, plain("white", {0xD8D4CC}));
     const uint32_t red = addMaterial(scene, plain("red", {0xB8452F}));
     const uint32_t green = addMaterial(scene, plain("green", {0x4F8F4A}));
@@ -31,7 +31,7 @@ void addRoom(Scene& scene, uint32_t cuts) {
 }
 
 // Stands on the floor: no underside.
-void addBox(Scene& scene, uint32_t material, const vec3& half, uint32_t cuts, const mat4& toWorld) {
+void addTessellatedBox(Scene& scene, uint32_t material, const vec3& half, uint32_t cuts, const mat4& toWorld) {
     const std::array<Patch, 5> sides{{{{half.x, half.y, 0}, {0, 0, -half.z}, {0, half.y, 0}},
                                       {{-half.x, half.y, 0}, {0, 0, half.z}, {0, half.y, 0}},
                                       {{0, 2 * half.y, 0}, {half.x, 0, 0}, {0, 0, -half.z}},
@@ -61,14 +61,14 @@ Scene makeTessellated(uint32_t triangles) {
     const auto cuts = static_cast<uint32_t>(std::lround(std::sqrt(triangles / leastTriangles)));
     Scene scene;
     scene.name = "tessellated";
-    addRoom(scene, cuts);
+    addTessellatedRoom(scene, cuts);
     const uint32_t painted = addMaterial(scene, plain("painted", {0xC9A85C, 0.6F}));
     const uint32_t metal = addMaterial(scene, plain("metal", {0xC0C4CC, 0.25F, 1.0F}));
     for (int i = 0; i < 9; ++i) {
         const vec3 foot(-1.8F + 1.8F * static_cast<float>(i % 3), 0.0F, -1.8F + 1.5F * static_cast<float>(i / 3));
         const float height = 0.35F + 0.12F * static_cast<float>((i * 4) % 9);
-        addBox(scene, i % 2 == 0 ? painted : metal, {0.35F, height, 0.35F}, cuts,
-               at(foot) * turned(static_cast<float>(i) * 23.0F));
+        addTessellatedBox(scene, i % 2 == 0 ? painted : metal, {0.35F, height, 0.35F}, cuts,
+                          at(foot) * turned(static_cast<float>(i) * 23.0F));
     }
     scene.cameras.push_back(camera("main", {0.0F, 2.2F, 6.5F}, {0.0F, 1.4F, -1.0F}, 50));
     scene.sun = sun({0.35F, -0.75F, -0.6F}, {3.4F, 3.2F, 2.9F});

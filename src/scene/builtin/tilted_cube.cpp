@@ -9,7 +9,7 @@ namespace reflet::builtin {
 namespace {
 
 /// Every face its own colour and number, so that one sees at once which one a reflection shows.
-void addBox(Scene& scene, const mat4& boxToWorld) {
+void addNumberedBox(Scene& scene, const mat4& boxToWorld) {
     static constexpr std::array<Hex, 6> colors{0xD2553A, 0x3D7FA6, 0xE3AE3C, 0x6B4C8A, 0x4E9A63, 0xC9507E};
     const std::array<Patch, 6> sides{{{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}},
                                       {{-1, 0, 0}, {0, 0, 1}, {0, 1, 0}},
@@ -32,7 +32,7 @@ Scene makeTiltedCube() {
     scene.name = "tilted-cube";
     const uint32_t floor = addMaterial(scene, plain("glossy ground", {0x8F8B86, 0.08F, 0.4F}));
     place(scene, "ground", floor, ground({5, 5}, {10, 10}, {10, 10}), at({0, -1, 0}));
-    addBox(scene, at({0, 0.85F, 0}) * turned(28) * turned(38, {1, 0, -0.55F}));
+    addNumberedBox(scene, at({0, 0.85F, 0}) * turned(28) * turned(38, {1, 0, -0.55F}));
 
     scene.cameras.push_back(camera("main", {6.0F, 1.9F, 3.7F}, {0.0F, -0.1F, 0.0F}, 42));
     scene.sun = sun({0.4F, -0.9F, -0.2F}, {3.7F, 3.5F, 3.2F});
