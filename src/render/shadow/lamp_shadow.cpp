@@ -146,13 +146,13 @@ LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, ui
 namespace {
 
 // All that the maps depend on.
-struct MapContents {
+struct LampMapContents {
     LampTileParams tiles;
     uint32_t tileSize;
     uint32_t columns;
     uint64_t draws;
 };
-static_assert(sizeof(MapContents) == sizeof(LampTileParams) + 16, "padding would differ at random");
+static_assert(sizeof(LampMapContents) == sizeof(LampTileParams) + 16, "padding would differ at random");
 
 }  // namespace
 
@@ -166,7 +166,7 @@ gpu::Image drawLampShadowMap(gpu::Frame& f, const DrawList& list, const LampShad
     const uint32_t rows = (tilesOf(shadows) + shadows.columns - 1) / shadows.columns;
     const gpu::Image map =
         f.target("lamp_shadow_map", VK_FORMAT_D32_SFLOAT, uvec2(shadows.columns, rows) * shadows.tileSize);
-    if (list.version != 0 && f.holds(map, MapContents{params, shadows.tileSize, shadows.columns, list.version})) {
+    if (list.version != 0 && f.holds(map, LampMapContents{params, shadows.tileSize, shadows.columns, list.version})) {
         return map;
     }
     // Opaque draws need no fragment shader; cut-out ones look up their alpha.

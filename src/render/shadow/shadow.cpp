@@ -10,12 +10,12 @@ namespace reflet {
 namespace {
 
 // All that a map depends on.
-struct MapContents {
+struct SunMapContents {
     uint64_t draws;
     SunShadowParams sun;
     uint32_t resolution;
 };
-static_assert(sizeof(MapContents) == sizeof(SunShadowParams) + 12, "padding would differ at random");
+static_assert(sizeof(SunMapContents) == sizeof(SunShadowParams) + 12, "padding would differ at random");
 
 }  // namespace
 
@@ -23,7 +23,7 @@ gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const SunShadowPar
                          const ShadowSettings& settings) {
     const uvec2 tiles(sun.count > 1 ? 2 : 1, sun.count > 2 ? 2 : 1);
     const gpu::Image depth = f.target("shadow_map", VK_FORMAT_D32_SFLOAT, tiles * settings.resolution);
-    const MapContents contents{.draws = list.version, .sun = sun, .resolution = settings.resolution};
+    const SunMapContents contents{.draws = list.version, .sun = sun, .resolution = settings.resolution};
     if (list.version != 0 && f.holds(depth, contents)) {
         return depth;
     }
