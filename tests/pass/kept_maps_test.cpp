@@ -1,0 +1,80 @@
+// Shadow maps that are kept from frame to frame: they are drawn when what they show has changed, and only then.
+#include "pass/harness.h"
+#include "scene/builtin.h"
+#include "support/device_fixture.h"
+
+#include <algorithm>
+#include <string_view>
+
+namespace reflet::test::kept_maps_test {
+namespace {
+
+class KeptMaps : public DeviceTest {
+protected:
+    static constexpr uvec2 size{64, 36};
+
+    /// Whether a frame of the view records the pass.
+    bool draws(const View& view, std::string_view pass = "shadow_map") {
+        renderer_.render(view, size, 0, settings_);
+        const auto& times = renderer_.frame().passTimes();
+        return std::ranges::find(times, pass, &gpu::PassTime::name) != times.end();
+    }
+
+    Scene scene_ = *makeBuiltinScene("moving");
+    Settings settings_ = settingsOf({"diffuse.rays=0", "specular.rays=0", "shadow.resolution=256"});
+    Renderer renderer_{device(), scene_, [](const std::string&) {}};
+    View view_ = defaultView(scene_);
+};
+
+TEST_F(KeptMaps, TheSunsIsDrawnOnceWhileNothingMoves) {
+    EXPECT_TRUE(draws(view_));
+    EXPECT_FALSE(draws(view_));
+    EXPECT_FALSE(draws(view_));
+}
+
+TEST_F(KeptMaps, TheSunsIsDrawnAgainWhenTheSunOrAThingOrItsSizeChanges) {
+    draws(view_);
+    view_.sun.direction = glm::normalize(view_.sun.direction + vec3(0.1F, 0.0F, 0.0F));
+    EXPECT_TRUE(draws(view_));
+    view_.time = 0.5;
+    EXPECT_TRUE(draws(view_));
+    EXPECT_FALSE(draws(view_));
+    view_.time = 0.25;
+    EXPECT_TRUE(draws(view_));
+    settings_.shadow.resolution = 128;
+    EXPECT_TRUE(draws(view_));
+    EXPECT_FALSE(draws(view_));
+}
+
+TEST_F(KeptMaps, AfterACutAllAreDrawn) {
+    draws(view_);
+    renderer_.restart(0);
+    EXPECT_TRUE(draws(view_));
+}
+
+TEST_F(KeptMaps, AShadowThatMovedIsWhereItIsInAFrameOfItsOwn) {
+    view_.time = 0.2;
+    View later = view_;
+    later.time = 0.6;
+    const Pictures moved = renderPath(scene_, {view_, view_, later}, size, settings_, {"final"}).back();
+    const Pictures alone = render(scene_, later, size, settings_, {"final"});
+    EXPECT_EQ(moved.images.at("final").data, alone.images.at("final").data);
+}
+
+TEST_F(KeptMaps, ThoseOfLampsAreDrawnOnceWhileNothingMoves) {
+    const Scene lit = *makeBuiltinScene("lamps");
+    Renderer renderer(device(), lit, [](const std::string&) {});
+    const auto drawsLamps = [&](const View& view) {
+        renderer.render(view, size, 0, settings_);
+        const auto& times = renderer.frame().passTimes();
+        return std::ranges::find(times, "lamp_shadow_map", &gpu::PassTime::name) != times.end();
+    };
+    const View view = defaultView(lit);
+    EXPECT_TRUE(drawsLamps(view));
+    EXPECT_FALSE(drawsLamps(view));
+    settings_.shadow.lampResolution = 128;
+    EXPECT_TRUE(drawsLamps(view));
+}
+
+}  // namespace
+}  // namespace reflet::test::kept_maps_test
