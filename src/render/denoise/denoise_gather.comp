@@ -38,6 +38,10 @@ const float movesAsSurface = 0.6;
 // differ by chance. From movesAsImage on, all that is behind the surface may be the same.
 const float sameThing = 0.15;
 const float sameThingRough = 3.0;
+// The past of a mirror is read between its pixels where it moves, which blurs it every time, and has no noise: it counts
+// for so many frames. Rougher reflections have more noise than detail.
+const float framesInMotion = 1.0;
+const float framesInMotionRough = 64.0;
 
 // What the pixel and its neighbours on the same surface show in this frame.
 struct Seen {
@@ -106,6 +110,7 @@ struct Whereabouts {
     vec2 home;       // where the last frame had the pixel's own point
     float expected;  // depth of that
     float away;      // metres from there to what a mirror shows; negative: whatever it shows
+    float most;      // frames that it may count for where it is read between pixels
 };
 
 // What the last frame kept of a surface like this one.
@@ -142,7 +147,8 @@ Past pastAt(Whereabouts w, KeptSurface own, ScreenPlane plane) {
     if (weights < 0.01) {
         return noPast;
     }
-    return Past(sum.light / weights, sum.frames / weights, sum.square / weights);
+    float frames = sum.frames / weights;
+    return Past(sum.light / weights, f == vec2(0.0) ? frames : min(frames, w.most), sum.square / weights);
 }
 
 vec2 pixelOf(vec4 clip) { return ndcToUv(clip.xy / clip.w) * params.view.size - 0.5; }
@@ -162,13 +168,15 @@ Past remembered(ivec2 pixel, vec3 p, KeptSurface own, ScreenPlane plane, float h
             if (hasImageMotion != 0u) {
                 at -= imageLoad(imageMotion, pixel).xy * params.motionToPixels;
             }
-            image = pastAt(Whereabouts(at, home, expected, hitDistance), own, plane);
+            float rough = min(own.roughness / movesAsImage, 1.0);
+            float most = mix(framesInMotion, framesInMotionRough, rough * rough);
+            image = pastAt(Whereabouts(at, home, expected, hitDistance, most), own, plane);
         }
     }
     if (asImage == 1.0) {
         return image;
     }
-    Past still = pastAt(Whereabouts(home, home, expected, -1.0), own, plane);
+    Past still = pastAt(Whereabouts(home, home, expected, -1.0, 1e4), own, plane);
     if (image.frames == 0.0 || still.frames == 0.0) {
         still.frames *= 1.0 - asImage;
         return image.frames > 0.0 ? image : still;
