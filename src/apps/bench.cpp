@@ -93,7 +93,7 @@ BenchPlan makePlan(const BenchCommand& command) {
     plan.warmup = command.warmup;
     plan.frames = command.frames;
     plan.layer = command.layer;
-    plan.motion = {command.motionFrames, command.orbit, command.fps, command.warmup, command.restFrames};
+    plan.motion = {command.motionFrames, command.orbit, command.warmup, command.fps, command.restFrames};
     if (plan.motion.frames > 0 && plan.truth.kind == TruthKind::none) {
         failUsage("--motion needs a truth: --truth reference or --truth chain:RAYS");
     }

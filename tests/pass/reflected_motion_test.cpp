@@ -109,8 +109,7 @@ TEST(ReflectedMotion, AMovingBoxIsWhereItIsInTheMirrorAndDoesNotTrail) {
         const double difference =
             differenceOf(moving.images.at("indirect_specular"), truth.images.at("indirect_specular"), where);
         RecordProperty("difference", std::to_string(difference));
-        EXPECT_LT(difference, 0.1) << time;
-        // And the mirror shows the same as without a past where nothing has moved.
+        EXPECT_LT(difference, 0.03) << time;  // 0.06 by the image alone, as if what it shows stood still
     }
     expectSilentValidation("a box before a mirror");
 }

@@ -13,8 +13,8 @@ namespace reflet {
 struct MotionPlan {
     uint32_t frames = 0;    ///< 0: nothing is measured
     float degrees = 30.0F;  ///< that the camera turns round what it looks at, over all of them
-    float fps = 24.0F;      ///< frames a second of the scene's animations
     uint32_t warmup = 11;   ///< frames at rest before
+    float fps = 24.0F;      ///< frames a second of the scene's animations
     uint32_t rest = 0;      ///< frames after, in which all stands still, that are held against the final value
 };
 

@@ -35,7 +35,8 @@ CHOICES(RayNoise, RAY_NOISES)
           "Pixels along each side of the blocks that share rays; 2: half resolution. What is found is spread " \
           "over the block's pixels by their depths and normals.")                                              \
     VALUE(uint, reuse, 0, 0, 8,                                                                                \
-          "Neighbours whose rays a pixel takes, too, as far as they bring what its own would.")                \
+          "Neighbours whose rays a pixel takes, too, weighted as its own lobe would; only where all its rays " \
+          "are traced at once (up to 4).")                                                                     \
     VALUE(float, radius, 100000.0, 0.01, 100000.0,                                                             \
           "Metres; what is farther off is left to the sources behind the screen.")                             \
     VALUE(float, gain, 1.0, 0.0, 64.0,                                                                         \
