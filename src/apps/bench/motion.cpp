@@ -63,6 +63,7 @@ std::vector<double> renderRest(Subject& subject, const MotionPlan& plan, const F
         value /= finalFrames;
     }
     std::vector<double> rest;
+    rest.reserve(frames.size());
     for (const FloatImage& frame : frames) {
         rest.push_back(changeAtRest(frame, final, before));
     }
