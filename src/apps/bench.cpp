@@ -93,9 +93,12 @@ BenchPlan makePlan(const BenchCommand& command) {
     plan.warmup = command.warmup;
     plan.frames = command.frames;
     plan.layer = command.layer;
-    plan.motion = {command.motionFrames, command.orbit, command.warmup};
+    plan.motion = {command.motionFrames, command.orbit, command.warmup, command.fps, command.restFrames};
     if (plan.motion.frames > 0 && plan.truth.kind == TruthKind::none) {
         failUsage("--motion needs a truth: --truth reference or --truth chain:RAYS");
+    }
+    if (plan.motion.rest > 0 && plan.motion.frames == 0) {
+        failUsage("--rest is what comes after --motion N");
     }
     if (std::ranges::find(comparable, plan.layer) == comparable.end()) {
         failUsage("--layer wants one of {}, is '{}'", fmt::join(comparable, ", "), plan.layer);

@@ -10,6 +10,7 @@
 #include "gpu/device.h"
 #include "render/accumulate/accumulate.h"
 #include "render/bounce/answer_environment.h"
+#include "render/bounce/reuse_rays.h"
 #include "render/bounce/trace_screen.h"
 #include "render/denoise/denoise.h"
 #include "render/light_mips/light_mips.h"
@@ -53,6 +54,13 @@ void answerFromViews(gpu::Frame& f, Rays& rays, const SeenView& seen, const Sett
     }
 }
 
+// What mirrors show has not moved by itself, until a source knows better.
+gpu::Image noImageMotion(gpu::Frame& f, const RaySurfaces& from) {
+    const gpu::Image motion = f.image("rays.image_motion", VK_FORMAT_R16G16_SFLOAT, from.g.depth.size);
+    f.clear(motion);
+    return motion;
+}
+
 // One chain for both lobes: rays, then sources that answer in order of trust, each taking what is left over.
 LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& settings, const SeenView& seen,
                     uint32_t lobe) {
@@ -61,6 +69,7 @@ LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& setting
     const auto scope = f.scope(diffuse ? "diffuse" : "specular");
     const bool counted = settings.traceScreen.countSteps != 0;
     const uint32_t perPixel = diffuse ? settings.diffuse.rays : settings.specular.rays;
+    const uint32_t neighbours = diffuse ? settings.diffuse.reuse : settings.specular.reuse;
     const float longest = diffuse ? settings.diffuse.radius : settings.traceScreen.maxDistance;
     if (perPixel == 0) {
         return noLight(f, lobe, {screen.g, in.view}, counted);
@@ -69,19 +78,24 @@ LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& setting
         pickSurfaces(f, screen.g, in.view, diffuse ? settings.diffuse.scale : settings.specular.scale);
     const float coneShare = settings.traceScreen.enabled != 0 ? coneShareOnScreen : 0.0F;
     const uint32_t batch = raysPerBatch(f, from.g.depth.size);
+    const bool remembers = settings.denoise.enabled != 0 && settings.denoise.history > 0;
+    const gpu::Image imageMotion = !diffuse && remembers ? noImageMotion(f, from) : gpu::Image{};
     LobeLight light;
     for (uint32_t first = 0; first < perPixel; first += batch) {
         const uint32_t count = std::min(perPixel - first, batch);
         Rays rays = generateRays(f, from, {in.ggxTable, in.blueNoise}, lobe,
                                  {{}, settings.diffuse, settings.specular, first, count, coneShare}, counted);
+        rays.imageMotion = imageMotion;
         answerFromViews(f, rays, seen, settings, longest);
         answerFromScene(f, rays, in, settings, seen.images, screen);
         if (in.probes) {
             answerProbes(f, rays, in.probes, settings.probes);
         }
         answerEnvironment(f, rays, in.environment, settings.environment);
-        light = resolveRays(f, rays, perPixel);
+        const bool shared = neighbours > 0 && count == perPixel;
+        light = shared ? reuseRays(f, rays, in.view, neighbours) : resolveRays(f, rays, perPixel);
     }
+    light.imageMotion = imageMotion;
     return settings.denoise.enabled != 0 ? denoise(f, light, lobe, in.view, settings.denoise) : light;
 }
 

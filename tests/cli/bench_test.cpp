@@ -160,13 +160,15 @@ TEST_F(BenchTest, SeveralSizesSayWhatAPixelCosts) {
 }
 
 TEST_F(BenchTest, FramesInMotionAreHeldAgainstATruthEach) {
-    ASSERT_TRUE(quietSuccess(bench({"--preset", "direct", "--motion", "3", "--orbit", "10"})));
+    ASSERT_TRUE(quietSuccess(bench({"--preset", "direct", "--motion", "3", "--orbit", "10", "--rest", "2"})));
     const nlohmann::json motion = numbers()["runs"][0]["motion"];
     EXPECT_EQ(motion.at("flip").size(), 3U);
     EXPECT_GT(motion.at("flicker"), 0.0);
     EXPECT_GT(motion.at("truth_flicker"), 0.0);
+    EXPECT_EQ(motion.at("rest").size(), 2U);
     EXPECT_EQ(truths(), 2U * 4U);  // at rest, and three more
     EXPECT_TRUE(refused(bench({"--motion", "3", "--truth", "none"}), 2, {"--motion", "--truth"}));
+    EXPECT_TRUE(refused(bench({"--rest", "3"}), 2, {"--rest", "--motion"}));
 }
 
 TEST_F(BenchTest, AnotherBuildTakesTurnsWithThisOne) {

@@ -227,6 +227,15 @@ TEST(Motion, TheCameraTurnsRoundWhatItLooksAt) {
     EXPECT_NEAR(last.y, 1.0F, 1e-5F);
     EXPECT_NEAR(last.z, 1.0F, 1e-5F);
     EXPECT_EQ(viewInMotion(view, plan, 10).camera.target, view.camera.target);
+    EXPECT_DOUBLE_EQ(viewInMotion(view, plan, 12).time, 0.5);
+}
+
+TEST(Motion, WhatComesToRestIsHeldAgainstItsFinalValueWhereTheMotionChangedIt) {
+    const FloatImage before{2, 1, {"Y"}, {1.0F, 4.0F}};
+    const FloatImage final{2, 1, {"Y"}, {1.01F, 2.0F}};
+    const FloatImage frame{2, 1, {"Y"}, {9.0F, 2.5F}};
+    EXPECT_DOUBLE_EQ(changeAtRest(frame, final, before), 0.25);
+    EXPECT_EQ(changeAtRest(frame, final, final), 0.0);
 }
 
 TEST_F(BenchDeviceTest, APassCountsTheBytesOfWhatItBinds) {

@@ -80,6 +80,8 @@ std::vector<vec4> DenoiseRun::add(const LitWall& light, const WallFrame& wall) {
     LobeLight lobe{};
     lobe.from = RaySurfaces{g, view, 1};
     lobe.radiance = filler.colors("radiance", radiance);
+    lobe.imageMotion = filler.fill("image_motion", VK_FORMAT_R16G16_SFLOAT, "fill_pair_test.comp",
+                                   std::vector<vec4>(count, vec4(wall.imageMotion / vec2(size_), 0.0F, 0.0F)));
     const LobeLight clean = denoise(frame_, lobe, lobe_, view, settings_);
     const gpu::Readback copy = frame_.readback(clean.radiance);
     frame_.submit();

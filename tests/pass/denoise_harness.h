@@ -24,6 +24,7 @@ struct WallFrame {
     float cameraX = 0.0F;    ///< metres
     vec2 wallMotion{0.0F};   ///< of the wall itself, pixels
     float roughness = 0.5F;  ///< of the wall
+    vec2 imageMotion{0.0F};  ///< own one of what the wall mirrors, pixels
 };
 
 class DenoiseRun {

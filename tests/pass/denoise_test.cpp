@@ -175,6 +175,18 @@ TEST_F(DenoisePlain, AMirrorImageMovesAsWhatItShowsAndNotAsTheMirror) {
     }
 }
 
+TEST_F(DenoisePlain, AMirrorImageMovesAsWhatItShowsDoesByItself) {
+    DenoiseRun run(device(), size, lobeSpecular, pastAlone());
+    run.add([](uvec2 p) { return LitPixel{vec3(pattern(p))}; }, {.roughness = 0.0F});
+    const std::vector<vec4> second =
+        run.add([](uvec2) { return LitPixel{}; }, {.roughness = 0.0F, .imageMotion = {6, 2}});
+    for (uint32_t y = 2; y < size.y; ++y) {
+        for (uint32_t x = 6; x < size.x; ++x) {
+            ASSERT_EQ(second[y * size.x + x].x, 0.5F * pattern({x - 6, y - 2})) << x << ' ' << y;
+        }
+    }
+}
+
 TEST_F(DenoisePlain, LightThatChangesIsShownSoon) {
     DenoiseRun run(device(), size, lobeDiffuse, enabled());
     for (int frame = 0; frame < 20; ++frame) {

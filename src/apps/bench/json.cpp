@@ -56,7 +56,10 @@ Json stateJson(const BenchState& state, double bandwidth) {
 }
 
 Json motionJson(const MotionResult& motion) {
-    return {{"flip", motion.flip}, {"flicker", motion.flicker}, {"truth_flicker", motion.truthFlicker}};
+    return {{"flip", motion.flip},
+            {"flicker", motion.flicker},
+            {"truth_flicker", motion.truthFlicker},
+            {"rest", motion.rest}};
 }
 
 Json runJson(const BenchRun& run, double bandwidth) {

@@ -118,6 +118,28 @@ std::string motionTable(const BenchResult& result) {
     return text;
 }
 
+std::string restTable(const BenchResult& result) {
+    std::string text =
+        "\n### At rest after motion\n\nReflections, where the motion changed them: mean difference to what they "
+        "become, "
+        "over its mean, so many frames after all has stopped.\n\n| scene | variant | size |";
+    constexpr size_t shown[] = {1, 2, 4, 8, 16};
+    for (const size_t after : shown) {
+        text += fmt::format(" {} |", after);
+    }
+    text += "\n|---|---|---|--:|--:|--:|--:|--:|\n";
+    for (const BenchRun& run : result.runs) {
+        text +=
+            fmt::format("| {} | {} | {} |", escapeMarkdown(run.scene), escapeMarkdown(run.variant), sizeText(run.size));
+        for (const size_t after : shown) {
+            const bool known = run.motion && after <= run.motion->rest.size();
+            text += known ? fmt::format(" {:.1f} % |", 100.0 * run.motion->rest[after - 1]) : " |";
+        }
+        text += "\n";
+    }
+    return text;
+}
+
 std::string scalingTable(const std::vector<Scaling>& all) {
     std::string text =
         "\n### Cost per pixel\n\nNanoseconds from submission to fence over the number of pixels; spread: largest over "
@@ -173,6 +195,9 @@ std::string benchMarkdown(const BenchHead& head, const BenchPlan& plan, const Be
     }
     if (plan.motion.frames > 0) {
         text += motionTable(result);
+    }
+    if (plan.motion.rest > 0) {
+        text += restTable(result);
     }
     for (const BenchRun& run : result.runs) {
         text += passTable(run, head.bandwidth);

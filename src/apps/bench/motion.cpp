@@ -7,6 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
+#include <string>
 
 namespace reflet {
 
@@ -26,24 +29,64 @@ float bilinear(const FloatImage& image, vec2 at, size_t channel) {
                      std::lerp(texel(low.x, high.y), texel(high.x, high.y), share.x), share.y);
 }
 
+const std::string reflections = "indirect_specular";
+// The final value is the mean of the last of so many frames at rest: single ones have noise.
+constexpr uint32_t framesToRest = 48;
+constexpr uint32_t finalFrames = 16;
+
 struct Moved {
     FloatImage picture;
     FloatImage motion;
 };
 
-std::vector<Moved> renderMotion(gpu::Device& device, const BenchScene& scene, uvec2 size, const Settings& settings,
-                                const MotionPlan& plan) {
+struct MovedFrames {
+    std::vector<Moved> moving;
+    std::vector<double> rest;  // as of MotionResult
+};
+
+std::vector<double> renderRest(Subject& subject, const MotionPlan& plan, const FloatImage& before) {
+    std::vector<FloatImage> frames;
+    FloatImage final;
+    const uint32_t count = std::max(framesToRest, plan.rest + finalFrames);
+    for (uint32_t i = 0; i < count; ++i) {
+        FloatImage frame = std::move(subject.picture({reflections}).at(reflections));
+        if (i + finalFrames == count) {
+            final = frame;
+        } else if (i + finalFrames > count) {
+            std::ranges::transform(final.data, frame.data, final.data.begin(), std::plus());
+        }
+        if (i < plan.rest) {
+            frames.push_back(std::move(frame));
+        }
+    }
+    for (float& value : final.data) {
+        value /= finalFrames;
+    }
+    std::vector<double> rest;
+    rest.reserve(frames.size());
+    for (const FloatImage& frame : frames) {
+        rest.push_back(changeAtRest(frame, final, before));
+    }
+    return rest;
+}
+
+MovedFrames renderMotion(gpu::Device& device, const BenchScene& scene, uvec2 size, const Settings& settings,
+                         const MotionPlan& plan) {
     Subject subject(device, scene, size, settings);
     Progress progress(scene.name + ", in motion: frame", plan.frames);
     for (uint32_t i = 0; i < plan.warmup; ++i) {
         subject.render();
     }
-    std::vector<Moved> frames;
+    const FloatImage before = plan.rest > 0 ? subject.picture({reflections}).at(reflections) : FloatImage{};
+    MovedFrames frames;
     for (uint32_t i = 0; i < plan.frames; ++i) {
         subject.look(viewInMotion(scene.view, plan, i + 1));
         Layers layers = subject.picture({"final", "motion"});
-        frames.push_back({std::move(layers.at("final")), std::move(layers.at("motion"))});
+        frames.moving.push_back({std::move(layers.at("final")), std::move(layers.at("motion"))});
         progress.advance();
+    }
+    if (plan.rest > 0) {
+        frames.rest = renderRest(subject, plan, before);
     }
     return frames;
 }
@@ -57,6 +100,7 @@ View viewInMotion(const View& view, const MotionPlan& plan, uint32_t frame) {
     const float c = std::cos(angle);
     const float s = std::sin(angle);
     View moved = view;
+    moved.time += static_cast<double>(frame) / plan.fps;
     moved.camera.position = view.camera.target + vec3(c * arm.x + s * arm.z, arm.y, c * arm.z - s * arm.x);
     moved.camera.up = {c * view.camera.up.x + s * view.camera.up.z, view.camera.up.y,
                        c * view.camera.up.z - s * view.camera.up.x};
@@ -88,15 +132,40 @@ double changeBeyondMotion(const FloatImage& now, const FloatImage& before, const
     return count > 0 ? sum / static_cast<double>(count * channels) : 0.0;
 }
 
+double changeAtRest(const FloatImage& frame, const FloatImage& final, const FloatImage& before) {
+    REFLET_CHECK(frame.data.size() == final.data.size() && before.data.size() == final.data.size(),
+                 "pictures of {}x{}, {}x{} and {}x{}", frame.width, frame.height, final.width, final.height,
+                 before.width, before.height);
+    const size_t channels = final.channels.size();
+    const double mean = std::accumulate(final.data.begin(), final.data.end(), 0.0) / double(final.data.size());
+    double changed = 0.0;
+    double sum = 0.0;
+    double difference = 0.0;
+    for (size_t pixel = 0; pixel < final.data.size(); pixel += channels) {
+        double step = 0.0;
+        for (size_t i = pixel; i < pixel + channels; ++i) {
+            step += std::abs(double(final.data[i]) - before.data[i]) / double(channels);
+        }
+        for (size_t i = pixel; i < pixel + channels && step > 0.1 * mean; ++i) {
+            difference += std::abs(double(frame.data[i]) - final.data[i]);
+            sum += final.data[i];
+            ++changed;
+        }
+    }
+    return changed > 0.0 && sum > 0.0 ? difference / sum : 0.0;
+}
+
 MotionResult measureMotion(gpu::Device& device, const BenchScene& scene, uvec2 size, const Settings& settings,
                            const TruthOptions& truth, const MotionPlan& plan) {
-    const std::vector<Moved> frames = renderMotion(device, scene, size, settings, plan);
+    const MovedFrames moved = renderMotion(device, scene, size, settings, plan);
+    const std::vector<Moved>& frames = moved.moving;
     MotionResult result;
-    BenchScene moved = scene;
+    result.rest = moved.rest;
+    BenchScene now = scene;
     FloatImage truthBefore;
     for (uint32_t i = 0; i < plan.frames; ++i) {
-        moved.view = viewInMotion(scene.view, plan, i + 1);
-        const Truth own = getTruth(device, moved, size, settings, truth);
+        now.view = viewInMotion(scene.view, plan, i + 1);
+        const Truth own = getTruth(device, now, size, settings, truth);
         const FloatImage& picture = own.layers.at("final");
         result.flip.push_back(compareImages(frames[i].picture, picture, {}).difference.flip);
         if (i > 0) {

@@ -29,11 +29,21 @@ void addTimesOptions(CLI::App& command, BenchCommand& options) {
     command.add_option("--frames", options.frames, "Measured frames with history")
         ->check(CLI::Range(1U, 1000000U))
         ->capture_default_str();
-    command.add_option("--motion", options.motionFrames, "Frames that are compared while the camera turns; 0: none")
+    command
+        .add_option("--motion", options.motionFrames,
+                    "Frames that are compared while the camera turns and things move; 0: none")
         ->check(CLI::Range(0U, 100000U))
         ->capture_default_str();
     command.add_option("--orbit", options.orbit, "Degrees that it turns round what it looks at, over all of them")
         ->check(CLI::Range(-360.0F, 360.0F))
+        ->capture_default_str();
+    command.add_option("--fps", options.fps, "Frames a second of the scene's animations, in motion")
+        ->check(CLI::Range(1.0F, 1000.0F))
+        ->capture_default_str();
+    command
+        .add_option("--rest", options.restFrames,
+                    "Frames after the motion, all at rest, that are held against what reflections become; 0: none")
+        ->check(CLI::Range(0U, 1000U))
         ->capture_default_str();
     command.add_option("--rounds", options.rounds, "With --against: runs of each program")
         ->check(CLI::Range(1U, 1000U))

@@ -35,6 +35,8 @@ struct BenchCommand {
     bool noBandwidth = false;
     uint32_t motionFrames = 0;
     float orbit = 30.0F;
+    float fps = 24.0F;
+    uint32_t restFrames = 0;
     std::string device;
     bool validate = false;
     std::string json;

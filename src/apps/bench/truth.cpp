@@ -32,10 +32,12 @@ constexpr uint32_t chainFramesBefore = 8;
 const std::array<std::string, 4> layerNames{"final", "direct", "indirect_diffuse", "indirect_specular"};
 
 // What does not belong into a mean over many frames, as far as this program has it.
-constexpr std::array<std::pair<const char*, const char*>, 6> plainSettings{{{"denoise.enabled", "false"},
+constexpr std::array<std::pair<const char*, const char*>, 8> plainSettings{{{"denoise.enabled", "false"},
                                                                             {"temporal.enabled", "false"},
                                                                             {"diffuse.scale", "1"},
                                                                             {"specular.scale", "1"},
+                                                                            {"diffuse.reuse", "0"},
+                                                                            {"specular.reuse", "0"},
                                                                             {"diffuse.adaptive", "false"},
                                                                             {"specular.adaptive", "false"}}};
 

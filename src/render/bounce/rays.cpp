@@ -37,6 +37,7 @@ Rays generateRays(gpu::Frame& f, const RaySurfaces& from, const RayTables& table
               .answer = f.image("rays.answer", VK_FORMAT_R16G16B16A16_SFLOAT, size, layers, true),
               .source = f.image("rays.source", VK_FORMAT_R8G8B8A8_UNORM, size, layers, true),
               .steps = f.image("rays.steps", VK_FORMAT_R32_SFLOAT, countSteps ? size : uvec2(1), layers, true),
+              .imageMotion = {},
               .waiting = {},
               .firstRay = params.firstRay,
               .count = params.rayCount,
@@ -66,8 +67,6 @@ Rays generateRays(gpu::Frame& f, const RaySurfaces& from, const RayTables& table
     return rays;
 }
 
-namespace {
-
 LobeLight lobeImages(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps) {
     const bool diffuse = lobe == lobeDiffuse;
     const uvec2 size = from.g.depth.size;
@@ -75,14 +74,13 @@ LobeLight lobeImages(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool
         .from = from,
         .radiance = f.image(diffuse ? "diffuse.radiance" : "specular.radiance", VK_FORMAT_R16G16B16A16_SFLOAT, size),
         .source = f.image(diffuse ? "diffuse.source" : "specular.source", VK_FORMAT_R16G16B16A16_SFLOAT, size),
-        .steps = {}};
+        .steps = {},
+        .imageMotion = {}};
     if (countSteps) {
         light.steps = f.image(diffuse ? "diffuse.steps" : "specular.steps", VK_FORMAT_R32_SFLOAT, size);
     }
     return light;
 }
-
-}  // namespace
 
 LobeLight noLight(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps) {
     LobeLight light = lobeImages(f, lobe, from, countSteps);

@@ -34,6 +34,9 @@ CHOICES(RayNoise, RAY_NOISES)
     VALUE(uint, scale, 1, 1, 4,                                                                                \
           "Pixels along each side of the blocks that share rays; 2: half resolution. What is found is spread " \
           "over the block's pixels by their depths and normals.")                                              \
+    VALUE(uint, reuse, 0, 0, 8,                                                                                \
+          "Neighbours whose rays a pixel takes, too, weighted as its own lobe would; only where all its rays " \
+          "are traced at once (up to 4).")                                                                     \
     VALUE(float, radius, 100000.0, 0.01, 100000.0,                                                             \
           "Metres; what is farther off is left to the sources behind the screen.")                             \
     VALUE(float, gain, 1.0, 0.0, 64.0,                                                                         \
@@ -49,6 +52,7 @@ CHOICES(RougherSurfaces, ROUGHER_SURFACES)
     VALUE(uint, rays, 1, 0, 256,                                                                               \
           "Rays per pixel for reflections, spread as the roughness says; 0: none are computed.")               \
     VALUE(uint, scale, 1, 1, 4, "Pixels along each side of the blocks that share rays, as for diffuse.scale.") \
+    VALUE(uint, reuse, 0, 0, 8, "Neighbours whose rays a pixel takes, too, as for diffuse.reuse.")             \
     VALUE(float, maxRoughness, 1.0, 0.0, 1.0,                                                                  \
           "Where surfaces are too rough for rays that are spread: see `rougher`; 1: none are.")                \
     CHOICE(RougherSurfaces, rougher, next,                                                                     \
@@ -109,6 +113,7 @@ struct Rays {
     gpu::Image answer;        ///< RGBA16F array: radiance · weights so far, hit distance · weights [m]
     gpu::Image source;        ///< RGBA8 array: colours of the sources · weights; alpha: confidence
     gpu::Image steps;         ///< R32F array: depth samples that the screen took; 1x1 unless they are counted
+    gpu::Image imageMotion;   ///< of LobeLight, or none; sources write that of each pixel's first ray
     gpu::BufferView waiting;  ///< rays without (all of) an answer
     uint32_t firstRay = 0;
     uint32_t count = 0;  ///< per pixel, in this batch
@@ -123,7 +128,10 @@ struct LobeLight {
     gpu::Image source;    ///< RGBA16F: mean colour of the sources that answered; alpha: confidence. Sums of many
                           ///< batches, for which 8 bits are too few
     gpu::Image steps;     ///< R32F: mean depth samples per ray; none unless they are counted
-    bool dark = false;    ///< of noLight
+    /// RG16F: uv by which the mirror image has moved since the last frame because what it shows moves by itself
+    /// (own_motion.glsl); none unless it was asked for.
+    gpu::Image imageMotion;
+    bool dark = false;  ///< of noLight
 };
 
 /// What their generator looks up.
@@ -143,6 +151,9 @@ Rays generateRays(gpu::Frame& f, const RaySurfaces& from, const RayTables& table
 
 /// An empty list as large as the rays' own, for what a source misses.
 gpu::BufferView makeRayList(gpu::Frame& f, const Rays& rays, std::string_view name);
+
+/// A lobe's images, which hold nothing yet.
+LobeLight lobeImages(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps);
 
 /// A lobe without rays: black.
 LobeLight noLight(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps);

@@ -2,7 +2,7 @@
 // picture, for rays that start on the mirror.
 // In: depth and geometric normal that rays start from; of what they are traced through: depth of both layers, geometric
 // normal, motion, pyramid, light of this and the last frame and mips of one of them; ray directions, the list.
-// Out: answers, sources, steps, the list of misses.
+// Out: answers, sources, steps, how far the images of what mirrors show moved by themselves, the list of misses.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/bounce/answer_environment.h"
@@ -19,6 +19,7 @@ layout(constant_id = 1) const uint secondLayer = 0u;
 layout(constant_id = 2) const uint countSteps = 0u;
 layout(constant_id = 3) const uint cones = 0u;
 layout(constant_id = 4) const uint through = 0u;
+layout(constant_id = 5) const uint tellsMotion = 0u;
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { TraceScreenParams params; };
@@ -33,6 +34,7 @@ layout(set = 0, binding = 11, rg32f) uniform readonly image2D pyramid;
 layout(set = 0, binding = 12) uniform sampler2D backDepth;
 layout(set = 0, binding = 15) uniform sampler2D lightMips;
 layout(set = 0, binding = 13, r32f) uniform writeonly image2DArray steps;
+layout(set = 0, binding = 17, rg16f) uniform writeonly image2D imageMotion;
 layout(set = 0, binding = 4, rg32ui) uniform readonly uimage2DArray direction;
 layout(set = 0, binding = 5, scalar) readonly buffer WaitingBlock {
     uint groups[3];
@@ -70,15 +72,18 @@ vec3 loadLight(ivec2 cell, int level) {
     }
     return fromPrevious() ? imageLoad(previousLit, cell).rgb : imageLoad(light, cell).rgb;
 }
+#include "render/bounce/last_frame.glsl"
 #include "render/light_mips/light_mips.glsl"
 
-// Of what the pixel shows, and so many pixels around it. A point that the last frame did not have on screen gives this
-// frame's light, unblurred.
+// Of what the pixel shows, and so many pixels around it. A point that the last frame did not show gives this frame's
+// light, unblurred.
 vec3 lightAt(ivec2 pixel, float width) {
     vec2 uv = pixelToUv(pixel, params.view.pixel);
     if (fromPrevious()) {
-        uv += params.view.jitterChange - texelFetch(motion, pixel, 0).xy;
-        if (any(lessThan(uv, vec2(0.0))) || any(greaterThanEqual(uv, vec2(1.0)))) {
+        vec3 p = uvToWorld(uv, loadDepth(pixel), params.view.clipToWorld);
+        vec3 n = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
+        uv = uvInLastFrame(pixel, uv);
+        if (!wasShown(uv, pixel, p, n)) {
             return imageLoad(light, pixel).rgb;
         }
     }
@@ -148,6 +153,17 @@ void noteWay(MarchResult hit, bool lost, inout WaitingRay w) {
     }
 }
 
+// How the mirror image of what the ray has hit moved by itself.
+void tellMotion(ivec2 pixel, Ray ray, vec3 p, MarchResult hit) {
+    vec3 there = uvToWorld(pixelToUv(hit.pixel, params.view.pixel), loadDepth(hit.pixel), params.view.clipToWorld);
+    vec3 displacement = displacementAt(hit.pixel, there);
+    if (displacement != vec3(0.0)) {
+        vec2 moved = mirroredMotion(p, directionToEye(p, params.own.eye), ray.direction, hit.distance, displacement,
+                                    params.own.previousWorldToClip);
+        imageStore(imageMotion, pixel, vec4(moved, 0.0, 0.0));
+    }
+}
+
 RayAnswer traceAnswer(ivec3 slot, Ray ray, vec3 p, vec3 n, inout WaitingRay w) {
     float jitter = 1.0;
     if (params.settings.jitter != 0u) {
@@ -166,6 +182,9 @@ RayAnswer traceAnswer(ivec3 slot, Ray ray, vec3 p, vec3 n, inout WaitingRay w) {
     bool facesAway = params.settings.rejectFacingAway != 0u && hit.outcome == marchHit &&
                      dot(unpackUnitVector(texelFetch(geometricNormal, hit.pixel, 0).r), ray.direction) > 0.0;
     noteWay(hit, hit.lost || facesAway, w);
+    if (tellsMotion != 0u && slot.z == 0 && hit.outcome == marchHit && !facesAway) {
+        tellMotion(slot.xy, ray, p, hit);
+    }
     if (through == throughMirror) {
         return facesAway ? noAnswer : answerOfMirror(hit, p, ray);
     }

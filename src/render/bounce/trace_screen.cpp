@@ -20,6 +20,7 @@ void record(gpu::Frame& f, gpu::Pass pass, Rays& rays, const Trace& trace, const
             float longest) {
     const ScreenImages& seen = trace.seen;
     const bool countSteps = rays.countSteps && trace.through == throughScreen;
+    const bool tellsMotion = rays.imageMotion && rays.firstRay == 0;
     const bool previous = trace.through == throughScreen && seen.lit.valid;
     const gpu::BufferView missed = makeRayList(f, rays, trace.missed);
     pass.constant("method", static_cast<uint32_t>(settings.method))
@@ -27,6 +28,7 @@ void record(gpu::Frame& f, gpu::Pass pass, Rays& rays, const Trace& trace, const
         .constant("cones", seen.lightMips ? 1U : 0U)
         .constant("countSteps", countSteps ? 1U : 0U)
         .constant("through", trace.through)
+        .constant("tellsMotion", tellsMotion ? 1U : 0U)
         .read("ownDepth", rays.from.g.depth)
         .read("ownGeometricNormal", rays.from.g.geometricNormal)
         .read("depth", seen.g.depth)
@@ -42,6 +44,8 @@ void record(gpu::Frame& f, gpu::Pass pass, Rays& rays, const Trace& trace, const
         .write("answer", rays.answer)
         .write("source", rays.source)
         .write("steps", rays.steps)
+        .write("imageMotion",
+               tellsMotion ? rays.imageMotion : f.image("no_image_motion", VK_FORMAT_R16G16_SFLOAT, uvec2(1)))
         .write("missed", missed)
         .params(TraceScreenParams{rays.from.view, seen.view, trace.mirror, settings,
                                   std::min(longest, settings.maxDistance), rays.firstRay, previous ? 1U : 0U})

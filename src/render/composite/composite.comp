@@ -1,5 +1,6 @@
 // Indirect light times what the surface reflects of it, and the sum of all light. In: G-buffer, direct light, the
-// lobes' mean radiance, with the surfaces that they belong to where those are fewer than pixels. Out: both indirect layers, and lit = direct + both.
+// lobes' mean radiance, with the surfaces that they belong to where those are fewer than pixels. Out: both indirect layers, and lit = direct + both, with the
+// distance along the view [m], 0: the sky.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/composite/composite.h"
@@ -136,5 +137,6 @@ void main() {
         imageStore(indirectSpecular, pixel, vec4(clampToHalf(fromSpecular), 1.0));
     }
     vec3 sum = imageLoad(direct, pixel).rgb + fromDiffuse + fromSpecular;
-    imageStore(lit, pixel, vec4(clampToHalf(sum), 1.0));
+    float away = d > 0.0 ? min(depthToViewDistance(d, params.view.depthToDistance), largestHalf) : 0.0;
+    imageStore(lit, pixel, vec4(clampToHalf(sum), away));
 }

@@ -46,6 +46,7 @@ Gathered gather(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const View
     const bool remembers = settings.history > 0 && past.valid && surfaces.valid;
     f.compute("denoise_gather", "denoise_gather.comp")
         .constant("lobe", lobe)
+        .constant("hasImageMotion", light.imageMotion ? 1U : 0U)
         .read("limits", tileLimits(f, light, lobe, settings))
         .read("depth", light.from.g.depth)
         .read("normal", light.from.g.normal)
@@ -53,6 +54,8 @@ Gathered gather(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const View
         .read("material", light.from.g.material)
         .read("motion", light.from.g.motion)
         .read("radiance", light.radiance)
+        .read("imageMotion",
+              light.imageMotion ? light.imageMotion : f.image("no_image_motion", VK_FORMAT_R16G16_SFLOAT, uvec2(1)))
         .read("previousLight", past.previous)
         .read("previousSurface", surfaces.previous)
         .read("previousMoments", moments.previous)

@@ -1,6 +1,6 @@
 // The first step of cleaning: fireflies are spread over their neighbours, then each pixel becomes the mean of this frame
 // and of those before as far as they still hold.
-// In: the limits of fireflies, surfaces, motion, radiance with hit distance, history. Out: the mean, with hit distance;
+// In: the limits of fireflies, surfaces, motion, radiance with hit distance, motion of mirror images, history. Out: the mean, with hit distance;
 // the same as history; surfaces; moments: how many frames it is the mean of, mean square of the luminance.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -8,6 +8,7 @@
 #include "render/gbuffer/gbuffer.h"
 
 layout(constant_id = 0) const uint lobe = 0u;
+layout(constant_id = 1) const uint hasImageMotion = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { DenoiseGatherParams params; };
@@ -17,6 +18,7 @@ layout(set = 0, binding = 3) uniform usampler2D normal;
 layout(set = 0, binding = 4) uniform usampler2D geometricNormal;
 layout(set = 0, binding = 5) uniform sampler2D material;
 layout(set = 0, binding = 6) uniform sampler2D motion;
+layout(set = 0, binding = 15, rg16f) uniform readonly image2D imageMotion;
 layout(set = 0, binding = 7, rgba16f) uniform readonly image2D radiance;
 layout(set = 0, binding = 8, rgba16f) uniform readonly image2D previousLight;
 layout(set = 0, binding = 9, rg32ui) uniform readonly uimage2D previousSurface;
@@ -31,6 +33,15 @@ const float distanceSlack = 0.02;  // or this share of its distance: things move
 // Reflections up to this perceptual roughness move as what they show, those above the second as their surface.
 const float movesAsImage = 0.25;
 const float movesAsSurface = 0.6;
+
+// In a mirror, what is nearer or farther by more than this share is another thing; the rougher it is, the more distances
+// differ by chance. From movesAsImage on, all that is behind the surface may be the same.
+const float sameThing = 0.15;
+const float sameThingRough = 3.0;
+// The past of a mirror is read between its pixels where it moves, which blurs it every time, and has no noise: it counts
+// for so many frames. Rougher reflections have more noise than detail.
+const float framesInMotion = 1.0;
+const float framesInMotionRough = 64.0;
 
 // What the pixel and its neighbours on the same surface show in this frame.
 struct Seen {
@@ -87,12 +98,27 @@ Seen look(ivec2 pixel, float d, ScreenPlane plane) {
     return s;
 }
 
-// What the last frame kept at `at` (pixels of the grid), of a surface like this one. home: where it had the pixel's own
-// point, whose depth was to be `expected`.
-Past pastAt(vec2 at, vec2 home, float expected, KeptSurface own, ScreenPlane plane) {
+// Whether a mirror of that roughness may have shown the same thing, by how far away that is.
+bool isSameThing(float now, float before, float roughness) {
+    float allowed = mix(sameThing, sameThingRough, min(roughness / movesAsImage, 1.0));
+    return roughness > movesAsImage || max(now, before) <= (1.0 + allowed) * min(now, before) + 1e-3;
+}
+
+// Where a pixel's past is looked for.
+struct Whereabouts {
+    vec2 at;         // pixels of the grid
+    vec2 home;       // where the last frame had the pixel's own point
+    float expected;  // depth of that
+    float away;      // metres from there to what a mirror shows; negative: whatever it shows
+    float most;      // frames that it may count for where it is read between pixels
+};
+
+// What the last frame kept of a surface like this one.
+Past pastAt(Whereabouts w, KeptSurface own, ScreenPlane plane) {
     float allowed = heightSlack + distanceSlack / params.view.pixelAngle;
-    vec2 nearest = round(at);
-    at = all(lessThan(abs(at - nearest), vec2(1.0 / 64.0))) ? nearest : at;  // what did not move stays what it is
+    vec2 nearest = round(w.at);
+    // What did not move stays what it is.
+    vec2 at = all(lessThan(abs(w.at - nearest), vec2(1.0 / 64.0))) ? nearest : w.at;
     ivec2 corner = ivec2(floor(at));
     vec2 f = at - vec2(corner);
     Past sum = noPast;
@@ -105,12 +131,14 @@ Past pastAt(vec2 at, vec2 home, float expected, KeptSurface own, ScreenPlane pla
             continue;
         }
         KeptSurface there = unpackSurface(imageLoad(previousSurface, texel).xy);
-        vec2 away = vec2(texel) - home;
-        float height = heightAbove(plane, away, there.depth - expected) / max(length(away), 1.0);
-        if (there.depth > 0.0 && abs(height) <= allowed && alike(own, there, lobe) > 0.3) {
+        vec2 away = vec2(texel) - w.home;
+        float height = heightAbove(plane, away, there.depth - w.expected) / max(length(away), 1.0);
+        vec4 light = imageLoad(previousLight, texel);
+        bool same = w.away < 0.0 || isSameThing(w.away, light.a, own.roughness);
+        if (same && there.depth > 0.0 && abs(height) <= allowed && alike(own, there, lobe) > 0.3) {
             float weight = share.x * share.y;
             vec2 m = imageLoad(previousMoments, texel).xy;
-            sum.light += weight * imageLoad(previousLight, texel);
+            sum.light += weight * light;
             sum.frames += weight * m.x;
             sum.square += weight * m.y;
             weights += weight;
@@ -119,12 +147,13 @@ Past pastAt(vec2 at, vec2 home, float expected, KeptSurface own, ScreenPlane pla
     if (weights < 0.01) {
         return noPast;
     }
-    return Past(sum.light / weights, sum.frames / weights, sum.square / weights);
+    float frames = sum.frames / weights;
+    return Past(sum.light / weights, f == vec2(0.0) ? frames : min(frames, w.most), sum.square / weights);
 }
 
 vec2 pixelOf(vec4 clip) { return ndcToUv(clip.xy / clip.w) * params.view.size - 0.5; }
 
-// The past of what is seen in a mirror moves as the image behind it does.
+// The past of what is seen in a mirror moves as the image behind it does, and that as what it shows.
 Past remembered(ivec2 pixel, vec3 p, KeptSurface own, ScreenPlane plane, float hitDistance) {
     vec4 before = params.view.previousWorldToClip * vec4(p, 1.0);
     float expected = before.z / before.w;
@@ -135,14 +164,21 @@ Past remembered(ivec2 pixel, vec3 p, KeptSurface own, ScreenPlane plane, float h
         vec3 behind = p - directionToEye(p, params.view.eye) * hitDistance;
         vec4 clip = params.view.previousWorldToClip * vec4(behind, 1.0);
         if (clip.w > 0.0) {
-            image = pastAt(pixelOf(clip), home, expected, own, plane);
+            vec2 at = pixelOf(clip);
+            if (hasImageMotion != 0u) {
+                at -= imageLoad(imageMotion, pixel).xy * params.motionToPixels;
+            }
+            float rough = min(own.roughness / movesAsImage, 1.0);
+            float most = mix(framesInMotion, framesInMotionRough, rough * rough);
+            image = pastAt(Whereabouts(at, home, expected, hitDistance, most), own, plane);
         }
     }
-    if (image.frames > 0.0 && asImage == 1.0) {
+    if (asImage == 1.0) {
         return image;
     }
-    Past still = pastAt(home, home, expected, own, plane);
+    Past still = pastAt(Whereabouts(home, home, expected, -1.0, 1e4), own, plane);
     if (image.frames == 0.0 || still.frames == 0.0) {
+        still.frames *= 1.0 - asImage;
         return image.frames > 0.0 ? image : still;
     }
     return Past(mix(still.light, image.light, asImage), mix(still.frames, image.frames, asImage),

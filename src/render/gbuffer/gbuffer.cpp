@@ -23,7 +23,7 @@ GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view,
         .baseColor = f.target("base_color", VK_FORMAT_A2B10G10R10_UNORM_PACK32, size),
         .material = f.target("material", VK_FORMAT_R8G8B8A8_UNORM, size),
         .emissive = f.target("emissive", VK_FORMAT_B10G11R11_UFLOAT_PACK32, size),
-        .motion = f.target("motion", VK_FORMAT_R16G16_SFLOAT, size),
+        .motion = f.target("motion", VK_FORMAT_R16G16B16A16_SFLOAT, size),
     };
     const VkClearColorValue zero{};
     gpu::Pass pass = f.raster("gbuffer", {"gbuffer.vert", "gbuffer.frag"});

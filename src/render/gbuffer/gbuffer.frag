@@ -14,7 +14,7 @@ layout(location = 1) in vec4 tangentW;
 layout(location = 2) in vec4 uv;
 layout(location = 3) in vec4 vertexColor;
 layout(location = 4) in vec3 clipNow;
-layout(location = 5) in vec3 clipBefore;
+layout(location = 5) in vec4 clipBefore;
 layout(location = 6) in vec3 fromEye;
 
 layout(location = 0) out vec4 outBaseColor;
@@ -22,7 +22,7 @@ layout(location = 1) out uint outNormal;
 layout(location = 2) out uint outGeometricNormal;
 layout(location = 3) out vec4 outMaterial;
 layout(location = 4) out vec3 outEmissive;
-layout(location = 5) out vec2 outMotion;
+layout(location = 5) out vec4 outMotion;
 
 // The triangle's own, toward the camera. An edge-on triangle that gives none gets the shading normal.
 vec3 geometricNormal(vec3 shading) {
@@ -77,5 +77,5 @@ void main() {
     outNormal = packUnitVector(n);
     outGeometricNormal = packedGeometric;
     outMaterial = vec4(roughnessMetallic, occlusion, float(flags) / 255.0);
-    outMotion = 0.5 * (clipNow.xy / clipNow.z - clipBefore.xy / clipBefore.z);
+    outMotion = vec4(0.5 * (clipNow.xy / clipNow.z - clipBefore.xy / clipBefore.z), clipBefore.w, 0.0);
 }

@@ -44,7 +44,8 @@ struct GBuffer {
                            ///< 0.8 % (llvmpipe, base colour 0.5), this by 0.15 % in the same four bytes
     gpu::Image material;   ///< RGBA8: perceptual roughness, metallic, occlusion, flags / 255
     gpu::Image emissive;   ///< B10G11R11: emitted radiance
-    gpu::Image motion;     ///< RG16F: uv now minus uv last frame
+    gpu::Image motion;     ///< RGBA16F: uv now minus uv last frame; metres that the surface itself has gone away from
+                           ///< the camera along its axis, exactly 0 where it stands still; 0
 };
 
 /// Draws the list as seen by the view: reversed Z, back faces of single-sided draws culled. clipPlane: as in

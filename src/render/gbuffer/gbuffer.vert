@@ -24,7 +24,7 @@ layout(location = 1) out vec4 tangentW;
 layout(location = 2) out vec4 uv;
 layout(location = 3) out vec4 vertexColor;
 layout(location = 4) out vec3 clipNow;
-layout(location = 5) out vec3 clipBefore;
+layout(location = 5) out vec4 clipBefore;  // and metres gone away from the camera along its axis
 layout(location = 6) out vec3 fromEye;
 invariant gl_Position;  // back_depth.vert computes the same: a surface must find itself there
 
@@ -42,6 +42,7 @@ void main() {
     fromEye = positionW - params.view.eye.xyz * params.view.eye.w;
     clipNow = gl_Position.xyw;
     vec3 beforeO = bent != 0u ? previousPosition : position;
-    vec4 before = params.view.previousWorldToClip * vec4(draw.previousObjectToWorld * vec4(beforeO, 1.0), 1.0);
-    clipBefore = before.xyw;
+    vec3 beforeW = draw.previousObjectToWorld * vec4(beforeO, 1.0);
+    vec4 before = params.view.previousWorldToClip * vec4(beforeW, 1.0);
+    clipBefore = vec4(before.xyw, dot(params.view.viewPlane.xyz, positionW - beforeW));
 }

@@ -11,6 +11,7 @@ void traceScene(gpu::Frame& f, Rays& rays, const TraceSceneInputs& in, uint32_t 
     const gpu::BufferView missed = makeRayList(f, rays, "rays.missed_by_scene");
     const bool reuse = params.settings.reuseScreen != 0 &&
                        (params.settings.light == SceneHitLight::screen || params.fromPrevious != 0);
+    const bool tellsMotion = rays.imageMotion && rays.firstRay == 0;
     gpu::Pass pass = f.compute("trace_scene", in.scene.rays.shader("trace_scene"));
     in.scene.rays.bind(pass);
     in.scene.surfaces.bind(pass);
@@ -18,6 +19,7 @@ void traceScene(gpu::Frame& f, Rays& rays, const TraceSceneInputs& in, uint32_t 
     pass.constant("lobe", rays.lobe)
         .constant("sunShadows", sunShadows)
         .constant("reuseScreen", reuse ? 1U : 0U)
+        .constant("tellsMotion", tellsMotion ? 1U : 0U)
         .read("ownDepth", rays.from.g.depth)
         .read("ownGeometricNormal", rays.from.g.geometricNormal)
         .read("depth", g.depth)
@@ -33,6 +35,8 @@ void traceScene(gpu::Frame& f, Rays& rays, const TraceSceneInputs& in, uint32_t 
         .read("waiting", rays.waiting)
         .write("answer", rays.answer)
         .write("source", rays.source)
+        .write("imageMotion",
+               tellsMotion ? rays.imageMotion : f.image("no_image_motion", VK_FORMAT_R16G16_SFLOAT, uvec2(1)))
         .write("missed", missed)
         .params(params)
         .params(in.lamps, "lampBlock")

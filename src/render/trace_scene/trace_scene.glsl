@@ -1,7 +1,8 @@
 // Traces waiting rays through the scene and shades what they hit. trace_scene.comp and trace_scene_query.comp include it
 // after their traversal.
 // In: depth, geometric normal and material that rays leave; of the screen: depth, geometric normal, motion, light of this and the last frame, the sun's shadow map, GGX table, blue
-// noise, lamps, ray directions, the list. Out: answers, sources, the list of what it has not answered.
+// noise, lamps, ray directions, the list. Out: answers, sources, how far the images of what mirrors show moved by
+// themselves, the list of what it has not answered.
 #include "render/environment/environment.glsl"
 #include "render/bounce/rays.glsl"
 #include "render/gbuffer/gbuffer.glsl"
@@ -13,11 +14,13 @@
 layout(constant_id = 0) const uint lobe = 0u;
 layout(constant_id = 1) const uint sunShadows = sunShadowRay;
 layout(constant_id = 2) const uint reuseScreen = 0u;
+layout(constant_id = 3) const uint tellsMotion = 0u;
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { TraceSceneParams params; };
 layout(set = 0, binding = 1, scalar) uniform LampUniforms { LampBlock lampBlock; };
 layout(set = 0, binding = 16) uniform sampler2D ownDepth;
+layout(set = 0, binding = 18, rg16f) uniform writeonly image2D imageMotion;
 layout(set = 0, binding = 17) uniform usampler2D ownGeometricNormal;
 layout(set = 0, binding = 2) uniform sampler2D depth;
 layout(set = 0, binding = 3) uniform usampler2D geometricNormal;
@@ -68,6 +71,7 @@ float sunMapVisibility(vec3 p, vec3 normal) {
     }
     return -1.0;
 }
+#include "render/bounce/last_frame.glsl"
 #include "render/trace_scene/scene_light.glsl"
 
 // Below this perceptual roughness a lobe is narrower than anything it could show.
@@ -84,37 +88,54 @@ struct SceneRay {
     float spread;   // by which that grows for each metre
 };
 
+// What the screen shows where a point is.
+struct OnScreen {
+    bool inside;  // of the screen, before the camera
+    ivec2 pixel;
+    vec2 uv;      // of the point itself
+    float depth;  // of the pixel, 0: the sky
+    vec3 shown;   // the pixel's point
+    vec3 normal;  // its geometric one
+};
+
+OnScreen findOnScreen(vec3 position) {
+    OnScreen s;
+    vec4 clip = params.view.worldToClip * vec4(position, 1.0);
+    s.uv = ndcToUv(clip.xy / clip.w);
+    s.inside = clip.w > 0.0 && clip.z <= clip.w && all(greaterThanEqual(s.uv, vec2(0.0))) && all(lessThan(s.uv, vec2(1.0)));
+    s.pixel = s.inside ? ivec2(s.uv * params.view.size) : ivec2(0);
+    s.depth = texelFetch(depth, s.pixel, 0).r;
+    s.shown = uvToWorld(pixelToUv(s.pixel, params.view.pixel), max(s.depth, 1e-12), params.view.clipToWorld);
+    s.normal = unpackUnitVector(texelFetch(geometricNormal, s.pixel, 0).r);
+    return s;
+}
+
+// Whether the point lies in the plane that the pixel shows.
+bool isShown(OnScreen s, vec3 position) {
+    float away = dot(params.view.viewPlane, vec4(position, 1.0));
+    float pixelWidth = params.view.pixelAngle * (params.view.eye.w > 0.0 ? away : 1.0);
+    return s.inside && s.depth > 0.0 && abs(dot(position - s.shown, s.normal)) < 0.1 * pixelWidth &&
+           distance(position, s.shown) < 4.0 * pixelWidth;
+}
+
 // A hit that the camera sees, too, and the light there. Depth is that of a pixel's centre: a slanted surface may be half
 // a pixel nearer or farther at the hit.
 bool screenLight(SceneSurface at, out vec3 radiance) {
     radiance = vec3(0.0);
-    vec4 clip = params.view.worldToClip * vec4(at.position, 1.0);
-    vec2 uv = ndcToUv(clip.xy / clip.w);
-    if (at.hiddenBack || clip.w <= 0.0 || clip.z > clip.w || any(lessThan(uv, vec2(0.0))) || any(greaterThanEqual(uv, vec2(1.0)))) {
-        return false;
-    }
-    ivec2 pixel = ivec2(uv * params.view.size);
-    float d = texelFetch(depth, pixel, 0).r;
-    vec3 n = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
-    vec3 shown = uvToWorld(pixelToUv(pixel, params.view.pixel), max(d, 1e-12), params.view.clipToWorld);
-    float away = dot(params.view.viewPlane, vec4(at.position, 1.0));
-    float pixelWidth = params.view.pixelAngle * (params.view.eye.w > 0.0 ? away : 1.0);
-    // The hit must lie in the plane that the pixel shows, and on its side.
-    bool same = d > 0.0 && abs(dot(at.position - shown, n)) < 0.1 * pixelWidth && dot(at.geometricNormal, n) > 0.99 &&
-                distance(at.position, shown) < 4.0 * pixelWidth;
-    if (!same) {
+    OnScreen s = findOnScreen(at.position);
+    if (at.hiddenBack || !isShown(s, at.position) || dot(at.geometricNormal, s.normal) <= 0.99) {
         return false;
     }
     if (params.fromPrevious == 0u) {
-        radiance = imageLoad(light, pixel).rgb;
+        radiance = imageLoad(light, s.pixel).rgb;
         return true;
     }
-    uv += params.view.jitterChange - texelFetch(motion, pixel, 0).xy;
-    bool inside = all(greaterThanEqual(uv, vec2(0.0))) && all(lessThan(uv, vec2(1.0)));
-    if (inside) {
+    vec2 uv = uvInLastFrame(s.pixel, s.uv);
+    bool shown = wasShown(uv, s.pixel, s.shown, s.normal);
+    if (shown) {
         radiance = imageLoad(previousLit, ivec2(uv * params.view.size)).rgb;
     }
-    return inside;
+    return shown;
 }
 
 Surface surfaceOf(SceneSurface at, vec3 toViewer) {
@@ -218,15 +239,32 @@ bool isChosen(ivec3 slot) {
     return float(mask & 0xffffu) < 65536.0 * chance;
 }
 
+// How the mirror image of what the ray has hit moved by itself, if the screen shows that, too. Nobody else knows where a
+// triangle was.
+void tellMotion(ivec2 pixel, SceneRay ray, float hitDistance) {
+    vec3 hit = ray.origin + ray.direction * hitDistance;
+    OnScreen s = findOnScreen(hit);
+    vec3 displacement = isShown(s, hit) ? displacementAt(s.pixel, s.shown) : vec3(0.0);
+    if (displacement != vec3(0.0)) {
+        vec2 moved = mirroredMotion(ray.origin, directionToEye(ray.origin, params.own.eye), ray.direction, hitDistance,
+                                    displacement, params.own.previousWorldToClip);
+        imageStore(imageMotion, pixel, vec4(moved, 0.0, 0.0));
+    }
+}
+
 RayAnswer answerRay(inout WaitingRay w, Ray ray) {
     uint stream = ((params.firstRay + uint(w.slot.z)) * 2u + lobe) * 4u + hashPcg(params.own.seed + 3u);
     uint random = hashPixel(uvec2(w.slot.xy), stream, params.own.frame);
     float hitDistance;
-    vec3 radiance = radianceAlong(rayOfPixel(w.slot, ray), random, hitDistance);
+    SceneRay traced = rayOfPixel(w.slot, ray);
+    vec3 radiance = radianceAlong(traced, random, hitDistance);
     if (hitDistance < 0.0) {
         w.lost = false;
         w.clear = largestHalf;  // it is known to meet nothing
         return RayAnswer(vec3(0.0), 0.0, 0.0);
+    }
+    if (tellsMotion != 0u && w.slot.z == 0) {
+        tellMotion(w.slot.xy, traced, hitDistance);
     }
     return RayAnswer(radiance, 1.0, hitDistance);
 }

@@ -1,0 +1,30 @@
+// Records the way of rays back into pixels where neighbours share them.
+#include "render/bounce/reuse_rays.h"
+
+namespace reflet {
+
+LobeLight reuseRays(gpu::Frame& f, const Rays& rays, const ViewParams& picture, uint32_t neighbours) {
+    const GBuffer& g = rays.from.g;
+    const uvec2 size = rays.direction.size;
+    const LobeLight light = lobeImages(f, rays.lobe, rays.from, rays.countSteps);
+    f.compute("reuse_rays", "reuse_rays.comp")
+        .constant("lobe", rays.lobe)
+        .constant("countSteps", rays.countSteps ? 1U : 0U)
+        .read("depth", g.depth)
+        .read("normal", g.normal)
+        .read("geometricNormal", g.geometricNormal)
+        .read("material", g.material)
+        .read("direction", rays.direction)
+        .read("answer", rays.answer)
+        .read("raySource", rays.source)
+        .read("raySteps", rays.steps)
+        .write("radiance", light.radiance)
+        .write("source", light.source)
+        .write("steps", light.steps ? light.steps : f.image("no_steps", VK_FORMAT_R32_SFLOAT, uvec2(1)))
+        .params(ReuseRaysParams{rays.from.view, rays.count, neighbours,
+                                picture.pixelAngle * static_cast<float>(rays.from.scale)})
+        .dispatch(size);
+    return light;
+}
+
+}  // namespace reflet

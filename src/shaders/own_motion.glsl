@@ -1,0 +1,43 @@
+// What moves by itself, told by the G-buffer's motion: where in the world it was, and how its mirror image moved.
+#ifndef REFLET_OWN_MOTION_GLSL
+#define REFLET_OWN_MOTION_GLSL
+
+#include "shaders/projection.glsl"
+
+// By which half floats may be off: this share of a motion, and this much of any [uv].
+const vec2 motionRounding = vec2(1.0 / 512.0, 1e-5);
+
+// World-space displacement since the last frame of the point p that is seen at uv. motion: of the G-buffer, uv and
+// metres along `forward`, the camera's axis (unit). Exactly 0 for what stands still.
+vec3 ownDisplacement(vec3 p, vec2 uv, vec3 motion, mat4 previousWorldToClip, vec3 forward) {
+    vec4 still = previousWorldToClip * vec4(p, 1.0);
+    vec2 before = uvToNdc(uv - motion.xy);
+    // (p - displacement) was seen at `before`, and motion.z metres nearer: three planes.
+    mat4 rows = transpose(previousWorldToClip);
+    vec3 x = rows[0].xyz - before.x * rows[3].xyz;
+    vec3 y = rows[1].xyz - before.y * rows[3].xyz;
+    vec2 off = still.xy - before * still.w;
+    vec2 least = 2.0 * (motionRounding.x * abs(motion.xy) + motionRounding.y) * abs(still.w);
+    float volume = dot(x, cross(y, forward));
+    if ((motion.z == 0.0 && all(lessThan(abs(off), least))) || volume == 0.0) {
+        return vec3(0.0);
+    }
+    return (off.x * cross(y, forward) + off.y * cross(forward, x) + motion.z * cross(x, y)) / volume;
+}
+
+// uv by which the image of a thing behind a mirror has moved, beyond what it would have, had the thing stood still.
+// toEye, toThing: from a point p of the mirror, unit. displacement: of the thing, which is `away` metres from p. What a
+// flat mirror shows lies behind it, and moves mirrored. Curved ones are taken to be flat; so is what is rough.
+vec2 mirroredMotion(vec3 p, vec3 toEye, vec3 toThing, float away, vec3 displacement, mat4 previousWorldToClip) {
+    vec3 n = toEye + toThing;  // along the mirror's normal
+    vec3 moved = displacement - n * (2.0 * dot(n, displacement) / max(dot(n, n), 1e-12));
+    vec3 image = p - toEye * away;
+    vec4 still = previousWorldToClip * vec4(image, 1.0);
+    vec4 before = previousWorldToClip * vec4(image - moved, 1.0);
+    if (still.w <= 0.0 || before.w <= 0.0) {
+        return vec2(0.0);
+    }
+    return clamp(ndcToUv(still.xy / still.w) - ndcToUv(before.xy / before.w), -1.0, 1.0);
+}
+
+#endif

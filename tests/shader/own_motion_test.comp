@@ -1,0 +1,32 @@
+// Own motion of things, and of their mirror images.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "own_motion_test.h"
+#include "render/view.h"
+#include "shaders/own_motion.glsl"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock {
+    ViewParams params;
+};
+layout(set = 0, binding = 1, scalar) readonly buffer InputBlock {
+    MirroredThing items[];
+}
+inputs;
+layout(set = 0, binding = 2, scalar) buffer OutputBlock {
+    OwnMotion items[];
+}
+outputs;
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= outputs.items.length()) {
+        return;
+    }
+    MirroredThing t = inputs.items[i];
+    OwnMotion o;
+    o.displacement = ownDisplacement(t.thing, t.uv, t.motion, params.previousWorldToClip, params.viewPlane.xyz);
+    o.ofImage = mirroredMotion(t.mirror, directionToEye(t.mirror, params.eye), normalize(t.thing - t.mirror),
+                               distance(t.thing, t.mirror), o.displacement, params.previousWorldToClip);
+    outputs.items[i] = o;
+}

@@ -1,0 +1,23 @@
+// A thing before a mirror, as own_motion_test.comp takes it. Shared by C++ and GLSL.
+#ifndef REFLET_TESTS_OWN_MOTION_TEST_H
+#define REFLET_TESTS_OWN_MOTION_TEST_H
+
+#include "base/shared.h"
+
+SHARED_BEGIN
+
+struct MirroredThing {
+    vec3 thing;   // world space
+    vec2 uv;      // where it is seen
+    vec3 motion;  // of the G-buffer there
+    vec3 mirror;  // where its image is seen
+};
+
+struct OwnMotion {
+    vec3 displacement;
+    vec2 ofImage;
+};
+
+SHARED_END
+
+#endif
