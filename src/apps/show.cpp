@@ -109,6 +109,17 @@ vec3 countRedGreen(const float* v) {
 vec3 lampsCounted(const float* v) {
     return vec3(std::clamp(v[0] / 32.0F, 0.0F, 1.0F));
 }
+constexpr float manyRays = 8.0F;
+vec3 raysCounted(const float* v) {
+    return vec3(std::clamp(v[0] / manyRays, 0.0F, 1.0F));
+}
+vec3 raysCountedRedGreen(const float* v) {
+    return {raysCounted(v).x, raysCounted(v + 1).x, 0.0F};
+}
+vec3 classColor(const float* v) {
+    constexpr vec3 colors[] = {{0.25F, 0.45F, 0.9F}, {0.6F, 0.6F, 0.6F}, {0.9F, 0.6F, 0.2F}, {0.2F, 0.8F, 0.85F}};
+    return colors[std::clamp(static_cast<int>(v[0]), 0, 3)];
+}
 vec3 framesCounted(const float* v) {
     return vec3(std::clamp(v[0] / 32.0F, 0.0F, 1.0F));
 }
@@ -233,6 +244,24 @@ const std::vector<Show>& table() {
          first, y, count},
         {"specular_steps", "the same, of the reflection rays",
          [](const FrameImages& i) { return Images{i.specular.steps}; }, first, y, count},
+        {"rays",
+         "rays per pixel in each tile of 8x8 pixels of the grid that they leave: R diffuse, G specular; of its own "
+         "size; PNG 1 is 8 rays",
+         [](const FrameImages& i) {
+             return Images{i.diffuse.tiles.tiles, i.specular.tiles.tiles};
+         },
+         bothFirsts, rg, raysCountedRedGreen},
+        {"diffuse_rays", "the same, of the diffuse rays",
+         [](const FrameImages& i) { return Images{i.diffuse.tiles.tiles}; }, first, y, raysCounted},
+        {"specular_rays", "the same, of the reflection rays",
+         [](const FrameImages& i) { return Images{i.specular.tiles.tiles}; }, first, y, raysCounted},
+        {"tile_class",
+         "what these tiles show: 0 sky, 1 matt surfaces alone, 2 glossy ones, 3 mirrors and nothing glossier; of its "
+         "own size; PNG blue, grey, orange, cyan",
+         [](const FrameImages& i) {
+             return Images{i.diffuse.tiles.tiles ? i.diffuse.tiles.tiles : i.specular.tiles.tiles};
+         },
+         green, y, classColor},
         {"probe_atlas",
          "what probes have captured, radiance: a row for each, of the faces +X -X +Y -Y +Z -Z as cube maps have them; "
          "black is the sky; of its own size; only with probes.enabled",
@@ -255,7 +284,8 @@ const std::vector<Show>& table() {
 }  // namespace
 
 bool hasOwnSize(const Show& show) {
-    return show.name == "shadow_map" || show.name == "lamp_count" || show.name == "probe_atlas";
+    return show.name == "shadow_map" || show.name == "lamp_count" || show.name == "probe_atlas" ||
+           show.name == "tile_class" || show.name == "rays" || show.name.ends_with("_rays");
 }
 
 bool countsSteps(const Show& show) {

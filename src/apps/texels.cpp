@@ -47,6 +47,8 @@ vec4 decode(VkFormat format, const std::byte* at) {
             return {glm::unpackHalf2x16(loadAs<uint32_t>(at)), 0, 1};
         case VK_FORMAT_R16G16B16A16_SFLOAT:
             return glm::unpackHalf4x16(loadAs<uint64_t>(at));
+        case VK_FORMAT_R32G32_SFLOAT:
+            return {loadAs<vec2>(at), 0, 1};
         case VK_FORMAT_R32G32B32A32_SFLOAT:
             return loadAs<vec4>(at);
         case VK_FORMAT_R32_UINT:

@@ -9,7 +9,9 @@
 
 #include "gpu/device.h"
 #include "render/accumulate/accumulate.h"
+#include "render/bounce/adaptive_rays.h"
 #include "render/bounce/answer_environment.h"
+#include "render/bounce/ray_tiles.h"
 #include "render/bounce/reuse_rays.h"
 #include "render/bounce/trace_screen.h"
 #include "render/denoise/denoise.h"
@@ -61,6 +63,33 @@ gpu::Image noImageMotion(gpu::Frame& f, const RaySurfaces& from) {
     return motion;
 }
 
+// Of pixels that are mirrors: all rays of one are the same, unless chance has a say in what they meet.
+uint32_t raysOfMirrors(uint32_t perPixel, const Settings& settings) {
+    const TraceScreenSettings& s = settings.traceScreen;
+    const bool exact = s.method == TraceMethod::hiz || s.method == TraceMethod::exhaustive;
+    const bool chance = (s.enabled != 0 && s.jitter != 0 && !exact) || settings.traceScene.enabled != 0;
+    return chance ? perPixel : std::min(perPixel, 1U);
+}
+
+// How many rays of the lobe each tile gets. Where that follows the noise, the denoiser has to remember some.
+RayTiles tilesOfLobe(gpu::Frame& f, const RaySurfaces& from, const Settings& settings, const gpu::History& lit,
+                     uint32_t lobe) {
+    const bool diffuse = lobe == lobeDiffuse;
+    const uint32_t perPixel = diffuse ? settings.diffuse.rays : settings.specular.rays;
+    const bool reused =
+        (diffuse ? settings.diffuse.reuse : settings.specular.reuse) > 0;  // that knows no other numbers
+    const RayCounts counts{perPixel, reused ? perPixel : raysOfMirrors(perPixel, settings)};
+    const bool remembers = settings.denoise.enabled != 0 && settings.denoise.history > 0 && lit.next;
+    const bool adaptive = (diffuse ? settings.diffuse.adaptive : settings.specular.adaptive) != 0;
+    if (!adaptive || !remembers || perPixel > raysPerBatch(f, from.g.depth.size, maxAdaptiveRays)) {
+        return classifyTiles(f, from, lobe, counts);
+    }
+    const DenoiseHistory past = denoiseHistory(f, lobe, from.g.depth.size, settings.denoise);
+    return shareRays(
+        f, from, lobe, counts,
+        {past.light.previous, past.surface.previous, past.moments.previous, lit.previous, past.valid && lit.valid});
+}
+
 // One chain for both lobes: rays, then sources that answer in order of trust, each taking what is left over.
 LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& settings, const SeenView& seen,
                     uint32_t lobe) {
@@ -77,13 +106,16 @@ LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& setting
     const RaySurfaces from =
         pickSurfaces(f, screen.g, in.view, diffuse ? settings.diffuse.scale : settings.specular.scale);
     const float coneShare = settings.traceScreen.enabled != 0 ? coneShareOnScreen : 0.0F;
-    const uint32_t batch = raysPerBatch(f, from.g.depth.size);
+    const RayTiles tiles = tilesOfLobe(f, from, settings, screen.lit, lobe);
+    const uint32_t most = tiles.meanRays > 0 ? mostAdaptiveRays(f, from.g.depth.size, perPixel) : perPixel;
+    const uint32_t batch = tiles.meanRays > 0 ? most : raysPerBatch(f, from.g.depth.size);
     const bool remembers = settings.denoise.enabled != 0 && settings.denoise.history > 0;
     const gpu::Image imageMotion = !diffuse && remembers ? noImageMotion(f, from) : gpu::Image{};
+    const bool reused = neighbours > 0 && tiles.meanRays == 0 && batch >= perPixel;
     LobeLight light;
-    for (uint32_t first = 0; first < perPixel; first += batch) {
-        const uint32_t count = std::min(perPixel - first, batch);
-        Rays rays = generateRays(f, from, {in.ggxTable, in.blueNoise}, lobe,
+    for (uint32_t first = 0; first < most; first += batch) {
+        const uint32_t count = std::min(most - first, batch);
+        Rays rays = generateRays(f, from, {in.ggxTable, in.blueNoise, tiles}, lobe,
                                  {{}, settings.diffuse, settings.specular, first, count, coneShare}, counted);
         rays.imageMotion = imageMotion;
         answerFromViews(f, rays, seen, settings, longest);
@@ -92,8 +124,7 @@ LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& setting
             answerProbes(f, rays, in.probes, settings.probes);
         }
         answerEnvironment(f, rays, in.environment, settings.environment);
-        const bool shared = neighbours > 0 && count == perPixel;
-        light = shared ? reuseRays(f, rays, in.view, neighbours) : resolveRays(f, rays, perPixel);
+        light = reused ? reuseRays(f, rays, in.view, neighbours) : resolveRays(f, rays);
     }
     light.imageMotion = imageMotion;
     return settings.denoise.enabled != 0 ? denoise(f, light, lobe, in.view, settings.denoise) : light;

@@ -44,12 +44,16 @@ uvec2 shiftPoint(uvec2 point, uvec2 shift, uint scramble, uint count) {
 }
 
 // For ray `number` of the pixel's `count` (1 to 2^16). A frame takes the mask's next slice; once all have been used, the
-// rays take the sequence's next points, so that more frames always bring something new.
-vec2 blueNoisePoint(uvec2 pixel, uint stream, uint frame, uint number, uint count) {
+// rays take the sequence's next points, so that more frames always bring something new. stride: of these points; `count`,
+// or where that changes from frame to frame a power of two that it never exceeds.
+vec2 blueNoisePoint(uvec2 pixel, uint stream, uint frame, uint number, uint count, uint stride) {
     uint mask = loadBlueNoise(blueNoiseTexel(pixel, stream, frame));
-    uvec2 point = shiftPoint(sobolPoint(frame / blueNoiseSlices * count + number),
+    uvec2 point = shiftPoint(sobolPoint(frame / blueNoiseSlices * stride + number),
                              uvec2(mask << 16u, mask & 0xffff0000u), hashPixel(pixel, stream, frame), count);
     return vec2(hashToUnit(point.x), hashToUnit(point.y));
+}
+vec2 blueNoisePoint(uvec2 pixel, uint stream, uint frame, uint number, uint count) {
+    return blueNoisePoint(pixel, stream, frame, number, count, count);
 }
 
 #endif

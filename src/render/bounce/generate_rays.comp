@@ -1,7 +1,10 @@
 // Makes the rays of a lobe: directions, weights, and the list of all that need an answer.
-// In: depth, both normals, material, base colour, GGX table, blue noise. Out: direction, answer and source (cleared), the list.
+// In: depth, both normals, material, base colour, GGX table, blue noise, tiles and the list of those with rays.
+// Out: direction, answer and source (cleared) of their rays, the list of rays.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
+#include "render/bounce/adaptive_rays.h"
+#include "render/bounce/ray_tiles.glsl"
 #include "render/bounce/rays.glsl"
 #include "render/gbuffer/gbuffer.glsl"
 #include "shaders/projection.glsl"
@@ -9,6 +12,7 @@
 
 layout(constant_id = 0) const uint lobe = 0u;
 layout(constant_id = 1) const uint noise = RayNoise_blue;
+layout(constant_id = 3) const uint adaptive = 0u;  // 1: how many rays a pixel has changes from frame to frame
 layout(constant_id = 2) const uint distribution = RayDistribution_cosine;
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -28,6 +32,12 @@ layout(set = 0, binding = 7, scalar) buffer MissedBlock {
     RayItem items[];
 } missed;
 layout(set = 0, binding = 11, scalar) readonly buffer BlueNoiseBlock { uint texels[]; } blueNoise;
+layout(set = 0, binding = 12, rg32f) uniform readonly image2D tiles;
+layout(set = 0, binding = 13, scalar) readonly buffer ListBlock {
+    uint groups[3];
+    uint count;
+    uint items[];
+} list;
 #include "render/bounce/rays_append.glsl"
 
 uint loadBlueNoise(uint texel) { return blueNoise.texels[texel]; }
@@ -35,18 +45,25 @@ uint loadBlueNoise(uint texel) { return blueNoise.texels[texel]; }
 
 const float lowestRay = 1e-3;  // sine of the angle between a ray and the surface that it leaves
 
-// Two numbers in [0, 1) for a ray of the pixel.
-vec2 randomPair(ivec2 pixel, uint number) {
+// Which of how many rays of a pixel.
+struct RayNumber {
+    ivec2 pixel;
+    uint index;
+    uint count;
+};
+
+// Two numbers in [0, 1) for a ray.
+vec2 randomPair(RayNumber ray) {
     uint seed = params.view.seed + lobe;
     if (noise == RayNoise_blue) {
-        uint count = lobe == lobeDiffuse ? params.diffuse.rays : params.specular.rays;
-        return blueNoisePoint(uvec2(pixel), seed, params.view.frame, number, count);
+        uint stride = adaptive != 0u ? maxAdaptiveRays : ray.count;
+        return blueNoisePoint(uvec2(ray.pixel), seed, params.view.frame, ray.index, ray.count, stride);
     }
-    return hashToUnit2(hashPixel(uvec2(pixel), number * 2u + hashPcg(seed), params.view.frame));
+    return hashToUnit2(hashPixel(uvec2(ray.pixel), ray.index * 2u + hashPcg(seed), params.view.frame));
 }
 
-Ray diffuseRay(ivec2 pixel, uint number, vec3 n) {
-    vec2 u = randomPair(pixel, number);
+Ray diffuseRay(RayNumber number, vec3 n) {
+    vec2 u = randomPair(number);
     if (distribution == RayDistribution_uniform) {
         vec3 local = sampleUniformHemisphere(u);
         return Ray(basisAround(n) * local, 2.0 * local.z, 1.0, 0.0);  // cos / pi over 1 / (2 pi)
@@ -63,12 +80,9 @@ vec3 raiseAbove(vec3 direction, vec3 geometric) {
     return height < lowestRay ? normalize(direction + geometric * (lowestRay - height)) : direction;
 }
 
-// Below this perceptual roughness the lobe is narrower than anything on the screen.
-const float mirrorRoughness = 0.01;
-
 // One of the microfacet normals that are seen from v reflects it. The weight is BRDF · cos / pdf over the directional
 // albedo, which composite multiplies in. One number for three colours: F0 by its luminance.
-Ray specularRay(ivec2 pixel, uint number, vec3 n, vec3 v, MaterialTexel m) {
+Ray specularRay(RayNumber number, vec3 n, vec3 v, MaterialTexel m) {
     mat3 frame = basisAround(n);
     vec3 eye = v * frame;
     eye = normalize(vec3(eye.xy, max(eye.z, 1e-3)));  // normal maps may turn away from the eye
@@ -80,7 +94,7 @@ Ray specularRay(ivec2 pixel, uint number, vec3 n, vec3 v, MaterialTexel m) {
         return Ray(frame * ggxMeanDirection(eye, alpha), 1.0, 1.0, m.roughness);
     }
     if (m.roughness > mirrorRoughness) {
-        vec2 u = randomPair(pixel, number);
+        vec2 u = randomPair(number);
         h = sampleGgxVisible(cone ? u * vec2(params.coneShare, 1.0) : u, eye, alpha);
     }
     vec3 l = 2.0 * dot(eye, h) * h - eye;
@@ -92,7 +106,7 @@ Ray specularRay(ivec2 pixel, uint number, vec3 n, vec3 v, MaterialTexel m) {
         share = ggxVisibility(max(l.z, 0.0), eye.z, alpha) * 2.0 * max(l.z, 0.0) *
                 (eye.z + sqrt(eye.z * eye.z * (1.0 - a2) + a2));
     }
-    vec3 f0 = mix(vec3(dielectricF0), unpackBaseColor(texelFetch(baseColor, pixel, 0).rgb), m.metallic);
+    vec3 f0 = mix(vec3(dielectricF0), unpackBaseColor(texelFetch(baseColor, number.pixel, 0).rgb), m.metallic);
     float y = dot(f0, vec3(0.2126, 0.7152, 0.0722));
     vec2 table = textureLod(ggxTable, ggxTableUv(eye.z, m.roughness), 0.0).rg;
     float weight = share * fresnelSchlick(vec3(y), dot(eye, h)).x / max(y * table.x + table.y, 1e-3);
@@ -102,27 +116,38 @@ Ray specularRay(ivec2 pixel, uint number, vec3 n, vec3 v, MaterialTexel m) {
     return Ray(frame * l, weight, 1.0 - fade, 0.0);
 }
 
-void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, ivec2(params.view.size)))) {
-        return;
-    }
+void generate(ivec2 pixel, uint rays) {
     float d = texelFetch(depth, pixel, 0).r;
     MaterialTexel m = unpackMaterial(texelFetch(material, pixel, 0));
     bool needed = d > 0.0 && (lobe == lobeDiffuse || (m.flags & materialFlagLambert) == 0u);
     vec3 n = unpackUnitVector(texelFetch(normal, pixel, 0).r);
     vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), max(d, 1e-12), params.view.clipToWorld);
-    for (uint i = 0u; i < params.rayCount; ++i) {
-        ivec3 slot = ivec3(pixel, i);
+    uint end = min(params.firstRay + params.rayCount, rays);
+    for (uint i = params.firstRay; i < end; ++i) {
+        ivec3 slot = ivec3(pixel, i - params.firstRay);
         imageStore(answer, slot, vec4(0.0));
         imageStore(source, slot, vec4(0.0));
         Ray ray = Ray(vec3(0.0, 0.0, 1.0), 0.0, 0.0, 0.0);
         if (needed) {
-            ray = lobe == lobeDiffuse ? diffuseRay(pixel, params.firstRay + i, n)
-                                      : specularRay(pixel, params.firstRay + i, n, directionToEye(p, params.view.eye), m);
+            RayNumber number = RayNumber(pixel, i, rays);
+            ray = lobe == lobeDiffuse ? diffuseRay(number, n)
+                                      : specularRay(number, n, directionToEye(p, params.view.eye), m);
             ray.direction = raiseAbove(ray.direction, unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r));
             appendRay(WaitingRay(slot, 1.0, 0.0, false));
         }
         imageStore(direction, slot, uvec4(packRay(ray), 0u, 0u));
+    }
+}
+
+// A group for each tile of the list.
+void main() {
+    uint item = gl_WorkGroupID.y * tileListRow + gl_WorkGroupID.x;
+    if (item >= list.count) {
+        return;
+    }
+    ivec2 tile = ivec2(unpackTilePlace(list.items[item]));
+    ivec2 pixel = tile * int(rayTileSide) + ivec2(gl_LocalInvocationID.xy);
+    if (all(lessThan(pixel, ivec2(params.view.size)))) {
+        generate(pixel, pixelRays(imageLoad(tiles, tile).r, uvec2(pixel), params.view.frame));
     }
 }

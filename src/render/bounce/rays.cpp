@@ -8,13 +8,13 @@
 
 namespace reflet {
 
-uint32_t raysPerBatch(gpu::Frame& f, uvec2 size) {
+uint32_t raysPerBatch(gpu::Frame& f, uvec2 size, uint32_t most) {
     const VkDeviceSize layer = VkDeviceSize(size.x) * size.y * sizeof(RayItem);
     const VkDeviceSize fit = (f.device().limits().maxStorageBufferRange - rayListHeader) / layer;
     if (fit == 0 || std::max(size.x, size.y) > maxFrameSize) {
         fail("{}x{} pixels are more than this device can trace rays for; render at a smaller size", size.x, size.y);
     }
-    return static_cast<uint32_t>(std::min<VkDeviceSize>(fit, maxRaysPerBatch));
+    return static_cast<uint32_t>(std::min<VkDeviceSize>(fit, most));
 }
 
 gpu::BufferView makeRayList(gpu::Frame& f, const Rays& rays, std::string_view name) {
@@ -31,8 +31,9 @@ Rays generateRays(gpu::Frame& f, const RaySurfaces& from, const RayTables& table
     const GBuffer& g = from.g;
     const uvec2 size = g.depth.size;
     params.view = from.view;
-    const uint32_t layers = raysPerBatch(f, size);
+    const uint32_t layers = std::max(raysPerBatch(f, size), params.rayCount);
     Rays rays{.from = from,
+              .tiles = tables.tiles,
               .direction = f.image("rays.direction", VK_FORMAT_R32G32_UINT, size, layers, true),
               .answer = f.image("rays.answer", VK_FORMAT_R16G16B16A16_SFLOAT, size, layers, true),
               .source = f.image("rays.source", VK_FORMAT_R8G8B8A8_UNORM, size, layers, true),
@@ -51,6 +52,7 @@ Rays generateRays(gpu::Frame& f, const RaySurfaces& from, const RayTables& table
         .constant("lobe", lobe)
         .constant("noise", static_cast<uint32_t>(lobe == lobeDiffuse ? params.diffuse.noise : params.specular.noise))
         .constant("distribution", static_cast<uint32_t>(params.diffuse.distribution))
+        .constant("adaptive", tables.tiles.meanRays > 0 ? 1U : 0U)
         .read("depth", g.depth)
         .read("normal", g.normal)
         .read("geometricNormal", g.geometricNormal)
@@ -58,12 +60,14 @@ Rays generateRays(gpu::Frame& f, const RaySurfaces& from, const RayTables& table
         .read("baseColor", g.baseColor)
         .read("ggxTable", tables.ggx, f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
         .read("blueNoise", tables.blueNoise)
+        .read("tiles", tables.tiles.tiles)
+        .read("list", tables.tiles.list)
         .write("direction", rays.direction)
         .write("answer", rays.answer)
         .write("source", rays.source)
         .write("missed", rays.waiting)
         .params(params)
-        .dispatch(size);
+        .dispatchIndirect(tables.tiles.list, 0);
     return rays;
 }
 
@@ -75,6 +79,7 @@ LobeLight lobeImages(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool
         .radiance = f.image(diffuse ? "diffuse.radiance" : "specular.radiance", VK_FORMAT_R16G16B16A16_SFLOAT, size),
         .source = f.image(diffuse ? "diffuse.source" : "specular.source", VK_FORMAT_R16G16B16A16_SFLOAT, size),
         .steps = {},
+        .tiles = {},
         .imageMotion = {}};
     if (countSteps) {
         light.steps = f.image(diffuse ? "diffuse.steps" : "specular.steps", VK_FORMAT_R32_SFLOAT, size);
@@ -93,11 +98,14 @@ LobeLight noLight(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool co
     return light;
 }
 
-LobeLight resolveRays(gpu::Frame& f, const Rays& rays, uint32_t perPixel) {
+LobeLight resolveRays(gpu::Frame& f, const Rays& rays) {
     const uvec2 size = rays.direction.size;
-    const LobeLight light = lobeImages(f, rays.lobe, rays.from, rays.countSteps);
+    LobeLight light = lobeImages(f, rays.lobe, rays.from, rays.countSteps);
+    light.tiles = rays.tiles;
     f.compute("resolve_rays", "resolve_rays.comp")
         .constant("countSteps", rays.countSteps ? 1U : 0U)
+        .constant("adaptive", rays.tiles.meanRays > 0 ? 1U : 0U)
+        .read("tiles", rays.tiles.tiles)
         .read("direction", rays.direction)
         .read("answer", rays.answer)
         .read("raySource", rays.source)
@@ -105,7 +113,7 @@ LobeLight resolveRays(gpu::Frame& f, const Rays& rays, uint32_t perPixel) {
         .write("radiance", light.radiance)
         .write("source", light.source)
         .write("steps", light.steps ? light.steps : f.image("no_steps", VK_FORMAT_R32_SFLOAT, uvec2(1)))
-        .params(ResolveRaysParams{rays.count, 1.0F / static_cast<float>(perPixel), rays.firstRay == 0 ? 1U : 0U, size})
+        .params(ResolveRaysParams{rays.firstRay, rays.count, rays.from.view.frame, size})
         .dispatch(size);
     return light;
 }

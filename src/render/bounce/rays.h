@@ -23,23 +23,26 @@ CHOICES(RayDistribution, RAY_DISTRIBUTIONS)
     OPTION(RayNoise, blue, 1)
 CHOICES(RayNoise, RAY_NOISES)
 
-#define DIFFUSE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                \
-    VALUE(uint, rays, 4, 0, 256, "Rays per pixel for indirect diffuse light; 0: none is computed.")            \
-    CHOICE(RayDistribution, distribution, cosine,                                                              \
-           "How their directions are spread over the hemisphere; normal: not at all: one along the normal "    \
-           "stands for all, and only sources that know irradiance (probes, environment) answer it.")           \
-    CHOICE(RayNoise, noise, blue,                                                                              \
-           "What chooses their directions; white: chance; blue: a low-discrepancy sequence, shifted by "       \
-           "blue noise in space and time: less error, and what is left is easier to blur away.")               \
-    VALUE(uint, scale, 1, 1, 4,                                                                                \
-          "Pixels along each side of the blocks that share rays; 2: half resolution. What is found is spread " \
-          "over the block's pixels by their depths and normals.")                                              \
-    VALUE(uint, reuse, 0, 0, 8,                                                                                \
-          "Neighbours whose rays a pixel takes, too, weighted as its own lobe would; only where all its rays " \
-          "are traced at once (up to 4).")                                                                     \
-    VALUE(float, radius, 100000.0, 0.01, 100000.0,                                                             \
-          "Metres; what is farther off is left to the sources behind the screen.")                             \
-    VALUE(float, gain, 1.0, 0.0, 64.0,                                                                         \
+#define DIFFUSE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                    \
+    VALUE(uint, rays, 4, 0, 256, "Rays per pixel for indirect diffuse light; 0: none is computed.")                \
+    CHOICE(RayDistribution, distribution, cosine,                                                                  \
+           "How their directions are spread over the hemisphere; normal: not at all: one along the normal "        \
+           "stands for all, and only sources that know irradiance (probes, environment) answer it.")               \
+    CHOICE(RayNoise, noise, blue,                                                                                  \
+           "What chooses their directions; white: chance; blue: a low-discrepancy sequence, shifted by "           \
+           "blue noise in space and time: less error, and what is left is easier to blur away.")                   \
+    SWITCH(adaptive, 0,                                                                                            \
+           "Trace more rays where light is noisy or nothing is remembered, fewer elsewhere, at most 8; `rays` is " \
+           "their mean over the surfaces. Only with denoise.history, and up to 8 rays.")                           \
+    VALUE(uint, scale, 1, 1, 4,                                                                                    \
+          "Pixels along each side of the blocks that share rays; 2: half resolution. What is found is spread "     \
+          "over the block's pixels by their depths and normals.")                                                  \
+    VALUE(uint, reuse, 0, 0, 8,                                                                                    \
+          "Neighbours whose rays a pixel takes, too, weighted as its own lobe would; only where all its rays "     \
+          "are traced at once (up to 4), and not with adaptive.")                                                  \
+    VALUE(float, radius, 100000.0, 0.01, 100000.0,                                                                 \
+          "Metres; what is farther off is left to the sources behind the screen.")                                 \
+    VALUE(float, gain, 1.0, 0.0, 64.0,                                                                             \
           "Factor on indirect diffuse light; only 1 keeps energy; pi is what leaving out Lambert's 1/pi does.")
 SETTINGS(DiffuseSettings, DIFFUSE_SETTINGS)
 
@@ -51,6 +54,7 @@ CHOICES(RougherSurfaces, ROUGHER_SURFACES)
 #define SPECULAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                               \
     VALUE(uint, rays, 1, 0, 256,                                                                               \
           "Rays per pixel for reflections, spread as the roughness says; 0: none are computed.")               \
+    SWITCH(adaptive, 0, "Trace more rays where reflections are noisy, as for diffuse.adaptive.")               \
     VALUE(uint, scale, 1, 1, 4, "Pixels along each side of the blocks that share rays, as for diffuse.scale.") \
     VALUE(uint, reuse, 0, 0, 8, "Neighbours whose rays a pixel takes, too, as for diffuse.reuse.")             \
     VALUE(float, maxRoughness, 1.0, 0.0, 1.0,                                                                  \
@@ -91,9 +95,9 @@ struct GenerateRaysParams {
 };
 
 struct ResolveRaysParams {
-    uint rayCount;    // of the batch
-    float weight;     // of each ray: 1 over the rays per pixel
-    uint firstBatch;  // 1: overwrite, 0: add to the batches before
+    uint firstRay;  // number of the batch's first ray in its pixel; 0: overwrite, else: add to the batches before
+    uint rayCount;  // of the batch
+    uint frame;     // as of the view
     uvec2 size;
 };
 
@@ -103,12 +107,15 @@ SHARED_END
 
 #include "gpu/frame.h"
 #include "render/bounce/ray_surfaces.h"
+#include "render/bounce/ray_tiles.h"
 
 namespace reflet {
 
 /// One batch of rays of one lobe. A layer per ray of a pixel.
 struct Rays {
     RaySurfaces from;         ///< that they leave
+    RayTiles tiles;           ///< that say how many leave each pixel; texels of the images below are left as they are
+                              ///< where a pixel has fewer rays than there are layers
     gpu::Image direction;     ///< RG32_UINT array: direction (packUnitVector, world), packRay: weight, trust, spread
     gpu::Image answer;        ///< RGBA16F array: radiance · weights so far, hit distance · weights [m]
     gpu::Image source;        ///< RGBA8 array: colours of the sources · weights; alpha: confidence
@@ -116,7 +123,7 @@ struct Rays {
     gpu::Image imageMotion;   ///< of LobeLight, or none; sources write that of each pixel's first ray
     gpu::BufferView waiting;  ///< rays without (all of) an answer
     uint32_t firstRay = 0;
-    uint32_t count = 0;  ///< per pixel, in this batch
+    uint32_t count = 0;  ///< per pixel, in this batch, at most
     uint32_t lobe = 0;
     bool countSteps = false;
 };
@@ -124,10 +131,12 @@ struct Rays {
 /// What a lobe's rays brought, averaged per pixel; not yet multiplied by the surface's own colour.
 struct LobeLight {
     RaySurfaces from;     ///< that the images have a pixel for
-    gpu::Image radiance;  ///< RGBA16F: mean of radiance · ray weight; alpha: mean hit distance [m]
-    gpu::Image source;    ///< RGBA16F: mean colour of the sources that answered; alpha: confidence. Sums of many
-                          ///< batches, for which 8 bits are too few
-    gpu::Image steps;     ///< R32F: mean depth samples per ray; none unless they are counted
+    gpu::Image radiance;  ///< RGBA16F: mean of radiance · ray weight; alpha: mean hit distance [m]. Negative: the pixel
+                          ///< had no rays in this frame, others of its tile had (adaptive)
+    gpu::Image source;  ///< RGBA16F: mean colour of the sources that answered; alpha: confidence. Sums of many
+                        ///< batches, for which 8 bits are too few
+    gpu::Image steps;   ///< R32F: mean depth samples per ray; none unless they are counted
+    RayTiles tiles;     ///< none without rays
     /// RG16F: uv by which the mirror image has moved since the last frame because what it shows moves by itself
     /// (own_motion.glsl); none unless it was asked for.
     gpu::Image imageMotion;
@@ -138,14 +147,15 @@ struct LobeLight {
 struct RayTables {
     gpu::Image ggx;             ///< of makeGgxTable
     gpu::BufferView blueNoise;  ///< noise/blue_noise.h
+    RayTiles tiles;             ///< of classifyTiles
 };
 
-/// Rays per pixel that one batch may hold, 1 to maxRaysPerBatch: as many as the device's buffers take at this size.
-/// Throws Error where they do not take one.
-uint32_t raysPerBatch(gpu::Frame& f, uvec2 size);
+/// Rays per pixel that one batch may hold, 1 to `most`: as many as the device's buffers take at this size. Throws Error
+/// where they do not take one.
+uint32_t raysPerBatch(gpu::Frame& f, uvec2 size, uint32_t most = maxRaysPerBatch);
 
-/// Rays firstRay .. firstRay + count of every pixel of `from` that has a surface (and the lobe). params.view is set
-/// here. countSteps: keep how many depth samples each takes.
+/// Rays firstRay .. firstRay + count of every pixel of `from` that has a surface (and the lobe), as far as its tile has
+/// so many. params.view is set here. countSteps: keep how many depth samples each takes.
 Rays generateRays(gpu::Frame& f, const RaySurfaces& from, const RayTables& tables, uint32_t lobe,
                   GenerateRaysParams params, bool countSteps);
 
@@ -158,8 +168,8 @@ LobeLight lobeImages(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool
 /// A lobe without rays: black.
 LobeLight noLight(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps);
 
-/// Adds the batch to the lobe's images, `perPixel` rays making the whole.
-LobeLight resolveRays(gpu::Frame& f, const Rays& rays, uint32_t perPixel);
+/// Adds the batch to the lobe's images; a pixel's rays make the whole, as many as its tile says.
+LobeLight resolveRays(gpu::Frame& f, const Rays& rays);
 
 }  // namespace reflet
 #endif

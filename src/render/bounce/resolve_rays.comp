@@ -1,10 +1,12 @@
-// Averages a batch of rays into their pixels. In: direction (for the weights), answers, sources and steps by ray.
+// Averages a batch of rays into their pixels. In: tiles, direction (for the weights), answers, sources and steps by ray.
 // Out: radiance with mean hit distance, source colours with confidence, steps; added to what earlier batches brought.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
+#include "render/bounce/ray_tiles.glsl"
 #include "render/bounce/rays.glsl"
 
 layout(constant_id = 0) const uint countSteps = 0u;
+layout(constant_id = 1) const uint adaptive = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ResolveRaysParams params; };
@@ -15,14 +17,15 @@ layout(set = 0, binding = 4, rgba16f) uniform image2D radiance;
 layout(set = 0, binding = 5, rgba16f) uniform image2D source;
 layout(set = 0, binding = 6, r32f) uniform readonly image2DArray raySteps;
 layout(set = 0, binding = 7, r32f) uniform image2D steps;
+layout(set = 0, binding = 8, rg32f) uniform readonly image2D tiles;
 
-void resolveSteps(ivec2 pixel) {
+void resolveSteps(ivec2 pixel, uint count, float weight) {
     float sum = 0.0;
-    for (uint i = 0u; i < params.rayCount; ++i) {
+    for (uint i = 0u; i < count; ++i) {
         sum += imageLoad(raySteps, ivec3(pixel, i)).r;
     }
-    sum *= params.weight;
-    if (params.firstBatch == 0u) {
+    sum *= weight;
+    if (params.firstRay > 0u) {
         sum += imageLoad(steps, pixel).r;
     }
     imageStore(steps, pixel, vec4(sum));
@@ -33,24 +36,31 @@ void main() {
     if (any(greaterThanEqual(uvec2(pixel), params.size))) {
         return;
     }
+    float share = imageLoad(tiles, pixel / int(rayTileSide)).r;
+    uint rays = pixelRays(share, uvec2(pixel), params.frame);
+    uint count = min(rays - min(params.firstRay, rays), params.rayCount);  // of them in this batch
+    float weight = 1.0 / float(max(rays, 1u));
     vec4 light = vec4(0.0);
     vec4 colors = vec4(0.0);
-    for (uint i = 0u; i < params.rayCount; ++i) {
+    for (uint i = 0u; i < count; ++i) {
         ivec3 slot = ivec3(pixel, i);
-        float weight = unpackRay(imageLoad(direction, slot).xy).weight;
+        float rayWeight = unpackRay(imageLoad(direction, slot).xy).weight;
         vec4 a = imageLoad(answer, slot);
-        light += vec4(a.rgb * weight, a.a);
+        light += vec4(a.rgb * rayWeight, a.a);
         colors += imageLoad(raySource, slot);
     }
-    light *= params.weight;
-    colors *= params.weight;
-    if (params.firstBatch == 0u) {
+    light *= weight;
+    colors *= weight;
+    if (params.firstRay > 0u) {
         light += imageLoad(radiance, pixel);
         colors += imageLoad(source, pixel);
+    }
+    if (adaptive != 0u && rays == 0u && share > 0.0) {
+        light.a = -1.0;  // nothing is known of it in this frame
     }
     imageStore(radiance, pixel, roundToHalf(vec4(clampToHalf(light.rgb), min(light.a, largestHalf))));
     imageStore(source, pixel, roundToHalf(colors));
     if (countSteps != 0u) {
-        resolveSteps(pixel);
+        resolveSteps(pixel, count, weight);
     }
 }

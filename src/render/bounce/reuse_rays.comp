@@ -161,7 +161,9 @@ void main() {
         stepped += countSteps != 0u ? imageLoad(raySteps, slot).r : 0.0;
     }
     float share = 1.0 / float(params.rayCount);
-    vec4 light = vec4(own.light, own.away) * share;
+    bool traced = d > 0.0;  // others have no rays: what lies in their slots is of some other frame
+    vec4 light = traced ? vec4(own.light, own.away) * share : vec4(0.0);
+    colors = traced ? colors * share : vec4(0.0);
     if (borrows && (lobe == lobeDiffuse || shown.alpha > narrowest * narrowest)) {
         float before = sum.weight;
         addNeighbours(sum, pixel, shown, d);
@@ -170,8 +172,8 @@ void main() {
         }
     }
     imageStore(radiance, pixel, roundToHalf(vec4(clampToHalf(light.rgb), min(light.a, largestHalf))));
-    imageStore(source, pixel, roundToHalf(colors * share));
+    imageStore(source, pixel, roundToHalf(colors));
     if (countSteps != 0u) {
-        imageStore(steps, pixel, vec4(stepped * share));
+        imageStore(steps, pixel, vec4(traced ? stepped * share : 0.0));
     }
 }

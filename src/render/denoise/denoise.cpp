@@ -25,6 +25,7 @@ gpu::Image tileLimits(gpu::Frame& f, const LobeLight& light, uint32_t lobe, cons
     const gpu::Image limits = f.image("denoise.limits", VK_FORMAT_R32G32_SFLOAT, tiles);
     f.compute("denoise_tiles", "denoise_tiles.comp")
         .constant("lobe", lobe)
+        .constant("meanRays", light.tiles.meanRays)
         .read("material", light.from.g.material)
         .read("depth", light.from.g.depth)
         .read("radiance", light.radiance)
@@ -37,17 +38,16 @@ gpu::Image tileLimits(gpu::Frame& f, const LobeLight& light, uint32_t lobe, cons
 Gathered gather(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
                 const DenoiseSettings& settings) {
     const uvec2 size = light.radiance.size;
-    const uvec2 kept = settings.history > 0 ? size : uvec2(1);
-    const std::string name = lobe == lobeDiffuse ? "denoise_diffuse" : "denoise_specular";
-    const gpu::History past = f.history(name + ".light", lightFormat, kept);
-    const gpu::History surfaces = f.history(name + ".surface", surfaceFormat, size);
-    const gpu::History moments = f.history(name + ".moments", momentsFormat, size);
-    const Gathered out{f.image("denoise.gathered", lightFormat, size), surfaces.next, moments.next, past.next};
-    const bool remembers = settings.history > 0 && past.valid && surfaces.valid;
+    const DenoiseHistory past = denoiseHistory(f, lobe, size, settings);
+    const gpu::Image limits = tileLimits(f, light, lobe, settings);
+    const Gathered out{f.image("denoise.gathered", lightFormat, size), past.surface.next, past.moments.next,
+                       past.light.next};
     f.compute("denoise_gather", "denoise_gather.comp")
         .constant("lobe", lobe)
         .constant("hasImageMotion", light.imageMotion ? 1U : 0U)
-        .read("limits", tileLimits(f, light, lobe, settings))
+        .constant("meanRays", light.tiles.meanRays)
+        .read("limits", limits)
+        .read("tiles", light.tiles.meanRays > 0 ? light.tiles.tiles : limits)
         .read("depth", light.from.g.depth)
         .read("normal", light.from.g.normal)
         .read("geometricNormal", light.from.g.geometricNormal)
@@ -56,20 +56,30 @@ Gathered gather(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const View
         .read("radiance", light.radiance)
         .read("imageMotion",
               light.imageMotion ? light.imageMotion : f.image("no_image_motion", VK_FORMAT_R16G16_SFLOAT, uvec2(1)))
-        .read("previousLight", past.previous)
-        .read("previousSurface", surfaces.previous)
-        .read("previousMoments", moments.previous)
-        .write("nextLight", past.next)
-        .write("surface", surfaces.next)
-        .write("moments", moments.next)
+        .read("previousLight", past.light.previous)
+        .read("previousSurface", past.surface.previous)
+        .read("previousMoments", past.moments.previous)
+        .write("nextLight", past.light.next)
+        .write("surface", past.surface.next)
+        .write("moments", past.moments.next)
         .write("gathered", out.light)
         .params(DenoiseGatherParams{light.from.view, settings, picture.size / static_cast<float>(light.from.scale),
-                                    remembers ? 1U : 0U})
+                                    past.valid ? 1U : 0U})
         .dispatch(size);
     return out;
 }
 
 }  // namespace
+
+DenoiseHistory denoiseHistory(gpu::Frame& f, uint32_t lobe, uvec2 size, const DenoiseSettings& settings) {
+    const uvec2 kept = settings.history > 0 ? size : uvec2(1);
+    const std::string name = lobe == lobeDiffuse ? "denoise_diffuse" : "denoise_specular";
+    DenoiseHistory past{f.history(name + ".light", lightFormat, kept),
+                        f.history(name + ".surface", surfaceFormat, size),
+                        f.history(name + ".moments", momentsFormat, size)};
+    past.valid = settings.history > 0 && past.light.valid && past.surface.valid;
+    return past;
+}
 
 LobeLight denoise(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
                   const DenoiseSettings& settings) {

@@ -58,6 +58,17 @@ SHARED_END
 
 namespace reflet {
 
+/// What the denoiser remembers of a lobe from frame to frame; images of the grid's size.
+struct DenoiseHistory {
+    gpu::History light;    ///< RGBA16F: mean radiance, mean hit distance [m]; 1x1 where nothing is remembered
+    gpu::History surface;  ///< RG32_UINT: bits of the depth, 0: none with this lobe; normal and roughness
+    gpu::History moments;  ///< RG16F: frames in the mean, mean square of a frame's luminance
+    bool valid = false;    ///< whether `previous` of all is there
+};
+
+/// That denoise() reads and writes in this frame. size: of the grid.
+DenoiseHistory denoiseHistory(gpu::Frame& f, uint32_t lobe, uvec2 size, const DenoiseSettings& settings);
+
 /// The same light with less noise. picture: the whole picture's view, of which light.from is a grid. Mean radiance is
 /// kept; what comes in as inf, NaN or beyond half floats goes out as finite.
 LobeLight denoise(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const ViewParams& picture,

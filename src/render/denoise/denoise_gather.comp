@@ -4,11 +4,15 @@
 // the same as history; surfaces; moments: how many frames it is the mean of, mean square of the luminance.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
+#include "render/bounce/ray_tiles.glsl"
 #include "render/denoise/denoise.glsl"
 #include "render/gbuffer/gbuffer.h"
 
 layout(constant_id = 0) const uint lobe = 0u;
 layout(constant_id = 1) const uint hasImageMotion = 0u;
+// 0: all pixels have the same number of rays; else their mean: what pixels with more bring counts for more, and those
+// without any have a negative hit distance.
+layout(constant_id = 2) const uint meanRays = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { DenoiseGatherParams params; };
@@ -27,6 +31,7 @@ layout(set = 0, binding = 11, rgba16f) uniform writeonly image2D nextLight;
 layout(set = 0, binding = 12, rg32ui) uniform writeonly uimage2D surface;
 layout(set = 0, binding = 13, rg16f) uniform writeonly image2D moments;
 layout(set = 0, binding = 14, rgba16f) uniform writeonly image2D gathered;
+layout(set = 0, binding = 16, rg32f) uniform readonly image2D tiles;
 
 const float heightSlack = 4.0;     // by which a remembered surface may lie off this one, times what neighbours may
 const float distanceSlack = 0.02;  // or this share of its distance: things move
@@ -48,6 +53,8 @@ struct Seen {
     vec4 light;     // fireflies clipped, and what the neighbours' fireflies lost added; mean hit distance around it
     vec3 mean;      // of the neighbourhood
     vec3 variance;  // of a pixel in it
+    float found;    // pixels of the neighbourhood that have light of this frame
+    bool traced;    // whether the pixel itself has
 };
 
 // What earlier frames brought.
@@ -62,11 +69,15 @@ const Past noPast = Past(vec4(0.0), 0.0, 0.0);
 Seen look(ivec2 pixel, float d, ScreenPlane plane) {
     ivec2 last = ivec2(params.view.size) - 1;
     Seen s;
+    s.light = vec4(0.0);
     vec3 spread = vec3(0.0);
     vec3 sum = vec3(0.0);
     vec3 squares = vec3(0.0);
-    float found = 0.0;
+    float inside = 0.0;
+    float traced = 0.0;
     float away = 0.0;
+    s.found = 0.0;
+    s.traced = false;
     for (int i = 0; i < 9; ++i) {
         ivec2 o = ivec2(i % 3, i / 3) - 1;
         ivec2 at = pixel + o;
@@ -74,6 +85,11 @@ Seen look(ivec2 pixel, float d, ScreenPlane plane) {
             continue;
         }
         vec4 texel = imageLoad(radiance, at);
+        inside += 1.0;
+        if (meanRays > 0u && texel.a < 0.0) {
+            continue;
+        }
+        traced += 1.0;
         vec3 light = clampToHalf(texel.rgb);
         float bright = luminance(light);
         float limit = imageLoad(limits, at / int(denoiseTileSide)).r;
@@ -83,18 +99,21 @@ Seen look(ivec2 pixel, float d, ScreenPlane plane) {
         spread += (light - kept) / float(neighbours.x * neighbours.y);
         if (i == 4) {
             s.light.rgb = kept;
+            s.traced = true;
         }
         if (onSurface(plane, vec2(o), texelFetch(depth, at, 0).r - d)) {
             sum += kept;
             squares += kept * kept;
-            found += 1.0;
+            s.found += 1.0;
             away += clamp(texel.a, 0.0, largestHalf);
         }
     }
-    s.light.rgb += spread;
-    s.light.a = away / max(found, 1.0);
-    s.mean = sum / max(found, 1.0);
-    s.variance = max(squares / max(found, 1.0) - s.mean * s.mean, imageLoad(limits, pixel / int(denoiseTileSide)).g);
+    float found = max(s.found, 1.0);
+    // What a firefly loses, those of its neighbours share that have light of this frame.
+    s.light.rgb += meanRays > 0u ? spread * inside / max(traced, 1.0) : spread;
+    s.light.a = away / found;
+    s.mean = sum / found;
+    s.variance = max(squares / found - s.mean * s.mean, imageLoad(limits, pixel / int(denoiseTileSide)).g);
     return s;
 }
 
@@ -224,10 +243,24 @@ void main() {
     Seen seen = look(pixel, d, plane);
     float bright = min(luminance(seen.light.rgb), 255.0);  // its square is a half float, too
     Past past = params.hasPrevious != 0u ? remembered(pixel, p, own, plane, seen.light.a) : noPast;
-    if (past.frames > 0.0 && params.settings.clip > 0.0) {
+    if (past.frames > 0.0 && params.settings.clip > 0.0 && (meanRays == 0u || seen.found > 0.0)) {
         holdTo(seen, past);
     }
-    float share = 1.0 / (past.frames + 1.0);
-    float frames = min(past.frames + 1.0, float(params.settings.history));
+    float count = 1.0;  // frames that this one counts for
+    float most = float(params.settings.history);
+    if (meanRays > 0u) {
+        float rays = imageLoad(tiles, pixel / int(rayTileSide)).r;
+        count = float(pixelRays(rays, uvec2(pixel), params.view.frame)) / float(meanRays);
+        most *= rays / float(meanRays);
+        if (!seen.traced) {
+            // The past stays as it is; without one, neighbours stand in and are not remembered.
+            bool known = past.frames > 0.0;
+            keep(pixel, known ? past.light : vec4(seen.mean, seen.light.a), own,
+                 known ? vec2(past.frames, past.square) : vec2(0.0));
+            return;
+        }
+    }
+    float share = count / (past.frames + count);
+    float frames = min(past.frames + count, most);
     keep(pixel, mix(past.light, seen.light, share), own, vec2(frames, mix(past.square, bright * bright, share)));
 }

@@ -6,6 +6,7 @@
 #include "render/denoise/denoise.glsl"
 
 layout(constant_id = 0) const uint lobe = 0u;
+layout(constant_id = 1) const uint meanRays = 0u;  // as in denoise_gather.comp
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { DenoiseTilesParams params; };
@@ -25,7 +26,11 @@ void main() {
             if (texelFetch(depth, ivec2(x, y), 0).r <= 0.0) {
                 continue;
             }
-            float bright = luminance(clampToHalf(imageLoad(radiance, ivec2(x, y)).rgb));
+            vec4 light = imageLoad(radiance, ivec2(x, y));
+            if (meanRays > 0u && light.a < 0.0) {
+                continue;
+            }
+            float bright = luminance(clampToHalf(light.rgb));
             sum += vec3(bright, bright * bright, 1.0);
             if (lobe == 1u) {
                 smoothest = min(smoothest, texelFetch(material, ivec2(x, y), 0).r);

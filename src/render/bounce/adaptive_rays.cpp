@@ -1,0 +1,63 @@
+// Records how a budget of rays is shared by the noise of tiles.
+#include "render/bounce/adaptive_rays.h"
+
+#include "render/bounce/rays.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+namespace reflet {
+
+namespace {
+
+// No tile gets less of the mean, so that what changes is seen soon; none gets more times of it.
+constexpr float leastShare = 0.25F;
+constexpr uint32_t mostTimes = 4;
+
+}  // namespace
+
+uint32_t mostAdaptiveRays(gpu::Frame& f, uvec2 size, uint32_t mean) {
+    return std::max(raysPerBatch(f, size, std::min(mostTimes * mean, maxAdaptiveRays)), mean);
+}
+
+RayTiles shareRays(gpu::Frame& f, const RaySurfaces& from, uint32_t lobe, const RayCounts& counts,
+                   const LightPast& past) {
+    const uvec2 size = (from.g.depth.size + rayTileSide - 1U) / rayTileSide;
+    const gpu::Image noise = f.image("rays.tile_noise", VK_FORMAT_R32G32_SFLOAT, size);
+    const gpu::History tiles = f.history(lobe == lobeDiffuse ? "diffuse_adaptive.tiles" : "specular_adaptive.tiles",
+                                         VK_FORMAT_R32G32_SFLOAT, size);
+    const gpu::BufferView histogram = f.buffer("rays.noise_histogram", histogramSize * sizeof(uint32_t));
+    constexpr std::array<uint32_t, histogramSize> none{};
+    f.update(histogram, std::as_bytes(std::span(none)));
+    f.compute("measure_noise", "measure_noise.comp")
+        .constant("lobe", lobe)
+        .read("depth", from.g.depth)
+        .read("material", from.g.material)
+        .read("baseColor", from.g.baseColor)
+        .read("motion", from.g.motion)
+        .read("previousLight", past.light)
+        .read("previousSurface", past.surface)
+        .read("previousMoments", past.moments)
+        .read("previousLit", past.lit)
+        .read("previousTiles", tiles.previous)
+        .write("noise", noise)
+        .write("histogram", histogram)
+        .params(MeasureNoiseParams{from.view, vec2(past.lit.size) / static_cast<float>(from.scale), past.lit.size,
+                                   from.scale, placeInBlock(from.scale), past.valid && tiles.valid ? 1U : 0U})
+        .dispatch(size);
+    const gpu::BufferView list = makeTileList(f, size);
+    const auto mean = static_cast<float>(counts.rays);
+    const uint32_t most = mostAdaptiveRays(f, from.g.depth.size, counts.rays);
+    f.compute("share_rays", "share_rays.comp")
+        .constant("lobe", lobe)
+        .read("histogram", histogram)
+        .read("noise", noise)
+        .write("tiles", tiles.next)
+        .write("list", list)
+        .params(ShareRaysParams{size, counts.rays, counts.mirrorRays, leastShare * mean, static_cast<float>(most)})
+        .dispatch(size.x * size.y);
+    return {tiles.next, list, counts.rays};
+}
+
+}  // namespace reflet

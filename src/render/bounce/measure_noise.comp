@@ -1,0 +1,133 @@
+// How much noise a lobe's light still has in each tile, as a part of the picture's light, and how many pixels there are of
+// each class of noise. A thread for each tile.
+// In: depth, material, base colour, motion; of the last frame what the denoiser remembers, the picture, rays per tile.
+// Out: for each tile its class and its class of noise; the histogram.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "render/bounce/adaptive_rays.h"
+#include "render/bounce/rays.h"
+#include "render/gbuffer/gbuffer.glsl"
+#include "shaders/projection.glsl"
+
+layout(constant_id = 0) const uint lobe = 0u;
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { MeasureNoiseParams params; };
+layout(set = 0, binding = 1) uniform sampler2D depth;
+layout(set = 0, binding = 2) uniform sampler2D material;
+layout(set = 0, binding = 3) uniform sampler2D baseColor;
+layout(set = 0, binding = 4) uniform sampler2D motion;
+layout(set = 0, binding = 5, rgba16f) uniform readonly image2D previousLight;
+layout(set = 0, binding = 6, rg32ui) uniform readonly uimage2D previousSurface;
+layout(set = 0, binding = 7, rg16f) uniform readonly image2D previousMoments;
+layout(set = 0, binding = 8, rgba16f) uniform readonly image2D previousLit;
+layout(set = 0, binding = 9, rg32f) uniform readonly image2D previousTiles;
+layout(set = 0, binding = 10, rg32f) uniform writeonly image2D noise;
+layout(set = 0, binding = 11, scalar) buffer HistogramBlock { uint pixels[histogramSize]; } histogram;
+
+float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
+MaterialTexel loadMaterial(ivec2 pixel) { return unpackMaterial(texelFetch(material, pixel, 0)); }
+#include "render/bounce/tile_kind.glsl"
+
+const float darkness = 0.1;      // luminance below which noise counts by what it is, not by its share
+const int around = 20;           // pixels of the grid on each side of a tile, where its noise is measured
+const int apart = 8;             // pixels between those that are asked there
+const float sameDistance = 0.1;  // by which a remembered surface may be nearer or farther, as a share of its distance
+
+float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
+
+// How much of the lobe's radiance the surface sends on, about.
+float reflectance(ivec2 pixel) {
+    MaterialTexel m = loadMaterial(pixel);
+    float base = luminance(unpackBaseColor(texelFetch(baseColor, pixel, 0).rgb));
+    return lobe == lobeDiffuse ? base * (1.0 - m.metallic) : mix(dielectricF0, base, m.metallic);
+}
+
+// Where the last frame had what the pixel shows; negative: nowhere.
+ivec2 homeOf(ivec2 pixel, float d) {
+    ivec2 home = ivec2(round(vec2(pixel) - texelFetch(motion, pixel, 0).rg * params.motionToPixels));
+    if (params.remembers == 0u || any(lessThan(home, ivec2(0))) || any(greaterThanEqual(home, ivec2(params.view.size)))) {
+        return ivec2(-1);
+    }
+    vec4 before = params.view.previousWorldToClip *
+                  vec4(uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld), 1.0);
+    float there = uintBitsToFloat(imageLoad(previousSurface, home).x);
+    return abs(there * before.w / max(before.z, 1e-20) - 1.0) < sameDistance ? home : ivec2(-1);
+}
+
+// Whether the pixel has the lobe.
+bool shines(ivec2 pixel, float d) {
+    return d > 0.0 && (lobe == lobeDiffuse || (loadMaterial(pixel).flags & materialFlagLambert) == 0u);
+}
+
+// Squared standard deviation from ray to ray of the light that the lobe sends to the eye, over the picture's light there.
+float varianceAt(ivec2 pixel, ivec2 home, vec2 moments) {
+    float mean = min(luminance(imageLoad(previousLight, home).rgb), 255.0);
+    float rays = max(imageLoad(previousTiles, home / int(rayTileSide)).r, 1.0);  // in each frame
+    float variance = max(moments.y - mean * mean, 0.0) * rays;
+    ivec2 shown = min(home * int(params.scale) + int(params.place), ivec2(params.picture) - 1);
+    float lit = luminance(imageLoad(previousLit, shown).rgb);
+    float sent = reflectance(pixel);
+    return variance * sent * sent / (lit * lit + darkness * darkness);
+}
+
+// The mean over what lies around: a tile's own few rays have often missed what makes for noise, or hit it by chance.
+float varianceAround(ivec2 first) {
+    ivec2 size = ivec2(params.view.size);
+    ivec2 begin = max(first - around, ivec2(0));
+    ivec2 end = min(first + int(rayTileSide) + around, size);
+    float sum = 0.0;
+    float found = 0.0;
+    for (int y = begin.y + apart / 2; y < end.y; y += apart) {
+        for (int x = begin.x + apart / 2; x < end.x; x += apart) {
+            float d = loadDepth(ivec2(x, y));
+            ivec2 home = shines(ivec2(x, y), d) ? homeOf(ivec2(x, y), d) : ivec2(-1);
+            vec2 moments = home.x >= 0 ? imageLoad(previousMoments, home).xy : vec2(0.0);
+            if (moments.x > 1.5) {
+                sum += varianceAt(ivec2(x, y), home, moments);
+                found += 1.0;
+            }
+        }
+    }
+    return found > 0.0 ? sum / found : 1.0;
+}
+
+// How much a further ray changes a pixel of the tile: less, the more frames it is the mean of.
+float noiseOfTile(ivec2 first, ivec2 end) {
+    float squares = 0.0;
+    float found = 0.0;
+    for (int y = first.y; y < end.y; y += 2) {
+        for (int x = first.x; x < end.x; x += 2) {
+            ivec2 pixel = ivec2(x, y);
+            float d = loadDepth(pixel);
+            if (shines(pixel, d)) {
+                ivec2 home = homeOf(pixel, d);
+                float share = 1.0 / ((home.x >= 0 ? imageLoad(previousMoments, home).x : 0.0) + 1.0);
+                squares += share * share;
+                found += 1.0;
+            }
+        }
+    }
+    return sqrt(varianceAround(first) * (found > 0.0 ? squares / found : 1.0));
+}
+
+void main() {
+    uvec2 tile = gl_GlobalInvocationID.xy;
+    ivec2 first = ivec2(tile * rayTileSide);
+    ivec2 size = ivec2(params.view.size);
+    if (any(greaterThanEqual(first, size))) {
+        return;
+    }
+    ivec2 end = min(first + int(rayTileSide), size);
+    TileContent content = tileContent(first, end);
+    uint level = 0u;
+    uint pixels = content.pixels[lobe];
+    if (lobe == lobeSpecular && content.kind == tileMirror) {
+        atomicAdd(histogram.pixels[noiseClasses], pixels);
+    } else if (pixels > 0u) {
+        float octaves = log2(max(noiseOfTile(first, end), 1e-12));
+        level = uint(clamp(round(noiseClassOfOne + noiseClassesPerOctave * octaves), 0.0, float(noiseClasses - 1u)));
+        atomicAdd(histogram.pixels[level], pixels);
+    }
+    imageStore(noise, ivec2(tile), vec4(content.kind, level, 0.0, 0.0));
+}

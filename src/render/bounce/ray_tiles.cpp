@@ -1,0 +1,33 @@
+// Records the classes of tiles.
+#include "render/bounce/ray_tiles.h"
+
+#include "render/bounce/rays.h"
+
+#include <span>
+
+namespace reflet {
+
+gpu::BufferView makeTileList(gpu::Frame& f, uvec2 tiles) {
+    const VkDeviceSize items = VkDeviceSize(tiles.x) * tiles.y;
+    const gpu::BufferView list = f.buffer("rays.tile_list", rayListHeader + items * sizeof(uint32_t));
+    constexpr uint32_t empty[] = {tileListRow, 0, 1, 0};
+    f.update(list, std::as_bytes(std::span(empty)));
+    return list;
+}
+
+RayTiles classifyTiles(gpu::Frame& f, const RaySurfaces& from, uint32_t lobe, const RayCounts& counts) {
+    const uvec2 size = (from.g.depth.size + rayTileSide - 1U) / rayTileSide;
+    const std::string_view name = lobe == lobeDiffuse ? "diffuse.tiles" : "specular.tiles";
+    const RayTiles tiles{f.image(name, VK_FORMAT_R32G32_SFLOAT, size), makeTileList(f, size)};
+    f.compute("classify_tiles", "classify_tiles.comp")
+        .constant("lobe", lobe)
+        .read("depth", from.g.depth)
+        .read("material", from.g.material)
+        .write("tiles", tiles.tiles)
+        .write("list", tiles.list)
+        .params(ClassifyTilesParams{from.g.depth.size, counts.rays, counts.mirrorRays})
+        .dispatch(size);
+    return tiles;
+}
+
+}  // namespace reflet

@@ -1,0 +1,79 @@
+// Shares a budget of rays among tiles by their noise. Every group first finds by how many rays for a noise of 1 the budget is
+// spent; then each thread has a tile. In: the histogram, for each tile its class and its class of noise. Out: rays for each
+// tile, the list of those that get any.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "render/bounce/adaptive_rays.h"
+#include "render/bounce/rays.h"
+
+layout(constant_id = 0) const uint lobe = 0u;
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ShareRaysParams params; };
+layout(set = 0, binding = 1, scalar) readonly buffer HistogramBlock { uint pixels[histogramSize]; } histogram;
+layout(set = 0, binding = 2, rg32f) uniform readonly image2D noise;
+layout(set = 0, binding = 3, rg32f) uniform writeonly image2D tiles;
+layout(set = 0, binding = 4, scalar) buffer ListBlock {
+    uint groups[3];
+    uint count;
+    uint items[];
+} list;
+#include "render/bounce/ray_tiles_append.glsl"
+
+shared uint best;
+
+// Rays per pixel of a class of noise. scale: log2 of those for a noise of 1.
+float raysOf(uint level, float scale) {
+    float rays = exp2(scale + (float(level) - noiseClassOfOne) / noiseClassesPerOctave);
+    return floor(clamp(rays, params.least, params.most) * float(rayShares)) / float(rayShares);
+}
+
+// Whether the picture has pixels enough to spend the budget so.
+bool withinBudget(float scale) {
+    float spent = 0.0;
+    float noisy = 0.0;
+    for (uint i = 0u; i < noiseClasses; ++i) {
+        float pixels = float(histogram.pixels[i]);
+        spent += pixels * raysOf(i, scale);
+        noisy += pixels;
+    }
+    float mirrors = float(histogram.pixels[noiseClasses]);
+    return spent <= noisy * float(params.mean) + mirrors * (float(params.mean) - float(params.mirror));
+}
+
+// The largest scale, in steps that get smaller, that is within the budget.
+float findScale() {
+    uint thread = gl_LocalInvocationIndex;
+    float scale = -16.0;
+    for (float stepSize = 0.5; stepSize > 1e-4; stepSize /= 64.0) {
+        if (thread == 0u) {
+            best = 0u;
+        }
+        barrier();
+        if (withinBudget(scale + float(thread) * stepSize)) {
+            atomicMax(best, thread);
+        }
+        barrier();
+        scale += float(best) * stepSize;
+        barrier();
+    }
+    return scale;
+}
+
+void main() {
+    float scale = findScale();
+    uvec2 tile = uvec2(gl_GlobalInvocationID.x % params.tiles.x, gl_GlobalInvocationID.x / params.tiles.x);
+    if (tile.y >= params.tiles.y) {
+        return;
+    }
+    vec2 known = imageLoad(noise, ivec2(tile)).rg;
+    uint kind = uint(known.x);
+    float rays = kind == tileSky || (lobe == lobeSpecular && kind == tileMatt) ? 0.0 : raysOf(uint(known.y), scale);
+    if (lobe == lobeSpecular && kind == tileMirror) {
+        rays = float(params.mirror);
+    }
+    imageStore(tiles, ivec2(tile), vec4(rays, kind, 0.0, 0.0));
+    if (rays > 0.0) {
+        appendTile(tile);
+    }
+}
