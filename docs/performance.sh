@@ -17,7 +17,7 @@ reflet=${REFLET:-build/bin/reflet}
 out=out/performance
 mkdir -p "$out"
 preset=${PRESET:-balanced}
-"$reflet" list presets | grep -q "^$preset " || preset=default
+"$reflet" list presets | grep -q "^$preset " || preset=plain
 lambert=(--set materials.lambertOnly=true)
 one_bounce=(--truth-bounces 1 --truth-visible-only --truth-spp 1024)
 all_scenes=$("$reflet" list scenes | cut -d ' ' -f 1)

@@ -9,6 +9,7 @@
 #include "apps/device_options.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "render/presets.h"
 
 #include <algorithm>
 #include <array>
@@ -55,7 +56,7 @@ std::vector<uvec2> sizesOf(const BenchCommand& command) {
 std::vector<Variant> variantsOf(const BenchCommand& command) {
     std::vector<Variant> variants = makeVariants(command.presets, command.variants, command.shared);
     if (variants.empty() && command.pairs.empty()) {
-        variants.push_back({"default", loadSettings(command.shared)});
+        variants.push_back({std::string(defaultPreset), loadSettings(command.shared)});
     }
     return variants;
 }

@@ -73,9 +73,22 @@ void writeTimings(const RenderJob& job) {
     writeFileAtomically(job.options.timings, json.dump(2) + "\n");
 }
 
-void render(const RenderOptions& options) {
-    const uvec2 size = parseSize(options.scene.size);
-    Settings settings = loadSettings(options.scene);
+// What is remembered from frame to frame has come to rest by then: a picture of the first frame would be the worst.
+constexpr uint32_t settlingFrames = 32;
+
+uint32_t framesFor(const RenderOptions& options, const Settings& settings) {
+    if (options.frames > 0) {
+        return options.frames;
+    }
+    const bool remembers = settings.denoise.enabled != 0 || settings.temporal.enabled != 0;
+    return remembers && !isSequence(options) ? settlingFrames : 1;
+}
+
+void render(const RenderOptions& asked) {
+    const uvec2 size = parseSize(asked.scene.size);
+    Settings settings = loadSettings(asked.scene);
+    RenderOptions options = asked;
+    options.frames = framesFor(asked, settings);
     Pictures pictures(options.show, options.aovs);
     if (pictures.countsSteps()) {
         settings.traceScreen.countSteps = 1;
@@ -155,9 +168,9 @@ void addRenderCommand(CLI::App& app) {
         ->allow_extra_args(false);
     command
         ->add_option("--frames", options->frames,
-                     "Frames to render; the last one is written, or, with # in the name, all")
-        ->check(CLI::Range(1U, 1000000U))
-        ->capture_default_str();
+                     "Frames to render; the last one is written, or, with # in the name, all [1; where denoise or "
+                     "temporal remember the last frames and one picture is asked for, 32]")
+        ->check(CLI::Range(1U, 1000000U));
     const auto sequenceOptions = addSequenceOptions(*command, options->sequence);
     command->add_option("--show", options->show, "Which image of the frame (reflet list shows)")
         ->type_name("NAME")

@@ -23,7 +23,7 @@ struct SequenceOptions {
 struct RenderOptions {
     SceneOptions scene;
     std::vector<std::string> outputs;
-    uint32_t frames = 1;
+    uint32_t frames = 0;  ///< 0: as many as the settings need
     SequenceOptions sequence;
     std::string show = "final";
     std::vector<std::string> aovs;

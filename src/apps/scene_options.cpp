@@ -56,7 +56,8 @@ const Camera& findCamera(const Scene& scene, const std::string& wanted) {
 void addSceneOptions(CLI::App& command, SceneOptions& options) {
     command.add_option("SCENE", options.scene, "A .gltf or .glb file, or builtin:NAME (reflet list scenes)")
         ->required();
-    command.add_option("--preset", options.preset, "Settings under one name (reflet list presets)")->type_name("P");
+    command.add_option("--preset", options.preset, "Settings under one name (reflet list presets) [balanced]")
+        ->type_name("P");
     addViewOptions(command, options);
 }
 
@@ -138,9 +139,7 @@ void changeSettings(Settings& settings, const SceneOptions& options) {
 
 Settings loadSettings(const SceneOptions& options) {
     Settings settings;
-    if (!options.preset.empty()) {
-        applyPreset(settings, options.preset);
-    }
+    applyPreset(settings, options.preset.empty() ? defaultPreset : options.preset);
     changeSettings(settings, options);
     return settings;
 }

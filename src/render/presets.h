@@ -22,6 +22,9 @@ struct Preset {
 
 std::vector<Preset> presets();
 
+/// What programs take where nobody names another.
+inline constexpr std::string_view defaultPreset = "balanced";
+
 /// Throws UsageError naming the nearest.
 void applyPreset(Settings& settings, std::string_view name);
 

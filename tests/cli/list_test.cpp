@@ -33,7 +33,7 @@ TEST_F(Lists, ScenesAreNamedAsRenderTakesThem) {
 }
 
 TEST_F(Lists, PresetsAreShownWithWhatTheySet) {
-    EXPECT_TRUE(has(output({"list", "presets"}), {"default", "direct", "fast", "quality", R"("rays":0)"}));
+    EXPECT_TRUE(has(output({"list", "presets"}), {"plain", "direct", "fast", "balanced", "quality", R"("rays":0)"}));
 }
 
 TEST_F(Lists, EveryShowHasALineOfItsOwn) {

@@ -173,6 +173,9 @@ Outcome ProgramTest::killWhen(const Arguments& arguments, const std::function<bo
 
 Outcome ProgramTest::render(const std::string& scene, const Arguments& more, const Environment& added) const {
     Arguments all{"render", scene, "--size", "32x18"};
+    if (std::ranges::find(more, "--preset") == more.end()) {
+        all.insert(all.end(), {"--preset", "plain"});
+    }
     all.insert(all.end(), more.begin(), more.end());
     return run(all, added);
 }

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace reflet::test {
+namespace reflet::test::ray_tiles_test {
 namespace {
 
 constexpr uvec2 size(148, 84);  // tiles go over the picture's edges
@@ -233,4 +233,4 @@ TEST(AdaptiveRays, GiveTheSameBytesEachTime) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::ray_tiles_test

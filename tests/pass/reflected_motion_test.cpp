@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace reflet::test {
+namespace reflet::test::reflected_motion_test {
 namespace {
 
 constexpr uvec2 size(160, 90);
@@ -160,4 +160,4 @@ TEST(ReflectedMotion, LightOfTheLastFrameIsThatOfTheSameSurface) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::reflected_motion_test

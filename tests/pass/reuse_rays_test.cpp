@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace reflet::test {
+namespace reflet::test::reuse_rays_test {
 namespace {
 
 constexpr uvec2 size(160, 90);
@@ -97,4 +97,4 @@ TEST_P(ReuseOfLobe, KeepsTheMeanAndHasLessError) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::reuse_rays_test

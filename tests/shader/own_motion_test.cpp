@@ -7,7 +7,7 @@
 
 #include <random>
 
-namespace reflet::test {
+namespace reflet::test::own_motion_test {
 namespace {
 
 constexpr uvec2 pixels{1280, 720};
@@ -85,4 +85,4 @@ TEST_P(OwnMotionTest, IsExactlyNoneOfWhatStandsStill) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::own_motion_test
