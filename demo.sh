@@ -19,8 +19,7 @@ while read -r scene _; do
     if [[ "$picture" -nt "$reflet" ]]; then
         echo "$picture is up to date"
     else
-        "$reflet" render "$scene" --size 1280x720 --frames 3 --set diffuse.rays=16 --set trace_screen.light=previous \
-            -o "$picture"
+        "$reflet" render "$scene" --size 1280x720 -o "$picture"
         echo "$picture"
     fi
 done <<<"$scenes"

@@ -47,7 +47,7 @@ diffuse_table() {
     for method in $methods; do
         printf '| `%s` |' "$method"
         for scene in $scenes; do
-            "$reflet" render "builtin:$scene" --size 320x180 -o "$truth/$method.exr" --aov indirect_diffuse \
+            "$reflet" render "builtin:$scene" --preset plain --size 320x180 -o "$truth/$method.exr" --aov indirect_diffuse \
                 --set "trace_screen.method=$method" --set trace_screen.light=direct --set trace_screen.thickness=0.1 \
                 --set diffuse.rays=256 --set specular.rays=0
             "$reflet" compare "$truth/$method.exr:indirect_diffuse" "$truth/$scene.exr:indirect_diffuse" --json |
@@ -74,12 +74,12 @@ scene. Nothing here is chosen to look good.
   `reflet compare --help` has all definitions.
 - **noise of the references**: the relative MSE that a second run of the reference would have against the first one's
   limit; smaller differences mean nothing. FLIP sees that noise, too.
-- These presets do not clean what few rays bring (`denoise.enabled`): much of `default`'s and `fast`'s error is grain.
+- All are shown at their sixth frame. Presets that clean (`denoise.enabled`) are better at their 32nd.
 TEXT
     section "All bounces" out/accuracy
     section "One bounce" out/accuracy-one-bounce --bounces 1 --set trace_screen.light=direct
 
-    printf '\n## Tracing methods\n\nThe settings of `default` but for `trace_screen.method`; one bounce.\n\n'
+    printf '\n## Tracing methods\n\nThe settings of `plain` but for `trace_screen.method`; one bounce.\n\n'
     variants=()
     for method in $methods; do
         variants+=(--variant "$method=trace_screen.method=$method")
@@ -90,7 +90,7 @@ TEXT
 
     printf '\n## Diffuse light, method by method\n\n'
     printf 'Relative MSE (and bias) of `indirect_diffuse` against visible-only with one bounce: 256 rays a pixel, %s\n\n' \
-        '`trace_screen.thickness=0.1`, `trace_screen.light=direct`; else the settings of `default`.'
+        '`trace_screen.thickness=0.1`, `trace_screen.light=direct`; else the settings of `plain`.'
     diffuse_table
     echo
     if [[ ${1:-} == tables ]]; then

@@ -152,7 +152,7 @@ def cached(kind, arguments, outputs):
     return paths
 
 
-def options(scene, settings, view, size, preset):
+def options(scene, settings, view, size, preset or "plain"):
     arguments = [scene if "/" in scene else "builtin:" + scene, "--size", size]
     arguments += ["--view-file", "docs/methods/views/%s.json" % view] if view else []
     arguments += ["--preset", preset] if preset else []

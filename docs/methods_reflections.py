@@ -29,7 +29,7 @@ class Way(Frame):
     """The first frame; and the lowest of three medians over frames 2 to 5 [ms]."""
 
     def __init__(self, settings):
-        self.arguments = options(SCENE, settings, VIEW, "320x180", None)
+        self.arguments = options(SCENE, settings, VIEW, "320x180", "plain")
         aov = ["--aov", "indirect_specular"]
         self.png, self.exr = cached("render", self.arguments + aov, [".png", ".exr"])
         times = [cached("render", self.arguments + ["--frames", str(5 + turn)], [".json"])[0] for turn in range(ROUNDS)]

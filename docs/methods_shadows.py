@@ -24,7 +24,7 @@ class Shadows(Render):
 
     def __init__(self, scene, settings="", view=None, more="", show=None):
         settings = DIRECT + settings.replace("@", "shadow.")
-        self.arguments = options(scene, settings, view, "320x180", None) + more.split()
+        self.arguments = options(scene, settings, view, "320x180", "plain") + more.split()
         self.arguments += ["--show", show] if show else []
         if show:
             self.png, = cached("render", self.arguments, [".png"])

@@ -37,7 +37,7 @@ protected:
     /// Another program, searched for in PATH.
     [[nodiscard]] Outcome runOther(const std::string& program, const Arguments& arguments,
                                    const Environment& added = {}) const;
-    /// `reflet render SCENE --size 32x18` and more.
+    /// `reflet render SCENE --size 32x18` and more; with preset plain, which remembers no frames, unless one is named.
     [[nodiscard]] Outcome render(const std::string& scene, const Arguments& more, const Environment& added = {}) const;
 
     /// As run(), with `signals` sent to the program: the first when it catches it and has used `work` seconds of all
