@@ -1,4 +1,5 @@
 // The depth pyramid of random depth, at even and odd sizes, against a look at every pixel of each cell.
+#include "render/levels.h"
 #include "render/pyramid/pyramid.h"
 
 #include "gpu/frame.h"
@@ -88,10 +89,10 @@ protected:
         std::vector<vec2> image(size_t(pyramid.size.x) * pyramid.size.y);
         std::memcpy(image.data(), f.bytes(readback).data(), image.size() * sizeof(vec2));
         std::vector<vec2> cells;
-        uint32_t row = 0;
         for (uint32_t level = 1; level < pyramidLevels; ++level) {
-            for (uint32_t y = 0; y < cellsOf(layers.size, level).y; ++y, ++row) {
-                const auto first = image.begin() + static_cast<std::ptrdiff_t>(size_t(row) * pyramid.size.x);
+            for (uint32_t y = 0; y < cellsOf(layers.size, level).y; ++y) {
+                const size_t row = levelRow(layers.size, level) + y;
+                const auto first = image.begin() + static_cast<std::ptrdiff_t>(row * pyramid.size.x);
                 cells.insert(cells.end(), first, first + cellsOf(layers.size, level).x);
             }
         }
