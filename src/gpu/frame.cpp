@@ -213,10 +213,11 @@ History Frame::history(std::string_view name, VkFormat format, uvec2 size) {
     }
     if (pair.lastUse != number_) {
         pair.current ^= 1U;
+        pair.valid = pair.lastUse + 1 == number_;
+        pair.lastUse = number_;
     }
-    const bool valid = !fresh && (pair.lastUse + 1 == number_ || pair.lastUse == number_);
-    pair.lastUse = number_;
-    return {pair.textures[pair.current ^ 1U].image(), pair.textures[pair.current].image(), valid};
+    pair.valid = pair.valid && !fresh;
+    return {pair.textures[pair.current ^ 1U].image(), pair.textures[pair.current].image(), pair.valid};
 }
 
 void Frame::forgetHistories() {

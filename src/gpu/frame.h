@@ -139,6 +139,7 @@ private:
         Texture textures[2];
         uint64_t lastUse = 0;
         uint32_t current = 0;
+        bool valid = false;  ///< in the frame of the last use, however often it is asked for in it
     };
     std::map<std::string, HistoryPair, std::less<>> histories_;
 

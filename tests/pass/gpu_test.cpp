@@ -107,6 +107,9 @@ TEST_F(Gpu, HistoryIsLastFramesImageAndStartsAnewWithASize) {
     const auto next = [&](uvec2 extent) {
         f.begin();
         const gpu::History history = f.history("test.history", VK_FORMAT_R16G16B16A16_SFLOAT, extent);
+        const gpu::History again = f.history("test.history", VK_FORMAT_R16G16B16A16_SFLOAT, extent);
+        EXPECT_EQ(again.valid, history.valid);
+        EXPECT_EQ(again.next.state, history.next.state);
         f.clear(history.next);
         f.submit();
         f.wait();

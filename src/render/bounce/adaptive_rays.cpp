@@ -12,7 +12,7 @@ namespace reflet {
 namespace {
 
 // No tile gets less of the mean, so that what changes is seen soon; none gets more times of it.
-constexpr float leastShare = 0.25F;
+constexpr float leastShare = 0.5F;
 constexpr uint32_t mostTimes = 4;
 
 }  // namespace

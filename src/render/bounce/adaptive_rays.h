@@ -3,7 +3,7 @@
 //
 // A tile whose light has the standard deviation s from ray to ray, and is the mean of n rays, has the error s /
 // sqrt(n). For the sum of squares over the picture to be least with a given number of rays, n goes as s. What is
-// remembered counts: of f frames in a pixel's mean one more is 1 / (f + 1), and so little can its noise do.
+// remembered counts: to a mean of f frames one more brings 1 / (f + 1).
 #ifndef REFLET_RENDER_ADAPTIVE_RAYS_H
 #define REFLET_RENDER_ADAPTIVE_RAYS_H
 

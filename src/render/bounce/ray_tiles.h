@@ -41,8 +41,8 @@ namespace reflet {
 
 /// Tiles of one lobe's rays.
 struct RayTiles {
-    gpu::Image tiles;      ///< RG32F, a texel for each: rays per pixel, in shares of 1 / rayShares; class
-    gpu::BufferView list;  ///< of those with rays; starts as ray lists do: groups of an indirect dispatch, count
+    gpu::Image tiles;       ///< RG32F, a texel for each: rays per pixel, in shares of 1 / rayShares; class
+    gpu::BufferView list;   ///< of those with rays; starts as ray lists do: groups of an indirect dispatch, count
     uint32_t meanRays = 0;  ///< of a pixel, where numbers differ from tile to tile and from frame to frame; 0: they
                             ///< do not
 };

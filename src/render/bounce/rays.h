@@ -23,23 +23,24 @@ CHOICES(RayDistribution, RAY_DISTRIBUTIONS)
     OPTION(RayNoise, blue, 1)
 CHOICES(RayNoise, RAY_NOISES)
 
-#define DIFFUSE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                    \
-    VALUE(uint, rays, 4, 0, 256, "Rays per pixel for indirect diffuse light; 0: none is computed.")                \
-    CHOICE(RayDistribution, distribution, cosine,                                                                  \
-           "How their directions are spread over the hemisphere; normal: not at all: one along the normal "        \
-           "stands for all, and only sources that know irradiance (probes, environment) answer it.")               \
-    CHOICE(RayNoise, noise, blue,                                                                                  \
-           "What chooses their directions; white: chance; blue: a low-discrepancy sequence, shifted by "           \
-           "blue noise in space and time: less error, and what is left is easier to blur away.")                   \
-    SWITCH(adaptive, 0,                                                                                            \
-           "Trace more rays where light is noisy or nothing is remembered, fewer elsewhere, at most 8; `rays` is " \
-           "their mean over the surfaces. Only with denoise.history, and up to 8 rays.")                           \
-    VALUE(uint, scale, 1, 1, 4,                                                                                    \
-          "Pixels along each side of the blocks that share rays; 2: half resolution. What is found is spread "     \
-          "over the block's pixels by their depths and normals.")                                                  \
-    VALUE(float, radius, 100000.0, 0.01, 100000.0,                                                                 \
-          "Metres; what is farther off is left to the sources behind the screen.")                                 \
-    VALUE(float, gain, 1.0, 0.0, 64.0,                                                                             \
+#define DIFFUSE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                  \
+    VALUE(uint, rays, 4, 0, 256, "Rays per pixel for indirect diffuse light; 0: none is computed.")              \
+    CHOICE(RayDistribution, distribution, cosine,                                                                \
+           "How their directions are spread over the hemisphere; normal: not at all: one along the normal "      \
+           "stands for all, and only sources that know irradiance (probes, environment) answer it.")             \
+    CHOICE(RayNoise, noise, blue,                                                                                \
+           "What chooses their directions; white: chance; blue: a low-discrepancy sequence, shifted by "         \
+           "blue noise in space and time: less error, and what is left is easier to blur away.")                 \
+    SWITCH(adaptive, 0,                                                                                          \
+           "`rays` is the mean over the surfaces: more where light is noisy or nothing is remembered, fewer "    \
+           "elsewhere, half to 4 times as many, at most 8. Without denoise.history, and with more than 8 rays, " \
+           "all pixels get the same.")                                                                           \
+    VALUE(uint, scale, 1, 1, 4,                                                                                  \
+          "Pixels along each side of the blocks that share rays; 2: half resolution. What is found is spread "   \
+          "over the block's pixels by their depths and normals.")                                                \
+    VALUE(float, radius, 100000.0, 0.01, 100000.0,                                                               \
+          "Metres; what is farther off is left to the sources behind the screen.")                               \
+    VALUE(float, gain, 1.0, 0.0, 64.0,                                                                           \
           "Factor on indirect diffuse light; only 1 keeps energy; pi is what leaving out Lambert's 1/pi does.")
 SETTINGS(DiffuseSettings, DIFFUSE_SETTINGS)
 

@@ -20,11 +20,15 @@ layout(set = 0, binding = 4, scalar) buffer ListBlock {
 } list;
 #include "render/bounce/ray_tiles_append.glsl"
 
+// The power of the noise that rays follow. 1 would be best were the noise known. From few frames it is not: with 1 (and a
+// quarter of the mean as the least) the error of an evenly noisy picture, cave's after 8 frames of one ray, rose by 13 %.
+const float follow = 0.5;
+
 shared uint best;
 
 // Rays per pixel of a class of noise. scale: log2 of those for a noise of 1.
 float raysOf(uint level, float scale) {
-    float rays = exp2(scale + (float(level) - noiseClassOfOne) / noiseClassesPerOctave);
+    float rays = exp2(scale + follow * (float(level) - noiseClassOfOne) / noiseClassesPerOctave);
     return floor(clamp(rays, params.least, params.most) * float(rayShares)) / float(rayShares);
 }
 

@@ -40,8 +40,10 @@ Gathered gather(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const View
     const uvec2 size = light.radiance.size;
     const DenoiseHistory past = denoiseHistory(f, lobe, size, settings);
     const gpu::Image limits = tileLimits(f, light, lobe, settings);
-    const Gathered out{f.image("denoise.gathered", lightFormat, size), past.surface.next, past.moments.next,
-                       past.light.next};
+    // Without a blur that is the result, and the other lobe must not write over it.
+    const std::string_view unblurred = lobe == lobeDiffuse ? "denoise.diffuse" : "denoise.specular";
+    const gpu::Image gathered = f.image(settings.passes == 0 ? unblurred : "denoise.gathered", lightFormat, size);
+    const Gathered out{gathered, past.surface.next, past.moments.next, past.light.next};
     f.compute("denoise_gather", "denoise_gather.comp")
         .constant("lobe", lobe)
         .constant("meanRays", light.tiles.meanRays)
