@@ -161,10 +161,11 @@ void main() {
         stepped += countSteps != 0u ? imageLoad(raySteps, slot).r : 0.0;
     }
     float share = 1.0 / float(params.rayCount);
-    bool traced = d > 0.0;  // others have no rays: what lies in their slots is of some other frame
+    // Others have no rays: what lies in their slots is of some other frame.
+    bool traced = d > 0.0 && (lobe == lobeDiffuse || !isLambert(unpackMaterial(texelFetch(material, pixel, 0))));
     vec4 light = traced ? vec4(own.light, own.away) * share : vec4(0.0);
     colors = traced ? colors * share : vec4(0.0);
-    if (borrows && (lobe == lobeDiffuse || shown.alpha > narrowest * narrowest)) {
+    if (traced && borrows && (lobe == lobeDiffuse || shown.alpha > narrowest * narrowest)) {
         float before = sum.weight;
         addNeighbours(sum, pixel, shown, d);
         if (sum.weight > before) {
