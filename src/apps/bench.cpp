@@ -36,6 +36,12 @@ uint32_t parseBounces(const std::string& text) {
 TruthOptions truthOptions(const BenchCommand& command) {
     TruthOptions options;
     parseTruth(command.truth, options);
+    if (!command.truthOf.empty()) {
+        if (options.kind != TruthKind::chain) {
+            failUsage("--truth-of is for --truth chain:RAYS");
+        }
+        options.chainOf = settingsOfList(command.truthOf, command.shared, "--truth-of " + command.truthOf);
+    }
     options.reference.bounces = parseBounces(command.truthBounces);
     options.reference.samples = command.truthSamples;
     options.reference.visibleOnly = command.truthVisibleOnly;

@@ -40,7 +40,7 @@ void seeSun(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewI
     }
     ShadowInputs maps{.map = out.shadowMap, .range = {}, .blueNoise = in.blueNoise};
     if (shadow.filter == ShadowFilter::pcss && shadow.earlyOut != 0) {
-        maps.range = makeShadowRange(f, out.shadowMap);
+        maps.range = makeShadowRange(f, out.shadowMap, in.draws, out.sun, shadow);
     }
     const SunVisibility seen = sunVisibility(f, out.g, maps, {in.view, out.sun, shadow, sunSlope});
     out.rawSunVisibility = seen.visibility;

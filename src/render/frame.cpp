@@ -118,6 +118,7 @@ LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& setting
         Rays rays = generateRays(f, from, {in.ggxTable, in.blueNoise, tiles}, lobe,
                                  {{}, settings.diffuse, settings.specular, first, count, coneShare}, counted);
         rays.imageMotion = imageMotion;
+        rays.directional = diffuse && settings.denoise.enabled != 0 && settings.denoise.directional != 0;
         answerFromViews(f, rays, seen, settings, longest);
         answerFromScene(f, rays, in, settings, seen.images, screen);
         if (in.probes) {

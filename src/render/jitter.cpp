@@ -17,6 +17,10 @@ void lookThrough(ViewParams& view, const vec2& place, const vec2& placeBefore) {
     move[3] = vec4(shift, 0.0F, 1.0F);
     mat4 back(1.0F);
     back[3] = vec4(-shift, 0.0F, 1.0F);
+    mat4 widen(1.0F);  // by the half pixel to each side that places are off the centre
+    widen[0][0] += view.pixel.x;
+    widen[1][1] += view.pixel.y;
+    view.anyPlaceToWorld = view.clipToWorld * widen;
     view.worldToClip = move * view.worldToClip;
     view.previousWorldToClip = move * view.previousWorldToClip;
     view.clipToWorld = view.clipToWorld * back;

@@ -12,6 +12,7 @@ vec2 placeInPixel(uint32_t index);
 
 /// Moves the picture such that pixels' centres show what was `place` pixels off them. The last frame's matrix moves
 /// alike: motion is as if neither had been moved, and exactly 0 where nothing moves. `placeBefore` is the last frame's.
+/// view.anyPlaceToWorld is set, too.
 void lookThrough(ViewParams& view, const vec2& place, const vec2& placeBefore);
 
 }  // namespace reflet

@@ -149,6 +149,18 @@ TEST_F(BenchTest, WithoutATruthThereAreNoErrors) {
     EXPECT_FALSE(numbers()["runs"][0]["steady"]["passes"]["gbuffer"].contains("floor_ms"));
 }
 
+TEST_F(BenchTest, AllVariantsMayHaveTheTruthOfOtherSettings) {
+    const Arguments both{"--preset", "direct", "--variant", "near=direct,trace_screen.maxSteps=8", "--truth", "chain:2"};
+    ASSERT_TRUE(quietSuccess(bench(both)));
+    EXPECT_EQ(truths(), 2U * 2U);
+    Arguments fixed = both;
+    fixed.insert(fixed.end(), {"--truth-of", "plain,trace_screen.maxSteps=99"});
+    ASSERT_TRUE(quietSuccess(bench(fixed)));
+    EXPECT_EQ(truths(), 3U * 2U);
+    EXPECT_NE(numbers().at("truth").at("of").get<std::string>().find("maxSteps=99"), std::string::npos);
+    EXPECT_TRUE(refused(bench({"--truth-of", "plain"}), 2, {"--truth-of", "chain"}));
+}
+
 TEST_F(BenchTest, SeveralSizesSayWhatAPixelCosts) {
     ASSERT_TRUE(quietSuccess(bench({"--truth", "none", "--sizes", "32x18,64x36,48x27", "--preset", "direct"})));
     const nlohmann::json json = numbers();

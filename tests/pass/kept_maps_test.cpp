@@ -32,6 +32,16 @@ TEST_F(KeptMaps, TheSunsIsDrawnOnceWhileNothingMoves) {
     EXPECT_FALSE(draws(view_));
 }
 
+TEST_F(KeptMaps, TheSunsIsDrawnOnceWhileFramesLookThroughOtherPlacesInThePixel) {
+    for (const std::string cascades : {"1", "3"}) {
+        settings_ = settingsOf({"diffuse.rays=0", "specular.rays=0", "shadow.resolution=256", "temporal.enabled=true",
+                                "shadow.cascades=" + cascades});
+        EXPECT_TRUE(draws(view_)) << cascades;
+        EXPECT_FALSE(draws(view_)) << cascades;
+        EXPECT_FALSE(draws(view_)) << cascades;
+    }
+}
+
 TEST_F(KeptMaps, TheSunsIsDrawnAgainWhenTheSunOrAThingOrItsSizeChanges) {
     draws(view_);
     view_.sun.direction = glm::normalize(view_.sun.direction + vec3(0.1F, 0.0F, 0.0F));

@@ -1,6 +1,7 @@
 // A bench as JSON, and as a plot.
 #include "apps/bench/output.h"
 #include "apps/report/plot.h"
+#include "apps/report/variants.h"
 #include "apps/spread.h"
 
 #include <spdlog/fmt/fmt.h>
@@ -113,7 +114,11 @@ Json truthJson(const TruthOptions& truth) {
         return {};
     }
     if (truth.kind == TruthKind::chain) {
-        return {{"kind", "chain"}, {"rays", truth.chainRays}};
+        Json chain{{"kind", "chain"}, {"rays", truth.chainRays}};
+        if (truth.chainOf) {
+            chain["of"] = changedSettings(*truth.chainOf);
+        }
+        return chain;
     }
     const ReferenceOptions& r = truth.reference;
     return {{"kind", "reference"},

@@ -58,6 +58,11 @@ void addTruthOptions(CLI::App& command, BenchCommand& options) {
                     "nothing that cleans, or nothing")
         ->type_name("reference|chain:RAYS|none")
         ->capture_default_str();
+    command
+        .add_option(
+            "--truth-of", options.truthOf,
+            "With --truth chain: presets and settings whose picture it is, for all variants; not each its own's")
+        ->type_name("LIST");
     command.add_option("--truth-bounces", options.truthBounces, "Scattered rays of the path tracer's paths")
         ->type_name("N|unlimited")
         ->capture_default_str();

@@ -26,6 +26,7 @@ struct BenchCommand {
     uint32_t warmup = 11;
     uint32_t frames = 20;
     std::string truth = "reference";
+    std::string truthOf;
     std::string truthBounces = "1";
     bool truthVisibleOnly = true;
     uint32_t truthSamples = 256;

@@ -204,8 +204,9 @@ std::string truthKey(const BenchScene& scene, uvec2 size, const Settings& settin
     addTo(seen, scene.view);
     const std::string what = fmt::format("scene {}, {}x{}", seen.text(), size.x, size.y);
     if (options.kind == TruthKind::chain) {
+        const Settings chain = chainSettings(options.chainOf.value_or(settings), chainRaysPerFrame);
         return fmt::format("chain of {} rays, {}, seed {}, program {}, {}", options.chainRays, what, scene.seed,
-                           programPrint(), settingsText(chainSettings(settings, chainRaysPerFrame)));
+                           programPrint(), settingsText(chain));
     }
     const ReferenceOptions reference = referenceOptions(options, settings);
     Fingerprint how;
@@ -230,8 +231,9 @@ Truth getTruth(gpu::Device& device, const BenchScene& scene, uvec2 size, const S
         return std::move(*kept);
     }
     makeTruthFolder(options.folder);
-    Truth truth = options.kind == TruthKind::chain ? renderChain(device, scene, size, settings, options.chainRays)
-                                                   : traceTruth(scene, size, referenceOptions(options, settings));
+    Truth truth = options.kind == TruthKind::chain
+                      ? renderChain(device, scene, size, options.chainOf.value_or(settings), options.chainRays)
+                      : traceTruth(scene, size, referenceOptions(options, settings));
     truth.file = picture.string();
     writeTruth(truth, key, facts);
     return truth;

@@ -6,6 +6,7 @@
 #include "reference/reference.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,9 @@ enum class TruthKind : uint8_t {
 
 struct TruthOptions {
     TruthKind kind = TruthKind::reference;
-    ReferenceOptions reference;  ///< lambertOnly is taken from the settings
-    uint32_t chainRays = 1024;   ///< of each lobe, per pixel
+    ReferenceOptions reference;       ///< lambertOnly is taken from the settings
+    uint32_t chainRays = 1024;        ///< of each lobe, per pixel
+    std::optional<Settings> chainOf;  ///< of which `chain` is in the place of those that are measured
     std::filesystem::path folder;
 };
 

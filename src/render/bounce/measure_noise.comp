@@ -7,6 +7,7 @@
 #include "render/bounce/adaptive_rays.h"
 #include "render/bounce/rays.h"
 #include "render/gbuffer/gbuffer.glsl"
+#include "shaders/luminance.glsl"
 #include "shaders/projection.glsl"
 
 layout(constant_id = 0) const uint lobe = 0u;
@@ -34,7 +35,6 @@ const int around = 20;           // pixels of the grid on each side of a tile, w
 const int apart = 8;             // pixels between those that are asked there
 const float sameDistance = 0.1;  // by which a remembered surface may be nearer or farther, as a share of its distance
 
-float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 
 // How much of the lobe's radiance the surface sends on, about.
 float reflectance(ivec2 pixel) {

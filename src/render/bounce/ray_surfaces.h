@@ -29,9 +29,9 @@ namespace reflet {
 
 /// Surfaces that rays leave, a pixel of `view` each.
 struct RaySurfaces {
-    GBuffer g;        ///< as of the whole picture; a coarser grid's depth is R32F, and there is no emissive
-    ViewParams view;  ///< its clip space puts the picked pixels' centres at the centres of the coarser picture's
-                      ///< pixels. pixelAngle is the whole picture's: depth is as fine as that
+    GBuffer g;           ///< as of the whole picture; a coarser grid's depth is R32F, and there is no emissive
+    ViewParams view;     ///< its clip space puts the picked pixels' centres at the centres of the coarser picture's
+                         ///< pixels. pixelAngle is the whole picture's: depth is as fine as that
     uint32_t scale = 1;  ///< pixels of the whole picture along a block's sides
 };
 

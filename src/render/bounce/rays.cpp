@@ -43,7 +43,8 @@ Rays generateRays(gpu::Frame& f, const RaySurfaces& from, const RayTables& table
               .firstRay = params.firstRay,
               .count = params.rayCount,
               .lobe = lobe,
-              .countSteps = countSteps};
+              .countSteps = countSteps,
+              .directional = false};
     if (countSteps) {
         f.clear(rays.steps);  // pixels without rays take none
     }
@@ -80,7 +81,8 @@ LobeLight lobeImages(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool
         .source = f.image(diffuse ? "diffuse.source" : "specular.source", VK_FORMAT_R16G16B16A16_SFLOAT, size),
         .steps = {},
         .tiles = {},
-        .imageMotion = {}};
+        .imageMotion = {},
+        .directional = {}};
     if (countSteps) {
         light.steps = f.image(diffuse ? "diffuse.steps" : "specular.steps", VK_FORMAT_R32_SFLOAT, size);
     }
@@ -98,12 +100,23 @@ LobeLight noLight(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool co
     return light;
 }
 
+gpu::Image directionalImage(gpu::Frame& f, const Rays& rays) {
+    return rays.directional ? f.image("diffuse.directional", VK_FORMAT_R16G16B16A16_SFLOAT, rays.direction.size)
+                            : gpu::Image{};
+}
+
+gpu::Image noDirectional(gpu::Frame& f) {
+    return f.image("no_directional", VK_FORMAT_R16G16B16A16_SFLOAT, uvec2(1));
+}
+
 LobeLight resolveRays(gpu::Frame& f, const Rays& rays) {
     const uvec2 size = rays.direction.size;
     LobeLight light = lobeImages(f, rays.lobe, rays.from, rays.countSteps);
     light.tiles = rays.tiles;
+    light.directional = directionalImage(f, rays);
     f.compute("resolve_rays", "resolve_rays.comp")
         .constant("countSteps", rays.countSteps ? 1U : 0U)
+        .constant("hasDirectional", light.directional ? 1U : 0U)
         .constant("adaptive", rays.tiles.meanRays > 0 ? 1U : 0U)
         .read("tiles", rays.tiles.tiles)
         .read("direction", rays.direction)
@@ -113,6 +126,8 @@ LobeLight resolveRays(gpu::Frame& f, const Rays& rays) {
         .write("radiance", light.radiance)
         .write("source", light.source)
         .write("steps", light.steps ? light.steps : f.image("no_steps", VK_FORMAT_R32_SFLOAT, uvec2(1)))
+        .read("normal", rays.from.g.normal)
+        .write("directional", light.directional ? light.directional : noDirectional(f))
         .params(ResolveRaysParams{rays.firstRay, rays.count, rays.from.view.frame, size})
         .dispatch(size);
     return light;

@@ -127,6 +127,7 @@ struct Rays {
     uint32_t count = 0;  ///< per pixel, in this batch, at most
     uint32_t lobe = 0;
     bool countSteps = false;
+    bool directional = false;  ///< whether LobeLight.directional is wanted; diffuse only
 };
 
 /// What a lobe's rays brought, averaged per pixel; not yet multiplied by the surface's own colour.
@@ -141,6 +142,8 @@ struct LobeLight {
     /// RG16F: uv by which the mirror image has moved since the last frame because what it shows moves by itself
     /// (own_motion.glsl); none unless it was asked for.
     gpu::Image imageMotion;
+    /// RGBA16F: how the light changes with the normal (directional_light.glsl); none unless it was asked for.
+    gpu::Image directional;
     bool dark = false;  ///< of noLight
 };
 
@@ -168,6 +171,12 @@ LobeLight lobeImages(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool
 
 /// A lobe without rays: black.
 LobeLight noLight(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps);
+
+/// LobeLight.directional for rays that want it, or none.
+gpu::Image directionalImage(gpu::Frame& f, const Rays& rays);
+
+/// What passes bind that have none.
+gpu::Image noDirectional(gpu::Frame& f);
 
 /// Adds the batch to the lobe's images; a pixel's rays make the whole, as many as its tile says.
 LobeLight resolveRays(gpu::Frame& f, const Rays& rays);

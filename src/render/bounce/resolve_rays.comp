@@ -1,12 +1,15 @@
 // Averages a batch of rays into their pixels. In: tiles, direction (for the weights), answers, sources and steps by ray.
-// Out: radiance with mean hit distance, source colours with confidence, steps; added to what earlier batches brought.
+// Out: radiance with mean hit distance, source colours with confidence, steps, and how light changes with the normal; added to what earlier batches brought.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/bounce/ray_tiles.glsl"
 #include "render/bounce/rays.glsl"
+#include "shaders/directional_light.glsl"
+#include "shaders/luminance.glsl"
 
 layout(constant_id = 0) const uint countSteps = 0u;
 layout(constant_id = 1) const uint adaptive = 0u;
+layout(constant_id = 2) const uint hasDirectional = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ResolveRaysParams params; };
@@ -18,6 +21,8 @@ layout(set = 0, binding = 5, rgba16f) uniform image2D source;
 layout(set = 0, binding = 6, r32f) uniform readonly image2DArray raySteps;
 layout(set = 0, binding = 7, r32f) uniform image2D steps;
 layout(set = 0, binding = 8, rg32f) uniform readonly image2D tiles;
+layout(set = 0, binding = 9) uniform usampler2D normal;
+layout(set = 0, binding = 10, rgba16f) uniform image2D directional;
 
 void resolveSteps(ivec2 pixel, uint count, float weight) {
     float sum = 0.0;
@@ -42,24 +47,35 @@ void main() {
     float weight = 1.0 / float(max(rays, 1u));
     vec4 light = vec4(0.0);
     vec4 colors = vec4(0.0);
+    vec4 turning = vec4(0.0);
+    vec3 n = hasDirectional != 0u ? unpackUnitVector(texelFetch(normal, pixel, 0).r) : vec3(0.0);
     for (uint i = 0u; i < count; ++i) {
         ivec3 slot = ivec3(pixel, i);
-        float rayWeight = unpackRay(imageLoad(direction, slot).xy).weight;
+        Ray ray = unpackRay(imageLoad(direction, slot).xy);
         vec4 a = imageLoad(answer, slot);
-        light += vec4(a.rgb * rayWeight, a.a);
+        light += vec4(a.rgb * ray.weight, a.a);
+        if (hasDirectional != 0u) {
+            float bright = luminance(clampToHalf(a.rgb * ray.weight));
+            turning += ray.spread > 0.0 ? directionalOfAll(bright) : directionalOf(bright, ray.direction, n);
+        }
         colors += imageLoad(raySource, slot);
     }
     light *= weight;
     colors *= weight;
+    turning *= weight;
     if (params.firstRay > 0u) {
         light += imageLoad(radiance, pixel);
         colors += imageLoad(source, pixel);
+        turning += hasDirectional != 0u ? imageLoad(directional, pixel) : vec4(0.0);
     }
     if (adaptive != 0u && rays == 0u && share > 0.0) {
         light.a = -1.0;  // nothing is known of it in this frame
     }
     imageStore(radiance, pixel, roundToHalf(vec4(clampToHalf(light.rgb), min(light.a, largestHalf))));
     imageStore(source, pixel, roundToHalf(colors));
+    if (hasDirectional != 0u) {
+        imageStore(directional, pixel, roundToHalf(clamp(turning, -largestHalf, largestHalf)));
+    }
     if (countSteps != 0u) {
         resolveSteps(pixel, count, weight);
     }

@@ -8,11 +8,14 @@
 #include "render/bounce/rays.glsl"
 #include "render/bounce/reuse_rays.h"
 #include "render/gbuffer/gbuffer.glsl"
+#include "shaders/directional_light.glsl"
+#include "shaders/luminance.glsl"
 #include "shaders/noise.glsl"
 #include "shaders/shadow_kernel.glsl"
 
 layout(constant_id = 0) const uint lobe = 0u;
 layout(constant_id = 1) const uint countSteps = 0u;
+layout(constant_id = 2) const uint hasDirectional = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ReuseRaysParams params; };
@@ -27,6 +30,7 @@ layout(set = 0, binding = 8, r32f) uniform readonly image2DArray raySteps;
 layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D radiance;
 layout(set = 0, binding = 10, rgba16f) uniform writeonly image2D source;
 layout(set = 0, binding = 11, r32f) uniform writeonly image2D steps;
+layout(set = 0, binding = 12, rgba16f) uniform writeonly image2D directional;
 
 const float goldenAngle = 2.39996323;
 const float widest = 12.0;      // pixels to the farthest neighbour
@@ -51,6 +55,7 @@ struct Sum {
     vec3 light;
     float away;  // hit distance
     float weight;
+    vec4 directional;
 };
 
 Shown shownAt(ivec2 pixel, float d) {
@@ -86,8 +91,11 @@ float chanceOf(Shown s, Ray ray) {
     return ggxDistribution(nh, s.alpha) / (2.0 * (nv + sqrt(nv * nv * (1.0 - a2) + a2)));
 }
 
-void add(inout Sum sum, float weight, vec4 answered) {
+void add(inout Sum sum, float weight, vec4 answered, vec3 toward, vec3 normal) {
     sum.light += weight * answered.rgb;
+    if (hasDirectional != 0u) {
+        sum.directional += directionalOf(luminance(clampToHalf(weight * answered.rgb)), toward, normal);
+    }
     sum.away += weight * answered.a;
     sum.weight += weight;
 }
@@ -111,7 +119,7 @@ void addNeighbour(inout Sum sum, Shown own, ivec2 at, float d) {
         vec3 toHit = there.p + ray.direction * max(answered.a, 1e-4) - own.p;
         float away = max(length(toHit), 1e-4);
         float weight = ray.spread > 0.0 ? 0.0 : lobeToward(own, toHit / away) / max(chanceOf(there, ray), 1e-6);
-        add(sum, min(weight, mostWeight), vec4(answered.rgb, away));
+        add(sum, min(weight, mostWeight), vec4(answered.rgb, away), toHit / away, own.normal);
     }
 }
 
@@ -143,8 +151,8 @@ void main() {
         return;
     }
     float d = texelFetch(depth, pixel, 0).r;
-    Sum sum = Sum(vec3(0.0), 0.0, 0.0);
-    Sum own = Sum(vec3(0.0), 0.0, 0.0);
+    Sum sum = Sum(vec3(0.0), 0.0, 0.0, vec4(0.0));
+    Sum own = sum;
     vec4 colors = vec4(0.0);
     float stepped = 0.0;
     bool borrows = d > 0.0;
@@ -153,9 +161,10 @@ void main() {
         ivec3 slot = ivec3(pixel, i);
         Ray ray = unpackRay(imageLoad(direction, slot).xy);
         vec4 answered = imageLoad(answer, slot);
-        add(own, ray.weight, vec4(answered.rgb, 0.0));
+        add(own, ray.weight, vec4(answered.rgb, 0.0), ray.direction, shown.normal);
         own.away += answered.a;
-        add(sum, lobeToward(shown, ray.direction) / max(chanceOf(shown, ray), 1e-6), answered);
+        add(sum, lobeToward(shown, ray.direction) / max(chanceOf(shown, ray), 1e-6), answered, ray.direction,
+            shown.normal);
         borrows = borrows && ray.spread == 0.0;
         colors += imageLoad(raySource, slot);
         stepped += countSteps != 0u ? imageLoad(raySteps, slot).r : 0.0;
@@ -165,15 +174,20 @@ void main() {
     bool traced = d > 0.0 && (lobe == lobeDiffuse || !isLambert(unpackMaterial(texelFetch(material, pixel, 0))));
     vec4 light = traced ? vec4(own.light, own.away) * share : vec4(0.0);
     colors = traced ? colors * share : vec4(0.0);
+    vec4 turning = traced ? own.directional * share : vec4(0.0);
     if (traced && borrows && (lobe == lobeDiffuse || shown.alpha > narrowest * narrowest)) {
         float before = sum.weight;
         addNeighbours(sum, pixel, shown, d);
         if (sum.weight > before) {
             light = vec4(sum.light, sum.away) / max(sum.weight, 1e-6);
+            turning = sum.directional / max(sum.weight, 1e-6);
         }
     }
     imageStore(radiance, pixel, roundToHalf(vec4(clampToHalf(light.rgb), min(light.a, largestHalf))));
     imageStore(source, pixel, roundToHalf(colors));
+    if (hasDirectional != 0u) {
+        imageStore(directional, pixel, roundToHalf(clamp(turning, -largestHalf, largestHalf)));
+    }
     if (countSteps != 0u) {
         imageStore(steps, pixel, vec4(traced ? stepped * share : 0.0));
     }

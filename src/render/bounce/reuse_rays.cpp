@@ -6,10 +6,12 @@ namespace reflet {
 LobeLight reuseRays(gpu::Frame& f, const Rays& rays, const ViewParams& picture, uint32_t neighbours) {
     const GBuffer& g = rays.from.g;
     const uvec2 size = rays.direction.size;
-    const LobeLight light = lobeImages(f, rays.lobe, rays.from, rays.countSteps);
+    LobeLight light = lobeImages(f, rays.lobe, rays.from, rays.countSteps);
+    light.directional = directionalImage(f, rays);
     f.compute("reuse_rays", "reuse_rays.comp")
         .constant("lobe", rays.lobe)
         .constant("countSteps", rays.countSteps ? 1U : 0U)
+        .constant("hasDirectional", light.directional ? 1U : 0U)
         .read("depth", g.depth)
         .read("normal", g.normal)
         .read("geometricNormal", g.geometricNormal)
@@ -21,6 +23,7 @@ LobeLight reuseRays(gpu::Frame& f, const Rays& rays, const ViewParams& picture, 
         .write("radiance", light.radiance)
         .write("source", light.source)
         .write("steps", light.steps ? light.steps : f.image("no_steps", VK_FORMAT_R32_SFLOAT, uvec2(1)))
+        .write("directional", light.directional ? light.directional : noDirectional(f))
         .params(ReuseRaysParams{rays.from.view, rays.count, neighbours,
                                 picture.pixelAngle * static_cast<float>(rays.from.scale)})
         .dispatch(size);

@@ -5,6 +5,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "render/composite/composite.h"
 #include "render/gbuffer/gbuffer.glsl"
+#include "shaders/directional_light.glsl"
 #include "shaders/half_float.glsl"
 #include "shaders/projection.glsl"
 #include "shaders/shadow_kernel.glsl"
@@ -13,6 +14,7 @@ layout(constant_id = 0) const uint diffuseScale = 1u;  // 0: the lobe is dark
 layout(constant_id = 1) const uint specularScale = 1u;
 layout(constant_id = 2) const uint lambertOnly = 0u;
 layout(constant_id = 3) const uint layers = 1u;
+layout(constant_id = 4) const uint hasDirectional = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { CompositeParams params; };
@@ -33,6 +35,7 @@ layout(set = 0, binding = 13, r32f) uniform readonly image2D diffuseDepth;
 layout(set = 0, binding = 14, r32ui) uniform readonly uimage2D diffuseNormal;
 layout(set = 0, binding = 15, r32f) uniform readonly image2D specularDepth;
 layout(set = 0, binding = 16, r32ui) uniform readonly uimage2D specularNormal;
+layout(set = 0, binding = 17, rgba16f) uniform readonly image2D diffuseDirectional;
 
 // A pixel, and the surface that it shows.
 struct Shown {
@@ -57,16 +60,15 @@ Blocks blocksAt(Shown shown, uint scale, uint place, ivec2 size) {
     return b;
 }
 
-// How far a block of this depth and packed normal shows the same surface, 0..1.
-float sameSurface(Shown shown, vec2 away, float blockDepth, uint blockNormal) {
+ivec2 blockAt(Blocks b, int i, ivec2 size) { return min(b.corner + ivec2(i & 1, i >> 1), size - 1); }
+
+// How far what a block shows lies on the pixel's surface, 0..1.
+float onSameSurface(Shown shown, vec2 away, float blockDepth) {
     float length2 = max(dot(away, away), 1.0);
     float height = heightAbove(shown.plane, away, blockDepth - shown.depth);
     float height2 = height * height;
-    float facing = max(dot(unpackUnitVector(blockNormal), shown.normal), 0.0);
-    float facing2 = facing * facing;
-    float facing4 = facing2 * facing2;
     float length4 = length2 * length2;
-    return facing4 * facing4 * length4 / (length4 + height2 * height2);
+    return length4 / (length4 + height2 * height2);
 }
 
 // None is quite 0: a pixel that no block knows gets what is around.
@@ -74,19 +76,13 @@ float weighed(float share, float same, float blockDepth) {
     return blockDepth > 0.0 ? share * (same + 1e-4) + 1e-7 : 0.0;
 }
 
-// GLSL hands no images to functions: a macro is a loop over the four for each lobe.
-#define BLOCK_SUM(radiance, blockDepth, blockNormal, scale, place)                                            \
-    ivec2 size = imageSize(blockDepth);                                                                      \
-    Blocks b = blocksAt(shown, scale, place, size);                                                          \
-    vec4 sum = vec4(0.0);                                                                                    \
-    for (int i = 0; i < 4; ++i) {                                                                            \
-        ivec2 block = min(b.corner + ivec2(i & 1, i >> 1), size - 1);                                        \
-        vec2 away = vec2(block * int(scale) + int(place) - shown.pixel);                                     \
-        float d = imageLoad(blockDepth, block).r;                                                            \
-        float same = sameSurface(shown, away, d, imageLoad(blockNormal, block).r);                           \
-        sum += weighed(b.weights[i], same, d) * vec4(imageLoad(radiance, block).rgb, 1.0);                   \
-    }                                                                                                        \
-    return sum.rgb * (1.0 / max(sum.a, 1e-12));
+// Turned light may come from other normals.
+float facingLike(vec3 blockNormal, vec3 normal, bool turns) {
+    float facing = max(dot(blockNormal, normal), 0.0);
+    float facing2 = facing * facing;
+    float facing4 = facing2 * facing2;
+    return turns ? facing2 : facing4 * facing4;
+}
 
 vec3 diffuseRadiance(Shown shown) {
     if (diffuseScale == 0u) {
@@ -95,7 +91,27 @@ vec3 diffuseRadiance(Shown shown) {
     if (diffuseScale == 1u) {
         return imageLoad(diffuse, shown.pixel).rgb;
     }
-    BLOCK_SUM(diffuse, diffuseDepth, diffuseNormal, diffuseScale, params.diffusePlace)
+    const bool turns = hasDirectional != 0u;
+    ivec2 size = imageSize(diffuseDepth);
+    Blocks b = blocksAt(shown, diffuseScale, params.diffusePlace, size);
+    vec4 sum = vec4(0.0);
+    vec4 directional = vec4(0.0);
+    vec3 normals = vec3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        ivec2 block = blockAt(b, i, size);
+        vec2 away = vec2(block * int(diffuseScale) + int(params.diffusePlace) - shown.pixel);
+        float d = imageLoad(diffuseDepth, block).r;
+        vec3 n = unpackUnitVector(imageLoad(diffuseNormal, block).r);
+        float same = onSameSurface(shown, away, d) * facingLike(n, shown.normal, turns);
+        float weight = weighed(b.weights[i], same, d);
+        sum += weight * vec4(imageLoad(diffuse, block).rgb, 1.0);
+        if (turns) {
+            directional += weight * imageLoad(diffuseDirectional, block);
+            normals += weight * n;
+        }
+    }
+    float whole = 1.0 / max(sum.a, 1e-12);
+    return sum.rgb * whole * (turns ? turned(directional * whole, normals * whole, shown.normal) : 1.0);
 }
 
 vec3 specularRadiance(Shown shown) {
@@ -105,7 +121,18 @@ vec3 specularRadiance(Shown shown) {
     if (specularScale == 1u) {
         return imageLoad(specular, shown.pixel).rgb;
     }
-    BLOCK_SUM(specular, specularDepth, specularNormal, specularScale, params.specularPlace)
+    ivec2 size = imageSize(specularDepth);
+    Blocks b = blocksAt(shown, specularScale, params.specularPlace, size);
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < 4; ++i) {
+        ivec2 block = blockAt(b, i, size);
+        vec2 away = vec2(block * int(specularScale) + int(params.specularPlace) - shown.pixel);
+        float d = imageLoad(specularDepth, block).r;
+        vec3 n = unpackUnitVector(imageLoad(specularNormal, block).r);
+        float same = onSameSurface(shown, away, d) * facingLike(n, shown.normal, false);
+        sum += weighed(b.weights[i], same, d) * vec4(imageLoad(specular, block).rgb, 1.0);
+    }
+    return sum.rgb * (1.0 / max(sum.a, 1e-12));
 }
 
 void main() {

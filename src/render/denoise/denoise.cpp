@@ -17,6 +17,8 @@ struct Gathered {
     gpu::Image surface;
     gpu::Image moments;
     gpu::Image nextLight;  // that the next frame remembers
+    gpu::Image directional;
+    gpu::Image nextDirectional;
 };
 
 gpu::Image tileLimits(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const DenoiseSettings& settings) {
@@ -43,11 +45,19 @@ Gathered gather(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const View
     // Without a blur that is the result, and the other lobe must not write over it.
     const std::string_view unblurred = lobe == lobeDiffuse ? "denoise.diffuse" : "denoise.specular";
     const gpu::Image gathered = f.image(settings.passes == 0 ? unblurred : "denoise.gathered", lightFormat, size);
-    const Gathered out{gathered, past.surface.next, past.moments.next, past.light.next};
+    const bool turns = static_cast<bool>(light.directional);
+    const Gathered out{
+        .light = gathered,
+        .surface = past.surface.next,
+        .moments = past.moments.next,
+        .nextLight = past.light.next,
+        .directional = turns ? f.image("denoise.gathered_directional", lightFormat, size) : noDirectional(f),
+        .nextDirectional = past.directional.next};
     f.compute("denoise_gather", "denoise_gather.comp")
         .constant("lobe", lobe)
         .constant("hasImageMotion", light.imageMotion ? 1U : 0U)
         .constant("meanRays", light.tiles.meanRays)
+        .constant("hasDirectional", turns ? 1U : 0U)
         .read("limits", limits)
         .read("tiles", light.tiles.meanRays > 0 ? light.tiles.tiles : limits)
         .read("depth", light.from.g.depth)
@@ -65,6 +75,10 @@ Gathered gather(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const View
         .write("surface", past.surface.next)
         .write("moments", past.moments.next)
         .write("gathered", out.light)
+        .read("directional", turns ? light.directional : light.radiance)
+        .read("previousDirectional", past.directional.previous)
+        .write("nextDirectional", past.directional.next)
+        .write("gatheredDirectional", out.directional)
         .params(DenoiseGatherParams{light.from.view, settings, picture.size / static_cast<float>(light.from.scale),
                                     past.valid ? 1U : 0U})
         .dispatch(size);
@@ -76,10 +90,12 @@ Gathered gather(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const View
 DenoiseHistory denoiseHistory(gpu::Frame& f, uint32_t lobe, uvec2 size, const DenoiseSettings& settings) {
     const uvec2 kept = settings.history > 0 ? size : uvec2(1);
     const std::string name = lobe == lobeDiffuse ? "denoise_diffuse" : "denoise_specular";
+    const bool turns = lobe == lobeDiffuse && settings.directional != 0;
     DenoiseHistory past{f.history(name + ".light", lightFormat, kept),
                         f.history(name + ".surface", surfaceFormat, size),
-                        f.history(name + ".moments", momentsFormat, size)};
-    past.valid = settings.history > 0 && past.light.valid && past.surface.valid;
+                        f.history(name + ".moments", momentsFormat, size),
+                        f.history(name + ".directional", lightFormat, turns ? kept : uvec2(1))};
+    past.valid = settings.history > 0 && past.light.valid && past.surface.valid && past.directional.valid;
     return past;
 }
 
@@ -90,27 +106,37 @@ LobeLight denoise(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const Vi
     const auto scale = static_cast<float>(light.from.scale);
     DenoiseBlurParams params{light.from.view, settings.radius / scale, picture.pixelAngle * scale, 0};
     gpu::Image from = gathered.light;
+    gpu::Image directional = gathered.directional;
+    const bool turns = static_cast<bool>(light.directional);
     for (; params.pass < settings.passes; ++params.pass) {
         const bool last = params.pass + 1 == settings.passes;
         const std::string_view result = lobe == lobeDiffuse ? "denoise.diffuse" : "denoise.specular";
         const std::string_view between = params.pass % 2 == 0 ? "denoise.even" : "denoise.odd";
         const gpu::Image to = f.image(last ? result : between, lightFormat, size);
+        const std::string_view turned = params.pass % 2 == 0 ? "denoise.even_directional" : "denoise.odd_directional";
+        const gpu::Image toDirectional = turns ? f.image(turned, lightFormat, size) : noDirectional(f);
         f.compute("denoise_blur", "denoise_blur.comp")
             .constant("lobe", lobe)
             .constant("feedsBack", params.pass == 0 && settings.history > 0 ? 1U : 0U)
+            .constant("hasDirectional", turns ? 1U : 0U)
             .read("from", from)
             .read("surface", gathered.surface)
             .read("moments", gathered.moments)
             .read("geometricNormal", light.from.g.geometricNormal)
             .write("nextLight", gathered.nextLight)
             .write("blurred", to)
+            .read("directional", turns ? directional : from)
+            .write("nextDirectional", gathered.nextDirectional)
+            .write("blurredDirectional", toDirectional)
             .params(params)
             .dispatch(size);
         from = to;
+        directional = toDirectional;
         params.radius *= 0.5F;
     }
     LobeLight clean = light;
     clean.radiance = from;
+    clean.directional = turns ? directional : gpu::Image{};
     return clean;
 }
 

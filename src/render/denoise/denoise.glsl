@@ -3,14 +3,14 @@
 #define REFLET_DENOISE_GLSL
 
 #include "render/denoise/denoise.h"
+#include "shaders/directional_light.glsl"
 #include "shaders/half_float.glsl"
+#include "shaders/luminance.glsl"
 #include "shaders/octahedral.glsl"
 #include "shaders/shadow_kernel.glsl"
 
 // At most this perceptual roughness, reflections have no noise worth cleaning, and edges that blur would spoil.
 const float smoothRoughness = 0.1;
-
-float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 
 // A pixel's surface as the denoiser keeps it.
 struct KeptSurface {
@@ -40,6 +40,12 @@ float alike(KeptSurface a, KeptSurface b, uint lobe) {
     float rough = clamp(1.0 - 8.0 * abs(a.roughness - b.roughness), 0.0, 1.0);
     float f16 = f4 * f4 * f4 * f4;
     return f16 * f16 * rough;
+}
+
+// The same for diffuse light that is turned to the surface's own normal (directional_light.glsl).
+float facingAlike(KeptSurface a, KeptSurface b) {
+    float facing = max(dot(a.normal, b.normal), 0.0);
+    return facing * facing;
 }
 
 #endif

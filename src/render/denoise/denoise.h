@@ -19,13 +19,16 @@ SHARED_BEGIN
     VALUE(uint, history, 64, 0, 1024, "Frames whose mean is kept, at most; 0: each frame is cleaned by itself.")   \
     VALUE(uint, passes, 2, 0, 4, "Times that neighbours are asked, eight each; every time half as far away.")      \
     VALUE(float, radius, 24.0, 0.0, 256.0,                                                                         \
-          "Pixels of the picture up to which neighbours are asked where nothing is remembered; less the longer "   \
-          "it is remembered, and where what rays hit is near or the lobe narrow.")                                 \
+          "Pixels of the picture up to which neighbours are asked where nothing is remembered; less where less "   \
+          "noise is left, and where what rays hit is near or the lobe narrow.")                                    \
     VALUE(float, fireflies, 8.0, 0.0, 1000.0,                                                                      \
           "What is brighter than so many times the mean around it is spread over its neighbours; 0: it is not.")   \
     VALUE(float, clip, 2.0, 0.0, 100.0,                                                                            \
           "How far the past may differ from what neighbours show now, in standard deviations of a pixel's light; " \
-          "less: nothing trails behind; more: less noise. 0: as far as it likes.")
+          "less: nothing trails behind; more: less noise. 0: as far as it likes.")                                 \
+    SWITCH(directional, 1,                                                                                         \
+           "Keep how diffuse light changes with the normal, so that neighbours with other normals share it, and "  \
+           "light of half resolution shows the picture's normals.")
 SETTINGS(DenoiseSettings, DENOISE_SETTINGS)
 
 const uint denoiseTileSide = 8;  // pixels of the grid
@@ -60,10 +63,11 @@ namespace reflet {
 
 /// What the denoiser remembers of a lobe from frame to frame; images of the grid's size.
 struct DenoiseHistory {
-    gpu::History light;    ///< RGBA16F: mean radiance, mean hit distance [m]; 1x1 where nothing is remembered
-    gpu::History surface;  ///< RG32_UINT: bits of the depth, 0: none with this lobe; normal and roughness
-    gpu::History moments;  ///< RG16F: frames in the mean, mean square of a frame's luminance
-    bool valid = false;    ///< whether `previous` of all is there
+    gpu::History light;        ///< RGBA16F: mean radiance, mean hit distance [m]; 1x1 where nothing is remembered
+    gpu::History surface;      ///< RG32_UINT: bits of the depth, 0: none with this lobe; normal and roughness
+    gpu::History moments;      ///< RG16F: frames in the mean, mean square of a frame's luminance
+    gpu::History directional;  ///< of LobeLight, its mean; 1x1 where nothing is remembered or the lobe has none
+    bool valid = false;        ///< whether `previous` of all is there
 };
 
 /// That denoise() reads and writes in this frame. size: of the grid.

@@ -14,6 +14,8 @@ layout(constant_id = 1) const uint hasImageMotion = 0u;
 // without any have a negative hit distance.
 layout(constant_id = 2) const uint meanRays = 0u;
 
+layout(constant_id = 3) const uint hasDirectional = 0u;
+
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { DenoiseGatherParams params; };
 layout(set = 0, binding = 1, rg32f) uniform readonly image2D limits;
@@ -32,6 +34,10 @@ layout(set = 0, binding = 12, rg32ui) uniform writeonly uimage2D surface;
 layout(set = 0, binding = 13, rg16f) uniform writeonly image2D moments;
 layout(set = 0, binding = 14, rgba16f) uniform writeonly image2D gathered;
 layout(set = 0, binding = 16, rg32f) uniform readonly image2D tiles;
+layout(set = 0, binding = 17, rgba16f) uniform readonly image2D directional;
+layout(set = 0, binding = 18, rgba16f) uniform readonly image2D previousDirectional;
+layout(set = 0, binding = 19, rgba16f) uniform writeonly image2D nextDirectional;
+layout(set = 0, binding = 20, rgba16f) uniform writeonly image2D gatheredDirectional;
 
 const float heightSlack = 4.0;     // by which a remembered surface may lie off this one, times what neighbours may
 const float distanceSlack = 0.02;  // or this share of its distance: things move
@@ -53,6 +59,7 @@ struct Seen {
     vec4 light;     // fireflies clipped, and what the neighbours' fireflies lost added; mean hit distance around it
     vec3 mean;      // of the neighbourhood
     vec3 variance;  // of a pixel in it
+    vec4 directional;  // of the light
     float found;    // pixels of the neighbourhood that have light of this frame
     bool traced;    // whether the pixel itself has
 };
@@ -62,14 +69,16 @@ struct Past {
     vec4 light;
     float frames;  // 0: nothing
     float square;  // mean of the luminance's
+    vec4 directional;
 };
 
-const Past noPast = Past(vec4(0.0), 0.0, 0.0);
+const Past noPast = Past(vec4(0.0), 0.0, 0.0, vec4(0.0));
 
 Seen look(ivec2 pixel, float d, ScreenPlane plane) {
     ivec2 last = ivec2(params.view.size) - 1;
     Seen s;
     s.light = vec4(0.0);
+    s.directional = vec4(0.0);
     vec3 spread = vec3(0.0);
     vec3 sum = vec3(0.0);
     vec3 squares = vec3(0.0);
@@ -99,6 +108,9 @@ Seen look(ivec2 pixel, float d, ScreenPlane plane) {
         spread += (light - kept) / float(neighbours.x * neighbours.y);
         if (i == 4) {
             s.light.rgb = kept;
+            if (hasDirectional != 0u) {
+                s.directional = imageLoad(directional, at) * min(1.0, limit / max(bright, 1e-12));
+            }
             s.traced = true;
         }
         if (onSurface(plane, vec2(o), texelFetch(depth, at, 0).r - d)) {
@@ -160,6 +172,9 @@ Past pastAt(Whereabouts w, KeptSurface own, ScreenPlane plane) {
             sum.light += weight * light;
             sum.frames += weight * m.x;
             sum.square += weight * m.y;
+            if (hasDirectional != 0u) {
+                sum.directional += weight * imageLoad(previousDirectional, texel);
+            }
             weights += weight;
         }
     }
@@ -167,7 +182,8 @@ Past pastAt(Whereabouts w, KeptSurface own, ScreenPlane plane) {
         return noPast;
     }
     float frames = sum.frames / weights;
-    return Past(sum.light / weights, f == vec2(0.0) ? frames : min(frames, w.most), sum.square / weights);
+    return Past(sum.light / weights, f == vec2(0.0) ? frames : min(frames, w.most), sum.square / weights,
+                sum.directional / weights);
 }
 
 vec2 pixelOf(vec4 clip) { return ndcToUv(clip.xy / clip.w) * params.view.size - 0.5; }
@@ -201,7 +217,7 @@ Past remembered(ivec2 pixel, vec3 p, KeptSurface own, ScreenPlane plane, float h
         return image.frames > 0.0 ? image : still;
     }
     return Past(mix(still.light, image.light, asImage), mix(still.frames, image.frames, asImage),
-                mix(still.square, image.square, asImage));
+                mix(still.square, image.square, asImage), vec4(0.0));  // only reflections come here
 }
 
 // Holds the past to what neighbours show now, as far as that is no chance. What had to give way counts for less.
@@ -211,16 +227,24 @@ void holdTo(Seen seen, inout Past past) {
     vec3 held = clamp(past.light.rgb, seen.mean - deviation, seen.mean + deviation);
     float moved = luminance(abs(held - past.light.rgb)) / max(luminance(past.light.rgb), 1e-6);
     past.frames *= max(1.0 - moved, 0.0);
+    past.directional *= luminance(held) / max(luminance(past.light.rgb), 1e-6);
     past.light.rgb = held;
 }
 
-void keep(ivec2 pixel, vec4 light, KeptSurface own, vec2 m) {
+void keep(ivec2 pixel, vec4 light, vec4 turning, KeptSurface own, vec2 m) {
     light = roundToHalf(light);
     imageStore(gathered, pixel, light);
     imageStore(surface, pixel, uvec4(packSurface(own), 0u, 0u));
     imageStore(moments, pixel, roundToHalf(vec4(m, 0.0, 0.0)));
     if (params.settings.history > 0u) {
         imageStore(nextLight, pixel, light);
+    }
+    if (hasDirectional != 0u) {
+        turning = roundToHalf(clamp(turning, -largestHalf, largestHalf));
+        imageStore(gatheredDirectional, pixel, turning);
+        if (params.settings.history > 0u) {
+            imageStore(nextDirectional, pixel, turning);
+        }
     }
 }
 
@@ -234,7 +258,7 @@ void main() {
     KeptSurface own = KeptSurface(d, unpackUnitVector(texelFetch(normal, pixel, 0).r), m.r);
     if (d <= 0.0 || (lobe == 1u && (uint(m.a * 255.0 + 0.5) & materialFlagLambert) != 0u)) {
         own.depth = 0.0;
-        keep(pixel, vec4(0.0), own, vec2(0.0));
+        keep(pixel, vec4(0.0), vec4(0.0), own, vec2(0.0));
         return;
     }
     vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
@@ -255,12 +279,13 @@ void main() {
         if (!seen.traced) {
             // The past stays as it is; without one, neighbours stand in and are not remembered.
             bool known = past.frames > 0.0;
-            keep(pixel, known ? past.light : vec4(seen.mean, seen.light.a), own,
+            keep(pixel, known ? past.light : vec4(seen.mean, seen.light.a), past.directional, own,
                  known ? vec2(past.frames, past.square) : vec2(0.0));
             return;
         }
     }
     float share = count / (past.frames + count);
     float frames = min(past.frames + count, most);
-    keep(pixel, mix(past.light, seen.light, share), own, vec2(frames, mix(past.square, bright * bright, share)));
+    keep(pixel, mix(past.light, seen.light, share), mix(past.directional, seen.directional, share), own,
+         vec2(frames, mix(past.square, bright * bright, share)));
 }

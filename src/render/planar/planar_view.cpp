@@ -40,6 +40,7 @@ mat4 clipToCut(const Cut& cut) {
 ViewParams changedView(ViewParams view, const mat4& reflection, const mat4& clipToPart, const vec2& size) {
     view.worldToClip = clipToPart * view.worldToClip * reflection;
     view.clipToWorld = reflection * view.clipToWorld * glm::inverse(clipToPart);
+    view.anyPlaceToWorld = reflection * view.anyPlaceToWorld * glm::inverse(clipToPart);
     view.previousWorldToClip = clipToPart * view.previousWorldToClip * reflection;
     view.eye = reflection * view.eye;
     view.viewPlane = glm::transpose(reflection) * view.viewPlane;

@@ -9,7 +9,7 @@ namespace reflet {
 
 namespace {
 
-// All that a map depends on.
+// All that a map and its ranges depend on.
 struct SunMapContents {
     uint64_t draws;
     SunShadowParams sun;
@@ -17,14 +17,20 @@ struct SunMapContents {
 };
 static_assert(sizeof(SunMapContents) == sizeof(SunShadowParams) + 12, "padding would differ at random");
 
+// Whether the image still shows that.
+bool holds(gpu::Frame& f, gpu::Image image, const DrawList& list, const SunShadowParams& sun,
+           const ShadowSettings& settings) {
+    return list.version != 0 &&
+           f.holds(image, SunMapContents{.draws = list.version, .sun = sun, .resolution = settings.resolution});
+}
+
 }  // namespace
 
 gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const SunShadowParams& sun,
                          const ShadowSettings& settings) {
     const uvec2 tiles(sun.count > 1 ? 2 : 1, sun.count > 2 ? 2 : 1);
     const gpu::Image depth = f.target("shadow_map", VK_FORMAT_D32_SFLOAT, tiles * settings.resolution);
-    const SunMapContents contents{.draws = list.version, .sun = sun, .resolution = settings.resolution};
-    if (list.version != 0 && f.holds(depth, contents)) {
+    if (holds(f, depth, list, sun, settings)) {
         return depth;
     }
     const auto record = [&](const gpu::DrawCommands& to, bool masked) {
@@ -53,10 +59,14 @@ gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const SunShadowPar
     return depth;
 }
 
-gpu::Image makeShadowRange(gpu::Frame& f, gpu::Image shadowMap) {
+gpu::Image makeShadowRange(gpu::Frame& f, gpu::Image shadowMap, const DrawList& list, const SunShadowParams& sun,
+                           const ShadowSettings& settings) {
     const uvec2 cells = levelSize(shadowMap.size, 2);  // 4 texels each: what level 0 would be
     const gpu::Image range =
         f.image("shadow_range", VK_FORMAT_R32G32_SFLOAT, levelsImageSize(cells, shadowRangeLevels));
+    if (holds(f, range, list, sun, settings)) {
+        return range;
+    }
     for (uint32_t level = 1; level < shadowRangeLevels; ++level) {
         f.compute("shadow_range." + std::to_string(level), "shadow_range.comp")
             .read("shadowMap", shadowMap)

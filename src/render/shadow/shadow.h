@@ -147,8 +147,10 @@ ShadowMapParams centredSunShadow(const Aabb& sceneBounds, const vec3& direction,
 gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const SunShadowParams& sun,
                          const ShadowSettings& settings);
 
-/// RG32F: the largest (nearest to the sun) and the smallest depth of ever larger squares of the map.
-gpu::Image makeShadowRange(gpu::Frame& f, gpu::Image shadowMap);
+/// RG32F: the largest (nearest to the sun) and the smallest depth of ever larger squares of the map. list, sun,
+/// settings: as of drawShadowMap; where the map was kept, they are, too.
+gpu::Image makeShadowRange(gpu::Frame& f, gpu::Image shadowMap, const DrawList& list, const SunShadowParams& sun,
+                           const ShadowSettings& settings);
 
 /// What the sun's map tells the pixels.
 struct SunVisibility {

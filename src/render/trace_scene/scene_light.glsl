@@ -9,6 +9,7 @@
 #include "render/trace_scene/trace_scene.h"
 #include "shaders/ggx.glsl"
 #include "shaders/lamp.glsl"
+#include "shaders/luminance.glsl"
 #include "shaders/noise.glsl"
 
 const float sceneFar = 1e30;  // metres: farther than anything
@@ -42,8 +43,6 @@ struct LightRay {
     bool sun;
 };
 
-float luminanceOf(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
-
 // From the sides of the triangle and of the shading normal that are lit.
 vec3 reflectToViewer(LitPoint at, vec3 toLight) {
     return dot(toLight, at.geometricNormal) > 0.0 ? reflectLight(at.surface, at.normal, at.toViewer, toLight)
@@ -68,7 +67,7 @@ LightRay drawSun(LitPoint at, inout uint random) {
 
 float lampStrength(LitPoint at, uint index, out vec3 irradiance, out vec3 toLamp) {
     irradiance = lampIrradiance(loadLamp(index), at.position, toLamp);
-    return dot(toLamp, at.geometricNormal) > 0.0 ? luminanceOf(irradiance) : 0.0;
+    return dot(toLamp, at.geometricNormal) > 0.0 ? luminance(irradiance) : 0.0;
 }
 
 // Toward a place on the lamp's disk, up to where the lamp's clearance begins (docs/conventions.md).

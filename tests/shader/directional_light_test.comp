@@ -1,0 +1,39 @@
+// Rays by the cosine around a normal, and what light becomes when it is turned to another.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "directional_light_test.h"
+#include "shaders/directional_light.glsl"
+#include "shaders/sampling.glsl"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock {
+    uint side;  // its square is the number of rays
+}
+params;
+layout(set = 0, binding = 1, scalar) readonly buffer InputBlock {
+    LitSurface items[];
+}
+inputs;
+layout(set = 0, binding = 2, scalar) buffer OutputBlock {
+    TurnedLight items[];
+}
+outputs;
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= outputs.items.length()) {
+        return;
+    }
+    LitSurface s = inputs.items[i];
+    float mean = 0.0;
+    vec4 directional = vec4(0.0);
+    float share = 1.0 / float(params.side * params.side);
+    for (uint k = 0u; k < params.side * params.side; ++k) {
+        vec2 u = (vec2(k % params.side, k / params.side) + 0.5) / float(params.side);
+        vec3 direction = basisAround(s.normal) * sampleCosineHemisphere(u);
+        float light = dot(direction, s.middle) >= s.leastCosine ? share : 0.0;
+        mean += light;
+        directional += directionalOf(light, direction, s.normal);
+    }
+    outputs.items[i] = TurnedLight(mean, turned(directional, s.normal, s.turnedTo));
+}
