@@ -11,13 +11,15 @@ render() { # scene name options...
     echo "$file"
 }
 
-render cubes cubes --preset quality --frames 4 --set diffuse.rays=128 --size 560x315
-render cornell cornell --preset quality --frames 4 --set diffuse.rays=64 --size 320x240
+# Four bounces: each frame's rays meet the light of the one before.
+bounces=(--preset plain --set trace_screen.light=previous --set temporal.enabled=true)
+render cubes cubes "${bounces[@]}" --frames 8 --set diffuse.rays=64 --size 560x315
+render cornell cornell "${bounces[@]}" --frames 4 --set diffuse.rays=64 --size 320x240
 render cornell cornell-direct --preset direct --size 320x240
-render mirror-hall mirror-hall --preset quality --frames 6 --size 448x252
-render mirror-hall mirror-hall-source --preset quality --size 448x252 --show specular_source
+render mirror-hall mirror-hall "${bounces[@]}" --frames 6 --set specular.rays=4 --size 448x252
+render mirror-hall mirror-hall-source --preset plain --size 448x252 --show specular_source
 for show in albedo normal depth sun_visibility direct indirect_diffuse indirect_specular source; do
-    render cubes "cubes-$show" --preset quality --size 320x180 --show "$show"
+    render cubes "cubes-$show" --preset plain --set diffuse.rays=16 --size 320x180 --show "$show"
 done
 
 # The truth, what the screen can know of it, and how far the default settings are from it.
