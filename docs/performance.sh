@@ -19,7 +19,7 @@ mkdir -p "$out"
 preset=${PRESET:-balanced}
 "$reflet" list presets | grep -q "^$preset " || preset=plain
 lambert=(--set materials.lambertOnly=true)
-one_bounce=(--truth-bounces 1 --truth-visible-only --truth-spp 1024)
+one_bounce=(--truth-bounces 1 --truth-visible-only)
 all_scenes=$("$reflet" list scenes | cut -d ' ' -f 1)
 wanted=("$@")
 
@@ -50,10 +50,10 @@ if [[ ${1:-} != page ]]; then
     # Error against time: every preset, and the course's with 32 rays.
     names=$("$reflet" list presets | grep -v '^ ' | cut -d ' ' -f 1 | grep -v '^pathtrace$' | paste -sd ,)
     measure presets builtin:cubes builtin:cave builtin:gloss --preset "$names" --variant games202-32=games202,diffuse.rays=32 \
-        --size 640x360 "${one_bounce[@]}" --first 3 --frames 5 --plot "$out/presets.svg"
+        --size 640x360 "${one_bounce[@]}" --truth-spp 256 --first 2 --frames 3 --plot "$out/presets.svg"
     # A whole frame against the course's method.
     against=(--compare "preset:$preset" preset:games202,diffuse.rays=32 --size 1280x720 "${lambert[@]}"
-        --set specular.rays=0 "${one_bounce[@]}" --first 3 --frames 5)
+        --set specular.rays=0 "${one_bounce[@]}" --truth-spp 1024 --first 3 --frames 5)
     measure games202 builtin:cave "${against[@]}"
     if [[ -n ${CUBE1:-} ]]; then
         measure games202-cube1 "$CUBE1" --view-file "${CUBE1%.gltf}.view.json" "${against[@]}"
@@ -62,7 +62,7 @@ if [[ ${1:-} != page ]]; then
     measure mirror builtin:mirror-hall --view-file docs/methods/views/into-the-mirror.json --size 1280x720 \
         --compare "preset:$preset,diffuse.rays=0" \
         preset:games202-linear,materials.lambertOnly=false,specular.rays=1,diffuse.rays=0,trace_screen.maxSteps=150 \
-        --layer indirect_specular "${one_bounce[@]}" --first 3 --frames 5
+        --layer indirect_specular "${one_bounce[@]}" --truth-spp 256 --first 3 --frames 5
     # Soft shadows over hard ones.
     measure shadow builtin:colonnade builtin:cave --size 1280x720 --truth none --first 3 \
         --compare "preset:$preset,diffuse.rays=0,specular.rays=0,shadow.filter=pcss" \
