@@ -82,9 +82,9 @@ TEST_F(ReportTest, AVariantIsAPresetWithSettingsOverIt) {
         const std::string all = scene["variants"][variant]["settings"];
         return fmt::format(" {} ", all).find(fmt::format(" {} ", setting)) != std::string::npos;
     };
-    EXPECT_TRUE(has(0, "diffuse.rays=3") && has(0, "trace_screen.maxSteps=64")) << "--set over the preset";
+    EXPECT_TRUE(has(0, "diffuse.rays=3") && has(0, "denoise.enabled=true")) << "--set over the preset";
     EXPECT_EQ(scene["variants"][1]["settings"], "diffuse.rays=3 specular.rays=0");
-    EXPECT_TRUE(has(2, "diffuse.rays=5") && has(2, "trace_screen.maxSteps=64") && has(2, "tonemap.exposure=1"));
+    EXPECT_TRUE(has(2, "diffuse.rays=5") && has(2, "denoise.enabled=true") && has(2, "tonemap.exposure=1"));
 }
 
 TEST_F(ReportTest, TheSameCommandGivesTheSameReportExceptForTimes) {
