@@ -53,7 +53,7 @@ if [[ ${1:-} != page ]]; then
         --size 640x360 "${one_bounce[@]}" --truth-spp 256 --first 2 --frames 3 --plot "$out/presets.svg"
     # A whole frame against the course's method.
     against=(--compare "preset:$preset" preset:games202,diffuse.rays=32 --size 1280x720 "${lambert[@]}"
-        --set specular.rays=0 "${one_bounce[@]}" --truth-spp 1024 --first 3 --frames 5)
+        --set specular.rays=0 "${one_bounce[@]}" --truth-spp 256 --first 2 --warmup 12 --frames 3)
     measure games202 builtin:cave "${against[@]}"
     if [[ -n ${CUBE1:-} ]]; then
         measure games202-cube1 "$CUBE1" --view-file "${CUBE1%.gltf}.view.json" "${against[@]}"
@@ -62,7 +62,7 @@ if [[ ${1:-} != page ]]; then
     measure mirror builtin:mirror-hall --view-file docs/methods/views/into-the-mirror.json --size 1280x720 \
         --compare "preset:$preset,diffuse.rays=0" \
         preset:games202-linear,materials.lambertOnly=false,specular.rays=1,diffuse.rays=0,trace_screen.maxSteps=150 \
-        --layer indirect_specular "${one_bounce[@]}" --truth-spp 256 --first 3 --frames 5
+        --layer indirect_specular "${one_bounce[@]}" --truth-spp 256 --first 2 --warmup 12 --frames 3
     # Soft shadows over hard ones.
     measure shadow builtin:colonnade builtin:cave --size 1280x720 --truth none --first 3 \
         --compare "preset:$preset,diffuse.rays=0,specular.rays=0,shadow.filter=pcss" \
