@@ -74,10 +74,11 @@ if [[ ${1:-} != page ]]; then
     measure triangles-1000000 builtin:tessellated-1000000 --preset "$preset" --size 1280x720 --truth none
     # At rest.
     # shellcheck disable=SC2086  # a word for each scene
-    measure rest $all_scenes --preset "$preset" --size 320x180 --truth chain:1024 --first 1 --warmup 11 --frames 20
+    measure rest $all_scenes --preset "$preset" --size 320x180 --truth chain:256 --first 1 --warmup 26 --frames 5
     # In motion.
     # shellcheck disable=SC2086  # a word for each scene
-    measure motion $all_scenes --preset "$preset" --size 320x180 --truth chain:64 --first 1 --motion 60 --orbit 30
+    measure motion builtin:cubes builtin:mirror-hall builtin:moving --preset "$preset" --size 320x180 --truth chain:32 \
+        --first 1 --motion 60 --orbit 30
 fi
 
 docs/performance.py "$out"
