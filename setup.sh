@@ -25,10 +25,15 @@ needed=(
     "nlohmann-json3-dev: JSON"
     "libspdlog-dev: log"
     "libfmt-dev: text"
+    "libglfw3-dev: windows"
+    "libimgui-dev: the user interface in them"
+    "fonts-dejavu-core: its letters"
 )
 neededByTests=(
     "libgtest-dev: tests"
     "chromium: opens the pages that reflet report writes"
+    "xvfb: a desktop for tests of the window"
+    "xdotool: its mouse and keys"
     "vulkan-validationlayers: checks in tests that Vulkan is used as it wants to be"
 )
 

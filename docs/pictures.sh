@@ -30,3 +30,11 @@ trap 'rm -rf "$work"' EXIT
 "$reflet" reference builtin:cubes --size 320x180 --spp 1024 --visible-only -o docs/pictures/cubes-visible-only.png
 "$reflet" render builtin:cubes --size 320x180 -o docs/pictures/cubes-default.png -o "$work/default.exr"
 "$reflet" compare "$work/default.exr" "$work/truth.exr" --heatmap docs/pictures/cubes-default-error.png
+
+# The window, on a desktop without a screen.
+if command -v xvfb-run >/dev/null; then
+    XDG_CONFIG_HOME=$work xvfb-run -a -s "-screen 0 1600x1000x24" "$reflet" view builtin:mirror-hall --size 640x560 --pick 560,250 \
+        --window-picture docs/pictures/view.png
+else
+    echo "docs/pictures/view.png: not made (no xvfb-run)" >&2
+fi

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "gpu/shader.h"
+#include "view/view_command.h"
 
 #include <algorithm>
 #include <cctype>
@@ -10,6 +11,7 @@
 #include <span>
 
 std::span<const reflet::gpu::EmbeddedShader> refletShaders();
+std::span<const reflet::gpu::EmbeddedShader> refletViewShaders();
 
 namespace {
 
@@ -74,11 +76,13 @@ std::string unexpectedArgument(const CLI::App& app) {
 
 int run(int argc, char** argv) {
     reflet::gpu::registerShaders(refletShaders());
+    reflet::gpu::registerShaders(refletViewShaders());
     CLI::App app("Reflet: screen-space reflections, indirect light and shadows on any Vulkan device.", "reflet");
     app.set_version_flag("--version", std::string("reflet ") + REFLET_VERSION);
     app.require_subcommand(1);
     app.footer("Try: reflet render builtin:cubes -o cubes.png\nEach subcommand has its own --help.");
     reflet::addRenderCommand(app);
+    reflet::addViewCommand(app);
     reflet::addReferenceCommand(app);
     reflet::addCompareCommand(app);
     reflet::addBenchCommand(app);

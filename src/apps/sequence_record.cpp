@@ -135,6 +135,9 @@ ordered_json recordOf(const View& view) {
     if (view.lampRadius) {
         json["lamp_radius"] = *view.lampRadius;
     }
+    if (!view.lampsOff.empty()) {
+        json["lamps_off"] = view.lampsOff;
+    }
     if (view.probes) {
         json["probes"] = ordered_json::array();
         for (const Probe& probe : *view.probes) {

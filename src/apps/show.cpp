@@ -354,6 +354,20 @@ FloatImage fetchValues(const gpu::Frame& f, const ShowReadback& readback, const 
     return values;
 }
 
+std::vector<float> fetchValue(const gpu::Frame& f, const ShowReadback& readback, const ViewParams& view, uvec2 pixel) {
+    std::vector<vec4> texels;
+    for (size_t i = 0; i < readback.images.size(); ++i) {
+        const gpu::Image& image = readback.images[i];
+        const uvec2 texel = pixel * image.size / uvec2(view.size);
+        const size_t bytes = gpu::bytesPerTexel(image.format);
+        const auto at = f.bytes(readback.copies[i]).subspan((size_t(texel.y) * image.size.x + texel.x) * bytes, bytes);
+        texels.push_back(decodeTexels(image.format, at).front());
+    }
+    std::vector<float> values(readback.show->channels.size());
+    readback.show->values(texels, view, values.data());
+    return values;
+}
+
 Bitmap makePicture(const Show& show, const FloatImage& values) {
     Bitmap bitmap{values.width, values.height, 3, {}};
     const size_t pixels = size_t(values.width) * values.height;

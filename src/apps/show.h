@@ -45,6 +45,8 @@ struct ShowReadback {
 /// Throws Error for an image that the frame has not made with its settings.
 ShowReadback requestShow(gpu::Frame& f, const FrameImages& images, const Show& show);
 FloatImage fetchValues(const gpu::Frame& f, const ShowReadback& readback, const ViewParams& view);
+/// The same at one pixel of the picture, which is not of its own size: one value a channel.
+std::vector<float> fetchValue(const gpu::Frame& f, const ShowReadback& readback, const ViewParams& view, uvec2 pixel);
 
 /// The picture of a show other than `final`.
 Bitmap makePicture(const Show& show, const FloatImage& values);

@@ -26,13 +26,13 @@ VkDebugUtilsMessengerCreateInfoEXT messengerInfo(PFN_vkDebugUtilsMessengerCallba
 }  // namespace
 
 Device::Device(const DeviceOptions& options) : onMessage_(options.onMessage) {
-    createInstance(options.validation);
+    createInstance(options);
     physical_ = choosePhysicalDevice(instance_, options.select);
     description_ = describe(physical_);
     VkPhysicalDeviceProperties properties{};
     vkGetPhysicalDeviceProperties(physical_, &properties);
     limits_ = properties.limits;
-    createDevice();
+    createDevice(!options.windowExtensions.empty());
     memory_ = std::make_unique<Memory>(vk, device_, physical_, rayQuery_);
     pipelines_ = std::make_unique<PipelineCache>(*this);
 }
@@ -75,15 +75,15 @@ VkBool32 Device::onValidation(VkDebugUtilsMessageSeverityFlagBitsEXT severity, V
     return VK_FALSE;
 }
 
-void Device::createInstance(bool validation) {
-    instance_ = makeInstance(validation ? validationLayer : nullptr);
-    if (validation) {
+void Device::createInstance(const DeviceOptions& options) {
+    instance_ = makeInstance(options.validation ? validationLayer : nullptr, options.windowExtensions);
+    if (options.validation) {
         const auto info = messengerInfo(onValidation, this);
         vkCheck(vkCreateDebugUtilsMessengerEXT(instance_, &info, nullptr, &messenger_), "creating the messenger");
     }
 }
 
-void Device::createDevice() {
+void Device::createDevice(bool fillsWindows) {
     queueFamily_ = graphicsQueueFamily(physical_).value();
     const float priority = 1.0F;
     VkDeviceQueueCreateInfo queueInfo{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
@@ -97,6 +97,11 @@ void Device::createDevice() {
     FloorFeatures floor = floorFeatures();
     floor.core.features.samplerAnisotropy = has.samplerAnisotropy;
     RayQueryFeatures rays;
+    std::vector<const char*> extensions;
+    if (fillsWindows) {
+        requireSwapchain(physical_);
+        extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    }
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
     info.pNext = floor.chain();
     rayQuery_ = gpu::hasRayQuery(physical_);
@@ -105,9 +110,10 @@ void Device::createDevice() {
         rays.structures.accelerationStructure = VK_TRUE;
         rays.query.rayQuery = VK_TRUE;
         floor.v13.pNext = rays.chain();
-        info.enabledExtensionCount = static_cast<uint32_t>(rayQueryExtensions.size());
-        info.ppEnabledExtensionNames = rayQueryExtensions.data();
+        extensions.insert(extensions.end(), rayQueryExtensions.begin(), rayQueryExtensions.end());
     }
+    info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queueInfo;
     vkCheck(vkCreateDevice(physical_, &info, nullptr, &device_), "opening the device");

@@ -29,6 +29,8 @@ struct DeviceOptions {
     /// Validation and synchronization validation layers. Their messages go to `onMessage` and are counted.
     bool validation = false;
     std::function<void(const std::string&)> onMessage;
+    /// Of the instance, as the window system wants them; where there are any, the device can fill windows.
+    std::vector<const char*> windowExtensions;
 };
 
 /// All devices the loader knows, usable or not. Empty where there is no loader or no driver.
@@ -62,6 +64,7 @@ public:
     [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return limits_; }
     /// Acceleration structures can be built and shaders can query them.
     [[nodiscard]] bool hasRayQuery() const { return rayQuery_; }
+    [[nodiscard]] VkInstance instance() const { return instance_; }
     [[nodiscard]] VkPhysicalDevice physical() const { return physical_; }
     [[nodiscard]] VkDevice handle() const { return device_; }
     [[nodiscard]] VkQueue queue() const { return queue_; }
@@ -95,8 +98,8 @@ private:
         std::function<void()> destroy;
     };
 
-    void createInstance(bool validation);
-    void createDevice();
+    void createInstance(const DeviceOptions& options);
+    void createDevice(bool fillsWindows);
     void collectRetired();
     static VKAPI_ATTR VkBool32 VKAPI_CALL onValidation(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
                                                        VkDebugUtilsMessageTypeFlagsEXT types,

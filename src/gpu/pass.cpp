@@ -96,6 +96,11 @@ Pass& Pass::depth(Image image, std::optional<float> clear) {
     return *this;
 }
 
+Pass& Pass::blend() {
+    info_.blends = true;
+    return *this;
+}
+
 Pass& Pass::vertices(const VertexLayout& layout, VkDescriptorSetLayout drawSet) {
     info_.vertices = &layout;
     info_.drawSet = drawSet;

@@ -74,6 +74,8 @@ public:
     /// Raster only. Cleared to `clear` where given, else what is there stays.
     Pass& color(std::string_view output, Image image, std::optional<VkClearColorValue> clear);
     Pass& depth(Image image, std::optional<float> clear);
+    /// Colours go over what is there, by their alpha.
+    Pass& blend();
     /// What vertex buffers the draws bind, and the layout of the set (1) that they bind themselves.
     Pass& vertices(const VertexLayout& layout, VkDescriptorSetLayout drawSet = VK_NULL_HANDLE);
     /// Runs with a viewport over the whole target.

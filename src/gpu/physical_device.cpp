@@ -220,7 +220,7 @@ bool hasRayQuery(VkPhysicalDevice device) {
     return rays.structures.accelerationStructure != 0 && rays.query.rayQuery != 0 && v12.bufferDeviceAddress != 0;
 }
 
-VkInstance makeInstance(const char* layer) {
+VkInstance makeInstance(const char* layer, std::span<const char* const> extensions) {
     if (volkInitialize() != VK_SUCCESS) {
         fail("no Vulkan loader (libvulkan.so.1): install it and a driver (Debian: libvulkan1 mesa-vulkan-drivers)");
     }
@@ -231,16 +231,17 @@ VkInstance makeInstance(const char* layer) {
     VkValidationFeaturesEXT validation{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
     validation.enabledValidationFeatureCount = 1;
     validation.pEnabledValidationFeatures = &synchronization;
-    const char* debugUtils = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    std::vector<const char*> enabled(extensions.begin(), extensions.end());
     VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
     info.pApplicationInfo = &app;
     if (layer != nullptr) {
         info.pNext = &validation;
         info.enabledLayerCount = 1;
         info.ppEnabledLayerNames = &layer;
-        info.enabledExtensionCount = 1;
-        info.ppEnabledExtensionNames = &debugUtils;
+        enabled.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     }
+    info.enabledExtensionCount = static_cast<uint32_t>(enabled.size());
+    info.ppEnabledExtensionNames = enabled.data();
     VkInstance instance = VK_NULL_HANDLE;
     const VkResult result = vkCreateInstance(&info, nullptr, &instance);
     if (result == VK_ERROR_LAYER_NOT_PRESENT) {
@@ -267,6 +268,13 @@ std::optional<uint32_t> graphicsQueueFamily(VkPhysicalDevice device) {
         }
     }
     return std::nullopt;
+}
+
+void requireSwapchain(VkPhysicalDevice device) {
+    if (!hasExtensions(device, std::array{VK_KHR_SWAPCHAIN_EXTENSION_NAME})) {
+        fail("the device '{}' cannot fill windows (no {}); --device chooses another", describe(device).name,
+             VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    }
 }
 
 DeviceDescription describe(VkPhysicalDevice device) {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace reflet::gpu {
@@ -40,7 +41,10 @@ inline constexpr std::array rayQueryExtensions{VK_KHR_ACCELERATION_STRUCTURE_EXT
 bool hasRayQuery(VkPhysicalDevice device);
 
 /// Throws Error when there is no loader, or when the layer (may be nullptr) is not installed.
-VkInstance makeInstance(const char* layer);
+VkInstance makeInstance(const char* layer, std::span<const char* const> extensions = {});
+
+/// Throws Error: a device that cannot fill windows.
+void requireSwapchain(VkPhysicalDevice device);
 
 DeviceDescription describe(VkPhysicalDevice device);
 std::optional<uint32_t> graphicsQueueFamily(VkPhysicalDevice device);

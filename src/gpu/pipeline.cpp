@@ -117,7 +117,7 @@ VertexInput vertexInput(const Shader& shader, const VertexLayout* layout) {
     return input;
 }
 
-// Fixed: triangle lists, reversed depth (greater or equal passes), no blending. Dynamic: viewport, scissor, culling.
+// Fixed: triangle lists, reversed depth (greater or equal passes). Dynamic: viewport, scissor, culling.
 VkPipeline makeGraphics(Device& device, const PipelineInfo& info, const VertexInput& vertices, VkPipelineLayout layout,
                         const std::vector<VkPipelineShaderStageCreateInfo>& stages) {
     VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
@@ -141,7 +141,14 @@ VkPipeline makeGraphics(Device& device, const PipelineInfo& info, const VertexIn
     depth.depthCompareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
     VkPipelineColorBlendAttachmentState opaque{};
     opaque.colorWriteMask = 0xF;
-    const std::vector<VkPipelineColorBlendAttachmentState> targets(info.colorFormats.size(), opaque);
+    VkPipelineColorBlendAttachmentState over = opaque;
+    over.blendEnable = VK_TRUE;
+    over.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
+    over.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+    over.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+    over.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+    const std::vector<VkPipelineColorBlendAttachmentState> targets(info.colorFormats.size(),
+                                                                   info.blends ? over : opaque);
     VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
     blend.attachmentCount = static_cast<uint32_t>(targets.size());
     blend.pAttachments = targets.data();
@@ -208,11 +215,17 @@ void makePipeline(Device& device, const PipelineInfo& info, const std::vector<Sh
 }  // namespace
 
 PipelineCache::~PipelineCache() {
+    clear();
+}
+
+void PipelineCache::clear() {
+    device_.vk.vkDeviceWaitIdle(device_.handle());
     for (const auto& [info, pipeline] : pipelines_) {
         device_.vk.vkDestroyPipeline(device_.handle(), pipeline->handle, nullptr);
         device_.vk.vkDestroyPipelineLayout(device_.handle(), pipeline->layout, nullptr);
         device_.vk.vkDestroyDescriptorSetLayout(device_.handle(), pipeline->set, nullptr);
     }
+    pipelines_.clear();
 }
 
 const Pipeline& PipelineCache::get(const PipelineInfo& info) {

@@ -33,6 +33,7 @@ struct PipelineInfo {
     std::vector<std::pair<std::string, uint32_t>> constants;  ///< specialization constants by name, as bits
     std::vector<VkFormat> colorFormats;                       ///< by location
     VkFormat depthFormat = VK_FORMAT_UNDEFINED;
+    bool blends = false;                             ///< colours over what is there, by their alpha
     const VertexLayout* vertices = nullptr;          ///< static data; nullptr: no vertex buffers
     VkDescriptorSetLayout drawSet = VK_NULL_HANDLE;  ///< set 1, bound by the draws themselves
 
@@ -59,6 +60,9 @@ public:
 
     /// Throws std::logic_error: an unknown shader or constant, stages that disagree about a binding.
     const Pipeline& get(const PipelineInfo& info);
+
+    /// Drops all, once the device has nothing to do: shaders have changed.
+    void clear();
 
 private:
     Device& device_;

@@ -6,7 +6,11 @@
 #include <spirv_cross/spirv_cross_c.h>
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
+#include <map>
 #include <memory>
+#include <utility>
 
 namespace reflet::gpu {
 
@@ -151,14 +155,57 @@ void registerShaders(std::span<const EmbeddedShader> shaders) {
     registry().insert(registry().end(), shaders.begin(), shaders.end());
 }
 
-Shader reflectShader(std::string_view name) {
+namespace {
+
+EmbeddedShader& knownShader(std::string_view name) {
     const auto found = std::ranges::find(registry(), name, &EmbeddedShader::name);
     REFLET_CHECK(found != registry().end(), "no shader is called '{}'", name);
+    return *found;
+}
+
+Shader reflected(const EmbeddedShader& source) {
     Shader shader;
-    shader.name = name;
-    shader.words = found->words;
-    Reflector(*found).fill(shader);
+    shader.name = source.name;
+    shader.words = source.words;
+    Reflector(source).fill(shader);
     return shader;
+}
+
+bool bindTheSame(Shader a, Shader b) {
+    const auto order = [](const ShaderBinding& x, const ShaderBinding& y) {
+        return std::pair(x.set, x.binding) < std::pair(y.set, y.binding);
+    };
+    std::ranges::sort(a.bindings, order);
+    std::ranges::sort(b.bindings, order);
+    const auto namesOf = [](const auto& list) {
+        std::vector<std::string> names;
+        std::ranges::transform(list, std::back_inserter(names), [](const auto& item) { return item.name; });
+        std::ranges::sort(names);
+        return names;
+    };
+    return a.bindings == b.bindings && namesOf(a.constants) == namesOf(b.constants) &&
+           namesOf(a.inputs) == namesOf(b.inputs) && namesOf(a.outputs) == namesOf(b.outputs) &&
+           a.pushConstantSize == b.pushConstantSize;
+}
+
+}  // namespace
+
+void replaceShader(std::string_view name, std::vector<uint32_t> words) {
+    static std::map<std::string, std::vector<uint32_t>, std::less<>> replaced;
+    EmbeddedShader& known = knownShader(name);
+    if (!bindTheSame(reflected(known), reflected({known.name, words}))) {
+        fail(
+            "{}: what it binds, its constants or its inputs and outputs are no longer what the program knows; build "
+            "the program anew",
+            name);
+    }
+    std::vector<uint32_t>& kept = replaced[std::string(name)];
+    kept = std::move(words);
+    known.words = kept;
+}
+
+Shader reflectShader(std::string_view name) {
+    return reflected(knownShader(name));
 }
 
 }  // namespace reflet::gpu

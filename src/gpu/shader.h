@@ -21,6 +21,11 @@ struct EmbeddedShader {
 /// Makes shaders known by name; libraries and tests register what they embed. Later ones do not replace earlier ones.
 void registerShaders(std::span<const EmbeddedShader> shaders);
 
+/// Another SPIR-V in the place of a known shader's. Throws Error where it binds other things than the one that is
+/// there, which is then kept: what records its passes knows only those. Pipelines that are made stay as they are
+/// (PipelineCache::clear).
+void replaceShader(std::string_view name, std::vector<uint32_t> words);
+
 struct ShaderBinding {
     std::string name;
     uint32_t set = 0;
@@ -29,6 +34,8 @@ struct ShaderBinding {
     VkDescriptorType type = VK_DESCRIPTOR_TYPE_MAX_ENUM;
     bool readOnly = true;    ///< storage images and buffers: declared readonly
     uint32_t blockSize = 0;  ///< uniform buffers: bytes
+
+    bool operator==(const ShaderBinding&) const = default;
 };
 
 /// An input or output of a stage.

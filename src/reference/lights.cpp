@@ -70,6 +70,11 @@ Lights::Lights(const RayScene& rays, const View& view)
     for (Lamp& lamp : lamps_) {
         lamp.radius = view.lampRadius.value_or(lamp.radius);
     }
+    for (const uint32_t off : view.lampsOff) {
+        if (off < lamps_.size()) {
+            lamps_[off].intensity = vec3(0.0F);
+        }
+    }
     collectTriangles();
     prepareEnvironment();
 }

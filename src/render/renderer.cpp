@@ -48,6 +48,9 @@ void Renderer::pose(const View& view, const Settings& settings) {
 LampShadows Renderer::planLamps(LampBlock& lamps, const View& view, const ShadowSettings& settings) {
     for (uint32_t i = 0; i < lamps.count; ++i) {
         lamps.lamps[i].radius = view.lampRadius.value_or(lamps.lamps[i].radius);
+        if (std::ranges::binary_search(view.lampsOff, i)) {
+            lamps.lamps[i].intensity = vec3(0.0F);
+        }
     }
     // Images larger than that are more memory (1 GiB) than shadows of lamps are worth.
     const uint32_t largestSide = std::min(frame_.device().limits().maxImageDimension2D, 16384U);

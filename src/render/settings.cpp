@@ -160,6 +160,20 @@ bool sameSettings(const Settings& a, const Settings& b) {
                                [&](const SettingEntry& entry) { return load(a, entry.info) == load(b, entry.info); });
 }
 
+nlohmann::ordered_json settingsJson(const Settings& settings, const Settings& from) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+    for (const SettingEntry& entry : settingEntries()) {
+        if (load(settings, entry.info) == load(from, entry.info)) {
+            continue;
+        }
+        const std::string text = settingText(settings, entry);
+        const std::string effect = entry.name.substr(0, entry.name.find('.'));
+        json[effect][entry.info.name] =
+            entry.info.type == SettingType::choice ? nlohmann::ordered_json(text) : nlohmann::ordered_json::parse(text);
+    }
+    return json;
+}
+
 std::string rangeText(const SettingInfo& info) {
     switch (info.type) {
         case SettingType::toggle:

@@ -80,6 +80,9 @@ std::string settingText(const Settings& settings, const SettingEntry& entry);
 /// rest stays. `where` starts the messages. Throws Error as setSetting does.
 void applySettingsJson(Settings& settings, const nlohmann::json& json, const std::string& where);
 
+/// What applySettingsJson makes these settings of `from` with; an empty object where they are the same.
+nlohmann::ordered_json settingsJson(const Settings& settings, const Settings& from);
+
 /// What a setting may be: "0.001 to 100", "on or off", "gamma22, srgb, …".
 std::string rangeText(const SettingInfo& info);
 

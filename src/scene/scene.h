@@ -152,6 +152,7 @@ struct Environment {
     vec3 radiance{0.0F};  ///< constant over all directions [W/(m² sr)]; not used where there is an image
     /// Equirectangular, "R" "G" "B", linear, finite, not negative [W/(m² sr)], rows from the top (+Y). May be null.
     std::shared_ptr<const FloatImage> image;
+    std::string imageFile;   ///< absolute, where it was read from; empty: from no file
     float intensity = 1.0F;  ///< factor on the image, not negative
     float rotation = 0.0F;   ///< of the image about +Y; 0: its centre is seen along -Z; 90 degrees: along -X
 
@@ -196,6 +197,7 @@ struct View {
     Environment environment;
     double time = 0.0;                         ///< of the scene's animations [s], 0 to largestTime
     std::optional<float> lampRadius;           ///< of all lamps [m], in the place of their own
+    std::vector<uint32_t> lampsOff;            ///< indices into Scene::lamps that do not shine, in rising order
     std::optional<std::vector<Probe>> probes;  ///< at most maxProbes; not given: the renderer places them itself
     std::vector<std::string> mirrors;          ///< names of instances that planar views are for; empty: they are found
     bool sunStandsIn = false;                  ///< the scene has no light; the sun is there so that something is seen

@@ -35,7 +35,7 @@ void checkOrientation(const JsonNode& node, Camera& camera) {
 }
 
 Camera readCamera(const JsonNode& node, Camera camera) {
-    static const std::array<std::string, 5> keys{"position", "target", "up", "fov_y", "near"};
+    static const std::array<std::string, 6> keys{"position", "target", "up", "fov_y", "near", "orthographic_height"};
     node.requireKeys(keys);
     if (node.find("position") || node.find("target") || node.find("up")) {
         camera.node = -1;  // stays where it is put
@@ -53,6 +53,12 @@ Camera readCamera(const JsonNode& node, Camera camera) {
     if (const auto fovY = node.find("fov_y")) {
         camera.fovY = readFovY(*fovY);
         camera.orthographicHeight = 0.0F;  // a field of view asks for a perspective
+    }
+    if (const auto height = node.find("orthographic_height")) {
+        if (node.find("fov_y")) {
+            height->complain("cannot be given together with fov_y: a view is orthographic, or a perspective");
+        }
+        camera.orthographicHeight = static_cast<float>(height->number(1e-6, largestInView, "metres"));
     }
     if (const auto near = node.find("near")) {
         camera.near = static_cast<float>(near->number(1e-6, 1000.0, "metres"));
@@ -80,13 +86,26 @@ Sun readSun(const JsonNode& node, Sun sun) {
     return sun;
 }
 
-std::optional<float> readLampRadius(const JsonNode& node, std::optional<float> radius) {
-    static const std::array<std::string, 1> keys{"radius"};
+void readLamps(const JsonNode& node, View& view) {
+    static const std::array<std::string, 2> keys{"radius", "off"};
     node.requireKeys(keys);
-    if (const auto given = node.find("radius")) {
-        radius = static_cast<float>(given->number(0.0, 1000.0, "metres"));
+    if (const auto radius = node.find("radius")) {
+        view.lampRadius = static_cast<float>(radius->number(0.0, 1000.0, "metres"));
     }
-    return radius;
+    if (const auto off = node.find("off")) {
+        if (!off->json().is_array()) {
+            off->complainMustBe("a list of lamps, by their numbers from 0");
+        }
+        view.lampsOff.clear();
+        for (size_t i = 0; i < off->json().size(); ++i) {
+            const double number = off->at(i).number(0.0, 1e6);
+            if (number != std::floor(number)) {
+                off->at(i).complainMustBe("a whole number");
+            }
+            view.lampsOff.push_back(static_cast<uint32_t>(number));
+        }
+        std::ranges::sort(view.lampsOff);
+    }
 }
 
 /// An image with its intensity and rotation, in the place of the whole old environment.
@@ -98,8 +117,9 @@ Environment readImage(const JsonNode& node, const JsonNode& imageNode, const std
         imageNode.complainMustBe("the name of an .hdr or .exr file");
     }
     Environment environment;
-    environment.image =
-        std::make_shared<FloatImage>(readEnvironmentImage(folder / imageNode.json().get<std::string>()));
+    const std::filesystem::path file = folder / imageNode.json().get<std::string>();
+    environment.image = std::make_shared<FloatImage>(readEnvironmentImage(file));
+    environment.imageFile = std::filesystem::absolute(file).lexically_normal().string();
     if (const auto intensity = node.find("intensity")) {
         const double factor = intensity->number(0.0, largestRadiance);
         const double brightest = *std::ranges::max_element(environment.image->data);
@@ -183,9 +203,62 @@ std::vector<std::string> readNames(const JsonNode& node) {
 
 }  // namespace
 
+nlohmann::ordered_json viewJson(const View& view) {
+    using nlohmann::ordered_json;
+    // Doubles that become the same floats again.
+    const auto list = [](const vec3& v) { return ordered_json{double(v.x), double(v.y), double(v.z)}; };
+    const auto degrees = [](float radians) { return double(radians) / radiansPerDegree; };
+    const Camera& camera = view.camera;
+    ordered_json json;
+    if (camera.node < 0) {
+        json["camera"] = {
+            {"position", list(camera.position)}, {"target", list(camera.target)}, {"up", list(camera.up)}};
+    }
+    if (camera.orthographicHeight > 0.0F) {
+        json["camera"]["orthographic_height"] = double(camera.orthographicHeight);
+    } else {
+        json["camera"]["fov_y"] = degrees(camera.fovY);
+    }
+    json["camera"]["near"] = double(camera.near);
+    if (view.sun.node < 0) {
+        json["sun"]["direction"] = list(view.sun.direction);
+    }
+    json["sun"]["irradiance"] = list(view.sun.irradiance);
+    json["sun"]["angular_diameter"] = degrees(view.sun.angularDiameter);
+    if (view.lampRadius) {
+        json["lamps"]["radius"] = double(*view.lampRadius);
+    }
+    if (!view.lampsOff.empty()) {
+        json["lamps"]["off"] = view.lampsOff;
+    }
+    if (!view.environment.image) {
+        json["environment"]["radiance"] = list(view.environment.radiance);
+    } else if (!view.environment.imageFile.empty()) {
+        json["environment"] = {{"image", view.environment.imageFile},
+                               {"intensity", double(view.environment.intensity)},
+                               {"rotation", degrees(view.environment.rotation)}};
+    }
+    if (view.probes) {
+        json["probes"] = ordered_json::array();
+        for (const Probe& probe : *view.probes) {
+            json["probes"].push_back({{"position", list(probe.position)},
+                                      {"box_min", list(probe.box.min)},
+                                      {"box_max", list(probe.box.max)}});
+        }
+    }
+    if (!view.mirrors.empty()) {
+        json["mirrors"] = view.mirrors;
+    }
+    json["time"] = view.time;
+    return json;
+}
+
 void applyViewFile(const std::filesystem::path& path, View& view) {
+    applyViewJson(parseJsonFile(path), path, view);
+}
+
+void applyViewJson(const nlohmann::json& file, const std::filesystem::path& path, View& view) {
     static const std::array<std::string, 7> keys{"camera", "sun", "lamps", "environment", "probes", "mirrors", "time"};
-    const nlohmann::json file = parseJsonFile(path);
     const JsonNode root(file, path);
     root.requireKeys(keys);
     View changed = view;
@@ -197,7 +270,7 @@ void applyViewFile(const std::filesystem::path& path, View& view) {
         changed.sunStandsIn = false;
     }
     if (const auto lamps = root.find("lamps")) {
-        changed.lampRadius = readLampRadius(*lamps, view.lampRadius);
+        readLamps(*lamps, changed);
     }
     if (const auto environment = root.find("environment")) {
         changed.environment = readEnvironment(*environment, view.environment, path.parent_path());

@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <functional>
@@ -98,16 +99,6 @@ bool catches(pid_t process, int signal) {
     return false;
 }
 
-/// Time that all threads of the process have had.
-double cpuSeconds(pid_t process) {
-    clockid_t clock = 0;
-    timespec time{};
-    if (::clock_getcpuclockid(process, &clock) != 0 || ::clock_gettime(clock, &time) != 0) {
-        return 0.0;
-    }
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 /// False if the process ends, or the time is up, before it is so.
 bool waitUntil(pid_t process, const std::function<bool()>& reached) {
     const auto end = std::chrono::steady_clock::now() + limit;
@@ -129,6 +120,27 @@ fs::path makeFolder() {
 }
 
 }  // namespace
+
+double cpuSeconds(int process) {
+    clockid_t clock = 0;
+    timespec time{};
+    if (::clock_getcpuclockid(process, &clock) != 0 || ::clock_gettime(clock, &time) != 0) {
+        return 0.0;
+    }
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+bool isInstalled(std::string_view program) {
+    const char* variable = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): tests have one thread
+    std::istringstream folders(variable == nullptr ? "" : variable);
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        std::error_code ignored;
+        if (fs::exists(fs::path(folder) / program, ignored)) {
+            return true;
+        }
+    }
+    return false;
+}
 
 ProgramTest::ProgramTest() : folder_(makeFolder()), said_(makeFolder()) {}
 
@@ -159,6 +171,15 @@ Outcome ProgramTest::interrupt(const Arguments& arguments, const std::vector<int
         ::kill(child, signals[i]);
     }
     const int status = waitFor(child);
+    return {status, readFile(said_ / "out"), readFile(said_ / "err")};
+}
+
+int ProgramTest::begin(const Arguments& arguments, const Environment& added) const {
+    return start(REFLET_PROGRAM, arguments, added, {folder_, said_ / "out", said_ / "err"});
+}
+
+Outcome ProgramTest::finish(int process) const {
+    const int status = waitFor(process);
     return {status, readFile(said_ / "out"), readFile(said_ / "err")};
 }
 

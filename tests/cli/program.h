@@ -45,6 +45,10 @@ protected:
     [[nodiscard]] Outcome interrupt(const Arguments& arguments, const std::vector<int>& signals,
                                     double work = 0.0) const;
 
+    /// As run(), but without waiting for its end: its process number, for finish().
+    [[nodiscard]] int begin(const Arguments& arguments, const Environment& added = {}) const;
+    [[nodiscard]] Outcome finish(int process) const;
+
     /// As run(), but killed (SIGKILL) as soon as `reached` is true, if it has not ended before.
     [[nodiscard]] Outcome killWhen(const Arguments& arguments, const std::function<bool()>& reached) const;
 
@@ -61,6 +65,12 @@ private:
     std::filesystem::path folder_;
     std::filesystem::path said_;  ///< where the output of runs goes, outside of the folder
 };
+
+/// Whether PATH has a program of that name.
+bool isInstalled(std::string_view program);
+
+/// Seconds that all threads of a process have had on all cores.
+double cpuSeconds(int process);
 
 /// Status 0 and not a word on standard error.
 testing::AssertionResult quietSuccess(const Outcome& run);

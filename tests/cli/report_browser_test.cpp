@@ -11,18 +11,11 @@ namespace reflet::report_browser_test {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 // "" where there is none.
 std::string findBrowser() {
-    const char* variable = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): tests have one thread
     for (const char* name : {"chromium", "chromium-browser", "google-chrome"}) {
-        std::istringstream folders(variable == nullptr ? "" : variable);
-        for (std::string folder; std::getline(folders, folder, ':');) {
-            std::error_code ignored;
-            if (fs::exists(fs::path(folder) / name, ignored)) {
-                return name;
-            }
+        if (isInstalled(name)) {
+            return name;
         }
     }
     return "";

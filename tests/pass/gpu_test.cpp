@@ -1,5 +1,8 @@
 // What the device layer promises: a pass that does not fit its shader is refused by name, history changes places.
+#include "base/error.h"
 #include "gpu/frame.h"
+#include "gpu/pipeline.h"
+#include "gpu/shader.h"
 #include "pass/harness.h"
 #include "render/tonemap/tonemap.h"
 #include "support/device_fixture.h"
@@ -142,6 +145,26 @@ TEST_F(Gpu, TimesAreThereForEveryPassByItsScopedName) {
     EXPECT_EQ(f.passTimes()[0].name, "frame");
     EXPECT_EQ(f.passTimes()[1].name, "outer.tonemap");
     EXPECT_GT(f.passTimes()[1].ms, 0.0);
+}
+
+TEST_F(Gpu, AShaderIsReplacedOnlyByOneThatBindsTheSame) {
+    const gpu::Shader known = gpu::reflectShader("tonemap.comp");
+    const std::vector<uint32_t> same(known.words.begin(), known.words.end());
+    const gpu::Shader other = gpu::reflectShader("composite.comp");
+    EXPECT_THROW(gpu::replaceShader("tonemap.comp", {other.words.begin(), other.words.end()}), Error);
+    EXPECT_EQ(gpu::reflectShader("tonemap.comp").words.data(), known.words.data()) << "the old one is kept";
+    gpu::replaceShader("tonemap.comp", same);
+    EXPECT_NE(gpu::reflectShader("tonemap.comp").words.data(), known.words.data());
+    device().pipelines().clear();
+    EXPECT_EQ(complaint([&](gpu::Frame& f) {
+                  f.clear(radiance(f));
+                  f.compute("tonemap", "tonemap.comp")
+                      .read("radiance", radiance(f))
+                      .write("display", display(f))
+                      .params(TonemapParams{{}, size})
+                      .dispatch(size);
+              }),
+              "");
 }
 
 }  // namespace

@@ -4,8 +4,10 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/image_file.h"
+#include "scene/builtin.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <string>
@@ -326,6 +328,53 @@ TEST_F(ViewFile, SaysWhereTheAnimationsAre) {
     apply(R"({"camera": {"fov_y": 40}})");
     EXPECT_EQ(view_.time, 1.25) << "what is not named stays";
     EXPECT_EQ(errorOf(R"({"time": -1})"), "FILE: time: must be between 0 and 1e+06 seconds, is -1");
+}
+
+TEST_F(ViewFile, HasAnOrthographicHeightOrAFieldOfView) {
+    apply(R"({"camera": {"orthographic_height": 4}})");
+    EXPECT_EQ(view_.camera.orthographicHeight, 4.0F);
+    EXPECT_EQ(errorOf(R"({"camera": {"orthographic_height": 4, "fov_y": 30}})"),
+              "FILE: camera.orthographic_height: cannot be given together with fov_y: a view is orthographic, or a "
+              "perspective");
+}
+
+TEST_F(ViewFile, TurnsLampsOff) {
+    apply(R"({"lamps": {"off": [3, 0]}})");
+    EXPECT_EQ(view_.lampsOff, (std::vector<uint32_t>{0, 3}));
+    apply(R"({"lamps": {"radius": 0.1}})");
+    EXPECT_EQ(view_.lampsOff.size(), 2U) << "what is not named stays";
+    EXPECT_EQ(errorOf(R"({"lamps": {"off": [0.5]}})"), "FILE: lamps.off[0]: must be a whole number, is 0.5");
+}
+
+TEST_F(ViewFile, IsWrittenSuchThatItMakesTheSameView) {
+    for (const BuiltinScene& builtin : builtinScenes()) {
+        const std::optional<Scene> scene = makeBuiltinScene(builtin.name);
+        ASSERT_TRUE(scene);
+        View view = defaultView(*scene);
+        view.camera.position += vec3(0.1F, 0.7F, -0.3F);
+        view.camera.fovY = 1.2345F;
+        view.sun.angularDiameter = 0.0123F;
+        view.lampRadius = 0.3F;
+        view.lampsOff = {1, 2};
+        view.time = 1.0 / 3.0;
+        view_ = defaultView(*scene);
+        apply(viewJson(view).dump());
+        view.sunStandsIn = false;  // the file names the sun
+        // Directions are made unit length again, which may change their last bit.
+        EXPECT_LE(glm::length(view_.sun.direction - view.sun.direction), 1e-6F) << builtin.name;
+        EXPECT_LE(glm::length(view_.camera.up - view.camera.up), 1e-6F) << builtin.name;
+        view_.sun.direction = view.sun.direction;
+        view_.camera.up = view.camera.up;
+        if (view.camera.node < 0) {
+            view_.camera.node = view.camera.node;
+            view_.camera.aims = view.camera.aims;
+            EXPECT_EQ(view_, view) << builtin.name;
+        }
+        // Written and read once more, it is the same to the last bit.
+        const std::string once = viewJson(view_).dump();
+        apply(once);
+        EXPECT_EQ(viewJson(view_).dump(), once) << builtin.name;
+    }
 }
 
 }  // namespace

@@ -153,7 +153,8 @@ private:
     }
 
     void add(const Environment& environment) {
-        const auto& [radiance, image, intensity, rotation] = environment;
+        const auto& [radiance, image, imageFile, intensity, rotation] = environment;
+        (void)imageFile;
         all(radiance, image != nullptr, intensity, rotation);
         if (image != nullptr) {
             add(*image);
@@ -173,10 +174,10 @@ void addTo(Fingerprint& print, const Scene& scene) {
 }
 
 void addTo(Fingerprint& print, const View& view) {
-    const auto& [camera, sun, environment, time, lampRadius, probes, mirrors, sunStandsIn] = view;
+    const auto& [camera, sun, environment, time, lampRadius, lampsOff, probes, mirrors, sunStandsIn] = view;
     (void)probes;
     (void)mirrors;
-    Adder(print).all(camera, sun, environment, time, lampRadius, sunStandsIn);
+    Adder(print).all(camera, sun, environment, time, lampRadius, lampsOff, sunStandsIn);
 }
 
 void addTo(Fingerprint& print, const ReferenceOptions& options) {

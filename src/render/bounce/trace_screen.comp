@@ -56,8 +56,7 @@ float loadBackDepth(ivec2 pixel) { return texelFetch(backDepth, pixel, 0).r; }
 vec2 loadCell(ivec2 cell, int level) {
     return imageLoad(pyramid, cell + ivec2(0, levelRow(ivec2(params.view.size), level))).rg;
 }
-#include "shaders/march_hiz.glsl"
-#include "shaders/march_world.glsl"
+#include "render/bounce/trace_ray.glsl"
 
 // The blur's cells, over the radius that holds half of the lobe's light. 1.7 would spread a point's light as far as the
 // lobe does, were both Gaussian. Of 1.2, 2.4, 3.4 and 4.8, 3.4 is nearest to 64 spread rays on gloss (limit 0.2, 1 and
@@ -103,43 +102,12 @@ float widthOfHit(float roughness, MarchResult hit) {
     return coneWidth * ggxHalfTangent(roughness * roughness) * hit.distance / pixelWidth;
 }
 
-MarchOptions marchOptions(float jitter) {
-    TraceScreenSettings s = params.settings;
-    return MarchOptions(s.step, s.smallestStep, s.stride, params.longest, jitter, s.maxSteps, s.thickness,
-                        s.thicknessFrom == ThicknessFrom_step, secondLayer != 0u, s.binarySteps, s.interpolate != 0u,
-                        int(pyramidLevels), s.firstSteps);
-}
-
 MarchResult traceRay(MarchRay ray, MarchOptions o, MarchView view) {
     // An even mirror's rays go straight away from the mirrored camera, and stay in one pixel. Steps would pass over it.
     if (through == throughMirror && all(lessThan(abs(makeScreenRay(ray, o.longest, view).delta.xy), vec2(1.0)))) {
         return marchExhaustive(ray, o, view);
     }
-    switch (method) {
-        case TraceMethod_halving:
-            return marchHalving(ray, o, view);
-        case TraceMethod_fixedPoint:
-            return marchFixedPoint(ray, o, view);
-        case TraceMethod_dda:
-            return marchDda(ray, o, view);
-        case TraceMethod_exhaustive:
-            return marchExhaustive(ray, o, view);
-        case TraceMethod_hiz:
-            return marchHiz(ray, o, view);
-        default:
-            return marchLinear(ray, o, view);
-    }
-}
-
-// How far a hit can be trusted, 0..1.
-float fadeOf(MarchResult hit, vec3 p, vec3 direction) {
-    TraceScreenSettings s = params.settings;
-    vec2 uv = pixelToUv(hit.pixel, params.view.pixel);
-    vec2 inside = min(uv, 1.0 - uv);
-    float edge = clamp(min(inside.x, inside.y) / max(s.edgeFade, 1e-6), 0.0, 1.0);
-    float near = clamp((1.0 - hit.distance / params.longest) / max(s.distanceFade, 1e-6), 0.0, 1.0);
-    float turned = 1.0 - dot(direction, directionToEye(p, params.view.eye));
-    return edge * near * clamp(turned / max(s.cameraFade, 1e-6), 0.0, 1.0);
+    return marchBy(method, ray, o, view);
 }
 
 const RayAnswer noAnswer = RayAnswer(vec3(0.0), 0.0, 0.0);
@@ -170,11 +138,11 @@ RayAnswer traceAnswer(ivec3 slot, Ray ray, vec3 p, vec3 n, inout WaitingRay w) {
         uint stream = (params.firstRay + uint(slot.z)) * 2u + 1u + hashPcg(params.own.seed);
         jitter = 1.0 - hashToUnit(hashPixel(uvec2(slot.xy), stream, params.own.frame));
     }
-    MarchView view = MarchView(params.view.worldToClip, params.view.clipToWorld, params.view.viewPlane,
-                               params.view.depthToDistance, params.view.size, params.view.pixel);
+    MarchView view = marchView(params.view);
     // The mirror is not in its own view: all that the view shows can be hit.
     vec4 ownPlane = through == throughScreen ? planeOnScreen(p, n, params.view.clipToWorld) : vec4(0.0, 0.0, 0.0, 1.0);
-    MarchResult hit = traceRay(makeMarchRay(p, ray.direction, ownPlane, view), marchOptions(jitter), view);
+    MarchOptions options = marchOptions(params.settings, params.longest, secondLayer, jitter);
+    MarchResult hit = traceRay(makeMarchRay(p, ray.direction, ownPlane, view), options, view);
     if (countSteps != 0u) {
         imageStore(steps, slot, vec4(float(hit.steps)));
     }
@@ -192,7 +160,8 @@ RayAnswer traceAnswer(ivec3 slot, Ray ray, vec3 p, vec3 n, inout WaitingRay w) {
         return noAnswer;
     }
     float width = cones != 0u ? widthOfHit(ray.spread, hit) : 1.0;
-    return RayAnswer(lightAt(hit.pixel, width), ray.trust * fadeOf(hit, p, ray.direction), hit.distance);
+    float fade = fadeOf(hit, p, ray.direction, params.settings, params.longest, params.view).x;
+    return RayAnswer(lightAt(hit.pixel, width), ray.trust * fade, hit.distance);
 }
 
 RayAnswer answerRay(ivec3 slot, Ray ray, inout WaitingRay w) {

@@ -1,0 +1,168 @@
+// A swapchain whose images are filled by a blit.
+#include "gpu/presenter.h"
+
+#include "base/error.h"
+#include "gpu/barrier.h"
+#include "gpu/device.h"
+
+#include <algorithm>
+
+namespace reflet::gpu {
+
+namespace {
+
+// Of those that display what is stored, without a curve of their own.
+VkSurfaceFormatKHR chooseFormat(VkPhysicalDevice device, VkSurfaceKHR surface) {
+    uint32_t count = 0;
+    vkCheck(vkGetPhysicalDeviceSurfaceFormatsKHR(device, surface, &count, nullptr), "asking for the window's formats");
+    std::vector<VkSurfaceFormatKHR> formats(count);
+    vkCheck(vkGetPhysicalDeviceSurfaceFormatsKHR(device, surface, &count, formats.data()),
+            "asking for the window's formats");
+    for (const VkFormat wanted :
+         {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_A8B8G8R8_UNORM_PACK32}) {
+        const auto found = std::ranges::find(formats, wanted, &VkSurfaceFormatKHR::format);
+        if (found != formats.end()) {
+            return *found;
+        }
+    }
+    fail("the window takes no 8-bit colours as they are (of {} formats)", count);
+}
+
+VkPresentModeKHR chooseMode(VkPhysicalDevice device, VkSurfaceKHR surface, bool verticalSync) {
+    uint32_t count = 0;
+    vkGetPhysicalDeviceSurfacePresentModesKHR(device, surface, &count, nullptr);
+    std::vector<VkPresentModeKHR> modes(count);
+    vkGetPhysicalDeviceSurfacePresentModesKHR(device, surface, &count, modes.data());
+    for (const VkPresentModeKHR wanted : {VK_PRESENT_MODE_MAILBOX_KHR, VK_PRESENT_MODE_IMMEDIATE_KHR}) {
+        if (!verticalSync && std::ranges::find(modes, wanted) != modes.end()) {
+            return wanted;
+        }
+    }
+    return VK_PRESENT_MODE_FIFO_KHR;  // there is always this one
+}
+
+}  // namespace
+
+Presenter::Presenter(Device& device, VkSurfaceKHR surface) : device_(device), surface_(surface) {
+    VkBool32 supported = VK_FALSE;
+    vkGetPhysicalDeviceSurfaceSupportKHR(device.physical(), device.queueFamily(), surface, &supported);
+    if (supported == VK_FALSE) {
+        vkDestroySurfaceKHR(device.instance(), surface, nullptr);
+        fail("the device '{}' cannot show pictures in this window; --device chooses another",
+             device.description().name);
+    }
+    const VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, nullptr, 0};
+    vkCheck(device.vk.vkCreateFence(device.handle(), &fence, nullptr, &acquired_), "creating a fence");
+}
+
+Presenter::~Presenter() {
+    dropSwapchain();
+    device_.vk.vkDestroyFence(device_.handle(), acquired_, nullptr);
+    vkDestroySurfaceKHR(device_.instance(), surface_, nullptr);
+}
+
+void Presenter::dropSwapchain() {
+    device_.vk.vkDeviceWaitIdle(device_.handle());
+    device_.vk.vkDestroySwapchainKHR(device_.handle(), swapchain_, nullptr);
+    swapchain_ = VK_NULL_HANDLE;
+}
+
+void Presenter::setVerticalSync(bool on) {
+    if (on != verticalSync_) {
+        verticalSync_ = on;
+        dropSwapchain();
+    }
+}
+
+void Presenter::makeSwapchain(uvec2 window) {
+    dropSwapchain();
+    VkSurfaceCapabilitiesKHR can{};
+    vkCheck(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device_.physical(), surface_, &can),
+            "asking for the window's size");
+    const bool free = can.currentExtent.width == UINT32_MAX;  // the window takes the swapchain's size
+    asked_ = window;
+    size_ = free ? glm::clamp(window, uvec2(can.minImageExtent.width, can.minImageExtent.height),
+                              uvec2(can.maxImageExtent.width, can.maxImageExtent.height))
+                 : uvec2(can.currentExtent.width, can.currentExtent.height);
+    if (size_.x == 0 || size_.y == 0) {
+        return;
+    }
+    const VkSurfaceFormatKHR format = chooseFormat(device_.physical(), surface_);
+    VkSwapchainCreateInfoKHR info{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
+    info.surface = surface_;
+    info.minImageCount = std::max(can.minImageCount, std::min(can.minImageCount + 1, std::max(can.maxImageCount, 1U)));
+    info.imageFormat = format.format;
+    info.imageColorSpace = format.colorSpace;
+    info.imageExtent = {size_.x, size_.y};
+    info.imageArrayLayers = 1;
+    info.imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    info.imageSharingMode = VK_SHARING_MODE_EXCLUSIVE;
+    info.preTransform = can.currentTransform;
+    info.compositeAlpha = (can.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR) != 0
+                              ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
+                              : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
+    info.presentMode = chooseMode(device_.physical(), surface_, verticalSync_);
+    info.clipped = VK_TRUE;
+    vkCheck(device_.vk.vkCreateSwapchainKHR(device_.handle(), &info, nullptr, &swapchain_),
+            "creating the window's images");
+    uint32_t count = 0;
+    vkCheck(device_.vk.vkGetSwapchainImagesKHR(device_.handle(), swapchain_, &count, nullptr),
+            "counting the window's images");
+    images_.resize(count);
+    vkCheck(device_.vk.vkGetSwapchainImagesKHR(device_.handle(), swapchain_, &count, images_.data()),
+            "getting the window's images");
+}
+
+void Presenter::copy(VkCommandBuffer commands, const Image& from, VkImage to) const {
+    BarrierBatch before;
+    before.use(*from.state, VK_IMAGE_ASPECT_COLOR_BIT,
+               {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, false});
+    before.record(device_.vk, commands);
+    layoutBarrier(device_.vk, commands, to, {}, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    VkImageBlit blit{};
+    blit.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    blit.dstSubresource = blit.srcSubresource;
+    blit.srcOffsets[1] = {static_cast<int32_t>(from.size.x), static_cast<int32_t>(from.size.y), 1};
+    blit.dstOffsets[1] = {static_cast<int32_t>(size_.x), static_cast<int32_t>(size_.y), 1};
+    device_.vk.vkCmdBlitImage(commands, from.state->image, VK_IMAGE_LAYOUT_GENERAL, to,
+                              VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &blit, VK_FILTER_NEAREST);
+    layoutBarrier(device_.vk, commands, to, {}, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
+}
+
+// All waits are the host's: a frame is done before it is shown, and the next one begins after that.
+bool Presenter::present(const Image& image, uvec2 window) {
+    if (swapchain_ == VK_NULL_HANDLE || asked_ != window) {
+        makeSwapchain(window);
+    }
+    if (size_.x == 0 || size_.y == 0) {
+        return false;
+    }
+    uint32_t index = 0;
+    const VkResult acquired =
+        device_.vk.vkAcquireNextImageKHR(device_.handle(), swapchain_, UINT64_MAX, VK_NULL_HANDLE, acquired_, &index);
+    if (acquired == VK_ERROR_OUT_OF_DATE_KHR) {
+        dropSwapchain();
+        return false;
+    }
+    if (acquired != VK_SUBOPTIMAL_KHR) {
+        vkCheck(acquired, "getting an image of the window");
+    }
+    vkCheck(device_.vk.vkWaitForFences(device_.handle(), 1, &acquired_, VK_TRUE, UINT64_MAX), "waiting for the window");
+    vkCheck(device_.vk.vkResetFences(device_.handle(), 1, &acquired_), "resetting a fence");
+    device_.runNow([&](VkCommandBuffer commands) { copy(commands, image, images_[index]); });
+    VkPresentInfoKHR info{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
+    info.swapchainCount = 1;
+    info.pSwapchains = &swapchain_;
+    info.pImageIndices = &index;
+    const VkResult presented = device_.vk.vkQueuePresentKHR(device_.queue(), &info);
+    if (presented == VK_ERROR_OUT_OF_DATE_KHR) {
+        dropSwapchain();
+        return false;
+    }
+    if (presented != VK_SUBOPTIMAL_KHR) {
+        vkCheck(presented, "showing the picture");
+    }
+    return true;
+}
+
+}  // namespace reflet::gpu

@@ -1,0 +1,255 @@
+// Makes the right side.
+#include "view/compare_view.h"
+
+#include "base/error.h"
+#include "compare/heat_map.h"
+#include "render/presets.h"
+
+#include <algorithm>
+#include <thread>
+
+namespace reflet {
+
+namespace {
+
+bool sameTone(const TonemapSettings& a, const TonemapSettings& b) {
+    return a.exposure == b.exposure && a.curve == b.curve;
+}
+
+ViewerState ofPreset(const ViewerState& state) {
+    ViewerState other = state;
+    other.settings = Settings{};
+    applyPreset(other.settings, state.compare.preset);
+    other.settings.tonemap = state.settings.tonemap;  // what is compared is the light
+    return other;
+}
+
+}  // namespace
+
+void CompareView::forget() {
+    truth_.stop();
+    errorWork_.stop();
+    truth_.take();
+    errorWork_.take();
+    other_.reset();
+    file_.clear();
+    layers_.clear();
+    asked_.reset();
+    samples_ = 0;
+    values_ = nullptr;
+    pictureOf_ = nullptr;
+    picture_ = {};
+    error_.reset();
+    errorLeft_ = nullptr;
+    errorRight_ = nullptr;
+    errorMap_ = nullptr;
+    message_.clear();
+    failed_ = false;
+}
+
+void CompareView::complain(const std::string& text) {
+    message_ = text;
+    failed_ = true;
+}
+
+bool CompareView::wantsFrame(const ViewerState& state, uvec2 size) const {
+    return state.compare.with == CompareWith::preset && !failed_ &&
+           (with_ != CompareWith::preset || !other_ || other_->wantsFrame(ofPreset(state), size));
+}
+
+void CompareView::updatePreset(const ViewerState& state, const Session& live, uvec2 size) {
+    if (!other_) {
+        other_ = std::make_unique<Session>(device_, live);
+    }
+    const ViewerState its = ofPreset(state);
+    if (other_->wantsFrame(its, size)) {
+        other_->render(its, size, true);
+    }
+    if (!other_->showProblem().empty()) {
+        complain(other_->showProblem());
+        values_ = nullptr;
+        return;
+    }
+    values_ = other_->shownValues();
+    message_ = fmt::format("{} after {} frames", state.compare.preset, other_->frames());
+}
+
+void CompareView::updateFile(const ViewerState& state) {
+    if (state.compare.file != file_) {
+        file_ = state.compare.file;
+        layers_.clear();
+        layerShow_.clear();
+        fileProblem_.clear();
+        try {
+            layers_ = file_.empty() ? std::vector<ImageLayer>{} : readExr(file_);
+        } catch (const Error& error) {
+            fileProblem_ = error.what();
+        }
+    }
+    if (!fileProblem_.empty()) {
+        complain(fileProblem_);
+        values_ = nullptr;
+        return;
+    }
+    if (file_.empty()) {
+        message_ = "Name an EXR file, or drag one onto the window.";
+        values_ = nullptr;
+        return;
+    }
+    chooseLayer(state);
+}
+
+// The layer of the show's name; of the whole picture, the one without a name does as well.
+void CompareView::chooseLayer(const ViewerState& state) {
+    if (layerShow_ == state.show && values_) {
+        return;
+    }
+    layerShow_ = state.show;
+    values_ = nullptr;
+    auto found = std::ranges::find(layers_, state.show, &ImageLayer::name);
+    if (found == layers_.end() && state.show == "final") {
+        found = std::ranges::find(layers_, std::string(), &ImageLayer::name);
+    }
+    const size_t wanted = findShow(state.show).channels.size();
+    if (found == layers_.end() || found->image.channels.size() < wanted) {
+        complain(fmt::format("There is no image '{}' to compare with.", state.show));
+        return;
+    }
+    auto image = std::make_shared<FloatImage>(found->image);
+    if (const size_t has = image->channels.size(); has > wanted) {  // alpha
+        std::vector<float> fewer;
+        for (size_t i = 0; i < image->data.size(); i += has) {
+            fewer.insert(fewer.end(), image->data.begin() + static_cast<std::ptrdiff_t>(i),
+                         image->data.begin() + static_cast<std::ptrdiff_t>(i + wanted));
+        }
+        image->data = std::move(fewer);
+        image->channels.resize(wanted);
+    }
+    values_ = std::move(image);
+    message_.clear();
+}
+
+void CompareView::startTruth(const ViewerState& state, const Session& live) {
+    ReferenceOptions options;
+    options.samples = std::min(samples_ == 0 ? 1 : samples_ * 4, state.compare.samples);
+    options.filter = asked_->filter;
+    options.lambertOnly = asked_->lambertOnly;
+    options.seed = state.source.seed;
+    options.threads = std::max(1U, std::thread::hardware_concurrency() - 1U);  // one draws
+    progress_ = 0.0F;
+    truth_.start([this, scene = live.sharedScene(), asked = *asked_, options](const std::atomic<bool>& cancelled) {
+        return traceReference(*scene, asked.view, asked.size, options, [&](const ReferenceProgress& now) {
+            const float done = static_cast<float>(double(now.done) / double(std::max<uint64_t>(now.total, 1)));
+            if (done > progress_ + 0.02F) {
+                progress_ = done;
+                Window::wake();
+            }
+            return !cancelled;
+        });
+    });
+}
+
+void CompareView::updateTruth(const ViewerState& state, const Session& live, uvec2 size, bool mayRender) {
+    const Asked asked{state.view, size, state.settings.materials.lambertOnly != 0,
+                      state.settings.temporal.enabled != 0 ? PixelFilter::box : PixelFilter::center};
+    if (!asked_ || !(*asked_ == asked)) {
+        asked_ = asked;
+        truth_.cancel();
+        samples_ = 0;
+        layers_.clear();
+        values_ = nullptr;
+        error_.reset();
+    }
+    if (!mayRender) {
+        truth_.cancel();
+    }
+    const bool unwanted = truth_.cancelled();
+    if (auto picture = truth_.take(); picture && !unwanted) {
+        samples_ = picture->samples;
+        layers_ = picture->layers();
+        layerShow_.clear();
+    }
+    if (mayRender && !truth_.busy() && samples_ < state.compare.samples) {
+        startTruth(state, live);
+    }
+    if (samples_ == 0) {
+        message_ = "path tracing";
+        return;
+    }
+    chooseLayer(state);
+    if (values_) {
+        message_ = fmt::format("path traced, {} of {} samples per pixel", samples_, state.compare.samples);
+    }
+}
+
+void CompareView::updateError(const Session& live) {
+    if (const auto comparison = errorWork_.take()) {
+        error_ = comparison->difference;
+        errorMap_ = std::make_shared<const FloatImage>(comparison->flip);
+    }
+    const std::shared_ptr<const FloatImage>& left = live.shownValues();
+    if (!left || !values_ || errorWork_.busy() || (left == errorLeft_ && values_ == errorRight_)) {
+        return;
+    }
+    if (left->channels.size() != 1 && left->channels.size() != 3) {
+        return;
+    }
+    errorLeft_ = left;
+    errorRight_ = values_;
+    errorWork_.start([left, right = values_](const std::atomic<bool>&) {
+        CompareOptions options;
+        options.pictureName = "the left side";
+        options.truthName = "the right side";
+        return compareImages(*left, *right, options);
+    });
+}
+
+void CompareView::updatePicture(const ViewerState& state) {
+    const bool asError = state.compare.errorImage && errorMap_;
+    const std::shared_ptr<const FloatImage>& of = asError ? errorMap_ : values_;
+    const vec2 range(state.low, state.high);
+    if (!of) {
+        picture_ = {};
+        pictureOf_ = nullptr;
+        return;
+    }
+    if (of == pictureOf_ && pictureTone_ && sameTone(*pictureTone_, state.settings.tonemap) &&
+        pictureIsError_ == asError && pictureFalse_ == state.falseColor && pictureRange_ == range) {
+        return;
+    }
+    pictureOf_ = of;
+    pictureTone_ = state.settings.tonemap;
+    pictureIsError_ = asError;
+    pictureFalse_ = state.falseColor;
+    pictureRange_ = range;
+    texture_ = uploadPicture(device_, asError ? heatMap(*of) : shownPicture(state, *of), "right side");
+    picture_ = texture_.image();
+}
+
+void CompareView::update(const ViewerState& state, const Session& live, uvec2 size, bool mayRender) {
+    if (state.compare.with != with_) {
+        forget();
+        with_ = state.compare.with;
+    }
+    if (with_ == CompareWith::nothing) {
+        return;
+    }
+    failed_ = false;
+    try {
+        if (with_ == CompareWith::preset && mayRender) {
+            updatePreset(state, live, size);
+        } else if (with_ == CompareWith::file) {
+            updateFile(state);
+        } else if (with_ == CompareWith::truth) {
+            updateTruth(state, live, size, mayRender);
+        }
+        updateError(live);
+        updatePicture(state);
+    } catch (const Error& error) {
+        complain(error.what());
+        values_ = nullptr;
+        picture_ = {};
+    }
+}
+
+}  // namespace reflet

@@ -1,0 +1,30 @@
+// The window below its user interface: the left and the right picture in their rectangle, pixel by pixel as they are.
+// In: both pictures, display encoded. Out: the window.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "view/canvas.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ComposeParams params; };
+layout(set = 0, binding = 1) uniform sampler2D left;
+layout(set = 0, binding = 2) uniform sampler2D right;
+layout(set = 0, binding = 3, rgba8) uniform writeonly image2D window;
+
+const vec3 outside = vec3(0.08);
+
+void main() {
+    uvec2 pixel = gl_GlobalInvocationID.xy;
+    if (any(greaterThanEqual(pixel, params.size))) {
+        return;
+    }
+    vec2 uv = (vec2(pixel) + 0.5 - params.corner) / max(params.extent, vec2(1e-6));
+    vec3 color = outside;
+    if (all(greaterThanEqual(uv, vec2(0.0))) && all(lessThan(uv, vec2(1.0)))) {
+        if (float(pixel.x) < params.divider) {
+            color = texelFetch(left, ivec2(uv * params.sizeA), 0).rgb;
+        } else {
+            color = texelFetch(right, ivec2(uv * params.sizeB), 0).rgb;
+        }
+    }
+    imageStore(window, ivec2(pixel), vec4(color, 1.0));
+}

@@ -1,0 +1,198 @@
+// Renders an open scene.
+#include "view/session.h"
+
+#include "apps/pictures.h"
+#include "base/error.h"
+#include "compare/heat_map.h"
+#include "render/tonemap/tone_map_image.h"
+#include "scene/view_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace reflet {
+
+namespace {
+
+// What is remembered from frame to frame has come to rest by then, as `reflet render` has it.
+constexpr uint32_t settledAfter = 32;
+constexpr uint32_t meanSettledAfter = 1024;  // accumulate
+
+bool remembers(const Settings& settings) {
+    return settings.denoise.enabled != 0 || settings.temporal.enabled != 0;
+}
+
+uint32_t framesFor(const Settings& settings) {
+    if (settings.accumulate.enabled != 0) {
+        return meanSettledAfter;
+    }
+    return remembers(settings) || keepsHistory(settings) ? settledAfter : 1;
+}
+
+bool isMade(const Show& show, const FrameImages& images) {
+    const std::vector<gpu::Image> needed = show.images(images);
+    return std::ranges::all_of(needed, [](const gpu::Image& i) { return bool(i); });
+}
+
+bool needsValues(const ViewerState& state) {
+    return state.falseColor || findShow(state.show).picture != nullptr;
+}
+
+}  // namespace
+
+Settings renderedSettings(const ViewerState& state) {
+    Settings settings = state.settings;
+    const Pictures pictures(state.show, {});
+    settings.composite.layers = pictures.needsLayers() ? 1 : 0;
+    if (pictures.countsSteps()) {
+        settings.traceScreen.countSteps = 1;
+    }
+    return settings;
+}
+
+Bitmap shownPicture(const ViewerState& state, const FloatImage& values) {
+    const Show& show = findShow(state.show);
+    if (state.falseColor) {
+        FloatImage first{values.width, values.height, {"Y"}, {}};
+        const float range = std::max(state.high - state.low, 1e-12F);
+        for (size_t i = 0; i < values.data.size(); i += values.channels.size()) {
+            first.data.push_back((values.data[i] - state.low) / range);
+        }
+        return heatMap(first);
+    }
+    return show.picture == nullptr ? toneMapped(values, state.settings.tonemap) : makePicture(show, values);
+}
+
+gpu::Texture uploadPicture(gpu::Device& device, const Bitmap& bitmap, const std::string& name) {
+    std::vector<uint8_t> rgba;
+    rgba.reserve(size_t(bitmap.width) * bitmap.height * 4);
+    for (size_t i = 0; i < bitmap.data.size(); i += bitmap.channels) {
+        rgba.insert(rgba.end(), {bitmap.data[i], bitmap.data[i + 1], bitmap.data[i + 2], 255});
+    }
+    return gpu::uploadTexture(device, {bitmap.width, bitmap.height}, rgba, false, false, name);
+}
+
+Session::Session(gpu::Device& device, ViewerState& state)
+    : device_(device),
+      scene_(std::make_shared<const Scene>(loadScene(state.source))),
+      firstView_(loadView(state.source, *scene_)),
+      renderer_(device, *scene_, printWarning) {
+    state.view = firstView_;
+}
+
+Session::Session(gpu::Device& device, const Session& other)
+    : device_(device), scene_(other.scene_), firstView_(other.firstView_), renderer_(device, *scene_, printWarning) {}
+
+uint32_t Session::framesToRest(const ViewerState& state) const {
+    return framesFor(renderedSettings(state));
+}
+
+bool Session::wantsFrame(const ViewerState& state, uvec2 size) const {
+    if (!asked_ || state.plays) {
+        return true;
+    }
+    const Settings settings = renderedSettings(state);
+    return !(asked_->view == state.view) || asked_->size != size || !sameSettings(asked_->settings, settings) ||
+           frames_ < framesFor(settings);
+}
+
+FrameImages Session::renderFrame(const ViewerState& state, const View& view, uvec2 size, const Settings& settings,
+                                 const std::function<void(gpu::Frame&, const FrameImages&)>& after) {
+    params_ = makeViewParams(view.camera, size, 0, state.source.seed);
+    size_ = size;
+    return renderer_.render(view, size, state.source.seed, settings, after);
+}
+
+void Session::render(const ViewerState& state, uvec2 size, bool keepValues) {
+    const Settings settings = renderedSettings(state);
+    if (!asked_ || !(asked_->view == state.view) || asked_->size != size || !sameSettings(asked_->settings, settings)) {
+        asked_ = Asked{state.view, settings, size};
+        frames_ = 0;
+    }
+    const Show& show = findShow(state.show);
+    const bool values = keepValues || needsValues(state);
+    std::optional<ShowReadback> readback;
+    problem_.clear();
+    const FrameImages images =
+        renderFrame(state, state.view, size, settings, [&](gpu::Frame& f, const FrameImages& made) {
+            if (!isMade(show, made)) {
+                problem_ =
+                    fmt::format("The frame has no image '{}' with these settings: {}.", show.name, show.description);
+            } else if (values) {
+                readback = requestShow(f, made, show);
+            }
+        });
+    ++frames_;
+    values_ = readback ? std::make_shared<const FloatImage>(fetchValues(frame(), *readback, params_)) : nullptr;
+    picture_ = problem_.empty() ? images.display : gpu::Image{};
+    if (needsValues(state)) {
+        refreshPicture(state);
+    }
+}
+
+void Session::refreshPicture(const ViewerState& state) {
+    if (values_) {
+        uploaded_ = uploadPicture(device_, shownPicture(state, *values_), "shown");
+        picture_ = uploaded_.image();
+    }
+}
+
+void Session::startAnew() {
+    renderer_.restart(0);
+    asked_.reset();
+    frames_ = 0;
+}
+
+// By a renderer of its own, which has seen as little before as that of `reflet render`; the live picture stays as it
+// is.
+void Session::screenshot(const ViewerState& state, uvec2 size, const std::string& file) {
+    Pictures pictures(state.show, {});
+    const Settings settings = renderedSettings(state);
+    const uint32_t frames = remembers(settings) ? settledAfter : 1;
+    // The view as it is after it has been written to a file and read: directions may differ in the last bit.
+    View view = firstView_;
+    applyViewJson(nlohmann::json(viewJson(state.view)), "view", view);
+    Renderer renderer(device_, *scene_, printWarning);
+    bool made = true;
+    for (uint32_t i = 0; i < frames; ++i) {
+        renderer.render(view, size, state.source.seed, settings, [&](gpu::Frame& f, const FrameImages& images) {
+            made = isMade(findShow(state.show), images);
+            if (made && i + 1 == frames) {
+                pictures.request(f, images, false);
+            }
+        });
+    }
+    if (!made) {
+        fail("the frame has no image '{}' with these settings", state.show);
+    }
+    pictures.write(file, renderer.frame(), makeViewParams(view.camera, size, 0, state.source.seed));
+}
+
+Picked Session::pick(const ViewerState& state, uvec2 size, uvec2 pixel) {
+    Settings settings = renderedSettings(state);
+    settings.composite.layers = 1;
+    std::vector<ShowReadback> readbacks;
+    gpu::Readback ray;
+    const FrameImages images =
+        renderFrame(state, state.view, size, settings, [&](gpu::Frame& f, const FrameImages& made) {
+            for (const Show& show : shows()) {
+                if (isMade(show, made) && !hasOwnSize(show)) {
+                    readbacks.push_back(requestShow(f, made, show));
+                }
+            }
+            ray = recordRay(f, made, makeViewParams(state.view.camera, size, 0, state.source.seed),
+                            settings.traceScreen, pixel);
+        });
+    Picked picked{pixel, {}, recordedRay(frame(), ray), params_};
+    for (const ShowReadback& readback : readbacks) {
+        picked.values.push_back(
+            {std::string(readback.show->name), readback.show->channels, fetchValue(frame(), readback, params_, pixel)});
+    }
+    if (!needsValues(state)) {
+        picture_ = images.display;
+    }
+    return picked;
+}
+
+}  // namespace reflet

@@ -1,0 +1,154 @@
+// Watches shader files by their times, compiles by glslc.
+#include "view/shader_watch.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "gpu/shader.h"
+
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <regex>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace reflet {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isShader(const fs::path& file) {
+    return file.extension() == ".comp" || file.extension() == ".vert" || file.extension() == ".frag";
+}
+
+bool isSource(const fs::path& file) {
+    return isShader(file) || file.extension() == ".glsl" || file.extension() == ".h";
+}
+
+std::string quoted(const fs::path& path) {
+    std::string text = "'";
+    for (const char c : path.string()) {
+        text += c == '\'' ? "'\\''" : std::string(1, c);
+    }
+    return text + "'";
+}
+
+struct Ran {
+    int status = 0;
+    std::string said;
+};
+
+Ran runCommand(const std::string& command) {
+    Ran ran;
+    FILE* pipe = popen(command.c_str(), "r");
+    if (pipe == nullptr) {
+        fail("glslc cannot be started");
+    }
+    std::array<char, 4096> buffer{};
+    while (const size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe)) {
+        ran.said.append(buffer.data(), count);
+    }
+    const int status = pclose(pipe);
+    ran.status = WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+    return ran;
+}
+
+}  // namespace
+
+ShaderWatch::ShaderWatch(const fs::path& sources) : sources_(sources) {
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(sources, error)) {
+        if (entry.is_regular_file() && isSource(entry.path())) {
+            read(entry.path().lexically_relative(sources).string());
+        }
+    }
+}
+
+void ShaderWatch::read(const std::string& name) {
+    static const std::regex include("#include \"([^\"]+)\"");
+    const fs::path path = sources_ / name;
+    File& file = files_[name];
+    std::error_code error;
+    file.changed = fs::last_write_time(path, error);
+    file.includes.clear();
+    const std::string text = readFile(path);
+    for (auto i = std::sregex_iterator(text.begin(), text.end(), include); i != std::sregex_iterator(); ++i) {
+        file.includes.insert((*i)[1].str());
+    }
+}
+
+// All that includes it, also by way of others, and itself.
+std::set<std::string> ShaderWatch::usersOf(const std::string& name) const {
+    std::set<std::string> users{name};
+    for (size_t before = 0; before != users.size();) {
+        before = users.size();
+        for (const auto& [other, file] : files_) {
+            for (const std::string& included : file.includes) {
+                if (users.contains(included)) {
+                    users.insert(other);
+                    break;
+                }
+            }
+        }
+    }
+    return users;
+}
+
+bool ShaderWatch::compile(const std::string& name) {
+    // As cmake/shaders.cmake does.
+    const fs::path out = fs::temp_directory_path() / fmt::format("reflet-shader-{}.spv", ::getpid());
+    const Ran ran = runCommand(fmt::format("glslc --target-env=vulkan1.2 -Werror -I {} -o {} {} 2>&1", quoted(sources_),
+                                           quoted(out), quoted(sources_ / name)));
+    if (ran.status != 0) {
+        problem_ = ran.said.empty() ? fmt::format("{}: glslc cannot be run", name) : ran.said;
+        return false;
+    }
+    const std::string bytes = readFile(out);
+    std::error_code ignored;
+    fs::remove(out, ignored);
+    std::vector<uint32_t> words(bytes.size() / sizeof(uint32_t));
+    std::memcpy(words.data(), bytes.data(), words.size() * sizeof(uint32_t));
+    try {
+        gpu::replaceShader(fs::path(name).filename().string(), std::move(words));
+    } catch (const Error& error) {
+        problem_ = error.what();
+        return false;
+    }
+    return true;
+}
+
+bool ShaderWatch::update() {
+    std::set<std::string> shaders;
+    for (auto& [name, file] : files_) {
+        std::error_code error;
+        const auto changed = fs::last_write_time(sources_ / name, error);
+        if (error || changed == file.changed) {
+            continue;
+        }
+        read(name);
+        for (const std::string& user : usersOf(name)) {
+            if (isShader(user)) {
+                shaders.insert(user);
+            }
+        }
+    }
+    if (shaders.empty()) {
+        return false;
+    }
+    shaders.insert(broken_.begin(), broken_.end());  // what they lacked may be there now
+    broken_.clear();
+    problem_.clear();
+    replaced_.clear();
+    for (const std::string& shader : shaders) {
+        if (compile(shader)) {
+            replaced_.push_back(shader);
+        } else {
+            broken_.insert(shader);
+        }
+    }
+    return !replaced_.empty();
+}
+
+}  // namespace reflet

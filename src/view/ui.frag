@@ -1,0 +1,10 @@
+// The user interface's pixels, blended over the pictures as they are encoded for the display. In: place in the font,
+// colour. Out: the window.
+#version 460
+
+layout(set = 0, binding = 1) uniform sampler2D font;
+layout(location = 0) in vec2 fontUv;
+layout(location = 1) in vec4 tint;
+layout(location = 0) out vec4 window;
+
+void main() { window = tint * texture(font, fontUv); }

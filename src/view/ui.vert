@@ -1,0 +1,17 @@
+// The user interface's triangles. In: position in its own coordinates, place in the font, sRGB colour. Out: the same.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "view/canvas.h"
+
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { UiParams params; };
+layout(location = 0) in vec2 position;
+layout(location = 1) in vec2 uv;
+layout(location = 2) in vec4 color;
+layout(location = 0) out vec2 fontUv;
+layout(location = 1) out vec4 tint;
+
+void main() {
+    fontUv = uv;
+    tint = color;
+    gl_Position = vec4(position * params.scale + params.shift, 0.0, 1.0);
+}

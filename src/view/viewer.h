@@ -1,0 +1,151 @@
+// The viewer: a window, a scene, and what people do with them.
+#pragma once
+
+#include "gpu/device.h"
+#include "gpu/presenter.h"
+#include "view/canvas.h"
+#include "view/compare_view.h"
+#include "view/controls.h"
+#include "view/session.h"
+#include "view/shader_watch.h"
+#include "view/window.h"
+
+#include <chrono>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace reflet {
+
+struct ViewerOptions {
+    SceneOptions scene;
+    std::string device;
+    bool fresh = false;         ///< what was saved of the scene is left alone until the end
+    std::string status;         ///< file that says what the window shows, for scripts; empty: none
+    std::string pick;           ///< "X,Y": a pixel that is picked once the picture is at rest
+    std::string windowPicture;  ///< PNG of the window once it is at rest, which ends the program; empty: none
+    std::string shaders;        ///< folder of sources whose shaders are watched; empty: what the program was built from
+    bool validate = false;
+};
+
+/// The device time of a pass in the last frames, milliseconds.
+struct PassHistory {
+    std::string name;
+    float mean = 0.0F;
+    uint64_t lastFrame = 0;
+};
+
+class Viewer {
+public:
+    /// Opens the window and the scene. Throws Error or UsageError.
+    explicit Viewer(const ViewerOptions& options);
+    ~Viewer();
+    Viewer(const Viewer&) = delete;
+    Viewer& operator=(const Viewer&) = delete;
+
+    /// Until the window is closed. Throws Error: the device or the surface is lost; the state has been saved then.
+    void run();
+
+    [[nodiscard]] const gpu::Device& device() const { return device_; }
+
+private:
+    struct PictureRect {  // of the window, in its units
+        vec2 min{0.0F};
+        vec2 size{0.0F};
+    };
+
+    // viewer.cpp
+    void loop();
+    void open(const SceneOptions& source, bool restores);
+    void openFile(const std::string& file);
+    [[nodiscard]] PictureRect pictureRect() const;
+    [[nodiscard]] uvec2 renderSize() const;
+    [[nodiscard]] bool wantsLiveFrame() const;
+    [[nodiscard]] bool wantsFrame() const;
+    [[nodiscard]] double timeToFrame() const;
+    [[nodiscard]] double timeToWait() const;
+    [[nodiscard]] bool atRest() const;
+    void finishPicture();
+    void renderScene();
+    void present();
+    void watchShaders();
+    void noteTimes();
+    void tell(const std::string& text) { notice_ = text; }
+    void attempt(const std::function<void()>& work);
+    void save();
+
+    // viewer_actions.cpp
+    void applyPresetNamed(const std::string& name);
+    [[nodiscard]] std::string commandLine();
+    void takeScreenshot(const std::string& file);
+    void pickPixel(uvec2 pixel);
+    void chooseFalseColorRange();
+    void writeStatus();
+
+    // viewer_input.cpp
+    void handleKeys();
+    void handleKey(const KeyPress& press);
+    void handlePointer();
+    void flyByKeys();
+    [[nodiscard]] uvec2 pixelAt(const vec2& mouse) const;
+
+    // viewer_panels.cpp
+    void drawUi();
+    void drawPanel();
+    void runPanel();
+    void settingsPanel();
+    void lightPanel();
+    void cameraPanel();
+    void showPanel();
+    void comparePanel();
+    void pixelPanel();
+    void timesPanel();
+    void filesPanel();
+    void messages();
+    void helpOverlay();
+
+    // viewer_overlay.cpp
+    void drawDivider();
+    void drawRay();
+    [[nodiscard]] vec2 onWindow(const vec2& pixel) const;
+
+    ViewerOptions options_;
+    ViewerState state_;
+    Window window_;
+    gpu::Device device_;
+    gpu::Presenter presenter_;
+    std::unique_ptr<Canvas> canvas_;
+    std::unique_ptr<Session> session_;
+    CompareView compare_;
+    ShaderWatch shaders_;
+    ControlPlaces places_;
+
+    std::string notice_;   ///< the last thing that was done
+    std::string problem_;  ///< the last thing that failed; stays until the next that works
+    std::string fileName_;
+    std::string filter_;
+    std::string openName_;
+    std::optional<Picked> picked_;
+    bool stepsOnce_ = false;
+    bool opensPixel_ = false;  ///< its panel, in the next round
+    std::optional<uvec2> toPick_;
+    int redraws_ = 3;  ///< the user interface settles within so many frames
+    bool dragsDivider_ = false;
+    vec2 pressedAt_{0.0F};
+    bool pressedInPicture_ = false;
+    std::chrono::steady_clock::time_point lastFrame_;
+    std::chrono::steady_clock::time_point lastLoop_;
+    double elapsed_ = 0.0;  ///< seconds since the loop's last round
+    std::deque<float> frameTimes_;
+    std::vector<PassHistory> passes_;
+    uint64_t rendered_ = 0;  ///< frames in all
+    uint64_t drawn_ = 0;     ///< windows in all
+    std::chrono::steady_clock::time_point lastWatch_;
+    std::chrono::steady_clock::time_point lastSave_ = std::chrono::steady_clock::now();
+    std::string saved_;  ///< what is in the file
+    bool warnedOfSaving_ = false;
+};
+
+}  // namespace reflet

@@ -1,0 +1,180 @@
+// What the viewer does on request, and what it tells scripts.
+#include "view/viewer.h"
+
+#include "apps/command_line.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "render/presets.h"
+#include "scene/view_file.h"
+#include "view/saved_state.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+namespace reflet {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+std::string sceneStem(const std::string& scene) {
+    return scene.starts_with("builtin:") ? scene.substr(8) : fs::path(scene).stem().string();
+}
+
+// The view in a file that stays: of its content's name, so that a command line that was copied keeps its meaning.
+std::string keptViewFile(const std::string& scene, const View& view) {
+    const std::string text = viewJson(view).dump(2) + "\n";
+    const fs::path file = configurationFolder() / "views" /
+                          fmt::format("{}-{:016x}.json", sceneStem(scene), std::hash<std::string>{}(text));
+    std::error_code ignored;
+    fs::create_directories(file.parent_path(), ignored);
+    writeFileAtomically(file, text);
+    return file.string();
+}
+
+const char* nameOf(RayOutcome outcome) {
+    constexpr std::array<const char*, 4> names{"hit", "left the screen", "spent", "hidden"};
+    return names[static_cast<size_t>(outcome)];
+}
+
+ordered_json pickedJson(const Picked& picked) {
+    ordered_json json{{"pixel", {picked.pixel.x, picked.pixel.y}}};
+    for (const PickedValues& values : picked.values) {
+        json["values"][values.name] = values.values;
+    }
+    if (picked.ray) {
+        json["ray"] = {{"outcome", nameOf(picked.ray->outcome)},
+                       {"distance", picked.ray->distance},
+                       {"confidence", picked.ray->confidence},
+                       {"samples", picked.ray->samples}};
+    }
+    return json;
+}
+
+}  // namespace
+
+void Viewer::applyPresetNamed(const std::string& name) {
+    Settings settings;
+    applyPreset(settings, name);
+    state_.preset = name;
+    state_.ofPreset = settings;
+    state_.settings = settings;
+}
+
+std::string Viewer::commandLine() {
+    const uvec2 size = renderSize();
+    const SceneOptions& source = state_.source;
+    std::string line = "reflet render " + shellWord(source.scene);
+    if (source.sceneIndex) {
+        line += fmt::format(" --scene {}", *source.sceneIndex);
+    }
+    line += fmt::format(" --size {}x{}", size.x, size.y);
+    if (state_.preset != defaultPreset) {
+        line += " --preset " + shellWord(state_.preset);
+    }
+    for (const SettingEntry& entry : settingEntries()) {
+        const std::string value = settingText(state_.settings, entry);
+        if (value != settingText(state_.ofPreset, entry)) {
+            line += fmt::format(" --set {}", shellWord(entry.name + "=" + value));
+        }
+    }
+    if (!source.camera.empty()) {
+        line += " --camera " + shellWord(source.camera);
+    }
+    if (!(state_.view == session_->firstView())) {
+        line += " --view-file " + shellWord(keptViewFile(source.scene, state_.view));
+    } else {
+        if (!source.viewFile.empty()) {
+            line += " --view-file " + shellWord(fs::absolute(source.viewFile).string());
+        }
+        if (source.time) {
+            line += fmt::format(" --time {}", *source.time);
+        }
+    }
+    if (source.seed != 0) {
+        line += fmt::format(" --seed {}", source.seed);
+    }
+    if (state_.show != "final") {
+        line += " --show " + state_.show;
+    }
+    return line + fmt::format(" -o {}.png", shellWord(sceneStem(source.scene)));
+}
+
+void Viewer::takeScreenshot(const std::string& file) {
+    std::string name = file;
+    for (int i = 1; name.empty(); ++i) {
+        const std::string next = fmt::format("{}-{}.png", sceneStem(state_.source.scene), i);
+        name = fs::exists(next) ? "" : next;
+    }
+    const std::string extension = fs::path(name).extension().string();
+    if (extension != ".png" && extension != ".exr") {
+        fail("{}: the name must end in .png or .exr", name);
+    }
+    session_->screenshot(state_, renderSize(), name);
+    tell(fmt::format("Written: {}", fs::absolute(name).string()));
+}
+
+void Viewer::pickPixel(uvec2 pixel) {
+    state_.picked = pixel;
+    picked_ = session_->pick(state_, renderSize(), pixel);
+    opensPixel_ = true;
+}
+
+void Viewer::chooseFalseColorRange() {
+    const auto& values = session_->shownValues();
+    if (!values || values->data.empty()) {
+        return;
+    }
+    float low = values->data.front();
+    float high = low;
+    for (size_t i = 0; i < values->data.size(); i += values->channels.size()) {
+        low = std::min(low, values->data[i]);
+        high = std::max(high, values->data[i]);
+    }
+    state_.low = low;
+    state_.high = std::max(high, low + 1e-6F);
+    session_->refreshPicture(state_);
+}
+
+void Viewer::writeStatus() {
+    if (options_.status.empty()) {
+        return;
+    }
+    const PictureRect rect = pictureRect();
+    const uvec2 size = renderSize();
+    ordered_json json{
+        {"drawn", drawn_},
+        {"rendered", rendered_},
+        {"frames", session_->frames()},
+        {"at_rest", atRest()},
+        {"scene", state_.source.scene},
+        {"paused", state_.running == Running::paused},
+        {"window", {window_.size().x, window_.size().y}},
+        {"picture", {rect.min.x, rect.min.y, rect.min.x + rect.size.x, rect.min.y + rect.size.y}},
+        {"size", {size.x, size.y}},
+        {"notice", notice_},
+        {"problem", problem_},
+        {"shader_problem", shaders_.problem()},
+        {"settings", settingsJson(state_.settings, state_.ofPreset)},
+        {"preset", state_.preset},
+        {"camera", {state_.view.camera.position.x, state_.view.camera.position.y, state_.view.camera.position.z}},
+        {"compare", {{"message", compare_.message()}, {"samples", compare_.samples()}}}};
+    if (compare_.error()) {
+        json["compare"]["relative_mse"] = compare_.error()->relativeMse;
+        json["compare"]["flip"] = compare_.error()->flip;
+    }
+    if (picked_) {
+        json["picked"] = pickedJson(*picked_);
+    }
+    json["controls"] = ordered_json::object();
+    for (const auto& [name, place] : places_.all()) {
+        json["controls"][name] = {place.min.x, place.min.y, place.max.x, place.max.y};
+    }
+    writeFileAtomically(options_.status, json.dump(1) + "\n");
+}
+
+}  // namespace reflet

@@ -1,0 +1,197 @@
+// What is drawn over the picture: the divider, the picked pixel's ray, help.
+#include "view/viewer.h"
+
+#include "base/error.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+
+namespace reflet {
+
+namespace {
+
+const ImVec4 quietText(0.65F, 0.68F, 0.72F, 1.0F);
+
+std::string text(const std::vector<float>& values) {
+    std::string all;
+    for (const float value : values) {
+        all += fmt::format("{}{:.4g}", all.empty() ? "" : "  ", value);
+    }
+    return all;
+}
+
+// Why the mirror ray brings what it brings, in words.
+std::string explanation(const RecordedRay& ray, const TraceScreenSettings& settings) {
+    const std::string at = fmt::format("pixel {}, {}", ray.pixel.x, ray.pixel.y);
+    std::string why;
+    if (ray.outcome == RayOutcome::hit && ray.facesAway && settings.rejectFacingAway != 0) {
+        why = fmt::format(
+            "A miss: after {:.3g} m it meets what {} shows from behind, and that side the screen does not "
+            "show (trace_screen.rejectFacingAway).",
+            ray.distance, at);
+    } else if (ray.outcome == RayOutcome::hit) {
+        why = fmt::format(
+            "A hit: after {:.3g} m it meets what {} shows. Confidence {:.2f}: edge {:.2f}, distance {:.2f}, "
+            "camera {:.2f}.",
+            ray.distance, at, ray.confidence, ray.edge, ray.far, ray.camera);
+    } else if (ray.outcome == RayOutcome::leftScreen) {
+        why = fmt::format(
+            "A miss: it leaves the screen after {:.3g} m. What is there only other sources know: trace_scene, "
+            "probes, the environment.",
+            ray.distance);
+    } else if (ray.outcome == RayOutcome::hidden) {
+        why = fmt::format("A miss: it goes behind something thicker than trace_screen.thickness ({:g} m).",
+                          settings.thickness);
+    } else {
+        why = fmt::format(
+            "A miss: it has taken all its steps (trace_screen.maxSteps is {}), or gone as far as "
+            "trace_screen.maxDistance ({:g} m).",
+            settings.maxSteps, settings.maxDistance);
+    }
+    if (ray.lost && !(ray.outcome == RayOutcome::hit && !ray.facesAway)) {
+        why += fmt::format(
+            " From {:.3g} m on it was behind something that the screen shows, by more than "
+            "trace_screen.thickness ({:g} m): what it meets there is hidden.",
+            ray.clear, settings.thickness);
+    }
+    return why;
+}
+
+}  // namespace
+
+vec2 Viewer::onWindow(const vec2& pixel) const {
+    const PictureRect rect = pictureRect();
+    return rect.min + pixel / vec2(session_->size()) * rect.size;
+}
+
+void Viewer::drawDivider() {
+    if (state_.compare.with == CompareWith::nothing) {
+        return;
+    }
+    const PictureRect rect = pictureRect();
+    const float x = rect.min.x + state_.compare.divider * rect.size.x;
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    draw.AddLine({x, rect.min.y}, {x, rect.min.y + rect.size.y}, IM_COL32(255, 255, 255, 200), 1.5F);
+    const float y = rect.min.y + 0.5F * rect.size.y;
+    draw.AddCircleFilled({x, y}, 7.0F, IM_COL32(255, 255, 255, 220));
+    draw.AddText({x - ImGui::CalcTextSize("A").x - 8.0F, rect.min.y + 6.0F}, IM_COL32_WHITE, "A");
+    draw.AddText({x + 8.0F, rect.min.y + 6.0F}, IM_COL32_WHITE, "B");
+}
+
+void Viewer::drawRay() {
+    if (!picked_) {
+        return;
+    }
+    const PictureRect rect = pictureRect();
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    draw.PushClipRect({rect.min.x, rect.min.y}, {rect.min.x + rect.size.x, rect.min.y + rect.size.y});
+    const vec2 perPixel = rect.size / vec2(session_->size());
+    const vec2 start = onWindow(vec2(picked_->pixel) + 0.5F);
+    const auto at = [](const vec2& v) { return ImVec2(v.x, v.y); };
+    if (picked_->ray) {
+        const RecordedRay& ray = *picked_->ray;
+        for (const RayStep& step : ray.steps) {
+            const float side = static_cast<float>(1U << step.level);
+            const vec2 low = onWindow(vec2(step.cell) * side);
+            if (step.level > 0 || perPixel.x >= 4.0F) {
+                draw.AddRect(at(low), at(low + side * perPixel), IM_COL32(120, 200, 255, 110));
+            } else {
+                draw.AddCircleFilled(at(low + 0.5F * perPixel), 1.8F, IM_COL32(120, 200, 255, 220), 6);
+            }
+        }
+        // The ray itself, as far as it was followed and lies in front of the camera.
+        const mat4& toClip = picked_->view.worldToClip;
+        const vec4 a = toClip * vec4(ray.start, 1.0F);
+        const vec4 way = toClip * vec4(ray.direction, 0.0F);
+        const float metres = way.w < 0.0F ? std::min(ray.distance, 0.99F * a.w / -way.w) : ray.distance;
+        const vec4 b = a + metres * way;
+        const vec2 end = onWindow((0.5F + 0.5F * vec2(b) / b.w) * vec2(session_->size()));
+        const bool hit =
+            ray.outcome == RayOutcome::hit && !(ray.facesAway && state_.settings.traceScreen.rejectFacingAway != 0);
+        const ImU32 color = hit ? IM_COL32(90, 230, 110, 255) : IM_COL32(255, 90, 80, 255);
+        draw.AddLine(at(start), at(end), color, 1.5F);
+        if (hit) {
+            draw.AddCircle(at(end), 6.0F, color, 16, 2.0F);
+        } else {
+            draw.AddLine(at(end - 5.0F), at(end + 5.0F), color, 2.0F);
+            draw.AddLine(at(end + vec2(-5.0F, 5.0F)), at(end + vec2(5.0F, -5.0F)), color, 2.0F);
+        }
+    }
+    draw.AddCircle(at(start), 5.0F, IM_COL32(255, 255, 255, 255), 16, 1.5F);
+    draw.PopClipRect();
+}
+
+void Viewer::pixelPanel() {
+    if (!picked_) {
+        ImGui::TextColored(quietText, "Click into the picture.");
+        return;
+    }
+    ImGui::Text("pixel %u, %u", picked_->pixel.x, picked_->pixel.y);
+    ImGui::SameLine();
+    if (ImGui::Button("again")) {
+        attempt([&] { pickPixel(glm::min(picked_->pixel, renderSize() - 1U)); });
+    }
+    places_.note("pick again");
+    tooltip("Ask the same pixel of the picture as it is now");
+    if (picked_->ray) {
+        ImGui::PushTextWrapPos(0.0F);
+        ImGui::Text("Mirror ray, %u depth samples", picked_->ray->samples);
+        ImGui::TextUnformatted(explanation(*picked_->ray, state_.settings.traceScreen).c_str());
+        ImGui::PopTextWrapPos();
+    } else {
+        ImGui::TextUnformatted("No surface here.");
+    }
+    if (ImGui::BeginTable("values", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
+        for (const PickedValues& values : picked_->values) {
+            ImGui::TableNextRow();
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(values.name.c_str());
+            tooltip(std::string(findShow(values.name).description));
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(text(values.values).c_str());
+        }
+        ImGui::EndTable();
+    }
+}
+
+void Viewer::helpOverlay() {
+    constexpr std::array<std::array<const char*, 2>, 20> keys{{{"left drag", "orbit"},
+                                                               {"middle drag, Shift+left drag", "pan"},
+                                                               {"wheel", "nearer, farther"},
+                                                               {"right drag", "look round"},
+                                                               {"W A S D, Q E", "fly; Shift: fast"},
+                                                               {"click", "pick the pixel: values and mirror ray"},
+                                                               {"F", "frame all"},
+                                                               {"R", "the first camera"},
+                                                               {"space", "pause"},
+                                                               {".", "one frame"},
+                                                               {"C", "continuous"},
+                                                               {"P", "play animations"},
+                                                               {"X", "only A, only B"},
+                                                               {"Tab", "panels"},
+                                                               {"Ctrl+S", "screenshot"},
+                                                               {"Ctrl+C", "copy the command line"},
+                                                               {"Esc", "forget the picked pixel"},
+                                                               {"Ctrl+click on a slider", "type a number"},
+                                                               {"F1, H", "this list"},
+                                                               {"Ctrl+Q", "quit; all is saved"}}};
+    const uvec2 window = window_.size();
+    ImGui::SetNextWindowPos({0.5F * float(window.x), 0.5F * float(window.y)}, ImGuiCond_Always, {0.5F, 0.5F});
+    ImGui::Begin("Keys", &state_.help,
+                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
+    if (ImGui::BeginTable("keys", 2)) {
+        for (const auto& [key, meaning] : keys) {
+            ImGui::TableNextRow();
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(key);
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(meaning);
+        }
+        ImGui::EndTable();
+    }
+    ImGui::End();
+}
+
+}  // namespace reflet

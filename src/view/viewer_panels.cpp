@@ -1,0 +1,339 @@
+// The panels at the left.
+#include "render/presets.h"
+#include "scene/builtin.h"
+#include "scene/view_file.h"
+#include "view/saved_state.h"
+#include "view/viewer.h"
+
+#include "base/error.h"
+#include "base/file.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace reflet {
+
+namespace {
+
+const ImVec4 problemColor(1.0F, 0.45F, 0.4F, 1.0F);
+const ImVec4 quietColor(0.65F, 0.68F, 0.72F, 1.0F);
+
+std::vector<std::string> presetNames() {
+    std::vector<std::string> names;
+    std::ranges::transform(presets(), std::back_inserter(names), &Preset::name);
+    return names;
+}
+
+void wrapped(const ImVec4& color, const std::string& text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::PushTextWrapPos(0.0F);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+}
+
+std::string megabytes(uint64_t bytes) {
+    return fmt::format("{:.0f} MiB", double(bytes) / double(1 << 20));
+}
+
+bool section(const char* title, bool open = false) {
+    return ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+}
+
+}  // namespace
+
+void Viewer::runPanel() {
+    int running = static_cast<int>(state_.running);
+    ImGui::RadioButton("on demand", &running, int(Running::onDemand));
+    places_.note("on demand");
+    tooltip("Frames are drawn after a change, until the picture has come to rest.");
+    ImGui::SameLine();
+    ImGui::RadioButton("continuous", &running, int(Running::continuous));
+    places_.note("continuous");
+    tooltip("One frame after the other (C).");
+    ImGui::SameLine();
+    ImGui::RadioButton("pause", &running, int(Running::paused));
+    places_.note("pause");
+    tooltip("Nothing is rendered, the machine rests (space). Panels stay alive.");
+    state_.running = static_cast<Running>(running);
+    ImGui::SameLine();
+    if (ImGui::Button("step")) {
+        stepsOnce_ = true;
+    }
+    places_.note("step");
+    tooltip("Render one frame (.)");
+    const uvec2 size = renderSize();
+    const uint32_t rest = session_->framesToRest(state_);
+    const bool settled = session_->frames() >= rest;
+    ImGui::TextColored(quietColor, "%ux%u, frame %u%s", size.x, size.y, session_->frames(),
+                       state_.running == Running::paused ? ", paused"
+                       : settled                         ? ", at rest"
+                                                         : fmt::format(" of {} until it is at rest", rest).c_str());
+    if (!session_->scene().animations.empty()) {
+        ImGui::Checkbox("play animations", &state_.plays);
+        places_.note("play");
+        auto time = static_cast<float>(state_.view.time);
+        if (ImGui::DragFloat("time [s]", &time, 0.02F, 0.0F, 1e6F, "%.2f", ImGuiSliderFlags_AlwaysClamp)) {
+            state_.view.time = double(time);
+        }
+    }
+}
+
+void Viewer::settingsPanel() {
+    std::string preset = state_.preset;
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.5F);
+    if (chooseName("preset", presetNames(), preset)) {
+        applyPresetNamed(preset);
+    }
+    places_.note("preset");
+    const std::vector<Preset> all = presets();
+    const auto described = std::ranges::find(all, state_.preset, &Preset::name);
+    tooltip(described == all.end() ? "" : described->description);
+    ImGui::SameLine();
+    if (ImGui::Button("reset all")) {
+        state_.settings = state_.ofPreset;
+    }
+    places_.note("reset all");
+    tooltip("Every setting back to the preset's");
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.5F);
+    ImGui::InputTextWithHint("find", "diffuse, thickness, ...", &filter_);
+    places_.note("find");
+    tooltip("Only the settings whose name has this in it");
+    settingControls(state_.settings, state_.ofPreset, filter_, places_);
+}
+
+void Viewer::showPanel() {
+    if (ImGui::BeginCombo("image", state_.show.c_str(), ImGuiComboFlags_HeightLarge)) {
+        for (const Show& show : shows()) {
+            if (ImGui::Selectable(show.name.data(), show.name == state_.show)) {
+                state_.show = show.name;
+            }
+            tooltip(std::string(show.description));
+        }
+        ImGui::EndCombo();
+    }
+    places_.note("image");
+    tooltip(std::string(findShow(state_.show).description));
+    const bool before = state_.falseColor;
+    ImGui::Checkbox("false colours", &state_.falseColor);
+    places_.note("false colours");
+    tooltip("Of the first channel: black, violet, red, orange to pale yellow");
+    bool changed = before != state_.falseColor;
+    if (state_.falseColor) {
+        ImGui::SameLine();
+        if (ImGui::Button("fit")) {
+            chooseFalseColorRange();
+        }
+        tooltip("From the smallest to the largest value of this frame");
+        const float step = std::max((state_.high - state_.low) * 0.01F, 1e-5F);
+        changed = ImGui::DragFloatRange2("range", &state_.low, &state_.high, step, 0.0F, 0.0F, "%.4g") || changed;
+    }
+    if (changed && session_->shownValues()) {
+        session_->refreshPicture(state_);
+    } else if (changed) {
+        stepsOnce_ = true;  // its values have to be fetched
+    }
+    if (!session_->showProblem().empty()) {
+        wrapped(problemColor, session_->showProblem());
+    }
+}
+
+void Viewer::comparePanel() {
+    Compare& c = state_.compare;
+    int with = static_cast<int>(c.with);
+    const std::array<const char*, 4> names{"nothing", "preset", "EXR file", "truth"};
+    const std::array<const char*, 4> help{"One picture", "Live, with the settings of another preset",
+                                          "A picture in a file, as reflet render or reflet reference write them",
+                                          "This view, path traced in the background while the window stays alive"};
+    for (int i = 0; i < 4; ++i) {
+        ImGui::RadioButton(names[i], &with, i);
+        places_.note(fmt::format("compare {}", names[i]));
+        tooltip(help[i]);
+        if (i < 3) {
+            ImGui::SameLine();
+        }
+    }
+    c.with = static_cast<CompareWith>(with);
+    if (c.with == CompareWith::nothing) {
+        return;
+    }
+    if (c.with == CompareWith::preset) {
+        chooseName("right side", presetNames(), c.preset);
+        places_.note("right preset");
+    } else if (c.with == CompareWith::file) {
+        ImGui::InputText("file", &fileName_);
+        if (ImGui::IsItemDeactivatedAfterEdit()) {
+            c.file = fileName_;
+        }
+    } else {
+        const uint32_t one = 1;
+        const uint32_t most = 4096;
+        ImGui::SliderScalar("samples", ImGuiDataType_U32, &c.samples, &one, &most, "%u", ImGuiSliderFlags_Logarithmic);
+        tooltip("Per pixel, at most");
+        if (compare_.samples() < c.samples) {
+            ImGui::ProgressBar(compare_.progress(), {-1.0F, 0.0F});
+        }
+    }
+    wrapped(compare_.failed() ? problemColor : quietColor, compare_.message());
+    if (compare_.error()) {
+        ImGui::Text("HDR-FLIP %.4f   relative MSE %.5f   bias %+.1f %%", compare_.error()->flip,
+                    compare_.error()->relativeMse, 100.0 * compare_.error()->bias);
+        tooltip("Of the left side against the right one, worked out in the background");
+        ImGui::Checkbox("error on the right", &c.errorImage);
+        places_.note("error image");
+        tooltip("HDR-FLIP of each pixel in false colours, in the place of the right side");
+    }
+    ImGui::TextColored(quietColor, "Drag the line in the picture; X shows one side alone.");
+}
+
+void Viewer::timesPanel() {
+    if (!frameTimes_.empty()) {
+        std::vector<float> times(frameTimes_.begin(), frameTimes_.end());
+        const float most = *std::ranges::max_element(times);
+        ImGui::PlotLines("##times", times.data(), int(times.size()), 0, fmt::format("{:.1f} ms", times.back()).c_str(),
+                         0.0F, most * 1.1F, {-1.0F, 60.0F});
+        tooltip("Each frame, from its submission to its end");
+    }
+    ImGui::Text("memory on the device: %s", megabytes(device_.memory().used(gpu::MemoryUse::device)).c_str());
+    ImGui::SliderFloat("resolution", &state_.scale, 0.1F, 2.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    places_.note("resolution");
+    tooltip("Pixels that are rendered for each of the window's, along a side");
+    ImGui::SliderFloat("frames/s", &state_.mostFrames, 0.0F, 240.0F, state_.mostFrames > 0.0F ? "%.0f" : "no limit",
+                       ImGuiSliderFlags_AlwaysClamp);
+    places_.note("frame limit");
+    tooltip("At most; 0: as many as there can be");
+    if (ImGui::BeginTable("passes", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
+        for (const PassHistory& pass : passes_) {
+            ImGui::TableNextRow();
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(pass.name.c_str());
+            ImGui::TableNextColumn();
+            ImGui::Text("%.2f ms", pass.mean);
+        }
+        ImGui::EndTable();
+    }
+}
+
+void Viewer::filesPanel() {
+    const float button = ImGui::GetContentRegionAvail().x * 0.5F - ImGui::GetStyle().ItemSpacing.x;
+    if (ImGui::Button("copy command line", {button, 0.0F})) {
+        handleKey({'C', true});
+    }
+    places_.note("copy command line");
+    tooltip(
+        "A command that renders this picture, into the clipboard (Ctrl+C). Its view file is kept with the "
+        "configuration.");
+    ImGui::InputTextWithHint("file##save", "name.png, .exr, .json", &openName_);
+    places_.note("file name");
+    const auto labelled = [&](const char* label, const char* help, const std::function<void()>& work) {
+        if (ImGui::Button(label, {button, 0.0F})) {
+            attempt(work);
+        }
+        places_.note(label);
+        tooltip(help);
+    };
+    labelled("screenshot",
+             "PNG or EXR, what reflet render writes for this state; without a name, the next free one in "
+             "this folder (Ctrl+S)",
+             [&] { takeScreenshot(openName_); });
+    ImGui::SameLine();
+    labelled("open",
+             "A scene (.gltf, .glb, builtin:NAME), an EXR to compare with, an environment (.hdr), settings or a view "
+             "(.json); or drag it onto the window",
+             [&] { openFile(openName_); });
+    labelled("save settings", "All that differs from the defaults, as --settings reads it", [&] {
+        if (openName_.empty()) {
+            fail("name a .json file to save to");
+        }
+        writeFileAtomically(openName_, settingsJson(state_.settings, Settings{}).dump(2) + "\n");
+        tell(fmt::format("Written: {}", openName_));
+    });
+    ImGui::SameLine();
+    labelled("save view", "Camera, light and time, as --view-file reads them", [&] {
+        if (openName_.empty()) {
+            fail("name a .json file to save to");
+        }
+        writeFileAtomically(openName_, viewJson(state_.view).dump(2) + "\n");
+        tell(fmt::format("Written: {}", openName_));
+    });
+    std::string scene = state_.source.scene;
+    std::vector<std::string> names;
+    std::ranges::transform(builtinScenes(), std::back_inserter(names),
+                           [](const BuiltinScene& s) { return fmt::format("builtin:{}", s.name); });
+    if (chooseName("scene", names, scene)) {
+        attempt([&] { openFile(scene); });
+    }
+    places_.note("scene");
+}
+
+void Viewer::messages() {
+    if (!shaders_.problem().empty()) {
+        wrapped(problemColor, "A shader does not compile; the last good one runs on.");
+        wrapped(problemColor, shaders_.problem());
+    }
+    if (!problem_.empty()) {
+        wrapped(problemColor, problem_);
+    } else if (!notice_.empty()) {
+        wrapped(quietColor, notice_);
+    }
+}
+
+void Viewer::drawPanel() {
+    const uvec2 window = window_.size();
+    ImGui::SetNextWindowPos({0.0F, 0.0F});
+    const float height = static_cast<float>(window.y);
+    ImGui::SetNextWindowSizeConstraints({200.0F, height}, {0.8F * static_cast<float>(window.x), height});
+    ImGui::SetNextWindowSize({state_.panelWidth * window_.scale(), height}, ImGuiCond_Appearing);
+    ImGui::Begin("Reflet", nullptr,
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse);
+    state_.panelWidth = ImGui::GetWindowWidth() / window_.scale();
+    runPanel();
+    messages();
+    const std::array<std::pair<const char*, void (Viewer::*)()>, 8> sections{{{"Settings", &Viewer::settingsPanel},
+                                                                              {"Light", &Viewer::lightPanel},
+                                                                              {"Camera", &Viewer::cameraPanel},
+                                                                              {"Show", &Viewer::showPanel},
+                                                                              {"Compare", &Viewer::comparePanel},
+                                                                              {"Pixel", &Viewer::pixelPanel},
+                                                                              {"Times", &Viewer::timesPanel},
+                                                                              {"Files", &Viewer::filesPanel}}};
+    for (const auto& [title, panel] : sections) {
+        const bool pixel = panel == &Viewer::pixelPanel && opensPixel_;
+        if (pixel) {
+            ImGui::SetNextItemOpen(true);
+            opensPixel_ = false;
+        }
+        const bool open = section(title, panel == &Viewer::settingsPanel || panel == &Viewer::showPanel ||
+                                             panel == &Viewer::comparePanel || panel == &Viewer::filesPanel);
+        places_.note(title);
+        if (pixel) {
+            ImGui::SetScrollHereY(0.0F);
+        }
+        if (open) {
+            ImGui::PushID(title);
+            (this->*panel)();
+            ImGui::PopID();
+        }
+    }
+    ImGui::TextColored(quietColor, "F1: keys");
+    ImGui::End();
+}
+
+void Viewer::drawUi() {
+    places_.clear();
+    if (state_.panels) {
+        drawPanel();
+    }
+    drawDivider();
+    drawRay();
+    if (state_.help) {
+        helpOverlay();
+    }
+}
+
+}  // namespace reflet

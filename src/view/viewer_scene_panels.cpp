@@ -1,0 +1,118 @@
+// The panels of what the scene is lit by, and seen from.
+#include "view/viewer.h"
+
+#include "base/error.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace reflet {
+
+void Viewer::lightPanel() {
+    View& view = state_.view;
+    ImGui::TextUnformatted("Sun");
+    if (dragDirection("sun direction", view.sun.direction)) {
+        view.sun.node = -1;
+    }
+    places_.note("sun direction");
+    tooltip(
+        "Drag the sun over the sky: straight above in the middle, the horizon at the rim, +X to the right, +Z down.");
+    ImGui::SameLine();
+    ImGui::BeginGroup();
+    ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.55F);
+    const vec3 toSun = -view.sun.direction;
+    float elevation = glm::degrees(std::asin(std::clamp(toSun.y, -1.0F, 1.0F)));
+    float azimuth = glm::degrees(std::atan2(toSun.x, toSun.z));
+    const bool turned = ImGui::SliderFloat("azimuth", &azimuth, -180.0F, 180.0F, "%.1f°");
+    const bool raised = ImGui::SliderFloat("elevation", &elevation, -89.9F, 89.9F, "%.1f°");
+    if (turned || raised) {
+        const float e = glm::radians(elevation);
+        const float a = glm::radians(azimuth);
+        view.sun.direction = -glm::normalize(vec3(std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a)));
+        view.sun.node = -1;
+    }
+    ImGui::DragFloat3("irradiance", &view.sun.irradiance.x, 0.05F, 0.0F, 1e4F, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    tooltip("W/m² on a surface that faces the sun: red, green, blue");
+    float diameter = glm::degrees(view.sun.angularDiameter);
+    if (ImGui::SliderFloat("diameter", &diameter, 0.0F, 10.0F, "%.2f°", ImGuiSliderFlags_AlwaysClamp)) {
+        view.sun.angularDiameter = glm::radians(diameter);
+    }
+    tooltip("Angular; the real one has 0.53°. Shadows with shadow.filter=pcss get as soft as it says.");
+    ImGui::PopItemWidth();
+    ImGui::EndGroup();
+
+    const std::vector<Lamp>& lamps = session_->scene().lamps;
+    if (!lamps.empty() && ImGui::TreeNode("lamps", "Lamps (%zu)", lamps.size())) {
+        for (uint32_t i = 0; i < lamps.size(); ++i) {
+            const auto place = std::ranges::lower_bound(view.lampsOff, i);
+            bool on = place == view.lampsOff.end() || *place != i;
+            ImGui::PushID(static_cast<int>(i));
+            if (ImGui::Checkbox(fmt::format("{} {}", i, lamps[i].name).c_str(), &on)) {
+                if (on) {
+                    view.lampsOff.erase(place);
+                } else {
+                    view.lampsOff.insert(place, i);
+                }
+            }
+            places_.note(fmt::format("lamp {}", i));
+            ImGui::PopID();
+        }
+        ImGui::TreePop();
+    }
+    ImGui::TextUnformatted("Environment");
+    if (view.environment.image) {
+        ImGui::SliderFloat("intensity", &view.environment.intensity, 0.0F, 10.0F, "%.3f", ImGuiSliderFlags_AlwaysClamp);
+        ImGui::SliderAngle("rotation", &view.environment.rotation, -180.0F, 180.0F);
+    } else {
+        ImGui::ColorEdit3("radiance", &view.environment.radiance.x,
+                          ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR);
+        view.environment.radiance = glm::clamp(view.environment.radiance, 0.0F, 1e6F);
+        tooltip("Of all directions, W/(m² sr)");
+    }
+    if (ImGui::Button("the scene's own light")) {
+        view.sun = session_->firstView().sun;
+        view.environment = session_->firstView().environment;
+        view.lampsOff = session_->firstView().lampsOff;
+        view.lampRadius = session_->firstView().lampRadius;
+    }
+    places_.note("own light");
+}
+
+void Viewer::cameraPanel() {
+    Camera& camera = state_.view.camera;
+    if (ImGui::Button("frame all (F)")) {
+        handleKey({'F'});
+    }
+    places_.note("frame all");
+    ImGui::SameLine();
+    if (ImGui::Button("reset (R)")) {
+        handleKey({'R'});
+    }
+    places_.note("reset camera");
+    const std::vector<Camera>& cameras = session_->scene().cameras;
+    for (size_t i = 0; i < cameras.size(); ++i) {
+        const std::string name = cameras[i].name.empty() ? fmt::format("camera {}", i) : cameras[i].name;
+        if (ImGui::Button(fmt::format("{}##{}", name, i).c_str())) {
+            camera = cameras[i];
+        }
+        places_.note(fmt::format("camera {}", i));
+        if (i + 1 < cameras.size()) {
+            ImGui::SameLine();
+        }
+    }
+    ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.6F);
+    ImGui::DragFloat3("position", &camera.position.x, 0.01F, 0.0F, 0.0F, "%.3f");
+    ImGui::DragFloat3("target", &camera.target.x, 0.01F, 0.0F, 0.0F, "%.3f");
+    if (camera.orthographicHeight <= 0.0F) {
+        float fov = glm::degrees(camera.fovY);
+        if (ImGui::SliderFloat("field of view", &fov, 5.0F, 150.0F, "%.1f°", ImGuiSliderFlags_AlwaysClamp)) {
+            camera.fovY = glm::radians(fov);
+        }
+        tooltip("From the lower to the upper edge");
+    }
+    ImGui::PopItemWidth();
+}
+
+}  // namespace reflet

@@ -1,0 +1,221 @@
+// The window by GLFW, its user interface by Dear ImGui.
+#include "gpu/vulkan.h"  // before GLFW, which then knows Vulkan's types
+//
+#include "view/window.h"
+
+#include "base/error.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace reflet {
+
+namespace {
+
+std::string& lastGlfwError() {
+    static std::string text;
+    return text;
+}
+
+Window& windowOf(GLFWwindow* handle) {
+    return *static_cast<Window*>(glfwGetWindowUserPointer(handle));
+}
+
+// Found on Debian with fonts-dejavu-core, which other systems have in these places as well.
+void addFont(float pixels) {
+    const std::array<const char*, 3> files{"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+                                           "/usr/share/fonts/TTF/DejaVuSans.ttf",
+                                           "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf"};
+    static const std::array<ImWchar, 9> letters{0x20, 0xFF, 0x2010, 0x2027, 0x2190, 0x21FF, 0x25A0, 0x25FF, 0};
+    ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
+    for (const char* file : files) {
+        if (std::filesystem::exists(file)) {
+            fonts.AddFontFromFileTTF(file, pixels, nullptr, letters.data());
+            return;
+        }
+    }
+    ImFontConfig plain;
+    plain.SizePixels = std::floor(pixels);
+    fonts.AddFontDefault(&plain);
+}
+
+}  // namespace
+
+Window::Window(const std::string& title, uvec2 size) {
+    glfwSetErrorCallback([](int, const char* text) { lastGlfwError() = text; });
+    if (glfwInit() == GLFW_FALSE) {
+        fail("no window can be opened ({}); `reflet render` needs none", lastGlfwError());
+    }
+    if (glfwVulkanSupported() == GLFW_FALSE) {
+        glfwTerminate();
+        fail("no Vulkan here that could show pictures in a window; `reflet render` needs none");
+    }
+    glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    window_ = glfwCreateWindow(static_cast<int>(size.x), static_cast<int>(size.y), title.c_str(), nullptr, nullptr);
+    if (window_ == nullptr) {
+        glfwTerminate();
+        fail("no window can be opened ({}); `reflet render` needs none", lastGlfwError());
+    }
+    glfwSetWindowUserPointer(window_, this);
+    glfwSetDropCallback(window_, [](GLFWwindow* handle, int count, const char** files) {
+        Window& self = windowOf(handle);
+        self.happened_ = true;
+        self.dropped_.assign(files, files + count);
+    });
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* handle, double, double) { windowOf(handle).happened_ = true; });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* handle, int, int, int) { windowOf(handle).happened_ = true; });
+    glfwSetScrollCallback(window_, [](GLFWwindow* handle, double, double) { windowOf(handle).happened_ = true; });
+    glfwSetCharCallback(window_, [](GLFWwindow* handle, unsigned) { windowOf(handle).happened_ = true; });
+    glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* handle, int, int) { windowOf(handle).happened_ = true; });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* handle) { windowOf(handle).happened_ = true; });
+    glfwSetWindowFocusCallback(window_, [](GLFWwindow* handle, int) { windowOf(handle).happened_ = true; });
+
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;  // what is kept is in the viewer's own file
+    ImGui::StyleColorsDark();
+    float across = 1.0F;
+    glfwGetWindowContentScale(window_, &scale_, &across);
+    // Where a unit of the desktop has several pixels, the desktop scales by itself; letters are drawn for the pixels.
+    const float pixelsPerUnit = static_cast<float>(pixels().x) / static_cast<float>(std::max(this->size().x, 1U));
+    scale_ /= std::max(pixelsPerUnit, 1.0F);
+    ImGui::GetStyle().ScaleAllSizes(scale_);
+    ImGui::GetStyle().WindowRounding = 0.0F;
+    addFont(15.0F * scale_ * pixelsPerUnit);
+    ImGui::GetIO().FontGlobalScale = 1.0F / std::max(pixelsPerUnit, 1.0F);
+    ImGui_ImplGlfw_InitForVulkan(window_, true);
+    glfwSetKeyCallback(window_, [](GLFWwindow* handle, int key, int code, int action, int mods) {
+        windowOf(handle).takeKey({key, code, action, mods});
+    });
+}
+
+// A key that goes down and up between two frames would be lost to text fields, which look at what is down (before ImGui
+// 1.87): where a key has gone down, those that go up wait until the next frame has been.
+void Window::takeKey(const KeyEvent& event) {
+    happened_ = true;
+    if (event.action == GLFW_RELEASE && pressed_) {
+        released_.push_back(event);
+        return;
+    }
+    if (event.action == GLFW_PRESS) {
+        pressed_ = true;
+        if (!ImGui::GetIO().WantTextInput) {
+            keys_.push_back({event.key, (event.mods & GLFW_MOD_CONTROL) != 0, (event.mods & GLFW_MOD_SHIFT) != 0});
+        }
+    }
+    ImGui_ImplGlfw_KeyCallback(window_, event.key, event.code, event.action, event.mods);
+}
+
+Window::~Window() {
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+    glfwDestroyWindow(window_);
+    glfwTerminate();
+}
+
+std::vector<const char*> Window::vulkanExtensions() const {
+    uint32_t count = 0;
+    const char** names = glfwGetRequiredInstanceExtensions(&count);
+    if (names == nullptr) {
+        fail("Vulkan cannot show pictures in windows of this desktop ({}); `reflet render` needs none",
+             lastGlfwError());
+    }
+    return {names, names + count};
+}
+
+VkSurfaceKHR_T* Window::surface(VkInstance_T* instance) const {
+    VkSurfaceKHR surface = VK_NULL_HANDLE;
+    if (glfwCreateWindowSurface(instance, window_, nullptr, &surface) != VK_SUCCESS) {
+        fail("Vulkan cannot show pictures in this window ({})", lastGlfwError());
+    }
+    return surface;
+}
+
+void Window::waitForEvents(double seconds) {
+    if (seconds > 0.0) {
+        glfwWaitEventsTimeout(seconds);
+    } else {
+        glfwPollEvents();
+    }
+}
+
+void Window::wake() {
+    glfwPostEmptyEvent();
+}
+
+bool Window::takeEvents() {
+    return std::exchange(happened_, false);
+}
+
+std::vector<KeyPress> Window::takeKeys() {
+    return std::exchange(keys_, {});
+}
+
+std::vector<std::string> Window::takeDroppedFiles() {
+    return std::exchange(dropped_, {});
+}
+
+bool Window::isHeld(int key) const {
+    return !ImGui::GetIO().WantTextInput && glfwGetKey(window_, key) == GLFW_PRESS;
+}
+
+bool Window::closing() const {
+    return glfwWindowShouldClose(window_) != 0;
+}
+
+void Window::close() {
+    glfwSetWindowShouldClose(window_, GLFW_TRUE);
+}
+
+void Window::setTitle(const std::string& title) {
+    glfwSetWindowTitle(window_, title.c_str());
+}
+
+void Window::copyText(const std::string& text) {
+    glfwSetClipboardString(window_, text.c_str());
+}
+
+uvec2 Window::pixels() const {
+    int width = 0;
+    int height = 0;
+    glfwGetFramebufferSize(window_, &width, &height);
+    return {width, height};
+}
+
+uvec2 Window::size() const {
+    int width = 0;
+    int height = 0;
+    glfwGetWindowSize(window_, &width, &height);
+    return {width, height};
+}
+
+std::span<const uint8_t> Window::font(uvec2& size) {
+    unsigned char* texels = nullptr;
+    int width = 0;
+    int height = 0;
+    ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&texels, &width, &height);
+    size = {width, height};
+    return {texels, size_t(width) * size_t(height) * 4};
+}
+
+void Window::beginUi() {
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+}
+
+const ImDrawData& Window::endUi() {
+    ImGui::Render();
+    pressed_ = false;
+    for (const KeyEvent& event : std::exchange(released_, {})) {
+        takeKey(event);
+    }
+    return *ImGui::GetDrawData();
+}
+
+}  // namespace reflet

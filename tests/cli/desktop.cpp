@@ -1,0 +1,169 @@
+// Starts Xvfb and talks to it by xdotool.
+#include "cli/desktop.h"
+
+#include "base/error.h"
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fcntl.h>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <thread>
+
+namespace reflet {
+
+namespace {
+
+using std::chrono::milliseconds;
+constexpr std::chrono::seconds patience(60);  // only for a window that hangs
+constexpr milliseconds betweenLooks(50);
+constexpr milliseconds handSpeed(60);
+
+}  // namespace
+
+void DesktopTest::SetUp() {
+    if (!isInstalled("Xvfb") || !isInstalled("xdotool")) {
+        GTEST_SKIP() << "neither Xvfb nor xdotool, or only one of them, is installed";
+    }
+    openDesktop();
+}
+
+void DesktopTest::openDesktop() {
+    display_.clear();
+    std::array<int, 2> ends{};
+    ASSERT_EQ(::pipe(ends.data()), 0);
+    const std::string number = std::to_string(ends[1]);
+    std::array<const char*, 9> words{"Xvfb",         "-displayfd", number.c_str(), "-screen", "0",
+                                     "1600x1000x24", "-nolisten",  "tcp",          nullptr};
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    pid_t child = 0;
+    const int error =
+        ::posix_spawnp(&child, "Xvfb", &actions, nullptr, const_cast<char* const*>(words.data()), ::environ);
+    posix_spawn_file_actions_destroy(&actions);
+    ::close(ends[1]);
+    ASSERT_EQ(error, 0);
+    desktop_ = child;
+    char c = 0;
+    while (::read(ends[0], &c, 1) == 1 && c != '\n') {
+        display_ += c;
+    }
+    ::close(ends[0]);
+    ASSERT_FALSE(display_.empty()) << "Xvfb does not start";
+    display_ = ":" + display_;
+}
+
+void DesktopTest::TearDown() {
+    for (const int process : {viewer_, desktop_}) {
+        if (process > 0) {
+            ::kill(process, SIGKILL);
+            ::waitpid(process, nullptr, 0);
+        }
+    }
+}
+
+Environment DesktopTest::environment() const {
+    return {{"DISPLAY", display_}, {"XDG_CONFIG_HOME", path("config").string()}};
+}
+
+void DesktopTest::use(const Arguments& arguments) const {
+    const Outcome outcome = runOther("xdotool", arguments, environment());
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    std::this_thread::sleep_for(handSpeed);
+}
+
+void DesktopTest::openViewer(const Arguments& arguments) {
+    Arguments all{"view", "--status", "status.json"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    std::filesystem::remove(path("status.json"));
+    viewer_ = begin(all, environment());
+    ASSERT_TRUE(atRest());
+}
+
+Outcome DesktopTest::quit() {
+    press("ctrl+q");
+    const Outcome outcome = finish(viewer_);
+    viewer_ = 0;
+    return outcome;
+}
+
+Outcome DesktopTest::endDesktop() {
+    ::kill(desktop_, SIGKILL);
+    ::waitpid(desktop_, nullptr, 0);
+    desktop_ = 0;
+    const Outcome outcome = finish(viewer_);
+    viewer_ = 0;
+    return outcome;
+}
+
+nlohmann::json DesktopTest::status() const {
+    const std::filesystem::path file = path("status.json");
+    return std::filesystem::exists(file) ? nlohmann::json::parse(read("status.json")) : nlohmann::json();
+}
+
+bool DesktopTest::shows(const std::function<bool(const nlohmann::json&)>& wanted) const {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (std::chrono::steady_clock::now() < end) {
+        if (const nlohmann::json now = status(); !now.is_null() && wanted(now)) {
+            return true;
+        }
+        std::this_thread::sleep_for(betweenLooks);
+    }
+    ADD_FAILURE() << "what is waited for does not come; the window says: " << status().dump(1);
+    return false;
+}
+
+bool DesktopTest::atRest() const {
+    return shows([](const nlohmann::json& now) { return now["at_rest"].get<bool>(); });
+}
+
+void DesktopTest::reveal(const std::string& control) const {
+    constexpr int mostTurns = 12;
+    for (const char* wheel : {"5", "4"}) {  // down, then up
+        for (int i = 0; i < mostTurns && !status()["controls"].contains(control); ++i) {
+            use({"mousemove", "30", "200", "click", "--repeat", "3", wheel});
+            std::this_thread::sleep_for(milliseconds(150));
+        }
+    }
+}
+
+void DesktopTest::click(const std::string& control) const {
+    reveal(control);
+    ASSERT_TRUE(shows([&](const nlohmann::json& now) { return now["controls"].contains(control); })) << control;
+    const nlohmann::json place = status()["controls"][control];
+    // Not in the middle, where a wide one may have nothing to click at.
+    clickAt(place[0].get<double>() + 8.0, 0.5 * (place[1].get<double>() + place[3].get<double>()));
+}
+
+void DesktopTest::clickAt(double x, double y) const {
+    use({"mousemove", std::to_string(int(x)), std::to_string(int(y))});
+    use({"mousedown", "1"});
+    use({"mouseup", "1"});
+}
+
+void DesktopTest::drag(double fromX, double fromY, double toX, double toY) const {
+    use({"mousemove", std::to_string(int(fromX)), std::to_string(int(fromY))});
+    use({"mousedown", "1"});
+    use({"mousemove", std::to_string(int(0.5 * (fromX + toX))), std::to_string(int(0.5 * (fromY + toY)))});
+    use({"mousemove", std::to_string(int(toX)), std::to_string(int(toY))});
+    use({"mouseup", "1"});
+}
+
+void DesktopTest::press(const std::string& keys) const {
+    use({"key", keys});
+}
+
+void DesktopTest::type(const std::string& text) const {
+    use({"type", "--delay", "40", text});
+}
+
+void DesktopTest::resize(uint32_t width, uint32_t height) const {
+    use({"search", "--name", "^Reflet", "windowsize", std::to_string(width), std::to_string(height)});
+}
+
+}  // namespace reflet

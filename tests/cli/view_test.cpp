@@ -1,0 +1,210 @@
+// `reflet view` on a desktop, by real input.
+#include "cli/desktop.h"
+
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+namespace reflet::view_test {
+
+namespace {
+
+using nlohmann::json;
+using std::chrono::milliseconds;
+
+class View : public DesktopTest {
+protected:
+    // A place in the picture, by shares of its sides.
+    [[nodiscard]] std::array<double, 2> inPicture(double x, double y) const {
+        const json at = status()["picture"];
+        return {at[0].get<double>() + x * (at[2].get<double>() - at[0].get<double>()),
+                at[1].get<double>() + y * (at[3].get<double>() - at[1].get<double>())};
+    }
+    void findSetting(const std::string& name) const {
+        click("find");
+        press("ctrl+a");
+        type(name);
+        ASSERT_TRUE(shows([&](const json& now) { return now["controls"].contains(name); }));
+        press("Return");
+    }
+    void typeFile(const std::string& name) const {
+        click("file name");
+        press("ctrl+a");
+        type(name);
+        press("Return");
+    }
+};
+
+const Arguments cubes{"builtin:cubes", "--size", "240x400", "--fresh"};
+
+Arguments with(Arguments arguments, const Arguments& more) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
+TEST_F(View, AUserWalksThroughItUnderTheValidationLayers) {
+    openViewer(with(cubes, {"--validate"}));
+    EXPECT_EQ(status()["size"], json({240, 400}));
+
+    // A setting, by its checkbox; the picture becomes another.
+    findSetting("diffuse.adaptive");
+    const bool before = status()["settings"].contains("diffuse");
+    click("diffuse.adaptive");
+    EXPECT_TRUE(shows([&](const json& now) { return now["settings"].contains("diffuse") != before; }));
+    EXPECT_TRUE(atRest());
+
+    // The camera.
+    const json camera = status()["camera"];
+    const auto from = inPicture(0.5, 0.5);
+    drag(from[0], from[1], from[0] + 60.0, from[1] + 10.0);
+    EXPECT_TRUE(shows([&](const json& now) { return now["camera"] != camera; }));
+    press("r");
+    EXPECT_TRUE(shows([&](const json& now) { return now["camera"] == camera; }));
+    EXPECT_TRUE(atRest());
+
+    // A pixel.
+    const auto ground = inPicture(0.5, 0.8);
+    clickAt(ground[0], ground[1]);
+    EXPECT_TRUE(shows([](const json& now) { return now.contains("picked"); }));
+    const json picked = status()["picked"];
+    EXPECT_GT(picked["values"]["depth"][0].get<double>(), 0.0);
+    EXPECT_EQ(picked["values"]["albedo"].size(), 3U);
+    ASSERT_TRUE(picked.contains("ray"));
+    EXPECT_GT(picked["ray"]["samples"].get<int>(), 0);
+
+    // The window's size.
+    resize(760, 300);
+    EXPECT_TRUE(shows([](const json& now) { return now["window"] == json({760, 300}); }));
+    EXPECT_TRUE(atRest());
+    EXPECT_EQ(status()["size"], json({380, 300}));
+
+    // A broken file is told, and the scene stays; another one opens.
+    write("broken.gltf", "{ \"asset\": ");
+    typeFile("broken.gltf");
+    click("open");
+    EXPECT_TRUE(shows(
+        [](const json& now) { return now["problem"].get<std::string>().find("broken.gltf") != std::string::npos; }));
+    EXPECT_EQ(status()["scene"], "builtin:cubes");
+    typeFile("builtin:tilted-cube");
+    click("open");
+    EXPECT_TRUE(shows([](const json& now) { return now["scene"] == "builtin:tilted-cube"; }));
+    EXPECT_EQ(status()["problem"], "");
+    EXPECT_TRUE(atRest());
+    EXPECT_TRUE(quietSuccess(quit()));
+}
+
+TEST_F(View, RestsWhilePaused) {
+    openViewer(with(cubes, {"--preset", "direct"}));
+    press("space");
+    EXPECT_TRUE(shows([](const json& now) { return now["paused"].get<bool>(); }));
+    std::this_thread::sleep_for(milliseconds(500));
+    const int rendered = status()["rendered"];
+    const double used = cpuSeconds(viewer());
+    std::this_thread::sleep_for(milliseconds(3000));
+    EXPECT_LT(cpuSeconds(viewer()) - used, 0.05 * 3.0);
+    // Panels live on; nothing is rendered but for the step that is asked for.
+    findSetting("diffuse.rays");
+    EXPECT_EQ(status()["rendered"], rendered);
+    click("step");
+    EXPECT_TRUE(shows([&](const json& now) { return now["rendered"] == rendered + 1; }));
+    EXPECT_TRUE(quietSuccess(quit()));
+}
+
+TEST_F(View, AScreenshotIsWhatRenderWritesAndAllComesBackTheNextTime) {
+    const Arguments remembered{"builtin:cubes", "--size", "240x400"};
+    openViewer(remembered);
+    const json first = status()["camera"];
+    findSetting("tonemap.exposure");
+    click("tonemap.exposure");
+    EXPECT_TRUE(shows([](const json& now) { return now["settings"].contains("tonemap"); }));
+    click("tonemap.exposure reset");
+    EXPECT_TRUE(shows([](const json& now) { return !now["settings"].contains("tonemap"); }));
+    findSetting("diffuse.adaptive");
+    click("diffuse.adaptive");
+    EXPECT_TRUE(shows([](const json& now) { return now["settings"].contains("diffuse"); }));
+    const auto from = inPicture(0.5, 0.5);
+    drag(from[0], from[1], from[0] - 40.0, from[1] + 12.0);
+
+    // The truth beside it, and the error between the two.
+    click("compare truth");
+    EXPECT_TRUE(shows(
+        [](const json& now) { return now["compare"]["samples"].get<int>() >= 4 && now["compare"].contains("flip"); }));
+    EXPECT_LT(status()["compare"]["flip"].get<double>(), 0.5);
+    click("compare nothing");
+
+    press("ctrl+s");
+    EXPECT_TRUE(shows([](const json& now) { return now["notice"].get<std::string>().starts_with("Written"); }));
+    press("ctrl+c");
+    EXPECT_TRUE(shows([](const json& now) { return now["notice"].get<std::string>().starts_with("Copied: "); }));
+    const json left = status();
+    const std::string copied = left["notice"].get<std::string>();
+    const std::string command = copied.substr(std::string("Copied: reflet").size());
+    EXPECT_TRUE(quietSuccess(quit()));
+    ASSERT_TRUE(std::filesystem::exists(path("cubes-1.png")));
+    const Outcome rendered = runOther("sh", {"-c", REFLET_PROGRAM + command}, environment());
+    EXPECT_EQ(rendered.status, 0) << rendered.err;
+    EXPECT_EQ(read("cubes-1.png"), read("cubes.png"));
+
+    openViewer(remembered);
+    EXPECT_EQ(status()["camera"], left["camera"]);
+    EXPECT_EQ(status()["settings"], left["settings"]);
+    EXPECT_TRUE(quietSuccess(quit()));
+    // What the command line says goes before what was saved.
+    openViewer(with(remembered, {"--preset", "direct", "--time", "0"}));
+    EXPECT_EQ(status()["preset"], "direct");
+    EXPECT_EQ(status()["camera"], first);
+    EXPECT_TRUE(quietSuccess(quit()));
+}
+
+TEST_F(View, CompilesShadersThatAreEditedKeepsTheLastGoodOneAndLosesNothingWithTheDisplay) {
+    std::filesystem::copy(std::filesystem::path(REFLET_SOURCE) / "src", path("src"),
+                          std::filesystem::copy_options::recursive);
+    openViewer(with(cubes, {"--preset", "direct", "--shaders", "src"}));
+    const std::string file = "src/render/tonemap/tonemap.comp";
+    const std::string good = read(file);
+    write(file, good + "broken\n");
+    EXPECT_TRUE(shows([](const json& now) {
+        return now["shader_problem"].get<std::string>().find("tonemap.comp") != std::string::npos;
+    }));
+    const int rendered = status()["rendered"];
+    const auto from = inPicture(0.5, 0.5);
+    drag(from[0], from[1], from[0] + 40.0, from[1]);  // it renders on
+    EXPECT_TRUE(shows([&](const json& now) { return now["rendered"].get<int>() > rendered; }));
+    write(file, good + "// another\n");
+    EXPECT_TRUE(shows([](const json& now) {
+        return now["shader_problem"] == "" &&
+               now["notice"].get<std::string>().find("tonemap.comp") != std::string::npos;
+    }));
+    EXPECT_TRUE(atRest());
+
+    findSetting("diffuse.adaptive");
+    click("diffuse.adaptive");
+    EXPECT_TRUE(shows([](const json& now) { return now["settings"].contains("diffuse"); }));
+    std::this_thread::sleep_for(milliseconds(2500));
+    clickAt(10.0, 10.0);  // a moment later something is drawn again
+    std::this_thread::sleep_for(milliseconds(500));
+    const json settings = status()["settings"];
+    EXPECT_NE(endDesktop().status, 0);
+    openDesktop();
+    openViewer({"builtin:cubes", "--size", "240x400"});
+    EXPECT_EQ(status()["settings"], settings);
+    EXPECT_TRUE(quietSuccess(quit()));
+}
+
+TEST_F(View, WritesAPictureOfItself) {
+    EXPECT_TRUE(quietSuccess(
+        run(with({"view", "--pick", "120,300", "--preset", "direct", "--window-picture", "window.png"}, cubes),
+            environment())));
+    const Bitmap window = readBitmap(path("window.png"));
+    EXPECT_EQ(window.width, 620U);
+    EXPECT_EQ(window.height, 400U);
+}
+
+TEST_F(View, SaysThatThereIsNoDisplay) {
+    const Outcome outcome = run({"view", "builtin:cubes"}, {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}});
+    EXPECT_TRUE(refused(outcome, 1, {"no window can be opened", "reflet render"}));
+}
+
+}  // namespace
+
+}  // namespace reflet::view_test
