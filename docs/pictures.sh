@@ -33,7 +33,7 @@ trap 'rm -rf "$work"' EXIT
 
 # The window, on a desktop without a screen.
 if command -v xvfb-run >/dev/null; then
-    XDG_CONFIG_HOME=$work xvfb-run -a -s "-screen 0 1600x1000x24" "$reflet" view builtin:mirror-hall --size 640x560 --pick 560,250 \
+    XDG_CONFIG_HOME=$work xvfb-run -a -s "-screen 0 1600x1000x24" "$reflet" view builtin:mirror-hall --size 440x400 --pick 385,178 \
         --window-picture docs/pictures/view.png
 else
     echo "docs/pictures/view.png: not made (no xvfb-run)" >&2

@@ -238,6 +238,7 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
     const gpu::History lit = f.history("lit", VK_FORMAT_R16G16B16A16_SFLOAT, seen.images.g.depth.size);
     seen.screen.lit = lit;
     FrameImages out{seen.images};
+    out.view = in.view;
     out.probeAtlas = in.probes.atlas;
     out.diffuse = traceLobe(f, in, settings, seen, lobeDiffuse);
     const bool reused = settings.traceScene.enabled != 0 && settings.traceScene.reuseScreen != 0;
@@ -258,7 +259,7 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
     }
     out.unfiltered = out.light.lit;
     if (settings.temporal.enabled != 0 && settings.accumulate.enabled == 0) {
-        out.temporal = temporal(f, out.g, out.light.lit, settings.temporal, in.view.frame);
+        out.temporal = temporal(f, out.g, out.light.lit, settings.temporal, in.view);
         out.light.lit = out.temporal;
     }
     out.display = tonemap(f, out.light.lit, settings.tonemap);

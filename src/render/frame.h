@@ -18,6 +18,7 @@ struct FrameInputs : ViewInputs {
 
 /// Every image of the frame; formats where the effects declare them.
 struct FrameImages : ViewImages {
+    ViewParams view{};      ///< that it was drawn with: through a place in the pixel, with temporal antialiasing
     gpu::Image probeAtlas;  ///< of ProbeMaps; none without probes
     LobeLight diffuse;
     LobeLight specular;

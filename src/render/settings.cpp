@@ -78,7 +78,10 @@ std::optional<double> parseValue(const SettingInfo& info, const std::string& tex
     }
     const auto value = parseNumber(text);
     const bool whole = info.type == SettingType::real || (value && std::floor(*value) == *value);
-    return value && whole && *value >= info.lowest && *value <= info.highest ? value : std::nullopt;
+    // As floats, which is what limits of real settings are: 0.001 as a double is less than as a float.
+    const bool real = info.type == SettingType::real;
+    const double compared = value && real ? double(static_cast<float>(*value)) : value.value_or(0.0);
+    return value && whole && compared >= info.lowest && compared <= info.highest ? value : std::nullopt;
 }
 
 void store(Settings& settings, const SettingInfo& info, double value) {

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "compare/heat_map.h"
 #include "render/tonemap/tone_map_image.h"
+#include "scene/pose.h"
 #include "scene/view_file.h"
 
 #include <nlohmann/json.hpp>
@@ -99,7 +100,7 @@ bool Session::wantsFrame(const ViewerState& state, uvec2 size) const {
 
 FrameImages Session::renderFrame(const ViewerState& state, const View& view, uvec2 size, const Settings& settings,
                                  const std::function<void(gpu::Frame&, const FrameImages&)>& after) {
-    params_ = makeViewParams(view.camera, size, 0, state.source.seed);
+    params_ = makeViewParams(posed(view, *scene_).camera, size, 0, state.source.seed);
     size_ = size;
     return renderer_.render(view, size, state.source.seed, settings, after);
 }
@@ -181,8 +182,7 @@ Picked Session::pick(const ViewerState& state, uvec2 size, uvec2 pixel) {
                     readbacks.push_back(requestShow(f, made, show));
                 }
             }
-            ray = recordRay(f, made, makeViewParams(state.view.camera, size, 0, state.source.seed),
-                            settings.traceScreen, pixel);
+            ray = recordRay(f, made, made.view, settings.traceScreen, pixel);
         });
     Picked picked{pixel, {}, recordedRay(frame(), ray), params_};
     for (const ShowReadback& readback : readbacks) {

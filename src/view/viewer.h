@@ -89,6 +89,7 @@ private:
     void handleKey(const KeyPress& press);
     void handlePointer();
     void flyByKeys();
+    Camera& heldCamera();
     [[nodiscard]] uvec2 pixelAt(const vec2& mouse) const;
 
     // viewer_panels.cpp

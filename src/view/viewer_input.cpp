@@ -1,6 +1,7 @@
 // Keys and pointer.
 #include "base/error.h"
 #include "scene/camera_control.h"
+#include "scene/pose.h"
 #include "view/viewer.h"
 
 #define GLFW_INCLUDE_NONE
@@ -81,7 +82,7 @@ void Viewer::handleKey(const KeyPress& press) {
         case GLFW_KEY_F:
             if (const Aabb box = session_->scene().bounds(); !box.empty()) {
                 const uvec2 size = renderSize();
-                frameAll(state_.view.camera, box, float(size.x) / float(size.y));
+                frameAll(heldCamera(), box, float(size.x) / float(size.y));
             }
             break;
         case GLFW_KEY_R:
@@ -96,6 +97,12 @@ void Viewer::handleKey(const KeyPress& press) {
         default:
             break;
     }
+}
+
+// The camera, to be moved by hand: from where its node has it now, if it hangs from one.
+Camera& Viewer::heldCamera() {
+    state_.view.camera = posed(state_.view, session_->scene()).camera;
+    return state_.view.camera;
 }
 
 uvec2 Viewer::pixelAt(const vec2& mouse) const {
@@ -120,7 +127,7 @@ void Viewer::handlePointer() {
                         std::abs(mouse.x - divider) < dividerSlack;
     }
     if (inside && io.MouseWheel != 0.0F) {
-        dolly(state_.view.camera, std::pow(wheelFactor, io.MouseWheel));
+        dolly(heldCamera(), std::pow(wheelFactor, io.MouseWheel));
     }
     if (!pressedInPicture_) {
         return;
@@ -131,7 +138,7 @@ void Viewer::handlePointer() {
             state_.compare.divider = std::clamp((mouse.x - rect.min.x) / rect.size.x, 0.0F, 1.0F);
         }
     } else if (moved != vec2(0.0F) && glm::distance(mouse, pressedAt_) >= clickSlack) {
-        Camera& camera = state_.view.camera;
+        Camera& camera = heldCamera();
         if (ImGui::IsMouseDown(2) || (ImGui::IsMouseDown(0) && io.KeyShift)) {
             pan(camera, moved / rect.size.y);
         } else if (ImGui::IsMouseDown(0)) {
@@ -163,7 +170,7 @@ void Viewer::flyByKeys() {
     constexpr double longestStep = 0.1;  // seconds: the first after a rest is not a leap
     const float fast = window_.isHeld(GLFW_KEY_LEFT_SHIFT) ? 4.0F : 1.0F;
     const float metres = fast * flightSpeed(session_->scene().bounds()) * float(std::min(elapsed_, longestStep));
-    fly(state_.view.camera, metres * way);
+    fly(heldCamera(), metres * way);
     redraws_ = std::max(redraws_, 2);
 }
 

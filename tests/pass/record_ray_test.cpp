@@ -61,7 +61,7 @@ TEST_F(RecordRay, IsTheRayOfTheFrame) {
             EXPECT_NEAR(rays[i]->confidence, rays[i]->edge * rays[i]->far * rays[i]->camera, 1e-5F);
             hits += answered ? 1 : 0;
         }
-        EXPECT_GT(hits, 3) << method;
+        EXPECT_GE(hits, 3) << method;
     }
 }
 

@@ -179,5 +179,51 @@ TEST(TemporalFrame, CleanedShadowsRestAsWellUnderJitter) {
     EXPECT_LT(jittered, 2e-4) << still << ", first frame " << first;
 }
 
+TEST(TemporalFrame, NothingThatWasBeforeTheSkyStaysInIt) {
+    Scene scene;
+    for (int i = -3; i <= 3; ++i) {
+        const Scene post = sceneOf(lambertMaterial(vec3(0.9F, 0.2F, 0.1F)), builtin::box(vec3(0.05F, 4.0F, 0.05F)));
+        Instance instance = post.instances.front();
+        instance.mesh = static_cast<uint32_t>(scene.meshes.size());
+        instance.objectToWorld = glm::translate(mat4(1.0F), vec3(0.7F * float(i), 0.0F, 0.0F));
+        scene.meshes.push_back(post.meshes.front());
+        scene.meshes.back().material = static_cast<uint32_t>(scene.materials.size());
+        scene.materials.push_back(post.materials.front());
+        scene.instances.push_back(instance);
+    }
+    View view;
+    view.camera.position = {0, 0, 5};
+    view.environment.radiance = {0.3F, 0.5F, 0.8F};
+    view.sun.irradiance = vec3(3.0F);
+    view.sun.direction = glm::normalize(vec3(0.2F, -0.5F, -1.0F));
+    std::vector<View> path(12, view);  // at rest: the edges are in the frames by turns
+    for (int i = 1; i <= 4; ++i) {
+        View turned = view;
+        const float angle = glm::radians(6.0F * float(i));
+        turned.camera.position = 5.0F * vec3(std::sin(angle), 0.0F, std::cos(angle));
+        path.push_back(turned);
+    }
+    const std::vector<Pictures> frames =
+        renderPath(scene, path, size, settingsWith({"temporal.enabled=on"}), {"final", "depth"});
+    for (size_t i = 12; i < frames.size(); ++i) {
+        const Pictures& p = frames[i];
+        int sky = 0;
+        for (unsigned y = 2; y + 2 < size.y; ++y) {
+            for (unsigned x = 2; x + 2 < size.x; ++x) {
+                bool empty = true;
+                for (unsigned k = 0; k < 25; ++k) {
+                    empty = empty && !p.hasSurface(x - 2 + k % 5, y - 2 + k / 5);
+                }
+                if (empty) {
+                    EXPECT_LT(glm::length(p.color("final", x, y) - view.environment.radiance), 0.01F)
+                        << "frame " << i << ", pixel " << x << ' ' << y;
+                    ++sky;
+                }
+            }
+        }
+        EXPECT_GT(sky, 1000);
+    }
+}
+
 }  // namespace
 }  // namespace reflet::test::temporal_frame_test

@@ -37,7 +37,9 @@ std::vector<vec4> TemporalRun::add(const MadeUpFrame& picture) {
     GBuffer g{};
     g.motion = fill("motion", motion);
     g.depth = fill("depth", depth);
-    const gpu::Readback copy = frame_.readback(temporal(frame_, g, shown, settings_, count_++));
+    ViewParams view{};
+    view.frame = count_++;
+    const gpu::Readback copy = frame_.readback(temporal(frame_, g, shown, settings_, view));
     frame_.submit();
     frame_.wait();
     return decodeTexels(VK_FORMAT_R16G16B16A16_SFLOAT, frame_.bytes(copy));

@@ -6,6 +6,7 @@
 #include "shaders/catmull_rom.glsl"
 #include "shaders/half_float.glsl"
 #include "shaders/noise.glsl"
+#include "shaders/projection.glsl"
 #include "shaders/tone_compressed.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -84,8 +85,20 @@ ivec2 nearestAround(Row above, Row row, Row below) {
     return below.nearest > max(above.nearest, row.nearest) ? below.at : at;
 }
 
+// uv now minus uv in the last frame. The G-buffer has none of the sky, and what is taken to stand still where the camera
+// turns keeps what had been before it.
+vec2 motionAt(ivec2 pixel, float nearest) {
+    if (nearest > 0.0) {
+        return texelFetch(motion, pixel, 0).rg;
+    }
+    vec2 uv = pixelToUv(pixel, 1.0 / vec2(params.size));
+    vec4 before = params.skyToPrevious * vec4(uvToNdc(uv), 0.0, 1.0);
+    return before.w > 0.0 ? uv - ndcToUv(before.xy / before.w) : vec2(2.0);  // 2: it was behind the camera
+}
+
 void resolve(ivec2 pixel, Row above, Row row, Row below) {
-    vec2 moved = texelFetch(motion, nearestAround(above, row, below), 0).rg * vec2(params.size);
+    float nearest = max(max(above.nearest, below.nearest), row.nearest);
+    vec2 moved = motionAt(nearest > 0.0 ? nearestAround(above, row, below) : pixel, nearest) * vec2(params.size);
     vec2 at = vec2(pixel) - moved;
     bool known = params.hasPrevious != 0u && all(greaterThan(at, vec2(-0.5))) &&
                  all(lessThan(at, vec2(params.size) - 0.5));

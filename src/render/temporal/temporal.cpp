@@ -3,8 +3,18 @@
 
 namespace reflet {
 
+namespace {
+
+// Exactly the identity while the camera stands still, and for orthographic ones, which see one direction in all pixels.
+mat4 skyToPrevious(const ViewParams& view) {
+    const bool moves = view.eye.w != 0.0F && view.worldToClip != view.previousWorldToClip;
+    return moves ? mat4(glm::dmat4(view.previousWorldToClip) * glm::dmat4(view.clipToWorld)) : mat4(1.0F);
+}
+
+}  // namespace
+
 gpu::Image temporal(gpu::Frame& f, const GBuffer& g, gpu::Image radiance, const TemporalSettings& settings,
-                    uint32_t frame) {
+                    const ViewParams& view) {
     const uvec2 size = radiance.size;
     const gpu::History mean = f.history("temporal", VK_FORMAT_R16G16B16A16_SFLOAT, size);
     // Of the tone-compressed luma of frames at rest, from their mean: variance, and mean over the last few frames.
@@ -17,7 +27,7 @@ gpu::Image temporal(gpu::Frame& f, const GBuffer& g, gpu::Image radiance, const 
         .read("previousDeviations", deviations.previous)
         .write("mean", mean.next)
         .write("deviations", deviations.next)
-        .params(TemporalParams{settings, size, frame, mean.valid ? 1U : 0U})
+        .params(TemporalParams{skyToPrevious(view), settings, size, view.frame, mean.valid ? 1U : 0U})
         .dispatch(size.x, (size.y + temporalColumn - 1) / temporalColumn);
     return mean.next;
 }

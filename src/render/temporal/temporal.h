@@ -11,6 +11,7 @@
 #define REFLET_RENDER_TEMPORAL_H
 
 #include "base/shared.h"
+#include "render/view.h"
 
 SHARED_BEGIN
 
@@ -29,6 +30,7 @@ SETTINGS(TemporalSettings, TEMPORAL_SETTINGS)
 const uint temporalColumn = 4;
 
 struct TemporalParams {
+    mat4 skyToPrevious;  // clip space of what lies at infinity, to that of the last frame
     TemporalSettings settings;
     uvec2 size;
     uint frame;        // counts up; decorrelates the rounding of successive frames
@@ -44,10 +46,10 @@ SHARED_END
 
 namespace reflet {
 
-/// radiance: RGBA16F, of a view that looked through a place in the pixel (jitter.h); motion: without jitter. Anything
+/// view: that it was drawn with, whose change the sky follows. radiance: RGBA16F, of a view that looked through a place in the pixel (jitter.h); motion: without jitter. Anything
 /// is allowed in it; what comes out is finite and at least 0. Gives RGBA16F: radiance, and the number of frames in it.
 gpu::Image temporal(gpu::Frame& f, const GBuffer& g, gpu::Image radiance, const TemporalSettings& settings,
-                    uint32_t frame);
+                    const ViewParams& view);
 
 }  // namespace reflet
 #endif
