@@ -127,13 +127,28 @@ void DesktopTest::reveal(const std::string& control) const {
     for (const char* wheel : {"5", "4"}) {  // down, then up
         for (int i = 0; i < mostTurns && !status()["controls"].contains(control); ++i) {
             use({"mousemove", "30", "200", "click", "--repeat", "3", wheel});
-            std::this_thread::sleep_for(milliseconds(150));
+            settle();
+        }
+    }
+}
+
+// Until nothing is drawn any more, or for five seconds: what the window says of its controls' places is old while it
+// scrolls, and ImGui 1.86 takes what is pressed and let go within one slow frame for nothing.
+void DesktopTest::settle() const {
+    constexpr int mostLooks = 20;
+    for (int i = 0; i < mostLooks; ++i) {
+        const nlohmann::json before = status()["drawn"];
+        std::this_thread::sleep_for(milliseconds(250));
+        if (status()["drawn"] == before) {
+            return;
         }
     }
 }
 
 void DesktopTest::click(const std::string& control) const {
+    settle();
     reveal(control);
+    settle();
     ASSERT_TRUE(shows([&](const nlohmann::json& now) { return now["controls"].contains(control); })) << control;
     const nlohmann::json place = status()["controls"][control];
     // Not in the middle, where a wide one may have nothing to click at.
@@ -155,10 +170,12 @@ void DesktopTest::drag(double fromX, double fromY, double toX, double toY) const
 }
 
 void DesktopTest::press(const std::string& keys) const {
+    settle();
     use({"key", keys});
 }
 
 void DesktopTest::type(const std::string& text) const {
+    settle();
     use({"type", "--delay", "40", text});
 }
 

@@ -44,6 +44,7 @@ protected:
     [[nodiscard]] Environment environment() const;
 
 private:
+    void settle() const;
     void reveal(const std::string& control) const;
     void use(const Arguments& arguments) const;
 
