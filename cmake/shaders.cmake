@@ -1,6 +1,8 @@
 # Compiles GLSL to SPIR-V and embeds it in the target: reflet_shaders(TARGET FUNCTION FILE...) adds a source that
 # defines `std::span<const reflet::gpu::EmbeddedShader> FUNCTION()`. Shaders are known by their file name. The target
 # is 1.2, whose shaders every 1.3 device runs: for 1.3 glslc writes group sizes in a form that reflection does not read.
+set(glslc_command ${GLSLC} --target-env=vulkan1.2 -Werror)
+
 function(reflet_shaders target function)
     set(folder ${CMAKE_CURRENT_BINARY_DIR}/shaders/${target})
     file(MAKE_DIRECTORY ${folder})
@@ -13,7 +15,7 @@ function(reflet_shaders target function)
         set(output ${folder}/${name}.inc)
         add_custom_command(
             OUTPUT ${output}
-            COMMAND ${GLSLC} --target-env=vulkan1.2 -Werror -I ${CMAKE_SOURCE_DIR}/src -mfmt=num -MD -MF ${output}.d
+            COMMAND ${glslc_command} -I ${CMAKE_SOURCE_DIR}/src -mfmt=num -MD -MF ${output}.d
                 -o ${output} ${CMAKE_CURRENT_SOURCE_DIR}/${shader}
             DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${shader}
             DEPFILE ${output}.d

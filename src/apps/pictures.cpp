@@ -15,6 +15,10 @@ bool isExr(const std::string& file) {
     return std::filesystem::path(file).extension() == ".exr";
 }
 
+uint32_t framesForPicture(const Settings& settings) {
+    return settings.denoise.enabled != 0 || settings.temporal.enabled != 0 ? settlingFrames : 1;
+}
+
 Pictures::Pictures(const std::string& show, const std::vector<std::string>& aovs) : main_(&findShow(show)) {
     for (const std::string& name : aovs) {
         const Show* aov = &findShow(name);
@@ -31,13 +35,11 @@ Pictures::Pictures(const std::string& show, const std::vector<std::string>& aovs
     }
 }
 
-bool Pictures::countsSteps() const {
-    return reflet::countsSteps(*main_) ||
-           std::ranges::any_of(aovs_, [](const Show* s) { return reflet::countsSteps(*s); });
-}
-
-bool Pictures::needsLayers() const {
-    return contains("indirect_diffuse") || contains("indirect_specular");
+void Pictures::prepare(Settings& settings) const {
+    if (countsSteps(*main_) || std::ranges::any_of(aovs_, [](const Show* s) { return countsSteps(*s); })) {
+        settings.traceScreen.countSteps = 1;
+    }
+    settings.composite.layers = contains("indirect_diffuse") || contains("indirect_specular") ? 1 : 0;
 }
 
 bool Pictures::contains(std::string_view show) const {

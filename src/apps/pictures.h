@@ -16,15 +16,19 @@ namespace reflet {
 
 bool isExr(const std::string& file);
 
+/// Frames after which what is remembered from frame to frame has come to rest.
+inline constexpr uint32_t settlingFrames = 32;
+
+/// Frames to render for one picture: where settings clean over frames, that of the first one would be the worst.
+uint32_t framesForPicture(const Settings& settings);
+
 class Pictures {
 public:
     /// Throws UsageError for an unknown name, or for images that cannot be in one file.
     Pictures(const std::string& show, const std::vector<std::string>& aovs);
 
-    /// Whether they need trace_screen.countSteps.
-    [[nodiscard]] bool countsSteps() const;
-    /// Whether they need composite.layers.
-    [[nodiscard]] bool needsLayers() const;
+    /// Sets what they need of a frame: trace_screen.countSteps, composite.layers.
+    void prepare(Settings& settings) const;
     /// Whether the image of that name is among them.
     [[nodiscard]] bool contains(std::string_view show) const;
 

@@ -73,15 +73,11 @@ void writeTimings(const RenderJob& job) {
     writeFileAtomically(job.options.timings, json.dump(2) + "\n");
 }
 
-// What is remembered from frame to frame has come to rest by then: a picture of the first frame would be the worst.
-constexpr uint32_t settlingFrames = 32;
-
 uint32_t framesFor(const RenderOptions& options, const Settings& settings) {
     if (options.frames > 0) {
         return options.frames;
     }
-    const bool remembers = settings.denoise.enabled != 0 || settings.temporal.enabled != 0;
-    return remembers && !isSequence(options) ? settlingFrames : 1;
+    return isSequence(options) ? 1 : framesForPicture(settings);
 }
 
 void render(const RenderOptions& asked) {
@@ -90,10 +86,7 @@ void render(const RenderOptions& asked) {
     RenderOptions options = asked;
     options.frames = framesFor(asked, settings);
     Pictures pictures(options.show, options.aovs);
-    if (pictures.countsSteps()) {
-        settings.traceScreen.countSteps = 1;
-    }
-    settings.composite.layers = pictures.needsLayers() ? 1 : 0;
+    pictures.prepare(settings);
     checkOutputs(options);
     const bool sequence = isSequence(options);
     const Scene scene = loadScene(options.scene);

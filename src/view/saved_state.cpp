@@ -1,6 +1,7 @@
 // Saves and restores.
 #include "view/saved_state.h"
 
+#include "apps/bench/fingerprint.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json.h"
@@ -11,6 +12,7 @@
 #include <array>
 #include <cctype>
 #include <cstdlib>
+#include <span>
 #include <utility>
 
 namespace reflet {
@@ -110,6 +112,12 @@ void fromJson(const ordered_json& json, const fs::path& file, const Restore& wha
 
 }  // namespace
 
+std::string fingerprintOf(const std::string& text) {
+    Fingerprint sum;
+    sum.add(std::as_bytes(std::span(text)));
+    return sum.text();
+}
+
 fs::path configurationFolder() {
     const char* configured = std::getenv("XDG_CONFIG_HOME");
     if (configured != nullptr && *configured != '\0') {
@@ -124,11 +132,8 @@ fs::path stateFile(const std::string& scene) {
     std::string name = scene.starts_with("builtin:") ? "builtin-" + key.substr(8) : fs::path(key).stem().string();
     std::ranges::replace_if(
         name, [](unsigned char c) { return std::isalnum(c) == 0 && c != '-' && c != '_'; }, '_');
-    uint64_t hash = 0xcbf29ce484222325;  // FNV-1a: files of one name in different folders
-    for (const unsigned char c : key) {
-        hash = (hash ^ c) * 0x100000001b3;
-    }
-    return configurationFolder() / "view" / fmt::format("{}-{:08x}.json", name, hash >> 32U);
+    // Files of one name lie in different folders.
+    return configurationFolder() / "view" / fmt::format("{}-{}.json", name, fingerprintOf(key));
 }
 
 std::string stateText(const ViewerState& state) {

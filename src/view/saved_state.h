@@ -10,6 +10,9 @@ namespace reflet {
 /// $XDG_CONFIG_HOME/reflet, or ~/.config/reflet.
 std::filesystem::path configurationFolder();
 
+/// The same for the same text, wherever and whenever: for names of files.
+std::string fingerprintOf(const std::string& text);
+
 /// Where the state of a scene is kept: `scene` as on the command line.
 std::filesystem::path stateFile(const std::string& scene);
 

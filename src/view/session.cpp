@@ -16,19 +16,13 @@ namespace reflet {
 
 namespace {
 
-// What is remembered from frame to frame has come to rest by then, as `reflet render` has it.
-constexpr uint32_t settledAfter = 32;
 constexpr uint32_t meanSettledAfter = 1024;  // accumulate
 
-bool remembers(const Settings& settings) {
-    return settings.denoise.enabled != 0 || settings.temporal.enabled != 0;
-}
-
-uint32_t framesFor(const Settings& settings) {
+uint32_t framesToRestOf(const Settings& settings) {
     if (settings.accumulate.enabled != 0) {
         return meanSettledAfter;
     }
-    return remembers(settings) || keepsHistory(settings) ? settledAfter : 1;
+    return keepsHistory(settings) ? settlingFrames : 1;
 }
 
 bool isMade(const Show& show, const FrameImages& images) {
@@ -44,11 +38,7 @@ bool needsValues(const ViewerState& state) {
 
 Settings renderedSettings(const ViewerState& state) {
     Settings settings = state.settings;
-    const Pictures pictures(state.show, {});
-    settings.composite.layers = pictures.needsLayers() ? 1 : 0;
-    if (pictures.countsSteps()) {
-        settings.traceScreen.countSteps = 1;
-    }
+    Pictures(state.show, {}).prepare(settings);
     return settings;
 }
 
@@ -86,7 +76,7 @@ Session::Session(gpu::Device& device, const Session& other)
     : device_(device), scene_(other.scene_), firstView_(other.firstView_), renderer_(device, *scene_, printWarning) {}
 
 uint32_t Session::framesToRest(const ViewerState& state) const {
-    return framesFor(renderedSettings(state));
+    return framesToRestOf(renderedSettings(state));
 }
 
 bool Session::wantsFrame(const ViewerState& state, uvec2 size) const {
@@ -95,7 +85,7 @@ bool Session::wantsFrame(const ViewerState& state, uvec2 size) const {
     }
     const Settings settings = renderedSettings(state);
     return !(asked_->view == state.view) || asked_->size != size || !sameSettings(asked_->settings, settings) ||
-           frames_ < framesFor(settings);
+           frames_ < framesToRestOf(settings);
 }
 
 FrameImages Session::renderFrame(const ViewerState& state, const View& view, uvec2 size, const Settings& settings,
@@ -150,7 +140,7 @@ void Session::startAnew() {
 void Session::screenshot(const ViewerState& state, uvec2 size, const std::string& file) {
     Pictures pictures(state.show, {});
     const Settings settings = renderedSettings(state);
-    const uint32_t frames = remembers(settings) ? settledAfter : 1;
+    const uint32_t frames = framesForPicture(settings);
     // The view as it is after it has been written to a file and read: directions may differ in the last bit.
     View view = firstView_;
     applyViewJson(nlohmann::json(viewJson(state.view)), "view", view);

@@ -1,6 +1,7 @@
 // Watches shader files by their times, compiles by glslc.
 #include "view/shader_watch.h"
 
+#include "apps/command_line.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "gpu/shader.h"
@@ -25,14 +26,6 @@ bool isShader(const fs::path& file) {
 
 bool isSource(const fs::path& file) {
     return isShader(file) || file.extension() == ".glsl" || file.extension() == ".h";
-}
-
-std::string quoted(const fs::path& path) {
-    std::string text = "'";
-    for (const char c : path.string()) {
-        text += c == '\'' ? "'\\''" : std::string(1, c);
-    }
-    return text + "'";
 }
 
 struct Ran {
@@ -97,10 +90,9 @@ std::set<std::string> ShaderWatch::usersOf(const std::string& name) const {
 }
 
 bool ShaderWatch::compile(const std::string& name) {
-    // As cmake/shaders.cmake does.
     const fs::path out = fs::temp_directory_path() / fmt::format("reflet-shader-{}.spv", ::getpid());
-    const Ran ran = runCommand(fmt::format("glslc --target-env=vulkan1.2 -Werror -I {} -o {} {} 2>&1", quoted(sources_),
-                                           quoted(out), quoted(sources_ / name)));
+    const Ran ran = runCommand(fmt::format("{} -I {} -o {} {} 2>&1", REFLET_GLSLC, shellWord(sources_.string()),
+                                           shellWord(out.string()), shellWord((sources_ / name).string())));
     if (ran.status != 0) {
         problem_ = ran.said.empty() ? fmt::format("{}: glslc cannot be run", name) : ran.said;
         return false;

@@ -109,7 +109,6 @@ Viewer::~Viewer() = default;
 void Viewer::open(const SceneOptions& source, bool restores) {
     ViewerState next = state_;
     next.source = source;
-    next.picked.reset();
     auto session = std::make_unique<Session>(device_, next);
     if (restores) {
         try {
@@ -361,8 +360,8 @@ void Viewer::loop() {
         }
         redraws_ = std::max(redraws_ - 1, 0);
         window_.beginUi();
-        handleKeys();
         handlePointer();
+        handleKeys();  // after it: a screenshot is of what the pointer has made of the view
         flyByKeys();
         drawUi();
         if (wantsFrame() && timeToFrame() <= 0.0) {

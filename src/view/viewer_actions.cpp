@@ -28,8 +28,8 @@ std::string sceneStem(const std::string& scene) {
 // The view in a file that stays: of its content's name, so that a command line that was copied keeps its meaning.
 std::string keptViewFile(const std::string& scene, const View& view) {
     const std::string text = viewJson(view).dump(2) + "\n";
-    const fs::path file = configurationFolder() / "views" /
-                          fmt::format("{}-{:016x}.json", sceneStem(scene), std::hash<std::string>{}(text));
+    const fs::path file =
+        configurationFolder() / "views" / fmt::format("{}-{}.json", sceneStem(scene), fingerprintOf(text));
     std::error_code ignored;
     fs::create_directories(file.parent_path(), ignored);
     writeFileAtomically(file, text);
@@ -119,7 +119,6 @@ void Viewer::takeScreenshot(const std::string& file) {
 }
 
 void Viewer::pickPixel(uvec2 pixel) {
-    state_.picked = pixel;
     picked_ = session_->pick(state_, renderSize(), pixel);
     opensPixel_ = true;
 }

@@ -64,7 +64,6 @@ void Viewer::handleKey(const KeyPress& press) {
                 state_.help = false;
             } else {
                 picked_.reset();
-                state_.picked.reset();
             }
             break;
         case GLFW_KEY_TAB:

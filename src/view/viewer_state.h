@@ -49,7 +49,6 @@ struct ViewerState {
     float scale = 1.0F;       ///< pixels rendered for each of the window's, along a side
     float mostFrames = 0.0F;  ///< a second; 0: no limit
     Compare compare;
-    std::optional<uvec2> picked;  ///< a pixel of the picture
     bool panels = true;
     float panelWidth = 380.0F;  ///< in the desktop's units, on a display that does not make text larger
     uvec2 window{0};            ///< the same

@@ -106,7 +106,7 @@ void Window::takeKey(const KeyEvent& event) {
     if (event.action == GLFW_PRESS) {
         pressed_ = true;
         if (!ImGui::GetIO().WantTextInput) {
-            keys_.push_back({event.key, (event.mods & GLFW_MOD_CONTROL) != 0, (event.mods & GLFW_MOD_SHIFT) != 0});
+            keys_.push_back({event.key, (event.mods & GLFW_MOD_CONTROL) != 0});
         }
     }
     ImGui_ImplGlfw_KeyCallback(window_, event.key, event.code, event.action, event.mods);

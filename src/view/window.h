@@ -20,7 +20,6 @@ namespace reflet {
 struct KeyPress {
     int key = 0;  ///< GLFW_KEY_…
     bool control = false;
-    bool shift = false;
 };
 
 class Window {
