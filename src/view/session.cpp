@@ -99,6 +99,7 @@ void Session::render(const ViewerState& state, uvec2 size, bool keepValues) {
     const Settings settings = renderedSettings(state);
     if (!asked_ || !(asked_->view == state.view) || asked_->size != size || !sameSettings(asked_->settings, settings)) {
         asked_ = Asked{state.view, settings, size};
+        ++changes_;
         frames_ = 0;
     }
     const Show& show = findShow(state.show);
@@ -174,7 +175,7 @@ Picked Session::pick(const ViewerState& state, uvec2 size, uvec2 pixel) {
             }
             ray = recordRay(f, made, made.view, settings.traceScreen, pixel);
         });
-    Picked picked{pixel, {}, recordedRay(frame(), ray), params_};
+    Picked picked{pixel, {}, recordedRay(frame(), ray), params_, changes_};
     for (const ShowReadback& readback : readbacks) {
         picked.values.push_back(
             {std::string(readback.show->name), readback.show->channels, fetchValue(frame(), readback, params_, pixel)});

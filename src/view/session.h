@@ -25,6 +25,7 @@ struct Picked {
     std::vector<PickedValues> values;
     std::optional<RecordedRay> ray;  ///< none where the pixel shows no surface
     ViewParams view{};               ///< that it was picked in
+    uint64_t change = 0;             ///< Session::changes() then
 };
 
 /// The picture of values that a show has: tone mapped, as --show makes it, or in false colours.
@@ -56,6 +57,10 @@ public:
     [[nodiscard]] const gpu::Frame& frame() const { return renderer_.frame(); }
     [[nodiscard]] uvec2 size() const { return size_; }
     [[nodiscard]] uint32_t frames() const { return frames_; }
+    /// How often something that is rendered was another than before.
+    [[nodiscard]] uint64_t changes() const { return changes_; }
+    /// Of the last frame.
+    [[nodiscard]] const ViewParams& view() const { return params_; }
     /// Frames after which the picture has come to rest.
     [[nodiscard]] uint32_t framesToRest(const ViewerState& state) const;
     [[nodiscard]] const Scene& scene() const { return *scene_; }
@@ -90,6 +95,7 @@ private:
     ViewParams params_{};
     uvec2 size_{0};
     std::optional<Asked> asked_;
+    uint64_t changes_ = 0;
     uint32_t frames_ = 0;  ///< since something changed
 };
 

@@ -218,7 +218,10 @@ void Viewer::finishPicture() {
     if (toPick_) {
         const uvec2 pixel = glm::min(*toPick_, renderSize() - 1U);
         toPick_.reset();
+        opensPixel_ = true;
         attempt([&] { pickPixel(pixel); });
+    } else if (picked_ && picked_->change != session_->changes() && seesAsPicked()) {
+        attempt([&] { pickPixel(picked_->pixel); });
     } else if (!options_.windowPicture.empty()) {
         writePng(options_.windowPicture, canvas_->picture());
         window_.close();

@@ -81,6 +81,7 @@ private:
     [[nodiscard]] std::string commandLine();
     void takeScreenshot(const std::string& file);
     void pickPixel(uvec2 pixel);
+    [[nodiscard]] bool seesAsPicked() const;
     void chooseFalseColorRange();
     void writeStatus();
 

@@ -42,7 +42,7 @@ const char* nameOf(RayOutcome outcome) {
 }
 
 ordered_json pickedJson(const Picked& picked) {
-    ordered_json json{{"pixel", {picked.pixel.x, picked.pixel.y}}};
+    ordered_json json{{"pixel", {picked.pixel.x, picked.pixel.y}}, {"change", picked.change}};
     for (const PickedValues& values : picked.values) {
         json["values"][values.name] = values.values;
     }
@@ -120,7 +120,11 @@ void Viewer::takeScreenshot(const std::string& file) {
 
 void Viewer::pickPixel(uvec2 pixel) {
     picked_ = session_->pick(state_, renderSize(), pixel);
-    opensPixel_ = true;
+}
+
+// Whether the picked pixel is still that of the same ray. A camera that has moved since shows the ray from elsewhere.
+bool Viewer::seesAsPicked() const {
+    return picked_->view.worldToClip == session_->view().worldToClip && picked_->view.size == session_->view().size;
 }
 
 void Viewer::chooseFalseColorRange() {

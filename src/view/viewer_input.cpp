@@ -147,6 +147,7 @@ void Viewer::handlePointer() {
         }
     }
     if (ImGui::IsMouseReleased(0) && !dragsDivider_ && glm::distance(mouse, pressedAt_) < clickSlack && inside) {
+        opensPixel_ = true;
         attempt([&] { pickPixel(pixelAt(mouse)); });
     }
     if (!ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2)) {

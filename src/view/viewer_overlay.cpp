@@ -7,6 +7,9 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <span>
+#include <utility>
 
 namespace reflet {
 
@@ -59,6 +62,16 @@ std::string explanation(const RecordedRay& ray, const TraceScreenSettings& setti
     return why;
 }
 
+// The part of a line, in clip space, that lies in front of the camera.
+std::optional<std::pair<vec4, vec4>> inFront(vec4 a, vec4 b) {
+    constexpr float nearest = 1e-3F;  // metres in front of a perspective camera; orthographic: w is 1
+    if (a.w < nearest && b.w < nearest) {
+        return std::nullopt;
+    }
+    const vec4 middle = glm::mix(a, b, (nearest - a.w) / (b.w - a.w));
+    return std::pair(a.w < nearest ? middle : a, b.w < nearest ? middle : b);
+}
+
 }  // namespace
 
 vec2 Viewer::onWindow(const vec2& pixel) const {
@@ -80,19 +93,21 @@ void Viewer::drawDivider() {
     draw.AddText({x + 8.0F, rect.min.y + 6.0F}, IM_COL32_WHITE, "B");
 }
 
+// The steps and the pixel are of the picture that was picked; the ray is in the world, and a camera that has moved
+// since sees it from elsewhere.
 void Viewer::drawRay() {
-    if (!picked_) {
+    if (!picked_ || session_->frames() == 0) {
         return;
     }
     const PictureRect rect = pictureRect();
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     draw.PushClipRect({rect.min.x, rect.min.y}, {rect.min.x + rect.size.x, rect.min.y + rect.size.y});
     const vec2 perPixel = rect.size / vec2(session_->size());
-    const vec2 start = onWindow(vec2(picked_->pixel) + 0.5F);
     const auto at = [](const vec2& v) { return ImVec2(v.x, v.y); };
+    const bool asPicked = seesAsPicked();
     if (picked_->ray) {
         const RecordedRay& ray = *picked_->ray;
-        for (const RayStep& step : ray.steps) {
+        for (const RayStep& step : asPicked ? std::span(ray.steps) : std::span<const RayStep>()) {
             const float side = static_cast<float>(1U << step.level);
             const vec2 low = onWindow(vec2(step.cell) * side);
             if (step.level > 0 || perPixel.x >= 4.0F) {
@@ -101,25 +116,30 @@ void Viewer::drawRay() {
                 draw.AddCircleFilled(at(low + 0.5F * perPixel), 1.8F, IM_COL32(120, 200, 255, 220), 6);
             }
         }
-        // The ray itself, as far as it was followed and lies in front of the camera.
-        const mat4& toClip = picked_->view.worldToClip;
-        const vec4 a = toClip * vec4(ray.start, 1.0F);
-        const vec4 way = toClip * vec4(ray.direction, 0.0F);
-        const float metres = way.w < 0.0F ? std::min(ray.distance, 0.99F * a.w / -way.w) : ray.distance;
-        const vec4 b = a + metres * way;
-        const vec2 end = onWindow((0.5F + 0.5F * vec2(b) / b.w) * vec2(session_->size()));
-        const bool hit =
-            ray.outcome == RayOutcome::hit && !(ray.facesAway && state_.settings.traceScreen.rejectFacingAway != 0);
-        const ImU32 color = hit ? IM_COL32(90, 230, 110, 255) : IM_COL32(255, 90, 80, 255);
-        draw.AddLine(at(start), at(end), color, 1.5F);
-        if (hit) {
-            draw.AddCircle(at(end), 6.0F, color, 16, 2.0F);
-        } else {
-            draw.AddLine(at(end - 5.0F), at(end + 5.0F), color, 2.0F);
-            draw.AddLine(at(end + vec2(-5.0F, 5.0F)), at(end + vec2(5.0F, -5.0F)), color, 2.0F);
+        const mat4& toClip = session_->view().worldToClip;
+        if (const auto line = inFront(toClip * vec4(ray.start, 1.0F),
+                                      toClip * vec4(ray.start + ray.distance * ray.direction, 1.0F))) {
+            const auto onPicture = [&](const vec4& clip) {
+                return onWindow((0.5F + 0.5F * vec2(clip) / clip.w) * vec2(session_->size()));
+            };
+            const vec2 start = onPicture(line->first);
+            const vec2 end = onPicture(line->second);
+            const bool hit =
+                ray.outcome == RayOutcome::hit && !(ray.facesAway && state_.settings.traceScreen.rejectFacingAway != 0);
+            const ImU32 color = hit ? IM_COL32(90, 230, 110, 255) : IM_COL32(255, 90, 80, 255);
+            draw.AddLine(at(start), at(end), color, 1.5F);
+            draw.AddCircleFilled(at(start), 2.5F, color, 8);
+            if (hit) {
+                draw.AddCircle(at(end), 6.0F, color, 16, 2.0F);
+            } else {
+                draw.AddLine(at(end - 5.0F), at(end + 5.0F), color, 2.0F);
+                draw.AddLine(at(end + vec2(-5.0F, 5.0F)), at(end + vec2(5.0F, -5.0F)), color, 2.0F);
+            }
         }
     }
-    draw.AddCircle(at(start), 5.0F, IM_COL32(255, 255, 255, 255), 16, 1.5F);
+    if (asPicked) {
+        draw.AddCircle(at(onWindow(vec2(picked_->pixel) + 0.5F)), 5.0F, IM_COL32(255, 255, 255, 255), 16, 1.5F);
+    }
     draw.PopClipRect();
 }
 
@@ -134,7 +154,10 @@ void Viewer::pixelPanel() {
         attempt([&] { pickPixel(glm::min(picked_->pixel, renderSize() - 1U)); });
     }
     places_.note("pick again");
-    tooltip("Ask the same pixel of the picture as it is now");
+    tooltip(
+        "This pixel of the picture as it is now. Changed settings and lights are followed; a camera that moves shows "
+        "the "
+        "ray from elsewhere.");
     if (picked_->ray) {
         ImGui::PushTextWrapPos(0.0F);
         ImGui::Text("Mirror ray, %u depth samples", picked_->ray->samples);

@@ -71,6 +71,9 @@ TEST_F(View, AUserWalksThroughItUnderTheValidationLayers) {
     EXPECT_EQ(picked["values"]["albedo"].size(), 3U);
     ASSERT_TRUE(picked.contains("ray"));
     EXPECT_GT(picked["ray"]["samples"].get<int>(), 0);
+    click("diffuse.adaptive");  // asked again of the picture with the other setting
+    EXPECT_TRUE(shows([&](const json& now) { return now["picked"]["change"] > picked["change"]; }));
+    EXPECT_EQ(status()["picked"]["pixel"], picked["pixel"]);
 
     // The window's size.
     resize(760, 300);
