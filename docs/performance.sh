@@ -58,8 +58,9 @@ if [[ ${1:-} != page ]]; then
     if [[ -n ${CUBE1:-} ]]; then
         measure games202-cube1 "$CUBE1" --view-file "${CUBE1%.gltf}.view.json" "${against[@]}"
     fi
-    # Reflections: a mirror over the whole screen.
-    measure mirror builtin:mirror-hall --view-file docs/methods/views/into-the-mirror.json --size 1280x720 \
+    # Reflections: a mirror over the whole screen. Without sky: what the screen does not know is black in the truth of
+    # what the camera sees, and an environment that stands in there would be all of either's error.
+    measure mirror builtin:mirror-hall --view-file docs/methods/views/into-the-mirror-without-sky.json --size 1280x720 \
         --compare "preset:$preset,diffuse.rays=0" \
         preset:games202-linear,materials.lambertOnly=false,specular.rays=1,diffuse.rays=0,trace_screen.maxSteps=150 \
         --layer indirect_specular "${one_bounce[@]}" --truth-spp 256 --first 2 --warmup 12 --frames 3

@@ -77,16 +77,6 @@ FloatImage readLayer(const PictureName& name) {
          fmt::join(names, ", "), suggestion(name.layer, names));
 }
 
-FloatImage toFloat(const Bitmap& bitmap) {
-    static const std::vector<std::string> names[] = {{"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}};
-    REFLET_CHECK(bitmap.channels >= 1 && bitmap.channels <= 4, "{} channels", bitmap.channels);
-    FloatImage image{bitmap.width, bitmap.height, names[bitmap.channels - 1], {}};
-    image.data.reserve(bitmap.data.size());
-    std::ranges::transform(bitmap.data, std::back_inserter(image.data),
-                           [](uint8_t v) { return static_cast<float>(v) / 255.0F; });
-    return image;
-}
-
 FloatImage readAllChannels(const PictureName& name) {
     if (name.exr) {
         return readLayer(name);
@@ -130,6 +120,16 @@ FloatImage readKnowledge(const PictureName& name) {
 }
 
 }  // namespace
+
+FloatImage toFloat(const Bitmap& bitmap) {
+    static const std::vector<std::string> names[] = {{"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}};
+    REFLET_CHECK(bitmap.channels >= 1 && bitmap.channels <= 4, "{} channels", bitmap.channels);
+    FloatImage image{bitmap.width, bitmap.height, names[bitmap.channels - 1], {}};
+    image.data.reserve(bitmap.data.size());
+    std::ranges::transform(bitmap.data, std::back_inserter(image.data),
+                           [](uint8_t v) { return static_cast<float>(v) / 255.0F; });
+    return image;
+}
 
 PictureName parsePictureName(const std::string& text) {
     PictureName name{text, text, "", ImageKind::linear, false};

@@ -29,6 +29,9 @@ PictureName parsePictureName(const std::string& text);
 /// layer with those that are there.
 FloatImage readPicture(const PictureName& name);
 
+/// "Y", "RGB", either with "A": 0..1.
+FloatImage toFloat(const Bitmap& bitmap);
+
 /// Per pixel whether the mean of the channels, without alpha, is above 0.5. Throws Error, also for a file that is not
 /// of the size of `picture`.
 std::vector<bool> readMask(const PictureName& name, const FloatImage& picture);

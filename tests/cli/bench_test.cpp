@@ -53,7 +53,7 @@ void expectState(const nlohmann::json& state, size_t frames) {
             EXPECT_TRUE(pass.at("bytes").is_number_unsigned());
         }
     }
-    for (const char* metric : {"relative_mse", "flip", "psnr", "bias"}) {
+    for (const char* metric : {"relative_mse", "flip", "displayed_flip", "psnr", "bias"}) {
         EXPECT_TRUE(state.at("error").at(metric).is_number()) << metric;
     }
 }
@@ -175,6 +175,7 @@ TEST_F(BenchTest, FramesInMotionAreHeldAgainstATruthEach) {
     ASSERT_TRUE(quietSuccess(bench({"--preset", "direct", "--motion", "3", "--orbit", "10", "--rest", "2"})));
     const nlohmann::json motion = numbers()["runs"][0]["motion"];
     EXPECT_EQ(motion.at("flip").size(), 3U);
+    EXPECT_EQ(motion.at("displayed_flip").size(), 3U);
     EXPECT_GT(motion.at("flicker"), 0.0);
     EXPECT_GT(motion.at("truth_flicker"), 0.0);
     EXPECT_EQ(motion.at("rest").size(), 2U);

@@ -53,11 +53,15 @@ Json stateJson(const BenchState& state, double bandwidth) {
     json["groups"] = groups;
     json["passes"] = passes;
     json["error"] = state.error ? errorJson(*state.error) : Json();
+    if (state.displayedFlip) {
+        json["error"]["displayed_flip"] = *state.displayedFlip;
+    }
     return json;
 }
 
 Json motionJson(const MotionResult& motion) {
     return {{"flip", motion.flip},
+            {"displayed_flip", motion.displayedFlip},
             {"flicker", motion.flicker},
             {"truth_flicker", motion.truthFlicker},
             {"rest", motion.rest}};

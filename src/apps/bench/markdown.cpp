@@ -40,14 +40,16 @@ std::string megabytes(uint64_t bytes) {
 }
 
 std::string errorText(const BenchState& state) {
-    return state.error ? relativeMseText(state.error->relativeMse) + " | " + flipText(state.error->flip) : " | ";
+    return state.error ? relativeMseText(state.error->relativeMse) + " | " + flipText(state.error->flip) + " | " +
+                             flipText(*state.displayedFlip)
+                       : " | | ";
 }
 
 std::string frameTable(const BenchResult& result) {
     std::string text =
         "| scene | variant | size | device ms | submitted ms | wall ms | ns per pixel | first: device ms | submitted "
-        "ms | rel. MSE | FLIP | steady: rel. MSE | FLIP | memory, MB |\n"
-        "|---|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
+        "ms | rel. MSE | FLIP | shown | steady: rel. MSE | FLIP | shown | memory, MB |\n"
+        "|---|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
     for (const BenchRun& run : result.runs) {
         const Samples& steady = run.steady.samples;
         const Series* submitted = steady.find(SeriesKind::total, "submitted");
@@ -101,17 +103,18 @@ std::string pairTable(const BenchPair& pair, const std::vector<BenchRun>& runs) 
 
 std::string motionTable(const BenchResult& result) {
     std::string text =
-        "\n### In motion\n\nFLIP of every frame to its own truth, while the camera turns; flicker: change beyond "
-        "motion.\n\n"
+        "\n### In motion\n\nFLIP of every frame, as it is shown, to its own truth, while the camera turns; flicker: "
+        "change "
+        "beyond motion.\n\n"
         "| scene | variant | size | FLIP at rest | in motion (quartiles) | most | flicker | of the truth |\n"
         "|---|---|---|--:|--:|--:|--:|--:|\n";
     for (const BenchRun& run : result.runs) {
         if (!run.motion) {
             continue;
         }
-        const Spread flip = spreadOf(run.motion->flip);
+        const Spread flip = spreadOf(run.motion->displayedFlip);
         text += fmt::format("| {} | {} | {} | {} | {} ({}–{}) | {} | {} | {} |\n", escapeMarkdown(run.scene),
-                            escapeMarkdown(run.variant), sizeText(run.size), flipText(run.steady.error->flip),
+                            escapeMarkdown(run.variant), sizeText(run.size), flipText(*run.steady.displayedFlip),
                             flipText(flip.median), flipText(flip.lowerQuartile), flipText(flip.upperQuartile),
                             flipText(flip.max), flipText(run.motion->flicker), flipText(run.motion->truthFlicker));
     }

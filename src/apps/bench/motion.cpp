@@ -1,6 +1,7 @@
 // Frames in motion.
 #include "apps/bench/motion.h"
 
+#include "apps/bench/displayed_flip.h"
 #include "apps/progress.h"
 #include "base/error.h"
 #include "compare/compare.h"
@@ -167,7 +168,10 @@ MotionResult measureMotion(gpu::Device& device, const BenchScene& scene, uvec2 s
         now.view = viewInMotion(scene.view, plan, i + 1);
         const Truth own = getTruth(device, now, size, settings, truth);
         const FloatImage& picture = own.layers.at("final");
-        result.flip.push_back(compareImages(frames[i].picture, picture, {}).difference.flip);
+        const CompareOptions options;
+        result.flip.push_back(compareImages(frames[i].picture, picture, options).difference.flip);
+        result.displayedFlip.push_back(
+            displayedFlip(frames[i].picture, picture, settings.tonemap, options.pixelsPerDegree));
         if (i > 0) {
             const double turns = plan.frames - 1;
             result.flicker += changeBeyondMotion(frames[i].picture, frames[i - 1].picture, frames[i].motion) / turns;

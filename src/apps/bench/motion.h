@@ -19,7 +19,8 @@ struct MotionPlan {
 };
 
 struct MotionResult {
-    std::vector<double> flip;  ///< of every frame to its own truth, mean over the picture
+    std::vector<double> flip;           ///< of every frame to its own truth, mean over the picture
+    std::vector<double> displayedFlip;  ///< the same as displayedFlip() has it
     /// Mean over pixels and channels of |frame - the last one where the motion says that it was|, mean over frames.
     double flicker = 0.0;
     double truthFlicker = 0.0;  ///< the same of the truths

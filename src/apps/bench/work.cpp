@@ -1,6 +1,7 @@
 // The measuring.
 #include "apps/bench/work.h"
 
+#include "apps/bench/displayed_flip.h"
 #include "apps/progress.h"
 
 #include <spdlog/fmt/fmt.h>
@@ -31,7 +32,7 @@ private:
     void makeSubjects(gpu::Device& device);
     void measureFirst();
     void measureSteady();
-    void compareTo(const Truth& truth, const Layers& picture, BenchState& state, const std::string& variant) const;
+    void compareTo(const Truth& truth, const Layers& picture, BenchState& state, const Variant& variant) const;
 
     // Frame by frame in turn.
     template <class Action>
@@ -102,12 +103,15 @@ void Turns::measureSteady() {
     }
 }
 
-void Turns::compareTo(const Truth& truth, const Layers& picture, BenchState& state, const std::string& variant) const {
+void Turns::compareTo(const Truth& truth, const Layers& picture, BenchState& state, const Variant& variant) const {
     CompareOptions options;
     options.pixelsPerDegree = plan_.pixelsPerDegree;
-    options.pictureName = fmt::format("{} of {}", plan_.layer, variant);
+    options.pictureName = fmt::format("{} of {}", plan_.layer, variant.name);
     options.truthName = truth.file;
-    state.error = compareImages(picture.at(plan_.layer), truth.layers.at(plan_.layer), options).difference;
+    const FloatImage& of = picture.at(plan_.layer);
+    const FloatImage& to = truth.layers.at(plan_.layer);
+    state.error = compareImages(of, to, options).difference;
+    state.displayedFlip = displayedFlip(of, to, variant.settings.tonemap, plan_.pixelsPerDegree);
 }
 
 std::vector<BenchRun> Turns::measure(gpu::Device& device) {
@@ -126,8 +130,8 @@ std::vector<BenchRun> Turns::measure(gpu::Device& device) {
     for (size_t v = 0; v < runs_.size() && comparesPictures(); ++v) {
         BenchRun& run = runs_[v];
         const Truth truth = getTruth(device, scene_, size_, variants_[v]->settings, plan_.truth);
-        compareTo(truth, firstPictures_[v], run.first, run.variant);
-        compareTo(truth, steadyPictures_[v], run.steady, run.variant);
+        compareTo(truth, firstPictures_[v], run.first, *variants_[v]);
+        compareTo(truth, steadyPictures_[v], run.steady, *variants_[v]);
         run.truthFile = truth.file;
         run.truthNoise = truth.noise;
         run.truthSamples = truth.samples;

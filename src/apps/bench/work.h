@@ -34,6 +34,7 @@ struct BenchPlan {
 struct BenchState {
     Samples samples;
     std::optional<Difference> error;
+    std::optional<double> displayedFlip;  ///< as displayedFlip() has it, with the variant's tone map
 };
 
 struct BenchRun {
