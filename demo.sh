@@ -23,4 +23,4 @@ while read -r scene _; do
         echo "$picture"
     fi
 done <<<"$scenes"
-echo "The pictures are in $PWD/out. More: $reflet --help"
+echo "The pictures are in $PWD/out. A window into a scene: $reflet view builtin:cave. More: $reflet --help"

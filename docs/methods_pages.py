@@ -211,7 +211,7 @@ def unknown(page):
             if setting != "@cameraFade=0.5":
                 page.picture("-".join(filter(None, (name, fade))), frame, window, zoom)
             figures = [f(frame, t, "indirect_specular") for t in (truth, visible) for f in (error, bias)]
-            rows.append([name, "`%s`" % (setting.strip("@") or "default")] + figures)
+            rows.append([name, "`%s`" % (setting.strip("@") or "plain")] + figures)
         page.picture(name + "-truth", truth, window, zoom)
         page.picture(name + "-visible", visible, window, zoom)
         rows.append([name, "*visible-only itself*"] + [f(visible, truth, "indirect_specular") for f in (error, bias)] + ["", ""])

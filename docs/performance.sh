@@ -17,7 +17,6 @@ reflet=${REFLET:-build/bin/reflet}
 out=out/performance
 mkdir -p "$out"
 preset=${PRESET:-balanced}
-"$reflet" list presets | grep -q "^$preset " || preset=plain
 lambert=(--set materials.lambertOnly=true)
 one_bounce=(--truth-bounces 1 --truth-visible-only)
 all_scenes=$("$reflet" list scenes | cut -d ' ' -f 1)

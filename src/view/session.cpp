@@ -75,7 +75,7 @@ Session::Session(gpu::Device& device, ViewerState& state)
 Session::Session(gpu::Device& device, const Session& other)
     : device_(device), scene_(other.scene_), firstView_(other.firstView_), renderer_(device, *scene_, printWarning) {}
 
-uint32_t Session::framesToRest(const ViewerState& state) const {
+uint32_t framesToRest(const ViewerState& state) {
     return framesToRestOf(renderedSettings(state));
 }
 

@@ -61,8 +61,6 @@ public:
     [[nodiscard]] uint64_t changes() const { return changes_; }
     /// Of the last frame.
     [[nodiscard]] const ViewParams& view() const { return params_; }
-    /// Frames after which the picture has come to rest.
-    [[nodiscard]] uint32_t framesToRest(const ViewerState& state) const;
     [[nodiscard]] const Scene& scene() const { return *scene_; }
     [[nodiscard]] const std::shared_ptr<const Scene>& sharedScene() const { return scene_; }
     [[nodiscard]] const View& firstView() const { return firstView_; }
@@ -101,6 +99,9 @@ private:
 
 /// The settings that a frame is rendered with: what the state has, and what its show needs.
 Settings renderedSettings(const ViewerState& state);
+
+/// Frames after which the picture has come to rest.
+uint32_t framesToRest(const ViewerState& state);
 
 /// RGBA8 texture of a picture of 3 or 4 channels.
 gpu::Texture uploadPicture(gpu::Device& device, const Bitmap& bitmap, const std::string& name);

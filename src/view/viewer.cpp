@@ -55,12 +55,12 @@ ViewerState initialState(const ViewerOptions& options) {
     return state;
 }
 
-gpu::DeviceOptions deviceOptions(const ViewerOptions& options, const Window& window) {
+gpu::DeviceOptions deviceOptions(const ViewerOptions& options) {
     gpu::DeviceOptions device;
     device.select = options.device;
     device.validation = options.validate;
     device.onMessage = printWarning;
-    device.windowExtensions = window.vulkanExtensions();
+    device.windowExtensions = Window::vulkanExtensions();
     return device;
 }
 
@@ -91,7 +91,7 @@ Viewer::Viewer(const ViewerOptions& options)
     : options_(options),
       state_(initialState(options)),
       window_("Reflet", state_.window),
-      device_(deviceOptions(options, window_)),
+      device_(deviceOptions(options)),
       presenter_(device_, window_.surface(device_.instance())),
       compare_(device_),
       shaders_(options.shaders.empty() ? REFLET_SHADER_SOURCES : options.shaders) {
@@ -99,7 +99,7 @@ Viewer::Viewer(const ViewerOptions& options)
         toPick_ = parsePixel(options.pick);
     }
     uvec2 fontSize(0);
-    const std::span<const uint8_t> font = window_.font(fontSize);
+    const std::span<const uint8_t> font = Window::font(fontSize);
     canvas_ = std::make_unique<Canvas>(device_, fontSize, font);
     open(options.scene, !options.fresh);
 }
@@ -206,8 +206,8 @@ double Viewer::timeToWait() const {
 }
 
 bool Viewer::atRest() const {
-    return session_->frames() >= session_->framesToRest(state_) && redraws_ == 0 &&
-           !session_->wantsFrame(state_, renderSize()) && !compare_.wantsFrame(state_, renderSize());
+    return session_->frames() >= framesToRest(state_) && redraws_ == 0 && !session_->wantsFrame(state_, renderSize()) &&
+           !compare_.wantsFrame(state_, renderSize());
 }
 
 // What was asked for on the command line, once there is something to see.
@@ -336,7 +336,7 @@ void Viewer::loop() {
     const InterruptNote note;
     lastLoop_ = Clock::now();
     while (!window_.closing() && !InterruptNote::arrived()) {
-        window_.waitForEvents(timeToWait());
+        Window::waitForEvents(timeToWait());
         elapsed_ = secondsSince(lastLoop_);
         lastLoop_ = Clock::now();
         if (window_.takeEvents()) {
@@ -362,7 +362,7 @@ void Viewer::loop() {
             continue;
         }
         redraws_ = std::max(redraws_ - 1, 0);
-        window_.beginUi();
+        Window::beginUi();
         handlePointer();
         handleKeys();  // after it: a screenshot is of what the pointer has made of the view
         flyByKeys();

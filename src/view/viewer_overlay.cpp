@@ -108,7 +108,7 @@ void Viewer::drawRay() {
     if (picked_->ray) {
         const RecordedRay& ray = *picked_->ray;
         for (const RayStep& step : asPicked ? std::span(ray.steps) : std::span<const RayStep>()) {
-            const float side = static_cast<float>(1U << step.level);
+            const auto side = static_cast<float>(1U << step.level);
             const vec2 low = onWindow(vec2(step.cell) * side);
             if (step.level > 0 || perPixel.x >= 4.0F) {
                 draw.AddRect(at(low), at(low + side * perPixel), IM_COL32(120, 200, 255, 110));

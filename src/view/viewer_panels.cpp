@@ -68,7 +68,7 @@ void Viewer::runPanel() {
     places_.note("step");
     tooltip("Render one frame (.)");
     const uvec2 size = renderSize();
-    const uint32_t rest = session_->framesToRest(state_);
+    const uint32_t rest = framesToRest(state_);
     const bool settled = session_->frames() >= rest;
     ImGui::TextColored(quietColor, "%ux%u, frame %u%s", size.x, size.y, session_->frames(),
                        state_.running == Running::paused ? ", paused"
@@ -196,7 +196,7 @@ void Viewer::timesPanel() {
         std::vector<float> times(frameTimes_.begin(), frameTimes_.end());
         const float most = *std::ranges::max_element(times);
         ImGui::PlotLines("##times", times.data(), int(times.size()), 0, fmt::format("{:.1f} ms", times.back()).c_str(),
-                         0.0F, most * 1.1F, {-1.0F, 60.0F});
+                         0.0F, most * 1.1F, {ImGui::GetContentRegionAvail().x, 60.0F});
         tooltip("Each frame, from its submission to its end");
     }
     ImGui::Text("memory on the device: %s", megabytes(device_.memory().used(gpu::MemoryUse::device)).c_str());
@@ -286,7 +286,7 @@ void Viewer::messages() {
 void Viewer::drawPanel() {
     const uvec2 window = window_.size();
     ImGui::SetNextWindowPos({0.0F, 0.0F});
-    const float height = static_cast<float>(window.y);
+    const auto height = static_cast<float>(window.y);
     ImGui::SetNextWindowSizeConstraints({200.0F, height}, {0.8F * static_cast<float>(window.x), height});
     ImGui::SetNextWindowSize({state_.panelWidth * window_.scale(), height}, ImGuiCond_Appearing);
     ImGui::Begin("Reflet", nullptr,

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace reflet {
 
@@ -119,7 +120,7 @@ Window::~Window() {
     glfwTerminate();
 }
 
-std::vector<const char*> Window::vulkanExtensions() const {
+std::vector<const char*> Window::vulkanExtensions() {
     uint32_t count = 0;
     const char** names = glfwGetRequiredInstanceExtensions(&count);
     if (names == nullptr) {

@@ -30,13 +30,13 @@ public:
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    /// What Vulkan's instance must be able to do for `surface`.
-    [[nodiscard]] std::vector<const char*> vulkanExtensions() const;
+    /// What Vulkan's instance must be able to do for `surface`. There has to be a window.
+    [[nodiscard]] static std::vector<const char*> vulkanExtensions();
     /// Of this window. Throws Error.
     [[nodiscard]] VkSurfaceKHR_T* surface(VkInstance_T* instance) const;
 
     /// Returns after an event or so many seconds; 0: at once.
-    void waitForEvents(double seconds);
+    static void waitForEvents(double seconds);
     /// Makes another thread's news end the wait. May be called from any thread.
     static void wake();
     /// Whether anything has happened since it was asked last.
@@ -54,9 +54,9 @@ public:
     [[nodiscard]] float scale() const { return scale_; }  ///< by which text is larger on this display
 
     /// The letters as RGBA8.
-    std::span<const uint8_t> font(uvec2& size);
+    static std::span<const uint8_t> font(uvec2& size);
     /// Begins and ends a description of the user interface.
-    void beginUi();
+    static void beginUi();
     const ImDrawData& endUi();
 
 private:

@@ -150,7 +150,8 @@ TEST_F(BenchTest, WithoutATruthThereAreNoErrors) {
 }
 
 TEST_F(BenchTest, AllVariantsMayHaveTheTruthOfOtherSettings) {
-    const Arguments both{"--preset", "direct", "--variant", "near=direct,trace_screen.maxSteps=8", "--truth", "chain:2"};
+    const Arguments both{"--preset", "direct", "--variant", "near=direct,trace_screen.maxSteps=8",
+                         "--truth",  "chain:2"};
     ASSERT_TRUE(quietSuccess(bench(both)));
     EXPECT_EQ(truths(), 2U * 2U);
     Arguments fixed = both;

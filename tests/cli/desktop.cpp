@@ -87,7 +87,7 @@ void DesktopTest::openViewer(const Arguments& arguments) {
 
 Outcome DesktopTest::quit() {
     press("ctrl+q");
-    const Outcome outcome = finish(viewer_);
+    Outcome outcome = finish(viewer_);
     viewer_ = 0;
     return outcome;
 }
@@ -96,7 +96,7 @@ Outcome DesktopTest::endDesktop() {
     ::kill(desktop_, SIGKILL);
     ::waitpid(desktop_, nullptr, 0);
     desktop_ = 0;
-    const Outcome outcome = finish(viewer_);
+    Outcome outcome = finish(viewer_);
     viewer_ = 0;
     return outcome;
 }

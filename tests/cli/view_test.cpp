@@ -178,7 +178,7 @@ TEST_F(View, CompilesShadersThatAreEditedKeepsTheLastGoodOneAndLosesNothingWithT
     EXPECT_TRUE(shows([&](const json& now) { return now["rendered"].get<int>() > rendered; }));
     write(file, good + "// another\n");
     EXPECT_TRUE(shows([](const json& now) {
-        return now["shader_problem"] == "" &&
+        return now["shader_problem"].get<std::string>().empty() &&
                now["notice"].get<std::string>().find("tonemap.comp") != std::string::npos;
     }));
     EXPECT_TRUE(atRest());
