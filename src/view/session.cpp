@@ -142,9 +142,12 @@ void Session::screenshot(const ViewerState& state, uvec2 size, const std::string
     Pictures pictures(state.show, {});
     const Settings settings = renderedSettings(state);
     const uint32_t frames = framesForPicture(settings);
-    // The view as it is after it has been written to a file and read: directions may differ in the last bit.
+    // The view as it is after it has been written to a file and read, as the command line has it where the view is not
+    // the first one: directions may differ in the last bit.
     View view = firstView_;
-    applyViewJson(nlohmann::json(viewJson(state.view)), "view", view);
+    if (!(state.view == firstView_)) {
+        applyViewJson(nlohmann::json(viewJson(state.view)), "view", view);
+    }
     Renderer renderer(device_, *scene_, printWarning);
     bool made = true;
     for (uint32_t i = 0; i < frames; ++i) {

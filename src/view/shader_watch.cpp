@@ -9,7 +9,7 @@
 #include <array>
 #include <cstdio>
 #include <cstring>
-#include <regex>
+#include <string_view>
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -60,15 +60,17 @@ ShaderWatch::ShaderWatch(const fs::path& sources) : sources_(sources) {
 }
 
 void ShaderWatch::read(const std::string& name) {
-    static const std::regex include("#include \"([^\"]+)\"");
     const fs::path path = sources_ / name;
-    File& file = files_[name];
     std::error_code error;
-    file.changed = fs::last_write_time(path, error);
-    file.includes.clear();
+    const auto changed = fs::last_write_time(path, error);  // before the text: what is written in between is seen later
     const std::string text = readFile(path);
-    for (auto i = std::sregex_iterator(text.begin(), text.end(), include); i != std::sregex_iterator(); ++i) {
-        file.includes.insert((*i)[1].str());
+    File& file = files_[name];
+    file.changed = changed;
+    file.includes.clear();
+    constexpr std::string_view include = "#include \"";
+    for (size_t at = text.find(include); at != std::string::npos; at = text.find(include, at)) {
+        at += include.size();
+        file.includes.insert(text.substr(at, text.find('"', at) - at));
     }
 }
 
@@ -119,7 +121,11 @@ bool ShaderWatch::update() {
         if (error || changed == file.changed) {
             continue;
         }
-        read(name);
+        try {
+            read(name);
+        } catch (const Error&) {  // an editor that saves by another name has just taken it away
+            continue;
+        }
         for (const std::string& user : usersOf(name)) {
             if (isShader(user)) {
                 shaders.insert(user);

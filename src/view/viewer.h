@@ -136,6 +136,7 @@ private:
     int redraws_ = 3;  ///< the user interface settles within so many frames
     bool dragsDivider_ = false;
     vec2 pressedAt_{0.0F};
+    vec2 pointerBefore_{0.0F};
     bool pressedInPicture_ = false;
     std::chrono::steady_clock::time_point lastFrame_;
     std::chrono::steady_clock::time_point lastLoop_;

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace reflet {
 
@@ -115,15 +116,19 @@ void Viewer::handlePointer() {
     const ImGuiIO& io = ImGui::GetIO();
     const PictureRect rect = pictureRect();
     const vec2 mouse = toVec(io.MousePos);
-    const bool inside = !io.WantCaptureMouse && glm::all(glm::greaterThanEqual(mouse, rect.min)) &&
-                        glm::all(glm::lessThan(mouse, rect.min + rect.size));
+    const auto isInside = [&](const vec2& at) {
+        return !io.WantCaptureMouse && glm::all(glm::greaterThanEqual(at, rect.min)) &&
+               glm::all(glm::lessThan(at, rect.min + rect.size));
+    };
+    const bool inside = isInside(mouse);
     const bool pressed = ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2);
     const float divider = rect.min.x + state_.compare.divider * rect.size.x;
-    if (pressed) {
-        pressedInPicture_ = inside;
-        pressedAt_ = mouse;
-        dragsDivider_ = inside && ImGui::IsMouseClicked(0) && state_.compare.with != CompareWith::nothing &&
-                        std::abs(mouse.x - divider) < dividerSlack;
+    if (pressed) {  // a frame may take so long that the pointer has gone on since, and the button up again
+        pressedAt_ = window_.pressedAt();
+        pointerBefore_ = pressedAt_;
+        pressedInPicture_ = isInside(pressedAt_);
+        dragsDivider_ = pressedInPicture_ && ImGui::IsMouseClicked(0) && state_.compare.with != CompareWith::nothing &&
+                        std::abs(pressedAt_.x - divider) < dividerSlack;
     }
     if (inside && io.MouseWheel != 0.0F) {
         dolly(heldCamera(), std::pow(wheelFactor, io.MouseWheel));
@@ -131,7 +136,7 @@ void Viewer::handlePointer() {
     if (!pressedInPicture_) {
         return;
     }
-    const vec2 moved = toVec(io.MouseDelta);
+    const vec2 moved = mouse - std::exchange(pointerBefore_, mouse);
     if (dragsDivider_) {
         if (ImGui::IsMouseDown(0)) {
             state_.compare.divider = std::clamp((mouse.x - rect.min.x) / rect.size.x, 0.0F, 1.0F);

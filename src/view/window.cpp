@@ -70,8 +70,18 @@ Window::Window(const std::string& title, uvec2 size) {
         self.happened_ = true;
         self.dropped_.assign(files, files + count);
     });
-    glfwSetCursorPosCallback(window_, [](GLFWwindow* handle, double, double) { windowOf(handle).happened_ = true; });
-    glfwSetMouseButtonCallback(window_, [](GLFWwindow* handle, int, int, int) { windowOf(handle).happened_ = true; });
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* handle, double x, double y) {
+        Window& self = windowOf(handle);
+        self.happened_ = true;
+        self.pointer_ = {x, y};
+    });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* handle, int, int action, int) {
+        Window& self = windowOf(handle);
+        self.happened_ = true;
+        if (action == GLFW_PRESS) {
+            self.pressedAt_ = self.pointer_;
+        }
+    });
     glfwSetScrollCallback(window_, [](GLFWwindow* handle, double, double) { windowOf(handle).happened_ = true; });
     glfwSetCharCallback(window_, [](GLFWwindow* handle, unsigned) { windowOf(handle).happened_ = true; });
     glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* handle, int, int) { windowOf(handle).happened_ = true; });

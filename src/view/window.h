@@ -45,6 +45,8 @@ public:
     std::vector<std::string> takeDroppedFiles();
 
     [[nodiscard]] bool isHeld(int key) const;
+    /// Where the pointer was when a button went down last; by now it may be elsewhere.
+    [[nodiscard]] vec2 pressedAt() const { return pressedAt_; }
     [[nodiscard]] bool closing() const;
     void close();
     void setTitle(const std::string& title);
@@ -72,6 +74,8 @@ private:
     GLFWwindow* window_ = nullptr;
     bool pressed_ = false;  ///< a key, since the last frame of the user interface
     std::vector<KeyEvent> released_;
+    vec2 pointer_{0.0F};
+    vec2 pressedAt_{0.0F};
     float scale_ = 1.0F;
     bool happened_ = true;
     std::vector<KeyPress> keys_;
