@@ -176,6 +176,16 @@ def motion(folder, targets):
         targets.add(what, str(limit), f"{of(worst):.2f} (`{short(worst['scene'])}`)", of(worst) <= limit)
 
 
+def stop(folder, targets):
+    what, limit = "reflections 8 frames after what they show has stopped, from their final value", "within 5 %"
+    data = load(folder, "stop")
+    if data is None:
+        targets.missing(what, limit)
+        return
+    off = data["runs"][0]["motion"]["rest"][7]
+    targets.add(what, limit, f"{100 * off:.1f} % (`{short(data['runs'][0]['scene'])}`)", off <= 0.05)
+
+
 def motion_table(data):
     lines = ["| scene | FLIP at rest | in motion, mean | most | flicker | of the truth |", "|---|--:|--:|--:|--:|--:|"]
     for run in data["runs"]:
@@ -252,7 +262,7 @@ def main():
     folder = sys.argv[1] if len(sys.argv) > 1 else os.path.join(ROOT, "out", "performance")
     notes = read_notes()
     targets = Targets()
-    for add in (against_games202, mirror, shadow, pixels_and_triangles, rest, motion, gpu):
+    for add in (against_games202, mirror, shadow, pixels_and_triangles, rest, motion, stop, gpu):
         add(folder, targets)
     presets = load(folder, "presets")
     parts = ["# Performance", "Made by `docs/performance.sh`; what is written by hand stands in `performance-notes.md`. "

@@ -79,6 +79,9 @@ if [[ ${1:-} != page ]]; then
     # shellcheck disable=SC2086  # a word for each scene
     measure motion builtin:cubes builtin:mirror-hall builtin:moving --preset "$preset" --size 320x180 --truth chain:32 \
         --first 1 --motion 60 --orbit 30
+    # A reflection of what stops, through one place in each pixel: with another in each frame, its edges change at rest, too.
+    measure stop builtin:moving --preset "$preset" --set temporal.enabled=false --size 240x135 --truth chain:1 --first 1 \
+        --frames 1 --motion 12 --orbit 0 --rest 10
 fi
 
 docs/performance.py "$out"
