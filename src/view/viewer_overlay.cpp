@@ -25,20 +25,25 @@ std::string text(const std::vector<float>& values) {
     return all;
 }
 
+// What these settings take for a hit: a far side may not count.
+bool isHit(const RecordedRay& ray, const TraceScreenSettings& settings) {
+    return ray.outcome == RayOutcome::hit && !(ray.facesAway && settings.rejectFacingAway != 0);
+}
+
 // Why the mirror ray brings what it brings, in words.
 std::string explanation(const RecordedRay& ray, const TraceScreenSettings& settings) {
     const std::string at = fmt::format("pixel {}, {}", ray.pixel.x, ray.pixel.y);
     std::string why;
-    if (ray.outcome == RayOutcome::hit && ray.facesAway && settings.rejectFacingAway != 0) {
-        why = fmt::format(
-            "A miss: after {:.3g} m it meets what {} shows from behind, and that side the screen does not "
-            "show (trace_screen.rejectFacingAway).",
-            ray.distance, at);
-    } else if (ray.outcome == RayOutcome::hit) {
+    if (isHit(ray, settings)) {
         why = fmt::format(
             "A hit: after {:.3g} m it meets what {} shows. Confidence {:.2f}: edge {:.2f}, distance {:.2f}, "
             "camera {:.2f}.",
             ray.distance, at, ray.confidence, ray.edge, ray.far, ray.camera);
+    } else if (ray.outcome == RayOutcome::hit) {
+        why = fmt::format(
+            "A miss: after {:.3g} m it meets what {} shows from behind, and that side the screen does not "
+            "show (trace_screen.rejectFacingAway).",
+            ray.distance, at);
     } else if (ray.outcome == RayOutcome::leftScreen) {
         why = fmt::format(
             "A miss: it leaves the screen after {:.3g} m. What is there only other sources know: trace_scene, "
@@ -53,7 +58,7 @@ std::string explanation(const RecordedRay& ray, const TraceScreenSettings& setti
             "trace_screen.maxDistance ({:g} m).",
             settings.maxSteps, settings.maxDistance);
     }
-    if (ray.lost && !(ray.outcome == RayOutcome::hit && !ray.facesAway)) {
+    if (ray.lost && !isHit(ray, settings)) {
         why += fmt::format(
             " From {:.3g} m on it was behind something that the screen shows, by more than "
             "trace_screen.thickness ({:g} m): what it meets there is hidden.",
@@ -124,8 +129,7 @@ void Viewer::drawRay() {
             };
             const vec2 start = onPicture(line->first);
             const vec2 end = onPicture(line->second);
-            const bool hit =
-                ray.outcome == RayOutcome::hit && !(ray.facesAway && state_.settings.traceScreen.rejectFacingAway != 0);
+            const bool hit = isHit(ray, state_.settings.traceScreen);
             const ImU32 color = hit ? IM_COL32(90, 230, 110, 255) : IM_COL32(255, 90, 80, 255);
             draw.AddLine(at(start), at(end), color, 1.5F);
             draw.AddCircleFilled(at(start), 2.5F, color, 8);
