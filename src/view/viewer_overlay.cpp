@@ -15,8 +15,6 @@ namespace reflet {
 
 namespace {
 
-const ImVec4 quietText(0.65F, 0.68F, 0.72F, 1.0F);
-
 std::string text(const std::vector<float>& values) {
     std::string all;
     for (const float value : values) {
@@ -149,7 +147,7 @@ void Viewer::drawRay() {
 
 void Viewer::pixelPanel() {
     if (!picked_) {
-        ImGui::TextColored(quietText, "Click into the picture.");
+        ImGui::TextDisabled("Click into the picture.");
         return;
     }
     ImGui::Text("pixel %u, %u", picked_->pixel.x, picked_->pixel.y);
