@@ -33,7 +33,7 @@ section() {  # heading folder [option…]
     cat "$folder/table.md"
 }
 
-methods="linear halving fixedPoint dda exhaustive hiz"
+methods="linear halving fixed_point dda exhaustive hiz"
 
 # Relative MSE and bias of diffuse light alone, at so many rays that their noise is a small part of it.
 diffuse_table() {

@@ -99,12 +99,12 @@ def resolutions():
 
 
 def costs():
-    raw = "shadow.clean=false"
+    raw = "shadow.denoise=false"
     soft = filtered("pcss", 16)
     variants = {
         "hard": ["shadow.filter=hard"],
         "pcf 16": filtered("pcf", 16) + [raw],
-        "pcss 16, `shadow.earlyOut=false`": soft + [raw, "shadow.earlyOut=false"],
+        "pcss 16, `shadow.early_out=false`": soft + [raw, "shadow.early_out=false"],
         "pcss 16": soft + [raw],
         "pcss 16, cleaned": soft,
         "pcss 16, cleaned, `shadow.cascades=2`": soft + ["shadow.cascades=2"],
@@ -164,4 +164,4 @@ Milliseconds by pass at 1280x720, sun 0.53°.
 costs()
 print("""
 `shadow_map` and `shadow_range` do not depend on the picture's size: in small pictures they are most of what pcss costs.
-`earlyOut` saves `shadow_visibility` about what its `shadow_range` costs here.""")
+`early_out` saves `shadow_visibility` about what its `shadow_range` costs here.""")

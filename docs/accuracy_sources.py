@@ -10,8 +10,8 @@ WORK = "out/accuracy-sources"
 LAYERS = {"mirror-hall": "indirect_specular", "gloss": "indirect_specular", "cubes": "indirect_specular",
           "cave": "indirect_diffuse", "cornell": "indirect_diffuse"}
 SCENE_ALONE = ["trace_screen.enabled=false", "trace_scene.enabled=true"]
-VARIANTS = {"`screen-only`": ("screen-only", []), "`screen+probes`": ("screen+probes", []),
-            "the scene alone": ("screen-only", SCENE_ALONE), "`hybrid`": ("hybrid", [])}
+VARIANTS = {"`screen_only`": ("screen_only", []), "`screen_probes`": ("screen_probes", []),
+            "the scene alone": ("screen_only", SCENE_ALONE), "`hybrid`": ("hybrid", [])}
 RAYS = 64
 BASE = ["trace_screen.light=direct", "trace_screen.thickness=0.05", "materials.mips=false"]
 
@@ -35,8 +35,8 @@ os.makedirs(WORK, exist_ok=True)
 print(f"""## Sources
 
 Relative MSE (and bias) of one bounce of light against `reflet reference --bounces 1 --filter center`, all of it and not
-what is visible only: {RAYS} rays per pixel, 320x180, `{" ".join(BASE)}`. `screen-only` leaves to the environment what the
-screen does not know, `screen+probes` to cube maps that are placed automatically, `hybrid` to the views of flat mirrors, the
+what is visible only: {RAYS} rays per pixel, 320x180, `{" ".join(BASE)}`. `screen_only` leaves to the environment what the
+screen does not know, `screen_probes` to cube maps that are placed automatically, `hybrid` to the views of flat mirrors, the
 scene's triangles, and these. The scene alone is `{" ".join(SCENE_ALONE)}`.
 """)
 print("| scene | layer |", " | ".join(VARIANTS), "|")

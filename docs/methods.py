@@ -176,7 +176,7 @@ class Render(Frame):
     def __init__(self, scene, settings="", view=None, size="320x180", preset=None, show=None):
         self.arguments = options(scene, settings, view, size, preset)
         self.arguments += ["--show", show] if show else []
-        more = ["--aov", LAYERS, "--set", "trace_screen.countSteps=true"]
+        more = ["--aov", LAYERS, "--set", "trace_screen.count_steps=true"]
         self.png, self.exr, timings = cached("render", self.arguments + more, [".png", ".exr", ".json"])
         self.rays = json.load(open(timings)).get("rays", {})
 

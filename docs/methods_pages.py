@@ -10,7 +10,7 @@ ALL = "--bounces 1"
 SPECULAR = "diffuse.rays=0 @light=direct "
 DIFFUSE = "specular.rays=0 @light=direct "
 # Rays that the screen loses bring nothing, as in the visible-only truth.
-STRICT = SPECULAR + "environment.lostShare=0 "
+STRICT = SPECULAR + "environment.occluded_weight=0 "
 
 # For pictures of dark rooms; files of linear values are the same.
 BRIGHT = "tonemap.exposure=2 "
@@ -42,7 +42,7 @@ def bias(frame, truth, layer):
     return "%+.1f %%" % (100 * frame.against(truth, layer)["bias"])
 
 
-LINEAR = STRICT + "@method=linear @maxSteps=400 @thicknessFrom=step @jitter=false "
+LINEAR = STRICT + "@method=linear @max_steps=400 @thickness_mode=step @jitter=false "
 TRACED = ["setting", "relative MSE to `exhaustive`", "to visible-only", "steps per ray", "hits"]
 
 
@@ -77,18 +77,18 @@ def jitter(page):
 
 
 def refinement(page):
-    settings = ["@step=0.5", "@step=0.5 @binarySteps=2", "@step=0.5 @binarySteps=4", "@step=0.5 @binarySteps=6",
-                "@step=0.5 @interpolate=true", "@step=0.5 @binarySteps=2 @interpolate=true", "@step=0.1"]
+    settings = ["@step=0.5", "@step=0.5 @binary_steps=2", "@step=0.5 @binary_steps=4", "@step=0.5 @binary_steps=6",
+                "@step=0.5 @interpolate=true", "@step=0.5 @binary_steps=2 @interpolate=true", "@step=0.1"]
     frames = compare_tracers(page, "linear", "mirror-hall", LINEAR, settings)
     for name, setting in (("none", settings[0]), ("binary", settings[3]), ("interpolated", settings[4])):
         page.picture(name, frames[setting], BALL)
-    strides = ["@stride=8", "@stride=8 @binarySteps=3", "@stride=8 @interpolate=true", "@stride=1"]
-    compare_tracers(page, "dda", "mirror-hall", STRICT + "@method=dda @jitter=false @maxSteps=1000 ", strides)
+    strides = ["@stride=8", "@stride=8 @binary_steps=3", "@stride=8 @interpolate=true", "@stride=1"]
+    compare_tracers(page, "dda", "mirror-hall", STRICT + "@method=dda @jitter=false @max_steps=1000 ", strides)
 
 
 def thickness(page):
-    base = SPECULAR + "@method=linear @step=0.1 @maxSteps=400 @jitter=false @rejectFacingAway=false "
-    settings = ["@thickness=%s" % t for t in ("0.01", "0.05", "0.3", "2", "1000")] + ["@thickness=0.01 @thicknessFrom=step"]
+    base = SPECULAR + "@method=linear @step=0.1 @max_steps=400 @jitter=false @reject_backfaces=false "
+    settings = ["@thickness=%s" % t for t in ("0.01", "0.05", "0.3", "2", "1000")] + ["@thickness=0.01 @thickness_mode=step"]
     truth = Truth("mirror-hall", VISIBLE)
     names = dict(zip(settings, ("holes", None, "fits", None, "smear", "step")))
     rows = []
@@ -103,11 +103,11 @@ def thickness(page):
 
 
 def leaking(page):
-    settings = ["@thickness=1000 @rejectFacingAway=false environment.lostShare=1",
-                "@thickness=0.3 @rejectFacingAway=false environment.lostShare=1",
-                "@thickness=0.3 @rejectFacingAway=true environment.lostShare=1",
-                "@thickness=0.3 @rejectFacingAway=true environment.lostShare=0.5",
-                "@thickness=0.3 @rejectFacingAway=true environment.lostShare=0"]
+    settings = ["@thickness=1000 @reject_backfaces=false environment.occluded_weight=1",
+                "@thickness=0.3 @reject_backfaces=false environment.occluded_weight=1",
+                "@thickness=0.3 @reject_backfaces=true environment.occluded_weight=1",
+                "@thickness=0.3 @reject_backfaces=true environment.occluded_weight=0.5",
+                "@thickness=0.3 @reject_backfaces=true environment.occluded_weight=0"]
     rows = []
     for scene in ("cave", "cornell", "cubes"):
         truth, visible = Truth(scene, ALL), Truth(scene, VISIBLE)
@@ -124,9 +124,9 @@ def leaking(page):
 
 
 def adaptive_steps(page):
-    settings = ["@method=linear @step=0.05 @maxSteps=400 @thicknessFrom=step @jitter=false",
-                "@method=halving @step=0.8 @maxSteps=64 @jitter=false", "@method=halving @step=0.3 @maxSteps=64 @jitter=false",
-                "@method=fixedPoint @step=1 @maxSteps=16", "@method=fixedPoint @step=0.3 @maxSteps=16", "@method=hiz", "@method=hiz @maxSteps=4096"]
+    settings = ["@method=linear @step=0.05 @max_steps=400 @thickness_mode=step @jitter=false",
+                "@method=halving @step=0.8 @max_steps=64 @jitter=false", "@method=halving @step=0.3 @max_steps=64 @jitter=false",
+                "@method=fixed_point @step=1 @max_steps=16", "@method=fixed_point @step=0.3 @max_steps=16", "@method=hiz", "@method=hiz @max_steps=4096"]
     names = ("linear", "halving", None, None, "fixed-point", None, "hiz")
     compare_tracers(page, "cubes", "cubes", STRICT, settings)
     compare_tracers(page, "mirror-hall", "mirror-hall", STRICT, settings)
@@ -137,11 +137,11 @@ def adaptive_steps(page):
 
 def count_methods(page, scene):
     base = "@light=direct diffuse.rays=1 specular.rays=1 "
-    most = "@maxSteps=4096 "
+    most = "@max_steps=4096 "
     big = {"size": "1280x720"}
     whole = {m: render(scene, base + "@method=%s " % m + most, **big) for m in ("exhaustive", "hiz", "dda")}
-    for method, settings in (("linear", "@step=0.15 @maxSteps=128 @thicknessFrom=step"),
-                             ("halving", "@step=0.8 @maxSteps=128"), ("fixedPoint", "@step=1 @maxSteps=128")):
+    for method, settings in (("linear", "@step=0.15 @max_steps=128 @thickness_mode=step"),
+                             ("halving", "@step=0.8 @max_steps=128"), ("fixed_point", "@step=1 @max_steps=128")):
         whole["%s %s" % (method, settings)] = render(scene, base + "@method=%s %s" % (method, settings), **big)
     rows = [["`%s`" % m.replace("@", "")] + traced(f, "diffuse") + traced(f, "specular") for m, f in whole.items()]
     page.table(scene + "-methods", ["method", "diffuse: steps per ray", "hits", "reflections: steps per ray", "hits"], rows)
@@ -149,19 +149,19 @@ def count_methods(page, scene):
     for cap in (16, 32, 64, 128):
         cells = []
         for method in ("hiz", "dda"):
-            frame = render(scene, base + "@method=%s @maxSteps=%d" % (method, cap), **big)
+            frame = render(scene, base + "@method=%s @max_steps=%d" % (method, cap), **big)
             for lobe in ("diffuse", "specular"):
                 cells.append(percent(frame.rays[lobe]["hits"] / whole[method].rays[lobe]["hits"]))
         rows.append([str(cap)] + cells)
-    page.table(scene + "-caps", ["`maxSteps`", "`hiz`: diffuse", "reflections", "`dda`: diffuse", "reflections"], rows)
+    page.table(scene + "-caps", ["`max_steps`", "`hiz`: diffuse", "reflections", "`dda`: diffuse", "reflections"], rows)
 
 
 def hierarchical_depth(page):
     for method in ("exhaustive", "dda", "hiz"):
-        frame = render("mirror-hall", SPECULAR + "@maxSteps=4096 @method=" + method, show="specular_steps")
+        frame = render("mirror-hall", SPECULAR + "@max_steps=4096 @method=" + method, show="specular_steps")
         page.picture("steps-" + method, frame)
     for method in ("dda", "hiz"):
-        page.picture("cap64-" + method, render("mirror-hall", SPECULAR + "@maxSteps=64 @method=" + method, size="640x360"),
+        page.picture("cap64-" + method, render("mirror-hall", SPECULAR + "@max_steps=64 @method=" + method, size="640x360"),
                      (320, 120, 320, 180), 1)
     count_methods(page, "cubes")
     count_methods(page, "mirror-hall")
@@ -183,8 +183,8 @@ def uniform_and_cosine(page):
 def mirror_to_matt(page):
     truth, rows = Truth("gloss", ALL), []
     window = (72, 42, 107, 60)
-    settings = ["specular.rays=%d" % n for n in (1, 4, 16, 64)] + ["specular.maxRoughness=0.3"]
-    settings += ["specular.rougher=mips specular.maxRoughness=%s" % r for r in ("0.5", "0.3", "0.1")]
+    settings = ["specular.rays=%d" % n for n in (1, 4, 16, 64)] + ["specular.max_roughness=0.3"]
+    settings += ["specular.rough_fallback=mips specular.max_roughness=%s" % r for r in ("0.5", "0.3", "0.1")]
     settings.append(settings[-1] + " specular.rays=16")
     names = ("rays1", None, "rays16", None, "max0_3", None, "mips", None, None)
     for name, setting in zip(names, settings):
@@ -199,8 +199,8 @@ def mirror_to_matt(page):
 
 def unknown(page):
     rows = []
-    views = (("tops", "mirror-hall", "tops-off-screen", ["", "@edgeFade=0.2"]),
-             ("toward", "mirror-hall", "into-the-mirror", ["", "@cameraFade=0.5", "@cameraFade=1"]),
+    views = (("tops", "mirror-hall", "tops-off-screen", ["", "@edge_fade=0.2"]),
+             ("toward", "mirror-hall", "into-the-mirror", ["", "@camera_fade=0.5", "@camera_fade=1"]),
              ("hidden", "cubes", None, [""]))
     for name, scene, view, settings in views:
         truth, visible = Truth(scene, ALL, view=view), Truth(scene, VISIBLE, view=view)
@@ -208,7 +208,7 @@ def unknown(page):
         for setting in settings:
             frame = render(scene, SPECULAR + setting, view=view)
             fade = setting.strip("@").replace("=", "").replace(".", "_")
-            if setting != "@cameraFade=0.5":
+            if setting != "@camera_fade=0.5":
                 page.picture("-".join(filter(None, (name, fade))), frame, window, zoom)
             figures = [f(frame, t, "indirect_specular") for t in (truth, visible) for f in (error, bias)]
             rows.append([name, "`%s`" % (setting.strip("@") or "plain")] + figures)
@@ -220,7 +220,7 @@ def unknown(page):
 
 def second_layer(page):
     rows = []
-    settings = ["@thickness=0.05", "@thickness=0.3", "@thickness=1000", "@thicknessFrom=secondLayer"]
+    settings = ["@thickness=0.05", "@thickness=0.3", "@thickness=1000", "@thickness_mode=second_layer"]
     names = (None, "constant", "endless", "second")
     tests = (("cubes", "specular", SPECULAR), ("gloss", "diffuse", DIFFUSE + "diffuse.rays=32 "),
              ("cornell", "diffuse", DIFFUSE + "diffuse.rays=32 "), ("cave", "diffuse", DIFFUSE + "diffuse.rays=32 "))
@@ -240,13 +240,13 @@ def second_layer(page):
 
 def depth_precision(page):
     truth, rows = Truth("cubes", ALL, view="near"), []
-    for buffer in ("standard16", "standard24", "reversedFloat"):
-        setting = "depth.buffer=%s @light=direct diffuse.rays=16" % buffer
+    for buffer in ("standard16", "standard24", "reversed_float"):
+        setting = "depth.format=%s @light=direct diffuse.rays=16" % buffer
         frame = render("cubes", setting, view="near")
         page.picture(buffer, frame)
         rows.append(["`%s`" % buffer] + [error(frame, truth, x) for x in ("direct", "indirect_diffuse", "indirect_specular")]
                     + traced(frame, "specular"))
-    page.table("depth", ["`depth.buffer`", "relative MSE to the truth: direct light", "indirect diffuse", "reflections",
+    page.table("depth", ["`depth.format`", "relative MSE to the truth: direct light", "indirect diffuse", "reflections",
                          "steps per reflection ray", "hits"], rows)
 
 
@@ -268,10 +268,10 @@ def noise(page):
 
 
 def games202(page):
-    truth = Truth("cubes", VISIBLE, "materials.lambertOnly=true tonemap.curve=gamma22")
-    cases = [("games202-original", "", "original"), ("games202", "", "right"), ("games202", "diffuse.rays=32", "rays32"),
-             ("games202", "@thickness=1000", None), ("games202-linear", "", "linear60"), ("games202-linear", "@maxSteps=150", None),
-             ("games202-linear", "@thickness=1000", None), ("games202-linear", "@maxSteps=150 @thickness=1000", None)]
+    truth = Truth("cubes", VISIBLE, "materials.lambert_only=true tonemap.curve=gamma22")
+    cases = [("games202_original", "", "original"), ("games202", "", "right"), ("games202", "diffuse.rays=32", "rays32"),
+             ("games202", "@thickness=1000", None), ("games202_linear", "", "linear60"), ("games202_linear", "@max_steps=150", None),
+             ("games202_linear", "@thickness=1000", None), ("games202_linear", "@max_steps=150 @thickness=1000", None)]
     rows = []
     for preset, setting, name in cases:
         frame = render("cubes", setting, preset=preset)

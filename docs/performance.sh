@@ -17,7 +17,7 @@ reflet=${REFLET:-build/bin/reflet}
 out=out/performance
 mkdir -p "$out"
 preset=${PRESET:-balanced}
-lambert=(--set materials.lambertOnly=true)
+lambert=(--set materials.lambert_only=true)
 one_bounce=(--truth-bounces 1 --truth-visible-only)
 all_scenes=$("$reflet" list scenes | cut -d ' ' -f 1)
 wanted=("$@")
@@ -61,7 +61,7 @@ if [[ ${1:-} != page ]]; then
     # what the camera sees, and an environment that stands in there would be all of either's error.
     measure mirror builtin:mirror-hall --view-file docs/methods/views/into-the-mirror-without-sky.json --size 1280x720 \
         --compare "preset:$preset,diffuse.rays=0" \
-        preset:games202-linear,materials.lambertOnly=false,specular.rays=1,diffuse.rays=0,trace_screen.maxSteps=150 \
+        preset:games202_linear,materials.lambert_only=false,specular.rays=1,diffuse.rays=0,trace_screen.max_steps=150 \
         --layer indirect_specular "${one_bounce[@]}" --truth-spp 256 --first 2 --warmup 12 --frames 3
     # Soft shadows over hard ones.
     measure shadow builtin:colonnade builtin:cave --size 1280x720 --truth none --first 3 \

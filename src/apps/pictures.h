@@ -27,7 +27,7 @@ public:
     /// Throws UsageError for an unknown name, or for images that cannot be in one file.
     Pictures(const std::string& show, const std::vector<std::string>& aovs);
 
-    /// Sets what they need of a frame: trace_screen.countSteps, composite.layers.
+    /// Sets what they need of a frame: trace_screen.count_steps, composite.layers.
     void prepare(Settings& settings) const;
     /// Whether the image of that name is among them.
     [[nodiscard]] bool contains(std::string_view show) const;

@@ -125,7 +125,7 @@ constexpr const char* referenceFooter =
     "Depth and normal are those of the pixel's centre.\n"
     "Noise is the root of the mean over the pixels of (variance of the mean) / (luminance² + 0.01), the square of\n"
     "which is the picture's own relative MSE.\n"
-    "Of the settings, materials.lambertOnly and (for a PNG) tonemap.* matter here.\n"
+    "Of the settings, materials.lambert_only and (for a PNG) tonemap.* matter here.\n"
     "An interrupt (Ctrl-C) writes what was done, a sample of every pixel at least, and ends with status 1; a second\n"
     "one ends at once.\n"
     "Example: reflet reference builtin:cubes --size 640x360 --spp 256 -o truth.exr";

@@ -176,7 +176,7 @@ void addRenderCommand(CLI::App& app) {
     command
         ->add_option("--timings", options->timings,
                      "Device time of every pass: medians over the frames after the first, or over all that a sequence "
-                     "writes; with trace_screen.countSteps also mean steps and share of hits of the last frame's rays")
+                     "writes; with trace_screen.count_steps also mean steps and share of hits of the last frame's rays")
         ->type_name("F.json");
     command->add_flag("--validate", options->validate,
                       "Run under the Vulkan validation layers; any message is a failure");

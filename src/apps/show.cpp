@@ -191,7 +191,7 @@ const std::vector<Show>& table() {
          [](const FrameImages& i) { return Images{i.g.depth}; }, viewDistance, y, near},
         {"back_depth",
          "metres in front of the camera of the nearest back face behind the surface, 0 none; PNG bright is near; only "
-         "with trace_screen.thicknessFrom=secondLayer",
+         "with trace_screen.thickness_mode=second_layer",
          [](const FrameImages& i) { return Images{i.backDepth}; }, viewDistance, y, near},
         {"normal", "world-space shading normal, 0 where there is nothing; PNG 0.5 + 0.5 n",
          [](const FrameImages& i) {
@@ -235,7 +235,7 @@ const std::vector<Show>& table() {
          [](const FrameImages& i) { return Images{i.specular.radiance}; }, alpha, y, near},
         {"steps",
          "mean depth samples per ray: R diffuse, G specular; PNG 1 is 128 samples; only with "
-         "trace_screen.countSteps=true, which render sets for it",
+         "trace_screen.count_steps=true, which render sets for it",
          [](const FrameImages& i) {
              return Images{i.diffuse.steps, i.specular.steps};
          },

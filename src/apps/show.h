@@ -32,7 +32,7 @@ const Show& findShow(std::string_view name);
 /// Whether its images have another size than the picture.
 bool hasOwnSize(const Show& show);
 
-/// Whether it needs trace_screen.countSteps.
+/// Whether it needs trace_screen.count_steps.
 bool countsSteps(const Show& show);
 
 /// Read-backs of what a show needs; fetch after the frame is done.

@@ -9,8 +9,8 @@
 //     SETTINGS(TraceScreenSettings, TRACE_SCREEN_SETTINGS)
 //
 // From it come the GLSL struct, the C++ struct with defaults and (in C++) a SettingInfo for each line, which the
-// command line, JSON files, help and documentation are made of. All members are four bytes, so both languages agree
-// on the layout (scalar block layout).
+// command line, JSON files, help and documentation are made of. There the name is snake_case: trace_screen.max_steps.
+// All members are four bytes, so both languages agree on the layout (scalar block layout).
 //
 // A choice is a list of names and values:
 //

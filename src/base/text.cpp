@@ -41,7 +41,7 @@ size_t editDistance(std::string_view a, std::string_view b) {
     return row[b.size()];
 }
 
-/// "pos" for "position", "maxSteps" for "trace_screen.maxSteps".
+/// "pos" for "position", "steps" for "trace_screen.max_steps".
 bool onePartOfOther(std::string_view a, std::string_view b) {
     const auto [shorter, longer] = a.size() < b.size() ? std::pair(a, b) : std::pair(b, a);
     return shorter.size() >= 3 && longer.find(shorter) != std::string_view::npos;
@@ -68,6 +68,17 @@ std::optional<std::string> nearestName(std::string_view name, std::span<const st
 std::string suggestion(std::string_view name, std::span<const std::string> names) {
     const std::optional<std::string> nearest = nearestName(name, names);
     return nearest ? fmt::format("; did you mean '{}'?", *nearest) : "";
+}
+
+std::string snakeCase(std::string_view camelCase) {
+    std::string result;
+    for (const char letter : camelCase) {
+        if (std::isupper(static_cast<unsigned char>(letter)) != 0) {
+            result += '_';
+        }
+        result += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    }
+    return result;
 }
 
 }  // namespace reflet

@@ -15,4 +15,7 @@ std::optional<std::string> nearestName(std::string_view name, std::span<const st
 /// "; did you mean 'x'?" with the nearest name, to end a message with; "" where none is near.
 std::string suggestion(std::string_view name, std::span<const std::string> names);
 
+/// "max_steps" of "maxSteps": the C++ member's name as users type it.
+std::string snakeCase(std::string_view camelCase);
+
 }  // namespace reflet

@@ -16,7 +16,7 @@ namespace {
 
 void drawSurfaces(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
     out.g = drawGBuffer(f, in.draws, in.view, settings.materials, in.clipPlane);
-    if (settings.traceScreen.thicknessFrom == ThicknessFrom::secondLayer) {
+    if (settings.traceScreen.thicknessMode == ThicknessMode::secondLayer) {
         const gpu::Image back = drawBackDepth(f, in.draws, out.g.depth, in.view);
         out.backDepth = keptDepth(f, "kept_back_depth", back, in.view, settings.depth);
     }
@@ -45,7 +45,7 @@ void seeSun(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewI
     const SunVisibility seen = sunVisibility(f, out.g, maps, {in.view, out.sun, shadow, sunSlope});
     out.rawSunVisibility = seen.visibility;
     out.shadowPenumbra = seen.penumbra;
-    out.sunVisibility = shadow.clean != 0 && seen.penumbra
+    out.sunVisibility = shadow.denoise != 0 && seen.penumbra
                             ? cleanShadow(f, out.g, seen.visibility, seen.penumbra,
                                           {in.view, -in.sunDirection, shadow.history, shadow.samples, 0})
                             : seen.visibility;

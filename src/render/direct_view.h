@@ -35,7 +35,7 @@ struct ViewInputs {
 /// Formats where the effects declare them.
 struct ViewImages {
     GBuffer g;
-    gpu::Image backDepth;         ///< none unless trace_screen.thicknessFrom is secondLayer
+    gpu::Image backDepth;         ///< none unless trace_screen.thickness_mode is second_layer
     gpu::Image pyramid;           ///< none unless trace_screen.method is hiz or there are contact shadows
     gpu::Image shadowMap;         ///< none without sun or shadows
     SunShadowParams sun{};        ///< its parts

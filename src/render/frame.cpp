@@ -43,7 +43,7 @@ struct SeenView {
 
 // The screen, and the mirrors in it. A mirror's view knows more than the screen, and guesses no thickness.
 void answerFromViews(gpu::Frame& f, Rays& rays, const SeenView& seen, const Settings& settings, float longest) {
-    const bool screenFirst = settings.planar.first == 0;
+    const bool screenFirst = settings.planar.beforeScreen == 0;
     for (const bool asksScreen : {screenFirst, !screenFirst}) {
         if (asksScreen && settings.traceScreen.enabled != 0) {
             traceScreen(f, rays, seen.screen, settings.traceScreen, longest);
@@ -99,12 +99,12 @@ LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& setting
     const bool counted = settings.traceScreen.countSteps != 0;
     const uint32_t perPixel = diffuse ? settings.diffuse.rays : settings.specular.rays;
     const uint32_t neighbours = diffuse ? settings.diffuse.reuse : settings.specular.reuse;
-    const float longest = diffuse ? settings.diffuse.radius : settings.traceScreen.maxDistance;
+    const float longest = diffuse ? settings.diffuse.maxDistance : settings.traceScreen.maxDistance;
     if (perPixel == 0) {
         return noLight(f, lobe, {screen.g, in.view}, counted);
     }
     const RaySurfaces from =
-        pickSurfaces(f, screen.g, in.view, diffuse ? settings.diffuse.scale : settings.specular.scale);
+        pickSurfaces(f, screen.g, in.view, diffuse ? settings.diffuse.downsample : settings.specular.downsample);
     const float coneShare = settings.traceScreen.enabled != 0 ? coneShareOnScreen : 0.0F;
     const RayTiles tiles = tilesOfLobe(f, from, settings, screen.lit, lobe);
     const uint32_t most = tiles.meanRays > 0 ? mostAdaptiveRays(f, from.g.depth.size, perPixel) : perPixel;
@@ -155,7 +155,7 @@ void lightForReflections(gpu::Frame& f, const ViewInputs& in, const Settings& se
             screen.g, screen.light, diffuse, none, in.ggxTable, settings.materials.lambertOnly != 0, false};
         screen.light = composite(f, parts, soFar, {in.view, settings.diffuse.gain}).lit;
     }
-    if (s.rougher == RougherSurfaces::mips && s.maxRoughness < 1.0F && s.rays > 0) {
+    if (s.roughFallback == RoughFallback::mips && s.maxRoughness < 1.0F && s.rays > 0) {
         screen.lightMips =
             makeLightMips(f, light == HitLight::previous && screen.lit.valid ? screen.lit.previous : screen.light);
     }

@@ -36,6 +36,12 @@ void applyPreset(Settings& settings, std::string_view name) {
         std::vector<std::string> names;
         std::ranges::transform(all, std::back_inserter(names),
                                [](const auto& p) { return std::string(presetName(p)); });
+        std::string snake(name);  // version 0.1: screen-only, screen+probes
+        std::ranges::replace_if(
+            snake, [](char letter) { return letter == '-' || letter == '+'; }, '_');
+        if (snake != name && std::ranges::find(names, snake) != names.end()) {
+            failUsage("preset '{}' is called '{}' now", name, snake);
+        }
         failUsage("no preset is called '{}'{}; there are: {}", name, suggestion(name, names), fmt::join(names, ", "));
     }
     applySettingsJson(settings, nlohmann::json::parse(found->text), fmt::format("preset {}", name));

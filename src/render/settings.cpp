@@ -47,10 +47,40 @@ std::vector<SettingEntry> makeEntries() {
     return entries;
 }
 
+// Settings that had another name in version 0.1, in snake_case. Those that were only in camelCase need no line.
+constexpr std::pair<std::string_view, std::string_view> renamedSettings[] = {
+    {"depth.buffer", "depth.format"},
+    {"diffuse.radius", "diffuse.max_distance"},
+    {"diffuse.scale", "diffuse.downsample"},
+    {"environment.lost_share", "environment.occluded_weight"},
+    {"planar.find", "planar.auto_detect"},
+    {"planar.first", "planar.before_screen"},
+    {"shadow.clean", "shadow.denoise"},
+    {"specular.rougher", "specular.rough_fallback"},
+    {"specular.scale", "specular.downsample"},
+    {"temporal.deviations", "temporal.clip"},
+    {"trace_screen.reject_facing_away", "trace_screen.reject_backfaces"},
+    {"trace_screen.smallest_step", "trace_screen.min_step"},
+    {"trace_screen.thickness_from", "trace_screen.thickness_mode"},
+};
+
+// What a name of version 0.1 is called now.
+std::optional<std::string> newName(std::string_view old) {
+    const std::string snake = snakeCase(old);
+    const auto* renamed =
+        std::ranges::find(renamedSettings, snake, &std::pair<std::string_view, std::string_view>::first);
+    const std::string name = renamed == std::end(renamedSettings) ? snake : std::string(renamed->second);
+    const bool known = std::ranges::find(settingEntries(), name, &SettingEntry::name) != settingEntries().end();
+    return known ? std::optional(name) : std::nullopt;
+}
+
 const SettingEntry& findEntry(std::string_view name) {
     const auto& entries = settingEntries();
     const auto found = std::ranges::find(entries, name, &SettingEntry::name);
     if (found == entries.end()) {
+        if (const auto renamed = newName(name)) {
+            failUsage("setting '{}' is called '{}' now", name, *renamed);
+        }
         std::vector<std::string> names;
         std::ranges::transform(entries, std::back_inserter(names), &SettingEntry::name);
         failUsage("unknown setting '{}' (all of them: reflet list settings){}", name, suggestion(name, names));
@@ -147,7 +177,8 @@ bool tracesScene(const Settings& settings) {
 bool keepsHistory(const Settings& settings) {
     const ShadowSettings& shadow = settings.shadow;
     const bool penumbras = shadow.filter == ShadowFilter::pcf || shadow.filter == ShadowFilter::pcss;
-    return settings.traceScreen.light == HitLight::previous || (penumbras && shadow.clean != 0 && shadow.history > 0) ||
+    return settings.traceScreen.light == HitLight::previous ||
+           (penumbras && shadow.denoise != 0 && shadow.history > 0) ||
            (settings.probes.enabled != 0 && settings.probes.refresh == ProbeRefresh::face) ||
            settings.accumulate.enabled != 0 || settings.temporal.enabled != 0 ||
            (settings.denoise.enabled != 0 && settings.denoise.history > 0);
@@ -199,6 +230,9 @@ void setSetting(Settings& settings, std::string_view name, const std::string& va
                            : entry.info.type == SettingType::integer ? "a whole number from "
                            : entry.info.type == SettingType::real    ? "a number from "
                                                                      : "";
+        if (const std::string renamed = snakeCase(value); renamed != value && parseValue(entry.info, renamed)) {
+            failUsage("{}: '{}' is called '{}' now", entry.name, value, renamed);
+        }
         failUsage("{} must be {}{}, is '{}'", entry.name, kind, rangeText(entry.info), value);
     }
     store(settings, entry.info, *parsed);

@@ -57,7 +57,7 @@ bool keepsHistory(const Settings& settings);
 
 /// A setting with its full name and its place in Settings.
 struct SettingEntry {
-    std::string name;  ///< "trace_screen.maxSteps"
+    std::string name;  ///< "trace_screen.max_steps"
     SettingInfo info;  ///< offset counts from the start of Settings
 };
 

@@ -25,7 +25,7 @@ std::string text(const std::vector<float>& values) {
 
 // What these settings take for a hit: a far side may not count.
 bool isHit(const RecordedRay& ray, const TraceScreenSettings& settings) {
-    return ray.outcome == RayOutcome::hit && !(ray.facesAway && settings.rejectFacingAway != 0);
+    return ray.outcome == RayOutcome::hit && !(ray.facesAway && settings.rejectBackfaces != 0);
 }
 
 // Why the mirror ray brings what it brings, in words.
@@ -40,7 +40,7 @@ std::string explanation(const RecordedRay& ray, const TraceScreenSettings& setti
     } else if (ray.outcome == RayOutcome::hit) {
         why = fmt::format(
             "A miss: after {:.3g} m it meets what {} shows from behind, and that side the screen does not "
-            "show (trace_screen.rejectFacingAway).",
+            "show (trace_screen.reject_backfaces).",
             ray.distance, at);
     } else if (ray.outcome == RayOutcome::leftScreen) {
         why = fmt::format(
@@ -52,8 +52,8 @@ std::string explanation(const RecordedRay& ray, const TraceScreenSettings& setti
                           settings.thickness);
     } else {
         why = fmt::format(
-            "A miss: it has taken all its steps (trace_screen.maxSteps is {}), or gone as far as "
-            "trace_screen.maxDistance ({:g} m).",
+            "A miss: it has taken all its steps (trace_screen.max_steps is {}), or gone as far as "
+            "trace_screen.max_distance ({:g} m).",
             settings.maxSteps, settings.maxDistance);
     }
     if (ray.lost && !isHit(ray, settings)) {

@@ -150,12 +150,12 @@ TEST_F(BenchTest, WithoutATruthThereAreNoErrors) {
 }
 
 TEST_F(BenchTest, AllVariantsMayHaveTheTruthOfOtherSettings) {
-    const Arguments both{"--preset", "direct", "--variant", "near=direct,trace_screen.maxSteps=8",
+    const Arguments both{"--preset", "direct", "--variant", "near=direct,trace_screen.max_steps=8",
                          "--truth",  "chain:2"};
     ASSERT_TRUE(quietSuccess(bench(both)));
     EXPECT_EQ(truths(), 2U * 2U);
     Arguments fixed = both;
-    fixed.insert(fixed.end(), {"--truth-of", "plain,trace_screen.maxSteps=99"});
+    fixed.insert(fixed.end(), {"--truth-of", "plain,trace_screen.max_steps=99"});
     ASSERT_TRUE(quietSuccess(bench(fixed)));
     EXPECT_EQ(truths(), 3U * 2U);
     EXPECT_NE(numbers().at("truth").at("of").get<std::string>().find("maxSteps=99"), std::string::npos);

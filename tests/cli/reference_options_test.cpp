@@ -104,7 +104,8 @@ TEST_F(ReferenceOptions, UniformSamplingIsAnotherNoiseOfTheSamePicture) {
 
 TEST_F(ReferenceOptions, LambertOnlyHasNoSpecularLight) {
     EXPECT_GT(mean(traced(cubes, {"--spp", "2"})["indirect_specular"]), 0.0F);
-    EXPECT_EQ(largest(traced(cubes, {"--spp", "2", "--set", "materials.lambertOnly=true"})["indirect_specular"]), 0.0F);
+    EXPECT_EQ(largest(traced(cubes, {"--spp", "2", "--set", "materials.lambert_only=true"})["indirect_specular"]),
+              0.0F);
 }
 
 // Scene and view.

@@ -124,7 +124,7 @@ TEST_F(Reference, HelpNamesEveryOptionAndSaysWhatTheLayersAre) {
                               "final (also without a name, for viewers), direct, indirect_diffuse, indirect_specular",
                               "albedo, normal, depth and sun_visibility",
                               "Noise is",
-                              "materials.lambertOnly",
+                              "materials.lambert_only",
                               "Ctrl-C",
                               "Example: reflet reference"}) {
         EXPECT_NE(help.out.find(words), std::string::npos) << words;

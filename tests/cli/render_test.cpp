@@ -14,8 +14,8 @@ namespace {
 
 using Names = std::vector<std::string>;
 const std::string cubes = "builtin:cubes";
-const std::string secondLayer = "trace_screen.thicknessFrom=secondLayer";  // without it there is no back_depth
-const std::string cascades = "shadow.cascades=2";                          // without it there is no cascade_index
+const std::string secondLayer = "trace_screen.thickness_mode=second_layer";  // without it there is no back_depth
+const std::string cascades = "shadow.cascades=2";                            // without it there is no cascade_index
 
 class Render : public ProgramTest {
 protected:

@@ -52,7 +52,7 @@ TEST_F(WrongReference, ChoicesAreChecked) {
     EXPECT_TRUE(refused(wrong({"--sampling", "x"}), usage, {"--sampling", "x", "cosine", "uniform", "--help"}));
     EXPECT_TRUE(refused(wrong({"--camera", "nowhere"}), usage, {"'nowhere'", "'main'"}));
     EXPECT_TRUE(refused(wrong({"--preset", "fst"}), usage, {"'fst'", "did you mean 'fast'"}));
-    EXPECT_TRUE(refused(wrong({"--set", "materials.lambert=1"}), usage, {"did you mean 'materials.lambertOnly'"}));
+    EXPECT_TRUE(refused(wrong({"--set", "materials.lambert=1"}), usage, {"did you mean 'materials.lambert_only'"}));
 }
 
 TEST_F(WrongReference, AnUnknownOptionIsNamedWithTheNearest) {

@@ -55,7 +55,7 @@ TEST_F(WrongUse, ACameraThatIsNotThereIsToldFromThoseThatAre) {
 
 TEST_F(WrongUse, AnUnknownSettingIsNamedWithTheNearest) {
     EXPECT_TRUE(refused(set("trace_screen.maxstep=4"), usage,
-                        {"'trace_screen.maxstep'", "did you mean 'trace_screen.maxSteps'", "list settings"}));
+                        {"'trace_screen.maxstep'", "did you mean 'trace_screen.max_steps'", "list settings"}));
 }
 
 TEST_F(WrongUse, AValueOutOfRangeIsToldTheRange) {
@@ -101,9 +101,9 @@ TEST_F(WrongUse, AShadowMapSharesNoFile) {
 }
 
 TEST_F(WrongUse, AnImageThatTheFrameDoesNotMakeIsNamedWithTheSettingThatMakesIt) {
-    EXPECT_TRUE(refused(renderWith({"--show", "back_depth"}), 1, {"back_depth", "thicknessFrom=secondLayer"}));
+    EXPECT_TRUE(refused(renderWith({"--show", "back_depth"}), 1, {"back_depth", "thicknessMode=second_layer"}));
     EXPECT_TRUE(quietSuccess(
-        render(cubes, {"-o", "a.png", "--show", "back_depth", "--set", "trace_screen.thicknessFrom=secondLayer"})));
+        render(cubes, {"-o", "a.png", "--show", "back_depth", "--set", "trace_screen.thickness_mode=second_layer"})));
 }
 
 TEST_F(WrongUse, AnOutputOfUnknownFormatIsRefused) {

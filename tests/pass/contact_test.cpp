@@ -172,7 +172,7 @@ TEST(Contact, IsOffByDefaultWhateverItsOtherSettingsAre) {
         return render(scene, view, size, with(assignments), {"final"}).images.at("final").data;
     };
     const std::vector<float> plain = picture({});
-    EXPECT_EQ(picture({"contact.thickness=10", "contact.maxSteps=4096"}), plain);
+    EXPECT_EQ(picture({"contact.thickness=10", "contact.max_steps=4096"}), plain);
     EXPECT_NE(picture({"contact.distance=0.25"}), plain);
 }
 

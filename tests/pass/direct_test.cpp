@@ -7,7 +7,7 @@ namespace reflet::test::direct_test {
 namespace {
 
 constexpr uvec2 size(160, 90);
-const std::vector<std::string> lambert{"materials.lambertOnly=true", "diffuse.rays=0", "specular.rays=0"};
+const std::vector<std::string> lambert{"materials.lambert_only=true", "diffuse.rays=0", "specular.rays=0"};
 
 View viewFrom(const vec3& position, const vec3& target) {
     View view;

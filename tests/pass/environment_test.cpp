@@ -14,8 +14,9 @@ namespace {
 constexpr uvec2 size(96, 96);
 constexpr float degree = glm::pi<float>() / 180.0F;
 
-const std::vector<std::string> splitSum{"trace_screen.enabled=false", "specular.maxRoughness=0",
-                                        "specular.rougher=mips", "diffuse.distribution=normal", "diffuse.rays=1"};
+const std::vector<std::string> splitSum{"trace_screen.enabled=false", "specular.max_roughness=0",
+                                        "specular.rough_fallback=mips", "diffuse.distribution=normal",
+                                        "diffuse.rays=1"};
 
 Environment environmentOf(uvec2 texels, const std::function<vec3(const vec3& direction)>& light) {
     FloatImage image{texels.x, texels.y, {"R", "G", "B"}, {}};
@@ -216,7 +217,7 @@ TEST(EnvironmentImage, SplitSumReflectsNearlyWhatThePathTracerDoes) {
     }
     const Scene matt = sphereOf(1.0F, 0.0F);
     std::vector<std::string> lambert = splitSum;
-    lambert.emplace_back("materials.lambertOnly=true");
+    lambert.emplace_back("materials.lambert_only=true");
     ReferenceOptions options;
     options.filter = PixelFilter::center;
     options.samples = 64;
@@ -247,7 +248,7 @@ TEST(EnvironmentImage, WhatIsBrighterThanHalfFloatsHoldKeepsItsEnergy) {
     };
     const Scene scene = sphereOf(1.0F, 0.0F, vec3(0.1F));
     std::vector<std::string> lambert = splitSum;
-    lambert.emplace_back("materials.lambertOnly=true");
+    lambert.emplace_back("materials.lambert_only=true");
     View view = viewOf(spot(9e6F));
     view.environment.intensity = 1e-2F;
     const Pictures bright = render(scene, view, size, settingsOf(lambert), {"indirect_diffuse"});

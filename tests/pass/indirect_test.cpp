@@ -107,7 +107,7 @@ TEST(Indirect, RaysThatLeaveTheScreenAreAnsweredByTheEnvironment) {
     View view = viewFrom({0, 3, 6}, {0, 0, 0});
     view.environment.radiance = {1.0F, 0.5F, 0.25F};
     const Scene scene = sceneOf(lambertMaterial(vec3(0.5F)), builtin::ground({50, 50}, {1, 1}, {1, 1}));
-    const Pictures p = render(scene, view, size, settingsOf({"materials.lambertOnly=true"}),
+    const Pictures p = render(scene, view, size, settingsOf({"materials.lambert_only=true"}),
                               {"indirect_diffuse", "diffuse_source", "diffuse_confidence", "diffuse_radiance"});
     for (unsigned x = 0; x < size.x; x += 5) {
         const vec3 got = p.color("indirect_diffuse", x, 80);
@@ -127,8 +127,8 @@ TEST(Indirect, UniformAndCosineRaysConvergeToTheSameLight) {
     lamp.doubleSided = true;
     builtin::place(scene, "wall", builtin::addMaterial(scene, lamp),
                    builtin::patch({{0, 1, -2}, {3, 0, 0}, {0, 1, 0}, {1, 1}, {1, 1}}));
-    const std::vector<std::string> base{"materials.lambertOnly=true", "diffuse.rays=64", "trace_screen.step=0.1",
-                                        "trace_screen.maxSteps=100"};
+    const std::vector<std::string> base{"materials.lambert_only=true", "diffuse.rays=64", "trace_screen.step=0.1",
+                                        "trace_screen.max_steps=100"};
     auto withUniform = base;
     withUniform.emplace_back("diffuse.distribution=uniform");
     const Pictures cosine = render(scene, view, size, settingsOf(base), {"indirect_diffuse", "depth"});
@@ -158,8 +158,8 @@ TEST(Indirect, LightOfAGlowingWallOnTheFloorIsItsFormFactor) {
     builtin::place(scene, "wall", builtin::addMaterial(scene, lamp),
                    builtin::patch({{0, 0.5F * height, 0}, {half, 0, 0}, {0, 0.5F * height, 0}, {1, 1}, {1, 1}}));
     const Pictures p = render(scene, view, size,
-                              settingsOf({"materials.lambertOnly=true", "diffuse.rays=256", "trace_screen.step=0.03",
-                                          "trace_screen.maxSteps=200", "trace_screen.thickness=0.1"}),
+                              settingsOf({"materials.lambert_only=true", "diffuse.rays=256", "trace_screen.step=0.03",
+                                          "trace_screen.max_steps=200", "trace_screen.thickness=0.1"}),
                               {"indirect_diffuse", "depth"});
     float sum = 0.0F;
     float expected = 0.0F;
@@ -193,7 +193,7 @@ TEST(Indirect, AFloorMirrorShowsThePictureFlipped) {
     builtin::place(scene, "board", builtin::addMaterial(scene, board),
                    builtin::patch({{0, 0.8F, 0}, {half.x, 0, 0}, {0, half.y, 0}, {1, 1}, {1, 1}}));
     const Pictures p = render(scene, view, size,
-                              settingsOf({"diffuse.rays=0", "trace_screen.step=0.02", "trace_screen.maxSteps=400",
+                              settingsOf({"diffuse.rays=0", "trace_screen.step=0.02", "trace_screen.max_steps=400",
                                           "trace_screen.thickness=0.05"}),
                               {"indirect_specular", "specular_hit_distance", "depth"});
     unsigned shown = 0;
@@ -233,7 +233,7 @@ TEST(Indirect, ARayWithoutStepsLeftMisses) {
         const Pictures p =
             render(scene, view, size,
                    settingsOf({"diffuse.rays=0", "trace_screen.method=linear", "trace_screen.step=0.02",
-                               "trace_screen.thickness=0.05", "trace_screen.maxSteps=" + std::to_string(steps)}),
+                               "trace_screen.thickness=0.05", "trace_screen.max_steps=" + std::to_string(steps)}),
                    {"indirect_specular", "depth"});
         float farthest = 0.0F;  // of the floor points that reflect the board
         for (unsigned y = 0; y < size.y; ++y) {
@@ -257,7 +257,7 @@ TEST(Indirect, TheLastFramesLightBringsFurtherBouncesUpToTheirSum) {
     builtin::place(scene, "wall", 0, builtin::patch({{0, 1, -2}, {3, 0, 0}, {0, 1, 0}, {1, 1}, {1, 1}}));
     const auto meanAfter = [&](const char* light, uint32_t frames) {
         return meanOnSurfaces(render(scene, view, size,
-                                     settingsOf({"materials.lambertOnly=true", "diffuse.rays=16",
+                                     settingsOf({"materials.lambert_only=true", "diffuse.rays=16",
                                                  std::string("trace_screen.light=") + light}),
                                      {"indirect_diffuse", "depth"}, frames),
                               "indirect_diffuse");
@@ -278,7 +278,7 @@ TEST(Indirect, LambertOnlyHasNoReflections) {
     mirror.metallic = 1.0F;
     mirror.roughness = 0.0F;
     const Pictures p = render(sceneOf(mirror, builtin::ground({5, 5}, {1, 1}, {1, 1})), view, size,
-                              settingsOf({"materials.lambertOnly=true"}), {"indirect_specular", "indirect_diffuse"});
+                              settingsOf({"materials.lambert_only=true"}), {"indirect_specular", "indirect_diffuse"});
     EXPECT_EQ(rangeOf(p.images.at("indirect_specular")).max, 0.0F);
     EXPECT_NEAR(p.value("indirect_diffuse", 80, 80), 0.5F, 0.01F);
 }

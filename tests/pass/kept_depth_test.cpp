@@ -8,8 +8,8 @@ namespace reflet::test::kept_depth_test {
 namespace {
 
 constexpr uvec2 size(160, 90);
-const std::string standard16 = "depth.buffer=standard16";
-const std::string standard24 = "depth.buffer=standard24";
+const std::string standard16 = "depth.format=standard16";
+const std::string standard24 = "depth.format=standard24";
 
 // Errors of the depth image on an endless floor 1 m under the camera, near plane at 0.1 mm.
 struct Errors {
@@ -80,7 +80,7 @@ TEST(KeptDepth, IsWhatLightIsComputedWith) {
     const auto wallDistance = [&](const std::string& buffer) {
         const Pictures p = render(
             scene, view, size,
-            settingsOf({buffer, "materials.lambertOnly=true", "diffuse.rays=0", "specular.rays=0", "shadow.lamps=0"}),
+            settingsOf({buffer, "materials.lambert_only=true", "diffuse.rays=0", "specular.rays=0", "shadow.lamps=0"}),
             {"direct", "depth"});
         const float distance = p.value("depth", size.x / 2, size.y / 2);
         const float toLamp = distance - 3.0F;
@@ -88,7 +88,7 @@ TEST(KeptDepth, IsWhatLightIsComputedWith) {
         EXPECT_NEAR(p.value("direct", size.x / 2, size.y / 2), expected, 0.02F * expected) << buffer;
         return distance;
     };
-    EXPECT_NEAR(wallDistance("depth.buffer=reversedFloat"), 5.0F, 1e-3F);
+    EXPECT_NEAR(wallDistance("depth.format=reversed_float"), 5.0F, 1e-3F);
     EXPECT_GT(std::abs(wallDistance(standard16) - 5.0F), 1.0F);
     expectSilentValidation("kept depth");
 }

@@ -17,7 +17,7 @@ TEST(LampShadow, WallsAroundAPointLampAreLitWithoutSeamsWhereverItHangs) {
         room.scene.lamps.push_back(lampAt(Lamp::Type::point, lamp));
         for (const unsigned resolution : {64U, 512U}) {
             auto settings = direct;
-            settings.emplace_back("shadow.lampResolution=" + std::to_string(resolution));
+            settings.emplace_back("shadow.lamp_resolution=" + std::to_string(resolution));
             for (const View& view : viewsOfRoom()) {
                 const Pictures p = render(room.scene, view, size, settingsOf(settings), {"lamp_visibility", "depth"});
                 unsigned dark = 0;
@@ -42,7 +42,7 @@ TEST(LampShadow, AClosedBoxIsBlackInsideToATexelFromItsCreases) {
             room.scene.lamps.push_back(lampAt(type, lamp, -lamp));
             for (const unsigned resolution : {64U, 512U, 2048U}) {
                 auto settings = direct;
-                settings.emplace_back("shadow.lampResolution=" + std::to_string(resolution));
+                settings.emplace_back("shadow.lamp_resolution=" + std::to_string(resolution));
                 for (const View& view : viewsOfRoom()) {
                     const Pictures p = render(room.scene, view, size, settingsOf(settings), {"direct", "depth"});
                     for (unsigned y = 0; y < size.y; ++y) {
@@ -89,7 +89,7 @@ TEST(LampShadow, OfAKnifeEdgeUnderALampsDiskIsAsWideAsSimilarTrianglesSayWithinA
             view.camera.up = {0, 0, -1};
             view.camera.orthographicHeight = 2.0F * penumbra * static_cast<float>(size.y) / static_cast<float>(size.x);
             const Pictures p = renderMean(
-                scene, view, size, settingsOf({"diffuse.rays=0", "specular.rays=0", "shadow.lampResolution=1024"}),
+                scene, view, size, settingsOf({"diffuse.rays=0", "specular.rays=0", "shadow.lamp_resolution=1024"}),
                 {"lamp_visibility"}, 4);
             std::vector<double> profile(size.x);
             for (unsigned x = 0; x < size.x; ++x) {

@@ -122,8 +122,8 @@ TEST(LampTiles, TheLightIsToTheBitThatOfAllLamps) {
             return render(room.scene, view, size, settingsWith({tiles, "shadow.lamps=7"}),
                           {"direct", "lamp_visibility"});
         };
-        const Pictures tiles = with("direct.lampTiles=true");
-        const Pictures all = with("direct.lampTiles=false");
+        const Pictures tiles = with("direct.lamp_tiles=true");
+        const Pictures all = with("direct.lamp_tiles=false");
         EXPECT_EQ(tiles.images.at("direct").data, all.images.at("direct").data);
         EXPECT_EQ(tiles.images.at("lamp_visibility").data, all.images.at("lamp_visibility").data);
         EXPECT_GT(rangeOf(all.images.at("direct")).max, 0.01F);

@@ -62,7 +62,7 @@ void main() {
     vec3 n = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
     MarchRay ray = makeMarchRay(p, directionOf(i, p, n), planeOnScreen(p, n, params.view.clipToWorld), view);
     TraceScreenSettings s = params.settings;
-    MarchOptions o = MarchOptions(s.step, s.smallestStep, s.stride, s.maxDistance, 1.0, s.maxSteps, s.thickness, false,
+    MarchOptions o = MarchOptions(s.step, s.minStep, s.stride, s.maxDistance, 1.0, s.maxSteps, s.thickness, false,
                                   secondLayer != 0u, 0u, false, int(pyramidLevels), s.firstSteps);
     outputs.items[i] = OracleRay(1u, pixel.x, pixel.y, answerOf(marchExhaustive(ray, o, view)),
                                  answerOf(marchHiz(ray, o, view)), answerOf(marchDda(ray, o, view)));

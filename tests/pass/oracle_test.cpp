@@ -38,7 +38,7 @@ protected:
         params.settings.maxSteps = 4096;  // more than any ray needs
         Renderer renderer(device(), scene, [](const std::string&) {});
         Settings settings = settingsOf({"diffuse.rays=0", "specular.rays=0", "shadow.filter=none"});
-        settings.traceScreen.thicknessFrom = secondLayer ? ThicknessFrom::secondLayer : ThicknessFrom::constant;
+        settings.traceScreen.thicknessMode = secondLayer ? ThicknessMode::secondLayer : ThicknessMode::constant;
         renderer.render(view, size, 0, settings, [&](gpu::Frame& f, const FrameImages& images) {
             f.compute("oracle", "oracle_test.comp")
                 .constant("secondLayer", secondLayer ? 1U : 0U)

@@ -49,7 +49,7 @@ void expectTheReferencesMirror(const Scene& scene, const View& view, const std::
     }
     forms.push_back(mirrored(scene, view,
                              {"planar.enabled=false", "trace_screen.enabled=false", "trace_scene.enabled=true",
-                              "trace_scene.reuseScreen=false", "materials.mips=false"}));
+                              "trace_scene.reuse_screen=false", "materials.mips=false"}));
     expectSilentValidation(what + ", ray traced");
     const std::vector<bool> mask = smoothMirrorPixels(forms[0], truth);
     EXPECT_GT(countOf(mask), 1500U) << what;
@@ -87,7 +87,7 @@ TEST(Planar, EveryMethodOfTracingFindsWhatAnEvenMirrorShows) {
     const Pictures expected = mirrored(scene, view, {"trace_screen.method=exhaustive"});
     const std::vector<bool> mask = smoothMirrorPixels(expected, expected.images.at("indirect_specular"), 1e9F);
     EXPECT_GT(countOf(mask), 2000U);
-    for (const char* method : {"linear", "halving", "fixedPoint", "dda", "hiz"}) {
+    for (const char* method : {"linear", "halving", "fixed_point", "dda", "hiz"}) {
         const Pictures p = mirrored(scene, view, {std::string("trace_screen.method=") + method});
         EXPECT_LT(relativeMse(p, expected.images.at("indirect_specular"), mask), 1e-6) << method;
     }
@@ -199,7 +199,7 @@ TEST(Planar, SmallerViewsShowMuchTheSame) {
 }
 
 void expectSound(const std::vector<std::string>& assignments) {
-    std::vector<std::string> all{"planar.enabled=true", "specular.maxRoughness=0.1"};
+    std::vector<std::string> all{"planar.enabled=true", "specular.max_roughness=0.1"};
     all.insert(all.end(), assignments.begin(), assignments.end());
     const Pictures p =
         render(makeMirrorRoom({.waves = true}), viewOfMirrorRoom(), {64, 36}, settingsOf(all), {"final", "source"}, 2);
@@ -210,22 +210,23 @@ void expectSound(const std::vector<std::string>& assignments) {
 }
 
 TEST(Planar, EverySettingWorksAtItsEnds) {
-    expectSound({"planar.first=false", "planar.count=4", "planar.scale=0.25", "planar.margin=1"});
+    expectSound({"planar.before_screen=false", "planar.count=4", "planar.scale=0.25", "planar.margin=1"});
     expectSound({"planar.count=0", "planar.diffuse=false"});
-    expectSound({"planar.find=false", "planar.specular=false"});
-    expectSound({"planar.specular=false", "specular.rougher=mips"});
-    expectSound({"planar.maxRoughness=1", "planar.count=4", "shadow.cascades=3"});
-    expectSound({"trace_screen.thicknessFrom=secondLayer", "trace_screen.countSteps=true"});
+    expectSound({"planar.auto_detect=false", "planar.specular=false"});
+    expectSound({"planar.specular=false", "specular.rough_fallback=mips"});
+    expectSound({"planar.max_roughness=1", "planar.count=4", "shadow.cascades=3"});
+    expectSound({"trace_screen.thickness_mode=second_layer", "trace_screen.count_steps=true"});
     expectSound({"trace_screen.light=previous", "trace_screen.enabled=false"});
-    expectSound({"depth.buffer=standard24", "contact.distance=0.1"});
+    expectSound({"depth.format=standard24", "contact.distance=0.1"});
 }
 
 TEST(Planar, EveryFormWorksWithOtherSettings) {
     for (const char* form : {"lookup", "duplicate", "camera"}) {
         const std::string chosen = std::string("planar.form=") + form;
-        expectSound({chosen, "planar.count=4", "planar.scale=0.25", "specular.rougher=mips", "shadow.cascades=3"});
-        expectSound({chosen, "planar.cameraSize=8", "planar.cameraBlur=64", "planar.cameraFov=150",
-                     "trace_screen.thicknessFrom=secondLayer", "trace_screen.light=previous"});
+        expectSound(
+            {chosen, "planar.count=4", "planar.scale=0.25", "specular.rough_fallback=mips", "shadow.cascades=3"});
+        expectSound({chosen, "planar.camera_size=8", "planar.camera_blur=64", "planar.camera_fov=150",
+                     "trace_screen.thickness_mode=second_layer", "trace_screen.light=previous"});
     }
 }
 

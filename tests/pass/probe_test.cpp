@@ -223,7 +223,7 @@ TEST_P(ProbeFurnace, IsAsBrightAsItsWalls) {
     expectSilentValidation("a furnace");
 }
 
-const std::vector<std::string> filtered{"specular.maxRoughness=0", "specular.rougher=mips", "diffuse.rays=1",
+const std::vector<std::string> filtered{"specular.max_roughness=0", "specular.rough_fallback=mips", "diffuse.rays=1",
                                         "diffuse.distribution=normal"};
 INSTANTIATE_TEST_SUITE_P(Probe, ProbeFurnace,
                          testing::Values(FurnaceCase{"matt_by_rays", 1.0F, 0.0F, {}},
@@ -246,7 +246,7 @@ TEST(Probe, BouncesKeepAWhiteFurnaceWhite) {
     view.camera.target = vec3(0.0F);
     view.environment.radiance = vec3(1.0F);
     view.probes = {{probeIn(open, {1.5F, 0.5F, 0.8F})}};
-    const std::vector<std::string> base{"trace_screen.enabled=false", "materials.lambertOnly=true",
+    const std::vector<std::string> base{"trace_screen.enabled=false", "materials.lambert_only=true",
                                         "probes.resolution=32", "diffuse.rays=16"};
     const auto mean = [&](const char* enabled, const char* bounces) {
         std::vector<std::string> all = base;

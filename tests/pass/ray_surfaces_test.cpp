@@ -48,10 +48,11 @@ TEST(RaySurfaces, IndirectLightIsTheSameFromACoarserGrid) {
     constexpr uvec2 size{97, 55};  // blocks go over the picture's edges
     const std::vector<std::string> shows{"indirect_diffuse", "indirect_specular", "direct"};
     const auto picture = [&](const char* scale) {
-        return renderMean(scene, defaultView(scene), size,
-                          settingsOf({"diffuse.rays=16", "specular.rays=16", "trace_screen.light=direct",
-                                      std::string("diffuse.scale=") + scale, std::string("specular.scale=") + scale}),
-                          shows, 8);
+        return renderMean(
+            scene, defaultView(scene), size,
+            settingsOf({"diffuse.rays=16", "specular.rays=16", "trace_screen.light=direct",
+                        std::string("diffuse.downsample=") + scale, std::string("specular.downsample=") + scale}),
+            shows, 8);
     };
     const Pictures full = picture("1");
     for (const char* scale : {"2", "3"}) {
@@ -73,11 +74,12 @@ TEST(RaySurfaces, EverySourceAnswersRaysFromACoarserGrid) {
     const Scene scene = findBuiltinScene("mirror-hall")->make();
     constexpr uvec2 size{96, 54};
     const auto picture = [&](const char* scale) {
-        return renderMean(scene, defaultView(scene), size,
-                          settingsOf({"planar.enabled=true", "trace_scene.enabled=true", "diffuse.rays=4",
-                                      "specular.rays=4", "trace_screen.light=direct",
-                                      std::string("diffuse.scale=") + scale, std::string("specular.scale=") + scale}),
-                          {"indirect_specular", "source"}, 4);
+        return renderMean(
+            scene, defaultView(scene), size,
+            settingsOf({"planar.enabled=true", "trace_scene.enabled=true", "diffuse.rays=4", "specular.rays=4",
+                        "trace_screen.light=direct", std::string("diffuse.downsample=") + scale,
+                        std::string("specular.downsample=") + scale}),
+            {"indirect_specular", "source"}, 4);
     };
     const Pictures full = picture("1");
     const Pictures coarse = picture("2");

@@ -99,7 +99,7 @@ TEST(RayTiles, AreSkyMattGlossyOrMirrorsAsTheirPixelsAre) {
         const bool matt = std::string(lambert) == "true";
         const Pictures p =
             render(scene, frontOf(scene), size,
-                   settingsOf({"specular.rays=3", std::string("materials.lambertOnly=") + lambert}), shown);
+                   settingsOf({"specular.rays=3", std::string("materials.lambert_only=") + lambert}), shown);
         ASSERT_EQ(uvec2(p.images.at("tile_class").width, p.images.at("tile_class").height), tilesOf(size));
         std::map<uint32_t, uint32_t> seen;
         forTiles(size, [&](uvec2 tile) {

@@ -34,7 +34,7 @@ protected:
 TEST_F(RecordRay, IsTheRayOfTheFrame) {
     for (const char* method : {"exhaustive", "hiz", "dda", "linear", "halving"}) {
         const Settings settings =
-            settingsOf({"diffuse.rays=0", "specular.rays=1", "trace_screen.jitter=false", "trace_screen.edgeFade=0.2",
+            settingsOf({"diffuse.rays=0", "specular.rays=1", "trace_screen.jitter=false", "trace_screen.edge_fade=0.2",
                         std::string("trace_screen.method=") + method});
         const Pictures p = render(scene_, view_, size, settings, {"depth", "roughness", "hit_distance", "confidence"});
         std::vector<uvec2> mirrors;

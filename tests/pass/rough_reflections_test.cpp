@@ -1,4 +1,4 @@
-// specular.rougher: what surfaces above maxRoughness reflect, when not by rays that are spread.
+// specular.rough_fallback: what surfaces above maxRoughness reflect, when not by rays that are spread.
 #include "compare/compare.h"
 #include "pass/harness.h"
 #include "scene/builtin.h"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr uvec2 size(160, 90);
 
-const std::vector<std::string> mips{"specular.maxRoughness=0.5", "specular.rougher=mips"};
+const std::vector<std::string> mips{"specular.max_roughness=0.5", "specular.rough_fallback=mips"};
 
 Settings reflectionsOnly(const std::vector<std::string>& more) {
     std::vector<std::string> all{"diffuse.rays=0"};
@@ -74,7 +74,7 @@ TEST(RoughReflections, SurfacesUpToTheLimitKeepTheirRays) {
 TEST(RoughReflections, NextLeavesThemToTheEnvironmentWholly) {
     const Scene scene = findBuiltinScene("gloss")->make();
     const std::vector<std::string> shows{"specular_confidence", "roughness", "depth"};
-    const Pictures p = render(scene, defaultView(scene), size, reflectionsOnly({"specular.maxRoughness=0.5"}), shows);
+    const Pictures p = render(scene, defaultView(scene), size, reflectionsOnly({"specular.max_roughness=0.5"}), shows);
     const std::vector<bool> rough = rougherThan(p, 0.5F);
     unsigned smoothHits = 0;
     for (size_t i = 0; i < rough.size(); ++i) {
@@ -95,9 +95,9 @@ TEST(RoughReflections, AWhiteSphereInAWhiteEnvironmentIsWhiteInEveryPixel) {
             view.camera.position = {0, 0, 4};
             view.camera.target = {0, 0, 0};
             view.environment.radiance = vec3(1.0F);
-            const Pictures p =
-                render(sceneOf(material, builtin::sphere(1.0F, 96)), view, size,
-                       settingsOf({"diffuse.rays=1", "specular.maxRoughness=0", "specular.rougher=mips"}), {"final"});
+            const Pictures p = render(
+                sceneOf(material, builtin::sphere(1.0F, 96)), view, size,
+                settingsOf({"diffuse.rays=1", "specular.max_roughness=0", "specular.rough_fallback=mips"}), {"final"});
             const Range range = rangeOf(p.images.at("final"));
             EXPECT_NEAR(range.min, 1.0F, 0.01F) << roughness << ", metallic " << metallic;
             EXPECT_NEAR(range.max, 1.0F, 0.01F) << roughness << ", metallic " << metallic;
@@ -130,7 +130,8 @@ TEST(RoughReflections, TheLastFramesMipsAreFoundByTheHitsMotion) {
     now.camera.target.x = -0.7F;
     const std::vector<std::string> shows{"indirect_specular", "roughness", "depth"};
     const auto settings = [](const std::string& light) {
-        return reflectionsOnly({"specular.maxRoughness=0.2", "specular.rougher=mips", "trace_screen.light=" + light});
+        return reflectionsOnly(
+            {"specular.max_roughness=0.2", "specular.rough_fallback=mips", "trace_screen.light=" + light});
     };
     const Pictures expected = render(scene, now, size, settings("direct"), shows);
     const Pictures moved = renderMoved(scene, before, now, size, settings("previous"), shows);
@@ -147,8 +148,8 @@ TEST(RoughReflections, MipsAreSoundAtEverySizeWithEveryLight) {
     const Scene scene = findBuiltinScene("gloss")->make();
     for (const char* light : {"direct", "lit", "previous"}) {
         for (const uvec2 odd : {uvec2(1, 1), uvec2(1, 33), uvec2(37, 1), uvec2(13, 7), uvec2(64, 36)}) {
-            const Settings settings = settingsOf({"specular.maxRoughness=0", "specular.rougher=mips", "specular.rays=5",
-                                                  std::string("trace_screen.light=") + light});
+            const Settings settings = settingsOf({"specular.max_roughness=0", "specular.rough_fallback=mips",
+                                                  "specular.rays=5", std::string("trace_screen.light=") + light});
             const Pictures p = render(scene, defaultView(scene), odd, settings, {"final"}, 3);
             const Range range = rangeOf(p.images.at("final"));
             EXPECT_TRUE(range.finite) << light;
@@ -171,7 +172,7 @@ TEST(RoughReflections, AnOrthographicCameraBlursAsMuchAsADistantOne) {
     distant.camera.fovY = 2.0F * std::atan(1.5F / glm::length(10.0F * back));
     distant.camera.orthographicHeight = 0.0F;
     const std::vector<std::string> shows{"indirect_specular", "roughness", "depth"};
-    const Settings settings = reflectionsOnly({"specular.maxRoughness=0.2", "specular.rougher=mips"});
+    const Settings settings = reflectionsOnly({"specular.max_roughness=0.2", "specular.rough_fallback=mips"});
     const Pictures parallel = render(scene, orthographic, size, settings, shows);
     const Pictures far = render(scene, distant, size, settings, shows);
     const Difference d = compareImages(parallel.images.at("indirect_specular"), far.images.at("indirect_specular"),

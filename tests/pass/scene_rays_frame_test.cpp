@@ -24,7 +24,7 @@ TEST_P(SceneRaysInAFrame, GiveTheSamePictureByQueryAndByTraversal) {
         return render(scene, defaultView(scene), size,
                       settingsOf({"trace_screen.enabled=off", "trace_scene.enabled=on", "trace_scene.light=path",
                                   "trace_scene.bounces=2", "shadow.filter=traced", "diffuse.rays=2",
-                                  "trace_scene.rayQuery=" + rayQuery}),
+                                  "trace_scene.ray_query=" + rayQuery}),
                       layers);
     };
     const Pictures query = pictures("on");

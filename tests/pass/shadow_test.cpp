@@ -129,13 +129,13 @@ TEST(Shadow, ACentimetreOfConstantBiasEndsSelfShadowingInAMapOfTenMetresAndNoneD
     const View view = viewOfGround({0.5F, 1.0F, 0.2F});
     const auto darkShare = [&](const char* bias) {
         auto settings = direct;
-        settings.insert(settings.end(), {"shadow.extent=10", "shadow.biasKind=constant", bias});
+        settings.insert(settings.end(), {"shadow.extent=10", "shadow.bias_kind=constant", bias});
         const Pictures p = render(scene, view, size, settingsOf(settings), {"sun_visibility"});
         const auto& data = p.images.at("sun_visibility").data;
         return static_cast<double>(std::ranges::count(data, 0.0F)) / static_cast<double>(data.size());
     };
-    EXPECT_GT(darkShare("shadow.constantBias=0"), 0.2);
-    EXPECT_EQ(darkShare("shadow.constantBias=0.01"), 0.0);
+    EXPECT_GT(darkShare("shadow.constant_bias=0"), 0.2);
+    EXPECT_EQ(darkShare("shadow.constant_bias=0.01"), 0.0);
 }
 
 TEST(Shadow, OfAMapOfGivenExtentEndsThere) {
@@ -145,7 +145,7 @@ TEST(Shadow, OfAMapOfGivenExtentEndsThere) {
     View view = viewOfGround({0, 1, 0});
     view.camera.position = {3, 1.5F, 9};
     view.camera.target = {3, 0, 0};
-    for (const char* kind : {"shadow.biasKind=slope", "shadow.biasKind=constant"}) {
+    for (const char* kind : {"shadow.bias_kind=slope", "shadow.bias_kind=constant"}) {
         auto settings = direct;
         settings.insert(settings.end(), {"shadow.extent=4", kind});
         const Pictures p = render(scene, view, size, settingsOf(settings), {"sun_visibility", "depth"});

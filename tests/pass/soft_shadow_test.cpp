@@ -15,7 +15,7 @@ namespace {
 constexpr uvec2 size(256, 64);
 
 std::vector<std::string> with(const std::vector<std::string>& more) {
-    std::vector<std::string> all{"diffuse.rays=0", "specular.rays=0", "shadow.clean=false"};
+    std::vector<std::string> all{"diffuse.rays=0", "specular.rays=0", "shadow.denoise=false"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
 }
@@ -176,7 +176,7 @@ TEST(SoftShadow, OfPcfIsAsWideAsItsRadiusInMetresOrInTexelsWhateverCasts) {
         for (const bool texels : {false, true}) {
             const Settings settings =
                 settingsOf(with({"shadow.filter=pcf", texels ? "shadow.radius=20" : "shadow.radius=0.1",
-                                 texels ? "shadow.radiusUnit=texels" : "shadow.radiusUnit=metres"}));
+                                 texels ? "shadow.radius_unit=texels" : "shadow.radius_unit=metres"}));
             const Pictures p = render(scene, view, size, settings, {"sun_visibility"});
             const Profile profile(p, knife);
             const double texel = texelOf(p, scene, view, settings);
@@ -206,11 +206,11 @@ const std::vector<std::vector<std::string>>& filters() {
     static const std::vector<std::vector<std::string>> all{
         {"shadow.filter=hard"},
         {"shadow.filter=pcf"},
-        {"shadow.filter=pcf", "shadow.radius=6", "shadow.radiusUnit=texels", "shadow.pattern=rings"},
+        {"shadow.filter=pcf", "shadow.radius=6", "shadow.radius_unit=texels", "shadow.pattern=rings"},
         {"shadow.filter=pcss"},
-        {"shadow.filter=pcss", "shadow.earlyOut=false"},
+        {"shadow.filter=pcss", "shadow.early_out=false"},
         {"shadow.filter=pcss", "shadow.pattern=rings", "shadow.mirrored=true", "shadow.samples=9"},
-        {"shadow.filter=pcss", "shadow.resolution=256", "shadow.samples=64", "shadow.blockerSamples=8"},
+        {"shadow.filter=pcss", "shadow.resolution=256", "shadow.samples=64", "shadow.blocker_samples=8"},
     };
     return all;
 }
@@ -291,13 +291,13 @@ TEST(SoftShadow, EarlyOutsChangeLittle) {
     const auto mean = [&](const char* earlyOut) {
         return renderMean(
                    scene, view, {160, 90},
-                   settingsOf(with({"shadow.filter=pcss", "shadow.samples=64", "shadow.blockerSamples=64", earlyOut})),
+                   settingsOf(with({"shadow.filter=pcss", "shadow.samples=64", "shadow.blocker_samples=64", earlyOut})),
                    {"sun_visibility"}, 4)
             .images.at("sun_visibility")
             .data;
     };
-    const auto with = mean("shadow.earlyOut=true");
-    const auto without = mean("shadow.earlyOut=false");
+    const auto with = mean("shadow.early_out=true");
+    const auto without = mean("shadow.early_out=false");
     double difference = 0.0;
     double squared = 0.0;
     for (size_t i = 0; i < with.size(); ++i) {

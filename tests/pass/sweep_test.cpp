@@ -41,8 +41,9 @@ TEST(Sweep, EverySceneRendersInEveryShow) {
         const Scene scene = builtin.make();
         const Settings
             all =  // or back_depth, the steps, cascade_index, probe_atlas, temporal_frames would not be there
-            settingsOf({"trace_screen.thicknessFrom=secondLayer", "trace_screen.countSteps=true", "shadow.cascades=2",
-                        "probes.enabled=true", "probes.count=2", "probes.resolution=32", "temporal.enabled=true"});
+            settingsOf({"trace_screen.thickness_mode=second_layer", "trace_screen.count_steps=true",
+                        "shadow.cascades=2", "probes.enabled=true", "probes.count=2", "probes.resolution=32",
+                        "temporal.enabled=true"});
         std::vector<std::string> names = allShows();
         if (scene.lamps.empty()) {
             std::erase(names, "lamp_visibility");

@@ -101,7 +101,7 @@ TEST(TraceScene, APathInAGlowingRoomOfAlbedoOneHalfFindsTwiceTheGlow) {
     const Scene scene = sceneOf(half, builtin::box({2, 2, 2}));
     const Pictures p = render(scene, viewFrom({0.3F, 0.2F, 1.5F}, {0, 0, 0}), size,
                               settingsOf({"trace_scene.enabled=on", "trace_scene.light=path", "trace_scene.bounces=64",
-                                          "trace_screen.enabled=off", "materials.lambertOnly=on", "diffuse.rays=8"}),
+                                          "trace_screen.enabled=off", "materials.lambert_only=on", "diffuse.rays=8"}),
                               {"final"});
     EXPECT_NEAR(meanOf(p, "final", everywhere), 1.0, 0.005);
 }
@@ -130,7 +130,7 @@ TEST(TraceScene, AnswersAsManyRaysAsItMayEvenlyOverThePicture) {
     const auto confidence = [&](const char* thousands) {
         return render(scene, defaultView(scene), size,
                       settingsOf({"trace_scene.enabled=on", "trace_screen.enabled=off", "diffuse.rays=4",
-                                  "specular.rays=0", std::string("trace_scene.maxRays=") + thousands}),
+                                  "specular.rays=0", std::string("trace_scene.max_rays=") + thousands}),
                       {"diffuse_confidence"});
     };
     const auto inside = [](unsigned x, unsigned /*y*/) { return x >= 40 && x < 120; };  // the room is closed there
@@ -169,7 +169,7 @@ TEST(TraceScene, NoSeamShowsInAMirrorWhereTheSceneTakesOverFromTheScreen) {
     for (const char* light : {"direct", "lit"}) {
         const Pictures p = render(scene, view, size,
                                   settingsOf({"trace_scene.enabled=on", std::string("trace_screen.light=") + light,
-                                              "diffuse.rays=4", "trace_scene.reuseScreen=off"}),
+                                              "diffuse.rays=4", "trace_scene.reuse_screen=off"}),
                                   {"specular_radiance", "specular_source"});
         const Range range = rangeOf(p.images.at("specular_radiance"));
         unsigned handOvers = 0;
@@ -199,7 +199,7 @@ TEST(TraceScene, TheSunsMapGivesTheLightThatShadowRaysGive) {
         const Pictures p = render(
             scene, defaultView(scene), size,
             settingsOf({"trace_scene.enabled=on", "trace_screen.enabled=off", "specular.rays=0", "diffuse.rays=8",
-                        "trace_scene.reuseScreen=off", std::string("trace_scene.shadows=") + shadows}),
+                        "trace_scene.reuse_screen=off", std::string("trace_scene.shadows=") + shadows}),
             {"indirect_diffuse"});
         return meanOf(p, "indirect_diffuse", everywhere);
     };

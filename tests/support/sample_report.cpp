@@ -10,7 +10,7 @@ namespace {
 ReportVariant makeVariant(const std::string& prefix, const std::string& name, const std::string& file, double error,
                           double ms) {
     return {name,
-            "diffuse.rays=1 trace_screen.maxSteps=16",
+            "diffuse.rays=1 trace_screen.max_steps=16",
             prefix + file + ".png",
             prefix + file + "-error.png",
             prefix + file + "-method-error.png",

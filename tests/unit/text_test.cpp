@@ -8,25 +8,25 @@
 namespace reflet::text_test {
 namespace {
 
-const std::array<std::string, 6> names{"position", "target", "up", "fov_y", "near", "trace_screen.maxSteps"};
+const std::array<std::string, 6> names{"position", "target", "up", "fov_y", "near", "trace_screen.max_steps"};
 
 TEST(NearestName, IsTheOneWithAFewLettersWrongMissingOrSwapped) {
     EXPECT_EQ(nearestName("positon", names), "position");
     EXPECT_EQ(nearestName("traget", names), "target");
     EXPECT_EQ(nearestName("fov", names), "fov_y");
     EXPECT_EQ(nearestName("naer", names), "near");
-    EXPECT_EQ(nearestName("trace_screen.maxStep", names), "trace_screen.maxSteps");
+    EXPECT_EQ(nearestName("trace_screen.maxStep", names), "trace_screen.max_steps");
 }
 
 TEST(NearestName, DoesNotCareAboutUpperAndLowerCase) {
     EXPECT_EQ(nearestName("POSITION", names), "position");
     EXPECT_EQ(nearestName("fovY", names), "fov_y");
-    EXPECT_EQ(nearestName("TRACE_SCREEN.MAXSTEPS", names), "trace_screen.maxSteps");
+    EXPECT_EQ(nearestName("TRACE_SCREEN.MAXSTEPS", names), "trace_screen.max_steps");
 }
 
 TEST(NearestName, IsTheOneThatTheNameIsAPartOf) {
     EXPECT_EQ(nearestName("pos", names), "position");
-    EXPECT_EQ(nearestName("maxSteps", names), "trace_screen.maxSteps");
+    EXPECT_EQ(nearestName("maxSteps", names), "trace_screen.max_steps");
     EXPECT_EQ(nearestName("near_plane_distance", names), "near");
 }
 

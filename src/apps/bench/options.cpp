@@ -12,7 +12,7 @@ constexpr const char* benchFooter =
     "Device time is what the device's timestamps say, pass by pass; submitted: from submission to fence, by the host's "
     "clock; wall: the whole call. 'first': frames without history, with all shaders compiled; 'steady': frames after "
     "the warm-up, errors those of frame warmup + frames + 1.\n"
-    "--compare takes lists of presets and settings, 'preset:fast,trace_screen.maxSteps=32', and renders both frame by "
+    "--compare takes lists of presets and settings, 'preset:fast,trace_screen.max_steps=32', and renders both frame by "
     "frame in turn. --against runs another build of this program and this one in turn.\n"
     "The bytes of a pass are those of all images and buffers that it binds, each once; floor: the time that moving "
     "them takes at the measured bandwidth. More: docs/bench.md\n"

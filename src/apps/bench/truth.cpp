@@ -34,8 +34,8 @@ const std::array<std::string, 4> layerNames{"final", "direct", "indirect_diffuse
 // What does not belong into a mean over many frames, as far as this program has it.
 constexpr std::array<std::pair<const char*, const char*>, 8> plainSettings{{{"denoise.enabled", "false"},
                                                                             {"temporal.enabled", "false"},
-                                                                            {"diffuse.scale", "1"},
-                                                                            {"specular.scale", "1"},
+                                                                            {"diffuse.downsample", "1"},
+                                                                            {"specular.downsample", "1"},
                                                                             {"diffuse.reuse", "0"},
                                                                             {"specular.reuse", "0"},
                                                                             {"diffuse.adaptive", "false"},

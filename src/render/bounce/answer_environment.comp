@@ -38,7 +38,7 @@ void main() {
         // Occlusion maps know of nearby surfaces, which a ray may be known not to meet.
         float occlusion = lobe == lobeDiffuse && !meetsNothing(ray) ? texelFetch(material, ray.slot.xy, 0).b : 1.0;
         vec3 radiance = radianceFor(unpackRay(imageLoad(direction, ray.slot).xy));
-        float share = occlusion * (ray.lost ? params.settings.lostShare : 1.0);
+        float share = occlusion * (ray.lost ? params.settings.occludedWeight : 1.0);
         RayAnswer a = RayAnswer(radiance * share, 1.0, environmentDistance);
         addAnswer(ray.slot, a, ray.rest, sourceEnvironment);
     }

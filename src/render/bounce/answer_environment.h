@@ -11,7 +11,7 @@ const float environmentDistance = 10000.0;
 
 #define ENVIRONMENT_SETTINGS(VALUE, SWITCH, CHOICE)                                                              \
     SWITCH(enabled, 1, "Rays that meet nothing get the environment; off: they get black. The background stays.") \
-    VALUE(float, lostShare, 0.5, 0.0, 1.0,                                                                       \
+    VALUE(float, occludedWeight, 0.5, 0.0, 1.0,                                                                  \
           "How much of the environment rays get of which the screen only knows that they went behind something.")
 SETTINGS(EnvironmentSettings, ENVIRONMENT_SETTINGS)
 

@@ -87,7 +87,7 @@ Ray specularRay(RayNumber number, vec3 n, vec3 v, MaterialTexel m) {
     vec3 eye = v * frame;
     eye = normalize(vec3(eye.xy, max(eye.z, 1e-3)));  // normal maps may turn away from the eye
     float alpha = m.roughness * m.roughness;
-    bool cone = m.roughness > params.specular.maxRoughness && params.specular.rougher == RougherSurfaces_mips;
+    bool cone = m.roughness > params.specular.maxRoughness && params.specular.roughFallback == RoughFallback_mips;
     vec3 h = vec3(0.0, 0.0, 1.0);
     float share = 1.0;  // of the light along the ray that is not masked
     if (cone && params.coneShare == 0.0) {
@@ -110,7 +110,7 @@ Ray specularRay(RayNumber number, vec3 n, vec3 v, MaterialTexel m) {
     float y = dot(f0, vec3(0.2126, 0.7152, 0.0722));
     vec2 table = textureLod(ggxTable, ggxTableUv(eye.z, m.roughness), 0.0).rg;
     float weight = share * fresnelSchlick(vec3(y), dot(eye, h)).x / max(y * table.x + table.y, 1e-3);
-    float fade = params.specular.maxRoughness < 1.0 && params.specular.rougher == RougherSurfaces_next
+    float fade = params.specular.maxRoughness < 1.0 && params.specular.roughFallback == RoughFallback_next
                      ? smoothstep(params.specular.maxRoughness - 0.1, params.specular.maxRoughness, m.roughness)
                      : 0.0;
     return Ray(frame * l, weight, 1.0 - fade, 0.0);

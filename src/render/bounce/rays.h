@@ -35,34 +35,35 @@ CHOICES(RayNoise, RAY_NOISES)
            "`rays` is the mean over the surfaces: more where light is noisy or nothing is remembered, fewer "    \
            "elsewhere, half to 4 times as many, at most 8. Without denoise.history, and with more than 8 rays, " \
            "all pixels get the same.")                                                                           \
-    VALUE(uint, scale, 1, 1, 4,                                                                                  \
+    VALUE(uint, downsample, 1, 1, 4,                                                                             \
           "Pixels along each side of the blocks that share rays; 2: half resolution. What is found is spread "   \
           "over the block's pixels by their depths and normals.")                                                \
     VALUE(uint, reuse, 0, 0, 8,                                                                                  \
           "Neighbours whose rays a pixel takes, too, weighted as its own lobe would; only where all its rays "   \
           "are traced at once (up to 4), and not with adaptive.")                                                \
-    VALUE(float, radius, 100000.0, 0.01, 100000.0,                                                               \
+    VALUE(float, maxDistance, 100000.0, 0.01, 100000.0,                                                          \
           "Metres; what is farther off is left to the sources behind the screen.")                               \
     VALUE(float, gain, 1.0, 0.0, 64.0,                                                                           \
           "Factor on indirect diffuse light; only 1 keeps energy; pi is what leaving out Lambert's 1/pi does.")
 SETTINGS(DiffuseSettings, DIFFUSE_SETTINGS)
 
-#define ROUGHER_SURFACES(OPTION)     \
-    OPTION(RougherSurfaces, next, 0) \
-    OPTION(RougherSurfaces, mips, 1)
-CHOICES(RougherSurfaces, ROUGHER_SURFACES)
+#define ROUGH_FALLBACKS(OPTION)   \
+    OPTION(RoughFallback, next, 0) \
+    OPTION(RoughFallback, mips, 1)
+CHOICES(RoughFallback, ROUGH_FALLBACKS)
 
-#define SPECULAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                               \
-    VALUE(uint, rays, 1, 0, 256,                                                                               \
-          "Rays per pixel for reflections, spread as the roughness says; 0: none are computed.")               \
-    SWITCH(adaptive, 0, "Trace more rays where reflections are noisy, as for diffuse.adaptive.")               \
-    VALUE(uint, scale, 1, 1, 4, "Pixels along each side of the blocks that share rays, as for diffuse.scale.") \
-    VALUE(uint, reuse, 0, 0, 8, "Neighbours whose rays a pixel takes, too, as for diffuse.reuse.")             \
-    VALUE(float, maxRoughness, 1.0, 0.0, 1.0,                                                                  \
-          "Where surfaces are too rough for rays that are spread: see `rougher`; 1: none are.")                \
-    CHOICE(RougherSurfaces, rougher, next,                                                                     \
-           "What those get; next: the sources behind the screen; mips: rays near the middle of what they "     \
-           "reflect, with the screen's light around their hits, blurred as the roughness says.")               \
+#define SPECULAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                           \
+    VALUE(uint, rays, 1, 0, 256,                                                                           \
+          "Rays per pixel for reflections, spread as the roughness says; 0: none are computed.")           \
+    SWITCH(adaptive, 0, "Trace more rays where reflections are noisy, as for diffuse.adaptive.")           \
+    VALUE(uint, downsample, 1, 1, 4,                                                                       \
+          "Pixels along each side of the blocks that share rays, as for diffuse.downsample.")              \
+    VALUE(uint, reuse, 0, 0, 8, "Neighbours whose rays a pixel takes, too, as for diffuse.reuse.")         \
+    VALUE(float, maxRoughness, 1.0, 0.0, 1.0,                                                              \
+          "Where surfaces are too rough for rays that are spread: see `rough_fallback`; 1: none are.")     \
+    CHOICE(RoughFallback, roughFallback, next,                                                             \
+           "What those get; next: the sources behind the screen; mips: rays near the middle of what they " \
+           "reflect, with the screen's light around their hits, blurred as the roughness says.")           \
     CHOICE(RayNoise, noise, blue, "What chooses their directions, as for diffuse.noise.")
 SETTINGS(SpecularSettings, SPECULAR_SETTINGS)
 
@@ -91,7 +92,7 @@ struct GenerateRaysParams {
     SpecularSettings specular;
     uint firstRay;    // number of the batch's first ray in its pixel
     uint rayCount;    // of the batch
-    float coneShare;  // where a ray stands for all of the lobe (RougherSurfaces_mips): the share of the visible
+    float coneShare;  // where a ray stands for all of the lobe (RoughFallback_mips): the share of the visible
                       // normals, the middle one first, that it may be any of; 0: it goes the lobe's mean way
 };
 

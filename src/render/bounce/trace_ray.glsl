@@ -9,8 +9,8 @@
 #include "shaders/march_world.glsl"
 
 MarchOptions marchOptions(TraceScreenSettings s, float longest, uint secondLayer, float jitter) {
-    return MarchOptions(s.step, s.smallestStep, s.stride, longest, jitter, s.maxSteps, s.thickness,
-                        s.thicknessFrom == ThicknessFrom_step, secondLayer != 0u, s.binarySteps, s.interpolate != 0u,
+    return MarchOptions(s.step, s.minStep, s.stride, longest, jitter, s.maxSteps, s.thickness,
+                        s.thicknessMode == ThicknessMode_step, secondLayer != 0u, s.binarySteps, s.interpolate != 0u,
                         int(pyramidLevels), s.firstSteps);
 }
 

@@ -147,7 +147,7 @@ RayAnswer traceAnswer(ivec3 slot, Ray ray, vec3 p, vec3 n, inout WaitingRay w) {
         imageStore(steps, slot, vec4(float(hit.steps)));
     }
     // What it would see of a surface from behind, the screen does not show.
-    bool facesAway = params.settings.rejectFacingAway != 0u && hit.outcome == marchHit &&
+    bool facesAway = params.settings.rejectBackfaces != 0u && hit.outcome == marchHit &&
                      dot(unpackUnitVector(texelFetch(geometricNormal, hit.pixel, 0).r), ray.direction) > 0.0;
     noteWay(hit, hit.lost || facesAway, w);
     if (tellsMotion != 0u && slot.z == 0 && hit.outcome == marchHit && !facesAway) {

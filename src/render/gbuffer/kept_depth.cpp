@@ -22,14 +22,14 @@ KeptDepthParams keptDepthParams(const ViewParams& view, DepthBuffer buffer) {
 
 gpu::Image keptDepth(gpu::Frame& f, std::string_view name, gpu::Image depth, const ViewParams& view,
                      const DepthSettings& settings) {
-    if (settings.buffer == DepthBuffer::reversedFloat) {
+    if (settings.format == DepthBuffer::reversedFloat) {
         return depth;
     }
     const gpu::Image kept = f.image(name, VK_FORMAT_R32_SFLOAT, depth.size);
     f.compute("kept_depth", "kept_depth.comp")
         .read("depth", depth)
         .write("kept", kept)
-        .params(keptDepthParams(view, settings.buffer))
+        .params(keptDepthParams(view, settings.format))
         .dispatch(depth.size);
     return kept;
 }

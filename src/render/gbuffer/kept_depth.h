@@ -30,18 +30,18 @@ namespace reflet {
 CHOICES(DepthBuffer, DEPTH_BUFFERS)
 
 #define DEPTH_SETTINGS(VALUE, SWITCH, CHOICE)                                                                   \
-    CHOICE(DepthBuffer, buffer, reversedFloat,                                                                  \
-           "What is kept of each depth; reversedFloat: 32-bit floats, 1 at the near plane, 0 at infinity; "     \
+    CHOICE(DepthBuffer, format, reversedFloat,                                                                  \
+           "What is kept of each depth; reversed_float: 32-bit floats, 1 at the near plane, 0 at infinity; "    \
            "standard24, standard16: whole numbers of so many bits, 0 at the near plane, the highest at 1000 m " \
            "(orthographic: at the far plane).")
 SETTINGS(DepthSettings, DEPTH_SETTINGS)
 
 /// What is left of `depth` (reversed, 0: sky) after it has been in such a buffer, reversed again: R32F under `name`.
-/// With reversedFloat: `depth` itself, and no pass.
+/// With reversed_float: `depth` itself, and no pass.
 gpu::Image keptDepth(gpu::Frame& f, std::string_view name, gpu::Image depth, const ViewParams& view,
                      const DepthSettings& settings);
 
-/// Parameters of that buffer (not reversedFloat) for the view.
+/// Parameters of that buffer (not reversed_float) for the view.
 KeptDepthParams keptDepthParams(const ViewParams& view, DepthBuffer buffer);
 
 }  // namespace reflet

@@ -211,7 +211,7 @@ std::vector<Mirror> planMirrors(std::span<const FlatPiece> pieces, const ViewPar
     std::vector<Mirror> mirrors;
     for (const FlatPiece& piece : pieces) {
         const bool named = std::ranges::find(names, piece.name) != names.end();
-        const bool found = settings.find != 0 && piece.roughness <= settings.maxRoughness;
+        const bool found = settings.autoDetect != 0 && piece.roughness <= settings.maxRoughness;
         const float side = glm::dot(piece.plane, view.eye);
         if (!(names.empty() ? found : named) || std::abs(side) <= piece.tolerance ||
             (side < 0.0F && !piece.doubleSided)) {

@@ -21,8 +21,8 @@ CHOICES(PlanarForm, PLANAR_FORMS)
            "duplicate: the room once more behind the mirror, as through a hole in the wall; camera: the picture " \
            "of one fixed camera at the mirror's centre.")                                                         \
     VALUE(uint, count, 1, 0, 4, "Views in a frame: of the mirrors that are largest on the screen.")               \
-    SWITCH(first, 1, "Ask mirrors' views before the screen; off: after it.")                                      \
-    SWITCH(find, 1, "Take flat, smooth surfaces for mirrors where the view file names none.")                     \
+    SWITCH(beforeScreen, 1, "Ask mirrors' views before the screen; off: after it.")                               \
+    SWITCH(autoDetect, 1, "Take flat, smooth surfaces for mirrors where the view file names none.")               \
     VALUE(float, maxRoughness, 0.2, 0.0, 1.0, "Mean roughness of what is found, at most.")                        \
     VALUE(float, scale, 1.0, 0.25, 1.0, "Pixels of a view along each side, of those that the screen has for it.") \
     VALUE(float, margin, 0.05, 0.0, 1.0,                                                                          \

@@ -41,7 +41,7 @@ Settings captureSettings(const Settings& settings) {
     s.depth = {};
     s.contact.distance = 0.0F;
     s.traceScreen.method = TraceMethod::linear;  // no pyramid
-    s.traceScreen.thicknessFrom = ThicknessFrom::constant;
+    s.traceScreen.thicknessMode = ThicknessMode::constant;
     if (s.shadow.filter != ShadowFilter::none) {
         s.shadow.filter = ShadowFilter::hard;
     }

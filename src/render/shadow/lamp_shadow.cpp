@@ -137,7 +137,7 @@ LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, ui
     if (shadows.tileSize < settings.lampResolution) {
         warn(
             fmt::format("{} shadow maps of {} texels a side do not fit into one image; they have {} (shadow.lamps, "
-                        "shadow.lampResolution)",
+                        "shadow.lamp_resolution)",
                         tiles, settings.lampResolution, shadows.tileSize));
     }
     return shadows;

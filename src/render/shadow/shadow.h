@@ -43,12 +43,12 @@ CHOICES(ShadowUnit, SHADOW_UNITS)
           "one cascade; 0: fitted to the view.")                                                                       \
     CHOICE(ShadowBias, biasKind, slope,                                                                                \
            "What keeps surfaces from shadowing themselves; slope: they are followed along their own plane to the "     \
-           "texel's centre, then `bias`; constant: `constantBias` alone.")                                             \
+           "texel's centre, then `bias`; constant: `constant_bias` alone.")                                            \
     VALUE(float, bias, 0.4, 0.0, 16.0,                                                                                 \
           "How far above themselves surfaces ask for shadow, in texels of the map (slope).")                           \
     VALUE(float, constantBias, 0.01, 0.0, 10.0,                                                                        \
           "How much nearer to the sun surfaces are taken to be, in metres (constant).")                                \
-    VALUE(float, radius, 0.05, 0.0, 100.0, "Radius of the disk that is looked at, in `radiusUnit` (pcf).")             \
+    VALUE(float, radius, 0.05, 0.0, 100.0, "Radius of the disk that is looked at, in `radius_unit` (pcf).")            \
     CHOICE(ShadowUnit, radiusUnit, metres, "What `radius` counts: metres, or texels of the map (pcf).")                \
     VALUE(uint, samples, 16, 1, 256, "Look-ups in the disk (pcf, pcss).")                                              \
     VALUE(uint, blockerSamples, 16, 1, 256, "Look-ups of the search for what casts (pcss).")                           \
@@ -70,7 +70,7 @@ CHOICES(ShadowUnit, SHADOW_UNITS)
           "How many point and spot lamps cast shadows at most: the strongest; the others shine through everything.")   \
     VALUE(uint, lampResolution, 512, 64, 4096,                                                                         \
           "Texels along each side of a lamp's shadow map; a point lamp has six, a spot one.")                          \
-    SWITCH(clean, 1, "Blur what few samples leave of noise along and within penumbras (pcf, pcss).")                   \
+    SWITCH(denoise, 1, "Blur what few samples leave of noise along and within penumbras (pcf, pcss).")                 \
     VALUE(uint, history, 32, 0, 1024, "Frames whose mean is taken where nothing moves; 0: none is kept (clean).")
 SETTINGS(ShadowSettings, SHADOW_SETTINGS)
 

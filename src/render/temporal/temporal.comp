@@ -112,7 +112,7 @@ void resolve(ivec2 pixel, Row above, Row row, Row below) {
     vec3 held = toneCompress(before.rgb);
     vec3 middle = (above.sum + row.sum + below.sum) / 9.0;
     vec3 around = max((above.squares + row.squares + below.squares) / 9.0 - middle * middle, 0.0);
-    float allowed = params.settings.deviations * mix(1.0, restAllowance, still);
+    float allowed = params.settings.clip * mix(1.0, restAllowance, still);
     // What this frame shows itself is always allowed: it may be a bar of a pixel.
     vec3 halfSize = max(allowed * sqrt(around + variance) + slack, abs(toneCompress(row.middle) - middle));
     float share = insideShare(held, middle, halfSize);

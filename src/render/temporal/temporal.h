@@ -22,7 +22,7 @@ SHARED_BEGIN
     VALUE(uint, frames, 32, 1, 1024, "Frames whose mean is taken where nothing moves.")                             \
     VALUE(uint, framesInMotion, 8, 1, 1024,                                                                         \
           "The same where something moves by a quarter of a pixel a frame, or faster.")                             \
-    VALUE(float, deviations, 1.0, 0.0, 16.0,                                                                        \
+    VALUE(float, clip, 1.0, 0.0, 16.0,                                                                              \
           "How far the mean over frames may be from the pixels around it now, in standard deviations of theirs.")
 SETTINGS(TemporalSettings, TEMPORAL_SETTINGS)
 
@@ -46,8 +46,9 @@ SHARED_END
 
 namespace reflet {
 
-/// view: that it was drawn with, whose change the sky follows. radiance: RGBA16F, of a view that looked through a place in the pixel (jitter.h); motion: without jitter. Anything
-/// is allowed in it; what comes out is finite and at least 0. Gives RGBA16F: radiance, and the number of frames in it.
+/// view: that it was drawn with, whose change the sky follows. radiance: RGBA16F, of a view that looked through a place
+/// in the pixel (jitter.h); motion: without jitter. Anything is allowed in it; what comes out is finite and at least 0.
+/// Gives RGBA16F: radiance, and the number of frames in it.
 gpu::Image temporal(gpu::Frame& f, const GBuffer& g, gpu::Image radiance, const TemporalSettings& settings,
                     const ViewParams& view);
 

@@ -48,7 +48,7 @@ public:
         const auto shrunk = std::ranges::count_if(
             images_, [&](const auto& image) { return image.size.x > largest || image.size.y > largest; });
         if (shrunk > 0) {
-            warn(fmt::format("rays see {} of the scene's textures shrunk to {} texels (trace_scene.textureSize)",
+            warn(fmt::format("rays see {} of the scene's textures shrunk to {} texels (trace_scene.texture_size)",
                              shrunk, largest));
         }
         size_ = min(size_, uvec2(largest));
