@@ -35,7 +35,6 @@ ${table}};
 std::span<const reflet::gpu::EmbeddedShader> ${function}();
 std::span<const reflet::gpu::EmbeddedShader> ${function}() { return ${function}Table; }
 ")
-    # By itself in a unity build, too: CMake forgets there what an object depends on, and it changes with every shader.
-    set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${outputs}" SKIP_UNITY_BUILD_INCLUSION ON)
+    set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${outputs}" SKIP_PRECOMPILE_HEADERS ON)
     target_sources(${target} PRIVATE ${source})
 endfunction()

@@ -34,7 +34,7 @@ measure() {
         return
     fi
     echo "== $name: reflet bench $*" >&2
-    "$reflet" bench "$@" --json "$file" --markdown "$out/$name.md" >/dev/null
+    "$reflet" bench "$@" --json "$file" --markdown >"$out/$name.md"
 }
 
 if [[ ${1:-} == gpu ]]; then

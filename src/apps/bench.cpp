@@ -7,9 +7,13 @@
 #include "apps/command_line.h"
 #include "apps/commands.h"
 #include "apps/device_options.h"
+#include "apps/text_table.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "render/presets.h"
+#include "version.h"
+
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>
@@ -110,7 +114,7 @@ BenchPlan makePlan(const BenchCommand& command) {
     if (std::ranges::find(comparable, plan.layer) == comparable.end()) {
         failUsage("--layer wants one of {}, is '{}'", fmt::join(comparable, ", "), plan.layer);
     }
-    for (const std::string& file : {command.json, command.markdown, command.plot}) {
+    for (const std::string& file : {command.json, command.plot}) {
         if (!file.empty()) {
             const AtomicFile trial(file);  // better now than after minutes of work
         }
@@ -167,19 +171,18 @@ BenchResult benchAgainst(const BenchCommand& command, const BenchPlan& plan) {
     return result;
 }
 
+constexpr size_t terminalWidth = 120;
+
 void writeResults(const BenchCommand& command, const BenchHead& head, const BenchPlan& plan,
                   const BenchResult& result) {
     const std::string table = benchMarkdown(head, plan, result);
     if (!command.json.empty()) {
         writeFileAtomically(command.json, benchJson(head, plan, result));
     }
-    if (!command.markdown.empty()) {
-        writeFileAtomically(command.markdown, table);
-    }
     if (!command.plot.empty()) {
         writeFileAtomically(command.plot, benchPlot(plan, result));
     }
-    fmt::print("{}", table);
+    fmt::print("{}", command.markdown ? table : alignedTables(table, terminalWidth));
 }
 
 void bench(const BenchCommand& command, const std::string& typed) {
@@ -188,7 +191,7 @@ void bench(const BenchCommand& command, const std::string& typed) {
     for (const uvec2& size : plan.sizes) {
         requireSize(device, size);
     }
-    BenchHead head{REFLET_VERSION, typed, device.description().name, device.description().driver};
+    BenchHead head{versionText, typed, device.description().name, device.description().driver};
     if (!command.against.empty()) {
         plan.truth.kind = TruthKind::none;
         writeResults(command, head, plan, benchAgainst(command, plan));

@@ -1,6 +1,8 @@
 // The command line that a user typed.
 #include "apps/command_line.h"
 
+#include <CLI/CLI.hpp>
+
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>

@@ -1,10 +1,12 @@
 // The command line that a user typed, for the record.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include <string>
 #include <string_view>
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace reflet {
 

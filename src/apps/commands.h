@@ -1,7 +1,9 @@
 // The subcommands of `reflet`. Each adds itself to the command line; what it does runs when it is chosen.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace reflet {
 

@@ -4,9 +4,11 @@
 #include "apps/picture_input.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json_text.h"
 #include "base/text.h"
 #include "compare/heat_map.h"
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -97,7 +99,7 @@ void printJson(const CompareCommand& command, const FloatImage& flip, const Comp
         json[std::string(metric.name)] = metric.value(difference);
     }
     json["pixels"] = difference.pixels;
-    fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n", jsonText(json, 2));
 }
 
 void checkLimits(const std::vector<Limit>& limits, const Difference& difference) {

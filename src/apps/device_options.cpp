@@ -4,6 +4,8 @@
 #include "base/error.h"
 #include "render/bounce/rays.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 
 namespace reflet {

@@ -4,9 +4,11 @@
 #include "base/math.h"
 #include "gpu/device.h"
 
-#include <CLI/CLI.hpp>
-
 #include <string>
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace reflet {
 

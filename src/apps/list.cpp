@@ -1,10 +1,15 @@
 // `reflet list`: what there is to choose from.
 #include "apps/commands.h"
 #include "apps/show.h"
+#include "apps/text_table.h"
 #include "base/error.h"
+#include "base/json_text.h"
 #include "gpu/device.h"
 #include "render/presets.h"
 #include "scene/builtin.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include <memory>
 
@@ -30,14 +35,6 @@ void listShows() {
     }
 }
 
-void listSettings() {
-    const Settings defaults;
-    for (const SettingEntry& entry : settingEntries()) {
-        fmt::print("{:<24} {} ({}; default {})\n", entry.name, entry.info.help, rangeText(entry.info),
-                   settingText(defaults, entry));
-    }
-}
-
 const char* typeName(SettingType type) {
     switch (type) {
         case SettingType::real:
@@ -49,6 +46,62 @@ const char* typeName(SettingType type) {
         default:
             return "choice";
     }
+}
+
+constexpr size_t listWidth = 100;
+
+bool isChosen(const SettingEntry& entry, const std::string& name) {
+    return entry.name == name || entry.name.starts_with(name + ".");
+}
+
+// A line each: name, default, the start of the help.
+void listSettings() {
+    const Settings defaults;
+    for (const SettingEntry& entry : settingEntries()) {
+        const std::string head = fmt::format("{:<31} {:<14} ", entry.name, settingText(defaults, entry));
+        fmt::print("{}{}\n", head, shortened(entry.info.help, listWidth - head.size()));
+    }
+    fmt::print("\nreflet list settings NAME shows range and full help of a setting, or of a group such as 'shadow'.\n");
+}
+
+void describeSettings(const std::string& name) {
+    const Settings defaults;
+    bool found = false;
+    for (const SettingEntry& entry : settingEntries()) {
+        if (!isChosen(entry, name)) {
+            continue;
+        }
+        fmt::print("{}{}  {}, default {}, {}\n", found ? "\n" : "", entry.name, typeName(entry.info.type),
+                   settingText(defaults, entry), rangeText(entry.info));
+        for (const std::string& line : wrapped(entry.info.help, listWidth - 4)) {
+            fmt::print("    {}\n", line);
+        }
+        found = true;
+    }
+    if (!found) {
+        settingText(defaults, findSetting(name));  // fails, naming the nearest
+    }
+}
+
+// For programs: what there is to set, and within which limits.
+void listSettingsAsJson() {
+    const Settings defaults;
+    auto all = nlohmann::ordered_json::array();
+    for (const SettingEntry& entry : settingEntries()) {
+        nlohmann::ordered_json one{
+            {"name", entry.name}, {"type", typeName(entry.info.type)}, {"default", settingText(defaults, entry)}};
+        if (entry.info.type == SettingType::choice) {
+            for (const SettingOption& option : entry.info.options) {
+                one["choices"].push_back(option.name);
+            }
+        } else if (entry.info.type != SettingType::toggle) {
+            one["minimum"] = entry.info.lowest;
+            one["maximum"] = entry.info.highest;
+        }
+        one["help"] = entry.info.help;
+        all.push_back(std::move(one));
+    }
+    fmt::print("{}\n", jsonText(all, 2));
 }
 
 // docs/settings.md. No help text has a vertical bar in it.
@@ -94,10 +147,23 @@ void addListCommand(CLI::App& app) {
     for (size_t i = 0; i < lists.size(); ++i) {
         command->add_subcommand(lists[i].first, descriptions[i])->callback(lists[i].second);
     }
-    auto markdown = std::make_shared<bool>(false);
-    CLI::App* settings = command->add_subcommand("settings", "Settings for --set, with range and default");
-    settings->add_flag("--markdown", *markdown, "As tables: what docs/settings.md holds");
-    settings->callback([markdown] { *markdown ? listSettingsAsMarkdown() : listSettings(); });
+    struct SettingsList {
+        std::string name;
+        bool markdown = false;
+        bool json = false;
+    };
+    auto o = std::make_shared<SettingsList>();
+    CLI::App* settings = command->add_subcommand("settings", "Settings for --set, with defaults and help");
+    settings->add_option("NAME", o->name, "A setting or a group of settings: its range and full help");
+    auto* markdown = settings->add_flag("--markdown", o->markdown, "As tables: what docs/settings.md holds");
+    settings->add_flag("--json", o->json, "For programs: names, types, defaults, ranges and help")->excludes(markdown);
+    settings->callback([o] {
+        if (!o->name.empty()) {
+            describeSettings(o->name);
+        } else {
+            o->markdown ? listSettingsAsMarkdown() : o->json ? listSettingsAsJson() : listSettings();
+        }
+    });
     command->require_subcommand(1);
 }
 

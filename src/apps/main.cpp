@@ -1,9 +1,13 @@
 // The program: subcommands in, exit status out. 0 done, 1 it failed, 2 wrong use.
 #include "apps/commands.h"
+#include "apps/manual.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "gpu/shader.h"
+#include "version.h"
 #include "view/view_command.h"
+
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -78,7 +82,7 @@ int run(int argc, char** argv) {
     reflet::gpu::registerShaders(refletShaders());
     reflet::gpu::registerShaders(refletViewShaders());
     CLI::App app("Reflet: screen-space reflections, indirect light and shadows on any Vulkan device.", "reflet");
-    app.set_version_flag("--version", std::string("reflet ") + REFLET_VERSION);
+    app.set_version_flag("--version", std::string("reflet ") + reflet::versionText);
     app.require_subcommand(1);
     app.footer("Try: reflet render builtin:cubes -o cubes.png\nEach subcommand has its own --help.");
     reflet::addRenderCommand(app);
@@ -88,6 +92,7 @@ int run(int argc, char** argv) {
     reflet::addBenchCommand(app);
     reflet::addReportCommand(app);
     reflet::addListCommand(app);
+    reflet::addManualCommands(app, reflet::versionText);
     checkSubcommand(app, std::span(argv, static_cast<size_t>(argc)).subspan(1));
     try {
         app.parse(argc, argv);

@@ -15,10 +15,6 @@ bool isExr(const std::string& file) {
     return std::filesystem::path(file).extension() == ".exr";
 }
 
-uint32_t framesForPicture(const Settings& settings) {
-    return settings.denoise.enabled != 0 || settings.temporal.enabled != 0 ? settlingFrames : 1;
-}
-
 Pictures::Pictures(const std::string& show, const std::vector<std::string>& aovs) : main_(&findShow(show)) {
     for (const std::string& name : aovs) {
         const Show* aov = &findShow(name);

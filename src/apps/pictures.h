@@ -16,12 +16,6 @@ namespace reflet {
 
 bool isExr(const std::string& file);
 
-/// Frames after which what is remembered from frame to frame has come to rest.
-inline constexpr uint32_t settlingFrames = 32;
-
-/// Frames to render for one picture: where settings clean over frames, that of the first one would be the worst.
-uint32_t framesForPicture(const Settings& settings);
-
 class Pictures {
 public:
     /// Throws UsageError for an unknown name, or for images that cannot be in one file.

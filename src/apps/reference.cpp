@@ -9,6 +9,8 @@
 #include "base/file.h"
 #include "render/tonemap/tone_map_image.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

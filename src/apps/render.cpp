@@ -6,9 +6,12 @@
 #include "apps/sequence.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json_text.h"
 #include "gpu/device.h"
+#include "render/history.h"
 #include "render/renderer.h"
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -70,26 +73,26 @@ void writeTimings(const RenderJob& job) {
         const ViewParams params = makeViewParams(job.view.camera, job.size, 0, job.options.scene.seed);
         json["rays"] = job.pictures.rayStatistics(job.renderer.frame(), params);
     }
-    writeFileAtomically(job.options.timings, json.dump(2) + "\n");
+    writeFileAtomically(job.options.timings, jsonText(json, 2) + "\n");
 }
 
-uint32_t framesFor(const RenderOptions& options, const Settings& settings) {
+uint32_t framesFor(const RenderOptions& options, const Settings& settings, const Scene& scene) {
     if (options.frames > 0) {
         return options.frames;
     }
-    return isSequence(options) ? 1 : framesForPicture(settings);
+    return isSequence(options) ? 1 : framesToSettle(historyUse(settings, scene), settings);
 }
 
 void render(const RenderOptions& asked) {
     const uvec2 size = parseSize(asked.scene.size);
     Settings settings = loadSettings(asked.scene);
     RenderOptions options = asked;
-    options.frames = framesFor(asked, settings);
     Pictures pictures(options.show, options.aovs);
     pictures.prepare(settings);
     checkOutputs(options);
     const bool sequence = isSequence(options);
     const Scene scene = loadScene(options.scene);
+    options.frames = framesFor(asked, settings, scene);
     const View view = loadView(options.scene, scene);
 
     gpu::Device device({.select = options.device, .validation = options.validate, .onMessage = printWarning});

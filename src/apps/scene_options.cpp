@@ -9,6 +9,7 @@
 #include "scene/gltf.h"
 #include "scene/view_file.h"
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>

@@ -4,11 +4,13 @@
 #include "render/settings.h"
 #include "scene/scene.h"
 
-#include <CLI/CLI.hpp>
-
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace reflet {
 

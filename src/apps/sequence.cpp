@@ -8,8 +8,10 @@
 #include "apps/sequence_record.h"
 #include "base/error.h"
 #include "base/json.h"
+#include "render/history.h"
 #include "scene/camera_path.h"
 #include "scene/pose.h"
+#include "version.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -23,14 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::string_view orbitPath = "orbit";
 
-// Live pictures that show themselves hold the frames before.
-bool hasLivePictures(const Scene& scene) {
-    return std::ranges::any_of(scene.materials, [](const Material& m) { return !m.camera.empty(); });
-}
-
 SequencePlan makePlan(const RenderJob& job) {
     const SequenceOptions& o = job.options.sequence;
-    const bool history = keepsHistory(job.settings) || hasLivePictures(job.scene);
+    const bool history = historyUse(job.settings, job.scene).any();
     const bool motion = job.pictures.contains("motion");  // since the frame before
     SequencePlan plan{.frames = job.options.frames};
     if (history || motion) {
@@ -90,7 +87,7 @@ nlohmann::ordered_json makeRecord(const RenderJob& job, const SequencePlan& plan
     for (const SettingEntry& entry : settingEntries()) {
         settings[entry.name] = settingText(job.settings, entry);
     }
-    nlohmann::ordered_json record{{"reflet", REFLET_VERSION},
+    nlohmann::ordered_json record{{"reflet", versionText},
                                   {"device", job.device.description().name},
                                   {"scene", fs::path(o.scene.scene).filename().string()},
                                   {"scene_fingerprint", sceneFingerprint(o.scene.scene)},

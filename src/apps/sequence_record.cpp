@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json.h"
+#include "base/json_text.h"
 #include "scene/gltf_uri.h"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ using nlohmann::ordered_json;
 nlohmann::json gltfJson(const std::string& content) {
     constexpr size_t header = 20;
     const bool binary = content.starts_with("glTF") && content.size() > header;
-    return nlohmann::json::parse(binary ? content.substr(header, content.find('\0', header)) : content, nullptr, false);
+    return parseJsonIfValid(binary ? content.substr(header, content.find('\0', header)) : content);
 }
 
 std::vector<std::string> namedFiles(const std::string& content) {
@@ -69,7 +70,7 @@ std::vector<std::string> differences(const nlohmann::json& old, const nlohmann::
     const nlohmann::json after = now.flatten();
     std::vector<std::string> found;
     const auto text = [](const nlohmann::json& all, const std::string& key) {
-        return all.contains(key) ? all.at(key).dump() : "not there";
+        return all.contains(key) ? jsonText(all.at(key)) : "not there";
     };
     nlohmann::json keys = before;
     keys.update(after);
@@ -91,10 +92,10 @@ void compareRecords(const FrameNames& names, const ordered_json& record,
     if (!old.is_object()) {
         fail("{}: is no record of a sequence: --overwrite replaces it", names.record().string());
     }
-    nlohmann::json now = nlohmann::json::parse(record.dump());  // as it reads after it was written
+    nlohmann::json now = parseJson(jsonText(record));  // as it reads after it was written
     if (old.value("device", now.at("device")) != now.at("device")) {
         warn(fmt::format("{}: was begun on {}; frames of this device may differ in last bits", names.pattern(),
-                         old.at("device").dump()));
+                         jsonText(old.at("device"))));
     }
     old.erase("device");
     now.erase("device");
@@ -149,7 +150,7 @@ ordered_json recordOf(const View& view) {
 
 void beginSequence(const FrameNames& names, const ordered_json& record, bool overwrite,
                    const std::function<void(const std::string&)>& warn) {
-    const std::string text = record.dump(2) + "\n";
+    const std::string text = jsonText(record, 2) + "\n";
     const std::vector<fs::path> pictures = names.existing();  // before the record is looked for: that is written first
     if (overwrite) {
         for (const fs::path& picture : pictures) {

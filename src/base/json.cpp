@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json_text.h"
 #include "base/text.h"
 
 #include <algorithm>
@@ -73,7 +74,7 @@ std::string jsonReason(const json::exception& error) {
 
 /// A value as it stands in the file, if it is short.
 std::string shown(const json& value) {
-    std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
+    std::string text = jsonText(value);
     if (text.size() <= 60) {
         return text;
     }

@@ -15,6 +15,7 @@
 #include "render/bounce/reuse_rays.h"
 #include "render/bounce/trace_screen.h"
 #include "render/denoise/denoise.h"
+#include "render/history.h"
 #include "render/light_mips/light_mips.h"
 #include "render/planar/planar_view.h"
 #include "render/probe/answer_probes.h"
@@ -79,7 +80,7 @@ RayTiles tilesOfLobe(gpu::Frame& f, const RaySurfaces& from, const Settings& set
     const bool reused =
         (diffuse ? settings.diffuse.reuse : settings.specular.reuse) > 0;  // that knows no other numbers
     const RayCounts counts{perPixel, reused ? perPixel : raysOfMirrors(perPixel, settings)};
-    const bool remembers = settings.denoise.enabled != 0 && settings.denoise.history > 0 && lit.next;
+    const bool remembers = historyUse(settings).denoise && lit.next;
     const bool adaptive = (diffuse ? settings.diffuse.adaptive : settings.specular.adaptive) != 0;
     if (!adaptive || !remembers || perPixel > raysPerBatch(f, from.g.depth.size, maxAdaptiveRays)) {
         return classifyTiles(f, from, lobe, counts);
@@ -109,7 +110,7 @@ LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& setting
     const RayTiles tiles = tilesOfLobe(f, from, settings, screen.lit, lobe);
     const uint32_t most = tiles.meanRays > 0 ? mostAdaptiveRays(f, from.g.depth.size, perPixel) : perPixel;
     const uint32_t batch = tiles.meanRays > 0 ? most : raysPerBatch(f, from.g.depth.size);
-    const bool remembers = settings.denoise.enabled != 0 && settings.denoise.history > 0;
+    const bool remembers = historyUse(settings).denoise;
     const gpu::Image imageMotion = !diffuse && remembers ? noImageMotion(f, from) : gpu::Image{};
     const bool reused = neighbours > 0 && tiles.meanRays == 0 && batch >= perPixel;
     LobeLight light;
@@ -258,7 +259,7 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
         out.light = means.light;
     }
     out.unfiltered = out.light.lit;
-    if (settings.temporal.enabled != 0 && settings.accumulate.enabled == 0) {
+    if (historyUse(settings).temporal) {
         out.temporal = temporal(f, out.g, out.light.lit, settings.temporal, in.view);
         out.light.lit = out.temporal;
     }

@@ -2,6 +2,7 @@
 #include "render/presets.h"
 
 #include "base/error.h"
+#include "base/json_text.h"
 #include "base/text.h"
 
 #include <nlohmann/json.hpp>
@@ -21,10 +22,10 @@ std::string_view presetName(const EmbeddedFile& file) {
 std::vector<Preset> presets() {
     std::vector<Preset> all;
     for (const EmbeddedFile& embedded : embeddedPresets()) {
-        auto json = nlohmann::ordered_json::parse(embedded.text);
+        auto json = parseOrderedJson(embedded.text);
         const auto description = json.at("description").get<std::string>();
         json.erase("description");
-        all.push_back({std::string(presetName(embedded)), description, json.dump()});
+        all.push_back({std::string(presetName(embedded)), description, jsonText(json)});
     }
     return all;
 }
@@ -44,7 +45,7 @@ void applyPreset(Settings& settings, std::string_view name) {
         }
         failUsage("no preset is called '{}'{}; there are: {}", name, suggestion(name, names), fmt::join(names, ", "));
     }
-    applySettingsJson(settings, nlohmann::json::parse(found->text), fmt::format("preset {}", name));
+    applySettingsJson(settings, parseJson(found->text), fmt::format("preset {}", name));
 }
 
 }  // namespace reflet

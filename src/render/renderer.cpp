@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "noise/blue_noise.h"
+#include "render/history.h"
 #include "render/jitter.h"
 #include "render/probe/place_probes.h"
 
@@ -110,18 +111,6 @@ const std::vector<Probe>& Renderer::probesOf(const View& view, const ProbesSetti
     return placed_;
 }
 
-namespace {
-
-// Pixels off the centre.
-vec2 jitterOf(const Settings& settings, uint32_t frame, uint32_t framesBefore) {
-    if (settings.accumulate.enabled != 0) {
-        return settings.accumulate.jitter != 0 ? placeInPixel(framesBefore) : vec2(0.0F);
-    }
-    return settings.temporal.enabled != 0 ? placeInPixel(frame) : vec2(0.0F);
-}
-
-}  // namespace
-
 uint32_t Renderer::countFramesBefore(const View& view, const ViewParams& params, const Settings& settings) {
     const bool same = asked_ && asked_->view == view && asked_->size == params.size && asked_->seed == params.seed &&
                       sameSettings(asked_->settings, settings);
@@ -172,7 +161,7 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
     previousWorldToClip_ = params.worldToClip;
     const uint32_t framesBefore = countFramesBefore(view, params, settings);
     const std::vector<Mirror> mirrors = planMirrors(view, params, settings);  // their pictures' sizes do not jitter
-    const vec2 place = jitterOf(settings, params.frame, framesBefore);
+    const vec2 place = subpixelJitter(settings, params.frame, framesBefore);
     lookThrough(params, place, previousPlace_);
     previousPlace_ = place;
     LampBlock lamps = scene_.lamps();

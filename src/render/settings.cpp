@@ -2,6 +2,7 @@
 #include "render/settings.h"
 
 #include "base/error.h"
+#include "base/json_text.h"
 #include "base/text.h"
 
 #include <nlohmann/json.hpp>
@@ -74,20 +75,6 @@ std::optional<std::string> newName(std::string_view old) {
     return known ? std::optional(name) : std::nullopt;
 }
 
-const SettingEntry& findEntry(std::string_view name) {
-    const auto& entries = settingEntries();
-    const auto found = std::ranges::find(entries, name, &SettingEntry::name);
-    if (found == entries.end()) {
-        if (const auto renamed = newName(name)) {
-            failUsage("setting '{}' is called '{}' now", name, *renamed);
-        }
-        std::vector<std::string> names;
-        std::ranges::transform(entries, std::back_inserter(names), &SettingEntry::name);
-        failUsage("unknown setting '{}' (all of them: reflet list settings){}", name, suggestion(name, names));
-    }
-    return *found;
-}
-
 std::optional<double> parseNumber(const std::string& text) {
     double value = 0.0;
     const char* end = text.data() + text.size();
@@ -138,8 +125,8 @@ double load(const Settings& settings, const SettingInfo& info) {
 }
 
 // A text names a choice; a number or a switch in quotation marks keeps them, and is refused.
-std::string jsonText(const nlohmann::json& value, const SettingInfo& info) {
-    return value.is_string() && info.type == SettingType::choice ? value.get<std::string>() : value.dump();
+std::string valueText(const nlohmann::json& value, const SettingInfo& info) {
+    return value.is_string() && info.type == SettingType::choice ? value.get<std::string>() : jsonText(value);
 }
 
 // Where an effect has no setting in the file, nothing else would notice that there is no such effect.
@@ -160,11 +147,11 @@ void checkEffect(const std::string& effect) {
 void applyEffectJson(Settings& settings, const std::string& effect, const nlohmann::json& values) {
     checkEffect(effect);
     if (!values.is_object()) {
-        failUsage("{}: must be an object of settings, is {}", effect, values.dump());
+        failUsage("{}: must be an object of settings, is {}", effect, jsonText(values));
     }
     for (const auto& [name, value] : values.items()) {
-        const SettingEntry& entry = findEntry(fmt::format("{}.{}", effect, name));
-        setSetting(settings, entry.name, jsonText(value, entry.info));
+        const SettingEntry& entry = findSetting(fmt::format("{}.{}", effect, name));
+        setSetting(settings, entry.name, valueText(value, entry.info));
     }
 }
 
@@ -174,19 +161,23 @@ bool tracesScene(const Settings& settings) {
     return settings.traceScene.enabled != 0 || settings.shadow.filter == ShadowFilter::traced;
 }
 
-bool keepsHistory(const Settings& settings) {
-    const ShadowSettings& shadow = settings.shadow;
-    const bool penumbras = shadow.filter == ShadowFilter::pcf || shadow.filter == ShadowFilter::pcss;
-    return settings.traceScreen.light == HitLight::previous ||
-           (penumbras && shadow.denoise != 0 && shadow.history > 0) ||
-           (settings.probes.enabled != 0 && settings.probes.refresh == ProbeRefresh::face) ||
-           settings.accumulate.enabled != 0 || settings.temporal.enabled != 0 ||
-           (settings.denoise.enabled != 0 && settings.denoise.history > 0);
-}
-
 const std::vector<SettingEntry>& settingEntries() {
     static const std::vector<SettingEntry> entries = makeEntries();
     return entries;
+}
+
+const SettingEntry& findSetting(std::string_view name) {
+    const auto& entries = settingEntries();
+    const auto found = std::ranges::find(entries, name, &SettingEntry::name);
+    if (found == entries.end()) {
+        if (const auto renamed = newName(name)) {
+            failUsage("setting '{}' is called '{}' now", name, *renamed);
+        }
+        std::vector<std::string> names;
+        std::ranges::transform(entries, std::back_inserter(names), &SettingEntry::name);
+        failUsage("unknown setting '{}' (all of them: reflet list settings){}", name, suggestion(name, names));
+    }
+    return *found;
 }
 
 bool sameSettings(const Settings& a, const Settings& b) {
@@ -203,7 +194,7 @@ nlohmann::ordered_json settingsJson(const Settings& settings, const Settings& fr
         const std::string text = settingText(settings, entry);
         const std::string effect = entry.name.substr(0, entry.name.find('.'));
         json[effect][entry.info.name] =
-            entry.info.type == SettingType::choice ? nlohmann::ordered_json(text) : nlohmann::ordered_json::parse(text);
+            entry.info.type == SettingType::choice ? nlohmann::ordered_json(text) : parseOrderedJson(text);
     }
     return json;
 }
@@ -223,7 +214,7 @@ std::string rangeText(const SettingInfo& info) {
 }
 
 void setSetting(Settings& settings, std::string_view name, const std::string& value) {
-    const SettingEntry& entry = findEntry(name);
+    const SettingEntry& entry = findSetting(name);
     const auto parsed = parseValue(entry.info, value);
     if (!parsed) {
         const char* kind = entry.info.type == SettingType::choice    ? "one of "

@@ -52,9 +52,6 @@ struct Settings {
 /// Whether a frame with these settings traces rays through the scene's triangles.
 bool tracesScene(const Settings& settings);
 
-/// Whether the picture of a frame depends on the frames before it.
-bool keepsHistory(const Settings& settings);
-
 /// A setting with its full name and its place in Settings.
 struct SettingEntry {
     std::string name;  ///< "trace_screen.max_steps"
@@ -63,6 +60,9 @@ struct SettingEntry {
 
 /// All of them, in the order of the tables.
 const std::vector<SettingEntry>& settingEntries();
+
+/// The one of this name. Throws UsageError for an unknown one: says what it is called now, or names the nearest.
+const SettingEntry& findSetting(std::string_view name);
 
 bool sameSettings(const Settings& a, const Settings& b);
 

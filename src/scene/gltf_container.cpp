@@ -1,6 +1,7 @@
 // Reads a .gltf or .glb file into its JSON document and its binary chunk.
 // Layout of a .glb: "Binary glTF Layout", Khronos glTF 2.0 specification, 2021.
 #include "scene/gltf_container.h"
+#include "base/json_text.h"
 
 #include <algorithm>
 #include <array>
@@ -59,7 +60,7 @@ nlohmann::json parseJson(Bytes text, const GltfReport& report) {
         report.fail("JSON", "is nested more than {} deep", maxJsonDepth);
     }
     try {
-        return nlohmann::json::parse(text.begin(), text.end());
+        return reflet::parseJson({reinterpret_cast<const char*>(text.data()), text.size()});
     } catch (const nlohmann::json::parse_error& error) {
         const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min<size_t>(error.byte, text.size()));
         report.fail("JSON", "is not JSON at line {}, byte {} of {}", 1 + std::count(text.begin(), end, '\n'),

@@ -3,6 +3,7 @@
 // takes '+' in a file name for a space, decodes every image and has no bounds.
 #include "scene/gltf_document.h"
 
+#include "base/json_text.h"
 #include "scene/gltf_container.h"
 #include "scene/gltf_schema.h"
 #include "scene/gltf_uri.h"
@@ -104,7 +105,7 @@ tinygltf::Model parseStructure(const json& document, const GltfReport& report) {
         }
     }
     removeIndices(structure);
-    const std::string text = structure.dump();
+    const std::string text = jsonText(structure);
     structure = nullptr;
     tinygltf::Model model;
     std::string errors;

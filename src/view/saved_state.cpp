@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json.h"
+#include "base/json_text.h"
 #include "render/presets.h"
 #include "scene/view_file.h"
 
@@ -137,7 +138,7 @@ fs::path stateFile(const std::string& scene) {
 }
 
 std::string stateText(const ViewerState& state) {
-    return toJson(state).dump(2) + "\n";
+    return jsonText(toJson(state), 2) + "\n";
 }
 
 bool restoreState(ViewerState& state, const Restore& what) {

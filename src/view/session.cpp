@@ -4,6 +4,7 @@
 #include "apps/pictures.h"
 #include "base/error.h"
 #include "compare/heat_map.h"
+#include "render/history.h"
 #include "render/tonemap/tone_map_image.h"
 #include "scene/pose.h"
 #include "scene/view_file.h"
@@ -18,11 +19,9 @@ namespace {
 
 constexpr uint32_t meanSettledAfter = 1024;  // accumulate
 
-uint32_t framesToRestOf(const Settings& settings) {
-    if (settings.accumulate.enabled != 0) {
-        return meanSettledAfter;
-    }
-    return keepsHistory(settings) ? settlingFrames : 1;
+uint32_t framesToRestOf(const Settings& settings, const Scene& scene) {
+    const HistoryUse use = historyUse(settings, scene);
+    return use.accumulate ? meanSettledAfter : framesToSettle(use, settings);
 }
 
 bool isMade(const Show& show, const FrameImages& images) {
@@ -75,8 +74,8 @@ Session::Session(gpu::Device& device, ViewerState& state)
 Session::Session(gpu::Device& device, const Session& other)
     : device_(device), scene_(other.scene_), firstView_(other.firstView_), renderer_(device, *scene_, printWarning) {}
 
-uint32_t framesToRest(const ViewerState& state) {
-    return framesToRestOf(renderedSettings(state));
+uint32_t Session::framesToRest(const ViewerState& state) const {
+    return framesToRestOf(renderedSettings(state), *scene_);
 }
 
 bool Session::wantsFrame(const ViewerState& state, uvec2 size) const {
@@ -85,7 +84,7 @@ bool Session::wantsFrame(const ViewerState& state, uvec2 size) const {
     }
     const Settings settings = renderedSettings(state);
     return !(asked_->view == state.view) || asked_->size != size || !sameSettings(asked_->settings, settings) ||
-           frames_ < framesToRestOf(settings);
+           frames_ < framesToRestOf(settings, *scene_);
 }
 
 FrameImages Session::renderFrame(const ViewerState& state, const View& view, uvec2 size, const Settings& settings,
@@ -141,7 +140,7 @@ void Session::startAnew() {
 void Session::screenshot(const ViewerState& state, uvec2 size, const std::string& file) {
     Pictures pictures(state.show, {});
     const Settings settings = renderedSettings(state);
-    const uint32_t frames = framesForPicture(settings);
+    const uint32_t frames = framesToSettle(historyUse(settings, *scene_), settings);
     // The view as it is after it has been written to a file and read, as the command line has it where the view is not
     // the first one: directions may differ in the last bit.
     View view = firstView_;

@@ -4,6 +4,8 @@
 #include "apps/device_options.h"
 #include "view/viewer.h"
 
+#include <CLI/CLI.hpp>
+
 #include <memory>
 
 namespace reflet {

@@ -1,7 +1,9 @@
 // `reflet view`.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace reflet {
 

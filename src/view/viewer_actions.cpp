@@ -4,6 +4,7 @@
 #include "apps/command_line.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json_text.h"
 #include "render/presets.h"
 #include "scene/view_file.h"
 #include "view/saved_state.h"
@@ -27,7 +28,7 @@ std::string sceneStem(const std::string& scene) {
 
 // The view in a file that stays: of its content's name, so that a command line that was copied keeps its meaning.
 std::string keptViewFile(const std::string& scene, const View& view) {
-    const std::string text = viewJson(view).dump(2) + "\n";
+    const std::string text = jsonText(viewJson(view), 2) + "\n";
     const fs::path file =
         configurationFolder() / "views" / fmt::format("{}-{}.json", sceneStem(scene), fingerprintOf(text));
     std::error_code ignored;
@@ -177,7 +178,7 @@ void Viewer::writeStatus() {
     for (const auto& [name, place] : places_.all()) {
         json["controls"][name] = {place.min.x, place.min.y, place.max.x, place.max.y};
     }
-    writeFileAtomically(options_.status, json.dump(1) + "\n");
+    writeFileAtomically(options_.status, jsonText(json, 1) + "\n");
 }
 
 }  // namespace reflet

@@ -1,4 +1,5 @@
 // The panels at the left.
+#include "base/json_text.h"
 #include "render/presets.h"
 #include "scene/builtin.h"
 #include "scene/view_file.h"
@@ -250,7 +251,7 @@ void Viewer::filesPanel() {
         if (openName_.empty()) {
             fail("name a .json file to save to");
         }
-        writeFileAtomically(openName_, settingsJson(state_.settings, Settings{}).dump(2) + "\n");
+        writeFileAtomically(openName_, jsonText(settingsJson(state_.settings, Settings{}), 2) + "\n");
         tell(fmt::format("Written: {}", openName_));
     });
     ImGui::SameLine();
@@ -258,7 +259,7 @@ void Viewer::filesPanel() {
         if (openName_.empty()) {
             fail("name a .json file to save to");
         }
-        writeFileAtomically(openName_, viewJson(state_.view).dump(2) + "\n");
+        writeFileAtomically(openName_, jsonText(viewJson(state_.view), 2) + "\n");
         tell(fmt::format("Written: {}", openName_));
     });
     std::string scene = state_.source.scene;

@@ -1,4 +1,5 @@
 // `--time` and animated glTF files.
+#include "base/json_text.h"
 #include "cli/program.h"
 
 #include <nlohmann/json.hpp>
@@ -51,7 +52,7 @@ std::string triangleFile(bool moves, float x) {
             json::array({{{"samplers", {{{"input", 1}, {"output", 2}}}},
                           {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}});
     }
-    return file.dump();
+    return jsonText(file);
 }
 
 class Animation : public ProgramTest {

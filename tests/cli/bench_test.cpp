@@ -1,5 +1,6 @@
 // `reflet bench` as a user runs it: what it writes, and what it refuses. Nothing here depends on how long anything
 // takes.
+#include "base/json_text.h"
 #include "cli/program.h"
 
 #include <spdlog/fmt/fmt.h>
@@ -24,7 +25,7 @@ protected:
         return run(all);
     }
 
-    [[nodiscard]] nlohmann::json numbers() const { return nlohmann::json::parse(read("out.json")); }
+    [[nodiscard]] nlohmann::json numbers() const { return parseJson(read("out.json")); }
     [[nodiscard]] size_t truths() const {
         return static_cast<size_t>(
             std::distance(std::filesystem::directory_iterator(path("truths")), std::filesystem::directory_iterator()));

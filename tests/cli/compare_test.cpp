@@ -2,6 +2,7 @@
 #include "cli/program.h"
 
 #include "base/image_file.h"
+#include "base/json_text.h"
 
 #include <nlohmann/json.hpp>
 
@@ -51,7 +52,7 @@ protected:
         arguments.emplace_back("--json");
         const Outcome done = compare(arguments);
         EXPECT_TRUE(quietSuccess(done));
-        return nlohmann::json::parse(done.out, nullptr, false);
+        return parseJsonIfValid(done.out);
     }
 };
 

@@ -2,6 +2,7 @@
 #include "cli/desktop.h"
 
 #include "base/error.h"
+#include "base/json_text.h"
 
 #include <spawn.h>
 #include <sys/wait.h>
@@ -103,7 +104,7 @@ Outcome DesktopTest::endDesktop() {
 
 nlohmann::json DesktopTest::status() const {
     const std::filesystem::path file = path("status.json");
-    return std::filesystem::exists(file) ? nlohmann::json::parse(read("status.json")) : nlohmann::json();
+    return std::filesystem::exists(file) ? parseJson(read("status.json")) : nlohmann::json();
 }
 
 bool DesktopTest::shows(const std::function<bool(const nlohmann::json&)>& wanted) const {
@@ -114,7 +115,7 @@ bool DesktopTest::shows(const std::function<bool(const nlohmann::json&)>& wanted
         }
         std::this_thread::sleep_for(betweenLooks);
     }
-    ADD_FAILURE() << "what is waited for does not come; the window says: " << status().dump(1);
+    ADD_FAILURE() << "what is waited for does not come; the window says: " << jsonText(status(), 1);
     return false;
 }
 

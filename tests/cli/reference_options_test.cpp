@@ -1,4 +1,5 @@
 // What the options of `reflet reference`, its scene and its view file change.
+#include "base/json_text.h"
 #include "cli/reference_program.h"
 
 #include <nlohmann/json.hpp>
@@ -15,7 +16,7 @@ protected:
     [[nodiscard]] double relativeMse(const std::string& a, const std::string& b) const {
         const Outcome done = run({"compare", a, b, "--json"});
         EXPECT_TRUE(quietSuccess(done));
-        return nlohmann::json::parse(done.out)["relative_mse"].get<double>();
+        return parseJson(done.out)["relative_mse"].get<double>();
     }
 };
 

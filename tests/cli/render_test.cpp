@@ -2,6 +2,7 @@
 #include "cli/program.h"
 
 #include "base/image_file.h"
+#include "base/json_text.h"
 #include "base/math.h"
 
 #include <nlohmann/json.hpp>
@@ -153,9 +154,9 @@ TEST_F(Render, TheLastOfSeveralFramesIsWritten) {
 TEST_F(Render, TimingsTellEveryPassOfTheFrame) {
     ASSERT_TRUE(quietSuccess(render(cubes, {"--frames", "3", "--timings", "t.json"})));
     EXPECT_EQ(files(), Names{"t.json"});
-    const auto timings = nlohmann::json::parse(read("t.json"));
+    const auto timings = parseJson(read("t.json"));
     EXPECT_FALSE(timings.at("device").get<std::string>().empty());
-    EXPECT_EQ(timings.at("size"), nlohmann::json::parse("[32, 18]"));
+    EXPECT_EQ(timings.at("size"), parseJson("[32, 18]"));
     EXPECT_EQ(timings.at("frames"), 3);
     EXPECT_GT(timings.at("frame_ms"), 0.0);
     const auto& passes = timings.at("passes");

@@ -1,4 +1,5 @@
 // `reflet report` as a user runs it: what it writes, and what it refuses.
+#include "base/json_text.h"
 #include "cli/program.h"
 #include "support/html.h"
 
@@ -25,7 +26,7 @@ protected:
         return run(all);
     }
 
-    [[nodiscard]] nlohmann::json numbers() const { return nlohmann::json::parse(read("out/report.json")); }
+    [[nodiscard]] nlohmann::json numbers() const { return parseJson(read("out/report.json")); }
 };
 
 std::vector<std::string> variantNames(const nlohmann::json& scene) {

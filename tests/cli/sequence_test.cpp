@@ -1,4 +1,5 @@
 // `reflet render -o name_####.png`: sequences, resumed and shared.
+#include "base/json_text.h"
 #include "cli/program.h"
 
 #include <nlohmann/json.hpp>
@@ -197,7 +198,7 @@ TEST_F(Sequence, WithoutHistoryEveryFrameIsTheSameWhicheverAreThere) {
 
 TEST_F(Sequence, TimesAreOfTheFramesThatWereWritten) {
     ASSERT_TRUE(quietSuccess(run(orbit({"-o", "a_###.png", "--timings", "t.json"}))));
-    const auto times = nlohmann::json::parse(read("t.json"));
+    const auto times = parseJson(read("t.json"));
     EXPECT_EQ(times.at("frames"), 6);
     EXPECT_GT(times.at("frame_ms"), 0.0);
     EXPECT_TRUE(refused(run(orbit({"-o", "a_###.png", "--timings", "t.json"})), 0, {"warning", "none was rendered"}));

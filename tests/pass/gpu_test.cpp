@@ -80,7 +80,7 @@ TEST_F(Gpu, AParameterBlockOfAnotherSizeIsNamedWithBothSizes) {
             .dispatch(size);
     });
     EXPECT_NE(text.find("'params' has"), std::string::npos) << text;
-    EXPECT_NE(text.find(std::to_string(sizeof(TonemapParams)) + " in the shader"), std::string::npos) << text;
+    EXPECT_NE(text.find(fmt::format("{} in the shader", sizeof(TonemapParams))), std::string::npos) << text;
 }
 
 TEST_F(Gpu, WritingWhatTheShaderOnlyReadsIsRefused) {

@@ -36,7 +36,7 @@ TEST(Mirrors, RoughOnesAreNotFoundUnlessTheyAreNamed) {
     EXPECT_TRUE(planned(scene, viewOfMirrorRoom()).empty());
     EXPECT_EQ(planned(scene, viewOfMirrorRoom(), {}, {"mirror"}).size(), 1U);
     EXPECT_EQ(planned(makeMirrorRoom(), viewOfMirrorRoom(), {}, {"thing"}).size(), 1U);  // the floor
-    EXPECT_TRUE(planned(makeMirrorRoom(), viewOfMirrorRoom(), {.find = 0}).empty());
+    EXPECT_TRUE(planned(makeMirrorRoom(), viewOfMirrorRoom(), {.autoDetect = 0}).empty());
 }
 
 TEST(Mirrors, SidesOfABoxAreMirrorsOnlyWhereTheyFaceTheCamera) {

@@ -1,5 +1,6 @@
 // The report's page, its table and its JSON, made of made-up numbers.
 #include "apps/report/page.h"
+#include "base/json_text.h"
 #include "support/html.h"
 #include "support/sample_report.h"
 
@@ -185,12 +186,12 @@ TEST(ReportNumbers, TheMarkdownTableHasAsManyCellsInEveryRow) {
 TEST(ReportNumbers, NamesMayBeAnyBytes) {
     ReportPage page = oneScene();
     page.scenes[0].name = "caf\xE9";
-    EXPECT_EQ(nlohmann::json::parse(reportJson(page))["scenes"][0]["name"], "caf\xEF\xBF\xBD");
+    EXPECT_EQ(parseJson(reportJson(page))["scenes"][0]["name"], "caf\xEF\xBF\xBD");
     EXPECT_EQ(reportHtml(page).find('\xE9'), std::string::npos);
 }
 
 TEST(ReportNumbers, TheJsonHoldsEveryNumber) {
-    const nlohmann::ordered_json json = nlohmann::ordered_json::parse(reportJson(sampleReport()));
+    const nlohmann::ordered_json json = parseOrderedJson(reportJson(sampleReport()));
     EXPECT_EQ(json["scenes"].size(), 2U);
     EXPECT_EQ(json["bounces"], "unlimited");
     const auto& variant = json["scenes"][0]["variants"][1];

@@ -1,14 +1,15 @@
 // Settings as JSON that is read and written.
+#include "base/json_text.h"
 #include "pass/harness.h"
 
-#include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
+#include <nlohmann/json.hpp>
 
 namespace reflet::test::settings_json_test {
 namespace {
 
 TEST(SettingsJson, HasOnlyWhatDiffersAndMakesTheSameSettings) {
-    EXPECT_EQ(settingsJson(Settings{}, Settings{}).dump(), "{}");
+    EXPECT_EQ(jsonText(settingsJson(Settings{}, Settings{})), "{}");
     const Settings some = settingsOf({"diffuse.rays=8", "trace_screen.method=dda", "trace_screen.thickness=0.123",
                                       "temporal.enabled=true", "tonemap.exposure=-1.5"});
     const nlohmann::ordered_json json = settingsJson(some, Settings{});
@@ -16,7 +17,7 @@ TEST(SettingsJson, HasOnlyWhatDiffersAndMakesTheSameSettings) {
     EXPECT_EQ(json["trace_screen"]["method"], "dda");
     EXPECT_EQ(json["temporal"]["enabled"], true);
     Settings read;
-    applySettingsJson(read, nlohmann::json::parse(json.dump()), "here");
+    applySettingsJson(read, parseJson(jsonText(json)), "here");
     EXPECT_TRUE(sameSettings(read, some));
 }
 
@@ -32,7 +33,7 @@ TEST(SettingsJson, KeepsEverySettingAtItsEnds) {
                 setSetting(changed, entry.name, fmt::format("{}", static_cast<float>(end)));
             }
             Settings read;
-            applySettingsJson(read, nlohmann::json::parse(settingsJson(changed, Settings{}).dump()), entry.name);
+            applySettingsJson(read, parseJson(jsonText(settingsJson(changed, Settings{}))), entry.name);
             EXPECT_TRUE(sameSettings(read, changed)) << entry.name;
         }
     }

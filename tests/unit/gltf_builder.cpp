@@ -2,6 +2,7 @@
 #include "gltf_builder.h"
 
 #include "base/error.h"
+#include "base/json_text.h"
 
 #include <draco/compression/encode.h>
 #include <draco/mesh/triangle_soup_mesh_builder.h>
@@ -107,14 +108,14 @@ std::string GltfBuilder::gltfBytes() {
     if (!bin.empty() && !document.contains("buffers")) {
         add("buffers", {{"byteLength", bin.size()}, {"uri", "data:application/octet-stream;base64," + base64(bin)}});
     }
-    return document.dump();
+    return jsonText(document);
 }
 
 std::string GltfBuilder::glbBytes() {
     if (!bin.empty() && !document.contains("buffers")) {
         add("buffers", {{"byteLength", bin.size()}});
     }
-    std::string text = document.dump();
+    std::string text = jsonText(document);
     text.resize((text.size() + 3) / 4 * 4, ' ');
     bin.resize((bin.size() + 3) / 4 * 4);
     const auto word = [](uint32_t value) {

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json_text.h"
 
 #include <gtest/gtest.h>
 
@@ -52,7 +53,7 @@ TEST(JsonFile, DeeplyNestedDoesNotOverflowTheStack) {
 }
 
 TEST(JsonNode, SaysWhereInTheFileItStands) {
-    const auto json = nlohmann::json::parse(R"({"a": {"b": [1, "two"]}})");
+    const auto json = parseJson(R"({"a": {"b": [1, "two"]}})");
     const JsonNode root(json, "f.json");
     EXPECT_EQ(root.path(), "");
     EXPECT_EQ(root.find("missing"), std::nullopt);
@@ -65,7 +66,7 @@ TEST(JsonNode, SaysWhereInTheFileItStands) {
 
 TEST(JsonNode, OnAnyJsonTheTypedReadersAnswerOrComplain) {
     for (const char* text : {"null", "true", "1", "\"x\"", "[]", "[1,2]", "{}", "{\"x\":1}"}) {
-        const auto json = nlohmann::json::parse(text);
+        const auto json = parseJson(text);
         const JsonNode node(json, "f.json");
         messageOf([&] { (void)node.number(0, 1); });
         messageOf([&] { (void)node.numbers(2, 0, 9); });

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/image_file.h"
+#include "base/json_text.h"
 #include "scene/builtin.h"
 
 #include <gtest/gtest.h>
@@ -358,7 +359,7 @@ TEST_F(ViewFile, IsWrittenSuchThatItMakesTheSameView) {
         view.lampsOff = {1, 2};
         view.time = 1.0 / 3.0;
         view_ = defaultView(*scene);
-        apply(viewJson(view).dump());
+        apply(jsonText(viewJson(view)));
         view.sunStandsIn = false;  // the file names the sun
         // Directions are made unit length again, which may change their last bit.
         EXPECT_LE(glm::length(view_.sun.direction - view.sun.direction), 1e-6F) << builtin.name;

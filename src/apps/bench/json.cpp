@@ -3,6 +3,7 @@
 #include "apps/report/plot.h"
 #include "apps/report/variants.h"
 #include "apps/spread.h"
+#include "base/json_text.h"
 
 #include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
@@ -188,7 +189,7 @@ std::string benchJson(const BenchHead& head, const BenchPlan& plan, const BenchR
                        {"runs", runs},
                        {"comparisons", pairs},
                        {"scaling", scaling}};
-    return json.dump(2) + "\n";
+    return jsonText(json, 2) + "\n";
 }
 
 std::string benchPlot(const BenchPlan& plan, const BenchResult& result) {

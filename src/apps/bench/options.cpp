@@ -4,6 +4,8 @@
 #include "apps/device_options.h"
 #include "apps/sample_progress.h"
 
+#include <CLI/CLI.hpp>
+
 namespace reflet {
 
 namespace {
@@ -83,7 +85,7 @@ void addTruthOptions(CLI::App& command, BenchCommand& options) {
 
 void addOutputOptions(CLI::App& command, BenchCommand& options) {
     command.add_option("--json", options.json, "All numbers")->type_name("F.json");
-    command.add_option("--markdown", options.markdown, "The tables, which are also printed")->type_name("F.md");
+    command.add_flag("--markdown", options.markdown, "Print the tables as Markdown, for a file");
     command.add_option("--plot", options.plot, "Error against time")->type_name("F.svg");
     command.add_flag("--validate", options.validate,
                      "Run under the Vulkan validation layers; any message is a failure. Times mean nothing then");

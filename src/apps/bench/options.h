@@ -3,12 +3,14 @@
 
 #include "apps/scene_options.h"
 
-#include <CLI/CLI.hpp>
-
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace reflet {
 
@@ -41,7 +43,7 @@ struct BenchCommand {
     std::string device;
     bool validate = false;
     std::string json;
-    std::string markdown;
+    bool markdown = false;
     std::string plot;
 };
 

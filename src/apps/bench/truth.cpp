@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json.h"
+#include "base/json_text.h"
 
 #include <nlohmann/json.hpp>
 
@@ -135,7 +136,7 @@ void writeTruth(const Truth& truth, const std::string& key, const fs::path& fact
     }
     writeExr(truth.file, layers);
     const nlohmann::ordered_json json{{"samples", truth.samples}, {"noise", truth.noise}, {"key", key}};
-    writeFileAtomically(facts, json.dump(2) + "\n");
+    writeFileAtomically(facts, jsonText(json, 2) + "\n");
 }
 
 void makeTruthFolder(const fs::path& folder) {

@@ -1,6 +1,7 @@
 // The numbers of a report for other programs (JSON) and for documents (Markdown).
 #include "apps/report/page.h"
 #include "apps/report/text.h"
+#include "base/json_text.h"
 
 #include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
@@ -85,7 +86,7 @@ std::string reportJson(const ReportPage& page) {
                    {"bounces", page.bounces ? Json(*page.bounces) : Json("unlimited")},
                    {"scenes", scenes}};
     // Names of files may be no UTF-8, which is no reason to lose the numbers.
-    return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return jsonText(all, 2) + "\n";
 }
 
 std::string reportMarkdown(const ReportPage& page) {

@@ -13,6 +13,9 @@
 #include "render/presets.h"
 #include "render/renderer.h"
 #include "scene/builtin.h"
+#include "version.h"
+
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -156,7 +159,7 @@ void report(const ReportCommand& command, const std::string& typed) {
     requireSize(device, work.size);
 
     ReportPage page;
-    page.version = REFLET_VERSION;
+    page.version = versionText;
     page.command = typed;
     page.device = device.description().name;
     page.size = work.size;

@@ -71,7 +71,7 @@ CHOICES(ShadowUnit, SHADOW_UNITS)
     VALUE(uint, lampResolution, 512, 64, 4096,                                                                         \
           "Texels along each side of a lamp's shadow map; a point lamp has six, a spot one.")                          \
     SWITCH(denoise, 1, "Blur what few samples leave of noise along and within penumbras (pcf, pcss).")                 \
-    VALUE(uint, history, 32, 0, 1024, "Frames whose mean is taken where nothing moves; 0: none is kept (clean).")
+    VALUE(uint, history, 0, 0, 1024, "Frames whose mean is taken where nothing moves; 0: none is kept (clean).")
 SETTINGS(ShadowSettings, SHADOW_SETTINGS)
 
 // Shadow space: x, y in clip space of the map, z reversed depth (1 nearest to the sun), all of it linear.

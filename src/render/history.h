@@ -1,0 +1,40 @@
+// What of a frame depends on the frames before it. The one place that knows: sequences, the window, default numbers of
+// frames and the passes themselves ask here.
+#pragma once
+
+#include "base/math.h"
+
+#include <cstdint>
+
+namespace reflet {
+
+struct Settings;
+struct Scene;
+
+/// Which histories a frame reads with some settings.
+struct HistoryUse {
+    bool shadows = false;         ///< denoised visibility of the sun (shadow.history)
+    bool hitLight = false;        ///< last frame's lit image, as light at hits (trace_screen.light=previous)
+    bool probes = false;          ///< one face captured per frame (probes.refresh=face)
+    bool denoise = false;         ///< indirect light, diffuse and specular (denoise.history)
+    bool temporal = false;        ///< temporal antialiasing
+    bool accumulate = false;      ///< mean over all frames of a still view
+    bool cameraTextures = false;  ///< textures that show what another camera of the scene sees
+
+    [[nodiscard]] bool any() const {
+        return shadows || hitLight || probes || denoise || temporal || accumulate || cameraTextures;
+    }
+};
+
+HistoryUse historyUse(const Settings& settings);
+HistoryUse historyUse(const Settings& settings, const Scene& scene);
+
+/// Frames of a still view and scene after which its image is settled: what `render` takes without --frames. 1 where
+/// there is no history. A mean (accumulate) never settles; it counts as the reference's default, 64 samples per pixel.
+uint32_t framesToSettle(const HistoryUse& use, const Settings& settings);
+
+/// Subpixel jitter of a frame, in pixels off the pixel's centre; 0 where nothing averages over frames. `frame` counts
+/// from the renderer's start, `framesBefore` those with the same view and settings.
+vec2 subpixelJitter(const Settings& settings, uint32_t frame, uint32_t framesBefore);
+
+}  // namespace reflet
