@@ -1,8 +1,12 @@
 #!/usr/bin/env bash
-# Makes docs/accuracy.md: every built-in scene and preset, every tracing method and shadow filter, against the truth. Takes
-# about half an hour on two cores, which should have nothing else to do: the tables have times. The pages with the pictures
-# stay in out/accuracy*. `docs/accuracy.sh shadows` makes the sections "Shadows" and "Sources", the last two, alone, and
-# leaves the rest as it is; `docs/accuracy.sh sources` only the last; `docs/accuracy.sh tables` all but these two.
+# Makes docs/accuracy.md: errors of every preset on every built-in scene, of every tracing method and shadow filter, against
+# the path-traced reference. Takes about half an hour on two cores, which should be idle otherwise because the tables have
+# times. The reports with the images stay in out/accuracy*.
+#
+#     docs/accuracy.sh            makes the whole page
+#     docs/accuracy.sh tables     all but the last two sections, "Shadows" and "Sources"
+#     docs/accuracy.sh shadows    only the last two sections
+#     docs/accuracy.sh sources    only the last section
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -35,7 +39,7 @@ section() {  # heading folder [option…]
 
 methods="linear halving fixed_point dda exhaustive hiz"
 
-# Relative MSE and bias of diffuse light alone, at so many rays that their noise is a small part of it.
+# Relative MSE and bias of diffuse light alone, with enough rays that noise is a small part of the error.
 diffuse_table() {
     local scenes="cubes cornell cave" truth=out/accuracy-diffuse scene method
     mkdir -p "$truth"
@@ -62,24 +66,24 @@ diffuse_table() {
     cat <<'TEXT'
 # Accuracy
 
-Made by `docs/accuracy.sh`. How far each preset is from the path-traced truth, and how long it takes, on every built-in
-scene. Nothing here is chosen to look good.
+The error of every preset against a path-traced reference, and its cost, on all built-in scenes, including the cases where
+it is bad. [performance.md](performance.md) summarises this page. Made by `docs/accuracy.sh`.
 
-- **truth**: all the light there is, by `reflet reference`.
-- **visible-only**: the same, but scattered rays bring light only from points that the camera sees (and from the
-  environment). Its error against the truth, in a row of its own, is what no screen-space method can know. A preset's error
-  against visible-only is what the preset itself gets wrong. Both need not add up: a guess can make up for what is not
-  known.
+- **truth** (the reference, ground truth): all light, path-traced by `reflet reference`.
+- **visible-only**: the same, but scattered rays return light only from points that the camera sees, and from the
+  environment. Its error against the reference, in a row of its own, is the limit of screen-space methods. A preset's error
+  against visible-only is that of the preset itself. The two need not add up: an approximation can make up for missing
+  light.
 - **relative MSE**: mean of (a - b)² / (b² + 0.01) over pixels and channels of linear light. **FLIP**: HDR-FLIP.
   `reflet compare --help` has all definitions.
-- **noise of the references**: the relative MSE that a second run of the reference would have against the first one's
-  limit; smaller differences mean nothing. FLIP sees that noise, too.
-- All are shown at their sixth frame. Presets that clean (`denoise.enabled`) are better at their 32nd.
+- **noise of the references**: the relative MSE between one run of the reference and its converged result. Smaller
+  differences are not significant. FLIP includes that noise, too.
+- Each image is the sixth frame. Presets with a denoiser (`denoise.enabled`) are better at frame 32.
 TEXT
     section "All bounces" out/accuracy
     section "One bounce" out/accuracy-one-bounce --bounces 1 --set trace_screen.light=direct
 
-    printf '\n## Tracing methods\n\nThe settings of `plain` but for `trace_screen.method`; one bounce.\n\n'
+    printf '\n## Tracing methods\n\nThe settings of `plain` except `trace_screen.method`; one bounce.\n\n'
     variants=()
     for method in $methods; do
         variants+=(--variant "$method=trace_screen.method=$method")
@@ -88,9 +92,9 @@ TEXT
         --preset direct -o out/accuracy-methods --set trace_screen.light=direct "${variants[@]}"
     cat out/accuracy-methods/table.md
 
-    printf '\n## Diffuse light, method by method\n\n'
-    printf 'Relative MSE (and bias) of `indirect_diffuse` against visible-only with one bounce: 256 rays a pixel, %s\n\n' \
-        '`trace_screen.thickness=0.1`, `trace_screen.light=direct`; else the settings of `plain`.'
+    printf '\n## Diffuse light by tracing method\n\n'
+    printf 'Relative MSE (and bias) of `indirect_diffuse` against visible-only with one bounce: 256 rays per pixel, %s\n\n' \
+        '`trace_screen.thickness=0.1`, `trace_screen.light=direct`; otherwise the settings of `plain`.'
     diffuse_table
     echo
     if [[ ${1:-} == tables ]]; then

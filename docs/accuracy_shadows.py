@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 """Prints the section "Shadows" of docs/accuracy.md; called by docs/accuracy.sh. Needs a built program (./demo.sh) and
-Python's standard library. Times are device times: in each round one run of every variant after the other, of which a
-pass has the median over the frames after the first; then the lowest of the rounds, since what else the machine does can
-only add to it."""
+Python's standard library. Times are device times. Each round runs every variant once; a pass's time is the median over
+the frames after the first, and then the lowest of the rounds, because other load can only add to it."""
 import json
 import os
 import subprocess
@@ -13,7 +12,7 @@ SCENES = ("colonnade", "cubes")
 SUNS = (0.53, 5)
 ROUNDS = 3
 FRAMES = 5
-CLEANED = ("sun_visibility_raw", "sun_visibility")  # before and after
+LAYERS = ("sun_visibility_raw", "sun_visibility")  # before and after the denoiser
 SHARES = ("shadow_map", "shadow_range", "shadow_visibility", "shadow_clean", "contact_shadow")
 
 
@@ -24,7 +23,7 @@ def reflet(*arguments):
 def render(scene, sun, size, settings, *more):
     chosen = [word for setting in settings for word in ("--set", setting)]
     reflet("render", f"builtin:{scene}", "--view-file", f"{WORK}/sun-{sun}.json", "--size", size, "--preset", "direct",
-           "-o", f"{WORK}/picture.exr", "--aov", ",".join(CLEANED), *chosen, *more)
+           "-o", f"{WORK}/picture.exr", "--aov", ",".join(LAYERS), *chosen, *more)
 
 
 def make_truths():
@@ -37,14 +36,14 @@ def make_truths():
 
 
 def errors(scene, sun, settings):
-    """Of the first frame: raw and cleaned."""
+    """Metrics of the first frame, raw and denoised."""
     render(scene, sun, "320x180", settings)
     return [json.loads(reflet("compare", f"{WORK}/picture.exr:{layer}", f"{WORK}/{scene}-{sun}.exr:sun_visibility",
-                              "--json")) for layer in CLEANED]
+                              "--json")) for layer in LAYERS]
 
 
 def times(scene, sun, size, variants):
-    """Milliseconds by variant, then by one of SHARES."""
+    """Milliseconds by variant, then by pass of SHARES."""
     runs = {name: [] for name in variants}
     for _ in range(ROUNDS):
         for name, settings in variants.items():
@@ -63,38 +62,38 @@ def filtered(kind, samples):
 def error_and_time():
     variants = {("hard", ""): ["shadow.filter=hard"]}
     variants |= {(kind, n): filtered(kind, n) for kind in ("pcf", "pcss") for n in (8, 16, 32, 64)}
-    print("| scene | sun | filter | samples | raw: relative MSE | FLIP | bias | cleaned: relative MSE | FLIP | bias | "
-          "raw: ms | × hard | cleaned: ms | × hard |")
+    print("| scene | sun | filter | samples | raw: relative MSE | FLIP | bias | denoised: relative MSE | FLIP | bias | "
+          "raw: ms | × hard | denoised: ms | × hard |")
     print("|---|--:|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|")
     for scene in SCENES:
         for sun in SUNS:
             measured = times(scene, sun, "320x180", variants)
             hard = sum(measured["hard", ""].values())
             for (kind, samples), settings in variants.items():
-                raw, cleaned = ([f"{e['relative_mse']:.5f}", f"{e['flip']:.4f}", f"{100 * e['bias']:+.2f} %"]
+                raw, denoised = ([f"{e['relative_mse']:.5f}", f"{e['flip']:.4f}", f"{100 * e['bias']:+.2f} %"]
                                 for e in errors(scene, sun, settings))
                 ms = measured[kind, samples]
                 whole = sum(ms.values())
                 costs = [f"{t:.1f} | {t / hard:.2f}" for t in (whole - ms["shadow_clean"], whole)]
-                if kind == "hard":  # nothing to clean
-                    cleaned, costs[1] = [""] * 3, " | "
-                print(f"| {scene} | {sun}° | {kind} | {samples} |", " | ".join(raw + cleaned + costs), "|")
+                if kind == "hard":  # nothing to denoise
+                    denoised, costs[1] = [""] * 3, " | "
+                print(f"| {scene} | {sun}° | {kind} | {samples} |", " | ".join(raw + denoised + costs), "|")
 
 
 def resolutions():
-    """Relative MSE of 16 samples raw, 64 raw, 16 cleaned."""
+    """Relative MSE of 16 samples raw and denoised, and of 64 raw."""
     sizes = (512, 1024, 2048, 4096, 8192)
     print("| scene | sun | pcss |", " | ".join(f"{n} texels" for n in sizes), "|")
     print("|---|--:|---|" + "--:|" * len(sizes))
     for scene in SCENES:
         for sun in SUNS:
-            some, cleaned, more = [], [], []
+            some, denoised, more = [], [], []
             for size in sizes:
                 few = errors(scene, sun, filtered("pcss", 16) + [f"shadow.resolution={size}"])
                 many = errors(scene, sun, filtered("pcss", 64) + [f"shadow.resolution={size}"])
-                for row, e in ((some, few[0]), (cleaned, few[1]), (more, many[0])):
+                for row, e in ((some, few[0]), (denoised, few[1]), (more, many[0])):
                     row.append(f"{e['relative_mse']:.5f}")
-            for name, row in (("16 raw", some), ("16 cleaned", cleaned), ("64 raw", more)):
+            for name, row in (("16 raw", some), ("16 denoised", denoised), ("64 raw", more)):
                 print(f"| {scene} | {sun}° | {name} |", " | ".join(row), "|")
 
 
@@ -106,10 +105,10 @@ def costs():
         "pcf 16": filtered("pcf", 16) + [raw],
         "pcss 16, `shadow.early_out=false`": soft + [raw, "shadow.early_out=false"],
         "pcss 16": soft + [raw],
-        "pcss 16, cleaned": soft,
-        "pcss 16, cleaned, `shadow.cascades=2`": soft + ["shadow.cascades=2"],
-        "pcss 16, cleaned, `shadow.cascades=4`": soft + ["shadow.cascades=4"],
-        "pcss 16, cleaned, `contact.distance=0.2`": soft + ["contact.distance=0.2"],
+        "pcss 16, denoised": soft,
+        "pcss 16, denoised, `shadow.cascades=2`": soft + ["shadow.cascades=2"],
+        "pcss 16, denoised, `shadow.cascades=4`": soft + ["shadow.cascades=4"],
+        "pcss 16, denoised, `contact.distance=0.2`": soft + ["contact.distance=0.2"],
     }
     print("| scene | variant |", " | ".join(f"`{share}`" for share in SHARES), "| all | × hard |")
     print("|---|---|" + "--:|" * (len(SHARES) + 2))
@@ -133,35 +132,34 @@ make_truths()
 render("cubes", 0.53, "320x180", [], "--timings", f"{WORK}/times.json")
 print(f"""## Shadows
 
-Sun visibility against `reflet reference --bounces 0 --filter center` with the same sun's disk and 256 samples. Else the
-settings of `direct`: one map of 2048 texels a side, a radius of 5 cm for pcf, 16 look-ups of pcss's search. Times on
-{device()}: the lowest of {ROUNDS} runs' medians over {FRAMES - 1} frames, the variants by turns; on a
-machine that others used meanwhile. When these tables were made twice, times of the same row differed by up to 1.8 times
-in the first table and by up to a quarter in the last.
+Sun visibility against `reflet reference --bounces 0 --filter center` with the same sun disk and 256 samples. Otherwise
+the settings of `direct`: one map of 2048 × 2048 texels, a radius of 5 cm for PCF, 16 samples in PCSS's blocker search. Times on
+{device()}: the lowest of {ROUNDS} medians over {FRAMES - 1} frames, with the variants interleaved,
+on a machine with other load. Between two runs of these tables, times of the same row differed by up to 1.8 times in the
+first table and by up to a quarter in the last.
 
 ### Error and time
 
-320x180 pixels; errors of a first frame, which has no history yet. Time: all passes named `shadow_`, the map's drawing
-included.
+320x180 pixels; errors of a first frame, without history. Time: all passes named `shadow_…`, including rendering the map.
 """)
 error_and_time()
 print("""
-### What remains
+### Error by map resolution
 
-Relative MSE of pcss by the size of the shadow map.
+Relative MSE of PCSS by the resolution of the shadow map.
 """)
 resolutions()
 print("""
-At 2048 texels 16 samples, cleaned, are about as near to the truth as 64 that are not, and not nearer: hardly any of the
-error is noise. A finer map takes most of the colonnade's away. A pixel that is lit and should be dark counts a hundred
-times in a relative MSE: one of 320x180 adds 0.0017, which is nearly all that `cubes` has left under the small sun. What
-cleaning does to noise alone is in tests/pass/shadow_truth_test.cpp.
+At 2048 texels, 16 samples with the denoiser are about as close to the reference as 64 without it, and no closer: hardly any
+of the error is noise. A finer map removes most of it in `colonnade`. A pixel that is lit and should be dark counts a hundred
+times in relative MSE: one of 320x180 adds 0.0017, which is nearly all that `cubes` has left under the small sun.
+tests/pass/shadow_truth_test.cpp measures what the denoiser does to noise alone.
 
-### Costs
+### Cost by pass
 
-Milliseconds by pass at 1280x720, sun 0.53°.
+Milliseconds per pass at 1280x720, sun of 0.53°.
 """)
 costs()
 print("""
-`shadow_map` and `shadow_range` do not depend on the picture's size: in small pictures they are most of what pcss costs.
-`early_out` saves `shadow_visibility` about what its `shadow_range` costs here.""")
+`shadow_map` and `shadow_range` do not depend on the image size: in small images they are most of the cost of PCSS. Here
+`shadow.early_out` saves about as much in `shadow_visibility` as its pass `shadow_range` costs.""")

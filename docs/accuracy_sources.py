@@ -11,7 +11,7 @@ LAYERS = {"mirror-hall": "indirect_specular", "gloss": "indirect_specular", "cub
           "cave": "indirect_diffuse", "cornell": "indirect_diffuse"}
 SCENE_ALONE = ["trace_screen.enabled=false", "trace_scene.enabled=true"]
 VARIANTS = {"`screen_only`": ("screen_only", []), "`screen_probes`": ("screen_probes", []),
-            "the scene alone": ("screen_only", SCENE_ALONE), "`hybrid`": ("hybrid", [])}
+            "ray tracing only": ("screen_only", SCENE_ALONE), "`hybrid`": ("hybrid", [])}
 RAYS = 64
 BASE = ["trace_screen.light=direct", "trace_screen.thickness=0.05", "materials.mips=false"]
 
@@ -21,7 +21,7 @@ def reflet(*arguments):
 
 
 def compared(scene, layer, preset, settings):
-    """Relative MSE and bias of the layer, and how much of its rays' light was not left to the environment or probes."""
+    """Metrics of `reflet compare` for the layer."""
     rays = [f"diffuse.rays={RAYS if layer == 'indirect_diffuse' else 0}",
             f"specular.rays={RAYS if layer == 'indirect_specular' else 0}"]
     chosen = [word for setting in BASE + settings + rays for word in ("--set", setting)]
@@ -34,10 +34,10 @@ os.chdir(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 os.makedirs(WORK, exist_ok=True)
 print(f"""## Sources
 
-Relative MSE (and bias) of one bounce of light against `reflet reference --bounces 1 --filter center`, all of it and not
-what is visible only: {RAYS} rays per pixel, 320x180, `{" ".join(BASE)}`. `screen_only` leaves to the environment what the
-screen does not know, `screen_probes` to cube maps that are placed automatically, `hybrid` to the views of flat mirrors, the
-scene's triangles, and these. The scene alone is `{" ".join(SCENE_ALONE)}`.
+Relative MSE (and bias) of one bounce of light against the full reference, `reflet reference --bounces 1 --filter center`:
+{RAYS} rays per pixel, 320x180, `{" ".join(BASE)}`. Where the screen misses, `screen_only` falls back to the environment,
+`screen_probes` to automatically placed cube-map probes, and `hybrid` to planar reflections, ray tracing and these probes.
+Ray tracing only is `{" ".join(SCENE_ALONE)}`.
 """)
 print("| scene | layer |", " | ".join(VARIANTS), "|")
 print("|---|---|" + "--:|" * len(VARIANTS))
@@ -50,5 +50,5 @@ for name, of in LAYERS.items():
         cells.append(f"{figures['relative_mse']:.4f} ({100 * figures['bias']:+.1f} %)")
     print(f"| {name} | `{of}` |", " | ".join(cells), "|")
 print("""
-What is left of `hybrid` in mirror-hall is light of the sun that a rough wall gets by way of two mirrors: few rays meet it,
-here and in the reference, and each of those counts much.""")
+The remaining error of `hybrid` in `mirror-hall` is sunlight that reaches a rough wall through two mirrors: few rays find it,
+here and in the reference, and each has a large weight.""")

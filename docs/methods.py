@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Makes the pictures, figures and commands of docs/methods/: docs/methods.py [PAGE...], all pages if none is named.
+"""Makes the images, tables and commands of docs/methods/: docs/methods.py [PAGE...]; without arguments, all pages.
 
-Needs a built program (./demo.sh) and Python's standard library. What each page shows is in methods_pages.py, and of
-shadows in methods_shadows.py. Tables and commands are written into the pages between <!-- table:NAME --> or
-<!-- commands --> and <!-- end -->; the prose around them is by hand. References and renders are kept in out/methods/;
-delete it after the program has changed.
+Needs a built program (./demo.sh) and Python's standard library. The contents of each page are defined in
+methods_pages.py, methods_shadows.py and methods_reflections.py. Tables and commands are written into the pages between
+<!-- table:NAME --> or <!-- commands --> and <!-- end -->; the prose around them is written by hand. References and
+renders are cached in out/methods/; delete that folder after the program has changed.
 """
 import hashlib
 import json
@@ -24,10 +24,10 @@ LAYERS = "direct,indirect_diffuse,indirect_specular,depth"
 SPP = 256
 
 
-# PNG, as the program writes it: 8 bits, RGB or RGBA, not interlaced. A picture is (width, height, rows of RGB bytes).
+# PNG as the program writes it: 8 bits, RGB or RGBA, not interlaced. An image is (width, height, rows of RGB bytes).
 
 def unfilter(kind, line, above, step):
-    """Undoes a row's PNG filter in place."""
+    """Reverses the PNG filter of a row in place."""
     for i in range(len(line)):
         left = line[i - step] if i >= step else 0
         up = above[i]
@@ -71,7 +71,7 @@ def write_png(path, picture):
     def chunk(kind, body):
         return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
 
-    def filtered(y, kind):  # each byte less the one to its left, or less the one above
+    def filtered(y, kind):  # 1: difference to the left pixel, 2: to the row above
         above = rows[y - 1] if y else bytes(3 * width)
         before = bytes(3) + rows[y] if kind == 1 else above
         return bytes([kind]) + (bytes((a - b) & 255 for a, b in zip(rows[y], before)) if kind else rows[y])
@@ -85,11 +85,11 @@ def write_png(path, picture):
                 + chunk(b"IDAT", zlib.compress(raw, 9)) + chunk(b"IEND", b""))
 
 
-# EXR, as the program writes it: floats, ZIP in blocks of 16 rows.
+# EXR as the program writes it: 32-bit floats, ZIP in blocks of 16 rows.
 
 def unzip_exr(block, size):
-    """Undoes a block's compression: byte differences, then even and odd bytes apart."""
-    if len(block) == size:  # larger if compressed
+    """Decompresses a block: undoes the byte differences, then interleaves the even and odd bytes."""
+    if len(block) == size:  # stored uncompressed where compression would not make it smaller
         return block
     packed = zlib.decompress(block)
     apart = bytes(accumulate(packed, lambda a, b: (a + b - 128) & 255))
@@ -99,7 +99,7 @@ def unzip_exr(block, size):
 
 
 def read_exr(path, channel):
-    """A channel's values 0 to 1 as a grey picture."""
+    """One channel, clamped to 0 to 1, as a grey image."""
     data = open(path, "rb").read()
     at, attributes = 8, {}
     while data[at]:
@@ -122,7 +122,7 @@ def read_exr(path, channel):
 
 
 def crop(picture, x, y, width, height, zoom):
-    """A part of it, every pixel zoom x zoom times."""
+    """A window of the image, each pixel repeated zoom x zoom times."""
     rows = []
     for line in picture[2][y:y + height]:
         part = b"".join(line[3 * i:3 * i + 3] * zoom for i in range(x, x + width))
@@ -140,7 +140,7 @@ def run(arguments):
 
 
 def cached(kind, arguments, outputs):
-    """Runs once for the same arguments; the paths of its outputs."""
+    """Runs the program once per set of arguments. Returns the paths of the outputs."""
     key = hashlib.sha256("\n".join([kind] + arguments).encode()).hexdigest()[:16]
     base = "%s/%s-%s" % (CACHE, kind, key)
     paths = [base + end for end in outputs]
@@ -152,29 +152,31 @@ def cached(kind, arguments, outputs):
     return paths
 
 
-def options(scene, settings, view, size, preset or "plain"):
-    arguments = [scene if "/" in scene else "builtin:" + scene, "--size", size]
-    arguments += ["--view-file", "docs/methods/views/%s.json" % view] if view else []
+def options(scene, settings, view, size, preset):
+    """Command-line arguments. A reference has no preset."""
+    arguments = [scene if "/" in scene else "builtin:" + scene]
     arguments += ["--preset", preset] if preset else []
+    arguments += ["--size", size]
+    arguments += ["--view-file", "docs/methods/views/%s.json" % view] if view else []
     for setting in settings.split():
         arguments += ["--set", setting]
     return arguments
 
 
 class Frame:
-    """A picture with layers: self.png, self.exr, made with self.arguments."""
+    """An image with layers: self.png and self.exr, made with self.arguments."""
 
     def against(self, truth, layer="final"):
-        """compare's metrics."""
+        """Metrics of `reflet compare`."""
         mine = "" if layer == "final" else ":" + layer
         return json.loads(run(["compare", self.exr + mine, truth.exr + ":" + layer, "--json"]))
 
 
 class Render(Frame):
-    """A rendered frame: picture, layers, steps and hits."""
+    """A rendered frame: final image, layers, steps and hits."""
 
     def __init__(self, scene, settings="", view=None, size="320x180", preset=None, show=None):
-        self.arguments = options(scene, settings, view, size, preset)
+        self.arguments = options(scene, settings, view, size, preset or "plain")
         self.arguments += ["--show", show] if show else []
         more = ["--aov", LAYERS, "--set", "trace_screen.count_steps=true"]
         self.png, self.exr, timings = cached("render", self.arguments + more, [".png", ".exr", ".json"])
@@ -182,7 +184,7 @@ class Render(Frame):
 
 
 class Truth(Frame):
-    """A path-traced frame."""
+    """A path-traced reference frame."""
 
     def __init__(self, scene, kind="--bounces 1", settings="", view=None, size="320x180"):
         self.arguments = options(scene, settings, view, size, None) + kind.split() + ["--spp", str(SPP)]
@@ -198,8 +200,8 @@ class Page:
         self.commands = []
 
     def picture(self, name, frame, window=None, zoom=3, layer=None):
-        """Writes pictures/PAGE-NAME.png: all of the frame, or a window (x, y, width, height) of it, enlarged. layer: of
-        its EXR, one channel, in grey."""
+        """Writes pictures/PAGE-NAME.png: the whole frame, or a window (x, y, width, height) of it, enlarged. layer: the
+        EXR layer to show instead of the PNG, in grey."""
         path = "docs/methods/pictures/%s-%s.png" % (self.name, name)
         whole = read_exr(frame.exr, layer + ".Y") if layer else read_png(frame.png)
         write_png(path, crop(whole, *window, zoom) if window else whole)
@@ -212,7 +214,7 @@ class Page:
         self.commands.append("%s %s%s -o %s.%s%s" % (kind, shlex.join(frame.arguments), aov, name, "exr" if layer else "png", note))
 
     def table(self, name, header, rows):
-        """Writes a table: left column text, the others figures."""
+        """Writes a table: the first column is text, the others are figures."""
         lines = ["| %s |" % " | ".join(header), "|---|" + "--:|" * (len(header) - 1)]
         lines += ["| %s |" % " | ".join(row) for row in rows]
         self.replace("table:" + name, "\n".join(lines))
@@ -246,5 +248,5 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.modules["methods"] = sys.modules["__main__"]  # methods_pages imports what is defined here
+    sys.modules["methods"] = sys.modules["__main__"]  # methods_pages imports this module
     main()

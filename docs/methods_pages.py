@@ -1,22 +1,22 @@
-"""What each page of docs/methods/ shows: a function per page, run by methods.py. Settings are as on the command line; a
-leading @ stands for trace_screen. What a picture must show, and what the figures say, is in the page's own prose."""
+"""The images and tables of each page of docs/methods/: one function per page, called by methods.py. Settings are written
+as on the command line; a leading @ abbreviates `trace_screen.`. The prose of a page explains its images and figures."""
 import methods_reflections
 import methods_shadows
 from methods import Render, Truth
 
 VISIBLE = "--bounces 1 --visible-only"
 ALL = "--bounces 1"
-# Only reflections, of direct light alone: one bounce, as in the references.
+# One lobe at a time, lit by direct light only: one bounce, as in the references.
 SPECULAR = "diffuse.rays=0 @light=direct "
 DIFFUSE = "specular.rays=0 @light=direct "
-# Rays that the screen loses bring nothing, as in the visible-only truth.
+# Rays that end occluded on screen return black, as in the visible-only reference.
 STRICT = SPECULAR + "environment.occluded_weight=0 "
 
-# For pictures of dark rooms; files of linear values are the same.
+# For images of dark rooms, in stops; linear EXR values do not change.
 BRIGHT = "tonemap.exposure=2 "
 
 BALL = (165, 120, 107, 60)  # mirror-hall: the red ball and its reflection in the floor
-FAR_MIRROR = (213, 70, 107, 60)  # mirror-hall: the end of the mirror wall
+FAR_MIRROR = (213, 70, 107, 60)  # mirror-hall: the far end of the mirror wall
 BOX = (104, 42, 107, 60)  # cubes: the polished box
 
 
@@ -47,7 +47,7 @@ TRACED = ["setting", "relative MSE to `exhaustive`", "to visible-only", "steps p
 
 
 def compare_tracers(page, name, scene, base, settings, exhaustive=None):
-    """A table of reflections: against every pixel looked at, and against visible-only. The frames, by setting."""
+    """Writes a table of reflection errors against `exhaustive` and against visible-only. Returns the frames by setting."""
     truth = Truth(scene, VISIBLE)
     best = render(scene, exhaustive or STRICT + "@method=exhaustive")
     frames = {s: render(scene, base + s) for s in settings}
@@ -120,7 +120,7 @@ def leaking(page):
                 page.picture(("leak", "thin", "facing")[i], frame, (20, 55, 107, 60))
         if scene == "cave":
             page.picture("truth", truth, (20, 55, 107, 60))
-    page.table("leaking", ["scene", "setting", "relative MSE to the truth", "bias", "to visible-only", "bias"], rows)
+    page.table("leaking", ["scene", "setting", "relative MSE to the reference", "bias", "to visible-only", "bias"], rows)
 
 
 def adaptive_steps(page):
@@ -177,7 +177,7 @@ def uniform_and_cosine(page):
             if rays == 16:
                 page.picture(kind, frame, (90, 50, 107, 60))
     page.picture("truth", truth, (90, 50, 107, 60))
-    page.table("distribution", ["setting", "relative MSE to the truth", "bias", "steps per ray", "hits"], rows)
+    page.table("distribution", ["setting", "relative MSE to the reference", "bias", "steps per ray", "hits"], rows)
 
 
 def mirror_to_matt(page):
@@ -194,7 +194,7 @@ def mirror_to_matt(page):
         if name:
             page.picture(name, frame, window)
     page.picture("truth", truth, window)
-    page.table("roughness", ["setting", "relative MSE to the truth", "bias", "steps per ray", "hits"], rows)
+    page.table("roughness", ["setting", "relative MSE to the reference", "bias", "steps per ray", "hits"], rows)
 
 
 def unknown(page):
@@ -215,7 +215,7 @@ def unknown(page):
         page.picture(name + "-truth", truth, window, zoom)
         page.picture(name + "-visible", visible, window, zoom)
         rows.append([name, "*visible-only itself*"] + [f(visible, truth, "indirect_specular") for f in (error, bias)] + ["", ""])
-    page.table("unknown", ["view", "setting", "relative MSE to the truth", "bias", "to visible-only", "bias"], rows)
+    page.table("unknown", ["view", "setting", "relative MSE to the reference", "bias", "to visible-only", "bias"], rows)
 
 
 def second_layer(page):
@@ -246,7 +246,7 @@ def depth_precision(page):
         page.picture(buffer, frame)
         rows.append(["`%s`" % buffer] + [error(frame, truth, x) for x in ("direct", "indirect_diffuse", "indirect_specular")]
                     + traced(frame, "specular"))
-    page.table("depth", ["`depth.format`", "relative MSE to the truth: direct light", "indirect diffuse", "reflections",
+    page.table("depth", ["`depth.format`", "relative MSE to the reference: direct light", "indirect diffuse", "reflections",
                          "steps per reflection ray", "hits"], rows)
 
 
@@ -264,7 +264,7 @@ def noise(page):
                              "%.4f" % figures["relative_mse"], "%.3f" % figures["flip"]])
                 if rays == (16 if scene == "cornell" else 4):
                     page.picture("%s-%s" % (scene, kind), frame, (90, 50, 107, 60) if scene == "cornell" else (110, 42, 107, 60))
-    page.table("noise", ["scene", "setting", "relative MSE to the truth", "FLIP"], rows)
+    page.table("noise", ["scene", "setting", "relative MSE to the reference", "FLIP"], rows)
 
 
 def games202(page):
@@ -281,7 +281,7 @@ def games202(page):
                     + [error(frame, truth, "indirect_diffuse"), bias(frame, truth, "indirect_diffuse"), error(frame, truth, "final")]
                     + traced(frame, "diffuse"))
     page.picture("visible", truth, (92, 20, 160, 90), 2)
-    page.table("errors", ["preset", "relative MSE to visible-only: indirect light", "bias", "whole picture", "steps per ray", "hits"],
+    page.table("errors", ["preset", "relative MSE to visible-only: indirect light", "bias", "final image", "steps per ray", "hits"],
                rows)
 
 

@@ -1,32 +1,32 @@
-"""What docs/methods/reflections.md shows: one scene, eight ways to reflect it; run by methods.py."""
+"""The images and table of docs/methods/reflections.md: one scene, eight reflection techniques; called by methods.py."""
 import json
 
 from methods import Frame, Render, Truth, cached, options, run
 
 SCENE = "mirror-hall"
-# Reflections of direct light alone, one bounce, as in the reference. Textures in full detail, as it has them.
+# Reflections of direct light only, one bounce, and textures without mip levels, all as in the reference.
 BASE = "diffuse.rays=0 trace_screen.light=direct materials.mips=false "
 OFF = BASE + "trace_screen.enabled=false "
 PLANAR = "planar.enabled=true planar.count=2 "
 CUBE = "probes.enabled=true probes.bounces=0 "
 WAYS = {
-    "duplicate": ("duplicated room", OFF + PLANAR + "planar.form=duplicate"),
-    "camera": ("extra camera", OFF + PLANAR + "planar.form=camera"),
-    "planar": ("planar view", OFF + PLANAR),
+    "duplicate": ("duplicated geometry", OFF + PLANAR + "planar.form=duplicate"),
+    "camera": ("fixed camera", OFF + PLANAR + "planar.form=camera"),
+    "planar": ("planar reflection", OFF + PLANAR),
     "cube": ("cube map", OFF + CUBE + "probes.parallax=false"),
-    "box": ("box-corrected probe", OFF + CUBE),
-    "screen": ("SSR alone", BASE),
+    "box": ("parallax-corrected probe", OFF + CUBE),
+    "screen": ("SSR only", BASE),
     "hybrid": ("hybrid", BASE + PLANAR + CUBE + "trace_scene.enabled=true"),
-    "traced": ("path traced", OFF + "trace_scene.enabled=true trace_scene.light=path trace_scene.bounces=0"),
+    "traced": ("ray traced", OFF + "trace_scene.enabled=true trace_scene.light=path trace_scene.bounces=0"),
 }
 WITHOUT = "diffuse.rays=0 specular.rays=0"
-VIEW = "mirrors"  # one probe in the middle of the hall, whose walls are its box
+VIEW = "mirrors"  # one probe in the middle of the hall; its box is the hall's walls
 MIRRORS = (150, 60, 160, 90)  # the end of the mirror wall, the red ball, the floor
 ROUNDS = 3
 
 
 class Way(Frame):
-    """The first frame; and the lowest of three medians over frames 2 to 5 [ms]."""
+    """A first frame, and its cost: the lowest of three medians over frames 2 to 5 [ms]."""
 
     def __init__(self, settings):
         self.arguments = options(SCENE, settings, VIEW, "320x180", "plain")
@@ -37,7 +37,7 @@ class Way(Frame):
 
 
 def on_mirrors(frame, truth, mask):
-    """compare's metrics of the reflections, where the camera sees metal."""
+    """Metrics of `reflet compare` for the reflections, where the camera sees metal."""
     layer = ":indirect_specular"
     return json.loads(run(["compare", frame.exr + layer, truth.exr + layer, "--mask", mask, "--json"]))
 
@@ -53,7 +53,7 @@ def reflections(page):
         figures = on_mirrors(frame, truth, mask)
         rows.append([title, "%.3f" % figures["relative_mse"], "%+.0f %%" % (100 * figures["bias"]),
                      "%.3f" % figures["flip"], "%.0f" % (frame.ms - without.ms)])
-    page.table("ways", ["way", "relative MSE", "bias", "FLIP", "milliseconds"], rows)
+    page.table("ways", ["method", "relative MSE", "bias", "FLIP", "milliseconds"], rows)
     page.picture("truth", truth, MIRRORS, 2)
     page.picture("source", Render(SCENE, WAYS["hybrid"][1], view=VIEW, show="specular_source"), MIRRORS, 2)
 

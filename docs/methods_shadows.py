@@ -1,18 +1,18 @@
-"""What the pages of docs/methods/ about shadows show: a function per page, run by methods.py. Settings are as on the
-command line; a leading @ stands for shadow. What a picture must show, and what the figures say, is in the pages' prose."""
+"""The images and tables of the shadow pages of docs/methods/: one function per page, called by methods.py. Settings are
+written as on the command line; a leading @ abbreviates `shadow.`. The prose of a page explains its images and figures."""
 import base64
 import json
 import struct
 
 from methods import CACHE, Render, Truth, cached, options
 
-# Direct light alone, through the pixels' centres, as the renderer sees edges.
+# Direct light only, sampled at pixel centres as the renderer does.
 TRUTH = "--bounces 0 --filter center"
 DIRECT = "diffuse.rays=0 specular.rays=0 "
 SUNS = (("0.53°", None), ("5°", "sun-5-degrees"))
-FIGURES = ["relative MSE to the truth", "FLIP"]
+FIGURES = ["relative MSE to the reference", "FLIP"]
 
-BARS = (96, 104, 107, 60)  # colonnade: what the bars at 1 m and 2 m cast
+BARS = (96, 104, 107, 60)  # colonnade: shadows of the bars at 1 m and 2 m
 PANEL = (20, 112, 107, 60)  # colonnade: the pierced panel's shadow
 FOOT = (0, 80, 107, 60)  # colonnade, camera contact: the foot of the nearest column
 UNDER_PANEL = (128, 95, 107, 60)  # the same: between the panel, 10 cm above the ground, and its shadow
@@ -20,7 +20,7 @@ BLUE_CUBE = (200, 90, 53, 30)  # cubes
 
 
 class Shadows(Render):
-    """A frame in direct light. more: options beside the settings."""
+    """A frame of direct light only. more: further command-line options."""
 
     def __init__(self, scene, settings="", view=None, more="", show=None):
         settings = DIRECT + settings.replace("@", "shadow.")
@@ -66,9 +66,9 @@ def soft_shadows(page):
         page.picture(show.replace("_", "-"), Shadows("colonnade", "", SUNS[1][1], show=show))
 
 
-def sampled(samples, pattern="", clean="false", frames=1):
-    """Settings and options of a picture with so many look-ups, in the search and in the disk."""
-    settings = "@samples=%d @blockerSamples=%d @clean=%s %s" % (samples, samples, clean, pattern)
+def sampled(samples, pattern="", denoise="false", frames=1):
+    """Settings and options for this many samples in the blocker search and in the filter."""
+    settings = "@samples=%d @blocker_samples=%d @denoise=%s %s" % (samples, samples, denoise, pattern)
     return settings.strip(), "--frames %d" % frames if frames > 1 else ""
 
 
@@ -76,8 +76,8 @@ def shadow_noise(page):
     patterns = {"vogel": "", "rings": "@pattern=rings", "mirrored": "@pattern=rings @mirrored=true"}
     truths = [Truth("colonnade", TRUTH, view=view) for _, view in SUNS]
 
-    def row(name, samples, pattern="", clean="false", frames=1):
-        settings, more = sampled(samples, pattern, clean, frames)
+    def row(name, samples, pattern="", denoise="false", frames=1):
+        settings, more = sampled(samples, pattern, denoise, frames)
         both = [Shadows("colonnade", settings, view, more) for _, view in SUNS]
         if name:
             visibility(page, name, both[1], PANEL)
@@ -96,7 +96,7 @@ def shadow_noise(page):
         for frames in (1, 8, 32):
             picture = "clean%d-frames%d" % (samples, frames) if samples == 4 else None
             rows.append([str(samples), "frame %d" % frames] + row(picture, samples, "", "true", frames))
-    page.table("cleaning", ["samples", "cleaning"] + head, rows)
+    page.table("denoising", ["samples", "denoising"] + head, rows)
     visibility(page, "truth", truths[1], PANEL)
     rows = []
     for resolution in (512, 1024, 2048, 4096, 8192):
@@ -121,7 +121,7 @@ def contact_shadows(page):
 
 
 def shadow_bias(page):
-    settings = ["@biasKind=constant @constantBias=%s" % b for b in ("0", "0.01", "0.1")] + ["@bias=%s" % b for b in ("0", "0.4", "4")]
+    settings = ["@bias_kind=constant @constant_bias=%s" % b for b in ("0", "0.01", "0.1")] + ["@bias=%s" % b for b in ("0", "0.4", "4")]
     names = ("constant0", "constant0_01", "constant0_1", "slope0", "slope0_4", "slope4")
     rows = []
     for scene, camera, window, zoom in (("colonnade", "--camera contact", FOOT, 3), ("cubes", "", BLUE_CUBE, 6)):
@@ -139,7 +139,7 @@ def shadow_bias(page):
 
 
 def box(x, height, z, half):
-    """Corners and triangles of a box that stands on the ground."""
+    """Vertices and indices of a box that stands on the ground."""
     corners = [(x + (half if i & 1 else -half), height if i & 2 else 0.0, z + (half if i & 4 else -half)) for i in range(8)]
     faces = ((0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6))
     return corners, [i for a, b, c, d in faces for i in (a, b, c, a, c, d)]
@@ -181,7 +181,7 @@ def shadow_cascades(page):
             rows.append([short(setting)] + errors(frame, truth))
             if resolution == 512:
                 page.picture("cascades%d" % cascades, frame)
-    for setting in ("@cascadeSplit=0", "@cascadeSplit=0.5", "@cascadeBlend=0"):
+    for setting in ("@cascade_split=0", "@cascade_split=0.5", "@cascade_blend=0"):
         rows.append([short("@cascades=4 @resolution=512 " + setting)]
                     + errors(Shadows(avenue, "@cascades=4 @resolution=512 " + setting, "avenue"), truth))
     page.table("cascades", ["setting"] + FIGURES, rows)

@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# Makes docs/performance.md and docs/pictures/performance.svg from measurements by
-# `reflet bench`, which stay in out/performance/ as JSON. A measurement that is there is not made again; delete the folder
-# after the program has changed. Takes about an hour on two cores, which should have nothing else to do.
+# Makes docs/performance.md and docs/pictures/performance.svg from measurements by `reflet bench`, which are kept in
+# out/performance/ as JSON and not repeated; delete that folder after the program has changed. Takes about an hour on two
+# cores, which should be idle otherwise. The table at the top of the page comes from docs/accuracy.md.
 #
-#     docs/performance.sh           measures what is missing, then writes the page
-#     docs/performance.sh page      writes the page from what is there
-#     docs/performance.sh NAME...   makes these measurements anew (games202, mirror, …), then writes the page
-#     docs/performance.sh gpu       for a machine with a GPU: out/performance/gpu*.json
+#     docs/performance.sh           makes the missing measurements, then writes the page
+#     docs/performance.sh page      writes the page from existing measurements
+#     docs/performance.sh NAME...   repeats these measurements (games202, mirror, …), then writes the page
+#     docs/performance.sh gpu       on a machine with a GPU: out/performance/gpu*.json
 #
-# CUBE1=FILE.gltf with FILE.view.json beside it: the course's scene, which is not part of the project. PRESET: what is held
-# against the targets [balanced]. What is written by hand stands in docs/performance-notes.md.
+# CUBE1=FILE.gltf with FILE.view.json beside it: the assignment's scene, which is not part of the project. PRESET: the preset
+# to compare with the targets [balanced]. Hand-written text is in docs/performance-notes.md.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -46,24 +46,24 @@ if [[ ${1:-} == gpu ]]; then
 fi
 
 if [[ ${1:-} != page ]]; then
-    # Error against time: every preset, and the course's with 32 rays.
+    # Error against time: every preset, and games202 with 32 rays.
     names=$("$reflet" list presets | grep -v '^ ' | cut -d ' ' -f 1 | grep -v '^pathtrace$' | paste -sd ,)
     measure presets builtin:cave builtin:gloss --preset "$names" --variant games202-32=games202,diffuse.rays=32 \
         --size 640x360 "${one_bounce[@]}" --truth-spp 256 --first 2 --frames 3 --plot "$out/presets.svg"
-    # A whole frame against the course's method.
+    # A whole frame against the GAMES202 method.
     against=(--compare "preset:$preset" preset:games202,diffuse.rays=32 --size 1280x720 "${lambert[@]}"
         --set specular.rays=0 "${one_bounce[@]}" --truth-spp 256 --first 2 --warmup 12 --frames 3)
     measure games202 builtin:cave "${against[@]}"
     if [[ -n ${CUBE1:-} ]]; then
         measure games202-cube1 "$CUBE1" --view-file "${CUBE1%.gltf}.view.json" "${against[@]}"
     fi
-    # Reflections: a mirror over the whole screen. Without sky: what the screen does not know is black in the truth of
-    # what the camera sees, and an environment that stands in there would be all of either's error.
+    # Reflections: a full-screen mirror, without sky. Where the screen misses, the visible-only reference is black; an
+    # environment as fallback would make nearly all of both errors.
     measure mirror builtin:mirror-hall --view-file docs/methods/views/into-the-mirror-without-sky.json --size 1280x720 \
         --compare "preset:$preset,diffuse.rays=0" \
         preset:games202_linear,materials.lambert_only=false,specular.rays=1,diffuse.rays=0,trace_screen.max_steps=150 \
         --layer indirect_specular "${one_bounce[@]}" --truth-spp 256 --first 2 --warmup 12 --frames 3
-    # Soft shadows over hard ones.
+    # Soft shadows against hard ones.
     measure shadow builtin:colonnade builtin:cave --size 1280x720 --truth none --first 3 \
         --compare "preset:$preset,diffuse.rays=0,specular.rays=0,shadow.filter=pcss" \
         "preset:$preset,diffuse.rays=0,specular.rays=0,shadow.filter=hard"
@@ -79,7 +79,7 @@ if [[ ${1:-} != page ]]; then
     # shellcheck disable=SC2086  # a word for each scene
     measure motion builtin:cubes builtin:mirror-hall builtin:moving --preset "$preset" --size 320x180 --truth chain:32 \
         --first 1 --motion 60 --orbit 30
-    # A reflection of what stops, through one place in each pixel: with another in each frame, its edges change at rest, too.
+    # Reflections after motion stops, without TAA: its subpixel jitter changes their edges even at rest.
     measure stop builtin:moving --preset "$preset" --set temporal.enabled=false --size 240x135 --truth chain:1 --first 1 \
         --frames 1 --motion 12 --orbit 0 --rest 10
 fi

@@ -1,17 +1,17 @@
 #!/usr/bin/env bash
-# Makes the pictures of the documentation, docs/pictures/*.png. Needs a built program (./demo.sh).
+# Renders the images of the documentation, docs/pictures/*.png. Needs a built program (./demo.sh).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 mkdir -p docs/pictures
 
-render() { # scene name options...
+render() { # SCENE NAME OPTION…
     local scene=$1 file="docs/pictures/$2.png"
     shift 2
     build/bin/reflet render "builtin:$scene" -o "$file" "$@"
     echo "$file"
 }
 
-# Four bounces: each frame's rays meet the light of the one before.
+# Several bounces: hits return the previous frame's light, so each frame adds one bounce.
 bounces=(--preset plain --set trace_screen.light=previous --set temporal.enabled=true)
 render cubes cubes "${bounces[@]}" --frames 8 --set diffuse.rays=64 --size 560x315
 render cornell cornell "${bounces[@]}" --frames 4 --set diffuse.rays=64 --size 320x240
@@ -22,7 +22,7 @@ for show in albedo normal depth sun_visibility direct indirect_diffuse indirect_
     render cubes "cubes-$show" --preset plain --set diffuse.rays=16 --size 320x180 --show "$show"
 done
 
-# The truth, what the screen can know of it, and how far the default settings are from it.
+# The reference, its visible-only part, the default settings and their error.
 reflet=build/bin/reflet
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -31,7 +31,7 @@ trap 'rm -rf "$work"' EXIT
 "$reflet" render builtin:cubes --size 320x180 -o docs/pictures/cubes-default.png -o "$work/default.exr"
 "$reflet" compare "$work/default.exr" "$work/truth.exr" --heatmap docs/pictures/cubes-default-error.png
 
-# The window, on a desktop without a screen.
+# The window, on a virtual display.
 if command -v xvfb-run >/dev/null; then
     XDG_CONFIG_HOME=$work xvfb-run -a -s "-screen 0 1600x1000x24" "$reflet" view builtin:mirror-hall --size 440x400 --pick 385,178 \
         --window-picture docs/pictures/view.png
