@@ -109,8 +109,8 @@ void Session::render(const ViewerState& state, uvec2 size, bool keepValues) {
     const FrameImages images =
         renderFrame(state, state.view, size, settings, [&](gpu::Frame& f, const FrameImages& made) {
             if (!isMade(show, made)) {
-                problem_ =
-                    fmt::format("The frame has no image '{}' with these settings: {}.", show.name, show.description);
+                problem_ = fmt::format("Image '{}' is not available with this scene and these settings: {}.", show.name,
+                                       show.description);
             } else if (values) {
                 readback = requestShow(f, made, show);
             }
@@ -136,14 +136,12 @@ void Session::startAnew() {
     frames_ = 0;
 }
 
-// By a renderer of its own, which has seen as little before as that of `reflet render`; the live picture stays as it
-// is.
+// Uses a separate renderer without history, as `reflet render` does; the live image is unaffected.
 void Session::screenshot(const ViewerState& state, uvec2 size, const std::string& file) {
     Pictures pictures(state.show, {});
     const Settings settings = renderedSettings(state);
     const uint32_t frames = framesForPicture(settings);
-    // The view as it is after it has been written to a file and read, as the command line has it where the view is not
-    // the first one: directions may differ in the last bit.
+    // A changed view goes through its JSON form, as in the copied command line: directions may differ in the last bit.
     View view = firstView_;
     if (!(state.view == firstView_)) {
         applyViewJson(nlohmann::json(viewJson(state.view)), "view", view);
@@ -159,7 +157,7 @@ void Session::screenshot(const ViewerState& state, uvec2 size, const std::string
         });
     }
     if (!made) {
-        fail("the frame has no image '{}' with these settings", state.show);
+        fail("image '{}' is not available with this scene and these settings", state.show);
     }
     pictures.write(file, renderer.frame(), makeViewParams(view.camera, size, 0, state.source.seed));
 }

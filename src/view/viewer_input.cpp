@@ -1,4 +1,4 @@
-// Keys and pointer.
+// Handles keys and the pointer.
 #include "base/error.h"
 #include "scene/camera_control.h"
 #include "scene/pose.h"
@@ -16,10 +16,10 @@ namespace reflet {
 
 namespace {
 
-constexpr float orbitSpeed = 0.006F;  // radians per unit of the desktop
+constexpr float orbitSpeed = 0.006F;  // radians per desktop unit
 constexpr float turnSpeed = 0.003F;
 constexpr float wheelFactor = 0.88F;
-constexpr float clickSlack = 4.0F;  // units that a hand moves while it clicks
+constexpr float clickSlack = 4.0F;  // units that the pointer may move during a click
 constexpr float dividerSlack = 6.0F;
 
 vec2 toVec(const ImVec2& v) {
@@ -99,7 +99,7 @@ void Viewer::handleKey(const KeyPress& press) {
     }
 }
 
-// The camera, to be moved by hand: from where its node has it now, if it hangs from one.
+// The camera for moving it by hand: detached from its node, if any, at the node's current pose.
 Camera& Viewer::heldCamera() {
     state_.view.camera = posed(state_.view, session_->scene()).camera;
     return state_.view.camera;
@@ -123,7 +123,7 @@ void Viewer::handlePointer() {
     const bool inside = isInside(mouse);
     const bool pressed = ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2);
     const float divider = rect.min.x + state_.compare.divider * rect.size.x;
-    if (pressed) {  // a frame may take so long that the pointer has gone on since, and the button up again
+    if (pressed) {  // during a slow frame the pointer may have moved on and the button been released
         pressedAt_ = window_.pressedAt();
         pointerBefore_ = pressedAt_;
         pressedInPicture_ = isInside(pressedAt_);
@@ -172,7 +172,7 @@ void Viewer::flyByKeys() {
     if (way == vec3(0.0F)) {
         return;
     }
-    constexpr double longestStep = 0.1;  // seconds: the first after a rest is not a leap
+    constexpr double longestStep = 0.1;  // seconds, so that the first step after an idle period is not a jump
     const float fast = window_.isHeld(GLFW_KEY_LEFT_SHIFT) ? 4.0F : 1.0F;
     const float metres = fast * flightSpeed(session_->scene().bounds()) * float(std::min(elapsed_, longestStep));
     fly(heldCamera(), metres * way);

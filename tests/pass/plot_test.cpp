@@ -68,7 +68,7 @@ TEST(ScatterPlot, HasTitleDescriptionAndNames) {
     const std::string svg = scatterPlot(plotOf({{"fast", "cubes", 2.0, 0.02}, {"quality", "cubes", 9.0, 0.004}}));
     expectSound(svg);
     EXPECT_NE(svg.find("<title>Cost and error</title>"), std::string::npos);
-    EXPECT_NE(svg.find("not beaten in both: fast (2, 0.02); quality (9, 0.004).</desc>"), std::string::npos);
+    EXPECT_NE(svg.find("Pareto front: fast (2, 0.02); quality (9, 0.004).</desc>"), std::string::npos);
     EXPECT_NE(svg.find(">ms per frame</text>"), std::string::npos);
     EXPECT_NE(svg.find(">relative MSE</text>"), std::string::npos);
     EXPECT_NE(svg.find(">fast</text>"), std::string::npos);
@@ -140,7 +140,7 @@ TEST(ScatterPlot, PutsNoErrorAtTheFloorUnderAllOthers) {
 TEST(ScatterPlot, DrawsTheFrontThroughWhatIsNotBeaten) {
     const std::string svg = scatterPlot(plotOf(
         {{"fast", "s", 1.0, 1.0}, {"beaten", "s", 3.0, 2.0}, {"middle", "s", 2.0, 0.1}, {"best", "s", 4.0, 0.01}}));
-    EXPECT_NE(svg.find("not beaten in both: fast (1, 1); middle (2, 0.1); best (4, 0.01)"), std::string::npos);
+    EXPECT_NE(svg.find("Pareto front: fast (1, 1); middle (2, 0.1); best (4, 0.01)"), std::string::npos);
     EXPECT_TRUE(std::regex_search(svg, std::regex("d=\"M[-0-9.]+ [-0-9.]+H[-0-9.]+V[-0-9.]+H[-0-9.]+V[-0-9.]+\"")));
 }
 

@@ -12,7 +12,7 @@
 
 namespace reflet {
 
-/// What was typed, as it was typed.
+/// The options as typed.
 struct BenchCommand {
     SceneOptions shared;
     std::vector<std::string> scenes;

@@ -1,4 +1,5 @@
-// Greedy: the most crowded point first, each label takes the cheapest of a few rings of places around its point.
+// Greedy placement: starting with the most crowded point, each label takes the cheapest position on rings around its
+// point.
 #include "apps/report/plot_labels.h"
 
 #include <algorithm>
@@ -12,13 +13,13 @@ namespace {
 constexpr float gap = 4.0F;        // from a marker to its label
 constexpr float ringStep = 13.0F;  // about a line of text
 constexpr int rings = 12;
-constexpr float crowd = 70.0F;  // points nearer than this are in each other's way
+constexpr float crowd = 70.0F;  // points closer than this count as crowded
 
-// What is bad about a place, against each other.
+// Relative costs of what a position violates.
 constexpr float outsideCost = 1000.0F;
 constexpr float hidesLabelCost = 300.0F;
 constexpr float hidesMarkerCost = 200.0F;
-constexpr float leaderThroughCost = 60.0F;  // a label, or through a leader a label
+constexpr float leaderThroughCost = 60.0F;  // a leader line that crosses a label, or a label on a leader line
 constexpr float ringCost = 4.0F;
 constexpr float leaderOverMarkerCost = 30.0F;
 constexpr float onLineCost = 3.0F;
@@ -50,7 +51,7 @@ PlotBox around(const vec2& at, float radius) {
     return {at.x - radius, at.y - radius, at.x + radius, at.y + radius};
 }
 
-/// The sixteenths of a turn, best first: to the right, a little above, to the left, above, below, the rest.
+/// Directions in sixteenths of a turn, best first: right and its diagonals, left and its diagonals, up, down, the rest.
 constexpr std::array<int, 16> directions{0, 14, 2, 8, 10, 6, 12, 4, 15, 1, 9, 7, 13, 11, 3, 5};
 
 LabelPlace placeAt(const LabelWish& wish, float markerRadius, int ring, int direction) {
@@ -77,7 +78,7 @@ public:
            std::span<const PlotSegment> lines)
         : wishes_(wishes), markerRadius_(markerRadius), area_(area), lines_(lines) {}
 
-    /// The cheapest place for a label beside those placed before.
+    /// The cheapest position for a label, given those already placed.
     LabelPlace place(size_t index) {
         LabelPlace best;
         float bestCost = std::numeric_limits<float>::max();
