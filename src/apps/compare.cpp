@@ -155,7 +155,8 @@ std::string compareFooter() {
            "--mask hits keeps the pixels where both EXR files have data: layer confidence above 0 in any channel,\n"
            "or, in a file without that layer, depth above 0 (reflet render --aov depth).\n"
            "--json prints { picture, truth, kind, size, pixels_per_degree, METRIC..., pixels }; infinity is null.\n"
-           "Example: reflet compare picture.exr truth.exr:final --mask hits --heatmap error.png --fail-above flip=0.1";
+           "Example: reflet compare image.exr reference.exr:final --mask hits --heatmap error.png --fail-above "
+           "flip=0.1";
 }
 
 }  // namespace

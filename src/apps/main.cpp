@@ -19,7 +19,7 @@ constexpr int exitFailed = 1;
 constexpr int exitUsage = 2;
 
 // Prints one line: control characters in names from outside become spaces.
-int complain(std::string message, int status) {
+int reportError(std::string message, int status) {
     std::ranges::replace_if(
         message, [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
     fmt::print(stderr, "reflet: {}\n", message);
@@ -95,12 +95,12 @@ int run(int argc, char** argv) {
     } catch (const CLI::Success& success) {  // --help, --version
         app.exit(success);
     } catch (const CLI::ExtrasError&) {
-        return complain(unexpectedArgument(app), exitUsage);
+        return reportError(unexpectedArgument(app), exitUsage);
     } catch (const CLI::ParseError& error) {
-        return complain(fmt::format("{} (see reflet --help)", error.what()), exitUsage);
+        return reportError(fmt::format("{} (see reflet --help)", error.what()), exitUsage);
     }
     if (std::fflush(stdout) != 0) {
-        return complain("cannot write to standard output", exitFailed);
+        return reportError("cannot write to standard output", exitFailed);
     }
     return 0;
 }
@@ -111,8 +111,8 @@ int main(int argc, char** argv) {
     try {
         return run(argc, argv);
     } catch (const reflet::UsageError& error) {
-        return complain(error.what(), exitUsage);
+        return reportError(error.what(), exitUsage);
     } catch (const std::exception& error) {
-        return complain(error.what(), exitFailed);
+        return reportError(error.what(), exitFailed);
     }
 }

@@ -129,7 +129,7 @@ constexpr const char* referenceFooter =
     "Of the settings, only materials.lambert_only and (for PNG) tonemap.* apply.\n"
     "An interrupt (Ctrl-C) writes the samples so far, at least one per pixel, and exits with status 1; a second one\n"
     "exits at once.\n"
-    "Example: reflet reference builtin:cubes --size 640x360 --spp 256 -o truth.exr";
+    "Example: reflet reference builtin:cubes --size 640x360 --spp 256 -o reference.exr";
 
 }  // namespace
 

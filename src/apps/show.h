@@ -20,7 +20,7 @@ struct Show {
     /// Values from the decoded images (four channels each) at one pixel, into as many as `channels`.
     void (*values)(std::span<const vec4> texels, const ViewParams& view, float* out);
     std::vector<std::string> channels;
-    /// From values to display RGB in 0..1 (already encoded). nullptr: the tone-mapped display image is the picture.
+    /// From values to display RGB in 0..1 (already encoded). nullptr: uses the tone-mapped display image.
     vec3 (*picture)(const float* values);
 };
 

@@ -47,7 +47,7 @@ void CompareView::forget() {
     failed_ = false;
 }
 
-void CompareView::complain(const std::string& text) {
+void CompareView::setProblem(const std::string& text) {
     message_ = text;
     failed_ = true;
 }
@@ -66,7 +66,7 @@ void CompareView::updatePreset(const ViewerState& state, const Session& live, uv
         other_->render(its, size, true);
     }
     if (!other_->showProblem().empty()) {
-        complain(other_->showProblem());
+        setProblem(other_->showProblem());
         values_ = nullptr;
         return;
     }
@@ -87,7 +87,7 @@ void CompareView::updateFile(const ViewerState& state) {
         }
     }
     if (!fileProblem_.empty()) {
-        complain(fileProblem_);
+        setProblem(fileProblem_);
         values_ = nullptr;
         return;
     }
@@ -112,7 +112,7 @@ void CompareView::chooseLayer(const ViewerState& state) {
     }
     const size_t wanted = findShow(state.show).channels.size();
     if (found == layers_.end() || found->image.channels.size() < wanted) {
-        complain(fmt::format("The right side has no layer '{}' to compare with.", state.show));
+        setProblem(fmt::format("The right side has no layer '{}' to compare with.", state.show));
         return;
     }
     auto image = std::make_shared<FloatImage>(found->image);
@@ -246,7 +246,7 @@ void CompareView::update(const ViewerState& state, const Session& live, uvec2 si
         updateError(live);
         updatePicture(state);
     } catch (const Error& error) {
-        complain(error.what());
+        setProblem(error.what());
         values_ = nullptr;
         picture_ = {};
     }

@@ -61,7 +61,7 @@ private:
     void chooseLayer(const ViewerState& state);
     void updateError(const Session& live);
     void updatePicture(const ViewerState& state);
-    void complain(const std::string& text);
+    void setProblem(const std::string& text);
 
     gpu::Device& device_;
     CompareWith with_ = CompareWith::nothing;

@@ -75,7 +75,7 @@ Session::Session(gpu::Device& device, ViewerState& state)
 Session::Session(gpu::Device& device, const Session& other)
     : device_(device), scene_(other.scene_), firstView_(other.firstView_), renderer_(device, *scene_, printWarning) {}
 
-uint32_t framesToRest(const ViewerState& state) {
+uint32_t framesToConverge(const ViewerState& state) {
     return framesToRestOf(renderedSettings(state));
 }
 
@@ -130,7 +130,7 @@ void Session::refreshPicture(const ViewerState& state) {
     }
 }
 
-void Session::startAnew() {
+void Session::resetHistory() {
     renderer_.restart(0);
     asked_.reset();
     frames_ = 0;

@@ -44,7 +44,7 @@ public:
     /// Renders one frame and its display image. keepValues: shownValues() will be needed.
     void render(const ViewerState& state, uvec2 size, bool keepValues);
     /// Resets the history: something outside the state changed, such as a shader.
-    void startAnew();
+    void resetHistory();
 
     /// The display image of the last frame; none before the first frame, or if showProblem() gives a reason.
     [[nodiscard]] gpu::Image picture() const { return picture_; }
@@ -101,7 +101,7 @@ private:
 Settings renderedSettings(const ViewerState& state);
 
 /// Frames after which the image has converged.
-uint32_t framesToRest(const ViewerState& state);
+uint32_t framesToConverge(const ViewerState& state);
 
 /// RGBA8 texture of an image with 3 or 4 channels.
 gpu::Texture uploadPicture(gpu::Device& device, const Bitmap& bitmap, const std::string& name);

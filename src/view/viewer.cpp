@@ -206,8 +206,8 @@ double Viewer::timeToWait() const {
 }
 
 bool Viewer::atRest() const {
-    return session_->frames() >= framesToRest(state_) && redraws_ == 0 && !session_->wantsFrame(state_, renderSize()) &&
-           !compare_.wantsFrame(state_, renderSize());
+    return session_->frames() >= framesToConverge(state_) && redraws_ == 0 &&
+           !session_->wantsFrame(state_, renderSize()) && !compare_.wantsFrame(state_, renderSize());
 }
 
 // Carries out --pick and --window-picture once the image has converged.
@@ -220,7 +220,7 @@ void Viewer::finishPicture() {
         toPick_.reset();
         opensPixel_ = true;
         attempt([&] { pickPixel(pixel); });
-    } else if (picked_ && picked_->change != session_->changes() && seesAsPicked()) {
+    } else if (picked_ && picked_->change != session_->changes() && isPickedView()) {
         attempt([&] { pickPixel(picked_->pixel); });
     } else if (!options_.windowPicture.empty()) {
         writePng(options_.windowPicture, canvas_->picture());
@@ -286,7 +286,7 @@ void Viewer::watchShaders() {
     const std::string before = shaders_.problem();
     if (shaders_.update()) {
         device_.pipelines().clear();
-        session_->startAnew();
+        session_->resetHistory();
         compare_.forget();
         tell(fmt::format("Recompiled: {}", fmt::join(shaders_.replaced(), ", ")));
         redraws_ = settlingRedraws;

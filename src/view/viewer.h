@@ -81,7 +81,7 @@ private:
     [[nodiscard]] std::string commandLine();
     void takeScreenshot(const std::string& file);
     void pickPixel(uvec2 pixel);
-    [[nodiscard]] bool seesAsPicked() const;
+    [[nodiscard]] bool isPickedView() const;
     void chooseFalseColorRange();
     void writeStatus();
 
@@ -90,7 +90,7 @@ private:
     void handleKey(const KeyPress& press);
     void handlePointer();
     void flyByKeys();
-    Camera& heldCamera();
+    Camera& detachedCamera();
     [[nodiscard]] uvec2 pixelAt(const vec2& mouse) const;
 
     // viewer_panels.cpp

@@ -123,7 +123,7 @@ void Viewer::pickPixel(uvec2 pixel) {
 }
 
 // Whether the picked pixel still belongs to the recorded ray: false once the camera or the size has changed.
-bool Viewer::seesAsPicked() const {
+bool Viewer::isPickedView() const {
     return picked_->view.worldToClip == session_->view().worldToClip && picked_->view.size == session_->view().size;
 }
 

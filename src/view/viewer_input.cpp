@@ -82,7 +82,7 @@ void Viewer::handleKey(const KeyPress& press) {
         case GLFW_KEY_F:
             if (const Aabb box = session_->scene().bounds(); !box.empty()) {
                 const uvec2 size = renderSize();
-                frameAll(heldCamera(), box, float(size.x) / float(size.y));
+                frameAll(detachedCamera(), box, float(size.x) / float(size.y));
             }
             break;
         case GLFW_KEY_R:
@@ -100,7 +100,7 @@ void Viewer::handleKey(const KeyPress& press) {
 }
 
 // The camera for moving it by hand: detached from its node, if any, at the node's current pose.
-Camera& Viewer::heldCamera() {
+Camera& Viewer::detachedCamera() {
     state_.view.camera = posed(state_.view, session_->scene()).camera;
     return state_.view.camera;
 }
@@ -131,7 +131,7 @@ void Viewer::handlePointer() {
                         std::abs(pressedAt_.x - divider) < dividerSlack;
     }
     if (inside && io.MouseWheel != 0.0F) {
-        dolly(heldCamera(), std::pow(wheelFactor, io.MouseWheel));
+        dolly(detachedCamera(), std::pow(wheelFactor, io.MouseWheel));
     }
     if (!pressedInPicture_) {
         return;
@@ -142,7 +142,7 @@ void Viewer::handlePointer() {
             state_.compare.divider = std::clamp((mouse.x - rect.min.x) / rect.size.x, 0.0F, 1.0F);
         }
     } else if (moved != vec2(0.0F) && glm::distance(mouse, pressedAt_) >= clickSlack) {
-        Camera& camera = heldCamera();
+        Camera& camera = detachedCamera();
         if (ImGui::IsMouseDown(2) || (ImGui::IsMouseDown(0) && io.KeyShift)) {
             pan(camera, moved / rect.size.y);
         } else if (ImGui::IsMouseDown(0)) {
@@ -175,7 +175,7 @@ void Viewer::flyByKeys() {
     constexpr double longestStep = 0.1;  // seconds, so that the first step after an idle period is not a jump
     const float fast = window_.isHeld(GLFW_KEY_LEFT_SHIFT) ? 4.0F : 1.0F;
     const float metres = fast * flightSpeed(session_->scene().bounds()) * float(std::min(elapsed_, longestStep));
-    fly(heldCamera(), metres * way);
+    fly(detachedCamera(), metres * way);
     redraws_ = std::max(redraws_, 2);
 }
 

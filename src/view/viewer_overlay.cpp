@@ -105,7 +105,7 @@ void Viewer::drawRay() {
     draw.PushClipRect({rect.min.x, rect.min.y}, {rect.min.x + rect.size.x, rect.min.y + rect.size.y});
     const vec2 perPixel = rect.size / vec2(session_->size());
     const auto at = [](const vec2& v) { return ImVec2(v.x, v.y); };
-    const bool asPicked = seesAsPicked();
+    const bool asPicked = isPickedView();
     if (picked_->ray) {
         const RecordedRay& ray = *picked_->ray;
         for (const RayStep& step : asPicked ? std::span(ray.steps) : std::span<const RayStep>()) {

@@ -68,7 +68,7 @@ void Viewer::runPanel() {
     places_.note("step");
     tooltip("Renders one frame (.).");
     const uvec2 size = renderSize();
-    const uint32_t rest = framesToRest(state_);
+    const uint32_t rest = framesToConverge(state_);
     const bool settled = session_->frames() >= rest;
     ImGui::TextColored(quietColor, "%ux%u, frame %u%s", size.x, size.y, session_->frames(),
                        state_.running == Running::paused ? ", paused"

@@ -81,7 +81,7 @@ MovedFrames renderMotion(gpu::Device& device, const BenchScene& scene, uvec2 siz
     const FloatImage before = plan.rest > 0 ? subject.picture({reflections}).at(reflections) : FloatImage{};
     MovedFrames frames;
     for (uint32_t i = 0; i < plan.frames; ++i) {
-        subject.look(viewInMotion(scene.view, plan, i + 1));
+        subject.setView(viewInMotion(scene.view, plan, i + 1));
         Layers layers = subject.picture({"final", "motion"});
         frames.moving.push_back({std::move(layers.at("final")), std::move(layers.at("motion"))});
         progress.advance();

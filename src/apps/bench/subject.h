@@ -41,7 +41,7 @@ public:
     [[nodiscard]] const Settings& settings() const { return settings_; }
     void change(const Settings& settings) { settings_ = settings; }
     /// Sets the view from the next frame on.
-    void look(const View& view) { view_ = view; }
+    void setView(const View& view) { view_ = view; }
 
 private:
     View view_;

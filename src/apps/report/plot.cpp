@@ -229,13 +229,13 @@ void Drawing::addPoint(size_t index, size_t series, const LabelPlace& place) {
 }
 
 void Drawing::addPoints() {
-    std::vector<LabelWish> wishes;
+    std::vector<LabelRequest> requests;
     for (size_t i = 0; i < points_.size(); ++i) {
-        wishes.push_back({positions_[i], {textWidth(labelOf(points_[i].label)), textHeight}});
+        requests.push_back({positions_[i], {textWidth(labelOf(points_[i].label)), textHeight}});
     }
     PlotBox area = area_;
     area.left += 4.0F;
-    const std::vector<LabelPlace> places = placeLabels(wishes, markerRadius, area, fronts_);
+    const std::vector<LabelPlace> places = placeLabels(requests, markerRadius, area, fronts_);
     for (size_t s = 0; s < series_.size(); ++s) {
         for (const size_t index : series_[s].points) {
             addPoint(index, s, places[index]);

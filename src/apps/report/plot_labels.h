@@ -27,7 +27,7 @@ struct PlotSegment {
 };
 
 /// A point of the plot and the size of its label.
-struct LabelWish {
+struct LabelRequest {
     vec2 at{0.0F};
     vec2 size{0.0F};
 };
@@ -38,9 +38,9 @@ struct LabelPlace {
     std::optional<PlotSegment> leader;  ///< line from point to label, if they are far apart
 };
 
-/// A position for each wish, in the same order, outside the markers (circles of `markerRadius` around the points).
+/// A position for each request, in the same order, outside the markers (circles of `markerRadius` around the points).
 /// Inside `area` if the label fits; crosses `lines` only if there is no better position. Deterministic.
-std::vector<LabelPlace> placeLabels(std::span<const LabelWish> wishes, float markerRadius, const PlotBox& area,
+std::vector<LabelPlace> placeLabels(std::span<const LabelRequest> requests, float markerRadius, const PlotBox& area,
                                     std::span<const PlotSegment> lines);
 
 }  // namespace reflet

@@ -42,7 +42,7 @@ struct ReportCommand {
     float noise = 0.0F;
 };
 
-// "What it is and what it is for. 1204 triangles, 5 materials, 2 lamps besides the sun."
+// A built-in scene's description, if it is one, and its size: "1204 triangles, 5 materials, 2 lamps besides the sun."
 std::string describe(const std::string& source, const Scene& scene) {
     size_t indices = 0;
     for (const Instance& instance : scene.instances) {
