@@ -1,4 +1,4 @@
-// `reflet bench`: what frames cost and how near to the truth they are, pass by pass, and one against the other.
+// `reflet bench`: measures the cost of frames, pass by pass, and their error against a reference; compares variants.
 #include "apps/bench/against.h"
 #include "apps/bench/bandwidth.h"
 #include "apps/bench/options.h"
@@ -23,7 +23,7 @@ namespace reflet {
 
 namespace {
 
-// What the truth has.
+// The layers of a ground truth image.
 constexpr std::array<std::string_view, 4> comparable{"final", "direct", "indirect_diffuse", "indirect_specular"};
 
 uint32_t parseBounces(const std::string& text) {
@@ -32,7 +32,7 @@ uint32_t parseBounces(const std::string& text) {
     }
     uint32_t bounces = 0;
     if (!CLI::detail::lexical_cast(text, bounces)) {
-        failUsage("--truth-bounces wants a number or 'unlimited', is '{}'", text);
+        failUsage("--truth-bounces must be a number or 'unlimited', is '{}'", text);
     }
     return bounces;
 }
@@ -42,7 +42,7 @@ TruthOptions truthOptions(const BenchCommand& command) {
     parseTruth(command.truth, options);
     if (!command.truthOf.empty()) {
         if (options.kind != TruthKind::chain) {
-            failUsage("--truth-of is for --truth chain:RAYS");
+            failUsage("--truth-of needs --truth chain:RAYS");
         }
         options.chainOf = settingsOfList(command.truthOf, command.shared, "--truth-of " + command.truthOf);
     }
@@ -106,24 +106,24 @@ BenchPlan makePlan(const BenchCommand& command) {
     plan.layer = command.layer;
     plan.motion = {command.motionFrames, command.orbit, command.warmup, command.fps, command.restFrames};
     if (plan.motion.frames > 0 && plan.truth.kind == TruthKind::none) {
-        failUsage("--motion needs a truth: --truth reference or --truth chain:RAYS");
+        failUsage("--motion needs a ground truth: --truth reference or --truth chain:RAYS");
     }
     if (plan.motion.rest > 0 && plan.motion.frames == 0) {
-        failUsage("--rest is what comes after --motion N");
+        failUsage("--rest needs --motion N");
     }
     if (std::ranges::find(comparable, plan.layer) == comparable.end()) {
-        failUsage("--layer wants one of {}, is '{}'", fmt::join(comparable, ", "), plan.layer);
+        failUsage("--layer must be one of {}, is '{}'", fmt::join(comparable, ", "), plan.layer);
     }
     for (const std::string& file : {command.json, command.plot}) {
         if (!file.empty()) {
-            const AtomicFile trial(file);  // better now than after minutes of work
+            const AtomicFile trial(file);  // fails now, not after minutes of work
         }
     }
     plan.scenes = scenesOf(command);
     return plan;
 }
 
-// What two programs are both told.
+// The arguments that both programs get.
 std::vector<std::string> sharedWords(const BenchCommand& command) {
     std::vector<std::string> words{"--seed", std::to_string(command.shared.seed)};
     const auto add = [&](const char* option, const std::string& value) {
@@ -146,7 +146,7 @@ std::vector<std::string> sharedWords(const BenchCommand& command) {
 
 BenchResult benchAgainst(const BenchCommand& command, const BenchPlan& plan) {
     if (!command.pairs.empty()) {
-        failUsage("--against and --compare do not go together: two builds, or two lists of settings");
+        failUsage("--against and --compare exclude each other: compare two builds, or two lists of settings");
     }
     AgainstPlan against;
     against.other = command.against;
@@ -200,7 +200,7 @@ void bench(const BenchCommand& command, const std::string& typed) {
     head.bandwidth = command.noBandwidth ? 0.0 : measureBandwidth(device);
     writeResults(command, head, plan, measure(plan, device));
     if (command.validate && !device.validationMessages().empty()) {
-        fail("the validation layers had {} messages", device.validationMessages().size());
+        fail("the validation layers reported {} messages", device.validationMessages().size());
     }
 }
 
@@ -208,7 +208,7 @@ void bench(const BenchCommand& command, const std::string& typed) {
 
 void addBenchCommand(CLI::App& app) {
     auto options = std::make_shared<BenchCommand>();
-    CLI::App* command = app.add_subcommand("bench", "Measure what frames cost, and how near to the truth they are");
+    CLI::App* command = app.add_subcommand("bench", "Measure the cost of frames and their error against a reference");
     addBenchOptions(*command, *options);
     command->callback([options, command] { bench(*options, commandLine(*command)); });
 }

@@ -1,4 +1,4 @@
-// The command line that a user typed.
+// Reconstructs the command line that the user typed.
 #include "apps/command_line.h"
 
 #include <CLI/CLI.hpp>

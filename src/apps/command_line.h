@@ -1,4 +1,4 @@
-// The command line that a user typed, for the record.
+// Reconstructs the command line that the user typed, to record it in results.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@ class App;
 
 namespace reflet {
 
-/// A word as a POSIX shell must see it: in quotation marks where it needs them.
+/// Quotes a word for a POSIX shell where it needs quotes.
 std::string shellWord(std::string_view word);
 
-/// "reflet report builtin:cubes -o out --spp 64": positional arguments first, then the options that were given. Typed
-/// again it does the same.
+/// "reflet report builtin:cubes -o out --spp 64": positional arguments first, then the options that were given.
+/// Running it again does the same.
 std::string commandLine(const CLI::App& command);
 
 }  // namespace reflet

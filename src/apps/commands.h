@@ -1,4 +1,4 @@
-// The subcommands of `reflet`. Each adds itself to the command line; what it does runs when it is chosen.
+// The subcommands of `reflet`. Each function adds one to the command line; its callback runs when it is chosen.
 #pragma once
 
 namespace CLI {

@@ -1,4 +1,4 @@
-// `reflet compare`: how far a picture is from the truth.
+// `reflet compare`: measures the error of an image against a reference.
 #include "compare/compare.h"
 #include "apps/commands.h"
 #include "apps/picture_input.h"
@@ -45,7 +45,7 @@ Limit parseLimit(const std::string& text) {
         std::vector<std::string> names;
         std::ranges::transform(metrics(), std::back_inserter(names),
                                [](const Metric& m) { return std::string(m.name); });
-        failUsage("--fail-above {}: there is no metric '{}'; there are: {}{}", text, name, fmt::join(names, ", "),
+        failUsage("--fail-above {}: there is no metric '{}'; available: {}{}", text, name, fmt::join(names, ", "),
                   suggestion(name, names));
     }
     double value = 0.0;
@@ -53,7 +53,7 @@ Limit parseLimit(const std::string& text) {
     const char* begin = equals == std::string::npos ? end : text.data() + equals + 1;
     const auto [rest, error] = std::from_chars(begin, end, value);
     if (error != std::errc() || rest != end || !std::isfinite(value)) {
-        failUsage("--fail-above {}: want METRIC=NUMBER, such as {}=0.1", text, name);
+        failUsage("--fail-above {}: expected METRIC=NUMBER, such as {}=0.1", text, name);
     }
     return {&*metric, value};
 }
@@ -65,7 +65,7 @@ void checkHeatMapFile(const std::string& file) {
     if (!file.ends_with(".png")) {
         failUsage("--heatmap {}: the name must end in .png", file);
     }
-    const AtomicFile trial(file);  // better now than after the work
+    const AtomicFile trial(file);  // fails before the work, not after it
 }
 
 std::vector<bool> loadMask(const std::string& mask, const std::array<PictureName, 2>& names,
@@ -122,7 +122,7 @@ void compare(const CompareCommand& command) {
     std::ranges::transform(command.failAbove, std::back_inserter(limits), parseLimit);
     const std::array names{parsePictureName(command.picture), parsePictureName(command.truth)};
     if (names[0].kind != names[1].kind) {
-        failUsage("{} and {}: one holds linear values, the other is a picture for a display; compare two of one kind",
+        failUsage("{} and {}: one is linear, the other display-encoded; compare two images of the same kind",
                   command.picture, command.truth);
     }
     checkHeatMapFile(command.heatMap);
@@ -144,46 +144,49 @@ void compare(const CompareCommand& command) {
 }
 
 std::string compareFooter() {
-    std::string text = "Metrics, a being a value of A and b that of B:\n";
+    std::string text = "Metrics (a: a value of A, b: the same value of B):\n";
     for (const Metric& metric : metrics()) {
         text += fmt::format("  {:<13} {}{}\n", metric.name, metric.definition,
                             metric.unit.empty() ? "" : fmt::format(" [{}]", metric.unit));
     }
     return text +
-           "  pixels        how many counted\n"
-           "Files .png and .jpg are display pictures, with values 0..1 as they are in the file; .exr and .hdr hold\n"
-           "linear values. Both must be of one kind, size and number of channels (1 or 3); alpha is ignored. HDR-FLIP\n"
-           "takes its exposures from all of B, and FLIP of a pixel depends on those around it, masked or not.\n"
-           "--mask hits leaves the pixels where both EXR files know something: layer confidence above 0 in any\n"
-           "channel, or, in a file without it, layer depth above 0 (reflet render --aov depth).\n"
+           "  pixels        number of pixels compared\n"
+           ".png and .jpg files are display-encoded, and compared as stored (0..1); .exr and .hdr files are linear.\n"
+           "Both images must have the same kind, size and number of channels (1 or 3); alpha is ignored. HDR-FLIP\n"
+           "derives its exposures from all of B, and a pixel's FLIP depends on its neighbours, masked or not.\n"
+           "--mask hits keeps the pixels where both EXR files have data: layer confidence above 0 in any channel,\n"
+           "or, in a file without that layer, depth above 0 (reflet render --aov depth).\n"
            "--json prints { picture, truth, kind, size, pixels_per_degree, METRIC..., pixels }; infinity is null.\n"
-           "Example: reflet compare picture.exr truth.exr:final --mask hits --heatmap error.png --fail-above flip=0.1";
+           "Example: reflet compare image.exr reference.exr:final --mask hits --heatmap error.png --fail-above "
+           "flip=0.1";
 }
 
 }  // namespace
 
 void addCompareCommand(CLI::App& app) {
     auto options = std::make_shared<CompareCommand>();
-    CLI::App* command = app.add_subcommand("compare", "Say how far a picture is from the truth");
-    command->add_option("A", options->picture, "The picture: FILE.png, .jpg, .hdr, .exr, or FILE.exr:LAYER")
+    CLI::App* command = app.add_subcommand("compare", "Measure the error of an image against a reference");
+    command->add_option("A", options->picture, "Image: .png, .jpg, .hdr or .exr; select a layer as FILE.exr:LAYER")
         ->required();
-    command->add_option("B", options->truth, "The truth: the same; without a layer it is the unnamed one (final)")
+    command
+        ->add_option("B", options->truth,
+                     "Reference image, in the same formats; without a layer, the unnamed one (final)")
         ->required();
     command
         ->add_option("--mask", options->mask,
-                     "What counts: pixels above 0.5 of a picture, or 'hits': where both files know something")
+                     "Pixels to compare: those above 0.5 in an image, or 'hits': those where both files have data")
         ->type_name("FILE|hits");
-    command->add_option("--heatmap", options->heatMap, "FLIP of every pixel as a picture, dark 0 to light 1")
+    command->add_option("--heatmap", options->heatMap, "Write per-pixel FLIP as an image, dark 0 to light 1")
         ->type_name("F.png");
-    command->add_flag("--json", options->json, "JSON on standard output instead of a table");
+    command->add_flag("--json", options->json, "Print JSON instead of a table");
     command
         ->add_option("--fail-above", options->failAbove,
-                     "Exit with status 1 where the metric is above X (psnr: below X); may be repeated")
+                     "Exit with status 1 if the metric is above X (psnr: below X); may be repeated")
         ->type_name("METRIC=X")
         ->allow_extra_args(false);
     command
         ->add_option("--pixels-per-degree", options->pixelsPerDegree,
-                     "Of the eye before the screen, for FLIP; 67 is 0.7 m before a screen 0.7 m wide with 3840 pixels")
+                     "Viewing condition for FLIP; 67: 0.7 m from a screen 0.7 m wide with 3840 pixels")
         ->check(CLI::Range(1.0F, 1000.0F))
         ->capture_default_str();
     command->footer(compareFooter());

@@ -1,4 +1,4 @@
-// What subcommands that render on a device have in common.
+// Options shared by the subcommands that render on a device.
 #pragma once
 
 #include "base/math.h"
@@ -15,7 +15,7 @@ namespace reflet {
 /// Adds --device.
 void addDeviceOption(CLI::App& command, std::string& device);
 
-/// Throws UsageError for a picture that is larger than the device or the renderer can make.
+/// Throws UsageError for an image that is larger than the device or the renderer supports.
 void requireSize(const gpu::Device& device, uvec2 size);
 
 }  // namespace reflet

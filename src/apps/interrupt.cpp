@@ -1,4 +1,4 @@
-// Interrupts of long work.
+// Handles interrupts of long work.
 #include "apps/interrupt.h"
 
 namespace reflet {

@@ -1,11 +1,11 @@
-// Interrupts (Ctrl-C, or a request to end) of long work that can stop where something whole is done.
+// Handles interrupts (SIGINT, SIGTERM) of long work, so that it can stop after a complete step.
 #pragma once
 
 #include <csignal>
 
 namespace reflet {
 
-/// While it lives, the first interrupt is only noted; the second one ends the program.
+/// While an object exists, the first interrupt only sets a flag; the second one ends the program.
 class InterruptNote {
 public:
     InterruptNote();

@@ -1,4 +1,4 @@
-// `reflet list`: what there is to choose from.
+// `reflet list`: lists scenes, presets, shows, settings and devices.
 #include "apps/commands.h"
 #include "apps/show.h"
 #include "apps/text_table.h"
@@ -130,9 +130,10 @@ void listDevices() {
     for (size_t i = 0; i < devices.size(); ++i) {
         const gpu::DeviceDescription& d = devices[i];
         fmt::print("{}  {} ({}), Vulkan {}, {}\n", i, d.name, d.kind, d.api, d.driver);
-        fmt::print("   {}\n", d.missing.empty() ? "can be used" : fmt::format("lacks: {}", fmt::join(d.missing, ", ")));
-        fmt::print("   beyond the floor: {}\n",
-                   d.extras.empty() ? "nothing" : fmt::format("{}", fmt::join(d.extras, ", ")));
+        fmt::print("   {}\n", d.missing.empty() ? "supported"
+                                                : fmt::format("not supported, lacks: {}", fmt::join(d.missing, ", ")));
+        fmt::print("   optional features: {}\n",
+                   d.extras.empty() ? "none" : fmt::format("{}", fmt::join(d.extras, ", ")));
     }
 }
 
@@ -142,7 +143,7 @@ void addListCommand(CLI::App& app) {
     CLI::App* command = app.add_subcommand("list", "List scenes, presets, shows, settings or devices");
     const std::vector<std::pair<const char*, void (*)()>> lists{
         {"scenes", listScenes}, {"presets", listPresets}, {"shows", listShows}, {"devices", listDevices}};
-    const char* descriptions[] = {"Built-in scenes", "Presets of settings", "Images of the frame for --show and --aov",
+    const char* descriptions[] = {"Built-in scenes", "Presets of settings", "Render targets for --show and --aov",
                                   "Vulkan devices for --device"};
     for (size_t i = 0; i < lists.size(); ++i) {
         command->add_subcommand(lists[i].first, descriptions[i])->callback(lists[i].second);
@@ -154,9 +155,9 @@ void addListCommand(CLI::App& app) {
     };
     auto o = std::make_shared<SettingsList>();
     CLI::App* settings = command->add_subcommand("settings", "Settings for --set, with defaults and help");
-    settings->add_option("NAME", o->name, "A setting or a group of settings: its range and full help");
-    auto* markdown = settings->add_flag("--markdown", o->markdown, "As tables: what docs/settings.md holds");
-    settings->add_flag("--json", o->json, "For programs: names, types, defaults, ranges and help")->excludes(markdown);
+    settings->add_option("NAME", o->name, "A setting or a group of settings to describe in full");
+    auto* markdown = settings->add_flag("--markdown", o->markdown, "Print Markdown tables, as in docs/settings.md");
+    settings->add_flag("--json", o->json, "Print JSON: names, types, defaults, ranges and help")->excludes(markdown);
     settings->callback([o] {
         if (!o->name.empty()) {
             describeSettings(o->name);

@@ -1,4 +1,4 @@
-// The program: subcommands in, exit status out. 0 done, 1 it failed, 2 wrong use.
+// Entry point: registers the subcommands and runs the chosen one. Exit status: 0 success, 1 failure, 2 usage error.
 #include "apps/commands.h"
 #include "apps/manual.h"
 #include "base/error.h"
@@ -22,8 +22,8 @@ namespace {
 constexpr int exitFailed = 1;
 constexpr int exitUsage = 2;
 
-// One line, whatever names from outside are in it.
-int complain(std::string message, int status) {
+// Prints one line: control characters in names from outside become spaces.
+int reportError(std::string message, int status) {
     std::ranges::replace_if(
         message, [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
     fmt::print(stderr, "reflet: {}\n", message);
@@ -36,7 +36,7 @@ std::string fullName(const CLI::App& command) {
     return parent == nullptr ? command.get_name() : fullName(*parent) + " " + command.get_name();
 }
 
-// Before CLI11 sees it: that would only say that a subcommand is missing.
+// Runs before CLI11 parses, whose error would only say that a subcommand is missing.
 void checkSubcommand(CLI::App& app, std::span<char* const> arguments) {
     if (app.get_require_subcommand_min() == 0) {
         return;
@@ -44,7 +44,7 @@ void checkSubcommand(CLI::App& app, std::span<char* const> arguments) {
     std::vector<std::string> names;
     std::ranges::transform(app.get_subcommands({}), std::back_inserter(names), &CLI::App::get_name);
     if (arguments.empty()) {
-        reflet::failUsage("'{}' wants a subcommand: {} ({} --help says more)", fullName(app), fmt::join(names, ", "),
+        reflet::failUsage("'{}' needs a subcommand: {} (see {} --help)", fullName(app), fmt::join(names, ", "),
                           fullName(app));
     }
     const std::string name = arguments[0];
@@ -59,7 +59,7 @@ void checkSubcommand(CLI::App& app, std::span<char* const> arguments) {
     checkSubcommand(*app.get_subcommand(name), arguments.subspan(1));
 }
 
-// The first argument that nobody took, and the option that it was meant to be.
+// The error for the first argument that no option consumed, with the option it was probably meant to be.
 std::string unexpectedArgument(const CLI::App& app) {
     const CLI::App* command = &app;
     while (!command->get_subcommands().empty()) {
@@ -67,21 +67,22 @@ std::string unexpectedArgument(const CLI::App& app) {
     }
     const std::vector<std::string> rest = command->remaining();
     if (rest.empty()) {
-        return fmt::format("unexpected argument ({} --help says more)", fullName(*command));
+        return fmt::format("unexpected argument (see {} --help)", fullName(*command));
     }
     std::vector<std::string> names;
     for (const CLI::Option* option : command->get_options()) {
         std::ranges::transform(option->get_lnames(), std::back_inserter(names),
                                [](const std::string& name) { return "--" + name; });
     }
-    return fmt::format("unexpected argument '{}' ({} --help says more){}", rest.front(), fullName(*command),
+    return fmt::format("unexpected argument '{}' (see {} --help){}", rest.front(), fullName(*command),
                        rest.front().starts_with('-') ? reflet::suggestion(rest.front(), names) : "");
 }
 
 int run(int argc, char** argv) {
     reflet::gpu::registerShaders(refletShaders());
     reflet::gpu::registerShaders(refletViewShaders());
-    CLI::App app("Reflet: screen-space reflections, indirect light and shadows on any Vulkan device.", "reflet");
+    CLI::App app("Reflet: screen-space reflections (SSR), indirect light (SSGI) and soft shadows on any Vulkan device.",
+                 "reflet");
     app.set_version_flag("--version", std::string("reflet ") + reflet::versionText);
     app.require_subcommand(1);
     app.footer("Try: reflet render builtin:cubes -o cubes.png\nEach subcommand has its own --help.");
@@ -99,12 +100,12 @@ int run(int argc, char** argv) {
     } catch (const CLI::Success& success) {  // --help, --version
         app.exit(success);
     } catch (const CLI::ExtrasError&) {
-        return complain(unexpectedArgument(app), exitUsage);
+        return reportError(unexpectedArgument(app), exitUsage);
     } catch (const CLI::ParseError& error) {
-        return complain(fmt::format("{} (reflet --help says more)", error.what()), exitUsage);
+        return reportError(fmt::format("{} (see reflet --help)", error.what()), exitUsage);
     }
     if (std::fflush(stdout) != 0) {
-        return complain("standard output cannot be written to", exitFailed);
+        return reportError("cannot write to standard output", exitFailed);
     }
     return 0;
 }
@@ -115,8 +116,8 @@ int main(int argc, char** argv) {
     try {
         return run(argc, argv);
     } catch (const reflet::UsageError& error) {
-        return complain(error.what(), exitUsage);
+        return reportError(error.what(), exitUsage);
     } catch (const std::exception& error) {
-        return complain(error.what(), exitFailed);
+        return reportError(error.what(), exitFailed);
     }
 }

@@ -1,4 +1,4 @@
-// Pictures from the command line.
+// Reads images that are named on the command line.
 #include "apps/picture_input.h"
 
 #include "base/error.h"
@@ -34,7 +34,7 @@ std::optional<ImageKind> kindOf(const std::string& file) {
     return std::nullopt;
 }
 
-// File and layer. Layers may hold colons, so the first split whose file exists is taken, or else the first of all.
+// Splits into file and layer. Layer names may contain colons: the first split whose file exists wins, else the first.
 std::optional<std::pair<std::string, std::string>> splitLayer(const std::string& text) {
     if (kindOf(text)) {
         return std::nullopt;
@@ -100,14 +100,14 @@ FloatImage selectChannels(const FloatImage& image, const std::vector<size_t>& se
 
 void checkSize(const PictureName& name, const FloatImage& mask, const FloatImage& picture) {
     if (mask.width != picture.width || mask.height != picture.height) {
-        fail("{}: the mask is {}x{}, but the picture is {}x{}", name.text, mask.width, mask.height, picture.width,
+        fail("{}: the mask is {}x{}, but the image is {}x{}", name.text, mask.width, mask.height, picture.width,
              picture.height);
     }
 }
 
 FloatImage readKnowledge(const PictureName& name) {
     if (!name.exr) {
-        fail("{}: --mask hits wants EXR files with a layer 'confidence' or 'depth'", name.file);
+        fail("{}: --mask hits needs EXR files with a layer 'confidence' or 'depth'", name.file);
     }
     const std::vector<ImageLayer> layers = readExr(name.file);
     for (const char* wanted : {"confidence", "depth"}) {
@@ -115,7 +115,7 @@ FloatImage readKnowledge(const PictureName& name) {
             return layer->image;
         }
     }
-    fail("{}: --mask hits wants a layer 'confidence' or 'depth', which the file lacks: write it with --aov depth",
+    fail("{}: --mask hits needs a layer 'confidence' or 'depth', which the file lacks: write one with --aov depth",
          name.file);
 }
 
@@ -171,7 +171,7 @@ FloatImage readPicture(const PictureName& name) {
         }
     }
     if (selected.empty()) {
-        fail("{}: has nothing but alpha, which is not compared", name.text);
+        fail("{}: has only an alpha channel, which is not compared", name.text);
     }
     return selectChannels(image, selected);
 }

@@ -24,10 +24,10 @@ Pictures::Pictures(const std::string& show, const std::vector<std::string>& aovs
     }
     const auto ownSize = [](const Show* s) { return hasOwnSize(*s); };
     if (const auto found = std::ranges::find_if(aovs_, ownSize); found != aovs_.end()) {
-        failUsage("--aov {0}: it has a size of its own; render it alone with --show {0}", (*found)->name);
+        failUsage("--aov {0}: its size differs from the frame's; render it alone with --show {0}", (*found)->name);
     }
     if (hasOwnSize(*main_) && !aovs_.empty()) {
-        failUsage("--show {} has a size of its own and cannot share a file with --aov", main_->name);
+        failUsage("--show {}: its size differs from the frame's, so it cannot share a file with --aov", main_->name);
     }
 }
 
@@ -68,7 +68,7 @@ nlohmann::ordered_json Pictures::rayStatistics(const gpu::Frame& f, const ViewPa
         double stepSum = 0.0;
         double hitSum = 0.0;
         for (size_t i = 0; i < steps.data.size(); ++i) {
-            pixels += steps.data[i] > 0.0F ? 1.0 : 0.0;  // others have no rays
+            pixels += steps.data[i] > 0.0F ? 1.0 : 0.0;  // other pixels traced no rays
             stepSum += steps.data[i];
             hitSum += hits.data[i];
         }

@@ -1,4 +1,4 @@
-// The files that are made of one frame: what --show and --aov ask for, as PNG and EXR.
+// Writes the images of one frame that --show and --aov select, as PNG and EXR.
 #pragma once
 
 #include "apps/show.h"
@@ -29,7 +29,7 @@ public:
     /// Copies what they need of a frame that is being recorded; `rays`: and what rayStatistics needs.
     void request(gpu::Frame& f, const FrameImages& images, bool rays);
 
-    /// Of the rays of each lobe: mean depth samples, and the share that the screen answered. After the frame is done.
+    /// Of the rays of each lobe: mean depth samples, and the fraction of screen-space hits. After the frame is done.
     [[nodiscard]] nlohmann::ordered_json rayStatistics(const gpu::Frame& f, const ViewParams& view) const;
 
     /// Writes a .png or .exr file after the frame is done. Throws Error.

@@ -1,4 +1,4 @@
-// Progress of long work on a terminal: how far, and how long still. Quiet where standard error is no terminal.
+// Progress of long work on a terminal: how far, and the time left. Silent unless standard error is a terminal.
 #pragma once
 
 #include <chrono>
@@ -16,9 +16,9 @@ public:
     Progress& operator=(const Progress&) = delete;
 
     void advance(uint64_t steps = 1) { set(done_ + steps); }
-    /// Another total, where it was an estimate.
+    /// Replaces the total, where it was an estimate.
     void expect(uint64_t total) { total_ = total; }
-    /// `done` of the total, not only what is new. `note` is shown after the time left: "noise 0.012".
+    /// `done`: in total, not since the last call. `note` is shown after the time left: "noise 0.012".
     void set(uint64_t done, std::string_view note = "");
 
 private:

@@ -1,4 +1,4 @@
-// `reflet reference`: the path-traced truth.
+// `reflet reference`: path traces a reference image on the CPU.
 #include "reference/reference.h"
 #include "apps/commands.h"
 #include "apps/interrupt.h"
@@ -38,22 +38,22 @@ constexpr uint32_t largestSide = 65536;  // pixels; EXR files that are larger ca
 
 void checkOutputs(const std::vector<std::string>& outputs) {
     if (outputs.empty()) {
-        failUsage("nothing to write: add -o FILE.exr or -o FILE.png (reflet reference --help says more)");
+        failUsage("nothing to write: add -o FILE.exr or -o FILE.png (see reflet reference --help)");
     }
     for (const std::string& file : outputs) {
         if (!isExr(file) && std::filesystem::path(file).extension() != ".png") {
             failUsage("-o {}: the name must end in .exr or .png", file);
         }
-        const AtomicFile trial(file);  // better now than after minutes of work
+        const AtomicFile trial(file);  // fails now, not after minutes of work
     }
 }
 
 void checkNumbers(const ReferenceCommand& command, uvec2 size) {
     if (size.x > largestSide || size.y > largestSide) {
-        failUsage("--size {}: a picture has up to {} pixels a side", command.scene.size, largestSide);
+        failUsage("--size {}: the image can have up to {} pixels a side", command.scene.size, largestSide);
     }
     if (std::isnan(command.noise)) {
-        failUsage("--noise wants a number, is '{}'", command.noise);
+        failUsage("--noise must be a number, is '{}'", command.noise);
     }
 }
 
@@ -79,7 +79,7 @@ ReferencePicture tracePicture(const Scene& scene, const View& view, uvec2 size, 
             return !InterruptNote::arrived();
         });
     } catch (const std::bad_alloc&) {
-        fail("a picture of {}x{} pixels takes more memory than there is: choose a smaller --size", size.x, size.y);
+        fail("not enough memory for an image of {}x{} pixels: choose a smaller --size", size.x, size.y);
     }
 }
 
@@ -112,59 +112,61 @@ void trace(const ReferenceCommand& command) {
         }
     }
     if (!picture.complete && picture.samples < options.samples) {
-        fail("interrupted after {} of {} samples per pixel; {} {} what was done", picture.samples, options.samples,
+        fail("interrupted after {} of {} samples per pixel; {} {} the samples so far", picture.samples, options.samples,
              fmt::join(command.outputs, ", "), command.outputs.size() == 1 ? "holds" : "hold");
     }
     fmt::print("{}\n", summary(picture));
 }
 
 constexpr const char* referenceFooter =
-    "The EXR holds the layers final (also without a name, for viewers), direct, indirect_diffuse, indirect_specular,\n"
-    "albedo, normal, depth and sun_visibility, as `reflet render --aov` names them. Light of the sun and of lamps "
-    "that\n"
-    "reaches a surface without a detour is direct, and so are emission and background. Light of glowing surfaces and\n"
-    "of the environment takes one scattered ray, as it does in the renderer. The sun and lamps are seen by no ray.\n"
+    "The EXR has the layers final (also without a name, for viewers), direct, indirect_diffuse, indirect_specular,\n"
+    "albedo, normal, depth and sun_visibility, named as in `reflet render --aov`. Direct light is what reaches a\n"
+    "surface straight from the sun and lamps, plus emission and background. Light from emissive surfaces and from the\n"
+    "environment is indirect and arrives through scattered rays, as in the renderer. Rays do not see the sun and "
+    "lamps.\n"
     "Depth and normal are those of the pixel's centre.\n"
-    "Noise is the root of the mean over the pixels of (variance of the mean) / (luminance² + 0.01), the square of\n"
-    "which is the picture's own relative MSE.\n"
-    "Of the settings, materials.lambert_only and (for a PNG) tonemap.* matter here.\n"
-    "An interrupt (Ctrl-C) writes what was done, a sample of every pixel at least, and ends with status 1; a second\n"
-    "one ends at once.\n"
-    "Example: reflet reference builtin:cubes --size 640x360 --spp 256 -o truth.exr";
+    "With both --spp and --noise, rendering stops at whichever is reached first.\n"
+    "Noise is the square root of the mean over the pixels of (variance of the mean) / (luminance² + 0.01). Its square\n"
+    "estimates the image's own relative MSE.\n"
+    "Of the settings, only materials.lambert_only and (for PNG) tonemap.* apply.\n"
+    "An interrupt (Ctrl-C) writes the samples so far, at least one per pixel, and exits with status 1; a second one\n"
+    "exits at once.\n"
+    "Example: reflet reference builtin:cubes --size 640x360 --spp 256 -o reference.exr";
 
 }  // namespace
 
 void addReferenceCommand(CLI::App& app) {
     auto options = std::make_shared<ReferenceCommand>();
-    CLI::App* command = app.add_subcommand("reference", "Path trace a scene on the CPU: the truth");
+    CLI::App* command = app.add_subcommand("reference", "Path trace a scene on the CPU: the ground truth");
     addSceneOptions(*command, options->scene);
-    command->add_option("-o,--output", options->outputs, "Where the picture goes, .exr or .png; may be repeated")
+    command->add_option("-o,--output", options->outputs, "Output image, .exr or .png; may be repeated")
         ->type_name("FILE")
         ->allow_extra_args(false);
-    command
-        ->add_option("--bounces", options->bounces,
-                     "Scattered rays of a path; 0: only direct light; not given: as many as the light takes")
+    command->add_option("--bounces", options->bounces, "Scattered rays per path; 0: only direct light [unlimited]")
         ->type_name("N");
     command
         ->add_option("--spp", options->samples,
-                     fmt::format("Samples per pixel, at most [{}; with --noise {}]", standardSamples, largestSamples))
+                     fmt::format("Maximum samples per pixel [{}; with --noise {}]", standardSamples, largestSamples))
         ->type_name("N")
         ->check(CLI::Range(1U, largestSamples));
-    command->add_option("--noise", options->noise, "Stop when the noise is under this (0.01: 1 %)")
+    command->add_option("--noise", options->noise, "Stop when the noise falls below this (0.01: 1 %)")
         ->type_name("X")
         ->check(CLI::Range(0.0F, 10.0F));
     command
         ->add_option("--filter", options->filter,
-                     "box: samples all over the pixel; center: through its centre only, as a rasterizer sees edges")
+                     "Pixel filter. box: samples spread over the pixel; center: at its centre only, with aliased edges "
+                     "as in a rasterizer")
         ->check(CLI::IsMember({"box", "center"}))
         ->capture_default_str();
-    command->add_option("--sampling", options->sampling, "How diffuse rays are drawn: another noise, the same picture")
+    command
+        ->add_option("--sampling", options->sampling,
+                     "Distribution of diffuse rays: changes the noise, not the expected image")
         ->check(CLI::IsMember({"cosine", "uniform"}))
         ->capture_default_str();
     command->add_flag("--visible-only", options->visibleOnly,
-                      "Scattered rays bring light only from points that the camera sees (and from the environment): "
+                      "Scattered rays return light only from points that the camera sees and from the environment: "
                       "the best that any screen-space method can reach");
-    command->add_option("--threads", options->threads, "0: one per core; the picture is the same")
+    command->add_option("--threads", options->threads, "CPU threads, 0: one per core; the result does not depend on it")
         ->check(CLI::Range(0U, 4096U))
         ->capture_default_str();
     command->footer(referenceFooter);

@@ -1,4 +1,4 @@
-// `reflet render`: pictures of a scene.
+// `reflet render`: renders a scene to image files.
 #include "apps/commands.h"
 #include "apps/device_options.h"
 #include "apps/progress.h"
@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 void checkOutputs(const RenderOptions& options) {
     if (options.outputs.empty() && options.timings.empty() && !options.validate) {
-        failUsage("nothing to write: add -o FILE.png or -o FILE.exr (reflet render --help says more)");
+        failUsage("nothing to write: add -o FILE.png or -o FILE.exr (see reflet render --help)");
     }
     for (const std::string& file : options.outputs) {
         if (const auto extension = fs::path(file).extension(); extension != ".png" && extension != ".exr") {
@@ -35,13 +35,13 @@ void checkOutputs(const RenderOptions& options) {
         }
     }
     if (!options.aovs.empty() && std::ranges::none_of(options.outputs, isExr)) {
-        failUsage("--aov needs an EXR file to go to: add -o FILE.exr");
+        failUsage("--aov needs an EXR output: add -o FILE.exr");
     }
     std::vector<fs::path> all(options.outputs.begin(), options.outputs.end());
     if (!options.timings.empty()) {
         all.emplace_back(options.timings);
     }
-    for (const fs::path& path : all) {  // better now than after minutes of work
+    for (const fs::path& path : all) {  // fails now, not after minutes of work
         const AtomicFile trial(path);
     }
 }
@@ -109,43 +109,43 @@ void render(const RenderOptions& asked) {
     if (!options.timings.empty() && rendered) {
         writeTimings(job);
     } else if (!options.timings.empty()) {
-        printWarning(fmt::format("{}: not written: all frames were there, and none was rendered", options.timings));
+        printWarning(fmt::format("{}: not written: all frames exist already, so none was rendered", options.timings));
     }
     if (options.validate && !device.validationMessages().empty()) {
-        fail("the validation layers had {} messages", device.validationMessages().size());
+        fail("the validation layers reported {} messages", device.validationMessages().size());
     }
 }
 
-// Adds what is only for sequences; returns these options.
+// Adds the options that apply only to sequences, and returns them.
 std::vector<const CLI::Option*> addSequenceOptions(CLI::App& command, SequenceOptions& o) {
     std::vector<const CLI::Option*> all;
-    all.push_back(command.add_option("--first-frame", o.firstFrame, "Sequences: the number in the first file's name")
+    all.push_back(command.add_option("--first-frame", o.firstFrame, "Sequences: frame number in the first file's name")
                       ->capture_default_str());
-    all.push_back(command.add_option("--fps", o.fps, "Sequences: frames per second; the first is at --time")
+    all.push_back(command.add_option("--fps", o.fps, "Sequences: frames per second; the first frame is at --time")
                       ->type_name("F")
                       ->capture_default_str());
     all.push_back(command
                       .add_option("--path", o.path,
-                                  "Sequences: the camera's way; orbit: once round what it looks at; or keyframes "
+                                  "Sequences: camera path; orbit: once around its target; or a file of keyframes "
                                   "(docs/view-files.md)")
                       ->type_name("orbit|FILE.json"));
     all.push_back(command
                       .add_option("--segment", o.segment,
-                                  "Sequences: frames that are rendered one after another, from an empty history; 0: "
-                                  "all. Where settings keep no history, it is 1")
+                                  "Sequences: frames rendered consecutively, starting from an empty history; 0: all. "
+                                  "Always 1 if the settings keep no history")
                       ->type_name("FRAMES")
                       ->capture_default_str());
     all.push_back(command
                       .add_option("--warmup", o.warmUp,
-                                  "Sequences: frames rendered before each segment to fill the history, and not written")
+                                  "Sequences: frames rendered before each segment to fill the history, but not written")
                       ->check(CLI::Range(0U, 10000U))
                       ->type_name("FRAMES")
                       ->capture_default_str());
     all.push_back(
-        command.add_option("--share", o.share, "Sequences: render only the segments of one of N processes, as in 3/16")
+        command.add_option("--share", o.share, "Sequences: render only every Nth segment, for N processes, as in 3/16")
             ->type_name("K/N"));
     all.push_back(command.add_flag("--overwrite", o.overwrite,
-                                   "Sequences: remove the frames that are there, also those of other settings"));
+                                   "Sequences: remove existing frames first, also those of other settings"));
     return all;
 }
 
@@ -157,32 +157,31 @@ void addRenderCommand(CLI::App& app) {
     addSceneOptions(*command, options->scene);
     command
         ->add_option("-o,--output", options->outputs,
-                     "Where the picture goes, .png or .exr; may be repeated. With a run of #, as in "
-                     "picture_####.png, every frame goes into a file of its number, and those that are there are "
-                     "kept")
+                     "Output image, .png or .exr; may be repeated. With a run of #, as in picture_####.png, every "
+                     "frame is written to the file of its number, and existing files are kept")
         ->type_name("FILE")
         ->allow_extra_args(false);
     command
         ->add_option("--frames", options->frames,
-                     "Frames to render; the last one is written, or, with # in the name, all [1; where denoise or "
-                     "temporal remember the last frames and one picture is asked for, 32]")
+                     "Frames to render; the last one is written, or, with # in the name, all of them [1; for a single "
+                     "image with denoise or temporal history 32]")
         ->check(CLI::Range(1U, 1000000U));
     const auto sequenceOptions = addSequenceOptions(*command, options->sequence);
-    command->add_option("--show", options->show, "Which image of the frame (reflet list shows)")
+    command->add_option("--show", options->show, "Render target to write (see reflet list shows)")
         ->type_name("NAME")
         ->capture_default_str();
-    command->add_option("--aov", options->aovs, "More images, as named layers of the EXR files")
+    command->add_option("--aov", options->aovs, "Additional render targets, as named layers of the EXR files")
         ->type_name("A,B,...")
         ->allow_extra_args(false)
         ->delimiter(',');
     addDeviceOption(*command, options->device);
     command
-        ->add_option("--timings", options->timings,
-                     "Device time of every pass: medians over the frames after the first, or over all that a sequence "
-                     "writes; with trace_screen.count_steps also mean steps and share of hits of the last frame's rays")
+        ->add_option(
+            "--timings", options->timings,
+            "Device time of every pass: medians over the frames after the first, or over all written frames of "
+            "a sequence; with trace_screen.count_steps also mean steps and hit rate of the last frame's rays")
         ->type_name("F.json");
-    command->add_flag("--validate", options->validate,
-                      "Run under the Vulkan validation layers; any message is a failure");
+    command->add_flag("--validate", options->validate, "Enable the Vulkan validation layers; any message is a failure");
     command->footer(
         "Example: reflet render scene.glb --size 640x360 --set diffuse.rays=16 -o picture.png -o values.exr --aov "
         "direct,normal\nreflet render scene.glb --frames 96 --path orbit -o round_####.png");
@@ -190,7 +189,7 @@ void addRenderCommand(CLI::App& app) {
         if (!isSequence(*options)) {
             for (const CLI::Option* option : sequenceOptions) {
                 if (option->count() > 0) {
-                    failUsage("{} is for sequences: name them with a run of #, as in -o picture_####.png",
+                    failUsage("{} is only for sequences: name the output with a run of #, as in -o picture_####.png",
                               option->get_name());
                 }
             }

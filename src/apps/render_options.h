@@ -1,4 +1,4 @@
-// What `reflet render` can be told.
+// The options of `reflet render`.
 #pragma once
 
 #include "apps/scene_options.h"
@@ -9,7 +9,7 @@
 
 namespace reflet {
 
-/// Of pictures whose name has a run of #.
+/// For outputs whose name has a run of #.
 struct SequenceOptions {
     uint32_t firstFrame = 0;  ///< the number in the first file's name
     double fps = 24.0;

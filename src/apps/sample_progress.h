@@ -1,4 +1,4 @@
-// Progress of path tracing: samples, and the noise that is left.
+// Progress of path tracing: samples done, and the remaining noise.
 #pragma once
 
 #include "apps/progress.h"
@@ -8,11 +8,11 @@
 
 namespace reflet {
 
-/// The most samples per pixel that may be asked for.
+/// The largest number of samples per pixel that can be requested.
 constexpr uint32_t largestSamples = 1U << 20U;
 
-/// Shows how many samples are done. Of those that a noise takes nobody knows the number, but that noise falls with its
-/// root.
+/// Shows how many samples are done. The number that a target noise takes is estimated: noise falls with the square root
+/// of the samples.
 class SampleProgress {
 public:
     /// `options` must outlive it.

@@ -29,7 +29,7 @@ Scene makeBuiltin(std::string_view name) {
     std::vector<std::string> names;
     std::ranges::transform(builtinScenes(), std::back_inserter(names),
                            [](const BuiltinScene& b) { return std::string(b.name); });
-    failUsage("no built-in scene is called '{}'; there are: {}{}", name, fmt::join(names, ", "),
+    failUsage("no built-in scene is called '{}'; available: {}{}", name, fmt::join(names, ", "),
               suggestion(name, names));
 }
 
@@ -46,7 +46,7 @@ const Camera& findCamera(const Scene& scene, const std::string& wanted) {
         for (size_t i = 0; i < scene.cameras.size(); ++i) {
             names.push_back(fmt::format("{} '{}'", i, scene.cameras[i].name));
         }
-        failUsage("the scene has no camera '{}'; it has: {}", wanted,
+        failUsage("the scene has no camera '{}'; its cameras: {}", wanted,
                   names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")));
     }
     return *found;
@@ -55,31 +55,31 @@ const Camera& findCamera(const Scene& scene, const std::string& wanted) {
 }  // namespace
 
 void addSceneOptions(CLI::App& command, SceneOptions& options) {
-    command.add_option("SCENE", options.scene, "A .gltf or .glb file, or builtin:NAME (reflet list scenes)")
+    command.add_option("SCENE", options.scene, "A .gltf or .glb file, or builtin:NAME (see reflet list scenes)")
         ->required();
-    command.add_option("--preset", options.preset, "Settings under one name (reflet list presets) [balanced]")
+    command.add_option("--preset", options.preset, "Preset of settings (see reflet list presets) [balanced]")
         ->type_name("P");
     addViewOptions(command, options);
 }
 
 void addViewOptions(CLI::App& command, SceneOptions& options) {
-    command.add_option("--scene", options.sceneIndex, "Which of the glTF file's scenes, from 0");
-    command.add_option("--camera", options.camera, "Which of the scene's cameras, by number from 0 or by name");
+    command.add_option("--scene", options.sceneIndex, "Scene in the glTF file, by number from 0");
+    command.add_option("--camera", options.camera, "Camera of the scene, by number from 0 or by name");
     command.add_option("--view-file", options.viewFile, "Camera, sun and environment from a JSON file")
         ->type_name("V.json");
-    command
-        .add_option("--time", options.time,
-                    "Where the scene's animations are, in seconds; they begin again at their end")
+    command.add_option("--time", options.time, "Time of the scene's animations, in seconds; they loop")
         ->type_name("SECONDS");
     command.add_option("--size", options.size, "Width and height in pixels")->type_name("WxH")->capture_default_str();
-    // One value for each time that they are given: what follows may be the scene.
-    command.add_option("--settings", options.settingsFiles, "Settings from a JSON file, over the preset's")
+    // One value per occurrence: the next argument may be the scene.
+    command.add_option("--settings", options.settingsFiles, "Settings from a JSON file, overriding the preset")
         ->type_name("F.json")
         ->allow_extra_args(false);
-    command.add_option("--set", options.set, "One setting, over all others (reflet list settings); may be repeated")
+    command
+        .add_option("--set", options.set,
+                    "One setting, overriding all others (see reflet list settings); may be repeated")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
-    command.add_option("--seed", options.seed, "Another number gives other noise")->capture_default_str();
+    command.add_option("--seed", options.seed, "Seed of the random numbers")->capture_default_str();
 }
 
 void printWarning(const std::string& message) {
@@ -126,7 +126,7 @@ uvec2 parseSize(const std::string& text) {
             return size;
         }
     }
-    failUsage("--size wants WIDTHxHEIGHT in pixels, both at least 1, is '{}'", text);
+    failUsage("--size must be WIDTHxHEIGHT in pixels, both at least 1, is '{}'", text);
 }
 
 void changeSettings(Settings& settings, const SceneOptions& options) {

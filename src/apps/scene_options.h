@@ -1,4 +1,4 @@
-// What subcommands that take a scene have in common: the scene, the view, size, seed and settings.
+// Options shared by the subcommands that take a scene: the scene, the view, size, seed and settings.
 #pragma once
 
 #include "render/settings.h"
@@ -19,7 +19,7 @@ struct SceneOptions {
     std::optional<int> sceneIndex;
     std::string camera;
     std::string viewFile;
-    std::optional<double> time;  ///< seconds, over the view file's
+    std::optional<double> time;  ///< seconds, overrides the view file
     std::string size = "1280x720";
     std::string preset;
     std::vector<std::string> settingsFiles;
@@ -44,10 +44,10 @@ View loadView(const SceneOptions& options, const Scene& scene);
 /// "1280x720". Throws UsageError.
 uvec2 parseSize(const std::string& text);
 
-/// Settings files, then --set, over what `settings` holds.
+/// Applies settings files, then --set, on top of `settings`.
 void changeSettings(Settings& settings, const SceneOptions& options);
 
-/// Preset, then settings files, then --set, each over the ones before.
+/// Preset, then settings files, then --set, each overriding the ones before.
 Settings loadSettings(const SceneOptions& options);
 
 }  // namespace reflet

@@ -28,7 +28,7 @@ constexpr std::string_view orbitPath = "orbit";
 SequencePlan makePlan(const RenderJob& job) {
     const SequenceOptions& o = job.options.sequence;
     const bool history = historyUse(job.settings, job.scene).any();
-    const bool motion = job.pictures.contains("motion");  // since the frame before
+    const bool motion = job.pictures.contains("motion");  // relative to the previous frame
     SequencePlan plan{.frames = job.options.frames};
     if (history || motion) {
         plan.segment = o.segment == 0 ? plan.frames : o.segment;
@@ -50,11 +50,11 @@ public:
         }
         const double last = first_.time + (options_.frames - 1) / options_.sequence.fps;
         if (last > View::largestTime) {
-            failUsage("the last frame is at {:g} seconds; times end at {:g}", last, View::largestTime);
+            failUsage("the last frame is at {:g} seconds; the largest time is {:g}", last, View::largestTime);
         }
     }
 
-    /// frame: from 0.
+    /// frame: counted from 0.
     [[nodiscard]] View of(uint32_t frame) const {
         View view = first_;
         view.time += frame / options_.sequence.fps;
@@ -80,7 +80,7 @@ nlohmann::ordered_json pathRecord(const RenderOptions& options) {
     return options.sequence.path.empty() ? nlohmann::json() : parseJsonFile(options.sequence.path);
 }
 
-// All that the pictures depend on: equal in all shares, and, but for an orbit, for fewer and for more frames.
+// Everything that the images depend on: equal in all shares and, except for an orbit, for any number of frames.
 nlohmann::ordered_json makeRecord(const RenderJob& job, const SequencePlan& plan, const FrameNames& names) {
     const RenderOptions& o = job.options;
     nlohmann::ordered_json settings;
@@ -108,14 +108,14 @@ nlohmann::ordered_json makeRecord(const RenderJob& job, const SequencePlan& plan
     return record;
 }
 
-/// Renders frames one after another and writes those that are missing.
+/// Renders frames consecutively and writes those that are missing.
 class Writer {
 public:
     Writer(const RenderJob& job, const std::vector<FrameNames>& outputs) : job_(job), outputs_(outputs), views_(job) {}
 
     [[nodiscard]] bool isMissing(uint32_t frame) const { return !missing(frame).empty(); }
 
-    // A frame's noise has the number of the frame, counted from the first one that any of them needs.
+    // The noise depends on the frame's number in the sequence, so that shares and resumed runs give the same images.
     void render(const SequencePlan& plan, const SequencePlan::Run& run, Progress& progress) {
         job_.renderer.restart(run.begin);
         for (uint32_t i = 0; i < plan.warmUp; ++i) {
@@ -166,7 +166,7 @@ private:
 
     void stopIfAsked() const {
         if (InterruptNote::arrived()) {
-            fail("interrupted after {} frames; the same command goes on from there", written_);
+            fail("interrupted after {} frames; run the same command again to continue", written_);
         }
     }
 
@@ -184,7 +184,8 @@ void checkNumbers(const SequenceOptions& o, uint32_t frames) {
         failUsage("--first-frame {}: the numbers of {} frames do not fit in 32 bits", o.firstFrame, frames);
     }
     if (const Share share = parseShare(o.share); o.overwrite && share.count > 1) {
-        failUsage("--overwrite would remove the other shares' frames: remove all files, or render without --share");
+        failUsage(
+            "--overwrite would remove the other shares' frames: remove all files by hand, or render without --share");
     }
 }
 
@@ -196,7 +197,7 @@ bool isSequence(const RenderOptions& options) {
         return false;
     }
     if (single != options.outputs.end()) {
-        failUsage("-o {}: either every name has a run of # for the frame's number, or none", *single);
+        failUsage("-o {}: either every name needs a run of # for the frame number, or none", *single);
     }
     checkNumbers(options.sequence, options.frames);
     return true;

@@ -1,4 +1,4 @@
-// Sequences: one file per frame, resumed where they stopped, and dealt to several processes.
+// Renders sequences: one file per frame, resumable, and divisible among several processes.
 #pragma once
 
 #include "apps/pictures.h"
@@ -9,7 +9,7 @@
 
 namespace reflet {
 
-/// What renders a picture.
+/// Everything needed to render images.
 struct RenderJob {
     const RenderOptions& options;
     const Scene& scene;
@@ -22,12 +22,11 @@ struct RenderJob {
     Timings& timings;
 };
 
-/// Whether the outputs are sequences. Throws UsageError where some are and some are not, or for options that do not go
-/// together.
+/// Whether the outputs are sequences. Throws UsageError if only some are, or for options that exclude each other.
 bool isSequence(const RenderOptions& options);
 
-/// Renders the frames of this share whose files are not there. Throws Error when it was interrupted.
-/// Returns whether there was anything to do.
+/// Renders the frames of this share whose files are missing. Throws Error when interrupted. Returns whether there was
+/// anything to do.
 bool renderSequence(const RenderJob& job);
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// Names of a sequence's files.
+// File names of a sequence.
 #include "apps/sequence_names.h"
 
 #include "base/error.h"
@@ -20,7 +20,7 @@ FrameNames::FrameNames(const std::string& pattern) : pattern_(pattern), folder_(
     REFLET_CHECK(first != std::string::npos, "{}", pattern);
     const size_t end = std::min(name.find_first_not_of('#', first), name.size());
     if (name.find('#', end) != std::string::npos) {
-        failUsage("-o {}: the name has two runs of #; the frame's number needs one", pattern);
+        failUsage("-o {}: the name has two runs of #; use one for the frame number", pattern);
     }
     before_ = name.substr(0, first);
     after_ = name.substr(end);

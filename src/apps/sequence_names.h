@@ -1,4 +1,4 @@
-// Names of a sequence's files: a run of # stands for the frame's number.
+// File names of a sequence: a run of # stands for the frame number.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace reflet {
 /// "out/picture_####.png": at least as many digits as there are #, filled with zeros.
 class FrameNames {
 public:
-    /// Whether the file's name (not its folder's) has a #.
+    /// Whether the file name (not its folder) has a #.
     static bool isPattern(const std::string& output);
 
     /// Throws UsageError for a second run of #.
@@ -20,9 +20,9 @@ public:
 
     [[nodiscard]] const std::string& pattern() const { return pattern_; }
     [[nodiscard]] std::filesystem::path file(uint32_t number) const;
-    /// All files there are with such a name.
+    /// All existing files that match the pattern.
     [[nodiscard]] std::vector<std::filesystem::path> existing() const;
-    /// Beside the pictures: "out/picture_####.png.sequence.json".
+    /// Beside the images: "out/picture_####.png.sequence.json".
     [[nodiscard]] std::filesystem::path record() const { return pattern_ + ".sequence.json"; }
 
 private:

@@ -1,4 +1,4 @@
-// Segments and shares of a sequence.
+// Plans segments and shares of a sequence.
 #include "apps/sequence_plan.h"
 
 #include "base/error.h"
@@ -23,7 +23,7 @@ Share parseShare(const std::string& text) {
             return share;
         }
     }
-    failUsage("--share wants K/N with K from 1 to N, as in 3/16, is '{}'", text);
+    failUsage("--share must be K/N with K from 1 to N, as in 3/16, is '{}'", text);
 }
 
 std::vector<SequencePlan::Run> SequencePlan::runs(Share share,

@@ -1,5 +1,5 @@
-// Which frames of a sequence are rendered one after another. Frames that depend on those before them are cut into
-// segments, each of which begins from nothing: so a part of them gives the same pictures as all of them.
+// Plans which frames of a sequence are rendered consecutively. Frames that depend on earlier ones are cut into
+// segments, each of which starts with an empty history: so a part of the sequence gives the same images as the whole.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace reflet {
 
-/// One of `count` equal shares, from 0.
+/// One of `count` equal shares, counted from 0.
 struct Share {
     uint32_t index = 0;
     uint32_t count = 1;
@@ -23,15 +23,16 @@ struct SequencePlan {
     uint32_t segment = 1;  ///< frames, at least 1
     uint32_t warmUp = 0;   ///< frames rendered before each segment
 
-    /// Frames [begin, end), counted from 0, to be rendered one after another.
+    /// Frames [begin, end), counted from 0, to be rendered consecutively.
     struct Run {
         uint32_t begin = 0;
         uint32_t end = 0;
     };
 
-    /// Segments are dealt to the shares in turn. Those of a share that have a missing frame, up to the last of these.
+    /// Segments are dealt to the shares round-robin. Returns the share's segments that miss frames, each cut after its
+    /// last missing frame.
     [[nodiscard]] std::vector<Run> runs(Share share, const std::function<bool(uint32_t frame)>& isMissing) const;
-    /// Frames to be rendered, those before the segments included.
+    /// Number of frames to render, including warm-up frames.
     [[nodiscard]] uint64_t work(const std::vector<Run>& runs) const;
 };
 

@@ -1,4 +1,4 @@
-// Records of sequences.
+// Writes and compares the records of sequences.
 #include "apps/sequence_record.h"
 
 #include "apps/bench/fingerprint.h"
@@ -70,7 +70,7 @@ std::vector<std::string> differences(const nlohmann::json& old, const nlohmann::
     const nlohmann::json after = now.flatten();
     std::vector<std::string> found;
     const auto text = [](const nlohmann::json& all, const std::string& key) {
-        return all.contains(key) ? jsonText(all.at(key)) : "not there";
+        return all.contains(key) ? jsonText(all.at(key)) : "missing";
     };
     nlohmann::json keys = before;
     keys.update(after);
@@ -90,11 +90,11 @@ void compareRecords(const FrameNames& names, const ordered_json& record,
                     const std::function<void(const std::string&)>& warn) {
     nlohmann::json old = parseJsonFile(names.record());
     if (!old.is_object()) {
-        fail("{}: is no record of a sequence: --overwrite replaces it", names.record().string());
+        fail("{}: not a record of a sequence: replace it with --overwrite", names.record().string());
     }
-    nlohmann::json now = parseJson(jsonText(record));  // as it reads after it was written
+    nlohmann::json now = parseJson(jsonText(record));  // as it reads back from a file
     if (old.value("device", now.at("device")) != now.at("device")) {
-        warn(fmt::format("{}: was begun on {}; frames of this device may differ in last bits", names.pattern(),
+        warn(fmt::format("{}: begun on {}; frames of this device may differ in the last bits", names.pattern(),
                          jsonText(old.at("device"))));
     }
     old.erase("device");
@@ -102,7 +102,7 @@ void compareRecords(const FrameNames& names, const ordered_json& record,
     if (const std::vector<std::string> found = differences(old, now); !found.empty()) {
         constexpr size_t most = 3;
         const auto shown = std::span(found).first(std::min(most, found.size()));
-        fail("{}: its frames belong to another sequence: {}{}; --overwrite removes them, or choose another name",
+        fail("{}: its frames belong to another sequence: {}{}; remove them with --overwrite, or choose another name",
              names.pattern(), fmt::join(shown, "; "),
              found.size() > most ? fmt::format(" and {} more", found.size() - most) : "");
     }
@@ -151,7 +151,7 @@ ordered_json recordOf(const View& view) {
 void beginSequence(const FrameNames& names, const ordered_json& record, bool overwrite,
                    const std::function<void(const std::string&)>& warn) {
     const std::string text = jsonText(record, 2) + "\n";
-    const std::vector<fs::path> pictures = names.existing();  // before the record is looked for: that is written first
+    const std::vector<fs::path> pictures = names.existing();  // before looking for the record, which is written first
     if (overwrite) {
         for (const fs::path& picture : pictures) {
             fs::remove(picture);
@@ -162,8 +162,8 @@ void beginSequence(const FrameNames& names, const ordered_json& record, bool ove
     if (!fs::exists(names.record())) {
         if (!pictures.empty()) {
             fail(
-                "{} is there, but not {} that would say what of: --overwrite removes all files of that name, or choose "
-                "another",
+                "{} exists, but its record {} is missing: remove all files of that name with --overwrite, or choose "
+                "another name",
                 pictures.front().string(), names.record().string());
         }
         if (writeNewFile(names.record(), text)) {

@@ -1,4 +1,4 @@
-// The record beside a sequence's pictures: what they depend on, so that only what belongs together is put together.
+// The record beside a sequence's images: what they depend on, so that images of different runs are not mixed.
 #pragma once
 
 #include "apps/sequence_names.h"
@@ -11,16 +11,15 @@
 
 namespace reflet {
 
-/// A number for the content of a scene's file and of the files that it names; of a built-in scene its name is enough.
+/// A hash of a scene file and of the files that it references; for a built-in scene, its name.
 std::string sceneFingerprint(const std::string& scene);
 
-/// All of a view, as numbers.
+/// All values of a view.
 nlohmann::ordered_json recordOf(const View& view);
 
-/// Writes the record of a sequence that begins, or finds that the one there is the same: then its pictures are kept.
-/// Throws Error that says what differs, or that there are pictures without a record. `overwrite`: removes all pictures
-/// of the name first. Several processes may do it at once, but not with `overwrite`. Another "device" is only a
-/// warning.
+/// Writes the record of a new sequence, or checks it against the existing one, whose images are then kept. Throws Error
+/// with the differences, or if images exist without a record. `overwrite`: first removes all images of that name.
+/// Several processes may call it at once, except with `overwrite`. A different "device" is only a warning.
 void beginSequence(const FrameNames& names, const nlohmann::ordered_json& record, bool overwrite,
                    const std::function<void(const std::string&)>& warn);
 

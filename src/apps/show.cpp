@@ -1,4 +1,4 @@
-// The images of a frame by name.
+// The table of a frame's images by name.
 #include "apps/show.h"
 
 #include "apps/texels.h"
@@ -18,11 +18,11 @@ namespace {
 using Texels = std::span<const vec4>;
 using Images = std::vector<gpu::Image>;
 
-// Value functions.
+// From texels to values.
 void first(Texels t, const ViewParams&, float* out) {
     out[0] = t[0].x;
 }
-// Negative where no blocker was found: how wide the penumbra could be.
+// Negative where no blocker was found: the magnitude is the upper bound of the width.
 void penumbraWidth(Texels t, const ViewParams&, float* out) {
     out[0] = std::max(t[0].x, 0.0F);
 }
@@ -35,7 +35,7 @@ void firstTwo(Texels t, const ViewParams&, float* out) {
 void color(Texels t, const ViewParams&, float* out) {
     std::memcpy(out, t.data(), 3 * sizeof(float));
 }
-// As unpackBaseColor in gbuffer.glsl.
+// As unpackBaseColor in gbuffer.glsl: stored as a square root.
 void squaredColor(Texels t, const ViewParams&, float* out) {
     const vec3 c = vec3(t[0]) * vec3(t[0]);
     std::memcpy(out, &c, sizeof(c));
@@ -65,13 +65,13 @@ void viewDistance(Texels t, const ViewParams& view, float* out) {
     const vec4& d = view.depthToDistance;
     out[0] = t[0].x > 0.0F ? (d.x + d.y * t[0].x) / (d.z + d.w * t[0].x) : 0.0F;
 }
-// Where there is no surface (depth 0) a cleared normal would decode to +Z.
+// Where there is no surface (depth 0), a cleared normal would decode to +Z.
 void normal(Texels t, const ViewParams&, float* out) {
     const vec3 n = t[1].x > 0.0F ? vec3(t[0]) : vec3(0.0F);
     std::memcpy(out, &n, sizeof(n));
 }
 
-// Picture functions.
+// From values to display RGB.
 vec3 encoded(const float* v) {
     return srgbEncoded({v[0], v[1], v[2]});
 }
@@ -130,7 +130,6 @@ vec3 cascadeColor(const float* v) {
     const auto first = static_cast<uint>(at);
     return glm::mix(colors[first], colors[std::min(first + 1, maxCascades - 1)], at - std::floor(at));
 }
-// A shadow map's depths, stretched to be told apart.
 vec3 mapDepth(const float* v) {
     return vec3(v[0]);
 }
@@ -143,62 +142,63 @@ const std::vector<std::string> y{"Y"};
 
 const std::vector<Show>& table() {
     static const std::vector<Show> all{
-        {"final", "the whole picture: radiance; PNG tone mapped",
+        {"final", "the final image: radiance; PNG tone mapped",
          [](const FrameImages& i) { return Images{i.light.lit}; }, color, rgb, nullptr},
-        {"unfiltered", "the same before temporal antialiasing: radiance",
+        {"unfiltered", "final before temporal antialiasing (TAA): radiance",
          [](const FrameImages& i) { return Images{i.unfiltered}; }, color, rgb, encoded},
         {"temporal_frames",
-         "how many frames are in the pixel's mean over frames; PNG 1 is 32 frames; only with temporal.enabled",
+         "number of frames accumulated in the pixel's history; PNG 1 is 32 frames; only with temporal.enabled",
          [](const FrameImages& i) { return Images{i.temporal}; }, alpha, y, framesCounted},
-        {"direct", "sun, lamps, emission and background: radiance",
+        {"direct", "direct light of sun and lamps, emission and background: radiance",
          [](const FrameImages& i) { return Images{i.direct}; }, color, rgb, encoded},
-        {"indirect_diffuse", "light by way of diffuse rays: radiance",
+        {"indirect_diffuse", "indirect diffuse light: radiance",
          [](const FrameImages& i) { return Images{i.light.indirectDiffuse}; }, color, rgb, encoded},
-        {"indirect_specular", "reflections: radiance",
+        {"indirect_specular", "indirect specular light (reflections): radiance",
          [](const FrameImages& i) { return Images{i.light.indirectSpecular}; }, color, rgb, encoded},
-        {"diffuse_radiance", "mean radiance that the diffuse rays met, without the surface's colour",
+        {"diffuse_radiance", "mean incoming radiance of the diffuse rays, without the surface's colour",
          [](const FrameImages& i) { return Images{i.diffuse.radiance}; }, color, rgb, encoded},
-        {"specular_radiance", "mean radiance that the reflection rays met, without the surface's colour",
+        {"specular_radiance", "mean incoming radiance of the reflection rays, without the surface's colour",
          [](const FrameImages& i) { return Images{i.specular.radiance}; }, color, rgb, encoded},
-        {"sun_visibility", "0 in the sun's shadow, 1 lit", [](const FrameImages& i) { return Images{i.sunVisibility}; },
-         first, y, grey},
-        {"sun_visibility_raw", "the same before the cleaning pass",
+        {"sun_visibility", "visibility of the sun: 0 in shadow, 1 lit",
+         [](const FrameImages& i) { return Images{i.sunVisibility}; }, first, y, grey},
+        {"sun_visibility_raw", "sun_visibility before denoising",
          [](const FrameImages& i) { return Images{i.rawSunVisibility}; }, first, y, grey},
         {"penumbra_width",
-         "full width of the sun's penumbra in metres, across its direction; PNG 1 is a metre; only with shadow.filter "
-         "pcf or pcss",
+         "full width of the sun's penumbra in metres, perpendicular to its direction; PNG 1 is a metre; only with "
+         "shadow.filter pcf or pcss",
          [](const FrameImages& i) { return Images{i.shadowPenumbra}; }, penumbraWidth, y, grey},
         {"blocker_distance",
-         "mean metres from the surface to what hides the sun from it, toward the sun, 0 nothing found, or no search "
+         "mean distance to the sun's blockers in metres, along the direction to the sun; 0: none found, or no search "
          "needed; PNG bright is near; only with shadow.filter=pcss",
          [](const FrameImages& i) { return Images{i.shadowPenumbra}; }, green, y, near},
         {"cascade_index",
-         "which of the sun's shadow maps a surface is looked up in, 0 the nearest, between two where they blend; the "
-         "sky is in the last; PNG red, green, blue, yellow; only with shadow.cascades above 1",
+         "shadow map cascade of the surface, 0 the nearest, fractional where two blend; the sky has the last; PNG red, "
+         "green, blue, yellow; only with shadow.cascades above 1",
          [](const FrameImages& i) { return Images{i.cascadeIndex}; }, cascade, y, cascadeColor},
         {"shadow_map",
-         "depth as the sun sees it, 1 nearest to the sun, 0 nothing; of the map's own size, cascades in rows of two",
+         "depth in the sun's shadow map, 1 nearest to the sun, 0 empty; in the map's size, cascades in rows of two",
          [](const FrameImages& i) { return i.shadowMap ? Images{i.shadowMap} : Images{i.sunVisibility}; }, first, y,
          mapDepth},
         {"lamp_visibility",
-         "0 in a lamp's shadow or out of its light, 1 lit: R, G, B the three strongest lamps that cast shadows; "
-         "only where lamps cast shadows",
+         "visibility of lamps: 0 in shadow or out of range, 1 lit: R, G, B the three strongest lamps that cast "
+         "shadows; only where lamps cast shadows",
          [](const FrameImages& i) { return Images{i.lampVisibility}; }, color, rgb, asIs},
         {"lamp_count",
-         "how many lamps may light a tile of 16x16 pixels; of its own size; PNG 1 is 32 lamps; only with lamps",
+         "number of lamps that may light a tile of 16x16 pixels; one texel per tile; PNG 1 is 32 lamps; only with "
+         "lamps",
          [](const FrameImages& i) { return Images{i.lampTiles.count}; }, first, y, lampsCounted},
-        {"depth", "metres in front of the camera, 0 where there is nothing; PNG bright is near",
+        {"depth", "view-space depth in metres, 0 without a surface; PNG bright is near",
          [](const FrameImages& i) { return Images{i.g.depth}; }, viewDistance, y, near},
         {"back_depth",
-         "metres in front of the camera of the nearest back face behind the surface, 0 none; PNG bright is near; only "
+         "view-space depth in metres of the nearest back face behind the surface, 0 none; PNG bright is near; only "
          "with trace_screen.thickness_mode=second_layer",
          [](const FrameImages& i) { return Images{i.backDepth}; }, viewDistance, y, near},
-        {"normal", "world-space shading normal, 0 where there is nothing; PNG 0.5 + 0.5 n",
+        {"normal", "world-space shading normal, 0 without a surface; PNG 0.5 + 0.5 n",
          [](const FrameImages& i) {
              return Images{i.g.normal, i.g.depth};
          },
          normal, xyz, direction},
-        {"geometric_normal", "world-space normal of the triangle, toward the camera; PNG 0.5 + 0.5 n",
+        {"geometric_normal", "world-space normal of the triangle, facing the camera; PNG 0.5 + 0.5 n",
          [](const FrameImages& i) {
              return Images{i.g.geometricNormal, i.g.depth};
          },
@@ -213,69 +213,69 @@ const std::vector<Show>& table() {
          [](const FrameImages& i) { return Images{i.g.material}; }, blue, y, grey},
         {"emissive", "emitted radiance", [](const FrameImages& i) { return Images{i.g.emissive}; }, color, rgb,
          encoded},
-        {"motion", "uv now minus uv in the last frame; PNG 0.5 + 10 motion",
+        {"motion", "motion vector: uv minus uv in the previous frame; PNG 0.5 + 10 motion",
          [](const FrameImages& i) { return Images{i.g.motion}; }, firstTwo, xy, offsets},
-        {"confidence", "share of the rays' weight not left to the environment: R diffuse, G specular",
+        {"confidence", "fraction of the ray weight not left to the environment: R diffuse, G specular",
          [](const FrameImages& i) {
              return Images{i.diffuse.source, i.specular.source};
          },
          bothAlphas, rg, redGreen},
-        {"diffuse_confidence", "the same, of the diffuse rays",
+        {"diffuse_confidence", "confidence of the diffuse rays only",
          [](const FrameImages& i) { return Images{i.diffuse.source}; }, alpha, y, grey},
-        {"specular_confidence", "the same, of the reflection rays",
+        {"specular_confidence", "confidence of the reflection rays only",
          [](const FrameImages& i) { return Images{i.specular.source}; }, alpha, y, grey},
-        {"hit_distance", "mean length of the rays in metres: R diffuse, G specular; PNG bright is near",
+        {"hit_distance", "mean hit distance of the rays in metres: R diffuse, G specular; PNG bright is near",
          [](const FrameImages& i) {
              return Images{i.diffuse.radiance, i.specular.radiance};
          },
          bothAlphas, rg, nearRedGreen},
-        {"diffuse_hit_distance", "the same, of the diffuse rays",
+        {"diffuse_hit_distance", "hit_distance of the diffuse rays only",
          [](const FrameImages& i) { return Images{i.diffuse.radiance}; }, alpha, y, near},
-        {"specular_hit_distance", "the same, of the reflection rays",
+        {"specular_hit_distance", "hit_distance of the reflection rays only",
          [](const FrameImages& i) { return Images{i.specular.radiance}; }, alpha, y, near},
         {"steps",
-         "mean depth samples per ray: R diffuse, G specular; PNG 1 is 128 samples; only with "
-         "trace_screen.count_steps=true, which render sets for it",
+         "mean ray march steps (depth samples) per ray: R diffuse, G specular; PNG 1 is 128 samples; only with "
+         "trace_screen.count_steps=true, which render sets by itself",
          [](const FrameImages& i) {
              return Images{i.diffuse.steps, i.specular.steps};
          },
          bothFirsts, rg, countRedGreen},
-        {"diffuse_steps", "the same, of the diffuse rays", [](const FrameImages& i) { return Images{i.diffuse.steps}; },
-         first, y, count},
-        {"specular_steps", "the same, of the reflection rays",
+        {"diffuse_steps", "steps of the diffuse rays only",
+         [](const FrameImages& i) { return Images{i.diffuse.steps}; }, first, y, count},
+        {"specular_steps", "steps of the reflection rays only",
          [](const FrameImages& i) { return Images{i.specular.steps}; }, first, y, count},
         {"rays",
-         "rays per pixel in each tile of 8x8 pixels of the grid that they leave: R diffuse, G specular; of its own "
-         "size; PNG 1 is 8 rays",
+         "rays per traced pixel in each tile of 8x8 traced pixels: R diffuse, G specular; one texel per tile; PNG 1 is "
+         "8 rays",
          [](const FrameImages& i) {
              return Images{i.diffuse.tiles.tiles, i.specular.tiles.tiles};
          },
          bothFirsts, rg, raysCountedRedGreen},
-        {"diffuse_rays", "the same, of the diffuse rays",
+        {"diffuse_rays", "rays of the diffuse lobe only",
          [](const FrameImages& i) { return Images{i.diffuse.tiles.tiles}; }, first, y, raysCounted},
-        {"specular_rays", "the same, of the reflection rays",
+        {"specular_rays", "rays of the specular lobe only",
          [](const FrameImages& i) { return Images{i.specular.tiles.tiles}; }, first, y, raysCounted},
         {"tile_class",
-         "what these tiles show: 0 sky, 1 matt surfaces alone, 2 glossy ones, 3 mirrors and nothing glossier; of its "
-         "own size; PNG blue, grey, orange, cyan",
+         "surfaces of these tiles: 0 none (sky), 1 diffuse only, 2 some glossy, 3 mirrors but none glossy; one texel "
+         "per tile; PNG blue, grey, orange, cyan",
          [](const FrameImages& i) {
              return Images{i.diffuse.tiles.tiles ? i.diffuse.tiles.tiles : i.specular.tiles.tiles};
          },
          green, y, classColor},
         {"probe_atlas",
-         "what probes have captured, radiance: a row for each, of the faces +X -X +Y -Y +Z -Z as cube maps have them; "
-         "black is the sky; of its own size; only with probes.enabled",
+         "radiance captured by the probes: a row per probe with its cube map faces +X -X +Y -Y +Z -Z; black is the "
+         "sky; in the atlas's size; only with probes.enabled",
          [](const FrameImages& i) { return Images{i.probeAtlas}; }, color, rgb, encoded},
         {"source",
-         "who answered the rays, both lobes: cyan mirrors' views, green the screen, yellow the traced scene, magenta "
-         "probes, blue the environment",
+         "source of each ray's radiance, both lobes: cyan planar reflections, green screen, yellow ray tracing, "
+         "magenta probes, blue environment",
          [](const FrameImages& i) {
              return Images{i.diffuse.source, i.specular.source};
          },
          meanColor, rgb, asIs},
-        {"diffuse_source", "the same, of the diffuse rays",
+        {"diffuse_source", "source of the diffuse rays only",
          [](const FrameImages& i) { return Images{i.diffuse.source}; }, color, rgb, asIs},
-        {"specular_source", "the same, of the reflection rays",
+        {"specular_source", "source of the reflection rays only",
          [](const FrameImages& i) { return Images{i.specular.source}; }, color, rgb, asIs},
     };
     return all;
@@ -301,8 +301,7 @@ const Show& findShow(std::string_view name) {
     if (found == table().end()) {
         std::vector<std::string> names;
         std::ranges::transform(table(), std::back_inserter(names), [](const Show& s) { return std::string(s.name); });
-        failUsage("no image of the frame is called '{}' (all of them: reflet list shows){}", name,
-                  suggestion(name, names));
+        failUsage("no show is called '{}' (see reflet list shows){}", name, suggestion(name, names));
     }
     return *found;
 }
@@ -311,7 +310,7 @@ ShowReadback requestShow(gpu::Frame& f, const FrameImages& images, const Show& s
     ShowReadback readback{&show, show.images(images), {}};
     for (const gpu::Image& image : readback.images) {
         if (!image) {
-            fail("the frame has no {} with these settings; it is: {}", show.name, show.description);
+            fail("image '{}' is not available with this scene and these settings: {}", show.name, show.description);
         }
         readback.copies.push_back(f.readback(image));
     }
@@ -324,7 +323,7 @@ struct Decoded {
     uvec2 size;
     std::vector<vec4> texels;
 
-    // Where a picture of another size has this pixel: lobes whose rays leave a coarser grid are smaller.
+    // The texel of this pixel: images of lobes that are traced at reduced resolution are smaller.
     [[nodiscard]] const vec4& at(const uvec2& pixel, const uvec2& picture) const {
         const uvec2 texel = pixel * size / picture;
         return texels[size_t(texel.y) * size.x + texel.x];

@@ -1,4 +1,4 @@
-// The images of a frame by name: what --show and --aov can ask for, as values (EXR) and as pictures (PNG).
+// The images of a frame by name: the choices of --show and --aov, as values (EXR) and as display images (PNG).
 #pragma once
 
 #include "base/image_file.h"
@@ -14,41 +14,41 @@ namespace reflet {
 
 struct Show {
     std::string_view name;
-    std::string_view description;  ///< what the values are, units and range
+    std::string_view description;  ///< meaning of the values, units and range
     /// Its images on the device; read back in this order.
     std::vector<gpu::Image> (*images)(const FrameImages&);
     /// Values from the decoded images (four channels each) at one pixel, into as many as `channels`.
     void (*values)(std::span<const vec4> texels, const ViewParams& view, float* out);
     std::vector<std::string> channels;
-    /// From values to display RGB in 0..1 (already encoded). nullptr: the tone-mapped display image is the picture.
+    /// From values to display RGB in 0..1 (already encoded). nullptr: uses the tone-mapped display image.
     vec3 (*picture)(const float* values);
 };
 
 std::span<const Show> shows();
 
-/// Throws UsageError naming the nearest.
+/// Throws UsageError with the closest name.
 const Show& findShow(std::string_view name);
 
-/// Whether its images have another size than the picture.
+/// Whether its size differs from the frame's.
 bool hasOwnSize(const Show& show);
 
 /// Whether it needs trace_screen.count_steps.
 bool countsSteps(const Show& show);
 
-/// Read-backs of what a show needs; fetch after the frame is done.
+/// Read-backs of the images of a show; fetch them after the frame is done.
 struct ShowReadback {
     const Show* show = nullptr;
     std::vector<gpu::Image> images;
     std::vector<gpu::Readback> copies;
 };
 
-/// Throws Error for an image that the frame has not made with its settings.
+/// Throws Error for an image that the frame's settings do not produce.
 ShowReadback requestShow(gpu::Frame& f, const FrameImages& images, const Show& show);
 FloatImage fetchValues(const gpu::Frame& f, const ShowReadback& readback, const ViewParams& view);
-/// The same at one pixel of the picture, which is not of its own size: one value a channel.
+/// The same at one pixel, one value per channel. Not for shows for which hasOwnSize() is true.
 std::vector<float> fetchValue(const gpu::Frame& f, const ShowReadback& readback, const ViewParams& view, uvec2 pixel);
 
-/// The picture of a show other than `final`.
+/// The display image of a show other than `final`.
 Bitmap makePicture(const Show& show, const FloatImage& values);
 /// The tone-mapped display image as it is.
 Bitmap fetchDisplay(const gpu::Frame& f, gpu::Readback readback, uvec2 size);

@@ -1,4 +1,4 @@
-// Medians and quartiles.
+// Computes medians and quartiles.
 #include "apps/spread.h"
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// What many measurements of one thing say: the middle, and how far they lie apart.
+// Statistics of repeated measurements: median and spread.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,8 +8,7 @@
 
 namespace reflet {
 
-/// Quartiles lie between two values where none stands at a quarter: linear between neighbours, as the median of an even
-/// number of values is.
+/// Quartiles between two values are interpolated linearly, as is the median of an even number of values.
 struct Spread {
     size_t count = 0;
     double median = 0.0;
@@ -19,7 +18,7 @@ struct Spread {
     double max = 0.0;
 };
 
-/// All 0 where there are no values.
+/// All 0 without values.
 Spread spreadOf(std::span<const double> values);
 
 /// { "median", "lower_quartile", "upper_quartile", "min", "max", "count" }

@@ -19,7 +19,7 @@ T loadAs(const std::byte* at) {
     return value;
 }
 
-// As octahedral.glsl.
+// As in octahedral.glsl.
 vec3 unpackUnitVector(uint32_t bits) {
     const vec2 p = glm::unpackSnorm2x16(bits);
     vec3 n(p, 1.0F - std::abs(p.x) - std::abs(p.y));

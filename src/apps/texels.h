@@ -1,4 +1,4 @@
-// Decodes read-back images of the frame's formats into floats.
+// Decodes read-back images of the frame's formats to floats.
 #pragma once
 
 #include "base/math.h"

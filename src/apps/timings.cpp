@@ -1,4 +1,4 @@
-// Device times of passes over several frames.
+// Collects device times of passes over several frames.
 #include "apps/timings.h"
 
 #include "apps/spread.h"

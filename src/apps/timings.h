@@ -1,4 +1,4 @@
-// Device times of passes over several frames.
+// Collects device times of passes over several frames.
 #pragma once
 
 #include "base/math.h"
@@ -13,21 +13,21 @@
 
 namespace reflet {
 
-/// Medians over all frames but the first, in which pipelines are made; over the first where it is the only one.
+/// Medians over all frames but the first, which creates the pipelines; a single frame is used nevertheless.
 class Timings {
 public:
-    /// leaveOutFirst: false: medians over all frames.
+    /// leaveOutFirst: false includes the first frame.
     explicit Timings(bool leaveOutFirst = true) : leaveOutFirst_(leaveOutFirst) {}
 
-    /// The times of one more frame: what Frame::passTimes() says, with the whole as "frame".
+    /// Adds one frame: the result of Frame::passTimes(), with the whole frame as "frame".
     void add(const std::vector<gpu::PassTime>& times);
 
-    /// Of the whole frame, milliseconds. After at least one frame.
+    /// Median of the whole frame, milliseconds. Needs at least one frame.
     [[nodiscard]] double frameMs() const;
-    /// All passes in the order in which they ran.
+    /// Medians of all passes, in the order in which they ran.
     [[nodiscard]] std::vector<gpu::PassTime> passes() const;
 
-    /// What --timings writes.
+    /// The content of the --timings file.
     [[nodiscard]] nlohmann::ordered_json json(const std::string& device, uvec2 size) const;
 
 private:

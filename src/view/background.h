@@ -1,4 +1,4 @@
-// Work that goes on while the window stays alive.
+// Runs work in the background while the window stays responsive.
 #pragma once
 
 #include "view/window.h"
@@ -12,7 +12,7 @@
 
 namespace reflet {
 
-/// One piece of work at a time, on a thread of its own.
+/// Runs one task at a time, on a separate thread.
 template <class T>
 class Background {
 public:
@@ -23,18 +23,18 @@ public:
 
     [[nodiscard]] bool busy() const { return future_.valid(); }
 
-    /// Not while it is busy. The work is asked to end early when the flag goes up.
+    /// Must not be called while busy. The work should end early once `cancelled` is set.
     void start(std::function<T(const std::atomic<bool>& cancelled)> work) {
         cancelled_ = false;
         future_ = std::async(std::launch::async, [this, work = std::move(work)] {
             struct Waker {
                 ~Waker() { Window::wake(); }
-            } const waker;  // also after what is thrown
+            } const waker;  // also wakes the window after an exception
             return work(cancelled_);
         });
     }
 
-    /// What it has come to, once. Throws what the work has thrown.
+    /// The result, once it is there; empty afterwards. Rethrows what the work threw.
     std::optional<T> take() {
         if (!busy() || future_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
             return std::nullopt;
@@ -42,7 +42,7 @@ public:
         return future_.get();
     }
 
-    /// Nobody wants it any more; it may take a while to end.
+    /// Asks the work to end; that may take a while.
     void cancel() { cancelled_ = true; }
     [[nodiscard]] bool cancelled() const { return cancelled_; }
 

@@ -20,7 +20,7 @@ const gpu::VertexLayout uiLayout{{sizeof(ImDrawVert)},
                                   {"uv", 0, VK_FORMAT_R32G32_SFLOAT, offsetof(ImDrawVert, uv)},
                                   {"color", 0, VK_FORMAT_R8G8B8A8_UNORM, offsetof(ImDrawVert, col)}}};
 
-// Makes room for so many bytes, and some more, lest every frame that has a letter more needs another buffer.
+// Grows the buffer to at least so many bytes, with slack, so that small changes of the text do not reallocate it.
 void makeRoom(gpu::Device& device, gpu::Buffer& buffer, size_t bytes, VkBufferUsageFlags usage, const char* name) {
     if (buffer.bytes().size() < bytes) {
         buffer = gpu::Buffer(device, bytes + bytes / 2, usage, gpu::MemoryUse::upload, name);

@@ -1,5 +1,5 @@
-// What the window shows: two pictures side by side in a rectangle, and the user interface over all. Shared by C++ and
-// GLSL.
+// Draws the window: two images in a rectangle, separated by a divider, with the user interface on top. Shared by C++
+// and GLSL.
 #ifndef REFLET_VIEW_CANVAS_H
 #define REFLET_VIEW_CANVAS_H
 
@@ -10,14 +10,14 @@ SHARED_BEGIN
 struct ComposeParams {
     uvec2 size;     // of the window, pixels
     vec2 corner;    // of the rectangle
-    vec2 extent;    // of the rectangle; 0: no picture
-    vec2 sizeA;     // of the picture on the left, pixels
-    vec2 sizeB;     // of the one on the right
-    float divider;  // pixels from the window's left edge: from there on, the right one
+    vec2 extent;    // of the rectangle; 0: no image
+    vec2 sizeA;     // of the left image, pixels
+    vec2 sizeB;     // of the right image
+    float divider;  // x in pixels of the window: the right image starts here
 };
 
 struct UiParams {
-    vec2 scale;  // from ImGui's coordinates to the clip space
+    vec2 scale;  // from ImGui's coordinates to clip space
     vec2 shift;
 };
 
@@ -32,7 +32,7 @@ struct ImDrawData;
 
 namespace reflet {
 
-/// Where and how the two pictures lie in the window.
+/// Placement of the two images in the window.
 struct Layout {
     uvec2 window{0};  ///< pixels
     vec2 corner{0.0F};
@@ -45,11 +45,11 @@ public:
     /// font: RGBA8.
     Canvas(gpu::Device& device, uvec2 fontSize, std::span<const uint8_t> font);
 
-    /// Draws, and returns when it is done. Pictures may be missing; where the right one is, the left one is everywhere.
-    /// The image is valid until the next call.
+    /// Draws, and waits until it is done. Images may be missing; without a right one, the left one fills the rectangle.
+    /// The result is valid until the next call.
     gpu::Image draw(gpu::Image left, gpu::Image right, const Layout& layout, const ImDrawData& ui);
 
-    /// What it drew last, as RGB.
+    /// Reads the last drawn window back, as RGB.
     Bitmap picture();
 
 private:

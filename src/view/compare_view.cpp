@@ -1,4 +1,4 @@
-// Makes the right side.
+// Makes the right side of the comparison.
 #include "view/compare_view.h"
 
 #include "base/error.h"
@@ -20,7 +20,7 @@ ViewerState ofPreset(const ViewerState& state) {
     ViewerState other = state;
     other.settings = Settings{};
     applyPreset(other.settings, state.compare.preset);
-    other.settings.tonemap = state.settings.tonemap;  // what is compared is the light
+    other.settings.tonemap = state.settings.tonemap;  // compares radiance, not tone mapping
     return other;
 }
 
@@ -47,7 +47,7 @@ void CompareView::forget() {
     failed_ = false;
 }
 
-void CompareView::complain(const std::string& text) {
+void CompareView::setProblem(const std::string& text) {
     message_ = text;
     failed_ = true;
 }
@@ -66,7 +66,7 @@ void CompareView::updatePreset(const ViewerState& state, const Session& live, uv
         other_->render(its, size, true);
     }
     if (!other_->showProblem().empty()) {
-        complain(other_->showProblem());
+        setProblem(other_->showProblem());
         values_ = nullptr;
         return;
     }
@@ -87,19 +87,19 @@ void CompareView::updateFile(const ViewerState& state) {
         }
     }
     if (!fileProblem_.empty()) {
-        complain(fileProblem_);
+        setProblem(fileProblem_);
         values_ = nullptr;
         return;
     }
     if (file_.empty()) {
-        message_ = "Name an EXR file, or drag one onto the window.";
+        message_ = "Type the name of an EXR file, or drag one onto the window.";
         values_ = nullptr;
         return;
     }
     chooseLayer(state);
 }
 
-// The layer of the show's name; of the whole picture, the one without a name does as well.
+// Selects the layer named as the show; for `final`, the unnamed layer will do.
 void CompareView::chooseLayer(const ViewerState& state) {
     if (layerShow_ == state.show && values_) {
         return;
@@ -112,11 +112,11 @@ void CompareView::chooseLayer(const ViewerState& state) {
     }
     const size_t wanted = findShow(state.show).channels.size();
     if (found == layers_.end() || found->image.channels.size() < wanted) {
-        complain(fmt::format("There is no image '{}' to compare with.", state.show));
+        setProblem(fmt::format("The right side has no layer '{}' to compare with.", state.show));
         return;
     }
     auto image = std::make_shared<FloatImage>(found->image);
-    if (const size_t has = image->channels.size(); has > wanted) {  // alpha
+    if (const size_t has = image->channels.size(); has > wanted) {  // drops alpha
         std::vector<float> fewer;
         for (size_t i = 0; i < image->data.size(); i += has) {
             fewer.insert(fewer.end(), image->data.begin() + static_cast<std::ptrdiff_t>(i),
@@ -135,7 +135,7 @@ void CompareView::startTruth(const ViewerState& state, const Session& live) {
     options.filter = asked_->filter;
     options.lambertOnly = asked_->lambertOnly;
     options.seed = state.source.seed;
-    options.threads = std::max(1U, std::thread::hardware_concurrency() - 1U);  // one draws
+    options.threads = std::max(1U, std::thread::hardware_concurrency() - 1U);  // one core is left for the window
     progress_ = 0.0F;
     truth_.start([this, scene = live.sharedScene(), asked = *asked_, options](const std::atomic<bool>& cancelled) {
         return traceReference(*scene, asked.view, asked.size, options, [&](const ReferenceProgress& now) {
@@ -246,7 +246,7 @@ void CompareView::update(const ViewerState& state, const Session& live, uvec2 si
         updateError(live);
         updatePicture(state);
     } catch (const Error& error) {
-        complain(error.what());
+        setProblem(error.what());
         values_ = nullptr;
         picture_ = {};
     }

@@ -1,4 +1,5 @@
-// The right side of the divider: another preset, a file, or the truth; and how far the left side is from it.
+// The right side of the divider: another preset, a file, or the path-traced ground truth; and the left side's error
+// against it.
 #pragma once
 
 #include "compare/compare.h"
@@ -19,27 +20,27 @@ class CompareView {
 public:
     explicit CompareView(gpu::Device& device) : device_(device) {}
 
-    /// Another scene: nothing is known any more.
+    /// Drops everything, for another scene.
     void forget();
 
-    /// Whether update() would render.
+    /// Whether update() would render a frame.
     [[nodiscard]] bool wantsFrame(const ViewerState& state, uvec2 size) const;
-    /// Brings all up to date with the state, the last frame of the live side and what was done in the background.
-    /// mayRender: not paused.
+    /// Brings the right side up to date with the state, the last frame of the live side and the background work.
+    /// mayRender: false while paused.
     void update(const ViewerState& state, const Session& live, uvec2 size, bool mayRender);
 
-    /// Whether the live side's values are needed for the error.
+    /// Whether the error needs the live side's values.
     [[nodiscard]] static bool wantsValues(const ViewerState& state) {
         return state.compare.with != CompareWith::nothing;
     }
 
     [[nodiscard]] gpu::Image picture() const { return picture_; }
-    /// Of the left side against the right one.
+    /// Error of the left side against the right one.
     [[nodiscard]] const std::optional<Difference>& error() const { return error_; }
-    /// What is going on, or why there is nothing to see.
+    /// Progress, or the reason why nothing is shown.
     [[nodiscard]] const std::string& message() const { return message_; }
     [[nodiscard]] bool failed() const { return failed_; }
-    /// Samples per pixel of the truth that is shown, and share of the next one's work that is done.
+    /// Samples per pixel of the displayed ground truth, and progress of the next, better one (0 to 1).
     [[nodiscard]] uint32_t samples() const { return samples_; }
     [[nodiscard]] float progress() const { return progress_; }
 
@@ -60,7 +61,7 @@ private:
     void chooseLayer(const ViewerState& state);
     void updateError(const Session& live);
     void updatePicture(const ViewerState& state);
-    void complain(const std::string& text);
+    void setProblem(const std::string& text);
 
     gpu::Device& device_;
     CompareWith with_ = CompareWith::nothing;
@@ -72,7 +73,7 @@ private:
     Background<ReferencePicture> truth_;
     std::atomic<float> progress_ = 0.0F;
     uint32_t samples_ = 0;
-    std::string layerShow_;                     ///< the show that values_ were taken for
+    std::string layerShow_;                     ///< the show that values_ belong to
     std::shared_ptr<const FloatImage> values_;  ///< of the right side
     std::shared_ptr<const FloatImage> pictureOf_;
     std::optional<TonemapSettings> pictureTone_;
@@ -81,7 +82,7 @@ private:
     gpu::Texture texture_;
     gpu::Image picture_;
     Background<Comparison> errorWork_;
-    std::shared_ptr<const FloatImage> errorLeft_;  ///< that the last error is, or will be, of
+    std::shared_ptr<const FloatImage> errorLeft_;  ///< inputs of the last or current error computation
     std::shared_ptr<const FloatImage> errorRight_;
     std::optional<Difference> error_;
     std::shared_ptr<const FloatImage> errorMap_;

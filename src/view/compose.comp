@@ -1,5 +1,5 @@
-// The window below its user interface: the left and the right picture in their rectangle, pixel by pixel as they are.
-// In: both pictures, display encoded. Out: the window.
+// Draws the window below its user interface: copies the left and the right image into their rectangle (nearest texel).
+// In: both images, display-encoded. Out: the window.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "view/canvas.h"

@@ -1,4 +1,4 @@
-// Controls by Dear ImGui.
+// Draws controls with Dear ImGui.
 #include "view/controls.h"
 
 #include "base/error.h"
@@ -85,7 +85,7 @@ void settingControl(Settings& settings, const Settings& standard, const SettingE
     valueControl(settings, entry.info);
     places.note(entry.name);
     const std::string standardText = settingText(standard, entry);
-    tooltip(fmt::format("{}\n\n{} = {}\n{}; with this preset {}. Ctrl+click types a number.", entry.info.help,
+    tooltip(fmt::format("{}\n\n{} = {}\n{}; with this preset {}. Ctrl+click to type a value.", entry.info.help,
                         entry.name, settingText(settings, entry), rangeText(entry.info), standardText));
     ImGui::SameLine();
     if (changed) {
@@ -93,7 +93,7 @@ void settingControl(Settings& settings, const Settings& standard, const SettingE
             setSetting(settings, entry.name, standardText);
         }
         places.note(entry.name + " reset");
-        tooltip(fmt::format("Back to {}", standardText));
+        tooltip(fmt::format("Reset to {}", standardText));
     } else {
         ImGui::Dummy({button, button});
     }
@@ -161,7 +161,7 @@ void settingControls(Settings& settings, const Settings& standard, const std::st
         if (shown.empty()) {
             continue;
         }
-        // Sections that the search has opened are others than those that hands have.
+        // Separate ids keep the sections opened by the search apart from those opened by the user.
         const std::string title =
             fmt::format("{}{}###{}{}", effect, changed > 0 ? fmt::format(" ({} changed)", changed) : "", effect,
                         wanted.empty() ? "" : " found");
@@ -197,7 +197,7 @@ bool dragDirection(const char* name, vec3& light) {
         vec2 at = (vec2(mouse.x, mouse.y) - middle) / radius;
         const float length = std::min(glm::length(at), 1.0F);
         at = length > 0.0F ? glm::normalize(at) : vec2(0.0F);
-        // From the zenith to the horizon in even steps. Seen from above: +X to the right, +Z down.
+        // Equidistant from the zenith to the horizon. Seen from above: +X to the right, +Z down.
         const float zenith = length * glm::half_pi<float>();
         const vec3 toSun(std::sin(zenith) * at.x, std::cos(zenith), std::sin(zenith) * at.y);
         light = -glm::normalize(toSun);

@@ -1,4 +1,4 @@
-// What panels are made of, and where it is on the screen.
+// The controls of the panels, and their positions on the screen.
 #pragma once
 
 #include "render/settings.h"
@@ -16,11 +16,11 @@ struct Rectangle {
     vec2 max{0.0F};
 };
 
-/// Where each control was drawn in the last frame, in the window's units: for scripts that use the window, and tests.
+/// Positions of the controls drawn in the last frame, in window units: for tests and scripts that use the window.
 class ControlPlaces {
 public:
     void clear() { places_.clear(); }
-    /// The item that was drawn last goes by this name, if its middle can be seen.
+    /// Records the last drawn item under this name, if its centre is visible.
     void note(const std::string& name);
     [[nodiscard]] const std::map<std::string, Rectangle>& all() const { return places_; }
 
@@ -28,18 +28,18 @@ private:
     std::map<std::string, Rectangle> places_;
 };
 
-/// Shows the text when the pointer rests on the last item.
+/// Shows the text while the pointer hovers over the last item.
 void tooltip(const std::string& text);
 
-/// A choice from names. True: another one was chosen.
+/// A combo box of names. Returns whether the choice changed.
 bool chooseName(const char* label, const std::vector<std::string>& names, std::string& chosen);
 
-/// One control for each setting of the table whose name has `filter` in it, in sections that open and close; `standard`
-/// is what they are marked and reset by.
+/// One control for each setting whose name contains `filter`, in collapsible sections; settings that differ from
+/// `standard` are marked and can be reset to it.
 void settingControls(Settings& settings, const Settings& standard, const std::string& filter, ControlPlaces& places);
 
-/// A direction to drag on a sphere that is seen from above: the middle is straight up. True: it has changed. light: the
-/// way that it travels, unit.
+/// A direction that is dragged on a hemisphere seen from above: the centre is straight up. Returns whether it changed.
+/// light: direction in which the light travels, unit length.
 bool dragDirection(const char* name, vec3& light);
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// Saves and restores.
+// Saves and restores the viewer's state.
 #include "view/saved_state.h"
 
 #include "apps/bench/fingerprint.h"
@@ -43,7 +43,7 @@ T valueOf(const std::array<std::pair<T, const char*>, N>& names, const ordered_j
     return found == names.end() ? standard : found->first;
 }
 
-// The same for every path of one file.
+// The same key for every path to one file.
 std::string sceneKey(const std::string& scene) {
     return scene.starts_with("builtin:") ? scene : fs::weakly_canonical(fs::absolute(scene)).string();
 }
@@ -133,7 +133,7 @@ fs::path stateFile(const std::string& scene) {
     std::string name = scene.starts_with("builtin:") ? "builtin-" + key.substr(8) : fs::path(key).stem().string();
     std::ranges::replace_if(
         name, [](unsigned char c) { return std::isalnum(c) == 0 && c != '-' && c != '_'; }, '_');
-    // Files of one name lie in different folders.
+    // Files of the same name can be in different folders.
     return configurationFolder() / "view" / fmt::format("{}-{}.json", name, fingerprintOf(key));
 }
 

@@ -1,4 +1,4 @@
-// The viewer's memory: a file for each scene in the user's configuration folder.
+// Saves the viewer's state: a file for each scene in the user's configuration folder.
 #pragma once
 
 #include "view/viewer_state.h"
@@ -10,13 +10,13 @@ namespace reflet {
 /// $XDG_CONFIG_HOME/reflet, or ~/.config/reflet.
 std::filesystem::path configurationFolder();
 
-/// The same for the same text, wherever and whenever: for names of files.
+/// A hash of the text that is stable across runs and machines, for file names.
 std::string fingerprintOf(const std::string& text);
 
-/// Where the state of a scene is kept: `scene` as on the command line.
+/// The file with the state of a scene: `scene` as on the command line.
 std::filesystem::path stateFile(const std::string& scene);
 
-/// What is to come back when the scene is opened again, as it is kept in the file.
+/// The content of that file: everything that is restored when the scene is opened again.
 std::string stateText(const ViewerState& state);
 
 struct Restore {
@@ -24,8 +24,8 @@ struct Restore {
     bool settings = true;  ///< preset and all settings
 };
 
-/// Changes the state to what was saved of its scene, as far as that is asked for. False: nothing was. Throws Error for
-/// a file that cannot be read; then the state is as it was.
+/// Restores the selected parts of what was saved for the state's scene. Returns false if nothing was saved. Throws
+/// Error for a file that cannot be read; the state is unchanged then.
 bool restoreState(ViewerState& state, const Restore& what);
 
 }  // namespace reflet

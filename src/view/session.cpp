@@ -19,7 +19,7 @@ namespace {
 
 constexpr uint32_t meanSettledAfter = 1024;  // accumulate
 
-uint32_t framesToRestOf(const Settings& settings, const Scene& scene) {
+uint32_t framesFor(const Settings& settings, const Scene& scene) {
     const HistoryUse use = historyUse(settings, scene);
     return use.accumulate ? meanSettledAfter : framesToSettle(use, settings);
 }
@@ -74,8 +74,8 @@ Session::Session(gpu::Device& device, ViewerState& state)
 Session::Session(gpu::Device& device, const Session& other)
     : device_(device), scene_(other.scene_), firstView_(other.firstView_), renderer_(device, *scene_, printWarning) {}
 
-uint32_t Session::framesToRest(const ViewerState& state) const {
-    return framesToRestOf(renderedSettings(state), *scene_);
+uint32_t Session::framesToConverge(const ViewerState& state) const {
+    return framesFor(renderedSettings(state), *scene_);
 }
 
 bool Session::wantsFrame(const ViewerState& state, uvec2 size) const {
@@ -84,7 +84,7 @@ bool Session::wantsFrame(const ViewerState& state, uvec2 size) const {
     }
     const Settings settings = renderedSettings(state);
     return !(asked_->view == state.view) || asked_->size != size || !sameSettings(asked_->settings, settings) ||
-           frames_ < framesToRestOf(settings, *scene_);
+           frames_ < framesFor(settings, *scene_);
 }
 
 FrameImages Session::renderFrame(const ViewerState& state, const View& view, uvec2 size, const Settings& settings,
@@ -108,8 +108,8 @@ void Session::render(const ViewerState& state, uvec2 size, bool keepValues) {
     const FrameImages images =
         renderFrame(state, state.view, size, settings, [&](gpu::Frame& f, const FrameImages& made) {
             if (!isMade(show, made)) {
-                problem_ =
-                    fmt::format("The frame has no image '{}' with these settings: {}.", show.name, show.description);
+                problem_ = fmt::format("Image '{}' is not available with this scene and these settings: {}.", show.name,
+                                       show.description);
             } else if (values) {
                 readback = requestShow(f, made, show);
             }
@@ -129,20 +129,18 @@ void Session::refreshPicture(const ViewerState& state) {
     }
 }
 
-void Session::startAnew() {
+void Session::resetHistory() {
     renderer_.restart(0);
     asked_.reset();
     frames_ = 0;
 }
 
-// By a renderer of its own, which has seen as little before as that of `reflet render`; the live picture stays as it
-// is.
+// Uses a separate renderer without history, as `reflet render` does; the live image is unaffected.
 void Session::screenshot(const ViewerState& state, uvec2 size, const std::string& file) {
     Pictures pictures(state.show, {});
     const Settings settings = renderedSettings(state);
     const uint32_t frames = framesToSettle(historyUse(settings, *scene_), settings);
-    // The view as it is after it has been written to a file and read, as the command line has it where the view is not
-    // the first one: directions may differ in the last bit.
+    // A changed view goes through its JSON form, as in the copied command line: directions may differ in the last bit.
     View view = firstView_;
     if (!(state.view == firstView_)) {
         applyViewJson(nlohmann::json(viewJson(state.view)), "view", view);
@@ -158,7 +156,7 @@ void Session::screenshot(const ViewerState& state, uvec2 size, const std::string
         });
     }
     if (!made) {
-        fail("the frame has no image '{}' with these settings", state.show);
+        fail("image '{}' is not available with this scene and these settings", state.show);
     }
     pictures.write(file, renderer.frame(), makeViewParams(view.camera, size, 0, state.source.seed));
 }

@@ -1,4 +1,4 @@
-// One open scene: renders it as the state says, and knows when the picture has come to rest.
+// One open scene: renders it according to the state, and tracks when the image has converged.
 #pragma once
 
 #include "apps/show.h"
@@ -13,7 +13,7 @@
 
 namespace reflet {
 
-/// Values of the picked pixel in one image of the frame.
+/// Values of the picked pixel in one render target.
 struct PickedValues {
     std::string name;
     std::vector<std::string> channels;
@@ -24,52 +24,54 @@ struct Picked {
     uvec2 pixel{0};
     std::vector<PickedValues> values;
     std::optional<RecordedRay> ray;  ///< none where the pixel shows no surface
-    ViewParams view{};               ///< that it was picked in
-    uint64_t change = 0;             ///< Session::changes() then
+    ViewParams view{};               ///< at the time of the pick
+    uint64_t change = 0;             ///< Session::changes() at the time of the pick
 };
 
-/// The picture of values that a show has: tone mapped, as --show makes it, or in false colours.
+/// The display image of a show's values: tone mapped, as by --show, or in false colours.
 Bitmap shownPicture(const ViewerState& state, const FloatImage& values);
 
 class Session {
 public:
-    /// Opens what state.source names, and sets the state's view from it. Throws Error or UsageError: then nothing of
-    /// the state has changed.
+    /// Opens the scene of state.source and sets the state's view from it. Throws Error or UsageError; the state is
+    /// unchanged then.
     Session(gpu::Device& device, ViewerState& state);
-    /// The same scene once more.
+    /// Another session of the same scene.
     Session(gpu::Device& device, const Session& other);
 
-    /// A picture of this size is needed: whether another frame would change it.
+    /// Whether another frame would change the image at this size.
+    /// Frames after which the image has converged.
+    [[nodiscard]] uint32_t framesToConverge(const ViewerState& state) const;
     [[nodiscard]] bool wantsFrame(const ViewerState& state, uvec2 size) const;
-    /// Renders one frame, and what it shows. keepValues: shownValues() will be asked for.
+    /// Renders one frame and its display image. keepValues: shownValues() will be needed.
     void render(const ViewerState& state, uvec2 size, bool keepValues);
-    /// History is forgotten: something changed that the state does not tell (a shader, say).
-    void startAnew();
+    /// Resets the history: something outside the state changed, such as a shader.
+    void resetHistory();
 
-    /// What the window is to show of the last frame; none before the first one, or where showProblem() says why.
+    /// The display image of the last frame; none before the first frame, or if showProblem() gives a reason.
     [[nodiscard]] gpu::Image picture() const { return picture_; }
     [[nodiscard]] const std::string& showProblem() const { return problem_; }
-    /// The values of the show; nothing where they were not kept.
+    /// The values of the show; null if they were not kept.
     [[nodiscard]] const std::shared_ptr<const FloatImage>& shownValues() const { return values_; }
-    /// Makes the picture of the same frame again, with other false colours.
+    /// Redraws the display image of the same frame, with other false colours.
     void refreshPicture(const ViewerState& state);
 
     [[nodiscard]] const gpu::Frame& frame() const { return renderer_.frame(); }
     [[nodiscard]] uvec2 size() const { return size_; }
     [[nodiscard]] uint32_t frames() const { return frames_; }
-    /// How often something that is rendered was another than before.
+    /// Number of changes of view, settings or size so far.
     [[nodiscard]] uint64_t changes() const { return changes_; }
-    /// Of the last frame.
+    /// The view parameters of the last frame.
     [[nodiscard]] const ViewParams& view() const { return params_; }
     [[nodiscard]] const Scene& scene() const { return *scene_; }
     [[nodiscard]] const std::shared_ptr<const Scene>& sharedScene() const { return scene_; }
     [[nodiscard]] const View& firstView() const { return firstView_; }
 
-    /// Writes what `reflet render` writes for this state, with the frames that it takes. Throws Error.
+    /// Writes the same file as `reflet render` for this state, with its number of frames. Throws Error.
     void screenshot(const ViewerState& state, uvec2 size, const std::string& file);
 
-    /// Renders a frame, and says what its images hold at the pixel and which way the pixel's mirror ray takes. Images
-    /// that these settings do not make are left out.
+    /// Renders a frame, and returns the values of its render targets at the pixel and the path of the pixel's mirror
+    /// ray. Render targets that these settings do not produce are left out.
     Picked pick(const ViewerState& state, uvec2 size, uvec2 pixel);
 
 private:
@@ -94,16 +96,13 @@ private:
     uvec2 size_{0};
     std::optional<Asked> asked_;
     uint64_t changes_ = 0;
-    uint32_t frames_ = 0;  ///< since something changed
+    uint32_t frames_ = 0;  ///< since the last change
 };
 
-/// The settings that a frame is rendered with: what the state has, and what its show needs.
+/// The settings of a frame: those of the state, plus what its show needs.
 Settings renderedSettings(const ViewerState& state);
 
-/// Frames after which the picture has come to rest.
-uint32_t framesToRest(const ViewerState& state);
-
-/// RGBA8 texture of a picture of 3 or 4 channels.
+/// RGBA8 texture of an image with 3 or 4 channels.
 gpu::Texture uploadPicture(gpu::Device& device, const Bitmap& bitmap, const std::string& name);
 
 }  // namespace reflet

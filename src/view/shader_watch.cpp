@@ -1,4 +1,4 @@
-// Watches shader files by their times, compiles by glslc.
+// Watches the modification times of shader files, and compiles them with glslc.
 #include "view/shader_watch.h"
 
 #include "apps/command_line.h"
@@ -62,7 +62,7 @@ ShaderWatch::ShaderWatch(const fs::path& sources) : sources_(sources) {
 void ShaderWatch::read(const std::string& name) {
     const fs::path path = sources_ / name;
     std::error_code error;
-    const auto changed = fs::last_write_time(path, error);  // before the text: what is written in between is seen later
+    const auto changed = fs::last_write_time(path, error);  // before the text: a write in between is noticed later
     const std::string text = readFile(path);
     File& file = files_[name];
     file.changed = changed;
@@ -74,7 +74,7 @@ void ShaderWatch::read(const std::string& name) {
     }
 }
 
-// All that includes it, also by way of others, and itself.
+// All files that include it, directly or indirectly, and the file itself.
 std::set<std::string> ShaderWatch::usersOf(const std::string& name) const {
     std::set<std::string> users{name};
     for (size_t before = 0; before != users.size();) {
@@ -123,7 +123,7 @@ bool ShaderWatch::update() {
         }
         try {
             read(name);
-        } catch (const Error&) {  // an editor that saves by another name has just taken it away
+        } catch (const Error&) {  // an editor that saves by renaming has just removed it
             continue;
         }
         for (const std::string& user : usersOf(name)) {
@@ -135,7 +135,7 @@ bool ShaderWatch::update() {
     if (shaders.empty()) {
         return false;
     }
-    shaders.insert(broken_.begin(), broken_.end());  // what they lacked may be there now
+    shaders.insert(broken_.begin(), broken_.end());  // what they missed may exist now
     broken_.clear();
     problem_.clear();
     replaced_.clear();

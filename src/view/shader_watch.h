@@ -1,4 +1,4 @@
-// Shaders of the source tree, compiled anew when they are edited while the program runs.
+// Hot reload: recompiles shaders of the source tree when they are edited while the program runs.
 #pragma once
 
 #include <filesystem>
@@ -11,24 +11,24 @@ namespace reflet {
 
 class ShaderWatch {
 public:
-    /// sources: the folder `src` of the source tree. Watches nothing where that is not there.
+    /// sources: the folder `src` of the source tree. Watches nothing if it does not exist.
     explicit ShaderWatch(const std::filesystem::path& sources);
 
     [[nodiscard]] bool watches() const { return !files_.empty(); }
 
-    /// Compiles what has changed since the last time and puts it in the place of the running shaders, but for those
-    /// that do not compile. True: something has been replaced, and the caller drops its pipelines.
+    /// Recompiles what has changed since the last call and replaces the running shaders, except those that do not
+    /// compile. Returns whether any was replaced; the caller must drop its pipelines then.
     bool update();
 
-    /// Of the last compilation that failed, with file and line; empty: none has.
+    /// Error of the last failed compilation, with file and line; empty: none.
     [[nodiscard]] const std::string& problem() const { return problem_; }
-    /// Shaders that the last update with a change has replaced.
+    /// Shaders replaced by the last update with a change.
     [[nodiscard]] const std::vector<std::string>& replaced() const { return replaced_; }
 
 private:
     struct File {
         std::filesystem::file_time_type changed;
-        std::set<std::string> includes;  ///< as written, which is from the folder on
+        std::set<std::string> includes;  ///< as written: relative to the folder
     };
 
     void read(const std::string& name);
@@ -36,7 +36,7 @@ private:
     bool compile(const std::string& name);
 
     std::filesystem::path sources_;
-    std::map<std::string, File> files_;  ///< by their names from the folder on
+    std::map<std::string, File> files_;  ///< by their names relative to the folder
     std::set<std::string> broken_;
     std::string problem_;
     std::vector<std::string> replaced_;

@@ -1,5 +1,5 @@
-// The user interface's pixels, blended over the pictures as they are encoded for the display. In: place in the font,
-// colour. Out: the window.
+// Shades the user interface's pixels, blended over the display-encoded images. In: texture coordinates in the font
+// atlas, colour. Out: the window.
 #version 460
 
 layout(set = 0, binding = 1) uniform sampler2D font;

@@ -1,4 +1,5 @@
-// The user interface's triangles. In: position in its own coordinates, place in the font, sRGB colour. Out: the same.
+// Transforms the user interface's triangles. In: position in ImGui's coordinates, font atlas coordinates,
+// sRGB colour. Out: clip-space position and the same attributes.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "view/canvas.h"

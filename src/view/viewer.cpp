@@ -1,4 +1,4 @@
-// The viewer's loop: events, user interface, frame, window; and rest while nothing changes.
+// The viewer's main loop: events, user interface, frame, window; idle while nothing changes.
 #include "view/viewer.h"
 
 #include "apps/device_options.h"
@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr double idleWait = 0.25;   // seconds between looks at the shaders' files
+constexpr double idleWait = 0.25;   // seconds between checks of the shader files
 constexpr double watchEvery = 0.5;  // seconds
 constexpr double saveEvery = 2.0;   // seconds
 constexpr int settlingRedraws = 3;
@@ -36,7 +36,7 @@ double secondsSince(Clock::time_point then) {
     return std::chrono::duration<double>(Clock::now() - then).count();
 }
 
-// What the command line asks for; the size of the window as it was last time.
+// The state given by the command line, with the window's last size.
 ViewerState initialState(const ViewerOptions& options) {
     ViewerState state;
     state.source = options.scene;
@@ -46,7 +46,7 @@ ViewerState initialState(const ViewerOptions& options) {
     if (!options.fresh) {
         try {
             restoreState(state, {.view = false, .settings = false});
-        } catch (const Error&) {  // open() says it
+        } catch (const Error&) {  // open() reports it
         }
     }
     if (state.window == uvec2(0)) {
@@ -74,7 +74,7 @@ uvec2 parsePixel(const std::string& text) {
             return pixel;
         }
     }
-    failUsage("--pick wants X,Y in pixels from the picture's upper left, is '{}'", text);
+    failUsage("--pick must be X,Y in pixels from the image's upper left, is '{}'", text);
 }
 
 bool givesView(const SceneOptions& source) {
@@ -114,7 +114,7 @@ void Viewer::open(const SceneOptions& source, bool restores) {
         try {
             restoreState(next, {.view = !givesView(source), .settings = !givesSettings(source)});
         } catch (const Error& error) {
-            printWarning(fmt::format("{}; the scene opens as if nothing had been saved", error.what()));
+            printWarning(fmt::format("{}; the scene opens without its saved state", error.what()));
         }
     }
     if (session_) {
@@ -134,10 +134,10 @@ void Viewer::openFile(const std::string& file) {
     if (extension == ".exr") {
         state_.compare.with = CompareWith::file;
         state_.compare.file = path.string();
-        tell(fmt::format("{}: on the right side", path.filename().string()));
+        tell(fmt::format("{}: shown on the right side", path.filename().string()));
     } else if (extension == ".hdr") {
         applyViewJson({{"environment", {{"image", path.string()}}}}, path, state_.view);
-        tell(fmt::format("{}: the environment", path.filename().string()));
+        tell(fmt::format("{}: used as environment", path.filename().string()));
     } else if (extension == ".json") {
         const nlohmann::json json = parseJsonFile(path);
         const std::array<const char*, 5> viewKeys{"camera", "sun", "lamps", "time", "probes"};
@@ -150,7 +150,7 @@ void Viewer::openFile(const std::string& file) {
             applySettingsJson(changed, json, path.string());
             state_.settings = changed;
         }
-        tell(fmt::format("{}: {} taken over", path.filename().string(), isView ? "view" : "settings"));
+        tell(fmt::format("{}: {} loaded", path.filename().string(), isView ? "view" : "settings"));
     } else {
         SceneOptions source;
         source.scene = file.starts_with("builtin:") ? file : path.string();
@@ -172,7 +172,7 @@ uvec2 Viewer::renderSize() const {
     return glm::clamp(uvec2(glm::round(size)), uvec2(16), uvec2(device_.limits().maxImageDimension2D));
 }
 
-// Also where the values of the picture at rest are asked for only now.
+// Also true if the values of the converged image are needed but were not kept.
 bool Viewer::wantsLiveFrame() const {
     const bool lacksValues =
         CompareView::wantsValues(state_) && !session_->shownValues() && session_->showProblem().empty();
@@ -190,7 +190,7 @@ bool Viewer::wantsFrame() const {
     }
 }
 
-// Seconds until the limit allows another frame.
+// Seconds until the frame rate limit allows another frame.
 double Viewer::timeToFrame() const {
     return state_.mostFrames > 0.0F ? std::max(1.0 / double(state_.mostFrames) - secondsSince(lastFrame_), 0.0) : 0.0;
 }
@@ -206,11 +206,11 @@ double Viewer::timeToWait() const {
 }
 
 bool Viewer::atRest() const {
-    return session_->frames() >= framesToRest(state_) && redraws_ == 0 && !session_->wantsFrame(state_, renderSize()) &&
-           !compare_.wantsFrame(state_, renderSize());
+    return session_->frames() >= session_->framesToConverge(state_) && redraws_ == 0 &&
+           !session_->wantsFrame(state_, renderSize()) && !compare_.wantsFrame(state_, renderSize());
 }
 
-// What was asked for on the command line, once there is something to see.
+// Carries out --pick and --window-picture once the image has converged.
 void Viewer::finishPicture() {
     if (!atRest()) {
         return;
@@ -220,7 +220,7 @@ void Viewer::finishPicture() {
         toPick_.reset();
         opensPixel_ = true;
         attempt([&] { pickPixel(pixel); });
-    } else if (picked_ && picked_->change != session_->changes() && seesAsPicked()) {
+    } else if (picked_ && picked_->change != session_->changes() && isPickedView()) {
         attempt([&] { pickPixel(picked_->pixel); });
     } else if (!options_.windowPicture.empty()) {
         writePng(options_.windowPicture, canvas_->picture());
@@ -286,9 +286,9 @@ void Viewer::watchShaders() {
     const std::string before = shaders_.problem();
     if (shaders_.update()) {
         device_.pipelines().clear();
-        session_->startAnew();
+        session_->resetHistory();
         compare_.forget();
-        tell(fmt::format("Compiled anew: {}", fmt::join(shaders_.replaced(), ", ")));
+        tell(fmt::format("Recompiled: {}", fmt::join(shaders_.replaced(), ", ")));
         redraws_ = settlingRedraws;
     }
     if (shaders_.problem() != before) {
@@ -303,7 +303,7 @@ void Viewer::attempt(const std::function<void()>& work) {
     } catch (const Error& error) {
         problem_ = error.what();
     } catch (const std::bad_alloc&) {
-        problem_ = "there is not enough memory for this";
+        problem_ = "not enough memory";
     }
     redraws_ = settlingRedraws;
 }
@@ -318,13 +318,13 @@ void Viewer::save() {
         return;
     }
     const fs::path file = stateFile(state_.source.scene);
-    std::error_code ignored;  // writing says it better
+    std::error_code ignored;  // writing the file reports it better
     fs::create_directories(file.parent_path(), ignored);
     saved_ = text;
     try {
         writeFileAtomically(file, text);
     } catch (const Error& error) {
-        tell(fmt::format("What is set here is not kept: {}", error.what()));
+        tell(fmt::format("The state cannot be saved: {}", error.what()));
         if (!warnedOfSaving_) {
             printWarning(notice_);
         }
@@ -364,7 +364,7 @@ void Viewer::loop() {
         redraws_ = std::max(redraws_ - 1, 0);
         Window::beginUi();
         handlePointer();
-        handleKeys();  // after it: a screenshot is of what the pointer has made of the view
+        handleKeys();  // after the pointer, so that a screenshot has the current view
         flyByKeys();
         drawUi();
         if (wantsFrame() && timeToFrame() <= 0.0) {
@@ -373,7 +373,7 @@ void Viewer::loop() {
         present();
         writeStatus();
         finishPicture();
-        if (secondsSince(lastSave_) > saveEvery) {  // lest a display that goes away takes everything along
+        if (secondsSince(lastSave_) > saveEvery) {  // so that little is lost if the display goes away
             save();
         }
     }
@@ -388,7 +388,7 @@ void Viewer::run() {
     }
     save();
     if (options_.validate && !device_.validationMessages().empty()) {
-        fail("the validation layers had {} messages", device_.validationMessages().size());
+        fail("the validation layers reported {} messages", device_.validationMessages().size());
     }
 }
 

@@ -1,4 +1,4 @@
-// The viewer: a window, a scene, and what people do with them.
+// The viewer: a window, a scene, and the user's actions.
 #pragma once
 
 #include "gpu/device.h"
@@ -22,15 +22,15 @@ namespace reflet {
 struct ViewerOptions {
     SceneOptions scene;
     std::string device;
-    bool fresh = false;         ///< what was saved of the scene is left alone until the end
-    std::string status;         ///< file that says what the window shows, for scripts; empty: none
-    std::string pick;           ///< "X,Y": a pixel that is picked once the picture is at rest
-    std::string windowPicture;  ///< PNG of the window once it is at rest, which ends the program; empty: none
-    std::string shaders;        ///< folder of sources whose shaders are watched; empty: what the program was built from
+    bool fresh = false;         ///< starts without the scene's saved state, which is overwritten at the end
+    std::string status;         ///< file that describes the window's content, for scripts; empty: none
+    std::string pick;           ///< "X,Y": a pixel to pick once the image has converged
+    std::string windowPicture;  ///< PNG of the window once converged, after which the program exits; empty: none
+    std::string shaders;        ///< source folder whose shaders are watched; empty: the program's own
     bool validate = false;
 };
 
-/// The device time of a pass in the last frames, milliseconds.
+/// The device time of a pass over the last frames, milliseconds.
 struct PassHistory {
     std::string name;
     float mean = 0.0F;
@@ -45,13 +45,13 @@ public:
     Viewer(const Viewer&) = delete;
     Viewer& operator=(const Viewer&) = delete;
 
-    /// Until the window is closed. Throws Error: the device or the surface is lost; the state has been saved then.
+    /// Runs until the window is closed. Throws Error if the device or the surface is lost, after saving the state.
     void run();
 
     [[nodiscard]] const gpu::Device& device() const { return device_; }
 
 private:
-    struct PictureRect {  // of the window, in its units
+    struct PictureRect {  // in window units
         vec2 min{0.0F};
         vec2 size{0.0F};
     };
@@ -81,7 +81,7 @@ private:
     [[nodiscard]] std::string commandLine();
     void takeScreenshot(const std::string& file);
     void pickPixel(uvec2 pixel);
-    [[nodiscard]] bool seesAsPicked() const;
+    [[nodiscard]] bool isPickedView() const;
     void chooseFalseColorRange();
     void writeStatus();
 
@@ -90,7 +90,7 @@ private:
     void handleKey(const KeyPress& press);
     void handlePointer();
     void flyByKeys();
-    Camera& heldCamera();
+    Camera& detachedCamera();
     [[nodiscard]] uvec2 pixelAt(const vec2& mouse) const;
 
     // viewer_panels.cpp
@@ -124,30 +124,30 @@ private:
     ShaderWatch shaders_;
     ControlPlaces places_;
 
-    std::string notice_;   ///< the last thing that was done
-    std::string problem_;  ///< the last thing that failed; stays until the next that works
+    std::string notice_;   ///< the last completed action
+    std::string problem_;  ///< the last failed action; stays until one succeeds
     std::string fileName_;
     std::string filter_;
     std::string openName_;
     std::optional<Picked> picked_;
     bool stepsOnce_ = false;
-    bool opensPixel_ = false;  ///< its panel, in the next round
+    bool opensPixel_ = false;  ///< opens the pixel panel in the next frame
     std::optional<uvec2> toPick_;
-    int redraws_ = 3;  ///< the user interface settles within so many frames
+    int redraws_ = 3;  ///< redraws until the user interface has settled
     bool dragsDivider_ = false;
     vec2 pressedAt_{0.0F};
     vec2 pointerBefore_{0.0F};
     bool pressedInPicture_ = false;
     std::chrono::steady_clock::time_point lastFrame_;
     std::chrono::steady_clock::time_point lastLoop_;
-    double elapsed_ = 0.0;  ///< seconds since the loop's last round
+    double elapsed_ = 0.0;  ///< seconds since the loop's last iteration
     std::deque<float> frameTimes_;
     std::vector<PassHistory> passes_;
-    uint64_t rendered_ = 0;  ///< frames in all
-    uint64_t drawn_ = 0;     ///< windows in all
+    uint64_t rendered_ = 0;  ///< frames in total
+    uint64_t drawn_ = 0;     ///< window redraws in total
     std::chrono::steady_clock::time_point lastWatch_;
     std::chrono::steady_clock::time_point lastSave_ = std::chrono::steady_clock::now();
-    std::string saved_;  ///< what is in the file
+    std::string saved_;  ///< content of the state file
     bool warnedOfSaving_ = false;
 };
 

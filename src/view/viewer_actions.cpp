@@ -1,4 +1,4 @@
-// What the viewer does on request, and what it tells scripts.
+// The viewer's actions, and its status file for scripts.
 #include "view/viewer.h"
 
 #include "apps/command_line.h"
@@ -26,7 +26,7 @@ std::string sceneStem(const std::string& scene) {
     return scene.starts_with("builtin:") ? scene.substr(8) : fs::path(scene).stem().string();
 }
 
-// The view in a file that stays: of its content's name, so that a command line that was copied keeps its meaning.
+// Writes the view to a permanent file, named after its content so that copied command lines stay valid.
 std::string keptViewFile(const std::string& scene, const View& view) {
     const std::string text = jsonText(viewJson(view), 2) + "\n";
     const fs::path file =
@@ -123,8 +123,8 @@ void Viewer::pickPixel(uvec2 pixel) {
     picked_ = session_->pick(state_, renderSize(), pixel);
 }
 
-// Whether the picked pixel is still that of the same ray. A camera that has moved since shows the ray from elsewhere.
-bool Viewer::seesAsPicked() const {
+// Whether the picked pixel still belongs to the recorded ray: false once the camera or the size has changed.
+bool Viewer::isPickedView() const {
     return picked_->view.worldToClip == session_->view().worldToClip && picked_->view.size == session_->view().size;
 }
 

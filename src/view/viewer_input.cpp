@@ -1,4 +1,4 @@
-// Keys and pointer.
+// Handles keys and the pointer.
 #include "base/error.h"
 #include "scene/camera_control.h"
 #include "scene/pose.h"
@@ -16,10 +16,10 @@ namespace reflet {
 
 namespace {
 
-constexpr float orbitSpeed = 0.006F;  // radians per unit of the desktop
+constexpr float orbitSpeed = 0.006F;  // radians per desktop unit
 constexpr float turnSpeed = 0.003F;
 constexpr float wheelFactor = 0.88F;
-constexpr float clickSlack = 4.0F;  // units that a hand moves while it clicks
+constexpr float clickSlack = 4.0F;  // units that the pointer may move during a click
 constexpr float dividerSlack = 6.0F;
 
 vec2 toVec(const ImVec2& v) {
@@ -82,7 +82,7 @@ void Viewer::handleKey(const KeyPress& press) {
         case GLFW_KEY_F:
             if (const Aabb box = session_->scene().bounds(); !box.empty()) {
                 const uvec2 size = renderSize();
-                frameAll(heldCamera(), box, float(size.x) / float(size.y));
+                frameAll(detachedCamera(), box, float(size.x) / float(size.y));
             }
             break;
         case GLFW_KEY_R:
@@ -99,8 +99,8 @@ void Viewer::handleKey(const KeyPress& press) {
     }
 }
 
-// The camera, to be moved by hand: from where its node has it now, if it hangs from one.
-Camera& Viewer::heldCamera() {
+// The camera for moving it by hand: detached from its node, if any, at the node's current pose.
+Camera& Viewer::detachedCamera() {
     state_.view.camera = posed(state_.view, session_->scene()).camera;
     return state_.view.camera;
 }
@@ -123,7 +123,7 @@ void Viewer::handlePointer() {
     const bool inside = isInside(mouse);
     const bool pressed = ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2);
     const float divider = rect.min.x + state_.compare.divider * rect.size.x;
-    if (pressed) {  // a frame may take so long that the pointer has gone on since, and the button up again
+    if (pressed) {  // during a slow frame the pointer may have moved on and the button been released
         pressedAt_ = window_.pressedAt();
         pointerBefore_ = pressedAt_;
         pressedInPicture_ = isInside(pressedAt_);
@@ -131,7 +131,7 @@ void Viewer::handlePointer() {
                         std::abs(pressedAt_.x - divider) < dividerSlack;
     }
     if (inside && io.MouseWheel != 0.0F) {
-        dolly(heldCamera(), std::pow(wheelFactor, io.MouseWheel));
+        dolly(detachedCamera(), std::pow(wheelFactor, io.MouseWheel));
     }
     if (!pressedInPicture_) {
         return;
@@ -142,7 +142,7 @@ void Viewer::handlePointer() {
             state_.compare.divider = std::clamp((mouse.x - rect.min.x) / rect.size.x, 0.0F, 1.0F);
         }
     } else if (moved != vec2(0.0F) && glm::distance(mouse, pressedAt_) >= clickSlack) {
-        Camera& camera = heldCamera();
+        Camera& camera = detachedCamera();
         if (ImGui::IsMouseDown(2) || (ImGui::IsMouseDown(0) && io.KeyShift)) {
             pan(camera, moved / rect.size.y);
         } else if (ImGui::IsMouseDown(0)) {
@@ -172,10 +172,10 @@ void Viewer::flyByKeys() {
     if (way == vec3(0.0F)) {
         return;
     }
-    constexpr double longestStep = 0.1;  // seconds: the first after a rest is not a leap
+    constexpr double longestStep = 0.1;  // seconds, so that the first step after an idle period is not a jump
     const float fast = window_.isHeld(GLFW_KEY_LEFT_SHIFT) ? 4.0F : 1.0F;
     const float metres = fast * flightSpeed(session_->scene().bounds()) * float(std::min(elapsed_, longestStep));
-    fly(heldCamera(), metres * way);
+    fly(detachedCamera(), metres * way);
     redraws_ = std::max(redraws_, 2);
 }
 

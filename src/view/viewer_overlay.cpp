@@ -1,4 +1,4 @@
-// What is drawn over the picture: the divider, the picked pixel's ray, help.
+// Draws over the image: the divider, the picked pixel's ray, help.
 #include "view/viewer.h"
 
 #include "base/error.h"
@@ -23,49 +23,47 @@ std::string text(const std::vector<float>& values) {
     return all;
 }
 
-// What these settings take for a hit: a far side may not count.
+// Whether these settings count the hit: back faces may be rejected.
 bool isHit(const RecordedRay& ray, const TraceScreenSettings& settings) {
     return ray.outcome == RayOutcome::hit && !(ray.facesAway && settings.rejectBackfaces != 0);
 }
 
-// Why the mirror ray brings what it brings, in words.
+// Explains the outcome of the mirror ray.
 std::string explanation(const RecordedRay& ray, const TraceScreenSettings& settings) {
     const std::string at = fmt::format("pixel {}, {}", ray.pixel.x, ray.pixel.y);
     std::string why;
     if (isHit(ray, settings)) {
         why = fmt::format(
-            "A hit: after {:.3g} m it meets what {} shows. Confidence {:.2f}: edge {:.2f}, distance {:.2f}, "
+            "Hit: after {:.3g} m it meets the surface at {}. Confidence {:.2f}: edge {:.2f}, distance {:.2f}, "
             "camera {:.2f}.",
             ray.distance, at, ray.confidence, ray.edge, ray.far, ray.camera);
     } else if (ray.outcome == RayOutcome::hit) {
         why = fmt::format(
-            "A miss: after {:.3g} m it meets what {} shows from behind, and that side the screen does not "
-            "show (trace_screen.reject_backfaces).",
+            "Miss: after {:.3g} m it meets the surface at {} from behind, but only its front is on the screen "
+            "(trace_screen.reject_backfaces).",
             ray.distance, at);
     } else if (ray.outcome == RayOutcome::leftScreen) {
         why = fmt::format(
-            "A miss: it leaves the screen after {:.3g} m. What is there only other sources know: trace_scene, "
-            "probes, the environment.",
+            "Miss: it leaves the screen after {:.3g} m. The fallbacks are trace_scene, probes and the "
+            "environment.",
             ray.distance);
     } else if (ray.outcome == RayOutcome::hidden) {
-        why = fmt::format("A miss: it goes behind something thicker than trace_screen.thickness ({:g} m).",
+        why = fmt::format("Miss: it passes behind a surface by more than trace_screen.thickness ({:g} m).",
                           settings.thickness);
     } else {
-        why = fmt::format(
-            "A miss: it has taken all its steps (trace_screen.max_steps is {}), or gone as far as "
-            "trace_screen.max_distance ({:g} m).",
-            settings.maxSteps, settings.maxDistance);
+        why = fmt::format("Miss: it has reached trace_screen.max_steps ({}) or trace_screen.max_distance ({:g} m).",
+                          settings.maxSteps, settings.maxDistance);
     }
     if (ray.lost && !isHit(ray, settings)) {
         why += fmt::format(
-            " From {:.3g} m on it was behind something that the screen shows, by more than "
-            "trace_screen.thickness ({:g} m): what it meets there is hidden.",
+            " From {:.3g} m on it was occluded: behind a visible surface by more than trace_screen.thickness "
+            "({:g} m).",
             ray.clear, settings.thickness);
     }
     return why;
 }
 
-// The part of a line, in clip space, that lies in front of the camera.
+// Clips a line in clip space to the part in front of the camera.
 std::optional<std::pair<vec4, vec4>> inFront(vec4 a, vec4 b) {
     constexpr float nearest = 1e-3F;  // metres in front of a perspective camera; orthographic: w is 1
     if (a.w < nearest && b.w < nearest) {
@@ -96,8 +94,8 @@ void Viewer::drawDivider() {
     draw.AddText({x + 8.0F, rect.min.y + 6.0F}, IM_COL32_WHITE, "B");
 }
 
-// The steps and the pixel are of the picture that was picked; the ray is in the world, and a camera that has moved
-// since sees it from elsewhere.
+// The steps and the pixel are valid only for the view at the time of the pick. The ray is in world space and is also
+// drawn from other views.
 void Viewer::drawRay() {
     if (!picked_ || session_->frames() == 0) {
         return;
@@ -107,7 +105,7 @@ void Viewer::drawRay() {
     draw.PushClipRect({rect.min.x, rect.min.y}, {rect.min.x + rect.size.x, rect.min.y + rect.size.y});
     const vec2 perPixel = rect.size / vec2(session_->size());
     const auto at = [](const vec2& v) { return ImVec2(v.x, v.y); };
-    const bool asPicked = seesAsPicked();
+    const bool asPicked = isPickedView();
     if (picked_->ray) {
         const RecordedRay& ray = *picked_->ray;
         for (const RayStep& step : asPicked ? std::span(ray.steps) : std::span<const RayStep>()) {
@@ -147,7 +145,7 @@ void Viewer::drawRay() {
 
 void Viewer::pixelPanel() {
     if (!picked_) {
-        ImGui::TextDisabled("Click into the picture.");
+        ImGui::TextDisabled("Click on the image to pick a pixel.");
         return;
     }
     ImGui::Text("pixel %u, %u", picked_->pixel.x, picked_->pixel.y);
@@ -157,9 +155,8 @@ void Viewer::pixelPanel() {
     }
     places_.note("pick again");
     tooltip(
-        "This pixel of the picture as it is now. Changed settings and lights are followed; a camera that moves shows "
-        "the "
-        "ray from elsewhere.");
+        "Picks this pixel again in the current image. Changes of settings and light do so automatically; a moved "
+        "camera shows the recorded ray from its new position.");
     if (picked_->ray) {
         ImGui::PushTextWrapPos(0.0F);
         ImGui::Text("Mirror ray, %u depth samples", picked_->ray->samples);
@@ -184,24 +181,24 @@ void Viewer::pixelPanel() {
 void Viewer::helpOverlay() {
     constexpr std::array<std::array<const char*, 2>, 20> keys{{{"left drag", "orbit"},
                                                                {"middle drag, Shift+left drag", "pan"},
-                                                               {"wheel", "nearer, farther"},
-                                                               {"right drag", "look round"},
-                                                               {"W A S D, Q E", "fly; Shift: fast"},
+                                                               {"wheel", "move closer, farther"},
+                                                               {"right drag", "look around"},
+                                                               {"W A S D, Q E", "fly; Shift: faster"},
                                                                {"click", "pick the pixel: values and mirror ray"},
                                                                {"F", "frame all"},
-                                                               {"R", "the first camera"},
+                                                               {"R", "reset the camera"},
                                                                {"space", "pause"},
-                                                               {".", "one frame"},
-                                                               {"C", "continuous"},
+                                                               {".", "render one frame"},
+                                                               {"C", "continuous rendering"},
                                                                {"P", "play animations"},
                                                                {"X", "only A, only B"},
                                                                {"Tab", "panels"},
                                                                {"Ctrl+S", "screenshot"},
                                                                {"Ctrl+C", "copy the command line"},
-                                                               {"Esc", "forget the picked pixel"},
-                                                               {"Ctrl+click on a slider", "type a number"},
+                                                               {"Esc", "clear the picked pixel"},
+                                                               {"Ctrl+click on a slider", "type a value"},
                                                                {"F1, H", "this list"},
-                                                               {"Ctrl+Q", "quit; all is saved"}}};
+                                                               {"Ctrl+Q", "quit; the state is saved"}}};
     const uvec2 window = window_.size();
     ImGui::SetNextWindowPos({0.5F * float(window.x), 0.5F * float(window.y)}, ImGuiCond_Always, {0.5F, 0.5F});
     ImGui::Begin("Keys", &state_.help,

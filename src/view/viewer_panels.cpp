@@ -1,4 +1,4 @@
-// The panels at the left.
+// The panels on the left.
 #include "base/json_text.h"
 #include "render/presets.h"
 #include "scene/builtin.h"
@@ -52,29 +52,29 @@ void Viewer::runPanel() {
     int running = static_cast<int>(state_.running);
     ImGui::RadioButton("on demand", &running, int(Running::onDemand));
     places_.note("on demand");
-    tooltip("Frames are drawn after a change, until the picture has come to rest.");
+    tooltip("Renders after a change until the image has converged.");
     ImGui::SameLine();
     ImGui::RadioButton("continuous", &running, int(Running::continuous));
     places_.note("continuous");
-    tooltip("One frame after the other (C).");
+    tooltip("Renders all the time (C).");
     ImGui::SameLine();
     ImGui::RadioButton("pause", &running, int(Running::paused));
     places_.note("pause");
-    tooltip("Nothing is rendered, the machine rests (space). Panels stay alive.");
+    tooltip("Renders nothing (space). Panels still work.");
     state_.running = static_cast<Running>(running);
     ImGui::SameLine();
     if (ImGui::Button("step")) {
         stepsOnce_ = true;
     }
     places_.note("step");
-    tooltip("Render one frame (.)");
+    tooltip("Renders one frame (.).");
     const uvec2 size = renderSize();
-    const uint32_t rest = framesToRest(state_);
+    const uint32_t rest = session_->framesToConverge(state_);
     const bool settled = session_->frames() >= rest;
     ImGui::TextColored(quietColor, "%ux%u, frame %u%s", size.x, size.y, session_->frames(),
                        state_.running == Running::paused ? ", paused"
-                       : settled                         ? ", at rest"
-                                                         : fmt::format(" of {} until it is at rest", rest).c_str());
+                       : settled                         ? ", converged"
+                                                         : fmt::format(" of {} until converged", rest).c_str());
     if (!session_->scene().animations.empty()) {
         ImGui::Checkbox("play animations", &state_.plays);
         places_.note("play");
@@ -100,11 +100,11 @@ void Viewer::settingsPanel() {
         state_.settings = state_.ofPreset;
     }
     places_.note("reset all");
-    tooltip("Every setting back to the preset's");
+    tooltip("Resets all settings to the preset.");
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.5F);
     ImGui::InputTextWithHint("find", "diffuse, thickness, ...", &filter_);
     places_.note("find");
-    tooltip("Only the settings whose name has this in it");
+    tooltip("Shows only the settings that match.");
     settingControls(state_.settings, state_.ofPreset, filter_, places_);
 }
 
@@ -123,21 +123,21 @@ void Viewer::showPanel() {
     const bool before = state_.falseColor;
     ImGui::Checkbox("false colours", &state_.falseColor);
     places_.note("false colours");
-    tooltip("Of the first channel: black, violet, red, orange to pale yellow");
+    tooltip("Colour map of the first channel: black, violet, red, orange to pale yellow.");
     bool changed = before != state_.falseColor;
     if (state_.falseColor) {
         ImGui::SameLine();
         if (ImGui::Button("fit")) {
             chooseFalseColorRange();
         }
-        tooltip("From the smallest to the largest value of this frame");
+        tooltip("Sets the range to the smallest and largest value of this frame.");
         const float step = std::max((state_.high - state_.low) * 0.01F, 1e-5F);
         changed = ImGui::DragFloatRange2("range", &state_.low, &state_.high, step, 0.0F, 0.0F, "%.4g") || changed;
     }
     if (changed && session_->shownValues()) {
         session_->refreshPicture(state_);
     } else if (changed) {
-        stepsOnce_ = true;  // its values have to be fetched
+        stepsOnce_ = true;  // its values have to be read back
     }
     if (!session_->showProblem().empty()) {
         wrapped(problemColor, session_->showProblem());
@@ -148,11 +148,12 @@ void Viewer::comparePanel() {
     Compare& c = state_.compare;
     int with = static_cast<int>(c.with);
     const std::array<const char*, 4> names{"nothing", "preset", "EXR file", "truth"};
-    const std::array<const char*, 4> help{"One picture", "Live, with the settings of another preset",
-                                          "A picture in a file, as reflet render or reflet reference write them",
-                                          "This view, path traced in the background while the window stays alive"};
+    const std::array<const char*, 4> labels{"nothing", "preset", "EXR file", "ground truth"};
+    const std::array<const char*, 4> help{"Shows one image.", "Live, with the settings of another preset.",
+                                          "An image file, as written by reflet render or reflet reference.",
+                                          "This view, path traced in the background."};
     for (int i = 0; i < 4; ++i) {
-        ImGui::RadioButton(names[i], &with, i);
+        ImGui::RadioButton(labels[i], &with, i);
         places_.note(fmt::format("compare {}", names[i]));
         tooltip(help[i]);
         if (i < 3) {
@@ -175,7 +176,7 @@ void Viewer::comparePanel() {
         const uint32_t one = 1;
         const uint32_t most = 4096;
         ImGui::SliderScalar("samples", ImGuiDataType_U32, &c.samples, &one, &most, "%u", ImGuiSliderFlags_Logarithmic);
-        tooltip("Per pixel, at most");
+        tooltip("Maximum samples per pixel.");
         if (compare_.samples() < c.samples) {
             ImGui::ProgressBar(compare_.progress(), {-1.0F, 0.0F});
         }
@@ -184,12 +185,12 @@ void Viewer::comparePanel() {
     if (compare_.error()) {
         ImGui::Text("HDR-FLIP %.4f   relative MSE %.5f   bias %+.1f %%", compare_.error()->flip,
                     compare_.error()->relativeMse, 100.0 * compare_.error()->bias);
-        tooltip("Of the left side against the right one, worked out in the background");
-        ImGui::Checkbox("error on the right", &c.errorImage);
+        tooltip("Error of the left side against the right one, computed in the background.");
+        ImGui::Checkbox("error map on the right", &c.errorImage);
         places_.note("error image");
-        tooltip("HDR-FLIP of each pixel in false colours, in the place of the right side");
+        tooltip("HDR-FLIP of each pixel in false colours, instead of the right image.");
     }
-    ImGui::TextColored(quietColor, "Drag the line in the picture; X shows one side alone.");
+    ImGui::TextColored(quietColor, "Drag the divider in the image; X shows one side alone.");
 }
 
 void Viewer::timesPanel() {
@@ -198,16 +199,16 @@ void Viewer::timesPanel() {
         const float most = *std::ranges::max_element(times);
         ImGui::PlotLines("##times", times.data(), int(times.size()), 0, fmt::format("{:.1f} ms", times.back()).c_str(),
                          0.0F, most * 1.1F, {ImGui::GetContentRegionAvail().x, 60.0F});
-        tooltip("Each frame, from its submission to its end");
+        tooltip("Time of each frame, from submission to completion.");
     }
-    ImGui::Text("memory on the device: %s", megabytes(device_.memory().used(gpu::MemoryUse::device)).c_str());
+    ImGui::Text("device memory: %s", megabytes(device_.memory().used(gpu::MemoryUse::device)).c_str());
     ImGui::SliderFloat("resolution", &state_.scale, 0.1F, 2.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp);
     places_.note("resolution");
-    tooltip("Pixels that are rendered for each of the window's, along a side");
+    tooltip("Resolution scale: rendered pixels per window pixel, along each side. Lower: faster, blurrier.");
     ImGui::SliderFloat("frames/s", &state_.mostFrames, 0.0F, 240.0F, state_.mostFrames > 0.0F ? "%.0f" : "no limit",
                        ImGuiSliderFlags_AlwaysClamp);
     places_.note("frame limit");
-    tooltip("At most; 0: as many as there can be");
+    tooltip("Frame rate limit; 0: no limit.");
     if (ImGui::BeginTable("passes", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
         for (const PassHistory& pass : passes_) {
             ImGui::TableNextRow();
@@ -227,8 +228,8 @@ void Viewer::filesPanel() {
     }
     places_.note("copy command line");
     tooltip(
-        "A command that renders this picture, into the clipboard (Ctrl+C). Its view file is kept with the "
-        "configuration.");
+        "Copies a command that renders this image to the clipboard (Ctrl+C). Its view file is kept in the "
+        "configuration folder.");
     ImGui::InputTextWithHint("file##save", "name.png, .exr, .json", &openName_);
     places_.note("file name");
     const auto labelled = [&](const char* label, const char* help, const std::function<void()>& work) {
@@ -239,25 +240,26 @@ void Viewer::filesPanel() {
         tooltip(help);
     };
     labelled("screenshot",
-             "PNG or EXR, what reflet render writes for this state; without a name, the next free one in "
-             "this folder (Ctrl+S)",
+             "Writes the same PNG or EXR file as reflet render for this state. Default name: the next free one in the "
+             "current folder (Ctrl+S).",
              [&] { takeScreenshot(openName_); });
     ImGui::SameLine();
-    labelled("open",
-             "A scene (.gltf, .glb, builtin:NAME), an EXR to compare with, an environment (.hdr), settings or a view "
-             "(.json); or drag it onto the window",
-             [&] { openFile(openName_); });
-    labelled("save settings", "All that differs from the defaults, as --settings reads it", [&] {
+    labelled(
+        "open",
+        "Opens a scene (.gltf, .glb, builtin:NAME), an EXR to compare with, an environment (.hdr), settings or a view "
+        "(.json). Dragging it onto the window does the same.",
+        [&] { openFile(openName_); });
+    labelled("save settings", "Writes all settings that differ from the defaults, in the form of --settings.", [&] {
         if (openName_.empty()) {
-            fail("name a .json file to save to");
+            fail("type the name of a .json file to save to");
         }
         writeFileAtomically(openName_, jsonText(settingsJson(state_.settings, Settings{}), 2) + "\n");
         tell(fmt::format("Written: {}", openName_));
     });
     ImGui::SameLine();
-    labelled("save view", "Camera, light and time, as --view-file reads them", [&] {
+    labelled("save view", "Writes camera, light and time, in the form of --view-file.", [&] {
         if (openName_.empty()) {
-            fail("name a .json file to save to");
+            fail("type the name of a .json file to save to");
         }
         writeFileAtomically(openName_, jsonText(viewJson(state_.view), 2) + "\n");
         tell(fmt::format("Written: {}", openName_));
@@ -274,7 +276,7 @@ void Viewer::filesPanel() {
 
 void Viewer::messages() {
     if (!shaders_.problem().empty()) {
-        wrapped(problemColor, "A shader does not compile; the last good one runs on.");
+        wrapped(problemColor, "A shader does not compile; its last working version is still in use.");
         wrapped(problemColor, shaders_.problem());
     }
     if (!problem_.empty()) {

@@ -1,4 +1,4 @@
-// The panels of what the scene is lit by, and seen from.
+// The panels for light and camera.
 #include "view/viewer.h"
 
 #include "base/error.h"
@@ -17,8 +17,7 @@ void Viewer::lightPanel() {
         view.sun.node = -1;
     }
     places_.note("sun direction");
-    tooltip(
-        "Drag the sun over the sky: straight above in the middle, the horizon at the rim, +X to the right, +Z down.");
+    tooltip("Drag the sun: zenith in the centre, horizon at the rim, +X to the right, +Z down.");
     ImGui::SameLine();
     ImGui::BeginGroup();
     ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.55F);
@@ -34,12 +33,12 @@ void Viewer::lightPanel() {
         view.sun.node = -1;
     }
     ImGui::DragFloat3("irradiance", &view.sun.irradiance.x, 0.05F, 0.0F, 1e4F, "%.2f", ImGuiSliderFlags_AlwaysClamp);
-    tooltip("W/m² on a surface that faces the sun: red, green, blue");
+    tooltip("W/m² on a surface that faces the sun: red, green, blue.");
     float diameter = glm::degrees(view.sun.angularDiameter);
     if (ImGui::SliderFloat("diameter", &diameter, 0.0F, 10.0F, "%.2f°", ImGuiSliderFlags_AlwaysClamp)) {
         view.sun.angularDiameter = glm::radians(diameter);
     }
-    tooltip("Angular; the real one has 0.53°. Shadows with shadow.filter=pcss get as soft as it says.");
+    tooltip("Angular diameter; the real sun has 0.53°. Larger: softer shadows, with shadow.filter=pcss.");
     ImGui::PopItemWidth();
     ImGui::EndGroup();
 
@@ -69,9 +68,9 @@ void Viewer::lightPanel() {
         ImGui::ColorEdit3("radiance", &view.environment.radiance.x,
                           ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR);
         view.environment.radiance = glm::clamp(view.environment.radiance, 0.0F, 1e6F);
-        tooltip("Of all directions, W/(m² sr)");
+        tooltip("Uniform from all directions, W/(m² sr).");
     }
-    if (ImGui::Button("the scene's own light")) {
+    if (ImGui::Button("reset light")) {
         view.sun = session_->firstView().sun;
         view.environment = session_->firstView().environment;
         view.lampsOff = session_->firstView().lampsOff;
@@ -110,7 +109,7 @@ void Viewer::cameraPanel() {
         if (ImGui::SliderFloat("field of view", &fov, 5.0F, 150.0F, "%.1f°", ImGuiSliderFlags_AlwaysClamp)) {
             camera.fovY = glm::radians(fov);
         }
-        tooltip("From the lower to the upper edge");
+        tooltip("Vertical, from the lower to the upper edge.");
     }
     ImGui::PopItemWidth();
 }

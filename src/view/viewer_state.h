@@ -1,4 +1,4 @@
-// What the window shows and how: all that is saved, and all that panels change.
+// The viewer's state: everything that panels change and that is saved.
 #pragma once
 
 #include "apps/scene_options.h"
@@ -12,12 +12,12 @@
 namespace reflet {
 
 enum class Running : uint8_t {
-    onDemand,    ///< frames are drawn after a change, until the picture has come to rest
-    continuous,  ///< one after the other
-    paused,      ///< none
+    onDemand,    ///< renders after a change until the image has converged
+    continuous,  ///< renders all the time
+    paused,      ///< renders nothing
 };
 
-/// What the right side of the divider shows.
+/// The content of the right side of the divider.
 enum class CompareWith : uint8_t {
     nothing,
     preset,  ///< live
@@ -29,29 +29,29 @@ struct Compare {
     CompareWith with = CompareWith::nothing;
     std::string preset = "plain";
     std::string file;
-    uint32_t samples = 256;   ///< of the truth, per pixel
-    float divider = 0.5F;     ///< share of the picture's width
-    bool errorImage = false;  ///< FLIP in the place of the right side
+    uint32_t samples = 256;   ///< of the ground truth, per pixel
+    float divider = 0.5F;     ///< position as a fraction of the image's width
+    bool errorImage = false;  ///< FLIP map instead of the right image
 };
 
 struct ViewerState {
-    SceneOptions source;  ///< what was opened, and how
+    SceneOptions source;  ///< the opened scene and its options
     View view;
     std::string preset;
     Settings settings;
-    Settings ofPreset;  ///< what "changed" and "reset" are measured by
+    Settings ofPreset;  ///< baseline for "changed" and "reset"
     Running running = Running::onDemand;
-    bool plays = false;  ///< animations
+    bool plays = false;  ///< animations play
     std::string show = "final";
-    bool falseColor = false;  ///< of the show's first channel, from low to high
+    bool falseColor = false;  ///< colour map of the show's first channel, from low to high
     float low = 0.0F;
     float high = 1.0F;
-    float scale = 1.0F;       ///< pixels rendered for each of the window's, along a side
-    float mostFrames = 0.0F;  ///< a second; 0: no limit
+    float scale = 1.0F;       ///< rendered pixels per window pixel, along each side
+    float mostFrames = 0.0F;  ///< per second; 0: no limit
     Compare compare;
     bool panels = true;
-    float panelWidth = 380.0F;  ///< in the desktop's units, on a display that does not make text larger
-    uvec2 window{0};            ///< the same
+    float panelWidth = 380.0F;  ///< in desktop units, at text scale 1
+    uvec2 window{0};            ///< size in desktop units
     bool help = false;
 };
 

@@ -1,5 +1,5 @@
-// The window by GLFW, its user interface by Dear ImGui.
-#include "gpu/vulkan.h"  // before GLFW, which then knows Vulkan's types
+// Implements the window with GLFW and its user interface with Dear ImGui.
+#include "gpu/vulkan.h"  // before GLFW, which then declares its Vulkan functions
 //
 #include "view/window.h"
 
@@ -28,7 +28,7 @@ Window& windowOf(GLFWwindow* handle) {
     return *static_cast<Window*>(glfwGetWindowUserPointer(handle));
 }
 
-// Found on Debian with fonts-dejavu-core, which other systems have in these places as well.
+// DejaVu Sans, where Debian (fonts-dejavu-core) and other distributions install it.
 void addFont(float pixels) {
     const std::array<const char*, 3> files{"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
                                            "/usr/share/fonts/TTF/DejaVuSans.ttf",
@@ -55,7 +55,7 @@ Window::Window(const std::string& title, uvec2 size) {
     }
     if (glfwVulkanSupported() == GLFW_FALSE) {
         glfwTerminate();
-        fail("no Vulkan here that could show pictures in a window; `reflet render` needs none");
+        fail("Vulkan cannot present to a window here; `reflet render` needs none");
     }
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
@@ -89,11 +89,11 @@ Window::Window(const std::string& title, uvec2 size) {
     glfwSetWindowFocusCallback(window_, [](GLFWwindow* handle, int) { windowOf(handle).happened_ = true; });
 
     ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr;  // what is kept is in the viewer's own file
+    ImGui::GetIO().IniFilename = nullptr;  // the viewer saves its state in its own file
     ImGui::StyleColorsDark();
     float across = 1.0F;
     glfwGetWindowContentScale(window_, &scale_, &across);
-    // Where a unit of the desktop has several pixels, the desktop scales by itself; letters are drawn for the pixels.
+    // If a desktop unit has several pixels, the desktop scales by itself; glyphs are rasterized at pixel resolution.
     const float pixelsPerUnit = static_cast<float>(pixels().x) / static_cast<float>(std::max(this->size().x, 1U));
     scale_ /= std::max(pixelsPerUnit, 1.0F);
     ImGui::GetStyle().ScaleAllSizes(scale_);
@@ -106,8 +106,8 @@ Window::Window(const std::string& title, uvec2 size) {
     });
 }
 
-// A key that goes down and up between two frames would be lost to text fields, which look at what is down (before ImGui
-// 1.87): where a key has gone down, those that go up wait until the next frame has been.
+// Text fields (before ImGui 1.87) poll which keys are down, and would lose a key that is pressed and released between
+// two frames: once a key is pressed, releases are deferred until after the next frame.
 void Window::takeKey(const KeyEvent& event) {
     happened_ = true;
     if (event.action == GLFW_RELEASE && pressed_) {
@@ -134,8 +134,7 @@ std::vector<const char*> Window::vulkanExtensions() {
     uint32_t count = 0;
     const char** names = glfwGetRequiredInstanceExtensions(&count);
     if (names == nullptr) {
-        fail("Vulkan cannot show pictures in windows of this desktop ({}); `reflet render` needs none",
-             lastGlfwError());
+        fail("Vulkan cannot present to windows of this desktop ({}); `reflet render` needs none", lastGlfwError());
     }
     return {names, names + count};
 }
@@ -143,7 +142,7 @@ std::vector<const char*> Window::vulkanExtensions() {
 VkSurfaceKHR_T* Window::surface(VkInstance_T* instance) const {
     VkSurfaceKHR surface = VK_NULL_HANDLE;
     if (glfwCreateWindowSurface(instance, window_, nullptr, &surface) != VK_SUCCESS) {
-        fail("Vulkan cannot show pictures in this window ({})", lastGlfwError());
+        fail("Vulkan cannot present to this window ({})", lastGlfwError());
     }
     return surface;
 }

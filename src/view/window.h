@@ -1,4 +1,4 @@
-// A window of the desktop with a user interface in it. One at a time.
+// A desktop window with a user interface. Only one can exist at a time.
 #pragma once
 
 #include "base/math.h"
@@ -16,7 +16,7 @@ struct VkSurfaceKHR_T;
 
 namespace reflet {
 
-/// A key that went down while no text field had the keyboard.
+/// A key pressed while no text field had the keyboard focus.
 struct KeyPress {
     int key = 0;  ///< GLFW_KEY_…
     bool control = false;
@@ -24,45 +24,45 @@ struct KeyPress {
 
 class Window {
 public:
-    /// Throws Error where there is no display. size: in the desktop's units.
+    /// Throws Error without a display. size: in desktop units.
     Window(const std::string& title, uvec2 size);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    /// What Vulkan's instance must be able to do for `surface`. There has to be a window.
+    /// Instance extensions that `surface` needs. Requires a window.
     [[nodiscard]] static std::vector<const char*> vulkanExtensions();
-    /// Of this window. Throws Error.
+    /// Creates this window's Vulkan surface. Throws Error.
     [[nodiscard]] VkSurfaceKHR_T* surface(VkInstance_T* instance) const;
 
-    /// Returns after an event or so many seconds; 0: at once.
+    /// Returns after an event or so many seconds; 0: immediately.
     static void waitForEvents(double seconds);
-    /// Makes another thread's news end the wait. May be called from any thread.
+    /// Ends waitForEvents(). May be called from any thread.
     static void wake();
-    /// Whether anything has happened since it was asked last.
+    /// Whether there were events since the last call.
     bool takeEvents();
     std::vector<KeyPress> takeKeys();
     std::vector<std::string> takeDroppedFiles();
 
     [[nodiscard]] bool isHeld(int key) const;
-    /// Where the pointer was when a button went down last; by now it may be elsewhere.
+    /// Position of the pointer at the last button press.
     [[nodiscard]] vec2 pressedAt() const { return pressedAt_; }
     [[nodiscard]] bool closing() const;
     void close();
     void setTitle(const std::string& title);
     void copyText(const std::string& text);
     [[nodiscard]] uvec2 pixels() const;                   ///< 0 while minimised
-    [[nodiscard]] uvec2 size() const;                     ///< in the desktop's units
-    [[nodiscard]] float scale() const { return scale_; }  ///< by which text is larger on this display
+    [[nodiscard]] uvec2 size() const;                     ///< in desktop units
+    [[nodiscard]] float scale() const { return scale_; }  ///< text scale of this display
 
-    /// The letters as RGBA8.
+    /// The font atlas as RGBA8.
     static std::span<const uint8_t> font(uvec2& size);
-    /// Begins and ends a description of the user interface.
+    /// Begin and end a frame of the user interface.
     static void beginUi();
     const ImDrawData& endUi();
 
 private:
-    struct KeyEvent {  // as GLFW tells it
+    struct KeyEvent {  // as reported by GLFW
         int key = 0;
         int code = 0;
         int action = 0;
@@ -72,7 +72,7 @@ private:
     void takeKey(const KeyEvent& event);
 
     GLFWwindow* window_ = nullptr;
-    bool pressed_ = false;  ///< a key, since the last frame of the user interface
+    bool pressed_ = false;  ///< a key was pressed since the last frame of the user interface
     std::vector<KeyEvent> released_;
     vec2 pointer_{0.0F};
     vec2 pressedAt_{0.0F};

@@ -63,7 +63,7 @@ TEST_F(Compare, HelpNamesAndDefinesEveryMetric) {
          {"relative_mse  mean over pixels and channels of (a - b)² / (b² + 0.01)",
           "psnr          10 log10(peak² / mean of (a - b)²)", "flip          mean over pixels of FLIP",
           "mean          mean over pixels and channels of |a - b|", "max           largest |a - b|",
-          "pixels        how many counted", "alpha is ignored", "psnr: below X"}) {
+          "pixels        number of pixels compared", "alpha is ignored", "psnr: below X"}) {
         EXPECT_NE(help.out.find(words), std::string::npos) << words;
     }
 }
@@ -154,7 +154,7 @@ TEST_F(Compare, PicturesThatDoNotFitTogetherAreRefusedInOneLine) {
     EXPECT_TRUE(refused(compare({"a.exr", "wide.exr"}), 1, {"a.exr is 8x4", "wide.exr is 9x4"}));
     EXPECT_TRUE(refused(compare({"a.exr", "a.exr:depth"}), 1, {"a.exr has the channels R, G, B", "a.exr:depth has Y"}));
     EXPECT_TRUE(refused(compare({"a.exr:motion", "a.exr:motion"}), 1, {"X, Y", "only 1 or 3"}));
-    EXPECT_TRUE(refused(compare({"a.png", "a.exr"}), 2, {"a.png", "a.exr", "one kind"}));
+    EXPECT_TRUE(refused(compare({"a.png", "a.exr"}), 2, {"a.png", "a.exr", "the same kind"}));
     EXPECT_TRUE(refused(compare({"a.exr", "missing.exr"}), 1, {"missing.exr", "No such file"}));
     EXPECT_TRUE(refused(compare({"a.exr", "missing.exr:direct"}), 1, {"missing.exr", "No such file"}));
     EXPECT_TRUE(refused(compare({"a.tif", "a.exr"}), 2, {"a.tif", ".png", ".exr"}));

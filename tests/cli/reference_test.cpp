@@ -137,7 +137,7 @@ TEST_F(Reference, AnInterruptWritesWhatWasDoneAndEndsWithOne) {
     for (const int signal : {SIGINT, SIGTERM}) {
         const Arguments longRun{"--spp", "1000000", "--filter", "center", "-o", "a.exr", "-o", "a.png"};
         const Outcome done = interrupt(arguments(cubes, longRun), {signal});
-        EXPECT_TRUE(refused(done, failed, {"of 1000000 samples per pixel; a.exr, a.png hold what was done"}));
+        EXPECT_TRUE(refused(done, failed, {"of 1000000 samples per pixel; a.exr, a.png hold the samples so far"}));
         std::smatch number;
         ASSERT_TRUE(std::regex_search(done.err, number, std::regex("interrupted after ([0-9]+) of "))) << done.err;
         EXPECT_GE(std::stoi(number[1]), 1);
@@ -154,7 +154,7 @@ TEST_F(Reference, AnInterruptWritesWhatWasDoneAndEndsWithOne) {
 TEST_F(Reference, ALaterInterruptKeepsTheSamplesSoFar) {
     const double work = 1.5;  // seconds of all cores
     const Outcome done = interrupt(arguments(cubes, {"--noise", "1e-6", "-o", "a.exr"}), {SIGINT}, work);
-    EXPECT_TRUE(refused(done, failed, {"interrupted after ", " samples per pixel; a.exr holds what was done"}));
+    EXPECT_TRUE(refused(done, failed, {"interrupted after ", " samples per pixel; a.exr holds the samples so far"}));
     Images all = images("a.exr");
     EXPECT_EQ(all.size(), 9U);
     EXPECT_GT(mean(all[""]), 0.01F);

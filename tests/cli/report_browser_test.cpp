@@ -137,7 +137,7 @@ TEST_F(ReportBrowserTest, TheDividerAndTheChoicesWork) {
     EXPECT_EQ(said("images"), "12");
     EXPECT_EQ(said("broken"), "0");
     EXPECT_EQ(said("edge-quarter"), "inset(0px 0px 0px 25%)");
-    EXPECT_EQ(said("words-quarter"), "25 % truth, 75 % fast");
+    EXPECT_EQ(said("words-quarter"), "25 % ground truth, 75 % fast");
     EXPECT_EQ(said("left"), "cubes-visible-only.png");
     EXPECT_EQ(said("right"), "cubes-direct.png");
     EXPECT_EQ(said("right-alt"), "cubes, variant direct");

@@ -115,7 +115,7 @@ TEST_F(Sequence, GoesOnWhereItWasKilledWithTheSameBytes) {
 TEST_F(Sequence, AnInterruptEndsItWithWholeFramesAndSaysSo) {
     const Arguments all = orbit({"-o", "a_####.png"}, "3000");
     const Outcome stopped = interrupt(all, {SIGINT});
-    EXPECT_TRUE(refused(stopped, 1, {"interrupted after", "the same command goes on"}));
+    EXPECT_TRUE(refused(stopped, 1, {"interrupted after", "run the same command again"}));
     for (const std::string& name : files()) {
         EXPECT_FALSE(name.starts_with('.')) << name;
     }

@@ -68,7 +68,7 @@ TEST(ScatterPlot, HasTitleDescriptionAndNames) {
     const std::string svg = scatterPlot(plotOf({{"fast", "cubes", 2.0, 0.02}, {"quality", "cubes", 9.0, 0.004}}));
     expectSound(svg);
     EXPECT_NE(svg.find("<title>Cost and error</title>"), std::string::npos);
-    EXPECT_NE(svg.find("not beaten in both: fast (2, 0.02); quality (9, 0.004).</desc>"), std::string::npos);
+    EXPECT_NE(svg.find("Pareto front: fast (2, 0.02); quality (9, 0.004).</desc>"), std::string::npos);
     EXPECT_NE(svg.find(">ms per frame</text>"), std::string::npos);
     EXPECT_NE(svg.find(">relative MSE</text>"), std::string::npos);
     EXPECT_NE(svg.find(">fast</text>"), std::string::npos);
@@ -140,7 +140,7 @@ TEST(ScatterPlot, PutsNoErrorAtTheFloorUnderAllOthers) {
 TEST(ScatterPlot, DrawsTheFrontThroughWhatIsNotBeaten) {
     const std::string svg = scatterPlot(plotOf(
         {{"fast", "s", 1.0, 1.0}, {"beaten", "s", 3.0, 2.0}, {"middle", "s", 2.0, 0.1}, {"best", "s", 4.0, 0.01}}));
-    EXPECT_NE(svg.find("not beaten in both: fast (1, 1); middle (2, 0.1); best (4, 0.01)"), std::string::npos);
+    EXPECT_NE(svg.find("Pareto front: fast (1, 1); middle (2, 0.1); best (4, 0.01)"), std::string::npos);
     EXPECT_TRUE(std::regex_search(svg, std::regex("d=\"M[-0-9.]+ [-0-9.]+H[-0-9.]+V[-0-9.]+H[-0-9.]+V[-0-9.]+\"")));
 }
 
@@ -229,7 +229,8 @@ TEST(LogAxis, HasItsTicksWhereTheirValuesAre) {
     EXPECT_GT(down.position(1.0), down.position(2.0));
 }
 
-void expectApart(const std::vector<LabelPlace>& places, const std::vector<LabelWish>& wishes, const PlotBox& area) {
+void expectApart(const std::vector<LabelPlace>& places, const std::vector<LabelRequest>& requests,
+                 const PlotBox& area) {
     for (size_t i = 0; i < places.size(); ++i) {
         const PlotBox& box = places[i].box;
         EXPECT_TRUE(box.left >= area.left && box.right <= area.right && box.top >= area.top &&
@@ -237,7 +238,7 @@ void expectApart(const std::vector<LabelPlace>& places, const std::vector<LabelW
             << i;
         for (size_t j = 0; j < places.size(); ++j) {
             EXPECT_TRUE(i == j || !box.overlaps(places[j].box)) << i << ' ' << j;
-            const vec2 p = wishes[j].at;
+            const vec2 p = requests[j].at;
             EXPECT_FALSE(box.overlaps({p.x - 5, p.y - 5, p.x + 5, p.y + 5})) << i << ' ' << j;
         }
     }
@@ -245,33 +246,33 @@ void expectApart(const std::vector<LabelPlace>& places, const std::vector<LabelW
 
 TEST(PlotLabels, HideNeitherEachOtherNorThePoints) {
     const PlotBox area{60, 50, 740, 390};
-    std::vector<LabelWish> wishes(28);
+    std::vector<LabelRequest> requests(28);
     uint32_t random = 1;
     const auto next = [&random](float range) {
         random = random * 1664525U + 1013904223U;
         return range * static_cast<float>(random >> 8U) / 16777216.0F;
     };
-    for (LabelWish& wish : wishes) {
-        wish = {{70 + next(660), 60 + next(320)}, {20 + next(60), 13}};
+    for (LabelRequest& request : requests) {
+        request = {{70 + next(660), 60 + next(320)}, {20 + next(60), 13}};
     }
-    expectApart(placeLabels(wishes, 5, area, {}), wishes, area);
+    expectApart(placeLabels(requests, 5, area, {}), requests, area);
     // All in one place, and all in one corner.
-    wishes.assign(8, {{400, 200}, {50, 13}});
-    expectApart(placeLabels(wishes, 5, area, {}), wishes, area);
-    wishes.assign(6, {{735, 385}, {50, 13}});
-    expectApart(placeLabels(wishes, 5, area, {}), wishes, area);
+    requests.assign(8, {{400, 200}, {50, 13}});
+    expectApart(placeLabels(requests, 5, area, {}), requests, area);
+    requests.assign(6, {{735, 385}, {50, 13}});
+    expectApart(placeLabels(requests, 5, area, {}), requests, area);
 }
 
 TEST(PlotLabels, StandBesideTheirPointWithoutALeaderWhereThereIsRoom) {
-    const std::vector<LabelWish> wishes{{{100, 100}, {40, 13}}, {{300, 100}, {40, 13}}};
+    const std::vector<LabelRequest> requests{{{100, 100}, {40, 13}}, {{300, 100}, {40, 13}}};
     const PlotBox area{0, 0, 400, 200};
-    for (const LabelPlace& place : placeLabels(wishes, 5, area, {})) {
+    for (const LabelPlace& place : placeLabels(requests, 5, area, {})) {
         EXPECT_FALSE(place.leader);
     }
-    EXPECT_EQ(placeLabels(wishes, 5, area, {})[0].align, 0.0F);
+    EXPECT_EQ(placeLabels(requests, 5, area, {})[0].align, 0.0F);
     // A line to the right is crossed unwillingly.
     const std::vector<PlotSegment> line{{{100, 100}, {300, 100}}};
-    EXPECT_NE(placeLabels(wishes, 5, area, line)[0].box.top, placeLabels(wishes, 5, area, {})[0].box.top);
+    EXPECT_NE(placeLabels(requests, 5, area, line)[0].box.top, placeLabels(requests, 5, area, {})[0].box.top);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Two programs in turn.
+// Runs two programs alternately.
 #include "apps/bench/against.h"
 
 #include "apps/progress.h"
@@ -21,13 +21,13 @@ namespace {
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
-// Removed at the end.
+// Removed by the destructor.
 class TemporaryFolder {
 public:
     TemporaryFolder() {
         std::string name = (fs::temp_directory_path() / "reflet-bench-XXXXXX").string();
         if (mkdtemp(name.data()) == nullptr) {
-            fail("{}: no folder can be made there", fs::temp_directory_path().string());
+            fail("{}: cannot create a folder there", fs::temp_directory_path().string());
         }
         path_ = name;
     }
@@ -46,7 +46,7 @@ private:
     fs::path path_;
 };
 
-// Its exit status. What it prints is dropped; complaints are not, unless `quiet`.
+// Returns the exit status. Drops standard output, and with `quiet` standard error.
 int runProgram(const std::string& program, Words words, bool quiet) {
     words.insert(words.begin(), program);
     std::vector<char*> arguments;
@@ -72,12 +72,12 @@ int runProgram(const std::string& program, Words words, bool quiet) {
 
 nlohmann::json runFor(const std::string& program, const Words& words, const fs::path& file) {
     if (const int status = runProgram(program, words, false); status != 0) {
-        fail("{} ended with status {}", program, status);
+        fail("{} exited with status {}", program, status);
     }
     return parseJsonFile(file);
 }
 
-// Medians of one state of a bench's only run.
+// Adds the medians of one state of a bench's only run.
 void addBench(const nlohmann::json& state, Samples& samples) {
     std::vector<gpu::PassTime> passes;
     if (state.contains("frame_ms")) {
@@ -99,7 +99,7 @@ void addTimings(const nlohmann::json& timings, Samples& samples) {
     samples.add(0.0, 0.0, passes);
 }
 
-// One scene, size and variant of one program.
+// One measurement: scene, size and variant.
 struct Asked {
     const AgainstPlan& plan;
     std::string scene;

@@ -1,4 +1,4 @@
-// Another build of the program against this one, both run as programs of their own, in turn.
+// Measures another build of the program against this one: runs both as separate processes, alternately.
 #pragma once
 
 #include "apps/bench/work.h"
@@ -14,16 +14,15 @@ struct AgainstPlan {
     uint32_t rounds = 5;              ///< of each program
     std::vector<std::string> scenes;  ///< as typed
     std::vector<uvec2> sizes;
-    std::vector<std::vector<std::string>> variants;  ///< the options that choose each: {"--preset", "fast"}
+    std::vector<std::vector<std::string>> variants;  ///< the options that select each: {"--preset", "fast"}
     std::vector<std::string> shared;                 ///< options that both understand: view, settings, seed, device
     uint32_t firstFrames = 5;
     uint32_t warmup = 11;
     uint32_t frames = 20;
 };
 
-/// Adds two runs and a pair for each scene, size and variant; a sample is the median of one run of a program. Where one
-/// of the two has no `bench`, both are asked for `render --timings`: device times of frames with history only. Throws
-/// Error.
+/// Adds two runs and a pair for each scene, size and variant; a sample is the median of one run of a program. If the
+/// other program has no `bench`, both run `render --timings`: only device times of frames with history. Throws Error.
 void measureAgainst(const AgainstPlan& plan, BenchResult& result);
 
 }  // namespace reflet

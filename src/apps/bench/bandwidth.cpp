@@ -1,4 +1,4 @@
-// Copies.
+// Measures bandwidth by copying images and buffers.
 #include "apps/bench/bandwidth.h"
 
 #include "gpu/frame.h"
@@ -28,7 +28,7 @@ double copyImages(gpu::Frame& f) {
     return perSecond(bytesOf(from) + bytesOf(to), f.passTimes().back().ms);
 }
 
-// By the host's clock: drivers may do it where no timestamp sees it.
+// Timed by the host: a driver may execute the copy where device timestamps do not measure it.
 double copyBuffers(gpu::Device& device, gpu::BufferView from, gpu::BufferView to) {
     const auto start = std::chrono::steady_clock::now();
     device.runNow([&](VkCommandBuffer commands) {

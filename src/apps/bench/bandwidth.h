@@ -1,13 +1,13 @@
-// What the device moves between its memory and itself, measured.
+// Measures the device's memory bandwidth.
 #pragma once
 
 #include "gpu/device.h"
 
 namespace reflet {
 
-/// Bytes read and written per second, the best of several copies of images (RGBA16F, one thread a texel, as passes do
-/// it) and of buffers (the copy command), larger than caches of today are. No promise of what the hardware could do:
-/// the most that was seen.
+/// Bytes read plus written per second: the best of several copies of images (RGBA16F, one thread per texel, as in the
+/// passes) and of buffers (the copy command), both larger than current caches. The best observed value, not the
+/// hardware's limit.
 double measureBandwidth(gpu::Device& device);
 
 }  // namespace reflet

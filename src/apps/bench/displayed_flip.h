@@ -1,4 +1,4 @@
-// How different two pictures look as they are shown.
+// The visible difference of two images as displayed.
 #pragma once
 
 #include "base/image_file.h"
@@ -6,9 +6,9 @@
 
 namespace reflet {
 
-/// Mean LDR-FLIP (Andersson et al., FLIP: A Difference Evaluator for Alternating Images, 2020) of both pictures after
-/// the tone map, in 8 bits. HDR-FLIP looks at every exposure, also at those that nobody sees. Throws as compareImages
-/// does.
+/// Mean LDR-FLIP (Andersson et al., FLIP: A Difference Evaluator for Alternating Images, 2020) of both images after
+/// tone mapping to 8 bits. HDR-FLIP, in contrast, takes all exposures into account, also those that are not displayed.
+/// Throws as compareImages does.
 double displayedFlip(const FloatImage& picture, const FloatImage& truth, const TonemapSettings& tonemap,
                      float pixelsPerDegree);
 

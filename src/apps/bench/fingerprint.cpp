@@ -1,5 +1,5 @@
-// Fingerprints. Structured bindings name every member: one that is added to a struct must be added here, or it will not
-// compile.
+// Computes fingerprints. Structured bindings name every member, so that adding a member to a struct without adding it
+// here does not compile.
 #include "apps/bench/fingerprint.h"
 
 #include <spdlog/fmt/fmt.h>
@@ -28,7 +28,7 @@ std::string Fingerprint::text() const {
 
 namespace {
 
-// What has no padding.
+// Only for types without padding.
 template <class T>
 concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T> || requires(T value) {
     value.length();
@@ -102,7 +102,7 @@ private:
 
     void add(const Mesh& mesh) {
         const auto& [name, positions, attributes, skin, indices, material, bounds] = mesh;
-        (void)bounds;  // those of the positions
+        (void)bounds;  // follows from the positions
         all(name, positions, attributes, skin, indices, material);
     }
 

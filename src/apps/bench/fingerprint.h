@@ -1,4 +1,4 @@
-// A short text that stands for much data: the same data gives the same text, other data another one.
+// Hashes data to a short text that identifies it.
 #pragma once
 
 #include "reference/reference.h"
@@ -11,7 +11,7 @@
 
 namespace reflet {
 
-/// FNV-1a of 64 bits, by G. Fowler, L. C. Noll, K.-P. Vo. It need only notice changes, not withstand anybody.
+/// 64-bit FNV-1a, by G. Fowler, L. C. Noll, K.-P. Vo. Not cryptographic: it only has to detect changes.
 class Fingerprint {
 public:
     void add(std::span<const std::byte> bytes);
@@ -23,11 +23,11 @@ private:
     uint64_t hash_ = 0xCBF29CE484222325ULL;
 };
 
-/// Of all that a picture of it can depend on; names and cameras, which only help to find things, included.
+/// Everything that an image of the scene can depend on, also names and cameras.
 void addTo(Fingerprint& print, const Scene& scene);
-/// Of all but probes and mirrors, which are the renderer's own affair: the truth has none.
+/// Everything but probes and mirrors (planar reflections), which the path traced reference does not use.
 void addTo(Fingerprint& print, const View& view);
-/// Of all but the number of threads, on which the picture does not depend.
+/// Everything but the number of threads, on which the image does not depend.
 void addTo(Fingerprint& print, const ReferenceOptions& options);
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// A bench as JSON, and as a plot.
+// Writes a bench as JSON, and as a plot.
 #include "apps/bench/output.h"
 #include "apps/report/plot.h"
 #include "apps/report/variants.h"
@@ -194,7 +194,7 @@ std::string benchJson(const BenchHead& head, const BenchPlan& plan, const BenchR
 
 std::string benchPlot(const BenchPlan& plan, const BenchResult& result) {
     ScatterPlot plot;
-    plot.title = "Steady state: left is faster, down is nearer to the truth";
+    plot.title = "Steady state: left is faster, down is closer to the reference";
     plot.xLabel = "milliseconds per frame, from submission to fence";
     plot.yLabel = fmt::format("relative MSE of {}", plan.layer);
     for (const BenchRun& run : result.runs) {

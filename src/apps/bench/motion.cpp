@@ -1,4 +1,4 @@
-// Frames in motion.
+// Measures frames in motion.
 #include "apps/bench/motion.h"
 
 #include "apps/bench/displayed_flip.h"
@@ -16,7 +16,7 @@ namespace reflet {
 
 namespace {
 
-// Between the four pixels around it; `at` in pixels, centres at halves, inside of the picture.
+// Bilinear sample; `at` in pixels, pixel centres at halves, inside the image.
 float bilinear(const FloatImage& image, vec2 at, size_t channel) {
     const vec2 last(static_cast<float>(image.width - 1), static_cast<float>(image.height - 1));
     const vec2 place = glm::clamp(at - 0.5F, vec2(0.0F), last);
@@ -31,7 +31,7 @@ float bilinear(const FloatImage& image, vec2 at, size_t channel) {
 }
 
 const std::string reflections = "indirect_specular";
-// The final value is the mean of the last of so many frames at rest: single ones have noise.
+// Frames at rest, the last of which are averaged to the final value: single frames are noisy.
 constexpr uint32_t framesToRest = 48;
 constexpr uint32_t finalFrames = 16;
 
@@ -42,7 +42,7 @@ struct Moved {
 
 struct MovedFrames {
     std::vector<Moved> moving;
-    std::vector<double> rest;  // as of MotionResult
+    std::vector<double> rest;  // as in MotionResult
 };
 
 std::vector<double> renderRest(Subject& subject, const MotionPlan& plan, const FloatImage& before) {
@@ -81,7 +81,7 @@ MovedFrames renderMotion(gpu::Device& device, const BenchScene& scene, uvec2 siz
     const FloatImage before = plan.rest > 0 ? subject.picture({reflections}).at(reflections) : FloatImage{};
     MovedFrames frames;
     for (uint32_t i = 0; i < plan.frames; ++i) {
-        subject.look(viewInMotion(scene.view, plan, i + 1));
+        subject.setView(viewInMotion(scene.view, plan, i + 1));
         Layers layers = subject.picture({"final", "motion"});
         frames.moving.push_back({std::move(layers.at("final")), std::move(layers.at("motion"))});
         progress.advance();
@@ -110,7 +110,7 @@ View viewInMotion(const View& view, const MotionPlan& plan, uint32_t frame) {
 
 double changeBeyondMotion(const FloatImage& now, const FloatImage& before, const FloatImage& motion) {
     REFLET_CHECK(now.data.size() == before.data.size() && motion.width == now.width && motion.height == now.height,
-                 "pictures of {}x{} and {}x{}", now.width, now.height, motion.width, motion.height);
+                 "images of {}x{} and {}x{}", now.width, now.height, motion.width, motion.height);
     const size_t channels = now.channels.size();
     const vec2 size(static_cast<float>(now.width), static_cast<float>(now.height));
     double sum = 0.0;
@@ -135,8 +135,8 @@ double changeBeyondMotion(const FloatImage& now, const FloatImage& before, const
 
 double changeAtRest(const FloatImage& frame, const FloatImage& final, const FloatImage& before) {
     REFLET_CHECK(frame.data.size() == final.data.size() && before.data.size() == final.data.size(),
-                 "pictures of {}x{}, {}x{} and {}x{}", frame.width, frame.height, final.width, final.height,
-                 before.width, before.height);
+                 "images of {}x{}, {}x{} and {}x{}", frame.width, frame.height, final.width, final.height, before.width,
+                 before.height);
     const size_t channels = final.channels.size();
     const double mean = std::accumulate(final.data.begin(), final.data.end(), 0.0) / double(final.data.size());
     double changed = 0.0;

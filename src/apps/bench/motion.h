@@ -1,5 +1,5 @@
-// How near to the truth frames are while the camera and things move, how much they flicker beyond what the truth itself
-// changes, and how soon reflections come to rest when all stops.
+// Measures frames while the camera and objects move: error against a reference per frame, flicker beyond that of the
+// reference, and how fast reflections converge when everything stops.
 #pragma once
 
 #include "apps/bench/subject.h"
@@ -11,36 +11,36 @@
 namespace reflet {
 
 struct MotionPlan {
-    uint32_t frames = 0;    ///< 0: nothing is measured
-    float degrees = 30.0F;  ///< that the camera turns round what it looks at, over all of them
-    uint32_t warmup = 11;   ///< frames at rest before
-    float fps = 24.0F;      ///< frames a second of the scene's animations
-    uint32_t rest = 0;      ///< frames after, in which all stands still, that are held against the final value
+    uint32_t frames = 0;    ///< 0: not measured
+    float degrees = 30.0F;  ///< that the camera orbits around its target over all frames
+    uint32_t warmup = 11;   ///< frames at rest before the motion
+    float fps = 24.0F;      ///< frames per second of the scene's animations
+    uint32_t rest = 0;      ///< frames at rest after the motion, compared with the final value
 };
 
 struct MotionResult {
-    std::vector<double> flip;           ///< of every frame to its own truth, mean over the picture
-    std::vector<double> displayedFlip;  ///< the same as displayedFlip() has it
-    /// Mean over pixels and channels of |frame - the last one where the motion says that it was|, mean over frames.
+    std::vector<double> flip;           ///< of every frame against its own reference, mean over the image
+    std::vector<double> displayedFlip;  ///< the same by displayedFlip()
+    /// Mean over pixels and channels of |frame - previous frame reprojected by the motion vectors|, mean over frames.
     double flicker = 0.0;
-    double truthFlicker = 0.0;  ///< the same of the truths
-    /// Of every frame at rest, of the reflections: mean |frame - final value| over the mean of the final value, of
-    /// pixels that the motion has changed. 0: it has changed none.
+    double truthFlicker = 0.0;  ///< the same for the references
+    /// For the reflections of every frame at rest: mean |frame - final value| / mean final value, over the pixels that
+    /// the motion has changed. 0: it has changed none.
     std::vector<double> rest;
 };
 
-/// The view that a frame of the motion has; 0 is the scene's own.
+/// The view of a frame of the motion; frame 0 has the scene's own.
 View viewInMotion(const View& view, const MotionPlan& plan, uint32_t frame);
 
-/// Mean over pixels and channels of |now - before at uv - motion|, of pixels that were inside of the picture before.
+/// Mean over pixels and channels of |now(uv) - before(uv - motion)|, over pixels that were inside the image before.
 /// motion: uv now minus uv before, "X" and "Y".
 double changeBeyondMotion(const FloatImage& now, const FloatImage& before, const FloatImage& motion);
 
-/// As of MotionResult::rest. before: what was shown before the motion; what differs by more than a tenth of the mean
-/// counts as changed.
+/// As in MotionResult::rest. before: the image before the motion; pixels that differ from it by more than a tenth of
+/// the mean count as changed.
 double changeAtRest(const FloatImage& frame, const FloatImage& final, const FloatImage& before);
 
-/// A truth is made, or found, for every frame. Shows progress. Throws Error.
+/// Renders or loads a reference for every frame. Shows progress. Throws Error.
 MotionResult measureMotion(gpu::Device& device, const BenchScene& scene, uvec2 size, const Settings& settings,
                            const TruthOptions& truth, const MotionPlan& plan);
 

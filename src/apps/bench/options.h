@@ -14,7 +14,7 @@ class App;
 
 namespace reflet {
 
-/// What was typed, as it was typed.
+/// The options as typed.
 struct BenchCommand {
     SceneOptions shared;
     std::vector<std::string> scenes;

@@ -1,4 +1,4 @@
-// What a bench found, for other programs (JSON), for documents (Markdown) and as a plot.
+// Formats the results of a bench: for other programs (JSON), for documents (Markdown) and as a plot.
 #pragma once
 
 #include "apps/bench/work.h"
@@ -7,25 +7,25 @@
 
 namespace reflet {
 
-/// Of the run as a whole.
+/// Facts about the run as a whole.
 struct BenchHead {
     std::string version;
     std::string command;  ///< as typed
     std::string device;
     std::string driver;
-    double bandwidth = 0.0;  ///< bytes per second, measured; 0: not
+    double bandwidth = 0.0;  ///< bytes per second; 0: not measured
 };
 
 /// The keys are described in docs/bench.md.
 std::string benchJson(const BenchHead& head, const BenchPlan& plan, const BenchResult& result);
 
-/// Tables: frames; one against the other; cost per pixel, where there are several sizes; passes.
+/// Tables: frames; comparisons; cost per pixel, if there are several sizes; passes.
 std::string benchMarkdown(const BenchHead& head, const BenchPlan& plan, const BenchResult& result);
 
 /// An SVG: relative MSE against milliseconds from submission to fence, steady state; a series for each scene and size.
 std::string benchPlot(const BenchPlan& plan, const BenchResult& result);
 
-/// Of several sizes of one scene and variant: times per pixel.
+/// Times per pixel of one scene and variant at several sizes.
 struct Scaling {
     std::string scene;
     std::string variant;

@@ -1,4 +1,4 @@
-// Times of many frames.
+// Collects times of many frames.
 #include "apps/bench/samples.h"
 
 #include <algorithm>

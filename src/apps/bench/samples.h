@@ -1,4 +1,4 @@
-// Times of many frames, sorted by what they are of.
+// Collects times of many frames, by pass and group of passes.
 #pragma once
 
 #include "gpu/frame.h"
@@ -16,22 +16,22 @@ enum class SeriesKind : uint8_t {
     pass,
 };
 
-/// The times of one thing in every frame, milliseconds; 0 in frames that did not have it.
+/// The times of a pass or group in every frame, milliseconds; 0 in frames without it.
 struct Series {
     SeriesKind kind = SeriesKind::pass;
     std::string name;
     std::vector<double> ms;
-    uint64_t bytes = 0;   ///< of what its passes bind, in the last frame that had it
+    uint64_t bytes = 0;   ///< bound by its passes, in the last frame that had it
     bool raster = false;  ///< a pass that draws triangles
 };
 
-/// Groups: "geometry" are all passes that draw triangles, "effects" all others; "diffuse" all passes whose names start
-/// with "diffuse.", and so on.
+/// Groups: "geometry" has all passes that draw triangles, "effects" all others; "diffuse" has all passes whose names
+/// start with "diffuse.", and so on.
 class Samples {
 public:
-    /// `wallMs`: of the whole frame by the host's clock. Submission to fence, and the device's times, are the frame's.
+    /// `wallMs`: of the whole frame by the host's clock. Submission to fence, and the device times, come from `frame`.
     void add(double wallMs, const gpu::Frame& frame);
-    /// `passes` as Frame::passTimes() has them.
+    /// `passes` as from Frame::passTimes().
     void add(double wallMs, double submittedMs, std::span<const gpu::PassTime> passes);
 
     [[nodiscard]] size_t frames() const { return frames_; }
@@ -48,15 +48,15 @@ private:
     std::vector<Series> series_;
 };
 
-/// What two ways of doing the same took, turn by turn.
+/// Comparison of two alternatives that were measured alternately.
 struct Ratio {
     SeriesKind kind = SeriesKind::total;
     std::string name;
-    std::vector<double> ratios;       ///< the first's time over the second's; of turns in which both took any
-    std::vector<double> differences;  ///< the first's minus the second's, milliseconds; of all turns
+    std::vector<double> ratios;       ///< first time / second time; for turns in which both are above 0
+    std::vector<double> differences;  ///< first time - second time, milliseconds; for all turns
 };
 
-/// Of all that both have.
+/// For every pass and group that both have.
 std::vector<Ratio> ratiosOf(const Samples& first, const Samples& second);
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// One scene with one list of settings at one size.
+// Renders one scene with one list of settings at one size.
 #include "apps/bench/subject.h"
 
 #include "apps/scene_options.h"
@@ -10,10 +10,10 @@ namespace reflet {
 
 namespace {
 
-// The first has no history, the second has: both kinds of all pipelines.
+// The first has no history, the second has one: both variants of all pipelines are created.
 constexpr int compilingFrames = 2;
 
-// What was dropped before is given back by now.
+// By now, memory dropped earlier has been freed.
 uint64_t usedMemory(gpu::Device& device) {
     device.runNow([](VkCommandBuffer) {});
     return device.memory().used(gpu::MemoryUse::device);
@@ -28,8 +28,8 @@ Subject::Subject(gpu::Device& device, const BenchScene& scene, uvec2 size, const
       settings_(settings),
       memoryBefore_(usedMemory(device)),
       renderer_(device, scene.scene, printWarning) {
-    if (settings_.accumulate.enabled == 0) {  // means begin anew with other settings
-        settings_.composite.layers = 0;       // pictures ask for them
+    if (settings_.accumulate.enabled == 0) {  // accumulation restarts when settings change
+        settings_.composite.layers = 0;       // picture() requests them
     }
     for (int i = 0; i < compilingFrames; ++i) {
         render();

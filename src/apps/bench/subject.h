@@ -1,5 +1,5 @@
-// What is measured: one scene with one list of settings at one size, with a renderer of its own, so that several can
-// take turns and none sees another's history.
+// The subject of a measurement: one scene with one list of settings at one size. Each has its own renderer, so that
+// several can be measured alternately without sharing history.
 #pragma once
 
 #include "apps/bench/samples.h"
@@ -13,7 +13,7 @@
 
 namespace reflet {
 
-/// What every subject of a scene has in common.
+/// Shared by all subjects of a scene.
 struct BenchScene {
     std::string name;
     Scene scene;
@@ -26,22 +26,22 @@ using Layers = std::map<std::string, FloatImage>;
 
 class Subject {
 public:
-    /// Renders some frames, such that all pipelines and images are there. `scene` must outlive it.
+    /// Renders some frames, so that all pipelines and images exist. `scene` must outlive it.
     Subject(gpu::Device& device, const BenchScene& scene, uvec2 size, const Settings& settings);
 
-    /// The next frame has no history; all that is worked out once is there.
+    /// The next frame starts without history, but with everything that is computed only once.
     void forgetHistory() { renderer_.restart(0); }
     void render();
     void render(Samples& samples);
-    /// Renders one more frame and says what its images hold.
+    /// Renders one more frame and reads its images back.
     Layers picture(const std::vector<std::string>& names);
 
-    /// Of the device's own memory, bytes: scene, frame and history.
+    /// Device memory in bytes: scene, frame and history.
     [[nodiscard]] uint64_t memory() const { return memory_; }
     [[nodiscard]] const Settings& settings() const { return settings_; }
     void change(const Settings& settings) { settings_ = settings; }
-    /// From the next frame on.
-    void look(const View& view) { view_ = view; }
+    /// Sets the view from the next frame on.
+    void setView(const View& view) { view_ = view; }
 
 private:
     View view_;

@@ -1,4 +1,4 @@
-// The truth, and the folder that keeps it.
+// Makes ground truth images and caches them in a folder.
 #include "apps/bench/truth.h"
 
 #include "apps/bench/fingerprint.h"
@@ -23,16 +23,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Another number makes all that is kept void: for changes of the path tracer that change its pictures.
+// A new number invalidates the cache: to be increased when a change of the path tracer changes its images.
 constexpr int referenceVersion = 1;
 
 constexpr uint32_t chainRaysPerFrame = 16;
-// Before the mean begins: what hits show of the last frame has come to rest by then.
+// Frames before accumulation starts: multi-bounce light from the previous frame has converged by then.
 constexpr uint32_t chainFramesBefore = 8;
 
 const std::array<std::string, 4> layerNames{"final", "direct", "indirect_diffuse", "indirect_specular"};
 
-// What does not belong into a mean over many frames, as far as this program has it.
+// Settings that bias an accumulated mean, as far as this build has them.
 constexpr std::array<std::pair<const char*, const char*>, 8> plainSettings{{{"denoise.enabled", "false"},
                                                                             {"temporal.enabled", "false"},
                                                                             {"diffuse.downsample", "1"},
@@ -53,7 +53,7 @@ bool isOn(const Settings& settings, std::string_view name) {
     return entry != nullptr && settingText(settings, *entry) == "true";
 }
 
-// Of all that chainSettings leaves at work.
+// All settings that chainSettings leaves in effect.
 std::string settingsText(const Settings& settings) {
     std::string text;
     for (const SettingEntry& entry : settingEntries()) {
@@ -64,7 +64,7 @@ std::string settingsText(const Settings& settings) {
     return text;
 }
 
-// Of the program that runs: what it renders may differ from what another build does.
+// Fingerprint of the running program: another build may render different images.
 std::string programPrint() {
     static const std::string print = [] {
         Fingerprint f;
@@ -81,7 +81,7 @@ ReferenceOptions referenceOptions(const TruthOptions& options, const Settings& s
 }
 
 Truth traceTruth(const BenchScene& scene, uvec2 size, const ReferenceOptions& options) {
-    SampleProgress progress(scene.name + ", truth", options, size);
+    SampleProgress progress(scene.name + ", ground truth", options, size);
     const ReferencePicture picture =
         traceReference(scene.scene, scene.view, size, options, [&](const ReferenceProgress& now) {
             progress.set(now);
@@ -103,7 +103,7 @@ Truth renderChain(gpu::Device& device, const BenchScene& scene, uvec2 size, cons
     Settings before = means;
     before.accumulate.enabled = 0;
     Subject subject(device, scene, size, before);
-    Progress progress(scene.name + ", many rays: frame", chainFramesBefore + frames);
+    Progress progress(scene.name + ", ground truth: frame", chainFramesBefore + frames);
     for (uint32_t i = 0; i < chainFramesBefore; ++i) {
         subject.render();
         progress.advance();
@@ -128,7 +128,7 @@ std::optional<Truth> readTruth(const fs::path& picture, const fs::path& facts) {
     return truth;
 }
 
-// The facts last: they say that the picture is there.
+// The facts are written last: their file marks the image as complete.
 void writeTruth(const Truth& truth, const std::string& key, const fs::path& facts) {
     std::vector<ImageLayer> layers;
     for (const auto& [name, image] : truth.layers) {
@@ -143,11 +143,11 @@ void makeTruthFolder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) {
-        fail("{}: cannot be made: {}; --truth-cache names another folder", folder.string(), error.message());
+        fail("{}: cannot be created: {}; choose another folder with --truth-cache", folder.string(), error.message());
     }
 }
 
-// What a file's name can hold.
+// Replaces what is not a letter or digit, for file names.
 std::string plainName(const std::string& name) {
     std::string plain;
     for (const char c : name) {
@@ -172,7 +172,7 @@ void parseTruth(const std::string& text, TruthOptions& options) {
             return;
         }
     }
-    failUsage("--truth wants 'reference', 'none' or 'chain:RAYS' with at least 1 ray, is '{}'", text);
+    failUsage("--truth must be 'reference', 'none' or 'chain:RAYS' with at least 1 ray, is '{}'", text);
 }
 
 fs::path standardTruthFolder() {

@@ -1,5 +1,5 @@
-// What measured pictures are held against: path traced, or the same settings with very many rays. Made once and kept as
-// EXR files in a folder, under names that depend on everything that the picture depends on.
+// The ground truth for measured images: path traced, or the same settings with very many rays. Rendered once and cached
+// as EXR files in a folder; file names contain a hash of everything that the image depends on.
 #pragma once
 
 #include "apps/bench/subject.h"
@@ -14,15 +14,15 @@ namespace reflet {
 
 enum class TruthKind : uint8_t {
     none,
-    reference,  ///< of the path tracer
-    chain,      ///< what the settings themselves tend to: the mean of so many rays a pixel, with nothing that cleans
+    reference,  ///< by the path tracer
+    chain,      ///< what the settings converge to: the mean of chainRays rays per pixel, without denoising
 };
 
 struct TruthOptions {
     TruthKind kind = TruthKind::reference;
-    ReferenceOptions reference;       ///< lambertOnly is taken from the settings
-    uint32_t chainRays = 1024;        ///< of each lobe, per pixel
-    std::optional<Settings> chainOf;  ///< of which `chain` is in the place of those that are measured
+    ReferenceOptions reference;       ///< lambertOnly comes from the settings
+    uint32_t chainRays = 1024;        ///< per lobe and pixel
+    std::optional<Settings> chainOf;  ///< settings for `chain`, instead of those that are measured
     std::filesystem::path folder;
 };
 
@@ -32,23 +32,23 @@ void parseTruth(const std::string& text, TruthOptions& options);
 /// $XDG_CACHE_HOME/reflet/truth, or ~/.cache/reflet/truth.
 std::filesystem::path standardTruthFolder();
 
-/// All that the truth of this scene at this size depends on, as text on one line. For `chain` also all settings and
-/// this program itself.
+/// Everything that the ground truth of this scene at this size depends on, as one line of text. For `chain` that
+/// includes all settings and this program itself.
 std::string truthKey(const BenchScene& scene, uvec2 size, const Settings& settings, const TruthOptions& options);
 
 struct Truth {
-    Layers layers;         ///< final, direct, indirect_diffuse, indirect_specular; none for TruthKind::none
-    std::string file;      ///< where it is kept
+    Layers layers;         ///< final, direct, indirect_diffuse, indirect_specular; empty for TruthKind::none
+    std::string file;      ///< its cache file
     uint32_t samples = 0;  ///< per pixel, or rays
-    double noise = 0.0;    ///< of ReferencePicture; 0 for a chain
+    double noise = 0.0;    ///< as in ReferencePicture; 0 for a chain
 };
 
-/// From the folder, or made now and put there. Shows progress. Throws Error.
+/// Loads it from the folder, or renders it and stores it there. Shows progress. Throws Error.
 Truth getTruth(gpu::Device& device, const BenchScene& scene, uvec2 size, const Settings& settings,
                const TruthOptions& options);
 
-/// The settings with so many rays a frame, their mean over frames, at full size, and nothing that cleans: what `chain`
-/// renders.
+/// The settings that `chain` renders: `raysPerFrame` rays, accumulated over frames, at full resolution, without
+/// denoising.
 Settings chainSettings(const Settings& settings, uint32_t raysPerFrame);
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// The measuring.
+// Runs the measurements.
 #include "apps/bench/work.h"
 
 #include "apps/bench/displayed_flip.h"
@@ -20,7 +20,7 @@ uint64_t countTriangles(const Scene& scene) {
     return indices / 3;
 }
 
-// Variants that take turns, on one scene at one size.
+// Variants measured alternately, on one scene at one size.
 class Turns {
 public:
     Turns(const BenchPlan& plan, const BenchScene& scene, uvec2 size, std::vector<const Variant*> variants)
@@ -34,7 +34,7 @@ private:
     void measureSteady();
     void compareTo(const Truth& truth, const Layers& picture, BenchState& state, const Variant& variant) const;
 
-    // Frame by frame in turn.
+    // Alternates variants frame by frame.
     template <class Action>
     void forEach(Action action) {
         for (size_t i = 0; i < subjects_.size(); ++i) {
@@ -79,7 +79,7 @@ void Turns::measureFirst() {
             subject.render(runs_[v].first.samples);
         });
     }
-    // Copying a picture to the host takes time: it is done in a frame that is not measured.
+    // Reading an image back takes time, so it is done in a frame that is not measured.
     if (comparesPictures()) {
         forEach([&](size_t v, Subject& subject) {
             subject.forgetHistory();
@@ -126,7 +126,7 @@ std::vector<BenchRun> Turns::measure(gpu::Device& device) {
     measureFirst();
     measureSteady();
     progress_.reset();
-    subjects_.clear();  // their memory may be needed for the truth
+    subjects_.clear();  // their memory may be needed for the ground truth
     for (size_t v = 0; v < runs_.size() && comparesPictures(); ++v) {
         BenchRun& run = runs_[v];
         const Truth truth = getTruth(device, scene_, size_, variants_[v]->settings, plan_.truth);

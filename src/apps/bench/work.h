@@ -1,4 +1,4 @@
-// What a bench measures, and what it found, as plain values.
+// The plan and the results of a bench, as plain values.
 #pragma once
 
 #include "apps/bench/motion.h"
@@ -20,30 +20,30 @@ struct BenchPlan {
     std::vector<BenchScene> scenes;
     std::vector<uvec2> sizes;
     std::vector<Variant> variants;                   ///< each by itself
-    std::vector<std::pair<Variant, Variant>> pairs;  ///< each frame by frame in turn
+    std::vector<std::pair<Variant, Variant>> pairs;  ///< each measured with alternating frames
     uint32_t firstFrames = 5;                        ///< frames without history
-    uint32_t warmup = 11;                            ///< frames from the last one without history to the measured ones
+    uint32_t warmup = 11;                            ///< frames between those without history and the measured ones
     uint32_t frames = 20;                            ///< measured, with history
     TruthOptions truth;
-    MotionPlan motion;            ///< its warmup is that of the plan
-    std::string layer = "final";  ///< that errors are of
+    MotionPlan motion;            ///< its warmup equals that of the plan
+    std::string layer = "final";  ///< whose error is measured
     float pixelsPerDegree = 67.0F;
 };
 
-/// A frame in one state: without any history, or with that of the frames before it.
+/// Measurements of one state: without history, or with that of earlier frames.
 struct BenchState {
     Samples samples;
     std::optional<Difference> error;
-    std::optional<double> displayedFlip;  ///< as displayedFlip() has it, with the variant's tone map
+    std::optional<double> displayedFlip;  ///< by displayedFlip(), with the variant's tone mapping
 };
 
 struct BenchRun {
     std::string scene;
     std::string variant;
-    std::string settings;  ///< as --set takes them, what differs from the defaults
+    std::string settings;  ///< those that differ from the defaults, in the form of --set
     uvec2 size{0};
     uint64_t triangles = 0;
-    uint64_t memory = 0;  ///< bytes of the device's own: scene, frame and history
+    uint64_t memory = 0;  ///< bytes of device memory: scene, frame and history
     BenchState first;
     BenchState steady;  ///< the error is that of frame warmup + frames + 1
     std::optional<MotionResult> motion;
@@ -52,7 +52,7 @@ struct BenchRun {
     uint32_t truthSamples = 0;
 };
 
-/// Two runs whose frames took turns.
+/// Two runs whose frames alternated.
 struct BenchPair {
     size_t a = 0;  ///< of BenchResult::runs
     size_t b = 0;

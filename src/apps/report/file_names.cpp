@@ -1,4 +1,4 @@
-// Names for files.
+// Makes file names.
 #include "apps/report/file_names.h"
 
 #include <spdlog/fmt/fmt.h>

@@ -1,4 +1,4 @@
-// Names for files, made of what users call their scenes and variants.
+// Makes file names from the names of scenes and variants.
 #pragma once
 
 #include <set>
@@ -7,7 +7,8 @@
 
 namespace reflet {
 
-/// Small letters, digits, '-' and '_' of ASCII; every run of others is one '-'. Never empty, at most 60 characters.
+/// ASCII lower-case letters, digits, '-' and '_'; every run of other characters becomes one '-'. Never empty, at most
+/// 60 characters.
 std::string fileNameOf(std::string_view text);
 
 /// Hands out each name once: "cubes", then "cubes-2".

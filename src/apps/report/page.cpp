@@ -1,4 +1,4 @@
-// The report's page: one HTML file with its style and its script inside.
+// Writes the report's page: one HTML file with embedded style and script.
 #include "apps/report/page.h"
 
 #include "apps/report/page_scene.h"
@@ -23,7 +23,7 @@ std::string_view reportFile(std::string_view name) {
     return found->text;
 }
 
-// The order matters: what comes later wins.
+// The order matters: later rules override earlier ones.
 std::string style() {
     std::string all;
     for (const std::string_view name : {"page.css", "tables.css", "pictures.css", "print.css"}) {
@@ -52,13 +52,13 @@ std::string header(const ReportPage& page) {
     return fmt::format(
         R"(<header>
 <h1>Reflet report</h1>
-<p class="lead">{} of {} against path-traced truth: how far off, and how long it takes.</p>
+<p class="lead">{} of {} compared with a path-traced ground truth: error and time.</p>
 <dl class="facts">
 <div><dt>device</dt><dd>{}</dd></div>
 <div><dt>size</dt><dd>{} × {}</dd></div>
 <div><dt>frames per variant</dt><dd>{}</dd></div>
 <div><dt>seed</dt><dd>{}</dd></div>
-<div><dt>truth</dt><dd>{}</dd></div>
+<div><dt>ground truth</dt><dd>{}</dd></div>
 <div><dt>program</dt><dd>reflet {}</dd></div>
 </dl>
 {}</header>
@@ -85,39 +85,40 @@ std::string plot(const ReportPage& page) {
 std::string reproduce(const ReportPage& page) {
     return fmt::format(
         R"(<section>
-<h2>To make this report again</h2>
+<h2>Reproduce this report</h2>
 <div class="scroll" role="region" aria-label="Command line" tabindex="0"><pre><code>{}</code></pre></div>
-<p>The same command on the same device gives the same pictures and errors; times vary.
+<p>The same command on the same device gives the same images and errors; times vary.
 All numbers: <a href="report.json">report.json</a>, <a href="table.md">table.md</a>.</p>
 </section>
 )",
         xmlText(page.command));
 }
 
-// Each word of the tables in a sentence or two.
+// Explains the terms of the tables.
 constexpr const char* howToRead = R"(<section class="reading">
-<h2>How to read it</h2>
+<h2>How to read this report</h2>
 <dl>
-<dt>truth</dt>
-<dd>The scene by path tracing on the CPU: light by every way that it takes, over the whole area of each pixel.</dd>
+<dt>ground truth</dt>
+<dd>The scene path traced on the CPU: all light paths, filtered over the area of each pixel.</dd>
 <dt>visible-only</dt>
-<dd>The same path tracer, but light arrives only from points that the camera sees and from the environment: all that a
-screen can know, and so the best that a screen-space method can reach without guessing. A variant's error against the
-truth has two causes: what the screen cannot know (visible-only against the truth) and what the method gets wrong (the
-variant against visible-only). The two need not add up, for a guess can make up for what is not known.</dd>
+<dd>The same path tracer, but scattered rays return light only from points that the camera sees and from the
+environment: the best that a screen-space method can reach without guessing. A variant's error against the ground truth
+has two causes: off-screen and occluded surfaces (visible-only against the ground truth), and the error of the method
+itself (the variant against visible-only). The two need not add up, as a fallback may guess right.</dd>
 <dt>relative MSE</dt>
-<dd>Mean of (picture − truth)² / (truth² + 0.01) over pixels and channels of linear light. 0 is equal.</dd>
+<dd>Mean of (image − reference)² / (reference² + 0.01) over pixels and channels of linear radiance. 0: equal.</dd>
 <dt>FLIP</dt>
-<dd>How much of a difference a person sees who flips between both pictures, from 0 (none) to 1. The error maps show it
-pixel by pixel, in these colours:
-<span class="scale">0 <img src="@scale@" alt="Colours of the error maps, from black for 0 by way of violet, red and
+<dd>The difference that a person perceives when flipping between the two images, from 0 (none) to 1. The error maps
+show it per pixel, in these colours:
+<span class="scale">0 <img src="@scale@" alt="Colours of the error maps, from black for 0 through violet, red and
 orange to pale yellow for 1" width="256" height="12"> 1</span></dd>
 <dt>PSNR</dt>
-<dd>The brightest value of the truth against the root of the mean squared error, in decibels. More is nearer.</dd>
+<dd>Peak signal-to-noise ratio: the reference's brightest value over the root mean squared error, in decibels. Higher
+is better.</dd>
 <dt>reference noise</dt>
-<dd>The references are noisy, too: the relative MSE that a second run would have. Lesser differences mean nothing.</dd>
+<dd>Relative MSE that a second run of the reference would have. Smaller differences are not significant.</dd>
 <dt>milliseconds</dt>
-<dd>Time on the device, the median over the frames after the first. Bars show a pass's share of the frame.</dd>
+<dd>Device time, the median over the frames after the first. Bars show a pass's share of the frame.</dd>
 </dl>
 </section>
 )";

@@ -1,5 +1,5 @@
-// What a report says, as plain values, and the page, the table and the JSON that say it. Knows no device and no file:
-// pictures are names of PNG files that lie beside the page.
+// The content of a report as plain values, and its output as page, table and JSON. Independent of devices and files:
+// images are names of PNG files beside the page.
 #pragma once
 
 #include "base/math.h"
@@ -11,11 +11,11 @@
 
 namespace reflet {
 
-/// How far a picture is from another one; see compare/compare.h.
+/// The error of one image against another; see compare/compare.h.
 struct ReportError {
     double relativeMse = 0.0;
-    double flip = 0.0;  ///< mean, 0 equal to 1
-    double psnr = 0.0;  ///< dB, infinite for equal pictures
+    double flip = 0.0;  ///< mean, 0 (equal) to 1
+    double psnr = 0.0;  ///< dB, infinite for equal images
 };
 
 struct ReportPass {
@@ -25,9 +25,9 @@ struct ReportPass {
 
 struct ReportVariant {
     std::string name;
-    std::string settings;  ///< as --set takes them, what differs from the defaults; empty: nothing
+    std::string settings;  ///< those that differ from the defaults, in the form of --set
     std::string picture;
-    std::string truthErrorMap;    ///< FLIP against the truth
+    std::string truthErrorMap;    ///< FLIP against the ground truth
     std::string visibleErrorMap;  ///< FLIP against visible-only
     ReportError againstTruth;
     ReportError againstVisible;
@@ -35,7 +35,7 @@ struct ReportVariant {
     std::vector<ReportPass> passes;  ///< in the order in which they ran
 };
 
-/// A path-traced picture.
+/// A path-traced image.
 struct ReportReference {
     std::string picture;
     uint32_t samples = 0;  ///< per pixel
@@ -48,8 +48,8 @@ struct ReportScene {
     std::string description;  ///< one line
     ReportReference truth;
     ReportReference visible;
-    std::string visibleErrorMap;  ///< FLIP of visible-only against the truth
-    ReportError visibleError;     ///< of visible-only against the truth
+    std::string visibleErrorMap;  ///< FLIP of visible-only against the ground truth
+    ReportError visibleError;     ///< of visible-only against the ground truth
     std::vector<ReportVariant> variants;
 };
 
@@ -60,19 +60,19 @@ struct ReportPage {
     uvec2 size{0};
     uint32_t seed = 0;
     uint32_t frames = 0;              ///< rendered for each variant
-    std::optional<uint32_t> bounces;  ///< of the truth; none: without end
-    std::string errorScale;           ///< a picture: colours of the error maps, 0 at the left to 1 at the right
+    std::optional<uint32_t> bounces;  ///< of the ground truth; none: unlimited
+    std::string errorScale;           ///< image of the error maps' colours, from 0 at the left to 1 at the right
     std::string plotSvg;              ///< inline SVG: error against time over all variants; empty: no plot
     std::vector<ReportScene> scenes;  ///< all with the same names of variants
 };
 
-/// The whole page. It refers to the pictures by name and to nothing else.
+/// The whole page. It refers to the image files by name and to nothing else.
 std::string reportHtml(const ReportPage& page);
 
-/// All numbers. Infinite ones (PSNR of equal pictures) are null.
+/// All numbers. Infinite ones (PSNR of equal images) are null.
 std::string reportJson(const ReportPage& page);
 
-/// A table for a document: a row for each scene and variant, for visible-only, and for the noise of the truth.
+/// A table for a document: rows for each scene and variant, for visible-only, and for the noise of the references.
 std::string reportMarkdown(const ReportPage& page);
 
 }  // namespace reflet

@@ -1,8 +1,8 @@
-// Brings the comparisons to life: two pictures on top of each other and a divider between them. The pictures are those
-// of the gallery below, which is all that there is without this script.
+// Makes the comparisons interactive: two overlaid images with a divider. The images are those of the gallery below,
+// which works without this script.
 "use strict";
 (() => {
-    // Not everything has every map: the truth has no error. Its picture stands in.
+    // The ground truth has no error maps: its image is shown instead.
     const findPicture = (section, of, kind) => {
         const find = (wanted) => section.querySelector(`img[data-of="${of}"][data-kind="${wanted}"]`);
         return find(kind) || find("picture");

@@ -1,4 +1,4 @@
-// A scene in the report's page: two pictures under a divider, the tables, and all pictures.
+// Writes a scene of the report's page: two images under a divider, the tables, and all images.
 #include "apps/report/page_scene.h"
 
 #include "apps/report/page_table.h"
@@ -14,7 +14,7 @@ namespace reflet {
 
 namespace {
 
-// What page.js finds a picture by: whose it is, by its place among the choices, and what it shows.
+// page.js finds an image by `of`, the index of its choice, and by `kind`.
 struct Picture {
     size_t of;
     const char* kind;
@@ -30,32 +30,32 @@ struct Row {
     std::vector<Picture> pictures;
 };
 
-constexpr const char* truthMapLabel = "error against the truth";
+constexpr const char* truthMapLabel = "error against the ground truth";
 constexpr const char* visibleMapLabel = "error against visible-only";
 
 Row referenceRow(const ReportScene& scene) {
     const std::string& name = scene.name;
     return {"references",
             "path traced",
-            {{0, "picture", scene.truth.picture, name + ", path traced: the truth", "truth"},
+            {{0, "picture", scene.truth.picture, name + ", path traced: the ground truth", "ground truth"},
              {1, "picture", scene.visible.picture, name + ", path traced with visible-only light", "visible-only"},
              {1, "truth", scene.visibleErrorMap,
-              fmt::format("{}, map of the error of visible-only against the truth, mean FLIP {}", name,
+              fmt::format("{}, error map of visible-only against the ground truth, mean FLIP {}", name,
                           flipText(scene.visibleError.flip)),
-              "what the screen cannot know: visible-only against the truth"}}};
+              "light from off-screen and occluded surfaces: visible-only against the ground truth"}}};
 }
 
 Row variantRow(const ReportScene& scene, size_t index) {
     const ReportVariant& v = scene.variants[index];
-    const size_t of = index + 2;  // after truth and visible-only
+    const size_t of = index + 2;  // after ground truth and visible-only
     const auto map = [&](const char* against, const ReportError& error) {
-        return fmt::format("{}, map of the error of {} against {}, mean FLIP {}", scene.name, v.name, against,
+        return fmt::format("{}, error map of {} against {}, mean FLIP {}", scene.name, v.name, against,
                            flipText(error.flip));
     };
     return {v.name,
             v.settings.empty() ? "all settings at their defaults" : fmt::format("<code>{}</code>", xmlText(v.settings)),
             {{of, "picture", v.picture, fmt::format("{}, variant {}", scene.name, v.name), "picture"},
-             {of, "truth", v.truthErrorMap, map("the truth", v.againstTruth), truthMapLabel},
+             {of, "truth", v.truthErrorMap, map("the ground truth", v.againstTruth), truthMapLabel},
              {of, "visible", v.visibleErrorMap, map("visible-only", v.againstVisible), visibleMapLabel}}};
 }
 
@@ -76,7 +76,7 @@ std::string galleryRow(const Row& row, uvec2 size) {
 }
 
 std::string choices(const ReportScene& scene, size_t selected) {
-    std::vector<std::string> names{"truth", "visible-only"};
+    std::vector<std::string> names{"ground truth", "visible-only"};
     std::ranges::transform(scene.variants, std::back_inserter(names), &ReportVariant::name);
     std::string html;
     for (size_t i = 0; i < names.size(); ++i) {
@@ -86,16 +86,16 @@ std::string choices(const ReportScene& scene, size_t selected) {
     return html;
 }
 
-// The truth and the first variant. Hidden until page.js brings it to life.
+// Starts with the ground truth and the first variant. Hidden until page.js activates it.
 std::string comparison(const ReportScene& scene, uvec2 size) {
     const Picture left = referenceRow(scene).pictures[0];
     const Picture right = scene.variants.empty() ? referenceRow(scene).pictures[1] : variantRow(scene, 0).pictures[0];
     return fmt::format(
-        R"(<div class="compare" role="group" aria-label="Two pictures of {name} under a divider" hidden>
+        R"(<div class="compare" role="group" aria-label="Two images of {name} under a divider" hidden>
 <div class="controls">
 <label>Left <select class="left">{leftChoices}</select></label>
 <label>Right <select class="right">{rightChoices}</select></label>
-<label>Show <select class="kind"><option value="picture" selected>pictures</option><option value="truth">{truthMap}</option><option value="visible">{visibleMap}</option></select></label>
+<label>Show <select class="kind"><option value="picture" selected>images</option><option value="truth">{truthMap}</option><option value="visible">{visibleMap}</option></select></label>
 </div>
 <div class="fit" style="--width:{width};--height:{height}">
 <div class="stage">
@@ -105,7 +105,7 @@ std::string comparison(const ReportScene& scene, uvec2 size) {
 <span class="tag right" aria-hidden="true"></span>
 <span class="divider" aria-hidden="true"></span>
 </div>
-<input type="range" min="0" max="100" step="0.5" value="50" aria-label="Place of the divider between the pictures">
+<input type="range" min="0" max="100" step="0.5" value="50" aria-label="Position of the divider between the images">
 </div>
 </div>
 )",
@@ -122,9 +122,8 @@ std::string facts(const ReportScene& scene) {
     };
     const double noise = std::max(scene.truth.noise, scene.visible.noise);
     return fmt::format(
-        "<p class=\"facts\">{}</p>\n<p class=\"facts\">Truth: {}; visible-only: {}. Differences in relative MSE below "
-        "{} "
-        "are noise of these references.</p>\n",
+        "<p class=\"facts\">{}</p>\n<p class=\"facts\">Ground truth: {}; visible-only: {}. Differences in relative MSE "
+        "below {} are noise of these references.</p>\n",
         xmlText(scene.description), of(scene.truth), of(scene.visible), relativeMseText(noise * noise));
 }
 
@@ -134,7 +133,7 @@ std::string sceneSection(const ReportScene& scene, uvec2 size, const std::string
     std::string html =
         fmt::format("<section class=\"scene\" id=\"{}\">\n<h2>{}</h2>\n{}", id, xmlText(scene.name), facts(scene));
     html += comparison(scene, size) + errorTable(scene);
-    html += "<h3>Pictures and error maps</h3>\n<div class=\"gallery\">\n" + galleryRow(referenceRow(scene), size);
+    html += "<h3>Images and error maps</h3>\n<div class=\"gallery\">\n" + galleryRow(referenceRow(scene), size);
     for (size_t i = 0; i < scene.variants.size(); ++i) {
         html += galleryRow(variantRow(scene, i), size);
     }

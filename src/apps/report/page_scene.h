@@ -1,4 +1,4 @@
-// A scene in the report's page, as HTML.
+// Writes a scene of the report's page, as HTML.
 #pragma once
 
 #include "apps/report/page.h"
@@ -7,7 +7,7 @@
 
 namespace reflet {
 
-/// `id` names the section.
+/// `id`: the HTML id of the section.
 std::string sceneSection(const ReportScene& scene, uvec2 size, const std::string& id);
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// The tables of a scene in the report's page.
+// Writes the tables of a scene in the report's page.
 #include "apps/report/page_table.h"
 
 #include "apps/report/text.h"
@@ -30,7 +30,7 @@ constexpr Column columns[] = {
     {"ms per frame", [](const ReportVariant& v) { return v.frameMs; }, millisecondsText},
 };
 
-// The column's texts, and which of them is the best; none where there is nothing to choose.
+// The column's texts, and the best of them; empty if all are equal.
 struct ColumnTexts {
     std::vector<std::string> texts;
     std::string best;
@@ -63,7 +63,7 @@ std::string rowStart(std::string_view name) {
 std::string errorHead() {
     std::string head =
         "<thead>\n<tr><th rowspan=\"2\" scope=\"col\">variant</th>"
-        "<th colspan=\"3\" scope=\"colgroup\">error against the truth</th>"
+        "<th colspan=\"3\" scope=\"colgroup\">error against the ground truth</th>"
         "<th colspan=\"3\" scope=\"colgroup\">error against visible-only</th>"
         "<th scope=\"colgroup\">time</th></tr>\n<tr>";
     for (const Column& column : columns) {
@@ -72,7 +72,7 @@ std::string errorHead() {
     return head + "</tr>\n</thead>\n";
 }
 
-// What the numbers above are to be held against.
+// Rows to judge the numbers above by: visible-only and the noise of the references.
 std::string yardsticks(const ReportScene& scene) {
     const ReportError& e = scene.visibleError;
     const auto noise = [](const ReportReference& r) { return relativeMseText(r.noise * r.noise); };
@@ -91,7 +91,7 @@ std::string scrolled(const std::string& caption, const char* style, const std::s
         caption, style, table);
 }
 
-// Names of all variants' passes. One that only some variants have comes after the pass that it follows there.
+// Names of all variants' passes. A pass that only some variants have comes after its predecessor there.
 std::vector<std::string> passNames(const std::vector<ReportVariant>& variants) {
     std::vector<std::string> names;
     for (const ReportVariant& variant : variants) {

@@ -1,4 +1,4 @@
-// The tables of a scene in the report's page, as HTML.
+// Writes the tables of a scene in the report's page, as HTML.
 #pragma once
 
 #include "apps/report/page.h"
@@ -7,7 +7,7 @@
 
 namespace reflet {
 
-/// A row for each variant: error against truth and visible-only, time. The best of each column is marked.
+/// A row for each variant: error against ground truth and visible-only, time. The best of each column is marked.
 std::string errorTable(const ReportScene& scene);
 
 /// A row for each pass, a column for each variant: milliseconds.

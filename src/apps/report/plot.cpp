@@ -1,4 +1,4 @@
-// The scatter plot's drawing: header, axes, fronts, markers, labels. Units are those of the viewBox, about a pixel.
+// Draws the scatter plot: header, axes, fronts, markers, labels. Units are those of the viewBox, about a pixel.
 #include "apps/report/plot.h"
 
 #include "apps/report/plot_axis.h"
@@ -24,15 +24,15 @@ constexpr float plotRight = width - 20.0F;
 constexpr float plotHeight = 340.0F;
 constexpr float footerHeight = 52.0F;  // under the plot: numbers and the x axis's name
 constexpr float row = 22.0F;           // of the header
-constexpr float floorRoom = 26.0F;     // from the y axis's lowest positive value to 0
+constexpr float floorRoom = 26.0F;     // between the y axis's lowest positive value and 0
 constexpr float markerRadius = 5.0F;
 constexpr float textHeight = 13.0F;
 constexpr size_t longestName = 80;  // of the plot and of an axis
 
-// Luminance between those of white and of black paper: at least 3:1 against both.
+// Contrast of at least 3:1 against both white and black backgrounds.
 constexpr std::array<std::string_view, 8> colors{"#3b7dd8", "#d95f02", "#1b9e77", "#c2559c",
                                                  "#a6761d", "#8a63d2", "#808080", "#d64550"};
-// Of about the same area, around (0, 0).
+// Centred at (0, 0), with about the same area.
 constexpr std::array<std::string_view, 8> shapes{
     "M-4.6 0a4.6 4.6 0 1 0 9.2 0a4.6 4.6 0 1 0 -9.2 0z",
     "M-4.1 -4.1h8.2v8.2h-8.2z",
@@ -69,7 +69,7 @@ private:
     const ScatterPlot& plot_;
     std::vector<ScatterPoint> points_;  ///< those that can be drawn
     std::vector<PlotSeries> series_;
-    std::vector<vec2> legend_;  ///< where each series' entry is; empty for one series
+    std::vector<vec2> legend_;  ///< position of each series' entry; empty for one series
     PlotBox area_;
     bool hasZero_ = false;
     LogAxis x_{{}, 0.0, 1.0};
@@ -104,7 +104,7 @@ Drawing::Drawing(const ScatterPlot& plot) : plot_(plot) {
     }
 }
 
-/// Rows of entries from `top` on; returns where they end.
+/// Lays entries out in rows from `top` down; returns the bottom.
 float Drawing::layoutLegend(const std::vector<PlotSeries>& series, float top, std::vector<vec2>& places) {
     vec2 at(headLeft, top + 0.5F * row);
     for (const PlotSeries& s : series) {
@@ -124,7 +124,7 @@ std::string Drawing::valuesText(const ScatterPoint& point) const {
                        plot_.xLabel, point.x, plot_.yLabel, point.y);
 }
 
-/// For who cannot see it: the same that the eye takes from it.
+/// Text alternative for screen readers.
 std::string Drawing::description() const {
     std::string text = fmt::format("Scatter plot with logarithmic axes: {} across, {} up; less is better. {} point{}",
                                    plot_.xLabel, plot_.yLabel, points_.size(), points_.size() == 1 ? "" : "s");
@@ -136,7 +136,7 @@ std::string Drawing::description() const {
         for (const size_t i : frontOf(series, points_)) {
             members.push_back(fmt::format("{} ({:.3g}, {:.3g})", points_[i].label, points_[i].x, points_[i].y));
         }
-        text += fmt::format(". {}{} not beaten in both: {}", series.name, series.name.empty() ? "" : ",",
+        text += fmt::format(". {}{}Pareto front: {}", series.name, series.name.empty() ? "" : ", ",
                             fmt::join(members, "; "));
     }
     return text + ".";
@@ -184,7 +184,7 @@ void Drawing::addAxes() {
     }
     add("\n<path d=\"{}\" stroke=\"currentColor\" stroke-opacity=\"0.13\" fill=\"none\"/>\n", grid);
     add("<path d=\"{}\" stroke=\"currentColor\" stroke-opacity=\"0.45\" fill=\"none\"/>\n", marks);
-    // Dashed where the y axis leaves out what is between its lowest value and 0.
+    // Dashed where the y axis skips the range between its lowest value and 0.
     const float bend = hasZero_ ? area_.bottom - floorRoom : area_.bottom;
     add("<path d=\"M{0:.1f} {1:.1f}V{2:.1f}M{0:.1f} {3:.1f}H{4:.1f}\" stroke=\"currentColor\" stroke-opacity=\"0.6\" "
         "fill=\"none\"/>\n",
@@ -229,13 +229,13 @@ void Drawing::addPoint(size_t index, size_t series, const LabelPlace& place) {
 }
 
 void Drawing::addPoints() {
-    std::vector<LabelWish> wishes;
+    std::vector<LabelRequest> requests;
     for (size_t i = 0; i < points_.size(); ++i) {
-        wishes.push_back({positions_[i], {textWidth(labelOf(points_[i].label)), textHeight}});
+        requests.push_back({positions_[i], {textWidth(labelOf(points_[i].label)), textHeight}});
     }
     PlotBox area = area_;
     area.left += 4.0F;
-    const std::vector<LabelPlace> places = placeLabels(wishes, markerRadius, area, fronts_);
+    const std::vector<LabelPlace> places = placeLabels(requests, markerRadius, area, fronts_);
     for (size_t s = 0; s < series_.size(); ++s) {
         for (const size_t index : series_[s].points) {
             addPoint(index, s, places[index]);

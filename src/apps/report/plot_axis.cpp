@@ -1,4 +1,4 @@
-// A logarithmic axis.
+// Computes range and ticks of a logarithmic axis.
 #include "apps/report/plot_axis.h"
 
 #include <spdlog/fmt/fmt.h>
@@ -10,7 +10,7 @@
 namespace reflet {
 namespace {
 
-constexpr double leastDecades = 0.75;  // at this length two of 1-2-5 are always inside
+constexpr double leastDecades = 0.75;  // the shortest range that always contains two of the numbers 1, 2, 5
 
 std::string superscript(int number) {
     static constexpr std::string_view digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
@@ -21,7 +21,7 @@ std::string superscript(int number) {
     return result;
 }
 
-/// digit · 10^exponent, without the roundings of a floating-point number.
+/// digit · 10^exponent, without floating-point rounding.
 std::string tickText(int digit, int exponent) {
     if (exponent >= 0 && exponent <= 4) {
         return std::to_string(digit) + std::string(static_cast<size_t>(exponent), '0');
@@ -32,7 +32,7 @@ std::string tickText(int digit, int exponent) {
     return (digit == 1 ? "" : std::to_string(digit) + "·") + "10" + superscript(exponent);
 }
 
-/// Which of the digits 1 to 9 have a number, on an axis of so many decades.
+/// The leading digits whose ticks get a number, on an axis of so many decades.
 std::string_view numberedDigits(double decades) {
     return decades < 1.0 ? "12357" : decades <= 3.0 ? "125" : "1";
 }
@@ -61,7 +61,7 @@ double LogAxis::position(double value) const {
 
 std::vector<AxisTick> LogAxis::ticks() const {
     const double decades = high_ - low_;
-    const int stride = static_cast<int>(std::ceil(decades / 8.0));  // decades from number to number
+    const int stride = static_cast<int>(std::ceil(decades / 8.0));  // decades between numbers
     const std::string_view numbered = numberedDigits(decades);
     std::vector<AxisTick> ticks;
     for (int exponent = static_cast<int>(std::floor(low_)); exponent <= static_cast<int>(high_) + 1; ++exponent) {

@@ -1,4 +1,4 @@
-// A logarithmic axis: which range, which ticks, and where a value is.
+// A logarithmic axis: its range, its ticks, and the position of a value.
 #pragma once
 
 #include <span>
@@ -14,13 +14,13 @@ struct AxisTick {
 
 class LogAxis {
 public:
-    /// Has room for all `values` (finite, > 0; there may be none) between the positions `start` and `end`, and for a
-    /// factor of 5 at the least.
+    /// Covers all `values` (finite, > 0; may be empty) between the positions `start` and `end`, and at least a factor
+    /// of 5.
     LogAxis(std::span<const double> values, double start, double end);
 
-    /// Of a finite value > 0. Grows from `start` to `end` with the value.
+    /// Position of a finite value > 0, from `start` to `end`.
     [[nodiscard]] double position(double value) const;
-    /// From low to high; at least two of them with a number.
+    /// From low to high; at least two have a number.
     [[nodiscard]] std::vector<AxisTick> ticks() const;
 
 private:

@@ -1,4 +1,5 @@
-// Greedy: the most crowded point first, each label takes the cheapest of a few rings of places around its point.
+// Greedy placement: starting with the most crowded point, each label takes the cheapest position on rings around its
+// point.
 #include "apps/report/plot_labels.h"
 
 #include <algorithm>
@@ -12,13 +13,13 @@ namespace {
 constexpr float gap = 4.0F;        // from a marker to its label
 constexpr float ringStep = 13.0F;  // about a line of text
 constexpr int rings = 12;
-constexpr float crowd = 70.0F;  // points nearer than this are in each other's way
+constexpr float crowd = 70.0F;  // points closer than this count as crowded
 
-// What is bad about a place, against each other.
+// Relative costs of what a position violates.
 constexpr float outsideCost = 1000.0F;
 constexpr float hidesLabelCost = 300.0F;
 constexpr float hidesMarkerCost = 200.0F;
-constexpr float leaderThroughCost = 60.0F;  // a label, or through a leader a label
+constexpr float leaderThroughCost = 60.0F;  // a leader line that crosses a label, or a label on a leader line
 constexpr float ringCost = 4.0F;
 constexpr float leaderOverMarkerCost = 30.0F;
 constexpr float onLineCost = 3.0F;
@@ -50,21 +51,21 @@ PlotBox around(const vec2& at, float radius) {
     return {at.x - radius, at.y - radius, at.x + radius, at.y + radius};
 }
 
-/// The sixteenths of a turn, best first: to the right, a little above, to the left, above, below, the rest.
+/// Directions in sixteenths of a turn, best first: right and its diagonals, left and its diagonals, up, down, the rest.
 constexpr std::array<int, 16> directions{0, 14, 2, 8, 10, 6, 12, 4, 15, 1, 9, 7, 13, 11, 3, 5};
 
-LabelPlace placeAt(const LabelWish& wish, float markerRadius, int ring, int direction) {
+LabelPlace placeAt(const LabelRequest& request, float markerRadius, int ring, int direction) {
     const float angle = static_cast<float>(direction) * glm::pi<float>() / 8.0F;
     const vec2 way(std::cos(angle), std::sin(angle));
-    const vec2 edge = wish.at + way * markerRadius;
+    const vec2 edge = request.at + way * markerRadius;
     const vec2 p = edge + way * (gap + ringStep * static_cast<float>(ring));
     LabelPlace place;
     place.align = way.x > 0.3F ? 0.0F : way.x < -0.3F ? 1.0F : 0.5F;
     const float rise = way.y > 0.3F ? 0.0F : way.y < -0.3F ? 1.0F : 0.5F;
-    place.box.left = p.x - place.align * wish.size.x;
-    place.box.top = p.y - rise * wish.size.y;
-    place.box.right = place.box.left + wish.size.x;
-    place.box.bottom = place.box.top + wish.size.y;
+    place.box.left = p.x - place.align * request.size.x;
+    place.box.top = p.y - rise * request.size.y;
+    place.box.right = place.box.left + request.size.x;
+    place.box.bottom = place.box.top + request.size.y;
     if (ring > 0) {
         place.leader = PlotSegment{edge, p};
     }
@@ -73,17 +74,17 @@ LabelPlace placeAt(const LabelWish& wish, float markerRadius, int ring, int dire
 
 class Placer {
 public:
-    Placer(std::span<const LabelWish> wishes, float markerRadius, const PlotBox& area,
+    Placer(std::span<const LabelRequest> requests, float markerRadius, const PlotBox& area,
            std::span<const PlotSegment> lines)
-        : wishes_(wishes), markerRadius_(markerRadius), area_(area), lines_(lines) {}
+        : requests_(requests), markerRadius_(markerRadius), area_(area), lines_(lines) {}
 
-    /// The cheapest place for a label beside those placed before.
+    /// The cheapest position for a label, given those already placed.
     LabelPlace place(size_t index) {
         LabelPlace best;
         float bestCost = std::numeric_limits<float>::max();
         for (int ring = 0; ring < rings; ++ring) {
             for (size_t i = 0; i < directions.size(); ++i) {
-                const LabelPlace candidate = placeAt(wishes_[index], markerRadius_, ring, directions.at(i));
+                const LabelPlace candidate = placeAt(requests_[index], markerRadius_, ring, directions.at(i));
                 const float cost = costOf(candidate, index) + ringCost * static_cast<float>(ring) +
                                    directionCost * static_cast<float>(i);
                 if (cost < bestCost) {
@@ -102,8 +103,8 @@ private:
         const bool inside =
             box.left >= area_.left && box.right <= area_.right && box.top >= area_.top && box.bottom <= area_.bottom;
         float cost = inside ? 0.0F : outsideCost;
-        for (size_t i = 0; i < wishes_.size(); ++i) {
-            const PlotBox marker = around(wishes_[i].at, markerRadius_ + 1.0F);
+        for (size_t i = 0; i < requests_.size(); ++i) {
+            const PlotBox marker = around(requests_[i].at, markerRadius_ + 1.0F);
             cost += box.overlaps(marker) ? hidesMarkerCost : 0.0F;
             cost += i != index && candidate.leader && crosses(*candidate.leader, marker) ? leaderOverMarkerCost : 0.0F;
         }
@@ -116,7 +117,7 @@ private:
                                        lines_, [&](const PlotSegment& line) { return crosses(line, box); }));
     }
 
-    std::span<const LabelWish> wishes_;
+    std::span<const LabelRequest> requests_;
     float markerRadius_;
     PlotBox area_;
     std::span<const PlotSegment> lines_;
@@ -125,17 +126,17 @@ private:
 
 }  // namespace
 
-std::vector<LabelPlace> placeLabels(std::span<const LabelWish> wishes, float markerRadius, const PlotBox& area,
+std::vector<LabelPlace> placeLabels(std::span<const LabelRequest> requests, float markerRadius, const PlotBox& area,
                                     std::span<const PlotSegment> lines) {
-    std::vector<size_t> order(wishes.size());
+    std::vector<size_t> order(requests.size());
     std::iota(order.begin(), order.end(), size_t{0});
     const auto neighbours = [&](size_t index) {
         return std::ranges::count_if(
-            wishes, [&](const LabelWish& other) { return glm::distance(other.at, wishes[index].at) < crowd; });
+            requests, [&](const LabelRequest& other) { return glm::distance(other.at, requests[index].at) < crowd; });
     };
     std::ranges::stable_sort(order, std::greater{}, neighbours);
-    std::vector<LabelPlace> places(wishes.size());
-    Placer placer(wishes, markerRadius, area, lines);
+    std::vector<LabelPlace> places(requests.size());
+    Placer placer(requests, markerRadius, area, lines);
     for (const size_t index : order) {
         places[index] = placer.place(index);
     }

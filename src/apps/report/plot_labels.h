@@ -1,4 +1,4 @@
-// Places for the labels of points, so that they hide neither each other nor the points.
+// Places the labels of points so that they overlap neither each other nor the points.
 #pragma once
 
 #include "base/math.h"
@@ -9,7 +9,7 @@
 
 namespace reflet {
 
-/// Y runs down.
+/// Y points down.
 struct PlotBox {
     float left = 0.0F;
     float top = 0.0F;
@@ -27,21 +27,20 @@ struct PlotSegment {
 };
 
 /// A point of the plot and the size of its label.
-struct LabelWish {
+struct LabelRequest {
     vec2 at{0.0F};
     vec2 size{0.0F};
 };
 
 struct LabelPlace {
     PlotBox box;
-    float align = 0.0F;                 ///< the text's side toward the point: 0 its start, 0.5 its middle, 1 its end
-    std::optional<PlotSegment> leader;  ///< from point to label, where they are apart
+    float align = 0.0F;  ///< which part of the text is at the point: 0 its start, 0.5 its middle, 1 its end
+    std::optional<PlotSegment> leader;  ///< line from point to label, if they are far apart
 };
 
-/// A place for each wish, in their order, beside the markers (circles of `markerRadius` around the points). Inside of
-/// `area` wherever a label is small enough for that; crosses `lines` where there is no better place. The same wishes
-/// give the same places.
-std::vector<LabelPlace> placeLabels(std::span<const LabelWish> wishes, float markerRadius, const PlotBox& area,
+/// A position for each request, in the same order, outside the markers (circles of `markerRadius` around the points).
+/// Inside `area` if the label fits; crosses `lines` only if there is no better position. Deterministic.
+std::vector<LabelPlace> placeLabels(std::span<const LabelRequest> requests, float markerRadius, const PlotBox& area,
                                     std::span<const PlotSegment> lines);
 
 }  // namespace reflet

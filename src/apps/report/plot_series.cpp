@@ -1,4 +1,4 @@
-// What a scatter plot's points are.
+// Groups a scatter plot's points into series.
 #include "apps/report/plot_series.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What a scatter plot's points are: which can be drawn, which belong together, which are not beaten.
+// Groups a scatter plot's points into series, and finds each series' Pareto front.
 #pragma once
 
 #include "apps/report/plot.h"
@@ -13,14 +13,14 @@ struct PlotSeries {
     std::vector<size_t> points;  ///< indices
 };
 
-/// Whether it has a place on logarithmic axes, 0 on the y axis included.
+/// Whether it can be drawn on logarithmic axes; y = 0 can.
 bool drawable(const ScatterPoint& point);
 
-/// In the order in which they first come.
+/// In the order of their first points.
 std::vector<PlotSeries> seriesOf(const std::vector<ScatterPoint>& points);
 
-/// The points of the series that no other one of it beats, by x: each is lower than all before. Of equal ones the
-/// first.
+/// The Pareto front: the points of the series that no other one beats, sorted by x with falling y. Of equal points only
+/// the first.
 std::vector<size_t> frontOf(const PlotSeries& series, const std::vector<ScatterPoint>& points);
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// Widths as of DejaVu Sans, which is wider than what a page is likely to use.
+// Estimates text widths by DejaVu Sans, which is wider than the fonts that pages usually get.
 #include "apps/report/plot_text.h"
 
 #include "apps/report/xml_text.h"
@@ -12,7 +12,7 @@ namespace {
 float characterWidth(std::string_view character) {
     const char c = character[0];
     if (static_cast<uint8_t>(c) >= 0x80U) {
-        return character.size() > 2 ? 12.5F : 8.0F;  // Chinese and the like; accents, Greek, Cyrillic
+        return character.size() > 2 ? 12.5F : 8.0F;  // CJK and other wide characters; accented, Greek, Cyrillic
     }
     if (std::string_view("fijlrtI ,.:;'|!()[]-").find(c) != std::string_view::npos) {
         return 5.0F;
@@ -23,7 +23,7 @@ float characterWidth(std::string_view character) {
     return c >= 'A' && c <= 'Z' ? 9.5F : 7.7F;
 }
 
-/// Cuts the first character off.
+/// Removes and returns the first character.
 std::string_view takeCharacter(std::string_view& text) {
     const std::string_view character = text.substr(0, std::max<size_t>(leadingCharacter(text), 1));
     text.remove_prefix(character.size());

@@ -1,4 +1,4 @@
-// How much room a text takes in a plot, without knowing the font.
+// Estimates text widths in a plot, without knowing the font.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace reflet {
 
-/// Estimated width at a font size of 12: rather too wide, so that texts that are placed by it stay apart.
+/// Estimated width at font size 12; an overestimate, so that texts placed by it do not overlap.
 float textWidth(std::string_view text);
 
 /// The text, or its first `longest` characters and "…".

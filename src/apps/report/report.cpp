@@ -1,4 +1,4 @@
-// `reflet report`: a page that shows how near each variant comes to the truth, and how long it takes.
+// `reflet report`: writes a page that compares the error and time of variants.
 #include "apps/command_line.h"
 #include "apps/commands.h"
 #include "apps/device_options.h"
@@ -45,7 +45,7 @@ struct ReportCommand {
     float noise = 0.0F;
 };
 
-// "What it is and what it is for. 1204 triangles, 5 materials, 2 lamps besides the sun."
+// A built-in scene's description, if it is one, and its size: "1204 triangles, 5 materials, 2 lamps besides the sun."
 std::string describe(const std::string& source, const Scene& scene) {
     size_t indices = 0;
     for (const Instance& instance : scene.instances) {
@@ -70,7 +70,7 @@ std::string nameOf(const std::string& source) {
     return source.starts_with(builtin) ? source.substr(builtin.size()) : fs::path(source).stem().string();
 }
 
-// All of them before any long work, so that a scene that cannot be loaded ends it at once.
+// Loads all scenes before any long work, so that a broken one fails at once.
 std::vector<ReportInput> loadInputs(const ReportCommand& command) {
     std::vector<ReportInput> inputs;
     FileNames prefixes;
@@ -84,7 +84,7 @@ std::vector<ReportInput> loadInputs(const ReportCommand& command) {
         input.position = fmt::format("{} ({} of {})", input.name, inputs.size() + 1, command.scenes.size());
         inputs.push_back(std::move(input));
     }
-    // Scenes of one name are told apart by what the user typed.
+    // Scenes of the same name are shown as the user typed them.
     for (ReportInput& input : inputs) {
         if (std::ranges::count(command.scenes, nameOf(input.source), nameOf) > 1) {
             input.name = input.source;
@@ -95,7 +95,7 @@ std::vector<ReportInput> loadInputs(const ReportCommand& command) {
 
 ReportWork makeWork(const ReportCommand& command) {
     if (std::isnan(command.noise)) {
-        failUsage("--noise wants a number, is '{}'", command.noise);
+        failUsage("--noise must be a number, is '{}'", command.noise);
     }
     const Settings settings = loadSettings(command.shared);
     ReportWork work;
@@ -121,12 +121,12 @@ void makeReportFolder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) {
-        fail("{}: cannot be made: {}", folder.string(), error.message());
+        fail("{}: cannot be created: {}", folder.string(), error.message());
     }
-    const AtomicFile trial(folder / "index.html");  // better now than after minutes of work
+    const AtomicFile trial(folder / "index.html");  // fails now, not after minutes of work
 }
 
-// The file's name.
+// Returns the file's name.
 std::string writeErrorScale(const fs::path& folder) {
     constexpr uint32_t width = 256;
     constexpr uint32_t height = 12;
@@ -140,9 +140,9 @@ std::string writeErrorScale(const fs::path& folder) {
 
 std::string errorTimePlot(const ReportPage& page) {
     ScatterPlot plot;
-    plot.title = "Every variant on every scene: left is faster, down is nearer to the truth";
+    plot.title = "Every variant on every scene: left is faster, down is closer to the ground truth";
     plot.xLabel = "milliseconds per frame";
-    plot.yLabel = "relative MSE against the truth";
+    plot.yLabel = "relative MSE against the ground truth";
     for (const ReportScene& scene : page.scenes) {
         for (const ReportVariant& variant : scene.variants) {
             plot.points.push_back({variant.name, scene.name, variant.frameMs, variant.againstTruth.relativeMse});
@@ -178,26 +178,24 @@ void report(const ReportCommand& command, const std::string& typed) {
 }
 
 constexpr const char* reportFooter =
-    "DIR/index.html is the page; it needs no network and no server. Beside it: its pictures, report.json with all "
-    "numbers and table.md.\n"
-    "--set and --settings hold for all variants, over their presets; the truth is tone mapped with them.\n"
-    "A variant of your own: --variant NAME=KEY=VALUE,KEY=VALUE or, from a preset, --variant "
+    "DIR/index.html is the page; it needs neither network nor server. Beside it are its images, report.json with all "
+    "numbers, and table.md.\n"
+    "--set and --settings apply to all variants, on top of their presets, and to the tone mapping of the references.\n"
+    "Custom variants: --variant NAME=KEY=VALUE,KEY=VALUE or, based on a preset, --variant "
     "NAME=PRESET,KEY=VALUE.\n"
     "Example: reflet report builtin:cubes scene.glb -o out --preset fast,quality --variant "
     "rays8=fast,diffuse.rays=8";
 
 void addTruthOptions(CLI::App& command, ReportCommand& options) {
-    command
-        .add_option("--bounces", options.bounces,
-                    "Scattered rays of the truth's paths; not given: as many as the light takes")
+    command.add_option("--bounces", options.bounces, "Scattered rays per path of the references [unlimited]")
         ->type_name("N");
     command
-        .add_option(
-            "--spp", options.samples,
-            fmt::format("The truth's samples per pixel, at most [{}; with --noise {}]", truthSamples, largestSamples))
+        .add_option("--spp", options.samples,
+                    fmt::format("Maximum samples per pixel of the references [{}; with --noise {}]", truthSamples,
+                                largestSamples))
         ->type_name("N")
-        ->check(CLI::Range(2U, largestSamples));  // one tells nothing about noise
-    command.add_option("--noise", options.noise, "The truth is done when its noise is under this (0.01: 1 %)")
+        ->check(CLI::Range(2U, largestSamples));  // noise cannot be estimated from one sample
+    command.add_option("--noise", options.noise, "Stop path tracing when the noise falls below this (0.01: 1 %)")
         ->type_name("X")
         ->check(CLI::Range(0.0F, 10.0F));
 }
@@ -207,20 +205,21 @@ void addTruthOptions(CLI::App& command, ReportCommand& options) {
 void addReportCommand(CLI::App& app) {
     auto options = std::make_shared<ReportCommand>();
     options->shared.size = "640x360";
-    CLI::App* command = app.add_subcommand("report", "Write a web page: variants against the truth, and their times");
+    CLI::App* command =
+        app.add_subcommand("report", "Write a web page that compares variants with the ground truth, and their times");
     command->add_option("SCENE", options->scenes, "A .gltf or .glb file, or builtin:NAME; may be several")->required();
-    command->add_option("-o,--output", options->folder, "Folder for the page and its pictures")
+    command->add_option("-o,--output", options->folder, "Folder for the page and its images")
         ->type_name("DIR")
         ->required();
-    command->add_option("--preset", options->presets, "Presets to compare [all of them] (reflet list presets)")
+    command->add_option("--preset", options->presets, "Presets to compare [all] (see reflet list presets)")
         ->type_name("P,Q,...")
         ->allow_extra_args(false)
         ->delimiter(',');
-    command->add_option("--variant", options->variants, "Settings to compare under a name; may be repeated")
+    command->add_option("--variant", options->variants, "Named list of settings to compare; may be repeated")
         ->type_name("NAME=[PRESET,]KEY=VALUE,...")
         ->allow_extra_args(false);
     addViewOptions(*command, options->shared);
-    command->add_option("--frames", options->frames, "Frames of each variant; the last one is shown")
+    command->add_option("--frames", options->frames, "Frames to render per variant; the last one is shown")
         ->check(CLI::Range(1U, 1000000U))
         ->capture_default_str();
     addTruthOptions(*command, *options);

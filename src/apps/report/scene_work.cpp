@@ -1,4 +1,4 @@
-// The long work of a report.
+// Does the long work of a report.
 #include "apps/report/scene_work.h"
 
 #include "apps/progress.h"
@@ -17,7 +17,7 @@ namespace reflet {
 
 namespace {
 
-// Writes pictures of one scene and says under which names.
+// Writes images of one scene and returns their file names.
 class PictureFolder {
 public:
     PictureFolder(std::filesystem::path folder, std::string prefix, FileNames& names)
@@ -38,8 +38,8 @@ private:
 ReferencePicture traceReference(const ReportWork& work, const ReportInput& input, bool visibleOnly) {
     ReferenceOptions options = work.reference;
     options.visibleOnly = visibleOnly;
-    SampleProgress progress(fmt::format("{}, {}", input.position, visibleOnly ? "visible-only" : "truth"), options,
-                            work.size);
+    SampleProgress progress(fmt::format("{}, {}", input.position, visibleOnly ? "visible-only" : "ground truth"),
+                            options, work.size);
     return traceReference(input.scene, input.view, work.size, options, [&](const ReferenceProgress& now) {
         progress.set(now);
         return true;
@@ -53,7 +53,7 @@ struct Rendered {
     Timings timings;
 };
 
-// With a renderer of its own: what variants before it left behind must not show.
+// Uses a separate renderer, so that earlier variants leave no history.
 Rendered renderVariant(const ReportWork& work, const ReportInput& input, const Settings& settings, gpu::Device& device,
                        Progress& progress) {
     Renderer renderer(device, input.scene, printWarning);
@@ -92,7 +92,7 @@ ReportError errorOf(const Comparison& comparison) {
 ReportVariant workOnVariant(const Variant& variant, const Rendered& rendered, const FloatImage& truth,
                             const FloatImage& visible, PictureFolder& folder) {
     const std::string file = fileNameOf(variant.name);
-    const Comparison againstTruth = compareNamed(rendered.radiance, variant.name, truth, "the truth");
+    const Comparison againstTruth = compareNamed(rendered.radiance, variant.name, truth, "the ground truth");
     const Comparison againstVisible = compareNamed(rendered.radiance, variant.name, visible, "visible-only");
     ReportVariant result;
     result.name = variant.name;
@@ -113,7 +113,7 @@ ReportVariant workOnVariant(const Variant& variant, const Rendered& rendered, co
 
 ReportScene workOn(const ReportWork& work, const ReportInput& input, gpu::Device& device, FileNames& names) {
     PictureFolder folder(work.folder, input.filePrefix, names);
-    // Frames first: they are soon done, and a variant that cannot be rendered should be known before the long work.
+    // Frames first: they are fast, and a variant that cannot be rendered fails before the long work.
     std::vector<Rendered> rendered;
     {
         Progress progress(input.position + ": frame", uint64_t(work.variants.size()) * work.frames);
@@ -123,7 +123,7 @@ ReportScene workOn(const ReportWork& work, const ReportInput& input, gpu::Device
     }
     const ReferencePicture truth = traceReference(work, input, false);
     const ReferencePicture visible = traceReference(work, input, true);
-    const Comparison unknown = compareNamed(visible.final, "visible-only", truth.final, "the truth");
+    const Comparison unknown = compareNamed(visible.final, "visible-only", truth.final, "the ground truth");
 
     ReportScene result;
     result.name = input.name;

@@ -1,4 +1,5 @@
-// The long work of a report: both references of a scene, all variants, what lies between them, and the picture files.
+// Does the long work of a report: traces both references of a scene, renders all variants, compares them and writes
+// the image files.
 #pragma once
 
 #include "apps/report/file_names.h"
@@ -14,14 +15,14 @@
 
 namespace reflet {
 
-/// What is the same for all scenes.
+/// Shared by all scenes.
 struct ReportWork {
     std::filesystem::path folder;  ///< exists
     uvec2 size{0};
     uint32_t seed = 0;
     uint32_t frames = 1;         ///< of each variant
     ReferenceOptions reference;  ///< of both references; visibleOnly is set here
-    TonemapSettings tonemap;     ///< of the references' pictures
+    TonemapSettings tonemap;     ///< of the references
     std::vector<Variant> variants;
 };
 
@@ -36,7 +37,7 @@ struct ReportInput {
     View view;
 };
 
-/// Traces, renders, compares, and writes the pictures under names from `names`. Throws Error.
+/// Traces, renders, compares, and writes the images under names from `names`. Throws Error.
 ReportScene workOn(const ReportWork& work, const ReportInput& input, gpu::Device& device, FileNames& names);
 
 }  // namespace reflet

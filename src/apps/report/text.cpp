@@ -1,4 +1,4 @@
-// Numbers of a report as text.
+// Formats the numbers of a report as text.
 #include "apps/report/text.h"
 
 #include <spdlog/fmt/fmt.h>

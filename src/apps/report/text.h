@@ -1,4 +1,4 @@
-// Numbers of a report as text, the same in the page and in the table.
+// Formats the numbers of a report as text, for the page and the table.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace reflet {
 
-/// For a cell of a table in Markdown.
+/// Escapes text for a cell of a Markdown table.
 std::string escapeMarkdown(std::string_view text);
 
-// Fixed decimals, so that columns line up; "–" for what is no number, "∞" for infinity.
+// Fixed decimals, so that columns align; "–" for NaN, "∞" for infinity.
 std::string relativeMseText(double value);
 std::string flipText(double value);
 std::string psnrText(double value);

@@ -1,4 +1,4 @@
-// The variants of a report.
+// Makes the variants of a report or bench.
 #include "apps/report/variants.h"
 
 #include "base/error.h"
@@ -25,7 +25,7 @@ std::vector<std::string> split(std::string_view text, char separator) {
 Variant parseVariant(const std::string& text, const SceneOptions& shared) {
     const size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
-        failUsage("--variant wants NAME=KEY=VALUE,… or NAME=PRESET,KEY=VALUE,…, is '{}'", text);
+        failUsage("--variant must be NAME=KEY=VALUE,… or NAME=PRESET,KEY=VALUE,…, is '{}'", text);
     }
     return {text.substr(0, equals), settingsOfList(text.substr(equals + 1), shared, "--variant " + text)};
 }
@@ -43,7 +43,7 @@ Settings settingsOfList(const std::string& list, const SceneOptions& shared, con
         applyPreset(settings, preset->starts_with(presetPrefix) ? preset->substr(presetPrefix.size()) : *preset);
     }
     if (const auto late = std::find_if(rest, parts.end(), isPreset); late != parts.end()) {
-        failUsage("{}: '{}' is no KEY=VALUE; a preset must come first", where, *late);
+        failUsage("{}: '{}' is not KEY=VALUE; a preset must come first", where, *late);
     }
     options.set.insert(options.set.end(), rest, parts.end());
     changeSettings(settings, options);
@@ -64,7 +64,7 @@ std::vector<Variant> makeVariants(const std::vector<std::string>& presets, const
     for (auto variant = variants.begin(); variant != variants.end(); ++variant) {
         if (std::find_if(variants.begin(), variant, [&](const Variant& v) { return v.name == variant->name; }) !=
             variant) {
-            failUsage("two variants are called '{}': give each --variant a name of its own", variant->name);
+            failUsage("two variants are called '{}': give each --variant a unique name", variant->name);
         }
     }
     return variants;

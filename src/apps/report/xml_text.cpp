@@ -1,4 +1,4 @@
-// Text inside of XML and HTML.
+// Escapes text for XML and HTML.
 #include "apps/report/xml_text.h"
 
 #include <array>
@@ -43,7 +43,7 @@ size_t leadingCharacter(std::string_view text) {
         }
         code = code << 6U | (next & 0x3FU);
     }
-    // Longer than need be, half of a pair of UTF-16, beyond Unicode, or a code that XML has no place for.
+    // Overlong encodings, UTF-16 surrogates, values beyond Unicode, or codes that XML does not allow.
     constexpr std::array<uint32_t, 5> smallest{0, 0, 0x80, 0x800, 0x10000};
     const bool wrong = code < smallest.at(length) || (code >= 0xD800U && code < 0xE000U) || code > 0x10FFFFU ||
                        code == 0xFFFEU || code == 0xFFFFU;

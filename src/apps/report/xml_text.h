@@ -1,4 +1,4 @@
-// Text inside of XML and HTML.
+// Escapes text for XML and HTML.
 #pragma once
 
 #include <string>
@@ -6,11 +6,11 @@
 
 namespace reflet {
 
-/// The text with & < > " ' escaped, good between tags and in quoted attributes. Control characters become spaces;
+/// The text with & < > " ' escaped, for content and quoted attributes. Control characters become spaces;
 /// bytes that are not UTF-8 become U+FFFD.
 std::string xmlText(std::string_view text);
 
-/// Length in bytes of the UTF-8 character that the text starts with; 0 where it starts with none.
+/// Length in bytes of the UTF-8 character at the start of the text; 0 if there is no valid one.
 size_t leadingCharacter(std::string_view text);
 
 }  // namespace reflet
