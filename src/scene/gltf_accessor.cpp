@@ -78,7 +78,7 @@ void addSparse(AccessorView& view, const GltfDocument& document, int index, Gltf
             report.fail(part, "index {} is {}, but there are {} elements", i, named, view.count);
         }
         if (i > 0 && named <= integer(view.sparseIndices + uint64_t(i - 1) * size, view.sparseIndexType)) {
-            report.fail(part, "index {} does not ascend", i);
+            report.fail(part, "index {} is not greater than the one before it", i);
         }
     }
 }
@@ -137,8 +137,9 @@ AccessorView viewAccessor(const GltfDocument& document, int index, GltfReport& r
         view.data = bytesAt(document.model, accessor.bufferView, accessor.byteOffset);
         view.stride = stride != 0 ? stride : bytesOf(view.componentType) * static_cast<uint64_t>(view.components);
     } else if (accessor.count > maxUnbackedCount) {
-        report.fail(fmt::format("accessors[{}]", index), "has {} elements without a buffer view, at most {} are read",
-                    accessor.count, maxUnbackedCount);
+        report.fail(fmt::format("accessors[{}]", index),
+                    "has {} elements without a buffer view, but at most {} are supported", accessor.count,
+                    maxUnbackedCount);
     }
     if (accessor.sparse.isSparse) {
         addSparse(view, document, index, report);

@@ -53,16 +53,16 @@ int nesting(Bytes text) {
 
 nlohmann::json parseJson(Bytes text, const GltfReport& report) {
     if (text.size() > maxJsonBytes) {
-        report.fail("JSON", "has {} bytes, more than {} MiB", text.size(), maxJsonBytes >> 20U);
+        report.fail("JSON", "has {} bytes, more than the limit of {} MiB", text.size(), maxJsonBytes >> 20U);
     }
     if (nesting(text) > maxJsonDepth) {
-        report.fail("JSON", "is nested more than {} deep", maxJsonDepth);
+        report.fail("JSON", "is nested more than {} levels deep", maxJsonDepth);
     }
     try {
         return nlohmann::json::parse(text.begin(), text.end());
     } catch (const nlohmann::json::parse_error& error) {
         const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min<size_t>(error.byte, text.size()));
-        report.fail("JSON", "is not JSON at line {}, byte {} of {}", 1 + std::count(text.begin(), end, '\n'),
+        report.fail("JSON", "is not valid JSON at line {}, byte {} of {}", 1 + std::count(text.begin(), end, '\n'),
                     error.byte, text.size());
     } catch (const nlohmann::json::exception& error) {  // a number that no double holds
         report.fail("JSON", "{}", error.what());
@@ -72,7 +72,7 @@ nlohmann::json parseJson(Bytes text, const GltfReport& report) {
 /// The bytes of the chunk that starts at `at`; `at` moves behind it.
 Bytes nextChunk(Bytes file, size_t& at, uint32_t& type, const GltfReport& report) {
     if (file.size() - at < chunkHeaderBytes) {
-        report.fail("GLB chunk", "its header at byte {} is cut off", at);
+        report.fail("GLB chunk", "its header at byte {} is truncated", at);
     }
     const uint64_t length = readU32(file, at);
     type = readU32(file, at + 4);
@@ -88,10 +88,10 @@ Bytes nextChunk(Bytes file, size_t& at, uint32_t& type, const GltfReport& report
 
 GltfContainer splitGlb(Bytes file, const GltfReport& report) {
     if (file.size() < headerBytes) {
-        report.fail("GLB header", "is cut off after {} bytes", file.size());
+        report.fail("GLB header", "is truncated after {} bytes", file.size());
     }
     if (const uint32_t version = readU32(file, 4); version != 2) {
-        report.fail("GLB header", "says version {}, only version 2 is read", version);
+        report.fail("GLB header", "says version {}, but only version 2 is supported", version);
     }
     if (const uint32_t length = readU32(file, 8); length != file.size()) {
         report.fail("GLB header", "says the file has {} bytes, but it has {}", length, file.size());

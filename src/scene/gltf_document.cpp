@@ -8,7 +8,9 @@
 #include "scene/gltf_uri.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <string_view>
 
 namespace reflet {
 
@@ -28,23 +30,45 @@ void checkVersion(const json& document, const GltfReport& report) {
     const auto& asset = document["asset"];
     const std::string version = asset["version"];
     if (version != "2" && !version.starts_with("2.")) {
-        report.fail("asset.version", "is {}, only glTF 2.0 is read", version);
+        report.fail("asset.version", "is {}, but only glTF 2.0 is supported", version);
     }
     const std::string least = asset.value("minVersion", "2.0");
     if (least != "2.0") {
-        report.fail("asset.minVersion", "is {}, only glTF 2.0 is read", least);
+        report.fail("asset.minVersion", "is {}, but only glTF 2.0 is supported", least);
     }
+}
+
+struct UnsupportedExtension {
+    std::string_view name;
+    std::string_view consequence;
+};
+constexpr std::array<UnsupportedExtension, 10> unsupportedExtensions{
+    {{"KHR_materials_transmission", "glass will be drawn opaque"},
+     {"KHR_materials_diffuse_transmission", "translucent surfaces will be drawn opaque"},
+     {"KHR_materials_clearcoat", "clear coats will be missing"},
+     {"KHR_materials_sheen", "sheen will be missing"},
+     {"KHR_materials_iridescence", "iridescence will be missing"},
+     {"KHR_materials_anisotropy", "anisotropic highlights will be drawn isotropic"},
+     {"KHR_materials_specular", "dielectrics will reflect 4 % at normal incidence"},
+     {"KHR_materials_ior", "dielectrics will reflect 4 % at normal incidence"},
+     {"KHR_materials_unlit", "unlit materials will be lit"},
+     {"EXT_mesh_gpu_instancing", "one copy of each instanced mesh will be drawn"}}};
+
+/// How the rendered image differs from what the file asks for.
+std::string_view consequenceOf(std::string_view extension) {
+    const auto found = std::ranges::find(unsupportedExtensions, extension, &UnsupportedExtension::name);
+    return found != unsupportedExtensions.end() ? found->consequence : "the extension will be ignored";
 }
 
 void checkExtensions(const json& document, GltfReport& report) {
     for (const std::string name : arrayOf(document, "extensionsRequired")) {
         if (!knownGltfExtension(name)) {
-            report.fail("extensionsRequired", "the extension {} is not known", name);
+            report.fail("extensionsRequired", "{} is not supported: export the file without it", name);
         }
     }
     for (const std::string name : arrayOf(document, "extensionsUsed")) {
         if (!knownGltfExtension(name)) {
-            report.warn("extension " + name, "extensionsUsed", "the extension {} is not known and left out", name);
+            report.warn("extension " + name, "extensionsUsed", "{}: {} is not supported", consequenceOf(name), name);
         }
     }
 }
@@ -88,7 +112,7 @@ void restoreIndices(tinygltf::Model& model, const json& document, const GltfRepo
     for (size_t m = 0; m < meshes.size(); ++m) {
         const auto& primitives = meshes[m]["primitives"];
         if (model.meshes.size() <= m || model.meshes[m].primitives.size() != primitives.size()) {
-            report.fail(fmt::format("meshes[{}]", m), "is not one that tinygltf reads");
+            report.fail(fmt::format("meshes[{}]", m), "cannot be parsed by tinygltf");
         }
         for (size_t p = 0; p < primitives.size(); ++p) {
             model.meshes[m].primitives[p].indices = primitives[p].value("indices", -1);

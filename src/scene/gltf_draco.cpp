@@ -44,7 +44,8 @@ bool readClaims(draco::DecoderBuffer buffer, uint64_t& faces, uint64_t& vertices
         return false;
     }
     if (header.version_major != 2 || header.version_minor != 2) {
-        report.fail(part, "is Draco bitstream {}.{}, only 2.2 is read", header.version_major, header.version_minor);
+        report.fail(part, "is Draco bitstream {}.{}, but only 2.2 is supported", header.version_major,
+                    header.version_minor);
     }
     if (header.encoder_type != encoderMesh) {
         report.fail(part, "is a Draco point cloud, not a mesh");
@@ -71,7 +72,8 @@ std::unique_ptr<draco::Mesh> decodeMesh(std::span<const uint8_t> bytes, const st
         report.fail(part, "its Draco header is broken");
     }
     if (faces > maxFacesPerByte * bytes.size() || vertices > 3 * faces) {
-        report.fail(part, "claims {} triangles and {} vertices in {} bytes of Draco", faces, vertices, bytes.size());
+        report.fail(part, "claims {} triangles and {} vertices in only {} bytes of Draco data", faces, vertices,
+                    bytes.size());
     }
     report.charge(part, faces * decoderBytesPerFace);
     auto decoded = draco::Decoder().DecodeMeshFromBuffer(&buffer);

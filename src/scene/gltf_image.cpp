@@ -56,7 +56,7 @@ Image decode(std::span<const uint8_t> bytes, const std::string& part, GltfReport
         report.fail(part, "is neither PNG nor JPEG");
     }
     if (bytes.size() > maxImageBytes) {
-        report.fail(part, "has {} bytes, more than {} MiB", bytes.size(), maxImageBytes >> 20U);
+        report.fail(part, "has {} bytes, more than the limit of {} MiB", bytes.size(), maxImageBytes >> 20U);
     }
     const int size = static_cast<int>(bytes.size());
     int width = 0;
@@ -67,10 +67,10 @@ Image decode(std::span<const uint8_t> bytes, const std::string& part, GltfReport
     }
     const uint64_t pixels = uint64_t(width) * uint64_t(height);
     if (width > maxSide || height > maxSide) {
-        report.fail(part, "has {} x {} pixels, more than {} a side", width, height, maxSide);
+        report.fail(part, "has {} x {} pixels, more than the limit of {} per side", width, height, maxSide);
     }
     if (pixels > mostPixels(bytes)) {
-        report.fail(part, "claims {} x {} pixels in {} bytes", width, height, bytes.size());
+        report.fail(part, "claims {} x {} pixels in only {} bytes", width, height, bytes.size());
     }
     report.charge(part, pixels * 4);
     const std::unique_ptr<stbi_uc, void (*)(void*)> decoded(

@@ -85,7 +85,8 @@ Material GltfMaterials::convert(int material) {
         result.alphaCutoff = static_cast<float>(source.alphaCutoff);
     } else if (source.alphaMode == "BLEND") {
         result.alphaCutoff = blendCutoff;
-        report_.warn("blend", part + ".alphaMode", "BLEND is drawn as MASK with a cutoff of {}", blendCutoff);
+        report_.warn("blend", part + ".alphaMode",
+                     "blended surfaces will be drawn with an alpha cutoff of {}: BLEND is not supported", blendCutoff);
     }
     const auto slotOf = [&](const auto& info, const char* name) {
         return slot(info.index, info.texCoord, info.extensions, part + "." + name);
@@ -113,7 +114,7 @@ TextureSlot GltfMaterials::slot(int texture, int uvSet, const tinygltf::Extensio
     const tinygltf::Texture& source = document_.model.textures[static_cast<size_t>(texture)];
     if (source.source < 0) {
         const std::string here = fmt::format("textures[{}]", texture);
-        report_.warn("no image", here, "has no image that can be read, and is left out");
+        report_.warn("no image", here, "the texture will be ignored: it has no source image");
         return result;
     }
     result.image = useImage(source.source);
@@ -128,7 +129,8 @@ TextureSlot GltfMaterials::slot(int texture, int uvSet, const tinygltf::Extensio
 
 void GltfMaterials::setUvSet(TextureSlot& slot, int uvSet, const std::string& part) {
     if (uvSet > 1) {
-        report_.warn("uv set", part + ".texCoord", "is {}, but only the sets 0 and 1 are read: 0 is taken", uvSet);
+        report_.warn("uv set", part + ".texCoord", "is {}, but set 0 will be used: only UV sets 0 and 1 are supported",
+                     uvSet);
     }
     slot.uvSet = uvSet == 1 ? 1 : 0;
 }

@@ -132,7 +132,8 @@ void completeFrames(Mesh& mesh, const PrimitiveSource& source, const TextureSlot
         report.charge(part, mesh.indices.size() * vertexBytes);
         makeFlat(mesh);
     } else if (const size_t broken = repairNormals(mesh); broken > 0) {
-        report.warn("normals", part + ".attributes.NORMAL", "{} vertices have none: taken from the triangles", broken);
+        report.warn("normals", part + ".attributes.NORMAL",
+                    "{} vertices will get the normals of their triangles: theirs have no direction", broken);
     }
     if (!flat && source.find("TANGENT") != nullptr) {
         repairTangents(mesh);
@@ -163,18 +164,21 @@ void GltfMeshes::loadPrimitive(size_t mesh, size_t primitive) {
     const tinygltf::Primitive& source = document_.model.meshes[mesh].primitives[primitive];
     const std::string part = fmt::format("meshes[{}].primitives[{}]", mesh, primitive);
     if (source.mode < TINYGLTF_MODE_TRIANGLES) {
-        report_.warn("points and lines", part + ".mode", "points and lines are not drawn");
+        report_.warn("points and lines", part + ".mode",
+                     "points and lines will not be drawn: only triangles are supported");
         return;
     }
     if (!source.attributes.contains("POSITION")) {
-        report_.warn("no position", part + ".attributes", "has no POSITION, and is not drawn");
+        report_.warn("no position", part + ".attributes", "the primitive will not be drawn: it has no POSITION");
         return;
     }
     if (!source.targets.empty()) {
-        report_.warn("morph targets", part + ".targets", "morph targets are left out");
+        report_.warn("morph targets", part + ".targets",
+                     "the mesh will keep its base shape: morph targets are not supported");
     }
     if (source.attributes.contains("JOINTS_1")) {
-        report_.warn("joints", part + ".attributes.JOINTS_1", "a vertex hangs from its first four joints only");
+        report_.warn("joints", part + ".attributes.JOINTS_1",
+                     "vertices will follow their first four joints only: more are not supported");
     }
     PrimitiveSource opened = openPrimitive(document_, source, part, report_);
     const std::vector<uint32_t> used = takeUsed(opened.triangles, opened.find("POSITION")->count);

@@ -74,7 +74,7 @@ public:
         const glm::dmat4 exact = parentToWorld * localTransform(readGltfNode(node, part, report_));
         const mat4 toWorld(exact);
         if (!isFinite(toWorld)) {
-            report_.fail(part, "its place in the world is not finite");
+            report_.fail(part, "its transform to the world is not finite");
         }
         if (node.mesh >= 0) {
             addInstances(index, toWorld, part);
@@ -97,7 +97,7 @@ private:
         for (const uint32_t mesh : meshes_.use(node.mesh)) {
             const Aabb box = transformed(scene_.meshes[mesh].bounds, toWorld);
             if (!std::isfinite(glm::length(glm::dvec3(box.min) - glm::dvec3(box.max)))) {
-                report_.fail(part, "its mesh reaches past what a float holds");
+                report_.fail(part, "its mesh extends beyond the range of floats");
             }
             report_.charge(part, sizeof(Instance) + node.name.size());
             scene_.instances.push_back({.name = node.name,

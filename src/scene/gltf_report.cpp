@@ -28,7 +28,7 @@ std::string GltfReport::line(std::string_view part, std::string_view what) const
 
 void GltfReport::charge(std::string_view part, uint64_t bytes) {
     if (bytes > maxSceneBytes - charged_) {
-        fail(part, "makes the scene need more than {} GiB of memory", maxSceneBytes >> 30U);
+        fail(part, "takes the scene past the limit of {} GiB of memory", maxSceneBytes >> 30U);
     }
     charged_ += bytes;
 }

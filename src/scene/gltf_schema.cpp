@@ -53,7 +53,7 @@ public:
             fail(place, "is {}, not an object", kindOf(value));
         }
         if (++objects_ > maxObjects) {
-            fail(place, "is one object more than the {} that are read", maxObjects);
+            fail(place, "exceeds the limit of {} objects", maxObjects);
         }
         json result = json::object();
         for (const Field& field : fields) {
@@ -119,7 +119,7 @@ private:
             case Type::object:
                 return object(value, field.fields, &place);
         }
-        fail(&place, "is of a type that is not known");
+        fail(&place, "has an unknown type");
     }
 
     [[nodiscard]] json text(const json& value, const Field& field, const Place& place) const {

@@ -45,7 +45,7 @@ std::vector<uint8_t> base64Decoded(std::string_view text, std::string_view part,
         text.remove_suffix(1);
     }
     if (text.size() % 4 == 1) {
-        report.fail(part, "its base64 is cut off");
+        report.fail(part, "its base64 data is truncated");
     }
     std::vector<uint8_t> bytes;
     bytes.reserve(text.size() / 4 * 3 + 2);
@@ -54,7 +54,7 @@ std::vector<uint8_t> base64Decoded(std::string_view text, std::string_view part,
     for (size_t i = 0; i < text.size(); ++i) {
         const auto digit = base64Digit(text[i]);
         if (!digit) {
-            report.fail(part, "character {} of its base64 data is none", i);
+            report.fail(part, "character {} of its base64 data is invalid", i);
         }
         bits = bits << 6U | *digit;
         count += 6;

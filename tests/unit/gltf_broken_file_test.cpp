@@ -45,18 +45,18 @@ INSTANTIATE_TEST_SUITE_P(
     Container, BrokenGltfBytes,
     ::testing::Values(BrokenBytes{"Empty", "", "is empty"},
                       BrokenBytes{"DocumentIsAnArray", "[]", "JSON: is an array, not an object"},
-                      BrokenBytes{"NotJson", "hello\n<world>", "JSON: is not JSON at line 1, byte 1 of 13"},
-                      BrokenBytes{"CutOff", R"({"asset":)", "JSON: is not JSON at line 1"},
-                      BrokenBytes{"NanLiteral", R"({"asset":{"version":NaN}})", "JSON: is not JSON"},
+                      BrokenBytes{"NotJson", "hello\n<world>", "JSON: is not valid JSON at line 1, byte 1 of 13"},
+                      BrokenBytes{"CutOff", R"({"asset":)", "JSON: is not valid JSON at line 1"},
+                      BrokenBytes{"NanLiteral", R"({"asset":{"version":NaN}})", "JSON: is not valid JSON"},
                       BrokenBytes{"NumberOverflow", R"({"asset":{"version":1e999}})", "JSON: "},
-                      BrokenBytes{"BadUtf8", "{\"a\":\"\xFF\xFE\"}", "JSON: is not JSON"},
-                      BrokenBytes{"DeepArrays", std::string(1000000, '['), "JSON: is nested more than 128 deep"},
-                      BrokenBytes{"GlbHeaderOnly", "glTF\2", "GLB header: is cut off"},
+                      BrokenBytes{"BadUtf8", "{\"a\":\"\xFF\xFE\"}", "JSON: is not valid JSON"},
+                      BrokenBytes{"DeepArrays", std::string(1000000, '['), "JSON: is nested more than 128 levels deep"},
+                      BrokenBytes{"GlbHeaderOnly", "glTF\2", "GLB header: is truncated"},
                       BrokenBytes{"GlbVersion1", glbWith(4, 1), "GLB header: says version 1"},
                       BrokenBytes{"GlbLength", glbWith(11, 1), "GLB header: says the file has "},
                       BrokenBytes{"GlbFirstChunkLength", glbWith(15, 1), "GLB chunk: at byte 12 says it has "},
                       BrokenBytes{"GlbFirstChunkType", glbWith(16, 'X'), "GLB chunk: the first one is not JSON"},
-                      BrokenBytes{"GlbMagic", glbWith(0, 'X'), "JSON: is not JSON"}),
+                      BrokenBytes{"GlbMagic", glbWith(0, 'X'), "JSON: is not valid JSON"}),
     bytesName);
 
 TEST(BrokenGltfFile, AMissingFileAndAFolderAreTold) {
@@ -110,7 +110,7 @@ TEST(BrokenGltfFile, ASceneThatIsNotThereIsAUsageErrorThatSaysHowManyThereAre) {
         loadGltf(path, {.scene = 3, .warn = nullptr});
         FAIL();
     } catch (const UsageError& error) {
-        EXPECT_EQ(error.what(), path.string() + ": there is no scene 3: it has 1 scene, counted from 0");
+        EXPECT_EQ(error.what(), path.string() + ": there is no scene 3: the file has 1 scene, numbered from 0");
     }
 }
 
