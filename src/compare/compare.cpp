@@ -45,10 +45,10 @@ void checkOptions(const FloatImage& picture, const CompareOptions& options) {
         return;
     }
     if (options.mask.size() != pixelCount(picture)) {
-        fail("the mask has {} pixels, but the pictures have {}", options.mask.size(), pixelCount(picture));
+        fail("the mask has {} pixels, but the images have {}", options.mask.size(), pixelCount(picture));
     }
     if (std::ranges::find(options.mask, true) == options.mask.end()) {
-        fail("the mask leaves no pixel to compare");
+        fail("the mask leaves no pixels to compare");
     }
 }
 
@@ -110,15 +110,16 @@ Difference differenceOf(const FloatImage& picture, const FloatImage& truth, cons
 
 void checkComparable(const FloatImage& picture, const FloatImage& truth, const CompareOptions& options) {
     if (picture.width != truth.width || picture.height != truth.height) {
-        fail("{} is {}x{}, but {} is {}x{}: only pictures of one size can be compared", options.pictureName,
+        fail("{} is {}x{}, but {} is {}x{}: only images of the same size can be compared", options.pictureName,
              picture.width, picture.height, options.truthName, truth.width, truth.height);
     }
     if (picture.channels.size() != truth.channels.size()) {
-        fail("{} has the channels {}, but {} has {}: only as many can be compared", options.pictureName,
-             fmt::join(picture.channels, ", "), options.truthName, fmt::join(truth.channels, ", "));
+        fail("{} has the channels {}, but {} has {}: only images with the same number of channels can be compared",
+             options.pictureName, fmt::join(picture.channels, ", "), options.truthName,
+             fmt::join(truth.channels, ", "));
     }
     if (picture.channels.size() != 1 && picture.channels.size() != 3) {
-        fail("{} has the channels {}: only 1 or 3 can be compared", options.pictureName,
+        fail("{} has the channels {}: only images with 1 or 3 channels can be compared", options.pictureName,
              fmt::join(picture.channels, ", "));
     }
     if (pixelCount(picture) == 0) {
@@ -147,13 +148,13 @@ std::span<const Metric> metrics() {
         {"relative_mse", "", "mean over pixels and channels of (a - b)² / (b² + 0.01)", false,
          [](const Difference& d) { return d.relativeMse; }},
         {"psnr", "dB",
-         "10 log10(peak² / mean of (a - b)²); peak is 1 for display pictures, the largest |b| for linear ones", true,
+         "10 log10(peak² / mean of (a - b)²); the peak is 1 for display images, the largest |b| for linear ones", true,
          [](const Difference& d) { return d.psnr; }},
         {"flip", "",
-         "mean over pixels of FLIP (Andersson et al. 2020), 0 the same to 1; linear pictures: HDR-FLIP (2021)", false,
+         "mean over pixels of FLIP (Andersson et al. 2020), 0 (identical) to 1; linear images: HDR-FLIP (2021)", false,
          [](const Difference& d) { return d.flip; }},
         {"mean", "", "mean over pixels and channels of |a - b|", false, [](const Difference& d) { return d.mean; }},
-        {"bias", "", "mean of a over mean of b, minus 1: above 0 there is too much light, below 0 too little", false,
+        {"bias", "", "mean of a / mean of b - 1: above 0 too bright, below 0 too dark", false,
          [](const Difference& d) { return d.bias; }},
         {"max", "", "largest |a - b| of any pixel and channel", false, [](const Difference& d) { return d.max; }},
     }};

@@ -20,8 +20,8 @@ struct CompareOptions {
     ImageKind kind = ImageKind::linear;
     float pixelsPerDegree = 67.0F;            ///< of the eye that FLIP assumes, 1..1000
     std::vector<bool> mask;                   ///< per pixel, what counts; empty: everything
-    std::string pictureName = "the picture";  ///< for messages
-    std::string truthName = "the truth";      ///< for messages
+    std::string pictureName = "the image";    ///< for messages
+    std::string truthName = "the reference";  ///< for messages
 };
 
 struct Difference {

@@ -138,7 +138,7 @@ struct RayScene::State {
     // Embree sets the device's error and goes on.
     void check(const char* what) const {
         if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE) {
-            fail("{}: Embree failed with {}{}", what, static_cast<int>(error),
+            fail("{}: Embree failed with error {}{}", what, static_cast<int>(error),
                  error == RTC_ERROR_OUT_OF_MEMORY ? " (out of memory)" : "");
         }
     }
@@ -178,7 +178,7 @@ struct RayScene::State {
 RayScene::RayScene(const Scene& scene) : state_(new State{scene, {}, nullptr, nullptr}) {
     state_->device = rtcNewDevice(nullptr);
     if (state_->device == nullptr) {
-        fail("Embree cannot start: error {}", static_cast<int>(rtcGetDeviceError(nullptr)));
+        fail("Embree cannot be started: error {}", static_cast<int>(rtcGetDeviceError(nullptr)));
     }
     state_->hierarchy = rtcNewScene(state_->device);
     // Robust: no ray slips through between two triangles.
@@ -193,7 +193,7 @@ RayScene::RayScene(const Scene& scene) : state_(new State{scene, {}, nullptr, nu
         }
     }
     rtcCommitScene(state_->hierarchy);
-    state_->check("building the hierarchy");
+    state_->check("building the BVH");
 }
 
 RayScene::~RayScene() = default;

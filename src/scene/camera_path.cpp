@@ -74,7 +74,7 @@ CameraPath::Keyframe readKeyframe(const JsonNode& node, const Camera& camera) {
     keyframe.camera.position = readPosition(required(node, "position"));
     keyframe.camera.target = readPosition(required(node, "target"));
     if (keyframe.camera.position == keyframe.camera.target) {
-        node.complain("position and target are the same point; a view needs two");
+        node.complain("position and target must not be the same point");
     }
     if (const auto up = node.find("up")) {
         keyframe.camera.up = readDirection(*up);
@@ -202,7 +202,7 @@ CameraPath loadCameraPath(const std::filesystem::path& path, const Camera& camer
         keyframes.push_back(readKeyframe(node, camera));
         if (i > 0 && keyframes[i].time <= keyframes[i - 1].time) {
             required(node, "time")
-                .complainMustBe(fmt::format("more than that of the keyframe before ({:g})", keyframes[i - 1].time));
+                .complainMustBe(fmt::format("more than the previous keyframe's ({:g})", keyframes[i - 1].time));
         }
     }
     const auto loop = root.find("loop");
@@ -213,7 +213,7 @@ CameraPath loadCameraPath(const std::filesystem::path& path, const Camera& camer
     const Camera& first = keyframes.front().camera;
     const Camera& last = keyframes.back().camera;
     if (loops && (keyframes.size() < 2 || first.position != last.position || first.target != last.target)) {
-        loop->complain("the last keyframe of a loop must be where the first one is, and look the same way");
+        loop->complain("the first and the last keyframe of a loop must have the same position and target");
     }
     return {std::move(keyframes), loops};
 }

@@ -34,7 +34,7 @@ FloatImage readExrColors(const std::filesystem::path& path) {
     for (const std::string& channel : colors.channels) {
         const auto found = std::ranges::find(all.channels, channel);
         if (found == all.channels.end()) {
-            fail("{}: cannot be an environment: it has no channel '{}' outside of named layers", path.string(),
+            fail("{}: cannot be used as an environment: it has no channel '{}' in its unnamed layer", path.string(),
                  channel);
         }
         sources.push_back(static_cast<size_t>(found - all.channels.begin()));
@@ -55,7 +55,8 @@ void checkValues(const std::filesystem::path& path, const FloatImage& image) {
     if (wrong != image.data.end()) {
         const auto index = static_cast<size_t>(wrong - image.data.begin());
         fail(
-            "{}: cannot be an environment: channel {} at column {}, row {} (from 0, top left) is {:g}, must be 0 to "
+            "{}: cannot be used as an environment: channel {} at column {}, row {} (from 0, top left) is {:g}, must be "
+            "0 to "
             "{:g}",
             path.string(), image.channels[index % 3], index / 3 % image.width, index / 3 / image.width, *wrong,
             largestRadiance);
@@ -92,7 +93,7 @@ vec3 radianceFrom(const Environment& environment, const vec3& direction) {
 FloatImage readEnvironmentImage(const std::filesystem::path& path) {
     const std::string extension = lowerExtension(path);
     if (extension != ".hdr" && extension != ".exr") {
-        fail("{}: cannot be an environment: its name must end in .hdr or .exr", path.string());
+        fail("{}: cannot be used as an environment: its name must end in .hdr or .exr", path.string());
     }
     FloatImage image = extension == ".hdr" ? readHdr(path) : readExrColors(path);
     checkValues(path, image);

@@ -28,7 +28,7 @@ inline vec3 readDirection(const JsonNode& node) {
     const glm::dvec3 direction(values[0], values[1], values[2]);
     const double length = glm::length(direction);
     if (!(length > 0.0)) {
-        node.complainMustBe("a direction that is not zero");
+        node.complainMustBe("a direction of non-zero length");
     }
     return direction / length;
 }

@@ -48,7 +48,7 @@ std::vector<SceneTriangle> sceneTriangles(const Scene& scene, const ScenePose& p
         t.instance = i;
         t.flags = flagsOf(scene, pose, i);
         if (triangles.size() + mesh.indices.size() / 3 > maxTriangles) {
-            fail("the scene has more than {} triangles, the most that rays on the device can tell apart", maxTriangles);
+            fail("the scene has more than {} triangles, the most that ray tracing supports", maxTriangles);
         }
         for (uint32_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
             t.a = positions[mesh.indices[k]];

@@ -21,14 +21,14 @@ namespace {
 void checkOrientation(const JsonNode& node, Camera& camera) {
     const vec3 toTarget = camera.target - camera.position;
     if (!(glm::length(toTarget) > 0.0F)) {
-        node.complain("position and target are the same point; a view needs two");
+        node.complain("position and target must not be the same point");
     }
     const vec3 forward = glm::normalize(toTarget);
     if (glm::length(glm::cross(forward, glm::normalize(camera.up))) >= 1e-3F) {
         return;
     }
     if (const auto up = node.find("up")) {
-        up->complainMustBe("a direction across the view, not along it");
+        up->complainMustBe("a direction that is not parallel to the view");
     }
     // An old up that a new position or target has made useless.
     camera.up = std::abs(forward.y) < 0.9F ? vec3(0, 1, 0) : vec3(0, 0, -1);
@@ -56,14 +56,14 @@ Camera readCamera(const JsonNode& node, Camera camera) {
     }
     if (const auto height = node.find("orthographic_height")) {
         if (node.find("fov_y")) {
-            height->complain("cannot be given together with fov_y: a view is orthographic, or a perspective");
+            height->complain("cannot be given together with fov_y: a camera is orthographic or perspective");
         }
         camera.orthographicHeight = static_cast<float>(height->number(1e-6, largestInView, "metres"));
     }
     if (const auto near = node.find("near")) {
         camera.near = static_cast<float>(near->number(1e-6, 1000.0, "metres"));
         if (camera.orthographicHeight > 0.0F && camera.near >= camera.far) {
-            near->complainMustBe(fmt::format("less than {:g} metres, the scene's far plane", camera.far));
+            near->complainMustBe(fmt::format("less than {:g} metres, the camera's far plane", camera.far));
         }
     }
     checkOrientation(node, camera);
@@ -94,7 +94,7 @@ void readLamps(const JsonNode& node, View& view) {
     }
     if (const auto off = node.find("off")) {
         if (!off->json().is_array()) {
-            off->complainMustBe("a list of lamps, by their numbers from 0");
+            off->complainMustBe("a list of lamp numbers, from 0");
         }
         view.lampsOff.clear();
         for (size_t i = 0; i < off->json().size(); ++i) {
@@ -111,7 +111,7 @@ void readLamps(const JsonNode& node, View& view) {
 /// An image with its intensity and rotation, in the place of the whole old environment.
 Environment readImage(const JsonNode& node, const JsonNode& imageNode, const std::filesystem::path& folder) {
     if (const auto radiance = node.find("radiance")) {
-        radiance->complain("cannot be given together with an image; the image's factor is 'intensity'");
+        radiance->complain("cannot be given together with an image; to scale the image, use 'intensity'");
     }
     if (!imageNode.json().is_string()) {
         imageNode.complainMustBe("the name of an .hdr or .exr file");
@@ -124,7 +124,7 @@ Environment readImage(const JsonNode& node, const JsonNode& imageNode, const std
         const double factor = intensity->number(0.0, largestRadiance);
         const double brightest = *std::ranges::max_element(environment.image->data);
         if (factor * brightest > largestRadiance) {
-            intensity->complainMustBe(fmt::format("at most {:g}, for the image has values up to {:g}",
+            intensity->complainMustBe(fmt::format("at most {:g}, because the image has values up to {:g}",
                                                   largestRadiance / brightest, brightest));
         }
         environment.intensity = static_cast<float>(factor);
@@ -143,7 +143,7 @@ Environment readEnvironment(const JsonNode& node, const Environment& environment
     }
     for (const char* key : {"intensity", "rotation"}) {
         if (const auto ofImage = node.find(key)) {
-            ofImage->complain("is a property of environment.image, which is not given");
+            ofImage->complain("needs environment.image, which is not given");
         }
     }
     if (const auto radiance = node.find("radiance")) {
@@ -162,7 +162,7 @@ Probe readProbe(const JsonNode& node) {
     probe.box.min = readPosition(required(node, "box_min"));
     probe.box.max = readPosition(boxMax);
     if (glm::any(glm::lessThanEqual(probe.box.max, probe.box.min))) {
-        boxMax.complainMustBe("more than box_min in all three");
+        boxMax.complainMustBe("more than box_min on every axis");
     }
     if (glm::any(glm::lessThanEqual(probe.position, probe.box.min)) ||
         glm::any(glm::greaterThanEqual(probe.position, probe.box.max))) {
@@ -177,7 +177,7 @@ std::vector<Probe> readProbes(const JsonNode& node) {
     }
     const size_t count = node.json().size();
     if (count > View::maxProbes) {
-        node.complain(fmt::format("must be at most {} probes, are {}", View::maxProbes, count));
+        node.complain(fmt::format("must have at most {} probes, has {}", View::maxProbes, count));
     }
     std::vector<Probe> probes;
     for (size_t i = 0; i < count; ++i) {

@@ -152,7 +152,7 @@ TEST_F(Compare, PicturesThatDoNotFitTogetherAreRefusedInOneLine) {
     writeColor("a.png", 1);
     EXPECT_TRUE(refused(compare({"a.exr", "wide.exr"}), 1, {"a.exr is 8x4", "wide.exr is 9x4"}));
     EXPECT_TRUE(refused(compare({"a.exr", "a.exr:depth"}), 1, {"a.exr has the channels R, G, B", "a.exr:depth has Y"}));
-    EXPECT_TRUE(refused(compare({"a.exr:motion", "a.exr:motion"}), 1, {"X, Y", "only 1 or 3"}));
+    EXPECT_TRUE(refused(compare({"a.exr:motion", "a.exr:motion"}), 1, {"X, Y", "only images with 1 or 3 channels"}));
     EXPECT_TRUE(refused(compare({"a.png", "a.exr"}), 2, {"a.png", "a.exr", "one kind"}));
     EXPECT_TRUE(refused(compare({"a.exr", "missing.exr"}), 1, {"missing.exr", "No such file"}));
     EXPECT_TRUE(refused(compare({"a.exr", "missing.exr:direct"}), 1, {"missing.exr", "No such file"}));
@@ -181,7 +181,7 @@ TEST_F(Compare, AMaskLeavesItsLightPixels) {
     writeColor("light.png", 128);
     writeColor("dark.png", 127);
     EXPECT_EQ(json({"a.exr", "b.exr", "--mask", "light.png"})["pixels"], width * height);
-    EXPECT_TRUE(refused(compare({"a.exr", "b.exr", "--mask", "dark.png"}), 1, {"mask leaves no pixel"}));
+    EXPECT_TRUE(refused(compare({"a.exr", "b.exr", "--mask", "dark.png"}), 1, {"mask leaves no pixels"}));
     writeLayers("wide.exr", {{"", filled({"Y"}, 1.0F, 9)}});
     EXPECT_TRUE(refused(compare({"a.exr", "b.exr", "--mask", "wide.exr"}), 1, {"wide.exr: the mask is 9x4", "8x4"}));
 }

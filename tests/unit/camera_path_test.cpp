@@ -134,13 +134,13 @@ TEST_F(CameraPathTest, RefusesWhatItDoesNotUnderstand) {
     EXPECT_EQ(errorOf(R"({"keyframes": [{"position": [0, 0, 1], "target": [0, 0, 0]}]})"),
               ": keyframes[0]: 'time' is missing");
     EXPECT_EQ(errorOf(R"({"keyframes": [{"time": 0, "position": [0, 0, 0], "target": [0, 0, 0]}]})"),
-              ": keyframes[0]: position and target are the same point; a view needs two");
+              ": keyframes[0]: position and target must not be the same point");
     EXPECT_EQ(errorOf(R"({"keyframes": [{"time": 2, "position": [0, 0, 1], "target": [0, 0, 0]},
                                         {"time": 2, "position": [0, 0, 2], "target": [0, 0, 0]}]})"),
-              ": keyframes[1].time: must be more than that of the keyframe before (2), is 2");
+              ": keyframes[1].time: must be more than the previous keyframe's (2), is 2");
     EXPECT_EQ(errorOf(R"({"loop": true, "keyframes": [{"time": 0, "position": [0, 0, 1], "target": [0, 0, 0]},
                                                       {"time": 2, "position": [0, 0, 2], "target": [0, 0, 0]}]})"),
-              ": loop: the last keyframe of a loop must be where the first one is, and look the same way");
+              ": loop: the first and the last keyframe of a loop must have the same position and target");
 }
 
 TEST(Orbit, KeepsDistanceAndHeightAndComesBack) {

@@ -134,11 +134,13 @@ TEST(Compare, PicturesOfDifferentSizesOrChannelsAreNamed) {
     CompareOptions options;
     options.pictureName = "a.exr";
     EXPECT_EQ(complaint(grey(2, {0, 0}), grey(1, {0, 0}), options),
-              "a.exr is 2x1, but the truth is 1x2: only pictures of one size can be compared");
+              "a.exr is 2x1, but the reference is 1x2: only images of the same size can be compared");
     EXPECT_EQ(complaint(grey(1, {0}), colors(1, {0, 0, 0}), options),
-              "a.exr has the channels Y, but the truth has R, G, B: only as many can be compared");
+              "a.exr has the channels Y, but the reference has R, G, B: only images with the same number of channels "
+              "can be compared");
     const FloatImage two{1, 1, {"X", "Y"}, {0, 0}};
-    EXPECT_EQ(complaint(two, two, options), "a.exr has the channels X, Y: only 1 or 3 can be compared");
+    EXPECT_EQ(complaint(two, two, options),
+              "a.exr has the channels X, Y: only images with 1 or 3 channels can be compared");
     EXPECT_EQ(complaint(grey(1, {}), grey(1, {}), options), "a.exr has no pixels");
 }
 
@@ -146,20 +148,20 @@ TEST(Compare, NanAndInfinityAreToldWithTheirPlace) {
     const FloatImage good = colors(2, std::vector<float>(12, 1.0F));
     FloatImage bad = good;
     bad.data[3 * 3 + 1] = nan;
-    EXPECT_EQ(complaint(bad, good), "the picture: NaN at pixel (1, 1), channel G");
-    EXPECT_EQ(complaint(good, bad), "the truth: NaN at pixel (1, 1), channel G");
+    EXPECT_EQ(complaint(bad, good), "the image: NaN at pixel (1, 1), channel G");
+    EXPECT_EQ(complaint(good, bad), "the reference: NaN at pixel (1, 1), channel G");
     bad.data[2] = -infinity;
     bad.data[5] = infinity;
     EXPECT_EQ(complaint(good, bad),
-              "the truth: infinity at pixel (0, 0), channel B, and 2 more that are NaN or infinity");
+              "the reference: infinity at pixel (0, 0), channel B, and 2 more that are NaN or infinity");
 }
 
 TEST(Compare, AMaskOfTheWrongSizeOrWithNothingInItIsAnError) {
     CompareOptions options;
     options.mask = {true};
-    EXPECT_EQ(complaint(grey(2, {0, 0}), grey(2, {0, 0}), options), "the mask has 1 pixels, but the pictures have 2");
+    EXPECT_EQ(complaint(grey(2, {0, 0}), grey(2, {0, 0}), options), "the mask has 1 pixels, but the images have 2");
     options.mask = {false, false};
-    EXPECT_EQ(complaint(grey(2, {0, 0}), grey(2, {0, 0}), options), "the mask leaves no pixel to compare");
+    EXPECT_EQ(complaint(grey(2, {0, 0}), grey(2, {0, 0}), options), "the mask leaves no pixels to compare");
 }
 
 TEST(Compare, PixelsPerDegreeHaveARange) {

@@ -182,8 +182,9 @@ TEST_F(EnvironmentFile, MayBeExrWithMoreThanColours) {
 }
 
 TEST_F(EnvironmentFile, WithoutColoursIsAnError) {
-    EXPECT_EQ(errorOf(writeLayer("", {"R", "B"}, {1, 2})),
-              at("sky.exr").string() + ": cannot be an environment: it has no channel 'G' outside of named layers");
+    EXPECT_EQ(
+        errorOf(writeLayer("", {"R", "B"}, {1, 2})),
+        at("sky.exr").string() + ": cannot be used as an environment: it has no channel 'G' in its unnamed layer");
     EXPECT_NE(errorOf(writeLayer("sky", {"R", "G", "B"}, {1, 2, 3})).find("no channel 'R'"), std::string::npos);
 }
 

@@ -104,7 +104,7 @@ TEST_F(ViewFile, WithAProbeThatCannotBeIsAnError) {
     EXPECT_EQ(errorOf(R"({"probes": [{"position": [0,1,0], "box_min": [-1,0,-2]}]})"),
               "FILE: probes[0]: 'box_max' is missing");
     EXPECT_EQ(errorOf(R"({"probes": [{"position": [0,1,0], "box_min": [-1,0,-2], "box_max": [1,0,2]}]})"),
-              "FILE: probes[0].box_max: must be more than box_min in all three, is [1,0,2]");
+              "FILE: probes[0].box_max: must be more than box_min on every axis, is [1,0,2]");
     EXPECT_EQ(errorOf(R"({"probes": [{"position": [0,3,0], "box_min": [-1,0,-2], "box_max": [1,3,2]}]})"),
               "FILE: probes[0].position: must be inside the box, is [0,3,0]");
     EXPECT_EQ(errorOf(R"({"probes": [{"position": [0,1], "box_min": [-1,0,-2], "box_max": [1,3,2]}]})"),
@@ -115,7 +115,7 @@ TEST_F(ViewFile, WithAProbeThatCannotBeIsAnError) {
     for (int i = 0; i < 17; ++i) {
         many += std::string(i > 0 ? "," : "") + R"({"position": [0,1,0], "box_min": [-1,0,-2], "box_max": [1,3,2]})";
     }
-    EXPECT_EQ(errorOf(many + "]}"), "FILE: probes: must be at most 16 probes, are 17");
+    EXPECT_EQ(errorOf(many + "]}"), "FILE: probes: must have at most 16 probes, has 17");
     EXPECT_FALSE(view_.probes);
 }
 
@@ -212,22 +212,22 @@ TEST_F(ViewFile, WithANumberOutOfRangeIsAnError) {
 
 TEST_F(ViewFile, WithADirectionOfZeroIsAnError) {
     EXPECT_EQ(errorOf(R"({"sun": {"direction": [0,0,0]}})"),
-              "FILE: sun.direction: must be a direction that is not zero, is [0,0,0]");
+              "FILE: sun.direction: must be a direction of non-zero length, is [0,0,0]");
     EXPECT_EQ(errorOf(R"({"camera": {"up": [0,0,0]}})"),
-              "FILE: camera.up: must be a direction that is not zero, is [0,0,0]");
+              "FILE: camera.up: must be a direction of non-zero length, is [0,0,0]");
 }
 
 TEST_F(ViewFile, WithPositionAndTargetTheSameIsAnError) {
-    const std::string expected = "FILE: camera: position and target are the same point; a view needs two";
+    const std::string expected = "FILE: camera: position and target must not be the same point";
     EXPECT_EQ(errorOf(R"({"camera": {"position": [1,2,3], "target": [1,2,3]}})"), expected);
     EXPECT_EQ(errorOf(R"({"camera": {"position": [0,0,0]}})"), expected);  // the target that the view has
 }
 
 TEST_F(ViewFile, WithUpAlongTheViewIsAnError) {
     EXPECT_EQ(errorOf(R"({"camera": {"position": [0,5,0], "target": [0,0,0], "up": [0,1,0]}})"),
-              "FILE: camera.up: must be a direction across the view, not along it, is [0,1,0]");
+              "FILE: camera.up: must be a direction that is not parallel to the view, is [0,1,0]");
     EXPECT_EQ(errorOf(R"({"camera": {"position": [0,0,5], "target": [0,0,0], "up": [0,0,2]}})"),
-              "FILE: camera.up: must be a direction across the view, not along it, is [0,0,2]");
+              "FILE: camera.up: must be a direction that is not parallel to the view, is [0,0,2]");
 }
 
 TEST_F(ViewFile, CanLookStraightDownWithoutSayingWhereUpIs) {
@@ -277,12 +277,13 @@ TEST_F(ViewFile, WithAnEnvironmentImageThatIsNoneIsAnError) {
 }
 
 TEST_F(ViewFile, WithAnEnvironmentImageAndARadianceIsAnError) {
-    EXPECT_EQ(errorOf(R"({"environment": {"image": "sky.hdr", "radiance": [1,1,1]}})"),
-              "FILE: environment.radiance: cannot be given together with an image; the image's factor is 'intensity'");
+    EXPECT_EQ(
+        errorOf(R"({"environment": {"image": "sky.hdr", "radiance": [1,1,1]}})"),
+        "FILE: environment.radiance: cannot be given together with an image; to scale the image, use 'intensity'");
 }
 
 TEST_F(ViewFile, WithAPropertyOfAnEnvironmentImageThatIsNotGivenIsAnError) {
-    const std::string expected = ": is a property of environment.image, which is not given";
+    const std::string expected = ": needs environment.image, which is not given";
     EXPECT_EQ(errorOf(R"({"environment": {"intensity": 2}})"), "FILE: environment.intensity" + expected);
     EXPECT_EQ(errorOf(R"({"environment": {"rotation": 0, "radiance": [0,0,0]}})"),
               "FILE: environment.rotation" + expected);
@@ -292,8 +293,9 @@ TEST_F(ViewFile, WithAnIntensityOrRotationOutOfRangeIsAnError) {
     writeSky({1e9F, 0.0F, 0.0F});
     EXPECT_EQ(errorOf(R"({"environment": {"image": "reflet_view_file_sky.exr", "intensity": -1}})"),
               "FILE: environment.intensity: must be between 0 and 1e+12, is -1");
-    EXPECT_EQ(errorOf(R"({"environment": {"image": "reflet_view_file_sky.exr", "intensity": 1e4}})"),
-              "FILE: environment.intensity: must be at most 1000, for the image has values up to 1e+09, is 10000.0");
+    EXPECT_EQ(
+        errorOf(R"({"environment": {"image": "reflet_view_file_sky.exr", "intensity": 1e4}})"),
+        "FILE: environment.intensity: must be at most 1000, because the image has values up to 1e+09, is 10000.0");
     EXPECT_EQ(errorOf(R"({"environment": {"image": "reflet_view_file_sky.exr", "rotation": 361}})"),
               "FILE: environment.rotation: must be between -360 and 360 degrees, is 361");
 }
@@ -310,7 +312,7 @@ TEST_F(ViewFile, CannotPutTheNearPlaneBehindTheFarPlaneOfAnOrthographicCamera) {
     view_.camera.orthographicHeight = 10.0F;
     view_.camera.far = 50.0F;
     EXPECT_EQ(errorOf(R"({"camera": {"near": 60}})"),
-              "FILE: camera.near: must be less than 50 metres, the scene's far plane, is 60");
+              "FILE: camera.near: must be less than 50 metres, the camera's far plane, is 60");
     apply(R"({"camera": {"near": 60, "fov_y": 40}})");
     EXPECT_EQ(view_.camera.near, 60.0F);
 }
@@ -334,8 +336,8 @@ TEST_F(ViewFile, HasAnOrthographicHeightOrAFieldOfView) {
     apply(R"({"camera": {"orthographic_height": 4}})");
     EXPECT_EQ(view_.camera.orthographicHeight, 4.0F);
     EXPECT_EQ(errorOf(R"({"camera": {"orthographic_height": 4, "fov_y": 30}})"),
-              "FILE: camera.orthographic_height: cannot be given together with fov_y: a view is orthographic, or a "
-              "perspective");
+              "FILE: camera.orthographic_height: cannot be given together with fov_y: a camera is orthographic "
+              "or perspective");
 }
 
 TEST_F(ViewFile, TurnsLampsOff) {
