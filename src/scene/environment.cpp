@@ -1,4 +1,4 @@
-// Environment images, looked up by direction and read from files.
+// Environment images: lookup by direction, and reading from files.
 #include "scene/environment.h"
 
 #include "base/error.h"
@@ -12,7 +12,7 @@
 namespace reflet {
 namespace {
 
-/// The texel that a coordinate in 0..1 is in; 1 is in the last one.
+/// The texel that contains a coordinate in 0..1; 1 is in the last one.
 uint32_t texelOf(float coordinate, uint32_t count) {
     return std::min(static_cast<uint32_t>(coordinate * static_cast<float>(count)), count - 1);
 }
@@ -68,7 +68,7 @@ void checkValues(const std::filesystem::path& path, const FloatImage& image) {
 vec2 environmentUv(const vec3& direction, float rotation) {
     const float u = 0.5F + (std::atan2(direction.x, -direction.z) + rotation) / (2.0F * pi);
     const float wrapped = u - std::floor(u);
-    // Not acos(y): near the poles it knows only a few angles.
+    // Not acos(y), which has few distinct values near the poles.
     const float fromTop = std::atan2(std::hypot(direction.x, direction.z), direction.y);
     return {wrapped < 1.0F ? wrapped : 0.0F, std::min(fromTop / pi, 1.0F)};  // a tiny negative u wraps to 1
 }

@@ -1,4 +1,4 @@
-// Where everything of a scene is at a time: key frames, then nodes, then what hangs from them.
+// Evaluates a scene at a time: keyframes, then nodes, then instances, skins, cameras and lights.
 #include "scene/pose.h"
 
 #include "scene/gltf_normals.h"
@@ -26,7 +26,7 @@ void apply(const Channel& channel, double time, Node& node) {
     }
 }
 
-// Products of large numbers may be past what a float holds; such a place is no place.
+// Products of large numbers may overflow a float; `otherwise` replaces them.
 mat4 finiteOr(const glm::dmat4& m, const mat4& otherwise) {
     const mat4 rounded(m);
     for (int i = 0; i < 16; ++i) {
@@ -45,7 +45,7 @@ const mat4& placeOf(int32_t node, const ScenePose& pose) {
     return pose.nodeToWorld[static_cast<size_t>(node)];
 }
 
-/// The instance's mesh as its skin bends it, in the world.
+/// The mesh deformed by its skin, in world space.
 Mesh skinned(const Mesh& source, const std::vector<mat4>& joints) {
     Mesh mesh = source;
     mesh.skin.clear();

@@ -1,4 +1,4 @@
-// A scene's triangles in the world, as hierarchies are built over them.
+// A scene's triangles in world space, the input of BVH construction.
 #include "scene/bvh.h"
 
 #include "base/error.h"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr uint32_t maxTriangles = bvhFirstMask;
 
-// Farther out than this [m] products of coordinates are no longer finite.
+// Products of coordinates beyond this overflow a float [m].
 constexpr float farthest = 1e18F;
 
 bool isSomewhere(const vec3& v) {

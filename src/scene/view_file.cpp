@@ -1,5 +1,4 @@
-// View files: camera, sun, lamps, environment, probes, mirrors and time as JSON, checked before anything of the view is
-// changed.
+// View files: camera, sun, lamps, environment, probes, mirrors and time as JSON. The view changes only if all is valid.
 #include "scene/view_file.h"
 
 #include "base/error.h"
@@ -17,7 +16,7 @@
 namespace reflet {
 namespace {
 
-/// Keeps Camera's promise that position, target and up span a view.
+/// Ensures Camera's invariant that position, target and up define a view.
 void checkOrientation(const JsonNode& node, Camera& camera) {
     const vec3 toTarget = camera.target - camera.position;
     if (!(glm::length(toTarget) > 0.0F)) {
@@ -30,7 +29,7 @@ void checkOrientation(const JsonNode& node, Camera& camera) {
     if (const auto up = node.find("up")) {
         up->complainMustBe("a direction that is not parallel to the view");
     }
-    // An old up that a new position or target has made useless.
+    // The view's previous up is parallel to the new view axis.
     camera.up = std::abs(forward.y) < 0.9F ? vec3(0, 1, 0) : vec3(0, 0, -1);
 }
 
@@ -38,7 +37,7 @@ Camera readCamera(const JsonNode& node, Camera camera) {
     static const std::array<std::string, 6> keys{"position", "target", "up", "fov_y", "near", "orthographic_height"};
     node.requireKeys(keys);
     if (node.find("position") || node.find("target") || node.find("up")) {
-        camera.node = -1;  // stays where it is put
+        camera.node = -1;  // the file places it
     }
     if (const auto position = node.find("position")) {
         camera.position = readPosition(*position);
@@ -52,7 +51,7 @@ Camera readCamera(const JsonNode& node, Camera camera) {
     }
     if (const auto fovY = node.find("fov_y")) {
         camera.fovY = readFovY(*fovY);
-        camera.orthographicHeight = 0.0F;  // a field of view asks for a perspective
+        camera.orthographicHeight = 0.0F;  // a field of view implies perspective
     }
     if (const auto height = node.find("orthographic_height")) {
         if (node.find("fov_y")) {
@@ -108,7 +107,7 @@ void readLamps(const JsonNode& node, View& view) {
     }
 }
 
-/// An image with its intensity and rotation, in the place of the whole old environment.
+/// An image with its intensity and rotation; it replaces the whole environment.
 Environment readImage(const JsonNode& node, const JsonNode& imageNode, const std::filesystem::path& folder) {
     if (const auto radiance = node.find("radiance")) {
         radiance->complain("cannot be given together with an image; to scale the image, use 'intensity'");
@@ -205,7 +204,7 @@ std::vector<std::string> readNames(const JsonNode& node) {
 
 nlohmann::ordered_json viewJson(const View& view) {
     using nlohmann::ordered_json;
-    // Doubles that become the same floats again.
+    // As doubles, which convert back to the same floats.
     const auto list = [](const vec3& v) { return ordered_json{double(v.x), double(v.y), double(v.z)}; };
     const auto degrees = [](float radians) { return double(radians) / radiansPerDegree; };
     const Camera& camera = view.camera;
