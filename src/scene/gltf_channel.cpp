@@ -45,7 +45,7 @@ std::vector<float> readTimes(const GltfDocument& document, int input, GltfReport
     return times;
 }
 
-// Tangents of splines are no rotations, and may be of any length.
+// Normalizes rotations, but not the tangents of splines, which may have any length.
 void makeUnit(Channel& channel, const std::string& part, const GltfReport& report) {
     const bool spline = channel.interpolation == Interpolation::cubicSpline;
     for (size_t i = spline ? 1 : 0; i < channel.values.size(); i += spline ? 3 : 1) {

@@ -1,4 +1,4 @@
-// Checks of a glTF document that take more than one value: views in buffers, accessors in views, the tree of nodes.
+// Cross-checks of a glTF document: buffer views in buffers, accessors in views, the node hierarchy.
 #include "scene/gltf_document.h"
 
 #include <string>
@@ -17,7 +17,7 @@ uint64_t elementBytes(const tinygltf::Accessor& accessor) {
            static_cast<uint64_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor.type)));
 }
 
-/// What is read of a buffer view: `count` elements of `bytes` each, from `offset` on, one every `stride` bytes.
+/// The part of a buffer view that is read: `count` elements of `bytes` each, from `offset` on, `stride` bytes apart.
 struct Reach {
     int view = -1;
     uint64_t offset = 0;

@@ -13,7 +13,7 @@ namespace reflet {
 
 namespace {
 
-constexpr uint64_t maxFileBytes = 1ULL << 32U;  // a .glb counts its bytes in 32 bits
+constexpr uint64_t maxFileBytes = 1ULL << 32U;  // a .glb stores its length in 32 bits
 constexpr uint64_t maxJsonBytes = 1ULL << 29U;
 constexpr int maxJsonDepth = 128;
 constexpr size_t headerBytes = 12;
@@ -29,8 +29,8 @@ uint32_t readU32(Bytes bytes, size_t at) {
            uint32_t(bytes[at + 3]) << 24U;
 }
 
-/// How deep brackets stand in brackets, without those in strings. The JSON library could be asked to tell by a
-/// callback, but its time then grows with the square of an array's length.
+/// Depth of nested brackets outside strings. The JSON library's parser callback could tell, but takes time quadratic in
+/// the length of arrays.
 int nesting(Bytes text) {
     int depth = 0;
     int deepest = 0;
@@ -64,12 +64,12 @@ nlohmann::json parseJson(Bytes text, const GltfReport& report) {
         const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min<size_t>(error.byte, text.size()));
         report.fail("JSON", "is not valid JSON at line {}, byte {} of {}", 1 + std::count(text.begin(), end, '\n'),
                     error.byte, text.size());
-    } catch (const nlohmann::json::exception& error) {  // a number that no double holds
+    } catch (const nlohmann::json::exception& error) {  // a number beyond the range of doubles
         report.fail("JSON", "{}", error.what());
     }
 }
 
-/// The bytes of the chunk that starts at `at`; `at` moves behind it.
+/// The bytes of the chunk that starts at `at`, which is advanced past it.
 Bytes nextChunk(Bytes file, size_t& at, uint32_t& type, const GltfReport& report) {
     if (file.size() - at < chunkHeaderBytes) {
         report.fail("GLB chunk", "its header at byte {} is truncated", at);
@@ -122,7 +122,7 @@ std::vector<uint8_t> readFileBytes(const std::filesystem::path& path, uint64_t m
     if (status.type() == std::filesystem::file_type::not_found) {
         report.fail(part, "there is no file {}", path.string());
     }
-    if (!std::filesystem::is_regular_file(status)) {  // a pipe or a device could block forever or never end
+    if (!std::filesystem::is_regular_file(status)) {  // reading a pipe or a device might never end
         report.fail(part, "{} is not a file", path.string());
     }
     const uint64_t size = std::filesystem::file_size(path, error);

@@ -1,6 +1,7 @@
-// Reads a glTF file: container, then schema, then tinygltf for the structure, then the buffers, then the checks.
-// tinygltf is given a document without buffers and images: its own reading of them falls back to the current folder,
-// takes '+' in a file name for a space, decodes every image and has no bounds.
+// Reads a glTF file: container, schema check, parsing by tinygltf, buffers, cross-checks.
+// tinygltf gets a document without buffers and images, because its own loading of them falls back to the working
+// folder,
+// decodes '+' in a file name as a space, decodes every image and has no limits.
 #include "scene/gltf_document.h"
 
 #include "scene/gltf_container.h"
@@ -18,14 +19,14 @@ namespace {
 
 using nlohmann::json;
 
-/// The array of this name in a checked document; an empty one where there is none.
+/// The array of this name in a checked document; empty if there is none.
 const json& arrayOf(const json& document, const char* name) {
     static const json none = json::array();
     const auto found = document.find(name);
     return found != document.end() ? *found : none;
 }
 
-/// "MAJOR.MINOR" with MAJOR 2; a file that needs a minor version says so in minVersion.
+/// "MAJOR.MINOR" with MAJOR 2; a file that depends on a minor version says so in minVersion.
 void checkVersion(const json& document, const GltfReport& report) {
     const auto& asset = document["asset"];
     const std::string version = asset["version"];
@@ -73,7 +74,7 @@ void checkExtensions(const json& document, GltfReport& report) {
     }
 }
 
-/// A camera and a spot light have an object of the name of their type.
+/// A camera and a spot light must have an object that is named like their type.
 void checkVariants(const json& document, const GltfReport& report) {
     size_t i = 0;
     for (const json& camera : arrayOf(document, "cameras")) {
@@ -93,8 +94,8 @@ void checkVariants(const json& document, const GltfReport& report) {
     }
 }
 
-/// Takes the indices out of the primitives, because tinygltf refuses an accessor without a buffer view there, which is
-/// what Draco has; put back by restoreIndices.
+/// Removes the primitives' indices, because tinygltf rejects the accessors without a buffer view that Draco uses there.
+/// restoreIndices puts them back.
 void removeIndices(json& document) {
     const auto meshes = document.find("meshes");
     if (meshes == document.end()) {
@@ -141,7 +142,7 @@ tinygltf::Model parseStructure(const json& document, const GltfReport& report) {
     return model;
 }
 
-/// A buffer without a URI is the binary chunk of a .glb, which only the first may be.
+/// A buffer without a URI is the binary chunk of a .glb; only the first buffer may be.
 std::vector<uint8_t> readBuffer(const json& buffer, const std::string& part, GltfContainer& container,
                                 const std::filesystem::path& folder, const GltfReport& report) {
     const auto length = buffer["byteLength"].get<uint64_t>();

@@ -1,4 +1,4 @@
-// Decodes the images of a glTF file: PNG and JPEG, from a file, a data URI or a buffer view.
+// Decodes images by stb_image, after checking their claimed size.
 #include "scene/gltf_image.h"
 
 #include "scene/gltf_uri.h"
@@ -34,7 +34,7 @@ bool isJpeg(std::span<const uint8_t> bytes) {
     return startsWith(bytes, magic);
 }
 
-/// How many pixels the bytes hold at the very most, however well they are packed.
+/// Upper bound on the pixels that the bytes can encode at any compression.
 uint64_t mostPixels(std::span<const uint8_t> bytes) {
     if (isJpeg(bytes)) {
         return maxJpegPixelsPerByte * bytes.size();
@@ -52,7 +52,7 @@ std::string reason() {
 }
 
 Image decode(std::span<const uint8_t> bytes, const std::string& part, GltfReport& report) {
-    if (!isPng(bytes) && !isJpeg(bytes)) {  // stb_image reads more than glTF has
+    if (!isPng(bytes) && !isJpeg(bytes)) {  // stb_image supports more formats than glTF allows
         report.fail(part, "is neither PNG nor JPEG");
     }
     if (bytes.size() > maxImageBytes) {

@@ -1,4 +1,4 @@
-// Turns the materials of a glTF file, and the textures they use, into the scene's. Only what is asked for is read.
+// Converts materials of a glTF file and their textures.
 #include "scene/gltf_material.h"
 
 #include "scene/gltf_image.h"
@@ -22,7 +22,7 @@ Wrap wrapOf(int value) {
     }
 }
 
-/// A filter that is not stated (-1) is ours to choose: trilinear.
+/// Filters that the file does not specify (-1) default to trilinear.
 Sampler convertSampler(const tinygltf::Sampler& source) {
     const int min = source.minFilter;
     const bool nearest = min == TINYGLTF_TEXTURE_FILTER_NEAREST ||
@@ -135,8 +135,8 @@ void GltfMaterials::setUvSet(TextureSlot& slot, int uvSet, const std::string& pa
     slot.uvSet = uvSet == 1 ? 1 : 0;
 }
 
-/// The extension's offset · rotation · scale. Its example and its words ("counter-clockwise", with v down) have the
-/// sine of u' positive, as the viewers do; the matrix in early versions of its text has it negative.
+/// KHR_texture_transform: offset · rotation · scale. The sine in u' is positive, as in the extension's example, its
+/// wording ("counter-clockwise", with v down) and the common viewers; the matrix in early versions has it negative.
 void GltfMaterials::transformUv(TextureSlot& slot, const tinygltf::Value& transform, const std::string& part) {
     const double angle = numberOr(transform, "rotation", 0.0);
     const double scaleU = numberAt(transform, "scale", 0, 1.0);

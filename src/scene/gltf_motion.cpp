@@ -1,4 +1,4 @@
-// Reads what moves in a glTF file: nodes, animations, skins.
+// Reads nodes, animations and skins of a glTF file.
 #include "scene/gltf_motion.h"
 
 #include "scene/gltf_accessor.h"
@@ -49,7 +49,7 @@ GltfMotion::GltfMotion(const GltfDocument& document, Scene& scene, GltfReport& r
     }
 }
 
-// Of all scenes: joints may hang anywhere.
+// The nodes of all scenes, because joints may be anywhere.
 void GltfMotion::readNodes() {
     const auto& nodes = document_.model.nodes;
     report_.charge("nodes", nodes.size() * (sizeof(Node) + sizeof(mat4)));
@@ -84,7 +84,7 @@ void GltfMotion::readAnimation(size_t index) {
         const tinygltf::AnimationChannel& channel = source.channels[i];
         const std::string part = fmt::format("animations[{}].channels[{}]", index, i);
         if (channel.target_node < 0) {
-            continue;  // an extension's
+            continue;  // the target is defined by an extension
         }
         if (channel.target_path == "weights") {
             report_.warn("weights", part + ".target.path",

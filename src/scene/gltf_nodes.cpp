@@ -1,4 +1,4 @@
-// Places the nodes of a glTF scene: instances, cameras, lamps, the sun.
+// Places instances, cameras, lamps and the sun by the nodes of a glTF scene.
 #include "scene/gltf_nodes.h"
 
 #include "scene/gltf_motion.h"
@@ -11,7 +11,7 @@ namespace reflet {
 
 namespace {
 
-constexpr float minNear = 1e-3F;  // metres; of orthographic cameras, which may have 0 in glTF
+constexpr float minNear = 1e-3F;  // metres; for orthographic cameras, whose znear may be 0 in glTF
 
 Camera placeCamera(const tinygltf::Camera& source, const mat4& toWorld, const std::string& part,
                    const GltfReport& report) {
@@ -136,9 +136,9 @@ void placeGltfNodes(const GltfDocument& document, const std::vector<int>& roots,
     };
     const GltfMotion motion(document, scene, report);
     NodePlacer placer(document, meshes, motion, scene, report);
-    std::vector<Open> open;  // a stack of our own: a chain of nodes may be longer than the program's
+    std::vector<Open> open;  // an explicit stack: a long chain of nodes would overflow the call stack
     const auto push = [&](const std::vector<int>& nodes, const glm::dmat4& parentToWorld) {
-        for (size_t i = nodes.size(); i-- > 0;) {  // the first one last, so that it is the next
+        for (size_t i = nodes.size(); i-- > 0;) {  // in reverse, so that the first is popped first
             open.push_back({nodes[i], parentToWorld});
         }
     };

@@ -1,4 +1,4 @@
-// Where the vertices and triangles of a glTF primitive come from: accessors or Draco.
+// Gives access to the attributes and triangles of a glTF primitive, whether from accessors or from Draco.
 #include "scene/gltf_primitive.h"
 
 #include <array>
@@ -21,7 +21,7 @@ constexpr std::array<SemanticRule, 8> semantics{{{"POSITION", 3, 3},
                                                  {"JOINTS_0", 4, 4},
                                                  {"WEIGHTS_0", 4, 4}}};
 
-/// The types of glTF 2.0 and of KHR_mesh_quantization: all but 32-bit integers, which floats do not hold.
+/// The types of glTF 2.0 and KHR_mesh_quantization: all but 32-bit integers, which floats cannot represent.
 void checkType(const tinygltf::Accessor& accessor, const SemanticRule& rule, int index, const GltfReport& report) {
     const bool isVector = accessor.type == TINYGLTF_TYPE_VEC2 || accessor.type == TINYGLTF_TYPE_VEC3 ||
                           accessor.type == TINYGLTF_TYPE_VEC4;
@@ -95,7 +95,7 @@ std::vector<uint32_t> readIndices(const GltfDocument& document, int index, uint3
     return indices;
 }
 
-/// glTF 2.0, 3.7.2.1: which corners make a triangle of a strip or a fan, in which order.
+/// glTF 2.0, 3.7.2.1: the vertices of a triangle in a list, strip or fan.
 std::array<uint32_t, 3> corners(int mode, uint32_t triangle) {
     switch (mode) {
         case TINYGLTF_MODE_TRIANGLE_STRIP:
@@ -107,7 +107,7 @@ std::array<uint32_t, 3> corners(int mode, uint32_t triangle) {
     }
 }
 
-/// `indices` may be empty: the vertices in their order.
+/// Without `indices`: the vertices in order.
 std::vector<uint32_t> makeTriangles(int mode, const std::vector<uint32_t>* indices, uint32_t vertices,
                                     const std::string& part, GltfReport& report) {
     const uint32_t count = indices != nullptr ? static_cast<uint32_t>(indices->size()) : vertices;
@@ -138,7 +138,7 @@ PrimitiveSource openPrimitive(const GltfDocument& document, const tinygltf::Prim
     }
     source.attributes = openAttributes(document, primitive, source.draco, part, report);
     const uint32_t vertices = source.attributes.at("POSITION").count;
-    if (compressed) {  // Draco holds triangles, whatever the mode was
+    if (compressed) {  // Draco stores triangles, whatever the mode
         if (source.draco.attributes.empty() || source.draco.indices.empty()) {
             report.fail(part + ".extensions.KHR_draco_mesh_compression", "holds no triangles");
         }

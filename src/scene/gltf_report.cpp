@@ -1,4 +1,4 @@
-// Says what is wrong with a glTF file and where, passes each warning on once, and bounds the memory of one scene.
+// Error messages and warnings for glTF files, and a limit on the memory of a scene.
 #include "scene/gltf_report.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Reads what a URI of a glTF file refers to: a data URI, or a file in the scene's own folder and nowhere else.
+// Reads the target of a URI in a glTF file: a data URI, or a file inside the scene's folder.
 // RFC 3986 (Berners-Lee et al., 2005) for URIs, RFC 2397 (Masinter, 1998) for data, RFC 4648 (Josefsson, 2006) for
 // base64.
 #include "scene/gltf_uri.h"
@@ -79,7 +79,7 @@ std::vector<uint8_t> readDataUri(std::string_view uri, std::string_view part, co
     return {decoded.begin(), decoded.end()};
 }
 
-/// Whether it starts with "scheme:". One letter is taken for a drive of Windows, which is no less absolute.
+/// Whether it starts with "scheme:". This includes Windows drive letters, which are absolute paths, too.
 bool hasScheme(std::string_view uri) {
     const size_t colon = uri.find_first_of(":/?#");
     return colon != std::string_view::npos && uri[colon] == ':';
