@@ -1,4 +1,4 @@
-// Reads the keyframes of one channel of a glTF animation, and checks them.
+// Reads and checks the keyframes of one channel of a glTF animation.
 #include "scene/gltf_channel.h"
 
 #include "scene/gltf_accessor.h"

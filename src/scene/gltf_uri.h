@@ -12,9 +12,8 @@ namespace reflet {
 /// "%41" becomes "A"; invalid escapes are kept.
 std::string percentDecoded(std::string_view uri);
 
-/// At most `maxBytes` bytes of the URI's target. Throws Error that names `part` if the URI is absolute, has a scheme
-/// other
-/// than data, leads out of `folder` (also by a symbolic link), or cannot be read.
+/// The bytes of the URI's target; of a file, at most `maxBytes`. Throws Error that names `part` if the URI is absolute,
+/// has a scheme other than data, leads out of `folder` (also by a symbolic link), or cannot be read.
 std::vector<uint8_t> readUri(const std::string& uri, const std::filesystem::path& folder, uint64_t maxBytes,
                              std::string_view part, const GltfReport& report);
 

@@ -12,7 +12,8 @@ namespace {
 constexpr std::array<BuiltinScene, 9> scenes{{
     {"cubes", "a polished box and painted cubes on labelled tiles: reflections, contact shadows, first steps",
      builtin::makeCubes},
-    {"tilted-cube", "a tilted box with numbered faces above a glossy floor: reflections of faces that are off-screen",
+    {"tilted-cube",
+     "a tilted box with numbered faces above a glossy floor: reflections of faces that the camera does not see",
      builtin::makeTiltedCube},
     {"cornell", "the Cornell box, sunlit through its open front: colour bleeding", builtin::makeCornell},
     {"cave", "a cave with sunlight through a single shaft: indirect light", builtin::makeCave},

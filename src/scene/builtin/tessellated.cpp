@@ -1,4 +1,4 @@
-// One room, cut into few triangles or many: it looks the same, so that what depends on the number of triangles shows.
+// A room that looks the same at any number of triangles, to measure how cost depends on that number.
 #include "scene/builtin/assemble.h"
 #include "scene/builtin/scenes.h"
 
@@ -9,7 +9,7 @@
 namespace reflet::builtin {
 namespace {
 
-// A room without a front, of five sides, and nine boxes of five: fifty flat pieces of two triangles or more.
+// A room of five sides, without a front, and nine boxes of five: fifty flat sides of at least two triangles.
 constexpr uint32_t leastTriangles = 100;
 constexpr uint32_t mostCuts = 100;
 
