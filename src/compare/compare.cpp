@@ -1,4 +1,4 @@
-// How far a picture is from the truth.
+// Computes the metrics and validates their input.
 #include "compare/compare.h"
 
 #include "base/error.h"
@@ -21,7 +21,7 @@ size_t pixelCount(const FloatImage& image) {
     return size_t{image.width} * image.height;
 }
 
-// Names the first bad value and counts the others.
+// Reports the first NaN or infinity, and counts the others.
 void checkFinite(const FloatImage& image, const std::string& name) {
     const auto isBad = [](float value) { return !std::isfinite(value); };
     const auto found = std::ranges::find_if(image.data, isBad);
@@ -52,7 +52,7 @@ void checkOptions(const FloatImage& picture, const CompareOptions& options) {
     }
 }
 
-// FLIP wants red, green and blue in linear light; grey is all three.
+// FLIP's input is linear red, green and blue; grey is replicated to all three.
 Planes3 linearPlanes(const FloatImage& image, ImageKind kind) {
     Planes3 planes = makePlanes3(image.width, image.height);
     const size_t channels = image.channels.size();
@@ -68,7 +68,7 @@ Planes3 linearPlanes(const FloatImage& image, ImageKind kind) {
 // Sums in double and in the order of the pixels.
 Difference differenceOf(const FloatImage& picture, const FloatImage& truth, const Plane& flip,
                         const CompareOptions& options) {
-    constexpr double darkness = 0.01;  // keeps the relative error of dark pixels finite
+    constexpr double darkness = 0.01;  // limits the relative error of dark pixels
     Difference d;
     double squares = 0.0;
     double sumA = 0.0;

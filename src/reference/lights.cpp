@@ -1,4 +1,4 @@
-// What shines.
+// Sampling of lights.
 #include "reference/lights.h"
 
 #include "base/color.h"
@@ -10,7 +10,7 @@ namespace reflet {
 
 namespace {
 
-// KHR_lights_punctual. Irradiance on a surface at p that faces the lamp.
+// Irradiance of a lamp on a surface at p that faces it, by KHR_lights_punctual.
 LightSample lampAt(const Lamp& lamp, const vec3& p) {
     LightSample s;
     if (lamp.type == Lamp::Type::directional) {
@@ -52,7 +52,7 @@ Distribution::Distribution(const std::vector<double>& weights) : sums_(weights.s
 size_t Distribution::draw(float& u) const {
     const double at = u * total_;
     auto found = std::upper_bound(sums_.begin(), sums_.end(), at);
-    if (found == sums_.end()) {  // u · total rounded up to the total
+    if (found == sums_.end()) {  // u · total was rounded up to the total
         found = std::lower_bound(sums_.begin(), sums_.end(), total_);
     }
     const double before = found == sums_.begin() ? 0.0 : *(found - 1);
@@ -101,7 +101,7 @@ void Lights::collectTriangles() {
 }
 
 LightSample Lights::drawSun(const vec2& u) const {
-    // Uniform in the disk's projection on a plane that faces it, so that every place brings the same.
+    // Uniform in the disk's projection on the plane that faces it, so that all samples have the same irradiance.
     const float radius = sunSine_ * std::sqrt(u.x);
     const float z = std::sqrt(1.0F - radius * radius);
     LightSample s;
