@@ -18,10 +18,10 @@ enum class ImageKind : uint8_t {
 
 struct CompareOptions {
     ImageKind kind = ImageKind::linear;
-    float pixelsPerDegree = 67.0F;            ///< of the eye that FLIP assumes, 1..1000
-    std::vector<bool> mask;                   ///< pixels to compare; empty: all
-    std::string pictureName = "the image";    ///< for messages
-    std::string truthName = "the reference";  ///< for messages
+    float pixelsPerDegree = 67.0F;                ///< of the eye that FLIP assumes, 1..1000
+    std::vector<bool> mask;                       ///< pixels to compare; empty: all
+    std::string imageName = "the image";          ///< for messages
+    std::string referenceName = "the reference";  ///< for messages
 };
 
 struct Difference {
@@ -47,10 +47,10 @@ struct Comparison {
 /// neighbours), for a mask of another size or without pixels, and for pixelsPerDegree out of range. For FLIP alone,
 /// values
 /// below 0 and, in display images, above 1 are clamped. The result does not depend on the number of threads.
-Comparison compareImages(const FloatImage& picture, const FloatImage& truth, const CompareOptions& options);
+Comparison compareImages(const FloatImage& image, const FloatImage& reference, const CompareOptions& options);
 
 /// Throws as compareImages does for the images, so that they can be checked before a mask is made.
-void checkComparable(const FloatImage& picture, const FloatImage& truth, const CompareOptions& options);
+void checkComparable(const FloatImage& image, const FloatImage& reference, const CompareOptions& options);
 
 /// Describes a number of Difference, for tables and limits.
 struct Metric {

@@ -227,7 +227,7 @@ Plane featureDifference(const Plane& a, const Plane& b, float pixelsPerDegree) {
     return difference;
 }
 
-Plane flipOfDisplay(const Planes3& linearA, const Planes3& linearB, float pixelsPerDegree) {
+Plane ldrFlip(const Planes3& linearA, const Planes3& linearB, float pixelsPerDegree) {
     Planes3 a = toOpponent(linearA);
     Planes3 b = toOpponent(linearB);
     Plane flip = featureDifference(normalizedLuminance(a[0]), normalizedLuminance(b[0]), pixelsPerDegree);

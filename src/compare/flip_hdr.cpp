@@ -71,10 +71,10 @@ float displayTone(float radiance) {
     return static_cast<float>(std::min((k0 * x + k1) * x / ((k3 * x + k4) * x + k5), 1.0));
 }
 
-ExposureRange exposureRange(const Planes3& truth) {
-    std::vector<float> luminances(truth[0].data.size());
+ExposureRange exposureRange(const Planes3& reference) {
+    std::vector<float> luminances(reference[0].data.size());
     for (size_t i = 0; i < luminances.size(); ++i) {
-        luminances[i] = cieLuminance(positive(truth, i));
+        luminances[i] = cieLuminance(positive(reference, i));
     }
     const double largest = *std::ranges::max_element(luminances);
     if (largest <= 0.0) {
@@ -92,12 +92,12 @@ ExposureRange exposureRange(const Planes3& truth) {
     return range;
 }
 
-Plane flipOfRadiance(const Planes3& picture, const Planes3& truth, float pixelsPerDegree) {
-    const ExposureRange range = exposureRange(truth);
-    Plane largest(truth[0].width, truth[0].height);
+Plane hdrFlip(const Planes3& image, const Planes3& reference, float pixelsPerDegree) {
+    const ExposureRange range = exposureRange(reference);
+    Plane largest(reference[0].width, reference[0].height);
     for (uint32_t i = 0; i < range.count; ++i) {
         const double exposure = range.at(i);
-        const Plane flip = flipOfDisplay(exposed(picture, exposure), exposed(truth, exposure), pixelsPerDegree);
+        const Plane flip = ldrFlip(exposed(image, exposure), exposed(reference, exposure), pixelsPerDegree);
         std::ranges::transform(largest.data, flip.data, largest.data.begin(),
                                [](float a, float b) { return std::max(a, b); });
     }

@@ -76,13 +76,13 @@ private:
     std::vector<Lamp> lamps_;  ///< with the view's radius
     Environment environment_;
 
-    struct GlowingTriangle {
+    struct EmissiveTriangle {
         uint32_t instance = 0;
         uint32_t triangle = 0;
         float area = 0.0F;
     };
-    std::vector<GlowingTriangle> glowing_;
-    std::vector<std::vector<uint32_t>> glowingIndex_;  ///< by instance (empty: not emissive) and triangle
+    std::vector<EmissiveTriangle> emissive_;
+    std::vector<std::vector<uint32_t>> emissiveIndex_;  ///< by instance (empty: not emissive) and triangle
     Distribution triangles_;
     Distribution texels_;             ///< of the environment's image
     float environmentChance_ = 0.0F;  ///< probability that drawEmitter chooses the environment image

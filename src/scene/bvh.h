@@ -11,7 +11,7 @@ namespace reflet {
 
 enum class Instances : uint8_t {
     all,
-    standing,  ///< neither animated nor skinned
+    stationary,  ///< neither animated nor skinned
     moving,
 };
 

@@ -17,7 +17,7 @@ Camera placeCamera(const tinygltf::Camera& source, const mat4& toWorld, const st
                    const GltfReport& report) {
     Camera camera;
     camera.name = source.name;
-    putAt(camera, toWorld);
+    setTransform(camera, toWorld);
     camera.aims = false;
     if (source.type == "orthographic") {
         const auto& ortho = source.orthographic;
@@ -40,7 +40,7 @@ Lamp placeLamp(const tinygltf::Light& source, const mat4& toWorld, const std::st
     lamp.type = source.type == "spot"          ? Lamp::Type::spot
                 : source.type == "directional" ? Lamp::Type::directional
                                                : Lamp::Type::point;
-    putAt(lamp, toWorld);
+    setTransform(lamp, toWorld);
     const glm::dvec3 intensity = vectorOr(source.color, glm::dvec3(1.0)) * source.intensity;
     lamp.intensity = vec3(intensity);
     if (!std::isfinite(glm::length(glm::dvec3(lamp.intensity)))) {

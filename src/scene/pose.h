@@ -29,13 +29,13 @@ struct ScenePose {
 ScenePose scenePose(const Scene& scene, double time);
 
 /// Whether the instance is animated or skinned.
-bool moves(const ScenePose& pose, const Instance& instance);
+bool isAnimated(const ScenePose& pose, const Instance& instance);
 
 /// Skinning matrix of a vertex, from the mesh to the world. Normals are transformed by its cofactor matrix.
 mat4 skinToWorld(const VertexSkin& vertex, const std::vector<mat4>& joints);
 
 /// Whether the skin mirrors the mesh, which flips its winding (decided by the first joint).
-bool turnsOver(const std::vector<mat4>& joints);
+bool flipsWinding(const std::vector<mat4>& joints);
 
 /// The mesh's positions in world space, skinned if the instance has a skin.
 std::vector<vec3> worldPositions(const Scene& scene, const ScenePose& pose, size_t instance);

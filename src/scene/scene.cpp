@@ -50,7 +50,7 @@ Camera framingCamera(const Aabb& bounds) {
 }
 
 /// From behind the camera's left shoulder, 53° above the horizon: shadows fall to the right and stay in the image.
-Sun shoulderSun(const Camera& camera) {
+Sun defaultSun(const Camera& camera) {
     const vec3 forward = viewDirection(camera);
     vec3 ahead{forward.x, 0.0F, forward.z};
     if (glm::length(ahead) < 1e-3F) {  // looks straight up or down: use the image's up direction
@@ -84,7 +84,7 @@ Aabb Scene::bounds() const {
     return result;
 }
 
-void putAt(Camera& camera, const mat4& toWorld) {
+void setTransform(Camera& camera, const mat4& toWorld) {
     camera.position = vec3(toWorld[3]);
     const vec3 forward = unitOr(-vec3(toWorld[2]), vec3(0, 0, -1));
     const vec3 up = vec3(toWorld[1]) - forward * glm::dot(vec3(toWorld[1]), forward);
@@ -95,7 +95,7 @@ void putAt(Camera& camera, const mat4& toWorld) {
     camera.target = camera.position + forward * (farthest < 1000.0F ? 1.0F : farthest / 1000.0F);
 }
 
-void putAt(Lamp& lamp, const mat4& toWorld) {
+void setTransform(Lamp& lamp, const mat4& toWorld) {
     lamp.position = vec3(toWorld[3]);
     lamp.direction = unitOr(-vec3(toWorld[2]), vec3(0, 0, -1));
 }
@@ -107,8 +107,8 @@ float lampClearance(float radius) {
 View defaultView(const Scene& scene) {
     View view;
     view.camera = scene.cameras.empty() ? framingCamera(scene.bounds()) : scene.cameras.front();
-    view.sunStandsIn = !isLit(scene);
-    view.sun = view.sunStandsIn ? shoulderSun(view.camera) : scene.sun.value_or(Sun{});
+    view.hasDefaultSun = !isLit(scene);
+    view.sun = view.hasDefaultSun ? defaultSun(view.camera) : scene.sun.value_or(Sun{});
     view.environment = scene.environment;
     return view;
 }

@@ -140,8 +140,8 @@ struct Lamp {
 };
 
 /// Places a camera or a lamp at a node's transform; both point along its -Z.
-void putAt(Camera& camera, const mat4& toWorld);
-void putAt(Lamp& lamp, const mat4& toWorld);
+void setTransform(Camera& camera, const mat4& toWorld);
+void setTransform(Lamp& lamp, const mat4& toWorld);
 
 /// Occluders nearer to a lamp than this cast no shadow: its own geometry, and rounding errors at a point light [m].
 float lampClearance(float radius);
@@ -201,7 +201,7 @@ struct View {
     std::vector<uint32_t> lampsOff;            ///< indices into Scene::lamps that are off, ascending
     std::optional<std::vector<Probe>> probes;  ///< at most maxProbes; nullopt: placed automatically
     std::vector<std::string> mirrors;          ///< instances with planar reflections; empty: detected automatically
-    bool sunStandsIn = false;                  ///< the scene has no light, and the sun is a default
+    bool hasDefaultSun = false;                ///< the scene has no light, and the sun is a default
 
     bool operator==(const View&) const = default;
 };

@@ -21,7 +21,7 @@ bool isSomewhere(const vec3& v) {
 uint32_t flagsOf(const Scene& scene, const ScenePose& pose, size_t instance) {
     const Instance& placed = scene.instances[instance];
     const Material& material = scene.materials.at(scene.meshes.at(placed.mesh).material);
-    const bool mirrored = placed.skin >= 0 ? turnsOver(pose.skins[static_cast<size_t>(placed.skin)])
+    const bool mirrored = placed.skin >= 0 ? flipsWinding(pose.skins[static_cast<size_t>(placed.skin)])
                                            : glm::determinant(mat3(pose.objectToWorld[instance])) < 0.0F;
     return (material.alphaCutoff > 0.0F ? triangleCutOut : 0U) | (material.doubleSided ? triangleDoubleSided : 0U) |
            (mirrored ? triangleMirrored : 0U);
@@ -39,7 +39,7 @@ std::vector<SceneTriangle> sceneTriangles(const Scene& scene, const ScenePose& p
     std::vector<SceneTriangle> triangles;
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
-        if (which != Instances::all && moves(pose, instance) != (which == Instances::moving)) {
+        if (which != Instances::all && isAnimated(pose, instance) != (which == Instances::moving)) {
             continue;
         }
         const Mesh& mesh = scene.meshes.at(instance.mesh);

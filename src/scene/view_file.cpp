@@ -266,7 +266,7 @@ void applyViewJson(const nlohmann::json& file, const std::filesystem::path& path
     }
     if (const auto sun = root.find("sun")) {
         changed.sun = readSun(*sun, view.sun);
-        changed.sunStandsIn = false;
+        changed.hasDefaultSun = false;
     }
     if (const auto lamps = root.find("lamps")) {
         readLamps(*lamps, changed);
@@ -274,7 +274,7 @@ void applyViewJson(const nlohmann::json& file, const std::filesystem::path& path
     if (const auto environment = root.find("environment")) {
         changed.environment = readEnvironment(*environment, view.environment, path.parent_path());
         const bool shines = changed.environment.image || changed.environment.radiance != vec3(0.0F);
-        if (changed.sunStandsIn && shines) {
+        if (changed.hasDefaultSun && shines) {
             changed.sun.irradiance = vec3(0.0F);
         }
     }

@@ -1,7 +1,7 @@
 // The path tracer against closed forms.
 #include "reference/bsdf.h"
 #include "reference/harness.h"
-#include "support/ggx_truth.h"
+#include "support/ggx_reference.h"
 
 #include <cmath>
 

@@ -78,7 +78,7 @@ TEST(Bvh, HoldsEveryTriangleOfASceneInOneLeafInsideItsBoxes) {
 TEST(Bvh, OverTwoHoldsTheTrianglesOfBothWhereTheyAreAtThatTime) {
     const Scene scene = findBuiltinScene("moving")->make();
     const ScenePose pose = scenePose(scene, 0.6);
-    const auto standing = sceneTriangles(scene, pose, Instances::standing);
+    const auto standing = sceneTriangles(scene, pose, Instances::stationary);
     const auto moving = sceneTriangles(scene, pose, Instances::moving);
     const auto all = sceneTriangles(scene, pose);
     ASSERT_GT(standing.size(), 0U);

@@ -132,7 +132,7 @@ TEST(Compare, OnlyWhatTheMaskLeavesCountsButTheFlipImageIsWhole) {
 
 TEST(Compare, PicturesOfDifferentSizesOrChannelsAreNamed) {
     CompareOptions options;
-    options.pictureName = "a.exr";
+    options.imageName = "a.exr";
     EXPECT_EQ(complaint(grey(2, {0, 0}), grey(1, {0, 0}), options),
               "a.exr is 2x1, but the reference is 1x2: only images of the same size can be compared");
     EXPECT_EQ(complaint(grey(1, {0}), colors(1, {0, 0, 0}), options),

@@ -149,8 +149,8 @@ TEST(ScenePose, WhatDoesNotMoveStaysWhereItWasLoadedToTheBit) {
     EXPECT_EQ(pose.objectToWorld[0], odd);
     EXPECT_EQ(pose.objectToWorld[1], odd);
     EXPECT_EQ(pose.objectToWorld[2], pose.nodeToWorld[1]);
-    EXPECT_FALSE(moves(pose, scene.instances[0]) || moves(pose, scene.instances[1]));
-    EXPECT_TRUE(moves(pose, scene.instances[2]));
+    EXPECT_FALSE(isAnimated(pose, scene.instances[0]) || isAnimated(pose, scene.instances[1]));
+    EXPECT_TRUE(isAnimated(pose, scene.instances[2]));
     Scene still;
     still.instances.push_back({"free", 0, odd});
     EXPECT_EQ(scenePose(still, 12.0).time, 0.0) << "nothing ever moves";
@@ -243,7 +243,7 @@ TEST(Skin, AJointThatMirrorsTurnsTrianglesAndTangentsOverButKeepsNormalsOutside)
     scene.nodes[0].scale = {1, 1, -1};
     scene.meshes[0].attributes[0].normal = {0, 0, 1};
     scene.meshes[0].attributes[0].tangent = {1, 0, 0, 1};
-    EXPECT_TRUE(turnsOver(scenePose(scene, 0.0).skins[0]));
+    EXPECT_TRUE(flipsWinding(scenePose(scene, 0.0).skins[0]));
     const Scene still = frozen(scene, 0.0);
     const Mesh& mesh = still.meshes.at(still.instances[0].mesh);
     EXPECT_EQ(mesh.indices, (std::vector<uint32_t>{0, 2, 1}));

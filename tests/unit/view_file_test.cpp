@@ -361,7 +361,7 @@ TEST_F(ViewFile, IsWrittenSuchThatItMakesTheSameView) {
         view.time = 1.0 / 3.0;
         view_ = defaultView(*scene);
         apply(viewJson(view).dump());
-        view.sunStandsIn = false;  // the file names the sun
+        view.hasDefaultSun = false;  // the file names the sun
         // Directions are made unit length again, which may change their last bit.
         EXPECT_LE(glm::length(view_.sun.direction - view.sun.direction), 1e-6F) << builtin.name;
         EXPECT_LE(glm::length(view_.camera.up - view.camera.up), 1e-6F) << builtin.name;
