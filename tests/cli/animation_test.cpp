@@ -70,7 +70,7 @@ protected:
     }
 };
 
-TEST_F(Animation, APictureAtATimeHasTheBytesOfAFileThatStandsThere) {
+TEST_F(Animation, ARenderAtATimeHasTheBytesOfOneOfAStaticFile) {
     const std::string half = picture("half.gltf", {});
     EXPECT_EQ(picture("moving.gltf", {"--time", "1.5"}), half);
     EXPECT_EQ(picture("moving.gltf", {"--time", "3.5"}), half) << "it begins again after 2 s";
@@ -93,7 +93,7 @@ TEST_F(Animation, TheReferenceSeesTheSceneAtThatTime) {
     EXPECT_NE(trace("moving.gltf", {"--time", "1.5"}), trace("moving.gltf", {}));
 }
 
-TEST_F(Animation, ATimeThatIsNoneIsRefused) {
+TEST_F(Animation, AnInvalidTimeIsRefused) {
     EXPECT_TRUE(refused(render("moving.gltf", {"-o", "a.png", "--time", "-1"}), 2, {"--time", "-1"}));
     EXPECT_TRUE(refused(render("moving.gltf", {"-o", "a.png", "--time", "nan"}), 2, {"--time"}));
     EXPECT_EQ(render("moving.gltf", {"-o", "a.png", "--time", "soon"}).status, 2);

@@ -114,7 +114,7 @@ TEST_F(BenchTest, TheCommandThatIsRecordedDoesTheSameAgain) {
     EXPECT_NE(command.find(" --truth-all-light"), std::string::npos) << command;
 }
 
-TEST_F(BenchTest, ATruthIsMadeOnceForAllThatItIsTheSameFor) {
+TEST_F(BenchTest, AReferenceIsRenderedOnceForAllThatShareIt) {
     ASSERT_TRUE(quietSuccess(bench({"--preset", "fast,direct"})));
     EXPECT_EQ(truths(), 2U);  // one picture and its facts: both presets have the same truth
     const nlohmann::json first = numbers();
@@ -149,7 +149,7 @@ TEST_F(BenchTest, WithoutATruthThereAreNoErrors) {
     EXPECT_FALSE(numbers()["runs"][0]["steady"]["passes"]["gbuffer"].contains("floor_ms"));
 }
 
-TEST_F(BenchTest, AllVariantsMayHaveTheTruthOfOtherSettings) {
+TEST_F(BenchTest, AllVariantsMayBeComparedWithOtherSettings) {
     const Arguments both{"--preset", "direct", "--variant", "near=direct,trace_screen.max_steps=8",
                          "--truth",  "chain:2"};
     ASSERT_TRUE(quietSuccess(bench(both)));
@@ -172,7 +172,7 @@ TEST_F(BenchTest, SeveralSizesSayWhatAPixelCosts) {
     EXPECT_GE(json["scaling"][0]["spread"], 0.0);
 }
 
-TEST_F(BenchTest, FramesInMotionAreHeldAgainstATruthEach) {
+TEST_F(BenchTest, MovingFramesAreEachComparedWithAReference) {
     ASSERT_TRUE(quietSuccess(bench({"--preset", "direct", "--motion", "3", "--orbit", "10", "--rest", "2"})));
     const nlohmann::json motion = numbers()["runs"][0]["motion"];
     EXPECT_EQ(motion.at("flip").size(), 3U);

@@ -125,7 +125,7 @@ TEST_F(Compare, AFileWhoseNameHasAColonIsThatFile) {
     EXPECT_EQ(json({"C:a.exr:direct", "a:b.exr"})["max"], 2.0);
 }
 
-TEST_F(Compare, AMissingLayerIsToldWithThoseThatAreThereAndTheNearest) {
+TEST_F(Compare, AMissingLayerIsReportedWithTheAvailableOnesAndTheNearest) {
     writeLayers("a.exr", {{"", rgb(1.0F)}, {"direct", rgb(3.0F)}});
     EXPECT_TRUE(refused(compare({"a.exr:dirct", "a.exr"}), 1,
                         {"a.exr", "no layer 'dirct'", "its layers: final, direct", "did you mean 'direct'"}));
@@ -161,7 +161,7 @@ TEST_F(Compare, PicturesThatDoNotFitTogetherAreRefusedInOneLine) {
     EXPECT_TRUE(refused(compare({"a.exr"}), 2, {"B"}));
 }
 
-TEST_F(Compare, NanIsToldWithFilePixelChannelAndHowMany) {
+TEST_F(Compare, NanIsReportedWithFilePixelChannelAndHowMany) {
     FloatImage bad = rgb(1.0F);
     bad.data[(2 * width + 5) * 3 + 2] = std::numeric_limits<float>::quiet_NaN();
     bad.data.back() = std::numeric_limits<float>::infinity();
@@ -186,7 +186,7 @@ TEST_F(Compare, AMaskLeavesItsLightPixels) {
     EXPECT_TRUE(refused(compare({"a.exr", "b.exr", "--mask", "wide.exr"}), 1, {"wide.exr: the mask is 9x4", "8x4"}));
 }
 
-TEST_F(Compare, HitsArePixelsWhereBothFilesKnowSomething) {
+TEST_F(Compare, HitsArePixelsWhereBothFilesHaveData) {
     FloatImage confidence = leftColumns({"R", "G"}, 6);
     for (size_t i = 0; i < confidence.data.size(); i += 2) {
         confidence.data[i] = 0.0F;  // one channel is enough
@@ -201,7 +201,7 @@ TEST_F(Compare, HitsArePixelsWhereBothFilesKnowSomething) {
     EXPECT_EQ(json({"b.exr", "b.exr", "--mask", "hits"})["pixels"], 6 * height);
 }
 
-TEST_F(Compare, HitsWantLayersThatTellThem) {
+TEST_F(Compare, HitsNeedTheLayersThatRecordThem) {
     writeLayers("a.exr", {{"", rgb(1.0F)}, {"depth", filled({"Y"}, 1.0F)}});
     writeLayers("b.exr", {{"", rgb(1.0F)}});
     writeColor("a.png", 1);
@@ -236,7 +236,7 @@ TEST_F(Compare, FailAboveExitsWithOneAndNamesMetricValueAndLimit) {
     EXPECT_EQ(both.err, "reflet: psnr is 6.0206 dB, below the limit 6.1; max is 0.5, above the limit 0\n");
 }
 
-TEST_F(Compare, LimitsThatAreNoneAreWrongUse) {
+TEST_F(Compare, InvalidLimitsAreUsageErrors) {
     writeLayers("a.exr", {{"", rgb(1.0F)}});
     EXPECT_TRUE(refused(compare({"a.exr", "a.exr", "--fail-above", "flop=1"}), 2,
                         {"no metric 'flop'", "relative_mse, psnr, flip, mean, bias, max", "did you mean 'flip'"}));

@@ -95,7 +95,7 @@ TEST_F(Reference, OneLineTellsSamplesNoiseRaysAndRaysPerSecond) {
     EXPECT_TRUE(std::regex_match(done.out, line)) << done.out;
 }
 
-TEST_F(Reference, OneSampleDoesNotTellTheNoise) {
+TEST_F(Reference, TheNoiseOfOneSampleIsUnknown) {
     const Outcome done = reference(cubes, {"--spp", "1", "-o", "a.png"});
     ASSERT_TRUE(quietSuccess(done));
     EXPECT_TRUE(done.out.starts_with("1 sample per pixel, noise unknown; ")) << done.out;

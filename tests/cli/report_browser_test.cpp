@@ -160,7 +160,7 @@ TEST_F(ReportBrowserTest, APhonesWidthIsEnough) {
     EXPECT_EQ(html.elements.front().value("data-test-overflow"), "0");
 }
 
-TEST_F(ReportBrowserTest, AMistakeOfTheScriptWouldBeSeen) {
+TEST_F(ReportBrowserTest, AScriptErrorWouldBeDetected) {
     extendPage("test.html", "<script>undefinedFunction();</script></body>");
     EXPECT_EQ(consoleLines(open("test.html", "1280,900")).size(), 1U);
 }

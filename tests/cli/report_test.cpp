@@ -136,7 +136,7 @@ TEST_F(ReportTest, WrongUseIsRefusedBeforeAnythingIsWritten) {
     EXPECT_EQ(files(), std::vector<std::string>{});
 }
 
-TEST_F(ReportTest, AFolderThatCannotBeMadeIsSaidAtOnce) {
+TEST_F(ReportTest, AFolderThatCannotBeCreatedIsReportedAtOnce) {
     write("out", "a file");
     EXPECT_TRUE(refused(report({"builtin:cubes"}), 1, {"out"}));
     EXPECT_EQ(read("out"), "a file");

@@ -203,7 +203,7 @@ TEST_F(Sequence, TimesAreOfTheFramesThatWereWritten) {
     EXPECT_TRUE(refused(run(orbit({"-o", "a_###.png", "--timings", "t.json"})), 0, {"warning", "none was rendered"}));
 }
 
-TEST_F(Sequence, WrongUseIsToldWhatIsWrong) {
+TEST_F(Sequence, UsageErrorsSayWhatIsWrong) {
     const auto refuses = [&](const Arguments& more, std::initializer_list<std::string_view> words) {
         EXPECT_TRUE(refused(render("builtin:cubes", more), 2, words));
     };

@@ -42,7 +42,7 @@ TEST_F(WrongReference, NumbersAreChecked) {
     EXPECT_EQ(files(), Names{});
 }
 
-TEST_F(WrongReference, ASizeBeyondWhatAFileHoldsIsToldTheLimit) {
+TEST_F(WrongReference, ASizeBeyondTheFilesLimitIsReportedWithIt) {
     EXPECT_TRUE(refused(run({"reference", cubes, "-o", "a.exr", "--size", "4000000000x10"}), usage,
                         {"--size 4000000000x10", "up to 65536 pixels a side"}));
 }

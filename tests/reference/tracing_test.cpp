@@ -193,7 +193,7 @@ TEST(Materials, CutOutPartsLetLightAndRaysThrough) {
 }
 
 // A glowing wall beside the picture and a floor that it lights: the screen cannot know of the wall.
-TEST(VisibleOnly, LeavesOutLightOfWhatIsNotInThePicture) {
+TEST(VisibleOnly, LeavesOutLightOfWhatIsOffScreen) {
     Scene scene;
     add(scene, matt(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 10.0F));
     add(scene, matt(vec3(0.5F), vec3(1.0F)), square({2, 1, 0}, {-1, 0, 0}, 1.0F));
@@ -205,7 +205,7 @@ TEST(VisibleOnly, LeavesOutLightOfWhatIsNotInThePicture) {
 }
 
 // All of a corner is in the picture and nothing hides anything: all light is known.
-TEST(VisibleOnly, ChangesNothingWhereThePictureHoldsEverything) {
+TEST(VisibleOnly, ChangesNothingIfEverythingIsVisible) {
     Scene scene;
     add(scene, matt(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 1.0F));
     add(scene, matt(vec3(0.5F), vec3(1.0F)), square({-1, 1, 0}, {1, 0, 0}, 1.0F));
@@ -321,7 +321,7 @@ SurfacePoint glossyPoint(float roughness, float degrees) {
 }
 
 // The integral of a density over the hemisphere, and of BRDF · cosine by drawn and by regular directions.
-TEST(Bsdf, DrawsWithTheDensityThatItSaysAndIsSymmetric) {
+TEST(Bsdf, SamplesFollowItsPdfAndItIsReciprocal) {
     for (const float roughness : {0.2F, 0.5F, 1.0F}) {
         for (const float degrees : {5.0F, 50.0F, 75.0F}) {
             const SurfacePoint point = glossyPoint(roughness, degrees);

@@ -1,4 +1,4 @@
-// Metrics on pictures small enough to be worked out by hand, masks, and what cannot be compared.
+// Metrics of images small enough to be worked out by hand, masks, and invalid input.
 #include "compare/compare.h"
 
 #include "base/error.h"
@@ -58,11 +58,11 @@ TEST(Compare, EqualPicturesHaveNoDifferenceAndInfinitePsnr) {
     EXPECT_EQ(d.pixels, 2U);
 }
 
-// Differences 0.5, 0, 1, 0 against a truth of 0.5, 0, 2, 1: squares 0.25 and 1.
+// Differences 0.5, 0, 1, 0 against a reference of 0.5, 0, 2, 1: squares 0.25 and 1.
 TEST(Compare, MetricsOfLinearPicturesAreAsWorkedOutByHand) {
     const Difference d = difference(grey(2, {1, 0, 1, 1}), grey(2, {0.5F, 0, 2, 1}));
     EXPECT_NEAR(d.relativeMse, (0.25 / 0.26 + 1.0 / 4.01) / 4.0, 1e-9);
-    EXPECT_NEAR(d.psnr, 10.0 * std::log10(4.0 / (1.25 / 4.0)), 1e-9);  // the truth's largest value is 2
+    EXPECT_NEAR(d.psnr, 10.0 * std::log10(4.0 / (1.25 / 4.0)), 1e-9);  // the reference's largest value is 2
     EXPECT_NEAR(d.mean, 1.5 / 4.0, 1e-9);
     EXPECT_EQ(d.max, 1.0);
     EXPECT_EQ(d.pixels, 4U);
@@ -73,7 +73,7 @@ TEST(Compare, ThePeakOfDisplayPicturesIsOne) {
     EXPECT_NEAR(d.psnr, 10.0 * std::log10(1.0 / (0.0625 / 2.0)), 1e-9);
 }
 
-TEST(Compare, APictureThatIsNotTheBlackOfItsTruthHasAFinitePsnr) {
+TEST(Compare, ABlackReferenceGivesAFinitePsnr) {
     EXPECT_NEAR(difference(grey(1, {0.1F}), grey(1, {0})).psnr, 20.0, 1e-5);
 }
 
@@ -90,7 +90,7 @@ TEST(Compare, BiasIsTheRatioOfTheMeansLessOneAndKeepsItsSign) {
     EXPECT_EQ(difference(grey(1, {0}), grey(1, {0})).bias, 0.0);
 }
 
-TEST(Compare, EveryChannelCountsAsMuch) {
+TEST(Compare, EveryChannelHasTheSameWeight) {
     const Difference d = difference(colors(1, {1, 2, 3}), colors(1, {1, 1, 1}));
     EXPECT_NEAR(d.mean, 1.0, 1e-9);
     EXPECT_NEAR(d.relativeMse, 5.0 / 3.0 / 1.01, 1e-9);
@@ -108,14 +108,14 @@ TEST(Compare, GreyIsTheColorWithThreeEqualChannels) {
     }
 }
 
-// As the FLIP test has it: display values are decoded first.
+// Display values are decoded to linear first.
 TEST(Compare, FlipOfDisplayPicturesIsThatOfTheirLinearColors) {
     const float a = linearToSrgb(labToLinear({42.0F, 0.0F, 0.0F}).x);
     const float b = linearToSrgb(labToLinear({50.0F, 0.0F, 0.0F}).x);
     EXPECT_NEAR(difference(grey(2, {a, a}), grey(2, {b, b}), ImageKind::display).flip, 0.24668, 1e-4);
 }
 
-TEST(Compare, OnlyWhatTheMaskLeavesCountsButTheFlipImageIsWhole) {
+TEST(Compare, OnlyTheMasksPixelsCountButTheFlipImageIsComplete) {
     const FloatImage picture = grey(4, {0, 5, 0, 1});
     const FloatImage truth = grey(4, {0, 1, 0, 2});
     CompareOptions options;
@@ -144,7 +144,7 @@ TEST(Compare, PicturesOfDifferentSizesOrChannelsAreNamed) {
     EXPECT_EQ(complaint(grey(1, {}), grey(1, {}), options), "a.exr has no pixels");
 }
 
-TEST(Compare, NanAndInfinityAreToldWithTheirPlace) {
+TEST(Compare, NanAndInfinityAreReportedWithTheirLocation) {
     const FloatImage good = colors(2, std::vector<float>(12, 1.0F));
     FloatImage bad = good;
     bad.data[3 * 3 + 1] = nan;
@@ -213,7 +213,7 @@ TEST(HeatMap, GetsLighterAndChangesColorByEqualSteps) {
     }
 }
 
-TEST(HeatMap, OfWhatIsOutsideOfZeroToOneIsThatOfTheLimit) {
+TEST(HeatMap, ClampsValuesOutsideOfZeroToOne) {
     const Bitmap map = heatMap({4, 1, {"Y"}, {-1.0F, 0.0F, 1.0F, 7.0F}});
     EXPECT_EQ(labOf(map, 0), labOf(map, 1));
     EXPECT_EQ(labOf(map, 2), labOf(map, 3));

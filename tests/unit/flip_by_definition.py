@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""FLIP and HDR-FLIP as the papers define them, slowly: two-dimensional filters, double precision, one pixel at a time.
+"""A slow reference implementation of FLIP and HDR-FLIP: two-dimensional filters, double precision, pixel by pixel.
 
 The numbers in flip_test.cpp, AgreesWithTheDefinition..., are what this prints. It shares nothing with src/compare but
 the papers. Needs Python 3 alone and takes a few seconds.

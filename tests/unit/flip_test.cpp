@@ -1,5 +1,5 @@
-// FLIP against values worked out by hand, against a slow program of the definition, and for the properties it must
-// have.
+// FLIP against values worked out by hand and against a slow reference implementation (flip_by_definition.py), and its
+// required properties.
 #include "compare/flip.h"
 
 #include "compare/color.h"
@@ -48,7 +48,7 @@ float largest(const Plane& plane) {
     return *std::ranges::max_element(plane.data);
 }
 
-// A smooth picture in colours, 0..1.
+// A smooth colour image, 0..1.
 vec3 scenery(uint32_t x, uint32_t y) {
     const auto wave = [&](float f) {
         return 0.5F + 0.4F * std::sin(f * static_cast<float>(x) + 0.2F * f * static_cast<float>(y));
@@ -56,7 +56,7 @@ vec3 scenery(uint32_t x, uint32_t y) {
     return {wave(0.11F), wave(0.17F), wave(0.23F)};
 }
 
-// -1..1, the same for the same pixel and channel.
+// -1..1, deterministic per pixel and channel.
 float noise(uint32_t x, uint32_t y, uint32_t c) {
     uint32_t h = x * 0x9E3779B1U ^ y * 0x85EBCA77U ^ c * 0xC2B2AE3DU;
     h = (h ^ (h >> 15U)) * 0x2C1B3C6DU;
@@ -82,10 +82,10 @@ TEST(Flip, OfAPictureWithItselfIsZeroEverywhere) {
     expectConstant(hdrFlip(noisy(0.2F, 50.0F), noisy(0.2F, 50.0F), ppd), 0.0F, 0.0F);
 }
 
-// Pictures of one colour have no edges, and the eye's blur leaves them as they are, so that FLIP is the distance d of
-// the two colours, redistributed. The largest distance of any two colours, green and blue, is in Hunt-adjusted Lab
-// green (87.736, -75.610, 72.981), blue (32.298, 25.578, -34.836): |55.438| + |(-101.188, 107.818)| = 203.302, to the
-// power of 0.7: 41.276. What is below 0.4 of it, 16.510, is spread over 0..0.95, the rest over 0.95..1.
+// Constant images have no edges, and the contrast sensitivity filter does not change them, so that FLIP is the remapped
+// distance d of the two colours. The largest distance is that of green and blue, in Hunt-adjusted Lab (87.736, -75.610,
+// 72.981) and (32.298, 25.578, -34.836): |55.438| + |(-101.188, 107.818)| = 203.302, to the power of 0.7: 41.276.
+// Distances below 0.4 of it, 16.510, are mapped to 0..0.95, larger ones to 0.95..1.
 TEST(Flip, OfGreenAndBlueIsOne) {
     expectConstant(ldrFlip(constant({0, 1, 0}), constant({0, 0, 1}), ppd), 1.0F, 1e-5F);
 }
@@ -106,9 +106,10 @@ TEST(Flip, OfRedAndGreenIsAsWorkedOutByHand) {
     expectConstant(ldrFlip(constant({1, 0, 0}), constant({0, 1, 0}), ppd), 0.98666F, 2e-5F);
 }
 
-// The detector's negative weights, all on one side, see only black and its positive ones only white: the pixels at
-// either side of a step from 0 to h answer h. The point detector is symmetric and answers less.
-TEST(Flip, AnEdgeOfHeightHThatOnePictureLacksIsAFeatureOfRootOfHOverRootTwo) {
+// On either side of a step from 0 to h the edge detector's negative weights cover only 0 and its positive ones only h:
+// its
+// response is h. The point detector is symmetric, and its response is smaller.
+TEST(Flip, AnEdgeOfHeightHInOneImageOnlyIsAFeatureOfRootOfHOverRootTwo) {
     for (const float h : {1.0F, 0.3F}) {
         Plane step(60, 40);
         for (size_t i = 0; i < step.data.size(); ++i) {
@@ -121,7 +122,7 @@ TEST(Flip, AnEdgeOfHeightHThatOnePictureLacksIsAFeatureOfRootOfHOverRootTwo) {
     }
 }
 
-// White on black turned into black on white has its edges where they were.
+// White on black inverted to black on white has the same edges.
 TEST(Flip, SwappedSidesOfAnEdgeAreAColorDifferenceAndNoFeature) {
     const auto half = [](bool left) {
         return paint(80, 20, [=](uint32_t x, uint32_t) { return vec3((x < 40) == left ? 1.0F : 0.0F); });
@@ -132,8 +133,9 @@ TEST(Flip, SwappedSidesOfAnEdgeAreAColorDifferenceAndNoFeature) {
     EXPECT_LT(flip.row(10)[39], 0.96738F);
 }
 
-// The eye's filter leaves 0.15 of one pixel: 0.2 + 0.15 · 0.8 = 0.32 is 11.5 L* above the grey around it, which alone
-// would be 11.5^0.7 · 0.95 / 16.51 = 0.32. FLIP = color^(1 - feature) is more.
+// The contrast sensitivity filter leaves 0.15 of a single pixel: 0.2 + 0.15 · 0.8 = 0.32 is 11.5 L* above the
+// surrounding
+// grey, a colour difference of 11.5^0.7 · 0.95 / 16.51 = 0.32. FLIP = color^(1 - feature) is more.
 TEST(Flip, AFireflyStandsOut) {
     const auto grey = constant(vec3(0.2F));
     Planes3 firefly = grey;
@@ -146,8 +148,8 @@ TEST(Flip, AFireflyStandsOut) {
     EXPECT_LT(flip.row(2)[2], 1e-3F);
 }
 
-// At 67 pixels per degree the eye's filter passes 3e-5 of a one-pixel checkerboard.
-TEST(Flip, ACheckerboardTooFineForTheEyeIsItsMeanGreyAndNotFromNear) {
+// At 67 pixels per degree the contrast sensitivity filter passes 3e-5 of a one-pixel checkerboard.
+TEST(Flip, ACheckerboardTooFineForTheEyeIsItsMeanGreyButNotUpClose) {
     const Planes3 board = paint(60, 60, [](uint32_t x, uint32_t y) { return vec3((x + y) % 2 == 0 ? 1.0F : 0.0F); });
     const Planes3 grey = paint(60, 60, [](uint32_t, uint32_t) { return vec3(0.5F); });
     EXPECT_LT(ldrFlip(board, grey, ppd).row(30)[30], 0.01F);
@@ -188,7 +190,7 @@ TEST(Flip, OfAPictureOfOnePixelIsThatOfItsColors) {
     EXPECT_NEAR(ldrFlip(black, white, ppd).data[0], 0.96738F, 2e-5F);
 }
 
-// What flip_by_definition.py prints for the same two pictures.
+// The output of flip_by_definition.py for the same two images.
 TEST(Flip, AgreesWithTheDefinitionWithoutSeparatedFilters) {
     const auto pattern = [](float phase) {
         return paint(24, 16, [=](uint32_t x, uint32_t y) {
@@ -235,7 +237,7 @@ TEST(HdrFlip, TheFirstExposureShowsTheLargestLuminanceAsBrightAndTheLastTheMedia
     EXPECT_EQ(range.count, 4U);
 }
 
-TEST(HdrFlip, ATruthOfOneLuminanceHasOneExposureAndABlackOneToo) {
+TEST(HdrFlip, AReferenceOfOneLuminanceHasOneExposureAndSoDoesABlackOne) {
     EXPECT_EQ(exposureRange(constant(vec3(3.0F))).count, 1U);
     EXPECT_EQ(exposureRange(constant(vec3(0.0F))).count, 1U);
     EXPECT_EQ(exposureRange(constant(vec3(-1.0F))).count, 1U);
@@ -249,7 +251,7 @@ TEST(HdrFlip, WhereMoreThanHalfIsBlackTheMedianIsThatOfTheRest) {
     EXPECT_NEAR(range.stop - range.start, 1.0, 1e-5);  // 2^9 and 2^8
 }
 
-// The exposures follow the truth.
+// The exposures scale with the reference.
 TEST(HdrFlip, DoesNotDependOnTheUnitOfRadiance) {
     const Plane flip = hdrFlip(noisy(0.2F), noisy(0.0F), ppd);
     for (const float scale : {0.001F, 4000.0F}) {

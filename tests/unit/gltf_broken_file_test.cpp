@@ -1,4 +1,4 @@
-// Broken glTF containers, and files that are more than one broken value: each gets one line.
+// Invalid glTF containers and files: each is reported in one line.
 #include "base/error.h"
 #include "gltf_builder.h"
 #include "scene/gltf_report.h"
@@ -24,7 +24,7 @@ std::ostream& operator<<(std::ostream& stream, const BrokenBytes& broken) {
 
 class BrokenGltfBytes : public ::testing::TestWithParam<BrokenBytes> {};
 
-TEST_P(BrokenGltfBytes, AreToldInOneLine) {
+TEST_P(BrokenGltfBytes, AreReportedInOneLine) {
     const auto path = testFolder() / "scene.gltf";
     writeBytes(path, GetParam().bytes);
     const std::string message = complaint(path);
@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(
                       BrokenBytes{"GlbMagic", glbWith(0, 'X'), "JSON: is not valid JSON"}),
     bytesName);
 
-TEST(BrokenGltfFile, AMissingFileAndAFolderAreTold) {
+TEST(BrokenGltfFile, AMissingFileAndAFolderAreErrors) {
     const auto folder = testFolder();
     EXPECT_EQ(complaint(folder / "gone.gltf").rfind("there is no file", 0), 0U);
     EXPECT_NE(complaint(folder).find("is not a file"), std::string::npos);
@@ -76,7 +76,7 @@ TEST(BrokenGltfFile, ASymbolicLinkOutOfTheFolderIsRefused) {
     EXPECT_EQ(complaint(path), "images[0].uri: link.png leads out of the scene's folder");
 }
 
-TEST(BrokenGltfFile, AShortBufferFileIsTold) {
+TEST(BrokenGltfFile, ATruncatedBufferFileIsAnError) {
     const auto folder = testFolder();
     GltfBuilder b = triangle();
     writeBytes(folder / "short.bin", "1234567890");
@@ -104,7 +104,7 @@ TEST(BrokenGltfFile, AChainOfAHundredThousandNodesIsPlaced) {
     EXPECT_EQ(vec3(scene.instances[1].objectToWorld[3]), vec3(99999, 0, 0));
 }
 
-TEST(BrokenGltfFile, ASceneThatIsNotThereIsAUsageErrorThatSaysHowManyThereAre) {
+TEST(BrokenGltfFile, ASceneOutOfRangeIsAUsageErrorThatSaysHowManyThereAre) {
     const auto path = triangle().writeGltf(testFolder() / "scene.gltf");
     try {
         loadGltf(path, {.scene = 3, .warn = nullptr});

@@ -1,4 +1,4 @@
-// Broken glTF files: each gets one line that names the file and the part of it that is broken.
+// Invalid glTF documents: each is reported in one line that names the file and the invalid part.
 #include "gltf_builder.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ using nlohmann::json;
 struct BrokenCase {
     const char* name;
     std::function<void(GltfBuilder&)> breakIt;
-    const char* starts;  ///< how the complaint starts: the part
+    const char* starts;  ///< how the message starts: the part
     const char* says = "";
 };
 
@@ -44,7 +44,7 @@ BrokenCase poke(const char* name, size_t view, size_t element, T value, const ch
 
 class BrokenGltf : public ::testing::TestWithParam<BrokenCase> {};
 
-TEST_P(BrokenGltf, IsToldInOneLineThatNamesTheBrokenPart) {
+TEST_P(BrokenGltf, IsReportedInOneLineThatNamesTheInvalidPart) {
     GltfBuilder b = everything();
     GetParam().breakIt(b);
     const auto folder = testFolder();
@@ -145,7 +145,7 @@ INSTANTIATE_TEST_SUITE_P(
                    [](GltfBuilder& b) {
                        b.add("buffers", {{"byteLength", b.bin.size() + 100},
                                          {"uri", "data:application/octet-stream;base64," + base64(b.bin)}});
-                       b.document["bufferViews"][0]["byteLength"] = 1U << 30U;  // the .glb's complaint
+                       b.document["bufferViews"][0]["byteLength"] = 1U << 30U;  // reported by the .glb's reader
                    },
                    "buffer", ""}),
     caseName);

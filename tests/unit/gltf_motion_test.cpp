@@ -1,4 +1,4 @@
-// Animations and skins of glTF files: what is read of them, and what is wrong with broken ones.
+// Animations and skins of glTF files: what is loaded, and the errors of invalid ones.
 #include "gltf_builder.h"
 #include "scene/pose.h"
 
@@ -39,7 +39,7 @@ TEST(GltfMotion, IntegersAndSplinesAreReadAsTheSpecificationHasThem) {
     animation["channels"].push_back({{"sampler", 1}, {"target", {{"node", 0}, {"path", "rotation"}}}});
     animation["channels"].push_back({{"sampler", 2}, {"target", {{"node", 0}, {"path", "scale"}}}});
     const mat4 m = scenePose(load(std::move(b)).scene, 1.0).objectToWorld[0];
-    EXPECT_NEAR(m[0].y, 3.0F, 1e-4F);  // x has become y, three times as long
+    EXPECT_NEAR(m[0].y, 3.0F, 1e-4F);  // +X became +Y, scaled by 3
     EXPECT_NEAR(m[3].x, 2.0F, 1e-6F);
 }
 
@@ -47,16 +47,16 @@ TEST(GltfMotion, ASkinPutsVerticesWhereItsJointsAre) {
     const Loaded loaded = load(bent());
     EXPECT_TRUE(loaded.warnings.empty());
     const Scene& scene = loaded.scene;
-    EXPECT_EQ(scene.meshes[0].skin[0].joints[1], 0) << "a joint of weight 0 names nothing";
+    EXPECT_EQ(scene.meshes[0].skin[0].joints[1], 0) << "a joint of weight 0 is ignored";
     const auto positions = worldPositions(scene, scenePose(scene, 0.0), 0);
     EXPECT_EQ(positions[0], vec3(0, 0, 0));
     EXPECT_EQ(positions[1], vec3(1, 0, 0));
     EXPECT_EQ(positions[2], vec3(0, 1, 1.5F)) << "three quarters of 2";
     EXPECT_FALSE(scene.bounds().empty());
-    EXPECT_EQ(scene.bounds().max.z, 2.0F) << "not where the mesh's node is";
+    EXPECT_EQ(scene.bounds().max.z, 2.0F) << "the mesh's node has no effect";
 }
 
-TEST(GltfMotion, WhatIsNotReadIsWarnedOf) {
+TEST(GltfMotion, UnsupportedFeaturesAreWarnedOf) {
     GltfBuilder b = slider();
     b.document["animations"][0]["channels"][0]["target"]["path"] = "pointer";
     Loaded loaded = load(b);
@@ -86,7 +86,7 @@ std::string complaintOf(GltfBuilder b, const std::string& pointer, const json& v
     return complaint(b.writeGltf(testFolder() / "a.gltf"));
 }
 
-TEST(GltfMotion, BrokenAnimationsAndSkinsAreToldOf) {
+TEST(GltfMotion, InvalidAnimationsAndSkinsAreErrors) {
     const auto starts = [](const std::string& message, const std::string& start) {
         EXPECT_EQ(message.rfind(start, 0), 0U) << message;
     };

@@ -1,4 +1,4 @@
-// glTF geometry: what of a file's accessors and primitives ends up in a mesh.
+// glTF geometry: from accessors and primitives to meshes.
 #include "gltf_builder.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ Mesh meshOf(GltfBuilder builder) {
     return loaded.scene.meshes.empty() ? Mesh{} : std::move(loaded.scene.meshes[0]);
 }
 
-/// Five vertices in a row along x, y = index squared: any three make a triangle with an area.
+/// Five vertices at x = index, y = index squared: any three make a non-degenerate triangle.
 std::vector<float> row() {
     return {0, 0, 0, 1, 1, 0, 2, 4, 0, 3, 9, 0, 4, 16, 0};
 }
@@ -111,7 +111,7 @@ TEST(Gltf, AFewTrianglesOfALongListOfVerticesKeepOnlyTheirOwn) {
     EXPECT_EQ(mesh.indices, (Indices{3, 0, 2, 2, 0, 1}));
 }
 
-TEST(Gltf, MissingNormalsAreFlatAndSharedVerticesAreParted) {
+TEST(Gltf, MissingNormalsAreFlatAndSharedVerticesAreSplit) {
     GltfBuilder b;
     const int positions = b.addFloats({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, "VEC3");
     const int tangents = b.addFloats({0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1}, "VEC4");
@@ -143,7 +143,7 @@ TEST(Gltf, NormalsWithoutADirectionComeFromTheTrianglesAndNeverAreNan) {
     EXPECT_NE(loaded.warnings[0].find("3 vertices will get the normals of their triangles"), std::string::npos);
 }
 
-TEST(Gltf, ATriangleWithoutAreaHasAFlatNormalAllTheSame) {
+TEST(Gltf, ADegenerateTriangleHasAFlatNormal) {
     GltfBuilder b;
     b.addPrimitive({{"attributes", {{"POSITION", b.addFloats({1, 1, 1, 1, 1, 1, 2, 2, 2}, "VEC3")}}}});
     for (const VertexAttributes& vertex : meshOf(std::move(b)).attributes) {

@@ -1,4 +1,4 @@
-// View files: what they change, and every way in which they can be wrong.
+// View files: their effects and their errors.
 #include "scene/view_file.h"
 
 #include "base/error.h"
@@ -17,7 +17,7 @@
 namespace reflet::view_file_test {
 namespace {
 
-/// Writes view files, applies them to a view, and gives error messages with the path shortened to "FILE".
+/// Writes view files, applies them to a view, and returns error messages with the path shortened to "FILE".
 class ViewFile : public ::testing::Test {
 public:
     ViewFile(const ViewFile&) = delete;
@@ -50,7 +50,7 @@ protected:
         return "no error";
     }
 
-    /// An environment image of one texel beside the view file, called reflet_view_file_sky.exr.
+    /// Writes an environment image of one texel next to the view file: reflet_view_file_sky.exr.
     void writeSky(const std::vector<float>& color) {
         sky_ = path_.parent_path() / "reflet_view_file_sky.exr";
         const ImageLayer layer{"", {1, 1, {"R", "G", "B"}, color}, PixelType::float32};
@@ -68,7 +68,7 @@ void expectNear(const vec3& a, const vec3& b) {
     EXPECT_LE(glm::length(a - b), 1e-6F) << a.x << ' ' << a.y << ' ' << a.z;
 }
 
-TEST_F(ViewFile, SetsEverythingThatItNames) {
+TEST_F(ViewFile, SetsEverythingItSpecifies) {
     apply(R"({ "camera": { "position": [6,1,0], "target": [0,0,0], "up": [0,2,0], "fov_y": 75, "near": 0.5 },
                "sun": { "direction": [0,-3,4], "irradiance": [3.14,0,1e3], "angular_diameter": 0.5 },
                "lamps": { "radius": 0.25 },
@@ -94,12 +94,12 @@ TEST_F(ViewFile, NamesProbes) {
     EXPECT_EQ(view_.probes->front().box.min, vec3(-1, 0, -2));
     EXPECT_EQ(view_.probes->front().box.max, vec3(1, 3, 2));
     apply("{}");
-    EXPECT_EQ(view_.probes->size(), 1U) << "what it does not name stays";
+    EXPECT_EQ(view_.probes->size(), 1U) << "unspecified values stay";
     apply(R"({"probes": []})");
     EXPECT_TRUE(view_.probes->empty());
 }
 
-TEST_F(ViewFile, WithAProbeThatCannotBeIsAnError) {
+TEST_F(ViewFile, WithAnInvalidProbeIsAnError) {
     EXPECT_EQ(errorOf(R"({"probes": {}})"), "FILE: probes: must be an array of probes, is {}");
     EXPECT_EQ(errorOf(R"({"probes": [{"position": [0,1,0], "box_min": [-1,0,-2]}]})"),
               "FILE: probes[0]: 'box_max' is missing");
@@ -128,7 +128,7 @@ TEST_F(ViewFile, NamesMirrors) {
     EXPECT_EQ(errorOf(R"({ "mirrors": [1] })"), "FILE: mirrors[0]: must be a name, is 1");
 }
 
-TEST_F(ViewFile, LeavesWhatItDoesNotName) {
+TEST_F(ViewFile, LeavesUnspecifiedValues) {
     view_.camera.position = {1, 2, 3};
     view_.sun.irradiance = vec3(7);
     view_.environment.radiance = vec3(8);
@@ -220,7 +220,7 @@ TEST_F(ViewFile, WithADirectionOfZeroIsAnError) {
 TEST_F(ViewFile, WithPositionAndTargetTheSameIsAnError) {
     const std::string expected = "FILE: camera: position and target must not be the same point";
     EXPECT_EQ(errorOf(R"({"camera": {"position": [1,2,3], "target": [1,2,3]}})"), expected);
-    EXPECT_EQ(errorOf(R"({"camera": {"position": [0,0,0]}})"), expected);  // the target that the view has
+    EXPECT_EQ(errorOf(R"({"camera": {"position": [0,0,0]}})"), expected);  // the view's current target
 }
 
 TEST_F(ViewFile, WithUpAlongTheViewIsAnError) {
@@ -250,12 +250,12 @@ TEST_F(ViewFile, ReadsAnEnvironmentImageFromItsOwnFolder) {
     EXPECT_FALSE(view_.environment.image);
 }
 
-TEST_F(ViewFile, WithALightOfItsOwnTakesAwayTheSunThatOnlyStandsIn) {
+TEST_F(ViewFile, WithALightRemovesTheDefaultSun) {
     const View unlit = defaultView(Scene{});
     ASSERT_NE(unlit.sun.irradiance, vec3(0.0F));
     view_ = unlit;
     apply(R"({ "environment": { "radiance": [0, 0, 0] } })");
-    EXPECT_EQ(view_.sun.irradiance, unlit.sun.irradiance) << "a black sky is no light";
+    EXPECT_EQ(view_.sun.irradiance, unlit.sun.irradiance) << "a black sky emits no light";
     apply(R"({ "environment": { "radiance": [0, 0, 1] } })");
     EXPECT_EQ(view_.sun.irradiance, vec3(0.0F));
     view_ = unlit;
@@ -269,7 +269,7 @@ TEST_F(ViewFile, WithALightOfItsOwnTakesAwayTheSunThatOnlyStandsIn) {
     EXPECT_EQ(view_.sun.irradiance, vec3(5.0F)) << "the scene's own";
 }
 
-TEST_F(ViewFile, WithAnEnvironmentImageThatIsNoneIsAnError) {
+TEST_F(ViewFile, WithAnInvalidEnvironmentImageIsAnError) {
     EXPECT_EQ(errorOf(R"({"environment": {"image": 1}})"),
               "FILE: environment.image: must be the name of an .hdr or .exr file, is 1");
     EXPECT_NE(errorOf(R"({"environment": {"image": "no/such/sky.hdr"}})").find("no/such/sky.hdr"), std::string::npos);
@@ -323,12 +323,12 @@ TEST_F(ViewFile, ShowsNoLongValueAndNoSecondLineInItsErrors) {
     EXPECT_EQ(errorOf("{\"sun\": \"\xff\"}").find('\n'), std::string::npos);
 }
 
-TEST_F(ViewFile, SaysWhereTheAnimationsAre) {
+TEST_F(ViewFile, SetsTheAnimationTime) {
     EXPECT_EQ(view_.time, 0.0);
     apply(R"({"time": 1.25})");
     EXPECT_EQ(view_.time, 1.25);
     apply(R"({"camera": {"fov_y": 40}})");
-    EXPECT_EQ(view_.time, 1.25) << "what is not named stays";
+    EXPECT_EQ(view_.time, 1.25) << "unspecified values stay";
     EXPECT_EQ(errorOf(R"({"time": -1})"), "FILE: time: must be between 0 and 1e+06 seconds, is -1");
 }
 
@@ -344,11 +344,11 @@ TEST_F(ViewFile, TurnsLampsOff) {
     apply(R"({"lamps": {"off": [3, 0]}})");
     EXPECT_EQ(view_.lampsOff, (std::vector<uint32_t>{0, 3}));
     apply(R"({"lamps": {"radius": 0.1}})");
-    EXPECT_EQ(view_.lampsOff.size(), 2U) << "what is not named stays";
+    EXPECT_EQ(view_.lampsOff.size(), 2U) << "unspecified values stay";
     EXPECT_EQ(errorOf(R"({"lamps": {"off": [0.5]}})"), "FILE: lamps.off[0]: must be a whole number, is 0.5");
 }
 
-TEST_F(ViewFile, IsWrittenSuchThatItMakesTheSameView) {
+TEST_F(ViewFile, IsWrittenSoThatItReproducesTheView) {
     for (const BuiltinScene& builtin : builtinScenes()) {
         const std::optional<Scene> scene = makeBuiltinScene(builtin.name);
         ASSERT_TRUE(scene);
@@ -362,7 +362,7 @@ TEST_F(ViewFile, IsWrittenSuchThatItMakesTheSameView) {
         view_ = defaultView(*scene);
         apply(viewJson(view).dump());
         view.hasDefaultSun = false;  // the file names the sun
-        // Directions are made unit length again, which may change their last bit.
+        // Directions are normalized again, which may change their last bit.
         EXPECT_LE(glm::length(view_.sun.direction - view.sun.direction), 1e-6F) << builtin.name;
         EXPECT_LE(glm::length(view_.camera.up - view.camera.up), 1e-6F) << builtin.name;
         view_.sun.direction = view.sun.direction;
