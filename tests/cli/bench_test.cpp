@@ -158,7 +158,7 @@ TEST_F(BenchTest, AllVariantsMayBeComparedWithOtherSettings) {
     fixed.insert(fixed.end(), {"--truth-of", "plain,trace_screen.max_steps=99"});
     ASSERT_TRUE(quietSuccess(bench(fixed)));
     EXPECT_EQ(truths(), 3U * 2U);
-    EXPECT_NE(numbers().at("truth").at("of").get<std::string>().find("maxSteps=99"), std::string::npos);
+    EXPECT_NE(numbers().at("truth").at("of").get<std::string>().find("max_steps=99"), std::string::npos);
     EXPECT_TRUE(refused(bench({"--truth-of", "plain"}), 2, {"--truth-of", "chain"}));
 }
 

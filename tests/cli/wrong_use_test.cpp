@@ -101,7 +101,7 @@ TEST_F(WrongUse, AShadowMapSharesNoFile) {
 }
 
 TEST_F(WrongUse, AnImageThatTheFrameDoesNotMakeIsNamedWithTheSettingThatMakesIt) {
-    EXPECT_TRUE(refused(renderWith({"--show", "back_depth"}), 1, {"back_depth", "thicknessMode=second_layer"}));
+    EXPECT_TRUE(refused(renderWith({"--show", "back_depth"}), 1, {"back_depth", "thickness_mode=second_layer"}));
     EXPECT_TRUE(quietSuccess(
         render(cubes, {"-o", "a.png", "--show", "back_depth", "--set", "trace_screen.thickness_mode=second_layer"})));
 }
