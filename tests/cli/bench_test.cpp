@@ -1,5 +1,4 @@
-// `reflet bench` as a user runs it: what it writes, and what it refuses. Nothing here depends on how long anything
-// takes.
+// `reflet bench` end to end: its output and its errors. No test depends on measured times.
 #include "cli/program.h"
 
 #include <spdlog/fmt/fmt.h>
@@ -13,7 +12,7 @@ namespace {
 
 class BenchTest : public ProgramTest {
 protected:
-    /// `reflet bench builtin:cubes` in little time, with numbers in out.json.
+    /// A quick `reflet bench builtin:cubes` that writes its numbers to out.json.
     [[nodiscard]] Outcome bench(const Arguments& more) const {
         Arguments all{"bench",  "builtin:cubes", "--first",     "2", "--warmup",      "1",     "--frames", "3",
                       "--json", "out.json",      "--truth-spp", "2", "--truth-cache", "truths"};
@@ -116,7 +115,7 @@ TEST_F(BenchTest, TheCommandThatIsRecordedDoesTheSameAgain) {
 
 TEST_F(BenchTest, AReferenceIsRenderedOnceForAllThatShareIt) {
     ASSERT_TRUE(quietSuccess(bench({"--preset", "fast,direct"})));
-    EXPECT_EQ(truths(), 2U);  // one picture and its facts: both presets have the same truth
+    EXPECT_EQ(truths(), 2U);  // one image and its metadata: both presets share the reference
     const nlohmann::json first = numbers();
     ASSERT_TRUE(quietSuccess(bench({"--preset", "fast,direct"})));
     EXPECT_EQ(truths(), 2U);
@@ -180,7 +179,7 @@ TEST_F(BenchTest, MovingFramesAreEachComparedWithAReference) {
     EXPECT_GT(motion.at("flicker"), 0.0);
     EXPECT_GT(motion.at("truth_flicker"), 0.0);
     EXPECT_EQ(motion.at("rest").size(), 2U);
-    EXPECT_EQ(truths(), 2U * 4U);  // at rest, and three more
+    EXPECT_EQ(truths(), 2U * 4U);  // at rest, and three moving frames
     EXPECT_TRUE(refused(bench({"--motion", "3", "--truth", "none"}), 2, {"--motion", "--truth"}));
     EXPECT_TRUE(refused(bench({"--rest", "3"}), 2, {"--rest", "--motion"}));
 }

@@ -1,4 +1,4 @@
-// `reflet compare` end to end, on pictures made here and one that is rendered.
+// `reflet compare` end to end, on generated images and a rendered one.
 #include "cli/program.h"
 
 #include "base/image_file.h"
@@ -46,7 +46,7 @@ protected:
         all.insert(all.end(), arguments.begin(), arguments.end());
         return run(all);
     }
-    /// The JSON that these arguments give.
+    /// The JSON output for these arguments.
     [[nodiscard]] nlohmann::json json(Arguments arguments) const {
         arguments.emplace_back("--json");
         const Outcome done = compare(arguments);
@@ -189,7 +189,7 @@ TEST_F(Compare, AMaskLeavesItsLightPixels) {
 TEST_F(Compare, HitsArePixelsWhereBothFilesHaveData) {
     FloatImage confidence = leftColumns({"R", "G"}, 6);
     for (size_t i = 0; i < confidence.data.size(); i += 2) {
-        confidence.data[i] = 0.0F;  // one channel is enough
+        confidence.data[i] = 0.0F;  // one channel suffices
     }
     writeLayers("a.exr", {{"", rgb(1.0F)}, {"confidence", confidence}, {"depth", leftColumns({"Y"}, 1)}});
     FloatImage depth = leftColumns({"Y"}, 2);

@@ -1,4 +1,4 @@
-// What the program says, and which status it ends with, when the command line asks for what cannot be.
+// Errors for invalid command lines and their exit status.
 #include "cli/program.h"
 
 namespace reflet::wrong_use_test {

@@ -1,4 +1,4 @@
-// Small scenes with known answers, path traced.
+// Path traces small scenes with known results.
 #include "reference/harness.h"
 
 #include <cmath>

@@ -10,12 +10,12 @@ namespace {
 
 constexpr double pi = glm::pi<double>();
 
-// Sees a patch of the floor of about 2 cm around the origin from above, so small that it is one point.
+// Sees a patch of about 2 cm of the floor around the origin from above, small enough to be a point.
 View pointView() {
     return darkView({0, 0.5F, 0}, {0, 0, 0}, 2.0F);
 }
 
-// Closed room of 2 m a side that glows from all its sides.
+// A closed room of 2 m per side with emissive walls.
 Scene glowingRoom(const Material& material) {
     Scene scene;
     for (const vec3& side : {vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1)}) {
@@ -69,7 +69,8 @@ TEST(Furnace, AWhiteThingInAWhiteEnvironmentIsInvisible) {
     }
 }
 
-// Irradiance at the origin, facing up, from a rectangle of radiance 1 parallel to the floor at a height, one corner
+// Irradiance at the origin, facing up, from a rectangle of radiance 1 parallel to the floor at a height, with one
+// corner
 // above the origin. (A catalogue of radiation heat transfer configuration factors, J. Howell, B-3)
 double cornerFactor(double a, double b, double height) {
     const double x = a / height;
@@ -90,7 +91,7 @@ TEST(DirectLight, OfAGlowingRectangleIsItsFormFactor) {
     for (int i = 0; i < 3; ++i) {
         EXPECT_NEAR(mean(p.indirectDiffuse)[i], expected[i], 0.003F * expected[i]);
     }
-    EXPECT_EQ(mean(p.direct).x, 0.0F) << "light of glowing surfaces takes a bounce";
+    EXPECT_EQ(mean(p.direct).x, 0.0F) << "light of emissive surfaces takes a bounce";
 }
 
 TEST(DirectLight, OfASingleSidedGlowDoesNotLeaveItsBack) {
@@ -166,7 +167,7 @@ TEST(DirectLight, OfTheSunIsAlbedoOverPiTimesIrradianceTimesCosineWhateverItsSiz
     }
 }
 
-// Both squares of side 1 at distance 1: 0.19982. (Howell, C-11)
+// Form factor of parallel squares of side 1 at distance 1: 0.19982. (Howell, C-11)
 double parallelSquares() {
     return 2.0 / pi *
            (std::log(2.0 / std::sqrt(3.0)) + 2.0 * std::sqrt(2.0) * std::atan(1.0 / std::sqrt(2.0)) - pi / 2.0);
@@ -177,7 +178,7 @@ TEST(FormFactor, OfTwoParallelSquaresIsWithinHalfAPercent) {
     Scene scene;
     add(scene, matt(vec3(1.0F)), square({0, 0, 0}, {0, 1, 0}, 0.5F));
     add(scene, matt(vec3(0.0F), vec3(1.0F)), square({0, 1, 0}, {0, -1, 0}, 0.5F));
-    // From below the glowing square, exactly the other one: its mean radiosity is the form factor.
+    // Sees exactly the other square from below the emissive one: its mean radiosity is the form factor.
     View view = darkView({0, 0.9F, 0}, {0, 0, 0});
     view.camera.orthographicHeight = 1.0F;
     const ReferencePicture p = traceReference(scene, view, {32, 32}, lambert(1, 64));

@@ -1,4 +1,4 @@
-// The path tracer's shadows: penumbras by similar triangles.
+// The path tracer's shadows: widths of penumbras by similar triangles.
 #include "reference/harness.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ TEST(Shadow, OfAKnifeEdgeUnderTheSunsDiskIsAsWideAsSimilarTrianglesSay) {
             view.sun.irradiance = vec3(1.0F);
             view.sun.angularDiameter = glm::radians(degrees);
             const ReferencePicture p = traceReference(scene, view, {width, 3}, lambert(0, 256));
-            // The picture is twice the penumbra wide. What of a disk a straight edge at c radii leaves open:
+            // The image is twice the penumbra wide. Fraction of a disk not covered by a straight edge at c radii:
             for (uint32_t x = 0; x < width; ++x) {
                 const double c = std::clamp(((x + 0.5) / width - 0.5) * 4.0, -1.0, 1.0);
                 const double open = (std::acos(c) - c * std::sqrt(1.0 - c * c)) / pi;
@@ -56,7 +56,7 @@ TEST(Shadow, OfAKnifeEdgeUnderALampsDiskIsAsWideAsSimilarTrianglesSay) {
             blade.doubleSided = true;
             add(scene, blade, square({20, height, 0}, {0, 1, 0}, 20.0F));  // its edge is at x = 0
             const ReferencePicture p = traceReference(scene, view, {width, 3}, lambert(0, 256));
-            // As under the sun, but that the disk faces each point.
+            // As for the sun, but the disk faces each point.
             for (uint32_t x = 0; x < width; ++x) {
                 const double at = ((x + 0.5) / width - 0.5) * 2.0 * penumbra;
                 const double distance = std::hypot(at, double(lampHeight));

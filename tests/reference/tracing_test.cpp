@@ -1,5 +1,5 @@
-// What the path tracer promises besides radiometry: the same picture on any number of threads and with any sampling,
-// what the camera sees, layers, interruption.
+// Properties of the path tracer besides radiometry: results independent of the number of threads and of the sampling
+// strategy, camera visibility, layers, interruption.
 #include "base/color.h"
 #include "reference/bsdf.h"
 #include "reference/harness.h"
@@ -103,7 +103,7 @@ TEST(Picture, NoiseIsTheErrorThatAnotherRunHas) {
         }
     }
     const double error = std::sqrt(sum / (32 * 18));
-    // Low discrepancy does better than the estimate, which takes the samples for independent.
+    // Low-discrepancy samples do better than the estimate, which assumes independent ones.
     EXPECT_LT(error, 1.1 * p.noise);
     EXPECT_GT(error, 0.3 * p.noise);
 }
@@ -137,7 +137,7 @@ TEST(Picture, ProgressRisesToItsTotal) {
 TEST(Camera, SeesThroughTheBacksOfSingleSidedSurfacesButLightDoesNot) {
     Scene scene;
     add(scene, matt({1, 0, 0}), square({0, 0, 0}, {0, 1, 0}, 10.0F));
-    add(scene, matt({0, 1, 0}), square({0, 1, 0}, {0, -1, 0}, 5.0F));  // its back is to the camera and the sun
+    add(scene, matt({0, 1, 0}), square({0, 1, 0}, {0, -1, 0}, 5.0F));  // its back faces the camera and the sun
     View view = darkView({0, 3, 0.1F}, {0, 0, 0}, 20.0F);
     view.sun.irradiance = vec3(1.0F);
     const ReferencePicture p = traceReference(scene, view, {4, 4}, lambert(0, 4));
@@ -192,7 +192,7 @@ TEST(Materials, CutOutPartsLetLightAndRaysThrough) {
     EXPECT_EQ(color(traceReference(scene, view, {4, 2}, lambert(0, 4)).albedo, 3, 0), vec3(0, 1, 0));
 }
 
-// A glowing wall beside the picture and a floor that it lights: the screen cannot know of the wall.
+// A floor lit by an emissive wall that is off-screen.
 TEST(VisibleOnly, LeavesOutLightOfWhatIsOffScreen) {
     Scene scene;
     add(scene, matt(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 10.0F));
@@ -204,7 +204,7 @@ TEST(VisibleOnly, LeavesOutLightOfWhatIsOffScreen) {
     EXPECT_EQ(mean(traceReference(scene, view, {8, 8}, options).final).x, 0.0F);
 }
 
-// All of a corner is in the picture and nothing hides anything: all light is known.
+// All of a corner is visible without occlusion: no light is missing.
 TEST(VisibleOnly, ChangesNothingIfEverythingIsVisible) {
     Scene scene;
     add(scene, matt(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 1.0F));
@@ -223,7 +223,7 @@ TEST(VisibleOnly, LeavesOutTheSideOfAThingThatTheCameraDoesNotSee) {
     add(scene, matt(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 3.0F));
     Material screen = matt(vec3(0.5F), vec3(1.0F));
     screen.doubleSided = true;
-    add(scene, screen, square({0, 1, 0}, {0, 0, 1}, 1.0F));  // stands in the middle, glows both ways
+    add(scene, screen, square({0, 1, 0}, {0, 0, 1}, 1.0F));  // stands in the middle, emits on both sides
     const View view = darkView({0, 5, 8}, {0, 0.5F, 0}, 60.0F);
     ReferenceOptions options = lambert(1, 64);
     const ReferencePicture all = traceReference(scene, view, {32, 32}, options);
@@ -250,7 +250,7 @@ TEST(VisibleOnly, LeavesOutTheSideOfAThingThatTheCameraDoesNotSee) {
     EXPECT_GT(behind, 10U);
 }
 
-// A sky that is bright in one small place: irradiance by hand is the sum over its texels.
+// A sky with one small bright region; the expected irradiance is the sum over its texels.
 TEST(EnvironmentImage, LightsAsItsTexelsDoWhereverItIsTurned) {
     auto image = std::make_shared<FloatImage>(FloatImage{32, 16, {"R", "G", "B"}, std::vector<float>(1536, 0.1F)});
     constexpr size_t bright = 3 * (3 * 32 + 5);  // row 3, column 5
@@ -281,7 +281,7 @@ TEST(EnvironmentImage, LightsAsItsTexelsDoWhereverItIsTurned) {
             const double expected = 0.5 / glm::pi<double>() * irradiance[i];
             EXPECT_NEAR(mean(p.indirectDiffuse)[i], expected, 0.01 * expected) << degrees;
         }
-        EXPECT_LT(p.noise, 0.02) << "drawn by its light";
+        EXPECT_LT(p.noise, 0.02) << "importance sampled";
     }
 }
 
@@ -320,7 +320,7 @@ SurfacePoint glossyPoint(float roughness, float degrees) {
     return point;
 }
 
-// The integral of a density over the hemisphere, and of BRDF · cosine by drawn and by regular directions.
+// The integral of the pdf over the hemisphere, and that of BRDF · cosine by sampled and by regular directions.
 TEST(Bsdf, SamplesFollowItsPdfAndItIsReciprocal) {
     for (const float roughness : {0.2F, 0.5F, 1.0F}) {
         for (const float degrees : {5.0F, 50.0F, 75.0F}) {
@@ -363,7 +363,7 @@ TEST(PixelSampler, EveryPairIsANetInBaseTwo) {
         for (uint32_t i = 0; i < 256; ++i) {
             points.push_back(PixelSampler(123, 4, i).pair(pair));
         }
-        // Of 256 points, each box of area 1/256 holds exactly one, whatever its shape.
+        // Of 256 points, each elementary interval of area 1/256 holds exactly one, whatever its shape.
         for (int bits = 0; bits <= 8; ++bits) {
             std::set<std::pair<int, int>> boxes;
             for (const vec2& p : points) {
