@@ -14,7 +14,7 @@ namespace reflet::test {
 View darkView(const vec3& position, const vec3& target, float fovYDegrees = 40.0F);
 
 /// A diffuse material of that albedo: with ReferenceOptions::lambertOnly its Bsdf is pure Lambert.
-Material matt(const vec3& albedo, const vec3& emissive = vec3(0.0F));
+Material lambertMaterial(const vec3& albedo, const vec3& emissive = vec3(0.0F));
 
 /// Adds an instance of the mesh with its own material.
 void add(Scene& scene, const Material& material, Mesh mesh, const mat4& objectToWorld = mat4(1.0F));

@@ -136,8 +136,9 @@ TEST(Picture, ProgressRisesToItsTotal) {
 
 TEST(Camera, SeesThroughTheBacksOfSingleSidedSurfacesButLightDoesNot) {
     Scene scene;
-    add(scene, matt({1, 0, 0}), square({0, 0, 0}, {0, 1, 0}, 10.0F));
-    add(scene, matt({0, 1, 0}), square({0, 1, 0}, {0, -1, 0}, 5.0F));  // its back faces the camera and the sun
+    add(scene, lambertMaterial({1, 0, 0}), square({0, 0, 0}, {0, 1, 0}, 10.0F));
+    add(scene, lambertMaterial({0, 1, 0}),
+        square({0, 1, 0}, {0, -1, 0}, 5.0F));  // its back faces the camera and the sun
     View view = darkView({0, 3, 0.1F}, {0, 0, 0}, 20.0F);
     view.sun.irradiance = vec3(1.0F);
     const ReferencePicture p = traceReference(scene, view, {4, 4}, lambert(0, 4));
@@ -150,7 +151,7 @@ TEST(Camera, SeesThroughTheBacksOfSingleSidedSurfacesButLightDoesNot) {
 
 TEST(Camera, SeesMirroredInstancesFromTheirOutside) {
     Scene scene;
-    const uint32_t material = builtin::addMaterial(scene, matt(vec3(0.5F)));
+    const uint32_t material = builtin::addMaterial(scene, lambertMaterial(vec3(0.5F)));
     builtin::place(scene, "mirrored", material, builtin::box(vec3(1.0F)), glm::scale(mat4(1.0F), vec3(-1, 1, 1)));
     const ReferencePicture p = traceReference(scene, darkView({0, 0, 5}, {0, 0, 0}, 10.0F), {2, 2}, lambert(0, 1));
     EXPECT_NEAR(pixel(p.depth, 0, 0), 4.0F, 1e-3F) << "its near side, not the inside of its far one";
@@ -159,8 +160,8 @@ TEST(Camera, SeesMirroredInstancesFromTheirOutside) {
 
 TEST(Camera, OrthographicAndNearPlaneAreTheViewsOwn) {
     Scene scene;
-    add(scene, matt({1, 0, 0}), square({0, 0, 0}, {0, 1, 0}, 10.0F));
-    add(scene, matt({0, 1, 0}), square({0.5F, 2, 0}, {0, 1, 0}, 0.5F));
+    add(scene, lambertMaterial({1, 0, 0}), square({0, 0, 0}, {0, 1, 0}, 10.0F));
+    add(scene, lambertMaterial({0, 1, 0}), square({0.5F, 2, 0}, {0, 1, 0}, 0.5F));
     View view = darkView({0, 3, 0}, {0, 0, 0});
     view.camera.orthographicHeight = 2.0F;
     const ReferencePicture p = traceReference(scene, view, {4, 2}, lambert(0, 1));
@@ -174,8 +175,8 @@ TEST(Materials, CutOutPartsLetLightAndRaysThrough) {
     Scene scene;
     Image half{"half", 2, 1, {255, 255, 255, 255, 255, 255, 255, 0}};
     const TextureSlot slot = builtin::addTexture(scene, half, {.magLinear = false});
-    add(scene, matt({1, 0, 0}), square({0, 0, 0}, {0, 1, 0}, 10.0F));
-    Material cut = matt({0, 1, 0});
+    add(scene, lambertMaterial({1, 0, 0}), square({0, 0, 0}, {0, 1, 0}, 10.0F));
+    Material cut = lambertMaterial({0, 1, 0});
     cut.doubleSided = true;
     cut.baseColorTexture = slot;
     cut.alphaCutoff = 0.5F;
@@ -195,8 +196,8 @@ TEST(Materials, CutOutPartsLetLightAndRaysThrough) {
 // A floor lit by an emissive wall that is off-screen.
 TEST(VisibleOnly, LeavesOutLightOfWhatIsOffScreen) {
     Scene scene;
-    add(scene, matt(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 10.0F));
-    add(scene, matt(vec3(0.5F), vec3(1.0F)), square({2, 1, 0}, {-1, 0, 0}, 1.0F));
+    add(scene, lambertMaterial(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 10.0F));
+    add(scene, lambertMaterial(vec3(0.5F), vec3(1.0F)), square({2, 1, 0}, {-1, 0, 0}, 1.0F));
     ReferenceOptions options = lambert(2, 64);
     View view = darkView({0, 3, 0}, {0, 0, 0}, 20.0F);
     EXPECT_GT(mean(traceReference(scene, view, {8, 8}, options).final).x, 0.01F);
@@ -207,8 +208,8 @@ TEST(VisibleOnly, LeavesOutLightOfWhatIsOffScreen) {
 // All of a corner is visible without occlusion: no light is missing.
 TEST(VisibleOnly, ChangesNothingIfEverythingIsVisible) {
     Scene scene;
-    add(scene, matt(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 1.0F));
-    add(scene, matt(vec3(0.5F), vec3(1.0F)), square({-1, 1, 0}, {1, 0, 0}, 1.0F));
+    add(scene, lambertMaterial(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 1.0F));
+    add(scene, lambertMaterial(vec3(0.5F), vec3(1.0F)), square({-1, 1, 0}, {1, 0, 0}, 1.0F));
     const View view = darkView({8, 6, 0}, {0, 0.7F, 0}, 40.0F);
     ReferenceOptions options = lambert(3, 256);
     const ReferencePicture all = traceReference(scene, view, {24, 24}, options);
@@ -220,8 +221,8 @@ TEST(VisibleOnly, ChangesNothingIfEverythingIsVisible) {
 
 TEST(VisibleOnly, LeavesOutTheSideOfAThingThatTheCameraDoesNotSee) {
     Scene scene;
-    add(scene, matt(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 3.0F));
-    Material screen = matt(vec3(0.5F), vec3(1.0F));
+    add(scene, lambertMaterial(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 3.0F));
+    Material screen = lambertMaterial(vec3(0.5F), vec3(1.0F));
     screen.doubleSided = true;
     add(scene, screen, square({0, 1, 0}, {0, 0, 1}, 1.0F));  // stands in the middle, emits on both sides
     const View view = darkView({0, 5, 8}, {0, 0.5F, 0}, 60.0F);
@@ -258,7 +259,7 @@ TEST(EnvironmentImage, LightsAsItsTexelsDoWhereverItIsTurned) {
         image->data[bright + i] = 200.0F * static_cast<float>(i + 1);
     }
     Scene scene;
-    add(scene, matt(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 100.0F));
+    add(scene, lambertMaterial(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 100.0F));
     View view = darkView({0, 0.5F, 0}, {0, 0, 0}, 2.0F);
     view.environment.image = image;
     view.environment.intensity = 2.0F;
@@ -287,7 +288,7 @@ TEST(EnvironmentImage, LightsAsItsTexelsDoWhereverItIsTurned) {
 
 TEST(EnvironmentImage, OfOneColourIsTheConstantEnvironment) {
     Scene scene;
-    Material material = matt(vec3(0.5F));
+    Material material = lambertMaterial(vec3(0.5F));
     material.roughness = 0.3F;
     add(scene, material, builtin::sphere(1.0F, 64));
     View view = darkView({0, 0, 4}, {0, 0, 0}, 30.0F);
