@@ -91,14 +91,14 @@ TEST(Picture, NoiseIsTheErrorThatAnotherRunHas) {
     ReferenceOptions options;
     options.bounces = 1;
     options.samples = 2048;
-    const ReferencePicture truth = traceReference(scene, defaultView(scene), {32, 18}, options);
+    const ReferencePicture converged = traceReference(scene, defaultView(scene), {32, 18}, options);
     options.samples = 16;
     options.seed = 7;
     const ReferencePicture p = traceReference(scene, defaultView(scene), {32, 18}, options);
     double sum = 0.0;
     for (uint32_t y = 0; y < 18; ++y) {
         for (uint32_t x = 0; x < 32; ++x) {
-            const double t = luminance(color(truth.final, x, y));
+            const double t = luminance(color(converged.final, x, y));
             sum += std::pow(luminance(color(p.final, x, y)) - t, 2.0) / (t * t + 0.01);
         }
     }

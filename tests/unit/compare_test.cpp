@@ -28,10 +28,10 @@ FloatImage colors(uint32_t width, std::vector<float> values) {
     return {width, height, {"R", "G", "B"}, std::move(values)};
 }
 
-Difference difference(const FloatImage& picture, const FloatImage& truth, ImageKind kind = ImageKind::linear) {
+Difference difference(const FloatImage& picture, const FloatImage& reference, ImageKind kind = ImageKind::linear) {
     CompareOptions options;
     options.kind = kind;
-    return compareImages(picture, truth, options).difference;
+    return compareImages(picture, reference, options).difference;
 }
 
 std::string messageOf(const std::function<void()>& action) {
@@ -43,8 +43,8 @@ std::string messageOf(const std::function<void()>& action) {
     return "no error";
 }
 
-std::string complaint(const FloatImage& picture, const FloatImage& truth, const CompareOptions& options = {}) {
-    return messageOf([&] { compareImages(picture, truth, options); });
+std::string complaint(const FloatImage& picture, const FloatImage& reference, const CompareOptions& options = {}) {
+    return messageOf([&] { compareImages(picture, reference, options); });
 }
 
 TEST(Compare, EqualPicturesHaveNoDifferenceAndInfinitePsnr) {
@@ -117,15 +117,15 @@ TEST(Compare, FlipOfDisplayPicturesIsThatOfTheirLinearColors) {
 
 TEST(Compare, OnlyTheMasksPixelsCountButTheFlipImageIsComplete) {
     const FloatImage picture = grey(4, {0, 5, 0, 1});
-    const FloatImage truth = grey(4, {0, 1, 0, 2});
+    const FloatImage reference = grey(4, {0, 1, 0, 2});
     CompareOptions options;
     options.mask = {true, false, false, true};
-    const Comparison masked = compareImages(picture, truth, options);
+    const Comparison masked = compareImages(picture, reference, options);
     EXPECT_EQ(masked.difference.pixels, 2U);
     EXPECT_EQ(masked.difference.max, 1.0);
     EXPECT_EQ(masked.difference.mean, 0.5);
     options.mask.clear();
-    const Comparison whole = compareImages(picture, truth, options);
+    const Comparison whole = compareImages(picture, reference, options);
     EXPECT_EQ(whole.flip.data, masked.flip.data);
     EXPECT_NEAR(masked.difference.flip, (whole.flip.data[0] + whole.flip.data[3]) / 2.0, 1e-7);
 }

@@ -229,9 +229,9 @@ TEST(HdrFlip, AgreesWithTheDefinitionWithoutSeparatedFilters) {
 }
 
 TEST(HdrFlip, TheFirstExposureShowsTheLargestLuminanceAsBrightAndTheLastTheMedian) {
-    const Planes3 truth =
+    const Planes3 reference =
         paint(5, 1, [](uint32_t x, uint32_t) { return vec3(std::exp2(static_cast<float>(x) * 2.0F)); });
-    const ExposureRange range = exposureRange(truth);
+    const ExposureRange range = exposureRange(reference);
     EXPECT_NEAR(displayTone(static_cast<float>(256.0 * std::exp2(range.at(0)))), 0.85F, 1e-4F);
     EXPECT_NEAR(displayTone(static_cast<float>(16.0 * std::exp2(range.at(range.count - 1)))), 0.85F, 1e-4F);
     EXPECT_EQ(range.count, 4U);
@@ -245,9 +245,9 @@ TEST(HdrFlip, AReferenceOfOneLuminanceHasOneExposureAndSoDoesABlackOne) {
 }
 
 TEST(HdrFlip, WhereMoreThanHalfIsBlackTheMedianIsThatOfTheRest) {
-    const Planes3 truth =
+    const Planes3 reference =
         paint(10, 1, [](uint32_t x, uint32_t) { return vec3(x < 7 ? 0.0F : std::exp2(static_cast<float>(x))); });
-    const ExposureRange range = exposureRange(truth);
+    const ExposureRange range = exposureRange(reference);
     EXPECT_NEAR(range.stop - range.start, 1.0, 1e-5);  // 2^9 and 2^8
 }
 
@@ -270,11 +270,11 @@ TEST(HdrFlip, SeesAnErrorInTheDarkThatDisplayFlipAtTheBrightestExposureDoesNot) 
 }
 
 TEST(HdrFlip, SurvivesTheSmallestAndTheLargestRadiance) {
-    const Planes3 truth = paint(20, 20, [](uint32_t x, uint32_t) {
+    const Planes3 reference = paint(20, 20, [](uint32_t x, uint32_t) {
         return vec3(x == 0 ? 3e38F : x < 15 ? 1e-38F : 0.0F);
     });
     const Planes3 picture = paint(20, 20, [](uint32_t x, uint32_t) { return vec3(x == 0 ? -3e38F : 1e-37F); });
-    for (const float v : hdrFlip(picture, truth, ppd).data) {
+    for (const float v : hdrFlip(picture, reference, ppd).data) {
         ASSERT_TRUE(v >= 0.0F && v <= 1.0F) << v;
     }
 }
