@@ -1,4 +1,4 @@
-// sRGB, YyCxCz and CIELAB.
+// Conversions between sRGB, YyCxCz and CIELAB.
 #include "compare/color.h"
 
 #include <algorithm>
@@ -8,15 +8,16 @@ namespace reflet {
 
 namespace {
 
-// Columns are what red, green and blue are in CIE XYZ: sRGB's primaries under D65. The fractions are those that FLIP is
-// defined with; they make white (0.95043, 1, 1.08890).
+// Columns are sRGB's red, green and blue primaries in CIE XYZ (D65), with the fractions from FLIP's definition; white
+// is
+// (0.95043, 1, 1.08890).
 const mat3 linearToXyz(vec3(10135552.0 / 24577794.0, 2613072.0 / 12288897.0, 1425312.0 / 73733382.0),
                        vec3(8788810.0 / 24577794.0, 8788810.0 / 12288897.0, 8788810.0 / 73733382.0),
                        vec3(4435075.0 / 24577794.0, 887015.0 / 12288897.0, 70074185.0 / 73733382.0));
 const mat3 xyzToLinear = glm::inverse(linearToXyz);
 const vec3 white = linearToXyz * vec3(1.0F);
 
-// CIELAB's cube root, with a straight line below (6/29)³.
+// CIELAB's cube root, linear below (6/29)³.
 constexpr float labDelta = 6.0F / 29.0F;
 constexpr float labCut = labDelta * labDelta * labDelta;
 constexpr float labSlope = 1.0F / (3.0F * labDelta * labDelta);

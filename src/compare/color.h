@@ -1,4 +1,4 @@
-// The colour spaces that FLIP works in. Linear sRGB (0..1, D65) in the middle.
+// The colour spaces of FLIP. Conversions start from linear sRGB (0..1, D65).
 //
 // Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild: FLIP: A Difference Evaluator for Alternating
 // Images, HPG 2020, sections 4.1.1 to 4.1.3; CIELAB: CIE 15.
@@ -8,7 +8,7 @@
 
 namespace reflet {
 
-/// The sRGB curve, one channel. What lies outside of 0..1 is clamped.
+/// The sRGB transfer function of one channel. Values outside of 0..1 are clamped.
 float srgbToLinear(float encoded);
 /// The inverse of srgbToLinear.
 float linearToSrgb(float linear);
@@ -16,20 +16,20 @@ float linearToSrgb(float linear);
 /// CIE Y of a linear colour: 1 for white.
 float cieLuminance(const vec3& linear);
 
-/// YyCxCz, the opponent space in which the eye's blur is applied: Yy -16..100 (black..white), Cx red against green, Cz
-/// yellow against blue. It is an affine function of the linear colour.
+/// YyCxCz, the opponent space of the contrast sensitivity filters: Yy -16..100 (black..white), Cx red against green, Cz
+/// yellow against blue. An affine function of the linear colour.
 vec3 linearToOpponent(const vec3& linear);
 vec3 opponentToLinear(const vec3& opponent);
 
 /// CIELAB with white at (100, 0, 0).
 vec3 linearToLab(const vec3& linear);
-/// The inverse. Colours that sRGB lacks come out below 0 or above 1.
+/// The inverse. Colours outside sRGB's gamut have components below 0 or above 1.
 vec3 labToLinear(const vec3& lab);
 
-/// Hunt's effect: colour seems weaker where it is darker. a* and b* times L* / 100.
+/// Hunt effect: colours appear less saturated when they are darker. Scales a* and b* by L* / 100.
 vec3 huntAdjusted(const vec3& lab);
 
-/// HyAB, the distance for large differences: |ΔL| + length of (Δa, Δb).
+/// HyAB, a distance for large colour differences: |ΔL| + length of (Δa, Δb).
 float hyabDistance(const vec3& labA, const vec3& labB);
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// How far a picture is from the truth.
+// Computes the metrics and validates their input.
 #include "compare/compare.h"
 
 #include "base/error.h"
@@ -21,7 +21,7 @@ size_t pixelCount(const FloatImage& image) {
     return size_t{image.width} * image.height;
 }
 
-// Names the first bad value and counts the others.
+// Reports the first NaN or infinity, and counts the others.
 void checkFinite(const FloatImage& image, const std::string& name) {
     const auto isBad = [](float value) { return !std::isfinite(value); };
     const auto found = std::ranges::find_if(image.data, isBad);
@@ -36,7 +36,7 @@ void checkFinite(const FloatImage& image, const std::string& name) {
          others == 0 ? "" : fmt::format(", and {} more that are NaN or infinity", others));
 }
 
-void checkOptions(const FloatImage& picture, const CompareOptions& options) {
+void checkOptions(const FloatImage& image, const CompareOptions& options) {
     if (!(options.pixelsPerDegree >= lowestPixelsPerDegree && options.pixelsPerDegree <= highestPixelsPerDegree)) {
         fail("{} pixels per degree: must be {} to {}", options.pixelsPerDegree, lowestPixelsPerDegree,
              highestPixelsPerDegree);
@@ -44,15 +44,15 @@ void checkOptions(const FloatImage& picture, const CompareOptions& options) {
     if (options.mask.empty()) {
         return;
     }
-    if (options.mask.size() != pixelCount(picture)) {
-        fail("the mask has {} pixels, but the pictures have {}", options.mask.size(), pixelCount(picture));
+    if (options.mask.size() != pixelCount(image)) {
+        fail("the mask has {} pixels, but the images have {}", options.mask.size(), pixelCount(image));
     }
     if (std::ranges::find(options.mask, true) == options.mask.end()) {
-        fail("the mask leaves no pixel to compare");
+        fail("the mask leaves no pixels to compare");
     }
 }
 
-// FLIP wants red, green and blue in linear light; grey is all three.
+// FLIP's input is linear red, green and blue; grey is replicated to all three.
 Planes3 linearPlanes(const FloatImage& image, ImageKind kind) {
     Planes3 planes = makePlanes3(image.width, image.height);
     const size_t channels = image.channels.size();
@@ -66,28 +66,28 @@ Planes3 linearPlanes(const FloatImage& image, ImageKind kind) {
 }
 
 // Sums in double and in the order of the pixels.
-Difference differenceOf(const FloatImage& picture, const FloatImage& truth, const Plane& flip,
+Difference differenceOf(const FloatImage& image, const FloatImage& reference, const Plane& flip,
                         const CompareOptions& options) {
-    constexpr double darkness = 0.01;  // keeps the relative error of dark pixels finite
+    constexpr double darkness = 0.01;  // limits the relative error of dark pixels
     Difference d;
     double squares = 0.0;
     double sumA = 0.0;
     double sumB = 0.0;
     double peak = 0.0;
-    const size_t channels = picture.channels.size();
-    for (size_t i = 0; i < pixelCount(picture); ++i) {
+    const size_t channels = image.channels.size();
+    for (size_t i = 0; i < pixelCount(image); ++i) {
         if (!options.mask.empty() && !options.mask[i]) {
             continue;
         }
         ++d.pixels;
         d.flip += flip.data[i];
         for (size_t value = i * channels; value < (i + 1) * channels; ++value) {
-            const double b = truth.data[value];
-            const double error = std::abs(picture.data[value] - b);
+            const double b = reference.data[value];
+            const double error = std::abs(image.data[value] - b);
             squares += error * error;
             d.relativeMse += error * error / (b * b + darkness);
             d.mean += error;
-            sumA += picture.data[value];
+            sumA += image.data[value];
             sumB += b;
             d.max = std::max(d.max, error);
             peak = std::max(peak, std::abs(b));
@@ -108,37 +108,38 @@ Difference differenceOf(const FloatImage& picture, const FloatImage& truth, cons
 
 }  // namespace
 
-void checkComparable(const FloatImage& picture, const FloatImage& truth, const CompareOptions& options) {
-    if (picture.width != truth.width || picture.height != truth.height) {
-        fail("{} is {}x{}, but {} is {}x{}: only pictures of one size can be compared", options.pictureName,
-             picture.width, picture.height, options.truthName, truth.width, truth.height);
+void checkComparable(const FloatImage& image, const FloatImage& reference, const CompareOptions& options) {
+    if (image.width != reference.width || image.height != reference.height) {
+        fail("{} is {}x{}, but {} is {}x{}: only images of the same size can be compared", options.imageName,
+             image.width, image.height, options.referenceName, reference.width, reference.height);
     }
-    if (picture.channels.size() != truth.channels.size()) {
-        fail("{} has the channels {}, but {} has {}: only as many can be compared", options.pictureName,
-             fmt::join(picture.channels, ", "), options.truthName, fmt::join(truth.channels, ", "));
+    if (image.channels.size() != reference.channels.size()) {
+        fail("{} has the channels {}, but {} has {}: only images with the same number of channels can be compared",
+             options.imageName, fmt::join(image.channels, ", "), options.referenceName,
+             fmt::join(reference.channels, ", "));
     }
-    if (picture.channels.size() != 1 && picture.channels.size() != 3) {
-        fail("{} has the channels {}: only 1 or 3 can be compared", options.pictureName,
-             fmt::join(picture.channels, ", "));
+    if (image.channels.size() != 1 && image.channels.size() != 3) {
+        fail("{} has the channels {}: only images with 1 or 3 channels can be compared", options.imageName,
+             fmt::join(image.channels, ", "));
     }
-    if (pixelCount(picture) == 0) {
-        fail("{} has no pixels", options.pictureName);
+    if (pixelCount(image) == 0) {
+        fail("{} has no pixels", options.imageName);
     }
-    for (const FloatImage* image : {&picture, &truth}) {
-        REFLET_CHECK(image->data.size() == pixelCount(*image) * image->channels.size(), "{}x{}, {} channels, {} values",
-                     image->width, image->height, image->channels.size(), image->data.size());
+    for (const FloatImage* each : {&image, &reference}) {
+        REFLET_CHECK(each->data.size() == pixelCount(*each) * each->channels.size(), "{}x{}, {} channels, {} values",
+                     each->width, each->height, each->channels.size(), each->data.size());
     }
-    checkFinite(picture, options.pictureName);
-    checkFinite(truth, options.truthName);
+    checkFinite(image, options.imageName);
+    checkFinite(reference, options.referenceName);
 }
 
-Comparison compareImages(const FloatImage& picture, const FloatImage& truth, const CompareOptions& options) {
-    checkComparable(picture, truth, options);
-    checkOptions(picture, options);
-    const auto flipOf = options.kind == ImageKind::display ? flipOfDisplay : flipOfRadiance;
+Comparison compareImages(const FloatImage& image, const FloatImage& reference, const CompareOptions& options) {
+    checkComparable(image, reference, options);
+    checkOptions(image, options);
+    const auto flipOf = options.kind == ImageKind::display ? ldrFlip : hdrFlip;
     Plane flip =
-        flipOf(linearPlanes(picture, options.kind), linearPlanes(truth, options.kind), options.pixelsPerDegree);
-    const Difference difference = differenceOf(picture, truth, flip, options);
+        flipOf(linearPlanes(image, options.kind), linearPlanes(reference, options.kind), options.pixelsPerDegree);
+    const Difference difference = differenceOf(image, reference, flip, options);
     return {difference, {flip.width, flip.height, {"Y"}, std::move(flip.data)}};
 }
 
@@ -147,13 +148,13 @@ std::span<const Metric> metrics() {
         {"relative_mse", "", "mean over pixels and channels of (a - b)² / (b² + 0.01)", false,
          [](const Difference& d) { return d.relativeMse; }},
         {"psnr", "dB",
-         "10 log10(peak² / mean of (a - b)²); peak is 1 for display pictures, the largest |b| for linear ones", true,
+         "10 log10(peak² / mean of (a - b)²); the peak is 1 for display images, the largest |b| for linear ones", true,
          [](const Difference& d) { return d.psnr; }},
         {"flip", "",
-         "mean over pixels of FLIP (Andersson et al. 2020), 0 the same to 1; linear pictures: HDR-FLIP (2021)", false,
+         "mean over pixels of FLIP (Andersson et al. 2020), 0 (identical) to 1; linear images: HDR-FLIP (2021)", false,
          [](const Difference& d) { return d.flip; }},
         {"mean", "", "mean over pixels and channels of |a - b|", false, [](const Difference& d) { return d.mean; }},
-        {"bias", "", "mean of a over mean of b, minus 1: above 0 there is too much light, below 0 too little", false,
+        {"bias", "", "mean of a / mean of b - 1: above 0 too bright, below 0 too dark", false,
          [](const Difference& d) { return d.bias; }},
         {"max", "", "largest |a - b| of any pixel and channel", false, [](const Difference& d) { return d.max; }},
     }};

@@ -1,4 +1,4 @@
-// Separable filters. The inner loops run along rows over plain arrays, which compilers turn into vector code.
+// Separable filters. The inner loops run along rows over plain arrays, so that compilers can vectorize them.
 #include "compare/filter.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Images as planes of one number per pixel, and separable filters over them.
+// Single-channel planes and separable filters.
 #pragma once
 
 #include <array>
@@ -26,14 +26,15 @@ using Planes3 = std::array<Plane, 3>;
 
 Planes3 makePlanes3(uint32_t width, uint32_t height);
 
-/// Weights of a filter along a line; an odd number, the middle one is the pixel's own.
+/// Weights of a one-dimensional filter; an odd number, centred on the pixel.
 using Kernel = std::vector<float>;
 
-/// Calls work(y) once for every row, several at a time on as many threads as the machine has. What one row writes no
-/// other may read, so that the result depends on neither order nor number. An exception of `work` ends the program.
+/// Calls work(y) once per row, in parallel on all hardware threads. No row may read what another writes, so that the
+/// result
+/// is deterministic. An exception from `work` terminates the program.
 void forEachRow(uint32_t height, const std::function<void(uint32_t y)>& work);
 
-/// out(x) = sum over i of kernel(i) · in(x + i - radius). Beyond the border the image goes on as its last pixel.
+/// out(x) = sum over i of kernel(i) · in(x + i - radius). Borders are clamped.
 void filterRows(const Plane& in, const Kernel& kernel, Plane& out);
 /// The same along columns.
 void filterColumns(const Plane& in, const Kernel& kernel, Plane& out);

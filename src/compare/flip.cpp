@@ -1,4 +1,4 @@
-// FLIP for display pictures: a colour pipeline, a feature pipeline, and how the two combine.
+// LDR-FLIP: a colour pipeline, a feature pipeline, and their combination.
 #include "compare/flip.h"
 
 #include "compare/color.h"
@@ -20,10 +20,10 @@ struct Sensitivity {
 constexpr Sensitivity achromaticSensitivity{1.0, 0.0047, 0.0, 1e-5};
 constexpr Sensitivity redGreenSensitivity{1.0, 0.0053, 0.0, 1e-5};
 constexpr Sensitivity blueYellowSensitivity{34.1, 0.04, 13.5, 0.025};
-constexpr double widestSensitivity = 0.04;  // the largest b: all three filters have its radius
+constexpr double widestSensitivity = 0.04;  // the largest b, which sets the radius of all three filters
 
-// Section 4.1.4: how colour distances become 0..1. The exponent presses large distances together; what is below `knee`
-// of the largest takes `kneeError` of the range.
+// Section 4.1.4: maps colour distances to 0..1. The exponent compresses large distances; distances below `knee` of the
+// largest use `kneeError` of the range.
 constexpr float colorExponent = 0.7F;
 constexpr float knee = 0.4F;
 constexpr float kneeError = 0.95F;
@@ -54,16 +54,16 @@ void scale(Kernel& kernel, double factor) {
     }
 }
 
-// A two-dimensional Gaussian is the product of two in one dimension; a sum of Gaussians is filtered as two images.
+// A two-dimensional Gaussian is separable; a sum of two Gaussians is filtered separately.
 struct SpatialFilter {
     Kernel first;
-    Kernel second;  // empty where the second Gaussian has no weight
+    Kernel second;  // empty if the second Gaussian has no weight
 };
 
 SpatialFilter makeSpatialFilter(const Sensitivity& s, double pixelsPerDegree) {
     const int radius =
         static_cast<int>(std::ceil(3.0 * std::sqrt(widestSensitivity / (2.0 * piSquared)) * pixelsPerDegree));
-    // Applied twice, along rows and columns: each takes the root of the weight a · sqrt(pi / b).
+    // Applied along rows and columns: each has the square root of the weight a · sqrt(pi / b).
     SpatialFilter filter{gaussian(std::sqrt(s.a1 * std::sqrt(std::numbers::pi / s.b1)), s.b1, radius, pixelsPerDegree),
                          {}};
     double total = std::pow(sum(filter.first), 2.0);
@@ -76,7 +76,7 @@ SpatialFilter makeSpatialFilter(const Sensitivity& s, double pixelsPerDegree) {
     return filter;
 }
 
-// Planes that a filter needs besides its input and output, kept because making them costs as much as a filter.
+// Temporary planes of the filters, reused because allocating them costs as much as a filter.
 struct Scratch {
     Scratch(uint32_t width, uint32_t height) : rows(width, height), other(width, height) {}
 
@@ -98,7 +98,7 @@ void applySpatialFilter(Plane& plane, const SpatialFilter& filter, Scratch& scra
     });
 }
 
-// What the eye makes of a picture: its colours after the eye's blur, in Hunt-adjusted CIELAB.
+// Colours after the contrast sensitivity filter, in Hunt-adjusted CIELAB.
 void toPerceived(Planes3& opponent, float pixelsPerDegree, Scratch& scratch) {
     constexpr std::array sensitivities{achromaticSensitivity, redGreenSensitivity, blueYellowSensitivity};
     for (size_t c = 0; c < 3; ++c) {
@@ -120,7 +120,7 @@ float poweredDistance(const vec3& labA, const vec3& labB) {
     return std::pow(hyabDistance(labA, labB), colorExponent);
 }
 
-// The largest distance that two colours of sRGB can have: green against blue.
+// The largest distance of two sRGB colours: green and blue.
 float largestDistance() {
     return poweredDistance(huntAdjusted(linearToLab({0.0F, 1.0F, 0.0F})),
                            huntAdjusted(linearToLab({0.0F, 0.0F, 1.0F})));
@@ -147,7 +147,7 @@ Planes3 toOpponent(const Planes3& linear) {
     return opponent;
 }
 
-// Yy in 0..1.
+// Yy normalized to 0..1.
 Plane normalizedLuminance(const Plane& opponentY) {
     Plane result = opponentY;
     for (float& value : result.data) {
@@ -156,7 +156,7 @@ Plane normalizedLuminance(const Plane& opponentY) {
     return result;
 }
 
-// A detector answers at most 1 to black and white: its positive weights sum to 1 and its negative ones to -1.
+// A detector's response to black and white is at most 1: its positive weights sum to 1, its negative ones to -1.
 Kernel detector(const std::vector<double>& weights) {
     double positive = 0.0;
     double negative = 0.0;
@@ -192,7 +192,7 @@ struct FeatureFilters {
     Kernel blur, edge, point;
 };
 
-// The length of (derivative along x, derivative along y) in every pixel.
+// Magnitude of (derivative along x, derivative along y) in every pixel.
 Plane detectorResponse(const Plane& image, const Kernel& derivative, const Kernel& blur, Scratch& scratch) {
     Plane alongX(image.width, image.height);
     filterRows(image, derivative, scratch.rows);
@@ -227,7 +227,7 @@ Plane featureDifference(const Plane& a, const Plane& b, float pixelsPerDegree) {
     return difference;
 }
 
-Plane flipOfDisplay(const Planes3& linearA, const Planes3& linearB, float pixelsPerDegree) {
+Plane ldrFlip(const Planes3& linearA, const Planes3& linearB, float pixelsPerDegree) {
     Planes3 a = toOpponent(linearA);
     Planes3 b = toOpponent(linearB);
     Plane flip = featureDifference(normalizedLuminance(a[0]), normalizedLuminance(b[0]), pixelsPerDegree);

@@ -1,4 +1,4 @@
-// FLIP for scene radiance: display FLIP over a range of exposures.
+// HDR-FLIP: LDR-FLIP over a range of exposures.
 #include "compare/flip.h"
 
 #include "compare/color.h"
@@ -10,7 +10,8 @@ namespace reflet {
 
 namespace {
 
-// y(x) = (k0 x² + k1 x + k2) / (k3 x² + k4 x + k5) with k2 = 0. The radiance is taken times 0.6, as the paper does: the
+// y(x) = (k0 x² + k1 x + k2) / (k3 x² + k4 x + k5) with k2 = 0. The radiance is scaled by 0.6 as in the paper, because
+// the
 // curve's author found it too bright otherwise.
 constexpr double preScale = 0.6;
 constexpr double k0 = 2.51 * preScale * preScale;
@@ -19,9 +20,9 @@ constexpr double k3 = 2.43 * preScale * preScale;
 constexpr double k4 = 0.59 * preScale;
 constexpr double k5 = 0.14;
 
-constexpr double brightTone = 0.85;  // t of the paper: bright on the display, but not yet white
+constexpr double brightTone = 0.85;  // t in the paper: bright, but not saturated
 
-// The radiance that displayTone brings to brightTone: y(x) = t is (t k3 - k0) x² + (t k4 - k1) x + t k5 = 0.
+// The radiance that displayTone maps to brightTone: y(x) = t is (t k3 - k0) x² + (t k4 - k1) x + t k5 = 0.
 double brightRadiance() {
     const double a = brightTone * k3 - k0;
     const double b = brightTone * k4 - k1;
@@ -30,7 +31,7 @@ double brightRadiance() {
     return half + std::sqrt(half * half - c / a);
 }
 
-// Of values in any order, at least one.
+// values: in any order, at least one.
 double median(std::vector<float>& values) {
     const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
     std::ranges::nth_element(values, middle);
@@ -44,7 +45,7 @@ vec3 positive(const Planes3& planes, size_t i) {
     return glm::max(vec3(planes[0].data[i], planes[1].data[i], planes[2].data[i]), 0.0F);
 }
 
-// In double until it is tone mapped: 2^exposure alone may be more than a float holds.
+// In double until tone mapping, because 2^exposure may overflow a float.
 Planes3 exposed(const Planes3& radiance, double exposure) {
     const double factor = std::exp2(exposure);
     constexpr double whiteForSure = 1e4;
@@ -70,10 +71,10 @@ float displayTone(float radiance) {
     return static_cast<float>(std::min((k0 * x + k1) * x / ((k3 * x + k4) * x + k5), 1.0));
 }
 
-ExposureRange exposureRange(const Planes3& truth) {
-    std::vector<float> luminances(truth[0].data.size());
+ExposureRange exposureRange(const Planes3& reference) {
+    std::vector<float> luminances(reference[0].data.size());
     for (size_t i = 0; i < luminances.size(); ++i) {
-        luminances[i] = cieLuminance(positive(truth, i));
+        luminances[i] = cieLuminance(positive(reference, i));
     }
     const double largest = *std::ranges::max_element(luminances);
     if (largest <= 0.0) {
@@ -91,12 +92,12 @@ ExposureRange exposureRange(const Planes3& truth) {
     return range;
 }
 
-Plane flipOfRadiance(const Planes3& picture, const Planes3& truth, float pixelsPerDegree) {
-    const ExposureRange range = exposureRange(truth);
-    Plane largest(truth[0].width, truth[0].height);
+Plane hdrFlip(const Planes3& image, const Planes3& reference, float pixelsPerDegree) {
+    const ExposureRange range = exposureRange(reference);
+    Plane largest(reference[0].width, reference[0].height);
     for (uint32_t i = 0; i < range.count; ++i) {
         const double exposure = range.at(i);
-        const Plane flip = flipOfDisplay(exposed(picture, exposure), exposed(truth, exposure), pixelsPerDegree);
+        const Plane flip = ldrFlip(exposed(image, exposure), exposed(reference, exposure), pixelsPerDegree);
         std::ranges::transform(largest.data, flip.data, largest.data.begin(),
                                [](float a, float b) { return std::max(a, b); });
     }

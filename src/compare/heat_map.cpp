@@ -1,4 +1,4 @@
-// A curve through CIELAB as a table of colours.
+// Tabulates the colour map.
 #include "compare/heat_map.h"
 
 #include "base/error.h"

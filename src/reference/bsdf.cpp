@@ -1,4 +1,4 @@
-// The surface model.
+// BSDF evaluation and sampling.
 #include "reference/bsdf.h"
 
 #include <tbb/parallel_for.h>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr float dielectricF0 = 0.04F;
 constexpr float leastLampRoughness = 0.045F;
-constexpr float mirrorAlpha = 1e-4F;  // a lobe narrower than a hundredth of a degree is a mirror
+constexpr float mirrorAlpha = 1e-4F;  // lobes narrower than a hundredth of a degree are treated as a perfect mirror
 constexpr float leastCosine = 1e-4F;
 
 float square(float x) {
@@ -33,16 +33,15 @@ float smithLambda(const vec3& w, float alpha) {
 }
 
 float ggxDensity(const vec3& h, float alpha) {
-    // As a function of the slope, which does not lose the digits of a narrow lobe.
+    // In terms of the slope, which keeps precision for narrow lobes.
     const float stretched = (h.x * h.x + h.y * h.y) / square(alpha) + h.z * h.z;
     return 1.0F / (pi * square(alpha * stretched));
 }
 
-// A microfacet normal among those that are seen from v. (Heitz, Sampling the GGX Distribution of Visible Normals, JCGT
-// 2018)
+// Samples the visible normals (VNDF) from v. (Heitz, Sampling the GGX Distribution of Visible Normals, JCGT 2018)
 vec3 sampleVisibleNormal(const vec3& v, float alpha, const vec2& u) {
     const vec3 stretched = glm::normalize(vec3(alpha * v.x, alpha * v.y, v.z));
-    // A disk that faces v, with one axis along the horizon: below it, the hemisphere hides a part of the disk.
+    // A disk that faces v, with one axis along the horizon; the hemisphere covers only a part of its lower half.
     const vec3 horizontal(-stretched.y, stretched.x, 0.0F);
     const float length = glm::length(horizontal);
     const vec3 across = length > 1e-6F ? horizontal / length : vec3(1, 0, 0);
@@ -56,17 +55,17 @@ vec3 sampleVisibleNormal(const vec3& v, float alpha, const vec2& u) {
     return glm::normalize(vec3(alpha * n.x, alpha * n.y, std::max(n.z, 0.0F)));
 }
 
-// G2 / G1: the share of light that leaves v's visible microfacets unmasked toward l.
+// G2 / G1: fraction of the light reflected by microfacets visible from v that is not masked toward l.
 float unmasked(const vec3& v, const vec3& l, float alpha) {
     const float toView = smithLambda(v, alpha);
     return (1.0F + toView) / (1.0F + toView + smithLambda(l, alpha));
 }
 
-// Entries at evenly spaced cosines and roughnesses, both 0 to 1 inclusive.
+// Entries at evenly spaced cosines and roughnesses, both in [0, 1].
 class AlbedoTable {
 public:
     AlbedoTable() : entries_(size_t(side) * side) {
-        // Isolated: a thread that waits here must not take up a path, which would ask for this very table.
+        // Isolated: a waiting thread must not start tracing a path, which would need this very table.
         tbb::this_task_arena::isolate([this] { tbb::parallel_for(0, side, [this](int row) { integrateRow(row); }); });
     }
 
@@ -120,7 +119,7 @@ private:
     std::vector<LobeAlbedo> entries_;
 };
 
-// Directional albedo of a layer of this F0 with all its scattering, after single scattering's.
+// Directional albedo of a layer of this F0 including multiple scattering, from that of single scattering.
 vec3 compensated(const vec3& f0, const LobeAlbedo& a) {
     const float lost = 1.0F / std::max(a.scale + a.bias, 1e-3F) - 1.0F;
     return (f0 * a.scale + a.bias) * (1.0F + f0 * lost);
@@ -145,13 +144,13 @@ Bsdf::Bsdf(const SurfacePoint& point, const ReferenceOptions& options)
       view_(local(point.toOrigin)),
       diffuse_(point.baseColor),
       uniform_(options.diffuse == DiffuseSampling::uniform) {
-    // Normal maps and smooth normals may turn away from the viewer.
+    // Shading normals may face away from the viewer.
     view_ = glm::normalize(vec3(view_.x, view_.y, std::max(view_.z, leastCosine)));
     if (options.lambertOnly) {
         return;
     }
     const LobeAlbedo albedo = ggxAlbedo(view_.z, point.roughness);
-    // glTF mixes a dielectric and a metal; so do their albedos, from which the layer's strength follows.
+    // glTF blends a dielectric and a metal by `metallic`; their albedos are blended likewise.
     const vec3 coat = compensated(vec3(dielectricF0), albedo);
     const vec3 metal = compensated(point.baseColor, albedo);
     const vec3 specular = glm::min(glm::mix(coat, metal, point.metallic), 1.0F);

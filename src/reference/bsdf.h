@@ -1,6 +1,7 @@
-// The surface model, on its own: Lambert under GGX with height-correlated Smith shadowing (Walter et al. 2007; Heitz
-// 2014). What single scattering loses is given back by its directional albedo (Turquin 2019); the diffuse base gets
-// what the specular layer leaves. Stated in docs/conventions.md; shares no code with src/shaders/ggx.glsl.
+// The surface model: Lambert under GGX with height-correlated Smith masking-shadowing (Walter et al. 2007; Heitz 2014).
+// The energy lost by single scattering is compensated by its directional albedo (Turquin 2019); the diffuse base
+// receives
+// what the specular layer does not reflect. Specified in docs/conventions.md; shares no code with src/shaders/ggx.glsl.
 #pragma once
 
 #include "reference/reference.h"
@@ -8,8 +9,8 @@
 
 namespace reflet {
 
-/// Directional albedo of the single-scattering GGX lobe as scale · F0 + bias, F0 being the reflectance at normal
-/// incidence (Schlick's Fresnel). Interpolated in a table that is integrated at its first use.
+/// Directional albedo of the single-scattering GGX lobe as scale · F0 + bias; F0 is the reflectance at normal incidence
+/// (Schlick's Fresnel). Interpolated in a table that is computed on first use.
 /// cosine: of the angle between normal and viewer, 0..1; roughness: perceptual, 0..1.
 struct LobeAlbedo {
     float scale = 0.0F;
@@ -17,7 +18,7 @@ struct LobeAlbedo {
 };
 LobeAlbedo ggxAlbedo(float cosine, float roughness);
 
-/// The reflected light is radiance · (diffuse + specular).
+/// Reflected radiance is incident radiance · (diffuse + specular).
 struct Reflection {
     vec3 diffuse{0.0F};
     vec3 specular{0.0F};
@@ -25,28 +26,29 @@ struct Reflection {
     [[nodiscard]] vec3 sum() const { return diffuse + specular; }
 };
 
-/// A scattered ray. `weight` is BRDF · cosine / pdf.
+/// A sampled direction. `weight` is BRDF · cosine / pdf.
 struct Scattered {
     vec3 direction{0.0F};
     Reflection weight;
-    float pdf = 0.0F;  ///< per solid angle; 0: a perfect mirror's, which no other sampling can find
+    float pdf = 0.0F;  ///< per solid angle; 0: a perfect mirror, a delta lobe
 };
 
-/// How a surface point reflects toward where it is seen from.
+/// Reflection of a surface point toward the ray's origin.
 class Bsdf {
 public:
     Bsdf(const SurfacePoint& point, const ReferenceOptions& options);
 
-    /// BRDF · cosine for light from there, without a perfect mirror's part; 0 from below the surface.
+    /// BRDF · cosine for light from that direction, without delta lobes; 0 from below the surface.
     [[nodiscard]] Reflection reflect(const vec3& toLight) const { return evaluate(toLight, alpha_, !mirror_); }
-    /// The same for the sun and for lamps. As in the renderer, roughness is at least 0.045, so that small and punctual
-    /// lights have a reflection in mirrors, too.
+    /// The same for the sun and lamps. As in the renderer, roughness is at least 0.045, so that punctual lights have a
+    /// highlight even in mirrors.
     [[nodiscard]] Reflection reflectLamp(const vec3& toLight) const;
 
-    /// lobe chooses between the lobes, u is the place in it; both in [0, 1). Nothing (weight 0) where it goes below the
-    /// surface.
+    /// Samples a direction: `lobe` selects the lobe, u the direction in it; both in [0, 1). The weight is 0 if the
+    /// direction
+    /// is below the surface.
     [[nodiscard]] Scattered scatter(float lobe, const vec2& u) const;
-    /// Density of scatter() there.
+    /// Pdf of scatter() for that direction.
     [[nodiscard]] float pdf(const vec3& direction) const;
 
 private:
@@ -59,7 +61,7 @@ private:
     mat3 frame_;  ///< tangent, bitangent, shading normal
     vec3 geometricNormal_;
     vec3 view_;     ///< local, z > 0
-    vec3 diffuse_;  ///< albedo of the base, behind the specular layer
+    vec3 diffuse_;  ///< albedo of the diffuse base, attenuated by the specular layer
     vec3 f0_{0.0F};
     vec3 compensation_{0.0F};
     float alpha_ = 1.0F;
@@ -68,7 +70,7 @@ private:
     float specularChance_ = 0.0F;
 };
 
-/// Two unit vectors that make a right-handed frame with n: columns of the result, n the last.
+/// Right-handed orthonormal frame around n, as columns; n is the last.
 mat3 frameAround(const vec3& n);
 
 }  // namespace reflet

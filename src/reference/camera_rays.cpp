@@ -1,4 +1,4 @@
-// Rays through pixels and back.
+// Camera rays, and rays from points back to the camera.
 #include "reference/camera_rays.h"
 
 #include <cmath>
@@ -40,7 +40,7 @@ std::optional<Ray> CameraRays::backFrom(const vec3& point) const {
     if (std::abs(at.x) > halfExtent_.x * scale || std::abs(at.y) > halfExtent_.y * scale) {
         return std::nullopt;
     }
-    // To the near plane: what is nearer, the camera does not see.
+    // Ends at the near plane; the camera does not see anything closer.
     const vec3 back = orthographic_ ? -forward_ * (distance - near_) : -offset * (1.0F - near_ / distance);
     return Ray{point, back, 0.0F, 1.0F};
 }

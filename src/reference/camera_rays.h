@@ -1,4 +1,4 @@
-// Rays through pixels, and the way back: whether the camera sees a point.
+// Camera rays through pixels, and rays from points back to the camera, to test visibility.
 #pragma once
 
 #include "reference/ray_scene.h"
@@ -9,11 +9,11 @@ class CameraRays {
 public:
     CameraRays(const Camera& camera, uvec2 size);
 
-    /// Through a place in the picture in pixels, (0, 0) being its upper left corner. Unit direction.
+    /// Through a position in the image in pixels; (0, 0) is its upper left corner. Unit direction.
     [[nodiscard]] Ray through(const vec2& pixel) const;
-    /// Metres in front of the camera, along its axis.
+    /// Metres in front of the camera, along the view axis.
     [[nodiscard]] float depth(const vec3& point) const { return glm::dot(forward_, point - position_); }
-    /// Whether the point is in the picture, and the ray from just off it, toward the camera. Nothing hidden is tested.
+    /// If the point is in the view frustum, the ray from just off it toward the camera. Occlusion is not tested.
     [[nodiscard]] std::optional<Ray> backFrom(const vec3& point) const;
 
 private:
@@ -22,7 +22,7 @@ private:
     vec3 up_;
     vec3 forward_;
     vec2 size_;
-    vec2 halfExtent_;  ///< of the picture at distance 1 (orthographic: at any)
+    vec2 halfExtent_;  ///< of the image plane at distance 1 (orthographic: at any)
     float near_;
     float far_;
     bool orthographic_;

@@ -1,4 +1,4 @@
-// What shines.
+// Sampling of lights.
 #include "reference/lights.h"
 
 #include "base/color.h"
@@ -10,7 +10,7 @@ namespace reflet {
 
 namespace {
 
-// KHR_lights_punctual. Irradiance on a surface at p that faces the lamp.
+// Irradiance of a lamp on a surface at p that faces it, by KHR_lights_punctual.
 LightSample lampAt(const Lamp& lamp, const vec3& p) {
     LightSample s;
     if (lamp.type == Lamp::Type::directional) {
@@ -52,7 +52,7 @@ Distribution::Distribution(const std::vector<double>& weights) : sums_(weights.s
 size_t Distribution::draw(float& u) const {
     const double at = u * total_;
     auto found = std::upper_bound(sums_.begin(), sums_.end(), at);
-    if (found == sums_.end()) {  // u · total rounded up to the total
+    if (found == sums_.end()) {  // u · total was rounded up to the total
         found = std::lower_bound(sums_.begin(), sums_.end(), total_);
     }
     const double before = found == sums_.begin() ? 0.0 : *(found - 1);
@@ -82,7 +82,7 @@ Lights::Lights(const RayScene& rays, const View& view)
 void Lights::collectTriangles() {
     const Scene& scene = rays_.scene();
     std::vector<double> weights;
-    glowingIndex_.resize(scene.instances.size());
+    emissiveIndex_.resize(scene.instances.size());
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
         const float strength = luminance(rays_.material(i).emissive);
         if (!(strength > 0.0F)) {
@@ -92,8 +92,8 @@ void Lights::collectTriangles() {
         for (uint32_t k = 0; k < count; ++k) {
             const Triangle t = rays_.triangle(i, k);
             const float area = 0.5F * glm::length(glm::cross(t.b - t.a, t.c - t.a));
-            glowingIndex_[i].push_back(static_cast<uint32_t>(glowing_.size()));
-            glowing_.push_back({i, k, area});
+            emissiveIndex_[i].push_back(static_cast<uint32_t>(emissive_.size()));
+            emissive_.push_back({i, k, area});
             weights.push_back(double(area) * strength);
         }
     }
@@ -101,7 +101,7 @@ void Lights::collectTriangles() {
 }
 
 LightSample Lights::drawSun(const vec2& u) const {
-    // Uniform in the disk's projection on a plane that faces it, so that every place brings the same.
+    // Uniform in the disk's projection on the plane that faces it, so that all samples have the same irradiance.
     const float radius = sunSine_ * std::sqrt(u.x);
     const float z = std::sqrt(1.0F - radius * radius);
     LightSample s;
@@ -150,8 +150,8 @@ LightSample Lights::drawEmitter(const SurfacePoint& point, float choice, const v
 LightSample Lights::drawTriangle(const SurfacePoint& point, float choice, const vec2& u) const {
     LightSample s;
     const size_t index = triangles_.draw(choice);
-    const GlowingTriangle& glowing = glowing_[index];
-    const Triangle t = rays_.triangle(glowing.instance, glowing.triangle);
+    const EmissiveTriangle& emissive = emissive_[index];
+    const Triangle t = rays_.triangle(emissive.instance, emissive.triangle);
     const vec2 at = uniformBarycentric(u);
     const vec3 place = t.a * (1.0F - at.x - at.y) + t.b * at.x + t.c * at.y;
     const vec3 toLight = place - point.position;
@@ -159,7 +159,7 @@ LightSample Lights::drawTriangle(const SurfacePoint& point, float choice, const 
     if (!(distance > point.clearance)) {
         return s;
     }
-    s.hit = {distance, glowing.instance, glowing.triangle, at};
+    s.hit = {distance, emissive.instance, emissive.triangle, at};
     const SurfacePoint emitter = surfaceAt(rays_, s.hit, toLight);
     s.onSurface = true;
     s.distance = distance;
@@ -170,17 +170,17 @@ LightSample Lights::drawTriangle(const SurfacePoint& point, float choice, const 
 }
 
 float Lights::emitterPdf(const vec3& from, const SurfacePoint& emitter) const {
-    const std::vector<uint32_t>& index = glowingIndex_[emitter.hit.instance];
+    const std::vector<uint32_t>& index = emissiveIndex_[emitter.hit.instance];
     if (index.empty()) {
         return 0.0F;
     }
     const uint32_t i = index[emitter.hit.triangle];
     const vec3 offset = emitter.position - from;
     const float cosine = glm::dot(emitter.geometricNormal, emitter.toOrigin);
-    if (!(cosine > 1e-6F) || !(glowing_[i].area > 0.0F)) {
+    if (!(cosine > 1e-6F) || !(emissive_[i].area > 0.0F)) {
         return 0.0F;
     }
-    return (1.0F - environmentChance_) * triangles_.chance(i) / glowing_[i].area * glm::dot(offset, offset) / cosine;
+    return (1.0F - environmentChance_) * triangles_.chance(i) / emissive_[i].area * glm::dot(offset, offset) / cosine;
 }
 
 }  // namespace reflet

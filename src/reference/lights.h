@@ -1,4 +1,4 @@
-// What shines, and how a surface point draws a place on it.
+// Light sampling: the sun, lamps, emissive surfaces and the environment.
 #pragma once
 
 #include "reference/bsdf.h"
@@ -6,35 +6,36 @@
 
 namespace reflet {
 
-/// Light from one drawn place, were nothing in the way.
+/// A sample on a light, without visibility.
 struct LightSample {
     vec3 toLight{0.0F};  ///< unit
     float distance = std::numeric_limits<float>::infinity();
-    vec3 light{
-        0.0F};  ///< radiance / pdf; of the sun and of lamps irradiance / chance: times BRDF · cosine is reflected
-    float pdf = 0.0F;  ///< per solid angle; 0 for what scattered rays do not meet (sun, lamps)
-    Hit hit;           ///< of a glowing surface
-    /// Of lamps: from the centre to the place of the disk that shadow rays go to, across the way to the centre [m].
+    /// Radiance / pdf; sun and lamps: irradiance / probability. To be multiplied by BRDF · cosine.
+    vec3 light{0.0F};
+    float pdf = 0.0F;  ///< per solid angle; 0 for lights that scattered rays cannot hit (sun, lamps)
+    Hit hit;           ///< on an emissive surface
+    /// Lamps: offset from the lamp's centre to the point of its disk that shadow rays aim at, perpendicular to toLight
+    /// [m].
     vec3 aside{0.0F};
-    float clearance = 0.0F;  ///< what is nearer to the lamp's centre casts no shadow [m]
+    float clearance = 0.0F;  ///< occluders closer to the lamp's centre cast no shadow [m]
     bool onSurface = false;
 };
 
-/// A table of weights from which indices are drawn with chances in proportion.
+/// Discrete distribution: samples indices in proportion to their weights.
 class Distribution {
 public:
     Distribution() = default;
     explicit Distribution(const std::vector<double>& weights);
 
     [[nodiscard]] bool empty() const { return !(total_ > 0.0); }
-    /// u in [0, 1); on return it is the place within the index's own share, as good as new.
+    /// u in [0, 1); on return it is remapped to [0, 1) within the index's interval, and can be reused.
     [[nodiscard]] size_t draw(float& u) const;
     [[nodiscard]] float chance(size_t index) const {
         return static_cast<float>((sums_[index] - (index > 0 ? sums_[index - 1] : 0.0)) / total_);
     }
 
 private:
-    std::vector<double> sums_;  ///< running
+    std::vector<double> sums_;  ///< running sums of the weights
     double total_ = 0.0;
 };
 
@@ -46,17 +47,19 @@ public:
     [[nodiscard]] bool hasLamps() const { return !lamps_.empty(); }
     [[nodiscard]] bool hasSampledEmitters() const { return !triangles_.empty() || environmentChance_ > 0.0F; }
 
-    /// A place on the sun's disk. Irradiance is that of a surface that faces the drawn place, such that one that faces
-    /// the sun's centre gets the sun's irradiance from the whole disk.
+    /// Samples the sun's disk. The irradiance is that of a surface that faces the sampled point, scaled so that a
+    /// surface
+    /// that faces the sun's centre receives the sun's irradiance from the whole disk.
     [[nodiscard]] LightSample drawSun(const vec2& u) const;
-    /// One of the lamps, with a chance in proportion to the light that it sends to the point, and a place on its disk:
-    /// light and direction are those of the centre.
+    /// Selects a lamp in proportion to its light at the point, and samples its disk for the shadow ray; light and
+    /// direction
+    /// are those of the centre.
     [[nodiscard]] LightSample drawLamp(const SurfacePoint& point, float choice, const vec2& u) const;
-    /// A place on a glowing surface or in the environment's image; light 0 where nothing of it arrives.
+    /// Samples an emissive surface or the environment image; light 0 if none of it arrives.
     [[nodiscard]] LightSample drawEmitter(const SurfacePoint& point, float choice, const vec2& u) const;
 
     [[nodiscard]] vec3 environment(const vec3& direction) const;
-    /// Densities with which drawEmitter finds what a scattered ray has met.
+    /// Pdfs of drawEmitter for what a scattered ray has hit.
     [[nodiscard]] float environmentPdf(const vec3& direction) const;
     [[nodiscard]] float emitterPdf(const vec3& from, const SurfacePoint& emitter) const;
 
@@ -69,20 +72,20 @@ private:
     const RayScene& rays_;
     mat3 sunFrame_{1.0F};  ///< the last column points to the sun's centre
     vec3 sunIrradiance_;
-    float sunSine_;            ///< of half its angular diameter
-    std::vector<Lamp> lamps_;  ///< with the radius that the view gives them
+    float sunSine_;            ///< sine of its angular radius
+    std::vector<Lamp> lamps_;  ///< with the view's radius
     Environment environment_;
 
-    struct GlowingTriangle {
+    struct EmissiveTriangle {
         uint32_t instance = 0;
         uint32_t triangle = 0;
         float area = 0.0F;
     };
-    std::vector<GlowingTriangle> glowing_;
-    std::vector<std::vector<uint32_t>> glowingIndex_;  ///< by instance (empty: does not glow) and triangle
+    std::vector<EmissiveTriangle> emissive_;
+    std::vector<std::vector<uint32_t>> emissiveIndex_;  ///< by instance (empty: not emissive) and triangle
     Distribution triangles_;
     Distribution texels_;             ///< of the environment's image
-    float environmentChance_ = 0.0F;  ///< of drawEmitter to choose the environment's image
+    float environmentChance_ = 0.0F;  ///< probability that drawEmitter chooses the environment image
 };
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// Light from the environment: its image's texels are drawn by the light that they send.
+// Importance sampling of the environment image by its texels.
 #include "base/color.h"
 #include "reference/lights.h"
 #include "scene/environment.h"
@@ -10,7 +10,7 @@ namespace reflet {
 
 namespace {
 
-// Cosine of the angle from +Y at the upper edge of a row.
+// Cosine of the angle to +Y at the upper edge of a row.
 double edgeCosine(size_t row, size_t height) {
     return std::cos(glm::pi<double>() * static_cast<double>(row) / static_cast<double>(height));
 }
@@ -23,7 +23,7 @@ double texelSolidAngle(const FloatImage& image, size_t row) {
 
 void Lights::prepareEnvironment() {
     if (!environment_.image) {
-        return;  // the same from everywhere: no direction is better than those that surfaces scatter to
+        return;  // constant: BSDF sampling suffices
     }
     const FloatImage& image = *environment_.image;
     std::vector<double> weights(size_t(image.width) * image.height);

@@ -1,4 +1,4 @@
-// One path.
+// Traces one path.
 #include "reference/path_tracer.h"
 
 #include <algorithm>
@@ -7,9 +7,9 @@ namespace reflet {
 
 namespace {
 
-constexpr uint32_t rouletteStart = 4;  // bounces that every path may take
+constexpr uint32_t rouletteStart = 4;  // bounces before Russian roulette
 
-// Pairs of random numbers: one for the place in the pixel, then these for each surface.
+// Dimensions of the sampler: one pair for the position in the pixel, then these for each vertex of the path.
 enum Purpose : uint32_t { forSun, forLampAndLobe, forEmitter, forEmitterChoice, forScattering, forLampDisk, purposes };
 
 uint32_t pairFor(uint32_t vertex, Purpose purpose) {
@@ -18,23 +18,24 @@ uint32_t pairFor(uint32_t vertex, Purpose purpose) {
 
 }  // namespace
 
-// A shadow ray to a place on a lamp's disk, which ends where the lamp's clearance begins. Its direction is as long as
-// the way to that place.
+// A shadow ray to a point on a lamp's disk, which ends where the lamp's clearance begins. Its direction is not
+// normalized,
+// but reaches to that point.
 Ray rayToLamp(const vec3& origin, const vec3& center, const LightSample& lamp) {
     Ray ray{origin, center + lamp.aside - origin};
     const float length = glm::length(ray.direction);
     const float square = glm::dot(lamp.aside, lamp.aside);
-    const float inward = square / length;  // from the ray's point nearest to the centre to its end
+    const float inward = square / length;  // from the ray's closest point to the centre to its end
     const float rest = inward * inward + lamp.clearance * lamp.clearance - square;
     ray.far = 1.0F - (inward + std::sqrt(std::max(rest, 0.0F))) / length;
     return ray;
 }
 
-// A path on its way: where it is, and what share of light from here reaches the camera through each lobe of the first
+// State of a path: its vertex, and the throughput from there to the camera, separately for each lobe of the first
 // surface.
 struct PathTracer::Walk {
     SurfacePoint point;
-    uint32_t vertex = 0;  ///< surfaces before this one
+    uint32_t vertex = 0;  ///< number of surfaces before this one
     Reflection throughput;
     const PixelSampler& random;
     PathSample out;
@@ -84,7 +85,7 @@ bool PathTracer::lit(const SurfacePoint& point, const LightSample& light, PathSa
     ++out.rays;
     const vec3 origin = point.rayOrigin(light.toLight);
     Ray ray{origin, light.toLight};
-    if (light.onSurface) {  // ends just off the surface that glows
+    if (light.onSurface) {  // ends just off the emissive surface
         const vec3 place = point.position + light.toLight * light.distance;
         ray.direction = place - origin;
         ray.far = 1.0F - 1e-4F;
@@ -94,7 +95,7 @@ bool PathTracer::lit(const SurfacePoint& point, const LightSample& light, PathSa
     return ray.far <= 0.0F || !rays_.occluded(ray, RayKind::light);
 }
 
-// Sun and lamps, which no scattered ray can meet.
+// Next-event estimation of sun and lamps, which scattered rays cannot hit.
 void PathTracer::addLamps(Walk& walk, const Bsdf& bsdf) const {
     const bool first = walk.vertex == 0;
     vec3 sum(0.0F);
@@ -123,7 +124,7 @@ void PathTracer::addLamps(Walk& walk, const Bsdf& bsdf) const {
     }
 }
 
-// A drawn place on what glows, weighted against the chance that the scattered ray finds it, too.
+// Next-event estimation of emissive surfaces and the environment, with MIS weights against BSDF sampling.
 void PathTracer::addEmitters(Walk& walk, const Bsdf& bsdf) const {
     if (!lights_.hasSampledEmitters()) {
         return;
@@ -188,7 +189,7 @@ bool PathTracer::step(Walk& walk, const Bsdf& bsdf) const {
 
 bool PathTracer::cameraSees(const SurfacePoint& point, PathSample& out) const {
     if (!point.front && !rays_.material(point.hit.instance).doubleSided) {
-        return false;  // the camera looks through it
+        return false;  // a back face that the camera does not draw
     }
     auto back = camera_.backFrom(point.position);
     if (!back || glm::dot(back->direction, point.geometricNormal) <= 0.0F) {

@@ -1,6 +1,6 @@
-// One path through one place in the picture: next-event estimation at every surface, multiple importance sampling
-// between drawn places on what glows and what scattered rays meet by themselves. (Veach, Robust Monte Carlo Methods for
-// Light Transport Simulation, 1997)
+// Traces one path through a position in the image: next-event estimation at every vertex, and multiple importance
+// sampling
+// of light and BSDF samples. (Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997)
 #pragma once
 
 #include "reference/camera_rays.h"
@@ -17,17 +17,17 @@ struct PathSample {
     vec3 indirectSpecular{0.0F};
     vec3 albedo{0.0F};
     float sunVisibility = 1.0F;
-    uint32_t rays = 0;  ///< that were traced
+    uint32_t rays = 0;  ///< rays traced
 };
 
 class PathTracer {
 public:
     PathTracer(const RayScene& rays, const View& view, uvec2 size, const ReferenceOptions& options);
 
-    /// place: in pixels.
+    /// place: position in the image, in pixels.
     [[nodiscard]] PathSample trace(const vec2& place, const PixelSampler& random) const;
 
-    /// What the camera sees there; nothing: the background.
+    /// The surface that the camera sees there; nullopt: the background.
     [[nodiscard]] std::optional<SurfacePoint> firstSurface(const vec2& place) const;
     [[nodiscard]] float depth(const SurfacePoint& point) const { return camera_.depth(point.position); }
 
@@ -36,7 +36,7 @@ private:
 
     void addLamps(Walk& walk, const Bsdf& bsdf) const;
     void addEmitters(Walk& walk, const Bsdf& bsdf) const;
-    /// False: the path ends here.
+    /// False if the path ends here.
     [[nodiscard]] bool step(Walk& walk, const Bsdf& bsdf) const;
     [[nodiscard]] bool cameraSees(const SurfacePoint& point, PathSample& out) const;
     [[nodiscard]] bool lit(const SurfacePoint& point, const LightSample& light, PathSample& out) const;

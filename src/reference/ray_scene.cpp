@@ -1,4 +1,4 @@
-// Embree, version 3 or 4, behind RayScene.
+// Implements RayScene with Embree, version 3 or 4.
 #include "reference/ray_scene.h"
 
 #include "base/error.h"
@@ -15,7 +15,7 @@
 
 namespace reflet {
 
-// What a filter needs to know of an instance.
+// Data of an instance for the filter functions.
 struct EmbreeGeometry {
     const RayScene* owner = nullptr;
     uint32_t instance = 0;
@@ -35,7 +35,7 @@ const EmbreeGeometry& geometryOf(const RTCFilterFunctionNArguments& args) {
     return *static_cast<const EmbreeGeometry*>(args.geometryUserPtr);
 }
 
-// Rays go through where the material is cut out.
+// Alpha test: rejects hits where the alpha is below the cutoff.
 void passCutOut(const RTCFilterFunctionNArguments* args) {
     const EmbreeGeometry& g = geometryOf(*args);
     const Hit hit{0.0F, g.instance, RTCHitN_primID(args->hit, args->N, 0), barycentricOf(*args)};
@@ -44,7 +44,7 @@ void passCutOut(const RTCFilterFunctionNArguments* args) {
     }
 }
 
-// Camera rays also go through the backs of single-sided surfaces.
+// Also rejects the back faces of single-sided surfaces, for camera rays.
 void passBacks(const RTCFilterFunctionNArguments* args) {
     const EmbreeGeometry& g = geometryOf(*args);
     if (g.doubleSided) {
@@ -59,7 +59,7 @@ void passBacks(const RTCFilterFunctionNArguments* args) {
     }
 }
 
-// What a query carries besides its ray; the two versions of Embree differ here and in the calls below.
+// Context of a query; the two versions of Embree differ here and in the calls below.
 class Query {
 public:
     explicit Query(RayKind kind) {
@@ -135,10 +135,10 @@ struct RayScene::State {
         rtcReleaseDevice(device);
     }
 
-    // Embree sets the device's error and goes on.
+    // Embree records errors on the device instead of throwing.
     void check(const char* what) const {
         if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE) {
-            fail("{}: Embree failed with {}{}", what, static_cast<int>(error),
+            fail("{}: Embree failed with error {}{}", what, static_cast<int>(error),
                  error == RTC_ERROR_OUT_OF_MEMORY ? " (out of memory)" : "");
         }
     }
@@ -150,7 +150,7 @@ struct RayScene::State {
         const mat3 m(instance.objectToWorld);
         g.mirrored = glm::determinant(m) < 0.0F;
         g.doubleSided = material.doubleSided;
-        // The cofactors: the inverse transpose up to a factor, there for flattened instances, too.
+        // The cofactor matrix: the inverse transpose up to a factor, but defined for singular matrices, too.
         g.normalToWorld =
             mat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])) * (g.mirrored ? -1.0F : 1.0F);
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -178,10 +178,10 @@ struct RayScene::State {
 RayScene::RayScene(const Scene& scene) : state_(new State{scene, {}, nullptr, nullptr}) {
     state_->device = rtcNewDevice(nullptr);
     if (state_->device == nullptr) {
-        fail("Embree cannot start: error {}", static_cast<int>(rtcGetDeviceError(nullptr)));
+        fail("Embree cannot be started: error {}", static_cast<int>(rtcGetDeviceError(nullptr)));
     }
     state_->hierarchy = rtcNewScene(state_->device);
-    // Robust: no ray slips through between two triangles.
+    // Robust: rays do not leak between adjacent triangles.
     rtcSetSceneFlags(state_->hierarchy, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | filterFlag));
     state_->geometries.resize(scene.instances.size());
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
@@ -193,7 +193,7 @@ RayScene::RayScene(const Scene& scene) : state_(new State{scene, {}, nullptr, nu
         }
     }
     rtcCommitScene(state_->hierarchy);
-    state_->check("building the hierarchy");
+    state_->check("building the BVH");
 }
 
 RayScene::~RayScene() = default;

@@ -1,4 +1,4 @@
-// What rays hit: the scene's triangles in an Embree hierarchy, and the surface there.
+// Ray queries against the scene's triangles, in an Embree BVH.
 #pragma once
 
 #include "scene/scene.h"
@@ -12,24 +12,24 @@ namespace reflet {
 
 struct Ray {
     vec3 origin{0.0F};
-    vec3 direction{0.0F};  ///< of any length: distances count in it
+    vec3 direction{0.0F};  ///< of any length, which is the unit of distances
     float near = 0.0F;
     float far = std::numeric_limits<float>::infinity();
 };
 
 enum class RayKind : uint8_t {
-    camera,  ///< passes through the backs of single-sided surfaces, as the camera does
-    light,   ///< everything is in its way
+    camera,  ///< ignores the back faces of single-sided surfaces
+    light,   ///< hits both sides of all surfaces
 };
 
 struct Hit {
     float distance = 0.0F;  ///< in lengths of the ray's direction
     uint32_t instance = 0;
     uint32_t triangle = 0;
-    vec2 barycentric{0.0F};  ///< weights of the second and the third corner
+    vec2 barycentric{0.0F};  ///< weights of the second and the third vertex
 };
 
-/// A triangle in the world.
+/// A triangle in world space.
 struct Triangle {
     vec3 a{0.0F};
     vec3 b{0.0F};
@@ -38,7 +38,7 @@ struct Triangle {
 
 class RayScene {
 public:
-    /// Keeps a reference to the scene. Throws Error where memory does not suffice.
+    /// Keeps a reference to the scene. Throws Error if there is not enough memory.
     explicit RayScene(const Scene& scene);
     ~RayScene();
     RayScene(const RayScene&) = delete;
@@ -52,7 +52,7 @@ public:
     [[nodiscard]] const Scene& scene() const;
     [[nodiscard]] Triangle triangle(uint32_t instance, uint32_t triangle) const;
     [[nodiscard]] const Material& material(uint32_t instance) const;
-    /// Normal matrix, with the sign that keeps normals outside of mirrored instances.
+    /// Normal matrix, with its sign chosen so that normals of mirrored instances point outwards.
     [[nodiscard]] const mat3& normalToWorld(uint32_t instance) const;
     [[nodiscard]] bool mirrored(uint32_t instance) const;
 

@@ -1,5 +1,6 @@
-// The path tracer's picture: samples in passes over tiles, each pixel always by itself, so that the number of threads
-// changes nothing.
+// Renders the reference in passes over tiles. Pixels are independent, so that the result does not depend on the number
+// of
+// threads.
 #include "reference/reference.h"
 
 #include "base/color.h"
@@ -23,7 +24,7 @@ namespace reflet {
 namespace {
 
 constexpr uint32_t tileSize = 16;
-constexpr uint32_t largestPass = 16;  // samples per pixel between two looks at the noise
+constexpr uint32_t largestPass = 16;  // samples per pixel between two noise estimates
 
 struct PixelSum {
     vec3 direct{0.0F};
@@ -47,7 +48,7 @@ struct PixelSum {
         luminanceSquared += l * l;
     }
 
-    // Of the mean, as if the samples were independent; they are better than that.
+    // Of the mean, assuming independent samples; low-discrepancy samples do better.
     [[nodiscard]] double relativeVariance() const {
         const double n = count;
         const double mean = luminance / n;
@@ -65,7 +66,7 @@ public:
         progress_.total = uint64_t(options.samples) * sums_.size();
     }
 
-    // Until there are enough samples, little enough noise, or somebody says so.
+    // Until the sample count or the noise limit is reached, or the caller stops it.
     void run() {
         uint32_t done = 0;
         while (done < options_.samples && !stopped_) {
@@ -177,7 +178,7 @@ void gatherMeans(ReferencePicture& picture, uvec2 size, const std::vector<PixelS
     picture.samples = std::ranges::min(sums, {}, &PixelSum::count).count;
 }
 
-// Depths and normals of one place: their means over a pixel would be nobody's.
+// Depths and normals at pixel centres: averages over a pixel would belong to no surface.
 void traceCenters(ReferencePicture& picture, uvec2 size, const PathTracer& tracer) {
     picture.normal = makeImage(size, xyz);
     picture.depth = makeImage(size, grey);
@@ -210,7 +211,7 @@ ReferencePicture traceReference(const Scene& scene, const View& view, uvec2 size
                                 const std::function<bool(const ReferenceProgress&)>& proceed) {
     REFLET_CHECK(size.x > 0 && size.y > 0 && options.samples > 0, "{}x{}, {} samples", size.x, size.y, options.samples);
     ReferencePicture picture;
-    // Lets a caller have more threads than there are cores, if it says so.
+    // Allows more threads than there are cores.
     std::optional<tbb::global_control> allowed;
     if (options.threads > 0) {
         allowed.emplace(tbb::global_control::max_allowed_parallelism, options.threads);
@@ -222,7 +223,7 @@ ReferencePicture traceReference(const Scene& scene, const View& view, uvec2 size
         const RayScene rays(stands ? scene : still);
         const View seen = posed(view, scene);
         const PathTracer tracer(rays, seen, size, options);
-        (void)ggxAlbedo(1.0F, 1.0F);  // integrates its table, which is not tracing
+        (void)ggxAlbedo(1.0F, 1.0F);  // computes its table outside of the measured time
         const auto start = std::chrono::steady_clock::now();
         Tracing tracing(tracer, size, options, proceed);
         tracing.run();

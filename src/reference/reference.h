@@ -1,9 +1,12 @@
-// The truth: a path tracer on the CPU (Embree). It shares the scene and the surface model with the GPU renderer, but
-// no line of shading code, so that each checks the other.
+// The reference (ground truth): a path tracer on the CPU (Embree). It shares the scene and the surface model with the
+// GPU
+// renderer, but no shading code, so that each validates the other.
 //
-// Light is sorted into the same layers as the renderer's: sun and lamps at the surface that the camera sees, what it
-// emits and the background are `direct`; everything that reaches it by way of a scattered ray (light of other
-// surfaces, glowing ones and the environment included) is indirect_diffuse or indirect_specular.
+// Light is split into the same layers as in the renderer: light of sun and lamps at the visible surface, its emission
+// and
+// the background are `direct`; all light that reaches it by a scattered ray (from other surfaces, including emissive
+// ones,
+// and from the environment) is indirect_diffuse or indirect_specular.
 #pragma once
 
 #include "base/image_file.h"
@@ -16,58 +19,58 @@
 namespace reflet {
 
 enum class PixelFilter : uint8_t {
-    box,     ///< samples all over the pixel
-    center,  ///< all samples through the pixel's centre, as a rasterizer sees it
+    box,     ///< samples over the whole pixel
+    center,  ///< all samples through the pixel's centre, as in rasterization
 };
 
-/// How diffuse directions are drawn; the picture is the same, the noise is not.
+/// Sampling of diffuse directions: it affects noise, but not the expected result.
 enum class DiffuseSampling : uint8_t { cosine, uniform };
 
 struct ReferenceOptions {
     static constexpr uint32_t unlimited = 0xFFFFFFFF;
 
-    uint32_t bounces = unlimited;  ///< scattered rays of a path; 0: sun and lamps only, each followed to the surface
+    uint32_t bounces = unlimited;  ///< scattered rays of a path; 0: direct light only
     uint32_t samples = 64;         ///< per pixel, at least 1
-    float noise = 0.0F;            ///< ends earlier where the noise (see ReferencePicture) is under this; 0: never
+    float noise = 0.0F;            ///< stops early once the noise (see ReferencePicture) is below this; 0: never
     PixelFilter filter = PixelFilter::box;
     DiffuseSampling diffuse = DiffuseSampling::cosine;
-    bool visibleOnly = false;  ///< a scattered ray brings light only from points that the camera sees
-    bool lambertOnly = false;  ///< every material as Lambert of its base colour
-    bool lampShadows = true;   ///< false: lamps shine through everything
+    bool visibleOnly = false;  ///< scattered rays carry light only from points that the camera sees
+    bool lambertOnly = false;  ///< replaces every material by Lambert of its base colour
+    bool lampShadows = true;   ///< false: lamps are not occluded
     uint32_t seed = 0;
-    unsigned threads = 0;  ///< 0: one per core. The picture does not depend on it
+    unsigned threads = 0;  ///< 0: one per core; does not affect the result
 };
 
 struct ReferenceProgress {
-    uint64_t done = 0;   ///< samples of all pixels
-    uint64_t total = 0;  ///< the same, if all are needed
-    double noise = 0.0;  ///< estimated so far; 0 where nothing is known yet
+    uint64_t done = 0;   ///< samples so far, over all pixels
+    uint64_t total = 0;  ///< samples if it does not stop early
+    double noise = 0.0;  ///< current estimate; 0 if unknown
 };
 
-/// All images have the same size. Radiance in W/(m² sr).
+/// The final image and its layers (AOVs), all of the same size. Radiance in W/(m² sr).
 struct ReferencePicture {
     FloatImage final;             ///< RGB: direct + indirectDiffuse + indirectSpecular
     FloatImage direct;            ///< RGB
     FloatImage indirectDiffuse;   ///< RGB
     FloatImage indirectSpecular;  ///< RGB
-    FloatImage albedo;            ///< RGB: base colour, linear, 0 where there is nothing
-    FloatImage normal;            ///< XYZ: world-space shading normal at the pixel's centre, 0 where there is nothing
-    FloatImage depth;             ///< Y: metres in front of the camera at the pixel's centre, 0 where there is nothing
-    FloatImage sunVisibility;     ///< Y: share of the sun's disk that is not hidden, 1 where there is nothing
-    uint32_t samples = 0;         ///< per pixel; of the pixel that has the fewest
-    double noise = 0.0;           ///< root of the mean over the pixels of variance of the mean / (luminance² + 0.01):
-                                  ///< its square is the relative MSE that another run of the same length would have
-                                  ///< against the truth. 0 with less than two samples
-    uint64_t rays = 0;            ///< all that were traced, shadow rays included
-    double seconds = 0.0;         ///< of tracing, without building the hierarchy
+    FloatImage albedo;            ///< RGB: base colour, linear, 0 in the background
+    FloatImage normal;            ///< XYZ: world-space shading normal at the pixel's centre, 0 in the background
+    FloatImage depth;             ///< Y: metres in front of the camera at the pixel's centre, 0 in the background
+    FloatImage sunVisibility;     ///< Y: visible fraction of the sun's disk, 1 in the background
+    uint32_t samples = 0;         ///< per pixel (the minimum)
+    double noise = 0.0;           ///< root of the mean over pixels of variance of the mean / (luminance² + 0.01): its
+                                  ///< square estimates the relative MSE of this image against a converged one. 0 with
+                                  ///< less than two samples
+    uint64_t rays = 0;            ///< traced, including shadow rays
+    double seconds = 0.0;         ///< of tracing, without building the BVH
     bool complete = true;         ///< false: `proceed` ended it
 
-    /// Named as `reflet render --aov` names them; first `final` without a name, too, so that every viewer shows it.
+    /// Named as by `reflet render --aov`; preceded by an unnamed copy of `final`, which every viewer shows.
     [[nodiscard]] std::vector<ImageLayer> layers() const;
 };
 
-/// `proceed` is called now and then from one thread at a time; false ends the work after the first sample of every
-/// pixel, with what there is. The same scene, view, size, samples and seed give the same picture.
+/// `proceed` is called periodically, from one thread at a time; when it returns false, rendering stops as soon as every
+/// pixel has a sample. The result is deterministic for the same scene, view, size, samples and seed.
 ReferencePicture traceReference(const Scene& scene, const View& view, uvec2 size, const ReferenceOptions& options,
                                 const std::function<bool(const ReferenceProgress&)>& proceed = {});
 

@@ -13,7 +13,7 @@ uint32_t reverseBits(uint32_t x) {
     return ((x & 0x55555555U) << 1U) | ((x & 0xaaaaaaaaU) >> 1U);
 }
 
-// Scrambles such that each bit depends on those below it only; on reversed bits that is Owen's nested scrambling.
+// A hash in which each bit depends only on lower bits; on reversed bits it is an Owen scrambling.
 // (Laine and Karras, Stratified Sampling for Stochastic Transparency, EGSR 2011; constants: Vegdahl 2021)
 uint32_t scrambleUpwards(uint32_t x, uint32_t seed) {
     x ^= x * 0x3d20adeaU;
@@ -25,7 +25,7 @@ uint32_t scrambleUpwards(uint32_t x, uint32_t seed) {
 }
 
 // Sobol's second dimension: its generator matrix is Pascal's triangle modulo 2, the fifth Kronecker power of
-// ((1, 1), (0, 1)), so that five steps multiply by it. Takes and gives reversed bits.
+// ((1, 1), (0, 1)), so that five steps multiply by it. Input and output have reversed bits.
 uint32_t pascal(uint32_t x) {
     x ^= (x & 0x0000ffffU) << 16U;
     x ^= (x & 0x00ff00ffU) << 8U;
@@ -43,11 +43,10 @@ float toUnit(uint32_t x) {
 
 vec2 PixelSampler::pair(uint32_t pair) const {
     const uint32_t seed = mixBits(stream_ + pair * 0x9e3779b9U);
-    // Shuffled, so that pairs do not march in step; still a nested permutation, so that each power of two of samples
-    // stays stratified.
+    // Shuffles the index to decorrelate pairs, by a nested permutation that keeps every power-of-two set stratified.
     const uint32_t reversed = scrambleUpwards(reverseBits(sample_), seed);
     const uint32_t index = reverseBits(reversed);
-    // The first dimension is the reversed index; scrambling works on the reverse of that.
+    // The first dimension is the bit-reversed index, so that scrambling works on the index itself.
     const uint32_t x = reverseBits(scrambleUpwards(index, mixBits(seed + 1)));
     const uint32_t y = reverseBits(scrambleUpwards(reverseBits(pascal(reversed)), mixBits(seed + 2)));
     return {toUnit(x), toUnit(y)};

@@ -1,5 +1,6 @@
-// The random numbers of one sample of one pixel: Sobol's first two dimensions, Owen-scrambled anew for every pair that
-// a path asks for. (Burley, Practical Hash-based Owen Scrambling, JCGT 2020)
+// Random numbers for a sample of a pixel: the first two Sobol dimensions with an independent Owen scrambling for every
+// pair
+// that a path requests (padding). (Burley, Practical Hash-based Owen Scrambling, JCGT 2020)
 #pragma once
 
 #include "base/math.h"
@@ -8,7 +9,7 @@
 
 namespace reflet {
 
-/// A permutation of all 32-bit numbers without visible order. (Wellons' lowbias32)
+/// A bijective 32-bit integer hash. (Wellons' lowbias32)
 inline uint32_t mixBits(uint32_t x) {
     x ^= x >> 16U;
     x *= 0x7feb352dU;
@@ -23,8 +24,8 @@ public:
     PixelSampler(uint32_t pixel, uint32_t seed, uint32_t sample)
         : stream_(mixBits(pixel ^ mixBits(seed ^ 0x9e3779b9U))), sample_(sample) {}
 
-    /// Two numbers in [0, 1). Over the samples of a pixel, each `pair` is a low-discrepancy set of its own; the sets
-    /// are independent of one another.
+    /// Two numbers in [0, 1). Over the samples of a pixel each `pair` is a low-discrepancy set, independent of the
+    /// others.
     [[nodiscard]] vec2 pair(uint32_t pair) const;
 
 private:

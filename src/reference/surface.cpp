@@ -1,4 +1,4 @@
-// The surface that a ray has hit.
+// Surface attributes at a hit.
 #include "reference/surface.h"
 
 #include "reference/texture.h"
@@ -11,7 +11,7 @@ namespace reflet {
 
 namespace {
 
-// A hit's corners and their weights.
+// Vertices of the hit triangle and their barycentric weights.
 struct Corners {
     std::array<const VertexAttributes*, 3> at{};
     std::array<float, 3> weight{};
@@ -54,7 +54,7 @@ vec3 emissionOf(const Scene& scene, const Material& material, const Corners& cor
     return material.emissive * vec3(readTexture(scene, material.emissiveTexture, corners.uv0(), corners.uv1(), true));
 }
 
-// The interpolated normal, bent by the normal map; outside of the object, wherever the ray came from.
+// The interpolated and normal-mapped normal; it points outwards, whichever side the ray came from.
 vec3 outerNormal(const RayScene& rays, const Hit& hit, const Corners& corners, const vec3& fallback) {
     const Scene& scene = rays.scene();
     const Material& material = rays.material(hit.instance);
@@ -93,7 +93,7 @@ SurfacePoint surfaceAt(const RayScene& rays, const Hit& hit, const vec3& directi
 
     SurfacePoint s;
     s.hit = hit;
-    // From the corners, not along the ray: that would carry the ray's rounding over its whole length.
+    // From the vertices, because a point along the ray has a rounding error that grows with the distance.
     s.position = t.a * corners.weight[0] + t.b * corners.weight[1] + t.c * corners.weight[2];
     s.clearance = 4e-6F * std::max({largest(t.a), largest(t.b), largest(t.c)});
     s.toOrigin = -glm::normalize(direction);

@@ -1,4 +1,4 @@
-// The surface that a ray has hit: where it is, how it faces, what it is made of.
+// The surface at a hit: position, normals and material.
 #pragma once
 
 #include "reference/ray_scene.h"
@@ -7,18 +7,18 @@ namespace reflet {
 
 struct SurfacePoint {
     vec3 position{0.0F};
-    vec3 geometricNormal{0.0F};  ///< unit, of the triangle, toward where the ray came from
+    vec3 geometricNormal{0.0F};  ///< unit, of the triangle, facing the ray's origin
     vec3 normal{0.0F};           ///< unit, shading normal on the same side of the surface as the geometric one
-    vec3 toOrigin{0.0F};         ///< unit, against the ray
+    vec3 toOrigin{0.0F};         ///< unit, opposite to the ray
     vec3 baseColor{0.0F};
     float roughness = 1.0F;  ///< perceptual
     float metallic = 0.0F;
-    vec3 emission{0.0F};     ///< radiance toward the ray's origin: surfaces emit from the side that they show
-    float clearance = 0.0F;  ///< how far off the surface a ray starts so as not to hit it again [m]
-    bool front = true;       ///< the ray came from the outer side
+    vec3 emission{0.0F};     ///< radiance toward the ray's origin; 0 from the back of single-sided surfaces
+    float clearance = 0.0F;  ///< offset of new rays from the surface, to avoid self-intersection [m]
+    bool front = true;       ///< the ray hit the front face
     Hit hit;
 
-    /// Where a ray to `direction` starts.
+    /// Origin of a ray to `direction`.
     [[nodiscard]] vec3 rayOrigin(const vec3& direction) const {
         return position + geometricNormal * (glm::dot(direction, geometricNormal) < 0.0F ? -clearance : clearance);
     }
@@ -26,10 +26,10 @@ struct SurfacePoint {
 
 SurfacePoint surfaceAt(const RayScene& rays, const Hit& hit, const vec3& direction);
 
-/// The material's alpha is under its cutoff there.
+/// Whether the material's alpha is below its cutoff there.
 bool isCutOut(const RayScene& rays, const Hit& hit);
 
-/// Emission of a surface as seen from its front, texture included.
+/// Textured emission of the front face.
 vec3 emissionAt(const RayScene& rays, const Hit& hit);
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// Reads the scene's images.
+// Texture lookup.
 #include "reference/texture.h"
 
 #include "base/color.h"
@@ -57,7 +57,7 @@ vec4 readTexture(const Scene& scene, const TextureSlot& slot, const vec2& uv0, c
     const Image& image = scene.images[static_cast<size_t>(slot.image)];
     const Sampler& sampler = slot.sampler < 0 ? standard : scene.samplers[static_cast<size_t>(slot.sampler)];
     const vec3 uv(slot.uvSet == 1 ? uv1 : uv0, 1.0F);
-    // Far outside, texel numbers would not fit an int; repeating is not meant to be seen there.
+    // Coordinates far outside would overflow an int; repetition does not matter there.
     const vec2 size(image.width, image.height);
     const vec2 at =
         glm::clamp(vec2(glm::dot(slot.uvTransform[0], uv), glm::dot(slot.uvTransform[1], uv)) * size, -1e9F, 1e9F);

@@ -1,12 +1,11 @@
-// Reads the scene's images as materials see them: bilinear or nearest, without mips, since a pixel is many samples.
+// Texture lookup, bilinear or nearest; without mips, because a pixel has many samples.
 #pragma once
 
 #include "scene/scene.h"
 
 namespace reflet {
 
-/// Four channels 0..1 of a slot that has an image; `srgb`: the colours are decoded. Outside of 0..1 the slot's sampler
-/// decides.
+/// RGBA in 0..1 of a slot with an image. srgb: decode the colours. Addressing outside of 0..1 is the slot's sampler's.
 vec4 readTexture(const Scene& scene, const TextureSlot& slot, const vec2& uv0, const vec2& uv1, bool srgb);
 
 }  // namespace reflet

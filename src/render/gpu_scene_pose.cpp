@@ -32,13 +32,13 @@ void GpuScene::pose(const Scene& scene, const ScenePose& now, const ScenePose& b
     for (size_t i = 0; i < draws_.draws.size(); ++i) {
         const Instance& instance = scene.instances[i];
         Draw& draw = draws_.draws[i];
-        if (moves(now, instance)) {
+        if (isAnimated(now, instance)) {
             const bool skinned = instance.skin >= 0;
             draw.objectToWorld = now.objectToWorld[i];
             draw.previousObjectToWorld = before.objectToWorld[i];
             draw.boundsW = instanceBounds(scene, now, i, skinned ? skinnedBounds_.at(i) : std::vector<Aabb>{});
             draw.firstVertex = skinned ? skinnedFirst_.at(i) : draw.firstVertex;
-            draw.turnedOver = skinned && turnsOver(now.skins[static_cast<size_t>(instance.skin)]);
+            draw.turnedOver = skinned && flipsWinding(now.skins[static_cast<size_t>(instance.skin)]);
         }
         draws_.boundsW.add(draw.boundsW);
     }

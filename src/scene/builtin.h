@@ -1,4 +1,4 @@
-// The scenes that are made by code: what tests, pictures and first steps use, without any file.
+// Procedural scenes for tests, documentation and first steps; they need no files.
 #pragma once
 
 #include "scene/scene.h"
@@ -11,18 +11,19 @@ namespace reflet {
 
 struct BuiltinScene {
     std::string_view name;         ///< as in `builtin:NAME`
-    std::string_view description;  ///< one line: what is in it and what it is for
-    Scene (*make)();               ///< always the same scene, to the bit
+    std::string_view description;  ///< one line: its contents and its purpose
+    Scene (*make)();               ///< deterministic, bit for bit
 };
 
-/// All of them, in the order in which they are listed.
+/// All of them, in display order.
 std::span<const BuiltinScene> builtinScenes();
 
-/// nullptr: there is none of that name.
+/// nullptr if there is none of that name.
 const BuiltinScene* findBuiltinScene(std::string_view name);
 
-/// One of the list, or "tessellated-N": a room that looks the same with any number N of triangles, which is 100 times
-/// the square of 1 to 100. That one is for measuring alone and not in the list. None: there is none of that name.
+/// One of the list, or "tessellated-N": a room of N triangles that looks the same for every N. N is 100 times the
+/// square
+/// of a number from 1 to 100. It is for benchmarks and not in the list. nullopt if there is none of that name.
 std::optional<Scene> makeBuiltinScene(std::string_view name);
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// Builds the hierarchy: from the root down, cut where the surface area heuristic says, at the bounds of bins.
+// Builds the BVH top-down, with binned splits by the surface area heuristic (SAH).
 #include "scene/bvh.h"
 
 #include <algorithm>
@@ -13,14 +13,14 @@ namespace {
 
 constexpr uint32_t binCount = 16;
 constexpr uint32_t nodeCost = 1;          // in triangle tests
-constexpr float smallestMargin = 1e-10F;  // metres, of boxes about 0
+constexpr float smallestMargin = 1e-10F;  // metres, for boxes near the origin
 
-// A triangle on its way into a leaf.
+// A triangle that is being sorted into a leaf.
 struct Item {
     Aabb box;
     uint32_t triangle = 0;
 
-    // Twice the centre of the box.
+    // Twice the centre: only comparisons matter.
     [[nodiscard]] vec3 center() const { return box.min + box.max; }
 };
 
@@ -126,14 +126,14 @@ public:
         bvh.nodes.reserve(items_.size());
         bvh.nodes.emplace_back();
         bvh.triangles.reserve(items_.size());
-        // The root has two children, whatever there is.
+        // The root always has two children.
         const auto [left, right] = items_.size() < 2 ? std::pair(Items(items_), Items(items_)) : cut(items_, 0).value();
         fill(bvh, 0, left, right, 1);
         return bvh;
     }
 
 private:
-    // Halves by the centres along the longest axis: what is left where bins do not help.
+    // Object median along the longest axis of the centres: the fallback where no binned split helps.
     static std::pair<Items, Items> cutInHalves(Items items, const Aabb& centers) {
         const vec3 size = centers.size();
         const int axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
@@ -145,7 +145,7 @@ private:
         return {items.first(half), items.subspan(half)};
     }
 
-    // None: they are better off in one leaf. `depth` is that of the node that would hold the two parts.
+    // nullopt: a leaf is cheaper. `depth` is that of the node that would hold the two parts.
     [[nodiscard]] std::optional<std::pair<Items, Items>> cut(Items items, uint32_t depth) const {
         Aabb box;
         Aabb centers;
@@ -181,7 +181,7 @@ private:
         bvh.nodes[node] = n;
     }
 
-    // A little larger than what is in it: a ray that runs along a side, within a rounding, does not miss it.
+    // Slightly enlarged, so that a ray that grazes a side does not miss the box by a rounding error.
     static void setBox(Items items, vec3& min, vec3& max) {
         Aabb box;
         for (const Item& item : items) {
@@ -212,7 +212,7 @@ private:
         }
         const auto count = std::max(static_cast<uint32_t>(items.size()), 1U);
         if (items.empty()) {
-            bvh.triangles.push_back({});  // without area: nothing hits it
+            bvh.triangles.push_back({});  // degenerate: nothing hits it
         }
         return bvhLeaf | ((count - 1) << bvhCountShift) | first;
     }
@@ -222,13 +222,13 @@ private:
     std::vector<Item> items_;
 };
 
-// Box of all that hangs from a node.
+// Box of a node's whole subtree.
 void setBounds(const BvhNode& node, vec3& min, vec3& max) {
     min = glm::min(node.leftMin, node.rightMin);
     max = glm::max(node.leftMax, node.rightMax);
 }
 
-// Nodes and triangles of `from` behind those that are there.
+// Appends nodes and triangles of `from`.
 void append(Bvh& to, const Bvh& from) {
     const auto firstNode = static_cast<uint32_t>(to.nodes.size());
     const auto firstTriangle = static_cast<uint32_t>(to.triangles.size());

@@ -1,5 +1,5 @@
-// A bounding volume hierarchy over a scene's triangles, for rays on the device.
-// I. Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007: the surface area heuristic at bins.
+// A bounding volume hierarchy over a scene's triangles, for ray tracing on the GPU.
+// I. Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007: binned SAH.
 #pragma once
 
 #include "scene/bvh_layout.h"
@@ -11,26 +11,26 @@ namespace reflet {
 
 enum class Instances : uint8_t {
     all,
-    standing,  ///< what is at the same place at all times
+    stationary,  ///< neither animated nor skinned
     moving,
 };
 
-/// All triangles of these instances, in the world, in the order of instances and indices. Those with a corner that is
-/// not finite (or beyond 1e18 m) are left out. Throws Error: more than the hierarchy can number (2^28).
+/// All triangles of these instances in world space, in the order of instances and indices. Triangles with a vertex that
+/// is not finite (or beyond 1e18 m) are left out. Throws Error if there are more than the BVH can index (2^28).
 std::vector<SceneTriangle> sceneTriangles(const Scene& scene, const ScenePose& pose, Instances which = Instances::all);
 /// At time 0.
 std::vector<SceneTriangle> sceneTriangles(const Scene& scene);
 
 struct Bvh {
     std::vector<BvhNode> nodes;            ///< the root first; never empty
-    std::vector<SceneTriangle> triangles;  ///< in the order of leaves; never empty: one without area stands for none
+    std::vector<SceneTriangle> triangles;  ///< in leaf order; never empty: an empty scene has one degenerate triangle
 };
 
-/// The same hierarchy for the same triangles. maxDepth: nodes from the root to a leaf, at most.
+/// Deterministic. maxDepth: maximum number of nodes from the root to a leaf.
 Bvh buildBvh(const std::vector<SceneTriangle>& triangles, uint32_t maxDepth = bvhMaxDepth);
 
-/// One hierarchy over two, each of at most bvhMaxDepth - 1 nodes to a leaf: what stands still need not be built anew
-/// when something moves.
+/// Merges two hierarchies, each with at most bvhMaxDepth - 1 nodes to a leaf, under one root: the static part need not
+/// be rebuilt when something moves.
 Bvh joined(const Bvh& a, const Bvh& b);
 
 }  // namespace reflet

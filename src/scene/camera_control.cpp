@@ -1,4 +1,4 @@
-// Moves a camera.
+// Interactive camera movement.
 #include "scene/camera_control.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@ namespace reflet {
 
 namespace {
 
-constexpr float steepest = glm::radians(89.0F);  // from the horizon: straight up and down, right and left are lost
+constexpr float steepest = glm::radians(89.0F);  // elevation; at 90 degrees left and right would be undefined
 constexpr float nearest = 1e-3F;                 // metres to the target
 
 struct Axes {
@@ -23,7 +23,7 @@ Axes axesOf(const Camera& camera) {
     return {right, glm::cross(right, ahead), ahead};
 }
 
-// A direction, turned about the vertical and then towards or away from it.
+// Rotates a direction about the vertical, then towards or away from it.
 vec3 turned(const Camera& camera, const vec3& direction, const vec2& radians) {
     const vec3 vertical = glm::normalize(camera.up);
     const float height = std::asin(std::clamp(glm::dot(direction, vertical), -1.0F, 1.0F));
@@ -39,7 +39,7 @@ float distanceOf(const Camera& camera) {
     return std::max(glm::length(camera.target - camera.position), nearest);
 }
 
-// It was where a node or a file had put it.
+// Detaches the camera from its node.
 void takeOver(Camera& camera) {
     camera.node = -1;
     camera.aims = true;

@@ -1,30 +1,29 @@
-// Moves a camera as hands on mouse and keys ask it to. Nothing here knows of windows.
+// Camera movement by mouse and keyboard, independent of any window system.
 #pragma once
 
 #include "scene/scene.h"
 
 namespace reflet {
 
-/// Turns the camera round its target: radians to the right and down, as the pointer goes. It never tips over.
+/// Orbits the target by radians to the right and down, following the pointer. The camera never flips over.
 void orbit(Camera& camera, const vec2& radians);
 
-/// Turns the camera where it stands, alike.
+/// Rotates the camera in place, likewise.
 void turn(Camera& camera, const vec2& radians);
 
-/// Moves camera and target such that what is at the target follows the pointer: shares of the picture's height, to the
-/// right and down.
+/// Moves camera and target so that the target follows the pointer; right and down, in fractions of the image height.
 void pan(Camera& camera, const vec2& heights);
 
-/// Goes nearer to the target, or away from it: factor on the distance (orthographic: on the height that is seen).
+/// Scales the distance to the target (orthographic: the visible height) by the factor.
 void dolly(Camera& camera, float factor);
 
 /// Moves camera and target: metres to the right, up, ahead.
 void fly(Camera& camera, const vec3& metres);
 
-/// Looks the same way at all of the box, which is not empty. aspect: width over height of the picture.
+/// Moves the camera until it sees the whole box, without turning it. The box is not empty; aspect: width / height.
 void frameAll(Camera& camera, const Aabb& box, float aspect);
 
-/// Metres a second at which one may want to fly through what is so large.
+/// A convenient flying speed for a scene of this size, in metres per second.
 float flightSpeed(const Aabb& box);
 
 }  // namespace reflet

@@ -69,12 +69,12 @@ CameraPath::Keyframe readKeyframe(const JsonNode& node, const Camera& camera) {
     static const std::array<std::string, 6> keys{"time", "position", "target", "up", "fov_y", "easing"};
     node.requireKeys(keys);
     CameraPath::Keyframe keyframe{0.0, camera, Easing::linear};
-    keyframe.camera.node = -1;  // it moves by itself
+    keyframe.camera.node = -1;  // the path moves it
     keyframe.time = required(node, "time").number(0.0, View::largestTime, "seconds");
     keyframe.camera.position = readPosition(required(node, "position"));
     keyframe.camera.target = readPosition(required(node, "target"));
     if (keyframe.camera.position == keyframe.camera.target) {
-        node.complain("position and target are the same point; a view needs two");
+        node.complain("position and target must not be the same point");
     }
     if (const auto up = node.find("up")) {
         keyframe.camera.up = readDirection(*up);
@@ -108,7 +108,7 @@ std::optional<double> firstHit(const Scene& scene, const vec3& origin, const vec
             const double u = glm::dot(from - a, p) * scale;
             const double v = glm::dot(along, q) * scale;
             const double distance = glm::dot(ac, q) * scale;
-            if (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && distance > 0.0) {  // NaN of a flat triangle fails
+            if (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && distance > 0.0) {  // false for the NaN of degenerate triangles
                 nearest = std::min(nearest, distance);
             }
         }
@@ -177,7 +177,7 @@ Camera CameraPath::at(double time) const {
     const double width = keyframes_[to].time - keyframes_[from].time;
     const double x = eased((time - keyframes_[from].time) / width, keyframes_[from].easing);
     Values now{};
-    for (size_t k = 0; k < valueCount; ++k) {  // Hermite's cubic, as a change from the first value
+    for (size_t k = 0; k < valueCount; ++k) {  // cubic Hermite, as a change from the first value
         const double change = values_[to][k] - values_[from][k];
         const double start = tangents_[from][k] * width;
         const double end = tangents_[to][k] * width;
@@ -202,7 +202,7 @@ CameraPath loadCameraPath(const std::filesystem::path& path, const Camera& camer
         keyframes.push_back(readKeyframe(node, camera));
         if (i > 0 && keyframes[i].time <= keyframes[i - 1].time) {
             required(node, "time")
-                .complainMustBe(fmt::format("more than that of the keyframe before ({:g})", keyframes[i - 1].time));
+                .complainMustBe(fmt::format("more than the previous keyframe's ({:g})", keyframes[i - 1].time));
         }
     }
     const auto loop = root.find("loop");
@@ -213,7 +213,7 @@ CameraPath loadCameraPath(const std::filesystem::path& path, const Camera& camer
     const Camera& first = keyframes.front().camera;
     const Camera& last = keyframes.back().camera;
     if (loops && (keyframes.size() < 2 || first.position != last.position || first.target != last.target)) {
-        loop->complain("the last keyframe of a loop must be where the first one is, and look the same way");
+        loop->complain("the first and the last keyframe of a loop must have the same position and target");
     }
     return {std::move(keyframes), loops};
 }
@@ -239,7 +239,7 @@ Camera orbit(Camera camera, const vec3& pivot, double turns) {
     camera.position = turned(camera.position);
     camera.target = turned(camera.target);
     camera.up = turn * glm::dvec3(camera.up);
-    camera.node = -1;  // it moves by itself
+    camera.node = -1;  // the orbit moves it
     return camera;
 }
 

@@ -1,4 +1,4 @@
-// Where a camera is over time: round its target, or from keyframe to keyframe of a JSON file.
+// Camera motion over time: an orbit, or the keyframes of a JSON file.
 #pragma once
 
 #include "scene/scene.h"
@@ -10,26 +10,26 @@
 
 namespace reflet {
 
-/// How time passes from a keyframe to the next. linear: evenly; smooth: rests at both; step: stays, then jumps;
-/// easeIn: rests at the first; easeOut: rests at the second.
+/// Timing from one keyframe to the next. linear: constant speed; smooth: zero speed at both ends; step: holds, then
+/// jumps; easeIn: zero speed at the start; easeOut: zero speed at the end.
 enum class Easing : uint8_t { linear, smooth, step, easeIn, easeOut };
 
-/// Keyframes of a camera. Between them position, target, up and field of view follow monotone cubics over time (F. N.
-/// Fritsch and J. Butland, "A Method for Constructing Local Monotone Piecewise Cubic Interpolants", 1984): smooth
-/// through every keyframe that is passed evenly, never beyond two neighbours, and still between two that are the same.
+/// Camera keyframes. Position, target, up and field of view follow monotone cubics over time (F. N. Fritsch and
+/// J. Butland, "A Method for Constructing Local Monotone Piecewise Cubic Interpolants", 1984): smooth through keyframes
+/// with linear easing, without overshoot, and constant between two equal keyframes.
 class CameraPath {
 public:
     struct Keyframe {
-        double time = 0.0;  ///< seconds, more than that of the one before
+        double time = 0.0;  ///< seconds, ascending
         Camera camera;
-        Easing easing = Easing::linear;  ///< on the way to the next
+        Easing easing = Easing::linear;  ///< towards the next
     };
 
-    /// At least one keyframe. In a loop, of at least two, the last one is where the first one is.
+    /// At least one keyframe. A loop has at least two, the last of which equals the first.
     CameraPath(std::vector<Keyframe> keyframes, bool loop);
 
-    /// Before the first keyframe the first, after the last the last; in a loop round and round. What keyframes do not
-    /// say (near, the orthographic height) is the first one's.
+    /// Clamped to the first and the last keyframe, or repeated if it loops. What is not interpolated (near, the
+    /// orthographic height) is taken from the first keyframe.
     [[nodiscard]] Camera at(double time) const;
 
 private:
@@ -48,14 +48,17 @@ private:
 
 /// { "keyframes": [{ "time": 0, "position": [6,1,0], "target": [0,0,0], "up": [0,1,0], "fov_y": 75,
 ///                   "easing": "smooth" }], "loop": false }
-/// Time, position and target must be given; up and fov_y are those of `camera` if not. Angles in degrees; times are
-/// View::time. Throws Error as applyViewFile does.
+/// Time, position and target are required; up and fov_y default to those of `camera`. Angles are in degrees; times are
+/// on
+/// the scale of View::time. Throws Error as applyViewFile does.
 CameraPath loadCameraPath(const std::filesystem::path& path, const Camera& camera);
 
-/// What an orbit goes round: the camera's target, or, if that is only some point ahead, what it sees there.
+/// Centre of an orbit: the camera's target or, if the target only gives a direction, the first surface along it, else
+/// the
+/// point ahead that is nearest to the scene's centre.
 vec3 orbitPivot(const Camera& camera, const Scene& scene);
 
-/// The camera turned about the vertical line through the pivot, counter-clockwise as seen from above. 1: all round.
+/// The camera rotated about the vertical through the pivot, counter-clockwise as seen from above. turns 1: 360 degrees.
 Camera orbit(Camera camera, const vec3& pivot, double turns);
 
 }  // namespace reflet

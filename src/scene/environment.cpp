@@ -1,4 +1,4 @@
-// Environment images, looked up by direction and read from files.
+// Environment images: lookup by direction, and reading from files.
 #include "scene/environment.h"
 
 #include "base/error.h"
@@ -12,7 +12,7 @@
 namespace reflet {
 namespace {
 
-/// The texel that a coordinate in 0..1 is in; 1 is in the last one.
+/// The texel that contains a coordinate in 0..1; 1 is in the last one.
 uint32_t texelOf(float coordinate, uint32_t count) {
     return std::min(static_cast<uint32_t>(coordinate * static_cast<float>(count)), count - 1);
 }
@@ -34,7 +34,7 @@ FloatImage readExrColors(const std::filesystem::path& path) {
     for (const std::string& channel : colors.channels) {
         const auto found = std::ranges::find(all.channels, channel);
         if (found == all.channels.end()) {
-            fail("{}: cannot be an environment: it has no channel '{}' outside of named layers", path.string(),
+            fail("{}: cannot be used as an environment: it has no channel '{}' in its unnamed layer", path.string(),
                  channel);
         }
         sources.push_back(static_cast<size_t>(found - all.channels.begin()));
@@ -55,7 +55,8 @@ void checkValues(const std::filesystem::path& path, const FloatImage& image) {
     if (wrong != image.data.end()) {
         const auto index = static_cast<size_t>(wrong - image.data.begin());
         fail(
-            "{}: cannot be an environment: channel {} at column {}, row {} (from 0, top left) is {:g}, must be 0 to "
+            "{}: cannot be used as an environment: channel {} at column {}, row {} (from 0, top left) is {:g}, must be "
+            "0 to "
             "{:g}",
             path.string(), image.channels[index % 3], index / 3 % image.width, index / 3 / image.width, *wrong,
             largestRadiance);
@@ -67,7 +68,7 @@ void checkValues(const std::filesystem::path& path, const FloatImage& image) {
 vec2 environmentUv(const vec3& direction, float rotation) {
     const float u = 0.5F + (std::atan2(direction.x, -direction.z) + rotation) / (2.0F * pi);
     const float wrapped = u - std::floor(u);
-    // Not acos(y): near the poles it knows only a few angles.
+    // Not acos(y), which has few distinct values near the poles.
     const float fromTop = std::atan2(std::hypot(direction.x, direction.z), direction.y);
     return {wrapped < 1.0F ? wrapped : 0.0F, std::min(fromTop / pi, 1.0F)};  // a tiny negative u wraps to 1
 }
@@ -92,7 +93,7 @@ vec3 radianceFrom(const Environment& environment, const vec3& direction) {
 FloatImage readEnvironmentImage(const std::filesystem::path& path) {
     const std::string extension = lowerExtension(path);
     if (extension != ".hdr" && extension != ".exr") {
-        fail("{}: cannot be an environment: its name must end in .hdr or .exr", path.string());
+        fail("{}: cannot be used as an environment: its name must end in .hdr or .exr", path.string());
     }
     FloatImage image = extension == ".hdr" ? readHdr(path) : readExrColors(path);
     checkValues(path, image);

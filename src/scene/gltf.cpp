@@ -15,11 +15,11 @@ namespace {
 std::vector<int> chooseScene(const GltfDocument& document, int wanted, std::string& name, GltfReport& report) {
     const auto& scenes = document.model.scenes;
     if (wanted >= 0 && static_cast<size_t>(wanted) >= scenes.size()) {
-        report.failUsage("", "there is no scene {}: it has {} {}, counted from 0", wanted, scenes.size(),
+        report.failUsage("", "there is no scene {}: the file has {} {}, numbered from 0", wanted, scenes.size(),
                          scenes.size() == 1 ? "scene" : "scenes");
     }
     if (scenes.empty()) {
-        report.warn("no scenes", "scenes", "there are none: all nodes are drawn");
+        report.warn("no scenes", "scenes", "all nodes will be drawn: the file defines no scene");
         std::vector<int> roots;
         for (size_t i = 0; i < document.isChild.size(); ++i) {
             if (!document.isChild[i]) {
@@ -49,9 +49,9 @@ Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
         placeGltfNodes(document, roots, meshes, scene, report);
         return scene;
     } catch (const std::bad_alloc&) {
-        report.fail("", "needs more memory than there is");
+        report.fail("", "needs more memory than is available");
     } catch (const std::length_error&) {
-        report.fail("", "needs more memory than there is");
+        report.fail("", "needs more memory than is available");
     }
 }
 

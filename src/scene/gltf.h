@@ -10,17 +10,17 @@
 namespace reflet {
 
 struct GltfOptions {
-    /// Which of the file's scenes; < 0: the one the file names as default, else the first.
+    /// Index of the scene to load; < 0: the file's default scene, or the first.
     int scene = -1;
     /// Receives each warning once, one line without a full stop.
     std::function<void(const std::string&)> warn;
 };
 
-/// Reads the file and everything it refers to. Throws Error with one line that names the file and the part of it
-/// that is broken; never crashes or hangs on any input. URIs that leave the file's folder are refused.
-/// Understood: KHR_mesh_quantization, KHR_draco_mesh_compression, KHR_texture_transform, KHR_lights_punctual,
-/// KHR_materials_emissive_strength. Animations of translation, rotation and scale, and skins of four joints a vertex;
-/// morph targets are left out, with a warning. Required but unknown: an error; used but unknown: a warning.
+/// Loads the file and everything it refers to. Throws Error with one line that names the file and the invalid part;
+/// never crashes or hangs on any input. URIs that leave the file's folder are refused.
+/// Supported: KHR_mesh_quantization, KHR_draco_mesh_compression, KHR_texture_transform, KHR_lights_punctual and
+/// KHR_materials_emissive_strength; animations of translation, rotation and scale; skins with four joints per vertex.
+/// Morph targets are ignored with a warning. An unsupported extension is an error if it is required, else a warning.
 Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options = {});
 
 }  // namespace reflet

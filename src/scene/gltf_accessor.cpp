@@ -1,4 +1,4 @@
-// The elements of an accessor, sparse and quantised ones too, read one at a time from the bytes where they lie.
+// Reads elements of glTF accessors.
 #include "scene/gltf_accessor.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@ namespace reflet {
 
 namespace {
 
-constexpr uint64_t maxUnbackedCount = 1ULL << 22U;  // zeros that no byte of the file stands for
+constexpr uint64_t maxUnbackedCount = 1ULL << 22U;  // elements without data in the file, which are zero
 
 template <class T>
 T load(const uint8_t* bytes) {
@@ -17,7 +17,7 @@ T load(const uint8_t* bytes) {
     return value;
 }
 
-/// glTF 2.0, 3.6.2.2: a signed type has one negative value more than it has positive ones.
+/// glTF 2.0, 3.6.2.2: signed types have one more negative value than positive ones.
 template <class T>
 float converted(const uint8_t* bytes, bool normalized) {
     const auto value = static_cast<float>(load<T>(bytes));
@@ -71,14 +71,14 @@ void addSparse(AccessorView& view, const GltfDocument& document, int index, Gltf
         bytesAt(document.model, sparse.values.bufferView, static_cast<uint64_t>(sparse.values.byteOffset));
     const uint32_t size = bytesOf(view.sparseIndexType);
     const std::string part = fmt::format("accessors[{}].sparse.indices", index);
-    report.charge(part, uint64_t(view.sparseCount) * size);  // bounds the time of accessors that share their bytes
+    report.charge(part, uint64_t(view.sparseCount) * size);  // limits the total time where accessors share bytes
     for (uint32_t i = 0; i < view.sparseCount; ++i) {
         const uint32_t named = integer(view.sparseIndices + uint64_t(i) * size, view.sparseIndexType);
         if (named >= view.count) {
             report.fail(part, "index {} is {}, but there are {} elements", i, named, view.count);
         }
         if (i > 0 && named <= integer(view.sparseIndices + uint64_t(i - 1) * size, view.sparseIndexType)) {
-            report.fail(part, "index {} does not ascend", i);
+            report.fail(part, "index {} is not greater than the one before it", i);
         }
     }
 }
@@ -88,7 +88,7 @@ void addSparse(AccessorView& view, const GltfDocument& document, int index, Gltf
 const uint8_t* AccessorView::element(uint32_t i) const {
     const uint32_t size = bytesOf(sparseIndexType);
     uint32_t low = 0;
-    for (uint32_t length = sparseCount; length > 0;) {  // the first sparse index that is not below i
+    for (uint32_t length = sparseCount; length > 0;) {  // binary search: the first sparse index not below i
         const uint32_t half = length / 2;
         const bool below = integer(sparseIndices + uint64_t(low + half) * size, sparseIndexType) < i;
         low = below ? low + half + 1 : low;
@@ -137,8 +137,9 @@ AccessorView viewAccessor(const GltfDocument& document, int index, GltfReport& r
         view.data = bytesAt(document.model, accessor.bufferView, accessor.byteOffset);
         view.stride = stride != 0 ? stride : bytesOf(view.componentType) * static_cast<uint64_t>(view.components);
     } else if (accessor.count > maxUnbackedCount) {
-        report.fail(fmt::format("accessors[{}]", index), "has {} elements without a buffer view, at most {} are read",
-                    accessor.count, maxUnbackedCount);
+        report.fail(fmt::format("accessors[{}]", index),
+                    "has {} elements without a buffer view, but at most {} are supported", accessor.count,
+                    maxUnbackedCount);
     }
     if (accessor.sparse.isSparse) {
         addSparse(view, document, index, report);

@@ -1,4 +1,4 @@
-// Reads the key frames of one channel of a glTF animation, and checks them.
+// Reads and checks the keyframes of one channel of a glTF animation.
 #include "scene/gltf_channel.h"
 
 #include "scene/gltf_accessor.h"
@@ -26,7 +26,7 @@ std::vector<float> readTimes(const GltfDocument& document, int input, GltfReport
     const std::string part = fmt::format("accessors[{}]", input);
     const auto& accessor = document.model.accessors[static_cast<size_t>(input)];
     if (accessor.type != TINYGLTF_TYPE_SCALAR || accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
-        report.fail(part, "holds no times, which are SCALAR floats");
+        report.fail(part, "must hold the keyframes' times as SCALAR floats");
     }
     const AccessorView view = viewAccessor(document, input, report);
     report.charge(part, uint64_t(view.count) * sizeof(float));
@@ -35,23 +35,23 @@ std::vector<float> readTimes(const GltfDocument& document, int input, GltfReport
     for (uint32_t i = 0; i < view.count; ++i) {
         const float time = view.at(i).x;
         if (!(time >= 0.0F) || !std::isfinite(time)) {
-            report.fail(part, "time {} is {}, which is no time", i, time);
+            report.fail(part, "time {} is {}, must be finite and not negative", i, time);
         }
         if (!times.empty() && time <= times.back()) {
-            report.fail(part, "time {} is not after the one before it", i);
+            report.fail(part, "time {} is not later than the one before it", i);
         }
         times.push_back(time);
     }
     return times;
 }
 
-// Tangents of splines are no rotations, and may be of any length.
+// Normalizes rotations, but not the tangents of splines, which may have any length.
 void makeUnit(Channel& channel, const std::string& part, const GltfReport& report) {
     const bool spline = channel.interpolation == Interpolation::cubicSpline;
     for (size_t i = spline ? 1 : 0; i < channel.values.size(); i += spline ? 3 : 1) {
         const double length = glm::length(glm::dvec4(channel.values[i]));
         if (!(length > 0.0)) {
-            report.fail(part, "value {} is no rotation: its length is 0", i);
+            report.fail(part, "value {} is not a rotation: the quaternion's length is 0", i);
         }
         channel.values[i] = vec4(glm::dvec4(channel.values[i]) / length);
     }
@@ -63,8 +63,8 @@ std::optional<Channel> readGltfChannel(const GltfDocument& document, const GltfC
                                        GltfReport& report) {
     const auto target = targetOf(source.channel.target_path);
     if (!target) {
-        report.warn("path " + source.channel.target_path, source.part + ".target.path", "{} is not known and left out",
-                    source.channel.target_path);
+        report.warn("path " + source.channel.target_path, source.part + ".target.path",
+                    "the channel will be ignored: {} is not supported", source.channel.target_path);
         return std::nullopt;
     }
     const auto& samplers = source.animation.samplers;
@@ -82,11 +82,12 @@ std::optional<Channel> readGltfChannel(const GltfDocument& document, const GltfC
     const bool rotation = *target == Channel::Target::rotation;
     const uint32_t each = channel.interpolation == Interpolation::cubicSpline ? 3 : 1;
     if (view.components != (rotation ? 4 : 3)) {
-        report.fail(part, "has {} components, a {} has {}", view.components, source.channel.target_path,
+        report.fail(part, "has {} components, but a {} has {}", view.components, source.channel.target_path,
                     rotation ? 4 : 3);
     }
     if (view.count != uint64_t(each) * channel.times.size()) {
-        report.fail(part, "has {} elements for {} times, not {} for each", view.count, channel.times.size(), each);
+        report.fail(part, "has {} elements for {} keyframes, must have {} for each", view.count, channel.times.size(),
+                    each);
     }
     report.charge(part, uint64_t(view.count) * sizeof(vec4));
     for (uint32_t i = 0; i < view.count; ++i) {

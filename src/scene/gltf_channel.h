@@ -1,4 +1,4 @@
-// Reads the key frames of one channel of a glTF animation.
+// Reads the keyframes of one channel of a glTF animation.
 #pragma once
 
 #include "scene/animation.h"
@@ -15,7 +15,7 @@ struct GltfChannelSource {
     std::string part;  ///< JSON path of the channel
 };
 
-/// Without its node. Nothing: a property that is not read, of which there is a warning. Throws Error.
+/// The node is left for the caller to set. nullopt, with a warning, if the property is not supported. Throws Error.
 std::optional<Channel> readGltfChannel(const GltfDocument& document, const GltfChannelSource& source,
                                        GltfReport& report);
 

@@ -1,4 +1,4 @@
-// Checks of a glTF document that take more than one value: views in buffers, accessors in views, the tree of nodes.
+// Cross-checks of a glTF document: buffer views in buffers, accessors in views, the node hierarchy.
 #include "scene/gltf_document.h"
 
 #include <string>
@@ -17,7 +17,7 @@ uint64_t elementBytes(const tinygltf::Accessor& accessor) {
            static_cast<uint64_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor.type)));
 }
 
-/// What is read of a buffer view: `count` elements of `bytes` each, from `offset` on, one every `stride` bytes.
+/// The part of a buffer view that is read: `count` elements of `bytes` each, from `offset` on, `stride` bytes apart.
 struct Reach {
     int view = -1;
     uint64_t offset = 0;
@@ -38,7 +38,7 @@ void checkReach(const tinygltf::Model& model, const Reach& reach, const std::str
                     reach.stride);
     }
     if ((view.byteOffset + reach.offset) % reach.alignment != 0 || reach.stride % reach.alignment != 0) {
-        report.fail(part, "is misaligned: starts at byte {} with a stride of {}, its components have {} bytes",
+        report.fail(part, "is misaligned: starts at byte {} with a stride of {}, but its components have {} bytes",
                     view.byteOffset + reach.offset, reach.stride, reach.alignment);
     }
 }
@@ -106,7 +106,7 @@ void checkCycles(const GltfDocument& document, const GltfReport& report) {
     }
     for (size_t i = 0; i < reached.size(); ++i) {
         if (!reached[i]) {
-            report.fail(fmt::format("nodes[{}]", i), "is, or hangs below, a node that is its own ancestor");
+            report.fail(fmt::format("nodes[{}]", i), "is in a cycle of nodes, or below one");
         }
     }
 }
@@ -133,7 +133,7 @@ void checkGltfNodes(GltfDocument& document, const GltfReport& report) {
     for (size_t i = 0; i < nodes.size(); ++i) {
         for (const int child : nodes[i].children) {
             if (document.isChild[static_cast<size_t>(child)]) {
-                report.fail(fmt::format("nodes[{}]", child), "has two parents, the second is nodes[{}]", i);
+                report.fail(fmt::format("nodes[{}]", child), "has two parents; the second is nodes[{}]", i);
             }
             document.isChild[static_cast<size_t>(child)] = true;
         }
@@ -144,8 +144,8 @@ void checkGltfNodes(GltfDocument& document, const GltfReport& report) {
         for (const int node : document.model.scenes[s].nodes) {
             const bool twice = std::exchange(lastListedIn[static_cast<size_t>(node)], s) == s;
             if (twice || document.isChild[static_cast<size_t>(node)]) {
-                report.fail(fmt::format("scenes[{}].nodes", s), "names nodes[{}], which is {}", node,
-                            twice ? "in it already" : "the child of another node");
+                report.fail(fmt::format("scenes[{}].nodes", s), "lists nodes[{}], which is {}", node,
+                            twice ? "already in it" : "the child of another node");
             }
         }
     }

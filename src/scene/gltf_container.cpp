@@ -14,7 +14,7 @@ namespace reflet {
 
 namespace {
 
-constexpr uint64_t maxFileBytes = 1ULL << 32U;  // a .glb counts its bytes in 32 bits
+constexpr uint64_t maxFileBytes = 1ULL << 32U;  // a .glb stores its length in 32 bits
 constexpr uint64_t maxJsonBytes = 1ULL << 29U;
 constexpr int maxJsonDepth = 128;
 constexpr size_t headerBytes = 12;
@@ -30,8 +30,8 @@ uint32_t readU32(Bytes bytes, size_t at) {
            uint32_t(bytes[at + 3]) << 24U;
 }
 
-/// How deep brackets stand in brackets, without those in strings. The JSON library could be asked to tell by a
-/// callback, but its time then grows with the square of an array's length.
+/// Depth of nested brackets outside strings. The JSON library's parser callback could tell, but takes time quadratic in
+/// the length of arrays.
 int nesting(Bytes text) {
     int depth = 0;
     int deepest = 0;
@@ -54,26 +54,26 @@ int nesting(Bytes text) {
 
 nlohmann::json parseJson(Bytes text, const GltfReport& report) {
     if (text.size() > maxJsonBytes) {
-        report.fail("JSON", "has {} bytes, more than {} MiB", text.size(), maxJsonBytes >> 20U);
+        report.fail("JSON", "has {} bytes, more than the limit of {} MiB", text.size(), maxJsonBytes >> 20U);
     }
     if (nesting(text) > maxJsonDepth) {
-        report.fail("JSON", "is nested more than {} deep", maxJsonDepth);
+        report.fail("JSON", "is nested more than {} levels deep", maxJsonDepth);
     }
     try {
         return reflet::parseJson({reinterpret_cast<const char*>(text.data()), text.size()});
     } catch (const nlohmann::json::parse_error& error) {
         const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min<size_t>(error.byte, text.size()));
-        report.fail("JSON", "is not JSON at line {}, byte {} of {}", 1 + std::count(text.begin(), end, '\n'),
+        report.fail("JSON", "is not valid JSON at line {}, byte {} of {}", 1 + std::count(text.begin(), end, '\n'),
                     error.byte, text.size());
-    } catch (const nlohmann::json::exception& error) {  // a number that no double holds
+    } catch (const nlohmann::json::exception& error) {  // a number beyond the range of doubles
         report.fail("JSON", "{}", error.what());
     }
 }
 
-/// The bytes of the chunk that starts at `at`; `at` moves behind it.
+/// The bytes of the chunk that starts at `at`, which is advanced past it.
 Bytes nextChunk(Bytes file, size_t& at, uint32_t& type, const GltfReport& report) {
     if (file.size() - at < chunkHeaderBytes) {
-        report.fail("GLB chunk", "its header at byte {} is cut off", at);
+        report.fail("GLB chunk", "its header at byte {} is truncated", at);
     }
     const uint64_t length = readU32(file, at);
     type = readU32(file, at + 4);
@@ -89,10 +89,10 @@ Bytes nextChunk(Bytes file, size_t& at, uint32_t& type, const GltfReport& report
 
 GltfContainer splitGlb(Bytes file, const GltfReport& report) {
     if (file.size() < headerBytes) {
-        report.fail("GLB header", "is cut off after {} bytes", file.size());
+        report.fail("GLB header", "is truncated after {} bytes", file.size());
     }
     if (const uint32_t version = readU32(file, 4); version != 2) {
-        report.fail("GLB header", "says version {}, only version 2 is read", version);
+        report.fail("GLB header", "says version {}, but only version 2 is supported", version);
     }
     if (const uint32_t length = readU32(file, 8); length != file.size()) {
         report.fail("GLB header", "says the file has {} bytes, but it has {}", length, file.size());
@@ -123,7 +123,7 @@ std::vector<uint8_t> readFileBytes(const std::filesystem::path& path, uint64_t m
     if (status.type() == std::filesystem::file_type::not_found) {
         report.fail(part, "there is no file {}", path.string());
     }
-    if (!std::filesystem::is_regular_file(status)) {  // a pipe or a device could block forever or never end
+    if (!std::filesystem::is_regular_file(status)) {  // reading a pipe or a device might never end
         report.fail(part, "{} is not a file", path.string());
     }
     const uint64_t size = std::filesystem::file_size(path, error);

@@ -16,10 +16,10 @@ struct GltfContainer {
     std::optional<std::vector<uint8_t>> bin;  ///< the binary chunk of a .glb that has one
 };
 
-/// Whether it is a .glb is told by its first bytes, not by its name. Throws Error.
+/// A .glb is recognized by its first bytes, not by its name. Throws Error.
 GltfContainer readGltfContainer(const std::filesystem::path& path, const GltfReport& report);
 
-/// The first `maxBytes` bytes of a regular file, or all of it where it is shorter. Throws Error in the name of `part`.
+/// The first `maxBytes` bytes of a regular file, or all of it if shorter. Throws Error that names `part`.
 std::vector<uint8_t> readFileBytes(const std::filesystem::path& path, uint64_t maxBytes, std::string_view part,
                                    const GltfReport& report);
 

@@ -1,6 +1,7 @@
-// Reads a glTF file: container, then schema, then tinygltf for the structure, then the buffers, then the checks.
-// tinygltf is given a document without buffers and images: its own reading of them falls back to the current folder,
-// takes '+' in a file name for a space, decodes every image and has no bounds.
+// Reads a glTF file: container, schema check, parsing by tinygltf, buffers, cross-checks.
+// tinygltf gets a document without buffers and images, because its own loading of them falls back to the working
+// folder,
+// decodes '+' in a file name as a space, decodes every image and has no limits.
 #include "scene/gltf_document.h"
 
 #include "base/json_text.h"
@@ -9,7 +10,9 @@
 #include "scene/gltf_uri.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <string_view>
 
 namespace reflet {
 
@@ -17,40 +20,62 @@ namespace {
 
 using nlohmann::json;
 
-/// The array of this name in a checked document; an empty one where there is none.
+/// The array of this name in a checked document; empty if there is none.
 const json& arrayOf(const json& document, const char* name) {
     static const json none = json::array();
     const auto found = document.find(name);
     return found != document.end() ? *found : none;
 }
 
-/// "MAJOR.MINOR" with MAJOR 2; a file that needs a minor version says so in minVersion.
+/// "MAJOR.MINOR" with MAJOR 2; a file that depends on a minor version says so in minVersion.
 void checkVersion(const json& document, const GltfReport& report) {
     const auto& asset = document["asset"];
     const std::string version = asset["version"];
     if (version != "2" && !version.starts_with("2.")) {
-        report.fail("asset.version", "is {}, only glTF 2.0 is read", version);
+        report.fail("asset.version", "is {}, but only glTF 2.0 is supported", version);
     }
     const std::string least = asset.value("minVersion", "2.0");
     if (least != "2.0") {
-        report.fail("asset.minVersion", "is {}, only glTF 2.0 is read", least);
+        report.fail("asset.minVersion", "is {}, but only glTF 2.0 is supported", least);
     }
+}
+
+struct UnsupportedExtension {
+    std::string_view name;
+    std::string_view consequence;
+};
+constexpr std::array<UnsupportedExtension, 10> unsupportedExtensions{
+    {{"KHR_materials_transmission", "glass will be drawn opaque"},
+     {"KHR_materials_diffuse_transmission", "translucent surfaces will be drawn opaque"},
+     {"KHR_materials_clearcoat", "clear coats will be missing"},
+     {"KHR_materials_sheen", "sheen will be missing"},
+     {"KHR_materials_iridescence", "iridescence will be missing"},
+     {"KHR_materials_anisotropy", "anisotropic highlights will be drawn isotropic"},
+     {"KHR_materials_specular", "dielectrics will reflect 4 % at normal incidence"},
+     {"KHR_materials_ior", "dielectrics will reflect 4 % at normal incidence"},
+     {"KHR_materials_unlit", "unlit materials will be lit"},
+     {"EXT_mesh_gpu_instancing", "one copy of each instanced mesh will be drawn"}}};
+
+/// How the rendered image differs from what the file asks for.
+std::string_view consequenceOf(std::string_view extension) {
+    const auto found = std::ranges::find(unsupportedExtensions, extension, &UnsupportedExtension::name);
+    return found != unsupportedExtensions.end() ? found->consequence : "the extension will be ignored";
 }
 
 void checkExtensions(const json& document, GltfReport& report) {
     for (const std::string name : arrayOf(document, "extensionsRequired")) {
         if (!knownGltfExtension(name)) {
-            report.fail("extensionsRequired", "the extension {} is not known", name);
+            report.fail("extensionsRequired", "{} is not supported: export the file without it", name);
         }
     }
     for (const std::string name : arrayOf(document, "extensionsUsed")) {
         if (!knownGltfExtension(name)) {
-            report.warn("extension " + name, "extensionsUsed", "the extension {} is not known and left out", name);
+            report.warn("extension " + name, "extensionsUsed", "{}: {} is not supported", consequenceOf(name), name);
         }
     }
 }
 
-/// A camera and a spot light have an object of the name of their type.
+/// A camera and a spot light must have an object that is named like their type.
 void checkVariants(const json& document, const GltfReport& report) {
     size_t i = 0;
     for (const json& camera : arrayOf(document, "cameras")) {
@@ -70,8 +95,8 @@ void checkVariants(const json& document, const GltfReport& report) {
     }
 }
 
-/// Takes the indices out of the primitives, because tinygltf refuses an accessor without a buffer view there, which is
-/// what Draco has; put back by restoreIndices.
+/// Removes the primitives' indices, because tinygltf rejects the accessors without a buffer view that Draco uses there.
+/// restoreIndices puts them back.
 void removeIndices(json& document) {
     const auto meshes = document.find("meshes");
     if (meshes == document.end()) {
@@ -89,7 +114,7 @@ void restoreIndices(tinygltf::Model& model, const json& document, const GltfRepo
     for (size_t m = 0; m < meshes.size(); ++m) {
         const auto& primitives = meshes[m]["primitives"];
         if (model.meshes.size() <= m || model.meshes[m].primitives.size() != primitives.size()) {
-            report.fail(fmt::format("meshes[{}]", m), "is not one that tinygltf reads");
+            report.fail(fmt::format("meshes[{}]", m), "cannot be parsed by tinygltf");
         }
         for (size_t p = 0; p < primitives.size(); ++p) {
             model.meshes[m].primitives[p].indices = primitives[p].value("indices", -1);
@@ -118,7 +143,7 @@ tinygltf::Model parseStructure(const json& document, const GltfReport& report) {
     return model;
 }
 
-/// A buffer without a URI is the binary chunk of a .glb, which only the first may be.
+/// A buffer without a URI is the binary chunk of a .glb; only the first buffer may be.
 std::vector<uint8_t> readBuffer(const json& buffer, const std::string& part, GltfContainer& container,
                                 const std::filesystem::path& folder, const GltfReport& report) {
     const auto length = buffer["byteLength"].get<uint64_t>();

@@ -1,6 +1,7 @@
-// Decodes a primitive that is compressed with KHR_draco_mesh_compression. The packaged tinygltf is built without Draco.
-// The counts that the bytes claim are checked before the Draco library allocates for them: layout of the headers after
-// the "Draco 3D Data Compression Bitstream Specification", version 2.2, 2018.
+// Decodes primitives compressed with KHR_draco_mesh_compression; the packaged tinygltf is built without Draco. The
+// counts
+// in the headers are checked before the Draco library allocates memory for them. Layout of the headers: "Draco 3D Data
+// Compression Bitstream Specification", version 2.2, 2018.
 #include "scene/gltf_draco.h"
 
 #include <draco/compression/decode.h>
@@ -17,7 +18,7 @@ namespace {
 constexpr uint8_t encoderMesh = 1;
 constexpr uint8_t methodEdgebreaker = 1;
 constexpr uint16_t flagMetadata = 0x8000;
-constexpr uint64_t maxFacesPerByte = 4096;  // far beyond what real meshes reach
+constexpr uint64_t maxFacesPerByte = 4096;  // far beyond real meshes
 constexpr uint64_t decoderBytesPerFace = 128;
 
 /// LEB128, as Draco writes counts.
@@ -36,7 +37,7 @@ bool readVarint(draco::DecoderBuffer& buffer, uint64_t& value) {
     return false;
 }
 
-/// The numbers of faces and of vertices that the bytes claim to hold. False where the header is broken.
+/// The numbers of faces and vertices according to the headers. False if a header is broken.
 bool readClaims(draco::DecoderBuffer buffer, uint64_t& faces, uint64_t& vertices, const std::string& part,
                 const GltfReport& report) {
     draco::DracoHeader header{};
@@ -44,7 +45,8 @@ bool readClaims(draco::DecoderBuffer buffer, uint64_t& faces, uint64_t& vertices
         return false;
     }
     if (header.version_major != 2 || header.version_minor != 2) {
-        report.fail(part, "is Draco bitstream {}.{}, only 2.2 is read", header.version_major, header.version_minor);
+        report.fail(part, "is Draco bitstream {}.{}, but only 2.2 is supported", header.version_major,
+                    header.version_minor);
     }
     if (header.encoder_type != encoderMesh) {
         report.fail(part, "is a Draco point cloud, not a mesh");
@@ -71,7 +73,8 @@ std::unique_ptr<draco::Mesh> decodeMesh(std::span<const uint8_t> bytes, const st
         report.fail(part, "its Draco header is broken");
     }
     if (faces > maxFacesPerByte * bytes.size() || vertices > 3 * faces) {
-        report.fail(part, "claims {} triangles and {} vertices in {} bytes of Draco", faces, vertices, bytes.size());
+        report.fail(part, "claims {} triangles and {} vertices in only {} bytes of Draco data", faces, vertices,
+                    bytes.size());
     }
     report.charge(part, faces * decoderBytesPerFace);
     auto decoded = draco::Decoder().DecodeMeshFromBuffer(&buffer);
@@ -81,7 +84,7 @@ std::unique_ptr<draco::Mesh> decodeMesh(std::span<const uint8_t> bytes, const st
     return std::move(decoded).value();
 }
 
-/// What a normalised integer is divided by.
+/// Divisor of a normalized integer.
 double scaleOf(draco::DataType type) {
     switch (type) {
         case draco::DT_INT8:
@@ -101,7 +104,7 @@ double scaleOf(draco::DataType type) {
     }
 }
 
-/// One value as up to four floats. Whether integers are normalised is the accessor's to say, not Draco's.
+/// One value as up to four floats. The accessor, not Draco, decides whether integers are normalized.
 bool convert(const draco::PointAttribute& attribute, draco::AttributeValueIndex index, bool normalized, vec4& value) {
     const auto components = static_cast<int8_t>(std::min<int>(attribute.num_components(), 4));
     if (attribute.data_type() == draco::DT_FLOAT32 || attribute.data_type() == draco::DT_FLOAT64) {
@@ -182,7 +185,7 @@ DracoPrimitive decodeDraco(const GltfDocument& document, const tinygltf::Primiti
         const int components = tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor.type));
         const auto id = static_cast<uint32_t>(extension.Get("attributes").Get(name).GetNumberAsInt());
         auto& values = result.values[name];
-        const bool normalized = accessor.normalized || name == "COLOR_0";  // integer colours always are
+        const bool normalized = accessor.normalized || name == "COLOR_0";  // integer colours are always normalized
         values = readAttribute(*mesh, id, normalized, components, attributePart, report);
         result.attributes[name] = {.data = reinterpret_cast<const uint8_t*>(values.data()),
                                    .stride = sizeof(vec4),

@@ -1,4 +1,4 @@
-// Decodes a primitive that is compressed with KHR_draco_mesh_compression.
+// Decodes primitives compressed with KHR_draco_mesh_compression.
 #pragma once
 
 #include "scene/gltf_accessor.h"
@@ -12,7 +12,7 @@ namespace reflet {
 
 /// A decoded primitive. The views look into `values`.
 struct DracoPrimitive {
-    std::vector<uint32_t> indices;  ///< three per triangle, each less than the number of vertices
+    std::vector<uint32_t> indices;  ///< three per triangle, in range
     std::map<std::string, AccessorView> attributes;
     std::map<std::string, std::vector<vec4>> values;
 };

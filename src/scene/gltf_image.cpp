@@ -1,4 +1,4 @@
-// Decodes the images of a glTF file: PNG and JPEG, from a file, a data URI or a buffer view.
+// Decodes images by stb_image, after checking their claimed size.
 #include "scene/gltf_image.h"
 
 #include "scene/gltf_uri.h"
@@ -34,7 +34,7 @@ bool isJpeg(std::span<const uint8_t> bytes) {
     return startsWith(bytes, magic);
 }
 
-/// How many pixels the bytes hold at the very most, however well they are packed.
+/// Upper bound on the pixels that the bytes can encode at any compression.
 uint64_t mostPixels(std::span<const uint8_t> bytes) {
     if (isJpeg(bytes)) {
         return maxJpegPixelsPerByte * bytes.size();
@@ -52,11 +52,11 @@ std::string reason() {
 }
 
 Image decode(std::span<const uint8_t> bytes, const std::string& part, GltfReport& report) {
-    if (!isPng(bytes) && !isJpeg(bytes)) {  // stb_image reads more than glTF has
+    if (!isPng(bytes) && !isJpeg(bytes)) {  // stb_image supports more formats than glTF allows
         report.fail(part, "is neither PNG nor JPEG");
     }
     if (bytes.size() > maxImageBytes) {
-        report.fail(part, "has {} bytes, more than {} MiB", bytes.size(), maxImageBytes >> 20U);
+        report.fail(part, "has {} bytes, more than the limit of {} MiB", bytes.size(), maxImageBytes >> 20U);
     }
     const int size = static_cast<int>(bytes.size());
     int width = 0;
@@ -67,10 +67,10 @@ Image decode(std::span<const uint8_t> bytes, const std::string& part, GltfReport
     }
     const uint64_t pixels = uint64_t(width) * uint64_t(height);
     if (width > maxSide || height > maxSide) {
-        report.fail(part, "has {} x {} pixels, more than {} a side", width, height, maxSide);
+        report.fail(part, "has {} x {} pixels, more than the limit of {} per side", width, height, maxSide);
     }
     if (pixels > mostPixels(bytes)) {
-        report.fail(part, "claims {} x {} pixels in {} bytes", width, height, bytes.size());
+        report.fail(part, "claims {} x {} pixels in only {} bytes", width, height, bytes.size());
     }
     report.charge(part, pixels * 4);
     const std::unique_ptr<stbi_uc, void (*)(void*)> decoded(

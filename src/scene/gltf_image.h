@@ -1,4 +1,4 @@
-// Decodes the images of a glTF file: PNG and JPEG, from a file, a data URI or a buffer view.
+// Decodes PNG and JPEG images of a glTF file, from a file, a data URI or a buffer view.
 #pragma once
 
 #include "scene/gltf_document.h"
@@ -6,8 +6,8 @@
 
 namespace reflet {
 
-/// Images of more than 8 bits per channel become 8 bits. Throws Error where it is no such image, has more than
-/// 16384 pixels a side, or claims more pixels than its bytes can hold.
+/// Images with more than 8 bits per channel are reduced to 8. Throws Error if it is another format, has more than 16384
+/// pixels per side, or claims more pixels than its bytes can encode.
 Image decodeGltfImage(const GltfDocument& document, size_t index, GltfReport& report);
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// Turns the materials of a glTF file, and the textures they use, into the scene's. Only what is asked for is read.
+// Converts materials of a glTF file and their textures.
 #include "scene/gltf_material.h"
 
 #include "scene/gltf_image.h"
@@ -22,7 +22,7 @@ Wrap wrapOf(int value) {
     }
 }
 
-/// A filter that is not stated (-1) is ours to choose: trilinear.
+/// Filters that the file does not specify (-1) default to trilinear.
 Sampler convertSampler(const tinygltf::Sampler& source) {
     const int min = source.minFilter;
     const bool nearest = min == TINYGLTF_TEXTURE_FILTER_NEAREST ||
@@ -85,7 +85,8 @@ Material GltfMaterials::convert(int material) {
         result.alphaCutoff = static_cast<float>(source.alphaCutoff);
     } else if (source.alphaMode == "BLEND") {
         result.alphaCutoff = blendCutoff;
-        report_.warn("blend", part + ".alphaMode", "BLEND is drawn as MASK with a cutoff of {}", blendCutoff);
+        report_.warn("blend", part + ".alphaMode",
+                     "blended surfaces will be drawn with an alpha cutoff of {}: BLEND is not supported", blendCutoff);
     }
     const auto slotOf = [&](const auto& info, const char* name) {
         return slot(info.index, info.texCoord, info.extensions, part + "." + name);
@@ -113,7 +114,7 @@ TextureSlot GltfMaterials::slot(int texture, int uvSet, const tinygltf::Extensio
     const tinygltf::Texture& source = document_.model.textures[static_cast<size_t>(texture)];
     if (source.source < 0) {
         const std::string here = fmt::format("textures[{}]", texture);
-        report_.warn("no image", here, "has no image that can be read, and is left out");
+        report_.warn("no image", here, "the texture will be ignored: it has no source image");
         return result;
     }
     result.image = useImage(source.source);
@@ -128,13 +129,14 @@ TextureSlot GltfMaterials::slot(int texture, int uvSet, const tinygltf::Extensio
 
 void GltfMaterials::setUvSet(TextureSlot& slot, int uvSet, const std::string& part) {
     if (uvSet > 1) {
-        report_.warn("uv set", part + ".texCoord", "is {}, but only the sets 0 and 1 are read: 0 is taken", uvSet);
+        report_.warn("uv set", part + ".texCoord", "is {}, but set 0 will be used: only UV sets 0 and 1 are supported",
+                     uvSet);
     }
     slot.uvSet = uvSet == 1 ? 1 : 0;
 }
 
-/// The extension's offset · rotation · scale. Its example and its words ("counter-clockwise", with v down) have the
-/// sine of u' positive, as the viewers do; the matrix in early versions of its text has it negative.
+/// KHR_texture_transform: offset · rotation · scale. The sine in u' is positive, as in the extension's example, its
+/// wording ("counter-clockwise", with v down) and the common viewers; the matrix in early versions has it negative.
 void GltfMaterials::transformUv(TextureSlot& slot, const tinygltf::Value& transform, const std::string& part) {
     const double angle = numberOr(transform, "rotation", 0.0);
     const double scaleU = numberAt(transform, "scale", 0, 1.0);

@@ -1,4 +1,4 @@
-// Turns the materials of a glTF file, and the textures they use, into the scene's. Only what is asked for is read.
+// Converts materials of a glTF file and their textures. Only materials that are used are converted.
 #pragma once
 
 #include "scene/gltf_document.h"
@@ -10,7 +10,7 @@ namespace reflet {
 
 class GltfMaterials {
 public:
-    /// All three must live as long as this.
+    /// All three must outlive this object.
     GltfMaterials(const GltfDocument& document, Scene& scene, GltfReport& report)
         : document_(document), scene_(scene), report_(report) {}
 

@@ -1,4 +1,4 @@
-// Turns the primitives of a glTF file into meshes.
+// Converts primitives of a glTF file to meshes.
 #include "scene/gltf_mesh.h"
 
 #include "scene/gltf_normals.h"
@@ -14,7 +14,8 @@ namespace {
 constexpr uint64_t vertexBytes = sizeof(vec3) + sizeof(VertexAttributes) + sizeof(VertexSkin);
 
 /// The vertices that the triangles use, ascending; the triangles are renumbered to match. Primitives often share one
-/// long list of vertices, and each takes only its own.
+/// long
+/// vertex list, of which each uses only a part.
 std::vector<uint32_t> takeUsed(std::vector<uint32_t>& triangles, uint32_t vertices) {
     std::vector<uint32_t> used;
     if (vertices <= 4 * triangles.size()) {
@@ -42,7 +43,7 @@ std::vector<uint32_t> takeUsed(std::vector<uint32_t>& triangles, uint32_t vertic
 }
 
 glm::u16vec4 colorOf(vec4 value, const AccessorView& view) {
-    // Integer colours are normalised by the specification, also where the file forgets to say so.
+    // The specification requires integer colours to be normalized; some files lack the flag.
     if (!view.normalized && view.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) {
         value /= 255.0F;
     } else if (!view.normalized && view.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) {
@@ -101,7 +102,7 @@ void readAttributes(Mesh& mesh, const PrimitiveSource& source, const std::vector
     }
 }
 
-/// Weights are made to sum to 1; a vertex without any hangs from the first joint.
+/// Normalizes the weights to a sum of 1; a vertex without weights follows the first joint.
 void readSkin(Mesh& mesh, const PrimitiveSource& source, const std::vector<uint32_t>& used) {
     const AccessorView* joints = source.find("JOINTS_0");
     const AccessorView* weights = source.find("WEIGHTS_0");
@@ -124,7 +125,7 @@ void readSkin(Mesh& mesh, const PrimitiveSource& source, const std::vector<uint3
     }
 }
 
-/// glTF 2.0, 3.7.2.1: without normals they are flat, and tangents that are there do not count.
+/// glTF 2.0, 3.7.2.1: missing normals become flat normals, and then the file's tangents are ignored.
 void completeFrames(Mesh& mesh, const PrimitiveSource& source, const TextureSlot& normalTexture,
                     const std::string& part, GltfReport& report) {
     const bool flat = source.find("NORMAL") == nullptr;
@@ -132,7 +133,8 @@ void completeFrames(Mesh& mesh, const PrimitiveSource& source, const TextureSlot
         report.charge(part, mesh.indices.size() * vertexBytes);
         makeFlat(mesh);
     } else if (const size_t broken = repairNormals(mesh); broken > 0) {
-        report.warn("normals", part + ".attributes.NORMAL", "{} vertices have none: taken from the triangles", broken);
+        report.warn("normals", part + ".attributes.NORMAL",
+                    "{} vertices will get the normals of their triangles: theirs have no direction", broken);
     }
     if (!flat && source.find("TANGENT") != nullptr) {
         repairTangents(mesh);
@@ -163,18 +165,21 @@ void GltfMeshes::loadPrimitive(size_t mesh, size_t primitive) {
     const tinygltf::Primitive& source = document_.model.meshes[mesh].primitives[primitive];
     const std::string part = fmt::format("meshes[{}].primitives[{}]", mesh, primitive);
     if (source.mode < TINYGLTF_MODE_TRIANGLES) {
-        report_.warn("points and lines", part + ".mode", "points and lines are not drawn");
+        report_.warn("points and lines", part + ".mode",
+                     "points and lines will not be drawn: only triangles are supported");
         return;
     }
     if (!source.attributes.contains("POSITION")) {
-        report_.warn("no position", part + ".attributes", "has no POSITION, and is not drawn");
+        report_.warn("no position", part + ".attributes", "the primitive will not be drawn: it has no POSITION");
         return;
     }
     if (!source.targets.empty()) {
-        report_.warn("morph targets", part + ".targets", "morph targets are left out");
+        report_.warn("morph targets", part + ".targets",
+                     "the mesh will keep its base shape: morph targets are not supported");
     }
     if (source.attributes.contains("JOINTS_1")) {
-        report_.warn("joints", part + ".attributes.JOINTS_1", "a vertex hangs from its first four joints only");
+        report_.warn("joints", part + ".attributes.JOINTS_1",
+                     "vertices will follow their first four joints only: more are not supported");
     }
     PrimitiveSource opened = openPrimitive(document_, source, part, report_);
     const std::vector<uint32_t> used = takeUsed(opened.triangles, opened.find("POSITION")->count);

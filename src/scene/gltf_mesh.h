@@ -1,4 +1,4 @@
-// Turns the primitives of a glTF file into meshes.
+// Converts primitives of a glTF file to meshes.
 #pragma once
 
 #include "scene/gltf_material.h"
@@ -10,7 +10,7 @@ namespace reflet {
 
 class GltfMeshes {
 public:
-    /// All four must live as long as this.
+    /// All four must outlive this object.
     GltfMeshes(const GltfDocument& document, GltfMaterials& materials, Scene& scene, GltfReport& report)
         : document_(document),
           materials_(materials),
@@ -19,7 +19,7 @@ public:
           meshes_(document.model.meshes.size()),
           loaded_(document.model.meshes.size(), false) {}
 
-    /// Indices into Scene::meshes, one for each primitive of the file's mesh that draws triangles. Throws Error.
+    /// Indices into Scene::meshes, one per primitive of the file's mesh that draws triangles. Throws Error.
     const std::vector<uint32_t>& use(int mesh);
 
 private:

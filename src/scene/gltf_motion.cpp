@@ -1,4 +1,4 @@
-// Reads what moves in a glTF file: nodes, animations, skins.
+// Reads nodes, animations and skins of a glTF file.
 #include "scene/gltf_motion.h"
 
 #include "scene/gltf_accessor.h"
@@ -27,7 +27,7 @@ Node readGltfNode(const tinygltf::Node& node, const std::string& part, const Glt
         const glm::dquat rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
         const double length = glm::length(rotation);
         if (length == 0.0 || !std::isfinite(length)) {
-            report.fail(part + ".rotation", "is no rotation: its length is {}", length);
+            report.fail(part + ".rotation", "is not a rotation: the quaternion's length is {}", length);
         }
         result.rotation = rotation / length;
     }
@@ -49,7 +49,7 @@ GltfMotion::GltfMotion(const GltfDocument& document, Scene& scene, GltfReport& r
     }
 }
 
-// Of all scenes: joints may hang anywhere.
+// The nodes of all scenes, because joints may be anywhere.
 void GltfMotion::readNodes() {
     const auto& nodes = document_.model.nodes;
     report_.charge("nodes", nodes.size() * (sizeof(Node) + sizeof(mat4)));
@@ -84,14 +84,16 @@ void GltfMotion::readAnimation(size_t index) {
         const tinygltf::AnimationChannel& channel = source.channels[i];
         const std::string part = fmt::format("animations[{}].channels[{}]", index, i);
         if (channel.target_node < 0) {
-            continue;  // an extension's
+            continue;  // the target is defined by an extension
         }
         if (channel.target_path == "weights") {
-            report_.warn("weights", part + ".target.path", "weights are left out: morph targets are not shown");
+            report_.warn("weights", part + ".target.path",
+                         "the channel will be ignored: morph targets are not supported");
             continue;
         }
         if (!document_.model.nodes[static_cast<size_t>(channel.target_node)].matrix.empty()) {
-            report_.warn("animated matrix", part + ".target.node", "nodes[{}] has a matrix, and stands still",
+            report_.warn("animated matrix", part + ".target.node",
+                         "nodes[{}] will not be animated: it has a matrix instead of translation, rotation and scale",
                          channel.target_node);
             continue;
         }
@@ -109,7 +111,7 @@ void GltfMotion::readSkin(size_t index) {
     const tinygltf::Skin& source = document_.model.skins[index];
     const std::string part = fmt::format("skins[{}]", index);
     if (source.joints.empty()) {
-        report_.fail(part + ".joints", "are none");
+        report_.fail(part + ".joints", "is empty");
     }
     report_.charge(part, source.joints.size() * (sizeof(uint32_t) + 2 * sizeof(mat4)));
     Skin skin;
@@ -121,7 +123,7 @@ void GltfMotion::readSkin(size_t index) {
         const AccessorView view = viewAccessor(document_, source.inverseBindMatrices, report_);
         const auto& accessor = document_.model.accessors[static_cast<size_t>(source.inverseBindMatrices)];
         if (accessor.type != TINYGLTF_TYPE_MAT4 || accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
-            report_.fail(part + ".inverseBindMatrices", "is no accessor of MAT4 of floats");
+            report_.fail(part + ".inverseBindMatrices", "is not an accessor of MAT4 floats");
         }
         if (view.count < skin.joints.size()) {
             report_.fail(part + ".inverseBindMatrices", "has {} matrices for {} joints", view.count,
@@ -143,7 +145,8 @@ int32_t GltfMotion::skin(int index, uint32_t mesh, const std::string& part) cons
     const Mesh& skinned = scene_.meshes[mesh];
     const size_t joints = scene_.skins[static_cast<size_t>(index)].joints.size();
     if (skinned.skin.empty()) {
-        report_.warn("skin without joints", part + ".skin", "its mesh has no JOINTS_0 and WEIGHTS_0, and is not bent");
+        report_.warn("skin without joints", part + ".skin",
+                     "the mesh will not be deformed: it has no JOINTS_0 and WEIGHTS_0");
         return -1;
     }
     for (const VertexSkin& vertex : skinned.skin) {

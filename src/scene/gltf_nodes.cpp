@@ -1,4 +1,4 @@
-// Places the nodes of a glTF scene: instances, cameras, lamps, the sun.
+// Places instances, cameras, lamps and the sun by the nodes of a glTF scene.
 #include "scene/gltf_nodes.h"
 
 #include "scene/gltf_motion.h"
@@ -11,13 +11,13 @@ namespace reflet {
 
 namespace {
 
-constexpr float minNear = 1e-3F;  // metres; of orthographic cameras, which may have 0 in glTF
+constexpr float minNear = 1e-3F;  // metres; for orthographic cameras, whose znear may be 0 in glTF
 
 Camera placeCamera(const tinygltf::Camera& source, const mat4& toWorld, const std::string& part,
                    const GltfReport& report) {
     Camera camera;
     camera.name = source.name;
-    putAt(camera, toWorld);
+    setTransform(camera, toWorld);
     camera.aims = false;
     if (source.type == "orthographic") {
         const auto& ortho = source.orthographic;
@@ -40,7 +40,7 @@ Lamp placeLamp(const tinygltf::Light& source, const mat4& toWorld, const std::st
     lamp.type = source.type == "spot"          ? Lamp::Type::spot
                 : source.type == "directional" ? Lamp::Type::directional
                                                : Lamp::Type::point;
-    putAt(lamp, toWorld);
+    setTransform(lamp, toWorld);
     const glm::dvec3 intensity = vectorOr(source.color, glm::dvec3(1.0)) * source.intensity;
     lamp.intensity = vec3(intensity);
     if (!std::isfinite(glm::length(glm::dvec3(lamp.intensity)))) {
@@ -74,7 +74,7 @@ public:
         const glm::dmat4 exact = parentToWorld * localTransform(readGltfNode(node, part, report_));
         const mat4 toWorld(exact);
         if (!isFinite(toWorld)) {
-            report_.fail(part, "its place in the world is not finite");
+            report_.fail(part, "its transform to the world is not finite");
         }
         if (node.mesh >= 0) {
             addInstances(index, toWorld, part);
@@ -97,7 +97,7 @@ private:
         for (const uint32_t mesh : meshes_.use(node.mesh)) {
             const Aabb box = transformed(scene_.meshes[mesh].bounds, toWorld);
             if (!std::isfinite(glm::length(glm::dvec3(box.min) - glm::dvec3(box.max)))) {
-                report_.fail(part, "its mesh reaches past what a float holds");
+                report_.fail(part, "its mesh extends beyond the range of floats");
             }
             report_.charge(part, sizeof(Instance) + node.name.size());
             scene_.instances.push_back({.name = node.name,
@@ -136,9 +136,9 @@ void placeGltfNodes(const GltfDocument& document, const std::vector<int>& roots,
     };
     const GltfMotion motion(document, scene, report);
     NodePlacer placer(document, meshes, motion, scene, report);
-    std::vector<Open> open;  // a stack of our own: a chain of nodes may be longer than the program's
+    std::vector<Open> open;  // an explicit stack: a long chain of nodes would overflow the call stack
     const auto push = [&](const std::vector<int>& nodes, const glm::dmat4& parentToWorld) {
-        for (size_t i = nodes.size(); i-- > 0;) {  // the first one last, so that it is the next
+        for (size_t i = nodes.size(); i-- > 0;) {  // in reverse, so that the first is popped first
             open.push_back({nodes[i], parentToWorld});
         }
     };

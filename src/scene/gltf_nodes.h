@@ -1,4 +1,4 @@
-// Places the nodes of a glTF scene: instances, cameras, lamps, the sun.
+// Places instances, cameras, lamps and the sun by the nodes of a glTF scene.
 #pragma once
 
 #include "scene/gltf_mesh.h"
@@ -7,7 +7,7 @@
 
 namespace reflet {
 
-/// Walks the trees below `roots`, parents first and children in their order. Throws Error.
+/// Traverses the trees below `roots`, parents first and children in order. Throws Error.
 void placeGltfNodes(const GltfDocument& document, const std::vector<int>& roots, GltfMeshes& meshes, Scene& scene,
                     GltfReport& report);
 

@@ -1,4 +1,4 @@
-// Normals that a glTF primitive does not have, or has without a direction. In doubles: a float's square may not fit.
+// Generates or repairs normals of a glTF primitive. In doubles, because the square of a float may overflow.
 #include "scene/gltf_normals.h"
 
 #include <cmath>
@@ -20,7 +20,7 @@ bool hasDirection(const vec3& v) {
     return std::isfinite(length) && length > 0.0;
 }
 
-/// Of a sum in doubles; a sum that is tiny for a float still has a direction.
+/// For sums in doubles, whose direction may be lost in float precision.
 vec3 unitOr(const glm::dvec3& v, const vec3& fallback) {
     const double length = glm::length(v);
     return std::isfinite(length) && length > 0.0 ? vec3(v / length) : fallback;

@@ -1,4 +1,4 @@
-// Normals and tangents that a glTF primitive does not have, or has without a direction.
+// Generates or repairs normals and tangents of a glTF primitive.
 #pragma once
 
 #include "scene/scene.h"
@@ -7,26 +7,28 @@
 
 namespace reflet {
 
-/// v at unit length; `fallback` where v has no direction (zero, infinite or NaN).
+/// v normalized; `fallback` if v has no direction (zero, infinite or NaN).
 vec3 unitOr(const vec3& v, const vec3& fallback);
 
-/// Some unit vector at a right angle to the unit vector n.
+/// A unit vector perpendicular to the unit vector n.
 vec3 perpendicular(const vec3& n);
 
-/// Gives every triangle vertices of its own, with the triangle's normal (+Y where it has no area).
+/// Gives every triangle its own vertices with the triangle's normal (+Y for degenerate triangles).
 void makeFlat(Mesh& mesh);
 
-/// Makes the normals unit vectors. Those without a direction become the average of the triangles at the vertex,
-/// weighted with their areas, or +Y. Returns how many had none.
+/// Normalizes the normals. Those without a direction become the area-weighted average of the triangles at the vertex,
+/// or
+/// +Y. Returns how many had none.
 size_t repairNormals(Mesh& mesh);
 
-/// Makes the tangents unit vectors with w = ±1; those without a direction become any at a right angle to the normal.
+/// Normalizes the tangents, with w = ±1. Those without a direction become any perpendicular to the normal.
 void repairTangents(Mesh& mesh);
 
-/// Computes tangents for a normal map as glTF 2.0 has them (w · cross(n, t) is up in the image): per vertex the average
-/// over the triangles there, weighted with their angles. Vertices alike in position, normal and uv are averaged
-/// together; where triangles of both handednesses meet, the vertex is split. After: Morten S. Mikkelsen, "Simulation of
-/// Wrinkled Surfaces Revisited", 2008. Needs unit normals.
+/// Computes tangents for a normal map by glTF 2.0's convention (w · cross(n, t) is up in the image): per vertex, the
+/// angle-weighted average over its triangles. Vertices with equal position, normal and uv are averaged together;
+/// vertices
+/// where triangles of both handednesses meet are split. After: Morten S. Mikkelsen, "Simulation of Wrinkled Surfaces
+/// Revisited", 2008. Needs unit normals.
 void makeTangents(Mesh& mesh, const TextureSlot& normalTexture);
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// Where the vertices and triangles of a glTF primitive come from: accessors or Draco.
+// Gives access to the attributes and triangles of a glTF primitive, whether from accessors or from Draco.
 #include "scene/gltf_primitive.h"
 
 #include <array>
@@ -21,21 +21,21 @@ constexpr std::array<SemanticRule, 8> semantics{{{"POSITION", 3, 3},
                                                  {"JOINTS_0", 4, 4},
                                                  {"WEIGHTS_0", 4, 4}}};
 
-/// The types of glTF 2.0 and of KHR_mesh_quantization: all but 32-bit integers, which floats do not hold.
+/// The types of glTF 2.0 and KHR_mesh_quantization: all but 32-bit integers, which floats cannot represent.
 void checkType(const tinygltf::Accessor& accessor, const SemanticRule& rule, int index, const GltfReport& report) {
     const bool isVector = accessor.type == TINYGLTF_TYPE_VEC2 || accessor.type == TINYGLTF_TYPE_VEC3 ||
                           accessor.type == TINYGLTF_TYPE_VEC4;
     const int components = tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor.type));
     if (!isVector || components < rule.minComponents || components > rule.maxComponents) {
-        report.fail(fmt::format("accessors[{}]", index), "has {} components{}, a {} has {}", components,
-                    isVector ? "" : " that are no vector", rule.semantic, rule.minComponents);
+        report.fail(fmt::format("accessors[{}]", index), "has {} components{}, but a {} has {}", components,
+                    isVector ? "" : " that are not a vector", rule.semantic, rule.minComponents);
     }
     const bool isJoint = accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
                          accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
     if (accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT ||
         (std::string_view(rule.semantic) == "JOINTS_0" && !isJoint)) {
-        report.fail(fmt::format("accessors[{}].componentType", index), "is {}, which no {} has", accessor.componentType,
-                    rule.semantic);
+        report.fail(fmt::format("accessors[{}].componentType", index), "is {}, which is not allowed for {}",
+                    accessor.componentType, rule.semantic);
     }
 }
 
@@ -54,7 +54,7 @@ std::map<std::string, AccessorView> openAttributes(const GltfDocument& document,
             decoded != draco.attributes.end() ? decoded->second : viewAccessor(document, found->second, report);
         const uint32_t expected = result.at("POSITION").count;  // the first of the semantics
         if (result[rule.semantic].count != expected) {
-            report.fail(fmt::format("{}.attributes.{}", part, rule.semantic), "has {} vertices, POSITION has {}",
+            report.fail(fmt::format("{}.attributes.{}", part, rule.semantic), "has {} vertices, but POSITION has {}",
                         result[rule.semantic].count, expected);
         }
     }
@@ -75,10 +75,10 @@ std::vector<uint32_t> readIndices(const GltfDocument& document, int index, uint3
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
             break;
         default:
-            report.fail(part + ".componentType", "is {}, which no index has", accessor.componentType);
+            report.fail(part + ".componentType", "is {}, which is not allowed for indices", accessor.componentType);
     }
     if (accessor.type != TINYGLTF_TYPE_SCALAR) {
-        report.fail(part + ".type", "is not SCALAR, as indices are");
+        report.fail(part + ".type", "is not SCALAR, as indices must be");
     }
     const AccessorView view = viewAccessor(document, index, report);
     report.charge(part, uint64_t(view.count) * sizeof(uint32_t));
@@ -86,7 +86,7 @@ std::vector<uint32_t> readIndices(const GltfDocument& document, int index, uint3
     for (uint32_t i = 0; i < view.count; ++i) {
         indices[i] = view.integerAt(i);
         if (indices[i] == restart) {
-            report.fail(part, "index {} is {}, the value that restarts a strip, which glTF does not have", i, restart);
+            report.fail(part, "index {} is {}, the primitive restart value, which glTF does not allow", i, restart);
         }
         if (indices[i] >= vertices) {
             report.fail(part, "index {} is {}, but there are {} vertices", i, indices[i], vertices);
@@ -95,7 +95,7 @@ std::vector<uint32_t> readIndices(const GltfDocument& document, int index, uint3
     return indices;
 }
 
-/// glTF 2.0, 3.7.2.1: which corners make a triangle of a strip or a fan, in which order.
+/// glTF 2.0, 3.7.2.1: the vertices of a triangle in a list, strip or fan.
 std::array<uint32_t, 3> corners(int mode, uint32_t triangle) {
     switch (mode) {
         case TINYGLTF_MODE_TRIANGLE_STRIP:
@@ -107,7 +107,7 @@ std::array<uint32_t, 3> corners(int mode, uint32_t triangle) {
     }
 }
 
-/// `indices` may be empty: the vertices in their order.
+/// Without `indices`: the vertices in order.
 std::vector<uint32_t> makeTriangles(int mode, const std::vector<uint32_t>* indices, uint32_t vertices,
                                     const std::string& part, GltfReport& report) {
     const uint32_t count = indices != nullptr ? static_cast<uint32_t>(indices->size()) : vertices;
@@ -138,7 +138,7 @@ PrimitiveSource openPrimitive(const GltfDocument& document, const tinygltf::Prim
     }
     source.attributes = openAttributes(document, primitive, source.draco, part, report);
     const uint32_t vertices = source.attributes.at("POSITION").count;
-    if (compressed) {  // Draco holds triangles, whatever the mode was
+    if (compressed) {  // Draco stores triangles, whatever the mode
         if (source.draco.attributes.empty() || source.draco.indices.empty()) {
             report.fail(part + ".extensions.KHR_draco_mesh_compression", "holds no triangles");
         }

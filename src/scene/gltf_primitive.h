@@ -1,4 +1,4 @@
-// Where the vertices and triangles of a glTF primitive come from: accessors or Draco.
+// Gives access to the attributes and triangles of a glTF primitive, whether from accessors or from Draco.
 #pragma once
 
 #include "scene/gltf_draco.h"
@@ -9,12 +9,12 @@
 
 namespace reflet {
 
-/// A primitive before its vertices are read. All attributes have as many elements as POSITION, which is there, and are
-/// of a type that their semantic allows.
+/// A primitive before its vertices are read. POSITION exists, and all attributes have as many elements and a type that
+/// their semantic allows.
 struct PrimitiveSource {
     std::map<std::string, AccessorView> attributes;
-    std::vector<uint32_t> triangles;  ///< three vertices each, all less than the number of vertices
-    DracoPrimitive draco;             ///< keeps what attributes look into
+    std::vector<uint32_t> triangles;  ///< three vertex indices each, in range
+    DracoPrimitive draco;             ///< owns the data that attributes view
 
     [[nodiscard]] const AccessorView* find(const std::string& semantic) const {
         const auto found = attributes.find(semantic);
@@ -22,7 +22,7 @@ struct PrimitiveSource {
     }
 };
 
-/// `part` is the JSON path of the primitive, which draws triangles and has a POSITION. Throws Error.
+/// `part` is the JSON path of the primitive, which must draw triangles and have a POSITION. Throws Error.
 PrimitiveSource openPrimitive(const GltfDocument& document, const tinygltf::Primitive& primitive,
                               const std::string& part, GltfReport& report);
 

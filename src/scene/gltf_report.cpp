@@ -1,4 +1,4 @@
-// Says what is wrong with a glTF file and where, passes each warning on once, and bounds the memory of one scene.
+// Error messages and warnings for glTF files, and a limit on the memory of a scene.
 #include "scene/gltf_report.h"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ std::string GltfReport::line(std::string_view part, std::string_view what) const
 
 void GltfReport::charge(std::string_view part, uint64_t bytes) {
     if (bytes > maxSceneBytes - charged_) {
-        fail(part, "makes the scene need more than {} GiB of memory", maxSceneBytes >> 30U);
+        fail(part, "takes the scene past the limit of {} GiB of memory", maxSceneBytes >> 30U);
     }
     charged_ += bytes;
 }

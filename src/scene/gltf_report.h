@@ -1,4 +1,4 @@
-// Says what is wrong with a glTF file and where, passes each warning on once, and bounds the memory of one scene.
+// Error messages and warnings for glTF files, and a limit on the memory of a scene.
 #pragma once
 
 #include "base/error.h"
@@ -12,7 +12,7 @@
 
 namespace reflet {
 
-/// The text on one line: control characters become '?', and what is longer than 200 characters is cut.
+/// The text on one line: control characters become '?', and texts of more than 200 characters are truncated.
 std::string oneLine(std::string_view text);
 
 class GltfReport {
@@ -20,7 +20,7 @@ public:
     GltfReport(std::string file, std::function<void(const std::string&)> warn)
         : file_(std::move(file)), warn_(std::move(warn)) {}
 
-    /// Throws Error "FILE: PART: what". `part` is the JSON path of what is broken, or "" for the file itself.
+    /// Throws Error "FILE: PART: what". `part` is the JSON path of the invalid part, or "" for the file itself.
     template <class... Args>
     [[noreturn]] void fail(std::string_view part, fmt::format_string<Args...> format, Args&&... args) const {
         throw Error(line(part, fmt::format(format, std::forward<Args>(args)...)));
@@ -31,7 +31,7 @@ public:
         throw UsageError(line(part, fmt::format(format, std::forward<Args>(args)...)));
     }
 
-    /// Passes the warning on, unless the same kind was already told. `kind` is what makes two warnings the same.
+    /// Warns once per `kind`.
     template <class... Args>
     void warn(const std::string& kind, std::string_view part, fmt::format_string<Args...> format, Args&&... args) {
         if (told_.insert(kind).second && warn_) {

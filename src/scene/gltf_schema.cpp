@@ -1,5 +1,5 @@
-// Checks a glTF document against the part of the specification that the loader reads. What is checked is written in
-// tables, one row per property, after the JSON schemas of the Khronos glTF 2.0 specification, 2021.
+// Checks a glTF document against the part of the specification that the loader reads, driven by tables with one row per
+// property, after the JSON schemas of the Khronos glTF 2.0 specification, 2021.
 #include "scene/gltf_schema.h"
 
 #include "scene/gltf_schema_tables.h"
@@ -16,14 +16,14 @@ using gltf_schema::Field;
 using gltf_schema::Type;
 using nlohmann::json;
 
-constexpr double maxInteger = 9007199254740992.0;  // 2^53: every integer up to here is a double
-constexpr size_t maxObjects = size_t(1) << 21U;    // a tinygltf object is up to some 2 KiB, `{}` is two bytes
+constexpr double maxInteger = 9007199254740992.0;  // 2^53: all integers up to here are exact in a double
+constexpr size_t maxObjects = size_t(1) << 21U;    // `{}` is two bytes, but a tinygltf object takes up to 2 KiB
 
-/// Where a value stands in the document: a list from the value to the root, so that a path costs nothing until told.
+/// Location of a value in the document: a linked list to the root, so that paths cost nothing until they are printed.
 struct Place {
     const Place* parent = nullptr;
     std::string_view name{};
-    size_t index = 0;  ///< where name is empty
+    size_t index = 0;  ///< if name is empty
 
     [[nodiscard]] std::string path() const {
         const std::string before = parent != nullptr ? parent->path() : "";
@@ -53,7 +53,7 @@ public:
             fail(place, "is {}, not an object", kindOf(value));
         }
         if (++objects_ > maxObjects) {
-            fail(place, "is one object more than the {} that are read", maxObjects);
+            fail(place, "exceeds the limit of {} objects", maxObjects);
         }
         json result = json::object();
         for (const Field& field : fields) {
@@ -119,7 +119,7 @@ private:
             case Type::object:
                 return object(value, field.fields, &place);
         }
-        fail(&place, "is of a type that is not known");
+        fail(&place, "has an unknown type");
     }
 
     [[nodiscard]] json text(const json& value, const Field& field, const Place& place) const {
@@ -157,7 +157,7 @@ private:
         if (!(number >= min && number <= max)) {
             fail(&place, "is {}, not between {} and {}", number, min, max);
         }
-        const auto result = static_cast<uint64_t>(number);  // also of 3.0 and 3e0, which tinygltf takes for absent
+        const auto result = static_cast<uint64_t>(number);  // converts 3.0 and 3e0, too, which tinygltf ignores
         if (result % field.multipleOf != 0) {
             fail(&place, "is {}, not a multiple of {}", result, field.multipleOf);
         }

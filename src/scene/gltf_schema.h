@@ -7,11 +7,12 @@
 
 namespace reflet {
 
-/// Returns a copy that holds only what the loader reads, every value of the stated type and in range, every index one
-/// that exists, whole numbers as integers. Throws Error with the JSON path of the first value that is not so.
+/// Returns a copy that holds only what the loader reads, with all types, ranges and indices checked and whole numbers
+/// as
+/// integers. Throws Error with the JSON path of the first invalid value.
 nlohmann::json checkedGltfDocument(const nlohmann::json& document, const GltfReport& report);
 
-/// The extensions that the schema knows.
+/// Whether the loader supports the extension.
 bool knownGltfExtension(const std::string& name);
 
 }  // namespace reflet

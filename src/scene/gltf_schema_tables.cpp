@@ -8,7 +8,7 @@ namespace reflet::gltf_schema {
 
 namespace {
 
-constexpr double maxInt = 2147483647.0;  // where tinygltf keeps an int
+constexpr double maxInt = 2147483647.0;  // for values that tinygltf stores in an int
 constexpr double halfPi = 1.5707963705;  // rounded up to float
 
 constexpr std::array<uint64_t, 6> componentTypes{5120, 5121, 5122, 5123, 5125, 5126};
@@ -111,7 +111,7 @@ constexpr std::array materialExtensions{
     Field{.name = "KHR_materials_emissive_strength", .type = Type::object, .fields = emissiveStrength},
 };
 constexpr std::array materialExtras{
-    Field{.name = "camera", .type = Type::text},  // of ours: Material::camera
+    Field{.name = "camera", .type = Type::text},  // Reflet's own: Material::camera
 };
 constexpr std::array material{
     Field{.name = "name", .type = Type::text},
@@ -148,7 +148,7 @@ constexpr std::array mesh{
     Field{.name = "primitives", .type = Type::object, .required = true, .array = true, .fields = primitive},
 };
 
-// Nodes and what they place.
+// Nodes, cameras, lights, skins and animations.
 constexpr std::array nodeLight{
     Field{.name = "light", .type = Type::index, .required = true, .refersTo = "lights"},
 };
@@ -217,7 +217,7 @@ constexpr std::array spot{
     Field{.name = "outerConeAngle", .min = 0, .max = halfPi},
 };
 constexpr std::array lightExtras{
-    Field{.name = "radius", .min = 0},  // of ours: Lamp::radius
+    Field{.name = "radius", .min = 0},  // Reflet's own: Lamp::radius
 };
 constexpr std::array light{
     Field{.name = "name", .type = Type::text},

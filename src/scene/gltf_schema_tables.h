@@ -19,14 +19,14 @@ struct Field {
     bool required = false;
     bool array = false;                               ///< an array of the type
     size_t items = 0;                                 ///< of an array; 0: any number
-    const char* refersTo = nullptr;                   ///< index, indexMap: the array that it is an index into
+    const char* refersTo = nullptr;                   ///< index, indexMap: the array that it indexes
     double min = -std::numeric_limits<float>::max();  ///< every number must fit a float
     double max = std::numeric_limits<float>::max();
     uint64_t multipleOf = 1;                    ///< integer
-    std::span<const std::string_view> words{};  ///< text: the only ones; empty: any
-    std::span<const uint64_t> numbers{};        ///< integer: the only ones; empty: any
+    std::span<const std::string_view> words{};  ///< text: allowed values; empty: any
+    std::span<const uint64_t> numbers{};        ///< integer: allowed values; empty: any
     std::span<const Field> fields{};            ///< object
-    bool anyType = false;                       ///< may be of any type; what is no object is left out
+    bool anyType = false;                       ///< may have any type; ignored unless an object
 };
 
 /// The document itself.

@@ -12,10 +12,10 @@ namespace {
 
 constexpr uint8_t noSide = 2;
 
-/// What a triangle's uvs say. side 0: the image is seen from its back, w = -1; 1: from its front, w = 1.
+/// Texture frame of a triangle. side 0: the image is mirrored, w = -1; 1: it is not, w = 1.
 struct UvFrame {
     glm::dvec3 tangent{0.0};  ///< direction in which u grows, any length
-    uint8_t side = noSide;    ///< noSide: the uvs have no area
+    uint8_t side = noSide;    ///< noSide: degenerate uvs
 };
 
 class TangentMaker {
@@ -44,7 +44,7 @@ private:
         return {p.x, p.y, p.z, n.x, n.y, n.z, t.x, t.y};
     }
 
-    /// Vertices alike share a group, so that triangles without a common index still share a tangent.
+    /// Groups equal vertices, so that triangles without a common index still share a tangent.
     void weld() {
         std::vector<uint32_t> order(mesh_.positions.size());
         std::iota(order.begin(), order.end(), 0U);
@@ -101,8 +101,7 @@ private:
         }
     }
 
-    /// The first side that reaches a vertex keeps it, the other one gets a copy. Triangles without uv area take what
-    /// is there.
+    /// The first side that uses a vertex keeps it, the other one gets a copy. Triangles with degenerate uvs use either.
     void split() {
         side_.assign(mesh_.positions.size(), noSide);
         std::vector<uint32_t> copy(mesh_.positions.size(), 0);
@@ -142,7 +141,7 @@ private:
 
     Mesh& mesh_;
     const TextureSlot& slot_;
-    std::vector<uint32_t> group_;                  ///< per vertex: the vertex that stands for all alike
+    std::vector<uint32_t> group_;                  ///< per vertex: the representative of all equal vertices
     std::vector<UvFrame> frames_;                  ///< per triangle
     std::vector<std::array<glm::dvec3, 2>> sums_;  ///< per group and side
     std::vector<uint8_t> side_;                    ///< per vertex

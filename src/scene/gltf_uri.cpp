@@ -1,4 +1,4 @@
-// Reads what a URI of a glTF file refers to: a data URI, or a file in the scene's own folder and nowhere else.
+// Reads the target of a URI in a glTF file: a data URI, or a file inside the scene's folder.
 // RFC 3986 (Berners-Lee et al., 2005) for URIs, RFC 2397 (Masinter, 1998) for data, RFC 4648 (Josefsson, 2006) for
 // base64.
 #include "scene/gltf_uri.h"
@@ -45,7 +45,7 @@ std::vector<uint8_t> base64Decoded(std::string_view text, std::string_view part,
         text.remove_suffix(1);
     }
     if (text.size() % 4 == 1) {
-        report.fail(part, "its base64 is cut off");
+        report.fail(part, "its base64 data is truncated");
     }
     std::vector<uint8_t> bytes;
     bytes.reserve(text.size() / 4 * 3 + 2);
@@ -54,7 +54,7 @@ std::vector<uint8_t> base64Decoded(std::string_view text, std::string_view part,
     for (size_t i = 0; i < text.size(); ++i) {
         const auto digit = base64Digit(text[i]);
         if (!digit) {
-            report.fail(part, "character {} of its base64 data is none", i);
+            report.fail(part, "character {} of its base64 data is invalid", i);
         }
         bits = bits << 6U | *digit;
         count += 6;
@@ -79,7 +79,7 @@ std::vector<uint8_t> readDataUri(std::string_view uri, std::string_view part, co
     return {decoded.begin(), decoded.end()};
 }
 
-/// Whether it starts with "scheme:". One letter is taken for a drive of Windows, which is no less absolute.
+/// Whether it starts with "scheme:". This includes Windows drive letters, which are absolute paths, too.
 bool hasScheme(std::string_view uri) {
     const size_t colon = uri.find_first_of(":/?#");
     return colon != std::string_view::npos && uri[colon] == ':';

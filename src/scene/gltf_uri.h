@@ -1,4 +1,4 @@
-// Reads what a URI of a glTF file refers to: a data URI, or a file in the scene's own folder and nowhere else.
+// Reads the target of a URI in a glTF file: a data URI, or a file inside the scene's folder.
 #pragma once
 
 #include "scene/gltf_report.h"
@@ -9,11 +9,11 @@
 
 namespace reflet {
 
-/// "%41" becomes "A"; what is no escape stays as it is.
+/// "%41" becomes "A"; invalid escapes are kept.
 std::string percentDecoded(std::string_view uri);
 
-/// At most `maxBytes` bytes of what the URI refers to. Throws Error in the name of `part` where the URI is absolute,
-/// has a scheme other than data, leads out of `folder` (also through a symbolic link), or cannot be read.
+/// The bytes of the URI's target; of a file, at most `maxBytes`. Throws Error that names `part` if the URI is absolute,
+/// has a scheme other than data, leads out of `folder` (also by a symbolic link), or cannot be read.
 std::vector<uint8_t> readUri(const std::string& uri, const std::filesystem::path& folder, uint64_t maxBytes,
                              std::string_view part, const GltfReport& report);
 

@@ -1,4 +1,4 @@
-// Vectors and directions of view files and camera paths, checked.
+// Reads and checks vectors and directions in view files and camera paths.
 #pragma once
 
 #include "base/json.h"
@@ -9,7 +9,7 @@
 
 namespace reflet {
 
-/// Far beyond any scene, and far from where float arithmetic overflows.
+/// Far beyond any scene, but safe from overflow in float arithmetic.
 constexpr double largestInView = 1e12;
 constexpr double radiansPerDegree = glm::pi<double>() / 180.0;
 
@@ -28,7 +28,7 @@ inline vec3 readDirection(const JsonNode& node) {
     const glm::dvec3 direction(values[0], values[1], values[2]);
     const double length = glm::length(direction);
     if (!(length > 0.0)) {
-        node.complainMustBe("a direction that is not zero");
+        node.complainMustBe("a direction of non-zero length");
     }
     return direction / length;
 }
@@ -38,7 +38,7 @@ inline float readFovY(const JsonNode& node) {
     return static_cast<float>(node.number(1.0, 179.0, "degrees") * radiansPerDegree);
 }
 
-/// The value of a key that must be there.
+/// The value of a required key.
 inline JsonNode required(const JsonNode& node, const std::string& key) {
     const auto value = node.find(key);
     if (!value) {

@@ -1,4 +1,4 @@
-// Where everything of a scene is at a time: key frames, then nodes, then what hangs from them.
+// Evaluates a scene at a time: keyframes, then nodes, then instances, skins, cameras and lights.
 #include "scene/pose.h"
 
 #include "scene/gltf_normals.h"
@@ -26,7 +26,7 @@ void apply(const Channel& channel, double time, Node& node) {
     }
 }
 
-// Products of large numbers may be past what a float holds; such a place is no place.
+// Products of large numbers may overflow a float; `otherwise` replaces them.
 mat4 finiteOr(const glm::dmat4& m, const mat4& otherwise) {
     const mat4 rounded(m);
     for (int i = 0; i < 16; ++i) {
@@ -45,7 +45,7 @@ const mat4& placeOf(int32_t node, const ScenePose& pose) {
     return pose.nodeToWorld[static_cast<size_t>(node)];
 }
 
-/// The instance's mesh as its skin bends it, in the world.
+/// The mesh deformed by its skin, in world space.
 Mesh skinned(const Mesh& source, const std::vector<mat4>& joints) {
     Mesh mesh = source;
     mesh.skin.clear();
@@ -61,7 +61,7 @@ Mesh skinned(const Mesh& source, const std::vector<mat4>& joints) {
         a.tangent = vec4(unitOr(turn * vec3(a.tangent), vec3(a.tangent)), side * a.tangent.w);
         mesh.bounds.add(mesh.positions[i]);
     }
-    if (turnsOver(joints)) {
+    if (flipsWinding(joints)) {
         for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
             std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
         }
@@ -128,7 +128,7 @@ ScenePose scenePose(const Scene& scene, double time) {
     return pose;
 }
 
-bool moves(const ScenePose& pose, const Instance& instance) {
+bool isAnimated(const ScenePose& pose, const Instance& instance) {
     return instance.skin >= 0 || isMoving(instance.node, pose);
 }
 
@@ -142,7 +142,7 @@ mat4 skinToWorld(const VertexSkin& vertex, const std::vector<mat4>& joints) {
     return sum;
 }
 
-bool turnsOver(const std::vector<mat4>& joints) {
+bool flipsWinding(const std::vector<mat4>& joints) {
     return glm::determinant(mat3(joints.front())) < 0.0F;
 }
 
@@ -192,14 +192,14 @@ Aabb instanceBounds(const Scene& scene, const ScenePose& pose, size_t instance, 
 
 Camera posed(Camera camera, const ScenePose& pose) {
     if (isMoving(camera.node, pose)) {
-        putAt(camera, placeOf(camera.node, pose));
+        setTransform(camera, placeOf(camera.node, pose));
     }
     return camera;
 }
 
 Lamp posed(Lamp lamp, const ScenePose& pose) {
     if (isMoving(lamp.node, pose)) {
-        putAt(lamp, placeOf(lamp.node, pose));
+        setTransform(lamp, placeOf(lamp.node, pose));
     }
     return lamp;
 }

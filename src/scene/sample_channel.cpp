@@ -1,4 +1,4 @@
-// Key frames at a time, after: Khronos, glTF 2.0 Specification, 2021, appendix C.
+// Keyframe interpolation, after: Khronos, glTF 2.0 Specification, 2021, appendix C.
 #include "scene/sample_channel.h"
 
 #include <algorithm>
@@ -8,10 +8,10 @@ namespace reflet {
 
 namespace {
 
-// Around which both ways between two rotations are as good as a straight line, and an angle is too small to divide by.
+// Cosine beyond which the sine of the angle is too small to divide by, and linear interpolation is as good.
 constexpr double nearlyOne = 1.0 - 1e-12;
 
-/// Between unit quaternions, at an even speed, the short way round (Shoemake 1985).
+/// Slerp between unit quaternions along the shorter arc (Shoemake 1985).
 glm::dvec4 spherical(const glm::dvec4& from, const glm::dvec4& to, double share) {
     const double cosine = glm::dot(from, to);
     const glm::dvec4 near = cosine < 0.0 ? -to : to;
@@ -23,8 +23,8 @@ glm::dvec4 spherical(const glm::dvec4& from, const glm::dvec4& to, double share)
 }
 
 struct Between {
-    size_t key;    // the one before
-    double share;  // of the way to the next one; 0: at the key
+    size_t key;    // the previous one
+    double share;  // fraction of the way to the next one
     double seconds;
 };
 
@@ -42,7 +42,7 @@ Between findKeys(const std::vector<float>& times, double time) {
     return {key, (time - double(times[key])) / seconds, seconds};
 }
 
-// Hermite's cubic; tangents are per second.
+// Cubic Hermite spline; tangents are per second.
 glm::dvec4 spline(const std::vector<vec4>& values, const Between& at) {
     const glm::dvec4 from(values[3 * at.key + 1]);
     if (at.share == 0.0) {

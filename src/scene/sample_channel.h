@@ -1,4 +1,4 @@
-// Key frames at a time.
+// Keyframe interpolation.
 #pragma once
 
 #include "scene/animation.h"

@@ -1,4 +1,4 @@
-// The scene's bounds, the view it is first seen from, and the two matrices of a camera.
+// Scene bounds, the default view, and a camera's view and projection matrices.
 #include "scene/scene.h"
 
 #include "base/error.h"
@@ -13,7 +13,7 @@ namespace {
 
 constexpr vec3 worldUp{0, 1, 0};
 
-/// `up` where it can span a plane with `forward`, else an axis that can.
+/// `up`, or an axis that is not parallel to `forward` if `up` is.
 vec3 usableUp(const vec3& forward, const vec3& up) {
     const float sine = glm::length(glm::cross(forward, up));
     if (sine > 1e-4F * glm::length(up)) {
@@ -35,7 +35,7 @@ Camera framingCamera(const Aabb& bounds) {
         return camera;
     }
     camera.fovY = glm::radians(45.0F);
-    // The bounding sphere touches the upper and the lower edge of the picture; wider pictures leave room beside it.
+    // The bounding sphere touches the upper and the lower edge of the image, and fits if the image is at least square.
     const float radius = std::max(0.5F * glm::length(bounds.size()), 1e-3F);
     const float distance = radius / std::sin(0.5F * camera.fovY);
     const float azimuth = glm::radians(30.0F);
@@ -44,16 +44,16 @@ Camera framingCamera(const Aabb& bounds) {
                              std::cos(elevation) * std::cos(azimuth)};
     camera.target = bounds.center();
     camera.position = camera.target + distance * towardsCamera;
-    // Far nearer than the sphere, so that one can walk into the scene; reversed float depth has the precision for it.
+    // Close enough that one can fly into the scene; reversed float depth has the precision for it.
     camera.near = 0.01F * radius;
     return camera;
 }
 
-/// From behind the camera's left shoulder, 53° above the horizon: shadows fall to the right and stay in the picture.
-Sun shoulderSun(const Camera& camera) {
+/// From behind the camera's left shoulder, 53° above the horizon: shadows fall to the right and stay in the image.
+Sun defaultSun(const Camera& camera) {
     const vec3 forward = viewDirection(camera);
     vec3 ahead{forward.x, 0.0F, forward.z};
-    if (glm::length(ahead) < 1e-3F) {  // looks straight up or down: what is up in the picture is ahead
+    if (glm::length(ahead) < 1e-3F) {  // looks straight up or down: use the image's up direction
         const vec3 up = usableUp(forward, camera.up);
         ahead = {up.x, 0.0F, up.z};
     }
@@ -84,18 +84,18 @@ Aabb Scene::bounds() const {
     return result;
 }
 
-void putAt(Camera& camera, const mat4& toWorld) {
+void setTransform(Camera& camera, const mat4& toWorld) {
     camera.position = vec3(toWorld[3]);
     const vec3 forward = unitOr(-vec3(toWorld[2]), vec3(0, 0, -1));
     const vec3 up = vec3(toWorld[1]) - forward * glm::dot(vec3(toWorld[1]), forward);
     camera.up = unitOr(up, perpendicular(forward));
-    // Far enough ahead that a float tells the target from the position.
+    // Far enough ahead that target and position differ in float precision.
     const float farthest =
         std::max({1.0F, std::abs(camera.position.x), std::abs(camera.position.y), std::abs(camera.position.z)});
     camera.target = camera.position + forward * (farthest < 1000.0F ? 1.0F : farthest / 1000.0F);
 }
 
-void putAt(Lamp& lamp, const mat4& toWorld) {
+void setTransform(Lamp& lamp, const mat4& toWorld) {
     lamp.position = vec3(toWorld[3]);
     lamp.direction = unitOr(-vec3(toWorld[2]), vec3(0, 0, -1));
 }
@@ -107,8 +107,8 @@ float lampClearance(float radius) {
 View defaultView(const Scene& scene) {
     View view;
     view.camera = scene.cameras.empty() ? framingCamera(scene.bounds()) : scene.cameras.front();
-    view.sunStandsIn = !isLit(scene);
-    view.sun = view.sunStandsIn ? shoulderSun(view.camera) : scene.sun.value_or(Sun{});
+    view.hasDefaultSun = !isLit(scene);
+    view.sun = view.hasDefaultSun ? defaultSun(view.camera) : scene.sun.value_or(Sun{});
     view.environment = scene.environment;
     return view;
 }

@@ -1,5 +1,5 @@
-// What a picture is made of: meshes, materials, images, lamps, a camera, a sun, an environment. Plain values;
-// every loader and every built-in scene ends here, and the GPU renderer and the reference both start here.
+// The scene description: meshes, materials, images, lamps, cameras, a sun, an environment. Plain values, filled by the
+// loader or by a built-in scene, and read by both the GPU renderer and the reference path tracer.
 // World: right-handed, Y up, metres. A view looks along its own -Z. Angles in radians.
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace reflet {
 
-/// 8-bit image, four channels, rows from the top. Whether its colours are sRGB is said by the slot that uses it.
+/// 8-bit RGBA image, rows from the top. The texture slot that uses it decides whether it is sRGB.
 struct Image {
     std::string name;
     uint32_t width = 0;
@@ -26,7 +26,7 @@ struct Image {
 
 enum class Wrap : uint8_t { repeat, mirror, clamp };
 
-/// How an image is read. Mips are always generated; `mips` says whether they are used.
+/// Texture filtering and addressing. Mips are always generated; `mips` says whether they are used.
 struct Sampler {
     Wrap wrapU = Wrap::repeat;
     Wrap wrapV = Wrap::repeat;
@@ -38,7 +38,7 @@ struct Sampler {
     bool operator==(const Sampler&) const = default;
 };
 
-/// A texture as one material slot sees it. image < 0: none, the slot's factor stands alone.
+/// A texture as a material refers to it. image < 0: no texture, only the factor applies.
 struct TextureSlot {
     int32_t image = -1;    ///< index into Scene::images
     int32_t sampler = -1;  ///< index into Scene::samplers; < 0: Sampler{}
@@ -56,9 +56,9 @@ struct Material {
     vec3 emissive{0.0F};     ///< factor times strength: emitted radiance [W/(m² sr)]
     float normalScale = 1.0F;
     float occlusionStrength = 1.0F;
-    float alphaCutoff = 0.0F;  ///< a fragment with alpha < cutoff is not there; 0: opaque
+    float alphaCutoff = 0.0F;  ///< fragments with alpha < cutoff are discarded; 0: opaque
     bool doubleSided = false;
-    std::string camera;            ///< the surface shows what that camera sees, and emits nothing else; empty: none
+    std::string camera;            ///< name of the camera whose image the surface emits (alone); empty: none
     TextureSlot baseColorTexture;  ///< sRGB
     TextureSlot metallicRoughnessTexture;
     TextureSlot normalTexture;
@@ -66,7 +66,7 @@ struct Material {
     TextureSlot emissiveTexture;  ///< sRGB
 };
 
-/// What a vertex has besides its position. Unit normal; unit tangent, w = ±1 (bitangent = w · cross(n, t)).
+/// Vertex attributes besides the position. Unit normal; unit tangent, w = ±1 (bitangent = w · cross(n, t)).
 struct VertexAttributes {
     vec3 normal{0, 1, 0};
     vec4 tangent{1, 0, 0, 1};
@@ -75,22 +75,22 @@ struct VertexAttributes {
     glm::u16vec4 color{65535};  ///< linear, unorm, multiplies the base colour
 };
 
-/// Triangles of one material, in object space. Three indices a triangle, front faces counter-clockwise.
+/// Triangles of one material, in object space. Three indices per triangle, front faces counter-clockwise.
 struct Mesh {
     std::string name;
     std::vector<vec3> positions;
-    std::vector<VertexAttributes> attributes;  ///< as many as positions
-    std::vector<VertexSkin> skin;              ///< as many as positions, or none
+    std::vector<VertexAttributes> attributes;  ///< one per position
+    std::vector<VertexSkin> skin;              ///< one per position, or empty
     std::vector<uint32_t> indices;
     uint32_t material = 0;  ///< index into Scene::materials
     Aabb bounds;
 };
 
-/// A mesh at a place. Several may share a mesh.
+/// A mesh placed in the world. Instances may share a mesh.
 struct Instance {
     std::string name;  ///< of the glTF node, may be empty
     uint32_t mesh = 0;
-    mat4 objectToWorld{1.0F};  ///< where it is, unless its node moves or it has a skin
+    mat4 objectToWorld{1.0F};  ///< unless its node is animated or it has a skin
     int32_t node = -1;         ///< index into Scene::nodes; < 0: none
     int32_t skin = -1;         ///< index into Scene::skins, whose joints place the mesh; < 0: none
 };
@@ -99,14 +99,14 @@ struct Instance {
 struct Camera {
     std::string name;
     vec3 position{0, 0, 5};
-    vec3 target{0.0F};  ///< any point straight ahead, not the position itself
+    vec3 target{0.0F};  ///< any point on the view axis ahead of the position
     vec3 up{0, 1, 0};   ///< not parallel to the view
     float fovY = glm::radians(60.0F);
     float near = 0.05F;               ///< metres, > 0
     float orthographicHeight = 0.0F;  ///< metres from the lower to the upper edge; > 0: orthographic
-    float far = 1000.0F;              ///< metres; of an orthographic camera only
-    bool aims = true;                 ///< at its target; false: that only says which way it looks
-    int32_t node = -1;                ///< index into Scene::nodes: moves with it; < 0: does not move
+    float far = 1000.0F;              ///< metres; orthographic only
+    bool aims = true;                 ///< the target is a point of interest; false: only its direction counts
+    int32_t node = -1;                ///< index into Scene::nodes that it moves with; < 0: none
 
     bool operator==(const Camera&) const = default;
 };
@@ -116,7 +116,7 @@ struct Sun {
     vec3 direction{0, -1, 0};  ///< the way the light travels, unit length
     vec3 irradiance{0.0F};
     float angularDiameter = glm::radians(0.53F);
-    int32_t node = -1;  ///< index into Scene::nodes: turns with it; < 0: does not move
+    int32_t node = -1;  ///< index into Scene::nodes that it turns with; < 0: none
 
     bool operator==(const Sun&) const = default;
 };
@@ -130,31 +130,32 @@ struct Lamp {
     vec3 position{0.0F};
     vec3 direction{0, -1, 0};  ///< the way the light travels, unit length (spot, directional)
     vec3 intensity{1.0F};
-    float range = 0.0F;                           ///< metres; 0: without end
+    float range = 0.0F;                           ///< metres; 0: unlimited
     float innerAngle = 0.0F;                      ///< spot: from the axis, full strength inside
     float outerAngle = glm::quarter_pi<float>();  ///< spot: from the axis, dark outside
-    /// Metres; of a disk that faces whoever looks at it. It softens the lamp's shadow, and nothing else: the light is
-    /// that of a point, as KHR_lights_punctual has it. 0: a point. Directional lamps have none.
+    /// Radius in metres of a disk that faces each receiver; 0: a point. It softens the lamp's shadows only: shading is
+    /// that of a punctual light, as in KHR_lights_punctual. Ignored for directional lamps.
     float radius = 0.0F;
-    int32_t node = -1;  ///< index into Scene::nodes: moves with it; < 0: does not move
+    int32_t node = -1;  ///< index into Scene::nodes that it moves with; < 0: none
 };
 
-/// Puts a camera or a lamp where a node is: they look, and shine, along its -Z.
-void putAt(Camera& camera, const mat4& toWorld);
-void putAt(Lamp& lamp, const mat4& toWorld);
+/// Places a camera or a lamp at a node's transform; both point along its -Z.
+void setTransform(Camera& camera, const mat4& toWorld);
+void setTransform(Lamp& lamp, const mat4& toWorld);
 
-/// Metres round a lamp in which nothing casts its shadow: its own glass, or what rounding makes of the lamp's place.
+/// Occluders nearer to a lamp than this cast no shadow: its own geometry, and rounding errors at a point light [m].
 float lampClearance(float radius);
 
-/// What rays meet that meet nothing else. scene/environment.h says which direction is where in the image. Two are the
-/// same only if they share their image.
+/// Light for rays that hit nothing. The mapping of directions to the image is in scene/environment.h. Two are equal
+/// only
+/// if they share their image.
 struct Environment {
     vec3 radiance{0.0F};  ///< constant over all directions [W/(m² sr)]; not used where there is an image
     /// Equirectangular, "R" "G" "B", linear, finite, not negative [W/(m² sr)], rows from the top (+Y). May be null.
     std::shared_ptr<const FloatImage> image;
-    std::string imageFile;   ///< absolute, where it was read from; empty: from no file
-    float intensity = 1.0F;  ///< factor on the image, not negative
-    float rotation = 0.0F;   ///< of the image about +Y; 0: its centre is seen along -Z; 90 degrees: along -X
+    std::string imageFile;   ///< absolute path that it was read from; empty: not from a file
+    float intensity = 1.0F;  ///< scale of the image, not negative
+    float rotation = 0.0F;   ///< of the image about +Y; 0: its centre is at -Z; 90 degrees: at -X
 
     bool operator==(const Environment&) const = default;
 };
@@ -170,15 +171,15 @@ struct Scene {
     std::vector<Camera> cameras;
     std::optional<Sun> sun;  ///< the first directional light
     Environment environment;
-    std::vector<Node> nodes;            ///< parents first; none where there are neither animations nor skins
+    std::vector<Node> nodes;            ///< parents first; empty if there are neither animations nor skins
     std::vector<Animation> animations;  ///< all play at once
     std::vector<Skin> skins;
 
-    /// World-space box around all instances (at time 0); empty if there are none.
+    /// World-space bounds of all instances at time 0; empty if there are none.
     [[nodiscard]] Aabb bounds() const;
 };
 
-/// A place from which reflections see the scene, and the box whose walls stand in for what is seen from there.
+/// A reflection probe: where its cube map is captured, and the box for parallax correction.
 struct Probe {
     vec3 position{0.0F};  ///< inside the box
     Aabb box;             ///< world space, not empty
@@ -186,30 +187,31 @@ struct Probe {
     bool operator==(const Probe&) const = default;
 };
 
-/// From where, and in which light, a scene is seen: what a view file can change.
+/// Camera, lighting and time of a render: everything that a view file can change.
 struct View {
     static constexpr uint32_t maxProbes = 16;
 
-    static constexpr double largestTime = 1e6;  // seconds; doubles count them to a ten-millionth of a millisecond
+    static constexpr double largestTime = 1e6;  // seconds; double precision there is 0.1 ns
 
     Camera camera;
     Sun sun;
     Environment environment;
     double time = 0.0;                         ///< of the scene's animations [s], 0 to largestTime
-    std::optional<float> lampRadius;           ///< of all lamps [m], in the place of their own
-    std::vector<uint32_t> lampsOff;            ///< indices into Scene::lamps that do not shine, in rising order
-    std::optional<std::vector<Probe>> probes;  ///< at most maxProbes; not given: the renderer places them itself
-    std::vector<std::string> mirrors;          ///< names of instances that planar views are for; empty: they are found
-    bool sunStandsIn = false;                  ///< the scene has no light; the sun is there so that something is seen
+    std::optional<float> lampRadius;           ///< overrides the radius of all lamps [m]
+    std::vector<uint32_t> lampsOff;            ///< indices into Scene::lamps that are off, ascending
+    std::optional<std::vector<Probe>> probes;  ///< at most maxProbes; nullopt: placed automatically
+    std::vector<std::string> mirrors;          ///< instances with planar reflections; empty: detected automatically
+    bool hasDefaultSun = false;                ///< the scene has no light, and the sun is a default
 
     bool operator==(const View&) const = default;
 };
 
-/// The scene's first camera, its sun and its environment; where it has none, a camera that frames the whole scene
-/// from a little above, and (without any light at all) a sun from over the camera's shoulder.
+/// The scene's first camera, its sun and its environment. Without a camera: one that frames the whole scene from
+/// slightly
+/// above; without any light: a sun from over the camera's shoulder.
 View defaultView(const Scene& scene);
 
-/// Camera-to-view matrix; view space looks along -Z.
+/// World-to-view matrix; view space looks along -Z.
 mat4 worldToView(const Camera& camera);
 
 /// Reversed depth: 1 at the near plane, 0 at infinity (perspective) or at the far plane (orthographic). Vulkan's

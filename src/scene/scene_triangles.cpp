@@ -1,4 +1,4 @@
-// A scene's triangles in the world, as hierarchies are built over them.
+// A scene's triangles in world space, the input of BVH construction.
 #include "scene/bvh.h"
 
 #include "base/error.h"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr uint32_t maxTriangles = bvhFirstMask;
 
-// Farther out than this [m] products of coordinates are no longer finite.
+// Products of coordinates beyond this overflow a float [m].
 constexpr float farthest = 1e18F;
 
 bool isSomewhere(const vec3& v) {
@@ -21,7 +21,7 @@ bool isSomewhere(const vec3& v) {
 uint32_t flagsOf(const Scene& scene, const ScenePose& pose, size_t instance) {
     const Instance& placed = scene.instances[instance];
     const Material& material = scene.materials.at(scene.meshes.at(placed.mesh).material);
-    const bool mirrored = placed.skin >= 0 ? turnsOver(pose.skins[static_cast<size_t>(placed.skin)])
+    const bool mirrored = placed.skin >= 0 ? flipsWinding(pose.skins[static_cast<size_t>(placed.skin)])
                                            : glm::determinant(mat3(pose.objectToWorld[instance])) < 0.0F;
     return (material.alphaCutoff > 0.0F ? triangleCutOut : 0U) | (material.doubleSided ? triangleDoubleSided : 0U) |
            (mirrored ? triangleMirrored : 0U);
@@ -39,7 +39,7 @@ std::vector<SceneTriangle> sceneTriangles(const Scene& scene, const ScenePose& p
     std::vector<SceneTriangle> triangles;
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
-        if (which != Instances::all && moves(pose, instance) != (which == Instances::moving)) {
+        if (which != Instances::all && isAnimated(pose, instance) != (which == Instances::moving)) {
             continue;
         }
         const Mesh& mesh = scene.meshes.at(instance.mesh);
@@ -48,7 +48,7 @@ std::vector<SceneTriangle> sceneTriangles(const Scene& scene, const ScenePose& p
         t.instance = i;
         t.flags = flagsOf(scene, pose, i);
         if (triangles.size() + mesh.indices.size() / 3 > maxTriangles) {
-            fail("the scene has more than {} triangles, the most that rays on the device can tell apart", maxTriangles);
+            fail("the scene has more than {} triangles, the most that ray tracing supports", maxTriangles);
         }
         for (uint32_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
             t.a = positions[mesh.indices[k]];

@@ -1,5 +1,4 @@
-// View files: camera, sun, lamps, environment, probes, mirrors and time as JSON, checked before anything of the view is
-// changed.
+// View files: camera, sun, lamps, environment, probes, mirrors and time as JSON. The view changes only if all is valid.
 #include "scene/view_file.h"
 
 #include "base/error.h"
@@ -17,20 +16,20 @@
 namespace reflet {
 namespace {
 
-/// Keeps Camera's promise that position, target and up span a view.
+/// Ensures Camera's invariant that position, target and up define a view.
 void checkOrientation(const JsonNode& node, Camera& camera) {
     const vec3 toTarget = camera.target - camera.position;
     if (!(glm::length(toTarget) > 0.0F)) {
-        node.complain("position and target are the same point; a view needs two");
+        node.complain("position and target must not be the same point");
     }
     const vec3 forward = glm::normalize(toTarget);
     if (glm::length(glm::cross(forward, glm::normalize(camera.up))) >= 1e-3F) {
         return;
     }
     if (const auto up = node.find("up")) {
-        up->complainMustBe("a direction across the view, not along it");
+        up->complainMustBe("a direction that is not parallel to the view");
     }
-    // An old up that a new position or target has made useless.
+    // The view's previous up is parallel to the new view axis.
     camera.up = std::abs(forward.y) < 0.9F ? vec3(0, 1, 0) : vec3(0, 0, -1);
 }
 
@@ -38,7 +37,7 @@ Camera readCamera(const JsonNode& node, Camera camera) {
     static const std::array<std::string, 6> keys{"position", "target", "up", "fov_y", "near", "orthographic_height"};
     node.requireKeys(keys);
     if (node.find("position") || node.find("target") || node.find("up")) {
-        camera.node = -1;  // stays where it is put
+        camera.node = -1;  // the file places it
     }
     if (const auto position = node.find("position")) {
         camera.position = readPosition(*position);
@@ -52,18 +51,18 @@ Camera readCamera(const JsonNode& node, Camera camera) {
     }
     if (const auto fovY = node.find("fov_y")) {
         camera.fovY = readFovY(*fovY);
-        camera.orthographicHeight = 0.0F;  // a field of view asks for a perspective
+        camera.orthographicHeight = 0.0F;  // a field of view implies perspective
     }
     if (const auto height = node.find("orthographic_height")) {
         if (node.find("fov_y")) {
-            height->complain("cannot be given together with fov_y: a view is orthographic, or a perspective");
+            height->complain("cannot be given together with fov_y: a camera is orthographic or perspective");
         }
         camera.orthographicHeight = static_cast<float>(height->number(1e-6, largestInView, "metres"));
     }
     if (const auto near = node.find("near")) {
         camera.near = static_cast<float>(near->number(1e-6, 1000.0, "metres"));
         if (camera.orthographicHeight > 0.0F && camera.near >= camera.far) {
-            near->complainMustBe(fmt::format("less than {:g} metres, the scene's far plane", camera.far));
+            near->complainMustBe(fmt::format("less than {:g} metres, the camera's far plane", camera.far));
         }
     }
     checkOrientation(node, camera);
@@ -94,7 +93,7 @@ void readLamps(const JsonNode& node, View& view) {
     }
     if (const auto off = node.find("off")) {
         if (!off->json().is_array()) {
-            off->complainMustBe("a list of lamps, by their numbers from 0");
+            off->complainMustBe("a list of lamp numbers, from 0");
         }
         view.lampsOff.clear();
         for (size_t i = 0; i < off->json().size(); ++i) {
@@ -108,10 +107,10 @@ void readLamps(const JsonNode& node, View& view) {
     }
 }
 
-/// An image with its intensity and rotation, in the place of the whole old environment.
+/// An image with its intensity and rotation; it replaces the whole environment.
 Environment readImage(const JsonNode& node, const JsonNode& imageNode, const std::filesystem::path& folder) {
     if (const auto radiance = node.find("radiance")) {
-        radiance->complain("cannot be given together with an image; the image's factor is 'intensity'");
+        radiance->complain("cannot be given together with an image; to scale the image, use 'intensity'");
     }
     if (!imageNode.json().is_string()) {
         imageNode.complainMustBe("the name of an .hdr or .exr file");
@@ -124,7 +123,7 @@ Environment readImage(const JsonNode& node, const JsonNode& imageNode, const std
         const double factor = intensity->number(0.0, largestRadiance);
         const double brightest = *std::ranges::max_element(environment.image->data);
         if (factor * brightest > largestRadiance) {
-            intensity->complainMustBe(fmt::format("at most {:g}, for the image has values up to {:g}",
+            intensity->complainMustBe(fmt::format("at most {:g}, because the image has values up to {:g}",
                                                   largestRadiance / brightest, brightest));
         }
         environment.intensity = static_cast<float>(factor);
@@ -143,7 +142,7 @@ Environment readEnvironment(const JsonNode& node, const Environment& environment
     }
     for (const char* key : {"intensity", "rotation"}) {
         if (const auto ofImage = node.find(key)) {
-            ofImage->complain("is a property of environment.image, which is not given");
+            ofImage->complain("needs environment.image, which is not given");
         }
     }
     if (const auto radiance = node.find("radiance")) {
@@ -162,7 +161,7 @@ Probe readProbe(const JsonNode& node) {
     probe.box.min = readPosition(required(node, "box_min"));
     probe.box.max = readPosition(boxMax);
     if (glm::any(glm::lessThanEqual(probe.box.max, probe.box.min))) {
-        boxMax.complainMustBe("more than box_min in all three");
+        boxMax.complainMustBe("more than box_min on every axis");
     }
     if (glm::any(glm::lessThanEqual(probe.position, probe.box.min)) ||
         glm::any(glm::greaterThanEqual(probe.position, probe.box.max))) {
@@ -177,7 +176,7 @@ std::vector<Probe> readProbes(const JsonNode& node) {
     }
     const size_t count = node.json().size();
     if (count > View::maxProbes) {
-        node.complain(fmt::format("must be at most {} probes, are {}", View::maxProbes, count));
+        node.complain(fmt::format("must have at most {} probes, has {}", View::maxProbes, count));
     }
     std::vector<Probe> probes;
     for (size_t i = 0; i < count; ++i) {
@@ -205,7 +204,7 @@ std::vector<std::string> readNames(const JsonNode& node) {
 
 nlohmann::ordered_json viewJson(const View& view) {
     using nlohmann::ordered_json;
-    // Doubles that become the same floats again.
+    // As doubles, which convert back to the same floats.
     const auto list = [](const vec3& v) { return ordered_json{double(v.x), double(v.y), double(v.z)}; };
     const auto degrees = [](float radians) { return double(radians) / radiansPerDegree; };
     const Camera& camera = view.camera;
@@ -267,7 +266,7 @@ void applyViewJson(const nlohmann::json& file, const std::filesystem::path& path
     }
     if (const auto sun = root.find("sun")) {
         changed.sun = readSun(*sun, view.sun);
-        changed.sunStandsIn = false;
+        changed.hasDefaultSun = false;
     }
     if (const auto lamps = root.find("lamps")) {
         readLamps(*lamps, changed);
@@ -275,7 +274,7 @@ void applyViewJson(const nlohmann::json& file, const std::filesystem::path& path
     if (const auto environment = root.find("environment")) {
         changed.environment = readEnvironment(*environment, view.environment, path.parent_path());
         const bool shines = changed.environment.image || changed.environment.radiance != vec3(0.0F);
-        if (changed.sunStandsIn && shines) {
+        if (changed.hasDefaultSun && shines) {
             changed.sun.irradiance = vec3(0.0F);
         }
     }

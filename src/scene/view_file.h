@@ -1,5 +1,5 @@
-// View files: camera, sun, lamps, environment, probes, mirrors and time as JSON, to see one scene from other places in
-// other light.
+// View files: camera, sun, lamps, environment, probes, mirrors and time as JSON, to render a scene from another view or
+// in other light.
 #pragma once
 
 #include "scene/scene.h"
@@ -10,7 +10,7 @@
 
 namespace reflet {
 
-/// Changes what the file names in `view`; what it does not name stays.
+/// Applies the file to `view`; what the file does not mention is unchanged.
 ///   { "camera": { "position": [6,1,0], "target": [0,0,0], "up": [0,1,0], "fov_y": 75, "near": 0.05 },
 ///        instead of "fov_y": "orthographic_height": 4, metres from the lower to the upper edge
 ///     "sun": { "direction": [0.4,-0.9,-0.2], "irradiance": [3.14,3.14,3.14], "angular_diameter": 0.53 },
@@ -19,17 +19,18 @@ namespace reflet {
 ///     "probes": [{ "position": [0,1,0], "box_min": [-2,0,-2], "box_max": [2,3,2] }],
 ///     "mirrors": ["looking glass"],
 ///     "time": 1.5 }
-/// Angles in degrees, paths relative to the file. An image or a radiance replaces the whole environment, a list
-/// of probes, an empty one too, all others. Throws Error:
-/// a file that cannot be read, JSON that is malformed (with its line), a key that is unknown (naming the nearest), a
-/// value of the wrong type, length or range.
+/// Angles are in degrees, paths relative to the file. An image or a radiance replaces the whole environment; a list of
+/// probes, even an empty one, replaces all others. Throws Error for an unreadable file, malformed JSON (with its line),
+/// an
+/// unknown key (naming the nearest), or a value of the wrong type, length or range.
 void applyViewFile(const std::filesystem::path& path, View& view);
 
-/// The same of JSON that was read already. path: for messages and of what it names.
+/// The same for parsed JSON. path: for messages, and the base of relative paths.
 void applyViewJson(const nlohmann::json& json, const std::filesystem::path& path, View& view);
 
-/// What makes this view of any other one of the scene when a view file has it, to the last bit but for directions,
-/// which are made unit length again. Of a camera or a sun that a node moves, the place is left to the node.
+/// A view file that turns any view of the scene into this one, exactly except for directions, which are normalized
+/// again.
+/// The placement of a camera or a sun that a node moves is left to the node.
 nlohmann::ordered_json viewJson(const View& view);
 
 }  // namespace reflet

@@ -198,8 +198,8 @@ void CompareView::updateError(const Session& live) {
     errorRight_ = values_;
     errorWork_.start([left, right = values_](const std::atomic<bool>&) {
         CompareOptions options;
-        options.pictureName = "the left side";
-        options.truthName = "the right side";
+        options.imageName = "the left side";
+        options.referenceName = "the right side";
         return compareImages(*left, *right, options);
     });
 }

@@ -28,7 +28,7 @@ std::string base64(const std::vector<float>& floats) {
     return text;
 }
 
-/// A large triangle, that moves from x = -1 to 1 in 2 s, or stands at x.
+/// A large triangle that moves from x = -1 to 1 in 2 s, or is static at x.
 std::string triangleFile(bool moves, float x) {
     const std::vector<float> data{-1, -1, 0, 1, -1, 0, 0, 1, 0, 0, 2, -1, 0, 0, 1, 0, 0};
     const auto view = [](int offset, int length) {
@@ -71,16 +71,16 @@ protected:
     }
 };
 
-TEST_F(Animation, APictureAtATimeHasTheBytesOfAFileThatStandsThere) {
+TEST_F(Animation, ARenderAtATimeHasTheBytesOfOneOfAStaticFile) {
     const std::string half = picture("half.gltf", {});
     EXPECT_EQ(picture("moving.gltf", {"--time", "1.5"}), half);
-    EXPECT_EQ(picture("moving.gltf", {"--time", "3.5"}), half) << "it begins again after 2 s";
+    EXPECT_EQ(picture("moving.gltf", {"--time", "3.5"}), half) << "it repeats after 2 s";
     EXPECT_EQ(picture("moving.gltf", {"--view-file", "late.json"}), half);
     const std::string start = picture("start.gltf", {});
     EXPECT_NE(start, half);
-    EXPECT_EQ(picture("moving.gltf", {}), start) << "not where its node is without the animation";
-    EXPECT_EQ(picture("moving.gltf", {"--view-file", "late.json", "--time", "0"}), start) << "--time goes before";
-    EXPECT_EQ(picture("half.gltf", {"--time", "7"}), half) << "nothing moves";
+    EXPECT_EQ(picture("moving.gltf", {}), start) << "the animation's start, not the node's own transform";
+    EXPECT_EQ(picture("moving.gltf", {"--view-file", "late.json", "--time", "0"}), start) << "--time overrides";
+    EXPECT_EQ(picture("half.gltf", {"--time", "7"}), half) << "static";
 }
 
 TEST_F(Animation, TheReferenceSeesTheSceneAtThatTime) {
@@ -94,7 +94,7 @@ TEST_F(Animation, TheReferenceSeesTheSceneAtThatTime) {
     EXPECT_NE(trace("moving.gltf", {"--time", "1.5"}), trace("moving.gltf", {}));
 }
 
-TEST_F(Animation, ATimeThatIsNoneIsRefused) {
+TEST_F(Animation, AnInvalidTimeIsRefused) {
     EXPECT_TRUE(refused(render("moving.gltf", {"-o", "a.png", "--time", "-1"}), 2, {"--time", "-1"}));
     EXPECT_TRUE(refused(render("moving.gltf", {"-o", "a.png", "--time", "nan"}), 2, {"--time"}));
     EXPECT_EQ(render("moving.gltf", {"-o", "a.png", "--time", "soon"}).status, 2);

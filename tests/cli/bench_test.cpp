@@ -1,5 +1,4 @@
-// `reflet bench` as a user runs it: what it writes, and what it refuses. Nothing here depends on how long anything
-// takes.
+// `reflet bench` end to end: its output and its errors. No test depends on measured times.
 #include "base/json_text.h"
 #include "cli/program.h"
 
@@ -14,7 +13,7 @@ namespace {
 
 class BenchTest : public ProgramTest {
 protected:
-    /// `reflet bench builtin:cubes` in little time, with numbers in out.json.
+    /// A quick `reflet bench builtin:cubes` that writes its numbers to out.json.
     [[nodiscard]] Outcome bench(const Arguments& more) const {
         Arguments all{"bench",  "builtin:cubes", "--first",     "2", "--warmup",      "1",     "--frames", "3",
                       "--json", "out.json",      "--truth-spp", "2", "--truth-cache", "truths"};
@@ -115,9 +114,9 @@ TEST_F(BenchTest, TheCommandThatIsRecordedDoesTheSameAgain) {
     EXPECT_NE(command.find(" --truth-all-light"), std::string::npos) << command;
 }
 
-TEST_F(BenchTest, ATruthIsMadeOnceForAllThatItIsTheSameFor) {
+TEST_F(BenchTest, AReferenceIsRenderedOnceForAllThatShareIt) {
     ASSERT_TRUE(quietSuccess(bench({"--preset", "fast,direct"})));
-    EXPECT_EQ(truths(), 2U);  // one picture and its facts: both presets have the same truth
+    EXPECT_EQ(truths(), 2U);  // one image and its metadata: both presets share the reference
     const nlohmann::json first = numbers();
     ASSERT_TRUE(quietSuccess(bench({"--preset", "fast,direct"})));
     EXPECT_EQ(truths(), 2U);
@@ -150,7 +149,7 @@ TEST_F(BenchTest, WithoutATruthThereAreNoErrors) {
     EXPECT_FALSE(numbers()["runs"][0]["steady"]["passes"]["gbuffer"].contains("floor_ms"));
 }
 
-TEST_F(BenchTest, AllVariantsMayHaveTheTruthOfOtherSettings) {
+TEST_F(BenchTest, AllVariantsMayBeComparedWithOtherSettings) {
     const Arguments both{"--preset", "direct", "--variant", "near=direct,trace_screen.max_steps=8",
                          "--truth",  "chain:2"};
     ASSERT_TRUE(quietSuccess(bench(both)));
@@ -173,7 +172,7 @@ TEST_F(BenchTest, SeveralSizesSayWhatAPixelCosts) {
     EXPECT_GE(json["scaling"][0]["spread"], 0.0);
 }
 
-TEST_F(BenchTest, FramesInMotionAreHeldAgainstATruthEach) {
+TEST_F(BenchTest, MovingFramesAreEachComparedWithAReference) {
     ASSERT_TRUE(quietSuccess(bench({"--preset", "direct", "--motion", "3", "--orbit", "10", "--rest", "2"})));
     const nlohmann::json motion = numbers()["runs"][0]["motion"];
     EXPECT_EQ(motion.at("flip").size(), 3U);
@@ -181,7 +180,7 @@ TEST_F(BenchTest, FramesInMotionAreHeldAgainstATruthEach) {
     EXPECT_GT(motion.at("flicker"), 0.0);
     EXPECT_GT(motion.at("truth_flicker"), 0.0);
     EXPECT_EQ(motion.at("rest").size(), 2U);
-    EXPECT_EQ(truths(), 2U * 4U);  // at rest, and three more
+    EXPECT_EQ(truths(), 2U * 4U);  // at rest, and three moving frames
     EXPECT_TRUE(refused(bench({"--motion", "3", "--truth", "none"}), 2, {"--motion", "--truth"}));
     EXPECT_TRUE(refused(bench({"--rest", "3"}), 2, {"--rest", "--motion"}));
 }

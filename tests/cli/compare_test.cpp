@@ -1,4 +1,4 @@
-// `reflet compare` end to end, on pictures made here and one that is rendered.
+// `reflet compare` end to end, on generated images and a rendered one.
 #include "cli/program.h"
 
 #include "base/image_file.h"
@@ -47,7 +47,7 @@ protected:
         all.insert(all.end(), arguments.begin(), arguments.end());
         return run(all);
     }
-    /// The JSON that these arguments give.
+    /// The JSON output for these arguments.
     [[nodiscard]] nlohmann::json json(Arguments arguments) const {
         arguments.emplace_back("--json");
         const Outcome done = compare(arguments);
@@ -126,7 +126,7 @@ TEST_F(Compare, AFileWhoseNameHasAColonIsThatFile) {
     EXPECT_EQ(json({"C:a.exr:direct", "a:b.exr"})["max"], 2.0);
 }
 
-TEST_F(Compare, AMissingLayerIsToldWithThoseThatAreThereAndTheNearest) {
+TEST_F(Compare, AMissingLayerIsReportedWithTheAvailableOnesAndTheNearest) {
     writeLayers("a.exr", {{"", rgb(1.0F)}, {"direct", rgb(3.0F)}});
     EXPECT_TRUE(refused(compare({"a.exr:dirct", "a.exr"}), 1,
                         {"a.exr", "no layer 'dirct'", "its layers: final, direct", "did you mean 'direct'"}));
@@ -153,7 +153,7 @@ TEST_F(Compare, PicturesThatDoNotFitTogetherAreRefusedInOneLine) {
     writeColor("a.png", 1);
     EXPECT_TRUE(refused(compare({"a.exr", "wide.exr"}), 1, {"a.exr is 8x4", "wide.exr is 9x4"}));
     EXPECT_TRUE(refused(compare({"a.exr", "a.exr:depth"}), 1, {"a.exr has the channels R, G, B", "a.exr:depth has Y"}));
-    EXPECT_TRUE(refused(compare({"a.exr:motion", "a.exr:motion"}), 1, {"X, Y", "only 1 or 3"}));
+    EXPECT_TRUE(refused(compare({"a.exr:motion", "a.exr:motion"}), 1, {"X, Y", "only images with 1 or 3 channels"}));
     EXPECT_TRUE(refused(compare({"a.png", "a.exr"}), 2, {"a.png", "a.exr", "the same kind"}));
     EXPECT_TRUE(refused(compare({"a.exr", "missing.exr"}), 1, {"missing.exr", "No such file"}));
     EXPECT_TRUE(refused(compare({"a.exr", "missing.exr:direct"}), 1, {"missing.exr", "No such file"}));
@@ -162,7 +162,7 @@ TEST_F(Compare, PicturesThatDoNotFitTogetherAreRefusedInOneLine) {
     EXPECT_TRUE(refused(compare({"a.exr"}), 2, {"B"}));
 }
 
-TEST_F(Compare, NanIsToldWithFilePixelChannelAndHowMany) {
+TEST_F(Compare, NanIsReportedWithFilePixelChannelAndHowMany) {
     FloatImage bad = rgb(1.0F);
     bad.data[(2 * width + 5) * 3 + 2] = std::numeric_limits<float>::quiet_NaN();
     bad.data.back() = std::numeric_limits<float>::infinity();
@@ -182,15 +182,15 @@ TEST_F(Compare, AMaskLeavesItsLightPixels) {
     writeColor("light.png", 128);
     writeColor("dark.png", 127);
     EXPECT_EQ(json({"a.exr", "b.exr", "--mask", "light.png"})["pixels"], width * height);
-    EXPECT_TRUE(refused(compare({"a.exr", "b.exr", "--mask", "dark.png"}), 1, {"mask leaves no pixel"}));
+    EXPECT_TRUE(refused(compare({"a.exr", "b.exr", "--mask", "dark.png"}), 1, {"mask leaves no pixels"}));
     writeLayers("wide.exr", {{"", filled({"Y"}, 1.0F, 9)}});
     EXPECT_TRUE(refused(compare({"a.exr", "b.exr", "--mask", "wide.exr"}), 1, {"wide.exr: the mask is 9x4", "8x4"}));
 }
 
-TEST_F(Compare, HitsArePixelsWhereBothFilesKnowSomething) {
+TEST_F(Compare, HitsArePixelsWhereBothFilesHaveData) {
     FloatImage confidence = leftColumns({"R", "G"}, 6);
     for (size_t i = 0; i < confidence.data.size(); i += 2) {
-        confidence.data[i] = 0.0F;  // one channel is enough
+        confidence.data[i] = 0.0F;  // one channel suffices
     }
     writeLayers("a.exr", {{"", rgb(1.0F)}, {"confidence", confidence}, {"depth", leftColumns({"Y"}, 1)}});
     FloatImage depth = leftColumns({"Y"}, 2);
@@ -202,7 +202,7 @@ TEST_F(Compare, HitsArePixelsWhereBothFilesKnowSomething) {
     EXPECT_EQ(json({"b.exr", "b.exr", "--mask", "hits"})["pixels"], 6 * height);
 }
 
-TEST_F(Compare, HitsWantLayersThatTellThem) {
+TEST_F(Compare, HitsNeedTheLayersThatRecordThem) {
     writeLayers("a.exr", {{"", rgb(1.0F)}, {"depth", filled({"Y"}, 1.0F)}});
     writeLayers("b.exr", {{"", rgb(1.0F)}});
     writeColor("a.png", 1);
@@ -237,7 +237,7 @@ TEST_F(Compare, FailAboveExitsWithOneAndNamesMetricValueAndLimit) {
     EXPECT_EQ(both.err, "reflet: psnr is 6.0206 dB, below the limit 6.1; max is 0.5, above the limit 0\n");
 }
 
-TEST_F(Compare, LimitsThatAreNoneAreWrongUse) {
+TEST_F(Compare, InvalidLimitsAreUsageErrors) {
     writeLayers("a.exr", {{"", rgb(1.0F)}});
     EXPECT_TRUE(refused(compare({"a.exr", "a.exr", "--fail-above", "flop=1"}), 2,
                         {"no metric 'flop'", "relative_mse, psnr, flip, mean, bias, max", "did you mean 'flip'"}));

@@ -1,4 +1,4 @@
-// Starts Xvfb and talks to it by xdotool.
+// Starts Xvfb and controls it with xdotool.
 #include "cli/desktop.h"
 
 #include "base/error.h"
@@ -20,7 +20,7 @@ namespace reflet {
 namespace {
 
 using std::chrono::milliseconds;
-constexpr std::chrono::seconds patience(60);  // only for a window that hangs
+constexpr std::chrono::seconds patience(60);  // reached only if the window hangs
 constexpr milliseconds betweenLooks(50);
 constexpr milliseconds handSpeed(60);
 
@@ -28,7 +28,7 @@ constexpr milliseconds handSpeed(60);
 
 void DesktopTest::SetUp() {
     if (!isInstalled("Xvfb") || !isInstalled("xdotool")) {
-        GTEST_SKIP() << "neither Xvfb nor xdotool, or only one of them, is installed";
+        GTEST_SKIP() << "Xvfb and xdotool are not both installed";
     }
     openDesktop();
 }
@@ -115,7 +115,7 @@ bool DesktopTest::shows(const std::function<bool(const nlohmann::json&)>& wanted
         }
         std::this_thread::sleep_for(betweenLooks);
     }
-    ADD_FAILURE() << "what is waited for does not come; the window says: " << jsonText(status(), 1);
+    ADD_FAILURE() << "timed out; the window's status is: " << jsonText(status(), 1);
     return false;
 }
 
@@ -133,8 +133,9 @@ void DesktopTest::reveal(const std::string& control) const {
     }
 }
 
-// Until nothing is drawn any more, or for five seconds: what the window says of its controls' places is old while it
-// scrolls, and ImGui 1.86 takes what is pressed and let go within one slow frame for nothing.
+// Waits until nothing is drawn any more, or for five seconds: reported positions of controls are outdated during
+// scrolling,
+// and ImGui 1.86 ignores a press and release within one slow frame.
 void DesktopTest::settle() const {
     constexpr int mostLooks = 20;
     for (int i = 0; i < mostLooks; ++i) {
@@ -152,7 +153,7 @@ void DesktopTest::click(const std::string& control) const {
     settle();
     ASSERT_TRUE(shows([&](const nlohmann::json& now) { return now["controls"].contains(control); })) << control;
     const nlohmann::json place = status()["controls"][control];
-    // Not in the middle, where a wide one may have nothing to click at.
+    // Near the left edge, because the middle of a wide control may not be clickable.
     clickAt(place[0].get<double>() + 8.0, 0.5 * (place[1].get<double>() + place[3].get<double>()));
 }
 

@@ -1,4 +1,4 @@
-// A desktop without a screen (Xvfb), and a hand on its mouse and keys (xdotool): tests use windows as people do.
+// A virtual desktop (Xvfb) with simulated mouse and keyboard input (xdotool).
 #pragma once
 
 #include "cli/program.h"
@@ -11,31 +11,31 @@
 
 namespace reflet {
 
-/// A test of `reflet view` on a desktop of its own, skipped where Xvfb or xdotool are not installed.
+/// A test of `reflet view` on its own desktop, skipped if Xvfb or xdotool is not installed.
 class DesktopTest : public ProgramTest {
 protected:
     void SetUp() override;
     void TearDown() override;
 
-    /// Opens the viewer with --status, and waits until its picture is at rest.
+    /// Opens the viewer with --status, and waits until it has finished rendering.
     void openViewer(const Arguments& arguments);
-    /// Ends it as its user would (Ctrl+Q).
+    /// Quits it by Ctrl+Q.
     [[nodiscard]] Outcome quit();
-    /// Takes the display away from it, and waits for its end.
+    /// Ends the display, and waits for the viewer to exit.
     [[nodiscard]] Outcome endDesktop();
     void openDesktop();
 
-    /// What the window says it shows.
+    /// The window's own status report.
     [[nodiscard]] nlohmann::json status() const;
-    /// Waits until the window says so; false if it never does.
+    /// Waits until the status satisfies `wanted`; false on timeout.
     [[nodiscard]] bool shows(const std::function<bool(const nlohmann::json&)>& wanted) const;
     [[nodiscard]] bool atRest() const;
 
-    /// A real click on a control of the panels, by its name, which are scrolled until it can be seen.
+    /// Clicks a control of the panels by its name, after scrolling it into view.
     void click(const std::string& control) const;
     void clickAt(double x, double y) const;
     void drag(double fromX, double fromY, double toX, double toY) const;
-    /// Key names as xdotool has them: "space", "ctrl+q".
+    /// keys: xdotool's names, such as "space" or "ctrl+q".
     void press(const std::string& keys) const;
     void type(const std::string& text) const;
     void resize(uint32_t width, uint32_t height) const;

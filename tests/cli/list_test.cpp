@@ -1,4 +1,4 @@
-// What the program tells of itself: lists, help, version, documentation.
+// `reflet list`, help, version, and the generated documentation.
 #include "cli/program.h"
 
 #include "base/file.h"
@@ -11,7 +11,7 @@ namespace {
 
 class Lists : public ProgramTest {
 protected:
-    /// What a command that must succeed prints.
+    /// Standard output of a command that must succeed.
     [[nodiscard]] std::string output(const Arguments& arguments) const {
         const Outcome done = run(arguments);
         EXPECT_TRUE(quietSuccess(done));
@@ -71,7 +71,7 @@ TEST_F(Lists, VersionIsOneLine) {
 TEST_F(Lists, TheDocumentedSettingsAreThoseOfTheProgram) {
     const std::string page = readFile(std::filesystem::path(REFLET_SOURCE) / "docs" / "settings.md");
     EXPECT_EQ(output({"list", "settings", "--markdown"}), page)
-        << "make it anew: build/bin/reflet list settings --markdown > docs/settings.md";
+        << "regenerate it: build/bin/reflet list settings --markdown > docs/settings.md";
 }
 
 TEST_F(Lists, AListThatCannotBeWrittenIsAFailure) {

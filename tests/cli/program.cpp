@@ -1,4 +1,4 @@
-// Runs the built program: posix_spawn, with its output in files so that no pipe can fill up.
+// Runs the built program by posix_spawn, with its output in files, because pipes could fill up and block.
 #include "cli/program.h"
 
 #include "base/error.h"
@@ -24,7 +24,7 @@ namespace reflet {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::chrono::seconds limit(120);  // only for a program that hangs
+constexpr std::chrono::seconds limit(120);  // reached only if the program hangs
 constexpr std::chrono::milliseconds pause(2);
 constexpr int killed = 128;
 
@@ -87,7 +87,7 @@ pid_t start(const std::string& program, const Arguments& arguments, const Enviro
     return child;
 }
 
-/// Whether the process has a handler for the signal, as the kernel says it.
+/// Whether the process has a handler for the signal, according to the kernel.
 bool catches(pid_t process, int signal) {
     std::ifstream file(fmt::format("/proc/{}/status", process));
     const std::string name = "SigCgt:";
@@ -99,7 +99,7 @@ bool catches(pid_t process, int signal) {
     return false;
 }
 
-/// False if the process ends, or the time is up, before it is so.
+/// Waits for the condition; false if the process ends or the time limit is reached first.
 bool waitUntil(pid_t process, const std::function<bool()>& reached) {
     const auto end = std::chrono::steady_clock::now() + limit;
     while (!reached()) {
@@ -167,7 +167,8 @@ Outcome ProgramTest::interrupt(const Arguments& arguments, const std::vector<int
     EXPECT_TRUE(waitUntil(child, [&] { return catches(child, first) && cpuSeconds(child) >= work; }));
     ::kill(child, first);
     for (size_t i = 1; i < signals.size(); ++i) {
-        EXPECT_TRUE(waitUntil(child, [&] { return !catches(child, signals[i - 1]); }));  // it does so once
+        // The handler resets itself (SA_RESETHAND).
+        EXPECT_TRUE(waitUntil(child, [&] { return !catches(child, signals[i - 1]); }));
         ::kill(child, signals[i]);
     }
     const int status = waitFor(child);

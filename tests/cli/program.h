@@ -1,4 +1,4 @@
-// Runs the built program as a user would, in a folder of its own, and keeps what it said.
+// Runs the built program in a folder of its own, and captures its output.
 #pragma once
 
 #include "base/image_file.h"
@@ -15,7 +15,7 @@
 
 namespace reflet {
 
-/// What one run left behind. A run that was ended by a signal or by the time limit has a status above 128.
+/// Result of a run. The status is above 128 if a signal or the time limit ended it.
 struct Outcome {
     int status = 0;
     std::string out;
@@ -31,25 +31,26 @@ protected:
     ProgramTest();
     ~ProgramTest() override;
 
-    /// Standard output is kept, or goes to `out`.
+    /// Standard output is captured, or goes to `out`.
     [[nodiscard]] Outcome run(const Arguments& arguments, const Environment& added = {},
                               const std::filesystem::path& out = {}) const;
     /// Another program, searched for in PATH.
     [[nodiscard]] Outcome runOther(const std::string& program, const Arguments& arguments,
                                    const Environment& added = {}) const;
-    /// `reflet render SCENE --size 32x18` and more; with preset plain, which remembers no frames, unless one is named.
+    /// `reflet render SCENE --size 32x18` and more; with preset plain, which keeps no history, unless one is given.
     [[nodiscard]] Outcome render(const std::string& scene, const Arguments& more, const Environment& added = {}) const;
 
-    /// As run(), with `signals` sent to the program: the first when it catches it and has used `work` seconds of all
-    /// cores, each other one when the one before has reached it.
+    /// As run(), with `signals` sent to the program: the first one once it has a handler for it and has used `work`
+    /// seconds
+    /// of CPU time, each further one when the previous one has been handled.
     [[nodiscard]] Outcome interrupt(const Arguments& arguments, const std::vector<int>& signals,
                                     double work = 0.0) const;
 
-    /// As run(), but without waiting for its end: its process number, for finish().
+    /// As run(), but does not wait. Returns the process id, for finish().
     [[nodiscard]] int begin(const Arguments& arguments, const Environment& added = {}) const;
     [[nodiscard]] Outcome finish(int process) const;
 
-    /// As run(), but killed (SIGKILL) as soon as `reached` is true, if it has not ended before.
+    /// As run(), but kills it (SIGKILL) as soon as `reached` returns true, unless it ended before.
     [[nodiscard]] Outcome killWhen(const Arguments& arguments, const std::function<bool()>& reached) const;
 
     [[nodiscard]] std::filesystem::path path(std::string_view file) const { return folder_ / file; }
@@ -63,25 +64,25 @@ protected:
 
 private:
     std::filesystem::path folder_;
-    std::filesystem::path said_;  ///< where the output of runs goes, outside of the folder
+    std::filesystem::path said_;  ///< captured output of runs, outside of the folder
 };
 
-/// Whether PATH has a program of that name.
+/// Whether a program of that name is in PATH.
 bool isInstalled(std::string_view program);
 
-/// Seconds that all threads of a process have had on all cores.
+/// CPU time of a process over all threads, in seconds.
 double cpuSeconds(int process);
 
-/// Status 0 and not a word on standard error.
+/// Status 0 and nothing on standard error.
 testing::AssertionResult quietSuccess(const Outcome& run);
 
 /// The status, nothing on standard output, and one line "reflet: …" with all of the words on standard error.
 testing::AssertionResult refused(const Outcome& run, int status, std::initializer_list<std::string_view> words);
 
-/// The first word of each line: the names that a list shows.
+/// The first word of each line, which is the name in a list.
 std::vector<std::string> firstWords(const std::string& text);
 
-/// Of all values of all channels.
+/// Mean of all values of all channels.
 float mean(const FloatImage& image);
 
 }  // namespace reflet

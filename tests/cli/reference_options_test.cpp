@@ -1,4 +1,4 @@
-// What the options of `reflet reference`, its scene and its view file change.
+// Effects of the options of `reflet reference`, of its scene and of its view file.
 #include "base/json_text.h"
 #include "cli/reference_program.h"
 
@@ -20,7 +20,7 @@ protected:
     }
 };
 
-/// How many values are neither 0 nor 1.
+/// Number of values that are neither 0 nor 1.
 ptrdiff_t between(const FloatImage& image) {
     return std::ranges::count_if(image.data, [](float v) { return v > 0.0F && v < 1.0F; });
 }
@@ -68,7 +68,7 @@ TEST_F(ReferenceOptions, ANoiseThatIsReachedEndsEarlier) {
     EXPECT_LT(std::stod(early.out.substr(early.out.find(words) + words.size())), 0.2) << early.out;
     const Outcome same = reference(cubes, {"--spp", std::to_string(samples), "-o", "b.exr"});
     ASSERT_TRUE(quietSuccess(same));
-    EXPECT_EQ(read("a.exr"), read("b.exr"));  // which samples a picture is made of does not depend on why it ended
+    EXPECT_EQ(read("a.exr"), read("b.exr"));  // the samples do not depend on what ended the render
     const Outcome limited = reference(cubes, {"--noise", "0.0001", "--spp", "3", "-o", "a.exr"});
     EXPECT_TRUE(limited.out.starts_with("3 samples per pixel, ")) << limited.out;
 }
@@ -76,7 +76,7 @@ TEST_F(ReferenceOptions, ANoiseThatIsReachedEndsEarlier) {
 TEST_F(ReferenceOptions, SamplesThroughThePixelsCentreSeeTheSilhouetteOfTheDepth) {
     for (const std::string filter : {"box", "center"}) {
         Images a = traced(tiltedCube, {"--spp", "16", "--filter", filter});
-        size_t split = 0;  // background at the centre, and yet something of the cube, or the other way round
+        size_t split = 0;  // pixels with background at the centre but a part of the cube, or vice versa
         for (size_t i = 0; i < a["depth"].data.size(); ++i) {
             const float depth = a["depth"].data[i];
             const float albedo = a["albedo"].data[3 * i];

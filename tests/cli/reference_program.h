@@ -1,4 +1,4 @@
-// What tests of `reflet reference` share: pictures so small that a few samples do.
+// Shared by the tests of `reflet reference`: images so small that a few samples suffice.
 #pragma once
 
 #include "cli/program.h"
@@ -36,7 +36,7 @@ protected:
         EXPECT_TRUE(quietSuccess(reference(cubes, all)));
         return read("bytes.exr");
     }
-    /// The EXR's layers by their names.
+    /// The EXR's layers by name.
     [[nodiscard]] Images images(std::string_view file) const {
         Images result;
         for (ImageLayer& layer : layers(file)) {
@@ -52,7 +52,7 @@ protected:
     }
 };
 
-/// Of all values of all channels.
+/// Maximum of all values of all channels.
 inline float largest(const FloatImage& image) {
     return std::ranges::max(image.data);
 }

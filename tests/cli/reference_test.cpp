@@ -1,4 +1,4 @@
-// What runs of `reflet reference` write, say and leave behind, to the end or interrupted.
+// Output of `reflet reference`, both complete and interrupted.
 #include "cli/reference_program.h"
 
 #include <csignal>
@@ -11,7 +11,7 @@ namespace {
 constexpr int failed = 1;
 constexpr int killed = 128;
 
-// What the command line gives.
+// Output.
 
 TEST_F(Reference, AnExrHoldsAllLayersWithTheNamesAndChannelsOfTheRenderers) {
     ASSERT_TRUE(quietSuccess(reference(cubes, {"--spp", "2", "-o", "a.exr"})));
@@ -95,7 +95,7 @@ TEST_F(Reference, OneLineTellsSamplesNoiseRaysAndRaysPerSecond) {
     EXPECT_TRUE(std::regex_match(done.out, line)) << done.out;
 }
 
-TEST_F(Reference, OneSampleDoesNotTellTheNoise) {
+TEST_F(Reference, TheNoiseOfOneSampleIsUnknown) {
     const Outcome done = reference(cubes, {"--spp", "1", "-o", "a.png"});
     ASSERT_TRUE(quietSuccess(done));
     EXPECT_TRUE(done.out.starts_with("1 sample per pixel, noise unknown; ")) << done.out;
@@ -161,7 +161,7 @@ TEST_F(Reference, ALaterInterruptKeepsTheSamplesSoFar) {
 }
 
 TEST_F(Reference, ASecondInterruptEndsAtOnceAndLeavesNoFile) {
-    // Between the two, the first sample of so many pixels is not done.
+    // Between the two signals it cannot finish the first sample of so many pixels.
     const Outcome done =
         interrupt({"reference", "builtin:cornell", "--size", "1500x1000", "-o", "a.exr"}, {SIGINT, SIGINT});
     EXPECT_EQ(done.status, killed + SIGINT);

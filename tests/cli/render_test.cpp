@@ -1,4 +1,4 @@
-// What `reflet render` writes when all is well.
+// Output of successful runs of `reflet render`.
 #include "cli/program.h"
 
 #include "base/image_file.h"
@@ -15,12 +15,12 @@ namespace {
 
 using Names = std::vector<std::string>;
 const std::string cubes = "builtin:cubes";
-const std::string secondLayer = "trace_screen.thickness_mode=second_layer";  // without it there is no back_depth
-const std::string cascades = "shadow.cascades=2";                            // without it there is no cascade_index
+const std::string secondLayer = "trace_screen.thickness_mode=second_layer";  // required by back_depth
+const std::string cascades = "shadow.cascades=2";                            // required by cascade_index
 
 class Render : public ProgramTest {
 protected:
-    /// The bytes of the picture that these arguments give.
+    /// The bytes of the picture rendered with these arguments.
     [[nodiscard]] std::string picture(const Arguments& more) const {
         Arguments all{"-o", "picture.png"};
         all.insert(all.end(), more.begin(), more.end());
@@ -109,7 +109,7 @@ TEST_F(Render, EveryListedShowMakesAPictureAndValues) {
 
 TEST_F(Render, EveryBuiltinSceneHasAllImagesWithoutNan) {
     Names shows = names("shows");
-    std::erase(shows, "lamp_visibility");  // only where there are lamps
+    std::erase(shows, "lamp_visibility");  // only in scenes with lamps
     for (const char* ofOwnSize :
          {"shadow_map", "lamp_count", "probe_atlas", "rays", "diffuse_rays", "specular_rays", "tile_class"}) {
         std::erase(shows, ofOwnSize);
@@ -121,7 +121,7 @@ TEST_F(Render, EveryBuiltinSceneHasAllImagesWithoutNan) {
     const Names scenes = names("scenes");
     ASSERT_GE(scenes.size(), 7U);
     for (const std::string& scene : scenes) {
-        // lamps has more of them than cast shadows, and is told so.
+        // "lamps" has more lamps than may cast shadows, which is a warning.
         const Outcome run = render(scene, {"-o", "a.exr", "--aov", aovs, "--set", secondLayer, "--set", cascades,
                                            "--set", "temporal.enabled=true", "--frames", "1"});
         ASSERT_EQ(run.status, 0) << scene << run.err;
@@ -148,7 +148,7 @@ TEST_F(Render, AnotherSeedGivesOtherNoise) {
 }
 
 TEST_F(Render, TheLastOfSeveralFramesIsWritten) {
-    EXPECT_NE(picture({"--frames", "1"}), picture({"--frames", "3"}));  // successive frames have other noise
+    EXPECT_NE(picture({"--frames", "1"}), picture({"--frames", "3"}));  // successive frames have different noise
 }
 
 TEST_F(Render, TimingsTellEveryPassOfTheFrame) {

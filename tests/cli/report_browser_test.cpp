@@ -1,4 +1,4 @@
-// The report's page in a browser (Chromium, where it is installed), opened as a file.
+// The report's page in a browser (Chromium, if installed), opened as a file.
 #include "cli/program.h"
 #include "support/html.h"
 
@@ -11,7 +11,7 @@ namespace reflet::report_browser_test {
 
 namespace {
 
-// "" where there is none.
+// "" if there is none.
 std::string findBrowser() {
     for (const char* name : {"chromium", "chromium-browser", "google-chrome"}) {
         if (isInstalled(name)) {
@@ -21,7 +21,7 @@ std::string findBrowser() {
     return "";
 }
 
-// What it did to the page, written into attributes of the root element.
+// Simulates a user, and writes the effects into attributes of the root element.
 constexpr const char* userScript = R"(
 <script>
 addEventListener("load", async () => {
@@ -56,7 +56,7 @@ addEventListener("load", async () => {
     say("right-tag", part(".tag.right").textContent);
     await part("img.right").decode();
     say("map-width", part("img.right").naturalWidth);
-    part(".stage").setPointerCapture = () => {};  // real pointers can be captured, made-up ones cannot
+    part(".stage").setPointerCapture = () => {};  // simulated pointers cannot be captured
     drag("pointerdown", 0.75);
     say("edge-drag", edge());
     say("tab-stops", compare.querySelectorAll("select, input").length);
@@ -80,14 +80,14 @@ protected:
                                       "--frames", "2", "--preset", "fast,direct"})));
     }
 
-    /// A copy of the page with something before its end.
+    /// Writes a copy of the page with something added at its end.
     void extendPage(const std::string& file, const std::string& addition) const {
         std::string page = read("out/index.html");
         page.replace(page.rfind("</body>"), std::string_view("</body>").size(), addition);
         write("out/" + file, page);
     }
 
-    /// The page as it stands after its scripts ran, and what the browser said. `timeout` also ends its children.
+    /// The page after its scripts ran, and the browser's messages. `timeout` also ends its child processes.
     [[nodiscard]] Outcome open(const std::string& file, const std::string& window) const {
         Arguments all{"--kill-after=5",
                       "60",
@@ -153,14 +153,14 @@ TEST_F(ReportBrowserTest, TheDividerAndTheChoicesWork) {
 
 TEST_F(ReportBrowserTest, APhonesWidthIsEnough) {
     extendPage("test.html", userScript);
-    const Outcome shown = open("test.html", "500,900");  // Chromium's windows are not narrower
+    const Outcome shown = open("test.html", "500,900");  // Chromium's minimum width
     ASSERT_EQ(shown.status, 0) << shown.err;
     const test::Html html = test::parseHtml(shown.out);
     ASSERT_FALSE(html.elements.empty()) << shown.err;
     EXPECT_EQ(html.elements.front().value("data-test-overflow"), "0");
 }
 
-TEST_F(ReportBrowserTest, AMistakeOfTheScriptWouldBeSeen) {
+TEST_F(ReportBrowserTest, AScriptErrorWouldBeDetected) {
     extendPage("test.html", "<script>undefinedFunction();</script></body>");
     EXPECT_EQ(consoleLines(open("test.html", "1280,900")).size(), 1U);
 }

@@ -1,4 +1,4 @@
-// `reflet report` as a user runs it: what it writes, and what it refuses.
+// `reflet report` end to end: its output and its errors.
 #include "base/json_text.h"
 #include "cli/program.h"
 #include "support/html.h"
@@ -15,7 +15,7 @@ namespace {
 
 class ReportTest : public ProgramTest {
 protected:
-    /// `reflet report SCENES -o out` in little time.
+    /// A quick `reflet report SCENES -o out`.
     [[nodiscard]] Outcome report(const Arguments& scenes, const Arguments& more = {}) const {
         Arguments all{"report"};
         all.insert(all.end(), scenes.begin(), scenes.end());
@@ -35,7 +35,7 @@ std::vector<std::string> variantNames(const nlohmann::json& scene) {
     return names;
 }
 
-// What may not be the same in another run.
+// Removes what varies between runs.
 nlohmann::json withoutTimes(nlohmann::json numbers) {
     for (auto& scene : numbers["scenes"]) {
         for (auto& variant : scene["variants"]) {
@@ -83,7 +83,7 @@ TEST_F(ReportTest, AVariantIsAPresetWithSettingsOverIt) {
         const std::string all = scene["variants"][variant]["settings"];
         return fmt::format(" {} ", all).find(fmt::format(" {} ", setting)) != std::string::npos;
     };
-    EXPECT_TRUE(has(0, "diffuse.rays=3") && has(0, "denoise.enabled=true")) << "--set over the preset";
+    EXPECT_TRUE(has(0, "diffuse.rays=3") && has(0, "denoise.enabled=true")) << "--set overrides the preset";
     EXPECT_EQ(scene["variants"][1]["settings"], "diffuse.rays=3 specular.rays=0");
     EXPECT_TRUE(has(2, "diffuse.rays=5") && has(2, "denoise.enabled=true") && has(2, "tonemap.exposure=1"));
 }
@@ -137,7 +137,7 @@ TEST_F(ReportTest, WrongUseIsRefusedBeforeAnythingIsWritten) {
     EXPECT_EQ(files(), std::vector<std::string>{});
 }
 
-TEST_F(ReportTest, AFolderThatCannotBeMadeIsSaidAtOnce) {
+TEST_F(ReportTest, AFolderThatCannotBeCreatedIsReportedAtOnce) {
     write("out", "a file");
     EXPECT_TRUE(refused(report({"builtin:cubes"}), 1, {"out"}));
     EXPECT_EQ(read("out"), "a file");

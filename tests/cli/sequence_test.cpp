@@ -1,4 +1,4 @@
-// `reflet render -o name_####.png`: sequences, resumed and shared.
+// Image sequences (`reflet render -o name_####.png`): resuming, and sharing between processes.
 #include "base/json_text.h"
 #include "cli/program.h"
 
@@ -16,7 +16,7 @@ using Bytes = std::map<std::string, std::string>;
 namespace fs = std::filesystem;
 
 const Names sixFrames{"a_000.png", "a_001.png", "a_002.png", "a_003.png", "a_004.png", "a_005.png"};
-// Both keep history: of the light, and of penumbras.
+// Settings that keep a history: of light and of shadows.
 const Arguments history{"--set", "trace_screen.light=previous", "--set", "shadow.history=8"};
 
 class Sequence : public ProgramTest {
@@ -29,7 +29,7 @@ protected:
         all.insert(all.end(), more.begin(), more.end());
         return all;
     }
-    /// Of the pictures in a folder.
+    /// The bytes of the pictures in a folder.
     [[nodiscard]] Bytes pictures(const std::string& folder = ".") const {
         Bytes result;
         for (const auto& entry : fs::directory_iterator(path(folder))) {
@@ -102,7 +102,7 @@ TEST_F(Sequence, GoesOnWhereItWasKilledWithTheSameBytes) {
     const Arguments all = orbit({"-o", "killed/a_###.png"});
     for (const std::string last : {"a_###.png.sequence.json", "a_000.png", "a_002.png", "a_003.png"}) {
         const Outcome killed = killWhen(all, [&] { return fs::exists(path("killed/" + last)); });
-        EXPECT_GT(killed.status, 128) << "it had ended before";
+        EXPECT_GT(killed.status, 128) << "it ended too early";
         for (const auto& [name, bytes] : pictures("killed")) {
             EXPECT_EQ(bytes, whole.at(name)) << name;
         }
@@ -155,7 +155,7 @@ TEST_F(Sequence, WithoutAnOrbitMoreFramesMayBeAddedLater) {
                                          {"time": 0.2, "position": [4, 3, 4], "target": [0, 0, 0]}]})");
     const auto frames = [&](const std::string& count, const std::string& name) {
         Arguments all{"--frames", count, "--path", "path.json", "-o", name, "--segment", "2", "--warmup", "2",
-                      // llvmpipe's anisotropic filter takes a minute for one frame of this view.
+                      // llvmpipe's anisotropic filtering takes a minute per frame here.
                       "--set", "materials.anisotropy=1"};
         all.insert(all.end(), history.begin(), history.end());
         EXPECT_TRUE(quietSuccess(render("builtin:cubes", all)));
@@ -191,7 +191,7 @@ TEST_F(Sequence, WithoutHistoryEveryFrameIsTheSameWhicheverAreThere) {
     EXPECT_EQ(read("n_2.exr"), read("m_2.exr"));
     for (const ImageLayer& layer : layers("n_2.exr")) {
         if (layer.name == "motion") {
-            EXPECT_NE(mean(layer.image), 0.0F) << "the frame before has not been seen";
+            EXPECT_NE(mean(layer.image), 0.0F) << "the previous frame is not used";
         }
     }
 }
@@ -204,7 +204,7 @@ TEST_F(Sequence, TimesAreOfTheFramesThatWereWritten) {
     EXPECT_TRUE(refused(run(orbit({"-o", "a_###.png", "--timings", "t.json"})), 0, {"warning", "none was rendered"}));
 }
 
-TEST_F(Sequence, WrongUseIsToldWhatIsWrong) {
+TEST_F(Sequence, UsageErrorsSayWhatIsWrong) {
     const auto refuses = [&](const Arguments& more, std::initializer_list<std::string_view> words) {
         EXPECT_TRUE(refused(render("builtin:cubes", more), 2, words));
     };

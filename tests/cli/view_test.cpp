@@ -1,4 +1,4 @@
-// `reflet view` on a desktop, by real input.
+// `reflet view` on a virtual desktop, with simulated input.
 #include "cli/desktop.h"
 
 #include <chrono>
@@ -14,7 +14,7 @@ using std::chrono::milliseconds;
 
 class View : public DesktopTest {
 protected:
-    // A place in the picture, by shares of its sides.
+    // A position in the picture, in fractions of its width and height.
     [[nodiscard]] std::array<double, 2> inPicture(double x, double y) const {
         const json at = status()["picture"];
         return {at[0].get<double>() + x * (at[2].get<double>() - at[0].get<double>()),
@@ -27,7 +27,7 @@ protected:
         ASSERT_TRUE(shows([&](const json& now) { return now["controls"].contains(name); }));
         press("Return");
     }
-    // Takes a screenshot, which gets this name, and runs the command that the window copies.
+    // Takes a screenshot of this name, and compares it with the render command that the window copies.
     void isWhatRenderWrites(const std::string& screenshot) const {
         press("ctrl+s");
         EXPECT_TRUE(
@@ -59,7 +59,7 @@ TEST_F(View, AUserWalksThroughItUnderTheValidationLayers) {
     openViewer(with(cubes, {"--validate"}));
     EXPECT_EQ(status()["size"], json({240, 400}));
 
-    // A setting, by its checkbox; the picture becomes another.
+    // Toggles a setting by its checkbox, which changes the picture.
     findSetting("diffuse.adaptive");
     const bool before = status()["settings"].contains("diffuse");
     click("diffuse.adaptive");
@@ -84,7 +84,7 @@ TEST_F(View, AUserWalksThroughItUnderTheValidationLayers) {
     EXPECT_EQ(picked["values"]["albedo"].size(), 3U);
     ASSERT_TRUE(picked.contains("ray"));
     EXPECT_GT(picked["ray"]["samples"].get<int>(), 0);
-    click("diffuse.adaptive");  // asked again of the picture with the other setting
+    click("diffuse.adaptive");  // the pixel is read again with the new setting
     EXPECT_TRUE(shows([&](const json& now) { return now["picked"]["change"] > picked["change"]; }));
     EXPECT_EQ(status()["picked"]["pixel"], picked["pixel"]);
 
@@ -94,7 +94,7 @@ TEST_F(View, AUserWalksThroughItUnderTheValidationLayers) {
     EXPECT_TRUE(atRest());
     EXPECT_EQ(status()["size"], json({380, 300}));
 
-    // A broken file is told, and the scene stays; another one opens.
+    // An invalid file is an error and the scene stays; another one opens.
     write("broken.gltf", "{ \"asset\": ");
     typeFile("broken.gltf");
     click("open");
@@ -118,7 +118,7 @@ TEST_F(View, RestsWhilePaused) {
     const double used = cpuSeconds(viewer());
     std::this_thread::sleep_for(milliseconds(3000));
     EXPECT_LT(cpuSeconds(viewer()) - used, 0.05 * 3.0);
-    // Panels live on; nothing is rendered but for the step that is asked for.
+    // While paused the panels work, but only requested steps are rendered.
     findSetting("diffuse.rays");
     EXPECT_EQ(status()["rendered"], rendered);
     click("step");
@@ -144,9 +144,9 @@ TEST_F(View, AScreenshotIsWhatRenderWritesAndAllComesBackTheNextTime) {
     isWhatRenderWrites("cubes-1.png");  // of the scene's own view, whose bits no file has
     const auto from = inPicture(0.5, 0.5);
     drag(from[0], from[1], from[0] - 40.0, from[1] + 12.0);
-    EXPECT_TRUE(atRest());  // a press that comes in the same slow frame as the release before is none to ImGui 1.86
+    EXPECT_TRUE(atRest());  // ImGui 1.86 ignores a press in the same slow frame as the previous release
 
-    // The truth beside it, and the error between the two.
+    // The reference next to it, and the error between the two.
     click("compare truth");
     EXPECT_TRUE(shows(
         [](const json& now) { return now["compare"]["samples"].get<int>() >= 4 && now["compare"].contains("flip"); }));
@@ -161,7 +161,7 @@ TEST_F(View, AScreenshotIsWhatRenderWritesAndAllComesBackTheNextTime) {
     EXPECT_EQ(status()["camera"], left["camera"]);
     EXPECT_EQ(status()["settings"], left["settings"]);
     EXPECT_TRUE(quietSuccess(quit()));
-    // What the command line says goes before what was saved.
+    // The command line overrides saved state.
     openViewer(with(remembered, {"--preset", "direct", "--time", "0"}));
     EXPECT_EQ(status()["preset"], "direct");
     EXPECT_EQ(status()["camera"], first);
@@ -180,7 +180,7 @@ TEST_F(View, CompilesShadersThatAreEditedKeepsTheLastGoodOneAndLosesNothingWithT
     }));
     const int rendered = status()["rendered"];
     const auto from = inPicture(0.5, 0.5);
-    drag(from[0], from[1], from[0] + 40.0, from[1]);  // it renders on
+    drag(from[0], from[1], from[0] + 40.0, from[1]);  // rendering continues
     EXPECT_TRUE(shows([&](const json& now) { return now["rendered"].get<int>() > rendered; }));
     write(file, good + "// another\n");
     EXPECT_TRUE(shows([](const json& now) {
@@ -193,7 +193,7 @@ TEST_F(View, CompilesShadersThatAreEditedKeepsTheLastGoodOneAndLosesNothingWithT
     click("diffuse.adaptive");
     EXPECT_TRUE(shows([](const json& now) { return now["settings"].contains("diffuse"); }));
     std::this_thread::sleep_for(milliseconds(2500));
-    clickAt(10.0, 10.0);  // a moment later something is drawn again
+    clickAt(10.0, 10.0);  // soon something is drawn again
     std::this_thread::sleep_for(milliseconds(500));
     const json settings = status()["settings"];
     EXPECT_NE(endDesktop().status, 0);

@@ -1,4 +1,4 @@
-// What the program says when files, folders or the machine are not as it needs them.
+// Errors for invalid files, folders or machines.
 #include "cli/program.h"
 
 #include <filesystem>

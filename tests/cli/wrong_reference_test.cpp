@@ -1,4 +1,4 @@
-// What `reflet reference` says, and which status it ends with, where it is asked for what cannot be.
+// Errors of `reflet reference` and their exit status.
 #include "cli/reference_program.h"
 
 #include <filesystem>
@@ -42,7 +42,7 @@ TEST_F(WrongReference, NumbersAreChecked) {
     EXPECT_EQ(files(), Names{});
 }
 
-TEST_F(WrongReference, ASizeBeyondWhatAFileHoldsIsToldTheLimit) {
+TEST_F(WrongReference, ASizeBeyondTheFilesLimitIsReportedWithIt) {
     EXPECT_TRUE(refused(run({"reference", cubes, "-o", "a.exr", "--size", "4000000000x10"}), usage,
                         {"--size 4000000000x10", "up to 65536 pixels a side"}));
 }
@@ -75,7 +75,7 @@ TEST_F(WrongReference, ASceneOrViewFileThatIsBrokenIsNamedWithThePlace) {
 }
 
 TEST_F(WrongReference, AnOutputThatCannotBeWrittenIsNamedBeforeAnyWork) {
-    const std::string manySamples = "1000000";  // which nobody waits for
+    const std::string manySamples = "1000000";  // would take forever
     EXPECT_TRUE(refused(reference(cubes, {"--spp", manySamples, "-o", "a.exr", "-o", "absent/a.exr"}), failed,
                         {"absent/a.exr", "create the folder 'absent'"}));
     std::filesystem::create_directory(path("folder.exr"));

@@ -1,4 +1,4 @@
-// What the program says, and which status it ends with, when the command line asks for what cannot be.
+// Errors for invalid command lines and their exit status.
 #include "cli/program.h"
 
 namespace reflet::wrong_use_test {
@@ -48,7 +48,7 @@ TEST_F(WrongUse, AnUnknownBuiltinSceneIsNamedWithTheNearestAndAll) {
                         {"'cubs'", "did you mean 'cubes'", "cornell, cave"}));
 }
 
-TEST_F(WrongUse, ACameraThatIsNotThereIsToldFromThoseThatAre) {
+TEST_F(WrongUse, AnUnknownCameraIsReportedWithTheAvailableOnes) {
     EXPECT_TRUE(refused(renderWith({"--camera", "nowhere"}), usage, {"'nowhere'", "'main'"}));
     EXPECT_TRUE(refused(renderWith({"--scene", "3"}), usage, {"--scene 3", "one scene"}));
 }
@@ -58,13 +58,13 @@ TEST_F(WrongUse, AnUnknownSettingIsNamedWithTheNearest) {
                         {"'trace_screen.maxstep'", "did you mean 'trace_screen.max_steps'", "list settings"}));
 }
 
-TEST_F(WrongUse, AValueOutOfRangeIsToldTheRange) {
+TEST_F(WrongUse, AValueOutOfRangeIsReportedWithTheRange) {
     EXPECT_TRUE(refused(set("diffuse.rays=999"), usage, {"diffuse.rays", "0 to 256", "'999'"}));
     EXPECT_TRUE(refused(set("diffuse.rays=-1"), usage, {"diffuse.rays", "0 to 256", "'-1'"}));
     EXPECT_TRUE(refused(set("tonemap.exposure=24.5"), usage, {"tonemap.exposure", "-24 to 24", "'24.5'"}));
 }
 
-TEST_F(WrongUse, AValueOfTheWrongTypeIsToldTheRightOne) {
+TEST_F(WrongUse, AValueOfTheWrongTypeIsReportedWithTheRightOne) {
     EXPECT_TRUE(refused(set("diffuse.rays=1.5"), usage, {"diffuse.rays", "a whole number", "'1.5'"}));
     EXPECT_TRUE(refused(set("tonemap.exposure=bright"), usage, {"tonemap.exposure", "a number", "'bright'"}));
     EXPECT_TRUE(refused(set("tonemap.exposure=nan"), usage, {"tonemap.exposure", "a number", "'nan'"}));
@@ -111,13 +111,13 @@ TEST_F(WrongUse, AnOutputOfUnknownFormatIsRefused) {
     EXPECT_TRUE(refused(render(cubes, {"-o", "picture"}), usage, {"picture", ".png", ".exr"}));
 }
 
-TEST_F(WrongUse, ASizeThatIsNoneIsRefused) {
+TEST_F(WrongUse, AnInvalidSizeIsRefused) {
     for (const char* size : {"0x0", "0x10", "10x0", "abc", "10x", "x10", "-1x5", "10x10x10", "1e3x5", "4294967297x1"}) {
         EXPECT_TRUE(refused(run({"render", cubes, "-o", "a.png", "--size", size}), usage, {"--size", size, "pixels"}));
     }
 }
 
-TEST_F(WrongUse, ASizeBeyondTheDeviceIsToldTheLimit) {
+TEST_F(WrongUse, ASizeBeyondTheDevicesLimitIsReportedWithIt) {
     EXPECT_TRUE(refused(run({"render", cubes, "-o", "a.png", "--size", "4000000000x10"}), usage,
                         {"--size 4000000000x10", "up to"}));
 }
@@ -133,7 +133,7 @@ TEST_F(WrongUse, AnOptionWithoutItsValueIsNamed) {
     EXPECT_TRUE(refused(render(cubes, {"-o"}), usage, {"--output", "--help"}));
 }
 
-TEST_F(WrongUse, ADeviceThatIsNotThereIsToldFromThoseThatAre) {
+TEST_F(WrongUse, AnUnknownDeviceIsReportedWithTheAvailableOnes) {
     const Outcome devices = run({"list", "devices"});
     ASSERT_EQ(devices.status, 0) << devices.err;
     EXPECT_TRUE(refused(renderWith({"--device", "abacus"}), failed, {"'abacus'", "there are: 0 '"}));

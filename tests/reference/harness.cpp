@@ -1,4 +1,4 @@
-// Small scenes with known answers, path traced.
+// Path traces small scenes with known results.
 #include "reference/harness.h"
 
 #include <cmath>
@@ -16,7 +16,7 @@ View darkView(const vec3& position, const vec3& target, float fovYDegrees) {
     return view;
 }
 
-Material matt(const vec3& albedo, const vec3& emissive) {
+Material lambertMaterial(const vec3& albedo, const vec3& emissive) {
     Material material;
     material.baseColor = vec4(albedo, 1.0F);
     material.metallic = 0.0F;

@@ -1,7 +1,7 @@
 // The path tracer against closed forms.
 #include "reference/bsdf.h"
 #include "reference/harness.h"
-#include "support/ggx_truth.h"
+#include "support/ggx_reference.h"
 
 #include <cmath>
 
@@ -10,12 +10,12 @@ namespace {
 
 constexpr double pi = glm::pi<double>();
 
-// Sees a patch of the floor of about 2 cm around the origin from above, so small that it is one point.
+// Sees a patch of about 2 cm of the floor around the origin from above, small enough to be a point.
 View pointView() {
     return darkView({0, 0.5F, 0}, {0, 0, 0}, 2.0F);
 }
 
-// Closed room of 2 m a side that glows from all its sides.
+// A closed room of 2 m per side with emissive walls.
 Scene glowingRoom(const Material& material) {
     Scene scene;
     for (const vec3& side : {vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1)}) {
@@ -26,7 +26,7 @@ Scene glowingRoom(const Material& material) {
 }
 
 TEST(Furnace, AGlowingRoomOfHalfAlbedoIsTwiceAsBrightAsItGlows) {
-    const Scene scene = glowingRoom(matt(vec3(0.5F), vec3(0.5F)));
+    const Scene scene = glowingRoom(lambertMaterial(vec3(0.5F), vec3(0.5F)));
     const ReferencePicture p = traceReference(scene, darkView({0.3F, 0.2F, 0.1F}, {-1, -0.4F, -1}), {16, 16},
                                               lambert(ReferenceOptions::unlimited, 256));
     EXPECT_NEAR(mean(p.final).x, 1.0F, 0.003F);
@@ -36,7 +36,7 @@ TEST(Furnace, AGlowingRoomOfHalfAlbedoIsTwiceAsBrightAsItGlows) {
 }
 
 TEST(Furnace, EachBounceInAGlowingRoomAddsItsShare) {
-    const Scene scene = glowingRoom(matt(vec3(0.5F), vec3(0.5F)));
+    const Scene scene = glowingRoom(lambertMaterial(vec3(0.5F), vec3(0.5F)));
     float expected = 0.5F;
     float share = 0.5F;
     for (uint32_t bounces = 0; bounces < 4; ++bounces) {
@@ -52,7 +52,7 @@ TEST(Furnace, AWhiteThingInAWhiteEnvironmentIsInvisible) {
     for (const float metallic : {0.0F, 0.5F, 1.0F}) {
         for (const float roughness : {0.0F, 0.1F, 0.3F, 0.6F, 1.0F}) {
             Scene scene;
-            Material material = matt(vec3(1.0F));
+            Material material = lambertMaterial(vec3(1.0F));
             material.metallic = metallic;
             material.roughness = roughness;
             add(scene, material, square({0, 0, 0}, {0, 1, 0}, 10.0F));
@@ -69,7 +69,8 @@ TEST(Furnace, AWhiteThingInAWhiteEnvironmentIsInvisible) {
     }
 }
 
-// Irradiance at the origin, facing up, from a rectangle of radiance 1 parallel to the floor at a height, one corner
+// Irradiance at the origin, facing up, from a rectangle of radiance 1 parallel to the floor at a height, with one
+// corner
 // above the origin. (A catalogue of radiation heat transfer configuration factors, J. Howell, B-3)
 double cornerFactor(double a, double b, double height) {
     const double x = a / height;
@@ -81,22 +82,22 @@ double cornerFactor(double a, double b, double height) {
 
 TEST(DirectLight, OfAGlowingRectangleIsItsFormFactor) {
     Scene scene;
-    add(scene, matt(vec3(0.6F)), square({0, 0, 0}, {0, 1, 0}, 20.0F));
+    add(scene, lambertMaterial(vec3(0.6F)), square({0, 0, 0}, {0, 1, 0}, 20.0F));
     // x from -0.5 to 1.5, z from -1 to 1, at 2 m.
-    add(scene, matt(vec3(0.0F), {2, 1, 4}), square({0.5F, 2, 0}, {0, -1, 0}, 1.0F));
+    add(scene, lambertMaterial(vec3(0.0F), {2, 1, 4}), square({0.5F, 2, 0}, {0, -1, 0}, 1.0F));
     const ReferencePicture p = traceReference(scene, pointView(), {4, 4}, lambert(1, 1024));
     const double factor = 2.0 * (cornerFactor(1.5, 1.0, 2.0) + cornerFactor(0.5, 1.0, 2.0));
     const vec3 expected = vec3(2, 1, 4) * static_cast<float>(0.6 * factor);
     for (int i = 0; i < 3; ++i) {
         EXPECT_NEAR(mean(p.indirectDiffuse)[i], expected[i], 0.003F * expected[i]);
     }
-    EXPECT_EQ(mean(p.direct).x, 0.0F) << "light of glowing surfaces takes a bounce";
+    EXPECT_EQ(mean(p.direct).x, 0.0F) << "light of emissive surfaces takes a bounce";
 }
 
 TEST(DirectLight, OfASingleSidedGlowDoesNotLeaveItsBack) {
     Scene scene;
-    add(scene, matt(vec3(0.6F)), square({0, 0, 0}, {0, 1, 0}, 20.0F));
-    Material glow = matt(vec3(0.0F), vec3(1.0F));
+    add(scene, lambertMaterial(vec3(0.6F)), square({0, 0, 0}, {0, 1, 0}, 20.0F));
+    Material glow = lambertMaterial(vec3(0.0F), vec3(1.0F));
     add(scene, glow, square({0.5F, 2, 0}, {0, 1, 0}, 1.0F));
     EXPECT_EQ(mean(traceReference(scene, pointView(), {4, 4}, lambert(1, 64)).final).x, 0.0F);
     scene.materials.back().doubleSided = true;
@@ -105,7 +106,7 @@ TEST(DirectLight, OfASingleSidedGlowDoesNotLeaveItsBack) {
 
 TEST(DirectLight, OfASpotIsItsIntensityOverTheSquareOfTheDistance) {
     Scene scene;
-    add(scene, matt(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 20.0F));
+    add(scene, lambertMaterial(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 20.0F));
     Lamp lamp;
     lamp.type = Lamp::Type::spot;
     lamp.position = {1, 2, -1};
@@ -131,7 +132,7 @@ TEST(DirectLight, OfASpotIsItsIntensityOverTheSquareOfTheDistance) {
 
 TEST(DirectLight, OfSeveralLampsIsTheirSum) {
     Scene scene;
-    add(scene, matt(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 20.0F));
+    add(scene, lambertMaterial(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 20.0F));
     double expected = 0.0;
     for (int i = 0; i < 5; ++i) {
         Lamp lamp;
@@ -152,7 +153,7 @@ TEST(DirectLight, OfSeveralLampsIsTheirSum) {
 
 TEST(DirectLight, OfTheSunIsAlbedoOverPiTimesIrradianceTimesCosineWhateverItsSize) {
     Scene scene;
-    add(scene, matt(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 20.0F));
+    add(scene, lambertMaterial(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 20.0F));
     View view = pointView();
     view.sun.direction = glm::normalize(vec3(0.5F, -1, 0.2F));
     view.sun.irradiance = {3, 2, 1};
@@ -166,7 +167,7 @@ TEST(DirectLight, OfTheSunIsAlbedoOverPiTimesIrradianceTimesCosineWhateverItsSiz
     }
 }
 
-// Both squares of side 1 at distance 1: 0.19982. (Howell, C-11)
+// Form factor of parallel squares of side 1 at distance 1: 0.19982. (Howell, C-11)
 double parallelSquares() {
     return 2.0 / pi *
            (std::log(2.0 / std::sqrt(3.0)) + 2.0 * std::sqrt(2.0) * std::atan(1.0 / std::sqrt(2.0)) - pi / 2.0);
@@ -175,9 +176,9 @@ double parallelSquares() {
 TEST(FormFactor, OfTwoParallelSquaresIsWithinHalfAPercent) {
     ASSERT_NEAR(parallelSquares(), 0.19982, 1e-4);
     Scene scene;
-    add(scene, matt(vec3(1.0F)), square({0, 0, 0}, {0, 1, 0}, 0.5F));
-    add(scene, matt(vec3(0.0F), vec3(1.0F)), square({0, 1, 0}, {0, -1, 0}, 0.5F));
-    // From below the glowing square, exactly the other one: its mean radiosity is the form factor.
+    add(scene, lambertMaterial(vec3(1.0F)), square({0, 0, 0}, {0, 1, 0}, 0.5F));
+    add(scene, lambertMaterial(vec3(0.0F), vec3(1.0F)), square({0, 1, 0}, {0, -1, 0}, 0.5F));
+    // Sees exactly the other square from below the emissive one: its mean radiosity is the form factor.
     View view = darkView({0, 0.9F, 0}, {0, 0, 0});
     view.camera.orthographicHeight = 1.0F;
     const ReferencePicture p = traceReference(scene, view, {32, 32}, lambert(1, 64));
@@ -203,7 +204,7 @@ TEST(GgxAlbedo, IsWhatAPathTracedMetalReflectsOfUniformLight) {
     for (const float roughness : {0.1F, 0.3F, 0.6F, 1.0F}) {
         for (const float degrees : {0.0F, 60.0F, 80.0F}) {
             Scene scene;
-            Material metal = matt(vec3(f0));
+            Material metal = lambertMaterial(vec3(f0));
             metal.metallic = 1.0F;
             metal.roughness = roughness;
             add(scene, metal, square({0, 0, 0}, {0, 1, 0}, 20.0F));

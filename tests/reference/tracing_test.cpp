@@ -1,5 +1,5 @@
-// What the path tracer promises besides radiometry: the same picture on any number of threads and with any sampling,
-// what the camera sees, layers, interruption.
+// Properties of the path tracer besides radiometry: results independent of the number of threads and of the sampling
+// strategy, camera visibility, layers, interruption.
 #include "base/color.h"
 #include "reference/bsdf.h"
 #include "reference/harness.h"
@@ -91,19 +91,19 @@ TEST(Picture, NoiseIsTheErrorThatAnotherRunHas) {
     ReferenceOptions options;
     options.bounces = 1;
     options.samples = 2048;
-    const ReferencePicture truth = traceReference(scene, defaultView(scene), {32, 18}, options);
+    const ReferencePicture converged = traceReference(scene, defaultView(scene), {32, 18}, options);
     options.samples = 16;
     options.seed = 7;
     const ReferencePicture p = traceReference(scene, defaultView(scene), {32, 18}, options);
     double sum = 0.0;
     for (uint32_t y = 0; y < 18; ++y) {
         for (uint32_t x = 0; x < 32; ++x) {
-            const double t = luminance(color(truth.final, x, y));
+            const double t = luminance(color(converged.final, x, y));
             sum += std::pow(luminance(color(p.final, x, y)) - t, 2.0) / (t * t + 0.01);
         }
     }
     const double error = std::sqrt(sum / (32 * 18));
-    // Low discrepancy does better than the estimate, which takes the samples for independent.
+    // Low-discrepancy samples do better than the estimate, which assumes independent ones.
     EXPECT_LT(error, 1.1 * p.noise);
     EXPECT_GT(error, 0.3 * p.noise);
 }
@@ -136,8 +136,9 @@ TEST(Picture, ProgressRisesToItsTotal) {
 
 TEST(Camera, SeesThroughTheBacksOfSingleSidedSurfacesButLightDoesNot) {
     Scene scene;
-    add(scene, matt({1, 0, 0}), square({0, 0, 0}, {0, 1, 0}, 10.0F));
-    add(scene, matt({0, 1, 0}), square({0, 1, 0}, {0, -1, 0}, 5.0F));  // its back is to the camera and the sun
+    add(scene, lambertMaterial({1, 0, 0}), square({0, 0, 0}, {0, 1, 0}, 10.0F));
+    add(scene, lambertMaterial({0, 1, 0}),
+        square({0, 1, 0}, {0, -1, 0}, 5.0F));  // its back faces the camera and the sun
     View view = darkView({0, 3, 0.1F}, {0, 0, 0}, 20.0F);
     view.sun.irradiance = vec3(1.0F);
     const ReferencePicture p = traceReference(scene, view, {4, 4}, lambert(0, 4));
@@ -150,7 +151,7 @@ TEST(Camera, SeesThroughTheBacksOfSingleSidedSurfacesButLightDoesNot) {
 
 TEST(Camera, SeesMirroredInstancesFromTheirOutside) {
     Scene scene;
-    const uint32_t material = builtin::addMaterial(scene, matt(vec3(0.5F)));
+    const uint32_t material = builtin::addMaterial(scene, lambertMaterial(vec3(0.5F)));
     builtin::place(scene, "mirrored", material, builtin::box(vec3(1.0F)), glm::scale(mat4(1.0F), vec3(-1, 1, 1)));
     const ReferencePicture p = traceReference(scene, darkView({0, 0, 5}, {0, 0, 0}, 10.0F), {2, 2}, lambert(0, 1));
     EXPECT_NEAR(pixel(p.depth, 0, 0), 4.0F, 1e-3F) << "its near side, not the inside of its far one";
@@ -159,8 +160,8 @@ TEST(Camera, SeesMirroredInstancesFromTheirOutside) {
 
 TEST(Camera, OrthographicAndNearPlaneAreTheViewsOwn) {
     Scene scene;
-    add(scene, matt({1, 0, 0}), square({0, 0, 0}, {0, 1, 0}, 10.0F));
-    add(scene, matt({0, 1, 0}), square({0.5F, 2, 0}, {0, 1, 0}, 0.5F));
+    add(scene, lambertMaterial({1, 0, 0}), square({0, 0, 0}, {0, 1, 0}, 10.0F));
+    add(scene, lambertMaterial({0, 1, 0}), square({0.5F, 2, 0}, {0, 1, 0}, 0.5F));
     View view = darkView({0, 3, 0}, {0, 0, 0});
     view.camera.orthographicHeight = 2.0F;
     const ReferencePicture p = traceReference(scene, view, {4, 2}, lambert(0, 1));
@@ -174,8 +175,8 @@ TEST(Materials, CutOutPartsLetLightAndRaysThrough) {
     Scene scene;
     Image half{"half", 2, 1, {255, 255, 255, 255, 255, 255, 255, 0}};
     const TextureSlot slot = builtin::addTexture(scene, half, {.magLinear = false});
-    add(scene, matt({1, 0, 0}), square({0, 0, 0}, {0, 1, 0}, 10.0F));
-    Material cut = matt({0, 1, 0});
+    add(scene, lambertMaterial({1, 0, 0}), square({0, 0, 0}, {0, 1, 0}, 10.0F));
+    Material cut = lambertMaterial({0, 1, 0});
     cut.doubleSided = true;
     cut.baseColorTexture = slot;
     cut.alphaCutoff = 0.5F;
@@ -192,11 +193,11 @@ TEST(Materials, CutOutPartsLetLightAndRaysThrough) {
     EXPECT_EQ(color(traceReference(scene, view, {4, 2}, lambert(0, 4)).albedo, 3, 0), vec3(0, 1, 0));
 }
 
-// A glowing wall beside the picture and a floor that it lights: the screen cannot know of the wall.
-TEST(VisibleOnly, LeavesOutLightOfWhatIsNotInThePicture) {
+// A floor lit by an emissive wall that is off-screen.
+TEST(VisibleOnly, LeavesOutLightOfWhatIsOffScreen) {
     Scene scene;
-    add(scene, matt(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 10.0F));
-    add(scene, matt(vec3(0.5F), vec3(1.0F)), square({2, 1, 0}, {-1, 0, 0}, 1.0F));
+    add(scene, lambertMaterial(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 10.0F));
+    add(scene, lambertMaterial(vec3(0.5F), vec3(1.0F)), square({2, 1, 0}, {-1, 0, 0}, 1.0F));
     ReferenceOptions options = lambert(2, 64);
     View view = darkView({0, 3, 0}, {0, 0, 0}, 20.0F);
     EXPECT_GT(mean(traceReference(scene, view, {8, 8}, options).final).x, 0.01F);
@@ -204,11 +205,11 @@ TEST(VisibleOnly, LeavesOutLightOfWhatIsNotInThePicture) {
     EXPECT_EQ(mean(traceReference(scene, view, {8, 8}, options).final).x, 0.0F);
 }
 
-// All of a corner is in the picture and nothing hides anything: all light is known.
-TEST(VisibleOnly, ChangesNothingWhereThePictureHoldsEverything) {
+// All of a corner is visible without occlusion: no light is missing.
+TEST(VisibleOnly, ChangesNothingIfEverythingIsVisible) {
     Scene scene;
-    add(scene, matt(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 1.0F));
-    add(scene, matt(vec3(0.5F), vec3(1.0F)), square({-1, 1, 0}, {1, 0, 0}, 1.0F));
+    add(scene, lambertMaterial(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 1.0F));
+    add(scene, lambertMaterial(vec3(0.5F), vec3(1.0F)), square({-1, 1, 0}, {1, 0, 0}, 1.0F));
     const View view = darkView({8, 6, 0}, {0, 0.7F, 0}, 40.0F);
     ReferenceOptions options = lambert(3, 256);
     const ReferencePicture all = traceReference(scene, view, {24, 24}, options);
@@ -220,10 +221,10 @@ TEST(VisibleOnly, ChangesNothingWhereThePictureHoldsEverything) {
 
 TEST(VisibleOnly, LeavesOutTheSideOfAThingThatTheCameraDoesNotSee) {
     Scene scene;
-    add(scene, matt(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 3.0F));
-    Material screen = matt(vec3(0.5F), vec3(1.0F));
+    add(scene, lambertMaterial(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 3.0F));
+    Material screen = lambertMaterial(vec3(0.5F), vec3(1.0F));
     screen.doubleSided = true;
-    add(scene, screen, square({0, 1, 0}, {0, 0, 1}, 1.0F));  // stands in the middle, glows both ways
+    add(scene, screen, square({0, 1, 0}, {0, 0, 1}, 1.0F));  // stands in the middle, emits on both sides
     const View view = darkView({0, 5, 8}, {0, 0.5F, 0}, 60.0F);
     ReferenceOptions options = lambert(1, 64);
     const ReferencePicture all = traceReference(scene, view, {32, 32}, options);
@@ -250,7 +251,7 @@ TEST(VisibleOnly, LeavesOutTheSideOfAThingThatTheCameraDoesNotSee) {
     EXPECT_GT(behind, 10U);
 }
 
-// A sky that is bright in one small place: irradiance by hand is the sum over its texels.
+// A sky with one small bright region; the expected irradiance is the sum over its texels.
 TEST(EnvironmentImage, LightsAsItsTexelsDoWhereverItIsTurned) {
     auto image = std::make_shared<FloatImage>(FloatImage{32, 16, {"R", "G", "B"}, std::vector<float>(1536, 0.1F)});
     constexpr size_t bright = 3 * (3 * 32 + 5);  // row 3, column 5
@@ -258,7 +259,7 @@ TEST(EnvironmentImage, LightsAsItsTexelsDoWhereverItIsTurned) {
         image->data[bright + i] = 200.0F * static_cast<float>(i + 1);
     }
     Scene scene;
-    add(scene, matt(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 100.0F));
+    add(scene, lambertMaterial(vec3(0.5F)), square({0, 0, 0}, {0, 1, 0}, 100.0F));
     View view = darkView({0, 0.5F, 0}, {0, 0, 0}, 2.0F);
     view.environment.image = image;
     view.environment.intensity = 2.0F;
@@ -281,13 +282,13 @@ TEST(EnvironmentImage, LightsAsItsTexelsDoWhereverItIsTurned) {
             const double expected = 0.5 / glm::pi<double>() * irradiance[i];
             EXPECT_NEAR(mean(p.indirectDiffuse)[i], expected, 0.01 * expected) << degrees;
         }
-        EXPECT_LT(p.noise, 0.02) << "drawn by its light";
+        EXPECT_LT(p.noise, 0.02) << "importance sampled";
     }
 }
 
 TEST(EnvironmentImage, OfOneColourIsTheConstantEnvironment) {
     Scene scene;
-    Material material = matt(vec3(0.5F));
+    Material material = lambertMaterial(vec3(0.5F));
     material.roughness = 0.3F;
     add(scene, material, builtin::sphere(1.0F, 64));
     View view = darkView({0, 0, 4}, {0, 0, 0}, 30.0F);
@@ -320,8 +321,8 @@ SurfacePoint glossyPoint(float roughness, float degrees) {
     return point;
 }
 
-// The integral of a density over the hemisphere, and of BRDF · cosine by drawn and by regular directions.
-TEST(Bsdf, DrawsWithTheDensityThatItSaysAndIsSymmetric) {
+// The integral of the pdf over the hemisphere, and that of BRDF · cosine by sampled and by regular directions.
+TEST(Bsdf, SamplesFollowItsPdfAndItIsReciprocal) {
     for (const float roughness : {0.2F, 0.5F, 1.0F}) {
         for (const float degrees : {5.0F, 50.0F, 75.0F}) {
             const SurfacePoint point = glossyPoint(roughness, degrees);
@@ -363,7 +364,7 @@ TEST(PixelSampler, EveryPairIsANetInBaseTwo) {
         for (uint32_t i = 0; i < 256; ++i) {
             points.push_back(PixelSampler(123, 4, i).pair(pair));
         }
-        // Of 256 points, each box of area 1/256 holds exactly one, whatever its shape.
+        // Of 256 points, each elementary interval of area 1/256 holds exactly one, whatever its shape.
         for (int bits = 0; bits <= 8; ++bits) {
             std::set<std::pair<int, int>> boxes;
             for (const vec2& p : points) {

@@ -5,7 +5,7 @@
 #include "render/cube_map/cube_map.h"
 #include "shader/directions.h"
 #include "shader/harness.h"
-#include "support/ggx_truth.h"
+#include "support/ggx_reference.h"
 
 #include <cmath>
 #include <cstring>

@@ -1,7 +1,7 @@
 // The direction and the angle that stand for a rough surface's whole lobe, against the lobe itself.
 #include "shader/directions.h"
 #include "shader/harness.h"
-#include "support/ggx_truth.h"
+#include "support/ggx_reference.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 
 #include "render/direct/direct.h"
 #include "shader/harness.h"
-#include "support/ggx_truth.h"
+#include "support/ggx_reference.h"
 
 #include <optional>
 #include <string>

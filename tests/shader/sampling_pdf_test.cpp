@@ -3,7 +3,7 @@
 #include "shader/sampling_test.h"
 
 #include "shader/harness.h"
-#include "support/ggx_truth.h"
+#include "support/ggx_reference.h"
 
 #include <algorithm>
 #include <functional>

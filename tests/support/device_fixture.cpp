@@ -16,7 +16,7 @@ namespace {
 struct Shared {
     std::unique_ptr<gpu::Device> device;
     std::unique_ptr<gpu::Frame> frame;
-    std::vector<std::string> messages;  ///< outlive the device: its end is watched, too
+    std::vector<std::string> messages;  ///< outlives the device, to catch messages of its destruction
 };
 
 Shared& shared() {
@@ -31,7 +31,7 @@ public:
         shared().frame.reset();
         shared().device.reset();
         for (size_t i = before; i < shared().messages.size(); ++i) {
-            ADD_FAILURE() << "validation, at the device's end: " << shared().messages[i];
+            ADD_FAILURE() << "validation, at destruction of the device: " << shared().messages[i];
         }
     }
 };

@@ -1,5 +1,6 @@
-// One Vulkan device for all tests of a process, with validation and synchronization validation. A message of theirs
-// fails the test that caused it; one at the end (a leak, say) fails the run.
+// One Vulkan device for all tests of a process, with validation and synchronization validation. A validation message
+// fails
+// the test that caused it; one at destruction (such as a leak) fails the run.
 #pragma once
 
 #include "gpu/device.h"
@@ -14,11 +15,11 @@ protected:
     void SetUp() override;
     void TearDown() override;
 
-    /// Made for the first test that asks. The renderer's shaders are registered.
+    /// Created on first use, with the renderer's shaders registered.
     static gpu::Device& device();
-    /// A frame of that device, shared like it: neither recording nor waiting between tests.
+    /// A frame of that device, also shared: neither recording nor pending between tests.
     static gpu::Frame& frame();
-    /// Lets the host see what the device wrote to buffers. Waiting for it does not do so by itself.
+    /// Makes the device's writes to buffers visible to the host, which waiting alone does not.
     static void showToHost();
 
 private:

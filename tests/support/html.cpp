@@ -1,4 +1,4 @@
-// Reads HTML that we wrote ourselves.
+// A minimal HTML parser.
 #include "support/html.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-// Reads HTML that we wrote ourselves, as strictly as our own pages are written: attributes in double quotation marks,
-// every element closed.
+// A minimal, strict parser for Reflet's own HTML: attributes in double quotation marks, every element closed.
 #pragma once
 
 #include <map>
@@ -12,10 +11,10 @@ namespace reflet::test {
 struct Element {
     std::string name;
     std::map<std::string, std::string> attributes;  ///< values without entities decoded
-    std::string text;                               ///< what stands between the tag and the next one
+    std::string text;                               ///< between the tag and the next one
 
     [[nodiscard]] bool has(const std::string& attribute) const { return attributes.contains(attribute); }
-    /// "" where there is none.
+    /// "" if there is none.
     [[nodiscard]] std::string value(const std::string& attribute) const {
         return has(attribute) ? attributes.at(attribute) : "";
     }

@@ -1,4 +1,4 @@
-// A made-up report.
+// A fictitious report.
 #include "support/sample_report.h"
 
 #include <limits>

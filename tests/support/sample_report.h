@@ -1,4 +1,4 @@
-// A made-up report: two scenes, three variants, names that are as awkward as names can be.
+// A fictitious report: two scenes, three variants, and names that need escaping.
 #pragma once
 
 #include "apps/report/page.h"
@@ -10,7 +10,7 @@ namespace reflet::test {
 
 ReportPage sampleReport();
 
-/// Names of all picture files that a report refers to.
+/// Names of all image files that a report refers to.
 std::vector<std::string> pictureFiles(const ReportPage& page);
 
 }  // namespace reflet::test

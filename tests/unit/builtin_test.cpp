@@ -1,4 +1,4 @@
-// The built-in scenes: sound data, repeatable to the bit, and lit in the way each scene is there for.
+// The built-in scenes: valid data, deterministic, and lit as each scene intends.
 #include "scene/builtin.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 
 namespace reflet {
 
-/// How GoogleTest names a parameter; without it, its bytes, addresses included.
+/// Prints a parameter for GoogleTest, which would otherwise print its bytes, including addresses.
 static void PrintTo(const BuiltinScene& scene, std::ostream* out) {
     *out << scene.name;
 }
@@ -49,7 +49,7 @@ struct Hit {
     const Triangle* triangle = nullptr;
 };
 
-/// The nearest triangle, either side (T. Möller, B. Trumbore, 1997). Alpha is not looked at.
+/// The nearest triangle, either side (T. Möller, B. Trumbore, 1997). Ignores alpha.
 Hit castRay(const std::vector<Triangle>& triangles, const vec3& origin, const vec3& direction) {
     Hit hit;
     for (const Triangle& t : triangles) {
@@ -77,7 +77,7 @@ vec3 faceNormal(const Triangle& t) {
     return glm::normalize(glm::cross(t.ab, t.ac));
 }
 
-/// Evenly over the sphere (a Fibonacci lattice).
+/// Evenly spaced directions on the sphere (a Fibonacci lattice).
 std::vector<vec3> directions(int count) {
     std::vector<vec3> all;
     for (int i = 0; i < count; ++i) {
@@ -89,7 +89,7 @@ std::vector<vec3> directions(int count) {
     return all;
 }
 
-/// What the camera sees: a coarse grid of the picture, and for each visible point whether the sun reaches it.
+/// A visible point on a coarse grid of the image, and whether the sun reaches it.
 struct VisiblePoint {
     vec3 position;
     bool facesSun = false;
@@ -123,7 +123,7 @@ std::vector<VisiblePoint> visiblePoints(const Scene& scene, const std::vector<Tr
     return points;
 }
 
-/// Where a ray from inside leaves the box.
+/// Where a ray from inside exits the box.
 vec3 leaves(const Aabb& box, const vec3& origin, const vec3& direction) {
     const vec3 far = glm::mix(box.min, box.max, vec3(glm::greaterThan(direction, vec3(0.0F))));
     const vec3 t = (far - origin) / direction;
@@ -322,7 +322,7 @@ TEST_P(EveryBuiltinScene, CamerasStandInTheOpenAndLookAtTheScene) {
                 continue;
             }
             EXPECT_GT(hit.distance, 2.0F * camera.near) << camera.name;
-            // A back face met first would mean that the camera is inside a solid, or under the ground.
+            // If it hit a back face first, the camera would be inside a solid or below the ground.
             EXPECT_TRUE(hit.triangle->doubleSided || glm::dot(faceNormal(*hit.triangle), direction) < 0.0F)
                 << camera.name;
         }
@@ -346,7 +346,7 @@ TEST(BuiltinCave, LightLeavesOnlyThroughTheShaft) {
     const Scene scene = findBuiltinScene("cave")->make();
     const auto triangles = worldTriangles(scene);
     const Aabb bounds = scene.bounds();
-    // Where the sun's rays to all visible sunlit points come in: this is the opening.
+    // Bounds of where the sun's rays to all visible sunlit points enter: the opening.
     Aabb opening;
     for (const VisiblePoint& p : visiblePoints(scene, triangles)) {
         if (p.sunlit) {

@@ -1,4 +1,4 @@
-// The hierarchy: what a traversal relies on.
+// The BVH: the invariants that traversal relies on.
 #include "scene/bvh.h"
 #include "scene/builtin.h"
 #include "scene/builtin/assemble.h"
@@ -22,7 +22,7 @@ bool contains(const vec3& min, const vec3& max, const vec3& point) {
     return glm::all(glm::lessThanEqual(min, point)) && glm::all(glm::lessThanEqual(point, max));
 }
 
-// Walks down every way; tells how many nodes the longest has, and fails where a box does not hold what is below it.
+// Visits the whole tree: returns its depth, and fails where a box does not contain its subtree.
 class Walk {
 public:
     explicit Walk(const Bvh& bvh) : bvh_(bvh), seen_(bvh.triangles.size()) { depth_ = visit(0); }
@@ -75,10 +75,10 @@ TEST(Bvh, HoldsEveryTriangleOfASceneInOneLeafInsideItsBoxes) {
     EXPECT_EQ(names.size(), triangles.size());
 }
 
-TEST(Bvh, OverTwoHoldsTheTrianglesOfBothWhereTheyAreAtThatTime) {
+TEST(Bvh, JoinedFromTwoHoldsTheTrianglesOfBothAtThatTime) {
     const Scene scene = findBuiltinScene("moving")->make();
     const ScenePose pose = scenePose(scene, 0.6);
-    const auto standing = sceneTriangles(scene, pose, Instances::standing);
+    const auto standing = sceneTriangles(scene, pose, Instances::stationary);
     const auto moving = sceneTriangles(scene, pose, Instances::moving);
     const auto all = sceneTriangles(scene, pose);
     ASSERT_GT(standing.size(), 0U);
@@ -110,7 +110,7 @@ TEST(Bvh, IsTheSameForTheSameTriangles) {
 }
 
 TEST(Bvh, IsNeverDeeperThanTheStackOfATraversal) {
-    std::vector<SceneTriangle> shrinking;  // each cut takes off one triangle
+    std::vector<SceneTriangle> shrinking;  // each split separates one triangle
     for (int i = 0; i < 100; ++i) {
         const float size = std::ldexp(1.0F, -i);
         shrinking.push_back(triangleAt({size, 0, 0}, 0.1F * size, 0));
@@ -126,7 +126,7 @@ TEST(Bvh, IsNeverDeeperThanTheStackOfATraversal) {
     EXPECT_LE(Walk(same).depth(), bvhMaxDepth);
 }
 
-TEST(Bvh, ExistsForNoneAndForOneTriangle) {
+TEST(Bvh, IsValidForZeroAndForOneTriangle) {
     const Bvh none = buildBvh({});
     EXPECT_EQ(Walk(none).depth(), 1U);
     const Bvh one = buildBvh({triangleAt({1, 1, 1}, 1, 7)});
@@ -134,7 +134,7 @@ TEST(Bvh, ExistsForNoneAndForOneTriangle) {
     EXPECT_EQ(one.triangles[one.nodes[0].left & bvhFirstMask].firstIndex, 7U);
 }
 
-TEST(Bvh, LeavesOutTrianglesThatAreNowhere) {
+TEST(Bvh, LeavesOutTrianglesThatAreNotFinite) {
     Mesh mesh = builtin::box(vec3(1));
     const size_t whole = mesh.indices.size() / 3;
     mesh.indices.insert(mesh.indices.end(), {0, 1, 24, 0, 1, 25});
@@ -146,7 +146,7 @@ TEST(Bvh, LeavesOutTrianglesThatAreNowhere) {
     EXPECT_EQ(sceneTriangles(scene).size(), whole);
 }
 
-TEST(SceneTriangles, SayWhereTheyAreFromAndWhichSideIsTheirFront) {
+TEST(SceneTriangles, RecordWhereTheyComeFromAndWhichSideIsTheirFront) {
     Scene scene;
     Material leaf;
     leaf.alphaCutoff = 0.5F;

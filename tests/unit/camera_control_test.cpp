@@ -1,4 +1,4 @@
-// What mouse and keys do to a camera.
+// Interactive camera movement.
 #include "scene/camera_control.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ void expectNear(const vec3& a, const vec3& b, float most = 1e-4F) {
     EXPECT_LE(glm::length(a - b), most) << a.x << ' ' << a.y << ' ' << a.z;
 }
 
-// Where a point is seen, in heights of the picture from its middle, to the right and down.
+// Image position of a point relative to the centre, right and down, in fractions of the image height.
 vec2 seen(const Camera& camera, const vec3& point) {
     const vec4 clip = viewToClip(camera, 1.0F) * worldToView(camera) * vec4(point, 1.0F);
     return 0.5F * vec2(clip) / clip.w;
@@ -28,13 +28,13 @@ vec2 seen(const Camera& camera, const vec3& point) {
 TEST(CameraControl, OrbitKeepsTheTargetAndTheDistance) {
     Camera camera = cameraAt({0, 1, 5}, {0, 1, 0});
     orbit(camera, {glm::half_pi<float>(), 0.0F});
-    expectNear(camera.position, {-5, 1, 0});  // what is in front goes right with the pointer
+    expectNear(camera.position, {-5, 1, 0});  // the view follows the pointer to the right
     expectNear(camera.target, {0, 1, 0});
     orbit(camera, {0.3F, 0.4F});
     EXPECT_NEAR(glm::distance(camera.position, camera.target), 5.0F, 1e-4F);
-    EXPECT_GT(camera.position.y, 1.5F) << "down: seen from above";
+    EXPECT_GT(camera.position.y, 1.5F) << "dragging down looks from above";
     orbit(camera, {0.0F, 10.0F});
-    EXPECT_GT(glm::length(glm::cross(camera.target - camera.position, camera.up)), 0.01F) << "never tips over";
+    EXPECT_GT(glm::length(glm::cross(camera.target - camera.position, camera.up)), 0.01F) << "never flips over";
 }
 
 TEST(CameraControl, TurningStaysInPlace) {
@@ -57,7 +57,7 @@ TEST(CameraControl, PanningKeepsThePointUnderThePointer) {
     }
 }
 
-TEST(CameraControl, DollyGoesNearerAndNeverThrough) {
+TEST(CameraControl, DollyApproachesTheTargetAndNeverPassesIt) {
     Camera camera = cameraAt({0, 0, 4});
     dolly(camera, 0.5F);
     expectNear(camera.position, {0, 0, 2});
@@ -97,7 +97,7 @@ TEST(CameraControl, FramingAllShowsAllCorners) {
     }
 }
 
-TEST(CameraControl, WhatWasMovedByANodeIsMovedByHandFromThenOn) {
+TEST(CameraControl, DetachesACameraFromItsNode) {
     Camera camera = cameraAt({0, 0, 5});
     camera.node = 3;
     camera.aims = false;

@@ -1,4 +1,4 @@
-// Camera paths: keyframes, what lies between them, loops, orbits, and what files are refused for.
+// Camera paths: keyframes, interpolation, loops, orbits, and errors in files.
 #include "scene/camera_path.h"
 
 #include "base/error.h"
@@ -55,7 +55,7 @@ TEST_F(CameraPathTest, GoesThroughEveryKeyframeExactlyWhateverTheEasing) {
         EXPECT_EQ(path.at(0.7).position, vec3(1.7F, 2.1F, 5)) << easing;
         EXPECT_EQ(path.at(0.7).target, vec3(0, 0.7F, 0)) << easing;
         EXPECT_EQ(path.at(0.7).up, vec3(0, 0, 1)) << easing;
-        EXPECT_EQ(path.at(0.7).fovY, camera_.fovY) << "what a keyframe does not give is the view's";
+        EXPECT_EQ(path.at(0.7).fovY, camera_.fovY) << "defaults to the view's";
         EXPECT_EQ(path.at(2.3).position, vec3(9.1F, 2.1F, 3)) << easing;
     }
 }
@@ -115,7 +115,7 @@ TEST_F(CameraPathTest, ALoopGoesRoundWithoutAJerk) {
     EXPECT_EQ(path.at(0.5).position, path.at(4.5).position);
     const float before = path.at(5.0).position.x - path.at(4.999).position.x;
     const float after = path.at(5.001).position.x - path.at(5.0).position.x;
-    EXPECT_GT(after, 0.003F) << "five metres in a second, through the seam";
+    EXPECT_GT(after, 0.003F) << "five metres per second, across the loop's seam";
     EXPECT_NEAR(before, after, 1e-4F);
 }
 
@@ -134,13 +134,13 @@ TEST_F(CameraPathTest, RefusesWhatItDoesNotUnderstand) {
     EXPECT_EQ(errorOf(R"({"keyframes": [{"position": [0, 0, 1], "target": [0, 0, 0]}]})"),
               ": keyframes[0]: 'time' is missing");
     EXPECT_EQ(errorOf(R"({"keyframes": [{"time": 0, "position": [0, 0, 0], "target": [0, 0, 0]}]})"),
-              ": keyframes[0]: position and target are the same point; a view needs two");
+              ": keyframes[0]: position and target must not be the same point");
     EXPECT_EQ(errorOf(R"({"keyframes": [{"time": 2, "position": [0, 0, 1], "target": [0, 0, 0]},
                                         {"time": 2, "position": [0, 0, 2], "target": [0, 0, 0]}]})"),
-              ": keyframes[1].time: must be more than that of the keyframe before (2), is 2");
+              ": keyframes[1].time: must be more than the previous keyframe's (2), is 2");
     EXPECT_EQ(errorOf(R"({"loop": true, "keyframes": [{"time": 0, "position": [0, 0, 1], "target": [0, 0, 0]},
                                                       {"time": 2, "position": [0, 0, 2], "target": [0, 0, 0]}]})"),
-              ": loop: the last keyframe of a loop must be where the first one is, and look the same way");
+              ": loop: the first and the last keyframe of a loop must have the same position and target");
 }
 
 TEST(Orbit, KeepsDistanceAndHeightAndComesBack) {
@@ -154,7 +154,7 @@ TEST(Orbit, KeepsDistanceAndHeightAndComesBack) {
     EXPECT_NEAR(glm::length(orbit(camera, camera.target, 1.0).position - camera.position), 0.0F, 1e-5F);
 }
 
-TEST(Orbit, GoesRoundWhatIsSeenWhereTheTargetIsOnlyADirection) {
+TEST(Orbit, CirclesTheVisibleSurfaceIfTheTargetIsOnlyADirection) {
     Scene scene;
     Mesh mesh;
     mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
@@ -173,7 +173,8 @@ TEST(Orbit, GoesRoundWhatIsSeenWhereTheTargetIsOnlyADirection) {
     EXPECT_NEAR(glm::length(orbitPivot(camera, scene) - vec3(0, 0, -3)), 0.0F, 1e-5F);
     camera.position.y = 10.0F;
     camera.target.y = 10.0F;
-    EXPECT_NEAR(glm::length(orbitPivot(camera, scene) - vec3(0, 10, -5)), 0.0F, 1e-5F) << "beside the middle of all";
+    EXPECT_NEAR(glm::length(orbitPivot(camera, scene) - vec3(0, 10, -5)), 0.0F, 1e-5F)
+        << "the point ahead nearest to the scene's centre";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Metrics on pictures small enough to be worked out by hand, masks, and what cannot be compared.
+// Metrics of images small enough to be worked out by hand, masks, and invalid input.
 #include "compare/compare.h"
 
 #include "base/error.h"
@@ -28,10 +28,10 @@ FloatImage colors(uint32_t width, std::vector<float> values) {
     return {width, height, {"R", "G", "B"}, std::move(values)};
 }
 
-Difference difference(const FloatImage& picture, const FloatImage& truth, ImageKind kind = ImageKind::linear) {
+Difference difference(const FloatImage& picture, const FloatImage& reference, ImageKind kind = ImageKind::linear) {
     CompareOptions options;
     options.kind = kind;
-    return compareImages(picture, truth, options).difference;
+    return compareImages(picture, reference, options).difference;
 }
 
 std::string messageOf(const std::function<void()>& action) {
@@ -43,8 +43,8 @@ std::string messageOf(const std::function<void()>& action) {
     return "no error";
 }
 
-std::string complaint(const FloatImage& picture, const FloatImage& truth, const CompareOptions& options = {}) {
-    return messageOf([&] { compareImages(picture, truth, options); });
+std::string complaint(const FloatImage& picture, const FloatImage& reference, const CompareOptions& options = {}) {
+    return messageOf([&] { compareImages(picture, reference, options); });
 }
 
 TEST(Compare, EqualPicturesHaveNoDifferenceAndInfinitePsnr) {
@@ -58,11 +58,11 @@ TEST(Compare, EqualPicturesHaveNoDifferenceAndInfinitePsnr) {
     EXPECT_EQ(d.pixels, 2U);
 }
 
-// Differences 0.5, 0, 1, 0 against a truth of 0.5, 0, 2, 1: squares 0.25 and 1.
+// Differences 0.5, 0, 1, 0 against a reference of 0.5, 0, 2, 1: squares 0.25 and 1.
 TEST(Compare, MetricsOfLinearPicturesAreAsWorkedOutByHand) {
     const Difference d = difference(grey(2, {1, 0, 1, 1}), grey(2, {0.5F, 0, 2, 1}));
     EXPECT_NEAR(d.relativeMse, (0.25 / 0.26 + 1.0 / 4.01) / 4.0, 1e-9);
-    EXPECT_NEAR(d.psnr, 10.0 * std::log10(4.0 / (1.25 / 4.0)), 1e-9);  // the truth's largest value is 2
+    EXPECT_NEAR(d.psnr, 10.0 * std::log10(4.0 / (1.25 / 4.0)), 1e-9);  // the reference's largest value is 2
     EXPECT_NEAR(d.mean, 1.5 / 4.0, 1e-9);
     EXPECT_EQ(d.max, 1.0);
     EXPECT_EQ(d.pixels, 4U);
@@ -73,7 +73,7 @@ TEST(Compare, ThePeakOfDisplayPicturesIsOne) {
     EXPECT_NEAR(d.psnr, 10.0 * std::log10(1.0 / (0.0625 / 2.0)), 1e-9);
 }
 
-TEST(Compare, APictureThatIsNotTheBlackOfItsTruthHasAFinitePsnr) {
+TEST(Compare, ABlackReferenceGivesAFinitePsnr) {
     EXPECT_NEAR(difference(grey(1, {0.1F}), grey(1, {0})).psnr, 20.0, 1e-5);
 }
 
@@ -90,7 +90,7 @@ TEST(Compare, BiasIsTheRatioOfTheMeansLessOneAndKeepsItsSign) {
     EXPECT_EQ(difference(grey(1, {0}), grey(1, {0})).bias, 0.0);
 }
 
-TEST(Compare, EveryChannelCountsAsMuch) {
+TEST(Compare, EveryChannelHasTheSameWeight) {
     const Difference d = difference(colors(1, {1, 2, 3}), colors(1, {1, 1, 1}));
     EXPECT_NEAR(d.mean, 1.0, 1e-9);
     EXPECT_NEAR(d.relativeMse, 5.0 / 3.0 / 1.01, 1e-9);
@@ -108,58 +108,60 @@ TEST(Compare, GreyIsTheColorWithThreeEqualChannels) {
     }
 }
 
-// As the FLIP test has it: display values are decoded first.
+// Display values are decoded to linear first.
 TEST(Compare, FlipOfDisplayPicturesIsThatOfTheirLinearColors) {
     const float a = linearToSrgb(labToLinear({42.0F, 0.0F, 0.0F}).x);
     const float b = linearToSrgb(labToLinear({50.0F, 0.0F, 0.0F}).x);
     EXPECT_NEAR(difference(grey(2, {a, a}), grey(2, {b, b}), ImageKind::display).flip, 0.24668, 1e-4);
 }
 
-TEST(Compare, OnlyWhatTheMaskLeavesCountsButTheFlipImageIsWhole) {
+TEST(Compare, OnlyTheMasksPixelsCountButTheFlipImageIsComplete) {
     const FloatImage picture = grey(4, {0, 5, 0, 1});
-    const FloatImage truth = grey(4, {0, 1, 0, 2});
+    const FloatImage reference = grey(4, {0, 1, 0, 2});
     CompareOptions options;
     options.mask = {true, false, false, true};
-    const Comparison masked = compareImages(picture, truth, options);
+    const Comparison masked = compareImages(picture, reference, options);
     EXPECT_EQ(masked.difference.pixels, 2U);
     EXPECT_EQ(masked.difference.max, 1.0);
     EXPECT_EQ(masked.difference.mean, 0.5);
     options.mask.clear();
-    const Comparison whole = compareImages(picture, truth, options);
+    const Comparison whole = compareImages(picture, reference, options);
     EXPECT_EQ(whole.flip.data, masked.flip.data);
     EXPECT_NEAR(masked.difference.flip, (whole.flip.data[0] + whole.flip.data[3]) / 2.0, 1e-7);
 }
 
 TEST(Compare, PicturesOfDifferentSizesOrChannelsAreNamed) {
     CompareOptions options;
-    options.pictureName = "a.exr";
+    options.imageName = "a.exr";
     EXPECT_EQ(complaint(grey(2, {0, 0}), grey(1, {0, 0}), options),
-              "a.exr is 2x1, but the truth is 1x2: only pictures of one size can be compared");
+              "a.exr is 2x1, but the reference is 1x2: only images of the same size can be compared");
     EXPECT_EQ(complaint(grey(1, {0}), colors(1, {0, 0, 0}), options),
-              "a.exr has the channels Y, but the truth has R, G, B: only as many can be compared");
+              "a.exr has the channels Y, but the reference has R, G, B: only images with the same number of channels "
+              "can be compared");
     const FloatImage two{1, 1, {"X", "Y"}, {0, 0}};
-    EXPECT_EQ(complaint(two, two, options), "a.exr has the channels X, Y: only 1 or 3 can be compared");
+    EXPECT_EQ(complaint(two, two, options),
+              "a.exr has the channels X, Y: only images with 1 or 3 channels can be compared");
     EXPECT_EQ(complaint(grey(1, {}), grey(1, {}), options), "a.exr has no pixels");
 }
 
-TEST(Compare, NanAndInfinityAreToldWithTheirPlace) {
+TEST(Compare, NanAndInfinityAreReportedWithTheirLocation) {
     const FloatImage good = colors(2, std::vector<float>(12, 1.0F));
     FloatImage bad = good;
     bad.data[3 * 3 + 1] = nan;
-    EXPECT_EQ(complaint(bad, good), "the picture: NaN at pixel (1, 1), channel G");
-    EXPECT_EQ(complaint(good, bad), "the truth: NaN at pixel (1, 1), channel G");
+    EXPECT_EQ(complaint(bad, good), "the image: NaN at pixel (1, 1), channel G");
+    EXPECT_EQ(complaint(good, bad), "the reference: NaN at pixel (1, 1), channel G");
     bad.data[2] = -infinity;
     bad.data[5] = infinity;
     EXPECT_EQ(complaint(good, bad),
-              "the truth: infinity at pixel (0, 0), channel B, and 2 more that are NaN or infinity");
+              "the reference: infinity at pixel (0, 0), channel B, and 2 more that are NaN or infinity");
 }
 
 TEST(Compare, AMaskOfTheWrongSizeOrWithNothingInItIsAnError) {
     CompareOptions options;
     options.mask = {true};
-    EXPECT_EQ(complaint(grey(2, {0, 0}), grey(2, {0, 0}), options), "the mask has 1 pixels, but the pictures have 2");
+    EXPECT_EQ(complaint(grey(2, {0, 0}), grey(2, {0, 0}), options), "the mask has 1 pixels, but the images have 2");
     options.mask = {false, false};
-    EXPECT_EQ(complaint(grey(2, {0, 0}), grey(2, {0, 0}), options), "the mask leaves no pixel to compare");
+    EXPECT_EQ(complaint(grey(2, {0, 0}), grey(2, {0, 0}), options), "the mask leaves no pixels to compare");
 }
 
 TEST(Compare, PixelsPerDegreeHaveARange) {
@@ -211,7 +213,7 @@ TEST(HeatMap, GetsLighterAndChangesColorByEqualSteps) {
     }
 }
 
-TEST(HeatMap, OfWhatIsOutsideOfZeroToOneIsThatOfTheLimit) {
+TEST(HeatMap, ClampsValuesOutsideOfZeroToOne) {
     const Bitmap map = heatMap({4, 1, {"Y"}, {-1.0F, 0.0F, 1.0F, 7.0F}});
     EXPECT_EQ(labOf(map, 0), labOf(map, 1));
     EXPECT_EQ(labOf(map, 2), labOf(map, 3));

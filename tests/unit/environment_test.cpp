@@ -1,4 +1,4 @@
-// Environment images: which direction is where in the picture, and what a file must hold.
+// Environment images: mapping of directions to texels, and validation of files.
 #include "scene/environment.h"
 
 #include "base/error.h"
@@ -45,7 +45,7 @@ TEST(EnvironmentUv, LooksAlongMinusZAtThePicturesCentre) {
     EXPECT_LT(environmentUv({-1e-4F, 0, 1}, 0).x, 0.001F);
     EXPECT_EQ(environmentUv({0, 1, 0}, 0).y, 0.0F);
     EXPECT_EQ(environmentUv({0, -1, 0}, 0).y, 1.0F);
-    expectUv(environmentUv({0, 3, -3}, 0), 0.5F, 0.25F);  // of any length
+    expectUv(environmentUv({0, 3, -3}, 0), 0.5F, 0.25F);  // any length
 }
 
 TEST(EnvironmentUv, TurnsCounterClockwiseFromAboveWithTheRotation) {
@@ -59,7 +59,7 @@ TEST(EnvironmentUv, TurnsCounterClockwiseFromAboveWithTheRotation) {
     expectUv(environmentUv(inWorld, 0.8F), expected.x, expected.y);
 }
 
-TEST(EnvironmentUv, IsUndoneByEnvironmentDirection) {
+TEST(EnvironmentUv, IsInvertedByEnvironmentDirection) {
     for (const float rotation : {0.0F, 1.0F, -2.0F * pi, 5.5F}) {
         for (int column = 0; column < 15; ++column) {
             for (int row = 0; row < 15; ++row) {
@@ -105,7 +105,7 @@ TEST(EnvironmentRadiance, IsThatOfTheTexelTimesTheIntensity) {
     }
 }
 
-// The solid angles that environment.h promises, against counting directions that are evenly spread.
+// The solid angles documented in environment.h, against counts of evenly distributed directions.
 TEST(EnvironmentRadiance, SeesEachTexelInTheSolidAngleThatIsStated) {
     const Environment environment = numbered(8, 4);
     constexpr int count = 200000;
@@ -182,12 +182,13 @@ TEST_F(EnvironmentFile, MayBeExrWithMoreThanColours) {
 }
 
 TEST_F(EnvironmentFile, WithoutColoursIsAnError) {
-    EXPECT_EQ(errorOf(writeLayer("", {"R", "B"}, {1, 2})),
-              at("sky.exr").string() + ": cannot be an environment: it has no channel 'G' outside of named layers");
+    EXPECT_EQ(
+        errorOf(writeLayer("", {"R", "B"}, {1, 2})),
+        at("sky.exr").string() + ": cannot be used as an environment: it has no channel 'G' in its unnamed layer");
     EXPECT_NE(errorOf(writeLayer("sky", {"R", "G", "B"}, {1, 2, 3})).find("no channel 'R'"), std::string::npos);
 }
 
-TEST_F(EnvironmentFile, WithAValueThatIsNoRadianceIsAnErrorWithItsPlace) {
+TEST_F(EnvironmentFile, WithAnInvalidRadianceIsAnErrorWithItsLocation) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     for (const auto& [value, shown] :
          {std::pair{std::nanf(""), "nan"}, {infinity, "inf"}, {-0.5F, "-0.5"}, {2e12F, "2e+12"}}) {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""FLIP and HDR-FLIP as the papers define them, slowly: two-dimensional filters, double precision, one pixel at a time.
+"""A slow reference implementation of FLIP and HDR-FLIP: two-dimensional filters, double precision, pixel by pixel.
 
 The numbers in flip_test.cpp, AgreesWithTheDefinition..., are what this prints. It shares nothing with src/compare but
 the papers. Needs Python 3 alone and takes a few seconds.
@@ -128,10 +128,10 @@ def tone(x):
     return min(max((2.51 * x * x + 0.03 * x) / (2.43 * x * x + 0.59 * x + 0.14), 0), 1)
 
 
-def hdr_flip(picture, truth):
+def hdr_flip(picture, reference):
     a, b, c = 0.85 * 2.43 - 2.51, 0.85 * 0.59 - 0.03, 0.85 * 0.14
     bright = (-b - sqrt(b * b - 4 * a * c)) / (2 * a) / 0.6
-    luminances = sorted(times(TO_XYZ, p)[1] for row in truth for p in row)
+    luminances = sorted(times(TO_XYZ, p)[1] for row in reference for p in row)
     middle = len(luminances) // 2
     start = log2(bright / luminances[-1])
     stop = log2(bright / (0.5 * (luminances[middle - 1] + luminances[middle])))
@@ -140,7 +140,7 @@ def hdr_flip(picture, truth):
     for i in range(count):
         factor = 2 ** (start + (stop - start) * i / (count - 1))
         flips.append(flip(*[[[[tone(factor * v) for v in p] for p in row] for row in image]
-                            for image in (picture, truth)]))
+                            for image in (picture, reference)]))
     print(f"HDR: start {start:.6f} stop {stop:.6f} count {count}")
     return [max(values) for values in zip(*flips)]
 

@@ -1,4 +1,4 @@
-// Broken glTF containers, and files that are more than one broken value: each gets one line.
+// Invalid glTF containers and files: each is reported in one line.
 #include "base/error.h"
 #include "gltf_builder.h"
 #include "scene/gltf_report.h"
@@ -24,7 +24,7 @@ std::ostream& operator<<(std::ostream& stream, const BrokenBytes& broken) {
 
 class BrokenGltfBytes : public ::testing::TestWithParam<BrokenBytes> {};
 
-TEST_P(BrokenGltfBytes, AreToldInOneLine) {
+TEST_P(BrokenGltfBytes, AreReportedInOneLine) {
     const auto path = testFolder() / "scene.gltf";
     writeBytes(path, GetParam().bytes);
     const std::string message = complaint(path);
@@ -45,21 +45,21 @@ INSTANTIATE_TEST_SUITE_P(
     Container, BrokenGltfBytes,
     ::testing::Values(BrokenBytes{"Empty", "", "is empty"},
                       BrokenBytes{"DocumentIsAnArray", "[]", "JSON: is an array, not an object"},
-                      BrokenBytes{"NotJson", "hello\n<world>", "JSON: is not JSON at line 1, byte 1 of 13"},
-                      BrokenBytes{"CutOff", R"({"asset":)", "JSON: is not JSON at line 1"},
-                      BrokenBytes{"NanLiteral", R"({"asset":{"version":NaN}})", "JSON: is not JSON"},
+                      BrokenBytes{"NotJson", "hello\n<world>", "JSON: is not valid JSON at line 1, byte 1 of 13"},
+                      BrokenBytes{"CutOff", R"({"asset":)", "JSON: is not valid JSON at line 1"},
+                      BrokenBytes{"NanLiteral", R"({"asset":{"version":NaN}})", "JSON: is not valid JSON"},
                       BrokenBytes{"NumberOverflow", R"({"asset":{"version":1e999}})", "JSON: "},
-                      BrokenBytes{"BadUtf8", "{\"a\":\"\xFF\xFE\"}", "JSON: is not JSON"},
-                      BrokenBytes{"DeepArrays", std::string(1000000, '['), "JSON: is nested more than 128 deep"},
-                      BrokenBytes{"GlbHeaderOnly", "glTF\2", "GLB header: is cut off"},
+                      BrokenBytes{"BadUtf8", "{\"a\":\"\xFF\xFE\"}", "JSON: is not valid JSON"},
+                      BrokenBytes{"DeepArrays", std::string(1000000, '['), "JSON: is nested more than 128 levels deep"},
+                      BrokenBytes{"GlbHeaderOnly", "glTF\2", "GLB header: is truncated"},
                       BrokenBytes{"GlbVersion1", glbWith(4, 1), "GLB header: says version 1"},
                       BrokenBytes{"GlbLength", glbWith(11, 1), "GLB header: says the file has "},
                       BrokenBytes{"GlbFirstChunkLength", glbWith(15, 1), "GLB chunk: at byte 12 says it has "},
                       BrokenBytes{"GlbFirstChunkType", glbWith(16, 'X'), "GLB chunk: the first one is not JSON"},
-                      BrokenBytes{"GlbMagic", glbWith(0, 'X'), "JSON: is not JSON"}),
+                      BrokenBytes{"GlbMagic", glbWith(0, 'X'), "JSON: is not valid JSON"}),
     bytesName);
 
-TEST(BrokenGltfFile, AMissingFileAndAFolderAreTold) {
+TEST(BrokenGltfFile, AMissingFileAndAFolderAreErrors) {
     const auto folder = testFolder();
     EXPECT_EQ(complaint(folder / "gone.gltf").rfind("there is no file", 0), 0U);
     EXPECT_NE(complaint(folder).find("is not a file"), std::string::npos);
@@ -76,7 +76,7 @@ TEST(BrokenGltfFile, ASymbolicLinkOutOfTheFolderIsRefused) {
     EXPECT_EQ(complaint(path), "images[0].uri: link.png leads out of the scene's folder");
 }
 
-TEST(BrokenGltfFile, AShortBufferFileIsTold) {
+TEST(BrokenGltfFile, ATruncatedBufferFileIsAnError) {
     const auto folder = testFolder();
     GltfBuilder b = triangle();
     writeBytes(folder / "short.bin", "1234567890");
@@ -104,13 +104,13 @@ TEST(BrokenGltfFile, AChainOfAHundredThousandNodesIsPlaced) {
     EXPECT_EQ(vec3(scene.instances[1].objectToWorld[3]), vec3(99999, 0, 0));
 }
 
-TEST(BrokenGltfFile, ASceneThatIsNotThereIsAUsageErrorThatSaysHowManyThereAre) {
+TEST(BrokenGltfFile, ASceneOutOfRangeIsAUsageErrorThatSaysHowManyThereAre) {
     const auto path = triangle().writeGltf(testFolder() / "scene.gltf");
     try {
         loadGltf(path, {.scene = 3, .warn = nullptr});
         FAIL();
     } catch (const UsageError& error) {
-        EXPECT_EQ(error.what(), path.string() + ": there is no scene 3: it has 1 scene, counted from 0");
+        EXPECT_EQ(error.what(), path.string() + ": there is no scene 3: the file has 1 scene, numbered from 0");
     }
 }
 

@@ -1,4 +1,4 @@
-// Broken glTF files: each gets one line that names the file and the part of it that is broken.
+// Invalid glTF documents: each is reported in one line that names the file and the invalid part.
 #include "gltf_builder.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ using nlohmann::json;
 struct BrokenCase {
     const char* name;
     std::function<void(GltfBuilder&)> breakIt;
-    const char* starts;  ///< how the complaint starts: the part
+    const char* starts;  ///< how the message starts: the part
     const char* says = "";
 };
 
@@ -44,7 +44,7 @@ BrokenCase poke(const char* name, size_t view, size_t element, T value, const ch
 
 class BrokenGltf : public ::testing::TestWithParam<BrokenCase> {};
 
-TEST_P(BrokenGltf, IsToldInOneLineThatNamesTheBrokenPart) {
+TEST_P(BrokenGltf, IsReportedInOneLineThatNamesTheInvalidPart) {
     GltfBuilder b = everything();
     GetParam().breakIt(b);
     const auto folder = testFolder();
@@ -145,7 +145,7 @@ INSTANTIATE_TEST_SUITE_P(
                    [](GltfBuilder& b) {
                        b.add("buffers", {{"byteLength", b.bin.size() + 100},
                                          {"uri", "data:application/octet-stream;base64," + base64(b.bin)}});
-                       b.document["bufferViews"][0]["byteLength"] = 1U << 30U;  // the .glb's complaint
+                       b.document["bufferViews"][0]["byteLength"] = 1U << 30U;  // reported by the .glb's reader
                    },
                    "buffer", ""}),
     caseName);
@@ -162,7 +162,7 @@ INSTANTIATE_TEST_SUITE_P(
             {{"bufferView", 1}, {"componentType", uintType}, {"type", "SCALAR"}, {"count", 3}, {"byteOffset", 8}},
             "accessors[3]: index 0 is 1065353216"),
         set("SevenIndices", "/accessors/3/count", 5, "meshes[0].primitives[0]: 5 indices do not make whole triangles"),
-        set("PositionsOfTwo", "/accessors/0/type", "VEC2", "accessors[0]: has 2 components, a POSITION has 3"),
+        set("PositionsOfTwo", "/accessors/0/type", "VEC2", "accessors[0]: has 2 components, but a POSITION has 3"),
         set("PositionsOfWords", "/accessors/0/componentType", uintType, "accessors[0].componentType: is 5125"),
         set("FloatIndices", "/meshes/0/primitives/0/indices", 2, "accessors[2].componentType: is 5126"),
         set("VectorIndices", "/accessors/3",
@@ -178,19 +178,19 @@ INSTANTIATE_TEST_SUITE_P(
     Nodes, BrokenGltf,
     ::testing::Values(
         set("Cycle", "/nodes/4/children", {3}, "nodes[3]: has two parents"),
-        set("RootInACycle", "/nodes/4/children", {0}, "nodes[0]: is, or hangs below, a node that is its own ancestor"),
+        set("RootInACycle", "/nodes/4/children", {0}, "nodes[0]: is in a cycle of nodes, or below one"),
         set("OwnChild", "/nodes/4/children", {4}, "nodes[4]: has two parents"),
         set("TwoParents", "/nodes/3/children", {4, 1}, "nodes[1]: has two parents"),
-        set("SceneNamesAChild", "/scenes/0/nodes", {0, 4}, "scenes[0].nodes: names nodes[4]", "child"),
-        set("SceneNamesTwice", "/scenes/0/nodes", {0, 0}, "scenes[0].nodes: names nodes[0]", "already"),
+        set("SceneNamesAChild", "/scenes/0/nodes", {0, 4}, "scenes[0].nodes: lists nodes[4]", "child"),
+        set("SceneNamesTwice", "/scenes/0/nodes", {0, 0}, "scenes[0].nodes: lists nodes[0]", "already"),
         set("ShortMatrix", "/nodes/1/matrix", {1, 0, 0}, "nodes[1].matrix: has 3 elements, not 16"),
         set("ProjectiveMatrix", "/nodes/1/matrix", {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
             "nodes[1].matrix: its last row"),
         set("HugeTranslation", "/nodes/0/translation", {1e300, 0, 0}, "nodes[0].translation[0]: is 1e+300"),
-        set("HugeProduct", "/nodes/0/scale", {1e38, 1e38, 3e38}, "nodes[4]: its place in the world is not finite"),
+        set("HugeProduct", "/nodes/0/scale", {1e38, 1e38, 3e38}, "nodes[4]: its transform to the world is not finite"),
         set("MeshAtInfinity", "/nodes/1", {{"mesh", 0}, {"scale", {3e38, 3e38, 3e38}}},
-            "nodes[1]: its mesh reaches past"),
-        set("NoRotation", "/nodes/2/rotation", {0, 0, 0, 0}, "nodes[2].rotation: is no rotation"),
+            "nodes[1]: its mesh extends beyond"),
+        set("NoRotation", "/nodes/2/rotation", {0, 0, 0, 0}, "nodes[2].rotation: is not a rotation"),
         set("NullScale", "/nodes/2/scale", {1, nullptr, 1}, "nodes[2].scale[1]: is null, not a number"),
         set("CameraType", "/cameras/0/type", "fisheye", "cameras[0].type: is \"fisheye\""),
         set("CameraWithoutItsObject", "/cameras/0/type", "orthographic", "cameras[0].orthographic: is missing"),
@@ -246,7 +246,7 @@ INSTANTIATE_TEST_SUITE_P(
         set("NewLine", "/images/0", {{"uri", "x\ny.png"}}, "images[0].uri: there is no file "),
         set("DataWithoutComma", "/images/0", {{"uri", "data:image/png;base64"}}, "images[0].uri: ", "without data"),
         set("DataNotBase64", "/images/0", {{"uri", "data:image/png;base64,iVBO*w0K"}}, "images[0].uri: character 4"),
-        set("DataCutOff", "/images/0", {{"uri", "data:image/png;base64,iVBOR"}}, "images[0].uri: ", "cut off")),
+        set("DataCutOff", "/images/0", {{"uri", "data:image/png;base64,iVBOR"}}, "images[0].uri: ", "truncated")),
     caseName);
 
 INSTANTIATE_TEST_SUITE_P(

@@ -1,4 +1,4 @@
-// Builds small glTF files for the tests, whole or with something broken in them.
+// Builds small glTF files for the tests, valid or invalid.
 #include "gltf_builder.h"
 
 #include "base/error.h"
@@ -176,15 +176,15 @@ GltfBuilder bent() {
     inverse[16 + 13] = -1.0F;  // the second joint was at y = 1
     b.add("skins", {{"joints", {1, 2}}, {"inverseBindMatrices", b.addFloats(inverse, "MAT4")}});
     b.document["nodes"][0]["skin"] = 0;
-    b.document["nodes"][0]["translation"] = {100, 0, 0};  // of no account
+    b.document["nodes"][0]["translation"] = {100, 0, 0};  // has no effect: only joints place a skinned mesh
     b.addRoot({{"name", "hip"}, {"children", {2}}});
-    b.add("nodes", {{"name", "knee"}, {"translation", {0, 1, 2}}});  // moved by 2 along z since it was bound
+    b.add("nodes", {{"name", "knee"}, {"translation", {0, 1, 2}}});  // moved by 2 along z from its bind pose
     return b;
 }
 
 namespace {
 
-/// mesh 0: a textured square with normals and uvs, and the same square with a sparse corner.
+/// mesh 0: a textured square with normals and uvs, and the same square with one vertex replaced by a sparse accessor.
 void addSquares(GltfBuilder& b) {
     const int positions = b.addFloats({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, "VEC3");
     const int normals = b.addFloats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
@@ -265,7 +265,7 @@ std::vector<uint8_t> dracoSquare() {
     draco::EncoderBuffer buffer;
     draco::Encoder encoder;
     if (!encoder.EncodeMeshToBuffer(*mesh, &buffer).ok()) {
-        throw std::runtime_error("Draco does not encode");
+        throw std::runtime_error("Draco cannot encode the mesh");
     }
     return {buffer.data(), buffer.data() + buffer.size()};
 }

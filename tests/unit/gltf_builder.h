@@ -1,4 +1,4 @@
-// Builds small glTF files for the tests, whole or with something broken in them.
+// Builds small glTF files for the tests, valid or invalid.
 #pragma once
 
 #include "scene/gltf.h"
@@ -14,7 +14,7 @@
 
 namespace reflet::test {
 
-/// An empty folder of the running test's own, below the test's temporary folder.
+/// An empty folder for the running test, below the temporary folder.
 std::filesystem::path testFolder();
 
 void writeBytes(const std::filesystem::path& path, std::string_view bytes);
@@ -30,7 +30,7 @@ constexpr int ushortType = 5123;
 constexpr int uintType = 5125;
 constexpr int floatType = 5126;
 
-/// A glTF document and its one buffer. Every function returns the index of what it adds.
+/// A glTF document and its only buffer. Functions that add something return its index.
 class GltfBuilder {
 public:
     GltfBuilder();
@@ -39,7 +39,7 @@ public:
     std::vector<uint8_t> bin;
 
     int add(const char* array, nlohmann::json element);
-    /// The bytes start at a multiple of four.
+    /// The bytes are aligned to four.
     int addView(const void* bytes, size_t size, int byteStride = 0);
     /// Tightly packed.
     template <class T>
@@ -57,7 +57,7 @@ public:
     int addRoot(nlohmann::json node);
     /// A mesh with this primitive, and a root node that shows it.
     int addPrimitive(nlohmann::json primitive);
-    /// A texture of its own, with a PNG of the colour in a buffer view.
+    /// A new texture, with a PNG of the colour in a buffer view.
     int addTexture(std::array<uint8_t, 4> color);
 
     /// Writes the file with its buffer as a data URI.
@@ -75,17 +75,18 @@ GltfBuilder triangle();
 /// A triangle whose node moves from x = 0 to 4 in 2 s.
 GltfBuilder slider();
 
-/// A triangle with a skin: of its third corner three quarters hang from a second joint, which is one metre up, and has
-/// moved by 2 along z since it was bound.
+/// A skinned triangle: its third vertex follows a second joint with weight 0.75. That joint is one metre up, and moved
+/// by 2
+/// along z from its bind pose.
 GltfBuilder bent();
 
-/// A scene with one of everything that the loader reads; all of it is used.
+/// A scene that uses one of everything that the loader reads.
 GltfBuilder everything();
 
 /// A Draco mesh of two triangles on the square 0..1, with the attributes POSITION (unique id 0) and NORMAL (1).
 std::vector<uint8_t> dracoSquare();
 
-/// A scene together with the warnings it came with.
+/// A scene and the warnings of loading it.
 struct Loaded {
     Scene scene;
     std::vector<std::string> warnings;
@@ -95,7 +96,7 @@ Loaded load(const std::filesystem::path& path, int scene = -1);
 /// Writes the file as .gltf and loads it.
 Loaded load(GltfBuilder builder, int scene = -1);
 
-/// What loading complains about, after "FILE: "; empty if it does not. Expects one line that starts with the file.
+/// The loader's error message without "FILE: "; empty if there is none. Expects one line that starts with the file.
 std::string complaint(const std::filesystem::path& path);
 
 }  // namespace reflet::test

@@ -1,4 +1,4 @@
-// glTF primitives that are compressed with Draco.
+// Loading of glTF primitives compressed with Draco.
 #include "gltf_builder.h"
 
 #include <draco/compression/encode.h>
@@ -30,7 +30,7 @@ TEST(GltfDraco, ADracoMeshHasTheTrianglesAndNormalsThatWereEncoded) {
     }
 }
 
-/// One triangle with attributes of any type; every corner has the same value, but for the positions.
+/// One triangle with attributes of any type; all vertices have the same value, except for positions.
 class DracoTriangle {
 public:
     DracoTriangle() {

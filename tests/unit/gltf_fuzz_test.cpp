@@ -1,4 +1,4 @@
-// Damaged glTF files by the thousand: loading returns a scene or throws Error, and the scene is sound.
+// Fuzzing: loading thousands of damaged glTF files returns a valid scene or throws Error.
 #include "base/error.h"
 #include "gltf_builder.h"
 #include "scene/pose.h"
@@ -72,7 +72,7 @@ TEST(GltfFuzz, AGltfThatIsCutOffAnywhereIsAnError) {
     }
 }
 
-/// Changes one to four bytes, by a bit, to anything, or to a digit.
+/// Changes one to four bytes: flips a bit, or sets a random byte or digit.
 std::string damaged(std::string bytes, std::mt19937& random) {
     const unsigned changes = 1 + random() % 4;
     for (unsigned i = 0; i < changes; ++i) {
@@ -100,11 +100,11 @@ TEST(GltfFuzz, DamagedBytesNeverDoMoreThanThrow) {
         for (int i = 0; i < 2000; ++i) {
             loaded += survives(folder / "scene.gltf", damaged(whole, random)) ? 1 : 0;
         }
-        EXPECT_GT(loaded, 10);  // the damage is not always fatal, so it is not always found by the first check
+        EXPECT_GT(loaded, 10);  // not always fatal: otherwise only the first check would be tested
     }
 }
 
-/// Replaces one number of the document: what a random byte seldom does.
+/// Replaces one number of the document, which random bytes rarely do.
 TEST(GltfFuzz, NumbersThatAreReplacedNeverDoMoreThanThrow) {
     using nlohmann::json;
     const std::array<json, 12> values{0, 1, 2, 3, -1, 255, 256, 65535, 5121, 1e30, 4294967295U, 18446744073709551615U};

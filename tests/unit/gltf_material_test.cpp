@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-/// The triangle with this material.
+/// A triangle with this material.
 GltfBuilder withMaterial(const json& material) {
     GltfBuilder b = triangle();
     b.document["meshes"][0]["primitives"][0]["material"] = b.add("materials", material);
@@ -66,7 +66,8 @@ TEST(GltfMaterial, MaskHasItsCutoffAndBlendIsDrawnAsMaskWithOneWarning) {
     ASSERT_EQ(loaded.scene.materials.size(), 2U);
     EXPECT_EQ(loaded.scene.materials[1].alphaCutoff, 0.5F);
     ASSERT_EQ(loaded.warnings.size(), 1U);
-    EXPECT_NE(loaded.warnings[0].find("materials[0].alphaMode: BLEND is drawn as MASK"), std::string::npos);
+    EXPECT_NE(loaded.warnings[0].find("materials[0].alphaMode: blended surfaces will be drawn with an alpha cutoff"),
+              std::string::npos);
 }
 
 TEST(GltfMaterial, EverySlotHasItsTextureItsUvSetAndItsFactor) {
@@ -121,7 +122,7 @@ vec2 apply(const TextureSlot& slot, vec2 uv) {
 
 TEST(GltfMaterial, TheTextureTransformScalesThenTurnsThenMoves) {
     EXPECT_EQ(apply(transformed({{"offset", {0.5, 0.25}}, {"scale", {2, 3}}}), {1, 1}), vec2(2.5, 3.25));
-    // The extension's own example: a quarter turn that shows the lower left quarter of the image.
+    // The example of the extension's specification: a quarter turn that shows the lower left quarter of the image.
     const TextureSlot slot = transformed({{"offset", {0, 1}}, {"rotation", 1.57079632679}, {"scale", {0.5, 0.5}}});
     EXPECT_NEAR(glm::distance(apply(slot, {0, 0}), vec2(0, 1)), 0, 1e-6);
     EXPECT_NEAR(glm::distance(apply(slot, {1, 0}), vec2(0, 0.5)), 0, 1e-6);
@@ -194,10 +195,11 @@ TEST(GltfMaterial, ATextureWithoutAnImageIsLeftOutWithAWarning) {
     const Loaded loaded = load(withBaseColor(std::move(b), {{"index", texture}}));
     EXPECT_LT(loaded.scene.materials[0].baseColorTexture.image, 0);
     ASSERT_EQ(loaded.warnings.size(), 1U);
-    EXPECT_NE(loaded.warnings[0].find("textures[0]: has no image"), std::string::npos);
+    EXPECT_NE(loaded.warnings[0].find("textures[0]: the texture will be ignored: it has no source image"),
+              std::string::npos);
 }
 
-/// Loads the triangle with an image of this URI beside the files that `prepare` writes.
+/// Loads a triangle with an image of this URI, next to the files that `prepare` writes.
 Image imageFrom(const std::string& uri, const std::function<void(const std::filesystem::path&)>& prepare) {
     const auto folder = testFolder();
     prepare(folder);

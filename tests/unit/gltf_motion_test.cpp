@@ -1,4 +1,4 @@
-// Animations and skins of glTF files: what is read of them, and what is wrong with broken ones.
+// Animations and skins of glTF files: what is loaded, and the errors of invalid ones.
 #include "gltf_builder.h"
 #include "scene/pose.h"
 
@@ -39,7 +39,7 @@ TEST(GltfMotion, IntegersAndSplinesAreReadAsTheSpecificationHasThem) {
     animation["channels"].push_back({{"sampler", 1}, {"target", {{"node", 0}, {"path", "rotation"}}}});
     animation["channels"].push_back({{"sampler", 2}, {"target", {{"node", 0}, {"path", "scale"}}}});
     const mat4 m = scenePose(load(std::move(b)).scene, 1.0).objectToWorld[0];
-    EXPECT_NEAR(m[0].y, 3.0F, 1e-4F);  // x has become y, three times as long
+    EXPECT_NEAR(m[0].y, 3.0F, 1e-4F);  // +X became +Y, scaled by 3
     EXPECT_NEAR(m[3].x, 2.0F, 1e-6F);
 }
 
@@ -47,26 +47,26 @@ TEST(GltfMotion, ASkinPutsVerticesWhereItsJointsAre) {
     const Loaded loaded = load(bent());
     EXPECT_TRUE(loaded.warnings.empty());
     const Scene& scene = loaded.scene;
-    EXPECT_EQ(scene.meshes[0].skin[0].joints[1], 0) << "a joint of weight 0 names nothing";
+    EXPECT_EQ(scene.meshes[0].skin[0].joints[1], 0) << "a joint of weight 0 is ignored";
     const auto positions = worldPositions(scene, scenePose(scene, 0.0), 0);
     EXPECT_EQ(positions[0], vec3(0, 0, 0));
     EXPECT_EQ(positions[1], vec3(1, 0, 0));
     EXPECT_EQ(positions[2], vec3(0, 1, 1.5F)) << "three quarters of 2";
     EXPECT_FALSE(scene.bounds().empty());
-    EXPECT_EQ(scene.bounds().max.z, 2.0F) << "not where the mesh's node is";
+    EXPECT_EQ(scene.bounds().max.z, 2.0F) << "the mesh's node has no effect";
 }
 
-TEST(GltfMotion, WhatIsNotReadIsWarnedOf) {
+TEST(GltfMotion, UnsupportedFeaturesAreWarnedOf) {
     GltfBuilder b = slider();
     b.document["animations"][0]["channels"][0]["target"]["path"] = "pointer";
     Loaded loaded = load(b);
     ASSERT_EQ(loaded.warnings.size(), 1U);
-    EXPECT_NE(loaded.warnings[0].find("pointer is not known"), std::string::npos);
+    EXPECT_NE(loaded.warnings[0].find("the channel will be ignored: pointer is not supported"), std::string::npos);
     b.document["animations"][0]["channels"][0]["target"]["path"] = "translation";
     b.document["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 0, 0, 1};
     loaded = load(b);
     ASSERT_EQ(loaded.warnings.size(), 1U);
-    EXPECT_NE(loaded.warnings[0].find("has a matrix"), std::string::npos);
+    EXPECT_NE(loaded.warnings[0].find("will not be animated: it has a matrix"), std::string::npos);
     EXPECT_EQ(vec3(scenePose(loaded.scene, 1.0).objectToWorld[0][3]), vec3(5, 0, 0));
     b = bent();
     b.document["meshes"][0]["primitives"][0]["attributes"]["JOINTS_1"] = 0;
@@ -86,7 +86,7 @@ std::string complaintOf(GltfBuilder b, const std::string& pointer, const json& v
     return complaint(b.writeGltf(testFolder() / "a.gltf"));
 }
 
-TEST(GltfMotion, BrokenAnimationsAndSkinsAreToldOf) {
+TEST(GltfMotion, InvalidAnimationsAndSkinsAreErrors) {
     const auto starts = [](const std::string& message, const std::string& start) {
         EXPECT_EQ(message.rfind(start, 0), 0U) << message;
     };
@@ -98,17 +98,18 @@ TEST(GltfMotion, BrokenAnimationsAndSkinsAreToldOf) {
     starts(complaintOf(s, "/animations/0/samplers/0/interpolation", "SMOOTH"),
            "animations[0].samplers[0].interpolation: is \"SMOOTH\"");
     starts(complaintOf(s, "/animations/0/samplers/0/interpolation", "CUBICSPLINE"),
-           "accessors[2]: has 2 elements for 2");
-    starts(complaintOf(s, "/animations/0/samplers/0/input", 2), "accessors[2]: holds no times");
+           "accessors[2]: has 2 elements for 2 keyframes");
+    starts(complaintOf(s, "/animations/0/samplers/0/input", 2), "accessors[2]: must hold the keyframes' times");
     starts(complaintOf(s, "/animations/0/channels/0/target/path", "rotation"), "accessors[2]: has 3 components");
     GltfBuilder back = slider();
     back.document["animations"][0]["samplers"][0]["input"] = back.addFloats({1, 1}, "SCALAR");
-    starts(complaint(back.writeGltf(testFolder() / "a.gltf")), "accessors[3]: time 1 is not after");
+    starts(complaint(back.writeGltf(testFolder() / "a.gltf")), "accessors[3]: time 1 is not later than");
     const GltfBuilder k = bent();
     starts(complaintOf(k, "/skins/0/joints", {1, 7}), "skins[0].joints[1]: is 7, but there are 3 nodes");
-    starts(complaintOf(k, "/skins/0/joints", json::array()), "skins[0].joints: are none");
+    starts(complaintOf(k, "/skins/0/joints", json::array()), "skins[0].joints: is empty");
     starts(complaintOf(k, "/skins/0/joints", {1, 2, 0}), "skins[0].inverseBindMatrices: has 2 matrices for 3 joints");
-    starts(complaintOf(k, "/skins/0/inverseBindMatrices", 0), "skins[0].inverseBindMatrices: is no accessor of MAT4");
+    starts(complaintOf(k, "/skins/0/inverseBindMatrices", 0),
+           "skins[0].inverseBindMatrices: is not an accessor of MAT4");
     starts(complaintOf(k, "/skins/0/joints", {1}), "nodes[0].skin: its mesh names joint 1, but there are 1");
 }
 

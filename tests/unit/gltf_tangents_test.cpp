@@ -1,4 +1,4 @@
-// Tangents that the glTF loader makes for normal maps.
+// Tangents that the glTF loader computes for normal maps.
 #include "gltf_builder.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ void expectTangents(const Mesh& mesh, const vec4& expected) {
 }
 
 TEST(GltfTangents, FollowUAndTheirBitangentIsUpInTheImage) {
-    // The image upright: v grows downwards. cross(+Z, +X) = +Y is up in the image, so w = 1.
+    // The image is upright: v grows downwards. cross(+Z, +X) = +Y is up in the image, so w = 1.
     expectTangents(meshOf(square({0, 1, 1, 1, 1, 0, 0, 0})), vec4(1, 0, 0, 1));
 }
 
@@ -89,7 +89,7 @@ TEST(GltfTangents, AreUnitVectorsAtARightAngleWhereTheUvsHaveNoArea) {
 }
 
 TEST(GltfTangents, AreTheSameAcrossTrianglesThatShareNoIndex) {
-    // Two triangles that meet at an edge and stretch the image differently; flat normals part all their vertices.
+    // Two triangles that share an edge and stretch the image differently; flat normals split all their vertices.
     GltfBuilder b = square({0, 1, 1, 1, 1, 0, 0, 0.25F});
     b.document["meshes"][0]["primitives"][0]["attributes"].erase("NORMAL");
     const Mesh mesh = meshOf(std::move(b));

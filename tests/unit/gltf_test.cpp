@@ -1,4 +1,4 @@
-// glTF geometry: what of a file's accessors and primitives ends up in a mesh.
+// glTF geometry: from accessors and primitives to meshes.
 #include "gltf_builder.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ Mesh meshOf(GltfBuilder builder) {
     return loaded.scene.meshes.empty() ? Mesh{} : std::move(loaded.scene.meshes[0]);
 }
 
-/// Five vertices in a row along x, y = index squared: any three make a triangle with an area.
+/// Five vertices at x = index, y = index squared: any three make a non-degenerate triangle.
 std::vector<float> row() {
     return {0, 0, 0, 1, 1, 0, 2, 4, 0, 3, 9, 0, 4, 16, 0};
 }
@@ -79,7 +79,7 @@ TEST(Gltf, PointsAndLinesAreLeftOutWithOneWarning) {
     EXPECT_EQ(loaded.scene.meshes.size(), 1U);
     EXPECT_EQ(loaded.scene.instances.size(), 1U);
     ASSERT_EQ(loaded.warnings.size(), 1U);
-    EXPECT_NE(loaded.warnings[0].find("meshes[1].primitives[0].mode: points and lines are not drawn"),
+    EXPECT_NE(loaded.warnings[0].find("meshes[1].primitives[0].mode: points and lines will not be drawn"),
               std::string::npos);
 }
 
@@ -111,7 +111,7 @@ TEST(Gltf, AFewTrianglesOfALongListOfVerticesKeepOnlyTheirOwn) {
     EXPECT_EQ(mesh.indices, (Indices{3, 0, 2, 2, 0, 1}));
 }
 
-TEST(Gltf, MissingNormalsAreFlatAndSharedVerticesAreParted) {
+TEST(Gltf, MissingNormalsAreFlatAndSharedVerticesAreSplit) {
     GltfBuilder b;
     const int positions = b.addFloats({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, "VEC3");
     const int tangents = b.addFloats({0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1}, "VEC4");
@@ -140,10 +140,10 @@ TEST(Gltf, NormalsWithoutADirectionComeFromTheTrianglesAndNeverAreNan) {
     EXPECT_EQ(vertices[2].normal, vec3(0, 0.6F, 0.8F));
     EXPECT_EQ(vertices[3].normal, vec3(0, 1, 0));
     ASSERT_EQ(loaded.warnings.size(), 1U);
-    EXPECT_NE(loaded.warnings[0].find("3 vertices have none"), std::string::npos);
+    EXPECT_NE(loaded.warnings[0].find("3 vertices will get the normals of their triangles"), std::string::npos);
 }
 
-TEST(Gltf, ATriangleWithoutAreaHasAFlatNormalAllTheSame) {
+TEST(Gltf, ADegenerateTriangleHasAFlatNormal) {
     GltfBuilder b;
     b.addPrimitive({{"attributes", {{"POSITION", b.addFloats({1, 1, 1, 1, 1, 1, 2, 2, 2}, "VEC3")}}}});
     for (const VertexAttributes& vertex : meshOf(std::move(b)).attributes) {
@@ -279,7 +279,9 @@ TEST(Gltf, APrimitiveWithoutPositionsIsLeftOutWithAWarning) {
     const Loaded loaded = load(std::move(b));
     EXPECT_EQ(loaded.scene.meshes.size(), 1U);
     ASSERT_EQ(loaded.warnings.size(), 1U);
-    EXPECT_NE(loaded.warnings[0].find("meshes[0].primitives[1].attributes: has no POSITION"), std::string::npos);
+    EXPECT_NE(loaded.warnings[0].find(
+                  "meshes[0].primitives[1].attributes: the primitive will not be drawn: it has no POSITION"),
+              std::string::npos);
 }
 
 }  // namespace

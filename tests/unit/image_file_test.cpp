@@ -1,4 +1,4 @@
-// Files and pictures in files: round trips, atomic writing, errors that say what and why.
+// Files and image files: round trips, atomic writing, error messages.
 #include "base/image_file.h"
 
 #include "base/error.h"
@@ -57,7 +57,7 @@ std::string messageOf(const std::function<void()>& action) {
     return "no error";
 }
 
-/// Lets every file end at `bytes` while it lives, as a full disk does.
+/// Limits the size of written files during its lifetime, to simulate a full disk.
 class FileSizeLimit {
 public:
     explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -218,7 +218,7 @@ TEST_F(ImageFile, ARadianceFileGivesItsValues) {
     EXPECT_EQ(image.data, (std::vector<float>{1, 0.5F, 0, 8, 8, 8}));
 }
 
-TEST_F(ImageFile, AnythingElseIsNoRadianceFile) {
+TEST_F(ImageFile, AnythingElseIsNotARadianceFile) {
     writePng(at("x.png"), gradient(4, 4, 3));
     EXPECT_EQ(messageOf([&] { readHdr(at("x.png")); }), at("x.png").string() + ": is not a Radiance HDR image");
     writeFileAtomically(at("x.hdr"), "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 100 +X 100\n\x02\x02");

@@ -1,4 +1,4 @@
-// JSON files read strictly.
+// Strict reading of JSON files.
 #include "base/json.h"
 
 #include "base/error.h"
@@ -24,7 +24,7 @@ std::string messageOf(const std::function<void()>& action) {
     return "no error";
 }
 
-/// What parseJsonFile says of a file of this content, from after the file's name.
+/// The error message of parseJsonFile for this content, without the file's name.
 std::string parseErrorOf(const std::string& content) {
     const auto path = std::filesystem::path(::testing::TempDir()) / "reflet_json_test.json";
     writeFileAtomically(path, content);
@@ -64,7 +64,7 @@ TEST(JsonNode, SaysWhereInTheFileItStands) {
     EXPECT_EQ(messageOf([&] { root.complain("is wrong"); }), "f.json: is wrong");
 }
 
-TEST(JsonNode, OnAnyJsonTheTypedReadersAnswerOrComplain) {
+TEST(JsonNode, OnAnyJsonTheTypedReadersReturnOrThrow) {
     for (const char* text : {"null", "true", "1", "\"x\"", "[]", "[1,2]", "{}", "{\"x\":1}"}) {
         const auto json = parseJson(text);
         const JsonNode node(json, "f.json");

@@ -1,4 +1,4 @@
-// Where animated things are: key frames, nodes and skins against closed forms.
+// Animation: keyframes, nodes and skins against closed forms.
 #include "scene/pose.h"
 
 #include "scene/builtin.h"
@@ -50,7 +50,7 @@ TEST(SampleChannel, AStepHoldsEachKeyUntilTheNext) {
     EXPECT_EQ(sampleChannel(c, 3.999), glm::dvec4(1, 1, 6, 0));
 }
 
-TEST(SampleChannel, ALineLeadsFromKeyToKeyAndIsExactAtThem) {
+TEST(SampleChannel, LinearInterpolationIsExactAtTheKeys) {
     const Channel c = moving(Interpolation::linear);
     EXPECT_EQ(sampleChannel(c, 1.0), glm::dvec4(0, 1, 2, 0));
     EXPECT_EQ(sampleChannel(c, 1.25), glm::dvec4(0.25, 1, 3, 0));
@@ -58,14 +58,14 @@ TEST(SampleChannel, ALineLeadsFromKeyToKeyAndIsExactAtThem) {
     EXPECT_EQ(sampleChannel(c, 3.0), glm::dvec4(2, 0.5, 3, 0));
 }
 
-TEST(SampleChannel, StandsStillBeforeTheFirstKeyAndAfterTheLast) {
+TEST(SampleChannel, IsConstantBeforeTheFirstKeyAndAfterTheLast) {
     for (const Interpolation i : {Interpolation::step, Interpolation::linear}) {
         EXPECT_EQ(sampleChannel(moving(i), 0.0), glm::dvec4(0, 1, 2, 0));
         EXPECT_EQ(sampleChannel(moving(i), 100.0), glm::dvec4(3, 0, 0, 0));
     }
 }
 
-TEST(SampleChannel, ASplineIsHermitesWithTangentsPerSecond) {
+TEST(SampleChannel, ASplineIsCubicHermiteWithTangentsPerSecond) {
     // From 0 at 1 s with a speed of 3/s to 5 at 3 s with a speed of -1/s.
     const Channel c = channelOf(Channel::Target::translation, Interpolation::cubicSpline, {1.0F, 3.0F},
                                 {vec4(9), vec4(0), vec4(3), vec4(-1), vec4(5), vec4(9)});
@@ -82,7 +82,7 @@ TEST(SampleChannel, ASplineIsHermitesWithTangentsPerSecond) {
     EXPECT_NEAR(speed, 3.0, 1e-4);
 }
 
-TEST(SampleChannel, RotationsTurnAtAnEvenSpeedTheShortWayRound) {
+TEST(SampleChannel, RotationsHaveConstantSpeedAlongTheShorterArc) {
     const auto rotation = [](const vec4& from, const vec4& to) {
         return channelOf(Channel::Target::rotation, Interpolation::linear, {0.0F, 1.0F}, {from, to});
     };
@@ -100,7 +100,7 @@ TEST(SampleChannel, ASplineOfRotationsIsAUnitQuaternion) {
     EXPECT_NEAR(glm::length(sampleChannel(c, 0.3)), 1.0, 1e-12);
 }
 
-/// A node that turns about z by 90 degrees in 1 s, at (2, 0, 0), scaled by 2; and one that hangs from it at (1, 0, 0).
+/// A node at (2, 0, 0), scaled by 2, that rotates about z by 90 degrees in 1 s; and a child at (1, 0, 0).
 Scene carousel() {
     Scene scene;
     scene.nodes.resize(3);
@@ -114,12 +114,12 @@ Scene carousel() {
     return scene;
 }
 
-TEST(ScenePose, ANodeIsScaledThenTurnedThenMovedAndThenAsItsParentIs) {
+TEST(ScenePose, ANodeIsScaledThenRotatedThenTranslatedThenTransformedByItsParent) {
     const ScenePose pose = scenePose(carousel(), 0.5);
     const float s = std::sqrt(0.5F);
     expectNear(vec3(pose.nodeToWorld[1] * vec4(0, 0, 0, 1)), {2 + 2 * s, 2 * s, 0});
     expectNear(vec3(pose.nodeToWorld[1] * vec4(1, 0, 0, 1)), {2 + 4 * s, 4 * s, 0});
-    EXPECT_EQ(pose.moving, (std::vector<bool>{true, true, false})) << "what hangs from it moves, too";
+    EXPECT_EQ(pose.moving, (std::vector<bool>{true, true, false})) << "its children move, too";
 }
 
 TEST(ScenePose, AllAnimationsPlayAndBeginAgainAtTheEndOfTheLongest) {
@@ -138,22 +138,22 @@ TEST(ScenePose, AllAnimationsPlayAndBeginAgainAtTheEndOfTheLongest) {
     EXPECT_EQ(scenePose(scene, 4.0).time, 0.0);
 }
 
-TEST(ScenePose, WhatDoesNotMoveStaysWhereItWasLoadedToTheBit) {
+TEST(ScenePose, WhatIsNotAnimatedKeepsItsTransformToTheBit) {
     Scene scene = carousel();
     const mat4 odd = glm::rotate(mat4(1.0F), 0.1F, vec3(1, 2, 3));
     scene.meshes.resize(1);
     scene.instances.push_back({"free", 0, odd});
-    scene.instances.push_back({"on a node that stands", 0, odd, 2});
-    scene.instances.push_back({"on one that moves", 0, odd, 1});
+    scene.instances.push_back({"on a static node", 0, odd, 2});
+    scene.instances.push_back({"on an animated one", 0, odd, 1});
     const ScenePose pose = scenePose(scene, 0.5);
     EXPECT_EQ(pose.objectToWorld[0], odd);
     EXPECT_EQ(pose.objectToWorld[1], odd);
     EXPECT_EQ(pose.objectToWorld[2], pose.nodeToWorld[1]);
-    EXPECT_FALSE(moves(pose, scene.instances[0]) || moves(pose, scene.instances[1]));
-    EXPECT_TRUE(moves(pose, scene.instances[2]));
+    EXPECT_FALSE(isAnimated(pose, scene.instances[0]) || isAnimated(pose, scene.instances[1]));
+    EXPECT_TRUE(isAnimated(pose, scene.instances[2]));
     Scene still;
     still.instances.push_back({"free", 0, odd});
-    EXPECT_EQ(scenePose(still, 12.0).time, 0.0) << "nothing ever moves";
+    EXPECT_EQ(scenePose(still, 12.0).time, 0.0) << "nothing is animated";
 }
 
 TEST(ScenePose, CamerasLampsAndTheSunMoveWithTheirNodes) {
@@ -172,7 +172,7 @@ TEST(ScenePose, CamerasLampsAndTheSunMoveWithTheirNodes) {
     scene.animations[0].channels[0].times = {0.0F, 0.5F};
     scene.animations[0].channels[0].values.push_back(scene.animations[0].channels[0].values[1]);
     scene.animations[0].channels[0].times.push_back(5.0F);
-    const View seen = posed(view, scene);  // turned by 90 degrees: -Z has become -X, +X has become -Z
+    const View seen = posed(view, scene);  // rotated by 90 degrees: -Z became -X, +X became -Z
     expectNear(seen.camera.position, {2, 0, -2});
     expectNear(glm::normalize(seen.camera.target - seen.camera.position), {-1, 0, 0});
     expectNear(seen.sun.direction, {-1, 0, 0});
@@ -180,11 +180,12 @@ TEST(ScenePose, CamerasLampsAndTheSunMoveWithTheirNodes) {
     expectNear(shining.position, {2, 0, -2});
     expectNear(shining.direction, {-1, 0, 0});
     view.camera.node = -1;
-    EXPECT_EQ(posed(view, scene).camera.position, view.camera.position) << "a camera of its own stays";
+    EXPECT_EQ(posed(view, scene).camera.position, view.camera.position) << "a camera without a node stays";
 }
 
-/// A bar along x of three vertices at 0, 1, 2: the first hangs from a joint at 0, the last from one at 1 that turns
-/// about z, the middle from both.
+/// A bar along x with three vertices at 0, 1, 2: the first follows a joint at 0, the last a joint at 1 that rotates
+/// about
+/// z, the middle one both.
 Scene bar() {
     Scene scene;
     scene.nodes.resize(2);
@@ -209,11 +210,11 @@ Scene bar() {
     return scene;
 }
 
-TEST(Skin, PutsEachVertexWhereItsJointsDoWhateverPlaceItsInstanceHas) {
+TEST(Skin, PlacesVerticesByTheirJointsRegardlessOfTheInstancesTransform) {
     const Scene scene = bar();
     const auto atStart = worldPositions(scene, scenePose(scene, 0.0), 0);
     for (size_t i = 0; i < 3; ++i) {
-        EXPECT_EQ(atStart[i], scene.meshes[0].positions[i]) << "as it was bound";
+        EXPECT_EQ(atStart[i], scene.meshes[0].positions[i]) << "the bind pose";
     }
     const auto bent = worldPositions(scene, scenePose(scene, 1.0), 0);
     expectNear(bent[0], {0, 0, 0});
@@ -238,12 +239,12 @@ TEST(Skin, NormalsTurnWithTheirJointsAndAFrozenSceneHoldsThem) {
     EXPECT_EQ(still.instances[0].objectToWorld, mat4(1.0F));
 }
 
-TEST(Skin, AJointThatMirrorsTurnsTrianglesAndTangentsOverButKeepsNormalsOutside) {
+TEST(Skin, AMirroringJointFlipsTrianglesAndTangentsButKeepsNormalsOutside) {
     Scene scene = bar();
     scene.nodes[0].scale = {1, 1, -1};
     scene.meshes[0].attributes[0].normal = {0, 0, 1};
     scene.meshes[0].attributes[0].tangent = {1, 0, 0, 1};
-    EXPECT_TRUE(turnsOver(scenePose(scene, 0.0).skins[0]));
+    EXPECT_TRUE(flipsWinding(scenePose(scene, 0.0).skins[0]));
     const Scene still = frozen(scene, 0.0);
     const Mesh& mesh = still.meshes.at(still.instances[0].mesh);
     EXPECT_EQ(mesh.indices, (std::vector<uint32_t>{0, 2, 1}));

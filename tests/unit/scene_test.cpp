@@ -1,4 +1,4 @@
-// The default view and the camera matrices: exact properties.
+// Exact properties of the default view and the camera matrices.
 #include "scene/scene.h"
 
 #include <gtest/gtest.h>
@@ -223,7 +223,7 @@ TEST(DefaultView, LightsASceneWithoutLightFromAboveAndBehindTheCamera) {
     }
 }
 
-TEST(DefaultView, AddsNoSunWhereALampOrTheEnvironmentLights) {
+TEST(DefaultView, AddsNoSunIfALampOrTheEnvironmentLightsTheScene) {
     Scene withLamp;
     withLamp.lamps.emplace_back();
     EXPECT_EQ(defaultView(withLamp).sun.irradiance, vec3(0));

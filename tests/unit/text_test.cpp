@@ -1,4 +1,4 @@
-// The name that was meant.
+// Suggestions for misspelled names.
 #include "base/text.h"
 
 #include <gtest/gtest.h>

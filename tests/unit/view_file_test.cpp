@@ -1,4 +1,4 @@
-// View files: what they change, and every way in which they can be wrong.
+// View files: their effects and their errors.
 #include "scene/view_file.h"
 
 #include "base/error.h"
@@ -18,7 +18,7 @@
 namespace reflet::view_file_test {
 namespace {
 
-/// Writes view files, applies them to a view, and gives error messages with the path shortened to "FILE".
+/// Writes view files, applies them to a view, and returns error messages with the path shortened to "FILE".
 class ViewFile : public ::testing::Test {
 public:
     ViewFile(const ViewFile&) = delete;
@@ -51,7 +51,7 @@ protected:
         return "no error";
     }
 
-    /// An environment image of one texel beside the view file, called reflet_view_file_sky.exr.
+    /// Writes an environment image of one texel next to the view file: reflet_view_file_sky.exr.
     void writeSky(const std::vector<float>& color) {
         sky_ = path_.parent_path() / "reflet_view_file_sky.exr";
         const ImageLayer layer{"", {1, 1, {"R", "G", "B"}, color}, PixelType::float32};
@@ -69,7 +69,7 @@ void expectNear(const vec3& a, const vec3& b) {
     EXPECT_LE(glm::length(a - b), 1e-6F) << a.x << ' ' << a.y << ' ' << a.z;
 }
 
-TEST_F(ViewFile, SetsEverythingThatItNames) {
+TEST_F(ViewFile, SetsEverythingItSpecifies) {
     apply(R"({ "camera": { "position": [6,1,0], "target": [0,0,0], "up": [0,2,0], "fov_y": 75, "near": 0.5 },
                "sun": { "direction": [0,-3,4], "irradiance": [3.14,0,1e3], "angular_diameter": 0.5 },
                "lamps": { "radius": 0.25 },
@@ -95,17 +95,17 @@ TEST_F(ViewFile, NamesProbes) {
     EXPECT_EQ(view_.probes->front().box.min, vec3(-1, 0, -2));
     EXPECT_EQ(view_.probes->front().box.max, vec3(1, 3, 2));
     apply("{}");
-    EXPECT_EQ(view_.probes->size(), 1U) << "what it does not name stays";
+    EXPECT_EQ(view_.probes->size(), 1U) << "unspecified values stay";
     apply(R"({"probes": []})");
     EXPECT_TRUE(view_.probes->empty());
 }
 
-TEST_F(ViewFile, WithAProbeThatCannotBeIsAnError) {
+TEST_F(ViewFile, WithAnInvalidProbeIsAnError) {
     EXPECT_EQ(errorOf(R"({"probes": {}})"), "FILE: probes: must be an array of probes, is {}");
     EXPECT_EQ(errorOf(R"({"probes": [{"position": [0,1,0], "box_min": [-1,0,-2]}]})"),
               "FILE: probes[0]: 'box_max' is missing");
     EXPECT_EQ(errorOf(R"({"probes": [{"position": [0,1,0], "box_min": [-1,0,-2], "box_max": [1,0,2]}]})"),
-              "FILE: probes[0].box_max: must be more than box_min in all three, is [1,0,2]");
+              "FILE: probes[0].box_max: must be more than box_min on every axis, is [1,0,2]");
     EXPECT_EQ(errorOf(R"({"probes": [{"position": [0,3,0], "box_min": [-1,0,-2], "box_max": [1,3,2]}]})"),
               "FILE: probes[0].position: must be inside the box, is [0,3,0]");
     EXPECT_EQ(errorOf(R"({"probes": [{"position": [0,1], "box_min": [-1,0,-2], "box_max": [1,3,2]}]})"),
@@ -116,7 +116,7 @@ TEST_F(ViewFile, WithAProbeThatCannotBeIsAnError) {
     for (int i = 0; i < 17; ++i) {
         many += std::string(i > 0 ? "," : "") + R"({"position": [0,1,0], "box_min": [-1,0,-2], "box_max": [1,3,2]})";
     }
-    EXPECT_EQ(errorOf(many + "]}"), "FILE: probes: must be at most 16 probes, are 17");
+    EXPECT_EQ(errorOf(many + "]}"), "FILE: probes: must have at most 16 probes, has 17");
     EXPECT_FALSE(view_.probes);
 }
 
@@ -129,7 +129,7 @@ TEST_F(ViewFile, NamesMirrors) {
     EXPECT_EQ(errorOf(R"({ "mirrors": [1] })"), "FILE: mirrors[0]: must be a name, is 1");
 }
 
-TEST_F(ViewFile, LeavesWhatItDoesNotName) {
+TEST_F(ViewFile, LeavesUnspecifiedValues) {
     view_.camera.position = {1, 2, 3};
     view_.sun.irradiance = vec3(7);
     view_.environment.radiance = vec3(8);
@@ -213,22 +213,22 @@ TEST_F(ViewFile, WithANumberOutOfRangeIsAnError) {
 
 TEST_F(ViewFile, WithADirectionOfZeroIsAnError) {
     EXPECT_EQ(errorOf(R"({"sun": {"direction": [0,0,0]}})"),
-              "FILE: sun.direction: must be a direction that is not zero, is [0,0,0]");
+              "FILE: sun.direction: must be a direction of non-zero length, is [0,0,0]");
     EXPECT_EQ(errorOf(R"({"camera": {"up": [0,0,0]}})"),
-              "FILE: camera.up: must be a direction that is not zero, is [0,0,0]");
+              "FILE: camera.up: must be a direction of non-zero length, is [0,0,0]");
 }
 
 TEST_F(ViewFile, WithPositionAndTargetTheSameIsAnError) {
-    const std::string expected = "FILE: camera: position and target are the same point; a view needs two";
+    const std::string expected = "FILE: camera: position and target must not be the same point";
     EXPECT_EQ(errorOf(R"({"camera": {"position": [1,2,3], "target": [1,2,3]}})"), expected);
-    EXPECT_EQ(errorOf(R"({"camera": {"position": [0,0,0]}})"), expected);  // the target that the view has
+    EXPECT_EQ(errorOf(R"({"camera": {"position": [0,0,0]}})"), expected);  // the view's current target
 }
 
 TEST_F(ViewFile, WithUpAlongTheViewIsAnError) {
     EXPECT_EQ(errorOf(R"({"camera": {"position": [0,5,0], "target": [0,0,0], "up": [0,1,0]}})"),
-              "FILE: camera.up: must be a direction across the view, not along it, is [0,1,0]");
+              "FILE: camera.up: must be a direction that is not parallel to the view, is [0,1,0]");
     EXPECT_EQ(errorOf(R"({"camera": {"position": [0,0,5], "target": [0,0,0], "up": [0,0,2]}})"),
-              "FILE: camera.up: must be a direction across the view, not along it, is [0,0,2]");
+              "FILE: camera.up: must be a direction that is not parallel to the view, is [0,0,2]");
 }
 
 TEST_F(ViewFile, CanLookStraightDownWithoutSayingWhereUpIs) {
@@ -251,12 +251,12 @@ TEST_F(ViewFile, ReadsAnEnvironmentImageFromItsOwnFolder) {
     EXPECT_FALSE(view_.environment.image);
 }
 
-TEST_F(ViewFile, WithALightOfItsOwnTakesAwayTheSunThatOnlyStandsIn) {
+TEST_F(ViewFile, WithALightRemovesTheDefaultSun) {
     const View unlit = defaultView(Scene{});
     ASSERT_NE(unlit.sun.irradiance, vec3(0.0F));
     view_ = unlit;
     apply(R"({ "environment": { "radiance": [0, 0, 0] } })");
-    EXPECT_EQ(view_.sun.irradiance, unlit.sun.irradiance) << "a black sky is no light";
+    EXPECT_EQ(view_.sun.irradiance, unlit.sun.irradiance) << "a black sky emits no light";
     apply(R"({ "environment": { "radiance": [0, 0, 1] } })");
     EXPECT_EQ(view_.sun.irradiance, vec3(0.0F));
     view_ = unlit;
@@ -270,7 +270,7 @@ TEST_F(ViewFile, WithALightOfItsOwnTakesAwayTheSunThatOnlyStandsIn) {
     EXPECT_EQ(view_.sun.irradiance, vec3(5.0F)) << "the scene's own";
 }
 
-TEST_F(ViewFile, WithAnEnvironmentImageThatIsNoneIsAnError) {
+TEST_F(ViewFile, WithAnInvalidEnvironmentImageIsAnError) {
     EXPECT_EQ(errorOf(R"({"environment": {"image": 1}})"),
               "FILE: environment.image: must be the name of an .hdr or .exr file, is 1");
     EXPECT_NE(errorOf(R"({"environment": {"image": "no/such/sky.hdr"}})").find("no/such/sky.hdr"), std::string::npos);
@@ -278,12 +278,13 @@ TEST_F(ViewFile, WithAnEnvironmentImageThatIsNoneIsAnError) {
 }
 
 TEST_F(ViewFile, WithAnEnvironmentImageAndARadianceIsAnError) {
-    EXPECT_EQ(errorOf(R"({"environment": {"image": "sky.hdr", "radiance": [1,1,1]}})"),
-              "FILE: environment.radiance: cannot be given together with an image; the image's factor is 'intensity'");
+    EXPECT_EQ(
+        errorOf(R"({"environment": {"image": "sky.hdr", "radiance": [1,1,1]}})"),
+        "FILE: environment.radiance: cannot be given together with an image; to scale the image, use 'intensity'");
 }
 
 TEST_F(ViewFile, WithAPropertyOfAnEnvironmentImageThatIsNotGivenIsAnError) {
-    const std::string expected = ": is a property of environment.image, which is not given";
+    const std::string expected = ": needs environment.image, which is not given";
     EXPECT_EQ(errorOf(R"({"environment": {"intensity": 2}})"), "FILE: environment.intensity" + expected);
     EXPECT_EQ(errorOf(R"({"environment": {"rotation": 0, "radiance": [0,0,0]}})"),
               "FILE: environment.rotation" + expected);
@@ -293,8 +294,9 @@ TEST_F(ViewFile, WithAnIntensityOrRotationOutOfRangeIsAnError) {
     writeSky({1e9F, 0.0F, 0.0F});
     EXPECT_EQ(errorOf(R"({"environment": {"image": "reflet_view_file_sky.exr", "intensity": -1}})"),
               "FILE: environment.intensity: must be between 0 and 1e+12, is -1");
-    EXPECT_EQ(errorOf(R"({"environment": {"image": "reflet_view_file_sky.exr", "intensity": 1e4}})"),
-              "FILE: environment.intensity: must be at most 1000, for the image has values up to 1e+09, is 10000.0");
+    EXPECT_EQ(
+        errorOf(R"({"environment": {"image": "reflet_view_file_sky.exr", "intensity": 1e4}})"),
+        "FILE: environment.intensity: must be at most 1000, because the image has values up to 1e+09, is 10000.0");
     EXPECT_EQ(errorOf(R"({"environment": {"image": "reflet_view_file_sky.exr", "rotation": 361}})"),
               "FILE: environment.rotation: must be between -360 and 360 degrees, is 361");
 }
@@ -311,7 +313,7 @@ TEST_F(ViewFile, CannotPutTheNearPlaneBehindTheFarPlaneOfAnOrthographicCamera) {
     view_.camera.orthographicHeight = 10.0F;
     view_.camera.far = 50.0F;
     EXPECT_EQ(errorOf(R"({"camera": {"near": 60}})"),
-              "FILE: camera.near: must be less than 50 metres, the scene's far plane, is 60");
+              "FILE: camera.near: must be less than 50 metres, the camera's far plane, is 60");
     apply(R"({"camera": {"near": 60, "fov_y": 40}})");
     EXPECT_EQ(view_.camera.near, 60.0F);
 }
@@ -322,12 +324,12 @@ TEST_F(ViewFile, ShowsNoLongValueAndNoSecondLineInItsErrors) {
     EXPECT_EQ(errorOf("{\"sun\": \"\xff\"}").find('\n'), std::string::npos);
 }
 
-TEST_F(ViewFile, SaysWhereTheAnimationsAre) {
+TEST_F(ViewFile, SetsTheAnimationTime) {
     EXPECT_EQ(view_.time, 0.0);
     apply(R"({"time": 1.25})");
     EXPECT_EQ(view_.time, 1.25);
     apply(R"({"camera": {"fov_y": 40}})");
-    EXPECT_EQ(view_.time, 1.25) << "what is not named stays";
+    EXPECT_EQ(view_.time, 1.25) << "unspecified values stay";
     EXPECT_EQ(errorOf(R"({"time": -1})"), "FILE: time: must be between 0 and 1e+06 seconds, is -1");
 }
 
@@ -335,19 +337,19 @@ TEST_F(ViewFile, HasAnOrthographicHeightOrAFieldOfView) {
     apply(R"({"camera": {"orthographic_height": 4}})");
     EXPECT_EQ(view_.camera.orthographicHeight, 4.0F);
     EXPECT_EQ(errorOf(R"({"camera": {"orthographic_height": 4, "fov_y": 30}})"),
-              "FILE: camera.orthographic_height: cannot be given together with fov_y: a view is orthographic, or a "
-              "perspective");
+              "FILE: camera.orthographic_height: cannot be given together with fov_y: a camera is orthographic "
+              "or perspective");
 }
 
 TEST_F(ViewFile, TurnsLampsOff) {
     apply(R"({"lamps": {"off": [3, 0]}})");
     EXPECT_EQ(view_.lampsOff, (std::vector<uint32_t>{0, 3}));
     apply(R"({"lamps": {"radius": 0.1}})");
-    EXPECT_EQ(view_.lampsOff.size(), 2U) << "what is not named stays";
+    EXPECT_EQ(view_.lampsOff.size(), 2U) << "unspecified values stay";
     EXPECT_EQ(errorOf(R"({"lamps": {"off": [0.5]}})"), "FILE: lamps.off[0]: must be a whole number, is 0.5");
 }
 
-TEST_F(ViewFile, IsWrittenSuchThatItMakesTheSameView) {
+TEST_F(ViewFile, IsWrittenSoThatItReproducesTheView) {
     for (const BuiltinScene& builtin : builtinScenes()) {
         const std::optional<Scene> scene = makeBuiltinScene(builtin.name);
         ASSERT_TRUE(scene);
@@ -360,8 +362,8 @@ TEST_F(ViewFile, IsWrittenSuchThatItMakesTheSameView) {
         view.time = 1.0 / 3.0;
         view_ = defaultView(*scene);
         apply(jsonText(viewJson(view)));
-        view.sunStandsIn = false;  // the file names the sun
-        // Directions are made unit length again, which may change their last bit.
+        view.hasDefaultSun = false;  // the file names the sun
+        // Directions are normalized again, which may change their last bit.
         EXPECT_LE(glm::length(view_.sun.direction - view.sun.direction), 1e-6F) << builtin.name;
         EXPECT_LE(glm::length(view_.camera.up - view.camera.up), 1e-6F) << builtin.name;
         view_.sun.direction = view.sun.direction;

@@ -174,10 +174,10 @@ void addTo(Fingerprint& print, const Scene& scene) {
 }
 
 void addTo(Fingerprint& print, const View& view) {
-    const auto& [camera, sun, environment, time, lampRadius, lampsOff, probes, mirrors, sunStandsIn] = view;
+    const auto& [camera, sun, environment, time, lampRadius, lampsOff, probes, mirrors, hasDefaultSun] = view;
     (void)probes;
     (void)mirrors;
-    Adder(print).all(camera, sun, environment, time, lampRadius, lampsOff, sunStandsIn);
+    Adder(print).all(camera, sun, environment, time, lampRadius, lampsOff, hasDefaultSun);
 }
 
 void addTo(Fingerprint& print, const ReferenceOptions& options) {

@@ -106,8 +106,8 @@ void Turns::measureSteady() {
 void Turns::compareTo(const Truth& truth, const Layers& picture, BenchState& state, const Variant& variant) const {
     CompareOptions options;
     options.pixelsPerDegree = plan_.pixelsPerDegree;
-    options.pictureName = fmt::format("{} of {}", plan_.layer, variant.name);
-    options.truthName = truth.file;
+    options.imageName = fmt::format("{} of {}", plan_.layer, variant.name);
+    options.referenceName = truth.file;
     const FloatImage& of = picture.at(plan_.layer);
     const FloatImage& to = truth.layers.at(plan_.layer);
     state.error = compareImages(of, to, options).difference;

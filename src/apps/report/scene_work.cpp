@@ -77,10 +77,10 @@ Rendered renderVariant(const ReportWork& work, const ReportInput& input, const S
 }
 
 Comparison compareNamed(const FloatImage& picture, const std::string& name, const FloatImage& truth,
-                        const std::string& truthName) {
+                        const std::string& referenceName) {
     CompareOptions options;
-    options.pictureName = name;
-    options.truthName = truthName;
+    options.imageName = name;
+    options.referenceName = referenceName;
     return compareImages(picture, truth, options);
 }
 

@@ -189,7 +189,7 @@ std::vector<FlatPiece> posedFlatPieces(std::span<const FlatPiece> pieces, const 
         while (i < pieces.size() && pieces[i].instance == instance) {
             ++i;
         }
-        if (!moves(pose, scene.instances[instance])) {
+        if (!isAnimated(pose, scene.instances[instance])) {
             posed.insert(posed.end(), pieces.begin() + static_cast<std::ptrdiff_t>(first),
                          pieces.begin() + static_cast<std::ptrdiff_t>(i));
             continue;

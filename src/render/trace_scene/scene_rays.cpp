@@ -32,7 +32,7 @@ SceneRays::SceneRays(gpu::Device& device, const Scene& scene, RayMethod method) 
 
 void SceneRays::pose(gpu::Device& device, const Scene& scene, const ScenePose& pose) {
     if (!standing_) {
-        standing_ = sceneTriangles(scene, pose, Instances::standing);
+        standing_ = sceneTriangles(scene, pose, Instances::stationary);
         if (method_ == RayMethod::traversal) {
             standingBvh_ = buildBvh(*standing_, bvhMaxDepth - 1);
             standing_->clear();

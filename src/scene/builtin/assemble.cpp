@@ -1,4 +1,4 @@
-// The small steps of putting a scene together.
+// Helpers to assemble a built-in scene.
 #include "scene/builtin/assemble.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Puts a built-in scene together: adds a thing to its list and returns the number by which others name it.
+// Helpers to assemble a built-in scene. Functions that add something return its index.
 #pragma once
 
 #include "scene/builtin/canvas.h"
@@ -18,20 +18,20 @@ struct Plain {
 };
 Material plain(std::string name, const Plain& p);
 
-/// The image is the colour.
+/// A material whose base colour is an image.
 Material textured(std::string name, const TextureSlot& colors, float roughness, float metallic = 0.0F);
 
 uint32_t addMaterial(Scene& scene, Material material);
 uint32_t addMesh(Scene& scene, std::string name, uint32_t material, Mesh mesh);
 void place(Scene& scene, std::string name, uint32_t mesh, const mat4& objectToWorld = mat4(1.0F));
 
-/// A mesh that stands in one place only.
+/// Adds a mesh with a single instance.
 void place(Scene& scene, const std::string& name, uint32_t material, Mesh mesh, const mat4& objectToWorld = mat4(1.0F));
 
 mat4 at(const vec3& position);
 mat4 turned(float degrees, const vec3& axis = {0, 1, 0});
 
-/// A y-aligned shape of that length stretched from one point to another: rotation and translation only.
+/// Rotates and translates a shape that stands on the origin along +Y so that it reaches from one point towards another.
 mat4 between(const vec3& from, const vec3& to);
 
 Camera camera(std::string name, const vec3& position, const vec3& target, float fovYDegrees);

@@ -10,18 +10,21 @@ namespace reflet {
 namespace {
 
 constexpr std::array<BuiltinScene, 9> scenes{{
-    {"cubes", "a polished box and painted cubes on labelled tiles: first steps, reflections, contact",
+    {"cubes", "a polished box and painted cubes on labelled tiles: reflections, contact shadows, first steps",
      builtin::makeCubes},
-    {"tilted-cube", "a tilted patterned box above a plain glossy ground: what a reflection can and cannot know",
+    {"tilted-cube",
+     "a tilted box with numbered faces above a glossy floor: reflections of faces that the camera does not see",
      builtin::makeTiltedCube},
-    {"cornell", "the classic box with the sun in its open front: colour bleeding", builtin::makeCornell},
-    {"cave", "a grotto that the sun enters through one opening: all other light is indirect", builtin::makeCave},
-    {"gloss", "roughness 0 to 1, metal and not, on labelled tiles: blurred reflections", builtin::makeGloss},
-    {"colonnade", "columns, thin bars at 1, 2 and 5 m and a pierced panel: shadows", builtin::makeColonnade},
-    {"mirror-hall", "a hall with a mirror wall and a mirror floor: reflections of reflections",
+    {"cornell", "the Cornell box, sunlit through its open front: colour bleeding", builtin::makeCornell},
+    {"cave", "a cave with sunlight through a single shaft: indirect light", builtin::makeCave},
+    {"gloss", "metals and dielectrics of roughness 0 to 1 on labelled tiles: glossy reflections", builtin::makeGloss},
+    {"colonnade", "columns, thin bars at heights of 1, 2 and 5 m and a perforated panel: soft shadows",
+     builtin::makeColonnade},
+    {"mirror-hall", "a hall with a mirror wall and a mirror floor: planar reflections, mirrors in mirrors",
      builtin::makeMirrorHall},
-    {"lamps", "a court at night under a hundred lamps: many lamps of limited range", builtin::makeLamps},
-    {"moving", "a box that slides and stops at 1 s, a turning cube, a bending tube over gloss and mirror: motion",
+    {"lamps", "a courtyard at night with a hundred lamps: many lights of limited range", builtin::makeLamps},
+    {"moving",
+     "a box that slides and stops at 1 s, a rotating cube and a bending tube on glossy and mirror floors: motion",
      builtin::makeMoving},
 }};
 

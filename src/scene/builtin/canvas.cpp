@@ -1,4 +1,4 @@
-// The raster work behind canvas.h. Nothing is blended: mips smooth the edges.
+// Rasterization for canvas.h, without anti-aliasing: mips smooth the edges.
 #include "scene/builtin/canvas.h"
 
 #include "base/color.h"
@@ -14,7 +14,7 @@
 namespace reflet::builtin {
 namespace {
 
-using Glyph = std::array<uint8_t, 7>;  // a row a byte, the left dot is bit 4
+using Glyph = std::array<uint8_t, 7>;  // one byte per row, bit 4 is the leftmost dot
 
 constexpr std::array<Glyph, 10> digits{{{0x0E, 0x11, 0x13, 0x15, 0x19, 0x11, 0x0E},
                                         {0x04, 0x0C, 0x14, 0x04, 0x04, 0x04, 0x1F},

@@ -1,4 +1,4 @@
-// Draws 8-bit images by code: rectangles, discs, letters, grain, and normal maps from heights.
+// Procedural 8-bit images: rectangles, discs, letters, grain, and normal maps from heights.
 #pragma once
 
 #include "scene/scene.h"
@@ -10,16 +10,16 @@
 
 namespace reflet::builtin {
 
-/// 0xRRGGBB as artists write colours: sRGB.
+/// sRGB colour as 0xRRGGBB.
 using Hex = uint32_t;
 
 /// The linear colour of a hex colour, for material factors.
 vec3 linear(Hex color);
 
-/// Between two hex colours, in sRGB.
+/// Linear interpolation of two colours in sRGB.
 Hex mixed(Hex a, Hex b, float t);
 
-/// Pixel rectangle: from x, y; right and lower edge excluded.
+/// Pixel rectangle from x, y; right and lower edge excluded.
 struct PixelBox {
     int x = 0;
     int y = 0;
@@ -38,13 +38,13 @@ public:
     void rectangle(const PixelBox& area, Hex color, uint8_t alpha = 255);
     void disc(const vec2& center, float radius, Hex color, uint8_t alpha = 255);
 
-    /// Letters A to L and digits in a 5x7 raster, `pixel` pixels a dot, centred on a point.
+    /// Letters A to L and digits in a 5x7 bitmap font, `pixel` pixels per dot, centred on a point.
     void text(std::string_view letters, const vec2& center, int pixel, Hex color);
 
-    /// Makes every pixel a little lighter or darker, at most by `strength` of 255.
+    /// Adds noise of at most `strength` (of 255) to every pixel.
     void grain(float strength, uint32_t seed);
 
-    /// Runs over all pixels; uv is the pixel's centre.
+    /// Sets every pixel; uv is the pixel's centre.
     void paint(const std::function<Hex(const vec2& uv)>& color);
 
     Image finish() { return std::move(image); }
@@ -53,8 +53,7 @@ private:
     Image image;
 };
 
-/// Tangent-space normal map of a height in metres over the unit square, which continues at the edges and is `metres`
-/// wide.
+/// Tangent-space normal map of a tileable height field in metres over the unit square, which is `metres` wide.
 Image normalMap(std::string name, uint32_t size, float metres, const std::function<float(const vec2& uv)>& height);
 
 }  // namespace reflet::builtin

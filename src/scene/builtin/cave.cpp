@@ -1,5 +1,4 @@
-// A grotto in closed rock with one shaft to the sky: the sun draws a patch on the ground, and everything else in the
-// picture is lit by that patch.
+// A closed cave with one shaft to the sky: the sun lights a patch of the ground, and that patch lights everything else.
 #include "scene/builtin/assemble.h"
 #include "scene/builtin/noise.h"
 #include "scene/builtin/patterns.h"
@@ -13,7 +12,7 @@ namespace reflet::builtin {
 namespace {
 
 const vec3 sunDirection = glm::normalize(vec3(0.40F, -0.78F, -0.48F));
-constexpr vec3 mainPatch{0.3F, 0.3F, -2.0F};  // where the sun meets the ground
+constexpr vec3 mainPatch{0.3F, 0.3F, -2.0F};  // where the sunlight hits the ground
 
 float smoothMin(float a, float b, float width) {
     const float h = std::max(width - std::abs(a - b), 0.0F) / width;
@@ -24,7 +23,7 @@ float smoothMax(float a, float b, float width) {
     return -smoothMin(-a, -b, width);
 }
 
-/// Nearly the distance to an ellipsoid.
+/// Approximate signed distance to an ellipsoid.
 float ellipsoid(const vec3& p, const vec3& center, const vec3& radii) {
     const vec3 q = (p - center) / radii;
     const float k = glm::length(q);
@@ -37,19 +36,19 @@ float capsule(const vec3& p, const vec3& a, const vec3& b, float radius) {
     return glm::length(p - a - t * ab) - radius;
 }
 
-/// A stone that stands on the ground or hangs from the ceiling, from a thick to a thin end.
+/// A stalagmite or stalactite, from its thick to its thin end.
 float spike(const vec3& p, const vec3& thick, const vec3& thin, float radius) {
     const vec3 ab = thin - thick;
     const float t = glm::clamp(glm::dot(p - thick, ab) / glm::dot(ab, ab), 0.0F, 1.0F);
     return glm::length(p - thick - t * ab) - glm::mix(radius, 0.3F * radius, t);
 }
 
-/// From a point on the ground against the sunlight into the open.
+/// A shaft from a point on the ground toward the sun.
 float shaft(const vec3& p, const vec3& foot, float radius) {
     return capsule(p, foot - 2.5F * sunDirection, foot - 16.0F * sunDirection, radius);
 }
 
-/// Negative where there is air.
+/// Negative in air.
 float cavity(const vec3& p) {
     float d = ellipsoid(p, {0.0F, 1.3F, -0.9F}, {3.7F, 2.9F, 3.4F});
     d = smoothMin(d, capsule(p, {0.6F, 1.6F, 2.5F}, {1.0F, 1.6F, 4.2F}, 1.9F), 1.2F);  // where the camera stands
@@ -74,7 +73,7 @@ float rock(const vec3& p) {
     return smoothMax(d, std::max(outside.x, std::max(outside.y, outside.z)), 0.5F);
 }
 
-/// Warm layers, greyer towards the ground, in large patches.
+/// Warm strata in large patches, greyer towards the ground.
 vec3 rockTint(const vec3& p) {
     const float layers = noise({0.25F * p.x, 1.6F * p.y + 0.6F * noise(p * 0.4F, 21U), 0.25F * p.z}, 22U);
     const float patches = fractalNoise(p * 0.35F, 2, 23U);

@@ -1,5 +1,5 @@
-// Columns, thin bars 1, 2 and 5 m above the ground, leaning poles and a pierced panel: shadows that should blur with
-// the distance from what casts them.
+// Columns, thin bars 1, 2 and 5 m above the ground, leaning poles and a perforated panel: penumbras that widen with the
+// distance from the caster.
 #include "scene/builtin/assemble.h"
 #include "scene/builtin/patterns.h"
 #include "scene/builtin/scenes.h"
@@ -9,7 +9,7 @@
 namespace reflet::builtin {
 namespace {
 
-/// Plinth, base, a shaft that swells a little, capital and the slab on top: 4.6 m.
+/// Plinth, base, shaft with entasis, capital and abacus: 4.6 m.
 Mesh column() {
     static constexpr std::array<vec2, 21> outline{
         vec2(0.00F, 0.20F), vec2(0.44F, 0.20F), vec2(0.47F, 0.25F), vec2(0.47F, 0.31F), vec2(0.43F, 0.36F),
@@ -42,7 +42,7 @@ void addColumns(Scene& scene) {
     place(scene, "back wall", plaster, box({7.4F, 2.3F, 0.15F}, 0.5F), at({0, 2.3F, -6.0F}));
 }
 
-/// A bar on two posts, as high as its name says.
+/// A bar on two posts, named after its height.
 void addBar(Scene& scene, const vec3& middle, const std::array<uint32_t, 2>& paintAndIron) {
     const vec3 half(1.7F, 0, 1.3F);
     const float length = 2.0F * glm::length(half);

@@ -1,5 +1,5 @@
-// The classic box: white room, red and green wall, two blocks. The sun shines in through the open front; what it does
-// not reach is lit by what it does.
+// A Cornell box: white room, red and green wall, two blocks. The sun shines in through the open front; the rest is lit
+// indirectly.
 #include "scene/builtin/assemble.h"
 #include "scene/builtin/scenes.h"
 
@@ -20,7 +20,7 @@ void addCornellBox(Scene& scene, uint32_t white, uint32_t red, uint32_t green) {
     place(scene, "right wall", green, box({wall, boxHalf.y, depth}), at(middle + vec3(boxHalf.x + wall, 0, -wall)));
 }
 
-/// A spot on the wall that the sun cannot reach, from close to the ceiling and clear of the blocks.
+/// A spot light near the ceiling, aimed at the wall that the sun does not reach, clear of the blocks.
 Lamp wallLamp() {
     Lamp lamp;
     lamp.name = "wall lamp";

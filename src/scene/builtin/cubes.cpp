@@ -1,4 +1,4 @@
-// A polished box and painted cubes on labelled tiles: mirror images, contact and colour bleeding at first sight.
+// A polished box and painted cubes on labelled tiles: reflections, contact shadows and colour bleeding.
 #include "scene/builtin/assemble.h"
 #include "scene/builtin/patterns.h"
 #include "scene/builtin/scenes.h"

@@ -1,4 +1,4 @@
-// Two rows on labelled tiles, roughness 0 to 1 from left to right: metal blocks behind, enamelled spheres before them.
+// Two rows on labelled tiles, roughness 0 to 1 from left to right: metal blocks behind, enamelled spheres in front.
 #include "scene/builtin/assemble.h"
 #include "scene/builtin/patterns.h"
 #include "scene/builtin/scenes.h"
@@ -34,7 +34,7 @@ void addRows(Scene& scene) {
     }
 }
 
-/// Coloured boards behind the rows: something to be seen in the tops and in the ground.
+/// Coloured boards behind the rows, to be reflected by the tops and the ground.
 void addBoards(Scene& scene) {
     static constexpr std::array<Hex, 5> colors{0xE0A33A, 0xBF4B32, 0xEFE3CD, 0x3E7C74, 0x33506E};
     for (size_t i = 0; i < colors.size(); ++i) {

@@ -1,5 +1,6 @@
-// A walled court at night under a hundred lamps: lanterns of short range along its walls and its path, and spots over
-// sculptures. Only the eight spots, which are the strongest, have anything in their range that casts a shadow.
+// A walled courtyard at night with a hundred lamps: lanterns of short range along its walls and its path, and spot
+// lights
+// over sculptures. Only the eight spot lights, which are the strongest, have shadow casters in their range.
 #include "scene/builtin/assemble.h"
 #include "scene/builtin/patterns.h"
 #include "scene/builtin/scenes.h"
@@ -15,7 +16,7 @@ constexpr float glass = 0.05F;           // radius of a lantern
 
 constexpr std::array<Hex, 5> hues{0xFFB347, 0xFF5A4E, 0xD24BE0, 0x4C6FFF, 0x35D0B4};
 
-// A place in the row of hues from 0 to 1, as light: the strongest of red, green and blue is 1.
+// Light of a hue in 0..1; the largest of red, green and blue is 1.
 vec3 hue(float at) {
     const float place = at * static_cast<float>(hues.size() - 1);
     const auto first = std::min(static_cast<size_t>(place), hues.size() - 2);
@@ -23,7 +24,7 @@ vec3 hue(float at) {
     return color / std::max({color.x, color.y, color.z});
 }
 
-/// Lanterns share a mesh for each of a few hues.
+/// Lanterns of the same hue share a mesh.
 class Lanterns {
 public:
     explicit Lanterns(Scene& scene) : scene_(scene) {
@@ -69,7 +70,7 @@ void addCourt(Scene& scene) {
     place(scene, "front wall", plaster, end, at({0, court.y, court.z + 0.15F}));
 }
 
-// Rows along the walls at breast height, and on the ground along the path.
+// Rows along the walls at chest height, and on the ground along the path.
 void addLanterns(Scene& scene) {
     Lanterns lanterns(scene);
     for (int i = 0; i < 20; ++i) {
@@ -116,7 +117,7 @@ uint32_t sculpture(Scene& scene, int index) {
     return addMesh(scene, "sculpture " + std::to_string(index), material, mesh);
 }
 
-// Four beams over the court, two spots under each, a sculpture under each spot.
+// Four beams over the courtyard, two spot lights under each, a sculpture under each light.
 void addSculptures(Scene& scene) {
     const uint32_t stone = addMaterial(scene, plain("plinth", {0x9A958C, 0.7F}));
     const uint32_t wood = addMaterial(scene, plain("beam", {0x5A4030, 0.8F}));

@@ -1,4 +1,4 @@
-// What all shapes need: vertices, tangents, bounds, and being moved into one mesh.
+// Mesh helpers: adding vertices, tangents and bounds, merging meshes.
 #include "scene/builtin/shapes.h"
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// A hall under open beams: one long wall and the floor are mirrors, between them coloured things and labelled walls.
+// A hall under open beams: one long wall and the floor are mirrors, with coloured objects and labelled walls to
+// reflect.
 #include "scene/builtin/assemble.h"
 #include "scene/builtin/patterns.h"
 #include "scene/builtin/scenes.h"

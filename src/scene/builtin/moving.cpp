@@ -1,5 +1,6 @@
-// A room in which things move, all from time 0 on: a box that slides to its place and stops at 1 s, a cube that turns,
-// a tube that bends. One half of the floor is glossy, the other a mirror. It begins again after 4 s.
+// An animated room, from time 0 on: a box that slides and stops at 1 s, a rotating cube, a bending tube. One half of
+// the
+// floor is glossy, the other a mirror. The animation repeats after 4 s.
 #include "scene/builtin/assemble.h"
 #include "scene/builtin/patterns.h"
 #include "scene/builtin/scenes.h"
@@ -25,7 +26,7 @@ void animate(Scene& scene, int32_t node, Channel channel) {
     scene.animations.front().channels.push_back(std::move(channel));
 }
 
-/// Of a rotation about an axis by an angle in degrees.
+/// Quaternion x, y, z, w of a rotation about an axis by an angle in degrees.
 vec4 rotation(double degrees, const glm::dvec3& axis) {
     const double half = 0.5 * glm::radians(degrees);
     return {vec3(std::sin(half) * axis), static_cast<float>(std::cos(half))};
@@ -67,7 +68,7 @@ void addSlidingBox(Scene& scene) {
     scene.instances.back().node = node;
 }
 
-// A quarter of a turn a second, above the glossy floor.
+// A quarter turn per second, above the glossy floor.
 void addTurningCube(Scene& scene) {
     const int32_t node = addNode(scene, {-1.7, 1.0, -1.2});
     Channel channel{.target = Channel::Target::rotation,
@@ -96,7 +97,7 @@ Mesh tube() {
     }
     outline.emplace_back(0.0F, tubeHeight);
     Mesh mesh = lathe(outline, 32);
-    for (const vec3& p : mesh.positions) {  // between the middles of two joints' parts, both in proportion
+    for (const vec3& p : mesh.positions) {  // linear blend between the centres of neighbouring joints' segments
         const float place = glm::clamp(p.y / tubeStep - 0.5F, 0.0F, float(tubeJoints - 1));
         const auto below = std::min(static_cast<uint16_t>(place), uint16_t(tubeJoints - 2));
         const float share = place - static_cast<float>(below);
@@ -107,7 +108,7 @@ Mesh tube() {
     return mesh;
 }
 
-// On the mirror. Each of its joints bends to both sides.
+// On the mirror floor. Each of its joints swings to both sides.
 void addBendingTube(Scene& scene) {
     const glm::dvec3 foot(1.6, 0.0, -1.1);
     Skin skin;
@@ -117,7 +118,7 @@ void addBendingTube(Scene& scene) {
         skin.joints.push_back(static_cast<uint32_t>(node));
         skin.inverseBind.push_back(at({0, -tubeStep * static_cast<float>(i), 0}));
         if (i == 0) {
-            continue;  // stands on the floor
+            continue;  // fixed to the floor
         }
         Channel channel{.target = Channel::Target::rotation,
                         .interpolation = Interpolation::cubicSpline,

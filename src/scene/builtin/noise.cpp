@@ -1,4 +1,4 @@
-// Value noise: a hashed number at every lattice point, blended with a quintic so that slopes are continuous.
+// Value noise: a hashed number at every lattice point, interpolated with a quintic for continuous slopes.
 #include "scene/builtin/noise.h"
 
 #include <cmath>
@@ -47,7 +47,7 @@ float fractalNoise(const vec3& p, int octaves, uint32_t seed) {
     vec3 q = p;
     for (int i = 0; i < octaves; ++i) {
         sum += strength * noise(q, seed + static_cast<uint32_t>(i));
-        q = 2.0F * q + vec3(17.3F, 5.7F, 11.1F);  // shifted, or all lattices would meet at the origin
+        q = 2.0F * q + vec3(17.3F, 5.7F, 11.1F);  // offset, so that the lattices do not coincide at the origin
         strength *= 0.5F;
     }
     return sum;

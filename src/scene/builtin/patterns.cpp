@@ -1,4 +1,4 @@
-// How the images of patterns.h are drawn.
+// Draws the images of patterns.h.
 #include "scene/builtin/patterns.h"
 
 #include "scene/builtin/noise.h"
@@ -11,7 +11,7 @@
 namespace reflet::builtin {
 namespace {
 
-/// Where a point of the paving lies: in which stone, and how far from its edge (in units of the whole image).
+/// Position of a point in the paving: its stone, and the distance to the stone's edge (in units of the whole image).
 struct Stone {
     int course = 0;
     int number = 0;
@@ -26,7 +26,7 @@ Stone stoneAt(const vec2& uv) {
     Stone s;
     s.course = std::min(static_cast<int>(uv.y * courses), courses - 1);
     const int stones = stonesInCourse[static_cast<size_t>(s.course)];
-    // The joints of a course sit where their hash puts them, a little off an even spacing.
+    // The joints of a course are evenly spaced, with hashed offsets.
     const auto joint = [&](int i) {
         const float shift = 0.35F * hash01(s.course, (i + stones) % stones, 3, 77U);
         return (static_cast<float>(i) + shift) / static_cast<float>(stones);
@@ -76,7 +76,7 @@ Image emblem(std::string name, std::string_view label, Hex field, Hex frame, Hex
     canvas.disc({256, 256}, 176, frame);
     canvas.disc({256, 256}, 156, field);
     canvas.text(label, {256, 256}, 24, mark);
-    canvas.rectangle({64, 64, 64, 64}, mark);  // one corner marked: which way up, and mirrored or not
+    canvas.rectangle({64, 64, 64, 64}, mark);  // marks one corner, to show orientation and mirroring
     canvas.rectangle({64, size - 96, 64, 32}, frame);
     canvas.grain(3.0F, 9U);
     return canvas.finish();

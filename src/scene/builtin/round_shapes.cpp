@@ -1,4 +1,4 @@
-// Shapes turned about the y axis: spheres, cylinders and whatever an outline says.
+// Surfaces of revolution about the y axis: spheres, cylinders, outlines.
 #include "base/error.h"
 #include "scene/builtin/shapes.h"
 
@@ -19,11 +19,11 @@ struct Ring {
 };
 
 void addRing(Mesh& mesh, unsigned segments, const Ring& ring) {
-    // On the axis a vertex belongs to the middle of its triangle, or its tangent would lean to one side.
+    // On the axis a vertex gets the u of its triangle's middle, or its tangent would lean to one side.
     const float shift = ring.point.x > 0.0F ? 0.0F : 0.5F;
     for (unsigned x = 0; x <= segments; ++x) {
         const float u = (static_cast<float>(x) + shift) / static_cast<float>(segments);
-        const float phi = glm::two_pi<float>() * (u == 1.0F ? 0.0F : u);  // the seam's ends meet exactly
+        const float phi = glm::two_pi<float>() * (u == 1.0F ? 0.0F : u);  // the seam closes exactly
         const vec3 away(std::sin(phi), 0.0F, std::cos(phi));
         addVertex(mesh, ring.point.x * away + vec3(0, ring.point.y, 0),
                   ring.normal.x * away + vec3(0, ring.normal.y, 0), vec2(u, ring.v) * ring.uvRepeat);
@@ -31,11 +31,11 @@ void addRing(Mesh& mesh, unsigned segments, const Ring& ring) {
 }
 
 struct Width {
-    bool above;  ///< the upper ring has a radius, and is not a point on the axis
+    bool above;  ///< the upper ring is not a point on the axis
     bool below;
 };
 
-/// Triangles between a ring, which starts at vertex `first`, and the next one, which lies below it.
+/// Triangles between the ring that starts at vertex `first` and the next ring below it.
 void addBand(Mesh& mesh, uint32_t first, unsigned segments, const Width& width) {
     for (unsigned x = 0; x < segments; ++x) {
         const uint32_t a = first + x;
@@ -49,7 +49,7 @@ void addBand(Mesh& mesh, uint32_t first, unsigned segments, const Width& width) 
     }
 }
 
-/// Normals (in radius, height) at both ends of each piece of an outline.
+/// Normals (in radius, height) at both ends of each segment of an outline.
 std::vector<std::pair<vec2, vec2>> outlineNormals(std::span<const vec2> outline) {
     const size_t pieces = outline.size() - 1;
     std::vector<vec2> flat(pieces);

@@ -1,4 +1,4 @@
-// The built-in scenes, one function and one file each.
+// One function per built-in scene, each in its own file.
 #pragma once
 
 #include "scene/scene.h"
@@ -19,9 +19,9 @@ Scene makeMirrorHall();
 Scene makeLamps();
 Scene makeMoving();
 
-/// The number in "tessellated-N", if it is one that makeTessellated takes.
+/// The number in "tessellated-N", if it is valid for makeTessellated.
 std::optional<uint32_t> tessellatedTriangles(std::string_view name);
-/// 100 times the square of 1 to 100.
+/// triangles: 100 times the square of a number from 1 to 100.
 Scene makeTessellated(uint32_t triangles);
 
 }  // namespace reflet::builtin

@@ -1,4 +1,4 @@
-// Flat-sided shapes, and the uv of a box for shapes that have none.
+// Flat-sided shapes, and box mapping of uvs.
 #include "scene/builtin/shapes.h"
 
 #include <array>
@@ -15,7 +15,7 @@ struct Face {
     vec3 up;
 };
 
-/// Sides upright; the lid's image has its upper edge at -z, the underside's at +z.
+/// Orientation of the image on each side; its upper edge is at -z on top and at +z on the underside.
 constexpr std::array<Face, 6> faces{{{{0, 0, -1}, {0, 1, 0}},
                                      {{0, 0, 1}, {0, 1, 0}},
                                      {{1, 0, 0}, {0, 0, -1}},
@@ -23,7 +23,7 @@ constexpr std::array<Face, 6> faces{{{{0, 0, -1}, {0, 1, 0}},
                                      {{1, 0, 0}, {0, 1, 0}},
                                      {{-1, 0, 0}, {0, 1, 0}}}};
 
-/// Two triangles for each cell of a lattice whose rows of `columns` + 1 vertices run from the image's top down.
+/// Two triangles per cell of a grid whose rows of `columns` + 1 vertices run from the image's top down.
 void addCells(Mesh& mesh, uint32_t first, unsigned columns, unsigned rows) {
     for (unsigned y = 0; y < rows; ++y) {
         for (unsigned x = 0; x < columns; ++x) {
@@ -34,7 +34,7 @@ void addCells(Mesh& mesh, uint32_t first, unsigned columns, unsigned rows) {
     }
 }
 
-/// In-face coordinates of a rounded box along one axis: dense at the round ends, one step across the flat.
+/// Vertex coordinates of a rounded box along one axis: dense at the rounded ends, one step across the flat part.
 std::vector<float> roundedSteps(float half, float radius, unsigned steps) {
     std::vector<float> upper;
     for (unsigned i = 0; i <= steps; ++i) {

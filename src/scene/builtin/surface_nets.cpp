@@ -1,4 +1,4 @@
-// One vertex per lattice cell that the surface crosses, one quad per lattice edge that it crosses.
+// Naive surface nets: one vertex per lattice cell that the surface crosses, one quad per lattice edge that it crosses.
 #include "scene/builtin/surface_nets.h"
 
 #include <utility>
@@ -47,7 +47,7 @@ private:
         return values[at(cell + glm::uvec3(i & 1U, (i >> 1U) & 1U, i >> 2U))];
     }
 
-    /// The mean of the places where the surface crosses the cell's twelve edges.
+    /// The mean of the points where the surface crosses the cell's twelve edges.
     void addVertex(const glm::uvec3& cell) {
         vec3 sum(0.0F);
         float crossings = 0.0F;
@@ -76,7 +76,7 @@ private:
         mesh.attributes.push_back(attributes);
     }
 
-    /// Direction of the field's growth inside a cell, from the trilinear blend of its corners.
+    /// Direction of the gradient of the trilinearly interpolated field.
     [[nodiscard]] vec3 slope(const glm::uvec3& cell, const vec3& t) const {
         vec3 g(0.0F);
         for (unsigned i = 0; i < 8; ++i) {

@@ -1,5 +1,6 @@
-// Turns a field into the mesh of its zero surface: where a solid's shape is easier said as a function than as faces.
-// Method: naive surface nets (S. Gibson, Constrained Elastic Surface Nets, 1998) without the relaxation.
+// Meshes the zero isosurface of a scalar field by naive surface nets (S. Gibson, Constrained Elastic Surface Nets,
+// 1998)
+// without the relaxation.
 #pragma once
 
 #include "scene/scene.h"
@@ -14,8 +15,9 @@ struct Lattice {
     glm::uvec3 cells{1U};
 };
 
-/// Negative inside the solid. The solid must not touch the lattice's border; then the mesh is closed. Normals point
-/// out of the solid and come from the field's slope; no uv yet (see boxMapped).
+/// field: negative inside the solid. If the solid does not touch the lattice's border, the mesh is closed. Normals
+/// point
+/// outwards, along the field's gradient; uvs are not set (see boxMapped).
 Mesh surfaceNets(const Lattice& lattice, const std::function<float(const vec3&)>& field);
 
 }  // namespace reflet::builtin

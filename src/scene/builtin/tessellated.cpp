@@ -1,4 +1,4 @@
-// One room, cut into few triangles or many: it looks the same, so that what depends on the number of triangles shows.
+// A room that looks the same at any number of triangles, to measure how cost depends on that number.
 #include "scene/builtin/assemble.h"
 #include "scene/builtin/scenes.h"
 
@@ -9,9 +9,9 @@
 namespace reflet::builtin {
 namespace {
 
-// A room without a front, of five sides, and nine boxes of five: fifty flat pieces of two triangles or more.
-constexpr uint32_t leastTriangles = 100;
-constexpr uint32_t mostCuts = 100;
+// A room of five sides, without a front, and nine boxes of five: fifty flat sides of at least two triangles.
+constexpr uint32_t minTriangles = 100;
+constexpr uint32_t maxCuts = 100;
 
 void addSide(Scene& scene, uint32_t material, Patch side, uint32_t cuts, const mat4& toWorld = mat4(1.0F)) {
     side.cells = glm::uvec2(cuts);
@@ -52,13 +52,13 @@ std::optional<uint32_t> tessellatedTriangles(std::string_view name) {
         return std::nullopt;
     }
     const auto [rest, error] = std::from_chars(name.data() + prefix.size(), end, triangles);
-    const auto cuts = static_cast<uint32_t>(std::lround(std::sqrt(triangles / leastTriangles)));
-    const bool whole = cuts > 0 && cuts <= mostCuts && cuts * cuts * leastTriangles == triangles;
+    const auto cuts = static_cast<uint32_t>(std::lround(std::sqrt(triangles / minTriangles)));
+    const bool whole = cuts > 0 && cuts <= maxCuts && cuts * cuts * minTriangles == triangles;
     return error == std::errc() && rest == end && whole ? std::optional(triangles) : std::nullopt;
 }
 
 Scene makeTessellated(uint32_t triangles) {
-    const auto cuts = static_cast<uint32_t>(std::lround(std::sqrt(triangles / leastTriangles)));
+    const auto cuts = static_cast<uint32_t>(std::lround(std::sqrt(triangles / minTriangles)));
     Scene scene;
     scene.name = "tessellated";
     addTessellatedRoom(scene, cuts);

@@ -1,4 +1,4 @@
-// A box stands on one corner above a plain glossy ground: its underside is in the reflection but not on the screen.
+// A box balanced on one corner above a plain glossy ground: its underside shows in the reflection only.
 #include "scene/builtin/assemble.h"
 #include "scene/builtin/patterns.h"
 #include "scene/builtin/scenes.h"
@@ -8,7 +8,7 @@
 namespace reflet::builtin {
 namespace {
 
-/// Every face its own colour and number, so that one sees at once which one a reflection shows.
+/// Every face has its own colour and number, which identify it in reflections.
 void addNumberedBox(Scene& scene, const mat4& boxToWorld) {
     static constexpr std::array<Hex, 6> colors{0xD2553A, 0x3D7FA6, 0xE3AE3C, 0x6B4C8A, 0x4E9A63, 0xC9507E};
     const std::array<Patch, 6> sides{{{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}},

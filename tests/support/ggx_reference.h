@@ -1,4 +1,4 @@
-// GGX in double precision, written from the papers and not from the shaders, to check these against.
+// Independent GGX in double precision, after the papers, to check the shaders against.
 // D: Walter et al., Microfacet Models for Refraction through Rough Surfaces, 2007. G2, height-correlated: Heitz,
 // Understanding the Masking-Shadowing Function, JCGT 2014. F: Schlick 1994.
 #pragma once
@@ -39,8 +39,8 @@ inline double ggxBrdf(const glm::dvec3& v, const glm::dvec3& l, double alpha, do
     return ggxD(h.z, alpha) * smithG2(l.z, v.z, alpha) * schlick(f0, glm::dot(v, h)) / (4.0 * l.z * v.z);
 }
 
-/// Directional albedo toward an angle by the midpoint rule over half vectors, whose angle from the normal is spread so
-/// that the lobe is resolved at every alpha: tan(theta) = alpha · s / (1 - s).
+/// Directional albedo by the midpoint rule over half vectors, distributed to resolve the lobe at every alpha:
+/// tan(theta) = alpha · s / (1 - s).
 inline double ggxAlbedo(double nv, double alpha, double f0, int steps = 256) {
     const glm::dvec3 v(std::sqrt(1.0 - nv * nv), 0.0, nv);
     double sum = 0.0;
@@ -50,7 +50,7 @@ inline double ggxAlbedo(double nv, double alpha, double f0, int steps = 256) {
         const double theta = std::atan(tangent);
         const double thetaStep = alpha / ((1.0 - s) * (1.0 - s)) / (1.0 + tangent * tangent) / steps;
         for (int j = 0; j < steps; ++j) {
-            const double phi = glm::pi<double>() * (j + 0.5) / steps;  // half a turn: the other half mirrors it
+            const double phi = glm::pi<double>() * (j + 0.5) / steps;  // half a turn: the other half is symmetric
             const glm::dvec3 h(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
             const double vh = glm::dot(v, h);
             const glm::dvec3 l = 2.0 * vh * h - v;
@@ -63,7 +63,7 @@ inline double ggxAlbedo(double nv, double alpha, double f0, int steps = 256) {
     return sum;
 }
 
-/// What part of the half vectors, by D · cos, lies below a cosine: the distribution summed up over tan(theta).
+/// Cumulative distribution of half vectors (weighted by D · cos) over their cosine, integrated over tan(theta).
 class GgxDistributionTable {
 public:
     explicit GgxDistributionTable(double alpha) : alpha_(alpha), below_(steps + 1, 0.0) {
