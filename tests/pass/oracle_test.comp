@@ -47,7 +47,7 @@ vec3 directionOf(uint number, vec3 p, vec3 n) {
 }
 
 OracleAnswer answerOf(MarchResult r) {
-    return OracleAnswer(r.outcome == marchHit ? 1u : 0u, r.pixel.x, r.pixel.y, r.lost ? 1u : 0u, r.clear, r.steps);
+    return OracleAnswer(r.outcome == marchHit ? 1u : 0u, r.pixel.x, r.pixel.y, r.occluded ? 1u : 0u, r.clear, r.steps);
 }
 
 void main() {

@@ -14,6 +14,6 @@ void main() {
         vec2 c = inputs.items[i];
         vec3 v = vec3(sqrt(1.0 - c.x * c.x), 0.0, c.x);
         vec3 h = sampleGgxVisible(vec2(0.0), v, c.y);
-        outputs.items[i] = vec4(2.0 * dot(v, h) * h - v, ggxHalfTangent(c.y));
+        outputs.items[i] = vec4(2.0 * dot(v, h) * h - v, ggxConeTangent(c.y));
     }
 }

@@ -48,7 +48,7 @@ protected:
         float nv = 1.0F;
     };
 
-    /// Integrals of reflectLight over the hemisphere.
+    /// Integrals of brdfTimesCosine over the hemisphere.
     static std::vector<double> integrals(const std::vector<Lit>& cases, bool byHalfVector) {
         constexpr uint32_t rings = 256;
         const uint32_t around = byHalfVector ? 64 : 512;  // a grazing lobe is narrow to the side

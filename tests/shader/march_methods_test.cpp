@@ -91,7 +91,7 @@ TEST_P(Methods, hitWithTheLastStepAndMissWithOneLess) {
         }
         const auto fewer = march(scene, rays, method);
         for (size_t i = 0; i < rays.size(); ++i) {
-            ASSERT_EQ(fewer[i].outcome, marchSpent) << method;
+            ASSERT_EQ(fewer[i].outcome, marchLimitReached) << method;
             ASSERT_EQ(fewer[i].steps, rays[i].maxSteps) << method;
         }
     }
@@ -127,7 +127,7 @@ TEST_P(Methods, passBehindAWallThatIsThinnerThanTheGap) {
 TEST_P(Methods, halvingIsHiddenBehindAWallThatIsThinnerThanTheGap) {
     const MarchScene scene = sceneOf({wallAt(5.0F, vec2(0.5F, 0.0F), vec2(1.0F))});
     const MarchInput ray{vec3(-1.0F, 0.1F, -6.0F), vec3(1, 0, 0), 0.4F, 4096, 0.9F, 1.0F, {}, 0.001F};
-    EXPECT_EQ(march(scene, {ray}, marchMethodHalving).front().outcome, marchHidden);
+    EXPECT_EQ(march(scene, {ray}, marchMethodHalving).front().outcome, marchOccluded);
 }
 
 // Two walls with edges, seen from everywhere.

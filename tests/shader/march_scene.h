@@ -12,8 +12,8 @@ namespace reflet::test {
 
 inline constexpr uint32_t marchHit = 0;
 inline constexpr uint32_t marchLeftScreen = 1;
-inline constexpr uint32_t marchSpent = 2;
-inline constexpr uint32_t marchHidden = 3;
+inline constexpr uint32_t marchLimitReached = 2;
+inline constexpr uint32_t marchOccluded = 3;
 inline constexpr uvec2 pixels{320, 180};
 
 inline Camera cameraOf(bool orthographic) {

@@ -55,7 +55,7 @@ TEST_P(March, isSpentAlongAWallThatItNeverMeets) {
     for (const vec3 direction : {vec3(1, 0, 0), vec3(0, 1, 0), vec3(-1, 0, 0)}) {
         for (const uint32_t budget : {1U, 7U, 64U}) {
             const auto answer = march(scene, {{vec3(0, 0, -9.99F), direction, 0.02F, budget, 0.5F, 1.0F}}).front();
-            EXPECT_EQ(answer.outcome, marchSpent);
+            EXPECT_EQ(answer.outcome, marchLimitReached);
             EXPECT_EQ(answer.steps, budget);
             EXPECT_NEAR(answer.distance, 0.02F * static_cast<float>(budget), 1e-6F);
         }
@@ -72,11 +72,11 @@ TEST_P(March, hitsWithItsLastStepAndMissesWithTheStepAfter) {
     EXPECT_FLOAT_EQ(last.distance, 8.0F);
     ray.maxSteps = 15;
     const auto after = march(scene, {ray}).front();
-    EXPECT_EQ(after.outcome, marchSpent);
+    EXPECT_EQ(after.outcome, marchLimitReached);
     EXPECT_EQ(after.steps, 15U);
     ray.maxSteps = 0;
     const auto none = march(scene, {ray}).front();
-    EXPECT_EQ(none.outcome, marchSpent);
+    EXPECT_EQ(none.outcome, marchLimitReached);
     EXPECT_EQ(none.steps, 0U);
 }
 
@@ -122,7 +122,7 @@ TEST_P(March, passesBehindAWallThatIsThinnerThanTheGap) {
     const MarchScene scene = sceneOf({wallAt(5.0F, vec2(0.5F, 0.0F), vec2(1.0F))});
     MarchInput ray{vec3(-1.0F, 0.1F, -6.0F), vec3(1, 0, 0), 0.03F, 84, 0.9F, 1.0F};  // no pixel is stepped over
     const auto thin = march(scene, {ray}).front();
-    EXPECT_EQ(thin.outcome, marchSpent);
+    EXPECT_EQ(thin.outcome, marchLimitReached);
     EXPECT_GT(thin.pixelX, 170);  // it was behind the wall
     ray.thickness = 1.1F;
     const auto thick = march(scene, {ray}).front();
@@ -134,7 +134,7 @@ TEST_P(March, passesBehindAWallThatIsThinnerThanTheGap) {
 TEST_P(March, passesInFrontOfWhatLiesBehindIt) {
     const MarchScene scene = sceneOf({wallAt(5.0F, vec2(0.7F, 0.0F), vec2(1.0F)), wallAt(20.0F)});
     const auto answer = march(scene, {{vec3(-1.0F, 0.1F, -4.0F), vec3(1, 0, 0), 0.05F, 30, 100.0F, 1.0F}}).front();
-    EXPECT_EQ(answer.outcome, marchSpent);
+    EXPECT_EQ(answer.outcome, marchLimitReached);
 }
 
 TEST_P(March, neverHitsTheSky) {
@@ -144,7 +144,7 @@ TEST_P(March, neverHitsTheSky) {
         ray.thickness = 1000.0F;
     }
     for (const MarchAnswer& answer : march(sceneOf({}), rays)) {
-        ASSERT_EQ(answer.outcome, marchSpent);
+        ASSERT_EQ(answer.outcome, marchLimitReached);
         ASSERT_EQ(answer.steps, 12U);
     }
 }

@@ -65,7 +65,7 @@ TEST_P(Thickness, upToTheBackFaceLetsRaysPassBehindIt) {
         EXPECT_EQ(passed.lost, 1U) << method;
     }
     const auto halving = march(scene, {sideways(marchMethodHalving, -6.0F, 100.0F)}, marchMethodHalving, true).front();
-    EXPECT_EQ(halving.outcome, marchHidden);
+    EXPECT_EQ(halving.outcome, marchOccluded);
 }
 
 TEST_P(Thickness, upToTheBackFaceStopsRaysInside) {
@@ -178,7 +178,7 @@ TEST_P(Clear, isAsFarAsTheBudgetWent) {
         MarchInput ray = sideways(method, -8.0F, 0.3F);
         ray.maxSteps = 5;
         const auto answer = march(scene, {ray}, method).front();
-        EXPECT_EQ(answer.outcome, marchSpent) << method;
+        EXPECT_EQ(answer.outcome, marchLimitReached) << method;
         EXPECT_EQ(answer.lost, 0U) << method;
         EXPECT_GT(answer.clear, 0.0F) << method;
         EXPECT_EQ(answer.clear, answer.distance) << method;

@@ -25,7 +25,7 @@ void main() {
     }
     MirroredThing t = inputs.items[i];
     OwnMotion o;
-    o.displacement = ownDisplacement(t.thing, t.uv, t.motion, params.previousWorldToClip, params.viewPlane.xyz);
+    o.displacement = objectDisplacement(t.thing, t.uv, t.motion, params.previousWorldToClip, params.viewPlane.xyz);
     o.ofImage = mirroredMotion(t.mirror, directionToEye(t.mirror, params.eye), normalize(t.thing - t.mirror),
                                distance(t.thing, t.mirror), o.displacement, params.previousWorldToClip);
     outputs.items[i] = o;

@@ -9,7 +9,7 @@ const float sameDistance = 0.02;  // share of its distance by which the last fra
 
 // Since the last frame, of the point p that the pixel shows, by itself [m].
 vec3 displacementAt(ivec2 pixel, vec3 p) {
-    return ownDisplacement(p, pixelToUv(pixel, params.view.pixel), texelFetch(motion, pixel, 0).xyz,
+    return objectDisplacement(p, pixelToUv(pixel, params.view.pixel), texelFetch(motion, pixel, 0).xyz,
                            params.view.previousWorldToClip, params.view.viewPlane.xyz);
 }
 
