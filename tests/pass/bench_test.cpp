@@ -266,7 +266,7 @@ TEST_F(BenchDeviceTest, ForgottenHistoryIsNotValidOnce) {
     std::vector<bool> valid;
     for (int i = 0; i < 5; ++i) {
         if (i == 3) {
-            f.forgetHistories();
+            f.invalidateHistories();
         }
         f.begin();
         valid.push_back(f.history("bench_history", VK_FORMAT_R32_SFLOAT, {4, 4}).valid);
