@@ -205,8 +205,7 @@ void checkPlausible(const std::vector<ImageLayer>& layers, size_t fileSize) {
 std::vector<ImageLayer> decodeExr(std::string_view content) {
     configureOpenExr();
     MemoryInput input(content);
-    Imf::InputFile file(input,
-                        0);  // single-threaded: it stops at the first damage; threads would go on through all lines
+    Imf::InputFile file(input, 0);  // single-threaded: stops at the first damaged line, where threads go on
     const Imath::Box2i window = file.header().dataWindow();
     std::vector<ImageLayer> layers = layersOf(file.header(), static_cast<uint32_t>(window.max.x - window.min.x + 1),
                                               static_cast<uint32_t>(window.max.y - window.min.y + 1));
