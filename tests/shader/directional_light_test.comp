@@ -1,4 +1,4 @@
-// Rays by the cosine around a normal, and what light becomes when it is turned to another.
+// Cosine-distributed rays around a normal, and the light that follows for another normal.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "directional_light_test.h"

@@ -1,4 +1,4 @@
-// directional_light.glsl against surfaces under light that is known for every normal.
+// directional_light.glsl against light whose irradiance is known for every normal.
 #include "shader/directional_light_test.h"
 
 #include "shader/harness.h"
@@ -44,7 +44,7 @@ TEST_F(DirectionalLight, OfTheUpperHalfFallsOnTiltedSurfacesAsItDoes) {
     const std::vector<TurnedLight> found = turn(surfaces);
     for (size_t i = 0; i < found.size(); ++i) {
         EXPECT_NEAR(found[i].mean, 1.0F, 1e-4F);
-        // Half of the sky, and of the other half what lies above the surface.
+        // Half of the sky, plus the part of the other half above the surface.
         EXPECT_NEAR(found[i].factor, 0.5F * (1.0F + surfaces[i].turnedTo.y), 0.01F) << i;
     }
 }

@@ -1,4 +1,4 @@
-// fitSunShadow: every visible point and every caster is in the map, which is no larger than that asks for.
+// fitSunShadow: every visible point and every caster is in the map, and the map is no larger than they need.
 #include "shader/fit_cases.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Integrates brdfTimesCosine over the light's directions, a ring of them a thread; or (byHalfVector) over half vectors,
-// which resolves narrow lobes. The sum over a case's rings is the integral.
+// Integrates brdfTimesCosine over light directions, one ring of them per thread; or (byHalfVector) over half vectors,
+// which resolves narrow lobes. The sum over the rings of a case is the integral.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/ggx.glsl"

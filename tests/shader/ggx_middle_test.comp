@@ -1,5 +1,4 @@
-// For (nv, alpha): the direction in which the middle one of the normals that v sees reflects it, and the tangent of the
-// lobe's half angle.
+// For (nv, alpha): the reflection at the median visible normal, and the tangent of the cone's half angle.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/ggx.glsl"

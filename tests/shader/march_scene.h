@@ -1,4 +1,5 @@
-// Made-up scenes for the methods of march*.glsl: parts of planes, seen by a camera that looks along -Z from the origin.
+// Synthetic scenes for the methods of march*.glsl: parts of planes, seen by a camera that looks along -Z from the
+// origin.
 #pragma once
 
 #include "render/renderer.h"

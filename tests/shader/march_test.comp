@@ -1,4 +1,4 @@
-// Marches rays through depth that is worked out, not drawn: at each pixel's centre, the nearest wall there.
+// Marches rays through analytic depth: at each pixel's centre, the nearest wall there.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "march_test.h"

@@ -1,5 +1,5 @@
-// march.glsl: walls met at known depths, and every way to miss. The camera looks along -Z from the origin; walls face
-// it.
+// march.glsl: hits on walls at known depths, and every kind of miss. The camera looks along -Z from the origin; walls
+// face it.
 #include "shader/march_scene.h"
 
 namespace reflet::test::march_test {
@@ -18,7 +18,8 @@ TEST_P(March, meetsAWallWithinAStepOfItsDepthAndInItsPixel) {
             const glm::dvec3 o(rays[i].origin);
             const glm::dvec3 d(rays[i].direction);
             const double toWall = (o.z + 10.0) / -d.z;
-            // The first sample behind the wall; two samples are right where it lies on it to a rounding.
+            // The first sample behind the wall; if one lies on the wall within rounding, either of two samples is
+            // right.
             const double samples = toWall / stepLength - jitter;
             ASSERT_EQ(answers[i].outcome, marchHit);
             ASSERT_GT(answers[i].distance, toWall - 1e-5);
@@ -108,7 +109,7 @@ TEST_P(March, leavesTheScreenPastTheCamera) {
         EXPECT_EQ(answer.outcome, marchLeftScreen);
         EXPECT_NEAR(answer.distance, 5.0F - near, 0.031F);
     }
-    // One step leaps over the camera, another starts behind it.
+    // One step jumps past the camera, another starts behind it.
     const auto leapt = march(scene, {{vec3(0, 0, -1), vec3(0, 0, 1), 4.0F, 64, 100.0F, 1.0F}}).front();
     EXPECT_EQ(leapt.outcome, marchLeftScreen);
     EXPECT_EQ(leapt.steps, 0U);
@@ -149,7 +150,7 @@ TEST_P(March, neverHitsTheSky) {
     }
 }
 
-// A floor 1 m below the camera, whose pixels show steps of depth to rays just above it; it runs up to a wall.
+// A floor 1 m below the camera, whose per-pixel depth looks like stairs to rays just above it; it ends at a wall.
 class MarchOffTheFloor : public March {
 protected:
     static MarchScene floorAndWall() { return sceneOf({{vec4(0, 1, 0, 1), vec2(-1.0F), vec2(2.0F)}, wallAt(20.0F)}); }

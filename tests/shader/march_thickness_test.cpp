@@ -1,5 +1,4 @@
-// What march*.glsl takes surfaces for: as thick as a step, or as far as their back faces; and how far it says that rays
-// were free.
+// Thickness of surfaces in march*.glsl (a step, or up to the back face), and the reported clear distance of rays.
 #include "shader/march_scene.h"
 
 namespace reflet::test::march_thickness_test {
@@ -98,7 +97,7 @@ protected:
     /// Metres that a pixel is wide, z metres away.
     static double pixelWidth(double z) { return 1.0 / (project({1.0, 0.0, -z}).x - project({0.0, 0.0, -z}).x); }
 
-    /// Metres by which the method may not have known that it was free: its step, or a pixel.
+    /// Uncertainty of the clear distance [m]: the step of the method, or a pixel.
     static double unknown(uint32_t method, double z) {
         return method == marchMethodLinear ? stepOf(method) : method == marchMethodHalving ? 0.001 : pixelWidth(z);
     }
@@ -137,7 +136,7 @@ TEST_P(Clear, isTheWayToTheEdgeInFrontOfEverything) {
     }
 }
 
-// Before the sky and before a wall: cells of hierarchical depth that hold both must not end it too early.
+// In front of the sky and in front of a wall: cells of hierarchical depth that hold both must not end it too early.
 TEST_P(Clear, endsWhereTheRayGoesBehindSomething) {
     for (const MarchScene& scene : {sceneOf({slab(false)}), sceneOf({slab(false), wallAt(20.0F)})}) {
         for (const uint32_t method : stepping) {

@@ -1,4 +1,4 @@
-// Own motion of things, and of their mirror images.
+// Object motion, and the motion of mirror images.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "own_motion_test.h"

@@ -1,4 +1,4 @@
-// own_motion.glsl against things and mirrors whose places are known.
+// own_motion.glsl against objects and mirrors at known positions.
 #include "shader/own_motion_test.h"
 
 #include "render/planar/planar_view.h"
@@ -35,7 +35,7 @@ vec2 uvOf(const mat4& worldToClip, const vec3& p) {
     return 0.5F + 0.5F * vec2(clip) / clip.w;
 }
 
-/// Things above a mirror in the plane y = 0.1, some of which stand still, between two frames of a camera that moves.
+/// Objects above a mirror in the plane y = 0.1, some of them static, between two frames of a moving camera.
 Cases makeCases(bool orthographic) {
     std::mt19937 random(7);
     const auto between = [&](float low, float high) {

@@ -1,4 +1,4 @@
-// A thing before a mirror, as own_motion_test.comp takes it. Shared by C++ and GLSL.
+// An object in front of a mirror, input of own_motion_test.comp. Shared by C++ and GLSL.
 #ifndef REFLET_TESTS_OWN_MOTION_TEST_H
 #define REFLET_TESTS_OWN_MOTION_TEST_H
 
