@@ -1,5 +1,5 @@
-// Traces rays from random pixels of a G-buffer: even ones are spread by the cosine about the geometric normal, odd ones
-// mirror the view. In: depth, geometric normal, pyramid, as trace_screen reads them. Out: what three tracers say.
+// Traces rays from random pixels of a G-buffer: even ones are cosine-distributed around the geometric normal, odd ones
+// are mirror rays. In: depth, geometric normal, pyramid, as trace_screen reads them. Out: the results of three tracers.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "oracle_test.h"

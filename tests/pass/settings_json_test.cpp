@@ -1,8 +1,8 @@
-// Settings as JSON that is read and written.
+// Settings written to JSON and read back.
 #include "pass/harness.h"
 
-#include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
+#include <nlohmann/json.hpp>
 
 namespace reflet::test::settings_json_test {
 namespace {

@@ -36,7 +36,7 @@ protected:
     }
 };
 
-TEST_F(BlueNoisePoints, OfTheSequenceEveryPowerOfTwoFillsEveryShapeOfBoxes) {
+TEST_F(BlueNoisePoints, OfEveryPowerOfTwoFillEveryShapeOfBoxes) {
     const auto samples = raysOfAPixel(4096, uvec2(0), 0);
     for (uint32_t k = 0; k <= 8; ++k) {
         for (uint32_t first = 0; first < 4096; first += 1U << k) {
@@ -123,7 +123,7 @@ TEST_F(BlueNoisePoints, TileTheScreenWithTheMaskMovedByTheStream) {
     EXPECT_EQ(texels.size(), 64U * 64U);
 }
 
-TEST_F(BlueNoisePoints, GoOnInTheSequenceOnceAllSlicesHaveBeenUsed) {
+TEST_F(BlueNoisePoints, ContinueTheSequenceOnceAllSlicesHaveBeenUsed) {
     // The mask repeats every 32 frames. With one ray, only the sequence's points differ between repetitions.
     constexpr uint32_t turns = 16;
     std::vector<BlueNoiseCase> cases;

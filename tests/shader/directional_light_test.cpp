@@ -36,7 +36,7 @@ TEST_F(DirectionalLight, IsTheSameForTheSameNormal) {
     }
 }
 
-TEST_F(DirectionalLight, OfTheUpperHalfFallsOnTiltedSurfacesAsItDoes) {
+TEST_F(DirectionalLight, OfTheUpperHalfFallsOnTiltedSurfacesAsComputed) {
     std::vector<LitSurface> surfaces;
     for (float degrees = -80.0F; degrees <= 80.0F; degrees += 20.0F) {
         surfaces.push_back({tilted(0.0F), tilted(degrees), tilted(0.0F), upperHalf});
@@ -49,7 +49,7 @@ TEST_F(DirectionalLight, OfTheUpperHalfFallsOnTiltedSurfacesAsItDoes) {
     }
 }
 
-TEST_F(DirectionalLight, OfASmallThingGoesMostOfTheWay) {
+TEST_F(DirectionalLight, OfASmallLightGoesMostOfTheWay) {
     std::vector<LitSurface> surfaces;
     for (const float from : {-50.0F, -20.0F, 35.0F, 60.0F}) {
         for (const float by : {-25.0F, -10.0F, 10.0F, 25.0F}) {

@@ -145,7 +145,7 @@ TEST(FitSunShadow, fallsBackToTheWholeSceneWhenTheViewSeesNothingOfIt) {
     }
 }
 
-TEST(FitSunShadow, standsABoxOfOnePoint) {
+TEST(FitSunShadow, acceptsABoxOfOnePoint) {
     const auto clipToWorld = makeViewParams(cameras()[0], pixels, 0, 0).clipToWorld;
     for (const vec3& sun : sunDirections()) {
         const ShadowMapParams map = fitSunShadow(clipToWorld, boxOf(vec3(1), vec3(1)), sun, resolution);

@@ -124,7 +124,7 @@ TEST_P(Methods, passBehindAWallThatIsThinnerThanTheGap) {
     }
 }
 
-TEST_P(Methods, halvingIsHiddenBehindAWallThatIsThinnerThanTheGap) {
+TEST_P(Methods, halvingIsOccludedByAWallThatIsThinnerThanTheGap) {
     const MarchScene scene = sceneOf({wallAt(5.0F, vec2(0.5F, 0.0F), vec2(1.0F))});
     const MarchInput ray{vec3(-1.0F, 0.1F, -6.0F), vec3(1, 0, 0), 0.4F, 4096, 0.9F, 1.0F, {}, 0.001F};
     EXPECT_EQ(march(scene, {ray}, marchMethodHalving).front().outcome, marchOccluded);

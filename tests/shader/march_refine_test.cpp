@@ -37,7 +37,7 @@ INSTANTIATE_TEST_SUITE_P(Cameras, Refinement, ::testing::Bool(), [](const auto& 
     return camera.param ? std::string("orthographic") : std::string("perspective");
 });
 
-TEST_P(Refinement, leavesTheLastStepOverAPowerOfTwo) {
+TEST_P(Refinement, leavesTheLastStepDividedByAPowerOfTwo) {
     constexpr float step = 0.31F;
     for (const uint32_t halvings : {0U, 1U, 3U, 6U}) {
         const auto found = errors(raysWith(0.37F, step, halvings, false), marchMethodLinear);
@@ -49,7 +49,7 @@ TEST_P(Refinement, leavesTheLastStepOverAPowerOfTwo) {
     }
 }
 
-TEST_P(Refinement, leavesTheLastStepOfHalvingOverAPowerOfTwo) {
+TEST_P(Refinement, leavesTheLastStepOfHalvingDividedByAPowerOfTwo) {
     for (const uint32_t halvings : {0U, 2U, 5U}) {
         const auto found = errors(raysWith(1.0F, 0.4F, halvings, false), marchMethodHalving);
         const auto [least, most] = std::ranges::minmax(found);

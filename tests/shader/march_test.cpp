@@ -51,7 +51,7 @@ TEST_P(March, meetsATiltedWallWithinAStepAndAPixel) {
     }
 }
 
-TEST_P(March, isSpentAlongAWallThatItNeverMeets) {
+TEST_P(March, reachesItsLimitAlongAWallThatItNeverMeets) {
     const MarchScene scene = sceneOf({wallAt(10.0F)});
     for (const vec3 direction : {vec3(1, 0, 0), vec3(0, 1, 0), vec3(-1, 0, 0)}) {
         for (const uint32_t budget : {1U, 7U, 64U}) {

@@ -168,7 +168,7 @@ TEST_P(Clear, endsBeforeTheHit) {
     }
 }
 
-TEST_P(Clear, isAsFarAsTheBudgetWent) {
+TEST_P(Clear, isAsFarAsTheStepsWent) {
     const MarchScene scene = sceneOf({wallAt(50.0F)});
     for (const uint32_t method : stepping) {
         if (method == marchMethodExhaustive) {

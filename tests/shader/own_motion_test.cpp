@@ -66,7 +66,7 @@ Cases makeCases(bool orthographic) {
 class OwnMotionTest : public ShaderTest, public ::testing::WithParamInterface<bool> {};
 INSTANTIATE_TEST_SUITE_P(Cameras, OwnMotionTest, ::testing::Bool());
 
-TEST_P(OwnMotionTest, TellsHowThingsMovedInTheWorldAndTheirImagesBehindAMirror) {
+TEST_P(OwnMotionTest, TellsHowObjectsMovedInTheWorldAndTheirImagesBehindAMirror) {
     const Cases cases = makeCases(GetParam());
     const auto found = mapOnDevice<OwnMotion>("own_motion_test.comp", cases.things, cases.view);
     for (size_t i = 0; i < found.size(); ++i) {
@@ -75,7 +75,7 @@ TEST_P(OwnMotionTest, TellsHowThingsMovedInTheWorldAndTheirImagesBehindAMirror) 
     }
 }
 
-TEST_P(OwnMotionTest, IsExactlyNoneOfWhatStandsStill) {
+TEST_P(OwnMotionTest, IsExactlyZeroForStaticObjects) {
     const Cases cases = makeCases(GetParam());
     const auto found = mapOnDevice<OwnMotion>("own_motion_test.comp", cases.things, cases.view);
     for (size_t i = 0; i < found.size(); i += 4) {
