@@ -15,7 +15,7 @@ struct ScreenRay {
     float end;      // metres
     float wStart;
     float wEnd;
-    bool leavesScreen;   // it ends at the edge of the screen, not at the maximum distance
+    bool leavesScreen;  // it ends at the edge of the screen, not at the maximum distance
 };
 
 float distanceAlong(ScreenRay r, float s) {

@@ -9,7 +9,7 @@
 const float minFacing = 0.05;         // lower clamp of the cosine between normal and sun
 const float edgeBias = 0.75;          // part of the depth bias that is left out at edges
 const float maxBend = 2.0;            // metres that a surface may bend below its plane per metre to the side
-const float outsideClearance = -1e9;  // clearance where the map holds nothing
+const float outsideClearance = -1e9;  // clearance outside the map
 
 // Position of a map in the image that several maps share.
 struct ShadowTile {

@@ -3,7 +3,7 @@
 #ifndef REFLET_LAST_FRAME_GLSL
 #define REFLET_LAST_FRAME_GLSL
 
-#include "shaders/own_motion.glsl"
+#include "shaders/object_motion.glsl"
 
 const float sameDistance = 0.02;  // share of its distance by which the last frame may have shown a surface elsewhere
 

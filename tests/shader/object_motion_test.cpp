@@ -1,5 +1,5 @@
-// own_motion.glsl against objects and mirrors at known positions.
-#include "shader/own_motion_test.h"
+// object_motion.glsl against objects and mirrors at known positions.
+#include "shader/object_motion_test.h"
 
 #include "render/planar/planar_view.h"
 #include "render/view_params.h"
@@ -7,7 +7,7 @@
 
 #include <random>
 
-namespace reflet::test::own_motion_test {
+namespace reflet::test::object_motion_test {
 namespace {
 
 constexpr uvec2 pixels{1280, 720};
@@ -27,7 +27,7 @@ Camera cameraAt(const vec3& position, bool orthographic) {
 struct Cases {
     ViewParams view{};
     std::vector<MirroredThing> things;
-    std::vector<OwnMotion> expected;
+    std::vector<ObjectMotion> expected;
 };
 
 vec2 uvOf(const mat4& worldToClip, const vec3& p) {
@@ -63,21 +63,21 @@ Cases makeCases(bool orthographic) {
     return cases;
 }
 
-class OwnMotionTest : public ShaderTest, public ::testing::WithParamInterface<bool> {};
-INSTANTIATE_TEST_SUITE_P(Cameras, OwnMotionTest, ::testing::Bool());
+class ObjectMotionTest : public ShaderTest, public ::testing::WithParamInterface<bool> {};
+INSTANTIATE_TEST_SUITE_P(Cameras, ObjectMotionTest, ::testing::Bool());
 
-TEST_P(OwnMotionTest, TellsHowObjectsMovedInTheWorldAndTheirImagesBehindAMirror) {
+TEST_P(ObjectMotionTest, TellsHowObjectsMovedInTheWorldAndTheirImagesBehindAMirror) {
     const Cases cases = makeCases(GetParam());
-    const auto found = mapOnDevice<OwnMotion>("own_motion_test.comp", cases.things, cases.view);
+    const auto found = mapOnDevice<ObjectMotion>("object_motion_test.comp", cases.things, cases.view);
     for (size_t i = 0; i < found.size(); ++i) {
         ASSERT_LT(glm::distance(found[i].displacement, cases.expected[i].displacement), 1e-4F) << i;
         ASSERT_LT(glm::distance(found[i].ofImage, cases.expected[i].ofImage), 2e-5F) << i;
     }
 }
 
-TEST_P(OwnMotionTest, IsExactlyZeroForStaticObjects) {
+TEST_P(ObjectMotionTest, IsExactlyZeroForStaticObjects) {
     const Cases cases = makeCases(GetParam());
-    const auto found = mapOnDevice<OwnMotion>("own_motion_test.comp", cases.things, cases.view);
+    const auto found = mapOnDevice<ObjectMotion>("object_motion_test.comp", cases.things, cases.view);
     for (size_t i = 0; i < found.size(); i += 4) {
         ASSERT_EQ(found[i].displacement, vec3(0.0F)) << i;
         ASSERT_EQ(found[i].ofImage, vec2(0.0F)) << i;
@@ -85,4 +85,4 @@ TEST_P(OwnMotionTest, IsExactlyZeroForStaticObjects) {
 }
 
 }  // namespace
-}  // namespace reflet::test::own_motion_test
+}  // namespace reflet::test::object_motion_test

@@ -1,7 +1,7 @@
 // Object motion from the motion vectors of the G-buffer: the world-space displacement of a surface, and the motion of
 // its mirror image.
-#ifndef REFLET_OWN_MOTION_GLSL
-#define REFLET_OWN_MOTION_GLSL
+#ifndef REFLET_OBJECT_MOTION_GLSL
+#define REFLET_OBJECT_MOTION_GLSL
 
 #include "shaders/projection.glsl"
 
