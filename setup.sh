@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what building Reflet needs and this machine lacks, through apt. With --tests: also what the tests need.
-# Does nothing, and asks for nothing, where everything is there. Debian 12 or newer, Ubuntu 24.04 or newer.
+# Installs missing build dependencies through apt. With --tests: also those of the tests. Does nothing, and asks for
+# nothing, if all are installed. Debian 12 or newer, Ubuntu 24.04 or newer.
 set -euo pipefail
 
 needed=(
@@ -79,7 +79,7 @@ apt() {
     "${asRoot[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=300 "$@"
 }
 
-# Without the lists (no network, say) the install below may still work, or says why not.
+# If updating the lists fails (no network, say), the install below may still work, or reports why not.
 apt update || true
 
 known=()

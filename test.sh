@@ -21,13 +21,13 @@ echo "built in $SECONDS s"
 
 logs=build/test-logs
 mkdir -p "$logs"
-limit=1800 # seconds for one test program; one that hangs has failed
+limit=1800 # seconds per test program; one that hangs has failed
 passed=0
 failed=0
 skipped=0
 failures=()
 
-# A number from the head of a GoogleTest report, which holds the totals.
+# A total from the head of a GoogleTest report.
 total() {  # report key
     grep -m 1 "\"$2\":" "$1" | tr -dc '0-9'
 }
@@ -37,7 +37,7 @@ runTests() {  # program [name filter]
     local log="$logs/$name.log" report="$logs/$name.json"
     rm -f "$report"
     echo "== $name"
-    # Shows all but what went well.
+    # Shows everything but passed tests.
     timeout "$limit" "$1" "--gtest_filter=$filter" "--gtest_output=json:$report" 2>&1 | tee "$log" |
         { grep -avE '^\[( RUN      |       OK |----------|==========)\]|^Running main|^$' || true; } || status=$?
     local names
@@ -49,7 +49,7 @@ runTests() {  # program [name filter]
         bad=$(total "$report" failures)
         ok=$(($(total "$report" tests) - bad - $(total "$report" disabled) - skippedHere))
         skipped=$((skipped + skippedHere))
-    else # it did not come to its end
+    else # it did not finish
         ok=$(grep -ac '^\[       OK \]' "$log" || true)
         bad=$(grep -acE '^\[  FAILED  \] .* ms\)$' "$log" || true)
     fi
@@ -70,7 +70,7 @@ for program in build/bin/*_tests; do
     fi
 done
 
-# What needs ray query, where the machine's own driver has none.
+# Tests that need ray query, if the installed driver does not support it.
 if driver=$(tests/second_driver.sh build); then
     VK_DRIVER_FILES=$driver VK_ICD_FILENAMES=$driver runTests build/bin/pass_tests pass_tests_ray_query '*SceneRays*'
 else

@@ -1,5 +1,5 @@
-# Embeds text files: reflet_embed(TARGET FUNCTION FILE...) adds a source that defines reflet::FUNCTION(), name and text
-# of each file (see base/embedded.h).
+# Embeds text files: reflet_embed(TARGET FUNCTION FILE...) adds a source that defines reflet::FUNCTION(), which returns
+# the name and the text of each file (see base/embedded.h).
 function(reflet_embed target function)
     set(table "")
     foreach(file ${ARGN})

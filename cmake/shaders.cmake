@@ -1,6 +1,7 @@
 # Compiles GLSL to SPIR-V and embeds it in the target: reflet_shaders(TARGET FUNCTION FILE...) adds a source that
-# defines `std::span<const reflet::gpu::EmbeddedShader> FUNCTION()`. Shaders are known by their file name. The target
-# is 1.2, whose shaders every 1.3 device runs: for 1.3 glslc writes group sizes in a form that reflection does not read.
+# defines `std::span<const reflet::gpu::EmbeddedShader> FUNCTION()`. Shaders are registered by file name. The SPIR-V
+# target is Vulkan 1.2, which every 1.3 device accepts: for 1.3 glslc emits work group sizes in a form that the
+# reflection does not support.
 set(glslc_command ${GLSLC} --target-env=vulkan1.2 -Werror)
 
 function(reflet_shaders target function)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Gets a second Vulkan driver for tests alone: the CPU driver of a newer Mesa, which has ray query, from the backports
-# of this machine's Debian release. Prints the path of its description (for VK_DRIVER_FILES); where it cannot be had,
-# says why on standard error and fails. Installs nothing: all of it stays in BUILD_FOLDER/second-driver.
+# Downloads a second Vulkan driver for the tests only: the CPU driver of a newer Mesa, which supports ray query, from
+# the backports of this Debian release. Prints the path of its ICD manifest (for VK_DRIVER_FILES); on failure, prints
+# why to standard error. Installs nothing: everything stays in BUILD_FOLDER/second-driver.
 # usage: tests/second_driver.sh BUILD_FOLDER
 set -euo pipefail
 
@@ -22,7 +22,7 @@ for tool in apt-get dpkg-deb ldd; do
     command -v "$tool" >/dev/null || giveUp "there is no $tool here"
 done
 
-# Backports lie beside the release itself: the same place, another name.
+# Backports are on the same server as the release, in another suite.
 # shellcheck source=/dev/null
 codename=$(. /etc/os-release && echo "${VERSION_CODENAME-}")
 place=$(apt-get indextargets --format '$(RELEASE) $(COMPONENT) $(REPO_URI)' 'Created-By: Packages' |
@@ -49,7 +49,7 @@ library=$(find "$folder/files" -name 'libvulkan_lvp.so' -print -quit)
 original=$(find "$folder/files" -name 'lvp_icd*.json' -print -quit)
 [[ -n "$library" && -n "$original" ]] || giveUp "mesa-vulkan-drivers of $codename-backports has no CPU driver"
 lacking=$(ldd "$library" | sed -nE 's/^\s*(\S+) => not found$/\1/p' | tr '\n' ' ')
-[[ -z "$lacking" ]] || giveUp "the driver of $codename-backports needs what is not installed: $lacking"
+[[ -z "$lacking" ]] || giveUp "the driver of $codename-backports needs libraries that are not installed: $lacking"
 sed -E "s#(\"library_path\": \")[^\"]*#\1$library#" "$original" >"$description.part"
 mv "$description.part" "$description"
 echo "$description"

@@ -1,4 +1,4 @@
-// What several folders ask of colours: linear, sRGB (Rec. 709) primaries.
+// Colour helpers: luminance and sRGB decoding. Linear colours have sRGB (Rec. 709) primaries.
 #pragma once
 
 #include "base/math.h"

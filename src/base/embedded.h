@@ -1,4 +1,4 @@
-// Text files that are part of the program: cmake/embed.cmake makes a function that returns them.
+// Text files embedded in the program: cmake/embed.cmake generates a function that returns them.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// Reports broken invariants.
+// Reports failed invariants.
 #include "base/error.h"
 
 namespace reflet {

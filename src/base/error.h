@@ -1,5 +1,5 @@
-// The three kinds of failure and how each is told. A bug: REFLET_CHECK, never compiled out. The world (a file,
-// a device, an argument): an exception whose message says what, where and what to do. Absence: std::optional.
+// The three kinds of failure. Bugs: REFLET_CHECK, never compiled out. External failures (a file, a device, an
+// argument): an exception whose message says what, where and what to do. Absence: std::optional.
 #pragma once
 
 #include <spdlog/fmt/fmt.h>
@@ -15,7 +15,7 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// The program was asked for something that it cannot be asked for. Exit status 2.
+/// Wrong use: an invalid command line. Exit status 2.
 class UsageError : public Error {
 public:
     using Error::Error;
@@ -33,12 +33,12 @@ template <class... Args>
     throw UsageError(fmt::format(format, std::forward<Args>(args)...));
 }
 
-/// A broken invariant of our own. Throws std::logic_error, in every build.
+/// Reports a failed invariant (a bug). Throws std::logic_error, in every build.
 [[noreturn]] void checkFailed(const char* condition, const char* file, int line, const std::string& detail);
 
 }  // namespace reflet
 
-/// REFLET_CHECK(a == b, "{} {}", a, b): the invariant, and the values that broke it.
+/// REFLET_CHECK(a == b, "{} {}", a, b): an invariant, and the values to report if it fails.
 #define REFLET_CHECK(condition, ...)                                                         \
     do {                                                                                     \
         if (!(condition)) [[unlikely]]                                                       \

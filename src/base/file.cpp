@@ -1,4 +1,5 @@
-// Whole files in and out. Files are written beside their name and then renamed, which is atomic on POSIX.
+// Reads and writes whole files. Files are written to a temporary name in the same folder and then renamed, which is
+// atomic on POSIX.
 #include "base/file.h"
 
 #include "base/error.h"
@@ -53,7 +54,7 @@ private:
     fail("{}: cannot be written: {}{}", path.string(), reason(errorNumber), advice);
 }
 
-/// A name in the same folder that no other process and no other thread of this one uses.
+/// A name in the same folder that is unique across processes and threads.
 fs::path temporaryName(const fs::path& target) {
     static std::atomic<unsigned> counter = 0;
     fs::path result = target;
@@ -131,7 +132,7 @@ AtomicFile::AtomicFile(const fs::path& target) : name_(target), target_(target) 
     std::error_code ignored;
     const fs::file_status status = fs::status(target, ignored);
     if (fs::is_directory(status) || !target.has_filename()) {
-        fail("{}: cannot be written: it is a folder: name a file in it", target.string());
+        fail("{}: cannot be written: it is a folder; name a file in it", target.string());
     }
     if (fs::exists(status) && !fs::is_regular_file(status)) {
         tempPath_ = target_;
@@ -174,7 +175,7 @@ bool AtomicFile::commitNew() {
         }
         commit();  // a file system without hard links
     }
-    return true;  // the temporary name goes with this object
+    return true;  // the destructor removes the temporary name
 }
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// Whole files in and out. What is written appears under its name only when it is complete.
+// Reads and writes whole files. Writing is atomic.
 #pragma once
 
 #include <filesystem>
@@ -10,15 +10,16 @@ namespace reflet {
 /// The content of a file. Throws Error if it cannot be read.
 std::string readFile(const std::filesystem::path& path);
 
-/// Writes a file so that whoever reads `path` sees the old content or the new, never a part. Throws Error, and then
-/// the old content is still there.
+/// Writes a file atomically: readers of `path` see the old content or the new, never a part. Throws Error and leaves
+/// the old content on failure.
 void writeFileAtomically(const std::filesystem::path& path, std::string_view content);
 
-/// The same for a file that must be new. False if `path` exists, also if another process makes it at this moment.
+/// The same for a file that must not exist yet. Returns false if `path` exists, even if another process creates it
+/// concurrently.
 bool writeNewFile(const std::filesystem::path& path, std::string_view content);
 
-/// For libraries that write to a path themselves: have them write to tempPath(), then commit(). Without commit()
-/// nothing happens to the target. A target that is no regular file (/dev/null, a pipe) is written to directly.
+/// For libraries that write to a path themselves: let them write to tempPath(), then call commit(). Without commit()
+/// the target is unchanged. A target that is no regular file (/dev/null, a pipe) is written directly.
 class AtomicFile {
 public:
     /// Creates the empty temporary file in the target's folder. Throws Error if the target cannot be written.
@@ -31,15 +32,15 @@ public:
 
     [[nodiscard]] const std::filesystem::path& tempPath() const { return tempPath_; }
 
-    /// Gives the temporary file the target's name. At most once. Throws Error.
+    /// Renames the temporary file to the target. Call at most once. Throws Error.
     void commit();
-    /// The same, but false if the target exists: then nothing happens to it.
+    /// The same, but returns false and changes nothing if the target exists.
     bool commitNew();
 
 private:
-    std::filesystem::path name_;      ///< as the caller said it, for messages
+    std::filesystem::path name_;      ///< as the caller gave it, for messages
     std::filesystem::path target_;    ///< symbolic links resolved
-    std::filesystem::path tempPath_;  ///< target_ itself where that is written to directly
+    std::filesystem::path tempPath_;  ///< target_ itself if that is written directly
     bool pending_ = false;            ///< the temporary file exists
 };
 

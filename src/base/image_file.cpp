@@ -17,7 +17,7 @@ namespace {
 template <class T>
 using StbPixels = std::unique_ptr<T, decltype(&stbi_image_free)>;
 
-/// A file as stb wants it.
+/// The content of a file, checked for the size limit of stb.
 struct Encoded {
     explicit Encoded(const std::filesystem::path& path) : content(readFile(path)) {
         if (content.size() > static_cast<size_t>(std::numeric_limits<int>::max())) {
@@ -73,7 +73,7 @@ Bitmap readBitmap(const std::filesystem::path& path) {
 
 FloatImage readHdr(const std::filesystem::path& path) {
     const Encoded file(path);
-    // stb would turn an 8-bit picture into floats with a gamma of its own.
+    // stb would convert an 8-bit image to floats with a gamma of its own.
     if (stbi_is_hdr_from_memory(file.data(), file.size()) == 0) {
         fail("{}: is not a Radiance HDR image", path.string());
     }

@@ -1,5 +1,5 @@
-// Pictures in files: PNG for looking at, OpenEXR (several layers) and Radiance HDR for values.
-// All writing is atomic (see base/file.h) and the same picture gives the same bytes. Rows run from the top.
+// Image files: PNG for display, OpenEXR (several layers) and Radiance HDR for values.
+// All writing is atomic (see base/file.h), and equal images give equal bytes. Rows run from the top.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace reflet {
 
-/// 8-bit picture. What the numbers mean (sRGB or not) is the caller's business.
+/// 8-bit image. The encoding (sRGB or not) is up to the caller.
 struct Bitmap {
     uint32_t width = 0;
     uint32_t height = 0;
@@ -18,7 +18,7 @@ struct Bitmap {
     std::vector<uint8_t> data;  ///< width · height · channels bytes, interleaved
 };
 
-/// Linear picture.
+/// Linear image.
 struct FloatImage {
     uint32_t width = 0;
     uint32_t height = 0;
@@ -35,22 +35,22 @@ struct ImageLayer {
     PixelType pixelType = PixelType::float32;  ///< in the file; half clamps finite values to ±65504
 };
 
-/// Bitmap of 3 or 4 channels. Throws Error if the file cannot be written.
+/// Writes a bitmap of 3 or 4 channels. Throws Error if the file cannot be written.
 void writePng(const std::filesystem::path& path, const Bitmap& bitmap);
 
-/// PNG, JPEG and the other 8-bit formats that stb knows; the channels that the file has. Throws Error.
+/// Reads PNG, JPEG and the other 8-bit formats that stb supports, with the channels of the file. Throws Error.
 Bitmap readBitmap(const std::filesystem::path& path);
 
-/// At least one layer, all of one size, no two channels of one name. ZIP compression. Throws Error if the file cannot
-/// be written.
+/// Writes at least one layer; all of the same size, with unique channel names. ZIP compression. Throws Error if the
+/// file cannot be written.
 void writeExr(const std::filesystem::path& path, std::span<const ImageLayer> layers);
 
-/// All channels of the first part of an EXR file as layers, ordered by name (the unnamed one first); channels in the
-/// order R G B A, then alphabetical. The size is that of the data window, at most 65536 pixels a side. Integer channels
-/// become float. Throws Error.
+/// Reads all channels of the first part of an EXR file as layers, ordered by name (the unnamed one first); channels in
+/// the order R G B A, then alphabetical. The size is that of the data window, at most 65536 pixels a side. Integer
+/// channels become float. Throws Error.
 std::vector<ImageLayer> readExr(const std::filesystem::path& path);
 
-/// Radiance .hdr as "R" "G" "B". Throws Error.
+/// Reads Radiance .hdr as "R" "G" "B". Throws Error.
 FloatImage readHdr(const std::filesystem::path& path);
 
 }  // namespace reflet

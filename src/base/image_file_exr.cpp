@@ -1,4 +1,4 @@
-// OpenEXR files of several layers, encoded and decoded in memory, so that all file errors are told in one place.
+// OpenEXR files with several layers, encoded and decoded in memory, so that all file errors are reported in one place.
 #include "base/image_file.h"
 
 #include "base/error.h"
@@ -67,7 +67,7 @@ private:
     size_t position_ = 0;
 };
 
-/// OpenEXR's messages read: Cannot do this with file "". Reason.
+/// Extracts the reason from OpenEXR's messages, `Cannot do this with file "". Reason.`
 std::string exrReason(const std::exception& error) {
     std::string text = error.what();
     if (const size_t end = text.rfind("\". "); end != std::string::npos) {
@@ -100,7 +100,7 @@ void checkLayers(std::span<const ImageLayer> layers) {
     }
 }
 
-/// Finite stays finite: a bright highlight is not worth an infinity in every later sum.
+/// Finite values stay finite: an infinity would spoil every later sum.
 std::vector<half> toHalf(const std::vector<float>& values) {
     std::vector<half> result(values.size());
     std::ranges::transform(values, result.begin(), [](float value) {
@@ -109,7 +109,7 @@ std::vector<half> toHalf(const std::vector<float>& values) {
     return result;
 }
 
-/// The slice of one channel of interleaved values whose first pixel is that of `window`.
+/// The slice of one channel of interleaved values whose first pixel is the corner of `window`.
 template <class T>
 Imf::Slice sliceOf(Imf::PixelType type, const T* values, size_t channel, size_t channels, const Imath::Box2i& window) {
     const size_t xStride = channels * sizeof(T);
@@ -117,12 +117,12 @@ Imf::Slice sliceOf(Imf::PixelType type, const T* values, size_t channel, size_t 
     return Imf::Slice::Make(type, values + channel, window, xStride, xStride * width);
 }
 
-/// Settings that OpenEXR keeps for the whole process.
+/// Process-wide settings of OpenEXR.
 void configureOpenExr() {
     static const bool once = [] {
-        // Compression takes most of the time of writing. The bytes do not depend on the number of threads.
+        // Most of the writing time is compression. The bytes do not depend on the number of threads.
         Imf::setGlobalThreadCount(static_cast<int>(std::thread::hardware_concurrency()));
-        // OpenEXR allocates its line buffers before we see the header, which may be damaged.
+        // OpenEXR allocates its line buffers before the header can be checked, and the header may be damaged.
         Imf::Header::setMaxImageSize(largestSide, largestSide);
         return true;
     }();
@@ -165,7 +165,7 @@ int channelRank(const std::string& channel) {
     return channel.size() == 1 && rank != std::string_view::npos ? static_cast<int>(rank) : 4;
 }
 
-/// The layers that the header names, without pixels.
+/// The layers in the header, without pixels.
 std::vector<ImageLayer> layersOf(const Imf::Header& header, uint32_t width, uint32_t height) {
     std::map<std::string, ImageLayer> byName;
     for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
@@ -190,22 +190,22 @@ std::vector<ImageLayer> layersOf(const Imf::Header& header, uint32_t width, uint
     return layers;
 }
 
-/// A damaged header can ask for any amount of memory.
+/// Rejects damaged headers that would need any amount of memory.
 void checkPlausible(const std::vector<ImageLayer>& layers, size_t fileSize) {
     double bytes = 0;  // as a double it cannot overflow
     for (const auto& [name, image, pixelType] : layers) {
         bytes += double{sizeof(float)} * image.width * image.height * static_cast<double>(image.channels.size());
     }
-    constexpr double bestCompression = 4096;  // ZIP reaches 1000 on zeros, and they double as floats
+    constexpr double bestCompression = 4096;  // ZIP reaches 1000 on zeros, which double in size as floats
     if (bytes > bestCompression * static_cast<double>(fileSize)) {
-        fail("a picture of {:g} bytes cannot be in {} bytes", bytes, fileSize);
+        fail("an image of {:g} bytes cannot be stored in {} bytes", bytes, fileSize);
     }
 }
 
 std::vector<ImageLayer> decodeExr(std::string_view content) {
     configureOpenExr();
     MemoryInput input(content);
-    Imf::InputFile file(input, 0);  // in this thread: it stops at the first damage, threads go on through all lines
+    Imf::InputFile file(input, 0);  // single-threaded: stops at the first damaged line, where threads go on
     const Imath::Box2i window = file.header().dataWindow();
     std::vector<ImageLayer> layers = layersOf(file.header(), static_cast<uint32_t>(window.max.x - window.min.x + 1),
                                               static_cast<uint32_t>(window.max.y - window.min.y + 1));
@@ -231,7 +231,7 @@ void writeExr(const std::filesystem::path& path, std::span<const ImageLayer> lay
     try {
         content = encodeExr(layers);
     } catch (const std::logic_error&) {
-        throw;  // a broken check
+        throw;  // a failed check
     } catch (const std::exception& error) {
         fail("{}: cannot be encoded as EXR: {}", path.string(), exrReason(error));
     }

@@ -1,4 +1,4 @@
-// JSON files, read strictly, through nlohmann-json.
+// Strict reading of JSON files, with nlohmann-json.
 #include "base/json.h"
 
 #include "base/error.h"
@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-/// nlohmann keeps the last of two equal keys without a word. This callback of its parser throws instead.
+/// nlohmann-json silently keeps the last of duplicate keys. This parser callback throws instead.
 class DuplicateKeys {
 public:
     explicit DuplicateKeys(std::string file) : file_(std::move(file)) {}
@@ -29,7 +29,7 @@ public:
             auto& [keys, current] = objects_.back();
             current = parsed.get<std::string>();
             if (!keys.insert(current).second) {
-                fail("{}: {}: is given twice", file_, currentPath());
+                fail("{}: {}: duplicate key", file_, currentPath());
             }
         }
         return true;
@@ -50,10 +50,10 @@ private:
     }
 
     std::string file_;
-    std::vector<Object> objects_;  ///< those that are open, outermost first
+    std::vector<Object> objects_;  ///< open objects, outermost first
 };
 
-/// "LINE:COLUMN" of a byte, counted from 1 as nlohmann does.
+/// "LINE:COLUMN" of a byte, counted from 1 like nlohmann-json does.
 std::string lineAndColumn(std::string_view text, size_t byte) {
     const std::string_view before = text.substr(0, byte == 0 ? 0 : byte - 1);
     const size_t lineStart = before.rfind('\n') + 1;  // npos + 1 is 0
@@ -72,13 +72,13 @@ std::string jsonReason(const json::exception& error) {
     return text;
 }
 
-/// A value as it stands in the file, if it is short.
+/// The JSON text of a value, if it is short.
 std::string shown(const json& value) {
     std::string text = jsonText(value);
     if (text.size() <= 60) {
         return text;
     }
-    return value.is_object() ? "an object" : value.is_array() ? "a longer array" : "a longer text";
+    return value.is_object() ? "an object" : value.is_array() ? "a long array" : "a long text";
 }
 
 }  // namespace

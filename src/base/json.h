@@ -1,4 +1,4 @@
-// JSON files, read strictly: every complaint names the file and the place in it.
+// Strict reading of JSON files: every error names the file and the position in it.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -12,14 +12,13 @@
 
 namespace reflet {
 
-/// Throws Error: a file that cannot be read, malformed JSON ("FILE:LINE:COLUMN: ..."), a key that is given twice in
-/// one object.
+/// Throws Error: an unreadable file, malformed JSON ("FILE:LINE:COLUMN: ..."), a duplicate key in an object.
 nlohmann::json parseJsonFile(const std::filesystem::path& path);
 
-/// A value of a JSON file together with where it stands. Refers to the file's root value, which must outlive it.
+/// A value of a JSON file with its path. Refers to the root value, which must outlive it.
 class JsonNode {
 public:
-    /// The root of what parseJsonFile read.
+    /// The root value from parseJsonFile.
     JsonNode(const nlohmann::json& root, const std::filesystem::path& file) : JsonNode(&root, file.string(), "") {}
 
     [[nodiscard]] const nlohmann::json& json() const { return *value_; }
@@ -31,14 +30,14 @@ public:
     /// Throws Error "FILE: PATH: must be what, is VALUE".
     [[noreturn]] void complainMustBe(std::string_view what) const;
 
-    /// Complains unless this is an object with no other keys than these; names the nearest.
+    /// Throws Error unless this is an object that has only these keys; suggests the nearest.
     void requireKeys(std::span<const std::string> known) const;
-    /// The value of a key of this object, if it is there.
+    /// The value of a key of this object, if present.
     [[nodiscard]] std::optional<JsonNode> find(const std::string& key) const;
     /// An element of this array; index < json().size().
     [[nodiscard]] JsonNode at(size_t index) const;
 
-    /// This number. Complains if it is none or outside min..max; `unit` is for the message.
+    /// This number. Throws Error if it is no number or outside min..max; `unit` is for the message.
     [[nodiscard]] double number(double min, double max, std::string_view unit = "") const;
     /// This array of exactly `count` numbers.
     [[nodiscard]] std::vector<double> numbers(size_t count, double min, double max, std::string_view unit = "") const;

@@ -1,4 +1,4 @@
-// The maths of the project: GLM with the words of GLSL, Vulkan's depth range, and boxes.
+// Math: GLM under the names of GLSL, with Vulkan's depth range, and bounding boxes.
 #pragma once
 
 #define GLM_FORCE_DEPTH_ZERO_TO_ONE
@@ -55,7 +55,7 @@ struct Aabb {
     }
 };
 
-/// The box around a transformed box.
+/// Bounding box of a transformed box.
 inline Aabb transformed(const Aabb& box, const mat4& aToB) {
     Aabb result;
     for (unsigned i = 0; i < 8; ++i) {

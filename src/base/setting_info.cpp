@@ -1,4 +1,4 @@
-// One line of a settings table as data.
+// Describes one line of a settings table as data.
 #include "base/setting_info.h"
 
 #include "base/text.h"

@@ -1,4 +1,4 @@
-// One line of a settings table as data: what the command line, JSON, help and documentation are made of.
+// One line of a settings table as data: the command line, JSON, help and documentation are generated from it.
 #pragma once
 
 #include <cstddef>
@@ -18,15 +18,15 @@ struct SettingOption {
 struct SettingInfo {
     std::string name;  ///< snake_case: "max_steps"
     SettingType type = SettingType::real;
-    size_t offset = 0;  ///< bytes, of the four that hold the value (float, or uint32_t for all other types)
+    size_t offset = 0;  ///< bytes to the four that hold the value (float, or uint32_t for all other types)
     double standard = 0.0;
     double lowest = 0.0;
     double highest = 0.0;
-    std::vector<SettingOption> options;  ///< of a choice
+    std::vector<SettingOption> options;  ///< for a choice
     std::string help;
 };
 
-// What the macros of base/shared.h call: `name` is the C++ member's, which becomes snake_case.
+// Called by the macros of base/shared.h. `name` is that of the C++ member; it becomes snake_case.
 SettingInfo valueInfo(const char* name, size_t offset, float standard, float lowest, float highest, const char* help);
 SettingInfo valueInfo(const char* name, size_t offset, uint32_t standard, uint32_t lowest, uint32_t highest,
                       const char* help);

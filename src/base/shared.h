@@ -1,15 +1,15 @@
-// What lets one header serve C++ and GLSL: the same scalar and vector types, and settings tables.
+// Lets C++ and GLSL share headers: the same scalar and vector types, and settings tables.
 //
 // A settings table is a macro that lists an effect's settings once:
 //
 //     #define TRACE_SCREEN_SETTINGS(VALUE, SWITCH, CHOICE)  (all in one macro, a line each)
 //         VALUE(uint, maxSteps, 64, 1, 4096, "Steps a ray may take before it is a miss.")
 //         SWITCH(jitter, 1, "Start each ray at a random part of its first step.")
-//         CHOICE(TraceMethod, method, linear, "How rays find what they hit.")
+//         CHOICE(TraceMethod, method, linear, "How rays are traced through the depth buffer.")
 //     SETTINGS(TraceScreenSettings, TRACE_SCREEN_SETTINGS)
 //
-// From it come the GLSL struct, the C++ struct with defaults and (in C++) a SettingInfo for each line, which the
-// command line, JSON files, help and documentation are made of. There the name is snake_case: trace_screen.max_steps.
+// It generates the GLSL struct, the C++ struct with defaults and (in C++) a SettingInfo for each line, from which the
+// command line, JSON files, help and documentation are generated. There names are snake_case: trace_screen.max_steps.
 // All members are four bytes, so both languages agree on the layout (scalar block layout).
 //
 // A choice is a list of names and values:
@@ -17,8 +17,8 @@
 //     #define TRACE_METHODS(OPTION) OPTION(TraceMethod, linear, 0) OPTION(TraceMethod, hiz, 1)
 //     CHOICES(TraceMethod, TRACE_METHODS)
 //
-// In C++ it is `enum class TraceMethod`; in both languages there are the constants TraceMethod_linear,
-// TraceMethod_hiz, for functions that both languages compile.
+// In C++ it becomes `enum class TraceMethod`; both languages get the constants TraceMethod_linear and TraceMethod_hiz,
+// for functions that both compile.
 #ifndef REFLET_BASE_SHARED_H
 #define REFLET_BASE_SHARED_H
 
@@ -66,7 +66,7 @@ using uint = uint32_t;
 
 #else  // GLSL
 
-// Reserved in GLSL, but a setting's natural name: shaders see another word in its place.
+// A reserved word in GLSL that is also a setting's name: shaders see another word instead.
 #define filter filterKind
 
 #define SHARED_BEGIN

@@ -1,4 +1,4 @@
-// Finds the name that somebody meant who mistyped it: optimal string alignment distance.
+// Suggests the name that a mistyped one was meant to be: optimal string alignment distance.
 #include "base/text.h"
 
 #include "base/error.h"
@@ -20,7 +20,7 @@ std::string lowerCase(std::string_view text) {
     return result;
 }
 
-/// How many letters must be inserted, deleted, replaced, or swapped with their neighbour, to make b of a.
+/// Number of insertions, deletions, replacements and swaps of neighbouring letters that turn a into b.
 size_t editDistance(std::string_view a, std::string_view b) {
     std::vector<size_t> beforeLast(b.size() + 1);
     std::vector<size_t> last(b.size() + 1);

@@ -35,7 +35,7 @@ VkAccelerationStructureGeometryKHR triangleGeometry(Device& device, const Triang
     return geometry;
 }
 
-// One instance, where it is.
+// A single instance with the identity transform.
 Buffer uploadInstance(Device& device, VkAccelerationStructureKHR bottom) {
     const VkAccelerationStructureDeviceAddressInfoKHR info{
         VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR, nullptr, bottom};
@@ -59,7 +59,7 @@ VkAccelerationStructureGeometryKHR instanceGeometry(Device& device, const Buffer
     return geometry;
 }
 
-// Until it is built, and seen by all that comes after.
+// Records the build, and a barrier that makes the result visible to all later commands.
 void recordBuild(Device& device, VkCommandBuffer commands, const VkAccelerationStructureBuildGeometryInfoKHR& info,
                  uint32_t primitives) {
     VkAccelerationStructureBuildRangeInfoKHR range{};
@@ -126,7 +126,7 @@ void AccelerationStructure::retire(Level& level) {
         device_->retire([device = device_, structure = level.structure] {
             device->vk.vkDestroyAccelerationStructureKHR(device->handle(), structure, nullptr);
         });
-        level = {};  // after it: its memory
+        level = {};  // frees the memory after the structure
     }
 }
 

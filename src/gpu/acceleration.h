@@ -1,6 +1,6 @@
-// Triangles as the device's own ray tracing wants them: one bottom level, placed once by a top level. Only on devices
-// with Device::hasRayQuery. (VK_KHR_ray_tracing_pipeline without VK_KHR_ray_query is not served: drivers that have the
-// one have the other.)
+// Acceleration structures for hardware ray tracing: one bottom level with the triangles, one top level with a single
+// instance. Only on devices with Device::hasRayQuery. (VK_KHR_ray_tracing_pipeline without VK_KHR_ray_query is not
+// supported: drivers with the former also have the latter.)
 #pragma once
 
 #include "gpu/resource.h"
@@ -9,30 +9,30 @@
 
 namespace reflet::gpu {
 
-/// What passes read. Valid as long as its owner. Empty: `!view`.
+/// View that passes read. Valid as long as its owner. Empty: `!view`.
 struct AccelerationView {
     VkAccelerationStructureKHR structure = VK_NULL_HANDLE;
 
     explicit operator bool() const { return structure != VK_NULL_HANDLE; }
 };
 
-/// What the buffers that AccelerationStructure is built from are used as, besides all else.
+/// Usage flags that buffers need, besides others, as input of an AccelerationStructure.
 constexpr VkBufferUsageFlags accelerationInput =
     VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
 
-/// Triangles in a buffer: corners one after the other, three floats every `stride` bytes, without indices.
+/// Triangles in a buffer: one vertex after the other, three floats every `stride` bytes, without indices.
 struct TriangleInput {
     const Buffer& corners;
     uint32_t stride = 0;
     uint32_t count = 0;  ///< triangles, at least 1
-    bool opaque = true;  ///< false: shaders are asked about each hit
+    bool opaque = true;  ///< false: shaders decide about each hit
 };
 
 class AccelerationStructure {
 public:
     AccelerationStructure() = default;
-    /// Builds it and waits. `primitiveIndex` of shaders is the triangle's place in the buffer. Throws Error where
-    /// memory does not suffice; std::logic_error on a device without ray query.
+    /// Builds the structure and waits for the device. In shaders `primitiveIndex` is the index of the triangle in the
+    /// buffer. Throws Error if memory does not suffice; std::logic_error on a device without ray query.
     AccelerationStructure(Device& device, const TriangleInput& triangles);
     ~AccelerationStructure();
     AccelerationStructure(AccelerationStructure&& other) noexcept;

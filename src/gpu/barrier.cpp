@@ -1,4 +1,4 @@
-// Turns stated uses into barriers.
+// Derives barriers from declared uses.
 #include "gpu/barrier.h"
 
 namespace reflet::gpu {
@@ -17,7 +17,7 @@ Access merged(const Access& a, const Access& b) {
 void BarrierBatch::use(AccessState& state, const Access& access) {
     const bool seen = (state.visibleStages & access.stages) == access.stages &&
                       (state.visibleAccess & access.access) == access.access;
-    if (state.writeStages != 0 && (access.write || !seen)) {  // after a write: wait for it and see it
+    if (state.writeStages != 0 && (access.write || !seen)) {  // after a write: execution and visibility
         memory_.srcStageMask |= state.writeStages;
         memory_.srcAccessMask |= state.writeAccess;
         memory_.dstStageMask |= access.stages;
@@ -29,7 +29,7 @@ void BarrierBatch::use(AccessState& state, const Access& access) {
         state.readStages |= access.stages;
         return;
     }
-    if (state.readStages != 0) {  // a write after reads: wait for the readers
+    if (state.readStages != 0) {  // write after read: execution only
         memory_.srcStageMask |= state.readStages;
         memory_.dstStageMask |= access.stages;
         memory_.dstAccessMask |= access.access;
@@ -39,7 +39,7 @@ void BarrierBatch::use(AccessState& state, const Access& access) {
 
 void BarrierBatch::use(ImageState& image, VkImageAspectFlags aspect, const Access& access) {
     if (image.layout == VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL) {
-        return;  // uploaded once, never written again
+        return;  // uploaded once, read-only from then on
     }
     if (image.layout == VK_IMAGE_LAYOUT_UNDEFINED) {
         VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
@@ -51,7 +51,7 @@ void BarrierBatch::use(ImageState& image, VkImageAspectFlags aspect, const Acces
         barrier.subresourceRange = {aspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
         first_.push_back(barrier);
         image.layout = VK_IMAGE_LAYOUT_GENERAL;
-        if (!access.write) {  // the transition counts as a write that this stage has seen
+        if (!access.write) {  // the transition counts as a write visible to this stage
             image.access = {access.stages, 0, access.stages, access.stages, access.access};
             return;
         }

@@ -1,5 +1,5 @@
-// Turns stated uses into barriers. All that the frame owns stays in one layout (GENERAL), so that after an image's
-// first use everything is a memory barrier.
+// Derives barriers from declared uses. All images of the frame stay in one layout (GENERAL), so after the first use of
+// an image every barrier is a memory barrier.
 #pragma once
 
 #include "gpu/pass.h"
@@ -9,7 +9,7 @@
 
 namespace reflet::gpu {
 
-/// Two uses by one pass as one.
+/// Merges two uses by one pass.
 Access merged(const Access& a, const Access& b);
 
 struct MipRange {
@@ -17,11 +17,11 @@ struct MipRange {
     uint32_t count = VK_REMAINING_MIP_LEVELS;
 };
 
-/// Between two copies or blits of a colour image, all layers; and, where the layouts differ, from one to the other.
+/// Barrier between two copies or blits of a colour image, all layers; changes the layout if `from` and `to` differ.
 void layoutBarrier(const VolkDeviceTable& vk, VkCommandBuffer commands, VkImage image, const MipRange& mips,
                    VkImageLayout from, VkImageLayout to);
 
-/// The barriers before one pass.
+/// Collects the barriers before one pass.
 class BarrierBatch {
 public:
     void use(ImageState& image, VkImageAspectFlags aspect, const Access& access);
@@ -30,7 +30,7 @@ public:
 
 private:
     VkMemoryBarrier2 memory_{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-    std::vector<VkImageMemoryBarrier2> first_;  ///< images on their way from UNDEFINED to GENERAL
+    std::vector<VkImageMemoryBarrier2> first_;  ///< transitions from UNDEFINED to GENERAL
 };
 
 }  // namespace reflet::gpu

@@ -1,4 +1,4 @@
-// Opens a Vulkan device and keeps its books: serials of submitted work, and what waits to be destroyed.
+// Opens a Vulkan device and tracks submitted work by serial numbers, for waiting and for deferred destruction.
 #include "gpu/device.h"
 
 #include "base/error.h"
@@ -62,7 +62,7 @@ Device::~Device() {
 
 VkBool32 Device::onValidation(VkDebugUtilsMessageSeverityFlagBitsEXT severity, VkDebugUtilsMessageTypeFlagsEXT types,
                               const VkDebugUtilsMessengerCallbackDataEXT* data, void* self) {
-    // The loader's own remarks (a driver it could not load, say) are not about us unless they are errors.
+    // Messages of the loader (about a driver that does not load, say) matter only if they are errors.
     if ((types & VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT) == 0 &&
         severity < VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT) {
         return VK_FALSE;
@@ -94,8 +94,8 @@ void Device::createDevice(bool fillsWindows) {
     VkPhysicalDeviceFeatures has{};
     vkGetPhysicalDeviceFeatures(physical_, &has);
     anisotropic_ = has.samplerAnisotropy != 0;
-    FloorFeatures floor = floorFeatures();
-    floor.core.features.samplerAnisotropy = has.samplerAnisotropy;
+    RequiredFeatures required = requiredFeatures();
+    required.core.features.samplerAnisotropy = has.samplerAnisotropy;
     RayQueryFeatures rays;
     std::vector<const char*> extensions;
     if (fillsWindows) {
@@ -103,13 +103,13 @@ void Device::createDevice(bool fillsWindows) {
         extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     }
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
-    info.pNext = floor.chain();
+    info.pNext = required.chain();
     rayQuery_ = gpu::hasRayQuery(physical_);
     if (rayQuery_) {
-        floor.v12.bufferDeviceAddress = VK_TRUE;
+        required.v12.bufferDeviceAddress = VK_TRUE;
         rays.structures.accelerationStructure = VK_TRUE;
         rays.query.rayQuery = VK_TRUE;
-        floor.v13.pNext = rays.chain();
+        required.v13.pNext = rays.chain();
         extensions.insert(extensions.end(), rayQueryExtensions.begin(), rayQueryExtensions.end());
     }
     info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
@@ -182,7 +182,7 @@ void Device::wait(uint64_t serial) {
 }
 
 void Device::retire(std::function<void()> destroy) {
-    // What is being recorded now is submitted next: it may use the thing, too.
+    // The commands being recorded are submitted next and may use the resource, too.
     retired_.push_back({submitted_ + 1, std::move(destroy)});
 }
 

@@ -1,4 +1,5 @@
-// One Vulkan device: chosen, checked against the floor, opened. Owns what all else hangs on.
+// One Vulkan device: selected, checked against the minimum requirements and opened. Owns what everything else on the
+// device depends on.
 #pragma once
 
 #include "gpu/memory.h"
@@ -13,30 +14,30 @@
 
 namespace reflet::gpu {
 
-/// What `reflet list devices` says of one.
+/// What `reflet list devices` prints about a device.
 struct DeviceDescription {
     std::string name;
     std::string driver;
     std::string kind;                  ///< "discrete GPU", "integrated GPU", "virtual GPU", "CPU", "other"
     std::string api;                   ///< "1.3.230"
-    std::vector<std::string> missing;  ///< of the floor; empty: the device can be used
-    std::vector<std::string> extras;   ///< beyond the floor: "ray query", "descriptor indexing", …
+    std::vector<std::string> missing;  ///< missing minimum requirements; empty: usable
+    std::vector<std::string> extras;   ///< optional features: "ray query", "descriptor indexing", …
 };
 
 struct DeviceOptions {
-    /// An index into the list of devices, or a part of a name (case does not matter). Empty: the best that is there.
+    /// Index into the list of devices, or part of a name (case-insensitive). Empty: the best usable device.
     std::string select;
-    /// Validation and synchronization validation layers. Their messages go to `onMessage` and are counted.
+    /// Enables the validation layer with synchronization validation. Its messages go to `onMessage` and are recorded.
     bool validation = false;
     std::function<void(const std::string&)> onMessage;
-    /// Of the instance, as the window system wants them; where there are any, the device can fill windows.
+    /// Instance extensions that the window system needs; if there are any, the device can present to windows.
     std::vector<const char*> windowExtensions;
 };
 
-/// All devices the loader knows, usable or not. Empty where there is no loader or no driver.
+/// All devices that the loader finds, usable or not. Empty without a loader or a driver.
 std::vector<DeviceDescription> listDevices();
 
-/// Fixed ways to sample.
+/// Parameters of a sampler.
 struct SamplerInfo {
     VkFilter mag = VK_FILTER_NEAREST;
     VkFilter min = VK_FILTER_NEAREST;
@@ -44,7 +45,7 @@ struct SamplerInfo {
     VkSamplerAddressMode u = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     VkSamplerAddressMode v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     float maxLod = VK_LOD_CLAMP_NONE;
-    float anisotropy = 1.0F;  ///< samples along a slanted surface, at most; 1: none. Devices may do less, or none
+    float anisotropy = 1.0F;  ///< maximum anisotropy; 1: off. Clamped to what the device supports
 
     bool operator==(const SamplerInfo&) const = default;
 };
@@ -53,8 +54,8 @@ class PipelineCache;
 
 class Device {
 public:
-    /// Throws Error: no loader, no driver, no such device (naming those there are), or one below the floor (naming
-    /// what it lacks).
+    /// Throws Error: no loader, no driver, no matching device (lists the available ones), or one that lacks minimum
+    /// requirements (lists them).
     explicit Device(const DeviceOptions& options = {});
     ~Device();
     Device(const Device&) = delete;
@@ -62,7 +63,7 @@ public:
 
     [[nodiscard]] const DeviceDescription& description() const { return description_; }
     [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return limits_; }
-    /// Acceleration structures can be built and shaders can query them.
+    /// Whether acceleration structures can be built and queried by shaders.
     [[nodiscard]] bool hasRayQuery() const { return rayQuery_; }
     [[nodiscard]] VkInstance instance() const { return instance_; }
     [[nodiscard]] VkPhysicalDevice physical() const { return physical_; }
@@ -72,24 +73,25 @@ public:
     [[nodiscard]] Memory& memory() { return *memory_; }
     [[nodiscard]] PipelineCache& pipelines() { return *pipelines_; }
 
-    /// The same sampler for the same info, for the device's life.
+    /// Equal infos share one sampler, which lives as long as the device.
     VkSampler sampler(const SamplerInfo& info);
 
-    /// Submits; returns the serial by which `wait` and `retire` know the work.
+    /// Submits; returns the serial number of the work, for `wait`.
     uint64_t submit(VkCommandBuffer commands);
-    /// Returns once all work up to the serial is done. Throws Error when the device is lost.
+    /// Blocks until all work up to the serial is done. Throws Error if the device is lost.
     void wait(uint64_t serial);
 
-    /// Runs `destroy` once the device has done all that was submitted before, and what is being recorded now.
+    /// Deferred destruction: runs `destroy` once the device has finished everything submitted so far, and the commands
+    /// being recorded now.
     void retire(std::function<void()> destroy);
 
-    /// Records and runs commands at once, and waits: for uploads and tests, not for frames.
+    /// Records and runs commands immediately, and blocks: for uploads and tests, not for frames.
     void runNow(const std::function<void(VkCommandBuffer)>& record);
 
-    /// Messages of the validation layers so far.
+    /// Messages of the validation layer so far.
     [[nodiscard]] const std::vector<std::string>& validationMessages() const { return messages_; }
 
-    /// Functions of this device, by volk.
+    /// Device-level functions, loaded by volk.
     VolkDeviceTable vk{};
 
 private:

@@ -97,8 +97,8 @@ void Frame::wait() {
 
 void Frame::beginTimer(const PassTime& pass) {
     REFLET_CHECK(timed_.size() < maxTimedPasses, "{} passes in one frame", timed_.size());
-    // The second one is not read. llvmpipe takes a timestamp when the next one flushes it, which without this would be
-    // after the pass.
+    // The second timestamp is never read. llvmpipe takes a timestamp only when the next one flushes it, which otherwise
+    // would be after the pass.
     const auto query = static_cast<uint32_t>(queriesPerPass * timed_.size());
     device_.vk.vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, query);
     device_.vk.vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, query + 1);
@@ -168,7 +168,7 @@ void Frame::clear(Image image) {
     device_.vk.vkCmdClearColorImage(commands_, image.state->image, VK_IMAGE_LAYOUT_GENERAL, &zero, 1, &all);
 }
 
-// A texture of that name and kind; one of another kind (a new size, say) is replaced.
+// Returns the texture of that name; replaces it if its info (the size, say) differs.
 Image Frame::transient(std::string_view name, const ImageInfo& info) {
     const std::string fullName = imagePrefix_ + std::string(name);
     Texture& texture = images_[fullName];
@@ -229,7 +229,7 @@ bool Frame::holds(Image image, std::span<const std::byte> key) {
     return false;
 }
 
-void Frame::forgetHistories() {
+void Frame::invalidateHistories() {
     histories_.clear();
     for (auto& [name, texture] : images_) {
         texture.image().state->contents.clear();

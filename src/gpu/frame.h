@@ -1,5 +1,5 @@
-// Records the passes of a frame: binds by name, checks against the shader, sets the barriers that the stated reads
-// and writes ask for, times every pass on the device, and owns the images that live from pass to pass.
+// Records the passes of a frame: binds resources by name and checks them against the shader, derives barriers from the
+// declared reads and writes, times every pass on the device, and owns the images that persist between passes.
 #pragma once
 
 #include "gpu/pass.h"
@@ -17,24 +17,24 @@ namespace reflet::gpu {
 
 class Device;
 
-/// Device time of one pass in milliseconds; passes of one name are summed.
+/// Device time of one pass in milliseconds; passes of the same name are summed.
 struct PassTime {
     std::string name;
     double ms = 0.0;
-    /// Of the images and buffers that it binds, each counted once: the least that it moves if it reads or writes all of
-    /// them. What the draws of a raster pass bind themselves (vertices, textures of materials) is not in it.
+    /// Size of the bound images and buffers, each counted once: the least memory traffic if the pass reads or writes
+    /// all of them. Excludes what draws bind themselves (vertices, textures of materials).
     uint64_t bytes = 0;
     bool raster = false;  ///< draws triangles
 };
 
-/// An image of this frame and the same of the last one.
+/// A double-buffered image: this frame's and the last frame's.
 struct History {
     Image previous;
     Image next;
-    bool valid = false;  ///< false: `previous` holds nothing yet (first frame, or a new size)
+    bool valid = false;  ///< false: `previous` has no content (first frame, or a new size)
 };
 
-/// A copy of an image on its way to the host.
+/// Handle of an image copy to the host.
 struct Readback {
     size_t index = 0;
 };
@@ -46,11 +46,11 @@ public:
     Frame(const Frame&) = delete;
     Frame& operator=(const Frame&) = delete;
 
-    /// Starts recording. The frame before must have been waited for.
+    /// Starts recording. Requires that `wait` was called for the last frame.
     void begin();
-    /// Submits what was recorded.
+    /// Submits the recorded commands.
     void submit();
-    /// Returns when the device is done; times and read-backs are there then.
+    /// Blocks until the device is done; pass times and read-backs are available then.
     void wait();
 
     Pass compute(std::string_view name, std::string_view shader);
@@ -58,39 +58,39 @@ public:
     /// Overwrites the start of a buffer (at most 64 KiB, a multiple of 4 bytes).
     void update(BufferView buffer, std::span<const std::byte> bytes);
 
-    /// What was written to the buffer is there for draws that follow, which bind it as vertices.
+    /// Makes writes to the buffer visible to later draws that bind it as a vertex buffer.
     void readByDraws(BufferView buffer);
 
     /// Fills a colour image with zeros.
     void clear(Image image);
 
-    /// An image that passes write with imageStore and read. The same name gives the same image, from frame to frame;
-    /// what it held before is lost. More than one layer, or `array`: an array view.
+    /// A storage image, also sampled. The same name returns the same image in every frame; its contents are undefined
+    /// unless `holds` says otherwise. With several layers, or `array`: an array view.
     Image image(std::string_view name, VkFormat format, uvec2 size, uint32_t layers = 1, bool array = false);
-    /// An image that draws write to (colour or depth) and passes read.
+    /// A render target (colour or depth), also sampled.
     Image target(std::string_view name, VkFormat format, uvec2 size);
-    /// A storage buffer, also good for indirect arguments.
+    /// A storage buffer, also usable for indirect arguments.
     BufferView buffer(std::string_view name, VkDeviceSize size);
-    /// Two images that change places each frame.
+    /// Two images that swap every frame.
     History history(std::string_view name, VkFormat format, uvec2 size);
-    /// Whether the image, of `image` or `target`, still holds what an earlier frame wrote under the same key, and need
-    /// not be written again. Where not, the caller writes all of it; then it holds that. Keys: all that the contents
-    /// depend on, of types without padding.
+    /// Whether the image (of `image` or `target`) still holds what an earlier frame wrote under the same key, and does
+    /// not have to be written again. If not, the caller must write all of it, which makes it valid for this key. Keys
+    /// hold everything that the contents depend on; their types have no padding.
     template <class T>
     bool holds(Image image, const T& key) {
         static_assert(std::is_trivially_copyable_v<T>);
         return holds(image, std::as_bytes(std::span(&key, 1)));
     }
     bool holds(Image image, std::span<const std::byte> key);
-    /// No history is valid in the next frame, as if it were the first; and images hold nothing.
-    void forgetHistories();
+    /// Invalidates all histories, as before the first frame, and the contents of all images.
+    void invalidateHistories();
 
-    /// Copies an image of one layer for the host to read after `wait`.
+    /// Copies a single-layer image for the host to read after `wait`.
     Readback readback(Image image);
     /// Rows from the top, tightly packed.
     [[nodiscard]] std::span<const std::byte> bytes(Readback readback) const;
 
-    /// Names of passes recorded while it lives get a prefix: "diffuse." + "trace_screen".
+    /// While it lives, names of recorded passes get a prefix: "diffuse." + "trace_screen".
     class Scope {
     public:
         Scope(Frame& frame, std::string_view prefix, bool images);
@@ -104,13 +104,13 @@ public:
         size_t images_;
     };
     [[nodiscard]] Scope scope(std::string_view prefix) { return {*this, prefix, false}; }
-    /// And so do names of images, buffers and histories: for another view, whose images leave the first one's alone.
+    /// The same, and prefixes the names of images, buffers and histories, too: for another view, whose images must not
+    /// alias those of the first.
     [[nodiscard]] Scope viewScope(std::string_view prefix) { return {*this, prefix, true}; }
 
-    /// Of the last frame waited for, in the order of recording. The first is "frame": from start to end.
+    /// Pass times of the last frame waited for, in recording order. The first entry, "frame", is from start to end.
     [[nodiscard]] const std::vector<PassTime>& passTimes() const { return times_; }
-    /// Of the last frame waited for, milliseconds by the host's clock from its submission until it was known to be
-    /// done.
+    /// Milliseconds of host time from the submission of the last frame waited for until its completion was known.
     [[nodiscard]] double submittedMs() const { return submittedMs_; }
 
     [[nodiscard]] Device& device() { return device_; }
@@ -124,7 +124,7 @@ private:
         VkDeviceSize offset;
     };
 
-    /// `pass` says all but the time.
+    /// `pass`: everything but the time.
     void beginTimer(const PassTime& pass);
     void endTimer();
     void readTimers();
@@ -148,7 +148,7 @@ private:
         Texture textures[2];
         uint64_t lastUse = 0;
         uint32_t current = 0;
-        bool valid = false;  ///< in the frame of the last use, however often it is asked for in it
+        bool valid = false;  ///< in the frame of the last use, however often it is requested
     };
     std::map<std::string, HistoryPair, std::less<>> histories_;
 
@@ -156,7 +156,7 @@ private:
     VkDeviceSize uniformsUsed_ = 0;
     std::vector<Buffer> readbacks_;
     size_t readbacksUsed_ = 0;
-    std::vector<PassTime> timed_;  ///< in this frame, still without their times
+    std::vector<PassTime> timed_;  ///< in this frame, times not yet read
     std::vector<PassTime> times_;
     std::chrono::steady_clock::time_point submitted_;
     double submittedMs_ = 0.0;

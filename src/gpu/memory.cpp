@@ -1,4 +1,4 @@
-// Block allocator: first fit in blocks of 64 MiB, large resources in blocks of their own.
+// Block allocator: first fit in blocks of 64 MiB; large resources get blocks of their own.
 #include "gpu/memory.h"
 
 #include "base/error.h"
@@ -19,7 +19,7 @@ VkDeviceSize alignUp(VkDeviceSize value, VkDeviceSize alignment) {
 
 }  // namespace
 
-// Linear and optimal resources never share a block, so bufferImageGranularity needs no care.
+// Linear and optimal resources never share a block, so bufferImageGranularity does not matter.
 struct MemoryBlock {
     uint32_t type = 0;
     bool linear = false;
@@ -100,7 +100,7 @@ MemoryBlock& Memory::addBlock(uint32_t type, bool linear, VkDeviceSize size) {
     const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &flags, size, type};
     const VkResult result = vk_.vkAllocateMemory(device_, &info, nullptr, &block->memory);
     if (result != VK_SUCCESS) {
-        fail("out of device memory: {} MiB more are needed beside the {} MiB in use ({}); render at a smaller --size",
+        fail("out of device memory: {} MiB needed in addition to {} MiB in use ({}); render at a smaller --size",
              size >> 20U, reserved_ >> 20U, resultName(result));
     }
     block->type = type;

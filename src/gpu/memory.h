@@ -1,4 +1,4 @@
-// Device memory: a block allocator. Small enough to be swapped for the Vulkan Memory Allocator behind this header.
+// Device memory: a block allocator. Small enough to be replaced by the Vulkan Memory Allocator behind this header.
 #pragma once
 
 #include "gpu/vulkan.h"
@@ -15,34 +15,34 @@ namespace reflet::gpu {
 struct MemoryBlock;
 
 enum class MemoryUse : uint8_t {
-    device,    ///< the device's own, the host never looks
+    device,    ///< device-local, not accessed by the host
     upload,    ///< written by the host, coherent
-    readback,  ///< read by the host, cached where there is such
+    readback,  ///< read by the host, cached if possible
 };
 
-/// A piece of device memory. Values; give it back with Memory::release.
+/// A range of device memory, copied by value; return it with Memory::release.
 struct Allocation {
     MemoryBlock* block = nullptr;
     VkDeviceMemory memory = VK_NULL_HANDLE;
     VkDeviceSize offset = 0;
     VkDeviceSize size = 0;
-    std::byte* mapped = nullptr;  ///< where memory is host visible, for all of its life
+    std::byte* mapped = nullptr;  ///< persistently mapped if host-visible
     MemoryUse use = MemoryUse::device;
 };
 
 class Memory {
 public:
-    /// `addresses`: shaders may be given addresses of buffers in it.
+    /// `addresses`: enables device addresses for buffers.
     Memory(const VolkDeviceTable& vk, VkDevice device, VkPhysicalDevice physical, bool addresses);
     ~Memory();
     Memory(const Memory&) = delete;
     Memory& operator=(const Memory&) = delete;
 
-    /// `linear`: a buffer or a linear image. Throws Error when the device has no more.
+    /// `linear`: for a buffer or a linear image. Throws Error if device memory is exhausted.
     Allocation allocate(const VkMemoryRequirements& needs, MemoryUse use, bool linear);
     void release(const Allocation& allocation);
 
-    /// Bytes in use by resources of `use`; those that retired resources hold still count.
+    /// Bytes in use by resources of this kind; retired resources count until they are destroyed.
     [[nodiscard]] VkDeviceSize used(MemoryUse use) const { return used_[static_cast<size_t>(use)]; }
 
 private:
@@ -54,7 +54,7 @@ private:
     bool addresses_;
     VkPhysicalDeviceMemoryProperties properties_{};
     std::vector<std::unique_ptr<MemoryBlock>> blocks_;
-    VkDeviceSize reserved_ = 0;  ///< bytes taken from the device
+    VkDeviceSize reserved_ = 0;  ///< bytes allocated from the device
     std::array<VkDeviceSize, 3> used_{};
 };
 

@@ -1,4 +1,4 @@
-// Checks a pass against its shaders, sets its barriers and records it.
+// Checks a pass against its shaders, emits its barriers and records it.
 #include "gpu/pass.h"
 
 #include "base/error.h"
@@ -41,19 +41,19 @@ Pass::Pass(Frame& frame, std::string name, std::vector<std::string> shaders) : f
 }
 
 Pass& Pass::read(std::string_view binding, Image image, VkSampler sampler) {
-    REFLET_CHECK(image, "{}: '{}' is given no image", name_, binding);
+    REFLET_CHECK(image, "{}: no image is bound to '{}'", name_, binding);
     bound_.push_back({std::string(binding), image, {}, {}, sampler, false});
     return *this;
 }
 
 Pass& Pass::read(std::string_view binding, BufferView buffer) {
-    REFLET_CHECK(buffer, "{}: '{}' is given no buffer", name_, binding);
+    REFLET_CHECK(buffer, "{}: no buffer is bound to '{}'", name_, binding);
     bound_.push_back({std::string(binding), {}, buffer, {}, VK_NULL_HANDLE, false});
     return *this;
 }
 
 Pass& Pass::read(std::string_view binding, AccelerationView structure) {
-    REFLET_CHECK(structure, "{}: '{}' is given no acceleration structure", name_, binding);
+    REFLET_CHECK(structure, "{}: no acceleration structure is bound to '{}'", name_, binding);
     bound_.push_back({std::string(binding), {}, {}, structure, VK_NULL_HANDLE, false});
     return *this;
 }
@@ -132,12 +132,12 @@ void Pass::checkBindings(const Pipeline& pipeline) const {
     for (const ShaderBinding& binding : pipeline.bindings) {
         if (binding.type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER) {
             const auto uniform = std::ranges::find(uniforms_, binding.name, &UniformBytes::name);
-            REFLET_CHECK(uniform != uniforms_.end(), "{}: the uniform block '{}' is not given", name_, binding.name);
+            REFLET_CHECK(uniform != uniforms_.end(), "{}: the uniform block '{}' is not set", name_, binding.name);
             REFLET_CHECK(uniform->bytes.size() == binding.blockSize, "{}: '{}' has {} bytes here and {} in the shader",
                          name_, binding.name, uniform->bytes.size(), binding.blockSize);
         } else {
             const auto bound = std::ranges::find(bound_, binding.name, &Bound::name);
-            REFLET_CHECK(bound != bound_.end(), "{}: the binding '{}' is not given", name_, binding.name);
+            REFLET_CHECK(bound != bound_.end(), "{}: nothing is bound to '{}'", name_, binding.name);
             checkAccess(binding, *bound);
         }
     }
@@ -192,7 +192,7 @@ void Pass::emitBarriers() {
     batch.record(frame_.device_.vk, frame_.commands_);
 }
 
-// What is written is taken to be written only: whoever reads it, too, moves more. A clear is no read.
+// Written resources count once: passes that also read them move more. Clears are not counted.
 uint64_t Pass::boundBytes() const {
     uint64_t bytes = 0;
     for (const Bound& bound : bound_) {
@@ -278,13 +278,13 @@ void Pass::dispatchIndirect(BufferView arguments, VkDeviceSize offset) {
     frame_.endTimer();
 }
 
-// Attachments are given by the name of the fragment shader's output; the pipeline wants them by location.
+// Attachments are declared by the name of the fragment shader's output; the pipeline needs them ordered by location.
 void Pass::orderAttachments(const Pipeline& pipeline) {
-    REFLET_CHECK(colors_.size() == pipeline.colorOutputs.size(), "{}: {} targets are given, the shader has {}", name_,
+    REFLET_CHECK(colors_.size() == pipeline.colorOutputs.size(), "{}: {} render targets for {} shader outputs", name_,
                  colors_.size(), pipeline.colorOutputs.size());
     for (const ShaderLocation& output : pipeline.colorOutputs) {
         const auto given = std::ranges::find(colors_, output.name, &Attachment::output);
-        REFLET_CHECK(given != colors_.end(), "{}: no target is given for the output '{}'", name_, output.name);
+        REFLET_CHECK(given != colors_.end(), "{}: no render target for the output '{}'", name_, output.name);
         REFLET_CHECK(static_cast<size_t>(given - colors_.begin()) == output.location,
                      "{}: the target '{}' is not in the order of its location {}", name_, output.name, output.location);
     }

@@ -1,12 +1,12 @@
-// One pass as it is stated where it is recorded: what it reads, writes and is told, all by the shader's names.
+// One pass, declared where it is recorded: its inputs, outputs and parameters, by their names in the shader.
 //
 //     f.compute("trace_screen", "trace_screen.comp")
 //         .read("depth", g.depth).read("lit", lit).write("answer", rays.answer)
 //         .params(TraceScreenParams{...})
 //         .dispatchIndirect(rays.list, offset);
 //
-// A name that the shader does not have, one that is left out, a parameter block of another size, a write to what is
-// declared readonly: std::logic_error naming the pass and the binding, in every build.
+// Unknown names, missing bindings, parameter blocks of the wrong size and writes to readonly resources throw a
+// std::logic_error that names the pass and the binding, in every build.
 #pragma once
 
 #include "gpu/acceleration.h"
@@ -26,14 +26,14 @@ namespace reflet::gpu {
 class Device;
 class Frame;
 
-/// Passed to what draws inside a raster pass.
+/// Passed to the callback that records the draws of a raster pass.
 struct DrawCommands {
     Device& device;
     VkCommandBuffer commands;
     VkPipelineLayout layout;
 };
 
-/// How a pass touches a resource.
+/// How a pass accesses a resource.
 struct Access {
     VkPipelineStageFlags2 stages = 0;
     VkAccessFlags2 access = 0;
@@ -46,15 +46,16 @@ public:
 
     Pass& read(std::string_view binding, Image image, VkSampler sampler = VK_NULL_HANDLE);
     Pass& read(std::string_view binding, BufferView buffer);
-    /// One that was built before this frame began.
+    /// The structure must have been built before this frame began.
     Pass& read(std::string_view binding, AccelerationView structure);
-    /// An image that the draws' own set binds. Raster only.
+    /// An image that the draws' own descriptor set binds. Raster only.
     Pass& read(Image image);
-    /// What a pass writes it may read as well.
+    /// A pass may also read what it writes.
     Pass& write(std::string_view binding, Image image);
     Pass& write(std::string_view binding, BufferView buffer);
 
-    /// The uniform block of that name. T has no padding the shader's scalar layout would not have.
+    /// Contents of the uniform block of that name. T must have no padding that the scalar layout of the shader would
+    /// not have.
     template <class T>
     Pass& params(const T& value, std::string_view binding = "params") {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -62,23 +63,23 @@ public:
     }
     Pass& uniform(std::string_view binding, std::span<const std::byte> bytes);
 
-    /// Specialization constants.
+    /// Sets a specialization constant.
     Pass& constant(std::string_view name, uint32_t value);
 
-    /// Runs with one thread for each of x · y · z, rounded up to whole groups.
+    /// Dispatches x · y · z threads, rounded up to whole groups.
     void dispatch(uint32_t x, uint32_t y = 1, uint32_t z = 1);
     void dispatch(uvec2 threads) { dispatch(threads.x, threads.y); }
     /// Group counts from a VkDispatchIndirectCommand at the start of the buffer plus `offset`.
     void dispatchIndirect(BufferView arguments, VkDeviceSize offset);
 
-    /// Raster only. Cleared to `clear` where given, else what is there stays.
+    /// Raster only. Cleared to `clear` if given; otherwise the contents are kept.
     Pass& color(std::string_view output, Image image, std::optional<VkClearColorValue> clear);
     Pass& depth(Image image, std::optional<float> clear);
-    /// Colours go over what is there, by their alpha.
+    /// Alpha-blends colours over the contents.
     Pass& blend();
-    /// What vertex buffers the draws bind, and the layout of the set (1) that they bind themselves.
+    /// Layout of the vertex buffers that the draws bind, and of the descriptor set (1) that they bind themselves.
     Pass& vertices(const VertexLayout& layout, VkDescriptorSetLayout drawSet = VK_NULL_HANDLE);
-    /// Runs with a viewport over the whole target.
+    /// Records the draws with a viewport over the whole target.
     void draw(const std::function<void(const DrawCommands&)>& record);
 
 private:

@@ -1,4 +1,4 @@
-// Finds and judges Vulkan devices.
+// Lists Vulkan devices, checks them against the minimum requirements and selects one.
 #include "gpu/physical_device.h"
 
 #include "base/error.h"
@@ -14,7 +14,7 @@ namespace reflet::gpu {
 
 namespace {
 
-constexpr uint32_t floorSampledImages = 128;
+constexpr uint32_t minSampledImages = 128;
 
 std::string versionText(uint32_t version) {
     return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version),
@@ -47,7 +47,7 @@ struct NeededFormat {
     VkFormatFeatureFlags features;
 };
 
-// What the frame's images ask of a format; src/render declares them.
+// Format features that the images of the frame need; src/render declares the images.
 constexpr VkFormatFeatureFlags sampled = VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT;
 constexpr VkFormatFeatureFlags target = sampled | VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT;
 constexpr VkFormatFeatureFlags storage = sampled | VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT;
@@ -66,7 +66,7 @@ constexpr std::array neededFormats{
     NeededFormat{"R8_UNORM", VK_FORMAT_R8_UNORM, storage},
 };
 
-std::vector<std::string> missingOfFloor(VkPhysicalDevice device, const VkPhysicalDeviceProperties& properties) {
+std::vector<std::string> missingRequirements(VkPhysicalDevice device, const VkPhysicalDeviceProperties& properties) {
     if (properties.apiVersion < VK_API_VERSION_1_3) {
         return {fmt::format("Vulkan 1.3 (it has {})", versionText(properties.apiVersion))};
     }
@@ -76,7 +76,7 @@ std::vector<std::string> missingOfFloor(VkPhysicalDevice device, const VkPhysica
             missing.push_back(std::move(what));
         }
     };
-    FloorFeatures has;
+    RequiredFeatures has;
     has.chain();
     vkGetPhysicalDeviceFeatures2(device, &has.core);
     need(has.core.features.shaderStorageImageExtendedFormats != 0, "extended storage image formats");
@@ -85,7 +85,7 @@ std::vector<std::string> missingOfFloor(VkPhysicalDevice device, const VkPhysica
     need(has.v12.timelineSemaphore != 0, "timeline semaphores");
     need(has.v13.dynamicRendering != 0, "dynamic rendering");
     need(has.v13.synchronization2 != 0, "synchronization2");
-    need(properties.limits.maxPerStageDescriptorSampledImages >= floorSampledImages, "128 sampled images per stage");
+    need(properties.limits.maxPerStageDescriptorSampledImages >= minSampledImages, "128 sampled images per stage");
     need(graphicsQueueFamily(device).has_value(), "a queue for graphics and compute with timestamps");
     for (const NeededFormat& format : neededFormats) {
         VkFormatProperties support{};
@@ -96,7 +96,7 @@ std::vector<std::string> missingOfFloor(VkPhysicalDevice device, const VkPhysica
     return missing;
 }
 
-// All of them.
+// Whether the device has all of the extensions.
 bool hasExtensions(VkPhysicalDevice device, std::span<const char* const> names) {
     uint32_t count = 0;
     vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
@@ -134,7 +134,7 @@ std::vector<VkPhysicalDevice> physicalDevices(VkInstance instance) {
     return devices;
 }
 
-// Better first: real GPUs before software.
+// Lower is better: real GPUs before software.
 int rank(VkPhysicalDevice device) {
     VkPhysicalDeviceProperties properties{};
     vkGetPhysicalDeviceProperties(device, &properties);
@@ -198,15 +198,15 @@ std::string resultName(VkResult result) {
     }
 }
 
-FloorFeatures floorFeatures() {
-    FloorFeatures floor;
-    floor.core.features.shaderStorageImageExtendedFormats = VK_TRUE;
-    floor.core.features.imageCubeArray = VK_TRUE;
-    floor.v12.scalarBlockLayout = VK_TRUE;
-    floor.v12.timelineSemaphore = VK_TRUE;
-    floor.v13.dynamicRendering = VK_TRUE;
-    floor.v13.synchronization2 = VK_TRUE;
-    return floor;
+RequiredFeatures requiredFeatures() {
+    RequiredFeatures required;
+    required.core.features.shaderStorageImageExtendedFormats = VK_TRUE;
+    required.core.features.imageCubeArray = VK_TRUE;
+    required.v12.scalarBlockLayout = VK_TRUE;
+    required.v12.timelineSemaphore = VK_TRUE;
+    required.v13.dynamicRendering = VK_TRUE;
+    required.v13.synchronization2 = VK_TRUE;
+    return required;
 }
 
 bool hasRayQuery(VkPhysicalDevice device) {
@@ -272,7 +272,7 @@ std::optional<uint32_t> graphicsQueueFamily(VkPhysicalDevice device) {
 
 void requireSwapchain(VkPhysicalDevice device) {
     if (!hasExtensions(device, std::array{VK_KHR_SWAPCHAIN_EXTENSION_NAME})) {
-        fail("the device '{}' cannot fill windows (no {}); --device chooses another", describe(device).name,
+        fail("the device '{}' cannot present to windows (no {}); select another with --device", describe(device).name,
              VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     }
 }
@@ -286,7 +286,7 @@ DeviceDescription describe(VkPhysicalDevice device) {
             .driver = fmt::format("{} {}", driver.driverName, driver.driverInfo),
             .kind = kindName(p.deviceType),
             .api = versionText(p.apiVersion),
-            .missing = missingOfFloor(device, p),
+            .missing = missingRequirements(device, p),
             .extras = p.apiVersion >= VK_API_VERSION_1_3 ? extrasOf(device) : std::vector<std::string>{}};
 }
 
@@ -315,7 +315,7 @@ VkPhysicalDevice choosePhysicalDevice(VkInstance instance, const std::string& se
     if (!select.empty()) {
         const auto chosen = findSelected(all, select);
         if (!chosen) {
-            fail("no Vulkan device '{}'; there are: {}", select, listText(all));
+            fail("no Vulkan device '{}'; available: {}", select, listText(all));
         }
         if (!all[*chosen].missing.empty()) {
             fail("the device '{}' lacks {}", all[*chosen].name, fmt::join(all[*chosen].missing, ", "));
@@ -329,7 +329,7 @@ VkPhysicalDevice choosePhysicalDevice(VkInstance instance, const std::string& se
         }
     }
     if (!best) {
-        fail("no Vulkan device will do: '{}' lacks {}", all.front().name, fmt::join(all.front().missing, ", "));
+        fail("no usable Vulkan device: '{}' lacks {}", all.front().name, fmt::join(all.front().missing, ", "));
     }
     return devices[*best];
 }

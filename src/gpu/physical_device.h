@@ -1,4 +1,4 @@
-// Finds and judges Vulkan devices: which there are, what they lack of the floor, which one is meant.
+// Lists Vulkan devices, checks them against the minimum requirements and selects one.
 #pragma once
 
 #include "gpu/device.h"
@@ -10,8 +10,8 @@
 
 namespace reflet::gpu {
 
-/// The features every device must have, as a chain for vkCreateDevice or vkGetPhysicalDeviceFeatures2.
-struct FloorFeatures {
+/// The features that every device must have, as a chain for vkCreateDevice or vkGetPhysicalDeviceFeatures2.
+struct RequiredFeatures {
     VkPhysicalDeviceFeatures2 core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
     VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
     VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
@@ -22,9 +22,9 @@ struct FloorFeatures {
         return &core;
     }
 };
-FloorFeatures floorFeatures();
+RequiredFeatures requiredFeatures();
 
-/// What VK_KHR_ray_query takes, as a chain. Shader addresses of buffers (FloorFeatures::v12) belong to it, too.
+/// The features that ray query needs, as a chain. Buffer device addresses (RequiredFeatures::v12) are also needed.
 struct RayQueryFeatures {
     VkPhysicalDeviceAccelerationStructureFeaturesKHR structures{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR};
@@ -40,16 +40,16 @@ inline constexpr std::array rayQueryExtensions{VK_KHR_ACCELERATION_STRUCTURE_EXT
                                                VK_KHR_RAY_QUERY_EXTENSION_NAME};
 bool hasRayQuery(VkPhysicalDevice device);
 
-/// Throws Error when there is no loader, or when the layer (may be nullptr) is not installed.
+/// Throws Error if there is no loader, or the layer (may be nullptr) is not installed.
 VkInstance makeInstance(const char* layer, std::span<const char* const> extensions = {});
 
-/// Throws Error: a device that cannot fill windows.
+/// Throws Error if the device cannot present to windows.
 void requireSwapchain(VkPhysicalDevice device);
 
 DeviceDescription describe(VkPhysicalDevice device);
 std::optional<uint32_t> graphicsQueueFamily(VkPhysicalDevice device);
 
-/// `select` as in DeviceOptions. Throws Error: none, no such, or not up to the floor.
+/// `select`: as in DeviceOptions. Throws Error: no device, no match, or missing requirements.
 VkPhysicalDevice choosePhysicalDevice(VkInstance instance, const std::string& select);
 
 }  // namespace reflet::gpu

@@ -1,4 +1,4 @@
-// Makes pipelines from reflected shaders.
+// Creates pipelines from reflected shaders.
 #include "gpu/pipeline.h"
 
 #include "base/error.h"
@@ -11,7 +11,7 @@ namespace reflet::gpu {
 
 namespace {
 
-// Bindings of all stages as one list; two stages that name the same binding must mean the same.
+// Merges the bindings of all stages; a binding that two stages share must be the same in both.
 std::vector<ShaderBinding> mergeBindings(const std::vector<Shader>& shaders, uint32_t set) {
     std::vector<ShaderBinding> merged;
     for (const Shader& shader : shaders) {
@@ -59,7 +59,7 @@ VkPipelineLayout makeLayout(Device& device, const Pipeline& pipeline, VkDescript
     return layout;
 }
 
-// The specialization of one stage: the constants of the pipeline that this shader has.
+// Specialization of one stage: those constants of the pipeline that its shader declares.
 struct Specialization {
     std::vector<VkSpecializationMapEntry> entries;
     std::vector<uint32_t> data;

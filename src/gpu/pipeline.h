@@ -1,4 +1,4 @@
-// Pipelines, made on first use and kept: what a pass's shaders, constants and targets come to.
+// Pipelines, created on first use and cached by shaders, constants and render target formats.
 #pragma once
 
 #include "gpu/shader.h"
@@ -14,7 +14,7 @@ namespace reflet::gpu {
 
 class Device;
 
-/// One vertex attribute that a draw list offers; pipelines take those that their vertex shader names.
+/// One vertex attribute that a draw list provides; pipelines use those that their vertex shader names.
 struct VertexAttribute {
     std::string name;
     uint32_t buffer = 0;
@@ -23,17 +23,17 @@ struct VertexAttribute {
 };
 
 struct VertexLayout {
-    std::vector<uint32_t> strides;  ///< one a buffer
+    std::vector<uint32_t> strides;  ///< one per buffer
     std::vector<VertexAttribute> attributes;
 };
 
-/// What a pipeline is made of; equal descriptions are the same pipeline.
+/// Description of a pipeline; equal descriptions share one.
 struct PipelineInfo {
-    std::vector<std::string> shaders;                         ///< one .comp, or a .vert and maybe a .frag
+    std::vector<std::string> shaders;                         ///< one .comp, or a .vert and optionally a .frag
     std::vector<std::pair<std::string, uint32_t>> constants;  ///< specialization constants by name, as bits
     std::vector<VkFormat> colorFormats;                       ///< by location
     VkFormat depthFormat = VK_FORMAT_UNDEFINED;
-    bool blends = false;                             ///< colours over what is there, by their alpha
+    bool blends = false;                             ///< alpha-blends colours over the contents
     const VertexLayout* vertices = nullptr;          ///< static data; nullptr: no vertex buffers
     VkDescriptorSetLayout drawSet = VK_NULL_HANDLE;  ///< set 1, bound by the draws themselves
 
@@ -58,10 +58,10 @@ public:
     PipelineCache(const PipelineCache&) = delete;
     PipelineCache& operator=(const PipelineCache&) = delete;
 
-    /// Throws std::logic_error: an unknown shader or constant, stages that disagree about a binding.
+    /// Throws std::logic_error: an unknown shader or constant, or stages with conflicting bindings.
     const Pipeline& get(const PipelineInfo& info);
 
-    /// Drops all, once the device has nothing to do: shaders have changed.
+    /// Destroys all pipelines once the device is idle: shaders have changed.
     void clear();
 
 private:

@@ -1,4 +1,4 @@
-// A swapchain whose images are filled by a blit.
+// Shows images in a window by blits to the images of a swapchain.
 #include "gpu/presenter.h"
 
 #include "base/error.h"
@@ -11,13 +11,13 @@ namespace reflet::gpu {
 
 namespace {
 
-// Of those that display what is stored, without a curve of their own.
+// Chooses a format that displays stored values without an sRGB conversion.
 VkSurfaceFormatKHR chooseFormat(VkPhysicalDevice device, VkSurfaceKHR surface) {
     uint32_t count = 0;
-    vkCheck(vkGetPhysicalDeviceSurfaceFormatsKHR(device, surface, &count, nullptr), "asking for the window's formats");
+    vkCheck(vkGetPhysicalDeviceSurfaceFormatsKHR(device, surface, &count, nullptr), "querying the window's formats");
     std::vector<VkSurfaceFormatKHR> formats(count);
     vkCheck(vkGetPhysicalDeviceSurfaceFormatsKHR(device, surface, &count, formats.data()),
-            "asking for the window's formats");
+            "querying the window's formats");
     for (const VkFormat wanted :
          {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_A8B8G8R8_UNORM_PACK32}) {
         const auto found = std::ranges::find(formats, wanted, &VkSurfaceFormatKHR::format);
@@ -25,7 +25,7 @@ VkSurfaceFormatKHR chooseFormat(VkPhysicalDevice device, VkSurfaceKHR surface) {
             return *found;
         }
     }
-    fail("the window takes no 8-bit colours as they are (of {} formats)", count);
+    fail("the window supports no 8-bit UNORM format (among {} formats); select another device with --device", count);
 }
 
 VkPresentModeKHR chooseMode(VkPhysicalDevice device, VkSurfaceKHR surface, bool verticalSync) {
@@ -38,7 +38,7 @@ VkPresentModeKHR chooseMode(VkPhysicalDevice device, VkSurfaceKHR surface, bool 
             return wanted;
         }
     }
-    return VK_PRESENT_MODE_FIFO_KHR;  // there is always this one
+    return VK_PRESENT_MODE_FIFO_KHR;  // always supported
 }
 
 }  // namespace
@@ -48,8 +48,7 @@ Presenter::Presenter(Device& device, VkSurfaceKHR surface) : device_(device), su
     vkGetPhysicalDeviceSurfaceSupportKHR(device.physical(), device.queueFamily(), surface, &supported);
     if (supported == VK_FALSE) {
         vkDestroySurfaceKHR(device.instance(), surface, nullptr);
-        fail("the device '{}' cannot show pictures in this window; --device chooses another",
-             device.description().name);
+        fail("the device '{}' cannot present to this window; select another with --device", device.description().name);
     }
     const VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, nullptr, 0};
     vkCheck(device.vk.vkCreateFence(device.handle(), &fence, nullptr, &acquired_), "creating a fence");
@@ -79,12 +78,12 @@ void Presenter::makeSwapchain(uvec2 window) {
     VkSurfaceCapabilitiesKHR can{};
     vkCheck(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device_.physical(), surface_, &can),
             "asking for the window's size");
-    const bool free = can.currentExtent.width == UINT32_MAX;  // the window takes the swapchain's size
-    asked_ = window;
-    size_ = free ? glm::clamp(window, uvec2(can.minImageExtent.width, can.minImageExtent.height),
-                              uvec2(can.maxImageExtent.width, can.maxImageExtent.height))
-                 : uvec2(can.currentExtent.width, can.currentExtent.height);
-    if (size_.x == 0 || size_.y == 0) {
+    const bool free = can.currentExtent.width == UINT32_MAX;  // the window takes its size from the swapchain
+    windowSize_ = window;
+    imageSize_ = free ? glm::clamp(window, uvec2(can.minImageExtent.width, can.minImageExtent.height),
+                                   uvec2(can.maxImageExtent.width, can.maxImageExtent.height))
+                      : uvec2(can.currentExtent.width, can.currentExtent.height);
+    if (imageSize_.x == 0 || imageSize_.y == 0) {
         return;
     }
     const VkSurfaceFormatKHR format = chooseFormat(device_.physical(), surface_);
@@ -93,7 +92,7 @@ void Presenter::makeSwapchain(uvec2 window) {
     info.minImageCount = std::max(can.minImageCount, std::min(can.minImageCount + 1, std::max(can.maxImageCount, 1U)));
     info.imageFormat = format.format;
     info.imageColorSpace = format.colorSpace;
-    info.imageExtent = {size_.x, size_.y};
+    info.imageExtent = {imageSize_.x, imageSize_.y};
     info.imageArrayLayers = 1;
     info.imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     info.imageSharingMode = VK_SHARING_MODE_EXCLUSIVE;
@@ -123,18 +122,18 @@ void Presenter::copy(VkCommandBuffer commands, const Image& from, VkImage to) co
     blit.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     blit.dstSubresource = blit.srcSubresource;
     blit.srcOffsets[1] = {static_cast<int32_t>(from.size.x), static_cast<int32_t>(from.size.y), 1};
-    blit.dstOffsets[1] = {static_cast<int32_t>(size_.x), static_cast<int32_t>(size_.y), 1};
+    blit.dstOffsets[1] = {static_cast<int32_t>(imageSize_.x), static_cast<int32_t>(imageSize_.y), 1};
     device_.vk.vkCmdBlitImage(commands, from.state->image, VK_IMAGE_LAYOUT_GENERAL, to,
                               VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &blit, VK_FILTER_NEAREST);
     layoutBarrier(device_.vk, commands, to, {}, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
 }
 
-// All waits are the host's: a frame is done before it is shown, and the next one begins after that.
+// All waits are on the host: a frame is finished before it is shown, and the next one starts after that.
 bool Presenter::present(const Image& image, uvec2 window) {
-    if (swapchain_ == VK_NULL_HANDLE || asked_ != window) {
+    if (swapchain_ == VK_NULL_HANDLE || windowSize_ != window) {
         makeSwapchain(window);
     }
-    if (size_.x == 0 || size_.y == 0) {
+    if (imageSize_.x == 0 || imageSize_.y == 0) {
         return false;
     }
     uint32_t index = 0;
@@ -145,7 +144,7 @@ bool Presenter::present(const Image& image, uvec2 window) {
         return false;
     }
     if (acquired != VK_SUBOPTIMAL_KHR) {
-        vkCheck(acquired, "getting an image of the window");
+        vkCheck(acquired, "acquiring a swapchain image");
     }
     vkCheck(device_.vk.vkWaitForFences(device_.handle(), 1, &acquired_, VK_TRUE, UINT64_MAX), "waiting for the window");
     vkCheck(device_.vk.vkResetFences(device_.handle(), 1, &acquired_), "resetting a fence");
@@ -160,7 +159,7 @@ bool Presenter::present(const Image& image, uvec2 window) {
         return false;
     }
     if (presented != VK_SUBOPTIMAL_KHR) {
-        vkCheck(presented, "showing the picture");
+        vkCheck(presented, "presenting the image");
     }
     return true;
 }

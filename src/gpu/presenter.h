@@ -11,18 +11,17 @@ class Device;
 
 class Presenter {
 public:
-    /// Takes the surface over. Throws Error where the device cannot fill it.
+    /// Takes ownership of the surface. Throws Error if the device cannot present to it.
     Presenter(Device& device, VkSurfaceKHR surface);
     ~Presenter();
     Presenter(const Presenter&) = delete;
     Presenter& operator=(const Presenter&) = delete;
 
-    /// Shows an image that the device has finished, stretched over the window of this size in pixels (not 0). Returns
-    /// false where the window has just changed and the picture was not shown: draw again. Throws Error: the surface or
-    /// the device is gone.
+    /// Shows a finished image, stretched over the window of this size in pixels (not 0). Returns false if the window
+    /// has just changed and nothing was shown: draw again. Throws Error if the surface or the device is lost.
     bool present(const Image& image, uvec2 window);
 
-    /// Presentation waits for the display's next refresh, or not (where the device can).
+    /// Whether presentation waits for the vertical blank; off only where the device supports it.
     void setVerticalSync(bool on);
 
 private:
@@ -35,8 +34,8 @@ private:
     VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
     VkFence acquired_ = VK_NULL_HANDLE;
     std::vector<VkImage> images_;
-    uvec2 asked_{0};  ///< size of the window that the swapchain was made for
-    uvec2 size_{0};   ///< of its images
+    uvec2 windowSize_{0};  ///< size of the window for which the swapchain was created
+    uvec2 imageSize_{0};   ///< size of the swapchain's images
     bool verticalSync_ = true;
 };
 

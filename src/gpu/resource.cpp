@@ -197,7 +197,7 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
 
 namespace {
 
-// Each level from the one above it; ends with all levels readable by shaders.
+// Generates each level from the previous one; leaves all levels readable by shaders.
 void generateMips(Device& device, VkCommandBuffer commands, VkImage image, uvec2 size, uint32_t mips) {
     constexpr VkImageLayout source = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
     constexpr VkImageLayout target = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;

@@ -1,5 +1,5 @@
-// Images and buffers on the device. Owners (Texture, Buffer) are move-only and, when dropped, live on until the
-// device has finished what may use them. What passes take are small copyable views (Image, BufferView).
+// Images and buffers on the device. Owners (Texture, Buffer) are move-only; their destruction is deferred until the
+// device has finished using them. Passes take small copyable views (Image, BufferView).
 #pragma once
 
 #include "base/math.h"
@@ -16,12 +16,12 @@ namespace reflet::gpu {
 
 class Device;
 
-/// What has happened to a resource on the queue so far: what the next use must wait for.
+/// Synchronization state of a resource on the queue: what its next use must wait for.
 struct AccessState {
     VkPipelineStageFlags2 writeStages = 0;
     VkAccessFlags2 writeAccess = 0;
     VkPipelineStageFlags2 readStages = 0;     ///< since the last write
-    VkPipelineStageFlags2 visibleStages = 0;  ///< that have been made to see the last write
+    VkPipelineStageFlags2 visibleStages = 0;  ///< stages to which the last write is visible
     VkAccessFlags2 visibleAccess = 0;
 };
 
@@ -29,7 +29,7 @@ struct ImageState {
     VkImage image = VK_NULL_HANDLE;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
     AccessState access;
-    std::vector<std::byte> contents;  ///< what Frame::holds was told last
+    std::vector<std::byte> contents;  ///< key of the contents, see Frame::holds
 };
 
 struct BufferState {
@@ -37,12 +37,12 @@ struct BufferState {
     AccessState access;
 };
 
-/// How shaders see a texture.
+/// Type of the view that shaders get.
 enum class ViewKind : uint8_t {
-    byLayers,   ///< 2D for one layer, else a 2D array
-    array,      ///< a 2D array, of one layer too
+    byLayers,   ///< 2D for one layer, otherwise a 2D array
+    array,      ///< a 2D array, even with one layer
     cube,       ///< six layers: +X, -X, +Y, -Y, +Z, -Z
-    cubeArray,  ///< six layers for each cube
+    cubeArray,  ///< six layers per cube
 };
 
 struct ImageInfo {
@@ -76,17 +76,17 @@ struct BufferView {
     explicit operator bool() const { return state != nullptr; }
 };
 
-/// Depth formats end in a depth aspect, all others in colour.
+/// The depth aspect for depth formats, colour for all others.
 VkImageAspectFlags aspectOf(VkFormat format);
-/// Bytes of one texel of the formats the renderer uses.
+/// Bytes per texel, for the formats that the renderer uses.
 uint32_t bytesPerTexel(VkFormat format);
-/// Bytes of all the texels of a view.
+/// Bytes of all texels of a view.
 uint64_t bytesOf(const Image& image);
 
 class Texture {
 public:
     Texture() = default;
-    /// `name` shows in messages.
+    /// `name` appears in messages.
     Texture(Device& device, const ImageInfo& info, const std::string& name);
     ~Texture();
     Texture(Texture&& other) noexcept;
@@ -98,7 +98,7 @@ public:
     [[nodiscard]] Image image() const {
         return {state_.get(), view_, info_.format, info_.size, info_.layers, info_.mips};
     }
-    /// One level as a 2D array of all layers (cubes: their faces), for passes that write it. Only of textures with
+    /// One mip level as a 2D array of all layers (cubes: their faces), for passes that write it. Only for textures with
     /// storage usage and more than one mip, or a cube view.
     [[nodiscard]] Image mip(uint32_t level) const;
 
@@ -125,7 +125,7 @@ public:
 
     [[nodiscard]] BufferView view() const { return {state_.get(), size_}; }
     [[nodiscard]] VkBuffer handle() const { return state_->buffer; }
-    /// The host's view; empty for MemoryUse::device.
+    /// Mapped memory; empty for MemoryUse::device.
     [[nodiscard]] std::span<std::byte> bytes() const {
         return {allocation_.mapped, allocation_.mapped != nullptr ? size_ : 0};
     }
@@ -139,19 +139,21 @@ private:
     Allocation allocation_;
 };
 
-/// A sampled texture from 8-bit RGBA pixels, with mips down to 1x1, ready to be read by any shader (layout read only).
+/// Creates a sampled texture from 8-bit RGBA pixels, optionally with mips down to 1x1, in read-only layout for all
+/// shaders.
 Texture uploadTexture(Device& device, uvec2 size, std::span<const uint8_t> rgba, bool srgb, bool mips,
                       const std::string& name);
 
-/// A sampled texture of one layer, ready alike. texels: of level 0, rows from the top, tightly packed; the other levels
-/// are made from it.
+/// The same for one layer of any colour format. texels: of level 0, rows from the top, tightly packed; the other levels
+/// are generated.
 Texture uploadTexels(Device& device, const ImageInfo& info, std::span<const std::byte> texels, const std::string& name);
 
-/// A device buffer with these bytes.
+/// Creates a device buffer with these bytes.
 Buffer uploadBuffer(Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage,
                     const std::string& name);
 
-/// A device buffer with these values; with one that is zero where there are none, since no buffer can be empty.
+/// Creates a device buffer with these values, or with a single zero value if there are none, because buffers cannot be
+/// empty.
 template <class T>
 Buffer uploadVector(Device& device, const std::vector<T>& values, VkBufferUsageFlags usage, const std::string& name) {
     const T none{};

@@ -26,7 +26,7 @@ struct ContextDeleter {
 };
 
 void spvcCheck(spvc_result result, std::string_view shader) {
-    REFLET_CHECK(result == SPVC_SUCCESS, "reflecting {}: spirv-cross answers {}", shader, static_cast<int>(result));
+    REFLET_CHECK(result == SPVC_SUCCESS, "reflecting {}: spirv-cross returned {}", shader, static_cast<int>(result));
 }
 
 struct ResourceKind {
@@ -118,7 +118,7 @@ private:
         return static_cast<uint32_t>(size);
     }
 
-    // A block is known by the name of its variable, or by that of its first member where the variable has none.
+    // A block is named after its variable, or after its first member if the variable has no name.
     ShaderBinding binding(const spvc_reflected_resource& resource, VkDescriptorType type) {
         ShaderBinding result;
         const std::string variable = spvc_compiler_get_name(compiler_, resource.id);
@@ -159,7 +159,7 @@ namespace {
 
 EmbeddedShader& knownShader(std::string_view name) {
     const auto found = std::ranges::find(registry(), name, &EmbeddedShader::name);
-    REFLET_CHECK(found != registry().end(), "no shader is called '{}'", name);
+    REFLET_CHECK(found != registry().end(), "no shader is named '{}'", name);
     return *found;
 }
 
@@ -171,7 +171,7 @@ Shader reflected(const EmbeddedShader& source) {
     return shader;
 }
 
-bool bindTheSame(Shader a, Shader b) {
+bool haveSameInterface(Shader a, Shader b) {
     const auto order = [](const ShaderBinding& x, const ShaderBinding& y) {
         return std::pair(x.set, x.binding) < std::pair(y.set, y.binding);
     };
@@ -193,10 +193,11 @@ bool bindTheSame(Shader a, Shader b) {
 void replaceShader(std::string_view name, std::vector<uint32_t> words) {
     static std::map<std::string, std::vector<uint32_t>, std::less<>> replaced;
     EmbeddedShader& known = knownShader(name);
-    if (!bindTheSame(reflected(known), reflected({known.name, words}))) {
+    if (!haveSameInterface(reflected(known), reflected({known.name, words}))) {
         fail(
-            "{}: what it binds, its constants or its inputs and outputs are no longer what the program knows; build "
-            "the program anew",
+            "{}: bindings, constants, inputs or outputs differ from the shader that the program was built with; "
+            "rebuild "
+            "the program",
             name);
     }
     std::vector<uint32_t>& kept = replaced[std::string(name)];

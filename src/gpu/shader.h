@@ -1,4 +1,4 @@
-// Shaders: SPIR-V embedded at build time, found by file name, and what reflection says of their bindings.
+// Shaders: SPIR-V embedded at build time and found by file name, and the reflection of their bindings.
 #pragma once
 
 #include "gpu/vulkan.h"
@@ -18,12 +18,13 @@ struct EmbeddedShader {
     std::span<const uint32_t> words;
 };
 
-/// Makes shaders known by name; libraries and tests register what they embed. Later ones do not replace earlier ones.
+/// Registers shaders by name; libraries and tests register those that they embed. Later registrations do not replace
+/// earlier ones.
 void registerShaders(std::span<const EmbeddedShader> shaders);
 
-/// Another SPIR-V in the place of a known shader's. Throws Error where it binds other things than the one that is
-/// there, which is then kept: what records its passes knows only those. Pipelines that are made stay as they are
-/// (PipelineCache::clear).
+/// Replaces the SPIR-V of a registered shader. Throws Error, and keeps the old one, if the interface (bindings,
+/// constants, inputs, outputs) differs, because the host code knows only that. Existing pipelines are unchanged (see
+/// PipelineCache::clear).
 void replaceShader(std::string_view name, std::vector<uint32_t> words);
 
 struct ShaderBinding {
@@ -49,7 +50,7 @@ struct SpecializationConstant {
     uint32_t id = 0;
 };
 
-/// What a shader is, read from its SPIR-V with spirv-cross.
+/// A shader and its interface, reflected from SPIR-V with spirv-cross.
 struct Shader {
     std::string name;
     std::span<const uint32_t> words;
@@ -62,7 +63,7 @@ struct Shader {
     glm::uvec3 localSize{1};
 };
 
-/// Throws std::logic_error (a bug of ours) when there is no shader of that name.
+/// Throws std::logic_error if there is no shader of that name.
 Shader reflectShader(std::string_view name);
 
 }  // namespace reflet::gpu

@@ -36,8 +36,8 @@ void stretch(Device& device, VkCommandBuffer commands, const Subimage& from, con
                              VK_FILTER_LINEAR);
 }
 
-// The image's level of its own mips that is nearest to the target from above: a copy from there shrinks by less than 2.
-uint32_t levelToShrink(uvec2 size, uvec2 target) {
+// The smallest mip of the image that is at least as large as the target: a copy from there minifies by less than 2.
+uint32_t shrinkSourceLevel(uvec2 size, uvec2 target) {
     uint32_t level = 0;
     while (all(greaterThanEqual(levelExtent(size, level + 1), target)) && levelExtent(size, level) != uvec2(1)) {
         ++level;
@@ -73,7 +73,7 @@ Texture uploadTextureArray(Device& device, uvec2 size, std::span<const LayerImag
     for (uint32_t layer = 0; layer < layers; ++layer) {
         const LayerImage& image = images[layer];
         const uint32_t first = layerLevel(size, image.size);
-        const uint32_t shrunk = levelToShrink(image.size, levelExtent(size, first));
+        const uint32_t shrunk = shrinkSourceLevel(image.size, levelExtent(size, first));
         const Texture whole = uploadTexture(device, image.size, image.rgba, srgb, shrunk > 0, image.name);
         const VkImage source = whole.image().state->image;
         device.runNow([&](VkCommandBuffer commands) {

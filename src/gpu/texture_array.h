@@ -1,5 +1,5 @@
-// Images of any sizes as layers of one texture, for shaders that choose among them: the device floor has no arrays of
-// descriptors that may be indexed freely.
+// Images of any sizes as layers of one texture array, for shaders that index among them: the minimum requirements do
+// not include descriptor indexing.
 #pragma once
 
 #include "gpu/resource.h"
@@ -15,13 +15,13 @@ struct LayerImage {
     std::string name;
 };
 
-/// The level of a layer that an image fills: the smallest that is at least as large, 0 for images that are larger than
-/// the layer.
+/// The mip level of a layer that an image fills: the smallest that is at least as large as the image; 0 for images
+/// larger than the layer.
 uint32_t layerLevel(uvec2 layerSize, uvec2 imageSize);
 
-/// A 2D array of `size` with mips down to 1x1, ready to be sampled. Each image is stretched over its layer's
-/// layerLevel, where it keeps its texels if that has its size, and the levels below are made from there; finer levels
-/// of the layer hold nothing. Larger images are shrunk.
+/// Creates a 2D array of `size` with mips down to 1x1, in read-only layout. Each image is resampled to its layerLevel
+/// (unchanged if the sizes are equal), and the smaller levels are generated from there; finer levels have no content.
+/// Larger images are minified.
 Texture uploadTextureArray(Device& device, uvec2 size, std::span<const LayerImage> images, bool srgb,
                            const std::string& name);
 

@@ -1,3 +1,3 @@
-// The one place where volk's own code is compiled.
+// Compiles the implementation of volk.
 #define VOLK_IMPLEMENTATION
 #include <volk.h>

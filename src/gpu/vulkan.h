@@ -1,4 +1,4 @@
-// Vulkan through volk, and the check of its results.
+// Vulkan, loaded by volk, and result checks.
 #pragma once
 
 #include <volk.h>
@@ -7,7 +7,7 @@
 
 namespace reflet::gpu {
 
-/// Throws Error: what was tried, and what the device answered.
+/// Throws Error "WHAT failed: RESULT".
 void vkCheck(VkResult result, const char* what);
 
 std::string resultName(VkResult result);

@@ -1,4 +1,4 @@
-// Run by the build: writes the masks of blue_noise.h as numbers for a C++ array. make_blue_noise FILE
+// Run by the build: make_blue_noise FILE writes the masks of blue_noise.h as the elements of a C++ array.
 #include "noise/blue_noise.h"
 #include "noise/void_and_cluster.h"
 
@@ -6,7 +6,7 @@
 
 namespace {
 
-// A rank as the middle of its share of 0 to 65535.
+// Maps a rank to the centre of its interval of 0 to 65535.
 uint32_t fractionOf(uint32_t rank) {
     constexpr uint32_t share = 65536 / (reflet::blueNoiseSide * reflet::blueNoiseSide);
     return rank * share + share / 2;
@@ -17,7 +17,7 @@ uint32_t fractionOf(uint32_t rank) {
 int main(int argc, char** argv) {
     std::FILE* file = argc == 2 ? std::fopen(argv[1], "w") : nullptr;
     if (file == nullptr) {
-        std::fputs("make_blue_noise: wants one file that it can write to\n", stderr);
+        std::fputs("make_blue_noise: needs one argument, a file that can be written\n", stderr);
         return 1;
     }
     const auto low = reflet::voidAndClusterRanks(reflet::blueNoiseSide, reflet::blueNoiseSlices, 1);

@@ -1,9 +1,9 @@
-// Void and cluster in space and time: cells are switched on one after another, each where the ones before are farthest.
+// Void-and-cluster in space and time: cells are switched on one after another, each in the largest void between the
+// earlier ones.
 //
-// How near they are is the energy of a cell: a sum over the cells that are on, of a Gaussian of their distance. Only
-// those of the same slice (distance in space) and of the same pixel (distance in time) count: what another pixel does
-// in another frame does not matter. Energies are whole numbers, so that switching off takes back exactly what switching
-// on gave, and ties and results do not depend on rounding.
+// The energy of a cell is the sum, over all cells that are on, of a Gaussian of their distance. Only cells of the same
+// slice (distance in space) and of the same pixel (distance in time) count: other pixels in other frames do not matter.
+// Energies are integers, so switching a cell off exactly undoes switching it on, and results do not depend on rounding.
 #include "noise/void_and_cluster.h"
 
 #include <algorithm>
@@ -14,9 +14,9 @@ namespace reflet {
 namespace {
 
 constexpr double sigma = 1.9;         // pixels and frames, as Wolfe et al.
-constexpr uint32_t largestReach = 8;  // of a cell's energy, in pixels: beyond 4 sigma is nothing
+constexpr uint32_t largestReach = 8;  // pixels; the energy beyond 4 sigma is negligible
 constexpr double energyScale = 1 << 20U;
-constexpr uint32_t shareAtFirst = 10;  // one cell in so many is on in the pattern that all starts from
+constexpr uint32_t cellsPerInitialPoint = 10;  // one in this many cells is on in the initial pattern
 
 uint32_t energyAt(double squaredDistance) {
     return static_cast<uint32_t>(std::lround(energyScale * std::exp(-squaredDistance / (2.0 * sigma * sigma))));
@@ -28,9 +28,9 @@ public:
 
     /// Switches a cell on, or off.
     void flip(uint32_t cell);
-    /// The cell that is off and farthest from those that are on.
+    /// The off cell with the lowest energy.
     uint32_t largestVoid();
-    /// The cell that is on and nearest to the others.
+    /// The on cell with the highest energy.
     uint32_t tightestCluster();
 
     [[nodiscard]] uint32_t cellCount() const { return static_cast<uint32_t>(energy_.size()); }
@@ -38,7 +38,7 @@ public:
     [[nodiscard]] bool isOn(uint32_t cell) const { return on_[cell] != 0; }
 
 private:
-    /// The best energy of each row, and whether the row has changed since.
+    /// The best energy of each row, and whether it is out of date.
     struct RowBests {
         std::vector<uint32_t> energy;
         std::vector<uint8_t> stale;
@@ -53,7 +53,7 @@ private:
     uint32_t slices_;
     uint32_t reach_;
     std::vector<uint32_t> spaceKernel_;  ///< (2 reach + 1)²
-    std::vector<uint32_t> timeKernel_;   ///< by frames later
+    std::vector<uint32_t> timeKernel_;   ///< by distance in frames
     std::vector<uint32_t> energy_;
     std::vector<uint32_t> on_;  ///< all bits, or none
     RowBests voids_;
@@ -72,7 +72,7 @@ Pattern::Pattern(uint32_t side, uint32_t slices)
             spaceKernel_.push_back(energyAt(x * x + y * y));
         }
     }
-    timeKernel_.push_back(0);  // itself is counted in space
+    timeKernel_.push_back(0);  // the cell itself is counted in space
     for (uint32_t later = 1; later < slices; ++later) {
         const uint32_t distance = std::min(later, slices - later);
         timeKernel_.push_back(energyAt(distance * distance));
@@ -112,7 +112,7 @@ void Pattern::addInTime(uint32_t cell, uint32_t sign) {
     }
 }
 
-// Looks again only at rows that have changed: a cell reaches few of them.
+// Rescans only rows that have changed: a flip affects few of them.
 template <class Key, class Better>
 uint32_t Pattern::bestCell(RowBests& bests, const Key& key, const Better& better) {
     size_t bestRow = 0;
@@ -149,7 +149,7 @@ uint32_t Pattern::tightestCluster() {
         [](uint32_t a, uint32_t b) { return std::max(a, b); });
 }
 
-// Numbers of our own (constants: Knuth's MMIX), so that every standard library makes the same mask.
+// Own random numbers (constants: Knuth's MMIX), so that the mask does not depend on the standard library.
 class Random {
 public:
     explicit Random(uint32_t seed) : state_(seed) {}
@@ -162,11 +162,12 @@ private:
     uint64_t state_;
 };
 
-// Some cells at random, moved from the tightest cluster to the largest void until that makes nothing better.
+// The initial pattern: random cells, moved from the tightest cluster to the largest void until that brings no
+// improvement.
 Pattern startingPattern(uint32_t side, uint32_t slices, uint32_t seed, uint32_t& count) {
     Pattern pattern(side, slices);
     Random random(seed);
-    count = std::max(1U, pattern.cellCount() / shareAtFirst);
+    count = std::max(1U, pattern.cellCount() / cellsPerInitialPoint);
     for (uint32_t placed = 0; placed < count;) {
         if (const uint32_t cell = random.below(pattern.cellCount()); !pattern.isOn(cell)) {
             pattern.flip(cell);
@@ -185,9 +186,8 @@ Pattern startingPattern(uint32_t side, uint32_t slices, uint32_t seed, uint32_t&
     }
 }
 
-// All cells in the order in which they are switched on. Ulichney's last phase, which fills the tightest clusters of
-// cells that are off, is the second one: on a torus the energies of those on and of those off have the same sum
-// everywhere.
+// All cells in the order in which they are switched on. Ulichney's third phase, which fills the tightest clusters of
+// off cells, is the same as the second: on a torus the energies of on and off cells have the same sum everywhere.
 std::vector<uint32_t> cellsInOrder(uint32_t side, uint32_t slices, uint32_t seed) {
     uint32_t count = 0;
     Pattern pattern = startingPattern(side, slices, seed, count);

@@ -140,7 +140,7 @@ std::vector<LiveView> Renderer::liveViews(const ViewParams& view) {
 
 void Renderer::restart(uint32_t frameNumber) {
     frameNumber_ = frameNumber;
-    frame_.forgetHistories();
+    frame_.invalidateHistories();
     previousWorldToClip_.reset();
     previousPlace_ = vec2(0.0F);
     asked_.reset();

@@ -1,6 +1,6 @@
-// Points of the unit square for the rays of a pixel: a low-discrepancy sequence, shifted in each pixel by a mask of blue
-// noise, so that what error is left differs between neighbours and between frames.
-// (Georgiev and Fajardo, Blue-noise Dithered Sampling, SIGGRAPH talks 2016; masks: see noise/blue_noise.h)
+// Sample points of the unit square for the rays of a pixel: a low-discrepancy sequence, shifted per pixel by a
+// blue-noise mask (Cranley-Patterson rotation), so that the remaining error differs between neighbours and between
+// frames. (Georgiev and Fajardo, Blue-noise Dithered Sampling, SIGGRAPH talks 2016; masks: see noise/blue_noise.h)
 // The includer defines, before it includes this: uint loadBlueNoise(uint texel).
 #ifndef REFLET_BLUE_NOISE_GLSL
 #define REFLET_BLUE_NOISE_GLSL
@@ -8,11 +8,11 @@
 #include "noise/blue_noise.h"
 #include "shaders/noise.glsl"
 
-// Point `index` of Sobol's first two dimensions, as 32-bit fractions of 1. Of any 2^k points that start at a multiple of
-// 2^k, each box of area 2^-k with sides of powers of two has one. (Sobol 1967)
+// Point `index` of the first two Sobol dimensions, as 32-bit fractions of 1. Among any 2^k points that start at a
+// multiple of 2^k, each box of area 2^-k whose sides are powers of two holds exactly one. (Sobol 1967)
 uvec2 sobolPoint(uint index) {
-    // The second dimension's generator matrix is Pascal's triangle modulo 2, a Kronecker power of ((1, 1), (0, 1)): a
-    // step for each factor.
+    // The generator matrix of the second dimension is Pascal's triangle modulo 2, a Kronecker power of ((1, 1), (0,
+    // 1)): one step per factor.
     uint first = bitfieldReverse(index);
     uint second = first;
     second ^= (second & 0x0000ffffu) << 16u;
@@ -23,7 +23,7 @@ uvec2 sobolPoint(uint index) {
     return uvec2(first, second);
 }
 
-// Where in the masks a pixel looks. Streams (lobes, seeds) are moved against one another.
+// Index of a pixel's mask texel. Streams (lobes, seeds) are offset against one another.
 uint blueNoiseTexel(uvec2 pixel, uint stream, uint frame) {
     uint move = hashPcg(stream);
     uvec2 at = (pixel + uvec2(move, move >> 8u)) % blueNoiseSide;
@@ -31,10 +31,10 @@ uint blueNoiseTexel(uvec2 pixel, uint stream, uint frame) {
     return (slice * blueNoiseSide + at.y) * blueNoiseSide + at.x;
 }
 
-// Shifts a point of a sequence's first `count` by `shift`, modulo 1. With 2^k points a shift over the whole square would
-// bring back much the same set 2^k times, and whatever is blue in the shift would be lost: the square is cut into 2^k
-// boxes, which have a point each, and points are shifted within theirs. Which box is whose, `scramble` says (highest and
-// lowest 16 bits); where `count` is no power of two, each ray is spread evenly only by that.
+// Shifts one of a sequence's first `count` points by `shift`, modulo 1. With 2^k points, a shift over the whole square
+// would map the set almost onto itself for 2^k values of the shift, and the blue-noise property would be lost. So the
+// square is cut into 2^k boxes with one point each, and points are shifted within their boxes. `scramble` (its highest
+// and lowest 16 bits) permutes the boxes; if `count` is no power of two, that alone spreads each ray evenly.
 uvec2 shiftPoint(uvec2 point, uvec2 shift, uint scramble, uint count) {
     uint k = uint(findMSB(count));
     uvec2 cuts = uvec2(k / 2u, k - k / 2u);
@@ -43,9 +43,9 @@ uvec2 shiftPoint(uvec2 point, uvec2 shift, uint scramble, uint count) {
     return box | ((point + (shift >> cuts)) & inside);
 }
 
-// For ray `number` of the pixel's `count` (1 to 2^16). A frame takes the mask's next slice; once all have been used, the
-// rays take the sequence's next points, so that more frames always bring something new. stride: of these points; `count`,
-// or where that changes from frame to frame a power of two that it never exceeds.
+// Sample point of ray `number` of `count` (1 to 2^16). Each frame takes the next slice of the mask; once all slices
+// have been used, the rays continue with the next points of the sequence, so that every frame adds new samples. stride:
+// points per such cycle: `count`, or a power of two that `count` never exceeds if it changes from frame to frame.
 vec2 blueNoisePoint(uvec2 pixel, uint stream, uint frame, uint number, uint count, uint stride) {
     uint mask = loadBlueNoise(blueNoiseTexel(pixel, stream, frame));
     uvec2 point = shiftPoint(sobolPoint(frame / blueNoiseSlices * stride + number),

@@ -1,4 +1,4 @@
-// Which of the sun's shadow maps a pixel looks into.
+// Selects the shadow cascade for a pixel.
 #ifndef REFLET_CASCADES_GLSL
 #define REFLET_CASCADES_GLSL
 
@@ -6,11 +6,11 @@
 
 struct Cascade {
     uint index;
-    float next;  // share of the cascade after this one: above 0 where they blend
+    float next;  // weight of the next cascade: above 0 in the blend range
 };
 
-// distance: metres in front of the camera. What lies beyond the last cascade's end is in the last one.
-Cascade cascadeAt(float distance, SunShadowParams sun) {
+// distance: metres in front of the camera. Points beyond the end of the last cascade use the last one.
+Cascade selectCascade(float distance, SunShadowParams sun) {
     uint i = 0u;
     while (i + 1u < sun.count && distance >= sun.ends[i]) {
         ++i;
@@ -22,7 +22,7 @@ Cascade cascadeAt(float distance, SunShadowParams sun) {
     return Cascade(i, next);
 }
 
-// The texel of the shadow image where a cascade's tile begins.
-ivec2 cascadeTile(uint index, uint resolution) { return ivec2(index % 2u, index / 2u) * int(resolution); }
+// First texel of a cascade's tile in the shadow image.
+ivec2 cascadeTileOrigin(uint index, uint resolution) { return ivec2(index % 2u, index / 2u) * int(resolution); }
 
 #endif

@@ -1,11 +1,11 @@
-// Taps and weights of a Catmull-Rom filter, which goes through the texels and stays sharp when it is applied again and
-// again. (Catmull and Rom, A Class of Local Interpolating Splines, 1974)
+// Taps and weights of a Catmull-Rom filter: it interpolates the texels and stays sharp under repeated resampling.
+// (Catmull and Rom, A Class of Local Interpolating Splines, 1974)
 #ifndef REFLET_CATMULL_ROM_GLSL
 #define REFLET_CATMULL_ROM_GLSL
 
 struct CatmullRom {
     ivec2 corner;
-    ivec2 first;  // taps around the corner that count: -1 to 2, or 0 alone on a texel's centre
+    ivec2 first;  // range of taps around the corner: -1 to 2, or only 0 at a texel's centre
     ivec2 last;
     vec4 x;  // weights of the taps from -1 on; their sum is 1
     vec4 y;
@@ -19,7 +19,7 @@ vec4 catmullRomWeights(float f) {
     return vec4(before, 1.0 - before - after - second, second, after);
 }
 
-// at: in texels from the centre of the first. Places within 1/64 of a texel's centre are taken for it.
+// at: position in texels, relative to the centre of the first. Positions within 1/64 of a texel's centre snap to it.
 CatmullRom catmullRom(vec2 at) {
     vec2 whole = floor(at + 0.5);
     bvec2 onCentre = lessThan(abs(at - whole), vec2(1.0 / 64.0));

@@ -1,17 +1,18 @@
 // The surface model: Lambert under GGX with height-correlated Smith shadowing (Heitz, Understanding the
-// Masking-Shadowing Function, JCGT 2014). Single scattering is compensated by its directional albedo (Turquin,
-// Practical Multiple Scattering Compensation, 2019), and the diffuse base gets what the specular layer leaves, so that
-// a white surface in a white environment is white at every roughness, metal or not.
+// Masking-Shadowing Function in Microfacet-Based BRDFs, JCGT 2014). Energy lost by single scattering is compensated
+// with the directional albedo (Turquin, Practical Multiple Scattering Compensation for Microfacet Models, 2019). The
+// diffuse base gets the energy that the specular layer does not reflect, so a white surface passes the furnace test at
+// every roughness, metal or not.
 #ifndef REFLET_GGX_GLSL
 #define REFLET_GGX_GLSL
 
 #include "shaders/sampling.glsl"
 
-// Below this perceptual roughness a point-like light's reflection would be smaller than half floats can hold.
+// Below this perceptual roughness, the highlight of a point-like light would exceed the range of half floats.
 const float minLightRoughness = 0.045;
 const float dielectricF0 = 0.04;
 
-// D, for cos of the angle between normal and half vector.
+// Normal distribution D; nh: cosine between normal and half vector.
 float ggxDistribution(float nh, float alpha) {
     float a2 = alpha * alpha;
     float d = (nh * a2 - nh) * nh + 1.0;
@@ -32,31 +33,32 @@ vec3 fresnelSchlick(vec3 f0, float vh) {
     return f0 + (1.0 - f0) * (m2 * m2 * m);
 }
 
-// Tangent of the angle around the middle of the light that a surface reflects which holds about half of that light.
-float ggxHalfTangent(float alpha) { return 1.5 * alpha; }
+// Tangent of the half angle of a cone that holds about half of the reflected light.
+float ggxConeTangent(float alpha) { return 1.5 * alpha; }
 
-// The mean direction of the light that a surface of normal +Z reflects toward v (unit, v.z > 0), weighted by the lobe
-// without Fresnel: between the mirrored direction and the normal. Fitted to a quadrature of the lobe, within 3 degrees.
-// Around it the lobe is about as wide as it is for v = +Z. What a lobe of that width around it finds, on a sphere at
-// roughness 0.8 under a sky with a sun: relative MSE 0.015, bias +0.7 %. Around the direction that Lagarde and de
-// Rousiers take (Moving Frostbite to PBR, 2014; up to 28 degrees off): 0.019, -4 %; the mirrored one: 0.062, -19 %.
+// Mean direction of the light that a surface with normal +Z reflects toward v (unit, v.z > 0), weighted by the lobe
+// without Fresnel. It lies between the mirror direction and the normal. Fitted to a quadrature of the lobe, within 3
+// degrees. The lobe around it is about as wide as the lobe for v = +Z. Error of prefiltered radiance looked up in this
+// direction, on a sphere of roughness 0.8 under a sky with a sun: relative MSE 0.015, bias +0.7 %. In the dominant
+// direction of Lagarde and de Rousiers (Moving Frostbite to PBR, 2014; up to 28 degrees off): 0.019, -4 %; in the
+// mirror direction: 0.062, -19 %.
 vec3 ggxMeanDirection(vec3 v, float alpha) {
     float upright = alpha * alpha * (2.2 - 1.2 * alpha);
     float share = mix(upright, sqrt(alpha), pow(1.0 - v.z, max(0.32 / max(alpha, 1e-4), 1.0)));
     return normalize(mix(vec3(-v.xy, v.z), vec3(0.0, 0.0, 1.0), share));
 }
 
-// What a material is at one point, ready for light from any side.
+// Shading parameters of one surface point, independent of the light direction.
 struct Surface {
-    vec3 diffuse;       // albedo of the diffuse base, times what the specular layer lets through
+    vec3 diffuse;       // albedo of the diffuse base, times what the specular layer transmits
     vec3 f0;
     float roughness;    // perceptual
     vec3 compensation;  // factor on single-scattering specular
     vec3 specular;      // directional albedo toward the camera, compensated
 };
 
-// table: directional albedo of the single-scattering lobe toward the camera as A · F0 + B (texel (nv, roughness) of the
-// image made by ggx_table.comp). lambertOnly: no specular layer at all.
+// table: directional albedo of the single-scattering lobe toward the camera as A · F0 + B: texel (nv, roughness) of the
+// image that ggx_table.comp makes. lambertOnly: no specular layer.
 Surface makeSurface(vec3 baseColor, float metallic, float roughness, vec2 table, bool lambertOnly) {
     Surface s;
     s.roughness = roughness;
@@ -71,22 +73,23 @@ Surface makeSurface(vec3 baseColor, float metallic, float roughness, vec2 table,
     float lost = 1.0 / max(table.x + table.y, 1e-3) - 1.0;
     float coat = (dielectricF0 * table.x + table.y) * (1.0 + dielectricF0 * lost);
     vec3 metal = (baseColor * table.x + table.y) * (1.0 + baseColor * lost);
-    // Mixed as glTF mixes the materials. The compensation is not linear in F0, so it follows from the result.
+    // Interpolated by metallic, as glTF defines. The compensation is not linear in F0, so it is derived from the
+    // result.
     s.specular = min(mix(vec3(coat), metal, metallic), vec3(1.0));
     s.compensation = s.specular / max(s.f0 * table.x + table.y, vec3(1e-4));
     s.diffuse = baseColor * ((1.0 - metallic) * (1.0 - coat));
     return s;
 }
 
-// Where the table of directional albedos holds this angle and roughness: its outer texels stand for 0 and 1.
+// UV of an angle and a roughness in the table of directional albedos. The centres of its outer texels are 0 and 1.
 const float ggxTableSize = 32.0;
 vec2 ggxTableUv(float nv, float roughness) {
     return (vec2(clamp(nv, 0.0, 1.0), roughness) * (ggxTableSize - 1.0) + 0.5) / ggxTableSize;
 }
 
-// Radiance toward v for irradiance 1 on a surface that faces the light: BRDF times cos. All unit, all away from the
-// point.
-vec3 reflectLight(Surface s, vec3 n, vec3 v, vec3 l) {
+// BRDF times cosine: radiance toward v for irradiance 1 on a surface that faces the light. All vectors are unit length
+// and point away from the surface.
+vec3 brdfTimesCosine(Surface s, vec3 n, vec3 v, vec3 l) {
     float nl = dot(n, l);
     if (nl <= 0.0) {
         return vec3(0.0);

@@ -1,10 +1,10 @@
-// Lamps of KHR_lights_punctual.
+// Irradiance from the lamps of KHR_lights_punctual.
 #ifndef REFLET_LAMP_GLSL
 #define REFLET_LAMP_GLSL
 
 #include "render/lamps.h"
 
-// Irradiance on a surface at p that faces the lamp; toLamp: unit, from p.
+// Irradiance on a surface at p that faces the lamp. toLamp: unit, from p.
 vec3 lampIrradiance(LampParams lamp, vec3 p, out vec3 toLamp) {
     if (lamp.type == lampDirectional) {
         toLamp = lamp.toLamp;

@@ -1,5 +1,5 @@
-// Whether a lamp can light a part of what the camera sees: range and cone against a tile of the screen between two
-// distances. Never a false no; a yes where no light arrives costs time alone.
+// Light culling: whether the range and the cone of a lamp reach a tile of the screen between two depths. Conservative:
+// false positives only cost time, false negatives do not occur.
 #ifndef REFLET_LAMP_REACH_GLSL
 #define REFLET_LAMP_REACH_GLSL
 
@@ -7,16 +7,16 @@
 #include "render/view.h"
 #include "shaders/projection.glsl"
 
-// World space. The space behind all planes, and inside of the sphere.
+// The part of the view frustum inside all planes and the sphere. World space.
 struct TileBounds {
-    vec4 sides[4];  // dot(side, (p, 1)): metres from the side into the tile
-    vec3 center;    // of a sphere around all of it
+    vec4 sides[4];  // dot(side, (p, 1)): metres from the side, positive inside the tile
+    vec3 center;    // of a bounding sphere
     float radius;
-    vec2 distances;  // nearest and farthest, by the view's plane
+    vec2 distances;  // nearest and farthest view distance
 };
 
-// uv: of the upper left and the lower right corner. depths: of the nearest and of the farthest surface. Any projection will
-// do: what lies between two depths is the hull of its eight corners.
+// uvMin, uvMax: upper left and lower right corner. depths: of the nearest and the farthest surface. Works for any
+// projection: the space between two depths is the hull of its eight corners.
 TileBounds tileBounds(vec2 uvMin, vec2 uvMax, vec2 depths, ViewParams view) {
     TileBounds tile;
     mat4 rows = transpose(view.worldToClip);
@@ -57,13 +57,13 @@ bool rangeReaches(vec3 position, float range, TileBounds tile, vec4 viewPlane) {
     return reaches;
 }
 
-// Of at most 90 degrees from the axis. Outside is what lies farther from the cone's mantle than the sphere's radius; for
-// what lies behind the tip that distance is underestimated.
+// Cones of at most 90 degrees from the axis. The sphere is outside if it is farther from the cone's lateral surface
+// than its radius; behind the apex that distance is underestimated, which is conservative.
 bool coneReaches(LampParams lamp, vec3 center, float radius) {
     vec3 d = center - lamp.position;
     float along = -dot(d, lamp.toLamp);
     float across = sqrt(max(dot(d, d) - along * along, 0.0));
-    float cosine = lamp.cosOuter - 1e-4;  // the lamp's fall-off rounds otherwise
+    float cosine = lamp.cosOuter - 1e-4;  // margin for the rounding of the lamp's fall-off
     float sine = sqrt(clamp(1.0 - cosine * cosine, 0.0, 1.0));
     return across * cosine - along * sine <= radius && along >= -radius;
 }
@@ -72,7 +72,7 @@ bool lampReaches(LampParams lamp, TileBounds tile, vec4 viewPlane) {
     if (lamp.type == lampDirectional) {
         return true;
     }
-    // What positions, rounded to floats, may be off.
+    // Rounding error of positions in floats.
     float slack = 1e-5 * (length(tile.center) + tile.radius + abs(tile.distances.y) + length(lamp.position));
     if (lamp.inverseRange > 0.0 && !rangeReaches(lamp.position, 1.0 / lamp.inverseRange + slack, tile, viewPlane)) {
         return false;

@@ -1,42 +1,42 @@
-// Tracing a ray through a depth buffer: what all methods share. A method is a function
+// Ray marching through a depth buffer: what all methods share. A method is a function
 //     MarchResult march…(MarchRay ray, MarchOptions o, MarchView view)
-// The includer defines, before it includes this: float loadDepth(ivec2 pixel) (reversed depth, 0: sky), and
-// float loadBackDepth(ivec2 pixel): of the nearest back face behind that, 0: none (needed where o.secondLayer is set).
+// The includer defines, before it includes this: float loadDepth(ivec2 pixel) (reversed depth, 0: sky), and float
+// loadBackDepth(ivec2 pixel): of the nearest back face behind that, 0: none (needed if o.secondLayer is set).
 #ifndef REFLET_MARCH_GLSL
 #define REFLET_MARCH_GLSL
 
 #include "shaders/projection.glsl"
 
 const uint marchHit = 0u;
-const uint marchLeftScreen = 1u;  // beyond an edge, or behind the camera
-const uint marchSpent = 2u;       // all steps taken, or as far as rays go: a miss
-const uint marchHidden = 3u;      // went behind something thicker than it may be taken for: a miss
+const uint marchLeftScreen = 1u;    // off-screen: beyond an edge, or behind the camera
+const uint marchLimitReached = 2u;  // step limit or maximum distance reached: a miss
+const uint marchOccluded = 3u;      // went behind something thicker than the thickness: a miss
 
 struct MarchResult {
     uint outcome;
-    ivec2 pixel;     // of the hit; else the last one visited
+    ivec2 pixel;     // of the hit; else the last pixel visited
     float distance;  // metres along the ray
-    float clear;     // metres along the ray before it first went behind something, or left, or was given up
-    bool lost;       // it went behind something (a hit may have come after)
-    uint steps;      // depth samples taken
+    float clear;     // metres along the ray known to be free: before it first went behind something, left or ended
+    bool occluded;   // it went behind something (possibly before a hit)
+    uint steps;      // depth look-ups
 };
 
-MarchResult startOfMarch() { return MarchResult(marchSpent, ivec2(0), 0.0, 0.0, false, 0u); }
+MarchResult emptyMarchResult() { return MarchResult(marchLimitReached, ivec2(0), 0.0, 0.0, false, 0u); }
 
 struct MarchOptions {
-    float stepLength;    // metres: linear, the first of halving, the first distance of the fixed point
-    float smallest;      // metres: where halving ends; by how little the fixed point may still move
-    float stride;        // pixels of a step of dda
-    float longest;       // metres: no ray goes farther
-    float jitter;        // 0..1: what part of a step the first one is
+    float stepLength;   // metres: linear; the first step of halving; the first distance of fixed_point
+    float minStep;      // metres: where halving ends; tolerance of fixed_point
+    float stride;       // dda: pixels per step
+    float maxDistance;  // metres
+    float jitter;       // 0..1: length of the first step, in steps
     uint maxSteps;
-    float thickness;     // metres along the view
-    bool thickAsStep;    // linear, halving: and as far as a step goes along the view
-    bool secondLayer;    // up to the back face, where there is one
-    uint binarySteps;    // after a hit of linear, halving, dda
-    bool interpolate;    // then place it between the last two samples
-    int levels;          // hiz: of the pyramid, pixels included
-    uint firstSteps;     // hiz: of single pixels, before larger cells are tried
+    float thickness;   // metres along the view
+    bool thickAsStep;  // linear, halving: add the length of a step along the view
+    bool secondLayer;  // thickness reaches to the back face, where there is one
+    uint binarySteps;  // bisection steps after a hit of linear, halving, dda
+    bool interpolate;  // then interpolate between the last two samples
+    int levels;        // hiz: levels of the pyramid, including the pixels
+    uint firstSteps;   // hiz: steps of single pixels before larger cells are tried
 };
 
 struct MarchView {
@@ -48,15 +48,15 @@ struct MarchView {
     vec2 pixel;  // 1 / size
 };
 
-// Clip coordinates and view distance ("away") are linear along the ray: one multiply-add each.
+// Clip coordinates and view distance (metres in front of the camera) are linear along the ray: one multiply-add each.
 struct MarchRay {
     vec3 origin;  // world
     vec3 direction;
     vec4 clipStart;
     vec4 clipStep;
-    float awayStart;
-    float awayStep;
-    vec4 ownPlane;  // the plane that the ray leaves, as planeOnScreen gives it
+    float viewDistanceStart;
+    float viewDistanceStep;
+    vec4 ownPlane;  // the plane that the ray starts from, as planeOnScreen gives it
 };
 
 MarchRay makeMarchRay(vec3 originW, vec3 directionW, vec4 ownPlane, MarchView view) {
@@ -65,34 +65,35 @@ MarchRay makeMarchRay(vec3 originW, vec3 directionW, vec4 ownPlane, MarchView vi
                     dot(view.viewPlane.xyz, directionW), ownPlane);
 }
 
-// Metres above the own plane per metre from the camera (orthographic: metres) that count as in it.
+// Height above the ray's own plane that still counts as within it: metres per metre from the camera (orthographic:
+// metres).
 const float ownPlaneSlack = 5e-4;
 
-// What the screen shows where the ray is after t metres.
+// The depth buffer at the ray's position after t metres.
 struct MarchSample {
     bool onScreen;
     ivec2 pixel;
     float depth;
-    float behind;  // metres along the view that the ray is behind it; negative: in front
+    float behind;     // metres along the view by which the ray is behind the surface; negative: in front
     float thickness;  // metres along the view
-    bool foreign;  // not in the plane that the ray leaves, nor below it
+    bool hittable;    // neither sky, nor in or below the plane that the ray starts from
 };
 
-// What lies in the ray's own plane or below it cannot be hit from it. Without this, a surface seen at a slant is hit by
-// rays that have only just left it, because one depth stands for all of a pixel's width. (Interpolated depth would tell
-// as much, but wears half a pixel off every silhouette.) Nor can the sky be hit.
-bool isForeign(MarchRay ray, ivec2 pixel, float depth, MarchView view) {
+// Surfaces in the ray's own plane or below it cannot be hit. Without this test, rays would self-intersect surfaces at
+// grazing angles, because one depth stands for the whole width of a pixel. (Interpolated depth would also prevent that,
+// but erodes half a pixel of every silhouette.) The sky cannot be hit either.
+bool isHittable(MarchRay ray, ivec2 pixel, float depth, MarchView view) {
     return depth > 0.0 && dot(ray.ownPlane, vec4((vec2(pixel) + 0.5) * view.pixel, depth, 1.0)) > ownPlaneSlack;
 }
 
-// Whether a point `away` metres in front of the camera is no farther than what has this depth. A comparison of fractions
-// by their products: marches ask it at every step, and CPUs divide slowly.
-bool isInFrontOf(float away, float depth, MarchView view) {
-    return away * (view.depthToDistance.z + view.depthToDistance.w * depth) <=
+// Whether a point at this view distance is no farther than the surface with this depth. Fractions are compared by
+// cross-multiplying: this runs at every step, and division is slow on CPUs.
+bool isInFrontOf(float viewDistance, float depth, MarchView view) {
+    return viewDistance * (view.depthToDistance.z + view.depthToDistance.w * depth) <=
            view.depthToDistance.x + view.depthToDistance.y * depth;
 }
 
-// How thick, in metres along the view, what the pixel shows at the distance `front` is taken to be.
+// Assumed thickness, in metres along the view, of the surface that the pixel shows at view distance `front`.
 float thicknessAt(ivec2 pixel, float front, MarchOptions o, MarchView view) {
     if (o.secondLayer) {
         float back = loadBackDepth(pixel);
@@ -112,35 +113,35 @@ MarchSample sampleAt(MarchRay ray, float t, MarchOptions o, MarchView view) {
         s.pixel = ivec2(uv * view.size);
         s.depth = loadDepth(s.pixel);
         float front = depthToViewDistance(s.depth, view.depthToDistance);
-        s.behind = ray.awayStart + t * ray.awayStep - front;
+        s.behind = ray.viewDistanceStart + t * ray.viewDistanceStep - front;
         s.thickness = thicknessAt(s.pixel, front, o, view);
-        s.foreign = isForeign(ray, s.pixel, s.depth, view);
+        s.hittable = isHittable(ray, s.pixel, s.depth, view);
     }
     return s;
 }
 
-// A hit between a sample in front of what is shown (`before` metres along the ray, by -`behindBefore`) and one behind it
-// (the hit, by `behindHit`): halved o.binarySteps times, then cut where a straight surface would be (similar triangles).
+// Refines a hit (`behindHit` metres behind the surface) whose previous sample was in front of it (`before` metres along
+// the ray, -`behindBefore` in front): o.binarySteps bisections, then linear interpolation (similar triangles).
 MarchResult refineHit(MarchResult hit, float before, float behindBefore, float behindHit, MarchRay ray, MarchOptions o,
                       MarchView view) {
     for (uint i = 0u; i < o.binarySteps; ++i) {
         float middle = 0.5 * (before + hit.distance);
         MarchSample s = sampleAt(ray, middle, o, view);
         ++hit.steps;
-        if (s.onScreen && s.foreign && s.behind > 0.0) {
+        if (s.onScreen && s.hittable && s.behind > 0.0) {
             hit.pixel = s.pixel;
             hit.distance = middle;
             behindHit = s.behind;
         } else {
             before = middle;
-            behindBefore = s.foreign ? s.behind : 0.0;
+            behindBefore = s.hittable ? s.behind : 0.0;
         }
     }
     if (o.interpolate && behindHit > behindBefore) {
         float cut = mix(before, hit.distance, -behindBefore / (behindHit - behindBefore));
         MarchSample s = sampleAt(ray, cut, o, view);
         ++hit.steps;
-        if (s.onScreen && s.foreign) {  // else it would be the sky's, or the ray's own plane
+        if (s.onScreen && s.hittable) {  // not the sky, nor the ray's own plane
             hit.pixel = s.pixel;
             hit.distance = cut;
         }

@@ -1,4 +1,4 @@
-// White noise by hashing: pcg of Jarzynski and Olano, Hash Functions for GPU Rendering, JCGT 2020.
+// White noise by hashing: PCG (Jarzynski and Olano, Hash Functions for GPU Rendering, JCGT 2020).
 #ifndef REFLET_NOISE_GLSL
 #define REFLET_NOISE_GLSL
 
@@ -8,15 +8,15 @@ uint hashPcg(uint v) {
     return (word >> 22u) ^ word;
 }
 
-// A well mixed number for a pixel, a stream (which ray, which use) and a frame.
+// Hash of a pixel, a stream (which ray, which use) and a frame.
 uint hashPixel(uvec2 pixel, uint stream, uint frame) {
     return hashPcg(pixel.x + hashPcg(pixel.y + hashPcg(stream + hashPcg(frame))));
 }
 
-// The 24 high bits as a number in [0, 1): every value is exact, 1 is never reached.
+// The 24 high bits as a number in [0, 1): every value is exact, and 1 is never reached.
 float hashToUnit(uint h) { return float(h >> 8u) * (1.0 / 16777216.0); }
 
-// Two numbers in [0, 1) that do not depend on one another.
+// Two independent numbers in [0, 1).
 vec2 hashToUnit2(uint h) { return vec2(hashToUnit(h), hashToUnit(hashPcg(h ^ 0x9e3779b9u))); }
 
 #endif

@@ -1,9 +1,9 @@
-// Unit vectors as two 16-bit numbers: octahedral mapping (Cigolle et al., A Survey of Efficient Representations for
+// Octahedral encoding of unit vectors in two 16-bit numbers (Cigolle et al., A Survey of Efficient Representations for
 // Independent Unit Vectors, JCGT 2014). Largest error about 0.004 degrees.
 #ifndef REFLET_OCTAHEDRAL_GLSL
 #define REFLET_OCTAHEDRAL_GLSL
 
-// Like sign(), but never 0: the seams of the octahedron belong to one side.
+// Like sign(), but never 0, so that the seams of the octahedron are unambiguous.
 vec2 signNotZero(vec2 v) { return vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0); }
 
 // Unit vector to [-1, 1]².

@@ -1,11 +1,11 @@
-// Directions from pairs of numbers in [0, 1), around +Z, and the frame that turns them to a normal.
+// Sampling of directions around +Z from pairs of numbers in [0, 1), and the tangent frame of a normal.
 #ifndef REFLET_SAMPLING_GLSL
 #define REFLET_SAMPLING_GLSL
 
 const float pi = 3.14159265358979;
 
-// Tangent frame without branches (Duff et al., Building an Orthonormal Basis, Revisited, JCGT 2017). Columns:
-// tangent, bitangent, normal.
+// Branchless tangent frame (Duff et al., Building an Orthonormal Basis, Revisited, JCGT 2017). Columns: tangent,
+// bitangent, normal.
 mat3 basisAround(vec3 n) {
     float s = n.z >= 0.0 ? 1.0 : -1.0;
     float a = -1.0 / (s + n.z);
@@ -36,8 +36,8 @@ vec3 sampleGgx(vec2 u, float alpha) {
     return vec3(r * cos(phi), r * sin(phi), sqrt(z2));
 }
 
-// Half vector of the GGX distribution as seen from v (unit, v.z > 0), pdf = D · max(dot(v, h), 0) · G1(v) / v.z.
-// (Dupuy and Benyoub, Sampling Visible GGX Normals with Spherical Caps, HPG 2023)
+// Half vector from the distribution of GGX normals visible from v (unit, v.z > 0), pdf = D · max(dot(v, h), 0) · G1(v)
+// / v.z. (Dupuy and Benyoub, Sampling Visible GGX Normals with Spherical Caps, HPG 2023)
 vec3 sampleGgxVisible(vec2 u, vec3 v, float alpha) {
     vec3 stretched = normalize(vec3(alpha * v.xy, v.z));
     float phi = 2.0 * pi * u.y;

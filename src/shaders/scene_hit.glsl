@@ -1,4 +1,4 @@
-// What a ray meets of a scene's triangles, whoever found it.
+// A ray's hit on the triangles of the scene, found by the BVH traversal or by ray query.
 #ifndef REFLET_SCENE_HIT_GLSL
 #define REFLET_SCENE_HIT_GLSL
 
@@ -6,17 +6,17 @@
 
 struct SceneHit {
     float distance;     // in lengths of the ray's direction
-    vec2 barycentrics;  // weights of the second and the third corner
-    uint triangle;      // as loadSceneTriangle takes it
+    vec2 barycentrics;  // weights of the second and third vertex
+    uint triangle;      // index for loadSceneTriangle
 };
 
-// Toward the front of the surface, not of unit length.
+// Geometric normal toward the front side, not normalized.
 vec3 triangleNormal(SceneTriangle t) {
     vec3 n = cross(t.b - t.a, t.c - t.a);
     return (t.flags & triangleMirrored) != 0u ? -n : n;
 }
 
-// Whether a ray sees the back of a single-sided surface, through which the camera looks.
+// Whether a ray hits the back of a single-sided surface, which camera rays pass through.
 bool isHiddenBack(SceneTriangle t, vec3 direction) {
     return (t.flags & triangleDoubleSided) == 0u && dot(triangleNormal(t), direction) > 0.0;
 }

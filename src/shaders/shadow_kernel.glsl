@@ -1,17 +1,18 @@
-// Kernels that clean soft shadows: which neighbours lie on a pixel's surface, and how much each counts.
+// Kernels for denoising soft shadows: which neighbours lie on the same surface as a pixel, and their weights.
 #ifndef REFLET_SHADOW_KERNEL_GLSL
 #define REFLET_SHADOW_KERNEL_GLSL
 
 #include "shaders/projection.glsl"
 
-// A neighbour lies on the same surface if it rises above or sinks below the pixel's plane by less than this for each
-// unit that it is away across the view.
+// Largest slope of a surface: a neighbour counts as on the same surface if its height over the pixel's plane, up or
+// down, is below this times its distance across the view.
 const float surfaceSlope = 0.25;
 
-// The plane of a pixel's surface: a neighbour o pixels away with depth d lies on it where onSurface holds.
+// The tangent plane at a pixel. onSurface tests whether a neighbour, `o` pixels away and `depthStep` deeper, lies on
+// it. Heights are in units of the tolerance one pixel away.
 struct ScreenPlane {
-    vec2 perPixel;   // height from a step of a pixel at equal depth, in units of what is allowed one pixel away
-    float perDepth;  // height from a step in depth, in the same units
+    vec2 perPixel;   // change of height for a step of one pixel at equal depth
+    float perDepth;  // change of height for a step in depth
 };
 
 ScreenPlane screenPlane(vec3 p, vec3 n, mat4 clipToWorld, vec2 pixelSize, float pixelAngle) {
@@ -31,8 +32,8 @@ bool onSurface(ScreenPlane plane, vec2 o, float depthStep) {
 float quadratic(vec3 m, vec2 o) { return dot(m, vec3(o.x * o.x, 2.0 * o.x * o.y, o.y * o.y)); }
 vec3 inverseSymmetric(vec3 m) { return vec3(m.z, -m.y, m.x) / max(m.x * m.z - m.y * m.y, 1e-20); }
 
-// Squared metres across the sun's direction between a pixel and its neighbours on the surface, as a quadratic form of
-// the step in pixels.
+// Squared distance in metres, perpendicular to the sun's direction, between a pixel and its neighbours on the surface:
+// a quadratic form of the offset in pixels.
 vec3 metresAcross(vec2 uv, float depth, ScreenPlane plane, mat4 clipToWorld, vec2 pixelSize, vec3 toSun) {
     vec4 h = clipToWorld * vec4(uvToNdc(uv), depth, 1.0);
     vec3 p = h.xyz / h.w;
@@ -47,9 +48,9 @@ vec3 metresAcross(vec2 uv, float depth, ScreenPlane plane, mat4 clipToWorld, vec
     return vec3(dot(x, x), dot(x, y), dot(y, y));
 }
 
-// Whether two visibilities of so many samples may differ by noise alone: 1 the same, 0 they cannot. Noise falls a little
-// faster than the root of their number; of 16 samples a difference of 0.25 is more than noise.
-float likeness(float difference, uint samples) {
+// Similarity of two visibility estimates of `samples` samples each: 1 equal, 0 a difference that noise cannot explain.
+// Noise falls a little faster than 1 / sqrt(samples); with 16 samples a difference of 0.25 is more than noise.
+float similarity(float difference, uint samples) {
     float unlike = 0.5 * pow(float(samples), 0.75) * difference;
     return max(1.0 - unlike * unlike, 0.0);
 }

@@ -1,4 +1,4 @@
-// Looking up an orthographic shadow map with reversed depth (1 nearest to the sun).
+// Look-ups in an orthographic shadow map with reversed depth (1 nearest to the sun).
 // The includer defines, before it includes this: float loadShadowDepth(ivec2 texel).
 #ifndef REFLET_SHADOW_MAP_GLSL
 #define REFLET_SHADOW_MAP_GLSL
@@ -6,28 +6,28 @@
 #include "render/shadow/shadow.h"
 #include "shaders/shadow_texel.glsl"
 
-const float leastFacing = 0.05;     // cosine under which a surface is followed as if it were this
-const float edgeLift = 0.75;        // part of the lift that is left out at edges
-const float bentAway = 2.0;         // metres that a surface may bend away from its plane by for each to the side
-const float outsideTheMap = -1e9;   // clearance
+const float minFacing = 0.05;         // lower clamp of the cosine between normal and sun
+const float edgeBias = 0.75;          // part of the depth bias that is left out at edges
+const float maxBend = 2.0;            // metres that a surface may bend below its plane per metre to the side
+const float outsideClearance = -1e9;  // clearance outside the map
 
-// Where a map lies in the image that several share.
+// Position of a map in the image that several maps share.
 struct ShadowTile {
     ivec2 origin;
     ivec2 size;
 };
 
-// A receiver in a map.
+// A receiver in the space of a map.
 struct ShadowReceiver {
-    vec3 s;             // in shadow space
-    vec2 at;            // the same in texels of the map
+    vec3 s;   // in shadow space
+    vec2 at;  // the same in texels of the map
     vec2 texelsPerMetre;
-    vec2 aside;         // texels: unit, the way that its surface faces, across the sun; 0: straight at the sun
-    vec2 slope;         // metres toward the sun that its plane rises by for each unit along x and y of shadow space
-    float depthRange;   // metres
+    vec2 tiltDirection;  // texels: unit, the normal projected across the sun's direction; 0: faces the sun
+    vec2 slope;          // metres toward the sun by which the plane rises per unit of x and y in shadow space
+    float depthRange;    // metres
     ShadowTile tile;
-    float lift;         // metres toward the sun under which nothing blocks: curvature, creases and rounding
-    bool ownPlane;      // its surface is followed along its own plane
+    float depthBias;  // metres toward the sun; covers curvature, creases and rounding
+    bool ownPlane;    // receiver-plane depth bias is used
 };
 
 bool outsideMap(ivec2 texel, ivec2 size) {
@@ -43,75 +43,79 @@ ShadowReceiver receiverAt(vec3 p, ShadowMapParams map, ShadowTile tile) {
     r.s = (map.worldToShadow * vec4(p, 1.0)).xyz;
     r.at = (0.5 + 0.5 * r.s.xy) * vec2(tile.size);
     r.texelsPerMetre = 0.5 * vec2(tile.size) * vec2(length(shadowAxis(map, 0)), length(shadowAxis(map, 1)));
-    r.aside = vec2(0.0);
+    r.tiltDirection = vec2(0.0);
     r.slope = vec2(0.0);
     r.depthRange = map.depthRange;
     r.tile = tile;
-    r.lift = 0.0;
+    r.depthBias = 0.0;
     r.ownPlane = false;
     return r;
 }
 
-// A surface is followed along its own plane to the centre of the texel that is looked up, for there the map holds its
-// depth: planes never shadow themselves, however far to the side a filter looks. Then `bias`, texels along the normal.
+// Receiver-plane depth bias: the depth to compare against is that of the receiver's plane at the centre of the texel
+// that is looked up, because the map holds the depth there. So planes never shadow themselves, however wide the filter
+// is. `bias`, in texels along the normal, comes on top.
 ShadowReceiver slopeReceiver(vec3 p, vec3 normal, ShadowMapParams map, ShadowTile tile, float bias) {
     ShadowReceiver r = receiverAt(p, map, tile);
     float facing = dot(normal, map.toSun);
-    // The normal in shadow space's own axes: depth changes by -n.xy / n.z for each step along x and y.
+    // The normal along the axes of shadow space: depth changes by -n.xy / n.z per step along x and y.
     vec3 axisX = shadowAxis(map, 0);
     vec3 axisY = shadowAxis(map, 1);
     vec2 sideways = vec2(dot(normal, axisX), dot(normal, axisY));
-    r.aside = dot(sideways, sideways) > 1e-6 * dot(axisX, axisX) ? normalize(sideways) : vec2(0.0);
-    r.slope = -sideways / vec2(dot(axisX, axisX), dot(axisY, axisY)) / max(facing, leastFacing);
-    r.lift = bias * map.texelSize / max(facing, leastFacing);
+    r.tiltDirection = dot(sideways, sideways) > 1e-6 * dot(axisX, axisX) ? normalize(sideways) : vec2(0.0);
+    r.slope = -sideways / vec2(dot(axisX, axisX), dot(axisY, axisY)) / max(facing, minFacing);
+    r.depthBias = bias * map.texelSize / max(facing, minFacing);
     r.ownPlane = true;
     return r;
 }
 
-// The point's own depth, `bias` metres nearer to the sun (Williams, Casting curved shadows on curved surfaces, 1978). A
-// surface whose depth changes by more than that from the texel's centre to its corner shadows itself; casters that are
-// nearer than that to what they shadow are missed.
+// Constant depth bias: the point's own depth, `bias` metres nearer to the sun (Williams, Casting Curved Shadows on
+// Curved Surfaces, 1978). A surface whose depth changes by more than that between a texel's centre and its corner
+// shadows itself; casters closer than that to the receiver are missed.
 ShadowReceiver constantReceiver(vec3 p, ShadowMapParams map, ShadowTile tile, float bias) {
     ShadowReceiver r = receiverAt(p, map, tile);
-    r.lift = bias;
+    r.depthBias = bias;
     return r;
 }
 
-// offset: metres across the sun, along the map's axes. What the map does not hold cannot cast.
+// offset: metres across the sun's direction, along the map's axes. Nothing outside the map casts shadows.
 ShadowTexel texelAt(ShadowReceiver r, vec2 offset) {
     ivec2 texel = ivec2(floor(r.at + offset * r.texelsPerMetre));
     if (outsideMap(texel, r.tile.size)) {
-        return ShadowTexel(outsideTheMap, outsideTheMap, !r.ownPlane);
+        return ShadowTexel(outsideClearance, outsideClearance, !r.ownPlane);
     }
     vec2 toCentre = (2.0 * (vec2(texel) + 0.5) / vec2(r.tile.size) - 1.0) - r.s.xy;
     float depth = loadShadowDepth(r.tile.origin + texel);
     float height = (depth - r.s.z) * r.depthRange;
     float clearance = height - dot(r.slope, toCentre);
-    // Depth 0: nothing lies there.
-    return ShadowTexel(height, clearance, !r.ownPlane || (depth > 0.0 && clearance >= -r.lift - bentAway * length(offset)));
+    // Depth 0: the texel is empty.
+    return ShadowTexel(height, clearance,
+                       !r.ownPlane || (depth > 0.0 && clearance >= -r.depthBias - maxBend * length(offset)));
 }
 
-// The texel that the receiver is in; where it does not know the surface, what hides most of the others around and of one
-// that lies farther to the side that the surface faces. Near its edges a surface casts on itself by less than `lift`.
-ShadowTexel trustedTexel(ShadowReceiver r) {
+// The texel that holds the receiver. If it does not know the receiver's surface, the neighbour that occludes most is
+// taken, among the three nearest ones and one farther in the tilt direction. Near its edges a surface casts on itself
+// by less than `depthBias`.
+ShadowTexel receiverTexel(ShadowReceiver r) {
     ShadowTexel texel = texelAt(r, vec2(0.0));
-    // A count that is not known before: CPUs leave such a loop where none of a group's pixels needs more, and would
-    // always run all of one that can be unrolled.
+    // The trip count is dynamic on purpose: CPU drivers leave such a loop as soon as no pixel of the group needs more
+    // iterations, but always run all iterations of a loop that can be unrolled.
     int others = texel.known ? 0 : 4;
     vec2 next = sign(fract(r.at) - 0.5) / r.texelsPerMetre;
     const float aside = 1.5;  // texels
     for (int i = 0; i < others; ++i) {
-        vec2 offset = i == 3 ? aside * r.aside / r.texelsPerMetre : next * vec2((i & 1) == 0 ? 1.0 : 0.0, i > 0 ? 1.0 : 0.0);
+        vec2 offset = i == 3 ? aside * r.tiltDirection / r.texelsPerMetre
+                             : next * vec2((i & 1) == 0 ? 1.0 : 0.0, i > 0 ? 1.0 : 0.0);
         ShadowTexel other = texelAt(r, offset);
         if (other.clearance > texel.clearance) {
             texel = other;
         }
     }
-    texel.clearance += others > 0 ? edgeLift * r.lift : 0.0;
+    texel.clearance += others > 0 ? edgeBias * r.depthBias : 0.0;
     return texel;
 }
 
-// 1: lit. A hard edge, exact to the texel.
-float hardVisibility(ShadowReceiver r) { return trustedTexel(r).clearance > r.lift ? 0.0 : 1.0; }
+// Visibility with a hard edge, exact to the texel; 1: lit.
+float hardVisibility(ShadowReceiver r) { return receiverTexel(r).clearance > r.depthBias ? 0.0 : 1.0; }
 
 #endif

@@ -1,4 +1,4 @@
-// Noise for the samples of shadow filters.
+// Per-pixel noise for the samples of shadow filters.
 // The includer defines, before it includes this: uint loadBlueNoise(uint texel).
 #ifndef REFLET_SHADOW_NOISE_GLSL
 #define REFLET_SHADOW_NOISE_GLSL
@@ -6,7 +6,7 @@
 #include "render/shadow/shadow.h"
 #include "shaders/blue_noise.glsl"
 
-// Of a pixel: two numbers for the filter and two for the search. stream: an even number, one for each light.
+// Two numbers for the filter and two for the blocker search. stream: an even number, one for each light.
 vec4 shadowNoise(ivec2 pixel, ViewParams view, bool rings, uint stream) {
     uvec2 at = uvec2(pixel);
     if (rings) {

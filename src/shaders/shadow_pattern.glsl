@@ -1,7 +1,7 @@
-// Points of the unit disk for shadow filters, one after another, turned for each pixel.
-// Vogel: equal areas, at the golden angle (Vogel, A better way to construct the sunflower head, 1979). Rings: the spiral
-// that courses call a Poisson disk, denser in the middle: radius (i / count)^0.75 over some turns; optionally every
-// second point is the one before, mirrored.
+// Sample points on the unit disk for shadow filters, one after another, rotated per pixel.
+// Vogel: equal areas at the golden angle (Vogel, A Better Way to Construct the Sunflower Head, 1979). Rings: a spiral
+// that is denser in the middle, often called a Poisson disk in course material: radius (i / count)^0.75 over some
+// turns. Optionally every second point is the mirror image of the one before.
 #ifndef REFLET_SHADOW_PATTERN_GLSL
 #define REFLET_SHADOW_PATTERN_GLSL
 
@@ -10,17 +10,18 @@
 struct ShadowPattern {
     vec2 direction;  // of the next point
     vec2 turn;       // cosine and sine of the angle between points
-    float part;      // of the disk's area (Vogel) or of the spiral (rings) inside of the next point
-    float step;      // added to it for each point
+    float part;      // fraction of the disk's area (Vogel) or of the spiral (rings) inside the next point
+    float step;      // added to `part` for each point
     bool rings;
     bool mirrored;
     bool again;  // the next point is the last one, mirrored
     vec2 last;
 };
 
-vec2 turned(vec2 v, vec2 by) { return vec2(v.x * by.x - v.y * by.y, v.x * by.y + v.y * by.x); }
+vec2 rotated(vec2 v, vec2 by) { return vec2(v.x * by.x - v.y * by.y, v.x * by.y + v.y * by.x); }
 
-// noise: two numbers in [0, 1): what the pattern is turned by and, of the Vogel disk, where in its ring a point lies.
+// noise: two numbers in [0, 1): the rotation of the pattern and, for Vogel, the radial offset of a point within its
+// ring.
 ShadowPattern shadowPattern(ShadowSettings settings, uint count, vec2 noise) {
     const float goldenAngle = 2.39996323;
     ShadowPattern p;
@@ -44,7 +45,7 @@ vec2 nextPoint(inout ShadowPattern p) {
     }
     float radius = sqrt(p.part);
     p.last = p.direction * (p.rings ? radius * sqrt(radius) : radius);
-    p.direction = turned(p.direction, p.turn);
+    p.direction = rotated(p.direction, p.turn);
     p.part += p.step;
     p.again = p.mirrored;
     return p.last;

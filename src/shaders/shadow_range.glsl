@@ -1,14 +1,15 @@
-// How low and how high what a shadow map holds around a receiver lies, from the map's ranges (render/shadow/shadow.h).
-// The includer defines, before it includes this: vec2 loadShadowRange(ivec2 cell), of the image of all levels.
+// Lower and upper bounds of the blocker heights around a receiver, from the min/max hierarchy of the shadow map
+// (render/shadow/shadow.h).
+// The includer defines, before it includes this: vec2 loadShadowRange(ivec2 cell), of the image that holds all levels.
 #ifndef REFLET_SHADOW_RANGE_GLSL
 #define REFLET_SHADOW_RANGE_GLSL
 
 #include "render/levels.glsl"
 #include "shaders/shadow_map.glsl"
 
-// Metres above the receiver, toward the sun: a bound of the lowest and one of the highest within `radius` metres of it
-// across the sun. -1e9 where that leaves the map, 1e9 where it is larger than any level's cells. size: of the
-// image that the maps share.
+// Bounds in metres above the receiver, toward the sun, of everything within `radius` metres across the sun's direction.
+// The lower bound is -1e9 where the disk leaves the map; both are infinite (-1e9, 1e9) where the disk is larger than
+// the cells of the coarsest level. size: of the image that all maps share.
 vec2 heightRange(ShadowReceiver r, ivec2 size, float radius) {
     vec2 reach = radius * r.texelsPerMetre;
     ivec2 low = ivec2(floor(r.at - reach));
@@ -17,10 +18,10 @@ vec2 heightRange(ShadowReceiver r, ivec2 size, float radius) {
     low = clamp(low, ivec2(0), r.tile.size - 1) + r.tile.origin;
     high = clamp(high, ivec2(0), r.tile.size - 1) + r.tile.origin;
     int across = max(high.x - low.x, high.y - low.y);
-    // The smallest cells of which two along each axis hold it all.
+    // The finest level at which 2x2 cells cover the disk.
     int level = max(across > 1 ? findMSB(across - 1) - 1 : 1, 1);
     if (level >= int(shadowRangeLevels)) {
-        return vec2(outsideTheMap, -outsideTheMap);
+        return vec2(outsideClearance, -outsideClearance);
     }
     int shift = level + 2;
     ivec2 row = ivec2(0, levelRow(levelSize(size, 2), level));
@@ -31,7 +32,7 @@ vec2 heightRange(ShadowReceiver r, ivec2 size, float radius) {
     float nearest = max(max(a.x, b.x), max(c.x, d.x));
     float farthest = min(min(a.y, b.y), min(c.y, d.y));
     vec2 heights = (vec2(farthest, nearest) - r.s.z) * r.depthRange;
-    return leaves ? vec2(outsideTheMap, heights.y) : heights;
+    return leaves ? vec2(outsideClearance, heights.y) : heights;
 }
 
 #endif

@@ -1,5 +1,5 @@
-// Radiance as YCoCg over 1 + luma: bright texels do not outweigh all others, and limits along its axes are tight.
-// (Karis, High Quality Temporal Supersampling, SIGGRAPH 2014)
+// Tone-compressed radiance, YCoCg over 1 + luma: bright texels do not dominate averages, and clamping limits along its
+// axes are tight. (Karis, High Quality Temporal Supersampling, SIGGRAPH 2014)
 #ifndef REFLET_TONE_COMPRESSED_GLSL
 #define REFLET_TONE_COMPRESSED_GLSL
 

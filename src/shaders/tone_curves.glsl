@@ -3,7 +3,7 @@
 #ifndef REFLET_TONE_CURVES_GLSL
 #define REFLET_TONE_CURVES_GLSL
 
-// What a dielectric surface reflects at normal incidence; the neutral curve takes it off again.
+// Reflectance of a dielectric at normal incidence; the neutral curve subtracts it.
 const float dielectricReflectance = 0.04f;
 
 // IEC 61966-2-1.
@@ -23,14 +23,14 @@ vec3 toneAces(vec3 c) {
     return clamp(toDisplay * (a / b), 0.0f, 1.0f);
 }
 
-// One side of a sigmoid through a pivot with a given slope there, that reaches the corner `room` away.
+// One side of a sigmoid through a pivot with a given slope there; it reaches the corner `room` away.
 vec3 sigmoidSide(vec3 x, vec2 room, float slope, float power) {
     float scale = pow(pow(slope * room.x, -power) * (pow(slope * room.x / room.y, power) - 1.0f), -1.0f / power);
     vec3 term = slope * x / scale;
     return scale * term / pow(1.0f + pow(term, vec3(power)), vec3(1.0f / power));
 }
 
-// AgX (T. Sobotka, 2022): a compressed gamut, a sigmoid over 16.5 stops in log space, and back.
+// AgX (T. Sobotka, 2022): gamut compression, a sigmoid over 16.5 stops in log space, and back.
 vec3 toneAgx(vec3 c) {
     const mat3 inset =
         mat3(0.842479062253094f, 0.0423282422610123f, 0.0423756549057051f, 0.0784335999999992f, 0.878468636469772f,
@@ -46,7 +46,7 @@ vec3 toneAgx(vec3 c) {
     return pow(clamp(inverse(inset) * curve, 0.0f, 1.0f), vec3(2.2f));
 }
 
-// Khronos PBR Neutral (2024): base colours up to 0.8 stay as they are, highlights are compressed and desaturated.
+// Khronos PBR Neutral (2024): base colours up to 0.8 are unchanged, highlights are compressed and desaturated.
 vec3 toneNeutral(vec3 c) {
     const float start = 0.8f - dielectricReflectance;
     const float desaturation = 0.15f;

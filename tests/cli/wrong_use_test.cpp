@@ -136,8 +136,8 @@ TEST_F(WrongUse, AnOptionWithoutItsValueIsNamed) {
 TEST_F(WrongUse, AnUnknownDeviceIsReportedWithTheAvailableOnes) {
     const Outcome devices = run({"list", "devices"});
     ASSERT_EQ(devices.status, 0) << devices.err;
-    EXPECT_TRUE(refused(renderWith({"--device", "abacus"}), failed, {"'abacus'", "there are: 0 '"}));
-    EXPECT_TRUE(refused(renderWith({"--device", "99"}), failed, {"'99'", "there are: 0 '"}));
+    EXPECT_TRUE(refused(renderWith({"--device", "abacus"}), failed, {"'abacus'", "available: 0 '"}));
+    EXPECT_TRUE(refused(renderWith({"--device", "99"}), failed, {"'99'", "available: 0 '"}));
 }
 
 TEST_F(WrongUse, LeavesNoFiles) {

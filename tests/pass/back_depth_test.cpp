@@ -1,4 +1,4 @@
-// The second depth layer: the far side of what is seen, found by geometry alone.
+// The second depth layer: the far side of visible objects, found from geometry alone.
 #include "render/gbuffer/back_depth.h"
 
 #include "apps/texels.h"
@@ -55,7 +55,7 @@ private:
     }
 };
 
-// Where a ray enters and leaves an axis-aligned box, in parts of the direction.
+// Where a ray enters and leaves an axis-aligned box, in units of its direction.
 std::optional<vec2> throughBox(const vec3& origin, const vec3& direction, const vec3& half) {
     const vec3 low = (-half - origin) / direction;
     const vec3 high = (half - origin) / direction;
@@ -103,7 +103,7 @@ TEST_F(BackDepth, OfTwoBoxesIsThatOfTheNearerOne) {
     EXPECT_NEAR(layers.back[middle], 11.0F, 1e-3F);
 }
 
-// From everywhere, also at a slant, in both projections: no pixel of it may be peeled from itself by rounding.
+// From all sides, also at grazing angles, in both projections: rounding must not peel a surface from itself.
 TEST_F(BackDepth, OfASingleSheetIsNoneSeenFromEitherSide) {
     for (const bool doubleSided : {false, true}) {
         Material material = lambertMaterial(vec3(0.5F));

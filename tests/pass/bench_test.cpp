@@ -1,4 +1,4 @@
-// apps/bench: what is made of times, and what a truth's name depends on; and what the frame counts for it.
+// apps/bench: statistics of times, the inputs of a reference's cache key, and the byte counts of passes.
 #include "apps/bench/motion.h"
 #include "apps/bench/output.h"
 #include "apps/bench/samples.h"
@@ -261,12 +261,12 @@ TEST_F(BenchDeviceTest, BytesOfAnImageAreThoseOfAllItsLevelsAndLayers) {
     EXPECT_EQ(bytesOf(texture.mip(1)), 4U * 3U * 4U);
 }
 
-TEST_F(BenchDeviceTest, ForgottenHistoryIsNotValidOnce) {
+TEST_F(BenchDeviceTest, InvalidatedHistoryIsNotValidForOneFrame) {
     gpu::Frame& f = frame();
     std::vector<bool> valid;
     for (int i = 0; i < 5; ++i) {
         if (i == 3) {
-            f.forgetHistories();
+            f.invalidateHistories();
         }
         f.begin();
         valid.push_back(f.history("bench_history", VK_FORMAT_R32_SFLOAT, {4, 4}).valid);
@@ -289,8 +289,8 @@ TEST_F(BenchDeviceTest, UsedMemoryIsWhatResourcesHold) {
     EXPECT_EQ(used(), before);
 }
 
-// The first frame after the history was forgotten is the very first one again.
-TEST_F(BenchDeviceTest, ASubjectThatForgetsRepeatsItsFirstPicture) {
+// The first frame after the history was invalidated equals the very first one.
+TEST_F(BenchDeviceTest, ASubjectWithItsHistoryInvalidatedRepeatsItsFirstImage) {
     const BenchScene scene = cubes();
     Settings settings;
     settings.traceScreen.light = HitLight::previous;

@@ -1,4 +1,4 @@
-// Cascades of the sun's shadow map: what they are for, and that nothing flickers when the camera moves.
+// Cascades of the sun's shadow map: their benefit, and that nothing flickers when the camera moves.
 #include "pass/harness.h"
 #include "reference/reference.h"
 
@@ -19,7 +19,8 @@ constexpr float slabHalf = 2.5F;
 constexpr float slabHeight = 3.0F;
 constexpr float slabStep = 10.0F;
 
-// 200 m of ground under thin slabs in rows and columns of 10 m, every second one cut out by an alpha that cuts nothing.
+// 200 m of ground under thin slabs in rows and columns of 10 m; every second one is alpha-masked, with a texture that
+// is opaque everywhere.
 Scene slabsOverGround() {
     Scene scene = sceneOf(lambertMaterial(vec3(0.5F)), builtin::ground({100, 100}, {1, 1}, {1, 1}));
     Material cutOut = lambertMaterial(vec3(0.5F));

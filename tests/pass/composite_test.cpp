@@ -1,4 +1,4 @@
-// How the lobes' light is put on the surfaces.
+// Compositing of indirect light onto surfaces.
 #include "pass/harness.h"
 #include "scene/builtin.h"
 

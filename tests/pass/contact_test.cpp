@@ -1,4 +1,4 @@
-// Contact shadows: what the shadow map misses is found, and nothing that is lit goes dark.
+// Contact shadows: they find what the shadow map misses, and darken nothing that is lit.
 #include "compare/compare.h"
 #include "pass/harness.h"
 #include "reference/reference.h"
@@ -122,7 +122,7 @@ TEST(Contact, ASphereDoesNotShadowItsLitSide) {
     EXPECT_GT(lit, 200U);
 }
 
-// The box hides nothing from the sun on those sides, but its walls are beside each ray on the screen.
+// The box blocks no sunlight on those sides, but on the screen its walls are beside each ray.
 TEST(Contact, TheGroundBeforeWallsThatTheSunShinesOnGetsNoDarkerThanByTheMap) {
     const vec3 toSun = glm::normalize(vec3(-0.4F, 0.9F, 0.2F));
     const Scene scene = groundWith(builtin::box(vec3(0.5F)), {0, 0.5F, 0});

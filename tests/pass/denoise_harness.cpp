@@ -1,4 +1,4 @@
-// Runs the denoiser on made-up light on a wall that faces the camera.
+// Runs the denoiser on synthetic light on a wall that faces the camera.
 #include "pass/denoise_harness.h"
 
 #include "apps/texels.h"

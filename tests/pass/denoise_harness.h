@@ -1,4 +1,4 @@
-// Runs the denoiser on made-up light on a wall that faces the camera.
+// Runs the denoiser on synthetic light on a wall that faces the camera.
 #pragma once
 
 #include "gpu/frame.h"
@@ -24,7 +24,7 @@ struct WallFrame {
     float cameraX = 0.0F;    ///< metres
     vec2 wallMotion{0.0F};   ///< of the wall itself, pixels
     float roughness = 0.5F;  ///< of the wall
-    vec2 imageMotion{0.0F};  ///< own one of what the wall mirrors, pixels
+    vec2 imageMotion{0.0F};  ///< object motion of what the wall mirrors, pixels
 };
 
 class DenoiseRun {
@@ -34,7 +34,7 @@ public:
     /// Radiance and hit distance after this frame, by rows.
     std::vector<vec4> add(const LitWall& light, const WallFrame& wall = {});
 
-    /// How many pixels a camera's step of a metre moves what is so far away.
+    /// Pixels by which objects at this distance move on the screen if the camera moves one metre.
     [[nodiscard]] float pixelsPerMetre(float distance) const;
 
 private:

@@ -1,4 +1,4 @@
-// The denoiser on made-up light, where what comes out is known.
+// The denoiser on synthetic light with known results.
 #include "pass/denoise_harness.h"
 #include "support/device_fixture.h"
 
@@ -23,7 +23,7 @@ DenoiseSettings enabled() {
     return settings;
 }
 
-// The past and nothing else: what is kept of it can be told exactly.
+// Temporal accumulation alone, whose result is known exactly.
 DenoiseSettings pastAlone() {
     DenoiseSettings settings = enabled();
     settings.passes = 0;
@@ -32,7 +32,7 @@ DenoiseSettings pastAlone() {
     return settings;
 }
 
-// One in eight pixels is lit, as by a small bright thing that few rays meet: mean 1.
+// One in eight pixels is lit, as by a small bright light that few rays hit: mean 1.
 LitWall fewRays(std::mt19937& random) {
     return [&random](uvec2) {
         const bool lit = std::uniform_real_distribution<float>(0.0F, 1.0F)(random) < 0.125F;
@@ -113,7 +113,7 @@ TEST_P(Denoise, FirefliesAreSpreadOverTheirNeighbours) {
     EXPECT_NEAR(meanOf(clean).x / given, 1.0, 0.002);
 }
 
-TEST_P(Denoise, WhatIsNoNumberComesOutFinite) {
+TEST_P(Denoise, NaNsComeOutFinite) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     const float bad[] = {infinity, -infinity, std::numeric_limits<float>::quiet_NaN(), 65504.0F, -1.0F};
     DenoiseRun run(device(), size, GetParam(), enabled());
@@ -144,7 +144,7 @@ TEST_P(Denoise, AWallThatMovesByWholePixelsKeepsItsTexels) {
     EXPECT_EQ(second[10 * size.x + 2].x, 0.0F);  // came into view: there is no past
 }
 
-TEST_P(Denoise, WhatComesIntoViewStartsAnew) {
+TEST_P(Denoise, DisoccludedPixelsStartAnew) {
     DenoiseRun run(device(), size, GetParam(), pastAlone());
     const auto left = [](uvec2 p) { return p.x < 40; };
     run.add([&](uvec2 p) { return LitPixel{vec3(8.0F), 100.0F, left(p)}; });

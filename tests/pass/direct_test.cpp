@@ -1,4 +1,4 @@
-// Exact answers: what the G-buffer holds, and the direct light of planes and spheres.
+// Exact results: the contents of the G-buffer, and direct light on planes and spheres.
 #include "pass/harness.h"
 
 #include <cmath>

@@ -71,8 +71,8 @@ ReferencePicture trueOneBounce(const Scene& scene, const View& view, uint32_t sa
     return traceReference(scene, view, size, options);
 }
 
-// What the background shows, against the scene's own look-up. Half floats and texels' edges: where the direction is
-// within a rounding of another texel, either will do.
+// The background against the scene's own look-up. Half floats and texel borders: within a rounding of another texel,
+// either is accepted.
 void expectBackground(const View& view, const std::function<vec3(unsigned x, unsigned y)>& direction) {
     const Scene scene = sceneOf(lambertMaterial(vec3(1.0F)), builtin::sphere(1e-3F, 6));
     const Pictures p =
@@ -150,7 +150,7 @@ TEST(EnvironmentImage, AMirrorShowsEachOfSixColoredDirectionsWhereTheReferenceDo
     }
 }
 
-// Rays (many) and split sum (exact for a constant) at every roughness, metal and not.
+// Many rays, and split sum (exact for a constant environment), at every roughness, metal and not.
 TEST(EnvironmentImage, TheFurnaceOfAConstantImageStaysWhite) {
     const View view = viewOf(environmentOf({16, 8}, [](const vec3&) { return vec3(1.0F); }));
     std::vector<std::string> rays{"diffuse.rays=1", "specular.rays=64", "trace_screen.enabled=false"};
@@ -179,8 +179,8 @@ struct Bound {
     double bias;
 };
 
-// A convex body: nothing but the environment is in its rays. 256 rays, which the spot of 6 degrees makes noisy:
-// relative MSE measured 0.005, 0.010, 0.016, and of diffuse light 0.016.
+// A convex body: its rays see only the environment. With 256 rays the spot of 6 degrees is noisy: measured relative MSE
+// 0.005, 0.010, 0.016, diffuse 0.016.
 TEST(EnvironmentImage, ManyRaysReflectWhatThePathTracerDoes) {
     View view = viewOf(environmentOf({128, 64}, skyLight));
     view.environment.rotation = 70.0F * degree;
@@ -201,8 +201,8 @@ TEST(EnvironmentImage, ManyRaysReflectWhatThePathTracerDoes) {
     }
 }
 
-// Measured, with the truth's own noise: relative MSE 0.008, 0.022, 0.013, 0.004; bias 0.004, -0.009, 0.019, 0.014;
-// diffuse 0.003 and -0.003.
+// Measured, including the noise of the reference: relative MSE 0.008, 0.022, 0.013, 0.004; bias 0.004, -0.009, 0.019,
+// 0.014; diffuse 0.003 and -0.003.
 TEST(EnvironmentImage, SplitSumReflectsNearlyWhatThePathTracerDoes) {
     const View view = viewOf(environmentOf({128, 64}, skyLight));
     for (const auto& [roughness, relativeMse, bias] :

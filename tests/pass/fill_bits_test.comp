@@ -1,4 +1,4 @@
-// Puts rows of 32-bit words into an image.
+// Writes rows of 32-bit words into an image.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 

@@ -1,4 +1,4 @@
-// Puts rows of pairs into an image.
+// Writes rows of pairs into an image.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 

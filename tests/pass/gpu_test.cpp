@@ -1,4 +1,4 @@
-// What the device layer promises: a pass that does not fit its shader is refused by name, history changes places.
+// Guarantees of the GPU layer: a pass that does not match its shader is rejected with a name, histories swap.
 #include "base/error.h"
 #include "gpu/frame.h"
 #include "gpu/pipeline.h"
@@ -28,7 +28,7 @@ protected:
             .dispatch(size);
     }
 
-    // The complaint of a pass that is recorded in a frame that is never submitted.
+    // The error message of a pass that is recorded in a frame that is never submitted.
     static std::string complaint(const std::function<void(gpu::Frame&)>& record) {
         gpu::Frame f(device());
         f.begin();
@@ -68,7 +68,7 @@ TEST_F(Gpu, AMissingBindingIsNamed) {
             .params(TonemapParams{{}, size})
             .dispatch(size);
     });
-    EXPECT_NE(text.find("tonemap: the binding 'display' is not given"), std::string::npos) << text;
+    EXPECT_NE(text.find("tonemap: nothing is bound to 'display'"), std::string::npos) << text;
 }
 
 TEST_F(Gpu, AParameterBlockOfAnotherSizeIsNamedWithBothSizes) {

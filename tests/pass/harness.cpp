@@ -21,7 +21,7 @@ vec3 Pictures::color(const std::string& show, unsigned x, unsigned y) const {
 vec3 Pictures::position(unsigned x, unsigned y) const {
     const float distance = value("depth", x, y);
     const vec2 ndc = 2.0F * (vec2(x, y) + 0.5F) / vec2(size) - 1.0F;
-    // Any depth will do for the direction; the length follows from the distance along the camera's axis.
+    // Any depth gives the direction; the length follows from the distance along the camera's axis.
     const vec4 p = view.clipToWorld * vec4(ndc, 0.5F, 1.0F);
     const vec3 ray = vec3(p) / p.w - vec3(view.eye);
     return vec3(view.eye) + ray * (distance / glm::dot(vec3(view.viewPlane), ray));

@@ -1,4 +1,4 @@
-// Renders small scenes for tests, under the validation layers, and gives the frame's images as values.
+// Renders small scenes for tests with validation layers, and returns the images of the frame as values.
 #pragma once
 
 #include "base/image_file.h"
@@ -35,7 +35,7 @@ Pictures render(const Scene& scene, const View& view, uvec2 size, const Settings
 Pictures renderMean(const Scene& scene, const View& view, uvec2 size, const Settings& settings,
                     const std::vector<std::string>& shows, uint32_t frames, uint32_t seed = 0);
 
-/// Frames from `before`, then one from `now`, of which the images are.
+/// Renders frames of `before`, then one of `now`, and returns the images of that.
 Pictures renderMoved(const Scene& scene, const View& before, const View& now, uvec2 size, const Settings& settings,
                      const std::vector<std::string>& shows, uint32_t framesBefore = 1);
 
@@ -43,7 +43,7 @@ Pictures renderMoved(const Scene& scene, const View& before, const View& now, uv
 std::vector<Pictures> renderPath(const Scene& scene, const std::vector<View>& path, uvec2 size,
                                  const Settings& settings, const std::vector<std::string>& shows);
 
-/// A frame of size `before`, then one of size `now`, of which the images are.
+/// Renders a frame of size `before`, then one of size `now`, and returns the images of that.
 Pictures renderResized(const Scene& scene, const View& view, uvec2 before, uvec2 now, const Settings& settings,
                        const std::vector<std::string>& shows);
 
@@ -61,7 +61,7 @@ struct Range {
 };
 Range rangeOf(const FloatImage& image);
 
-/// Expects that the validation layers have been silent since the last call.
+/// Expects no validation messages since the last call.
 void expectSilentValidation(const std::string& during);
 
 /// An empty scene with one material a call.

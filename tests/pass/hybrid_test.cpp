@@ -1,5 +1,5 @@
-// The screen and, where it has no answer, the scene, against the path tracer with one bounce: with and without things
-// off screen.
+// Screen-space tracing with ray tracing as fallback, against the path tracer with one bounce: with and without
+// off-screen objects.
 #include "compare/compare.h"
 #include "pass/harness.h"
 #include "reference/reference.h"
@@ -26,8 +26,8 @@ ReferencePicture oneBounce(const Scene& scene, const View& view, uint32_t sample
                           {.bounces = 1, .samples = samples, .filter = PixelFilter::center, .seed = seed});
 }
 
-// The pixels of which two runs of a tracer say the same: where the sun is reflected by one mirror and seen in
-// another, few rays have met it, but they count.
+// Pixels at which two runs of the path tracer agree: where one mirror reflects the sun and another shows that, few
+// samples hit it, but with large values.
 std::vector<bool> settled(const FloatImage& a, const FloatImage& b, double limit) {
     std::vector<bool> mask;
     for (size_t i = 0; i < a.data.size(); i += 3) {

@@ -1,4 +1,4 @@
-// Indirect light with known answers: the furnace, form factors, a mirror, and rays that must miss.
+// Indirect light with known results: the furnace test, form factors, a mirror, and rays that must miss.
 #include "pass/harness.h"
 
 #include <cmath>
@@ -40,7 +40,7 @@ float meanOfBlock(const Pictures& p, const std::string& show, unsigned left, uns
     return sum / static_cast<float>(side * side);
 }
 
-// A convex body in a white environment: every ray must reach the environment, and all of it must come back.
+// A convex body in a white environment: every ray must reach the environment, and all energy must come back.
 struct FurnaceCase {
     const char* name;
     float roughness;
@@ -62,8 +62,8 @@ TEST_P(Furnace, AWhiteSphereInAWhiteEnvironmentIsWhite) {
     settings.specular.rays = 64;
     const Pictures p = render(sceneOf(material, builtin::sphere(1.0F, 96)), view, size, settings, {"final", "depth"});
     EXPECT_NEAR(meanOnSurfaces(p, "final"), 1.0F, 0.01F);
-    // Rays that are drawn differ in weight, by up to as much as their mean, which leaves 1 / 8 for a pixel's 64 and
-    // 1 / 40 for those of 5 x 5 pixels; the mirror's and the Lambert surface's do not differ.
+    // The weights of sampled rays vary by up to their mean, which leaves 1 / 8 for the 64 rays of a pixel and 1 / 40
+    // for those of 5 x 5 pixels; those of mirrors and Lambert surfaces do not vary.
     const bool drawn = !GetParam().lambertOnly && GetParam().roughness > 0.0F;
     const unsigned block = drawn ? 5 : 1;
     for (unsigned y = 0; y < size.y; y += block) {
@@ -250,7 +250,7 @@ TEST(Indirect, ARayWithoutStepsLeftMisses) {
 }
 
 TEST(Indirect, TheLastFramesLightBringsFurtherBouncesUpToTheirSum) {
-    // Two mirrors would never end; two grey surfaces end at the sum of a geometric series.
+    // Two mirrors would never converge; two grey surfaces converge to the sum of a geometric series.
     View view = viewFrom({0, 3, 6}, {0, 1, 0});
     view.sun = builtin::sun(glm::normalize(vec3(0.3F, -1.0F, -0.5F)), vec3(3.0F));
     Scene scene = sceneOf(lambertMaterial(vec3(0.8F)), builtin::ground({3, 3}, {1, 1}, {1, 1}));

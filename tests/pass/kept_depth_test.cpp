@@ -1,4 +1,4 @@
-// What a coarse depth buffer does to the frame.
+// Effect of a depth buffer of low precision on the frame.
 #include "pass/harness.h"
 
 #include <algorithm>
@@ -68,7 +68,7 @@ TEST(KeptDepth, OfReversedFloatsIsOffByLessThanAMillimetre) {
 }
 
 TEST(KeptDepth, IsWhatLightIsComputedWith) {
-    // A wall 5 m ahead, and a lamp 3 m ahead: by how bright the wall is, it stands where its depth says.
+    // A wall 5 m ahead, and a lamp 3 m ahead: the brightness of the wall shows at which depth it was lit.
     View view;
     view.camera.position = {0, 0, 5};
     view.camera.near = 1e-4F;

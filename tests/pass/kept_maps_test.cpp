@@ -1,4 +1,4 @@
-// Shadow maps that are kept from frame to frame: they are drawn when what they show has changed, and only then.
+// Cached shadow maps: they are drawn again when their contents have changed, and only then.
 #include "pass/harness.h"
 #include "scene/builtin.h"
 #include "support/device_fixture.h"
@@ -32,7 +32,7 @@ TEST_F(KeptMaps, TheSunsIsDrawnOnceWhileNothingMoves) {
     EXPECT_FALSE(draws(view_));
 }
 
-TEST_F(KeptMaps, TheSunsIsDrawnOnceWhileFramesLookThroughOtherPlacesInThePixel) {
+TEST_F(KeptMaps, TheSunsIsDrawnOnceWhileOnlyTheJitterChanges) {
     for (const std::string cascades : {"1", "3"}) {
         settings_ = settingsOf({"diffuse.rays=0", "specular.rays=0", "shadow.resolution=256", "temporal.enabled=true",
                                 "shadow.cascades=" + cascades});

@@ -1,4 +1,4 @@
-// Shadows of point and spot lamps: that nothing shadows itself, that none leak light, how wide penumbras are.
+// Shadows of point and spot lamps: no self-shadowing, no light leaks, and the width of penumbras.
 #include "pass/lamp_room.h"
 
 #include <algorithm>

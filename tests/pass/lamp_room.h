@@ -1,4 +1,4 @@
-// A room with lamps and boxes, of which geometry tells where each lamp is seen from.
+// A room with lamps and boxes, where the visibility of each lamp is known from geometry.
 #pragma once
 
 #include "pass/harness.h"
@@ -26,7 +26,7 @@ struct Room {
     void add(const Aabb& box);
 };
 
-/// From one corner and from the opposite one: together they show all walls.
+/// Views from one corner and from the opposite one: together they show all walls.
 std::vector<View> viewsOfRoom();
 
 /// Metres from a point on a wall to the next wall.

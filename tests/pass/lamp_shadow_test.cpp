@@ -1,4 +1,4 @@
-// Shadows of point and spot lamps: where their edges lie, who casts them.
+// Shadows of point and spot lamps: the position of their edges, and their casters.
 #include "pass/lamp_room.h"
 
 #include <algorithm>
@@ -17,8 +17,8 @@ struct Counts {
     std::array<unsigned, 6> darkOnWall{};
 };
 
-// Every pixel of a room with one lamp against the answer by geometry. Skipped are pixels whose way to the lamp passes
-// an edge of a box by less than `tolerance` metres, what is in no wall, and creases.
+// Every pixel of a room with one lamp against the geometric result. Skips pixels whose light ray passes the edge of a
+// box within `tolerance` metres, pixels that are not on a wall, and creases.
 Counts compareWithGeometry(const Room& room, const View& view, const Settings& settings, float tolerance) {
     const Pictures p = render(room.scene, view, size, settings, {"lamp_visibility", "depth"});
     const vec3 lamp = room.scene.lamps.front().position;

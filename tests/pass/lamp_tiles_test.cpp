@@ -1,4 +1,4 @@
-// Lamps by tiles of the screen: the light is that of all lamps, and no tile looks at many that do not reach it.
+// Tiled light culling: the light equals that of all lamps, and no tile keeps many lamps that do not reach it.
 #include "render/direct/lamp_tiles.h"
 #include "compare/compare.h"
 #include "pass/lamp_room.h"
@@ -17,8 +17,8 @@ const std::vector<std::string> direct{"diffuse.rays=0", "specular.rays=0"};
 
 enum class Ends : uint8_t { all, some };
 
-// A lamp for each number: points and spots of all angles, many with short ranges, in the room and outside of it.
-// Ends::all: each has a range.
+// One lamp per number: points and spots of all angles, many with short ranges, inside and outside the room. Ends::all:
+// each has a range.
 Lamp lampOf(int i, Ends ends) {
     const auto random = [&](int what) { return builtin::hash01(i, what, 0, 7); };
     const vec3 direction = vec3(random(0), random(1), random(2)) - 0.5F;
@@ -89,7 +89,7 @@ struct TileSums {
     unsigned tiles = 0;
 };
 
-// Counts lamps tile by tile, and expects that every list is long enough.
+// Counts the lamps of each tile, and expects that no lamp is missing.
 TileSums countLamps(const Scene& scene, const Pictures& p) {
     TileSums sums;
     const FloatImage& count = p.images.at("lamp_count");

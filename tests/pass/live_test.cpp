@@ -1,4 +1,4 @@
-// Live pictures: what a camera of the scene sees, on a surface.
+// Live images: the view of one of the scene's cameras, shown on a surface.
 #include "compare/compare.h"
 #include "pass/harness.h"
 #include "support/device_fixture.h"

@@ -1,4 +1,4 @@
-// A mirror on a wall, and things about it.
+// A mirror on a wall, and objects around it.
 #include "pass/mirror_room.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A mirror on a wall, things before it, behind it and behind the camera, and cameras that see it.
+// A mirror on a wall, objects in front of it, behind it and behind the camera, and cameras that see it.
 #pragma once
 
 #include "pass/harness.h"

@@ -1,4 +1,4 @@
-// Which mirrors a frame draws views for.
+// Selection of the mirrors that get planar reflections.
 #include "render/planar/mirrors.h"
 
 #include "pass/mirror_room.h"

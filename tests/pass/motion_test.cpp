@@ -1,4 +1,4 @@
-// Things that move: motion vectors exactly, and pictures at a time against those of a scene that stands still there.
+// Moving objects: exact motion vectors, and frames at a time against those of a static scene in the same pose.
 #include "compare/compare.h"
 #include "pass/harness.h"
 #include "reference/reference.h"
@@ -37,7 +37,7 @@ Scene slidingWall() {
     return scene;
 }
 
-// Half floats have 11 bits, and may be cut off; the rest is rounding of what the vertices' interpolation gives.
+// Half floats have 11 bits, and may be truncated; the rest is rounding of interpolated vertex attributes.
 float halfFloatTolerance(float value) {
     return std::abs(value) * 0x1p-10F + 4e-6F;
 }
@@ -144,7 +144,7 @@ TEST(Motion, OfSkinnedVerticesIsThatOfTheirJoints) {
     expectSilentValidation("skinned walls");
 }
 
-// Everything that follows the pose, against a scene that was put there.
+// Everything that depends on the pose, against a static scene in that pose.
 TEST(Moving, APictureAtATimeIsThatOfASceneThatStandsThere) {
     const Scene scene = findBuiltinScene("moving")->make();
     View view = defaultView(scene);

@@ -1,5 +1,5 @@
-// Traces rays from random pixels of a G-buffer: even ones are spread by the cosine about the geometric normal, odd ones
-// mirror the view. In: depth, geometric normal, pyramid, as trace_screen reads them. Out: what three tracers say.
+// Traces rays from random pixels of a G-buffer: even ones are cosine-distributed around the geometric normal, odd ones
+// are mirror rays. In: depth, geometric normal, pyramid, as trace_screen reads them. Out: the results of three tracers.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "oracle_test.h"
@@ -47,7 +47,7 @@ vec3 directionOf(uint number, vec3 p, vec3 n) {
 }
 
 OracleAnswer answerOf(MarchResult r) {
-    return OracleAnswer(r.outcome == marchHit ? 1u : 0u, r.pixel.x, r.pixel.y, r.lost ? 1u : 0u, r.clear, r.steps);
+    return OracleAnswer(r.outcome == marchHit ? 1u : 0u, r.pixel.x, r.pixel.y, r.occluded ? 1u : 0u, r.clear, r.steps);
 }
 
 void main() {

@@ -1,5 +1,5 @@
-// The tracers of the screen against the one that visits every pixel, on the depth of built-in scenes: 10,000 rays each,
-// through the images that the frame's own passes read.
+// Screen-space tracing methods against the exhaustive one, on the depth of built-in scenes: 10,000 rays each, through
+// the images that the passes of the frame read.
 #include "pass/oracle_test.h"
 
 #include "pass/harness.h"
@@ -89,7 +89,7 @@ protected:
         RecordProperty("dda", std::to_string(a.answers));
     }
 
-    /// Rays start on surfaces, and neither do all of them hit nor all of them miss: else there is nothing to compare.
+    /// Rays must start on surfaces, and some must hit and some miss; otherwise there is nothing to compare.
     static void expectRaysOfBothKinds(const std::vector<OracleRay>& rays) {
         const auto hits = std::ranges::count_if(rays, [](const OracleRay& r) { return r.exhaustive.hit != 0; });
         EXPECT_TRUE(std::ranges::all_of(rays, [](const OracleRay& r) { return r.found == 1; }));

@@ -1,4 +1,4 @@
-// Rays from random pixels of a real scene, traced three ways. Shared by C++ and GLSL.
+// Rays from random pixels of a real scene, traced by three methods. Shared by C++ and GLSL.
 #ifndef REFLET_TESTS_ORACLE_TEST_H
 #define REFLET_TESTS_ORACLE_TEST_H
 

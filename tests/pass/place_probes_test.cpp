@@ -1,4 +1,4 @@
-// Where probes are placed that nobody has named.
+// Automatic placement of probes.
 #include "render/probe/place_probes.h"
 
 #include "pass/harness.h"

@@ -1,4 +1,4 @@
-// Planar views: what flat mirrors show, against the path tracer and against one another.
+// Planar reflections, against the path tracer and against one another.
 #include "compare/compare.h"
 #include "pass/mirror_room.h"
 #include "reference/reference.h"
@@ -16,7 +16,7 @@ constexpr uvec2 size(160, 90);
 const std::vector<std::string> shows{
     "indirect_specular", "specular_confidence", "specular_source", "metallic", "depth", "final"};
 
-// Direct light alone in the mirror, as a reference with one bounce has it.
+// Only direct light in the mirror, like a reference with one bounce.
 Pictures mirrored(const Scene& scene, const View& view, const std::vector<std::string>& more) {
     std::vector<std::string> all{"diffuse.rays=0", "shadow.filter=hard", "planar.enabled=true",
                                  "trace_screen.light=direct"};
@@ -111,7 +111,7 @@ TEST(Planar, TheScreenAgreesWhereItIsSure) {
     EXPECT_LT(relativeMse(screen, planar.images.at("indirect_specular"), mask), 0.005);
 }
 
-TEST(Planar, WhoAnsweredIsGreenForTheScreenAndCyanForAMirrorsView) {
+TEST(Planar, TheSourceIsGreenForTheScreenAndCyanForPlanarReflections) {
     const auto answeredBy = [&](const vec3& color, const std::vector<std::string>& more) {
         const Pictures p = mirrored(makeMirrorRoom(), viewOfMirrorRoom(), more);
         size_t pixels = 0;
@@ -163,8 +163,8 @@ TEST(Planar, AMirrorThatIsSeenFromBehindOrNotAtAllAsksNothing) {
     }
 }
 
-// Single rays may be weighted with more or less than 1, and those that would enter the mirror bring nothing.
-TEST(Planar, AWhiteMirrorInAWhiteEnvironmentIsAsBrightAsWithoutPlanarViews) {
+// Weights of single rays may be above or below 1, and rays that would enter the mirror contribute nothing.
+TEST(Planar, AWhiteMirrorInAWhiteEnvironmentIsAsBrightAsWithoutPlanarReflections) {
     for (const float roughness : {0.0F, 0.1F, 0.2F}) {
         Material metal = lambertMaterial(vec3(1.0F));
         metal.metallic = 1.0F;

@@ -1,4 +1,4 @@
-// A closed room of glowing tiles, no two next to each other alike: what a ray meets there tells where it went.
+// A closed room of emissive tiles; neighbouring tiles differ, so the colour of a hit shows where a ray went.
 #pragma once
 
 #include "pass/harness.h"

@@ -1,4 +1,4 @@
-// Local probes: captures and reflections against the path tracer, blending, energy, and when they are captured.
+// Local probes: captures and reflections against the path tracer, blending, energy, and when they are updated.
 #include "pass/probe_room.h"
 
 #include "compare/compare.h"
@@ -34,7 +34,8 @@ Around around(const FloatImage& image, unsigned x, unsigned y, unsigned channel)
     return result;
 }
 
-// Whether what the pixel shows is in the truth, there or a pixel beside it, or lies between what is there.
+// Whether the value of the pixel occurs in the reference, at that pixel or a neighbour, or lies between the values
+// there.
 bool liesWithinAPixel(const FloatImage& image, const FloatImage& truth, unsigned x, unsigned y) {
     for (unsigned c = 0; c < 3; ++c) {
         const auto [low, high] = around(truth, x, y, c);
@@ -132,8 +133,7 @@ protected:
     }
 };
 
-// The probe stands within the sphere, which it does not see, or above the plate, which sends no ray to where it is
-// seen.
+// The probe is inside the sphere, which it does not see, or above the plate, which reflects no rays toward the probe.
 TEST_P(MirrorInARoom, ShowsTheWallsWithinAPixelOfTheirTruePlaces) {
     constexpr uvec2 size(160, 90);
     const ProbeRoom room{.center = {0.5F, 0, 0}, .half = {2.0F, 1.5F, 2.5F}};
@@ -177,8 +177,8 @@ INSTANTIATE_TEST_SUITE_P(Probe, MirrorInARoom,
                          testing::Values(MirrorCase{"sphere", true, 500, 4}, MirrorCase{"plate", false, 2000, 1500}),
                          [](const auto& mirror) { return mirror.param.name; });
 
-// Every material and every kind of look-up, in a room that glows alike all over. The probe stands in the sphere, so it
-// sees nothing else; without bounces, or it would see the walls reflect one another.
+// Every material and every kind of look-up, in a room of constant emission. The probe is inside the sphere, so it sees
+// nothing else; without bounces, because otherwise it would see the walls reflect one another.
 struct FurnaceCase {
     const char* name;
     float roughness;
@@ -236,7 +236,8 @@ INSTANTIATE_TEST_SUITE_P(Probe, ProbeFurnace,
                                          FurnaceCase{"rough_metal_filtered", 1.0F, 1.0F, filtered}),
                          [](const auto& furnace) { return furnace.param.name; });
 
-// Two white spheres in a white environment stay white: each is in the other's light, which the captures must bring.
+// Two white spheres in a white environment stay white: each occludes the environment for the other, so the captures
+// must contain the bounced light.
 TEST(Probe, BouncesKeepAWhiteFurnaceWhite) {
     const ProbeRoom open{.half = vec3(3.0F)};
     Scene scene = sceneOf(lambertMaterial(vec3(1.0F)), builtin::sphere(0.7F, 64));
@@ -294,7 +295,7 @@ TEST(Probe, OneBoxBlendsIntoTheNextWithoutAStep) {
     RecordProperty("largestStep", std::to_string(largestStep));
 }
 
-// Toward the outer end of all boxes, the environment takes over by and by.
+// Toward the outer border of all boxes, the environment gradually takes over.
 TEST(Probe, FadesIntoTheEnvironmentOutsideOfItsBox) {
     constexpr uvec2 size(160, 8);
     Scene scene = sceneOf(whiteMetal(0.0F), builtin::ground({4, 1}, {1, 1}, {1, 1}));
@@ -336,14 +337,14 @@ TEST(Probe, LeavesTheSkyToTheEnvironment) {
     EXPECT_NEAR(p.value("specular_source", 16, 12, 2), 0.9F, 0.01F);
 }
 
-// What the probes' maps are after so many frames, and what is drawn with them.
+// The probe maps after this many frames, and the images rendered with them.
 Pictures afterFrames(const Scene& scene, const View& view, const char* refresh, uint32_t frames) {
     return render(scene, view, {64, 36},
                   probeSettings({"probes.bounces=0", "probes.resolution=32", std::string("probes.refresh=") + refresh}),
                   {"probe_atlas", "specular_radiance", "specular_source"}, frames);
 }
 
-TEST(Probe, IsNotAskedAboutRaysThatAreKnownToMeetNothing) {
+TEST(Probe, IsNotUsedForRaysThatAreKnownToHitNothing) {
     const Scene scene = findBuiltinScene("gloss")->make();
     const auto reflections = [&](const char* probes) {
         return render(scene, defaultView(scene), {64, 36},
@@ -365,8 +366,8 @@ TEST(Probe, IsAfterSixFramesOfAFaceEachWhatItIsAtOnce) {
     const Pictures once = afterFrames(scene, view, "once", 6);
     const Pictures sixth = afterFrames(scene, view, "face", 6);
     EXPECT_EQ(once.images.at("probe_atlas").data, sixth.images.at("probe_atlas").data);
-    // Not to the last bit: which rays a device looks up together in a cube map is left to chance, and llvmpipe's filter
-    // rounds otherwise where one of them is near an edge.
+    // Not bit-exact: which rays a device looks up together in a cube map is left to chance, and the rounding of
+    // llvmpipe's filter depends on whether one of them is near an edge.
     const Difference looked =
         compareImages(once.images.at("specular_radiance"), sixth.images.at("specular_radiance"), {}).difference;
     EXPECT_LT(looked.relativeMse, 1e-8);

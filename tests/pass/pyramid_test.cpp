@@ -1,6 +1,6 @@
-// The depth pyramid of random depth, at even and odd sizes, against a look at every pixel of each cell.
-#include "render/levels.h"
+// The depth pyramid of random depth, at even and odd sizes, against brute force over the pixels of each cell.
 #include "render/pyramid/pyramid.h"
+#include "render/levels.h"
 
 #include "gpu/frame.h"
 #include "pass/test_shaders.h"

@@ -1,4 +1,5 @@
-// White and blue noise: both make the same picture of many rays or frames, and blue a better one of few.
+// White and blue noise: both converge to the same image with many rays or frames, and blue noise has less error with
+// few.
 #include "noise/blue_noise.h"
 #include "pass/harness.h"
 #include "scene/builtin.h"
@@ -28,7 +29,7 @@ protected:
         return renderMean(scene, view, size, settingsFor(noise, rays), lobes, frames, seed);
     }
 
-    // Over frames rather than rays: sums of many batches of rays lose light to rounding.
+    // Averaged over frames rather than rays: sums of many batches of rays lose energy to rounding.
     static const Pictures& converged() {
         static const Pictures pictures = [] {
             Pictures mean = renderFrames("white", 16, 24, 7);

@@ -1,4 +1,4 @@
-// Rays from a coarser grid: its view, and that light is the same.
+// Rays from a coarser grid: the view of that grid, and that the light is the same.
 #include "pass/harness.h"
 
 #include "compare/compare.h"

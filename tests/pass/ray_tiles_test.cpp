@@ -1,4 +1,4 @@
-// Tiles of rays: what they show, how many rays they get, and how a budget of rays follows the noise.
+// Tiles of rays: their classes, their number of rays, and how adaptive sampling follows the noise.
 #include "render/bounce/ray_tiles.h"
 #include "compare/compare.h"
 #include "pass/harness.h"
@@ -142,7 +142,7 @@ TEST(RayTiles, OneRayOfAMirrorSaysWhatManySay) {
     expectSilentValidation("rays of mirrors");
 }
 
-TEST(AdaptiveRays, AreTheSameEverywhereWhereNothingIsRemembered) {
+TEST(AdaptiveRays, AreTheSameEverywhereWithoutHistory) {
     const Scene scene = findBuiltinScene("gloss")->make();
     for (const Settings& settings :
          {adaptive(), adaptive({"denoise.history=0"}), adaptive({"denoise.enabled=false"})}) {
@@ -189,7 +189,7 @@ TEST(AdaptiveRays, KeepTheirMeanWhateverTheNoise) {
     expectSilentValidation("budgets");
 }
 
-TEST(AdaptiveRays, AreMoreWhereTheCameraSeesWhatItDidNot) {
+TEST(AdaptiveRays, AreMoreWhereSurfacesAreDisoccluded) {
     const Scene scene = findBuiltinScene("cave")->make();
     const View before = defaultView(scene);
     View now = before;
@@ -209,7 +209,7 @@ TEST(AdaptiveRays, AreMoreWhereTheCameraSeesWhatItDidNot) {
     expectSilentValidation("what comes into view");
 }
 
-// Without blur and clip all that is between rays and picture is a mean over frames, and fireflies that are spread.
+// Without blur and clamping, only the mean over frames and the spreading of fireflies are between rays and image.
 TEST(AdaptiveRays, HaveTheSameMeanLightAsEvenOnes) {
     const Scene scene = findBuiltinScene("cornell")->make();
     const auto mean = [&](const char* on) {

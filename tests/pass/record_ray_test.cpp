@@ -1,4 +1,4 @@
-// The record of one pixel's mirror ray: it is the ray that the frame has traced.
+// The recorded mirror ray of one pixel is the ray that the frame traced.
 #include "render/bounce/record_ray.h"
 
 #include "pass/mirror_room.h"

@@ -20,7 +20,7 @@ vec3 colorAt(const FloatImage& image, unsigned x, unsigned y) {
     return {at(image, x, y, 0), at(image, x, y, 1), at(image, x, y, 2)};
 }
 
-// Nothing of the eight neighbours is another surface or has other light: no silhouette, no crease, no shadow's edge.
+// None of the eight neighbours is another surface or is lit differently: no silhouette, no crease, no shadow edge.
 bool isSmooth(const ReferencePicture& truth, unsigned x, unsigned y) {
     const vec3 normal = colorAt(truth.normal, x, y);
     const float visibility = at(truth.sunVisibility, x, y);
@@ -47,7 +47,7 @@ bool isSmooth(const ReferencePicture& truth, unsigned x, unsigned y) {
     return true;
 }
 
-// A pixel's texture is filtered in other ways here and there; where that shows, it is not the light that is compared.
+// Renderer and reference filter textures differently; pixels where that shows are not compared.
 bool hasSameColor(const ReferencePicture& truth, const FloatImage& albedo, unsigned x, unsigned y) {
     const vec3 expected = colorAt(truth.albedo, x, y);
     return glm::length(colorAt(albedo, x, y) - expected) <= 0.02F * glm::length(expected) + 0.002F;
@@ -65,8 +65,7 @@ std::vector<bool> comparablePixels(const ReferencePicture& truth, const FloatIma
 
 class EveryBuiltinScene : public testing::TestWithParam<const BuiltinScene*> {};
 
-// Leaves out pixels that a lamp's shadow ends in: where the neighbours have other shares of what lamps would bring if
-// they shone through everything.
+// Leaves out pixels at the edges of lamp shadows: the fraction of unshadowed lamp light differs between neighbours.
 void leaveOutLampShadowEdges(const FloatImage& lit, const FloatImage& open, std::vector<bool>& mask) {
     const auto share = [&](unsigned x, unsigned y) {
         const vec3 whole = colorAt(open, x, y);

@@ -1,4 +1,4 @@
-// What moves before a mirror: its reflection is where it is, and comes to rest when it does.
+// Moving objects in front of a mirror: the reflection is in the right place, and converges when the object stops.
 #include "pass/harness.h"
 
 #include <algorithm>
@@ -137,7 +137,7 @@ TEST_P(StoppedReflection, IsWithinFivePercentOfItsFinalValueAfterEightFrames) {
     }
 }
 
-// The box uncovers the wall. There the last frame had the box, whose light the wall must not show.
+// The box disoccludes the wall. In the last frame the box was there, and its light must not appear on the wall.
 TEST(ReflectedMotion, LightOfTheLastFrameIsThatOfTheSameSurface) {
     Scene scene = slidingBox(0.0F);
     Material& box = scene.materials.back();

@@ -1,4 +1,4 @@
-// The report's page, its table and its JSON, made of made-up numbers.
+// The report: its page, its table and its JSON, from synthetic numbers.
 #include "apps/report/page.h"
 #include "base/json_text.h"
 #include "support/html.h"

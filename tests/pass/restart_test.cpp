@@ -1,4 +1,4 @@
-// A renderer that starts anew renders what a new one does, whatever it rendered before.
+// A restarted renderer gives the same frames as a new one, whatever it rendered before.
 #include "apps/show.h"
 #include "pass/harness.h"
 #include "render/presets.h"

@@ -1,4 +1,4 @@
-// specular.rough_fallback: what surfaces above maxRoughness reflect, when not by rays that are spread.
+// specular.rough_fallback: reflections of surfaces above specular.max_roughness, without stochastic rays.
 #include "compare/compare.h"
 #include "pass/harness.h"
 #include "scene/builtin.h"
@@ -71,7 +71,7 @@ TEST(RoughReflections, SurfacesUpToTheLimitKeepTheirRays) {
     EXPECT_GT(changed, 2000U);
 }
 
-TEST(RoughReflections, NextLeavesThemToTheEnvironmentWholly) {
+TEST(RoughReflections, NextLeavesThemEntirelyToTheEnvironment) {
     const Scene scene = findBuiltinScene("gloss")->make();
     const std::vector<std::string> shows{"specular_confidence", "roughness", "depth"};
     const Pictures p = render(scene, defaultView(scene), size, reflectionsOnly({"specular.max_roughness=0.5"}), shows);

@@ -1,4 +1,4 @@
-// Whole frames whose rays the device traces, by ray query, against those of the hierarchy that shaders go through.
+// Whole frames with ray query against those with the BVH traversal in shaders.
 #include "compare/compare.h"
 #include "pass/harness.h"
 #include "scene/builtin.h"
@@ -13,7 +13,7 @@ constexpr uvec2 size(96, 54);
 
 class SceneRaysInAFrame : public DeviceTest, public testing::WithParamInterface<const char*> {};
 
-// Colonnade: through what is cut out. Lamps: shadow rays to many. Mirror hall: from mirror to mirror.
+// Colonnade: alpha cutouts. Lamps: shadow rays to many lamps. Mirror hall: multiple bounces between mirrors.
 TEST_P(SceneRaysInAFrame, GiveTheSamePictureByQueryAndByTraversal) {
     if (!device().hasRayQuery()) {
         GTEST_SKIP() << "this device has no ray query";

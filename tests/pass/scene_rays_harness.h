@@ -23,7 +23,7 @@ std::vector<TestRay> randomRays(const Scene& scene, size_t count);
 
 std::vector<TestHit> traceWithEmbree(const Scene& scene, const std::vector<TestRay>& rays);
 
-/// How two ways of tracing the same rays differ.
+/// Differences between two ways to trace the same rays.
 struct HitDifference {
     size_t rays = 0;
     size_t hits = 0;  ///< of the first way

@@ -1,4 +1,4 @@
-// Rays through small scenes with known answers: closed, empty, degenerate, cut out; and rays that are no rays.
+// Rays through small scenes with known results: closed, empty, degenerate, alpha cutouts; and invalid rays.
 #include "pass/harness.h"
 #include "pass/scene_rays_harness.h"
 #include "scene/builtin/assemble.h"
@@ -80,7 +80,7 @@ TEST_P(SmallSceneRays, MeetNothingInAnEmptyScene) {
 
 // Every ray from inside, at corners, edges and between.
 TEST_P(SmallSceneRays, DoNotLeaveAClosedMesh) {
-    // What drivers promise is up to them: llvmpipe 25 loses 2 in 10,000 of these, most of them at corners and edges.
+    // Watertightness depends on the driver: llvmpipe 25 misses 2 in 10,000 of these, most of them at corners and edges.
     const double mayLeave = GetParam() == RayMethod::query ? 1e-3 : 0.0;
     Mesh mesh = builtin::sphere(1.0F, 48);
     for (vec3& p : mesh.positions) {  // no neat numbers
@@ -162,7 +162,7 @@ TEST_P(SmallSceneRays, GoOnWhereAcceptHitRefuses) {
     expectFound(hits[2], false);
 }
 
-TEST_P(SmallSceneRays, ComeToAnEndThatAreNoRays) {
+TEST_P(SmallSceneRays, EndEvenIfTheyAreInvalid) {
     if (GetParam() == RayMethod::query) {
         GTEST_SKIP() << "Vulkan forbids rays that are not finite";
     }

@@ -1,5 +1,5 @@
-// Rays through the scene's triangles on the device: a million through each scene, against Embree's; and by ray query
-// against those, on devices that have it.
+// Ray tracing on the device: a million rays through each scene against Embree; and ray query against the BVH traversal,
+// on devices that support it.
 #include "pass/scene_rays_harness.h"
 
 #include "scene/builtin.h"
@@ -15,7 +15,7 @@ namespace {
 constexpr size_t rayCount = 1000000;
 constexpr size_t otherwiseAtMost = rayCount / 10000;
 
-// Prints how they differ, too.
+// Also prints the differences.
 void expectSame(const std::string& name, const HitDifference& d) {
     std::cout << name << ": " << d << '\n';
     EXPECT_LE(d.other, otherwiseAtMost) << name;

@@ -1,4 +1,4 @@
-// Rays from the camera through pixels' centres: what they find.
+// Surfaces hit by camera rays through pixel centres.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/trace_scene/scene_surfaces.glsl"

@@ -1,4 +1,4 @@
-// What rays find at their hits, against the G-buffer of the same camera: textures, samplers, transforms, normal maps.
+// Surfaces at ray hits against the G-buffer of the same camera: textures, samplers, transforms, normal maps.
 #include "pass/scene_surfaces_test.h"
 
 #include "pass/harness.h"
@@ -57,7 +57,7 @@ protected:
         return seen;
     }
 
-    /// Shares of the pixels at which ray and G-buffer say the same, within what the G-buffer's formats round.
+    /// Fractions of the pixels at which ray and G-buffer agree, within the rounding of the G-buffer's formats.
     struct Agreement {
         double depth = 0.0;
         double color = 0.0;
@@ -220,7 +220,7 @@ TEST_F(SceneSurfacesTest, ShowWhatLiesBehindWhatIsCutOut) {
     EXPECT_LT(red, 25000);
 }
 
-TEST_F(SceneSurfacesTest, AreSeenShrunkWithAWordWhereImagesAreLargerThanTheLimit) {
+TEST_F(SceneSurfacesTest, AreDownsampledWithAWarningWhereImagesAreLargerThanTheLimit) {
     const Scene scene = tiles();
     std::vector<std::string> said;
     const auto hear = [&](const std::string& text) { said.push_back(text); };

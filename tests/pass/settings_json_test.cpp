@@ -1,4 +1,4 @@
-// Settings as JSON that is read and written.
+// Settings written to JSON and read back.
 #include "base/json_text.h"
 #include "pass/harness.h"
 

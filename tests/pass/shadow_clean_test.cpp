@@ -1,4 +1,4 @@
-// What cleaning does to soft shadows: noise goes, and penumbras, edges, light and dark stay.
+// Denoising of soft shadows: noise is removed; penumbras, edges, light and dark areas are preserved.
 #include "pass/harness.h"
 
 #include <algorithm>
@@ -155,8 +155,8 @@ TEST(ShadowClean, LeavesFullLightAndFullShadowAsTheyAre) {
     EXPECT_GT(std::min(lit, dark), 1000U);
 }
 
-// A lit plate hides a part of the penumbra on the ground: what is seen of it beside the plate gets no light from there.
-// With one sample any two pixels may be alike, so that nothing but their places tells surfaces apart.
+// A lit plate hides a part of the penumbra on the ground; the visible part beside the plate must get no light from it.
+// With one sample any two pixels may be equal, so only their positions tell the surfaces apart.
 TEST(ShadowClean, StopsWhereAnotherSurfaceBegins) {
     constexpr float plateHeight = 0.6F;
     const View view = knifeView();
@@ -197,7 +197,7 @@ TEST(ShadowClean, ForgetsAShadowThatHasMovedOn) {
     }
 }
 
-TEST(ShadowClean, RemembersWhatTheCameraSawBeforeItMoved) {
+TEST(ShadowClean, KeepsItsHistoryWhenTheCameraMoves) {
     const View now = knifeView();
     View before = now;
     before.camera.position.x += 0.1F;

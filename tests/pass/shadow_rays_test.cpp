@@ -1,4 +1,4 @@
-// Two ways to the same picture: the shadow map against rays toward the sun, on every built-in scene.
+// The shadow map against rays toward the sun, on every built-in scene.
 #include "pass/harness.h"
 #include "scene/builtin.h"
 

@@ -1,4 +1,4 @@
-// Hard shadows: where their edge lies, and that nothing shadows itself.
+// Hard shadows: the position of their edges, and no self-shadowing.
 #include "pass/harness.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
-// The sun's shadows against the path tracer: the same disk of a sun, rays through the pixels' centres. A pixel that is
-// lit and should be dark counts a hundred times in a relative error of visibility.
+// The sun's shadows against the path tracer: the same sun disk, rays through pixel centres. A pixel that is lit and
+// should be dark counts a hundred times in a relative error of visibility.
 //
-// Where 16 samples and more are wrong, it is by the shadow map's texels and by the method, hardly by noise. The
-// cleaning takes away noise alone; it is measured apart: against the mean of many frames of the same shadows.
+// With 16 samples or more, the errors come from the texels of the shadow map and from the method, hardly from noise.
+// Denoising removes only noise, so it is measured separately: against the mean of many frames of the same shadows.
 #include "compare/compare.h"
 #include "pass/harness.h"
 #include "reference/reference.h"
@@ -95,7 +95,7 @@ std::string nameOf(const testing::TestParamInfo<SunCase>& c) {
 
 class ShadowTruth : public testing::TestWithParam<SunCase> {};
 
-TEST_P(ShadowTruth, PcssIsNearerThanHardShadowsAndPcfWhateverTheSamplesAndCleaningCostsNoAccuracy) {
+TEST_P(ShadowTruth, PcssIsNearerThanHardShadowsAndPcfWhateverTheSamplesAndDenoisingCostsNoAccuracy) {
     const Sunlit sunlit(GetParam());
     const Filtered hard = sunlit.errors("hard", 1);
     record("hard", hard);
@@ -122,8 +122,8 @@ TEST_P(ShadowTruth, PcssIsNearerThanHardShadowsAndPcfWhateverTheSamplesAndCleani
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ShadowTruth, testing::Values(colonnade, colonnadeWide, cubes, cubesWide), nameOf);
 
-// Under a small sun hardly any samples are needed; what they read decides.
-TEST(ShadowTruthOfAColonnade, IsMissedForWantOfTexelsRatherThanOfSamples) {
+// A small sun needs hardly any samples; the resolution of the map is what matters.
+TEST(ShadowTruthOfAColonnade, IsLimitedByTexelsRatherThanBySamples) {
     const Sunlit sunlit(colonnade);
     const Filtered some = sunlit.errors("pcss", 16);
     const Filtered more = sunlit.errors("pcss", 64);
@@ -135,7 +135,7 @@ TEST(ShadowTruthOfAColonnade, IsMissedForWantOfTexelsRatherThanOfSamples) {
 
 class ShadowNoise : public testing::TestWithParam<SunCase> {};
 
-TEST_P(ShadowNoise, OfSixteenSamplesIsLessWhereTheyAreCleanedAndOverFramesLessThanThatOfSixtyFour) {
+TEST_P(ShadowNoise, OfSixteenSamplesIsLessWhenDenoisedAndOverFramesLessThanThatOfSixtyFour) {
     constexpr uvec2 large(320, 180);  // penumbras a few pixels wide have no neighbours to learn from
     const Scene scene = findBuiltinScene(GetParam().scene)->make();
     const View view = GetParam().view(scene);

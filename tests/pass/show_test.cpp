@@ -1,4 +1,4 @@
-// Pictures of values that no device has rendered: what the reference's layers become.
+// Images of values that were not rendered by a device: the layers of the reference.
 #include "apps/show.h"
 
 #include <gtest/gtest.h>

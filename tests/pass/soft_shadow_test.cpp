@@ -1,4 +1,4 @@
-// Soft shadows of the sun: as wide as similar triangles say, in the right place, and nowhere else.
+// Soft shadows of the sun: penumbra widths match similar triangles, in the right place, and nothing else is shadowed.
 #include "pass/harness.h"
 #include "scene/builtin.h"
 
@@ -219,8 +219,8 @@ std::string joined(const std::vector<std::string>& words) {
     return fmt::format("{}", fmt::join(words, " "));
 }
 
-// What keeps surfaces from shadowing themselves lets some light in where a wall stands on them: in half a texel along
-// the normal, which at grazing light is `lift` along the ground.
+// The depth bias lets some light leak in where a wall stands on the ground: half a texel along the normal, which at
+// grazing light is `lift` along the ground.
 TEST(SoftShadow, AClosedBoxIsBlackInsideButForATexelAtItsCreasesWithEveryFilterAndSun) {
     Material material = lambertMaterial(vec3(0.5F));
     material.doubleSided = true;
@@ -282,8 +282,8 @@ TEST(SoftShadow, OpenGroundIsFullyLitAtEverySunHeightAboveFiveDegreesWithEveryFi
     }
 }
 
-// Without them the search is as wide as the highest that could cast, and its samples miss some of what is low: a little
-// more light, measured at 0.0015 in the mean.
+// Without early outs, the search is as wide as the highest possible caster requires, and its samples miss some low
+// casters: a little more light, measured at 0.0015 on average.
 TEST(SoftShadow, EarlyOutsChangeLittle) {
     const Scene scene = findBuiltinScene("colonnade")->make();
     View view = defaultView(scene);

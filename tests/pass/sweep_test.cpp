@@ -1,5 +1,5 @@
-// Every setting at its ends, every preset, every built-in scene, every image: finite, not negative, and the validation
-// layers silent. And the same bytes for the same input.
+// Every setting at its limits, every preset, every built-in scene, every image: finite, not negative, no validation
+// messages; and the same bytes for the same input.
 #include "pass/harness.h"
 
 #include "apps/show.h"

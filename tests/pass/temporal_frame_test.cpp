@@ -1,5 +1,5 @@
-// Temporal antialiasing of whole frames: against the mean over the pixel's area, motion without jitter, and what else
-// keeps histories.
+// Temporal antialiasing of whole frames: convergence to the mean over the pixel's area, motion vectors without jitter,
+// and interaction with other histories.
 #include "pass/harness.h"
 #include "scene/builtin.h"
 
@@ -27,7 +27,7 @@ double relativeMse(const FloatImage& image, const FloatImage& truth) {
     return sum / (double(image.data.size()) / 3.0);
 }
 
-TEST(TemporalFrame, RestComesToTheMeanOverThePixelsArea) {
+TEST(TemporalFrame, AtRestItConvergesToTheMeanOverThePixelsArea) {
     for (const char* name : {"cubes", "colonnade"}) {
         const Scene scene = findBuiltinScene(name)->make();
         const View view = defaultView(scene);
@@ -91,7 +91,7 @@ TEST(TemporalFrame, ACameraThatMovesSeesEdgesNearerToTheTruthThanASingleFrame) {
     RecordProperty("with", std::to_string(with));
     RecordProperty("without", std::to_string(without));
     const double unfiltered = relativeMse(p.images.at("unfiltered"), truth);
-    // A frame that does not look aside is nearer to the truth than those that are averaged.
+    // An unjittered frame is nearer to the reference than the jittered ones that are averaged.
     EXPECT_LT(with, 0.9 * without) << with << " of " << without;
     EXPECT_LT(with, 0.45 * unfiltered) << with << " of " << unfiltered;
 }
@@ -124,7 +124,7 @@ TEST(TemporalFrame, TheSameFramesGiveTheSameBytes) {
 }
 
 TEST(TemporalFrame, ReflectionsOfTheLastFramesLightStayWhereTheyAreUnderJitter) {
-    // A mirror before striped walls, which reflect nothing themselves: the last frame's light is this one's.
+    // A mirror in front of striped walls, which do not reflect: the light of the last frame equals that of this one.
     const Scene scene = findBuiltinScene("tilted-cube")->make();
     const View view = defaultView(scene);
     const auto reflections = [&](const char* light, const char* jitter) {
@@ -144,7 +144,7 @@ TEST(TemporalFrame, ReflectionsOfTheLastFramesLightStayWhereTheyAreUnderJitter) 
     EXPECT_LT(jittered, still + 0.01);
 }
 
-TEST(TemporalFrame, CleanedShadowsRestAsWellUnderJitter) {
+TEST(TemporalFrame, DenoisedShadowsConvergeUnderJitterToo) {
     Scene scene = sceneOf(lambertMaterial(vec3(0.5F)), builtin::ground({8, 8}, {1, 1}, {1, 1}));
     builtin::place(scene, "ceiling", 0, builtin::box({3.0F, 0.005F, 6.0F}), builtin::at({-3, 2, 0}));
     View view;
@@ -174,12 +174,13 @@ TEST(TemporalFrame, CleanedShadowsRestAsWellUnderJitter) {
     RecordProperty("first", std::to_string(first));
     RecordProperty("still", std::to_string(still));
     RecordProperty("jittered", std::to_string(jittered));
-    // A frame looks up to half a pixel aside of the mean of those before, over which the penumbra has its own slope.
+    // A frame is jittered by up to half a pixel against the mean of the earlier ones, over which the penumbra has a
+    // slope.
     EXPECT_LT(still, 0.5 * first);
     EXPECT_LT(jittered, 2e-4) << still << ", first frame " << first;
 }
 
-TEST(TemporalFrame, NothingThatWasBeforeTheSkyStaysInIt) {
+TEST(TemporalFrame, NothingThatWasInFrontOfTheSkyLeavesAGhost) {
     Scene scene;
     for (int i = -3; i <= 3; ++i) {
         const Scene post = sceneOf(lambertMaterial(vec3(0.9F, 0.2F, 0.1F)), builtin::box(vec3(0.05F, 4.0F, 0.05F)));

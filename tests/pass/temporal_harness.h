@@ -1,4 +1,4 @@
-// Runs the pass of temporal antialiasing on made-up pictures.
+// Runs the temporal antialiasing pass on synthetic images.
 #pragma once
 
 #include "gpu/frame.h"

@@ -1,4 +1,4 @@
-// Temporal antialiasing of made-up pictures: what is kept exactly, what rest comes to, and what motion leaves behind.
+// Temporal antialiasing of synthetic images: what is preserved exactly, convergence at rest, and ghosting in motion.
 #include "pass/temporal_harness.h"
 
 #include "render/jitter.h"
@@ -22,7 +22,7 @@ float asHalf(float v) {
     return glm::unpackHalf1x16(glm::packHalf1x16(v));
 }
 
-// Points of a picture with edges in all directions, thin bars, a bright spot and a smooth part. at: pixels.
+// A test pattern with edges in all directions, thin bars, a bright spot and a smooth part. at: pixels.
 vec3 patternAt(vec2 at) {
     const vec2 middle = 0.5F * vec2(size);
     const vec2 p = at - middle;
@@ -117,7 +117,7 @@ TEST_F(Temporal, WhateverComesInFiniteRadianceOfAtLeastZeroComesOut) {
     }
 }
 
-TEST_F(Temporal, RestComesToTheMeanOverThePixelsArea) {
+TEST_F(Temporal, AtRestItConvergesToTheMeanOverThePixelsArea) {
     TemporalRun run(device(), size);
     double first = 0.0;
     std::vector<vec4> last;
@@ -176,7 +176,7 @@ TEST_F(Temporal, APictureThatGlidesIsNearerToTheTruthThanItsFramesAre) {
         const double with = errorOf(last, moved, 4);
         const double without = errorOf(plain, moved, 4);
         RecordProperty("with", std::to_string(with));
-        // Four pixels a frame are too many for thin bars: what is new covers more than half of what they were.
+        // Four pixels a frame are too many for thin bars: disocclusions cover more than half of them.
         EXPECT_LT(with, (glm::length(motion) > 4.0F ? 0.5 : 0.35) * without)
             << motion.x << ": " << with << " of " << without;
     }

@@ -1,4 +1,4 @@
-// The traced scene as a source of answers: what only it can know, energy, limits, and the seam to the screen.
+// Ray tracing as a source: off-screen hits, energy, limits, and the transition from the screen.
 #include "pass/harness.h"
 #include "scene/builtin.h"
 
@@ -93,7 +93,7 @@ TEST(TraceScene, RaysGoThroughWhatIsCutOut) {
     expectSilentValidation("cut out");
 }
 
-// Half of it shines the camera's way: what shines is closed, double-sided, and reflects half of what meets it.
+// Half of it emits toward the camera: the emitter is closed, double-sided, and reflects half of the incident light.
 TEST(TraceScene, APathInAGlowingRoomOfAlbedoOneHalfFindsTwiceTheGlow) {
     Material half = lambertMaterial(vec3(0.5F));
     half.emissive = vec3(0.5F);
@@ -154,7 +154,7 @@ TEST(TraceScene, AnswersAsManyRaysAsItMayEvenlyOverThePicture) {
 
 // The floor is a mirror, the wall behind it ends above the picture: lower in the picture, the mirror shows what is off
 // screen.
-TEST(TraceScene, NoSeamShowsInAMirrorWhereTheSceneTakesOverFromTheScreen) {
+TEST(TraceScene, NoSeamShowsInAMirrorWhereRayTracingTakesOverFromTheScreen) {
     Scene scene;
     builtin::place(scene, "floor", builtin::addMaterial(scene, mirrorMaterial()),
                    builtin::ground({4, 4}, {1, 1}, {1, 1}));

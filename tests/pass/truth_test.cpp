@@ -1,4 +1,4 @@
-// What rays through the screen bring, against the path tracer: where the screen knows the answer it must be the truth.
+// Screen-space tracing against the path tracer: where the screen has the data, the result must match.
 #include "compare/compare.h"
 #include "pass/harness.h"
 #include "reference/reference.h"
@@ -41,7 +41,7 @@ void placeBoxes(Scene& scene) {
                    builtin::patch({{0, 1.5F, -2}, {4, 0, 0}, {0, 1.5F, 0}, {1, 1}, {1, 1}}));
 }
 
-// The mirrored camera, without the mirror, sees what the mirror shows, upside down.
+// A camera mirrored at the plane, without the mirror, sees what the mirror shows, upside down.
 TEST(Truth, AFlatMirrorShowsThePathTracersFlippedPictureWhereTheScreenKnowsIt) {
     const View view = boxesView();
     Material mirror = lambertMaterial(vec3(1.0F));
@@ -60,7 +60,7 @@ TEST(Truth, AFlatMirrorShowsThePathTracersFlippedPictureWhereTheScreenKnowsIt) {
     const ReferencePicture truth =
         traceReference(withoutMirror, below, large, {.bounces = 0, .samples = 16, .filter = PixelFilter::center});
 
-    // The screen knows what a ray meets where the camera sees that point, too.
+    // The screen has the data if the camera sees the hit point, too.
     const ReferencePicture seen = traceReference(
         scene, view, large, {.bounces = 1, .samples = 16, .filter = PixelFilter::center, .visibleOnly = true});
     const FloatImage expected = flipped(truth.direct);

@@ -1,4 +1,4 @@
-// Points for rays, with a mask that is not blue but white: what is tested does not ask for blue.
+// Sample points for rays, with a white mask instead of a blue one: no test here depends on blue noise.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/noise.glsl"

@@ -1,4 +1,4 @@
-// blue_noise.glsl: the sequence's strata, its shift, and the way through the masks.
+// blue_noise.glsl: the strata of the sequence, its shift, and the order of mask look-ups.
 #include "shader/blue_noise_test.h"
 
 #include "noise/blue_noise.h"
@@ -36,7 +36,7 @@ protected:
     }
 };
 
-TEST_F(BlueNoisePoints, OfTheSequenceEveryPowerOfTwoFillsEveryShapeOfBoxes) {
+TEST_F(BlueNoisePoints, OfEveryPowerOfTwoFillEveryShapeOfBoxes) {
     const auto samples = raysOfAPixel(4096, uvec2(0), 0);
     for (uint32_t k = 0; k <= 8; ++k) {
         for (uint32_t first = 0; first < 4096; first += 1U << k) {
@@ -63,7 +63,7 @@ TEST_F(BlueNoisePoints, StayOneInEachBoxWhateverTheShift) {
     }
 }
 
-// Over pixels, each ray of however many is uniform by itself: no frame of any number of rays is biased.
+// Over pixels, each single ray of any count is uniform: no frame is biased, whatever its number of rays.
 TEST_F(BlueNoisePoints, AreUniformForEachRayOfAPixelByItself) {
     constexpr uint32_t width = 256;
     constexpr double count = width * width;
@@ -123,8 +123,8 @@ TEST_F(BlueNoisePoints, TileTheScreenWithTheMaskMovedByTheStream) {
     EXPECT_EQ(texels.size(), 64U * 64U);
 }
 
-TEST_F(BlueNoisePoints, GoOnInTheSequenceOnceAllSlicesHaveBeenUsed) {
-    // The mask is the same every 32 frames. With one ray, what differs over such turns are the sequence's points.
+TEST_F(BlueNoisePoints, ContinueTheSequenceOnceAllSlicesHaveBeenUsed) {
+    // The mask repeats every 32 frames. With one ray, only the sequence's points differ between repetitions.
     constexpr uint32_t turns = 16;
     std::vector<BlueNoiseCase> cases;
     for (uint32_t turn = 0; turn < turns; ++turn) {

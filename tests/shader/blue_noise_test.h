@@ -1,4 +1,4 @@
-// What blue_noise_test.comp is asked and says. Shared by C++ and GLSL.
+// Inputs and outputs of blue_noise_test.comp. Shared by C++ and GLSL.
 #ifndef REFLET_TESTS_BLUE_NOISE_TEST_H
 #define REFLET_TESTS_BLUE_NOISE_TEST_H
 

@@ -1,4 +1,4 @@
-// cascadeAt for each distance.
+// selectCascade for each distance.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/cascades.glsl"
@@ -12,7 +12,7 @@ layout(set = 0, binding = 2, scalar) buffer OutputBlock { CascadeAnswer items[];
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i < outputs.items.length()) {
-        Cascade c = cascadeAt(inputs.items[i], params);
+        Cascade c = selectCascade(inputs.items[i], params);
         outputs.items[i] = CascadeAnswer(c.index, c.next);
     }
 }

@@ -1,4 +1,4 @@
-// What cascadeAt answers. Shared by C++ and GLSL.
+// Result of selectCascade. Shared by C++ and GLSL.
 #ifndef REFLET_TESTS_CASCADES_TEST_H
 #define REFLET_TESTS_CASCADES_TEST_H
 

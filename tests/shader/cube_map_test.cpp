@@ -26,7 +26,7 @@ glm::dvec3 faceDirection(uint32_t face, const glm::dvec2& uv) {
 
 class CubeMaps : public ShaderTest {
 protected:
-    /// A map whose texels are the mean of some places in them.
+    /// A map whose texels are the mean of a few samples of their area.
     static CubeMap make(uint32_t side, uint32_t cubes, const LightFrom& light) {
         constexpr uint32_t parts = 4;
         std::vector<vec3> colors;
@@ -86,7 +86,7 @@ glm::dvec3 perpendicularTo(const glm::dvec3& n) {
     return glm::normalize(glm::cross(n, std::abs(n.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
 }
 
-/// Mean of the light, weighted by what a GGX surface that faces n reflects toward n.
+/// Mean radiance, weighted by the GGX lobe of a surface that faces n, for a view along n.
 glm::dvec3 lobeMean(const LightFrom& light, const glm::dvec3& n, double roughness) {
     constexpr int steps = 200;
     const double alpha = roughness * roughness;
@@ -204,7 +204,7 @@ TEST_F(CubeMaps, irradianceUnderAWhiteHalfIsAnalytic) {
     const auto lookups = everywhere(500, 0.0F);
     const auto found = lookUp(map, lookups);
     for (size_t i = 0; i < found.size(); ++i) {
-        // Degrees 0 and 1 hold all of it: (1 + cos) / 2.
+        // Exact with degrees 0 and 1: (1 + cos) / 2.
         ASSERT_NEAR(found[i].irradiance.x, 0.5 + 0.5 * glm::dot(glm::dvec3(lookups[i].direction), up), 3e-3) << i;
     }
 }

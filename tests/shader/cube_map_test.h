@@ -1,4 +1,4 @@
-// Where a filtered cube map is looked up, and what it tells. Shared by C++ and GLSL.
+// Look-ups in a filtered cube map and their results. Shared by C++ and GLSL.
 #ifndef REFLET_TESTS_CUBE_MAP_TEST_H
 #define REFLET_TESTS_CUBE_MAP_TEST_H
 

@@ -1,4 +1,4 @@
-// Rays by the cosine around a normal, and what light becomes when it is turned to another.
+// Cosine-distributed rays around a normal, and the light that follows for another normal.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "directional_light_test.h"
@@ -33,7 +33,7 @@ void main() {
         vec3 direction = basisAround(s.normal) * sampleCosineHemisphere(u);
         float light = dot(direction, s.middle) >= s.leastCosine ? share : 0.0;
         mean += light;
-        directional += directionalOf(light, direction, s.normal);
+        directional += directionalFromRay(light, direction, s.normal);
     }
-    outputs.items[i] = TurnedLight(mean, turned(directional, s.normal, s.turnedTo));
+    outputs.items[i] = TurnedLight(mean, relightFactor(directional, s.normal, s.turnedTo));
 }

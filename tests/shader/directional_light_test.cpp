@@ -1,4 +1,4 @@
-// directional_light.glsl against surfaces under light that is known for every normal.
+// directional_light.glsl against light whose irradiance is known for every normal.
 #include "shader/directional_light_test.h"
 
 #include "shader/harness.h"
@@ -36,7 +36,7 @@ TEST_F(DirectionalLight, IsTheSameForTheSameNormal) {
     }
 }
 
-TEST_F(DirectionalLight, OfTheUpperHalfFallsOnTiltedSurfacesAsItDoes) {
+TEST_F(DirectionalLight, OfTheUpperHalfFallsOnTiltedSurfacesAsComputed) {
     std::vector<LitSurface> surfaces;
     for (float degrees = -80.0F; degrees <= 80.0F; degrees += 20.0F) {
         surfaces.push_back({tilted(0.0F), tilted(degrees), tilted(0.0F), upperHalf});
@@ -44,12 +44,12 @@ TEST_F(DirectionalLight, OfTheUpperHalfFallsOnTiltedSurfacesAsItDoes) {
     const std::vector<TurnedLight> found = turn(surfaces);
     for (size_t i = 0; i < found.size(); ++i) {
         EXPECT_NEAR(found[i].mean, 1.0F, 1e-4F);
-        // Half of the sky, and of the other half what lies above the surface.
+        // Half of the sky, plus the part of the other half above the surface.
         EXPECT_NEAR(found[i].factor, 0.5F * (1.0F + surfaces[i].turnedTo.y), 0.01F) << i;
     }
 }
 
-TEST_F(DirectionalLight, OfASmallThingGoesMostOfTheWay) {
+TEST_F(DirectionalLight, OfASmallLightGoesMostOfTheWay) {
     std::vector<LitSurface> surfaces;
     for (const float from : {-50.0F, -20.0F, 35.0F, 60.0F}) {
         for (const float by : {-25.0F, -10.0F, 10.0F, 25.0F}) {

@@ -1,4 +1,4 @@
-// Light on a surface as directional_light_test.comp takes it. Shared by C++ and GLSL.
+// Inputs and outputs of directional_light_test.comp. Shared by C++ and GLSL.
 #ifndef REFLET_TESTS_DIRECTIONAL_LIGHT_TEST_H
 #define REFLET_TESTS_DIRECTIONAL_LIGHT_TEST_H
 

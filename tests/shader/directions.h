@@ -1,4 +1,4 @@
-// Directions to try functions of unit vectors with.
+// Test directions for functions of unit vectors.
 #pragma once
 
 #include "base/math.h"

@@ -1,4 +1,4 @@
-// fitCascades: every visible point is in the map of its distance, and no map crawls when the camera moves.
+// fitCascades: every visible point is in the map of its distance, and texels stay aligned when the camera moves.
 #include "shader/cascades_test.h"
 #include "shader/fit_cases.h"
 #include "shader/harness.h"
@@ -81,7 +81,7 @@ std::vector<vec3> pointsSeen(const ViewParams& view, const Aabb& box) {
     return points;
 }
 
-// A point's distances to the four sides of a map, negative outside, but for sides beyond which there is no scene.
+// Distances of a point to the four sides of a map, negative outside; sides with no scene beyond them do not count.
 float distanceInside(const ShadowMapParams& map, const Aabb& scene, const vec3& p) {
     Aabb all;
     for (unsigned i = 0; i < 8; ++i) {

@@ -1,4 +1,4 @@
-// fitSunShadow: every visible point and every caster is in the map, which is no larger than that asks for.
+// fitSunShadow: every visible point and every caster is in the map, and the map is no larger than they need.
 #include "shader/fit_cases.h"
 
 #include <gtest/gtest.h>
@@ -145,7 +145,7 @@ TEST(FitSunShadow, fallsBackToTheWholeSceneWhenTheViewSeesNothingOfIt) {
     }
 }
 
-TEST(FitSunShadow, standsABoxOfOnePoint) {
+TEST(FitSunShadow, acceptsABoxOfOnePoint) {
     const auto clipToWorld = makeViewParams(cameras()[0], pixels, 0, 0).clipToWorld;
     for (const vec3& sun : sunDirections()) {
         const ShadowMapParams map = fitSunShadow(clipToWorld, boxOf(vec3(1), vec3(1)), sun, resolution);

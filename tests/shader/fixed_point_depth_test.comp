@@ -1,4 +1,4 @@
-// What fixed-point depth buffers keep.
+// Depths quantized like fixed-point depth buffers.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/gbuffer/kept_depth.h"

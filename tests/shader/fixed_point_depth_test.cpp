@@ -1,4 +1,4 @@
-// fixed_point_depth.glsl against the textbook's standard depth in double precision.
+// fixed_point_depth.glsl against the textbook formula of standard depth in double precision.
 #include "render/gbuffer/kept_depth.h"
 #include "render/renderer.h"
 #include "shader/harness.h"
@@ -41,7 +41,7 @@ TEST_F(FixedPointDepth, ofAPerspectiveViewIsTheNearestWholeNumberOfStandardDepth
             const auto kept = keep(depths, paramsOf(camera, buffer));
             for (size_t i = 0; i < depths.size(); ++i) {
                 const double expected = near / distanceKept(near / static_cast<double>(depths[i]), near, 1000.0, steps);
-                // A float that lies between two whole numbers may come out as either: then it is a step off.
+                // A float between two integers may round to either: then it is one step off.
                 const double standard = 1000.0 / (1000.0 - near) * (1.0 - static_cast<double>(depths[i])) * steps;
                 const double fromTie = std::abs(standard - std::floor(standard) - 0.5);
                 const double roundings = 4.0 * 6e-8 * (static_cast<double>(depths[i]) * steps + 1.0);

@@ -1,5 +1,5 @@
-// Integrates reflectLight over the light's directions, a ring of them a thread; or (byHalfVector) over half vectors,
-// which resolves narrow lobes. The sum over a case's rings is the integral.
+// Integrates brdfTimesCosine over light directions, one ring of them per thread; or (byHalfVector) over half vectors,
+// which resolves narrow lobes. The sum over the rings of a case is the integral.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/ggx.glsl"
@@ -30,12 +30,12 @@ void main() {
             vec3 h = sampleGgx(vec2(at, turn), alpha);
             vec3 l = reflect(-v, h);
             float pdf = ggxDistribution(h.z, alpha) * h.z / (4.0 * dot(v, h));
-            sum += dot(v, h) > 0.0 ? reflectLight(s, n, v, l).x / (pdf * float(c.rings * c.around)) : 0.0;
+            sum += dot(v, h) > 0.0 ? brdfTimesCosine(s, n, v, l).x / (pdf * float(c.rings * c.around)) : 0.0;
         } else {
             float theta = at * pi / 2.0;
             vec3 l = vec3(sin(theta) * cos(2.0 * pi * turn), sin(theta) * sin(2.0 * pi * turn), cos(theta));
             float solidAngle = sin(theta) * (pi / 2.0 / float(c.rings)) * (2.0 * pi / float(c.around));
-            sum += reflectLight(s, n, v, l).x * solidAngle;
+            sum += brdfTimesCosine(s, n, v, l).x * solidAngle;
         }
     }
     outputs.items[i] = sum;

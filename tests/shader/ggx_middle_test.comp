@@ -1,5 +1,4 @@
-// For (nv, alpha): the direction in which the middle one of the normals that v sees reflects it, and the tangent of the
-// lobe's half angle.
+// For (nv, alpha): the reflection at the median visible normal, and the tangent of the cone's half angle.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/ggx.glsl"
@@ -14,6 +13,6 @@ void main() {
         vec2 c = inputs.items[i];
         vec3 v = vec3(sqrt(1.0 - c.x * c.x), 0.0, c.x);
         vec3 h = sampleGgxVisible(vec2(0.0), v, c.y);
-        outputs.items[i] = vec4(2.0 * dot(v, h) * h - v, ggxHalfTangent(c.y));
+        outputs.items[i] = vec4(2.0 * dot(v, h) * h - v, ggxConeTangent(c.y));
     }
 }

@@ -1,4 +1,4 @@
-// The direction and the angle that stand for a rough surface's whole lobe, against the lobe itself.
+// The cone (direction and half angle) that represents a rough surface's lobe, against the lobe itself.
 #include "shader/directions.h"
 #include "shader/harness.h"
 #include "support/ggx_reference.h"
@@ -13,7 +13,7 @@ struct LobePart {
     double weight;
 };
 
-/// All of the white lobe toward v, by half vectors spread like the distribution.
+/// The lobe toward v without Fresnel, sampled by half vectors that follow the distribution.
 std::vector<LobePart> lobeParts(double nv, double alpha) {
     constexpr int steps = 160;
     const glm::dvec3 v(std::sqrt(1.0 - nv * nv), 0.0, nv);

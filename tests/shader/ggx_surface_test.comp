@@ -19,7 +19,7 @@ void main() {
     o.table = textureLod(ggxTable, ggxTableUv(c.v.z, c.material.roughness), 0.0).rg;
     Surface s = makeSurface(c.material.baseColor, c.material.metallic, c.material.roughness, o.table,
                             c.material.lambert != 0u);
-    o.reflected = reflectLight(s, vec3(0.0, 0.0, 1.0), c.v, c.l);
+    o.reflected = brdfTimesCosine(s, vec3(0.0, 0.0, 1.0), c.v, c.l);
     o.diffuse = s.diffuse;
     o.specular = s.specular;
     o.singleScattering = (o.reflected - s.diffuse * c.l.z / pi) / (s.compensation * c.l.z);

@@ -14,7 +14,7 @@ namespace {
 constexpr double pi = glm::pi<double>();
 constexpr int tableSide = 32;
 
-// How far direct light's energy may be from the table's word: its steps between texels, steepest toward nv = 0.
+// Tolerance between the energy of direct light and the table: its interpolation error, largest toward nv = 0.
 constexpr double tableError = 0.02;
 constexpr double tableErrorNotGrazing = 0.012;
 
@@ -48,7 +48,7 @@ protected:
         float nv = 1.0F;
     };
 
-    /// Integrals of reflectLight over the hemisphere.
+    /// Integrals of brdfTimesCosine over the hemisphere.
     static std::vector<double> integrals(const std::vector<Lit>& cases, bool byHalfVector) {
         constexpr uint32_t rings = 256;
         const uint32_t around = byHalfVector ? 64 : 512;  // a grazing lobe is narrow to the side
@@ -105,7 +105,7 @@ TEST_F(Ggx, hasTheTermsOfThePapers) {
         const glm::dvec4 c(inputs[i]);
         const double d = ggxD(c.x, c.w);
         const double v = smithG2(c.y, std::min(c.z, 1.0), c.w) / (4.0 * c.y * c.z);
-        // 1 - nh² is left of numbers near 1: one rounding of these, over alpha² where the lobe is highest.
+        // 1 - nh² is a difference of numbers near 1: one rounding of these, over alpha² where the lobe is highest.
         EXPECT_NEAR(terms[i].x, d, d * (1e-5 + 4e-7 / (c.w * c.w + 1.0 - c.x * c.x))) << c.x << ' ' << c.w;
         EXPECT_NEAR(terms[i].y, v, 1e-5 * v) << c.y << ' ' << c.z << ' ' << c.w;
         EXPECT_NEAR(terms[i].z, schlick(0.04, c.x), 1e-6);
@@ -216,7 +216,7 @@ TEST_F(Ggx, reflectsNothingFromBelow) {
     }
 }
 
-// Swapping eye and light changes the compensation (it is made for the eye), but not the BRDF of a single bounce.
+// Swapping eye and light changes the compensation (it depends on the view), but not the single-scattering BRDF.
 TEST_F(Ggx, isTheBrdfOfThePapersPositiveAndReciprocal) {
     std::vector<GgxCase> cases;
     for (const float roughness : {0.05F, 0.2F, 0.5F, 1.0F}) {

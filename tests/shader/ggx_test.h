@@ -20,14 +20,14 @@ struct GgxCase {
 };
 
 struct GgxResult {
-    vec3 reflected;  // reflectLight
+    vec3 reflected;  // brdfTimesCosine
     vec3 diffuse;    // of the surface
     vec3 specular;
     vec3 singleScattering;  // reflected specular light over the compensation and nl: the plain BRDF
     vec2 table;
 };
 
-// A part of the integral of reflectLight over the hemisphere: directions of one angle from the normal.
+// A part of the integral of brdfTimesCosine over the hemisphere: directions of one angle from the normal.
 struct GgxRing {
     GgxMaterial material;
     float nv;

@@ -1,4 +1,4 @@
-// What is kept of values in half-float images.
+// Values after storage in half-float images.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/half_float.glsl"

@@ -10,7 +10,7 @@ namespace {
 
 class HalfFloat : public ShaderTest {};
 
-TEST_F(HalfFloat, holdsWhatFitsAndTamesWhatDoesNot) {
+TEST_F(HalfFloat, keepsWhatFitsAndClampsWhatDoesNot) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     constexpr float infinity = std::numeric_limits<float>::infinity();
     const std::vector<vec3> given = {{nan, -nan, 0.0F},      {infinity, -infinity, 1.0F},

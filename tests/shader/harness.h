@@ -19,7 +19,7 @@ struct NoParams {};
 
 class ShaderTest : public DeviceTest {
 protected:
-    /// Outputs of `shader` for all inputs. `bind` states what else the pass reads.
+    /// Outputs of `shader` for all inputs. `bind` binds what else the pass reads.
     template <class Out, std::ranges::contiguous_range Inputs, class Params = NoParams>
     static std::vector<Out> mapOnDevice(std::string_view shader, const Inputs& inputs, const Params& params = {},
                                         const std::function<void(gpu::Pass&)>& bind = {}) {
@@ -44,7 +44,7 @@ protected:
 private:
     struct Io {
         std::span<const std::byte> inputs;
-        std::span<const std::byte> params;  ///< empty: the shader has none
+        std::span<const std::byte> params;  ///< empty if the shader has none
         std::span<std::byte> outputs;
         uint32_t threads = 0;
         const std::function<void(gpu::Pass&)>& bind;

@@ -1,4 +1,4 @@
-// The net has no holes: what these tests rely on to fail does fail.
+// Checks that the validation layers report what the other tests rely on them to report.
 #include "shader/harness.h"
 
 #include <string>

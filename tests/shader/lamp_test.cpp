@@ -1,4 +1,4 @@
-// lamp.glsl, with lamps as the renderer hands them to it: KHR_lights_punctual.
+// lamp.glsl, with lamps as the renderer passes them: KHR_lights_punctual.
 #include "shader/lamp_test.h"
 
 #include "render/gpu_scene.h"

@@ -1,4 +1,4 @@
-// render/light_mips: the levels by their definition, and what is looked up between them.
+// render/light_mips: levels against their definition, and interpolated look-ups.
 #include "shader/light_mips_test.h"
 
 #include "render/levels.h"
@@ -59,7 +59,7 @@ protected:
     }
 };
 
-/// Of the image's pixels that a cell stands for.
+/// Mean of the pixels under a cell.
 glm::dvec3 meanOfCell(uvec2 size, const LightAt& lightAt, uint32_t level, uvec2 cell) {
     const uvec2 first = cell << level;
     const uvec2 end = glm::min((cell + 1U) << level, size);
@@ -72,7 +72,7 @@ glm::dvec3 meanOfCell(uvec2 size, const LightAt& lightAt, uint32_t level, uvec2 
     return sum / double((end.x - first.x) * (end.y - first.y));
 }
 
-/// Whole numbers, which half floats hold exactly; neighbours differ by far.
+/// Integers, which half floats hold exactly; neighbours differ strongly.
 vec3 uneven(uint32_t x, uint32_t y) {
     return {(x * 37 + y * 101 + x * y * 13) % 512, (x * 71 + y * y * 7) % 1024, x + y == 40 ? 2000 : 0};
 }
@@ -161,7 +161,7 @@ TEST_F(LightMips, blurringSpreadsALightOverTheWidthAndLosesNoneOfIt) {
                 farthest = found[i].x > 0.0F ? std::max<double>(farthest, std::max(off.x, off.y)) : farthest;
             }
             EXPECT_NEAR(sum, 4096.0, 1.0) << width;
-            // From the light to the other side of its cell, and on to the next cell's centre, of the wider level.
+            // From the light to the far side of its cell, and on to the centre of the next cell of the coarser level.
             EXPECT_LE(farthest, 1.5 * std::exp2(std::ceil(std::log2(width)))) << width;
             EXPECT_GE(farthest, width < 2.0F ? 0.0 : 0.5 * width) << width;
         }

@@ -1,4 +1,4 @@
-// Where blurred light is looked up. Shared by C++ and GLSL.
+// Look-ups of blurred light. Shared by C++ and GLSL.
 #ifndef REFLET_TESTS_LIGHT_MIPS_TEST_H
 #define REFLET_TESTS_LIGHT_MIPS_TEST_H
 

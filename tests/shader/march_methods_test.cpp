@@ -1,4 +1,4 @@
-// The methods besides fixed steps: walls met at known depths, misses, and the DDA against every pixel.
+// The methods other than fixed steps: hits on walls at known depths, misses, and the DDA against the exhaustive march.
 #include "shader/march_scene.h"
 
 #include <cmath>
@@ -10,7 +10,7 @@ constexpr uint32_t methods[] = {marchMethodHalving, marchMethodDda, marchMethodE
 
 class Methods : public March {
 protected:
-    /// Rays as raysIntoDepth makes them, with what the method wants.
+    /// Rays of raysIntoDepth, with the options of the method.
     static std::vector<MarchInput> raysFor(uint32_t method, float thickness = 0.5F) {
         auto rays = raysIntoDepth(1.0F, method == marchMethodDda ? 1.0F : 0.4F);
         for (MarchInput& ray : rays) {
@@ -71,7 +71,7 @@ TEST_P(Methods, neverHitTheSky) {
     }
 }
 
-// A spent budget is a miss, and the last step that is allowed still counts.
+// Reaching the step limit is a miss, and the last allowed step still counts.
 TEST_P(Methods, hitWithTheLastStepAndMissWithOneLess) {
     const MarchScene scene = sceneOf({wallAt(10.0F)});
     for (const uint32_t method : methods) {
@@ -91,7 +91,7 @@ TEST_P(Methods, hitWithTheLastStepAndMissWithOneLess) {
         }
         const auto fewer = march(scene, rays, method);
         for (size_t i = 0; i < rays.size(); ++i) {
-            ASSERT_EQ(fewer[i].outcome, marchSpent) << method;
+            ASSERT_EQ(fewer[i].outcome, marchLimitReached) << method;
             ASSERT_EQ(fewer[i].steps, rays[i].maxSteps) << method;
         }
     }
@@ -124,10 +124,10 @@ TEST_P(Methods, passBehindAWallThatIsThinnerThanTheGap) {
     }
 }
 
-TEST_P(Methods, halvingIsHiddenBehindAWallThatIsThinnerThanTheGap) {
+TEST_P(Methods, halvingIsOccludedByAWallThatIsThinnerThanTheGap) {
     const MarchScene scene = sceneOf({wallAt(5.0F, vec2(0.5F, 0.0F), vec2(1.0F))});
     const MarchInput ray{vec3(-1.0F, 0.1F, -6.0F), vec3(1, 0, 0), 0.4F, 4096, 0.9F, 1.0F, {}, 0.001F};
-    EXPECT_EQ(march(scene, {ray}, marchMethodHalving).front().outcome, marchHidden);
+    EXPECT_EQ(march(scene, {ray}, marchMethodHalving).front().outcome, marchOccluded);
 }
 
 // Two walls with edges, seen from everywhere.
@@ -150,7 +150,7 @@ protected:
         return rays;
     }
 
-    /// Rays whose verdict, and whose pixel to within one, is that of the exhaustive method.
+    /// Number of rays whose outcome, and whose pixel to within one, equals that of the exhaustive method.
     static size_t agreeing(const std::vector<MarchAnswer>& every, const std::vector<MarchAnswer>& answers) {
         size_t same = 0;
         for (size_t i = 0; i < every.size(); ++i) {
@@ -174,7 +174,7 @@ TEST_P(Oracle, hitsBetweenAFifthAndFourFifthsOfTheRays) {
     EXPECT_LT(hits, 8000);
 }
 
-// What one step for each column or row misses is a corner of a pixel.
+// One step per column or row misses only corners of pixels.
 TEST_P(Oracle, isFollowedByDdaOfStrideOneInNinetyNineOfAHundred) {
     const auto rays = raysEverywhere();
     EXPECT_GT(agreeing(march(edges(), rays, marchMethodExhaustive), march(edges(), rays, marchMethodDda)), 9900U);

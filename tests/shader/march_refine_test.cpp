@@ -1,4 +1,4 @@
-// What follows a hit of march*.glsl: halving of the last step, and placing the hit between the last two samples.
+// Refinement after a hit of march*.glsl: bisection of the last step, and interpolation between the last two samples.
 #include "shader/march_scene.h"
 
 #include <cmath>
@@ -10,7 +10,7 @@ class Refinement : public March {
 protected:
     static constexpr float thickness = 3.0F;  // no sample behind the wall is beyond it
 
-    /// Metres by which the hits are too far, each ray's. All must hit.
+    /// Error of the hit distance of each ray [m]; positive: too far. All must hit.
     static std::vector<double> errors(const std::vector<MarchInput>& rays, uint32_t method) {
         const auto answers = march(sceneOf({wallAt(10.0F)}), rays, method);
         std::vector<double> result;
@@ -37,7 +37,7 @@ INSTANTIATE_TEST_SUITE_P(Cameras, Refinement, ::testing::Bool(), [](const auto& 
     return camera.param ? std::string("orthographic") : std::string("perspective");
 });
 
-TEST_P(Refinement, leavesTheLastStepOverAPowerOfTwo) {
+TEST_P(Refinement, leavesTheLastStepDividedByAPowerOfTwo) {
     constexpr float step = 0.31F;
     for (const uint32_t halvings : {0U, 1U, 3U, 6U}) {
         const auto found = errors(raysWith(0.37F, step, halvings, false), marchMethodLinear);
@@ -49,7 +49,7 @@ TEST_P(Refinement, leavesTheLastStepOverAPowerOfTwo) {
     }
 }
 
-TEST_P(Refinement, leavesTheLastStepOfHalvingOverAPowerOfTwo) {
+TEST_P(Refinement, leavesTheLastStepOfHalvingDividedByAPowerOfTwo) {
     for (const uint32_t halvings : {0U, 2U, 5U}) {
         const auto found = errors(raysWith(1.0F, 0.4F, halvings, false), marchMethodHalving);
         const auto [least, most] = std::ranges::minmax(found);
@@ -69,7 +69,7 @@ TEST_P(Refinement, countsItsSteps) {
     }
 }
 
-// Between the last two samples, depth along the ray and the wall's are both straight.
+// Between the last two samples, the depths of the ray and of the wall are both linear.
 TEST_P(Refinement, byInterpolationFindsAPlaneExactly) {
     for (const float jitter : {1.0F, 0.37F, 0.001F}) {
         for (const uint32_t method : {marchMethodLinear, marchMethodHalving}) {
@@ -131,8 +131,8 @@ TEST_P(StrideRefinement, keepsAFacingPlaneExact) {
     EXPECT_LT(meanError(wallAt(10.0F), 0, true), 1e-4);
 }
 
-// 12 pixels lie between the samples around a hit. Three halvings come down to less than two; what is left then is that
-// one depth stands for all of a pixel.
+// 12 pixels lie between the samples around a hit. Three bisections reduce them to less than two; the remaining error is
+// that one depth stands for a whole pixel.
 TEST_P(StrideRefinement, bringsATiltedPlaneFromAStrideToAPixel) {
     const double plain = meanError(tilted(), 0, false);
     EXPECT_GT(plain, 0.035);

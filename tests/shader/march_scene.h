@@ -1,4 +1,5 @@
-// Made-up scenes for the methods of march*.glsl: parts of planes, seen by a camera that looks along -Z from the origin.
+// Synthetic scenes for the methods of march*.glsl: parts of planes, seen by a camera that looks along -Z from the
+// origin.
 #pragma once
 
 #include "render/renderer.h"
@@ -12,8 +13,8 @@ namespace reflet::test {
 
 inline constexpr uint32_t marchHit = 0;
 inline constexpr uint32_t marchLeftScreen = 1;
-inline constexpr uint32_t marchSpent = 2;
-inline constexpr uint32_t marchHidden = 3;
+inline constexpr uint32_t marchLimitReached = 2;
+inline constexpr uint32_t marchOccluded = 3;
 inline constexpr uvec2 pixels{320, 180};
 
 inline Camera cameraOf(bool orthographic) {

@@ -1,4 +1,4 @@
-// Marches rays through depth that is worked out, not drawn: at each pixel's centre, the nearest wall there.
+// Marches rays through analytic depth: at each pixel's centre, the nearest wall there.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "march_test.h"
@@ -102,5 +102,5 @@ void main() {
     vec4 ownPlane = given.normal == vec3(0.0) ? vec4(0.0, 0.0, 0.0, 1.0)  // all is far above it
                                               : planeOnScreen(given.origin, given.normal, params.view.clipToWorld);
     MarchResult r = march(given, makeMarchRay(given.origin, given.direction, ownPlane, view), view);
-    outputs.items[i] = MarchAnswer(r.outcome, r.pixel.x, r.pixel.y, r.distance, r.clear, r.lost ? 1u : 0u, r.steps);
+    outputs.items[i] = MarchAnswer(r.outcome, r.pixel.x, r.pixel.y, r.distance, r.clear, r.occluded ? 1u : 0u, r.steps);
 }

@@ -1,5 +1,5 @@
-// march.glsl: walls met at known depths, and every way to miss. The camera looks along -Z from the origin; walls face
-// it.
+// march.glsl: hits on walls at known depths, and every kind of miss. The camera looks along -Z from the origin; walls
+// face it.
 #include "shader/march_scene.h"
 
 namespace reflet::test::march_test {
@@ -18,7 +18,8 @@ TEST_P(March, meetsAWallWithinAStepOfItsDepthAndInItsPixel) {
             const glm::dvec3 o(rays[i].origin);
             const glm::dvec3 d(rays[i].direction);
             const double toWall = (o.z + 10.0) / -d.z;
-            // The first sample behind the wall; two samples are right where it lies on it to a rounding.
+            // The first sample behind the wall; if one lies on the wall within rounding, either of two samples is
+            // right.
             const double samples = toWall / stepLength - jitter;
             ASSERT_EQ(answers[i].outcome, marchHit);
             ASSERT_GT(answers[i].distance, toWall - 1e-5);
@@ -50,12 +51,12 @@ TEST_P(March, meetsATiltedWallWithinAStepAndAPixel) {
     }
 }
 
-TEST_P(March, isSpentAlongAWallThatItNeverMeets) {
+TEST_P(March, reachesItsLimitAlongAWallThatItNeverMeets) {
     const MarchScene scene = sceneOf({wallAt(10.0F)});
     for (const vec3 direction : {vec3(1, 0, 0), vec3(0, 1, 0), vec3(-1, 0, 0)}) {
         for (const uint32_t budget : {1U, 7U, 64U}) {
             const auto answer = march(scene, {{vec3(0, 0, -9.99F), direction, 0.02F, budget, 0.5F, 1.0F}}).front();
-            EXPECT_EQ(answer.outcome, marchSpent);
+            EXPECT_EQ(answer.outcome, marchLimitReached);
             EXPECT_EQ(answer.steps, budget);
             EXPECT_NEAR(answer.distance, 0.02F * static_cast<float>(budget), 1e-6F);
         }
@@ -72,11 +73,11 @@ TEST_P(March, hitsWithItsLastStepAndMissesWithTheStepAfter) {
     EXPECT_FLOAT_EQ(last.distance, 8.0F);
     ray.maxSteps = 15;
     const auto after = march(scene, {ray}).front();
-    EXPECT_EQ(after.outcome, marchSpent);
+    EXPECT_EQ(after.outcome, marchLimitReached);
     EXPECT_EQ(after.steps, 15U);
     ray.maxSteps = 0;
     const auto none = march(scene, {ray}).front();
-    EXPECT_EQ(none.outcome, marchSpent);
+    EXPECT_EQ(none.outcome, marchLimitReached);
     EXPECT_EQ(none.steps, 0U);
 }
 
@@ -108,7 +109,7 @@ TEST_P(March, leavesTheScreenPastTheCamera) {
         EXPECT_EQ(answer.outcome, marchLeftScreen);
         EXPECT_NEAR(answer.distance, 5.0F - near, 0.031F);
     }
-    // One step leaps over the camera, another starts behind it.
+    // One step jumps past the camera, another starts behind it.
     const auto leapt = march(scene, {{vec3(0, 0, -1), vec3(0, 0, 1), 4.0F, 64, 100.0F, 1.0F}}).front();
     EXPECT_EQ(leapt.outcome, marchLeftScreen);
     EXPECT_EQ(leapt.steps, 0U);
@@ -122,7 +123,7 @@ TEST_P(March, passesBehindAWallThatIsThinnerThanTheGap) {
     const MarchScene scene = sceneOf({wallAt(5.0F, vec2(0.5F, 0.0F), vec2(1.0F))});
     MarchInput ray{vec3(-1.0F, 0.1F, -6.0F), vec3(1, 0, 0), 0.03F, 84, 0.9F, 1.0F};  // no pixel is stepped over
     const auto thin = march(scene, {ray}).front();
-    EXPECT_EQ(thin.outcome, marchSpent);
+    EXPECT_EQ(thin.outcome, marchLimitReached);
     EXPECT_GT(thin.pixelX, 170);  // it was behind the wall
     ray.thickness = 1.1F;
     const auto thick = march(scene, {ray}).front();
@@ -134,7 +135,7 @@ TEST_P(March, passesBehindAWallThatIsThinnerThanTheGap) {
 TEST_P(March, passesInFrontOfWhatLiesBehindIt) {
     const MarchScene scene = sceneOf({wallAt(5.0F, vec2(0.7F, 0.0F), vec2(1.0F)), wallAt(20.0F)});
     const auto answer = march(scene, {{vec3(-1.0F, 0.1F, -4.0F), vec3(1, 0, 0), 0.05F, 30, 100.0F, 1.0F}}).front();
-    EXPECT_EQ(answer.outcome, marchSpent);
+    EXPECT_EQ(answer.outcome, marchLimitReached);
 }
 
 TEST_P(March, neverHitsTheSky) {
@@ -144,12 +145,12 @@ TEST_P(March, neverHitsTheSky) {
         ray.thickness = 1000.0F;
     }
     for (const MarchAnswer& answer : march(sceneOf({}), rays)) {
-        ASSERT_EQ(answer.outcome, marchSpent);
+        ASSERT_EQ(answer.outcome, marchLimitReached);
         ASSERT_EQ(answer.steps, 12U);
     }
 }
 
-// A floor 1 m below the camera, whose pixels show steps of depth to rays just above it; it runs up to a wall.
+// A floor 1 m below the camera, whose per-pixel depth looks like stairs to rays just above it; it ends at a wall.
 class MarchOffTheFloor : public March {
 protected:
     static MarchScene floorAndWall() { return sceneOf({{vec4(0, 1, 0, 1), vec2(-1.0F), vec2(2.0F)}, wallAt(20.0F)}); }

@@ -1,4 +1,4 @@
-// Rays through made-up depth. Shared by C++ and GLSL.
+// Rays through synthetic depth. Shared by C++ and GLSL.
 #ifndef REFLET_TESTS_MARCH_TEST_H
 #define REFLET_TESTS_MARCH_TEST_H
 

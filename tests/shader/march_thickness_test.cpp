@@ -1,5 +1,4 @@
-// What march*.glsl takes surfaces for: as thick as a step, or as far as their back faces; and how far it says that rays
-// were free.
+// Thickness of surfaces in march*.glsl (a step, or up to the back face), and the reported clear distance of rays.
 #include "shader/march_scene.h"
 
 namespace reflet::test::march_thickness_test {
@@ -65,7 +64,7 @@ TEST_P(Thickness, upToTheBackFaceLetsRaysPassBehindIt) {
         EXPECT_EQ(passed.lost, 1U) << method;
     }
     const auto halving = march(scene, {sideways(marchMethodHalving, -6.0F, 100.0F)}, marchMethodHalving, true).front();
-    EXPECT_EQ(halving.outcome, marchHidden);
+    EXPECT_EQ(halving.outcome, marchOccluded);
 }
 
 TEST_P(Thickness, upToTheBackFaceStopsRaysInside) {
@@ -98,7 +97,7 @@ protected:
     /// Metres that a pixel is wide, z metres away.
     static double pixelWidth(double z) { return 1.0 / (project({1.0, 0.0, -z}).x - project({0.0, 0.0, -z}).x); }
 
-    /// Metres by which the method may not have known that it was free: its step, or a pixel.
+    /// Uncertainty of the clear distance [m]: the step of the method, or a pixel.
     static double unknown(uint32_t method, double z) {
         return method == marchMethodLinear ? stepOf(method) : method == marchMethodHalving ? 0.001 : pixelWidth(z);
     }
@@ -137,7 +136,7 @@ TEST_P(Clear, isTheWayToTheEdgeInFrontOfEverything) {
     }
 }
 
-// Before the sky and before a wall: cells of hierarchical depth that hold both must not end it too early.
+// In front of the sky and in front of a wall: cells of hierarchical depth that hold both must not end it too early.
 TEST_P(Clear, endsWhereTheRayGoesBehindSomething) {
     for (const MarchScene& scene : {sceneOf({slab(false)}), sceneOf({slab(false), wallAt(20.0F)})}) {
         for (const uint32_t method : stepping) {
@@ -169,7 +168,7 @@ TEST_P(Clear, endsBeforeTheHit) {
     }
 }
 
-TEST_P(Clear, isAsFarAsTheBudgetWent) {
+TEST_P(Clear, isAsFarAsTheStepsWent) {
     const MarchScene scene = sceneOf({wallAt(50.0F)});
     for (const uint32_t method : stepping) {
         if (method == marchMethodExhaustive) {
@@ -178,7 +177,7 @@ TEST_P(Clear, isAsFarAsTheBudgetWent) {
         MarchInput ray = sideways(method, -8.0F, 0.3F);
         ray.maxSteps = 5;
         const auto answer = march(scene, {ray}, method).front();
-        EXPECT_EQ(answer.outcome, marchSpent) << method;
+        EXPECT_EQ(answer.outcome, marchLimitReached) << method;
         EXPECT_EQ(answer.lost, 0U) << method;
         EXPECT_GT(answer.clear, 0.0F) << method;
         EXPECT_EQ(answer.clear, answer.distance) << method;

@@ -1,5 +1,5 @@
-// noise.glsl. The numbers are the same in every run: a statistic that holds once holds always. Bounds are five standard
-// deviations of true random numbers.
+// noise.glsl. The numbers are deterministic, so statistical tests never become flaky. Bounds are five standard
+// deviations of truly random numbers.
 #include "shader/noise_test.h"
 
 #include "shader/harness.h"

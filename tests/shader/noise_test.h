@@ -1,4 +1,4 @@
-// What noise_test.comp says of a pixel. Shared by C++ and GLSL.
+// Outputs of noise_test.comp for a pixel. Shared by C++ and GLSL.
 #ifndef REFLET_TESTS_NOISE_TEST_H
 #define REFLET_TESTS_NOISE_TEST_H
 

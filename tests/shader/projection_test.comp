@@ -1,4 +1,4 @@
-// World points to the screen and back, as passes do it.
+// Projects world points to the screen and back, as passes do it.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/view.h"

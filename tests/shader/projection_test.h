@@ -1,4 +1,4 @@
-// What projection_test.comp says of a world point. Shared by C++ and GLSL.
+// Outputs of projection_test.comp for a world point. Shared by C++ and GLSL.
 #ifndef REFLET_TESTS_PROJECTION_TEST_H
 #define REFLET_TESTS_PROJECTION_TEST_H
 

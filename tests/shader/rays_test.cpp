@@ -78,7 +78,7 @@ TEST_F(WaitingRays, keepWhatIsLeftOfTheirWeightToHalfAStepOfSixteenBits) {
     }
 }
 
-TEST_F(WaitingRays, knowWhetherTheScreenLostThem) {
+TEST_F(WaitingRays, knowWhetherTheyWereOccludedOnTheScreen) {
     std::vector<WaitingItem> rays;
     for (const float clear : {0.0F, 1e-8F, 1e-3F, 1.0F, 65504.0F, 1e5F}) {
         for (const uint32_t lost : {0U, 1U}) {
@@ -94,7 +94,7 @@ TEST_F(WaitingRays, knowWhetherTheScreenLostThem) {
     }
 }
 
-TEST_F(WaitingRays, neverGoOnFromFartherThanTheyWereFree) {
+TEST_F(WaitingRays, neverContinueFromBeyondTheirClearDistance) {
     constexpr double largest = 65504.0;
     constexpr double smallestNormal = 1.0 / 16384.0;  // below it all steps of half floats are 6e-8
     std::vector<WaitingItem> rays{{1.0F, 0.0F, 0}, {1.0F, 1e5F, 0}};

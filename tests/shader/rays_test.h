@@ -16,7 +16,7 @@ struct RayTexel {
     float spread;
 };
 
-// What a waiting ray says of itself, besides its slot.
+// State of a waiting ray, without its slot.
 struct WaitingItem {
     float rest;
     float clear;  // metres

@@ -1,5 +1,5 @@
-// The samplers of sampling.glsl against the densities that they state: these integrate to one, and random samples fall
-// into the cells of a grid as often as the density says (Pearson's chi-square).
+// The samplers of sampling.glsl against their documented densities: these integrate to one, and random samples fall
+// into the cells of a grid as often as the density predicts (Pearson's chi-square test).
 #include "shader/sampling_test.h"
 
 #include "shader/harness.h"
@@ -89,7 +89,7 @@ Grid ringsOfSphere(double border) {
     return Grid(heights);
 }
 
-/// That the directions are spread by the density. Cells that expect few are taken together.
+/// Expects directions that follow the density. Cells with low expected counts are merged.
 void expectSpread(const std::vector<glm::dvec3>& directions, const Grid& grid, const Density& density,
                   const std::string& what) {
     const auto shares = grid.integrate(density);
@@ -182,7 +182,7 @@ TEST_F(SamplingPdf, ofVisibleHalfVectorsIsTheDistributionOfVisibleNormals) {
     }
 }
 
-// By the reflection, the density is divided by 4 dot(v, h). Some of the directions lie below the surface.
+// Reflection divides the density by 4 dot(v, h). Some of the directions lie below the surface.
 TEST_F(SamplingPdf, ofReflectedDirectionsIsThatOfTheirHalfVectorsOverFourTimesTheCosineBetween) {
     for (const float alpha : {0.4F, 1.0F}) {
         for (const float cosine : {0.1F, 0.5F, 0.9F}) {

@@ -33,7 +33,7 @@ protected:
         return u;
     }
 
-    /// Numbers of all of [0, 1) and those at its ends.
+    /// Numbers from all of [0, 1), including both ends.
     static std::vector<vec2> extremes() {
         std::vector<vec2> u;
         const float ends[] = {0.0F, 1.0F / 16777216.0F, 1e-4F, 0.25F, 0.5F, 0.75F, 1.0F - 1.0F / 16777216.0F};
@@ -65,7 +65,7 @@ protected:
         EXPECT_LT(worst, 0.5 / strata + rounding);
     }
 
-    /// As many samples in each of 64 sectors around the normal.
+    /// Expects equally many samples in each of 64 sectors around the normal.
     static void expectEvenAround(const std::vector<vec3>& directions) {
         std::vector<int> sectors(64, 0);
         for (const vec3& d : directions) {

@@ -1,4 +1,4 @@
-// What the samplers of sampling_test.comp are told. Shared by C++ and GLSL.
+// Parameters of sampling_test.comp. Shared by C++ and GLSL.
 #ifndef REFLET_TESTS_SAMPLING_TEST_H
 #define REFLET_TESTS_SAMPLING_TEST_H
 

@@ -1,5 +1,4 @@
-// Looks points up in a shadow map that is worked out, not drawn: at each texel's centre, the surface that is nearest to
-// the sun.
+// Look-ups of points in an analytic shadow map: each texel's centre holds the surface nearest to the sun.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/octahedral.glsl"

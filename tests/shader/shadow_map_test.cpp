@@ -100,8 +100,8 @@ TEST_F(ShadowMap, aTiltedPlaneDoesNotShadowItself) {
     EXPECT_GT(tried, 40);
 }
 
-// The point itself decides, but for where it lies in its texel (0.71 of it from the centre) and for the step aside that
-// the look-up takes (0.75).
+// Tolerance: the position of the point within its texel (0.71 texels from the centre) and the lateral offset of the
+// look-up (0.75).
 TEST_F(ShadowMap, aShadowsEdgeIsRightToATexelAndAHalf) {
     for (const float degrees : {90.0F, 60.0F, 25.0F}) {
         const vec3 toSun = toSunAt(glm::radians(degrees), 0.9F);
@@ -167,7 +167,7 @@ TEST_F(ShadowMap, whatTheMapDoesNotHoldIsLit) {
     }
 }
 
-// A texel's corner is half a texel from its centre along both axes: over that way, depth changes by `slope`.
+// A texel's corner is half a texel from its centre along both axes; over that distance, depth changes by `slope`.
 TEST_F(ShadowMap, aConstantBiasEndsSelfShadowingOnceItIsWhatDepthChangesByFromATexelsCentreToItsCorner) {
     for (const float degrees : {70.0F, 45.0F, 20.0F}) {
         ShadowScene scene = sceneOf(toSunAt(glm::radians(degrees), 0.6F), vec3(0, 1, 0));

@@ -1,4 +1,4 @@
-// A shadow map of made-up surfaces, and points that look themselves up in it. Shared by C++ and GLSL.
+// A synthetic shadow map, and points to look up in it. Shared by C++ and GLSL.
 #ifndef REFLET_TESTS_SHADOW_MAP_TEST_H
 #define REFLET_TESTS_SHADOW_MAP_TEST_H
 

@@ -53,7 +53,7 @@ TEST_F(ToneCurves, stayBetweenBlackAndWhiteForAllRadiance) {
             const auto shown = apply(curve, given);
             for (size_t i = 0; i < given.size(); ++i) {
                 for (int channel = 0; channel < 3; ++channel) {
-                    // Not a number fails both. One rounding above white is white to the encoding, which clamps.
+                    // NaN fails both. One rounding above white is still white after the encoding, which clamps.
                     ASSERT_GE(shown[i][channel], 0.0F)
                         << curve << ": " << given[i].x << ' ' << given[i].y << ' ' << given[i].z;
                     ASSERT_LE(shown[i][channel], 1.0F + 1e-6F)
@@ -85,8 +85,7 @@ TEST_F(ToneCurves, neverShowMoreLightDarker) {
 TEST_F(ToneCurves, keepGreyGrey) {
     for (const uint32_t curve : toneCurves) {
         for (const vec3& c : apply(curve, greys())) {
-            // AgX's published inset matrix turns grey by up to 1.4e-4 of itself: a tenth of a step of 8 bits is left
-            // over.
+            // AgX's published inset matrix tints grey by up to 1.4e-4 of its value: a tenth of an 8-bit step remains.
             ASSERT_NEAR(c.x, c.y, 6e-4F) << curve;
             ASSERT_NEAR(c.z, c.y, 6e-4F) << curve;
         }

@@ -1,4 +1,4 @@
-// render/tonemap: the pass on the device and the function on the CPU show the same picture.
+// render/tonemap: the pass on the device and the function on the CPU give the same image.
 #include "render/tonemap/tone_map_image.h"
 
 #include "base/error.h"

@@ -121,7 +121,7 @@ TEST_F(Files, AFolderCannotBeWrittenAsAFile) {
     fs::create_directory(at("out"));
     for (const char* name : {"out", "out/"}) {
         EXPECT_EQ(messageOf([&] { writeFileAtomically(at(name), "content"); }),
-                  at(name).string() + ": cannot be written: it is a folder: name a file in it");
+                  at(name).string() + ": cannot be written: it is a folder; name a file in it");
     }
     EXPECT_TRUE(fs::is_empty(at("out")));
 }

@@ -44,7 +44,7 @@ TEST(JsonFile, ThatIsMalformedIsAnErrorWithTheLineAndColumnWhereReadingStopped) 
 }
 
 TEST(JsonFile, WithAKeyTwiceInOneObjectIsAnError) {
-    EXPECT_EQ(parseErrorOf(R"({"a": {"b": [{"c": 1, "c": 2}]}})"), ": a.b.c: is given twice");
+    EXPECT_EQ(parseErrorOf(R"({"a": {"b": [{"c": 1, "c": 2}]}})"), ": a.b.c: duplicate key");
 }
 
 TEST(JsonFile, DeeplyNestedDoesNotOverflowTheStack) {

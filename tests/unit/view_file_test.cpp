@@ -165,8 +165,8 @@ TEST_F(ViewFile, ThatIsMalformedIsAnErrorWithLineAndColumn) {
 }
 
 TEST_F(ViewFile, WithAKeyTwiceIsAnError) {
-    EXPECT_EQ(errorOf(R"({"camera": {"near": 1, "near": 2}})"), "FILE: camera.near: is given twice");
-    EXPECT_EQ(errorOf(R"({"sun": {}, "sun": {}})"), "FILE: sun: is given twice");
+    EXPECT_EQ(errorOf(R"({"camera": {"near": 1, "near": 2}})"), "FILE: camera.near: duplicate key");
+    EXPECT_EQ(errorOf(R"({"sun": {}, "sun": {}})"), "FILE: sun: duplicate key");
 }
 
 TEST_F(ViewFile, WithAnUnknownKeyIsAnErrorThatNamesTheNearest) {
@@ -320,7 +320,7 @@ TEST_F(ViewFile, CannotPutTheNearPlaneBehindTheFarPlaneOfAnOrthographicCamera) {
 
 TEST_F(ViewFile, ShowsNoLongValueAndNoSecondLineInItsErrors) {
     const std::string message = errorOf(R"({"camera": {"fov_y": ")" + std::string(500, 'x') + "\"}}");
-    EXPECT_EQ(message, "FILE: camera.fov_y: must be a number, is a longer text");
+    EXPECT_EQ(message, "FILE: camera.fov_y: must be a number, is a long text");
     EXPECT_EQ(errorOf("{\"sun\": \"\xff\"}").find('\n'), std::string::npos);
 }
 

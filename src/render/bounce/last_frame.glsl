@@ -3,13 +3,13 @@
 #ifndef REFLET_LAST_FRAME_GLSL
 #define REFLET_LAST_FRAME_GLSL
 
-#include "shaders/own_motion.glsl"
+#include "shaders/object_motion.glsl"
 
 const float sameDistance = 0.02;  // share of its distance by which the last frame may have shown a surface elsewhere
 
 // Since the last frame, of the point p that the pixel shows, by itself [m].
 vec3 displacementAt(ivec2 pixel, vec3 p) {
-    return ownDisplacement(p, pixelToUv(pixel, params.view.pixel), texelFetch(motion, pixel, 0).xyz,
+    return objectDisplacement(p, pixelToUv(pixel, params.view.pixel), texelFetch(motion, pixel, 0).xyz,
                            params.view.previousWorldToClip, params.view.viewPlane.xyz);
 }
 

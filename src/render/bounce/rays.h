@@ -141,7 +141,7 @@ struct LobeLight {
     gpu::Image steps;   ///< R32F: mean depth samples per ray; none unless they are counted
     RayTiles tiles;     ///< none without rays
     /// RG16F: uv by which the mirror image has moved since the last frame because what it shows moves by itself
-    /// (own_motion.glsl); none unless it was asked for.
+    /// (object_motion.glsl); none unless it was asked for.
     gpu::Image imageMotion;
     /// RGBA16F: how the light changes with the normal (directional_light.glsl); none unless it was asked for.
     gpu::Image directional;

@@ -55,7 +55,7 @@ void main() {
     bool facesAway = hit.outcome == marchHit &&
                      dot(unpackUnitVector(texelFetch(geometricNormal, hit.pixel, 0).r), direction) > 0.0;
     imageStore(record, ivec2(0, 0), vec4(float(hit.outcome), vec2(hit.pixel), hit.distance));
-    imageStore(record, ivec2(1, 0), vec4(hit.clear, float(hit.lost), float(hit.steps), float(facesAway)));
+    imageStore(record, ivec2(1, 0), vec4(hit.clear, float(hit.occluded), float(hit.steps), float(facesAway)));
     imageStore(record, ivec2(2, 0), fadeOf(hit, p, direction, params.settings, params.settings.maxDistance, params.view));
     imageStore(record, ivec2(3, 0), vec4(direction, float(noted)));
     imageStore(record, ivec2(4, 0), vec4(p, 1.0));

@@ -56,7 +56,7 @@ void main() {
         light += vec4(a.rgb * ray.weight, a.a);
         if (hasDirectional != 0u) {
             float bright = luminance(clampToHalf(a.rgb * ray.weight));
-            turning += ray.spread > 0.0 ? directionalOfAll(bright) : directionalOf(bright, ray.direction, n);
+            turning += ray.spread > 0.0 ? directionalFromAmbient(bright) : directionalFromRay(bright, ray.direction, n);
         }
         colors += imageLoad(raySource, slot);
     }

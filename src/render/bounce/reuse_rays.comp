@@ -94,7 +94,7 @@ float chanceOf(Shown s, Ray ray) {
 void add(inout Sum sum, float weight, vec4 answered, vec3 toward, vec3 normal) {
     sum.light += weight * answered.rgb;
     if (hasDirectional != 0u) {
-        sum.directional += directionalOf(luminance(clampToHalf(weight * answered.rgb)), toward, normal);
+        sum.directional += directionalFromRay(luminance(clampToHalf(weight * answered.rgb)), toward, normal);
     }
     sum.away += weight * answered.a;
     sum.weight += weight;
@@ -104,7 +104,7 @@ void add(inout Sum sum, float weight, vec4 answered, vec3 toward, vec3 normal) {
 float reachOf(Shown own, float d, float away) {
     float distance = depthToViewDistance(d, params.view.depthToDistance);
     float pixelWidth = params.gridAngle * (params.view.eye.w > 0.0 ? distance : 1.0);
-    float lobeWidth = lobe == lobeDiffuse ? 1.0 : ggxHalfTangent(own.alpha);
+    float lobeWidth = lobe == lobeDiffuse ? 1.0 : ggxConeTangent(own.alpha);
     return min(widest, shareOfWay * lobeWidth * away / pixelWidth);
 }
 

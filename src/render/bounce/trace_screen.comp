@@ -99,12 +99,12 @@ float widthOfHit(float roughness, MarchResult hit) {
     }
     float away = depthToViewDistance(loadDepth(hit.pixel), params.view.depthToDistance);
     float pixelWidth = params.view.pixelAngle * (params.view.eye.w > 0.0 ? away : 1.0);  // metres
-    return coneWidth * ggxHalfTangent(roughness * roughness) * hit.distance / pixelWidth;
+    return coneWidth * ggxConeTangent(roughness * roughness) * hit.distance / pixelWidth;
 }
 
 MarchResult traceRay(MarchRay ray, MarchOptions o, MarchView view) {
     // An even mirror's rays go straight away from the mirrored camera, and stay in one pixel. Steps would pass over it.
-    if (through == throughMirror && all(lessThan(abs(makeScreenRay(ray, o.longest, view).delta.xy), vec2(1.0)))) {
+    if (through == throughMirror && all(lessThan(abs(makeScreenRay(ray, o.maxDistance, view).delta.xy), vec2(1.0)))) {
         return marchExhaustive(ray, o, view);
     }
     return marchBy(method, ray, o, view);
@@ -149,7 +149,7 @@ RayAnswer traceAnswer(ivec3 slot, Ray ray, vec3 p, vec3 n, inout WaitingRay w) {
     // What it would see of a surface from behind, the screen does not show.
     bool facesAway = params.settings.rejectBackfaces != 0u && hit.outcome == marchHit &&
                      dot(unpackUnitVector(texelFetch(geometricNormal, hit.pixel, 0).r), ray.direction) > 0.0;
-    noteWay(hit, hit.lost || facesAway, w);
+    noteWay(hit, hit.occluded || facesAway, w);
     if (tellsMotion != 0u && slot.z == 0 && hit.outcome == marchHit && !facesAway) {
         tellMotion(slot.xy, ray, p, hit);
     }

@@ -111,7 +111,7 @@ vec3 diffuseRadiance(Shown shown) {
         }
     }
     float whole = 1.0 / max(sum.a, 1e-12);
-    return sum.rgb * whole * (turns ? turned(directional * whole, normals * whole, shown.normal) : 1.0);
+    return sum.rgb * whole * (turns ? relightFactor(directional * whole, normals * whole, shown.normal) : 1.0);
 }
 
 vec3 specularRadiance(Shown shown) {

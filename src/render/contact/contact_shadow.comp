@@ -47,7 +47,7 @@ bool findsCaster(ivec2 pixel) {
                                params.view.depthToDistance, params.view.size, params.view.pixel);
     MarchRay ray = makeMarchRay(p, params.toSun, planeOnScreen(p, n, params.view.clipToWorld), view);
     MarchOptions o;  // hierarchical depth reads no others
-    o.longest = s.distance;
+    o.maxDistance = s.distance;
     o.maxSteps = s.maxSteps;
     o.thickness = s.thickness;
     o.secondLayer = false;

@@ -38,7 +38,7 @@ const float rememberedLong = 4.0;  // frames, from which on the past is kept as 
 float radiusAt(float d, float roughness, float hitDistance, float noise) {
     float away = depthToViewDistance(d, params.view.depthToDistance);
     float pixelWidth = params.gridAngle * (params.view.eye.w > 0.0 ? away : 1.0);
-    float lobeWidth = lobe == 0u ? 1.0 : ggxHalfTangent(roughness * roughness);
+    float lobeWidth = lobe == 0u ? 1.0 : ggxConeTangent(roughness * roughness);
     float way = shareOfWay * lobeWidth * hitDistance / pixelWidth;
     return min(params.radius, way) * noise;
 }
@@ -108,7 +108,7 @@ void main() {
         }
     }
     if (hasDirectional != 0u) {
-        sum.rgb *= turned(turning, normals / weights, own.normal);
+        sum.rgb *= relightFactor(turning, normals / weights, own.normal);
         turning = roundToHalf(clamp(turning / weights, -largestHalf, largestHalf));
         imageStore(blurredDirectional, pixel, turning);
     }

@@ -36,7 +36,7 @@ float visibilityOfLamp(uint shadow, ivec2 pixel) {
 vec3 lampLight(uint index, Surface s, vec3 p, vec3 n, vec3 v, ivec2 pixel) {
     vec3 toLamp;
     vec3 irradiance = lampIrradiance(lampBlock.lamps[index], p, toLamp);
-    return reflectLight(s, n, v, toLamp) * irradiance * visibilityOfLamp(lampBlock.lamps[index].shadow, pixel);
+    return brdfTimesCosine(s, n, v, toLamp) * irradiance * visibilityOfLamp(lampBlock.lamps[index].shadow, pixel);
 }
 
 vec3 radianceAt(ivec2 pixel) {
@@ -53,11 +53,11 @@ vec3 radianceAt(ivec2 pixel) {
 
     float visibility = texelFetch(sunVisibility, pixel, 0).r;
     vec3 radiance = texelFetch(emissive, pixel, 0).rgb;
-    radiance += reflectLight(s, n, v, params.toSun) * params.sunIrradiance * visibility;
+    radiance += brdfTimesCosine(s, n, v, params.toSun) * params.sunIrradiance * visibility;
     for (uint first = 0u; anyLamps != 0u && first < lampBlock.count; first += lampsPerLayer) {
-        uvec4 bits = lampsOfPixel(pixel, first / lampsPerLayer);
+        uvec4 bits = lampMaskAt(pixel, first / lampsPerLayer);
         while (bits != uvec4(0u)) {
-            radiance += lampLight(first + takeFirstLamp(bits), s, p, n, v, pixel);
+            radiance += lampLight(first + popFirstLamp(bits), s, p, n, v, pixel);
         }
     }
     return radiance;

@@ -37,12 +37,13 @@ RayAnswer answerOfMirror(MarchResult hit, vec3 p, Ray ray) {
         return RayAnswer(lightOfMirror(uv, widthOfHit(ray.spread, hit)), 1.0, hit.distance);
     }
     vec2 uv = uvOf(vec4(ray.direction, 0.0));
-    bool sky = hit.outcome == marchSpent && !hit.lost && hit.distance > 0.99 * params.longest && isInside(uv) &&
+    bool sky = hit.outcome == marchLimitReached && !hit.occluded && hit.distance > 0.99 * params.longest &&
+               isInside(uv) &&
                loadDepth(ivec2(uv * params.view.size)) <= 0.0;
     if (!sky) {
         return noAnswer;
     }
-    float angle = coneWidth * ggxHalfTangent(ray.spread * ray.spread) / params.view.pixelAngle;
+    float angle = coneWidth * ggxConeTangent(ray.spread * ray.spread) / params.view.pixelAngle;
     return RayAnswer(lightOfMirror(uv, ray.spread > 0.0 ? angle : 1.0), 1.0, environmentDistance);
 }
 

@@ -40,7 +40,7 @@ float shrunkSearch(ShadowCone cone, float radius, float least, vec2 noise) {
         float highest = -1.0;
         for (uint k = 0u; k <= count; ++k) {
             ShadowTexel texel = shadowTexel(k == 0u ? vec2(0.0) : radius * nextPoint(pattern));
-            highest = blocks(texel, receiver.lift) ? max(highest, max(texel.height, 0.0)) : highest;
+            highest = blocks(texel, receiver.depthBias) ? max(highest, max(texel.height, 0.0)) : highest;
         }
         float needed = highest < 0.0 ? 0.0 : max(penumbraRadius(cone, highest), least);
         if (needed > 0.7 * radius) {
@@ -56,7 +56,7 @@ float shrunkSearch(ShadowCone cone, float radius, float least, vec2 noise) {
 
 float pcss(ShadowCone cone, vec4 noise) {
     ShadowSettings s = params.settings;
-    float least = leastFilterRadius * receiver.texel;
+    float least = minFilterRadius * receiver.texel;
     // All of the tile's depth could cast, but what is nearer to the lamp than ten radii is found only by what it hides of
     // the lamp's middle: a search for it would be as wide as the room (planLampShadows).
     float radius = min(penumbraRadius(cone, receiver.distance - receiver.shadow.near),
@@ -68,12 +68,12 @@ float pcss(ShadowCone cone, vec4 noise) {
     if (radius == 0.0) {
         return 1.0;
     }
-    float height = meanBlockerHeight(cone, radius, least, receiver.lift, shadowPattern(s, s.blockerSamples, noise.zw),
-                                     s.blockerSamples);
+    float height = meanBlockerHeight(cone, radius, least, receiver.depthBias,
+                                     shadowPattern(s, s.blockerSamples, noise.zw), s.blockerSamples);
     if (height <= 0.0) {
         return 1.0;
     }
-    return diskVisibility(cone, height, least, receiver.lift, shadowPattern(s, s.samples, noise.xy), s.samples);
+    return diskVisibility(cone, height, least, receiver.depthBias, shadowPattern(s, s.samples, noise.xy), s.samples);
 }
 
 float visibilityAt(ivec2 pixel, uint index, vec3 p, vec3 n) {
@@ -92,10 +92,10 @@ float visibilityAt(ivec2 pixel, uint index, vec3 p, vec3 n) {
     vec4 noise = shadowNoise(pixel, params.view, s.pattern == ShadowPattern_rings, lampStream + 2u * index);
     if (filterKind == ShadowFilter_pcf) {
         float radius = s.radius * (s.radiusUnit == ShadowUnit_texels ? receiver.texel : 1.0);
-        return pcfVisibility(radius, receiver.lift, shadowPattern(s, s.samples, noise.xy), s.samples);
+        return pcfVisibility(radius, receiver.depthBias, shadowPattern(s, s.samples, noise.xy), s.samples);
     }
     float slope = shadow.lamp.radius / receiver.distance;
-    float share = shareAboveHorizon(facing, slope * inversesqrt(1.0 + slope * slope));
+    float share = fractionAboveHorizon(facing, slope * inversesqrt(1.0 + slope * slope));
     return share * pcss(ShadowCone(slope, 1.0 / receiver.distance), noise);
 }
 

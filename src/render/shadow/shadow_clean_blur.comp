@@ -48,7 +48,7 @@ float blurAt(ivec2 pixel, uint middle) {
         if (onSurface(plane, vec2(o), texelFetch(depth, at, 0).r - d)) {
             float v = texel != 0u ? visibilityOf(texel) : imageLoad(visibility, at).r;
             float weight = exp(-0.5 * quadratic(form, vec2(o))) * alike(width, widthOf(texel)) *
-                           likeness(v - visible, params.samples);
+                           similarity(v - visible, params.samples);
             sum += weight * vec2(v, 1.0);
         }
     }

@@ -131,7 +131,7 @@ void gather(ivec2 pixel) {
     }
     vec2 before = params.hasPrevious != 0u ? remembered(pixel, p, plane) : vec2(0.0);
     float held = clamp(before.x, n.lowest - allowance, n.highest + allowance);
-    before.y *= max(1.0 - 8.0 * abs(held - before.x), 0.0) * likeness(seen - held, params.samples);
+    before.y *= max(1.0 - 8.0 * abs(held - before.x), 0.0) * similarity(seen - held, params.samples);
     float mean = (held * before.y + seen) / (before.y + 1.0);
     vec3 form = min(formAt(metres, n, inversesqrt(sqrt(before.y + 1.0))), vec3(1e4));
     imageStore(kernel, pixel,

@@ -45,9 +45,9 @@ float sharpVisibility() {
     LitSum sum = LitSum(0.0, 0.0, 0.0, 0.0);
     for (int i = 0; i < 4; ++i) {
         ShadowTexel texel = shadowTexel(offsets[i]);
-        addTexel(sum, !blocks(texel, receiver.lift), texel.known, weights[i]);
+        addTexel(sum, !blocks(texel, receiver.depthBias), texel.known, weights[i]);
     }
-    return litShare(sum);
+    return litFraction(sum);
 }
 
 // What the visibility image and the penumbra image get.
@@ -63,7 +63,7 @@ bool shrinkSearch(ShadowCone cone, float least, inout float radius) {
     for (int i = 0; i < 3 && radius > least; ++i) {
         vec2 heights = heightRange(receiver, textureSize(shadowMap, 0), radius);
         vec2 rise = abs(receiver.slope) * 2.0 * (radius * receiver.texelsPerMetre + 1.0) / vec2(receiver.tile.size);
-        if (heights.x > rise.x + rise.y + receiver.lift) {
+        if (heights.x > rise.x + rise.y + receiver.depthBias) {
             return true;
         }
         float needed = penumbraRadius(cone, heights.y);
@@ -78,7 +78,7 @@ bool shrinkSearch(ShadowCone cone, float least, inout float radius) {
 
 Result pcss(ShadowCone cone, float texelSize, vec4 noise) {
     ShadowSettings s = params.settings;
-    float least = leastFilterRadius * texelSize;
+    float least = minFilterRadius * texelSize;
     float radius = penumbraRadius(cone, (1.0 - receiver.s.z) * receiver.depthRange);
     if (hasRanges != 0u && shrinkSearch(cone, least, radius)) {
         return Result(0.0, 0.0, 0.0);
@@ -86,21 +86,23 @@ Result pcss(ShadowCone cone, float texelSize, vec4 noise) {
     if (radius <= least) {
         return Result(sharpVisibility(), 0.0, 0.0);
     }
-    float height = meanBlockerHeight(cone, radius, least, receiver.lift, shadowPattern(s, s.blockerSamples, noise.zw),
-                                     s.blockerSamples);
+    float height = meanBlockerHeight(cone, radius, least, receiver.depthBias,
+                                     shadowPattern(s, s.blockerSamples, noise.zw), s.blockerSamples);
     if (height <= 0.0) {
         return Result(1.0, -2.0 * radius, 0.0);
     }
     float width = 2.0 * max(penumbraRadius(cone, height), least);
-    float visible = diskVisibility(cone, height, least, receiver.lift, shadowPattern(s, s.samples, noise.xy), s.samples);
+    float visible =
+        diskVisibility(cone, height, least, receiver.depthBias, shadowPattern(s, s.samples, noise.xy), s.samples);
     return Result(visible, width, height);
 }
 
 Result pcf(float texelSize, vec4 noise) {
     ShadowSettings s = params.settings;
     float radius = s.radius * (s.radiusUnit == ShadowUnit_texels ? texelSize : 1.0);
-    float lift = receiver.lift * (1.0 + 0.1 * radius / texelSize);  // nothing else tells the receiver's surroundings
-    float visible = pcfVisibility(radius, lift, shadowPattern(s, s.samples, noise.xy), s.samples);
+    // PCF has no other way to tell the receiver's own surroundings from blockers.
+    float depthBias = receiver.depthBias * (1.0 + 0.1 * radius / texelSize);
+    float visible = pcfVisibility(radius, depthBias, shadowPattern(s, s.samples, noise.xy), s.samples);
     return Result(visible, 2.0 * radius, 0.0);
 }
 
@@ -108,13 +110,13 @@ Result pcf(float texelSize, vec4 noise) {
 float shareOfNormal(vec3 normal, vec3 toSun) {
     float facing = dot(normal, toSun);
     float sine = params.sunSlope * inversesqrt(1.0 + params.sunSlope * params.sunSlope);
-    return filterKind == ShadowFilter_pcss ? shareAboveHorizon(facing, sine) : facing > 0.0 ? 1.0 : 0.0;
+    return filterKind == ShadowFilter_pcss ? fractionAboveHorizon(facing, sine) : facing > 0.0 ? 1.0 : 0.0;
 }
 
 Result resultIn(uint cascade, vec3 p, vec3 normal, vec4 noise) {
     ShadowSettings s = params.settings;
     ShadowMapParams map = params.sun.maps[cascade];
-    ShadowTile tile = ShadowTile(cascadeTile(cascade, s.resolution), ivec2(s.resolution));
+    ShadowTile tile = ShadowTile(cascadeTileOrigin(cascade, s.resolution), ivec2(s.resolution));
     receiver = biasKind == ShadowBias_constant ? constantReceiver(p, map, tile, s.constantBias)
                                                  : slopeReceiver(p, normal, map, tile, s.bias);
     if (filterKind == ShadowFilter_hard) {
@@ -153,7 +155,7 @@ void look(ivec2 pixel) {
     if (d > 0.0) {
         vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
         if (cascades > 1u) {  // a map whose number is no constant is read lane by lane on CPUs
-            c = cascadeAt(dot(params.view.viewPlane, vec4(p, 1.0)), params.sun);
+            c = selectCascade(dot(params.view.viewPlane, vec4(p, 1.0)), params.sun);
         }
         r = resultAt(p, c, pixel);
     }

@@ -45,7 +45,7 @@ struct LightRay {
 
 // From the sides of the triangle and of the shading normal that are lit.
 vec3 reflectToViewer(LitPoint at, vec3 toLight) {
-    return dot(toLight, at.geometricNormal) > 0.0 ? reflectLight(at.surface, at.normal, at.toViewer, toLight)
+    return dot(toLight, at.geometricNormal) > 0.0 ? brdfTimesCosine(at.surface, at.normal, at.toViewer, toLight)
                                                   : vec3(0.0);
 }
 

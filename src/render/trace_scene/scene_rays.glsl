@@ -1,5 +1,5 @@
 // Rays through the scene's hierarchy, traversed in the shader. Bindings 24 and 25 of set 0: SceneRays::bind.
-// The includer defines askEveryHit and acceptHit (shaders/bvh.glsl), after scene_triangles.glsl, before this.
+// The includer defines testEveryHit and acceptHit (shaders/bvh.glsl), after scene_triangles.glsl, before this.
 #ifndef REFLET_SCENE_RAYS_GLSL
 #define REFLET_SCENE_RAYS_GLSL
 

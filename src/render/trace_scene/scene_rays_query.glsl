@@ -1,6 +1,6 @@
 // Rays through the device's own acceleration structure (GL_EXT_ray_query, which the includer requires). Bindings 24
 // and 25 of set 0: SceneRays::bind.
-// The includer defines askEveryHit and acceptHit (shaders/bvh.glsl), after scene_triangles.glsl, before this.
+// The includer defines testEveryHit and acceptHit (shaders/bvh.glsl), after scene_triangles.glsl, before this.
 #ifndef REFLET_SCENE_RAYS_QUERY_GLSL
 #define REFLET_SCENE_RAYS_QUERY_GLSL
 
@@ -10,8 +10,8 @@ layout(set = 0, binding = 24) uniform accelerationStructureEXT sceneHierarchy;
 
 // Where some triangles are cut out the structure asks about all.
 bool acceptCandidate(uint triangle, vec2 barycentrics, vec3 direction) {
-    bool asks = askEveryHit || (loadSceneTriangle(triangle).flags & triangleCutOut) != 0u;
-    return !asks || acceptHit(triangle, barycentrics, direction);
+    bool tests = testEveryHit || (loadSceneTriangle(triangle).flags & triangleCutOut) != 0u;
+    return !tests || acceptHit(triangle, barycentrics, direction);
 }
 
 bool queryScene(vec3 origin, vec3 direction, float nearest, float farthest, uint flags, out SceneHit hit) {
@@ -20,7 +20,7 @@ bool queryScene(vec3 origin, vec3 direction, float nearest, float farthest, uint
         return false;
     }
     rayQueryEXT query;
-    rayQueryInitializeEXT(query, sceneHierarchy, flags | (askEveryHit ? gl_RayFlagsNoOpaqueEXT : gl_RayFlagsNoneEXT),
+    rayQueryInitializeEXT(query, sceneHierarchy, flags | (testEveryHit ? gl_RayFlagsNoOpaqueEXT : gl_RayFlagsNoneEXT),
                           0xFFu, origin, nearest, direction, farthest);
     while (rayQueryProceedEXT(query)) {
         uint triangle = uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false));

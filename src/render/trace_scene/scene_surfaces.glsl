@@ -102,7 +102,7 @@ vec4 sceneBaseColor(ScenePlace place) {
 }
 
 // What the traversal asks: rays go through what is cut out.
-const bool askEveryHit = false;
+const bool testEveryHit = false;
 bool acceptHit(uint triangle, vec2 barycentrics, vec3 direction) {
     ScenePlace place = scenePlace(loadSceneTriangle(triangle), barycentrics);
     return sceneBaseColor(place).a >= sceneMaterials.items[place.material].params.alphaCutoff;

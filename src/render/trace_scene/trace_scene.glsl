@@ -63,7 +63,7 @@ float sunMapVisibility(vec3 p, vec3 normal) {
     }
     ivec2 side = textureSize(shadowMap, 0) / (params.sun.count > 1u ? 2 : 1);
     for (uint i = 0u; i < params.sun.count; ++i) {
-        ShadowTile tile = ShadowTile(cascadeTile(i, uint(side.x)), side);
+        ShadowTile tile = ShadowTile(cascadeTileOrigin(i, uint(side.x)), side);
         ShadowReceiver receiver = slopeReceiver(p, normal, params.sun.maps[i], tile, params.shadowBias);
         if (all(greaterThan(receiver.at, vec2(1.0))) && all(lessThan(receiver.at, vec2(side) - 1.0))) {
             return hardVisibility(receiver);
@@ -169,7 +169,7 @@ vec3 scatter(LitPoint at, bool diffuseOnly, inout uint random, out SceneRay next
         float unmasked = mirror ? 1.0 : ggxVisibility(max(l.z, 0.0), eye.z, alpha) * 2.0 * max(l.z, 0.0) *
                                             (eye.z + sqrt(eye.z * eye.z * (1.0 - a2) + a2));
         weight = fresnelSchlick(at.surface.f0, dot(eye, h)) * at.surface.compensation * (unmasked / chance);
-        lobeWidth = ggxHalfTangent(alpha);
+        lobeWidth = ggxConeTangent(alpha);
     } else {
         l = sampleCosineHemisphere(u);
         weight = at.surface.diffuse / (1.0 - chance);
@@ -225,7 +225,7 @@ SceneRay rayOfPixel(ivec3 slot, Ray ray) {
     vec3 n = unpackUnitVector(texelFetch(ownGeometricNormal, slot.xy, 0).r);
     float away = depthToViewDistance(d, params.own.depthToDistance);
     float roughness = unpackMaterial(texelFetch(material, slot.xy, 0)).roughness;
-    float lobeWidth = lobe == 0u ? 1.0 : ggxHalfTangent(roughness * roughness);
+    float lobeWidth = lobe == 0u ? 1.0 : ggxConeTangent(roughness * roughness);
     float pixelWidth = params.own.pixelAngle * (params.own.eye.w > 0.0 ? away : 1.0);
     return SceneRay(p + n * clearanceOfPixel(p, away, params.own.depthToDistance), ray.direction, pixelWidth,
                     params.own.pixelAngle * params.own.eye.w + shareOfLobe * lobeWidth);

@@ -1,9 +1,9 @@
-// Own motion of things, and of their mirror images.
+// Object motion, and the motion of mirror images.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
-#include "own_motion_test.h"
+#include "object_motion_test.h"
 #include "render/view.h"
-#include "shaders/own_motion.glsl"
+#include "shaders/object_motion.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock {
@@ -14,7 +14,7 @@ layout(set = 0, binding = 1, scalar) readonly buffer InputBlock {
 }
 inputs;
 layout(set = 0, binding = 2, scalar) buffer OutputBlock {
-    OwnMotion items[];
+    ObjectMotion items[];
 }
 outputs;
 
@@ -24,8 +24,8 @@ void main() {
         return;
     }
     MirroredThing t = inputs.items[i];
-    OwnMotion o;
-    o.displacement = ownDisplacement(t.thing, t.uv, t.motion, params.previousWorldToClip, params.viewPlane.xyz);
+    ObjectMotion o;
+    o.displacement = objectDisplacement(t.thing, t.uv, t.motion, params.previousWorldToClip, params.viewPlane.xyz);
     o.ofImage = mirroredMotion(t.mirror, directionToEye(t.mirror, params.eye), normalize(t.thing - t.mirror),
                                distance(t.thing, t.mirror), o.displacement, params.previousWorldToClip);
     outputs.items[i] = o;

@@ -1,6 +1,6 @@
-// A thing before a mirror, as own_motion_test.comp takes it. Shared by C++ and GLSL.
-#ifndef REFLET_TESTS_OWN_MOTION_TEST_H
-#define REFLET_TESTS_OWN_MOTION_TEST_H
+// An object in front of a mirror, input of object_motion_test.comp. Shared by C++ and GLSL.
+#ifndef REFLET_TESTS_OBJECT_MOTION_TEST_H
+#define REFLET_TESTS_OBJECT_MOTION_TEST_H
 
 #include "base/shared.h"
 
@@ -13,7 +13,7 @@ struct MirroredThing {
     vec3 mirror;  // where its image is seen
 };
 
-struct OwnMotion {
+struct ObjectMotion {
     vec3 displacement;
     vec2 ofImage;
 };

@@ -1,5 +1,5 @@
-// own_motion.glsl against things and mirrors whose places are known.
-#include "shader/own_motion_test.h"
+// object_motion.glsl against objects and mirrors at known positions.
+#include "shader/object_motion_test.h"
 
 #include "render/planar/planar_view.h"
 #include "render/view_params.h"
@@ -7,7 +7,7 @@
 
 #include <random>
 
-namespace reflet::test::own_motion_test {
+namespace reflet::test::object_motion_test {
 namespace {
 
 constexpr uvec2 pixels{1280, 720};
@@ -27,7 +27,7 @@ Camera cameraAt(const vec3& position, bool orthographic) {
 struct Cases {
     ViewParams view{};
     std::vector<MirroredThing> things;
-    std::vector<OwnMotion> expected;
+    std::vector<ObjectMotion> expected;
 };
 
 vec2 uvOf(const mat4& worldToClip, const vec3& p) {
@@ -35,7 +35,7 @@ vec2 uvOf(const mat4& worldToClip, const vec3& p) {
     return 0.5F + 0.5F * vec2(clip) / clip.w;
 }
 
-/// Things above a mirror in the plane y = 0.1, some of which stand still, between two frames of a camera that moves.
+/// Objects above a mirror in the plane y = 0.1, some of them static, between two frames of a moving camera.
 Cases makeCases(bool orthographic) {
     std::mt19937 random(7);
     const auto between = [&](float low, float high) {
@@ -63,21 +63,21 @@ Cases makeCases(bool orthographic) {
     return cases;
 }
 
-class OwnMotionTest : public ShaderTest, public ::testing::WithParamInterface<bool> {};
-INSTANTIATE_TEST_SUITE_P(Cameras, OwnMotionTest, ::testing::Bool());
+class ObjectMotionTest : public ShaderTest, public ::testing::WithParamInterface<bool> {};
+INSTANTIATE_TEST_SUITE_P(Cameras, ObjectMotionTest, ::testing::Bool());
 
-TEST_P(OwnMotionTest, TellsHowThingsMovedInTheWorldAndTheirImagesBehindAMirror) {
+TEST_P(ObjectMotionTest, TellsHowObjectsMovedInTheWorldAndTheirImagesBehindAMirror) {
     const Cases cases = makeCases(GetParam());
-    const auto found = mapOnDevice<OwnMotion>("own_motion_test.comp", cases.things, cases.view);
+    const auto found = mapOnDevice<ObjectMotion>("object_motion_test.comp", cases.things, cases.view);
     for (size_t i = 0; i < found.size(); ++i) {
         ASSERT_LT(glm::distance(found[i].displacement, cases.expected[i].displacement), 1e-4F) << i;
         ASSERT_LT(glm::distance(found[i].ofImage, cases.expected[i].ofImage), 2e-5F) << i;
     }
 }
 
-TEST_P(OwnMotionTest, IsExactlyNoneOfWhatStandsStill) {
+TEST_P(ObjectMotionTest, IsExactlyZeroForStaticObjects) {
     const Cases cases = makeCases(GetParam());
-    const auto found = mapOnDevice<OwnMotion>("own_motion_test.comp", cases.things, cases.view);
+    const auto found = mapOnDevice<ObjectMotion>("object_motion_test.comp", cases.things, cases.view);
     for (size_t i = 0; i < found.size(); i += 4) {
         ASSERT_EQ(found[i].displacement, vec3(0.0F)) << i;
         ASSERT_EQ(found[i].ofImage, vec2(0.0F)) << i;
@@ -85,4 +85,4 @@ TEST_P(OwnMotionTest, IsExactlyNoneOfWhatStandsStill) {
 }
 
 }  // namespace
-}  // namespace reflet::test::own_motion_test
+}  // namespace reflet::test::object_motion_test

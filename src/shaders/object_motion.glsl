@@ -1,18 +1,19 @@
-// What moves by itself, told by the G-buffer's motion: where in the world it was, and how its mirror image moved.
-#ifndef REFLET_OWN_MOTION_GLSL
-#define REFLET_OWN_MOTION_GLSL
+// Object motion from the motion vectors of the G-buffer: the world-space displacement of a surface, and the motion of
+// its mirror image.
+#ifndef REFLET_OBJECT_MOTION_GLSL
+#define REFLET_OBJECT_MOTION_GLSL
 
 #include "shaders/projection.glsl"
 
-// By which half floats may be off: this share of a motion, and this much of any [uv].
+// Rounding error of half floats: relative to a motion, and absolute [uv].
 const vec2 motionRounding = vec2(1.0 / 512.0, 1e-5);
 
-// World-space displacement since the last frame of the point p that is seen at uv. motion: of the G-buffer, uv and
-// metres along `forward`, the camera's axis (unit). Exactly 0 for what stands still.
-vec3 ownDisplacement(vec3 p, vec2 uv, vec3 motion, mat4 previousWorldToClip, vec3 forward) {
+// World-space displacement since the last frame of the point p that is seen at uv. motion: of the G-buffer; uv, and
+// metres along `forward`, the camera's axis (unit). Exactly 0 for static objects.
+vec3 objectDisplacement(vec3 p, vec2 uv, vec3 motion, mat4 previousWorldToClip, vec3 forward) {
     vec4 still = previousWorldToClip * vec4(p, 1.0);
     vec2 before = uvToNdc(uv - motion.xy);
-    // (p - displacement) was seen at `before`, and motion.z metres nearer: three planes.
+    // (p - displacement) was seen at `before`, and motion.z metres nearer: the intersection of three planes.
     mat4 rows = transpose(previousWorldToClip);
     vec3 x = rows[0].xyz - before.x * rows[3].xyz;
     vec3 y = rows[1].xyz - before.y * rows[3].xyz;
@@ -25,9 +26,9 @@ vec3 ownDisplacement(vec3 p, vec2 uv, vec3 motion, mat4 previousWorldToClip, vec
     return (off.x * cross(y, forward) + off.y * cross(forward, x) + motion.z * cross(x, y)) / volume;
 }
 
-// uv by which the image of a thing behind a mirror has moved, beyond what it would have, had the thing stood still.
-// toEye, toThing: from a point p of the mirror, unit. displacement: of the thing, which is `away` metres from p. What a
-// flat mirror shows lies behind it, and moves mirrored. Curved ones are taken to be flat; so is what is rough.
+// Motion [uv] of an object's mirror image, beyond that of a static object. toEye, toThing: unit, from a point p of the
+// mirror. displacement: of the object, which is `away` metres from p. The image of a flat mirror lies behind it and its
+// motion is mirrored. Curved and rough mirrors are treated as flat.
 vec2 mirroredMotion(vec3 p, vec3 toEye, vec3 toThing, float away, vec3 displacement, mat4 previousWorldToClip) {
     vec3 n = toEye + toThing;  // along the mirror's normal
     vec3 moved = displacement - n * (2.0 * dot(n, displacement) / max(dot(n, n), 1e-12));
