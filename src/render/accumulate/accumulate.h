@@ -7,11 +7,11 @@
 
 SHARED_BEGIN
 
-#define ACCUMULATE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                 \
-    SWITCH(enabled, 0,                                                                                             \
-           "Show the mean over all frames in which view, light and settings have stayed (--frames): direct, both " \
-           "indirect layers, and so the picture.")                                                                 \
-    SWITCH(jitter, 1, "Look through another place in the pixel in every frame: the mean is over the pixel's area.")
+#define ACCUMULATE_SETTINGS(VALUE, SWITCH, CHOICE)                                                              \
+    SWITCH(enabled, 0,                                                                                          \
+           "Progressive rendering: show the mean of all frames (--frames) since view, lights or settings last " \
+           "changed. Converges to a noise-free image.")                                                         \
+    SWITCH(jitter, 1, "Subpixel jitter in each frame, so that the mean is antialiased.")
 SETTINGS(AccumulateSettings, ACCUMULATE_SETTINGS)
 
 struct AccumulateParams {

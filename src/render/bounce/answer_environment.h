@@ -9,10 +9,13 @@ SHARED_BEGIN
 // Hit distance of what has none [m]: far, and a half float.
 const float environmentDistance = 10000.0;
 
-#define ENVIRONMENT_SETTINGS(VALUE, SWITCH, CHOICE)                                                              \
-    SWITCH(enabled, 1, "Rays that meet nothing get the environment; off: they get black. The background stays.") \
-    VALUE(float, occludedWeight, 0.5, 0.0, 1.0,                                                                  \
-          "How much of the environment rays get of which the screen only knows that they went behind something.")
+#define ENVIRONMENT_SETTINGS(VALUE, SWITCH, CHOICE)                                                                 \
+    SWITCH(enabled, 1,                                                                                              \
+           "Image-based lighting: rays that hit nothing get the environment. Off: they are black; the background "  \
+           "stays visible.")                                                                                        \
+    VALUE(float, occludedWeight, 0.5, 0.0, 1.0,                                                                     \
+          "Share of environment light for rays that passed behind a visible surface, where the screen cannot tell " \
+          "whether they hit. 0: darker; 1: more light leaking.")
 SETTINGS(EnvironmentSettings, ENVIRONMENT_SETTINGS)
 
 struct AnswerEnvironmentParams {

@@ -23,48 +23,52 @@ CHOICES(RayDistribution, RAY_DISTRIBUTIONS)
     OPTION(RayNoise, blue, 1)
 CHOICES(RayNoise, RAY_NOISES)
 
-#define DIFFUSE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                  \
-    VALUE(uint, rays, 4, 0, 256, "Rays per pixel for indirect diffuse light; 0: none is computed.")              \
-    CHOICE(RayDistribution, distribution, cosine,                                                                \
-           "How their directions are spread over the hemisphere; normal: not at all: one along the normal "      \
-           "stands for all, and only sources that know irradiance (probes, environment) answer it.")             \
-    CHOICE(RayNoise, noise, blue,                                                                                \
-           "What chooses their directions; white: chance; blue: a low-discrepancy sequence, shifted by "         \
-           "blue noise in space and time: less error, and what is left is easier to blur away.")                 \
-    SWITCH(adaptive, 0,                                                                                          \
-           "`rays` is the mean over the surfaces: more where light is noisy or nothing is remembered, fewer "    \
-           "elsewhere, half to 4 times as many, at most 8. Without denoise.history, and with more than 8 rays, " \
-           "all pixels get the same.")                                                                           \
-    VALUE(uint, downsample, 1, 1, 4,                                                                             \
-          "Pixels along each side of the blocks that share rays; 2: half resolution. What is found is spread "   \
-          "over the block's pixels by their depths and normals.")                                                \
-    VALUE(uint, reuse, 0, 0, 8,                                                                                  \
-          "Neighbours whose rays a pixel takes, too, weighted as its own lobe would; only where all its rays "   \
-          "are traced at once (up to 4), and not with adaptive.")                                                \
-    VALUE(float, maxDistance, 100000.0, 0.01, 100000.0,                                                          \
-          "Metres; what is farther off is left to the sources behind the screen.")                               \
-    VALUE(float, gain, 1.0, 0.0, 64.0,                                                                           \
-          "Factor on indirect diffuse light; only 1 keeps energy; pi is what leaving out Lambert's 1/pi does.")
+#define DIFFUSE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                        \
+    VALUE(uint, rays, 4, 0, 256,                                                                                       \
+          "Samples per pixel for diffuse GI. More: less noise, cost grows linearly. 0: no diffuse GI.")                \
+    CHOICE(RayDistribution, distribution, cosine,                                                                      \
+           "Sampling of ray directions over the hemisphere. cosine: importance-sampled, least noise. uniform: all "    \
+           "directions alike. normal: one lookup along the normal instead of rays; only irradiance sources (probes, "  \
+           "environment) respond.")                                                                                    \
+    CHOICE(RayNoise, noise, blue,                                                                                      \
+           "Random numbers for ray directions. white: independent. blue: a low-discrepancy sequence with blue-noise "  \
+           "shifts in space and time; less error, easier to denoise.")                                                 \
+    SWITCH(adaptive, 0,                                                                                                \
+           "Adaptive sampling: `rays` becomes the mean, and noisy or newly visible tiles get more, the others fewer "  \
+           "(0.5 to 4 times, at most 8). Needs denoise.history, and `rays` of at most 8.")                             \
+    VALUE(uint, downsample, 1, 1, 4,                                                                                   \
+          "Trace at reduced resolution: one pixel of each NxN block traces. 2: half resolution, a quarter of the "     \
+          "cost. Bilateral upsampling by depth and normal.")                                                           \
+    VALUE(uint, reuse, 0, 0, 8,                                                                                        \
+          "Neighbouring pixels whose rays are reused (ratio estimator). More: less noise, slightly blurred light. "    \
+          "Needs at most 4 samples per pixel, and not with `adaptive`.")                                               \
+    VALUE(float, maxDistance, 100000.0, 0.01, 100000.0,                                                                \
+          "Maximum length of diffuse rays on screen in metres (trace_screen.max_distance applies too); beyond it the " \
+          "next source is used.")                                                                                      \
+    VALUE(float, gain, 1.0, 0.0, 64.0,                                                                                 \
+          "Factor on diffuse GI. 1 conserves energy; pi reproduces renderers that leave out the 1/pi of Lambert's "    \
+          "BRDF.")
 SETTINGS(DiffuseSettings, DIFFUSE_SETTINGS)
 
-#define ROUGH_FALLBACKS(OPTION)   \
+#define ROUGH_FALLBACKS(OPTION)    \
     OPTION(RoughFallback, next, 0) \
     OPTION(RoughFallback, mips, 1)
 CHOICES(RoughFallback, ROUGH_FALLBACKS)
 
-#define SPECULAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                           \
-    VALUE(uint, rays, 1, 0, 256,                                                                           \
-          "Rays per pixel for reflections, spread as the roughness says; 0: none are computed.")           \
-    SWITCH(adaptive, 0, "Trace more rays where reflections are noisy, as for diffuse.adaptive.")           \
-    VALUE(uint, downsample, 1, 1, 4,                                                                       \
-          "Pixels along each side of the blocks that share rays, as for diffuse.downsample.")              \
-    VALUE(uint, reuse, 0, 0, 8, "Neighbours whose rays a pixel takes, too, as for diffuse.reuse.")         \
-    VALUE(float, maxRoughness, 1.0, 0.0, 1.0,                                                              \
-          "Where surfaces are too rough for rays that are spread: see `rough_fallback`; 1: none are.")     \
-    CHOICE(RoughFallback, roughFallback, next,                                                             \
-           "What those get; next: the sources behind the screen; mips: rays near the middle of what they " \
-           "reflect, with the screen's light around their hits, blurred as the roughness says.")           \
-    CHOICE(RayNoise, noise, blue, "What chooses their directions, as for diffuse.noise.")
+#define SPECULAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                                    \
+    VALUE(uint, rays, 1, 0, 256,                                                                                    \
+          "Samples per pixel for reflections, drawn from the GGX lobe by roughness. More: less noise, cost grows "  \
+          "linearly. 0: no reflections.")                                                                           \
+    SWITCH(adaptive, 0, "Adaptive sampling of reflections, as for diffuse.adaptive.")                               \
+    VALUE(uint, downsample, 1, 1, 4, "Trace reflections at reduced resolution, as for diffuse.downsample.")         \
+    VALUE(uint, reuse, 0, 0, 8, "Neighbouring pixels whose rays are reused, as for diffuse.reuse.")                 \
+    VALUE(float, maxRoughness, 1.0, 0.0, 1.0,                                                                       \
+          "Highest roughness with stochastic rays; rougher surfaces use `rough_fallback`. Lower: less noise and "   \
+          "cost, less exact. 1: all surfaces trace.")                                                               \
+    CHOICE(RoughFallback, roughFallback, next,                                                                      \
+           "Reflections on surfaces above `max_roughness`. next: skip the screen, use the next source. mips: cone " \
+           "tracing, a ray near the lobe's centre with screen light prefiltered by roughness around its hit.")      \
+    CHOICE(RayNoise, noise, blue, "Random numbers for ray directions, as for diffuse.noise.")
 SETTINGS(SpecularSettings, SPECULAR_SETTINGS)
 
 // Lobes, as the specialization constant `lobe`.

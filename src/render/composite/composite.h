@@ -7,10 +7,10 @@
 
 SHARED_BEGIN
 
-#define COMPOSITE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                 \
-    SWITCH(layers, 1,                                                                                             \
-           "Keep indirect diffuse and specular light as images of their own; render and bench do where they are " \
-           "asked for, and only then.")
+#define COMPOSITE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                     \
+    SWITCH(layers, 1,                                                                                                 \
+           "Keep diffuse GI and reflections as separate layers (AOVs). `render` and `bench` set this by themselves, " \
+           "only if the layers are asked for.")
 SETTINGS(CompositeSettings, COMPOSITE_SETTINGS)
 
 struct CompositeParams {

@@ -14,21 +14,26 @@
 
 SHARED_BEGIN
 
-#define DENOISE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                    \
-    SWITCH(enabled, 0, "Clean indirect light of the noise that few rays leave.")                                   \
-    VALUE(uint, history, 64, 0, 1024, "Frames whose mean is kept, at most; 0: each frame is cleaned by itself.")   \
-    VALUE(uint, passes, 2, 0, 4, "Times that neighbours are asked, eight each; every time half as far away.")      \
-    VALUE(float, radius, 24.0, 0.0, 256.0,                                                                         \
-          "Pixels of the picture up to which neighbours are asked where nothing is remembered; less where less "   \
-          "noise is left, and where what rays hit is near or the lobe narrow.")                                    \
-    VALUE(float, fireflies, 8.0, 0.0, 1000.0,                                                                      \
-          "What is brighter than so many times the mean around it is spread over its neighbours; 0: it is not.")   \
-    VALUE(float, clip, 2.0, 0.0, 100.0,                                                                            \
-          "How far the past may differ from what neighbours show now, in standard deviations of a pixel's light; " \
-          "less: nothing trails behind; more: less noise. 0: as far as it likes.")                                 \
-    SWITCH(directional, 1,                                                                                         \
-           "Keep how diffuse light changes with the normal, so that neighbours with other normals share it, and "  \
-           "light of half resolution shows the picture's normals.")
+#define DENOISE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                        \
+    SWITCH(enabled, 0,                                                                                                 \
+           "Denoise diffuse GI and reflections with a spatiotemporal filter. Removes the noise of low sample counts.") \
+    VALUE(uint, history, 64, 0, 1024,                                                                                  \
+          "Maximum history length in frames (temporal accumulation). More: less noise, more ghosting. 0: no history, " \
+          "each frame is denoised alone.")                                                                             \
+    VALUE(uint, passes, 2, 0, 4,                                                                                       \
+          "Blur passes of eight taps each; every pass halves the radius. More: smoother, slower.")                     \
+    VALUE(float, radius, 24.0, 0.0, 256.0,                                                                             \
+          "Maximum blur radius in pixels, used where there is no history. Shrinks with remaining noise, near hits "    \
+          "and narrow lobes.")                                                                                         \
+    VALUE(float, fireflies, 8.0, 0.0, 1000.0,                                                                          \
+          "Firefly clamp: samples brighter than this many times the local mean are clamped and their energy spread "   \
+          "over the neighbours. 0: off.")                                                                              \
+    VALUE(float, clip, 2.0, 0.0, 100.0,                                                                                \
+          "History clip (variance clipping): maximum difference of the history from current neighbours, in standard "  \
+          "deviations. Lower: less ghosting. Higher: less noise. 0: off.")                                             \
+    SWITCH(directional, 1,                                                                                             \
+           "Store how diffuse light varies with the normal, so that pixels with different normals can share samples, " \
+           "and normal map detail survives denoising and half resolution.")
 SETTINGS(DenoiseSettings, DENOISE_SETTINGS)
 
 const uint denoiseTileSide = 8;  // pixels of the grid

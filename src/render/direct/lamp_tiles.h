@@ -11,10 +11,10 @@
 
 SHARED_BEGIN
 
-#define DIRECT_SETTINGS(VALUE, SWITCH, CHOICE)                                                                      \
-    SWITCH(lampTiles, 1,                                                                                            \
-           "Find out first which lamps reach which part of the picture, and look at those alone; else every pixel " \
-           "looks at every lamp. The light is the same.")
+#define DIRECT_SETTINGS(VALUE, SWITCH, CHOICE)                                                                     \
+    SWITCH(lampTiles, 1,                                                                                           \
+           "Tiled light culling: find the lamps that reach each 16x16 pixel tile and shade with those only. Off: " \
+           "every pixel evaluates every lamp. The image is the same.")
 SETTINGS(DirectSettings, DIRECT_SETTINGS)
 
 struct LampTilesParams {

@@ -7,12 +7,15 @@
 
 SHARED_BEGIN
 
-#define MATERIALS_SETTINGS(VALUE, SWITCH, CHOICE)                                                                   \
-    SWITCH(lambertOnly, 0, "Treat every material as pure Lambert of its base colour: no specular, no metal.")       \
-    SWITCH(mips, 1,                                                                                                 \
-           "Read textures through their mips; off: in full detail always, as the reference does, for many samples " \
-           "a pixel.")                                                                                              \
-    VALUE(uint, anisotropy, 8, 1, 16, "Texture samples along a slanted surface, at most; 1: blurred at grazing angles.")
+#define MATERIALS_SETTINGS(VALUE, SWITCH, CHOICE)                                                                     \
+    SWITCH(lambertOnly, 0,                                                                                            \
+           "Shade every material as Lambert diffuse with its base colour: no specular lobe, no metals.")              \
+    SWITCH(                                                                                                           \
+        mips, 1,                                                                                                      \
+        "Use texture mipmaps. Off: always the finest level, as the reference renders; needs many samples per pixel.") \
+    VALUE(                                                                                                            \
+        uint, anisotropy, 8, 1, 16,                                                                                   \
+        "Maximum samples of anisotropic texture filtering. 1: off, blurry at grazing angles. More: sharper, slower.")
 SETTINGS(MaterialsSettings, MATERIALS_SETTINGS)
 
 // Bits of the material image's alpha.

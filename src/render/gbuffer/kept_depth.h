@@ -29,11 +29,11 @@ namespace reflet {
     OPTION(DepthBuffer, standard16, 2)
 CHOICES(DepthBuffer, DEPTH_BUFFERS)
 
-#define DEPTH_SETTINGS(VALUE, SWITCH, CHOICE)                                                                   \
-    CHOICE(DepthBuffer, format, reversedFloat,                                                                  \
-           "What is kept of each depth; reversed_float: 32-bit floats, 1 at the near plane, 0 at infinity; "    \
-           "standard24, standard16: whole numbers of so many bits, 0 at the near plane, the highest at 1000 m " \
-           "(orthographic: at the far plane).")
+#define DEPTH_SETTINGS(VALUE, SWITCH, CHOICE)                                                                         \
+    CHOICE(DepthBuffer, format, reversedFloat,                                                                        \
+           "Depth buffer format, to show what its precision costs. reversed_float: 32-bit float, 1 at the near "      \
+           "plane, 0 at infinity. standard24, standard16: unsigned integers of that many bits, 0 at the near plane, " \
+           "maximum at 1000 m (orthographic: at the far plane).")
 SETTINGS(DepthSettings, DEPTH_SETTINGS)
 
 /// What is left of `depth` (reversed, 0: sky) after it has been in such a buffer, reversed again: R32F under `name`.

@@ -7,7 +7,8 @@
 SHARED_BEGIN
 
 #define LIVE_SETTINGS(VALUE, SWITCH, CHOICE) \
-    VALUE(uint, height, 180, 9, 1080, "Height of the pictures that materials show of cameras, in pixels; 16:9.")
+    VALUE(uint, height, 180, 9, 1080,        \
+          "Height in pixels of live camera images shown by materials; their aspect ratio is 16:9.")
 SETTINGS(LiveSettings, LIVE_SETTINGS)
 
 struct LivePictureParams {

@@ -14,24 +14,32 @@ SHARED_BEGIN
     OPTION(PlanarForm, camera, 3)
 CHOICES(PlanarForm, PLANAR_FORMS)
 
-#define PLANAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                                    \
-    SWITCH(enabled, 0, "Draw flat mirrors' views, and ask them what the screen could not answer.")                \
-    CHOICE(PlanarForm, form, traced,                                                                              \
-           "traced: rays go through the mirrored camera's depth; lookup: its picture at the pixel itself; "       \
-           "duplicate: the room once more behind the mirror, as through a hole in the wall; camera: the picture " \
-           "of one fixed camera at the mirror's centre.")                                                         \
-    VALUE(uint, count, 1, 0, 4, "Views in a frame: of the mirrors that are largest on the screen.")               \
-    SWITCH(beforeScreen, 1, "Ask mirrors' views before the screen; off: after it.")                               \
-    SWITCH(autoDetect, 1, "Take flat, smooth surfaces for mirrors where the view file names none.")               \
-    VALUE(float, maxRoughness, 0.2, 0.0, 1.0, "Mean roughness of what is found, at most.")                        \
-    VALUE(float, scale, 1.0, 0.25, 1.0, "Pixels of a view along each side, of those that the screen has for it.") \
-    VALUE(float, margin, 0.05, 0.0, 1.0,                                                                          \
-          "How far a view goes beyond its mirror, in heights of the screen: rays of uneven mirrors end there.")   \
-    SWITCH(diffuse, 1, "Light the views diffusely, too, where trace_screen.light is not direct.")                 \
-    SWITCH(specular, 1, "And with reflections of the screen and the environment: mirrors in mirrors.")            \
-    VALUE(uint, cameraSize, 128, 8, 1024, "Form camera: height of its picture in pixels.")                        \
-    VALUE(float, cameraFov, 75.0, 10.0, 150.0, "Form camera: its field of view from bottom to top, in degrees.")  \
-    VALUE(float, cameraBlur, 3.0, 1.0, 64.0, "Form camera: pixels of its picture that are blurred into one.")
+#define PLANAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                                         \
+    SWITCH(enabled, 0,                                                                                                 \
+           "Planar reflections: render the scene again for flat mirrors and use these views for reflections.")         \
+    CHOICE(PlanarForm, form, traced,                                                                                   \
+           "traced: rays are marched through the mirrored camera's depth buffer. lookup: the mirrored camera's image " \
+           "at the same pixel. duplicate: a mirrored copy of the scene behind the mirror, seen through it. camera: "   \
+           "the image of one fixed camera at the mirror's centre.")                                                    \
+    VALUE(uint, count, 1, 0, 4,                                                                                        \
+          "Maximum number of planar reflections per frame; the mirrors largest on screen are chosen. Each renders "    \
+          "the scene once more.")                                                                                      \
+    SWITCH(beforeScreen, 1,                                                                                            \
+           "Use planar reflections before screen-space reflections. Off: after them, only for misses.")                \
+    SWITCH(autoDetect, 1, "Detect flat, smooth surfaces as mirrors if the view file lists none.")                      \
+    VALUE(float, maxRoughness, 0.2, 0.0, 1.0, "Highest mean roughness of a surface that is detected as a mirror.")     \
+    VALUE(float, scale, 1.0, 0.25, 1.0,                                                                                \
+          "Resolution of planar reflections along each side, relative to the screen. Lower: blurrier, faster.")        \
+    VALUE(float, margin, 0.05, 0.0, 1.0,                                                                               \
+          "How far a planar view extends beyond its mirror, as a fraction of the screen's height. Rays of rough or "   \
+          "bumpy mirrors need it.")                                                                                    \
+    SWITCH(diffuse, 1, "Compute diffuse GI in planar views, unless trace_screen.light is direct.")                     \
+    SWITCH(specular, 1,                                                                                                \
+           "Compute reflections in planar views too (screen and environment only): mirrors in mirrors. Not if "        \
+           "trace_screen.light is direct.")                                                                            \
+    VALUE(uint, cameraSize, 128, 8, 1024, "Height of the camera's image in pixels (form camera).")                     \
+    VALUE(float, cameraFov, 75.0, 10.0, 150.0, "Vertical field of view of the camera in degrees (form camera).")       \
+    VALUE(float, cameraBlur, 3.0, 1.0, 64.0, "Width of the blur of the camera's image in pixels (form camera).")
 SETTINGS(PlanarSettings, PLANAR_SETTINGS)
 
 // A mirror as rays see it that start on it.

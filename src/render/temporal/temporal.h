@@ -15,15 +15,18 @@
 
 SHARED_BEGIN
 
-#define TEMPORAL_SETTINGS(VALUE, SWITCH, CHOICE)                                                                    \
-    SWITCH(enabled, 0,                                                                                              \
-           "Antialias the picture over frames (--frames): each looks through another place in the pixel. Not with " \
-           "accumulate.enabled, whose mean is over the pixel already.")                                             \
-    VALUE(uint, frames, 32, 1, 1024, "Frames whose mean is taken where nothing moves.")                             \
-    VALUE(uint, framesInMotion, 8, 1, 1024,                                                                         \
-          "The same where something moves by a quarter of a pixel a frame, or faster.")                             \
-    VALUE(float, clip, 1.0, 0.0, 16.0,                                                                              \
-          "How far the mean over frames may be from the pixels around it now, in standard deviations of theirs.")
+#define TEMPORAL_SETTINGS(VALUE, SWITCH, CHOICE)                                                                       \
+    SWITCH(enabled, 0,                                                                                                 \
+           "Temporal antialiasing (TAA) over frames (--frames), with subpixel jitter. Ignored if accumulate.enabled, " \
+           "which antialiases by itself.")                                                                             \
+    VALUE(uint, frames, 32, 1, 1024,                                                                                   \
+          "Maximum history length where nothing moves, in frames. More: smoother edges, slower reaction to changes.")  \
+    VALUE(uint, framesInMotion, 8, 1, 1024,                                                                            \
+          "Maximum history length where the image moves by a quarter pixel per frame or faster. More: smoother; "      \
+          "fewer: sharper.")                                                                                           \
+    VALUE(float, clip, 1.0, 0.0, 16.0,                                                                                 \
+          "History clip (variance clipping): maximum difference of the history from the pixels around it, in "         \
+          "standard deviations. Lower: less ghosting, more flicker.")
 SETTINGS(TemporalSettings, TEMPORAL_SETTINGS)
 
 // Pixels below one another that a thread makes: they share what they read of their neighbours.
