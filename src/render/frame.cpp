@@ -35,14 +35,14 @@ namespace {
 constexpr float coneShareOnScreen = 0.1F;
 
 // A view's images, and what its rays ask.
-struct SeenView {
+struct TracedView {
     ViewImages images;
     ScreenImages screen;
     std::vector<PlanarView> mirrors;
 };
 
 // The screen, and the mirrors in it. A mirror's view knows more than the screen, and guesses no thickness.
-void answerFromViews(gpu::Frame& f, Rays& rays, const SeenView& seen, const Settings& settings, float longest) {
+void traceScreenAndPlanar(gpu::Frame& f, Rays& rays, const TracedView& seen, const Settings& settings, float longest) {
     const bool screenFirst = settings.planar.beforeScreen == 0;
     for (const bool asksScreen : {screenFirst, !screenFirst}) {
         if (asksScreen && settings.traceScreen.enabled != 0) {
@@ -64,7 +64,7 @@ gpu::Image noImageMotion(gpu::Frame& f, const RaySurfaces& from) {
 }
 
 // Of pixels that are mirrors: all rays of one are the same, unless chance has a say in what they meet.
-uint32_t raysOfMirrors(uint32_t perPixel, const Settings& settings) {
+uint32_t mirrorRayCount(uint32_t perPixel, const Settings& settings) {
     const TraceScreenSettings& s = settings.traceScreen;
     const bool exact = s.method == TraceMethod::hiz || s.method == TraceMethod::exhaustive;
     const bool chance = (s.enabled != 0 && s.jitter != 0 && !exact) || settings.traceScene.enabled != 0;
@@ -78,10 +78,10 @@ RayTiles tilesOfLobe(gpu::Frame& f, const RaySurfaces& from, const Settings& set
     const uint32_t perPixel = diffuse ? settings.diffuse.rays : settings.specular.rays;
     const bool reused =
         (diffuse ? settings.diffuse.reuse : settings.specular.reuse) > 0;  // that knows no other numbers
-    const RayCounts counts{perPixel, reused ? perPixel : raysOfMirrors(perPixel, settings)};
-    const bool remembers = settings.denoise.enabled != 0 && settings.denoise.history > 0 && lit.next;
+    const RayCounts counts{perPixel, reused ? perPixel : mirrorRayCount(perPixel, settings)};
+    const bool hasHistory = settings.denoise.enabled != 0 && settings.denoise.history > 0 && lit.next;
     const bool adaptive = (diffuse ? settings.diffuse.adaptive : settings.specular.adaptive) != 0;
-    if (!adaptive || !remembers || perPixel > raysPerBatch(f, from.g.depth.size, maxAdaptiveRays)) {
+    if (!adaptive || !hasHistory || perPixel > raysPerBatch(f, from.g.depth.size, maxAdaptiveRays)) {
         return classifyTiles(f, from, lobe, counts);
     }
     const DenoiseHistory past = denoiseHistory(f, lobe, from.g.depth.size, settings.denoise);
@@ -91,7 +91,7 @@ RayTiles tilesOfLobe(gpu::Frame& f, const RaySurfaces& from, const Settings& set
 }
 
 // One chain for both lobes: rays, then sources that answer in order of trust, each taking what is left over.
-LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& settings, const SeenView& seen,
+LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
                     uint32_t lobe) {
     const ScreenImages& screen = seen.screen;
     const bool diffuse = lobe == lobeDiffuse;
@@ -101,16 +101,16 @@ LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& setting
     const uint32_t neighbours = diffuse ? settings.diffuse.reuse : settings.specular.reuse;
     const float longest = diffuse ? settings.diffuse.maxDistance : settings.traceScreen.maxDistance;
     if (perPixel == 0) {
-        return noLight(f, lobe, {screen.g, in.view}, counted);
+        return blackLobe(f, lobe, {screen.g, in.view}, counted);
     }
     const RaySurfaces from =
         pickSurfaces(f, screen.g, in.view, diffuse ? settings.diffuse.downsample : settings.specular.downsample);
     const float coneShare = settings.traceScreen.enabled != 0 ? coneShareOnScreen : 0.0F;
     const RayTiles tiles = tilesOfLobe(f, from, settings, screen.lit, lobe);
-    const uint32_t most = tiles.meanRays > 0 ? mostAdaptiveRays(f, from.g.depth.size, perPixel) : perPixel;
+    const uint32_t most = tiles.meanRays > 0 ? adaptiveRayLimit(f, from.g.depth.size, perPixel) : perPixel;
     const uint32_t batch = tiles.meanRays > 0 ? most : raysPerBatch(f, from.g.depth.size);
-    const bool remembers = settings.denoise.enabled != 0 && settings.denoise.history > 0;
-    const gpu::Image imageMotion = !diffuse && remembers ? noImageMotion(f, from) : gpu::Image{};
+    const bool hasHistory = settings.denoise.enabled != 0 && settings.denoise.history > 0;
+    const gpu::Image imageMotion = !diffuse && hasHistory ? noImageMotion(f, from) : gpu::Image{};
     const bool reused = neighbours > 0 && tiles.meanRays == 0 && batch >= perPixel;
     LobeLight light;
     for (uint32_t first = 0; first < most; first += batch) {
@@ -119,8 +119,8 @@ LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& setting
                                  {{}, settings.diffuse, settings.specular, first, count, coneShare}, counted);
         rays.imageMotion = imageMotion;
         rays.directional = diffuse && settings.denoise.enabled != 0 && settings.denoise.directional != 0;
-        answerFromViews(f, rays, seen, settings, longest);
-        answerFromScene(f, rays, in, settings, seen.images, screen);
+        traceScreenAndPlanar(f, rays, seen, settings, longest);
+        traceSceneFallback(f, rays, in, settings, seen.images, screen);
         if (in.probes) {
             answerProbes(f, rays, in.probes, settings.probes);
         }
@@ -131,7 +131,7 @@ LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& setting
     return settings.denoise.enabled != 0 ? denoise(f, light, lobe, in.view, settings.denoise) : light;
 }
 
-SeenView seenView(const ViewInputs& in, const ViewImages& images) {
+TracedView tracedView(const ViewInputs& in, const ViewImages& images) {
     const ScreenImages screen{.g = images.g,
                               .view = in.view,
                               .backDepth = images.backDepth,
@@ -149,7 +149,7 @@ void lightForReflections(gpu::Frame& f, const ViewInputs& in, const Settings& se
     const SpecularSettings& s = settings.specular;
     const HitLight light = settings.traceScreen.light;
     if (light == HitLight::lit && s.rays > 0 && settings.diffuse.rays > 0) {
-        const LobeLight none = noLight(f, lobeSpecular, {screen.g, in.view}, settings.traceScreen.countSteps != 0);
+        const LobeLight none = blackLobe(f, lobeSpecular, {screen.g, in.view}, settings.traceScreen.countSteps != 0);
         const gpu::Image soFar = f.image("lit_so_far", VK_FORMAT_R16G16B16A16_SFLOAT, screen.light.size);
         const CompositeInputs parts{
             screen.g, screen.light, diffuse, none, in.ggxTable, settings.materials.lambertOnly != 0, false};
@@ -162,7 +162,7 @@ void lightForReflections(gpu::Frame& f, const ViewInputs& in, const Settings& se
 }
 
 // What one view besides the frame's own shows to reflections. There is no last frame of it: `previous` is `lit` there.
-ScreenImages seeReflected(gpu::Frame& f, const ViewInputs& in, Settings settings, gpu::Image lampShadowMap) {
+ScreenImages renderReflectionView(gpu::Frame& f, const ViewInputs& in, Settings settings, gpu::Image lampShadowMap) {
     const bool lit = settings.traceScreen.light != HitLight::direct;
     settings.traceScreen.light = lit ? HitLight::lit : HitLight::direct;
     settings.traceScreen.countSteps = 0;
@@ -170,7 +170,7 @@ ScreenImages seeReflected(gpu::Frame& f, const ViewInputs& in, Settings settings
     settings.shadow.history = 0;  // the view's edges move with the camera, and with them its pixels
     settings.denoise.history = 0;
     const ViewImages images = directView(f, in, settings, lampShadowMap);
-    SeenView seen = seenView(in, images);
+    TracedView seen = tracedView(in, images);
     const LobeLight diffuse = traceLobe(f, in, settings, seen, lobeDiffuse);
     lightForReflections(f, in, settings, diffuse, seen.screen);
     if (lit && settings.planar.specular != 0) {
@@ -187,38 +187,39 @@ ScreenImages seeReflected(gpu::Frame& f, const ViewInputs& in, Settings settings
     return seen.screen;
 }
 
-ScreenImages seeMirror(gpu::Frame& f, const FrameInputs& in, const Settings& settings, const Mirror& mirror,
-                       gpu::Image lampShadowMap) {
+ScreenImages renderPlanarView(gpu::Frame& f, const FrameInputs& in, const Settings& settings, const Mirror& mirror,
+                              gpu::Image lampShadowMap) {
     const PlanarSettings& s = settings.planar;
     if (s.form == PlanarForm::duplicate) {
         const uint32_t largestMap = f.device().limits().maxImageDimension2D;
-        const MirroredRoom room = mirroredRoom(in, mirror, settings.shadow, largestMap);
-        ViewInputs behind = behindMirror(in, mirror, s, room);
+        const MirroredScene room = mirroredScene(in, mirror, settings.shadow, largestMap);
+        ViewInputs behind = duplicateViewInputs(in, mirror, s, room);
         behind.traced = nullptr;  // what these know is on this side
         behind.probes = {};
         Settings there = settings;
         if (there.shadow.filter == ShadowFilter::traced) {
             there.shadow.filter = ShadowFilter::pcss;
         }
-        return seeReflected(f, behind, there, {});
+        return renderReflectionView(f, behind, there, {});
     }
-    return seeReflected(f, beforeMirror(in, mirror, s), settings, lampShadowMap);
+    return renderReflectionView(f, mirrorViewInputs(in, mirror, s), settings, lampShadowMap);
 }
 
-std::vector<PlanarView> seeMirrors(gpu::Frame& f, const FrameInputs& in, const Settings& settings,
-                                   gpu::Image lampShadowMap) {
+std::vector<PlanarView> renderPlanarViews(gpu::Frame& f, const FrameInputs& in, const Settings& settings,
+                                          gpu::Image lampShadowMap) {
     std::vector<PlanarView> views;
     for (const Mirror& mirror : in.mirrors) {
         const std::string name = "planar" + std::to_string(views.size());
         const auto scope = f.viewScope(name);
-        views.push_back({name, seeMirror(f, in, settings, mirror, lampShadowMap), mirrorParams(mirror, settings.planar),
-                         settings.planar.form});
+        views.push_back({name, renderPlanarView(f, in, settings, mirror, lampShadowMap),
+                         mirrorParams(mirror, settings.planar), settings.planar.form});
     }
     return views;
 }
 
 // What cameras see that materials show. Returns the lamps' shadow map, if it was drawn for them.
-gpu::Image seeLive(gpu::Frame& f, const ViewInputs& in, const Settings& settings, std::span<const LiveView> pictures) {
+gpu::Image renderLiveCameras(gpu::Frame& f, const ViewInputs& in, const Settings& settings,
+                             std::span<const LiveView> pictures) {
     gpu::Image lampShadowMap;
     for (size_t i = 0; i < pictures.size(); ++i) {
         const auto scope = f.viewScope("live" + std::to_string(i));
@@ -234,7 +235,7 @@ gpu::Image seeLive(gpu::Frame& f, const ViewInputs& in, const Settings& settings
 }  // namespace
 
 FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& settings) {
-    SeenView seen = seenView(in, directView(f, in, settings, seeLive(f, in, settings, in.live)));
+    TracedView seen = tracedView(in, directView(f, in, settings, renderLiveCameras(f, in, settings, in.live)));
     const gpu::History lit = f.history("lit", VK_FORMAT_R16G16B16A16_SFLOAT, seen.images.g.depth.size);
     seen.screen.lit = lit;
     FrameImages out{seen.images};
@@ -245,7 +246,7 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
     if (settings.traceScreen.enabled != 0 || reused) {
         lightForReflections(f, in, settings, out.diffuse, seen.screen);
     }
-    seen.mirrors = seeMirrors(f, in, settings, out.lampShadowMap);
+    seen.mirrors = renderPlanarViews(f, in, settings, out.lampShadowMap);
     out.specular = traceLobe(f, in, settings, seen, lobeSpecular);
 
     const bool layers = settings.composite.layers != 0 || settings.accumulate.enabled != 0;

@@ -115,9 +115,9 @@ namespace {
 // Pixels off the centre.
 vec2 jitterOf(const Settings& settings, uint32_t frame, uint32_t framesBefore) {
     if (settings.accumulate.enabled != 0) {
-        return settings.accumulate.jitter != 0 ? placeInPixel(framesBefore) : vec2(0.0F);
+        return settings.accumulate.jitter != 0 ? subpixelJitter(framesBefore) : vec2(0.0F);
     }
-    return settings.temporal.enabled != 0 ? placeInPixel(frame) : vec2(0.0F);
+    return settings.temporal.enabled != 0 ? subpixelJitter(frame) : vec2(0.0F);
 }
 
 }  // namespace
@@ -173,7 +173,7 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
     const uint32_t framesBefore = countFramesBefore(view, params, settings);
     const std::vector<Mirror> mirrors = planMirrors(view, params, settings);  // their pictures' sizes do not jitter
     const vec2 place = jitterOf(settings, params.frame, framesBefore);
-    lookThrough(params, place, previousPlace_);
+    applyJitter(params, place, previousPlace_);
     previousPlace_ = place;
     LampBlock lamps = scene_.lamps();
     const LampShadows lampShadows = planLamps(lamps, view, settings.shadow);

@@ -31,8 +31,8 @@ uint32_t sunShadowsAtHits(const Settings& settings, const ViewImages& seen) {
 
 }  // namespace
 
-void answerFromScene(gpu::Frame& f, Rays& rays, const ViewInputs& in, const Settings& settings, const ViewImages& seen,
-                     const ScreenImages& screen) {
+void traceSceneFallback(gpu::Frame& f, Rays& rays, const ViewInputs& in, const Settings& settings,
+                        const ViewImages& seen, const ScreenImages& screen) {
     if (settings.traceScene.enabled == 0 || in.traced == nullptr) {
         return;
     }

@@ -8,7 +8,7 @@ namespace reflet {
 
 /// Answers what waits, where the settings say so and there is a scene to trace. seen: what the camera sees, of this
 /// frame; screen: what the screen's source was given for this lobe.
-void answerFromScene(gpu::Frame& f, Rays& rays, const ViewInputs& in, const Settings& settings, const ViewImages& seen,
-                     const ScreenImages& screen);
+void traceSceneFallback(gpu::Frame& f, Rays& rays, const ViewInputs& in, const Settings& settings,
+                        const ViewImages& seen, const ScreenImages& screen);
 
 }  // namespace reflet

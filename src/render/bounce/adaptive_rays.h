@@ -27,8 +27,8 @@ struct MeasureNoiseParams {
     vec2 motionToPixels;  // pixels of the grid that a motion of 1 moves
     uvec2 picture;        // pixels
     uint scale;           // of the grid: pixels of the picture
-    uint place;           // within a block, along each side, of the picked pixel
-    uint remembers;       // 1: the histories hold the last frame
+    uint blockOffset;     // within a block, along each side, of the picked pixel
+    uint hasHistory;      // 1: the histories hold the last frame
 };
 
 struct ShareRaysParams {
@@ -48,7 +48,7 @@ SHARED_END
 namespace reflet {
 
 /// What is known of a lobe's light from the last frame.
-struct LightPast {
+struct LobeHistory {
     gpu::Image light;    ///< of the grid's size: RGBA16F: mean radiance
     gpu::Image surface;  ///< RG32_UINT: R: bits of the depth, 0: no surface with this lobe
     gpu::Image moments;  ///< RG16F: frames in the mean, mean square of a frame's luminance
@@ -59,10 +59,10 @@ struct LightPast {
 /// Numbers of rays that follow the noise: `counts.rays` is their mean over the pixels with the lobe, and `most` the
 /// largest. picture: the whole picture's size.
 RayTiles shareRays(gpu::Frame& f, const RaySurfaces& from, uint32_t lobe, const RayCounts& counts,
-                   const LightPast& past);
+                   const LobeHistory& past);
 
 /// What a pixel may get of a mean of so many.
-uint32_t mostAdaptiveRays(gpu::Frame& f, uvec2 size, uint32_t mean);
+uint32_t adaptiveRayLimit(gpu::Frame& f, uvec2 size, uint32_t mean);
 
 }  // namespace reflet
 #endif

@@ -36,7 +36,7 @@ void main() {
     for (uint i = gl_GlobalInvocationID.x; i < waiting.count; i += stride) {
         WaitingRay ray = unpackWaitingRay(waiting.items[i]);
         // Occlusion maps know of nearby surfaces, which a ray may be known not to meet.
-        float occlusion = lobe == lobeDiffuse && !meetsNothing(ray) ? texelFetch(material, ray.slot.xy, 0).b : 1.0;
+        float occlusion = lobe == lobeDiffuse && !isKnownMiss(ray) ? texelFetch(material, ray.slot.xy, 0).b : 1.0;
         vec3 radiance = radianceFor(unpackRay(imageLoad(direction, ray.slot).xy));
         float share = occlusion * (ray.lost ? params.settings.occludedWeight : 1.0);
         RayAnswer a = RayAnswer(radiance * share, 1.0, environmentDistance);

@@ -44,9 +44,9 @@ float reflectance(ivec2 pixel) {
 }
 
 // Where the last frame had what the pixel shows; negative: nowhere.
-ivec2 homeOf(ivec2 pixel, float d) {
+ivec2 previousPixelOf(ivec2 pixel, float d) {
     ivec2 home = ivec2(round(vec2(pixel) - texelFetch(motion, pixel, 0).rg * params.motionToPixels));
-    if (params.remembers == 0u || any(lessThan(home, ivec2(0))) || any(greaterThanEqual(home, ivec2(params.view.size)))) {
+    if (params.hasHistory == 0u || any(lessThan(home, ivec2(0))) || any(greaterThanEqual(home, ivec2(params.view.size)))) {
         return ivec2(-1);
     }
     vec4 before = params.view.previousWorldToClip *
@@ -56,7 +56,7 @@ ivec2 homeOf(ivec2 pixel, float d) {
 }
 
 // Whether the pixel has the lobe.
-bool shines(ivec2 pixel, float d) {
+bool hasLobe(ivec2 pixel, float d) {
     return d > 0.0 && (lobe == lobeDiffuse || (loadMaterial(pixel).flags & materialFlagLambert) == 0u);
 }
 
@@ -65,7 +65,7 @@ float varianceAt(ivec2 pixel, ivec2 home, vec2 moments) {
     float mean = min(luminance(imageLoad(previousLight, home).rgb), 255.0);
     float rays = max(imageLoad(previousTiles, home / int(rayTileSide)).r, 1.0);  // in each frame
     float variance = max(moments.y - mean * mean, 0.0) * rays;
-    ivec2 shown = min(home * int(params.scale) + int(params.place), ivec2(params.picture) - 1);
+    ivec2 shown = min(home * int(params.scale) + int(params.blockOffset), ivec2(params.picture) - 1);
     float lit = luminance(imageLoad(previousLit, shown).rgb);
     float sent = reflectance(pixel);
     return variance * sent * sent / (lit * lit + darkness * darkness);
@@ -81,7 +81,7 @@ float varianceAround(ivec2 first) {
     for (int y = begin.y + apart / 2; y < end.y; y += apart) {
         for (int x = begin.x + apart / 2; x < end.x; x += apart) {
             float d = loadDepth(ivec2(x, y));
-            ivec2 home = shines(ivec2(x, y), d) ? homeOf(ivec2(x, y), d) : ivec2(-1);
+            ivec2 home = hasLobe(ivec2(x, y), d) ? previousPixelOf(ivec2(x, y), d) : ivec2(-1);
             vec2 moments = home.x >= 0 ? imageLoad(previousMoments, home).xy : vec2(0.0);
             if (moments.x > 1.5) {
                 sum += varianceAt(ivec2(x, y), home, moments);
@@ -100,8 +100,8 @@ float noiseOfTile(ivec2 first, ivec2 end) {
         for (int x = first.x; x < end.x; x += 2) {
             ivec2 pixel = ivec2(x, y);
             float d = loadDepth(pixel);
-            if (shines(pixel, d)) {
-                ivec2 home = homeOf(pixel, d);
+            if (hasLobe(pixel, d)) {
+                ivec2 home = previousPixelOf(pixel, d);
                 float share = 1.0 / ((home.x >= 0 ? imageLoad(previousMoments, home).x : 0.0) + 1.0);
                 squares += share * share;
                 found += 1.0;

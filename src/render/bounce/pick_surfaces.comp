@@ -23,7 +23,7 @@ void main() {
     if (any(greaterThanEqual(uvec2(block), params.picked))) {
         return;
     }
-    ivec2 pixel = block * int(params.scale) + int(params.place);
+    ivec2 pixel = block * int(params.scale) + int(params.blockOffset);
     bool inside = all(lessThan(pixel, ivec2(params.size)));
     pixel = min(pixel, ivec2(params.size) - 1);
     imageStore(pickedDepth, block, inside ? texelFetch(depth, pixel, 0) : vec4(0.0));

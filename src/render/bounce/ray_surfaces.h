@@ -12,10 +12,10 @@
 SHARED_BEGIN
 
 struct PickSurfacesParams {
-    uvec2 size;    // of the whole picture, pixels
-    uvec2 picked;  // of the coarser one
-    uint scale;    // pixels of a block along each side
-    uint place;    // within the block, along each side, that is picked
+    uvec2 size;        // of the whole picture, pixels
+    uvec2 picked;      // of the coarser one
+    uint scale;        // pixels of a block along each side
+    uint blockOffset;  // within the block, along each side, that is picked
 };
 
 SHARED_END
@@ -36,7 +36,7 @@ struct RaySurfaces {
 };
 
 /// Which pixel of a block is picked, along each side.
-constexpr uint32_t placeInBlock(uint32_t scale) {
+constexpr uint32_t blockPixelOffset(uint32_t scale) {
     return (scale - 1) / 2;
 }
 

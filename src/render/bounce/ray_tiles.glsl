@@ -13,7 +13,7 @@ uvec2 unpackTilePlace(uint item) {
 }
 
 // 0 to rayShares - 1, each once in a tile, neighbours far apart: Bayer's matrix.
-uint placeInTile(uvec2 pixel) {
+uint bayerIndex(uvec2 pixel) {
     uint x = pixel.x ^ pixel.y;
     uint y = pixel.y;
     return ((x & 1u) << 5u) | ((y & 1u) << 4u) | ((x & 2u) << 2u) | ((y & 2u) << 1u) | ((x & 4u) >> 1u) |
@@ -24,7 +24,7 @@ uint placeInTile(uvec2 pixel) {
 // just what the tile is to get; turns go by the golden ratio, which spreads those of one pixel evenly over the frames.
 uint pixelRays(float rays, uvec2 pixel, uint frame) {
     const uint turn = 39u;  // rayShares / 1.618, odd
-    return (uint(rays * float(rayShares)) + ((placeInTile(pixel) + turn * frame) % rayShares)) / rayShares;
+    return (uint(rays * float(rayShares)) + ((bayerIndex(pixel) + turn * frame) % rayShares)) / rayShares;
 }
 
 #endif

@@ -89,7 +89,7 @@ LobeLight lobeImages(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool
     return light;
 }
 
-LobeLight noLight(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps) {
+LobeLight blackLobe(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps) {
     LobeLight light = lobeImages(f, lobe, from, countSteps);
     light.dark = true;
     f.clear(light.radiance);

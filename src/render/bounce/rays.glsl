@@ -30,7 +30,7 @@ WaitingRay unpackWaitingRay(RayItem item) {
 }
 
 // Known to meet nothing at all.
-bool meetsNothing(WaitingRay ray) { return ray.clear > 0.99 * largestHalf; }
+bool isKnownMiss(WaitingRay ray) { return ray.clear > 0.99 * largestHalf; }
 
 struct Ray {
     vec3 direction;  // world space, unit

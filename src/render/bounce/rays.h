@@ -149,7 +149,7 @@ struct LobeLight {
     gpu::Image imageMotion;
     /// RGBA16F: how the light changes with the normal (directional_light.glsl); none unless it was asked for.
     gpu::Image directional;
-    bool dark = false;  ///< of noLight
+    bool dark = false;  ///< of blackLobe
 };
 
 /// What their generator looks up.
@@ -175,7 +175,7 @@ gpu::BufferView makeRayList(gpu::Frame& f, const Rays& rays, std::string_view na
 LobeLight lobeImages(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps);
 
 /// A lobe without rays: black.
-LobeLight noLight(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps);
+LobeLight blackLobe(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps);
 
 /// LobeLight.directional for rays that want it, or none.
 gpu::Image directionalImage(gpu::Frame& f, const Rays& rays);

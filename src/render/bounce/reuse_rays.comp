@@ -66,7 +66,7 @@ Shown shownAt(ivec2 pixel, float d) {
 }
 
 // BRDF times cosine without Fresnel, which hardly differs between a pixel's rays.
-float lobeToward(Shown s, vec3 l) {
+float evaluateLobe(Shown s, vec3 l) {
     float nl = dot(s.normal, l);
     if (nl <= 0.0) {
         return 0.0;
@@ -79,8 +79,8 @@ float lobeToward(Shown s, vec3 l) {
     return ggxDistribution(nh, s.alpha) * ggxVisibility(nl, nv, s.alpha) * nl;
 }
 
-// The chance of a direction, as generate_rays draws them; in the units of lobeToward.
-float chanceOf(Shown s, Ray ray) {
+// The chance of a direction, as generate_rays draws them; in the units of evaluateLobe.
+float pdfOf(Shown s, Ray ray) {
     float nl = max(dot(s.normal, ray.direction), leastCosine);
     if (lobe == lobeDiffuse) {
         return nl / max(ray.weight, 0.05);  // the weight tells of other distributions than the cosine's
@@ -101,7 +101,7 @@ void add(inout Sum sum, float weight, vec4 answered, vec3 toward, vec3 normal) {
 }
 
 // Pixels of the grid within which rays bring about the same.
-float reachOf(Shown own, float d, float away) {
+float reuseRadius(Shown own, float d, float away) {
     float distance = depthToViewDistance(d, params.view.depthToDistance);
     float pixelWidth = params.gridAngle * (params.view.eye.w > 0.0 ? distance : 1.0);
     float lobeWidth = lobe == lobeDiffuse ? 1.0 : ggxHalfTangent(own.alpha);
@@ -118,13 +118,13 @@ void addNeighbour(inout Sum sum, Shown own, ivec2 at, float d) {
         vec4 answered = imageLoad(answer, ivec3(at, i));
         vec3 toHit = there.p + ray.direction * max(answered.a, 1e-4) - own.p;
         float away = max(length(toHit), 1e-4);
-        float weight = ray.spread > 0.0 ? 0.0 : lobeToward(own, toHit / away) / max(chanceOf(there, ray), 1e-6);
+        float weight = ray.spread > 0.0 ? 0.0 : evaluateLobe(own, toHit / away) / max(pdfOf(there, ray), 1e-6);
         add(sum, min(weight, mostWeight), vec4(answered.rgb, away), toHit / away, own.normal);
     }
 }
 
 void addNeighbours(inout Sum sum, ivec2 pixel, Shown own, float d) {
-    float reach = reachOf(own, d, sum.away / max(sum.weight, 1e-6));
+    float reach = reuseRadius(own, d, sum.away / max(sum.weight, 1e-6));
     if (reach < 1.0) {
         return;
     }
@@ -163,7 +163,7 @@ void main() {
         vec4 answered = imageLoad(answer, slot);
         add(own, ray.weight, vec4(answered.rgb, 0.0), ray.direction, shown.normal);
         own.away += answered.a;
-        add(sum, lobeToward(shown, ray.direction) / max(chanceOf(shown, ray), 1e-6), answered, ray.direction,
+        add(sum, evaluateLobe(shown, ray.direction) / max(pdfOf(shown, ray), 1e-6), answered, ray.direction,
             shown.normal);
         borrows = borrows && ray.spread == 0.0;
         colors += imageLoad(raySource, slot);

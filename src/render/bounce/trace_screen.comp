@@ -114,7 +114,7 @@ const RayAnswer noAnswer = RayAnswer(vec3(0.0), 0.0, 0.0);
 #include "render/planar/mirror_answers.glsl"
 
 // What the ray tells of its way goes to the next source, unless the one before knew more.
-void noteWay(MarchResult hit, bool lost, inout WaitingRay w) {
+void updateClearDistance(MarchResult hit, bool lost, inout WaitingRay w) {
     if (hit.clear >= w.clear) {
         w.clear = hit.clear;
         w.lost = lost;
@@ -122,7 +122,7 @@ void noteWay(MarchResult hit, bool lost, inout WaitingRay w) {
 }
 
 // How the mirror image of what the ray has hit moved by itself.
-void tellMotion(ivec2 pixel, Ray ray, vec3 p, MarchResult hit) {
+void writeReflectionMotion(ivec2 pixel, Ray ray, vec3 p, MarchResult hit) {
     vec3 there = uvToWorld(pixelToUv(hit.pixel, params.view.pixel), loadDepth(hit.pixel), params.view.clipToWorld);
     vec3 displacement = displacementAt(hit.pixel, there);
     if (displacement != vec3(0.0)) {
@@ -149,12 +149,12 @@ RayAnswer traceAnswer(ivec3 slot, Ray ray, vec3 p, vec3 n, inout WaitingRay w) {
     // What it would see of a surface from behind, the screen does not show.
     bool facesAway = params.settings.rejectBackfaces != 0u && hit.outcome == marchHit &&
                      dot(unpackUnitVector(texelFetch(geometricNormal, hit.pixel, 0).r), ray.direction) > 0.0;
-    noteWay(hit, hit.lost || facesAway, w);
+    updateClearDistance(hit, hit.lost || facesAway, w);
     if (tellsMotion != 0u && slot.z == 0 && hit.outcome == marchHit && !facesAway) {
-        tellMotion(slot.xy, ray, p, hit);
+        writeReflectionMotion(slot.xy, ray, p, hit);
     }
     if (through == throughMirror) {
-        return facesAway ? noAnswer : answerOfMirror(hit, p, ray);
+        return facesAway ? noAnswer : shadeMirrorHit(hit, p, ray);
     }
     if (hit.outcome != marchHit || facesAway) {
         return noAnswer;

@@ -93,13 +93,13 @@ vec3 diffuseRadiance(Shown shown) {
     }
     const bool turns = hasDirectional != 0u;
     ivec2 size = imageSize(diffuseDepth);
-    Blocks b = blocksAt(shown, diffuseScale, params.diffusePlace, size);
+    Blocks b = blocksAt(shown, diffuseScale, params.diffuseBlockOffset, size);
     vec4 sum = vec4(0.0);
     vec4 directional = vec4(0.0);
     vec3 normals = vec3(0.0);
     for (int i = 0; i < 4; ++i) {
         ivec2 block = blockAt(b, i, size);
-        vec2 away = vec2(block * int(diffuseScale) + int(params.diffusePlace) - shown.pixel);
+        vec2 away = vec2(block * int(diffuseScale) + int(params.diffuseBlockOffset) - shown.pixel);
         float d = imageLoad(diffuseDepth, block).r;
         vec3 n = unpackUnitVector(imageLoad(diffuseNormal, block).r);
         float same = onSameSurface(shown, away, d) * facingLike(n, shown.normal, turns);
@@ -122,11 +122,11 @@ vec3 specularRadiance(Shown shown) {
         return imageLoad(specular, shown.pixel).rgb;
     }
     ivec2 size = imageSize(specularDepth);
-    Blocks b = blocksAt(shown, specularScale, params.specularPlace, size);
+    Blocks b = blocksAt(shown, specularScale, params.specularBlockOffset, size);
     vec4 sum = vec4(0.0);
     for (int i = 0; i < 4; ++i) {
         ivec2 block = blockAt(b, i, size);
-        vec2 away = vec2(block * int(specularScale) + int(params.specularPlace) - shown.pixel);
+        vec2 away = vec2(block * int(specularScale) + int(params.specularBlockOffset) - shown.pixel);
         float d = imageLoad(specularDepth, block).r;
         vec3 n = unpackUnitVector(imageLoad(specularNormal, block).r);
         float same = onSameSurface(shown, away, d) * facingLike(n, shown.normal, false);

@@ -28,8 +28,8 @@ Composite composite(gpu::Frame& f, const CompositeInputs& in, gpu::Image lit, Co
                    ? image
                    : f.image(format == VK_FORMAT_R32_UINT ? "no_normals" : "no_depths", format, uvec2(1));
     };
-    params.diffusePlace = placeInBlock(in.diffuse.from.scale);
-    params.specularPlace = placeInBlock(in.specular.from.scale);
+    params.diffuseBlockOffset = blockPixelOffset(in.diffuse.from.scale);
+    params.specularBlockOffset = blockPixelOffset(in.specular.from.scale);
     f.compute("composite", "composite.comp")
         .constant("diffuseScale", scaleOf(in.diffuse))
         .constant("specularScale", scaleOf(in.specular))

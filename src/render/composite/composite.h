@@ -15,9 +15,9 @@ SETTINGS(CompositeSettings, COMPOSITE_SETTINGS)
 
 struct CompositeParams {
     ViewParams view;
-    float diffuseGain;  // factor on indirect diffuse light
-    uint diffusePlace;  // which pixel of a block its rays leave, along each side (RaySurfaces)
-    uint specularPlace;
+    float diffuseGain;        // factor on indirect diffuse light
+    uint diffuseBlockOffset;  // which pixel of a block its rays leave, along each side (RaySurfaces)
+    uint specularBlockOffset;
 };
 
 SHARED_END

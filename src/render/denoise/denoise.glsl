@@ -31,7 +31,7 @@ KeptSurface unpackSurface(uvec2 bits) {
 }
 
 // How far another surface's light may be taken for this one's, 0..1, by normals and roughness.
-float alike(KeptSurface a, KeptSurface b, uint lobe) {
+float surfaceSimilarity(KeptSurface a, KeptSurface b, uint lobe) {
     float facing = max(dot(a.normal, b.normal), 0.0);
     float f4 = facing * facing * facing * facing;
     if (lobe == 0u) {
@@ -43,7 +43,7 @@ float alike(KeptSurface a, KeptSurface b, uint lobe) {
 }
 
 // The same for diffuse light that is turned to the surface's own normal (directional_light.glsl).
-float facingAlike(KeptSurface a, KeptSurface b) {
+float normalSimilarity(KeptSurface a, KeptSurface b) {
     float facing = max(dot(a.normal, b.normal), 0.0);
     return facing * facing;
 }

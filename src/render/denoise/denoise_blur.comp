@@ -31,8 +31,8 @@ const float shareOfWay = 0.3;
 // Share of the radius for a relative noise of 1, chosen by the error at rest after 32 frames in five scenes out of
 // 0.5, 0.7, 1 and 2.
 const float radiusOfNoise = 0.7;
-const float enoughToTell = 8.0;  // frames, from which on their variance is known; sooner, light would be lost
-const float rememberedLong = 4.0;  // frames, from which on the past is kept as it is
+const float varianceFrames = 8.0;  // frames, from which on their variance is known; sooner, light would be lost
+const float feedbackFrames = 4.0;  // frames, from which on the past is kept as it is
 
 // Pixels of the grid.
 float radiusAt(float d, float roughness, float hitDistance, float noise) {
@@ -46,7 +46,7 @@ float radiusAt(float d, float roughness, float hitDistance, float noise) {
 // Standard deviation of the remembered mean over that mean, as five pixels around have it: where one has met no bright
 // light so far, its own would be too small. 1 and less by frames where too few are remembered to tell.
 float noiseAt(ivec2 pixel, ivec2 size, float frames) {
-    if (frames < enoughToTell) {
+    if (frames < varianceFrames) {
         return inversesqrt(max(frames, 1.0));
     }
     const ivec2 around[5] = ivec2[](ivec2(0), ivec2(-2, -2), ivec2(2, -2), ivec2(-2, 2), ivec2(2, 2));
@@ -97,7 +97,7 @@ void main() {
         KeptSurface there = unpackSurface(imageLoad(surface, at).xy);
         vec2 o = vec2(at - pixel);
         if (there.depth > 0.0 && onSurface(plane, o, there.depth - own.depth)) {
-            float same = hasDirectional != 0u ? facingAlike(own, there) : alike(own, there, lobe);
+            float same = hasDirectional != 0u ? normalSimilarity(own, there) : surfaceSimilarity(own, there, lobe);
             float weight = exp(-1.5 * reach * reach) * same;
             sum += weight * imageLoad(from, at);
             if (hasDirectional != 0u) {
@@ -114,7 +114,7 @@ void main() {
     }
     vec4 mean = roundToHalf(min(sum / weights, vec4(largestHalf)));
     imageStore(blurred, pixel, mean);
-    if (feedsBack != 0u && m.x < rememberedLong) {
+    if (feedsBack != 0u && m.x < feedbackFrames) {
         imageStore(nextLight, pixel, mean);
         if (hasDirectional != 0u) {
             imageStore(nextDirectional, pixel, turning);

@@ -55,7 +55,7 @@ const float framesInMotion = 1.0;
 const float framesInMotionRough = 64.0;
 
 // What the pixel and its neighbours on the same surface show in this frame.
-struct Seen {
+struct Neighbourhood {
     vec4 light;     // fireflies clipped, and what the neighbours' fireflies lost added; mean hit distance around it
     vec3 mean;      // of the neighbourhood
     vec3 variance;  // of a pixel in it
@@ -65,18 +65,18 @@ struct Seen {
 };
 
 // What earlier frames brought.
-struct Past {
+struct HistorySample {
     vec4 light;
     float frames;  // 0: nothing
     float square;  // mean of the luminance's
     vec4 directional;
 };
 
-const Past noPast = Past(vec4(0.0), 0.0, 0.0, vec4(0.0));
+const HistorySample noHistory = HistorySample(vec4(0.0), 0.0, 0.0, vec4(0.0));
 
-Seen look(ivec2 pixel, float d, ScreenPlane plane) {
+Neighbourhood gatherNeighbourhood(ivec2 pixel, float d, ScreenPlane plane) {
     ivec2 last = ivec2(params.view.size) - 1;
-    Seen s;
+    Neighbourhood s;
     s.light = vec4(0.0);
     s.directional = vec4(0.0);
     vec3 spread = vec3(0.0);
@@ -130,13 +130,13 @@ Seen look(ivec2 pixel, float d, ScreenPlane plane) {
 }
 
 // Whether a mirror of that roughness may have shown the same thing, by how far away that is.
-bool isSameThing(float now, float before, float roughness) {
+bool isSameReflectedObject(float now, float before, float roughness) {
     float allowed = mix(sameThing, sameThingRough, min(roughness / movesAsImage, 1.0));
     return roughness > movesAsImage || max(now, before) <= (1.0 + allowed) * min(now, before) + 1e-3;
 }
 
 // Where a pixel's past is looked for.
-struct Whereabouts {
+struct HistoryLookup {
     vec2 at;         // pixels of the grid
     vec2 home;       // where the last frame had the pixel's own point
     float expected;  // depth of that
@@ -145,14 +145,14 @@ struct Whereabouts {
 };
 
 // What the last frame kept of a surface like this one.
-Past pastAt(Whereabouts w, KeptSurface own, ScreenPlane plane) {
+HistorySample historyAt(HistoryLookup w, KeptSurface own, ScreenPlane plane) {
     float allowed = heightSlack + distanceSlack / params.view.pixelAngle;
     vec2 nearest = round(w.at);
     // What did not move stays what it is.
     vec2 at = all(lessThan(abs(w.at - nearest), vec2(1.0 / 64.0))) ? nearest : w.at;
     ivec2 corner = ivec2(floor(at));
     vec2 f = at - vec2(corner);
-    Past sum = noPast;
+    HistorySample sum = noHistory;
     float weights = 0.0;
     for (int i = 0; i < 4; ++i) {
         ivec2 o = ivec2(i & 1, i >> 1);
@@ -165,8 +165,8 @@ Past pastAt(Whereabouts w, KeptSurface own, ScreenPlane plane) {
         vec2 away = vec2(texel) - w.home;
         float height = heightAbove(plane, away, there.depth - w.expected) / max(length(away), 1.0);
         vec4 light = imageLoad(previousLight, texel);
-        bool same = w.away < 0.0 || isSameThing(w.away, light.a, own.roughness);
-        if (same && there.depth > 0.0 && abs(height) <= allowed && alike(own, there, lobe) > 0.3) {
+        bool same = w.away < 0.0 || isSameReflectedObject(w.away, light.a, own.roughness);
+        if (same && there.depth > 0.0 && abs(height) <= allowed && surfaceSimilarity(own, there, lobe) > 0.3) {
             float weight = share.x * share.y;
             vec2 m = imageLoad(previousMoments, texel).xy;
             sum.light += weight * light;
@@ -179,22 +179,22 @@ Past pastAt(Whereabouts w, KeptSurface own, ScreenPlane plane) {
         }
     }
     if (weights < 0.01) {
-        return noPast;
+        return noHistory;
     }
     float frames = sum.frames / weights;
-    return Past(sum.light / weights, f == vec2(0.0) ? frames : min(frames, w.most), sum.square / weights,
+    return HistorySample(sum.light / weights, f == vec2(0.0) ? frames : min(frames, w.most), sum.square / weights,
                 sum.directional / weights);
 }
 
 vec2 pixelOf(vec4 clip) { return ndcToUv(clip.xy / clip.w) * params.view.size - 0.5; }
 
 // The past of what is seen in a mirror moves as the image behind it does, and that as what it shows.
-Past remembered(ivec2 pixel, vec3 p, KeptSurface own, ScreenPlane plane, float hitDistance) {
+HistorySample reprojectHistory(ivec2 pixel, vec3 p, KeptSurface own, ScreenPlane plane, float hitDistance) {
     vec4 before = params.view.previousWorldToClip * vec4(p, 1.0);
     float expected = before.z / before.w;
     vec2 home = vec2(pixel) - texelFetch(motion, pixel, 0).rg * params.motionToPixels;
     float asImage = lobe == 1u ? 1.0 - smoothstep(movesAsImage, movesAsSurface, own.roughness) : 0.0;
-    Past image = noPast;
+    HistorySample image = noHistory;
     if (asImage > 0.0) {
         vec3 behind = p - directionToEye(p, params.view.eye) * hitDistance;
         vec4 clip = params.view.previousWorldToClip * vec4(behind, 1.0);
@@ -205,23 +205,23 @@ Past remembered(ivec2 pixel, vec3 p, KeptSurface own, ScreenPlane plane, float h
             }
             float rough = min(own.roughness / movesAsImage, 1.0);
             float most = mix(framesInMotion, framesInMotionRough, rough * rough);
-            image = pastAt(Whereabouts(at, home, expected, hitDistance, most), own, plane);
+            image = historyAt(HistoryLookup(at, home, expected, hitDistance, most), own, plane);
         }
     }
     if (asImage == 1.0) {
         return image;
     }
-    Past still = pastAt(Whereabouts(home, home, expected, -1.0, 1e4), own, plane);
+    HistorySample still = historyAt(HistoryLookup(home, home, expected, -1.0, 1e4), own, plane);
     if (image.frames == 0.0 || still.frames == 0.0) {
         still.frames *= 1.0 - asImage;
         return image.frames > 0.0 ? image : still;
     }
-    return Past(mix(still.light, image.light, asImage), mix(still.frames, image.frames, asImage),
+    return HistorySample(mix(still.light, image.light, asImage), mix(still.frames, image.frames, asImage),
                 mix(still.square, image.square, asImage), vec4(0.0));  // only reflections come here
 }
 
 // Holds the past to what neighbours show now, as far as that is no chance. What had to give way counts for less.
-void holdTo(Seen seen, inout Past past) {
+void clipHistory(Neighbourhood seen, inout HistorySample past) {
     float ownVariance = max(past.square - luminance(past.light.rgb) * luminance(past.light.rgb), 0.0);
     vec3 deviation = params.settings.clip * sqrt(max(seen.variance, vec3(ownVariance)));
     vec3 held = clamp(past.light.rgb, seen.mean - deviation, seen.mean + deviation);
@@ -264,11 +264,11 @@ void main() {
     vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
     vec3 geometric = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
     ScreenPlane plane = screenPlane(p, geometric, params.view.clipToWorld, params.view.pixel, params.view.pixelAngle);
-    Seen seen = look(pixel, d, plane);
+    Neighbourhood seen = gatherNeighbourhood(pixel, d, plane);
     float bright = min(luminance(seen.light.rgb), 255.0);  // its square is a half float, too
-    Past past = params.hasPrevious != 0u ? remembered(pixel, p, own, plane, seen.light.a) : noPast;
+    HistorySample past = params.hasPrevious != 0u ? reprojectHistory(pixel, p, own, plane, seen.light.a) : noHistory;
     if (past.frames > 0.0 && params.settings.clip > 0.0 && (meanRays == 0u || seen.found > 0.0)) {
-        holdTo(seen, past);
+        clipHistory(seen, past);
     }
     float count = 1.0;  // frames that this one counts for
     float most = float(params.settings.history);

@@ -30,7 +30,7 @@ vec3 lightOfMirror(vec2 uv, float width) {
 
 // A hit; or the sky, if the ray has come to its end without meeting anything and sees it there. The picture has the
 // environment behind everything.
-RayAnswer answerOfMirror(MarchResult hit, vec3 p, Ray ray) {
+RayAnswer shadeMirrorHit(MarchResult hit, vec3 p, Ray ray) {
     if (hit.outcome == marchHit) {
         vec2 uv = uvOf(vec4(p + ray.direction * hit.distance, 1.0));
         uv = clamp(uv, vec2(hit.pixel) * params.view.pixel, (vec2(hit.pixel) + 0.999) * params.view.pixel);

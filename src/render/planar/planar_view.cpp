@@ -40,7 +40,7 @@ mat4 clipToCut(const Cut& cut) {
 ViewParams changedView(ViewParams view, const mat4& reflection, const mat4& clipToPart, const vec2& size) {
     view.worldToClip = clipToPart * view.worldToClip * reflection;
     view.clipToWorld = reflection * view.clipToWorld * glm::inverse(clipToPart);
-    view.anyPlaceToWorld = reflection * view.anyPlaceToWorld * glm::inverse(clipToPart);
+    view.paddedClipToWorld = reflection * view.paddedClipToWorld * glm::inverse(clipToPart);
     view.previousWorldToClip = clipToPart * view.previousWorldToClip * reflection;
     view.eye = reflection * view.eye;
     view.viewPlane = glm::transpose(reflection) * view.viewPlane;
@@ -75,7 +75,7 @@ ViewParams mirroredView(const ViewParams& view, const Mirror& mirror, const Plan
                        sizeOf(part, view.size, settings.scale));
 }
 
-ViewParams viewThrough(const ViewParams& view, const Mirror& mirror, const PlanarSettings& settings) {
+ViewParams croppedView(const ViewParams& view, const Mirror& mirror, const PlanarSettings& settings) {
     const Cut part = cutAround(mirror, view.size, settings.margin);
     return changedView(view, mat4(1.0F), clipToCut(part), sizeOf(part, view.size, settings.scale));
 }
@@ -89,10 +89,10 @@ Camera mirrorCamera(const Mirror& mirror, const PlanarSettings& settings) {
     return camera;
 }
 
-MirroredRoom mirroredRoom(const ViewInputs& in, const Mirror& mirror, const ShadowSettings& settings,
-                          uint32_t largestSide) {
+MirroredScene mirroredScene(const ViewInputs& in, const Mirror& mirror, const ShadowSettings& settings,
+                            uint32_t largestSide) {
     const mat4 reflection = reflectionIn(mirror.plane);
-    MirroredRoom room{in.draws, in.lamps, {}, mat3(reflection) * in.sunDirection};
+    MirroredScene room{in.draws, in.lamps, {}, mat3(reflection) * in.sunDirection};
     room.draws.boundsW = Aabb{};
     room.draws.version = 0;
     for (Draw& draw : room.draws.draws) {
@@ -111,7 +111,7 @@ MirroredRoom mirroredRoom(const ViewInputs& in, const Mirror& mirror, const Shad
     return room;
 }
 
-ViewInputs beforeMirror(const ViewInputs& in, const Mirror& mirror, const PlanarSettings& settings) {
+ViewInputs mirrorViewInputs(const ViewInputs& in, const Mirror& mirror, const PlanarSettings& settings) {
     ViewInputs view = in;
     view.clipPlane = mirror.plane - vec4(0, 0, 0, mirror.tolerance);
     if (settings.form != PlanarForm::camera) {
@@ -125,10 +125,10 @@ ViewInputs beforeMirror(const ViewInputs& in, const Mirror& mirror, const Planar
     return view;
 }
 
-ViewInputs behindMirror(const ViewInputs& in, const Mirror& mirror, const PlanarSettings& settings,
-                        const MirroredRoom& room) {
+ViewInputs duplicateViewInputs(const ViewInputs& in, const Mirror& mirror, const PlanarSettings& settings,
+                               const MirroredScene& room) {
     return {.draws = room.draws,
-            .view = viewThrough(in.view, mirror, settings),
+            .view = croppedView(in.view, mirror, settings),
             .sunDirection = room.sunDirection,
             .sunIrradiance = in.sunIrradiance,
             .sunAngularDiameter = in.sunAngularDiameter,

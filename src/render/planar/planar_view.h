@@ -12,27 +12,27 @@ namespace reflet {
 ViewParams mirroredView(const ViewParams& view, const Mirror& mirror, const PlanarSettings& settings);
 
 /// The camera itself, cut and scaled alike.
-ViewParams viewThrough(const ViewParams& view, const Mirror& mirror, const PlanarSettings& settings);
+ViewParams croppedView(const ViewParams& view, const Mirror& mirror, const PlanarSettings& settings);
 
 /// A camera at the middle of the mirror, upright, that looks straight out of it.
 Camera mirrorCamera(const Mirror& mirror, const PlanarSettings& settings);
 
 /// Everything that is drawn, once more behind the mirror, and the lights with it. largestSide: as of planLampShadows.
-struct MirroredRoom {
+struct MirroredScene {
     DrawList draws;
     LampBlock lamps;
     LampShadows lampShadows;
     vec3 sunDirection;
 };
-MirroredRoom mirroredRoom(const ViewInputs& in, const Mirror& mirror, const ShadowSettings& settings,
-                          uint32_t largestSide);
+MirroredScene mirroredScene(const ViewInputs& in, const Mirror& mirror, const ShadowSettings& settings,
+                            uint32_t largestSide);
 
 /// What the mirror's view is made from: by the mirrored camera (traced, lookup), or by the mirror's own (camera).
-ViewInputs beforeMirror(const ViewInputs& in, const Mirror& mirror, const PlanarSettings& settings);
+ViewInputs mirrorViewInputs(const ViewInputs& in, const Mirror& mirror, const PlanarSettings& settings);
 
 /// And what a duplicate is made from. Refers to the room.
-ViewInputs behindMirror(const ViewInputs& in, const Mirror& mirror, const PlanarSettings& settings,
-                        const MirroredRoom& room);
+ViewInputs duplicateViewInputs(const ViewInputs& in, const Mirror& mirror, const PlanarSettings& settings,
+                               const MirroredScene& room);
 
 MirrorParams mirrorParams(const Mirror& mirror, const PlanarSettings& settings);
 

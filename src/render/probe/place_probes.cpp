@@ -108,7 +108,7 @@ struct Surroundings {
     }
 };
 
-Surroundings lookAround(const std::vector<Body>& bodies, const vec3& from) {
+Surroundings castAxisRays(const std::vector<Body>& bodies, const vec3& from) {
     Surroundings around;
     for (int side = 0; side < sides; ++side) {
         around.hits.at(side) = trace(bodies, from, axisRay(side, vec2(0.0F)));
@@ -118,7 +118,7 @@ Surroundings lookAround(const std::vector<Body>& bodies, const vec3& from) {
 
 // Out through the nearest side that leads out; where none does, it stays.
 vec3 leaveBodies(const std::vector<Body>& bodies, const vec3& from, float clear) {
-    const Surroundings around = lookAround(bodies, from);
+    const Surroundings around = castAxisRays(bodies, from);
     if (!around.inside()) {
         return from;
     }
@@ -127,7 +127,7 @@ vec3 leaveBodies(const std::vector<Body>& bodies, const vec3& from, float clear)
     for (int side = 0; side < sides; ++side) {
         const Hit& hit = around.hits.at(side);
         const vec3 out = from + axisRay(side, vec2(0.0F)) * (hit.distance + clear);
-        if (hit.inside && hit.distance < shortest && !lookAround(bodies, out).inside()) {
+        if (hit.inside && hit.distance < shortest && !castAxisRays(bodies, out).inside()) {
             best = out;
             shortest = hit.distance;
         }

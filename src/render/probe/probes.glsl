@@ -42,7 +42,7 @@ vec4 irradianceOfProbe(uint probe, vec3 n) {
     return vec4(max(sum.rgb, vec3(0.0)), clamp(sum.a, 0.0, 1.0));
 }
 
-struct ProbeQuestion {
+struct ProbeQuery {
     vec3 origin;
     vec3 direction;    // unit
     float roughness;   // perceptual, of the lobe around the direction; 0: the direction alone
@@ -52,7 +52,7 @@ struct ProbeQuestion {
 };
 
 // Adds a share of what one probe knows.
-void askProbe(uint i, ProbeParams probe, ProbeQuestion q, float share, inout vec4 radiance, inout float hitDistance) {
+void sampleProbe(uint i, ProbeParams probe, ProbeQuery q, float share, inout vec4 radiance, inout float hitDistance) {
     float t = distanceToBox(probe, q.origin, q.direction);
     vec3 at = q.parallax ? q.origin + t * q.direction - probe.position : q.direction;
     vec4 seen = share * (q.hemisphere ? irradianceOfProbe(i, q.direction)
@@ -63,7 +63,7 @@ void askProbe(uint i, ProbeParams probe, ProbeQuestion q, float share, inout vec
 
 // rgb: radiance · a; a: the share that is answered, 0..1: less at the boxes' ends and toward the sky. Continuous
 // wherever the origin goes.
-vec4 askProbes(ProbeBlock block, ProbeQuestion q, out float hitDistance) {
+vec4 sampleProbes(ProbeBlock block, ProbeQuery q, out float hitDistance) {
     float inside = 0.0;
     float largest = 0.0;
     for (uint i = 0u; i < block.count; ++i) {
@@ -78,7 +78,7 @@ vec4 askProbes(ProbeBlock block, ProbeQuestion q, out float hitDistance) {
         float b = insideBox(block.probes[i], q.origin, q.blend);
         float weight = weightOfProbe(block.probes[i], q.origin, b) / largest - smallestShare;
         if (weight > 0.0) {
-            askProbe(i, block.probes[i], q, weight, sum, hitDistance);
+            sampleProbe(i, block.probes[i], q, weight, sum, hitDistance);
             weights += weight;
         }
     }

@@ -18,7 +18,7 @@ struct DepthRange {
 };
 
 vec3 middleOfView(const ViewParams& view) {
-    const vec4 p = view.anyPlaceToWorld * vec4(0, 0, 0.5F, 1);
+    const vec4 p = view.paddedClipToWorld * vec4(0, 0, 0.5F, 1);
     return vec3(p) / p.w;
 }
 
@@ -142,7 +142,7 @@ SunShadowParams fitSunShadows(const ViewParams& view, const Aabb& sceneBounds, c
         return oneMap(centredSunShadow(sceneBounds, direction, settings.extent, settings.resolution));
     }
     if (settings.cascades == 1) {
-        return oneMap(fitSunShadow(view.anyPlaceToWorld, sceneBounds, direction, settings.resolution, reach));
+        return oneMap(fitSunShadow(view.paddedClipToWorld, sceneBounds, direction, settings.resolution, reach));
     }
     return fitCascades(view, sceneBounds, direction, settings, reach);
 }

@@ -25,7 +25,7 @@ struct ShadowTilesParams {
     uvec2 size;
 };
 
-struct ShadowCleanParams {
+struct ShadowDenoiseParams {
     ViewParams view;
     vec3 toSun;          // world space, unit
     uint historyFrames;  // whose mean is kept, at most; 0: none
@@ -35,7 +35,7 @@ struct ShadowCleanParams {
 
 struct ShadowBlurParams {
     uvec2 size;
-    uint samples;  // as in ShadowCleanParams
+    uint samples;  // as in ShadowDenoiseParams
 };
 
 SHARED_END
@@ -49,8 +49,8 @@ namespace reflet {
 
 /// visibility: R8; penumbra: RG16F, x: full width across the sun's direction [m], 0 or less: none known (see
 /// SunVisibility). params.hasPrevious is set here. Gives R8.
-gpu::Image cleanShadow(gpu::Frame& f, const GBuffer& g, gpu::Image visibility, gpu::Image penumbra,
-                       ShadowCleanParams params);
+gpu::Image denoiseShadow(gpu::Frame& f, const GBuffer& g, gpu::Image visibility, gpu::Image penumbra,
+                         ShadowDenoiseParams params);
 
 }  // namespace reflet
 #endif

@@ -9,7 +9,7 @@
 #include "shaders/shadow_kernel.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ShadowCleanParams params; };
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ShadowDenoiseParams params; };
 layout(set = 0, binding = 1) uniform sampler2D depth;
 layout(set = 0, binding = 2) uniform usampler2D geometricNormal;
 layout(set = 0, binding = 3) uniform sampler2D motion;

@@ -56,7 +56,7 @@ Row loadRow(ivec2 pixel) {
 }
 
 // Mean radiance and number of frames at this place, in texels from the first one's centre.
-vec4 remembered(vec2 at) {
+vec4 reprojectedHistory(vec2 at) {
     ivec2 last = ivec2(params.size) - 1;
     CatmullRom taps = catmullRom(at);
     vec4 sum = vec4(0.0);
@@ -103,7 +103,7 @@ void resolve(ivec2 pixel, Row above, Row row, Row below) {
     bool known = params.hasPrevious != 0u && all(greaterThan(at, vec2(-0.5))) &&
                  all(lessThan(at, vec2(params.size) - 0.5));
     float still = known ? max(1.0 - length(moved) / stillest, 0.0) : 0.0;
-    vec4 before = known ? remembered(at) : vec4(0.0);
+    vec4 before = known ? reprojectedHistory(at) : vec4(0.0);
     vec2 differed = still > 0.0 ? imageLoad(previousDeviations, ivec2(at + 0.5)).rg : vec2(0.0);
     float stale = differed.y * differed.y / (differed.x + 1e-5);
     float trust = still * clamp((staleness.y - stale) / (staleness.y - staleness.x), 0.0, 1.0);

@@ -241,7 +241,7 @@ bool isChosen(ivec3 slot) {
 
 // How the mirror image of what the ray has hit moved by itself, if the screen shows that, too. Nobody else knows where a
 // triangle was.
-void tellMotion(ivec2 pixel, SceneRay ray, float hitDistance) {
+void writeReflectionMotion(ivec2 pixel, SceneRay ray, float hitDistance) {
     vec3 hit = ray.origin + ray.direction * hitDistance;
     OnScreen s = findOnScreen(hit);
     vec3 displacement = isShown(s, hit) ? displacementAt(s.pixel, s.shown) : vec3(0.0);
@@ -264,7 +264,7 @@ RayAnswer answerRay(inout WaitingRay w, Ray ray) {
         return RayAnswer(vec3(0.0), 0.0, 0.0);
     }
     if (tellsMotion != 0u && w.slot.z == 0) {
-        tellMotion(w.slot.xy, traced, hitDistance);
+        writeReflectionMotion(w.slot.xy, traced, hitDistance);
     }
     return RayAnswer(radiance, 1.0, hitDistance);
 }
