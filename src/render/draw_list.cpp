@@ -1,4 +1,4 @@
-// Records draws.
+// Frustum-culls and records draws.
 #include "render/draw_list.h"
 
 #include "gpu/device.h"
@@ -23,7 +23,7 @@ const gpu::VertexLayout& vertexLayout() {
 
 namespace {
 
-// Conservative: false only when all corners are beyond the same side of the view. There is no far plane.
+// Conservative: false only if all corners are outside of the same frustum plane. There is no far plane.
 bool intersectsFrustum(const Aabb& box, const mat4& worldToClip) {
     unsigned outside = 0x1F;
     for (unsigned i = 0; i < 8; ++i) {

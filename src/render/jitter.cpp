@@ -1,4 +1,4 @@
-// Places in the pixel, and views through them.
+// Subpixel jitter offsets and jittered views.
 #include "render/jitter.h"
 
 #include <cmath>
@@ -17,7 +17,7 @@ void applyJitter(ViewParams& view, const vec2& jitter, const vec2& previousJitte
     move[3] = vec4(shift, 0.0F, 1.0F);
     mat4 back(1.0F);
     back[3] = vec4(-shift, 0.0F, 1.0F);
-    mat4 widen(1.0F);  // by the half pixel to each side that places are off the centre
+    mat4 widen(1.0F);  // by half a pixel to each side, the largest jitter
     widen[0][0] += view.pixel.x;
     widen[1][1] += view.pixel.y;
     view.paddedClipToWorld = view.clipToWorld * widen;

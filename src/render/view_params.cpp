@@ -1,4 +1,4 @@
-// Makes what passes know of a camera.
+// Converts a camera to ViewParams.
 #include "render/view_params.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Planar views as a source of the chain: what a flat mirror shows, drawn once more from behind it. Also the forms that
-// this had before rays were traced. Shared by C++ and GLSL.
+// Planar reflections as a ray source: the scene rendered again from a camera mirrored in the plane of a flat mirror.
+// Also three older forms that do not trace rays. Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_PLANAR_H
 #define REFLET_RENDER_PLANAR_H
 
@@ -35,21 +35,21 @@ CHOICES(PlanarForm, PLANAR_FORMS)
           "bumpy mirrors need it.")                                                                                    \
     SWITCH(diffuse, 1, "Compute diffuse GI in planar views, unless trace_screen.light is direct.")                     \
     SWITCH(specular, 1,                                                                                                \
-           "Compute reflections in planar views too (screen and environment only): mirrors in mirrors. Not if "        \
+           "Compute reflections in planar views too (mirrors in mirrors), without further planar reflections. Not if " \
            "trace_screen.light is direct.")                                                                            \
     VALUE(uint, cameraSize, 128, 8, 1024, "Height of the camera's image in pixels (form camera).")                     \
     VALUE(float, cameraFov, 75.0, 10.0, 150.0, "Vertical field of view of the camera in degrees (form camera).")       \
     VALUE(float, cameraBlur, 3.0, 1.0, 64.0, "Width of the blur of the camera's image in pixels (form camera).")
 SETTINGS(PlanarSettings, PLANAR_SETTINGS)
 
-// A mirror as rays see it that start on it.
+// A planar mirror, for rays that start on it.
 struct MirrorParams {
     vec4 plane;   // dot(plane, (p, 1)): metres in front of it
-    vec3 center;  // of the rectangle around it
+    vec3 center;  // of the mirror's bounding rectangle
     vec3 right;   // unit, as seen from its front
     vec3 up;
     vec2 halfSize;    // metres
-    float tolerance;  // metres from the plane that still lie on it
+    float tolerance;  // metres from the plane within which points count as on it
     float blur;       // form camera: pixels
 };
 

@@ -1,4 +1,4 @@
-// Mirrors cameras, and rooms.
+// Reflects cameras, draws and lights in mirror planes.
 #include "render/planar/planar_view.h"
 
 #include "render/renderer.h"
@@ -11,9 +11,10 @@ namespace reflet {
 namespace {
 
 constexpr float largestCameraWidth = 4096.0F;  // pixels
-constexpr float grid = 16.0F;  // pixels of the screen; views' edges lie on it, lest their size change with every move
+constexpr float grid =
+    16.0F;  // screen pixels; view edges snap to multiples of it, so that sizes do not change with every camera move
 
-// A part of a picture, in its uv.
+// A crop rectangle in uv.
 struct Cut {
     vec2 low;
     vec2 size;
@@ -26,7 +27,7 @@ Cut cutAround(const Mirror& mirror, const vec2& pixels, float margin) {
     return {low / pixels, (high - low) / pixels};
 }
 
-// From clip space to that of the part alone.
+// From the full clip space to that of the crop.
 mat4 clipToCut(const Cut& cut) {
     mat4 m(1.0F);
     for (int axis = 0; axis < 2; ++axis) {
@@ -36,7 +37,7 @@ mat4 clipToCut(const Cut& cut) {
     return m;
 }
 
-// reflection: of the camera; its own inverse. clipToPart: from the camera's clip space to that of the part it keeps.
+// reflection: applied to the camera; its own inverse. clipToPart: from the camera's clip space to that of the crop.
 ViewParams changedView(ViewParams view, const mat4& reflection, const mat4& clipToPart, const vec2& size) {
     view.worldToClip = clipToPart * view.worldToClip * reflection;
     view.clipToWorld = reflection * view.clipToWorld * glm::inverse(clipToPart);
