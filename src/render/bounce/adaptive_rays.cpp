@@ -1,4 +1,4 @@
-// Records how a budget of rays is shared by the noise of tiles.
+// Records the passes of adaptive sampling: noise per tile, then a ray budget distributed by it.
 #include "render/bounce/adaptive_rays.h"
 
 #include "render/bounce/rays.h"
@@ -11,7 +11,7 @@ namespace reflet {
 
 namespace {
 
-// No tile gets less of the mean, so that what changes is seen soon; none gets more times of it.
+// Bounds relative to the mean: at least leastShare, so that changes are detected soon, and at most mostTimes.
 constexpr float leastShare = 0.5F;
 constexpr uint32_t mostTimes = 4;
 

@@ -1,4 +1,5 @@
-// Copies one pixel of each block of the G-buffer: what rays of a coarser grid leave. In: G-buffer. Out: the same, smaller.
+// Downsamples the G-buffer by taking one pixel of each block, for tracing at reduced resolution. In: G-buffer. Out: the
+// same, smaller.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/bounce/ray_surfaces.h"

@@ -1,4 +1,4 @@
-// Records the ends of the chain: rays out of pixels, and their answers back into pixels.
+// Records both ends of the chain: ray generation, and averaging of results into pixels.
 #include "render/bounce/rays.h"
 
 #include "base/error.h"
@@ -46,7 +46,7 @@ Rays generateRays(gpu::Frame& f, const RaySurfaces& from, const RayTables& table
               .countSteps = countSteps,
               .directional = false};
     if (countSteps) {
-        f.clear(rays.steps);  // pixels without rays take none
+        f.clear(rays.steps);  // pixels without rays have 0 steps
     }
     rays.waiting = makeRayList(f, rays, "rays.generated");
     f.compute("generate_rays", "generate_rays.comp")

@@ -1,5 +1,5 @@
-// The first source of the chain: rays marched through what the camera sees; and, by the same passes, the planar views:
-// rays marched through what the mirrored camera sees. Shared by C++ and GLSL.
+// Screen-space ray tracing (SSR, SSGI): rays marched through the camera's depth buffer; and, by the same pass, planar
+// reflections: rays marched through the mirrored camera's depth buffer. Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_TRACE_SCREEN_H
 #define REFLET_RENDER_TRACE_SCREEN_H
 
@@ -81,18 +81,18 @@ CHOICES(HitLight, HIT_LIGHTS)
     SWITCH(countSteps, 0, "Count the depth samples of each ray; `--show steps` switches this on by itself.")
 SETTINGS(TraceScreenSettings, TRACE_SCREEN_SETTINGS)
 
-// What rays are asked of, as the specialization constant `through`.
+// The view that rays are traced in, as the specialization constant `through`.
 const uint throughScreen = 0;
-const uint throughMirror = 1;        // a mirrored camera's picture: marched
-const uint throughMirrorLookup = 2;  // any camera's picture, where it shows the ray's own start
-const uint throughMirrorCamera = 3;  // a picture that lies on the mirror
+const uint throughMirror = 1;        // a mirrored camera's view: ray march
+const uint throughMirrorLookup = 2;  // the planar image at the ray's origin, no march
+const uint throughMirrorCamera = 3;  // a camera image mapped onto the mirror
 
 struct TraceScreenParams {
-    ViewParams own;   // of the surfaces that rays leave
-    ViewParams view;  // that they are traced through
+    ViewParams own;   // of the surfaces that rays start from
+    ViewParams view;  // in which they are traced
     MirrorParams mirror;
     TraceScreenSettings settings;
-    float longest;  // metres: no ray goes farther
+    float longest;  // maximum ray length, metres
     uint firstRay;
     uint previousValid;  // 0: there is no last frame
 };
@@ -109,33 +109,33 @@ SHARED_END
 
 namespace reflet {
 
-/// What rays are traced through, and the light that they find.
+/// The buffers that rays are marched through, and the light at hits.
 struct ScreenImages {
     GBuffer g;
     ViewParams view;
-    gpu::Image backDepth;  ///< drawBackDepth; only where settings.thicknessMode is second_layer
-    gpu::Image pyramid;    ///< makePyramid; for hiz only
+    gpu::Image backDepth;  ///< from drawBackDepth; only if settings.thicknessMode is second_layer
+    gpu::Image pyramid;    ///< from makePyramid; only for hiz
     gpu::Image light;      ///< RGBA16F: of this frame
-    gpu::History lit;      ///< of the last frame, found by the hit's own motion
-    gpu::Image lightMips;  ///< makeLightMips, of the image that hits take their light from; where rays stand for all of
-                           ///< the lobe (Ray.spread), their hits' light is blurred
+    gpu::History lit;      ///< of the last frame, reprojected by the hit's motion
+    gpu::Image
+        lightMips;  ///< from makeLightMips, of the image that hits read; blurs the light at hits of cones (Ray.spread)
 };
 
-/// Answers rays that hit what the screen shows with the light there. Hands on the others. longest: of the lobe's rays
-/// [m].
+/// Gives rays that hit a visible surface the light there; the others stay in rays.waiting. longest: maximum length of
+/// the lobe's rays [m].
 void traceScreen(gpu::Frame& f, Rays& rays, const ScreenImages& screen, const TraceScreenSettings& settings,
                  float longest);
 
-/// What a mirror shows.
+/// One planar reflection.
 struct PlanarView {
-    std::string name;   ///< another for each of a frame's
-    ScreenImages seen;  ///< by the mirrored camera (traced, lookup), from the camera itself (duplicate), by the
-                        ///< mirror's (camera); `lit` is not used
+    std::string name;   ///< unique within a frame
+    ScreenImages seen;  ///< by the mirrored camera (traced, lookup), the camera itself (duplicate), or the mirror's own
+                        ///< camera (camera); `lit` is not used
     MirrorParams mirror;
     PlanarForm form = PlanarForm::traced;
 };
 
-/// Answers rays that start on the mirror with what its view shows; what that cannot say, it hands on.
+/// Gives rays that start on the mirror the light of its planar view; misses stay in rays.waiting.
 void traceMirror(gpu::Frame& f, Rays& rays, const PlanarView& mirror, const TraceScreenSettings& settings,
                  float longest);
 
