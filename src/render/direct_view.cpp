@@ -1,4 +1,4 @@
-// Records what one camera sees under direct light.
+// Records one camera's view under direct light.
 #include "render/direct_view.h"
 
 #include "render/contact/contact.h"
@@ -26,7 +26,7 @@ void drawSurfaces(gpu::Frame& f, const ViewInputs& in, const Settings& settings,
     }
 }
 
-// How much of the sun each pixel sees: its shadow map, cleaned, and contact shadows.
+// Sun visibility per pixel: shadow map, denoising, contact shadows.
 void renderSunVisibility(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
     ShadowSettings shadow = settings.shadow;
     if (in.sunIrradiance == vec3(0.0F)) {

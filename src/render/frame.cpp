@@ -1,10 +1,10 @@
 // The frame, top to bottom: values in, values out. Start reading here.
 //
-//     direct view (G-buffer → depth pyramid → sun and lamp visibility → direct light) → diffuse rays → answer chain
-//     → planar views → specular rays → answer chain → composite → temporal antialiasing → tone map
+// direct view (G-buffer → depth pyramid → sun and lamp visibility → direct light) → diffuse rays → source chain
+// → planar views → specular rays → source chain → composite → temporal antialiasing → tone map
 //
-// renderFrame, at the end, is all of it; its parts stand above it, and in direct_view.cpp what other views need, too.
-// There is no graph compiler: an `if` in these two files is the only culling.
+// renderFrame, at the end, does all of it; its parts are above it, and those shared with other views in
+// direct_view.cpp. There is no render graph: the `if`s in these two files are all that culls passes.
 #include "render/frame.h"
 
 #include "gpu/device.h"
@@ -30,18 +30,19 @@ namespace reflet {
 
 namespace {
 
-// Rays that stand for all of a lobe go to the middle of it, and are spread a little where the screen is asked: the
-// middle alone would print what it hits as a stencil, with edges as hard as a mirror's. Filtered sources have no edges.
+// Cones follow the lobe's centre, but on screen with a small random spread: the centre alone would give hit shapes
+// edges as hard as in a mirror. Prefiltered sources have no such edges.
 constexpr float coneShareOnScreen = 0.1F;
 
-// A view's images, and what its rays ask.
+// A view's images, and the views that its rays are traced in.
 struct TracedView {
     ViewImages images;
     ScreenImages screen;
     std::vector<PlanarView> mirrors;
 };
 
-// The screen, and the mirrors in it. A mirror's view knows more than the screen, and guesses no thickness.
+// Screen-space tracing and planar reflections, in the order of the setting. Planar views see more than the screen and
+// need no thickness assumption.
 void traceScreenAndPlanar(gpu::Frame& f, Rays& rays, const TracedView& seen, const Settings& settings, float longest) {
     const bool screenFirst = settings.planar.beforeScreen == 0;
     for (const bool asksScreen : {screenFirst, !screenFirst}) {
@@ -56,14 +57,14 @@ void traceScreenAndPlanar(gpu::Frame& f, Rays& rays, const TracedView& seen, con
     }
 }
 
-// What mirrors show has not moved by itself, until a source knows better.
+// No motion of reflected images, unless a source overwrites it.
 gpu::Image noImageMotion(gpu::Frame& f, const RaySurfaces& from) {
     const gpu::Image motion = f.image("rays.image_motion", VK_FORMAT_R16G16_SFLOAT, from.g.depth.size);
     f.clear(motion);
     return motion;
 }
 
-// Of pixels that are mirrors: all rays of one are the same, unless chance has a say in what they meet.
+// Rays per pixel of mirrors. All rays of a pixel are identical unless their tracing is randomized.
 uint32_t mirrorRayCount(uint32_t perPixel, const Settings& settings) {
     const TraceScreenSettings& s = settings.traceScreen;
     const bool exact = s.method == TraceMethod::hiz || s.method == TraceMethod::exhaustive;
@@ -71,13 +72,12 @@ uint32_t mirrorRayCount(uint32_t perPixel, const Settings& settings) {
     return chance ? perPixel : std::min(perPixel, 1U);
 }
 
-// How many rays of the lobe each tile gets. Where that follows the noise, the denoiser has to remember some.
+// Rays per tile. Adaptive sampling needs the denoiser's history.
 RayTiles tilesOfLobe(gpu::Frame& f, const RaySurfaces& from, const Settings& settings, const gpu::History& lit,
                      uint32_t lobe) {
     const bool diffuse = lobe == lobeDiffuse;
     const uint32_t perPixel = diffuse ? settings.diffuse.rays : settings.specular.rays;
-    const bool reused =
-        (diffuse ? settings.diffuse.reuse : settings.specular.reuse) > 0;  // that knows no other numbers
+    const bool reused = (diffuse ? settings.diffuse.reuse : settings.specular.reuse) > 0;  // requires a fixed count
     const RayCounts counts{perPixel, reused ? perPixel : mirrorRayCount(perPixel, settings)};
     const bool hasHistory = settings.denoise.enabled != 0 && settings.denoise.history > 0 && lit.next;
     const bool adaptive = (diffuse ? settings.diffuse.adaptive : settings.specular.adaptive) != 0;
@@ -90,7 +90,7 @@ RayTiles tilesOfLobe(gpu::Frame& f, const RaySurfaces& from, const Settings& set
         {past.light.previous, past.surface.previous, past.moments.previous, lit.previous, past.valid && lit.valid});
 }
 
-// One chain for both lobes: rays, then sources that answer in order of trust, each taking what is left over.
+// The chain of both lobes: rays, then sources in order of accuracy, each for the misses of the previous one.
 LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
                     uint32_t lobe) {
     const ScreenImages& screen = seen.screen;
@@ -142,7 +142,7 @@ TracedView tracedView(const ViewInputs& in, const ViewImages& images) {
     return {images, screen, {}};
 }
 
-// What reflections show: direct light, or what is lit so far; and its mips for those that are too rough for rays.
+// Sets the light that reflections read at hits: direct light, or all light so far; and its mips for cones.
 void lightForReflections(gpu::Frame& f, const ViewInputs& in, const Settings& settings, const LobeLight& diffuse,
                          ScreenImages& screen) {
     const auto scope = f.scope("specular");
@@ -161,13 +161,13 @@ void lightForReflections(gpu::Frame& f, const ViewInputs& in, const Settings& se
     }
 }
 
-// What one view besides the frame's own shows to reflections. There is no last frame of it: `previous` is `lit` there.
+// Renders a planar view, for use by reflections. It has no last frame: `previous` acts as `lit` there.
 ScreenImages renderReflectionView(gpu::Frame& f, const ViewInputs& in, Settings settings, gpu::Image lampShadowMap) {
     const bool lit = settings.traceScreen.light != HitLight::direct;
     settings.traceScreen.light = lit ? HitLight::lit : HitLight::direct;
     settings.traceScreen.countSteps = 0;
     settings.diffuse.rays = lit && settings.planar.diffuse != 0 ? settings.diffuse.rays : 0;
-    settings.shadow.history = 0;  // the view's edges move with the camera, and with them its pixels
+    settings.shadow.history = 0;  // the crop, and with it the pixels, moves with the camera
     settings.denoise.history = 0;
     const ViewImages images = directView(f, in, settings, lampShadowMap);
     TracedView seen = tracedView(in, images);
@@ -194,7 +194,7 @@ ScreenImages renderPlanarView(gpu::Frame& f, const FrameInputs& in, const Settin
         const uint32_t largestMap = f.device().limits().maxImageDimension2D;
         const MirroredScene room = mirroredScene(in, mirror, settings.shadow, largestMap);
         ViewInputs behind = duplicateViewInputs(in, mirror, s, room);
-        behind.traced = nullptr;  // what these know is on this side
+        behind.traced = nullptr;  // these are not mirrored
         behind.probes = {};
         Settings there = settings;
         if (there.shadow.filter == ShadowFilter::traced) {
@@ -217,7 +217,7 @@ std::vector<PlanarView> renderPlanarViews(gpu::Frame& f, const FrameInputs& in, 
     return views;
 }
 
-// What cameras see that materials show. Returns the lamps' shadow map, if it was drawn for them.
+// Renders the live camera images shown by materials. Returns the lamps' shadow map if one was drawn.
 gpu::Image renderLiveCameras(gpu::Frame& f, const ViewInputs& in, const Settings& settings,
                              std::span<const LiveView> pictures) {
     gpu::Image lampShadowMap;

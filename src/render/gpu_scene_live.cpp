@@ -1,4 +1,4 @@
-// Live pictures of a scene: textures that materials show and that each frame draws.
+// Live camera images: textures rendered every frame and shown by materials.
 #include "render/gpu_scene.h"
 
 #include <spdlog/fmt/fmt.h>

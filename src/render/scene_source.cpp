@@ -1,4 +1,4 @@
-// Records the scene's source with the frame's values.
+// Records ray tracing with the frame's parameters.
 #include "render/scene_source.h"
 
 #include "render/trace_scene/trace_scene.h"
@@ -7,7 +7,7 @@ namespace reflet {
 
 namespace {
 
-// What a hit brings besides direct light: scattered rays, and whether they are diffuse ones alone.
+// Indirect light at hits: number of bounces, and whether only diffuse ones.
 struct Scattering {
     uint32_t bounces = 0;
     bool diffuseOnly = false;
