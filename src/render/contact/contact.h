@@ -1,5 +1,5 @@
-// Contact shadows: a short march through the depth buffer toward the sun, for casters too small, or too near to what
-// they shadow, for the shadow map's texels. Shared by C++ and GLSL.
+// Contact shadows: a short screen-space ray march toward the sun, for casters too small, or too close to the receiver,
+// for the shadow map's resolution. Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_CONTACT_H
 #define REFLET_RENDER_CONTACT_H
 
@@ -8,7 +8,7 @@
 
 SHARED_BEGIN
 
-// `distance`, and not `length`: glslc takes a member of that name for the built-in function.
+// `distance`, not `length`: glslc confuses a member of that name with the built-in function.
 #define CONTACT_SETTINGS(VALUE, SWITCH, CHOICE)                                                                      \
     VALUE(float, distance, 0.0, 0.0, 10.0,                                                                           \
           "Length of contact shadow rays in metres: a screen-space ray march toward the sun, for casters too small " \
@@ -35,8 +35,7 @@ SHARED_END
 
 namespace reflet {
 
-/// R8, 1: lit: the lesser of `sunVisibility`, by the shadow map, and of what a march toward the sun finds. pyramid: of
-/// makePyramid.
+/// R8, 1: lit: the minimum of `sunVisibility` (by the shadow map) and the contact shadow. pyramid: from makePyramid.
 gpu::Image contactShadow(gpu::Frame& f, const GBuffer& g, gpu::Image pyramid, gpu::Image sunVisibility,
                          const ContactParams& params);
 

@@ -1,6 +1,6 @@
-// Stores one face of a probe's cube map, mirrored (see cubeFaceCamera), and adds what earlier captures light it with.
+// Stores one face of a probe's cube map, mirrored (see cubeFaceCamera), and adds indirect light from earlier captures.
 // In: G-buffer and direct light of the face's camera, all probes' maps. Out: radiance, 0 for the sky, with alpha;
-// distance; the same radiance in an image of all faces.
+// distance; the same radiance in an atlas of all faces.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/environment/environment_lobes.glsl"

@@ -1,6 +1,6 @@
-// Local probes: cube maps of what is seen from some places in the scene, captured from its G-buffer and direct light,
-// that answer rays as if all they show lay on the walls of a box (Lagarde and Zanuttini, Local Image-Based Lighting
-// with Parallax-Corrected Cubemaps, SIGGRAPH 2012). Shared by C++ and GLSL.
+// Local reflection probes: cube maps captured in the scene from G-buffer and direct light, with parallax correction by
+// box projection (Lagarde and Zanuttini, Local Image-Based Lighting with Parallax-Corrected Cubemaps, SIGGRAPH 2012).
+// Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_PROBES_H
 #define REFLET_RENDER_PROBES_H
 
@@ -56,10 +56,10 @@ namespace reflet {
 
 /// Cube maps for passes to read.
 struct ProbeMaps {
-    gpu::Image lobes;       ///< of CubeMap (cube_map.h): radiance · alpha; alpha: 1 a surface, 0 the sky
-    gpu::Image irradiance;  ///< of CubeMap, alike
-    gpu::Image distance;    ///< R32F cube array: metres from the probe, 0 the sky
-    gpu::Image atlas;       ///< RGBA16F: the faces as they were captured, a row of six for each probe
+    gpu::Image lobes;       ///< of CubeMap (cube_map.h): radiance · alpha; alpha: 1 surface, 0 sky
+    gpu::Image irradiance;  ///< of CubeMap, with alpha as well
+    gpu::Image distance;    ///< R32F cube array: metres from the probe, 0: sky
+    gpu::Image atlas;       ///< RGBA16F: the captured faces, a row of six per probe
     ProbeBlock block{};
 
     explicit operator bool() const { return block.count > 0; }

@@ -1,4 +1,5 @@
-// Sun visibility: shadow maps fitted to what the view can see or what casts into it, looked up per pixel.
+// Sun visibility: shadow maps, single or cascaded, fitted to the view frustum and its casters, looked up per pixel
+// (hard, PCF, PCSS).
 // Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_SHADOW_H
 #define REFLET_RENDER_SHADOW_H
@@ -99,13 +100,13 @@ struct ShadowMapParams {
 };
 
 const uint maxCascades = 4;
-const float nearestSplit = 0.005;  // where the first of equal ratios begins, as a part of the farthest distance
+const float nearestSplit = 0.005;  // start of the logarithmic split, relative to the farthest distance
 
-// Cascade i lies in a tile of the shadow image: i % 2 to the right and i / 2 downwards, `resolution` texels a side.
+// Cascade i is a tile of the shadow image, at column i % 2 and row i / 2, `resolution` texels a side.
 struct SunShadowParams {
     ShadowMapParams maps[maxCascades];  // from near to far
-    float ends[maxCascades];            // where each ends: metres in front of the camera
-    float blends[maxCascades];          // where its blend into the next begins
+    float ends[maxCascades];            // far end of each: metres in front of the camera
+    float blends[maxCascades];          // start of its blend into the next
     uint count;
 };
 
@@ -116,8 +117,8 @@ struct ShadowVisibilityParams {
     float sunSlope;  // tangent of half the sun's angular diameter
 };
 
-// The range images: levels 1 to below shadowRangeLevels as render/levels.h says, of which a cell of level l spans
-// 4 · 2^l texels of the map.
+// The range image, a min/max pyramid: levels 1 to shadowRangeLevels - 1 in the layout of render/levels.h. A cell of
+// level l spans 4 · 2^l texels of the map.
 const uint shadowRangeLevels = 11;
 const uint shadowRangeTexels = 4;
 
@@ -136,51 +137,49 @@ SHARED_END
 
 namespace reflet {
 
-/// The maps that the settings ask for: one of fitSunShadow or centredSunShadow, or cascades. `reach`: metres around
-/// what is seen that filters look at, too; two texels are always there.
+/// The maps for the settings: one by fitSunShadow or centredSunShadow, or cascades. `reach`: extra metres around the
+/// visible part for filters; two texels are always added.
 SunShadowParams fitSunShadows(const ViewParams& view, const Aabb& sceneBounds, const vec3& direction,
                               const ShadowSettings& settings, float reach = 0.0F);
 
-/// How far from a surface, across the sun, its filter may look for what hides the sun from it [m]. sunSlope: as in
-/// ShadowVisibilityParams.
+/// Largest filter radius, perpendicular to the sun direction [m]. sunSlope: as in ShadowVisibilityParams.
 float filterReach(const Aabb& sceneBounds, const ShadowSettings& settings, float sunSlope);
 
-/// Fits an orthographic map of `resolution` texels to the part of `sceneBounds` that the view sees, as deep as all of
-/// it. direction: the way the light travels. Texels keep to a grid and change their size in steps of 9 %.
+/// Fits an orthographic map of `resolution` texels to the visible part of `sceneBounds`, with the depth of the whole.
+/// direction: direction of travel of the light. Texels snap to a grid, and their size changes in steps of 9 %.
 ShadowMapParams fitSunShadow(const mat4& clipToWorld, const Aabb& sceneBounds, const vec3& direction, uint resolution,
                              float reach = 0.0F);
 
-/// A map for each part of the view's depth. Their texels keep to a grid and their size, however the camera turns; so
-/// they do when it moves, but for steps of 9 % in how far away the scene begins or ends.
+/// One map per cascade. Texels snap to a grid and keep their size under camera rotation, and under translation except
+/// for steps of 9 % in the scene's near and far distance.
 SunShadowParams fitCascades(const ViewParams& view, const Aabb& sceneBounds, const vec3& direction,
                             const ShadowSettings& settings, float reach = 0.0F);
 
-/// An orthographic map of ±extent metres around the world's origin, whatever the view sees, as deep as `sceneBounds`.
+/// A fixed orthographic map of ±extent metres around the world's origin, with the depth of `sceneBounds`.
 ShadowMapParams centredSunShadow(const Aabb& sceneBounds, const vec3& direction, float extent, uint resolution);
 
-/// Draws depth as the sun sees it, both sides of every surface: D32, reversed (1 nearest to the sun). A tile for each
-/// cascade: one, two beside one another, or two by two.
+/// Draws depth from the sun, both sides of every surface: D32, reversed (1 nearest to the sun). A tile per cascade:
+/// 1x1, 2x1 or 2x2.
 gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const SunShadowParams& sun,
                          const ShadowSettings& settings);
 
-/// RG32F: the largest (nearest to the sun) and the smallest depth of ever larger squares of the map. list, sun,
-/// settings: as of drawShadowMap; where the map was kept, they are, too.
+/// Min/max pyramid of the map, RG32F: the largest (nearest to the sun) and the smallest depth of each cell. list, sun,
+/// settings: as for drawShadowMap; reused whenever the map is.
 gpu::Image makeShadowRange(gpu::Frame& f, gpu::Image shadowMap, const DrawList& list, const SunShadowParams& sun,
                            const ShadowSettings& settings);
 
-/// What the sun's map tells the pixels.
+/// Result of the shadow map lookup.
 struct SunVisibility {
-    gpu::Image visibility;  ///< R8, 1: lit. The sky is lit. Without a map (filter none): 1 everywhere
-    gpu::Image
-        penumbra;  ///< RG16F: x: full width of the penumbra across the sun's direction [m], 0 where the
-                   ///< visibility is exact; negative where no blocker was found: at most so wide; y: mean
-                   ///< distance of the blockers toward the sun [m], 0 none or unknown. None with filter none or hard
-    gpu::Image cascadeIndex;  ///< R8: number of the cascade over 3, between two where they blend; none with one cascade
+    gpu::Image visibility;  ///< R8, 1: lit, as is the sky. 1 everywhere with filter none
+    gpu::Image penumbra;    ///< RG16F: x: full penumbra width perpendicular to the sun's direction [m], 0 where the
+                          ///< visibility is exact, negative (minus the upper bound) where no blocker was found; y: mean
+                          ///< blocker distance toward the sun [m], 0 none or unknown. None with filter none or hard
+    gpu::Image cascadeIndex;  ///< R8: cascade index / 3, fractional where two blend; none with one cascade
 };
 
 struct ShadowInputs {
-    gpu::Image map;    ///< of drawShadowMap; may be none
-    gpu::Image range;  ///< of makeShadowRange; may be none
+    gpu::Image map;    ///< from drawShadowMap; may be none
+    gpu::Image range;  ///< from makeShadowRange; may be none
     gpu::BufferView blueNoise;
 };
 

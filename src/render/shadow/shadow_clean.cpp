@@ -1,4 +1,4 @@
-// Records the cleaning of the sun's visibility.
+// Records the shadow denoiser.
 #include "render/shadow/shadow_clean.h"
 
 namespace reflet {
