@@ -1,5 +1,5 @@
-// Running means of the layers of light over frames of the same view: what is left of the noise of few rays falls with
-// the number of frames. Shared by C++ and GLSL.
+// Progressive accumulation: running means of the light layers over frames of the same view. Noise falls with the number
+// of frames. Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_ACCUMULATE_H
 #define REFLET_RENDER_ACCUMULATE_H
 
@@ -16,7 +16,7 @@ SETTINGS(AccumulateSettings, ACCUMULATE_SETTINGS)
 
 struct AccumulateParams {
     uvec2 size;
-    float weight;  // of this frame: 1 over the number of frames, itself included
+    float weight;  // of this frame: 1 / number of frames including this one
 };
 
 SHARED_END
@@ -28,14 +28,14 @@ SHARED_END
 
 namespace reflet {
 
-/// Layers of light, of one frame or of many.
+/// Layers of light, of one frame or means over several.
 struct LightLayers {
     gpu::Image direct;
     Composite light;
 };
 
-/// The means of the layers over this frame and the `framesBefore`, RGBA32F: half floats would lose what each of many
-/// frames adds.
+/// The means of the layers over this frame and the `framesBefore` before it. RGBA32F, as half floats would lose a
+/// single frame's contribution to many.
 LightLayers accumulate(gpu::Frame& f, const LightLayers& frame, uint32_t framesBefore);
 
 }  // namespace reflet

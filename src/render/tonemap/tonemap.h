@@ -1,4 +1,4 @@
-// From radiance to what a display shows. Shared by C++ and GLSL.
+// Tone mapping: exposure, tone curve and display encoding. Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_TONEMAP_H
 #define REFLET_RENDER_TONEMAP_H
 

@@ -1,5 +1,5 @@
-// A source of the chain that knows all of the scene: rays traced through its triangles, hits shaded with their
-// materials and lights. It answers what the sources before it have left over. Shared by C++ and GLSL.
+// Ray tracing as a ray source: rays that earlier sources left are traced against the scene's BVH, on screen or off, and
+// hits are shaded with their materials and lights. Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_TRACE_SCENE_H
 #define REFLET_RENDER_TRACE_SCENE_H
 
@@ -47,7 +47,7 @@ CHOICES(SceneShadows, SCENE_SHADOWS)
            "shader.")
 SETTINGS(TraceSceneSettings, TRACE_SCENE_SETTINGS)
 
-// What shines, besides lamps and glowing surfaces.
+// Light parameters, apart from lamps and emissive surfaces.
 struct SceneLights {
     vec3 toSun;
     float sunSine;       // of half the sun's angular diameter
@@ -57,21 +57,21 @@ struct SceneLights {
 };
 
 struct TraceSceneParams {
-    ViewParams own;   // of the surfaces that rays leave
+    ViewParams own;   // of the surfaces that rays start from
     ViewParams view;  // of the screen
     TraceSceneSettings settings;
     SceneLights lights;
     SunShadowParams sun;
     float shadowBias;   // texels
-    float rayLimit;     // rays that this batch may answer, about
-    uint bounces;       // scattered rays after a hit
-    uint diffuseOnly;   // 1: they are diffuse ones
-    uint mips;          // 0: textures are read in full detail
-    uint fromPrevious;  // 1: the screen's light is the last frame's
+    float rayLimit;     // approximate ray budget of this batch
+    uint bounces;       // bounces after a hit
+    uint diffuseOnly;   // 1: only diffuse bounces
+    uint mips;          // 0: textures are read at the finest level
+    uint fromPrevious;  // 1: screen light is the last frame's
     uint firstRay;
 };
 
-// Of the specialization constant `sunShadows`.
+// Values of the specialization constant `sunShadows`.
 const uint sunShadowNone = 0;
 const uint sunShadowRay = 1;
 const uint sunShadowMap = 2;
@@ -89,25 +89,25 @@ SHARED_END
 
 namespace reflet {
 
-/// A scene that rays can be traced through.
+/// A scene for ray tracing.
 struct TracedScene {
     SceneRays rays;
     SceneSurfaces surfaces;
 };
 
-/// What a frame lights hits with.
+/// Inputs for shading hits.
 struct TraceSceneInputs {
     const TracedScene& scene;
     const ScreenImages& screen;
-    gpu::Image shadowMap;  ///< of the sun; none: it has no shadows, or rays find them
+    gpu::Image shadowMap;  ///< of the sun; none without shadows or with ray-traced ones
     gpu::Image ggxTable;
     gpu::BufferView blueNoise;
     const EnvironmentLight& environment;
     const LampBlock& lamps;
 };
 
-/// Answers rays that hit something, with confidence 1. Hands on the others, of which it is then known that nothing is
-/// in their way, those past the limit, and those that stand for a whole lobe (Ray.spread).
+/// Hits get confidence 1. Misses stay in rays.waiting, marked as known misses, and so do rays beyond the budget and
+/// cones (Ray.spread).
 void traceScene(gpu::Frame& f, Rays& rays, const TraceSceneInputs& in, uint32_t sunShadows,
                 const TraceSceneParams& params);
 
