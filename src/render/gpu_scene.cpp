@@ -223,7 +223,7 @@ void GpuScene::addLamps(const Scene& scene, const std::function<void(const std::
     lampSources_.resize(scene.lamps.size());
     std::iota(lampSources_.begin(), lampSources_.end(), size_t(0));
     if (lampSources_.size() > maxLamps) {
-        warn(fmt::format("the scene has {} lamps, of which the strongest {} are used", lampSources_.size(), maxLamps));
+        warn(fmt::format("the scene has {} lamps, but only the strongest {} are used", lampSources_.size(), maxLamps));
         const auto strength = [&](size_t i) {
             const vec3& intensity = scene.lamps[i].intensity;
             return std::max({intensity.x, intensity.y, intensity.z});

@@ -12,7 +12,7 @@ uint32_t raysPerBatch(gpu::Frame& f, uvec2 size, uint32_t most) {
     const VkDeviceSize layer = VkDeviceSize(size.x) * size.y * sizeof(RayItem);
     const VkDeviceSize fit = (f.device().limits().maxStorageBufferRange - rayListHeader) / layer;
     if (fit == 0 || std::max(size.x, size.y) > maxFrameSize) {
-        fail("{}x{} pixels are more than this device can trace rays for; render at a smaller size", size.x, size.y);
+        fail("this device cannot trace rays at {}x{} pixels; render at a smaller size", size.x, size.y);
     }
     return static_cast<uint32_t>(std::min<VkDeviceSize>(fit, most));
 }

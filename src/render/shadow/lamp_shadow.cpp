@@ -118,8 +118,9 @@ LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, ui
     shadows.count = std::min({settings.lamps, maxShadowedLamps, static_cast<uint32_t>(indices.size())});
     shadows.tileSize = settings.lampResolution;
     if (indices.size() > shadows.count) {
-        warn(fmt::format("the scene has {} point and spot lamps, of which the strongest {} cast shadows (shadow.lamps)",
-                         indices.size(), shadows.count));
+        warn(fmt::format(
+            "the scene has {} point and spot lamps, but only the strongest {} cast shadows: shadow.lamps is the limit",
+            indices.size(), shadows.count));
     }
     indices.resize(shadows.count);
     uint32_t tiles = 0;
@@ -135,10 +136,10 @@ LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, ui
         shadows.lamps[i] = shadowOf(lamps, indices[i], tile, shadows.tileSize);
     }
     if (shadows.tileSize < settings.lampResolution) {
-        warn(
-            fmt::format("{} shadow maps of {} texels a side do not fit into one image; they have {} (shadow.lamps, "
-                        "shadow.lamp_resolution)",
-                        tiles, settings.lampResolution, shadows.tileSize));
+        warn(fmt::format(
+            "{} lamp shadow maps of {} texels a side do not fit into one image and are reduced to {}; lower "
+            "shadow.lamps or shadow.lamp_resolution",
+            tiles, settings.lampResolution, shadows.tileSize));
     }
     return shadows;
 }

@@ -54,7 +54,7 @@ void SceneRays::upload(gpu::Device& device, const Bvh& bvh) {
 
 void SceneRays::upload(gpu::Device& device, std::vector<SceneTriangle> triangles) {
     if (!device.hasRayQuery()) {
-        fail("the device '{}' has no ray query", device.description().name);
+        fail("the device '{}' does not support ray query; set trace_scene.ray_query=false", device.description().name);
     }
     if (triangles.empty()) {
         triangles.push_back({});  // degenerate: never hit

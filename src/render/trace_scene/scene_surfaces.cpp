@@ -42,14 +42,18 @@ public:
     gpu::Texture upload(gpu::Device& device, uint32_t largest, const std::function<void(const std::string&)>& warn) {
         const uint32_t most = device.limits().maxImageArrayLayers;
         if (images_.size() > most) {
-            warn(fmt::format("the scene has {} textures of one kind, of which rays see {}", images_.size(), most));
+            warn(fmt::format(
+                "the scene has {} textures of one kind, but only {} are used at ray hits, the others left out",
+                images_.size(), most));
             images_.resize(most);
         }
         const auto shrunk = std::ranges::count_if(
             images_, [&](const auto& image) { return image.size.x > largest || image.size.y > largest; });
         if (shrunk > 0) {
-            warn(fmt::format("rays see {} of the scene's textures shrunk to {} texels (trace_scene.texture_size)",
-                             shrunk, largest));
+            warn(
+                fmt::format("{} of the scene's textures are shrunk to {} texels for ray hits: trace_scene.texture_size "
+                            "is the limit",
+                            shrunk, largest));
         }
         size_ = min(size_, uvec2(largest));
         constexpr uint8_t white[] = {255, 255, 255, 255};
