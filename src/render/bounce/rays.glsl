@@ -61,7 +61,7 @@ const vec4 sourceScreen = vec4(0.2, 0.8, 0.3, 1.0);        // green
 const vec4 sourcePlanar = vec4(0.2, 0.8, 0.85, 1.0);       // cyan
 const vec4 sourceScene = vec4(0.95, 0.75, 0.2, 1.0);       // yellow
 const vec4 sourceProbe = vec4(0.8, 0.3, 0.75, 0.0);        // magenta
-const vec4 sourceEnvironment = vec4(0.25, 0.45, 0.9, 0.0); // blue
+const vec4 sourceEnvironment = vec4(0.25, 0.45, 0.9, 0.0);  // blue
 
 // Vulkan's guaranteed minimum of groups per dispatch; with longer lists each thread processes several rays.
 const uint maxListGroups = 65535u;

@@ -49,7 +49,7 @@ struct Shown {
 // Bilateral Upsampling, 2007).
 struct Blocks {
     ivec2 corner;
-    vec4 weights; // bilinear
+    vec4 weights;  // bilinear
 };
 
 Blocks blocksAt(Shown shown, uint scale, uint place, ivec2 size) {

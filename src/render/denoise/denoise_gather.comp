@@ -59,7 +59,7 @@ const float framesInMotionRough = 64.0;
 struct Neighbourhood {
     vec4 light;     // firefly-clamped, plus the excess of neighbouring fireflies; mean hit distance of the neighbourhood
     vec3 mean;      // of the neighbourhood
-    vec3 variance; // per pixel
+    vec3 variance;  // per pixel
     vec4 directional;  // of the light
     float found;    // pixels of the neighbourhood with rays in this frame
     bool traced;    // whether the pixel itself has rays

@@ -4,7 +4,7 @@
 #define REFLET_MIRROR_ANSWERS_GLSL
 
 const float mirrorSlack = 2e-4;   // metres off the plane per metre from the camera: limit of the depth buffer's precision
-const float mirrorCosine = 0.999; // between the plane's normal and the surface's
+const float mirrorCosine = 0.999;  // between the plane's normal and the surface's
 
 bool liesOnMirror(vec3 p, vec3 n) {
     vec4 plane = params.mirror.plane;
