@@ -25,7 +25,8 @@ CHOICES(RayNoise, RAY_NOISES)
 
 #define DIFFUSE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                        \
     VALUE(uint, rays, 4, 0, 256,                                                                                       \
-          "Samples per pixel for diffuse GI. More: less noise, cost grows linearly. 0: no diffuse GI.")                \
+          "Samples per pixel for diffuse GI (global illumination, indirect light). More: less noise, cost grows "      \
+          "linearly. 0: no diffuse GI.")                                                                               \
     CHOICE(RayDistribution, distribution, cosine,                                                                      \
            "Sampling of ray directions over the hemisphere. cosine: importance-sampled, least noise. uniform: all "    \
            "directions alike. normal: one lookup along the normal instead of rays; only irradiance sources (probes, "  \
@@ -55,19 +56,20 @@ SETTINGS(DiffuseSettings, DIFFUSE_SETTINGS)
     OPTION(RoughFallback, mips, 1)
 CHOICES(RoughFallback, ROUGH_FALLBACKS)
 
-#define SPECULAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                                    \
-    VALUE(uint, rays, 1, 0, 256,                                                                                    \
-          "Samples per pixel for reflections, drawn from the GGX lobe by roughness. More: less noise, cost grows "  \
-          "linearly. 0: no reflections.")                                                                           \
-    SWITCH(adaptive, 0, "Adaptive sampling of reflections, as for diffuse.adaptive.")                               \
-    VALUE(uint, downsample, 1, 1, 4, "Trace reflections at reduced resolution, as for diffuse.downsample.")         \
-    VALUE(uint, reuse, 0, 0, 8, "Neighbouring pixels whose rays are reused, as for diffuse.reuse.")                 \
-    VALUE(float, maxRoughness, 1.0, 0.0, 1.0,                                                                       \
-          "Highest roughness with stochastic rays; rougher surfaces use `rough_fallback`. Lower: less noise and "   \
-          "cost, less exact. 1: all surfaces trace.")                                                               \
-    CHOICE(RoughFallback, roughFallback, next,                                                                      \
-           "Reflections on surfaces above `max_roughness`. next: skip the screen, use the next source. mips: cone " \
-           "tracing, a ray near the lobe's centre with screen light prefiltered by roughness around its hit.")      \
+#define SPECULAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                                      \
+    VALUE(uint, rays, 1, 0, 256,                                                                                      \
+          "Samples per pixel for reflections (indirect specular light), drawn from the GGX lobe by roughness. More: " \
+          "less noise, cost grows "                                                                                   \
+          "linearly. 0: no reflections.")                                                                             \
+    SWITCH(adaptive, 0, "Adaptive sampling of reflections, as for diffuse.adaptive.")                                 \
+    VALUE(uint, downsample, 1, 1, 4, "Trace reflections at reduced resolution, as for diffuse.downsample.")           \
+    VALUE(uint, reuse, 0, 0, 8, "Neighbouring pixels whose rays are reused, as for diffuse.reuse.")                   \
+    VALUE(float, maxRoughness, 1.0, 0.0, 1.0,                                                                         \
+          "Highest roughness with stochastic rays; rougher surfaces use `rough_fallback`. Lower: less noise and "     \
+          "cost, less exact. 1: all surfaces trace.")                                                                 \
+    CHOICE(RoughFallback, roughFallback, next,                                                                        \
+           "Reflections on surfaces above `max_roughness`. next: skip the screen, use the next source. mips: cone "   \
+           "tracing, a ray near the lobe's centre with screen light prefiltered by roughness around its hit.")        \
     CHOICE(RayNoise, noise, blue, "Random numbers for ray directions, as for diffuse.noise.")
 SETTINGS(SpecularSettings, SPECULAR_SETTINGS)
 

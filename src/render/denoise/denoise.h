@@ -16,7 +16,8 @@ SHARED_BEGIN
 
 #define DENOISE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                        \
     SWITCH(enabled, 0,                                                                                                 \
-           "Denoise diffuse GI and reflections with a spatiotemporal filter. Removes the noise of low sample counts.") \
+           "Denoise indirect light (diffuse GI and reflections) with a spatiotemporal filter. Removes the noise of "   \
+           "low sample counts.")                                                                                       \
     VALUE(uint, history, 64, 0, 1024,                                                                                  \
           "Maximum history length in frames (temporal accumulation). More: less noise, more ghosting. 0: no history, " \
           "each frame is denoised alone.")                                                                             \

@@ -39,12 +39,12 @@ namespace reflet {
 /// Images of the view's size.
 struct GBuffer {
     gpu::Image depth;   ///< D32, reversed, 0: sky
-    gpu::Image normal;  ///< R32_UINT: world-space shading normal, octahedral, two snorm16 (packUnitVector). The
-                        ///< design's RG16 snorm is no colour target on SwiftShader, nor promised by Vulkan
+    gpu::Image normal;  ///< R32_UINT: world-space shading normal, octahedral, two snorm16 (packUnitVector). Vulkan does
+                        ///< not guarantee RG16 snorm as a colour target, and SwiftShader lacks it
     gpu::Image geometricNormal;  ///< R32_UINT, packed alike: of the triangle, facing the camera; matches the depth
                                  ///< gradient, unlike smooth or mapped normals
-    gpu::Image baseColor;  ///< RGB10A2: square root of the linear base colour. The design's RGBA8 sRGB is off by up to
-                           ///< 0.8 % (llvmpipe, base colour 0.5), this by 0.15 % in the same four bytes
+    gpu::Image baseColor;  ///< RGB10A2: square root of the linear base colour. Error up to 0.15 %, against 0.8 % for
+                           ///< RGBA8 sRGB in the same four bytes (llvmpipe, base colour 0.5)
     gpu::Image material;   ///< RGBA8: perceptual roughness, metallic, occlusion, flags / 255
     gpu::Image emissive;   ///< B10G11R11: emitted radiance
     gpu::Image motion;     ///< RGBA16F: uv now minus uv last frame; the surface's own motion away from the camera along
