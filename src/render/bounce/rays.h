@@ -59,8 +59,7 @@ CHOICES(RoughFallback, ROUGH_FALLBACKS)
 #define SPECULAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                                      \
     VALUE(uint, rays, 1, 0, 256,                                                                                      \
           "Samples per pixel for reflections (indirect specular light), drawn from the GGX lobe by roughness. More: " \
-          "less noise, cost grows "                                                                                   \
-          "linearly. 0: no reflections.")                                                                             \
+          "less noise, cost grows linearly. 0: no reflections.")                                                      \
     SWITCH(adaptive, 0, "Adaptive sampling of reflections, as for diffuse.adaptive.")                                 \
     VALUE(uint, downsample, 1, 1, 4, "Trace reflections at reduced resolution, as for diffuse.downsample.")           \
     VALUE(uint, reuse, 0, 0, 8, "Neighbouring pixels whose rays are reused, as for diffuse.reuse.")                   \

@@ -19,8 +19,8 @@ CHOICES(PlanarForm, PLANAR_FORMS)
            "Planar reflections: render the scene again for flat mirrors and use these views for reflections.")         \
     CHOICE(PlanarForm, form, traced,                                                                                   \
            "Planar reflection technique. traced: rays are marched through the mirrored camera's depth buffer. "        \
-           "lookup: the mirrored camera's image "                                                                      \
-           "at the same pixel. duplicate: a mirrored copy of the scene behind the mirror, seen through it. camera: "   \
+           "lookup: the mirrored camera's image at the same pixel. duplicate: a mirrored copy of the scene behind "    \
+           "the mirror, seen through it. camera: "                                                                     \
            "the image of one fixed camera at the mirror's centre.")                                                    \
     VALUE(uint, count, 1, 0, 4,                                                                                        \
           "Maximum number of planar reflections per frame; the mirrors largest on screen are chosen. Each renders "    \
