@@ -59,7 +59,7 @@ void listSettings() {
     const Settings defaults;
     for (const SettingEntry& entry : settingEntries()) {
         const std::string head = fmt::format("{:<31} {:<14} ", entry.name, settingText(defaults, entry));
-        fmt::print("{}{}\n", head, shortened(entry.info.help, listWidth - head.size()));
+        fmt::print("{}{}\n", head, firstWordsOf(entry.info.help, listWidth - head.size()));
     }
     fmt::print("\nreflet list settings NAME shows range and full help of a setting, or of a group such as 'shadow'.\n");
 }

@@ -151,7 +151,7 @@ std::vector<std::string> wrapped(std::string_view text, size_t width) {
     return lines;
 }
 
-std::string shortened(std::string_view text, size_t width) {
+std::string firstWordsOf(std::string_view text, size_t width) {
     if (characters(text) <= width) {
         return std::string(text);
     }

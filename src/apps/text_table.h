@@ -10,8 +10,8 @@ namespace reflet {
 /// Breaks a text between words into lines of at most `width` characters; a longer word has a line of its own.
 std::vector<std::string> wrapped(std::string_view text, size_t width);
 
-/// The text, or as much of it as `width` characters hold, with "..." at its end. Counts UTF-8 characters.
-std::string shortened(std::string_view text, size_t width);
+/// The text, or its first words in `width` characters with "..." at the end. Counts UTF-8 characters.
+std::string firstWordsOf(std::string_view text, size_t width);
 
 /// Markdown as plain text: the columns of its tables aligned by spaces, headings without #, code without backquotes. A
 /// table wider than `width` characters is turned: a line for each column, where that is narrower.

@@ -1,4 +1,4 @@
-// Records what one camera sees under direct light.
+// Records one camera's view under direct light.
 #include "render/direct_view.h"
 
 #include "render/contact/contact.h"
@@ -26,8 +26,8 @@ void drawSurfaces(gpu::Frame& f, const ViewInputs& in, const Settings& settings,
     }
 }
 
-// How much of the sun each pixel sees: its shadow map, cleaned, and contact shadows.
-void seeSun(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
+// Sun visibility per pixel: shadow map, denoising, contact shadows.
+void renderSunVisibility(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
     ShadowSettings shadow = settings.shadow;
     if (in.sunIrradiance == vec3(0.0F)) {
         shadow.filter = ShadowFilter::none;
@@ -46,8 +46,8 @@ void seeSun(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewI
     out.rawSunVisibility = seen.visibility;
     out.shadowPenumbra = seen.penumbra;
     out.sunVisibility = shadow.denoise != 0 && seen.penumbra
-                            ? cleanShadow(f, out.g, seen.visibility, seen.penumbra,
-                                          {in.view, -in.sunDirection, shadow.history, shadow.samples, 0})
+                            ? denoiseShadow(f, out.g, seen.visibility, seen.penumbra,
+                                            {in.view, -in.sunDirection, shadow.history, shadow.samples, 0})
                             : seen.visibility;
     out.cascadeIndex = seen.cascadeIndex;
     if (settings.contact.distance > 0.0F && in.sunIrradiance != vec3(0.0F)) {
@@ -56,7 +56,7 @@ void seeSun(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewI
     }
 }
 
-void seeLamps(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
+void renderLampVisibility(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
     out.lampTiles = findLampTiles(f, out.g.depth, in.lamps, in.view, settings.direct);
     if (in.lampShadows.count > 0) {
         if (!out.lampShadowMap) {
@@ -89,8 +89,8 @@ ViewImages directView(gpu::Frame& f, const ViewInputs& in, const Settings& setti
         out.rawSunVisibility = rays.sunVisibility;
         return out;
     }
-    seeSun(f, in, settings, out);
-    seeLamps(f, in, settings, out);
+    renderSunVisibility(f, in, settings, out);
+    renderLampVisibility(f, in, settings, out);
     out.direct = directLight(f, out.g, {out.sunVisibility, out.lampVisibility, out.lampTiles.masks}, in.ggxTable,
                              {in.view, -in.sunDirection, in.sunIrradiance},
                              {in.lamps, in.environment, settings.materials.lambertOnly != 0});

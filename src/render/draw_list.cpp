@@ -1,4 +1,4 @@
-// Records draws.
+// Frustum-culls and records draws.
 #include "render/draw_list.h"
 
 #include "gpu/device.h"
@@ -23,8 +23,8 @@ const gpu::VertexLayout& vertexLayout() {
 
 namespace {
 
-// Conservative: false only when all corners are beyond the same side of the view. There is no far plane.
-bool mayBeSeen(const Aabb& box, const mat4& worldToClip) {
+// Conservative: false only if all corners are outside of the same frustum plane. There is no far plane.
+bool intersectsFrustum(const Aabb& box, const mat4& worldToClip) {
     unsigned outside = 0x1F;
     for (unsigned i = 0; i < 8; ++i) {
         const vec4 c = worldToClip * vec4(box.corner(i), 1.0F);
@@ -71,7 +71,7 @@ void recordDraws(const gpu::DrawCommands& to, const DrawList& list, const DrawFi
     vk.vkCmdBindIndexBuffer(to.commands, list.indices, 0, VK_INDEX_TYPE_UINT32);
     VkDescriptorSet boundMaterial = VK_NULL_HANDLE;
     for (const Draw& draw : list.draws) {
-        if (!filter.keep(draw) || !mayBeSeen(draw.boundsW, filter.worldToClip)) {
+        if (!filter.keep(draw) || !intersectsFrustum(draw.boundsW, filter.worldToClip)) {
             continue;
         }
         if (filter.bindMaterials && draw.material != boundMaterial) {

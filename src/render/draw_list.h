@@ -1,4 +1,5 @@
-// What raster passes draw: index ranges with a transform and a material, in buffers shared by all. Knows no scene.
+// Draws for raster passes: index ranges with a transform and a material, in shared buffers. Independent of the scene
+// classes.
 #pragma once
 
 #include "base/math.h"
@@ -20,20 +21,20 @@ struct Draw {
     VkDescriptorSet material = VK_NULL_HANDLE;
     bool masked = false;  ///< has an alpha cutoff
     bool doubleSided = false;
-    bool turnedOver = false;  ///< its triangles are clockwise as its vertices have them
+    bool turnedOver = false;  ///< its triangles have clockwise winding in object space
 };
 
 struct DrawList {
     VkBuffer positions = VK_NULL_HANDLE;          ///< vec3
-    VkBuffer previousPositions = VK_NULL_HANDLE;  ///< vec3, as in the last frame; none: all draws are rigid
+    VkBuffer previousPositions = VK_NULL_HANDLE;  ///< vec3, of the last frame; none if all draws are rigid
     VkBuffer attributes = VK_NULL_HANDLE;         ///< VertexAttributes
     VkBuffer indices = VK_NULL_HANDLE;            ///< uint32
     VkDescriptorSetLayout materialLayout = VK_NULL_HANDLE;
     std::vector<Draw> draws;
     Aabb boundsW;                          ///< of all
-    uint32_t textureSlots = 0;             ///< a bit for each that some material has a texture in (material.h)
-    std::vector<gpu::Image> livePictures;  ///< that materials show, and that passes write
-    /// Another number whenever draws cover other places than before. 0: whoever asks takes them for others.
+    uint32_t textureSlots = 0;             ///< bit mask of the slots for which any material has a texture (material.h)
+    std::vector<gpu::Image> livePictures;  ///< camera images shown by materials, written by passes
+    /// Changes whenever the draws' geometry or transforms change. 0: treat as always changed.
     uint64_t version = 0;
 };
 
@@ -49,16 +50,16 @@ enum class Cull : uint8_t {
 struct DrawFilter {
     std::function<bool(const Draw&)> keep;
     Cull cull = Cull::back;
-    bool bindMaterials = true;  ///< false: the pipeline has no set 1
-    mat4 worldToClip{1.0F};     ///< draws that this puts wholly outside the view are left out
+    bool bindMaterials = true;  ///< false if the pipeline has no descriptor set 1
+    mat4 worldToClip{1.0F};     ///< for frustum culling
     uint32_t instance = 0;      ///< the shader's gl_InstanceIndex
 };
 
-/// What is drawn next goes to a square part of the target, `side` pixels a side; tile: its column and row.
+/// Sets viewport and scissor to a square tile of the target, `side` pixels a side; tile: its column and row.
 void drawIntoTile(const gpu::DrawCommands& to, const uvec2& tile, uint32_t side);
 
-/// Records the draws that pass the filter. Push constants of the vertex shader: objectToWorld, then (as far as the
-/// shader's block reaches) previousObjectToWorld, both mat4x3 in scalar layout.
+/// Records the draws that pass the filter. Push constants of the vertex shader: objectToWorld and, with
+/// previousTransform, previousObjectToWorld, both mat4x3 in scalar layout.
 void recordDraws(const gpu::DrawCommands& to, const DrawList& list, const DrawFilter& filter, bool previousTransform);
 
 }  // namespace reflet

@@ -1,10 +1,10 @@
 // The frame, top to bottom: values in, values out. Start reading here.
 //
-//     direct view (G-buffer → depth pyramid → sun and lamp visibility → direct light) → diffuse rays → answer chain
-//     → planar views → specular rays → answer chain → composite → temporal antialiasing → tone map
+// direct view (G-buffer → depth pyramid → sun and lamp visibility → direct light) → diffuse rays → source chain
+// → planar views → specular rays → source chain → composite → temporal antialiasing → tone map
 //
-// renderFrame, at the end, is all of it; its parts stand above it, and in direct_view.cpp what other views need, too.
-// There is no graph compiler: an `if` in these two files is the only culling.
+// renderFrame, at the end, does all of it; its parts are above it, and those shared with other views in
+// direct_view.cpp. There is no render graph: the `if`s in these two files are all that culls passes.
 #include "render/frame.h"
 
 #include "gpu/device.h"
@@ -31,19 +31,20 @@ namespace reflet {
 
 namespace {
 
-// Rays that stand for all of a lobe go to the middle of it, and are spread a little where the screen is asked: the
-// middle alone would print what it hits as a stencil, with edges as hard as a mirror's. Filtered sources have no edges.
+// Cones follow the lobe's centre, but on screen with a small random spread: the centre alone would give hit shapes
+// edges as hard as in a mirror. Prefiltered sources have no such edges.
 constexpr float coneShareOnScreen = 0.1F;
 
-// A view's images, and what its rays ask.
-struct SeenView {
+// A view's images, and the views that its rays are traced in.
+struct TracedView {
     ViewImages images;
     ScreenImages screen;
     std::vector<PlanarView> mirrors;
 };
 
-// The screen, and the mirrors in it. A mirror's view knows more than the screen, and guesses no thickness.
-void answerFromViews(gpu::Frame& f, Rays& rays, const SeenView& seen, const Settings& settings, float longest) {
+// Screen-space tracing and planar reflections, in the order of the setting. Planar views see more than the screen and
+// need no thickness assumption.
+void traceScreenAndPlanar(gpu::Frame& f, Rays& rays, const TracedView& seen, const Settings& settings, float longest) {
     const bool screenFirst = settings.planar.beforeScreen == 0;
     for (const bool asksScreen : {screenFirst, !screenFirst}) {
         if (asksScreen && settings.traceScreen.enabled != 0) {
@@ -57,32 +58,31 @@ void answerFromViews(gpu::Frame& f, Rays& rays, const SeenView& seen, const Sett
     }
 }
 
-// What mirrors show has not moved by itself, until a source knows better.
+// No motion of reflected images, unless a source overwrites it.
 gpu::Image noImageMotion(gpu::Frame& f, const RaySurfaces& from) {
     const gpu::Image motion = f.image("rays.image_motion", VK_FORMAT_R16G16_SFLOAT, from.g.depth.size);
     f.clear(motion);
     return motion;
 }
 
-// Of pixels that are mirrors: all rays of one are the same, unless chance has a say in what they meet.
-uint32_t raysOfMirrors(uint32_t perPixel, const Settings& settings) {
+// Rays per pixel of mirrors. All rays of a pixel are identical unless their tracing is randomized.
+uint32_t mirrorRayCount(uint32_t perPixel, const Settings& settings) {
     const TraceScreenSettings& s = settings.traceScreen;
     const bool exact = s.method == TraceMethod::hiz || s.method == TraceMethod::exhaustive;
     const bool chance = (s.enabled != 0 && s.jitter != 0 && !exact) || settings.traceScene.enabled != 0;
     return chance ? perPixel : std::min(perPixel, 1U);
 }
 
-// How many rays of the lobe each tile gets. Where that follows the noise, the denoiser has to remember some.
+// Rays per tile. Adaptive sampling needs the denoiser's history.
 RayTiles tilesOfLobe(gpu::Frame& f, const RaySurfaces& from, const Settings& settings, const gpu::History& lit,
                      uint32_t lobe) {
     const bool diffuse = lobe == lobeDiffuse;
     const uint32_t perPixel = diffuse ? settings.diffuse.rays : settings.specular.rays;
-    const bool reused =
-        (diffuse ? settings.diffuse.reuse : settings.specular.reuse) > 0;  // that knows no other numbers
-    const RayCounts counts{perPixel, reused ? perPixel : raysOfMirrors(perPixel, settings)};
-    const bool remembers = historyUse(settings).denoise && lit.next;
+    const bool reused = (diffuse ? settings.diffuse.reuse : settings.specular.reuse) > 0;  // requires a fixed count
+    const RayCounts counts{perPixel, reused ? perPixel : mirrorRayCount(perPixel, settings)};
+    const bool hasHistory = historyUse(settings).denoise && lit.next;
     const bool adaptive = (diffuse ? settings.diffuse.adaptive : settings.specular.adaptive) != 0;
-    if (!adaptive || !remembers || perPixel > raysPerBatch(f, from.g.depth.size, maxAdaptiveRays)) {
+    if (!adaptive || !hasHistory || perPixel > raysPerBatch(f, from.g.depth.size, maxAdaptiveRays)) {
         return classifyTiles(f, from, lobe, counts);
     }
     const DenoiseHistory past = denoiseHistory(f, lobe, from.g.depth.size, settings.denoise);
@@ -91,8 +91,8 @@ RayTiles tilesOfLobe(gpu::Frame& f, const RaySurfaces& from, const Settings& set
         {past.light.previous, past.surface.previous, past.moments.previous, lit.previous, past.valid && lit.valid});
 }
 
-// One chain for both lobes: rays, then sources that answer in order of trust, each taking what is left over.
-LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& settings, const SeenView& seen,
+// The chain of both lobes: rays, then sources in order of accuracy, each for the misses of the previous one.
+LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
                     uint32_t lobe) {
     const ScreenImages& screen = seen.screen;
     const bool diffuse = lobe == lobeDiffuse;
@@ -102,16 +102,16 @@ LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& setting
     const uint32_t neighbours = diffuse ? settings.diffuse.reuse : settings.specular.reuse;
     const float longest = diffuse ? settings.diffuse.maxDistance : settings.traceScreen.maxDistance;
     if (perPixel == 0) {
-        return noLight(f, lobe, {screen.g, in.view}, counted);
+        return blackLobe(f, lobe, {screen.g, in.view}, counted);
     }
     const RaySurfaces from =
         pickSurfaces(f, screen.g, in.view, diffuse ? settings.diffuse.downsample : settings.specular.downsample);
     const float coneShare = settings.traceScreen.enabled != 0 ? coneShareOnScreen : 0.0F;
     const RayTiles tiles = tilesOfLobe(f, from, settings, screen.lit, lobe);
-    const uint32_t most = tiles.meanRays > 0 ? mostAdaptiveRays(f, from.g.depth.size, perPixel) : perPixel;
+    const uint32_t most = tiles.meanRays > 0 ? adaptiveRayLimit(f, from.g.depth.size, perPixel) : perPixel;
     const uint32_t batch = tiles.meanRays > 0 ? most : raysPerBatch(f, from.g.depth.size);
-    const bool remembers = historyUse(settings).denoise;
-    const gpu::Image imageMotion = !diffuse && remembers ? noImageMotion(f, from) : gpu::Image{};
+    const bool hasHistory = historyUse(settings).denoise;
+    const gpu::Image imageMotion = !diffuse && hasHistory ? noImageMotion(f, from) : gpu::Image{};
     const bool reused = neighbours > 0 && tiles.meanRays == 0 && batch >= perPixel;
     LobeLight light;
     for (uint32_t first = 0; first < most; first += batch) {
@@ -120,8 +120,8 @@ LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& setting
                                  {{}, settings.diffuse, settings.specular, first, count, coneShare}, counted);
         rays.imageMotion = imageMotion;
         rays.directional = diffuse && settings.denoise.enabled != 0 && settings.denoise.directional != 0;
-        answerFromViews(f, rays, seen, settings, longest);
-        answerFromScene(f, rays, in, settings, seen.images, screen);
+        traceScreenAndPlanar(f, rays, seen, settings, longest);
+        traceSceneFallback(f, rays, in, settings, seen.images, screen);
         if (in.probes) {
             answerProbes(f, rays, in.probes, settings.probes);
         }
@@ -132,7 +132,7 @@ LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& setting
     return settings.denoise.enabled != 0 ? denoise(f, light, lobe, in.view, settings.denoise) : light;
 }
 
-SeenView seenView(const ViewInputs& in, const ViewImages& images) {
+TracedView tracedView(const ViewInputs& in, const ViewImages& images) {
     const ScreenImages screen{.g = images.g,
                               .view = in.view,
                               .backDepth = images.backDepth,
@@ -143,14 +143,14 @@ SeenView seenView(const ViewInputs& in, const ViewImages& images) {
     return {images, screen, {}};
 }
 
-// What reflections show: direct light, or what is lit so far; and its mips for those that are too rough for rays.
+// Sets the light that reflections read at hits: direct light, or all light so far; and its mips for cones.
 void lightForReflections(gpu::Frame& f, const ViewInputs& in, const Settings& settings, const LobeLight& diffuse,
                          ScreenImages& screen) {
     const auto scope = f.scope("specular");
     const SpecularSettings& s = settings.specular;
     const HitLight light = settings.traceScreen.light;
     if (light == HitLight::lit && s.rays > 0 && settings.diffuse.rays > 0) {
-        const LobeLight none = noLight(f, lobeSpecular, {screen.g, in.view}, settings.traceScreen.countSteps != 0);
+        const LobeLight none = blackLobe(f, lobeSpecular, {screen.g, in.view}, settings.traceScreen.countSteps != 0);
         const gpu::Image soFar = f.image("lit_so_far", VK_FORMAT_R16G16B16A16_SFLOAT, screen.light.size);
         const CompositeInputs parts{
             screen.g, screen.light, diffuse, none, in.ggxTable, settings.materials.lambertOnly != 0, false};
@@ -162,16 +162,16 @@ void lightForReflections(gpu::Frame& f, const ViewInputs& in, const Settings& se
     }
 }
 
-// What one view besides the frame's own shows to reflections. There is no last frame of it: `previous` is `lit` there.
-ScreenImages seeReflected(gpu::Frame& f, const ViewInputs& in, Settings settings, gpu::Image lampShadowMap) {
+// Renders a planar view, for use by reflections. It has no last frame: `previous` acts as `lit` there.
+ScreenImages renderReflectionView(gpu::Frame& f, const ViewInputs& in, Settings settings, gpu::Image lampShadowMap) {
     const bool lit = settings.traceScreen.light != HitLight::direct;
     settings.traceScreen.light = lit ? HitLight::lit : HitLight::direct;
     settings.traceScreen.countSteps = 0;
     settings.diffuse.rays = lit && settings.planar.diffuse != 0 ? settings.diffuse.rays : 0;
-    settings.shadow.history = 0;  // the view's edges move with the camera, and with them its pixels
+    settings.shadow.history = 0;  // the crop, and with it the pixels, moves with the camera
     settings.denoise.history = 0;
     const ViewImages images = directView(f, in, settings, lampShadowMap);
-    SeenView seen = seenView(in, images);
+    TracedView seen = tracedView(in, images);
     const LobeLight diffuse = traceLobe(f, in, settings, seen, lobeDiffuse);
     lightForReflections(f, in, settings, diffuse, seen.screen);
     if (lit && settings.planar.specular != 0) {
@@ -188,38 +188,39 @@ ScreenImages seeReflected(gpu::Frame& f, const ViewInputs& in, Settings settings
     return seen.screen;
 }
 
-ScreenImages seeMirror(gpu::Frame& f, const FrameInputs& in, const Settings& settings, const Mirror& mirror,
-                       gpu::Image lampShadowMap) {
+ScreenImages renderPlanarView(gpu::Frame& f, const FrameInputs& in, const Settings& settings, const Mirror& mirror,
+                              gpu::Image lampShadowMap) {
     const PlanarSettings& s = settings.planar;
     if (s.form == PlanarForm::duplicate) {
         const uint32_t largestMap = f.device().limits().maxImageDimension2D;
-        const MirroredRoom room = mirroredRoom(in, mirror, settings.shadow, largestMap);
-        ViewInputs behind = behindMirror(in, mirror, s, room);
-        behind.traced = nullptr;  // what these know is on this side
+        const MirroredScene room = mirroredScene(in, mirror, settings.shadow, largestMap);
+        ViewInputs behind = duplicateViewInputs(in, mirror, s, room);
+        behind.traced = nullptr;  // these are not mirrored
         behind.probes = {};
         Settings there = settings;
         if (there.shadow.filter == ShadowFilter::traced) {
             there.shadow.filter = ShadowFilter::pcss;
         }
-        return seeReflected(f, behind, there, {});
+        return renderReflectionView(f, behind, there, {});
     }
-    return seeReflected(f, beforeMirror(in, mirror, s), settings, lampShadowMap);
+    return renderReflectionView(f, mirrorViewInputs(in, mirror, s), settings, lampShadowMap);
 }
 
-std::vector<PlanarView> seeMirrors(gpu::Frame& f, const FrameInputs& in, const Settings& settings,
-                                   gpu::Image lampShadowMap) {
+std::vector<PlanarView> renderPlanarViews(gpu::Frame& f, const FrameInputs& in, const Settings& settings,
+                                          gpu::Image lampShadowMap) {
     std::vector<PlanarView> views;
     for (const Mirror& mirror : in.mirrors) {
         const std::string name = "planar" + std::to_string(views.size());
         const auto scope = f.viewScope(name);
-        views.push_back({name, seeMirror(f, in, settings, mirror, lampShadowMap), mirrorParams(mirror, settings.planar),
-                         settings.planar.form});
+        views.push_back({name, renderPlanarView(f, in, settings, mirror, lampShadowMap),
+                         mirrorParams(mirror, settings.planar), settings.planar.form});
     }
     return views;
 }
 
-// What cameras see that materials show. Returns the lamps' shadow map, if it was drawn for them.
-gpu::Image seeLive(gpu::Frame& f, const ViewInputs& in, const Settings& settings, std::span<const LiveView> pictures) {
+// Renders the live camera images shown by materials. Returns the lamps' shadow map if one was drawn.
+gpu::Image renderLiveCameras(gpu::Frame& f, const ViewInputs& in, const Settings& settings,
+                             std::span<const LiveView> pictures) {
     gpu::Image lampShadowMap;
     for (size_t i = 0; i < pictures.size(); ++i) {
         const auto scope = f.viewScope("live" + std::to_string(i));
@@ -235,7 +236,7 @@ gpu::Image seeLive(gpu::Frame& f, const ViewInputs& in, const Settings& settings
 }  // namespace
 
 FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& settings) {
-    SeenView seen = seenView(in, directView(f, in, settings, seeLive(f, in, settings, in.live)));
+    TracedView seen = tracedView(in, directView(f, in, settings, renderLiveCameras(f, in, settings, in.live)));
     const gpu::History lit = f.history("lit", VK_FORMAT_R16G16B16A16_SFLOAT, seen.images.g.depth.size);
     seen.screen.lit = lit;
     FrameImages out{seen.images};
@@ -246,7 +247,7 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
     if (settings.traceScreen.enabled != 0 || reused) {
         lightForReflections(f, in, settings, out.diffuse, seen.screen);
     }
-    seen.mirrors = seeMirrors(f, in, settings, out.lampShadowMap);
+    seen.mirrors = renderPlanarViews(f, in, settings, out.lampShadowMap);
     out.specular = traceLobe(f, in, settings, seen, lobeSpecular);
 
     const bool layers = settings.composite.layers != 0 || settings.accumulate.enabled != 0;

@@ -1,4 +1,4 @@
-// The frame: a lit picture from a draw list, a view and lights.
+// One frame: a lit image from a draw list, a view and lights.
 #pragma once
 
 #include "gpu/frame.h"
@@ -11,20 +11,20 @@
 namespace reflet {
 
 struct FrameInputs : ViewInputs {
-    std::span<const Mirror> mirrors;  ///< of planMirrors
-    std::span<const LiveView> live;   ///< pictures that the materials of `draws` show
-    uint32_t framesBefore = 0;        ///< this one, in which view, light and settings have been the same
+    std::span<const Mirror> mirrors;  ///< from planMirrors
+    std::span<const LiveView> live;   ///< live camera images shown by materials of `draws`
+    uint32_t framesBefore = 0;        ///< this one with the same view, lights and settings
 };
 
-/// Every image of the frame; formats where the effects declare them.
+/// All images of the frame; formats are documented with the effects.
 struct FrameImages : ViewImages {
-    ViewParams view{};      ///< that it was drawn with: through a place in the pixel, with temporal antialiasing
+    ViewParams view{};      ///< as used for rendering: with subpixel jitter, if any
     gpu::Image probeAtlas;  ///< of ProbeMaps; none without probes
     LobeLight diffuse;
     LobeLight specular;
     Composite light;
     gpu::Image unfiltered;  ///< light.lit before temporal antialiasing
-    gpu::Image temporal;    ///< radiance, number of frames; none without temporal antialiasing
+    gpu::Image temporal;    ///< radiance, history length; none without temporal antialiasing
     gpu::Image display;
 };
 

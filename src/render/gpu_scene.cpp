@@ -124,7 +124,7 @@ void GpuScene::uploadMeshes(const Scene& scene) {
 gpu::Image GpuScene::texture(const Scene& scene, int32_t image, bool srgb) {
     gpu::Texture& texture = textures_[{image, srgb}];
     if (texture.info().format == VK_FORMAT_UNDEFINED) {
-        if (image < 0) {  // a slot without a texture binds one white texel, which the shader does not read
+        if (image < 0) {  // an empty slot binds one white texel that the shader never reads
             constexpr std::array<uint8_t, 4> white{255, 255, 255, 255};
             texture = gpu::uploadTexture(device_, uvec2(1), white, srgb, false, "white");
         } else {
@@ -175,7 +175,7 @@ void GpuScene::setTextureFilter(uint32_t anisotropy, bool mips) {
     if (anisotropy != anisotropy_ || mips != mips_) {
         anisotropy_ = anisotropy;
         mips_ = mips;
-        ++draws_.version;  // what is cut out may be so elsewhere
+        ++draws_.version;  // alpha cut-outs may have changed
         for (const MaterialBinding& binding : materialBindings_) {
             writeMaterialSet(binding);
         }
@@ -223,7 +223,7 @@ void GpuScene::addLamps(const Scene& scene, const std::function<void(const std::
     lampSources_.resize(scene.lamps.size());
     std::iota(lampSources_.begin(), lampSources_.end(), size_t(0));
     if (lampSources_.size() > maxLamps) {
-        warn(fmt::format("the scene has {} lamps, of which the strongest {} are used", lampSources_.size(), maxLamps));
+        warn(fmt::format("the scene has {} lamps, but only the strongest {} are used", lampSources_.size(), maxLamps));
         const auto strength = [&](size_t i) {
             const vec3& intensity = scene.lamps[i].intensity;
             return std::max({intensity.x, intensity.y, intensity.z});

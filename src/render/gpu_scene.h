@@ -1,4 +1,4 @@
-// A scene on the device: vertex buffers, textures with mips, materials, lamps; made once, drawn every frame.
+// A scene on the device: vertex buffers, textures with mips, materials, lamps. Created once, drawn every frame.
 #pragma once
 
 #include "gpu/device.h"
@@ -21,38 +21,38 @@ namespace reflet {
 
 class GpuScene {
 public:
-    /// Uploads everything. `warn` hears of what does not fit (more than maxLamps lamps: the weakest are left out).
+    /// Uploads everything. `warn` receives messages about what is left out (of more than maxLamps lamps, the weakest).
     GpuScene(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn);
     ~GpuScene();
     GpuScene(const GpuScene&) = delete;
     GpuScene& operator=(const GpuScene&) = delete;
 
-    /// anisotropy: texture samples along a slanted surface, at most. mips: false: only the finest level is read. No
-    /// frame that draws the scene may be in flight.
+    /// anisotropy: maximum samples of anisotropic filtering. mips: false: only the finest level is used. No frame that
+    /// draws the scene may be in flight.
     void setTextureFilter(uint32_t anisotropy, bool mips);
 
-    /// Puts everything where it is now, and was in the last frame: draws, lamps, cameras of live pictures. What is
-    /// skinned follows with skin(). No frame that draws the scene may be in flight.
+    /// Sets the current and the previous pose of draws, lamps and live cameras. Skinned vertices follow with skin(). No
+    /// frame that draws the scene may be in flight.
     void pose(const Scene& scene, const ScenePose& now, const ScenePose& before);
-    /// Records the pass that bends skinned meshes as of pose().
+    /// Records the skinning pass for the pose set by pose().
     void skin(gpu::Frame& f) const;
     [[nodiscard]] bool hasSkins() const { return !skinned_.empty(); }
 
-    /// Pixels from top to bottom of live pictures. No frame that draws the scene may be in flight.
+    /// Height of live camera images in pixels. No frame that draws the scene may be in flight.
     void setLiveHeight(uint32_t pixels);
 
-    /// A picture for each camera that a material shows.
+    /// The image of a camera that a material shows.
     struct LivePicture {
         Camera camera;         ///< as the scene has it
         Camera posed;          ///< where it is now
         gpu::Texture texture;  ///< RGBA16F, 16:9
-        bool fresh = true;     ///< nothing has been drawn in it yet
+        bool fresh = true;     ///< not yet rendered
     };
     [[nodiscard]] std::vector<LivePicture>& livePictures() { return live_; }
 
     [[nodiscard]] const DrawList& draws() const { return draws_; }
     [[nodiscard]] const LampBlock& lamps() const { return lamps_; }
-    /// For rays: VertexAttributes and indices of all meshes, mesh after mesh; indices count within their mesh.
+    /// For ray hits: VertexAttributes and indices of all meshes, one after another; indices are relative to their mesh.
     [[nodiscard]] gpu::BufferView attributes() const { return attributes_.view(); }
     [[nodiscard]] gpu::BufferView indices() const { return indices_.view(); }
 
@@ -70,27 +70,27 @@ private:
     void addDraws(const Scene& scene);
     void addSkinned(const Scene& scene, std::vector<vec3>& positions, std::vector<VertexAttributes>& attributes);
     gpu::Image texture(const Scene& scene, int32_t image, bool srgb);
-    // What a material's set binds.
+    // The contents of a material's descriptor set.
     struct MaterialBinding {
         VkDescriptorSet set = VK_NULL_HANDLE;
         VkDeviceSize offset = 0;  ///< of its MaterialParams in materials_
         std::array<gpu::SamplerInfo, slotCount> samplers;
         std::array<VkImageView, slotCount> views{};
-        std::optional<size_t> live;  ///< number of the picture in the emissive slot
+        std::optional<size_t> live;  ///< index of the live image in the emissive slot
     };
     void bindMaterial(const Scene& scene, const Material& material, MaterialBinding& binding);
     void writeMaterialSet(const MaterialBinding& binding);
 
     gpu::Device& device_;
-    gpu::Buffer positions_;          ///< of meshes, then of instances with a skin
-    gpu::Buffer previousPositions_;  ///< as many; none without skins
-    gpu::Buffer attributes_;         ///< as many
+    gpu::Buffer positions_;          ///< of meshes, then of skinned instances
+    gpu::Buffer previousPositions_;  ///< same count; none without skins
+    gpu::Buffer attributes_;         ///< same count
     gpu::Buffer indices_;
     gpu::Buffer materials_;
     std::vector<MeshRange> ranges_;
     SkinnedVertices skinned_;
-    std::map<size_t, int32_t> skinnedFirst_;                     ///< first vertex of an instance with a skin
-    std::map<size_t, std::vector<Aabb>> skinnedBounds_;          ///< by joint, of an instance with a skin
+    std::map<size_t, int32_t> skinnedFirst_;                     ///< first vertex of a skinned instance
+    std::map<size_t, std::vector<Aabb>> skinnedBounds_;          ///< by joint, of a skinned instance
     std::map<std::pair<int32_t, bool>, gpu::Texture> textures_;  ///< by image and sRGB
     VkDescriptorSetLayout materialLayout_ = VK_NULL_HANDLE;
     VkDescriptorPool materialPool_ = VK_NULL_HANDLE;
@@ -100,7 +100,7 @@ private:
     bool mips_ = true;
     LampBlock lamps_{};
     std::vector<size_t> lampSources_;  ///< indices into Scene::lamps
-    std::optional<double> posedTime_;  ///< that the draws are as of
+    std::optional<double> posedTime_;  ///< time of the current pose
     DrawList draws_{.version = 1};
 };
 

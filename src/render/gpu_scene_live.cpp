@@ -1,4 +1,4 @@
-// Live pictures of a scene: textures that materials show and that each frame draws.
+// Live camera images: textures rendered every frame and shown by materials.
 #include "render/gpu_scene.h"
 
 #include <spdlog/fmt/fmt.h>
@@ -22,7 +22,7 @@ std::optional<size_t> GpuScene::livePictureOf(const Scene& scene, const Material
         std::vector<std::string> names;
         std::ranges::transform(scene.cameras, std::back_inserter(names),
                                [](const Camera& c) { return fmt::format("'{}'", c.name); });
-        warn(fmt::format("material '{}' shows the camera '{}', which the scene does not have; it has: {}",
+        warn(fmt::format("material '{}' shows camera '{}', which is not in the scene; its cameras are: {}",
                          material.name, material.camera,
                          names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
         return std::nullopt;

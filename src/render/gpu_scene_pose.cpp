@@ -1,11 +1,11 @@
-// A scene on the device that moves: where its draws, lamps and skinned meshes are.
+// Animated poses of the scene's draws, lamps and skinned meshes.
 #include "render/gpu_scene.h"
 
 #include <algorithm>
 
 namespace reflet {
 
-// Each instance with a skin has vertices of its own behind those of all meshes.
+// Each skinned instance has its own vertices, after those of all meshes.
 void GpuScene::addSkinned(const Scene& scene, std::vector<vec3>& positions, std::vector<VertexAttributes>& attributes) {
     const auto first = static_cast<uint32_t>(positions.size());
     for (size_t i = 0; i < scene.instances.size(); ++i) {

@@ -52,12 +52,12 @@ uint32_t framesToSettle(const HistoryUse& use, const Settings& settings) {
     return std::max(settlingFrames, use.probes ? captures : 0U);
 }
 
-vec2 subpixelJitter(const Settings& settings, uint32_t frame, uint32_t framesBefore) {
+vec2 frameJitter(const Settings& settings, uint32_t frame, uint32_t framesBefore) {
     const HistoryUse use = historyUse(settings);
     if (use.accumulate) {
-        return settings.accumulate.jitter != 0 ? placeInPixel(framesBefore) : vec2(0.0F);
+        return settings.accumulate.jitter != 0 ? subpixelJitter(framesBefore) : vec2(0.0F);
     }
-    return use.temporal ? placeInPixel(frame) : vec2(0.0F);
+    return use.temporal ? subpixelJitter(frame) : vec2(0.0F);
 }
 
 }  // namespace reflet

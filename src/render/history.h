@@ -35,6 +35,6 @@ uint32_t framesToSettle(const HistoryUse& use, const Settings& settings);
 
 /// Subpixel jitter of a frame, in pixels off the pixel's centre; 0 where nothing averages over frames. `frame` counts
 /// from the renderer's start, `framesBefore` those with the same view and settings.
-vec2 subpixelJitter(const Settings& settings, uint32_t frame, uint32_t framesBefore);
+vec2 frameJitter(const Settings& settings, uint32_t frame, uint32_t framesBefore);
 
 }  // namespace reflet

@@ -1,18 +1,18 @@
-// Looks through another place in the pixel in every frame, so that a mean over frames is a mean over the pixel's area.
+// Subpixel jitter: a new sample position in the pixel for every frame, so that the mean over frames is antialiased.
 #pragma once
 
 #include "render/view.h"
 
 namespace reflet {
 
-/// Where in the pixel frame `index` looks through: -0.5 to 0.5 pixels off its centre, the first in the middle. Any run
-/// of successive places is spread evenly, however long. (R2: M. Roberts, "The Unreasonable Effectiveness of
+/// Jitter of frame `index`: -0.5 to 0.5 pixels from the pixel's centre, 0 for the first frame. A low-discrepancy
+/// sequence: any run of successive samples is evenly distributed. (R2: M. Roberts, "The Unreasonable Effectiveness of
 /// Quasirandom Sequences", 2018)
-vec2 placeInPixel(uint32_t index);
+vec2 subpixelJitter(uint32_t index);
 
-/// Moves the picture such that pixels' centres show what was `place` pixels off them. The last frame's matrix moves
-/// alike: motion is as if neither had been moved, and exactly 0 where nothing moves. `placeBefore` is the last frame's.
-/// view.anyPlaceToWorld is set, too.
-void lookThrough(ViewParams& view, const vec2& place, const vec2& placeBefore);
+/// Shifts the projection so that pixel centres show what was `jitter` pixels away. The last frame's matrix gets the
+/// same shift, so motion vectors contain no jitter and are exactly 0 where nothing moves. `previousJitter` is the last
+/// frame's. Also sets view.paddedClipToWorld.
+void applyJitter(ViewParams& view, const vec2& jitter, const vec2& previousJitter);
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// The lamps of a scene as passes see them. Shared by C++ and GLSL.
+// Parameters of the scene's lamps (point, spot, directional) for passes. Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_LAMPS_H
 #define REFLET_RENDER_LAMPS_H
 
@@ -6,7 +6,7 @@
 
 SHARED_BEGIN
 
-// As many as the smallest uniform buffer that Vulkan promises (16 KiB) holds.
+// As many as fit into Vulkan's guaranteed uniform buffer size (16 KiB).
 const uint maxLamps = 200;
 
 const uint lampPoint = 0;
@@ -19,14 +19,14 @@ const uint noLampShadow = 0xFFFFFFFFu;
 struct LampParams {
     vec3 position;  // world space
     uint type;
-    vec3 toLamp;         // unit, against the way the light travels (spot, directional)
-    float inverseRange;  // 1 / range; 0: without end
+    vec3 toLamp;         // unit, opposite to the light's direction of travel (spot, directional)
+    float inverseRange;  // 1 / range; 0: infinite range
     vec3 intensity;      // [W/sr]; directional: irradiance [W/m²]
     float spotScale;     // factor = clamp(cos · scale + offset, 0, 1)²
     float spotOffset;
-    float cosOuter;  // spot: of the angle from the axis past which it is dark
-    float radius;    // of its disk, which softens its shadow [m]
-    uint shadow;     // index among the lamps that cast shadows, or noLampShadow
+    float cosOuter;  // spot: cosine of the outer cone angle, beyond which it is dark
+    float radius;    // of its disk, for soft shadows [m]
+    uint shadow;     // index among the shadow-casting lamps, or noLampShadow
 };
 
 struct LampBlock {
@@ -34,7 +34,7 @@ struct LampBlock {
     LampParams lamps[maxLamps];
 };
 
-// Which lamps may light which tile of the screen: a bit for each lamp, in RGBA32_UINT images with a texel for each
+// Tiled light culling: a bit mask of the lamps that may light each screen tile, in RGBA32_UINT images with a texel per
 // tile. Lamp i is bit i % 32 of component i / 32 % 4 of layer i / 128.
 const uint lampTileShift = 4;
 const uint lampTileSide = 1u << lampTileShift;  // pixels

@@ -1,4 +1,4 @@
-// Materials as shaders see them.
+// Converts scene materials to shader parameters.
 #include "render/material.h"
 
 namespace reflet {

@@ -1,6 +1,6 @@
-// Reads the material that a draw has bound: textures where there are any, times the factors.
-// The includer defines, before it includes this: const uint usedSlots, a bit for each that any draw has a texture in. What
-// is not used costs nothing; on a CPU device, what is used by one draw costs all of them.
+// Evaluates the material bound by a draw: textures, if any, times the factors.
+// The includer first defines const uint usedSlots, a bit mask of the slots for which any draw has a texture. Unused
+// slots cost nothing; on CPU devices a slot used by one draw costs all draws.
 #ifndef REFLET_MATERIAL_GLSL
 #define REFLET_MATERIAL_GLSL
 
@@ -20,7 +20,7 @@ vec2 slotUv(uint slot, vec2 uv0, vec2 uv1) {
     return vec2(dot(material.uvRows[2u * slot], uv), dot(material.uvRows[2u * slot + 1u], uv));
 }
 
-// The colour with alpha, or false where the material is cut out.
+// The colour with alpha; false if alpha is below the cutoff.
 bool materialBaseColor(vec2 uv0, vec2 uv1, vec4 vertexColor, out vec4 color) {
     color = material.baseColor * vertexColor;
     if (hasTexture(slotBaseColor)) {

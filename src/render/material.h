@@ -1,4 +1,5 @@
-// A material as shaders see it: draws bind it as set 1, rays find it in a buffer. Shared by C++ and GLSL.
+// Material parameters of shaders: raster draws bind them as set 1, ray hits read them from a buffer. Shared by C++ and
+// GLSL.
 #ifndef REFLET_RENDER_MATERIAL_H
 #define REFLET_RENDER_MATERIAL_H
 
@@ -22,8 +23,8 @@ struct MaterialParams {
     float roughness;
     float normalScale;
     float occlusionStrength;
-    uint textured;    // bit per slot: it has a texture
-    uint secondUv;    // bit per slot: it reads uv1
+    uint textured;    // bit per slot: has a texture
+    uint secondUv;    // bit per slot: uses uv1
     vec3 uvRows[10];  // two per slot, KHR_texture_transform
 };
 
@@ -37,7 +38,7 @@ SHARED_END
 
 namespace reflet {
 
-/// Its textures, in the order of the slots.
+/// The material's textures, in slot order.
 std::array<const TextureSlot*, slotCount> textureSlots(const Material& material);
 
 /// Whether the slot's colours are sRGB.

@@ -1,4 +1,4 @@
-// The presets.
+// Reads the embedded presets.
 #include "render/presets.h"
 
 #include "base/error.h"

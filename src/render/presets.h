@@ -1,4 +1,4 @@
-// Settings under one name: the JSON files in src/render/presets, which are settings files as users write them.
+// Presets: named sets of settings, the JSON files in src/render/presets, in the format of users' settings files.
 #pragma once
 
 #include "base/embedded.h"
@@ -22,10 +22,10 @@ struct Preset {
 
 std::vector<Preset> presets();
 
-/// What programs take where nobody names another.
+/// The preset that programs use by default.
 inline constexpr std::string_view defaultPreset = "balanced";
 
-/// Throws UsageError naming the nearest.
+/// Throws UsageError, suggesting the nearest name.
 void applyPreset(Settings& settings, std::string_view name);
 
 }  // namespace reflet

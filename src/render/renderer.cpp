@@ -161,8 +161,8 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
     previousWorldToClip_ = params.worldToClip;
     const uint32_t framesBefore = countFramesBefore(view, params, settings);
     const std::vector<Mirror> mirrors = planMirrors(view, params, settings);  // their pictures' sizes do not jitter
-    const vec2 place = subpixelJitter(settings, params.frame, framesBefore);
-    lookThrough(params, place, previousPlace_);
+    const vec2 place = frameJitter(settings, params.frame, framesBefore);
+    applyJitter(params, place, previousPlace_);
     previousPlace_ = place;
     LampBlock lamps = scene_.lamps();
     const LampShadows lampShadows = planLamps(lamps, view, settings.shadow);

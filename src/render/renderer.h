@@ -1,4 +1,4 @@
-// Renders a scene: holds what lives longer than a frame, and keeps the last view for motion.
+// Renders a scene: owns everything that outlives a frame, including the last view for motion vectors.
 #pragma once
 
 #include "gpu/frame.h"
@@ -26,23 +26,23 @@ public:
     FrameImages render(const View& view, uvec2 size, uint32_t seed, const Settings& settings,
                        const std::function<void(gpu::Frame&, const FrameImages&)>& after = {});
 
-    /// The next frame starts from nothing, as the first of a renderer does, and its noise is that of the frame of this
-    /// number: nothing that was rendered before shows in it.
+    /// Discards all history: the next frame is rendered like a renderer's first, with the noise of the frame of this
+    /// number.
     void restart(uint32_t frameNumber);
 
     [[nodiscard]] const gpu::Frame& frame() const { return frame_; }
 
 private:
-    /// Puts everything where it is at the time of the view.
+    /// Poses the scene at the time of the view.
     void pose(const View& view, const Settings& settings);
     /// Radii that the view gives; who casts a shadow. Warns, but only once of the same.
     LampShadows planLamps(LampBlock& lamps, const View& view, const ShadowSettings& settings);
 
-    /// What rays are traced through; nothing where the settings trace none.
+    /// The BVH for ray tracing, if the settings need one.
     const TracedScene* tracedScene(const Settings& settings);
     /// The view's probes, or those that are placed where it has none.
     const std::vector<Probe>& probesOf(const View& view, const ProbesSettings& settings);
-    /// What materials show live, as of the frame of this view.
+    /// The live camera images for the frame of this view.
     std::vector<LiveView> liveViews(const ViewParams& view);
     std::vector<Mirror> planMirrors(const View& view, const ViewParams& params, const Settings& settings);
     void warnOnce(const std::string& text);
@@ -56,7 +56,7 @@ private:
     std::vector<FlatPiece> posedPieces_;
     std::optional<ScenePose> pose_;  ///< of the last frame; none before the first one, and of scenes that stand still
     std::optional<double> tracedTime_;
-    bool skins_ = false;  ///< skinned meshes are to be bent in the frame
+    bool skins_ = false;  ///< the frame must run the skinning pass
     gpu::Texture ggxTable_;
     gpu::Buffer blueNoise_;
     EnvironmentMaps environment_;

@@ -1,4 +1,4 @@
-// Records the scene's source with the frame's values.
+// Records ray tracing with the frame's parameters.
 #include "render/scene_source.h"
 
 #include "render/trace_scene/trace_scene.h"
@@ -7,7 +7,7 @@ namespace reflet {
 
 namespace {
 
-// What a hit brings besides direct light: scattered rays, and whether they are diffuse ones alone.
+// Indirect light at hits: number of bounces, and whether only diffuse ones.
 struct Scattering {
     uint32_t bounces = 0;
     bool diffuseOnly = false;
@@ -31,8 +31,8 @@ uint32_t sunShadowsAtHits(const Settings& settings, const ViewImages& seen) {
 
 }  // namespace
 
-void answerFromScene(gpu::Frame& f, Rays& rays, const ViewInputs& in, const Settings& settings, const ViewImages& seen,
-                     const ScreenImages& screen) {
+void traceSceneFallback(gpu::Frame& f, Rays& rays, const ViewInputs& in, const Settings& settings,
+                        const ViewImages& seen, const ScreenImages& screen) {
     if (settings.traceScene.enabled == 0 || in.traced == nullptr) {
         return;
     }

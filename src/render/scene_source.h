@@ -1,4 +1,4 @@
-// The scene as the frame's source of answers: what trace_scene is told of the frame's view, lights and settings.
+// Ray tracing as a source of the frame: passes the frame's view, lights and settings to trace_scene.
 #pragma once
 
 #include "render/bounce/trace_screen.h"
@@ -6,9 +6,9 @@
 
 namespace reflet {
 
-/// Answers what waits, where the settings say so and there is a scene to trace. seen: what the camera sees, of this
-/// frame; screen: what the screen's source was given for this lobe.
-void answerFromScene(gpu::Frame& f, Rays& rays, const ViewInputs& in, const Settings& settings, const ViewImages& seen,
-                     const ScreenImages& screen);
+/// Traces the remaining rays against the BVH, if enabled and there is one. seen: the camera's images of this frame;
+/// screen: the inputs of screen-space tracing for this lobe.
+void traceSceneFallback(gpu::Frame& f, Rays& rays, const ViewInputs& in, const Settings& settings,
+                        const ViewImages& seen, const ScreenImages& screen);
 
 }  // namespace reflet

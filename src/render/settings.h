@@ -49,7 +49,7 @@ struct Settings {
     TonemapSettings tonemap;
 };
 
-/// Whether a frame with these settings traces rays through the scene's triangles.
+/// Whether a frame with these settings traces rays against the scene's BVH.
 bool tracesScene(const Settings& settings);
 
 /// A setting with its full name and its place in Settings.
@@ -66,8 +66,8 @@ const SettingEntry& findSetting(std::string_view name);
 
 bool sameSettings(const Settings& a, const Settings& b);
 
-/// Sets one from text. Throws UsageError: an unknown name (naming the nearest), a value that is none of its type, or
-/// out of its range (naming the range).
+/// Sets one from text. Throws UsageError for an unknown name (suggesting the nearest) and for a value of the wrong type
+/// or out of range (stating the range).
 void setSetting(Settings& settings, std::string_view name, const std::string& value);
 
 /// `key=value`, as given to --set.
@@ -76,14 +76,14 @@ void setSetting(Settings& settings, std::string_view assignment);
 /// The value as text that setSetting takes.
 std::string settingText(const Settings& settings, const SettingEntry& entry);
 
-/// { "description": "what it is for", "trace_screen": { "maxSteps": 64, … }, … }: what the object names is set, the
-/// rest stays. `where` starts the messages. Throws Error as setSetting does.
+/// { "description": "what it is for", "trace_screen": { "max_steps": 64, … }, … }: sets what the object names, leaves
+/// the rest. Messages start with `where`. Throws Error as setSetting does.
 void applySettingsJson(Settings& settings, const nlohmann::json& json, const std::string& where);
 
-/// What applySettingsJson makes these settings of `from` with; an empty object where they are the same.
+/// The differences from `from`, as JSON for applySettingsJson; an empty object if there are none.
 nlohmann::ordered_json settingsJson(const Settings& settings, const Settings& from);
 
-/// What a setting may be: "0.001 to 100", "on or off", "gamma22, srgb, …".
+/// The allowed values of a setting: "0.001 to 100", "true or false", "gamma22, srgb, …".
 std::string rangeText(const SettingInfo& info);
 
 }  // namespace reflet

@@ -10,21 +10,21 @@ SHARED_BEGIN
 struct ViewParams {
     mat4 worldToClip;
     mat4 clipToWorld;
-    mat4 previousWorldToClip;  // of the last frame, looking through the same place in the pixel as this one; equal to
-                               // worldToClip in the first
-    mat4 anyPlaceToWorld;  // clipToWorld of all that the pixels may show, whatever place in them frames look through:
-                           // the sun's maps are fitted to it, lest they change with every frame
-    vec4 eye;              // world space: the camera's position with w = 1, or (orthographic) the direction
-                           // toward the camera with w = 0
-    vec4 viewPlane;        // dot(viewPlane, (p, 1)): distance of a world point in front of the camera [m]
-    vec4 depthToDistance;  // that distance from a depth d: (x + y d) / (z + w d)
-    vec2 size;             // pixels
-    vec2 pixel;            // 1 / size
-    vec2 jitterChange;     // uv: place in the pixel that the frame looks through, minus the last frame's. What a
-                           // pixel shows was at uv - motion + jitterChange in the images of the last frame
-    float pixelAngle;      // what a pixel covers at distance 1 [m/m]; orthographic: at any distance [m]
-    uint frame;            // counts up; decorrelates the noise of successive frames
-    uint seed;             // of the whole picture
+    mat4 previousWorldToClip;  // of the last frame, with this frame's subpixel jitter; equal to worldToClip in the
+                               // first frame
+    mat4 paddedClipToWorld;  // clipToWorld without jitter, padded by half a pixel: covers all that jittered frames can
+                             // show. Sun shadow maps are fitted to it, so that they do not change with the jitter
+    vec4 eye;                // world space: the camera's position with w = 1, or (orthographic) the direction
+                             // toward the camera with w = 0
+    vec4 viewPlane;          // dot(viewPlane, (p, 1)): distance of a world point in front of the camera [m]
+    vec4 depthToDistance;    // that distance from a depth d: (x + y d) / (z + w d)
+    vec2 size;               // pixels
+    vec2 pixel;              // 1 / size
+    vec2 jitterChange;  // uv: this frame's subpixel jitter minus the last frame's. The surface at uv was at uv - motion
+                        // + jitterChange in the last frame's images
+    float pixelAngle;   // a pixel's height at distance 1 [m/m]; orthographic: at any distance [m]
+    uint frame;         // counts up; decorrelates the noise of successive frames
+    uint seed;          // random seed of the rendering
 };
 
 SHARED_END

@@ -1,4 +1,4 @@
-// Makes what passes know of a camera.
+// Converts a camera to ViewParams.
 #include "render/view_params.h"
 
 #include <cmath>
@@ -16,7 +16,7 @@ ViewParams makeViewParams(const Camera& camera, uvec2 size, uint32_t frame, uint
     // Inverted in double: an infinite far plane makes the matrix badly conditioned.
     v.clipToWorld = mat4(glm::inverse(glm::dmat4(toView)) * glm::inverse(glm::dmat4(toClip)));
     v.previousWorldToClip = v.worldToClip;
-    v.anyPlaceToWorld = v.clipToWorld;
+    v.paddedClipToWorld = v.clipToWorld;
     v.eye = orthographic ? vec4(toCamera, 0.0F) : vec4(camera.position, 1.0F);
     v.viewPlane = -glm::transpose(toView)[2];
     v.depthToDistance =

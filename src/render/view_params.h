@@ -1,4 +1,4 @@
-// From a scene's camera to what passes know of it.
+// Converts a scene camera to the parameters that passes use.
 #pragma once
 
 #include "render/view.h"
@@ -6,7 +6,7 @@
 
 namespace reflet {
 
-/// The camera as passes see it. previousWorldToClip is set to the camera's own.
+/// previousWorldToClip is set to the camera's own worldToClip.
 ViewParams makeViewParams(const Camera& camera, uvec2 size, uint32_t frame, uint32_t seed);
 
 }  // namespace reflet

@@ -206,8 +206,8 @@ TEST(LampShadow, IsCastByTheStrongestAndTheOthersShineThroughEverythingWithAWarn
     EXPECT_EQ(plan(8, 512, 16384).second, (std::vector<uint32_t>{1, 2, 0, none}));
     EXPECT_TRUE(warnings.empty());
     EXPECT_EQ(plan(1, 512, 16384).second, (std::vector<uint32_t>{none, none, 0, none}));
-    EXPECT_EQ(warnings, std::vector<std::string>{"the scene has 3 point and spot lamps, of which the strongest 1 cast "
-                                                 "shadows (shadow.lamps)"});
+    EXPECT_EQ(warnings, std::vector<std::string>{"the scene has 3 point and spot lamps, but only the strongest 1 cast "
+                                                 "shadows: shadow.lamps is the limit"});
     EXPECT_EQ(plan(0, 512, 16384).first.count, 0U);
     const LampShadows smaller = plan(8, 512, 2048).first;  // 18 tiles, 5 in a row
     EXPECT_EQ(smaller.tileSize, 256U);

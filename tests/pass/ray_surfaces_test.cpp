@@ -28,9 +28,9 @@ TEST(RaySurfaces, ABlocksPixelSeesWhatThePickedPixelOfThePictureSees) {
             for (uint32_t scale = 1; scale <= 4; ++scale) {
                 const ViewParams blocks = viewOfBlocks(view, scale);
                 ASSERT_EQ(uvec2(blocks.size), (size + scale - 1U) / scale);
-                const uvec2 last = (size - 1U - placeInBlock(scale)) / scale;
+                const uvec2 last = (size - 1U - blockPixelOffset(scale)) / scale;
                 for (const uvec2 block : {uvec2(0), last, uvec2(last.x / 2, last.y / 3)}) {
-                    const uvec2 picked = block * scale + placeInBlock(scale);
+                    const uvec2 picked = block * scale + blockPixelOffset(scale);
                     const vec3 expected = pointAt(view, picked, 0.02F);
                     const vec3 point = pointAt(blocks, block, 0.02F);
                     EXPECT_LT(glm::distance(point, expected), 1e-4F * glm::length(expected));

@@ -122,7 +122,7 @@ TEST_F(Temporal, AtRestItConvergesToTheMeanOverThePixelsArea) {
     double first = 0.0;
     std::vector<vec4> last;
     for (uint32_t i = 0; i < 32; ++i) {
-        last = run.add([&](uvec2 p) { return MadeUpPixel{patternAt(vec2(p) + 0.5F + placeInPixel(i))}; });
+        last = run.add([&](uvec2 p) { return MadeUpPixel{patternAt(vec2(p) + 0.5F + subpixelJitter(i))}; });
         first = i == 0 ? errorOf(last, vec2(0.0F)) : first;
     }
     const double rested = errorOf(last, vec2(0.0F));
@@ -130,7 +130,7 @@ TEST_F(Temporal, AtRestItConvergesToTheMeanOverThePixelsArea) {
     RecordProperty("rested", std::to_string(rested));
     EXPECT_LT(rested, 0.07 * first) << rested << " of " << first;  // the mean of 32 samples: 0.04
     for (uint32_t i = 32; i < 96; ++i) {                           // and it stays there
-        last = run.add([&](uvec2 p) { return MadeUpPixel{patternAt(vec2(p) + 0.5F + placeInPixel(i))}; });
+        last = run.add([&](uvec2 p) { return MadeUpPixel{patternAt(vec2(p) + 0.5F + subpixelJitter(i))}; });
     }
     EXPECT_LT(errorOf(last, vec2(0.0F)), 1.2 * rested);
 }
@@ -168,7 +168,7 @@ TEST_F(Temporal, APictureThatGlidesIsNearerToTheTruthThanItsFramesAre) {
             moved = float(i) * motion;
             plain.clear();
             last = run.add([&](uvec2 p) {
-                const MadeUpPixel pixel{patternAt(vec2(p) + 0.5F + placeInPixel(i) - moved), motion, 0.5F};
+                const MadeUpPixel pixel{patternAt(vec2(p) + 0.5F + subpixelJitter(i) - moved), motion, 0.5F};
                 plain.emplace_back(pixel.radiance, 1.0F);
                 return pixel;
             });
@@ -204,7 +204,7 @@ TEST_F(Temporal, WhatAMovingThingUncoversIsFreeOfIt) {
             before = square;
             square.low.x = 4.0F + speed * float(i);
             last = run.add([&](uvec2 p) {
-                const vec2 at = vec2(p) + 0.5F + placeInPixel(i);
+                const vec2 at = vec2(p) + 0.5F + subpixelJitter(i);
                 return square.holds(at) ? MadeUpPixel{color, {speed, 0.0F}, 0.7F}
                                         : MadeUpPixel{patternAt(at), vec2(0.0F), 0.2F};
             });
@@ -239,7 +239,7 @@ TEST_F(Temporal, LightThatChangesAtRestIsTakenOverInAFewFrames) {
     TemporalRun run(device(), size);
     std::vector<vec4> last;
     const auto show = [&](float light) {
-        const vec2 place = placeInPixel(run.count());
+        const vec2 place = subpixelJitter(run.count());
         last = run.add([&](uvec2 p) { return MadeUpPixel{light * patternAt(vec2(p) + 0.5F + place)}; });
     };
     for (int i = 0; i < 40; ++i) {

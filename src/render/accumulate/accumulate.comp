@@ -1,4 +1,4 @@
-// Running means of the layers of light. In: the layers of this frame, their means before. Out: their means, and the sum.
+// Running means of the light layers. In: this frame's layers, the previous means. Out: the new means, and their sum.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/accumulate/accumulate.h"
@@ -16,7 +16,7 @@ layout(set = 0, binding = 8, rgba32f) uniform writeonly image2D indirectDiffuseM
 layout(set = 0, binding = 9, rgba32f) uniform writeonly image2D indirectSpecularMean;
 layout(set = 0, binding = 10, rgba32f) uniform writeonly image2D litMean;
 
-// Of the first frame there is no mean before: whatever is in the image must not count, NaN included.
+// In the first frame there is no previous mean; the image's contents, possibly NaN, must be ignored.
 vec3 meanOf(vec3 now, vec3 before) { return params.weight < 1.0 ? mix(before, now, params.weight) : now; }
 
 void main() {

@@ -1,5 +1,5 @@
-// Running means of the layers of light over frames of the same view: what is left of the noise of few rays falls with
-// the number of frames. Shared by C++ and GLSL.
+// Progressive accumulation: running means of the light layers over frames of the same view. Noise falls with the number
+// of frames. Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_ACCUMULATE_H
 #define REFLET_RENDER_ACCUMULATE_H
 
@@ -7,16 +7,16 @@
 
 SHARED_BEGIN
 
-#define ACCUMULATE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                 \
-    SWITCH(enabled, 0,                                                                                             \
-           "Show the mean over all frames in which view, light and settings have stayed (--frames): direct, both " \
-           "indirect layers, and so the picture.")                                                                 \
-    SWITCH(jitter, 1, "Look through another place in the pixel in every frame: the mean is over the pixel's area.")
+#define ACCUMULATE_SETTINGS(VALUE, SWITCH, CHOICE)                                                              \
+    SWITCH(enabled, 0,                                                                                          \
+           "Progressive rendering: show the mean of all frames (--frames) since view, lights or settings last " \
+           "changed. Converges to a noise-free image.")                                                         \
+    SWITCH(jitter, 1, "Subpixel jitter in each frame, so that the mean is antialiased.")
 SETTINGS(AccumulateSettings, ACCUMULATE_SETTINGS)
 
 struct AccumulateParams {
     uvec2 size;
-    float weight;  // of this frame: 1 over the number of frames, itself included
+    float weight;  // of this frame: 1 / number of frames including this one
 };
 
 SHARED_END
@@ -28,14 +28,14 @@ SHARED_END
 
 namespace reflet {
 
-/// Layers of light, of one frame or of many.
+/// Layers of light, of one frame or means over several.
 struct LightLayers {
     gpu::Image direct;
     Composite light;
 };
 
-/// The means of the layers over this frame and the `framesBefore`, RGBA32F: half floats would lose what each of many
-/// frames adds.
+/// The means of the layers over this frame and the `framesBefore` before it. RGBA32F, as half floats would lose a
+/// single frame's contribution to many.
 LightLayers accumulate(gpu::Frame& f, const LightLayers& frame, uint32_t framesBefore);
 
 }  // namespace reflet

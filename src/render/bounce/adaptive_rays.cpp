@@ -1,4 +1,4 @@
-// Records how a budget of rays is shared by the noise of tiles.
+// Records the passes of adaptive sampling: noise per tile, then a ray budget distributed by it.
 #include "render/bounce/adaptive_rays.h"
 
 #include "render/bounce/rays.h"
@@ -11,18 +11,18 @@ namespace reflet {
 
 namespace {
 
-// No tile gets less of the mean, so that what changes is seen soon; none gets more times of it.
+// Bounds relative to the mean: at least leastShare, so that changes are detected soon, and at most mostTimes.
 constexpr float leastShare = 0.5F;
 constexpr uint32_t mostTimes = 4;
 
 }  // namespace
 
-uint32_t mostAdaptiveRays(gpu::Frame& f, uvec2 size, uint32_t mean) {
+uint32_t adaptiveRayLimit(gpu::Frame& f, uvec2 size, uint32_t mean) {
     return std::max(raysPerBatch(f, size, std::min(mostTimes * mean, maxAdaptiveRays)), mean);
 }
 
 RayTiles shareRays(gpu::Frame& f, const RaySurfaces& from, uint32_t lobe, const RayCounts& counts,
-                   const LightPast& past) {
+                   const LobeHistory& past) {
     const uvec2 size = (from.g.depth.size + rayTileSide - 1U) / rayTileSide;
     const gpu::Image noise = f.image("rays.tile_noise", VK_FORMAT_R32G32_SFLOAT, size);
     const gpu::History tiles = f.history(lobe == lobeDiffuse ? "diffuse_adaptive.tiles" : "specular_adaptive.tiles",
@@ -44,11 +44,11 @@ RayTiles shareRays(gpu::Frame& f, const RaySurfaces& from, uint32_t lobe, const 
         .write("noise", noise)
         .write("histogram", histogram)
         .params(MeasureNoiseParams{from.view, vec2(past.lit.size) / static_cast<float>(from.scale), past.lit.size,
-                                   from.scale, placeInBlock(from.scale), past.valid && tiles.valid ? 1U : 0U})
+                                   from.scale, blockPixelOffset(from.scale), past.valid && tiles.valid ? 1U : 0U})
         .dispatch(size);
     const gpu::BufferView list = makeTileList(f, size);
     const auto mean = static_cast<float>(counts.rays);
-    const uint32_t most = mostAdaptiveRays(f, from.g.depth.size, counts.rays);
+    const uint32_t most = adaptiveRayLimit(f, from.g.depth.size, counts.rays);
     f.compute("share_rays", "share_rays.comp")
         .constant("lobe", lobe)
         .read("histogram", histogram)

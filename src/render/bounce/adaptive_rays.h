@@ -1,9 +1,9 @@
-// Rays where they are needed: how much noise a lobe's light still has in each tile, and how a budget of rays is shared
-// by it. Shared by C++ and GLSL.
+// Adaptive sampling: estimates the remaining noise of a lobe in each tile and distributes a ray budget accordingly.
+// Shared by C++ and GLSL.
 //
-// A tile whose light has the standard deviation s from ray to ray, and is the mean of n rays, has the error s /
-// sqrt(n). For the sum of squares over the picture to be least with a given number of rays, n goes as s. What is
-// remembered counts: to a mean of f frames one more brings 1 / (f + 1).
+// The mean of n rays with standard deviation s has the error s / sqrt(n). For a given total of rays, the sum of squared
+// errors over the image is least when n is proportional to s. History counts: one more frame contributes 1 / (f + 1) to
+// a mean over f frames.
 #ifndef REFLET_RENDER_ADAPTIVE_RAYS_H
 #define REFLET_RENDER_ADAPTIVE_RAYS_H
 
@@ -12,29 +12,29 @@
 
 SHARED_BEGIN
 
-const uint maxAdaptiveRays = 8;  // that a pixel may get
+const uint maxAdaptiveRays = 8;  // per pixel
 
-// Noise is sorted into classes, each 2^(1/4) times the one before.
+// Noise is quantized into classes, each 2^(1/4) times the one before.
 const uint noiseClasses = 64;
 const float noiseClassesPerOctave = 4.0;
 const float noiseClassOfOne = 44.0;
 
-// Begins the histogram: pixels of each class, and then those of mirrors, whose rays no noise changes.
+// Histogram: pixels of each noise class, then the pixels of mirrors, whose ray count does not depend on noise.
 const uint histogramSize = noiseClasses + 1;
 
 struct MeasureNoiseParams {
     ViewParams view;      // of the grid
-    vec2 motionToPixels;  // pixels of the grid that a motion of 1 moves
-    uvec2 picture;        // pixels
-    uint scale;           // of the grid: pixels of the picture
-    uint place;           // within a block, along each side, of the picked pixel
-    uint remembers;       // 1: the histories hold the last frame
+    vec2 motionToPixels;  // from motion in uv to pixels of the grid
+    uvec2 picture;        // full resolution, pixels
+    uint scale;           // full-resolution pixels per grid pixel, along each side
+    uint blockOffset;     // of the traced pixel within its block, along each side
+    uint hasHistory;      // 1: the histories hold the last frame
 };
 
 struct ShareRaysParams {
     uvec2 tiles;
     uint mean;    // rays per pixel with the lobe
-    uint mirror;  // per pixel of tiles that are all mirrors
+    uint mirror;  // rays per pixel in tiles where all surfaces are mirrors
     float least;  // per pixel
     float most;
 };
@@ -47,22 +47,21 @@ SHARED_END
 
 namespace reflet {
 
-/// What is known of a lobe's light from the last frame.
-struct LightPast {
+/// A lobe's history from the last frame.
+struct LobeHistory {
     gpu::Image light;    ///< of the grid's size: RGBA16F: mean radiance
-    gpu::Image surface;  ///< RG32_UINT: R: bits of the depth, 0: no surface with this lobe
+    gpu::Image surface;  ///< RG32_UINT: R: depth as bits, 0: no surface with this lobe
     gpu::Image moments;  ///< RG16F: frames in the mean, mean square of a frame's luminance
-    gpu::Image lit;      ///< of the picture's size, RGBA16F: the whole picture
-    bool valid = false;  ///< false: nothing is
+    gpu::Image lit;      ///< full resolution, RGBA16F: the lit image
+    bool valid = false;  ///< false: there is no history
 };
 
-/// Numbers of rays that follow the noise: `counts.rays` is their mean over the pixels with the lobe, and `most` the
-/// largest. picture: the whole picture's size.
+/// Ray counts per tile in proportion to the noise; `counts.rays` is their mean over the pixels with the lobe.
 RayTiles shareRays(gpu::Frame& f, const RaySurfaces& from, uint32_t lobe, const RayCounts& counts,
-                   const LightPast& past);
+                   const LobeHistory& past);
 
-/// What a pixel may get of a mean of so many.
-uint32_t mostAdaptiveRays(gpu::Frame& f, uvec2 size, uint32_t mean);
+/// The most rays that a pixel gets if the mean is `mean`.
+uint32_t adaptiveRayLimit(gpu::Frame& f, uvec2 size, uint32_t mean);
 
 }  // namespace reflet
 #endif

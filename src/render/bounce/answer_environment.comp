@@ -1,4 +1,4 @@
-// Gives every waiting ray the environment's radiance: along it, or around it where it stands for more (Ray.spread).
+// Gives every remaining ray the environment's radiance: along its direction, or prefiltered by its lobe (Ray.spread).
 // In: the list, directions, material, the environment. Out: answers, sources.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -35,8 +35,9 @@ void main() {
     uint stride = gl_NumWorkGroups.x * listGroupSize;
     for (uint i = gl_GlobalInvocationID.x; i < waiting.count; i += stride) {
         WaitingRay ray = unpackWaitingRay(waiting.items[i]);
-        // Occlusion maps know of nearby surfaces, which a ray may be known not to meet.
-        float occlusion = lobe == lobeDiffuse && !meetsNothing(ray) ? texelFetch(material, ray.slot.xy, 0).b : 1.0;
+        // Occlusion maps stand for nearby geometry; they are ignored for rays that ray tracing has found to be
+        // unoccluded.
+        float occlusion = lobe == lobeDiffuse && !isKnownMiss(ray) ? texelFetch(material, ray.slot.xy, 0).b : 1.0;
         vec3 radiance = radianceFor(unpackRay(imageLoad(direction, ray.slot).xy));
         float share = occlusion * (ray.lost ? params.settings.occludedWeight : 1.0);
         RayAnswer a = RayAnswer(radiance * share, 1.0, environmentDistance);

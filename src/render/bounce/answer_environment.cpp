@@ -1,4 +1,4 @@
-// Records the environment as a source of answers.
+// Records the environment as the last ray source.
 #include "render/bounce/answer_environment.h"
 
 namespace reflet {

@@ -1,4 +1,5 @@
-// The last source of the chain: what lies behind everything. It answers every ray. Shared by C++ and GLSL.
+// The last ray source of the chain, image-based lighting: gives every remaining ray the environment's radiance. Shared
+// by C++ and GLSL.
 #ifndef REFLET_RENDER_ANSWER_ENVIRONMENT_H
 #define REFLET_RENDER_ANSWER_ENVIRONMENT_H
 
@@ -6,13 +7,16 @@
 
 SHARED_BEGIN
 
-// Hit distance of what has none [m]: far, and a half float.
+// Hit distance stored for misses [m]: far away, but representable as a half float.
 const float environmentDistance = 10000.0;
 
-#define ENVIRONMENT_SETTINGS(VALUE, SWITCH, CHOICE)                                                              \
-    SWITCH(enabled, 1, "Rays that meet nothing get the environment; off: they get black. The background stays.") \
-    VALUE(float, occludedWeight, 0.5, 0.0, 1.0,                                                                  \
-          "How much of the environment rays get of which the screen only knows that they went behind something.")
+#define ENVIRONMENT_SETTINGS(VALUE, SWITCH, CHOICE)                                                                 \
+    SWITCH(enabled, 1,                                                                                              \
+           "Image-based lighting: rays that hit nothing get the environment. Off: they are black; the background "  \
+           "stays visible.")                                                                                        \
+    VALUE(float, occludedWeight, 0.5, 0.0, 1.0,                                                                     \
+          "Share of environment light for rays that passed behind a visible surface, where the screen cannot tell " \
+          "whether they hit. 0: darker; 1: more light leaking.")
 SETTINGS(EnvironmentSettings, ENVIRONMENT_SETTINGS)
 
 struct AnswerEnvironmentParams {
@@ -30,9 +34,8 @@ SHARED_END
 
 namespace reflet {
 
-/// Answers all that waits: single rays with the exact radiance, those that stand for a lobe or for the hemisphere
-/// (Ray.spread) with the filtered one. Diffuse rays from surfaces with an occlusion map get less of it: the map knows
-/// of nearby surfaces that the rays could not meet.
+/// Single rays get the exact radiance, cones and hemispheres (Ray.spread) the prefiltered one. Diffuse rays from
+/// surfaces with an occlusion map get less, because the map stands for nearby geometry that the rays could not hit.
 void answerEnvironment(gpu::Frame& f, Rays& rays, const EnvironmentLight& environment,
                        const EnvironmentSettings& settings);
 

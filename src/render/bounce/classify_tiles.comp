@@ -1,5 +1,6 @@
-// What the surfaces of a tile are like, how many rays its pixels get, and the list of tiles that get any. A thread for each tile.
-// In: depth, material. Out: for each tile its rays and its class; the list.
+// Classifies tiles by their materials, sets their rays per pixel and lists the tiles that get rays. One thread per
+// tile.
+// In: depth, material. Out: rays and class of each tile; the list.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/bounce/ray_tiles.h"

@@ -1,6 +1,6 @@
-// Makes the rays of a lobe: directions, weights, and the list of all that need an answer.
-// In: depth, both normals, material, base colour, GGX table, blue noise, tiles and the list of those with rays.
-// Out: direction, answer and source (cleared) of their rays, the list of rays.
+// Generates the rays of a lobe: directions, weights, and the list of rays to trace.
+// In: depth, both normals, material, base colour, GGX table, blue noise, tiles and the list of tiles with rays.
+// Out: direction, answer and source (cleared) of the rays, the list of rays.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/bounce/adaptive_rays.h"
@@ -12,7 +12,7 @@
 
 layout(constant_id = 0) const uint lobe = 0u;
 layout(constant_id = 1) const uint noise = RayNoise_blue;
-layout(constant_id = 3) const uint adaptive = 0u;  // 1: how many rays a pixel has changes from frame to frame
+layout(constant_id = 3) const uint adaptive = 0u;  // 1: rays per pixel change from frame to frame
 layout(constant_id = 2) const uint distribution = RayDistribution_cosine;
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -43,16 +43,16 @@ layout(set = 0, binding = 13, scalar) readonly buffer ListBlock {
 uint loadBlueNoise(uint texel) { return blueNoise.texels[texel]; }
 #include "shaders/blue_noise.glsl"
 
-const float lowestRay = 1e-3;  // sine of the angle between a ray and the surface that it leaves
+const float lowestRay = 1e-3;  // smallest sine of the angle between a ray and its surface
 
-// Which of how many rays of a pixel.
+// The index of a ray among a pixel's rays.
 struct RayNumber {
     ivec2 pixel;
     uint index;
     uint count;
 };
 
-// Two numbers in [0, 1) for a ray.
+// Two random numbers in [0, 1) for a ray.
 vec2 randomPair(RayNumber ray) {
     uint seed = params.view.seed + lobe;
     if (noise == RayNoise_blue) {
@@ -74,22 +74,22 @@ Ray diffuseRay(RayNumber number, vec3 n) {
     return Ray(basisAround(n) * sampleCosineHemisphere(u), 1.0, 1.0, 0.0);
 }
 
-// Normal maps and smooth normals send some rays into the surface; they leave along it.
+// Normal maps and smooth normals send some rays below the surface; these are bent to just above it.
 vec3 raiseAbove(vec3 direction, vec3 geometric) {
     float height = dot(direction, geometric);
     return height < lowestRay ? normalize(direction + geometric * (lowestRay - height)) : direction;
 }
 
-// One of the microfacet normals that are seen from v reflects it. The weight is BRDF · cos / pdf over the directional
-// albedo, which composite multiplies in. One number for three colours: F0 by its luminance.
+// Reflection at a sampled visible GGX normal. The weight is BRDF · cos / pdf divided by the directional albedo, which
+// the composite multiplies in. One weight for all three channels: F0 is taken by its luminance.
 Ray specularRay(RayNumber number, vec3 n, vec3 v, MaterialTexel m) {
     mat3 frame = basisAround(n);
     vec3 eye = v * frame;
-    eye = normalize(vec3(eye.xy, max(eye.z, 1e-3)));  // normal maps may turn away from the eye
+    eye = normalize(vec3(eye.xy, max(eye.z, 1e-3)));  // normal maps may face away from the eye
     float alpha = m.roughness * m.roughness;
     bool cone = m.roughness > params.specular.maxRoughness && params.specular.roughFallback == RoughFallback_mips;
     vec3 h = vec3(0.0, 0.0, 1.0);
-    float share = 1.0;  // of the light along the ray that is not masked
+    float share = 1.0;  // masking: the share of light along the ray that reaches the eye
     if (cone && params.coneShare == 0.0) {
         return Ray(frame * ggxMeanDirection(eye, alpha), 1.0, 1.0, m.roughness);
     }
@@ -139,7 +139,7 @@ void generate(ivec2 pixel, uint rays) {
     }
 }
 
-// A group for each tile of the list.
+// One group per tile of the list.
 void main() {
     uint item = gl_WorkGroupID.y * tileListRow + gl_WorkGroupID.x;
     if (item >= list.count) {

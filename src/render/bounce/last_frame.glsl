@@ -1,22 +1,23 @@
-// Of what the screen shows: how it moved by itself, and whether the last frame showed it. The includer has params.view,
-// and the images motion and previousLit.
+// Reprojection of visible surfaces: their own motion, and whether the last frame showed them. The includer declares
+// params.view and the images motion and previousLit.
 #ifndef REFLET_LAST_FRAME_GLSL
 #define REFLET_LAST_FRAME_GLSL
 
 #include "shaders/object_motion.glsl"
 
-const float sameDistance = 0.02;  // share of its distance by which the last frame may have shown a surface elsewhere
+const float sameDistance = 0.02;  // tolerance for the distance of a reprojected surface, relative
 
-// Since the last frame, of the point p that the pixel shows, by itself [m].
+// Object motion since the last frame, without the camera's, of the visible point p [m].
 vec3 displacementAt(ivec2 pixel, vec3 p) {
     return objectDisplacement(p, pixelToUv(pixel, params.view.pixel), texelFetch(motion, pixel, 0).xyz,
                            params.view.previousWorldToClip, params.view.viewPlane.xyz);
 }
 
-// Where in the last frame's image the pixel's surface was.
+// uv of the pixel's surface in the last frame's image.
 vec2 uvInLastFrame(ivec2 pixel, vec2 uv) { return uv + params.view.jitterChange - texelFetch(motion, pixel, 0).xy; }
 
-// Whether the last frame showed there what the pixel shows now: the point p with the geometric normal n.
+// Whether the last frame showed the same surface at uv: no disocclusion. p, n: point and geometric normal of the pixel
+// now.
 bool wasShown(vec2 uv, ivec2 pixel, vec3 p, vec3 n) {
     if (any(lessThan(uv, vec2(0.0))) || any(greaterThanEqual(uv, vec2(1.0)))) {
         return false;

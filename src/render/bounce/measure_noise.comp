@@ -1,7 +1,7 @@
-// How much noise a lobe's light still has in each tile, as a part of the picture's light, and how many pixels there are of
-// each class of noise. A thread for each tile.
-// In: depth, material, base colour, motion; of the last frame what the denoiser remembers, the picture, rays per tile.
-// Out: for each tile its class and its class of noise; the histogram.
+// Estimates a lobe's remaining noise in each tile, relative to the lit image, and builds a histogram of noise classes.
+// One thread per tile.
+// In: depth, material, base colour, motion; of the last frame the denoiser's history, the lit image, rays per tile.
+// Out: material class and noise class of each tile; the histogram.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/bounce/adaptive_rays.h"
@@ -30,23 +30,23 @@ float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
 MaterialTexel loadMaterial(ivec2 pixel) { return unpackMaterial(texelFetch(material, pixel, 0)); }
 #include "render/bounce/tile_kind.glsl"
 
-const float darkness = 0.1;      // luminance below which noise counts by what it is, not by its share
-const int around = 20;           // pixels of the grid on each side of a tile, where its noise is measured
-const int apart = 8;             // pixels between those that are asked there
-const float sameDistance = 0.1;  // by which a remembered surface may be nearer or farther, as a share of its distance
+const float darkness = 0.1;      // luminance below which absolute instead of relative noise counts
+const int around = 20;           // grid pixels around a tile in which its noise is measured
+const int apart = 8;             // spacing of the samples there, in pixels
+const float sameDistance = 0.1;  // tolerance for the distance of a reprojected surface, relative
 
 
-// How much of the lobe's radiance the surface sends on, about.
+// Approximate reflectance of the surface for the lobe.
 float reflectance(ivec2 pixel) {
     MaterialTexel m = loadMaterial(pixel);
     float base = luminance(unpackBaseColor(texelFetch(baseColor, pixel, 0).rgb));
     return lobe == lobeDiffuse ? base * (1.0 - m.metallic) : mix(dielectricF0, base, m.metallic);
 }
 
-// Where the last frame had what the pixel shows; negative: nowhere.
-ivec2 homeOf(ivec2 pixel, float d) {
+// Reprojects to the last frame's pixel; negative if there is none.
+ivec2 previousPixelOf(ivec2 pixel, float d) {
     ivec2 home = ivec2(round(vec2(pixel) - texelFetch(motion, pixel, 0).rg * params.motionToPixels));
-    if (params.remembers == 0u || any(lessThan(home, ivec2(0))) || any(greaterThanEqual(home, ivec2(params.view.size)))) {
+    if (params.hasHistory == 0u || any(lessThan(home, ivec2(0))) || any(greaterThanEqual(home, ivec2(params.view.size)))) {
         return ivec2(-1);
     }
     vec4 before = params.view.previousWorldToClip *
@@ -56,22 +56,23 @@ ivec2 homeOf(ivec2 pixel, float d) {
 }
 
 // Whether the pixel has the lobe.
-bool shines(ivec2 pixel, float d) {
+bool hasLobe(ivec2 pixel, float d) {
     return d > 0.0 && (lobe == lobeDiffuse || (loadMaterial(pixel).flags & materialFlagLambert) == 0u);
 }
 
-// Squared standard deviation from ray to ray of the light that the lobe sends to the eye, over the picture's light there.
+// Variance per ray of the lobe's reflected light, divided by the squared luminance of the lit image.
 float varianceAt(ivec2 pixel, ivec2 home, vec2 moments) {
     float mean = min(luminance(imageLoad(previousLight, home).rgb), 255.0);
-    float rays = max(imageLoad(previousTiles, home / int(rayTileSide)).r, 1.0);  // in each frame
+    float rays = max(imageLoad(previousTiles, home / int(rayTileSide)).r, 1.0);  // per frame
     float variance = max(moments.y - mean * mean, 0.0) * rays;
-    ivec2 shown = min(home * int(params.scale) + int(params.place), ivec2(params.picture) - 1);
+    ivec2 shown = min(home * int(params.scale) + int(params.blockOffset), ivec2(params.picture) - 1);
     float lit = luminance(imageLoad(previousLit, shown).rgb);
     float sent = reflectance(pixel);
     return variance * sent * sent / (lit * lit + darkness * darkness);
 }
 
-// The mean over what lies around: a tile's own few rays have often missed what makes for noise, or hit it by chance.
+// The mean over the tile's surroundings: with a tile's own low sample count, the estimate often misses the cause of the
+// noise or overrates it.
 float varianceAround(ivec2 first) {
     ivec2 size = ivec2(params.view.size);
     ivec2 begin = max(first - around, ivec2(0));
@@ -81,7 +82,7 @@ float varianceAround(ivec2 first) {
     for (int y = begin.y + apart / 2; y < end.y; y += apart) {
         for (int x = begin.x + apart / 2; x < end.x; x += apart) {
             float d = loadDepth(ivec2(x, y));
-            ivec2 home = shines(ivec2(x, y), d) ? homeOf(ivec2(x, y), d) : ivec2(-1);
+            ivec2 home = hasLobe(ivec2(x, y), d) ? previousPixelOf(ivec2(x, y), d) : ivec2(-1);
             vec2 moments = home.x >= 0 ? imageLoad(previousMoments, home).xy : vec2(0.0);
             if (moments.x > 1.5) {
                 sum += varianceAt(ivec2(x, y), home, moments);
@@ -92,7 +93,7 @@ float varianceAround(ivec2 first) {
     return found > 0.0 ? sum / found : 1.0;
 }
 
-// How much a further ray changes a pixel of the tile: less, the more frames it is the mean of.
+// The expected change of a pixel by one more ray; it shrinks with the history length.
 float noiseOfTile(ivec2 first, ivec2 end) {
     float squares = 0.0;
     float found = 0.0;
@@ -100,8 +101,8 @@ float noiseOfTile(ivec2 first, ivec2 end) {
         for (int x = first.x; x < end.x; x += 2) {
             ivec2 pixel = ivec2(x, y);
             float d = loadDepth(pixel);
-            if (shines(pixel, d)) {
-                ivec2 home = homeOf(pixel, d);
+            if (hasLobe(pixel, d)) {
+                ivec2 home = previousPixelOf(pixel, d);
                 float share = 1.0 / ((home.x >= 0 ? imageLoad(previousMoments, home).x : 0.0) + 1.0);
                 squares += share * share;
                 found += 1.0;

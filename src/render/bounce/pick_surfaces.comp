@@ -1,4 +1,5 @@
-// Copies one pixel of each block of the G-buffer: what rays of a coarser grid leave. In: G-buffer. Out: the same, smaller.
+// Downsamples the G-buffer by taking one pixel of each block, for tracing at reduced resolution. In: G-buffer. Out: the
+// same, smaller.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/bounce/ray_surfaces.h"
@@ -23,7 +24,7 @@ void main() {
     if (any(greaterThanEqual(uvec2(block), params.picked))) {
         return;
     }
-    ivec2 pixel = block * int(params.scale) + int(params.place);
+    ivec2 pixel = block * int(params.scale) + int(params.blockOffset);
     bool inside = all(lessThan(pixel, ivec2(params.size)));
     pixel = min(pixel, ivec2(params.size) - 1);
     imageStore(pickedDepth, block, inside ? texelFetch(depth, pixel, 0) : vec4(0.0));

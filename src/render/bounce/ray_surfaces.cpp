@@ -1,4 +1,4 @@
-// Records the choice of surfaces that rays leave.
+// Records the downsampling of the surfaces that rays start from.
 #include "render/bounce/ray_surfaces.h"
 
 #include <string>
@@ -8,10 +8,10 @@ namespace reflet {
 ViewParams viewOfBlocks(const ViewParams& view, uint32_t scale) {
     const auto s = static_cast<float>(scale);
     const vec2 size = glm::ceil(view.size / s);
-    // uv of the whole picture to that of the coarser: a · uv + b
+    // full-resolution uv to uv of the coarse grid: a · uv + b
     const vec2 a = view.size / (s * size);
-    const vec2 b = (0.5F - (static_cast<float>(placeInBlock(scale)) + 0.5F) / s) / size;
-    const vec2 shift = a + 2.0F * b - 1.0F;  // of clip space, where w is 1
+    const vec2 b = (0.5F - (static_cast<float>(blockPixelOffset(scale)) + 0.5F) / s) / size;
+    const vec2 shift = a + 2.0F * b - 1.0F;  // in clip space, for w = 1
     mat4 toBlocks(1.0F);
     mat4 fromBlocks(1.0F);
     for (int i = 0; i < 2; ++i) {
@@ -58,7 +58,7 @@ RaySurfaces pickSurfaces(gpu::Frame& f, const GBuffer& g, const ViewParams& view
         .write("pickedBaseColor", picked.baseColor)
         .write("pickedMaterial", picked.material)
         .write("pickedMotion", picked.motion)
-        .params(PickSurfacesParams{uvec2(view.size), size, scale, placeInBlock(scale)})
+        .params(PickSurfacesParams{uvec2(view.size), size, scale, blockPixelOffset(scale)})
         .dispatch(size);
     return {picked, blocks, scale};
 }

@@ -1,8 +1,8 @@
-// The surfaces that a lobe's rays leave: every pixel's, or those of one pixel of each 2x2 or 4x4. Shared by C++ and
-// GLSL.
+// The surfaces that a lobe's rays start from: every pixel, or at reduced resolution one pixel of each block (2x2 to
+// 4x4). Shared by C++ and GLSL.
 //
-// A coarser grid is a view of its own: a smaller picture by a camera whose pixel centres are the picked pixels'
-// centres. So sources need not know of it.
+// A coarse grid is treated as a view of its own: a smaller image by a camera whose pixel centres are those of the
+// picked pixels. Ray sources need no special case.
 #ifndef REFLET_RENDER_RAY_SURFACES_H
 #define REFLET_RENDER_RAY_SURFACES_H
 
@@ -12,10 +12,10 @@
 SHARED_BEGIN
 
 struct PickSurfacesParams {
-    uvec2 size;    // of the whole picture, pixels
-    uvec2 picked;  // of the coarser one
-    uint scale;    // pixels of a block along each side
-    uint place;    // within the block, along each side, that is picked
+    uvec2 size;        // full resolution, pixels
+    uvec2 picked;      // of the coarse grid
+    uint scale;        // side of a block in pixels
+    uint blockOffset;  // of the picked pixel within its block, along each side
 };
 
 SHARED_END
@@ -27,24 +27,24 @@ SHARED_END
 
 namespace reflet {
 
-/// Surfaces that rays leave, a pixel of `view` each.
+/// Surfaces that rays start from, one per pixel of `view`.
 struct RaySurfaces {
-    GBuffer g;           ///< as of the whole picture; a coarser grid's depth is R32F, and there is no emissive
-    ViewParams view;     ///< its clip space puts the picked pixels' centres at the centres of the coarser picture's
-                         ///< pixels. pixelAngle is the whole picture's: depth is as fine as that
-    uint32_t scale = 1;  ///< pixels of the whole picture along a block's sides
+    GBuffer g;           ///< as at full resolution, but a coarse grid's depth is R32F and has no emissive
+    ViewParams view;     ///< its clip space maps the picked pixels' centres to the coarse pixels' centres. pixelAngle
+                         ///< stays that of full resolution, the resolution of depth
+    uint32_t scale = 1;  ///< side of a block in full-resolution pixels
 };
 
-/// Which pixel of a block is picked, along each side.
-constexpr uint32_t placeInBlock(uint32_t scale) {
+/// The picked pixel of a block, along each side.
+constexpr uint32_t blockPixelOffset(uint32_t scale) {
     return (scale - 1) / 2;
 }
 
-/// The view of a coarser grid: ceil(size / scale) pixels.
+/// The view of a coarse grid: ceil(size / scale) pixels.
 ViewParams viewOfBlocks(const ViewParams& view, uint32_t scale);
 
-/// Picks the surfaces of a grid with blocks of scale x scale pixels; 1: all of them, nothing is copied. A block
-/// whose picked pixel lies outside of the picture shows the sky.
+/// The surfaces of a grid with blocks of scale x scale pixels; with 1 nothing is copied. A block whose picked pixel
+/// lies outside of the image counts as sky.
 RaySurfaces pickSurfaces(gpu::Frame& f, const GBuffer& g, const ViewParams& view, uint32_t scale);
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// Records the classes of tiles.
+// Records the classification of tiles.
 #include "render/bounce/ray_tiles.h"
 
 #include "render/bounce/rays.h"

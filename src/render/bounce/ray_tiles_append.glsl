@@ -4,7 +4,7 @@
 
 #include "render/bounce/ray_tiles.glsl"
 
-// Each tile has a group of threads of the indirect dispatch, in rows: one row holds fewer than there may be tiles.
+// The indirect dispatch has one group per tile, in rows, because a single row is too short for all tiles.
 void appendTile(uvec2 tile) {
     uint index = atomicAdd(list.count, 1u);
     list.items[index] = packTilePlace(tile);

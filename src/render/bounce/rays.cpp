@@ -1,4 +1,4 @@
-// Records the ends of the chain: rays out of pixels, and their answers back into pixels.
+// Records both ends of the chain: ray generation, and averaging of results into pixels.
 #include "render/bounce/rays.h"
 
 #include "base/error.h"
@@ -12,7 +12,7 @@ uint32_t raysPerBatch(gpu::Frame& f, uvec2 size, uint32_t most) {
     const VkDeviceSize layer = VkDeviceSize(size.x) * size.y * sizeof(RayItem);
     const VkDeviceSize fit = (f.device().limits().maxStorageBufferRange - rayListHeader) / layer;
     if (fit == 0 || std::max(size.x, size.y) > maxFrameSize) {
-        fail("{}x{} pixels are more than this device can trace rays for; render at a smaller size", size.x, size.y);
+        fail("this device cannot trace rays at {}x{} pixels; render at a smaller size", size.x, size.y);
     }
     return static_cast<uint32_t>(std::min<VkDeviceSize>(fit, most));
 }
@@ -46,7 +46,7 @@ Rays generateRays(gpu::Frame& f, const RaySurfaces& from, const RayTables& table
               .countSteps = countSteps,
               .directional = false};
     if (countSteps) {
-        f.clear(rays.steps);  // pixels without rays take none
+        f.clear(rays.steps);  // pixels without rays have 0 steps
     }
     rays.waiting = makeRayList(f, rays, "rays.generated");
     f.compute("generate_rays", "generate_rays.comp")
@@ -89,7 +89,7 @@ LobeLight lobeImages(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool
     return light;
 }
 
-LobeLight noLight(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps) {
+LobeLight blackLobe(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps) {
     LobeLight light = lobeImages(f, lobe, from, countSteps);
     light.dark = true;
     f.clear(light.radiance);

@@ -1,9 +1,9 @@
-// Rays of both indirect lobes, diffuse and specular: which there are, what they have been answered so far, and lists
-// of those that still wait for an answer. Shared by C++ and GLSL.
+// Rays of both indirect lobes, diffuse and specular: their directions, results so far, and lists of the rays that are
+// still unresolved. Shared by C++ and GLSL.
 //
-// The chain: generateRays → a source → the next source for what it missed → … → the environment → resolveRays.
-// Every source takes a list of rays with what is left of their weight, adds its answer to the ray's own texel, and
-// hands on what it could not answer. The weights of one ray sum to 1.
+// The chain: generateRays → a source → the next source for its misses → … → the environment → resolveRays. Every source
+// takes a list of rays with their remaining weights, adds its radiance to the ray's texel, and passes the remaining
+// weight on. The weights of one ray sum to 1.
 #ifndef REFLET_RENDER_RAYS_H
 #define REFLET_RENDER_RAYS_H
 
@@ -23,58 +23,63 @@ CHOICES(RayDistribution, RAY_DISTRIBUTIONS)
     OPTION(RayNoise, blue, 1)
 CHOICES(RayNoise, RAY_NOISES)
 
-#define DIFFUSE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                  \
-    VALUE(uint, rays, 4, 0, 256, "Rays per pixel for indirect diffuse light; 0: none is computed.")              \
-    CHOICE(RayDistribution, distribution, cosine,                                                                \
-           "How their directions are spread over the hemisphere; normal: not at all: one along the normal "      \
-           "stands for all, and only sources that know irradiance (probes, environment) answer it.")             \
-    CHOICE(RayNoise, noise, blue,                                                                                \
-           "What chooses their directions; white: chance; blue: a low-discrepancy sequence, shifted by "         \
-           "blue noise in space and time: less error, and what is left is easier to blur away.")                 \
-    SWITCH(adaptive, 0,                                                                                          \
-           "`rays` is the mean over the surfaces: more where light is noisy or nothing is remembered, fewer "    \
-           "elsewhere, half to 4 times as many, at most 8. Without denoise.history, and with more than 8 rays, " \
-           "all pixels get the same.")                                                                           \
-    VALUE(uint, downsample, 1, 1, 4,                                                                             \
-          "Pixels along each side of the blocks that share rays; 2: half resolution. What is found is spread "   \
-          "over the block's pixels by their depths and normals.")                                                \
-    VALUE(uint, reuse, 0, 0, 8,                                                                                  \
-          "Neighbours whose rays a pixel takes, too, weighted as its own lobe would; only where all its rays "   \
-          "are traced at once (up to 4), and not with adaptive.")                                                \
-    VALUE(float, maxDistance, 100000.0, 0.01, 100000.0,                                                          \
-          "Metres; what is farther off is left to the sources behind the screen.")                               \
-    VALUE(float, gain, 1.0, 0.0, 64.0,                                                                           \
-          "Factor on indirect diffuse light; only 1 keeps energy; pi is what leaving out Lambert's 1/pi does.")
+#define DIFFUSE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                        \
+    VALUE(uint, rays, 4, 0, 256,                                                                                       \
+          "Samples per pixel for diffuse GI (global illumination, indirect light). More: less noise, cost grows "      \
+          "linearly. 0: no diffuse GI.")                                                                               \
+    CHOICE(RayDistribution, distribution, cosine,                                                                      \
+           "Sampling of ray directions over the hemisphere. cosine: importance-sampled, least noise. uniform: all "    \
+           "directions alike. normal: one lookup along the normal instead of rays; only irradiance sources (probes, "  \
+           "environment) respond.")                                                                                    \
+    CHOICE(RayNoise, noise, blue,                                                                                      \
+           "Random numbers for ray directions. white: independent. blue: a low-discrepancy sequence with blue-noise "  \
+           "shifts in space and time; less error, easier to denoise.")                                                 \
+    SWITCH(adaptive, 0,                                                                                                \
+           "Adaptive sampling: `rays` becomes the mean, and noisy or newly visible tiles get more, the others fewer "  \
+           "(0.5 to 4 times, at most 8). Needs denoise.history, and `rays` of at most 8.")                             \
+    VALUE(uint, downsample, 1, 1, 4,                                                                                   \
+          "Trace at reduced resolution: one pixel of each NxN block traces. 2: half resolution, a quarter of the "     \
+          "cost. Bilateral upsampling by depth and normal.")                                                           \
+    VALUE(uint, reuse, 0, 0, 8,                                                                                        \
+          "Neighbouring pixels whose rays are reused (ratio estimator). More: less noise, slightly blurred light. "    \
+          "Needs at most 4 samples per pixel, and not with `adaptive`.")                                               \
+    VALUE(float, maxDistance, 100000.0, 0.01, 100000.0,                                                                \
+          "Maximum length of diffuse rays on screen in metres (trace_screen.max_distance applies too); beyond it the " \
+          "next source is used.")                                                                                      \
+    VALUE(float, gain, 1.0, 0.0, 64.0,                                                                                 \
+          "Factor on diffuse GI. 1 conserves energy; pi reproduces renderers that leave out the 1/pi of Lambert's "    \
+          "BRDF.")
 SETTINGS(DiffuseSettings, DIFFUSE_SETTINGS)
 
-#define ROUGH_FALLBACKS(OPTION)   \
+#define ROUGH_FALLBACKS(OPTION)    \
     OPTION(RoughFallback, next, 0) \
     OPTION(RoughFallback, mips, 1)
 CHOICES(RoughFallback, ROUGH_FALLBACKS)
 
-#define SPECULAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                           \
-    VALUE(uint, rays, 1, 0, 256,                                                                           \
-          "Rays per pixel for reflections, spread as the roughness says; 0: none are computed.")           \
-    SWITCH(adaptive, 0, "Trace more rays where reflections are noisy, as for diffuse.adaptive.")           \
-    VALUE(uint, downsample, 1, 1, 4,                                                                       \
-          "Pixels along each side of the blocks that share rays, as for diffuse.downsample.")              \
-    VALUE(uint, reuse, 0, 0, 8, "Neighbours whose rays a pixel takes, too, as for diffuse.reuse.")         \
-    VALUE(float, maxRoughness, 1.0, 0.0, 1.0,                                                              \
-          "Where surfaces are too rough for rays that are spread: see `rough_fallback`; 1: none are.")     \
-    CHOICE(RoughFallback, roughFallback, next,                                                             \
-           "What those get; next: the sources behind the screen; mips: rays near the middle of what they " \
-           "reflect, with the screen's light around their hits, blurred as the roughness says.")           \
-    CHOICE(RayNoise, noise, blue, "What chooses their directions, as for diffuse.noise.")
+#define SPECULAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                                      \
+    VALUE(uint, rays, 1, 0, 256,                                                                                      \
+          "Samples per pixel for reflections (indirect specular light), drawn from the GGX lobe by roughness. More: " \
+          "less noise, cost grows linearly. 0: no reflections.")                                                      \
+    SWITCH(adaptive, 0, "Adaptive sampling of reflections, as for diffuse.adaptive.")                                 \
+    VALUE(uint, downsample, 1, 1, 4, "Trace reflections at reduced resolution, as for diffuse.downsample.")           \
+    VALUE(uint, reuse, 0, 0, 8, "Neighbouring pixels whose rays are reused, as for diffuse.reuse.")                   \
+    VALUE(float, maxRoughness, 1.0, 0.0, 1.0,                                                                         \
+          "Highest roughness with stochastic rays; rougher surfaces use `rough_fallback`. Lower: less noise and "     \
+          "cost, less exact. 1: all surfaces trace.")                                                                 \
+    CHOICE(RoughFallback, roughFallback, next,                                                                        \
+           "Reflections on surfaces above `max_roughness`. next: skip the screen, use the next source. mips: cone "   \
+           "tracing, a ray near the lobe's centre with screen light prefiltered by roughness around its hit.")        \
+    CHOICE(RayNoise, noise, blue, "Random numbers for ray directions, as for diffuse.noise.")
 SETTINGS(SpecularSettings, SPECULAR_SETTINGS)
 
 // Lobes, as the specialization constant `lobe`.
 const uint lobeDiffuse = 0;
 const uint lobeSpecular = 1;
 
-// Rays per pixel that are traced at once, at most; more are traced in turns.
+// Maximum rays per pixel in one batch; more are traced in several batches.
 const uint maxRaysPerBatch = 4;
 
-// Lists of rays hold pixel coordinates in 14 bits.
+// Ray lists store pixel coordinates in 14 bits.
 const uint maxFrameSize = 16384;
 
 // A ray in a list, as packWaitingRay (rays.glsl) packs it.
@@ -83,21 +88,21 @@ struct RayItem {
     uint restAndClear;
 };
 
-// Bytes before the items: group counts for an indirect dispatch, then the number of items.
+// Header size in bytes: group counts for an indirect dispatch, then the number of items.
 const uint rayListHeader = 16;
 
 struct GenerateRaysParams {
     ViewParams view;
     DiffuseSettings diffuse;
     SpecularSettings specular;
-    uint firstRay;    // number of the batch's first ray in its pixel
+    uint firstRay;    // index of the batch's first ray in its pixel
     uint rayCount;    // of the batch
-    float coneShare;  // where a ray stands for all of the lobe (RoughFallback_mips): the share of the visible
-                      // normals, the middle one first, that it may be any of; 0: it goes the lobe's mean way
+    float coneShare;  // for cones (RoughFallback_mips): the central share of the visible normals from which the ray is
+                      // sampled; 0: always the lobe's mean direction
 };
 
 struct ResolveRaysParams {
-    uint firstRay;  // number of the batch's first ray in its pixel; 0: overwrite, else: add to the batches before
+    uint firstRay;  // index of the batch's first ray in its pixel; 0: overwrite, else add to earlier batches
     uint rayCount;  // of the batch
     uint frame;     // as of the view
     uvec2 size;
@@ -113,73 +118,72 @@ SHARED_END
 
 namespace reflet {
 
-/// One batch of rays of one lobe. A layer per ray of a pixel.
+/// One batch of rays of one lobe. Images have a layer per ray of a pixel.
 struct Rays {
-    RaySurfaces from;         ///< that they leave
-    RayTiles tiles;           ///< that say how many leave each pixel; texels of the images below are left as they are
-                              ///< where a pixel has fewer rays than there are layers
+    RaySurfaces from;  ///< that rays start from
+    RayTiles tiles;  ///< with the rays per pixel; in the images below, layers beyond a pixel's ray count are undefined
     gpu::Image direction;     ///< RG32_UINT array: direction (packUnitVector, world), packRay: weight, trust, spread
     gpu::Image answer;        ///< RGBA16F array: radiance · weights so far, hit distance · weights [m]
     gpu::Image source;        ///< RGBA8 array: colours of the sources · weights; alpha: confidence
-    gpu::Image steps;         ///< R32F array: depth samples that the screen took; 1x1 unless they are counted
-    gpu::Image imageMotion;   ///< of LobeLight, or none; sources write that of each pixel's first ray
-    gpu::BufferView waiting;  ///< rays without (all of) an answer
+    gpu::Image steps;         ///< R32F array: depth samples of the screen-space march; 1x1 unless counted
+    gpu::Image imageMotion;   ///< of LobeLight, or none; sources write it for each pixel's first ray
+    gpu::BufferView waiting;  ///< rays with remaining weight
     uint32_t firstRay = 0;
     uint32_t count = 0;  ///< per pixel, in this batch, at most
     uint32_t lobe = 0;
     bool countSteps = false;
-    bool directional = false;  ///< whether LobeLight.directional is wanted; diffuse only
+    bool directional = false;  ///< whether to compute LobeLight.directional; diffuse only
 };
 
-/// What a lobe's rays brought, averaged per pixel; not yet multiplied by the surface's own colour.
+/// A lobe's incoming radiance, averaged per pixel; not yet multiplied by the surface's reflectance (demodulated).
 struct LobeLight {
-    RaySurfaces from;     ///< that the images have a pixel for
-    gpu::Image radiance;  ///< RGBA16F: mean of radiance · ray weight; alpha: mean hit distance [m]. Negative: the pixel
-                          ///< had no rays in this frame, others of its tile had (adaptive)
-    gpu::Image source;  ///< RGBA16F: mean colour of the sources that answered; alpha: confidence. Sums of many
-                        ///< batches, for which 8 bits are too few
+    RaySurfaces from;     ///< one per pixel of the images
+    gpu::Image radiance;  ///< RGBA16F: mean of radiance · ray weight; alpha: mean hit distance [m]. Negative: no rays
+                          ///< in this frame, though other pixels of the tile had some (adaptive)
+    gpu::Image source;  ///< RGBA16F: mean colour of the sources; alpha: confidence. 8 bits are too few for sums of many
+                        ///< batches
     gpu::Image steps;   ///< R32F: mean depth samples per ray; none unless they are counted
     RayTiles tiles;     ///< none without rays
-    /// RG16F: uv by which the mirror image has moved since the last frame because what it shows moves by itself
-    /// (object_motion.glsl); none unless it was asked for.
+    /// RG16F: uv motion of the reflected image since the last frame caused by the reflected object's own motion
+    /// (object_motion.glsl); none unless requested.
     gpu::Image imageMotion;
-    /// RGBA16F: how the light changes with the normal (directional_light.glsl); none unless it was asked for.
+    /// RGBA16F: variation of the light with the normal (directional_light.glsl); none unless requested.
     gpu::Image directional;
-    bool dark = false;  ///< of noLight
+    bool dark = false;  ///< made by blackLobe: all black
 };
 
-/// What their generator looks up.
+/// Lookup tables of the ray generator.
 struct RayTables {
     gpu::Image ggx;             ///< of makeGgxTable
     gpu::BufferView blueNoise;  ///< noise/blue_noise.h
     RayTiles tiles;             ///< of classifyTiles
 };
 
-/// Rays per pixel that one batch may hold, 1 to `most`: as many as the device's buffers take at this size. Throws Error
-/// where they do not take one.
+/// Rays per pixel of one batch, 1 to `most`: as many as the device's buffers can hold at this size. Throws Error if not
+/// even one fits.
 uint32_t raysPerBatch(gpu::Frame& f, uvec2 size, uint32_t most = maxRaysPerBatch);
 
-/// Rays firstRay .. firstRay + count of every pixel of `from` that has a surface (and the lobe), as far as its tile has
-/// so many. params.view is set here. countSteps: keep how many depth samples each takes.
+/// Generates rays firstRay .. firstRay + count for every pixel of `from` with a surface (and the lobe), up to its
+/// tile's rays per pixel. Sets params.view. countSteps: count the depth samples of each ray.
 Rays generateRays(gpu::Frame& f, const RaySurfaces& from, const RayTables& tables, uint32_t lobe,
                   GenerateRaysParams params, bool countSteps);
 
-/// An empty list as large as the rays' own, for what a source misses.
+/// An empty list with room for all rays, for a source's misses.
 gpu::BufferView makeRayList(gpu::Frame& f, const Rays& rays, std::string_view name);
 
-/// A lobe's images, which hold nothing yet.
+/// A lobe's images, not yet written.
 LobeLight lobeImages(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps);
 
-/// A lobe without rays: black.
-LobeLight noLight(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps);
+/// A lobe without rays, cleared to black.
+LobeLight blackLobe(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps);
 
-/// LobeLight.directional for rays that want it, or none.
+/// LobeLight.directional if the rays request it, or none.
 gpu::Image directionalImage(gpu::Frame& f, const Rays& rays);
 
-/// What passes bind that have none.
+/// A placeholder to bind where there is no directional image.
 gpu::Image noDirectional(gpu::Frame& f);
 
-/// Adds the batch to the lobe's images; a pixel's rays make the whole, as many as its tile says.
+/// Adds the batch to the lobe's images, weighted by 1 over the pixel's ray count.
 LobeLight resolveRays(gpu::Frame& f, const Rays& rays);
 
 }  // namespace reflet

@@ -1,8 +1,8 @@
-// Adds a source's answer to a ray. The includer declares the images `answer` and `source`.
+// Adds a source's result to a ray. The includer declares the images `answer` and `source`.
 #ifndef REFLET_RAYS_ANSWER_GLSL
 #define REFLET_RAYS_ANSWER_GLSL
 
-// rest: what the sources before have left of the ray's weight. Returns what is left after this one.
+// rest: the ray's weight left by the previous sources. Returns the weight left after this one.
 float addAnswer(ivec3 slot, RayAnswer a, float rest, vec4 color) {
     float weight = rest * clamp(a.confidence, 0.0, 1.0);
     if (weight > 0.0) {

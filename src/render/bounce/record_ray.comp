@@ -1,6 +1,6 @@
-// One pixel's mirror ray through the screen, with all that it looks at on its way: for those who ask why there is, or is
-// not, a reflection.
-// In: depth, normals, back faces, pyramid. Out: a row of texels, see record_ray.h.
+// Marches one pixel's mirror ray through the depth buffer and records every depth sample, to explain why there is or is
+// no reflection.
+// In: depth, normals, back depth, pyramid. Out: a row of texels, see record_ray.h.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/bounce/record_ray.h"

@@ -1,4 +1,4 @@
-// Records one ray.
+// Records the debug pass for one ray and reads it back.
 #include "render/bounce/record_ray.h"
 
 #include "render/pyramid/pyramid.h"

@@ -1,4 +1,5 @@
-// One ray through the screen and all that it looks at, for pictures that explain it. Shared by C++ and GLSL.
+// Debug record of one screen-space ray march with all of its depth samples, for explanatory pictures. Shared by C++ and
+// GLSL.
 #ifndef REFLET_RENDER_RECORD_RAY_H
 #define REFLET_RENDER_RECORD_RAY_H
 
@@ -8,12 +9,11 @@
 
 SHARED_BEGIN
 
-// The image: texels (outcome as of march.glsl, or -1: the pixel shows nothing; pixel; metres), (metres that are known
-// to be clear, went behind something, depth samples, faces away), (confidence, its part for edge, distance, camera),
-// (direction, number of steps), (where it starts, 1); then, for each depth that it looked at, (cell, level, nearest
-// depth there).
+// The image: texels (outcome as in march.glsl, or -1 if the pixel shows no surface; pixel; metres), (unoccluded metres,
+// passed behind a surface, depth samples, back face), (confidence, its factors for edge, distance, camera), (direction,
+// number of steps), (origin, 1); then, for each depth sample, (cell, level, nearest depth there).
 const uint recordHead = 5;
-const uint recordedSteps = 1024;  // what comes after is counted, not kept
+const uint recordedSteps = 1024;  // further steps are counted, not stored
 
 struct RecordRayParams {
     ViewParams view;
@@ -36,7 +36,7 @@ namespace reflet {
 
 struct RayStep {
     uvec2 cell{0};         ///< in cells of its level
-    uint32_t level = 0;    ///< a cell has 2^level by 2^level pixels
+    uint32_t level = 0;    ///< a cell covers 2^level by 2^level pixels
     float nearest = 0.0F;  ///< reversed depth
 };
 
@@ -44,23 +44,23 @@ enum class RayOutcome : uint8_t { hit, leftScreen, spent, hidden };
 
 struct RecordedRay {
     RayOutcome outcome = RayOutcome::spent;
-    uvec2 pixel{0};           ///< of the hit, else the last one
+    uvec2 pixel{0};           ///< of the hit, else the last pixel visited
     float distance = 0.0F;    ///< metres
-    float clear = 0.0F;       ///< metres, that it is known to have met nothing on
-    bool lost = false;        ///< it went behind something
-    bool facesAway = false;   ///< the hit shows its far side
+    float clear = 0.0F;       ///< metres along the ray that are known to be unoccluded
+    bool lost = false;        ///< it passed behind a visible surface
+    bool facesAway = false;   ///< the hit is on a back face
     float confidence = 0.0F;  ///< of the hit, 0..1: the product of the three
     float edge = 0.0F;
     float far = 0.0F;
     float camera = 0.0F;
     vec3 direction{0.0F};
     vec3 start{0.0F};
-    uint32_t samples = 0;  ///< depths that it looked at
+    uint32_t samples = 0;  ///< number of depth samples
     std::vector<RayStep> steps;
 };
 
-/// Records the mirror ray of the pixel. The first part is for the recording of a frame whose images these are, the
-/// second for when it is done: nothing where the pixel shows no surface.
+/// Records the mirror ray of the pixel. Call recordRay while recording the frame with these images, recordedRay when
+/// the frame is done; it returns nothing if the pixel shows no surface.
 gpu::Readback recordRay(gpu::Frame& f, const ViewImages& images, const ViewParams& view,
                         const TraceScreenSettings& settings, uvec2 pixel);
 std::optional<RecordedRay> recordedRay(const gpu::Frame& f, gpu::Readback readback);

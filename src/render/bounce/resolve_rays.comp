@@ -1,5 +1,6 @@
-// Averages a batch of rays into their pixels. In: tiles, direction (for the weights), answers, sources and steps by ray.
-// Out: radiance with mean hit distance, source colours with confidence, steps, and how light changes with the normal; added to what earlier batches brought.
+// Averages a batch of rays per pixel. In: tiles, direction (for the weights), results, sources and steps per ray.
+// Out: radiance with mean hit distance, source colours with confidence, steps, and variation of the light with the
+// normal; added to earlier batches.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/bounce/ray_tiles.glsl"
@@ -43,7 +44,7 @@ void main() {
     }
     float share = imageLoad(tiles, pixel / int(rayTileSide)).r;
     uint rays = pixelRays(share, uvec2(pixel), params.frame);
-    uint count = min(rays - min(params.firstRay, rays), params.rayCount);  // of them in this batch
+    uint count = min(rays - min(params.firstRay, rays), params.rayCount);  // in this batch
     float weight = 1.0 / float(max(rays, 1u));
     vec4 light = vec4(0.0);
     vec4 colors = vec4(0.0);
@@ -69,7 +70,7 @@ void main() {
         turning += hasDirectional != 0u ? imageLoad(directional, pixel) : vec4(0.0);
     }
     if (adaptive != 0u && rays == 0u && share > 0.0) {
-        light.a = -1.0;  // nothing is known of it in this frame
+        light.a = -1.0;  // no rays in this frame
     }
     imageStore(radiance, pixel, roundToHalf(vec4(clampToHalf(light.rgb), min(light.a, largestHalf))));
     imageStore(source, pixel, roundToHalf(colors));

@@ -1,7 +1,7 @@
-// Averages a pixel's rays with those of neighbours on its surface. A neighbour's ray counts by what the pixel's own lobe
-// makes of light from where that ray ended, over the chance with which the neighbour drew it; the sum is divided by the
-// sum of these weights. So light that changes along the surface is blurred, but the lobe is not.
-// In: surfaces; of rays: direction, answer, source, steps. Out: radiance with mean hit distance; source colours with
+// Ray reuse: averages a pixel's rays with those of neighbours on the same surface. A neighbour's ray is weighted by the
+// pixel's own lobe toward the ray's hit over the neighbour's pdf, and the sum is normalised by the sum of weights
+// (ratio estimator). Light that varies along the surface is blurred, the lobe is not.
+// In: surfaces; per ray: direction, result, source, steps. Out: radiance with mean hit distance; source colours with
 // confidence and steps, of the pixel's own rays.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -34,15 +34,15 @@ layout(set = 0, binding = 12, rgba16f) uniform writeonly image2D directional;
 
 const float goldenAngle = 2.39996323;
 const float widest = 12.0;      // pixels to the farthest neighbour
-// Of what a lobe spans on the way to what its rays hit, the share within which neighbours lie. Of 0.1 and 0.3, as measured
-// on cave and gloss with 8 neighbours, this is nearer to the truth.
+// Radius of the neighbourhood relative to the lobe's width at the hit. Chosen from 0.1 and 0.3 by the error against the
+// reference, on cave and gloss with 8 neighbours.
 const float shareOfWay = lobe == lobeDiffuse ? 0.1 : 0.3;
-const float narrowest = 0.01;   // perceptual roughness, up to which a reflection is a mirror's
-const float leastFacing = 0.9;  // cosine between neighbours' normals
+const float narrowest = 0.01;   // perceptual roughness up to which a surface is a mirror
+const float leastFacing = 0.9;  // smallest cosine between neighbours' normals
 const float leastCosine = 1e-3;
-const float mostWeight = 4.0;   // of a neighbour's ray, in mean weights of own ones
+const float mostWeight = 4.0;   // of a neighbour's ray
 
-// What a pixel shows, as its lobe needs it.
+// The surface of a pixel.
 struct Shown {
     vec3 p;
     vec3 normal;
@@ -50,7 +50,7 @@ struct Shown {
     float alpha;  // roughness squared
 };
 
-// Light so far, and the weights that it has.
+// Weighted sums.
 struct Sum {
     vec3 light;
     float away;  // hit distance
@@ -65,8 +65,8 @@ Shown shownAt(ivec2 pixel, float d) {
                  roughness * roughness);
 }
 
-// BRDF times cosine without Fresnel, which hardly differs between a pixel's rays.
-float lobeToward(Shown s, vec3 l) {
+// BRDF times cosine, without Fresnel, which hardly varies between a pixel's rays.
+float evaluateLobe(Shown s, vec3 l) {
     float nl = dot(s.normal, l);
     if (nl <= 0.0) {
         return 0.0;
@@ -79,11 +79,11 @@ float lobeToward(Shown s, vec3 l) {
     return ggxDistribution(nh, s.alpha) * ggxVisibility(nl, nv, s.alpha) * nl;
 }
 
-// The chance of a direction, as generate_rays draws them; in the units of lobeToward.
-float chanceOf(Shown s, Ray ray) {
+// The pdf of a direction, as sampled by generate_rays.comp; in the units of evaluateLobe.
+float pdfOf(Shown s, Ray ray) {
     float nl = max(dot(s.normal, ray.direction), leastCosine);
     if (lobe == lobeDiffuse) {
-        return nl / max(ray.weight, 0.05);  // the weight tells of other distributions than the cosine's
+        return nl / max(ray.weight, 0.05);  // the weight accounts for distributions other than cosine
     }
     float nv = max(dot(s.normal, s.toEye), leastCosine);
     float nh = clamp(dot(s.normal, normalize(s.toEye + ray.direction)), 0.0, 1.0);
@@ -100,8 +100,8 @@ void add(inout Sum sum, float weight, vec4 answered, vec3 toward, vec3 normal) {
     sum.weight += weight;
 }
 
-// Pixels of the grid within which rays bring about the same.
-float reachOf(Shown own, float d, float away) {
+// Radius in grid pixels within which incoming light is about the same.
+float reuseRadius(Shown own, float d, float away) {
     float distance = depthToViewDistance(d, params.view.depthToDistance);
     float pixelWidth = params.gridAngle * (params.view.eye.w > 0.0 ? distance : 1.0);
     float lobeWidth = lobe == lobeDiffuse ? 1.0 : ggxConeTangent(own.alpha);
@@ -118,13 +118,13 @@ void addNeighbour(inout Sum sum, Shown own, ivec2 at, float d) {
         vec4 answered = imageLoad(answer, ivec3(at, i));
         vec3 toHit = there.p + ray.direction * max(answered.a, 1e-4) - own.p;
         float away = max(length(toHit), 1e-4);
-        float weight = ray.spread > 0.0 ? 0.0 : lobeToward(own, toHit / away) / max(chanceOf(there, ray), 1e-6);
+        float weight = ray.spread > 0.0 ? 0.0 : evaluateLobe(own, toHit / away) / max(pdfOf(there, ray), 1e-6);
         add(sum, min(weight, mostWeight), vec4(answered.rgb, away), toHit / away, own.normal);
     }
 }
 
 void addNeighbours(inout Sum sum, ivec2 pixel, Shown own, float d) {
-    float reach = reachOf(own, d, sum.away / max(sum.weight, 1e-6));
+    float reach = reuseRadius(own, d, sum.away / max(sum.weight, 1e-6));
     if (reach < 1.0) {
         return;
     }
@@ -163,14 +163,14 @@ void main() {
         vec4 answered = imageLoad(answer, slot);
         add(own, ray.weight, vec4(answered.rgb, 0.0), ray.direction, shown.normal);
         own.away += answered.a;
-        add(sum, lobeToward(shown, ray.direction) / max(chanceOf(shown, ray), 1e-6), answered, ray.direction,
+        add(sum, evaluateLobe(shown, ray.direction) / max(pdfOf(shown, ray), 1e-6), answered, ray.direction,
             shown.normal);
         borrows = borrows && ray.spread == 0.0;
         colors += imageLoad(raySource, slot);
         stepped += countSteps != 0u ? imageLoad(raySteps, slot).r : 0.0;
     }
     float share = 1.0 / float(params.rayCount);
-    // Others have no rays: what lies in their slots is of some other frame.
+    // Other pixels have no rays; their slots hold stale data.
     bool traced = d > 0.0 && (lobe == lobeDiffuse || !isLambert(unpackMaterial(texelFetch(material, pixel, 0))));
     vec4 light = traced ? vec4(own.light, own.away) * share : vec4(0.0);
     colors = traced ? colors * share : vec4(0.0);

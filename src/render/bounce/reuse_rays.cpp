@@ -1,4 +1,4 @@
-// Records the way of rays back into pixels where neighbours share them.
+// Records ray reuse between neighbouring pixels.
 #include "render/bounce/reuse_rays.h"
 
 namespace reflet {

@@ -1,5 +1,5 @@
-// Rays back into pixels, in the place of resolveRays: each pixel takes its own and those of neighbours, whose hits it
-// would have met by its own rays with another chance. Shared by C++ and GLSL.
+// Ray reuse, in place of resolveRays: each pixel averages its own rays and those of its neighbours, reweighted by its
+// own lobe. Shared by C++ and GLSL.
 //
 // (After Stachowiak and Uludag, Stochastic Screen-Space Reflections, SIGGRAPH 2015.)
 #ifndef REFLET_RENDER_REUSE_RAYS_H
@@ -14,7 +14,7 @@ struct ReuseRaysParams {
     ViewParams view;  // of the grid
     uint rayCount;    // per pixel
     uint neighbours;
-    float gridAngle;  // what a pixel of the grid covers at distance 1 [m/m]; orthographic: at any distance [m]
+    float gridAngle;  // size of a grid pixel at distance 1 [m/m]; orthographic: at any distance [m]
 };
 
 SHARED_END
@@ -26,10 +26,9 @@ SHARED_END
 
 namespace reflet {
 
-/// All rays of the lobe, in one batch, into its images: radiance is the mean over own and borrowed rays, weighted by
-/// what the pixel's own lobe makes of each over the chance with which it was drawn. Source and steps are those of its
-/// own rays. Mirrors, and rays that stand for more than their direction, borrow nothing. picture: the whole picture's
-/// view.
+/// Needs all rays of the lobe in one batch. Radiance is the mean over own and reused rays, weighted by the pixel's own
+/// lobe over the pdf with which each was sampled. Source and steps are those of the pixel's own rays. Mirrors and cones
+/// reuse nothing. picture: the full-resolution view.
 LobeLight reuseRays(gpu::Frame& f, const Rays& rays, const ViewParams& picture, uint32_t neighbours);
 
 }  // namespace reflet

@@ -1,6 +1,6 @@
-// Shares a budget of rays among tiles by their noise. Every group first finds by how many rays for a noise of 1 the budget is
-// spent; then each thread has a tile. In: the histogram, for each tile its class and its class of noise. Out: rays for each
-// tile, the list of those that get any.
+// Distributes a ray budget over tiles by their noise. Every group first finds the ray count for a noise of 1 that
+// spends the budget; then each thread handles a tile. In: the histogram, material class and noise class per tile. Out:
+// rays per pixel of each tile, the list of tiles with rays.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/bounce/adaptive_rays.h"
@@ -20,19 +20,20 @@ layout(set = 0, binding = 4, scalar) buffer ListBlock {
 } list;
 #include "render/bounce/ray_tiles_append.glsl"
 
-// The power of the noise that rays follow. 1 would be best were the noise known. From few frames it is not: with 1 (and a
-// quarter of the mean as the least) the error of an evenly noisy picture, cave's after 8 frames of one ray, rose by 13 %.
+// Ray counts are proportional to noise to this power. 1 would be optimal for known noise, but an estimate from few
+// frames is not reliable: with 1 (and a minimum of a quarter of the mean) the error of an evenly noisy image, cave
+// after 8 frames of one ray, rose by 13 %.
 const float follow = 0.5;
 
 shared uint best;
 
-// Rays per pixel of a class of noise. scale: log2 of those for a noise of 1.
+// Rays per pixel of a noise class. scale: log2 of the rays for a noise of 1.
 float raysOf(uint level, float scale) {
     float rays = exp2(scale + follow * (float(level) - noiseClassOfOne) / noiseClassesPerOctave);
     return floor(clamp(rays, params.least, params.most) * float(rayShares)) / float(rayShares);
 }
 
-// Whether the picture has pixels enough to spend the budget so.
+// Whether this scale stays within the budget.
 bool withinBudget(float scale) {
     float spent = 0.0;
     float noisy = 0.0;
@@ -45,7 +46,7 @@ bool withinBudget(float scale) {
     return spent <= noisy * float(params.mean) + mirrors * (float(params.mean) - float(params.mirror));
 }
 
-// The largest scale, in steps that get smaller, that is within the budget.
+// The largest scale within the budget, by a 64-ary search.
 float findScale() {
     uint thread = gl_LocalInvocationIndex;
     float scale = -16.0;

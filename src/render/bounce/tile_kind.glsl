@@ -1,5 +1,5 @@
-// What the surfaces of a tile are like.
-// The includer defines, before it includes this: float loadDepth(ivec2 pixel); MaterialTexel loadMaterial(ivec2 pixel).
+// Classifies the surfaces of a tile.
+// The includer first defines float loadDepth(ivec2 pixel); MaterialTexel loadMaterial(ivec2 pixel).
 #ifndef REFLET_TILE_KIND_GLSL
 #define REFLET_TILE_KIND_GLSL
 
@@ -7,10 +7,10 @@
 
 struct TileContent {
     uint kind;
-    uint pixels[2];  // that have the lobe, by lobe
+    uint pixels[2];  // number of pixels that have the lobe, by lobe
 };
 
-// Pixels from `first` up to, and without, `end`.
+// Of the pixels from `first` to `end`, exclusive.
 TileContent tileContent(ivec2 first, ivec2 end) {
     uint surfaces = 0u;
     uint mirrors = 0u;

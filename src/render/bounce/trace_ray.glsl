@@ -1,5 +1,5 @@
-// Tracing one ray through the screen as the settings say. The includer defines what march.glsl and march_hiz.glsl want,
-// and pyramidLevels (render/pyramid/pyramid.h).
+// Marches one ray through the depth buffer by the method and options of the settings. The includer defines what
+// march.glsl and march_hiz.glsl require.
 #ifndef REFLET_TRACE_RAY_GLSL
 #define REFLET_TRACE_RAY_GLSL
 
@@ -31,8 +31,7 @@ MarchResult marchBy(uint method, MarchRay ray, MarchOptions o, MarchView view) {
     }
 }
 
-// How far a hit can be trusted, 0..1, and what makes it less: nearness to the screen's edge, to the longest way, to the
-// camera's direction.
+// Confidence of a hit, 0..1, then its factors: fade at the screen's edge, at the maximum distance, toward the camera.
 vec4 fadeOf(MarchResult hit, vec3 p, vec3 direction, TraceScreenSettings s, float longest, ViewParams view) {
     vec2 uv = pixelToUv(hit.pixel, view.pixel);
     vec2 inside = min(uv, 1.0 - uv);

@@ -1,8 +1,8 @@
-// Marches waiting rays through the depth buffer; a hit takes the light that the screen shows there. Or through a mirror's
-// picture, for rays that start on the mirror.
-// In: depth and geometric normal that rays start from; of what they are traced through: depth of both layers, geometric
-// normal, motion, pyramid, light of this and the last frame and mips of one of them; ray directions, the list.
-// Out: answers, sources, steps, how far the images of what mirrors show moved by themselves, the list of misses.
+// Screen-space ray tracing (SSR, SSGI): marches rays through the depth buffer; a hit takes the radiance stored there.
+// The same for planar reflections, with rays that start on the mirror and the mirrored camera's buffers.
+// In: depth and geometric normal of the rays' origins; of the traced view: depth of both layers, geometric normal,
+// motion, pyramid, light of this and the last frame and mips of one of them; ray directions, the list.
+// Out: results, sources, steps, motion of reflected images, the list of misses.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/bounce/answer_environment.h"
@@ -58,9 +58,9 @@ vec2 loadCell(ivec2 cell, int level) {
 }
 #include "render/bounce/trace_ray.glsl"
 
-// The blur's cells, over the radius that holds half of the lobe's light. 1.7 would spread a point's light as far as the
-// lobe does, were both Gaussian. Of 1.2, 2.4, 3.4 and 4.8, 3.4 is nearest to 64 spread rays on gloss (limit 0.2, 1 and
-// 4 rays); on colonnade (limit 0.5) narrower is nearer, 2.4 by 5 % of the relative MSE.
+// Width of the blur relative to the radius that holds half of the lobe's energy. 1.7 would match the lobe if both were
+// Gaussian. Of 1.2, 2.4, 3.4 and 4.8, 3.4 is closest to 64 stochastic rays on gloss (max_roughness 0.2, 1 and 4 rays);
+// on colonnade (max_roughness 0.5) narrower is better, 2.4 by 5 % of the relative MSE.
 const float coneWidth = 3.4;
 
 bool fromPrevious() { return params.settings.light == HitLight_previous && params.previousValid != 0u; }
@@ -74,8 +74,8 @@ vec3 loadLight(ivec2 cell, int level) {
 #include "render/bounce/last_frame.glsl"
 #include "render/light_mips/light_mips.glsl"
 
-// Of what the pixel shows, and so many pixels around it. A point that the last frame did not show gives this frame's
-// light, unblurred.
+// Radiance at the pixel, blurred over `width` pixels. If the last frame is used but did not show the point
+// (disocclusion), this frame's light, unblurred.
 vec3 lightAt(ivec2 pixel, float width) {
     vec2 uv = pixelToUv(pixel, params.view.pixel);
     if (fromPrevious()) {
@@ -92,7 +92,7 @@ vec3 lightAt(ivec2 pixel, float width) {
     return loadLight(ivec2(uv * params.view.size), 0);
 }
 
-// How many pixels wide the screen's light is to be blurred at the hit, where the ray stands for all of the lobe.
+// Width in pixels of a cone's footprint at its hit.
 float widthOfHit(float roughness, MarchResult hit) {
     if (roughness == 0.0) {
         return 1.0;
@@ -103,7 +103,8 @@ float widthOfHit(float roughness, MarchResult hit) {
 }
 
 MarchResult traceRay(MarchRay ray, MarchOptions o, MarchView view) {
-    // An even mirror's rays go straight away from the mirrored camera, and stay in one pixel. Steps would pass over it.
+    // On a smooth mirror, rays point straight away from the mirrored camera and stay within one pixel, which stepping
+    // would skip.
     if (through == throughMirror && all(lessThan(abs(makeScreenRay(ray, o.maxDistance, view).delta.xy), vec2(1.0)))) {
         return marchExhaustive(ray, o, view);
     }
@@ -113,16 +114,16 @@ MarchResult traceRay(MarchRay ray, MarchOptions o, MarchView view) {
 const RayAnswer noAnswer = RayAnswer(vec3(0.0), 0.0, 0.0);
 #include "render/planar/mirror_answers.glsl"
 
-// What the ray tells of its way goes to the next source, unless the one before knew more.
-void noteWay(MarchResult hit, bool lost, inout WaitingRay w) {
+// Passes the unoccluded distance on to the next source, unless an earlier source found a longer one.
+void updateClearDistance(MarchResult hit, bool lost, inout WaitingRay w) {
     if (hit.clear >= w.clear) {
         w.clear = hit.clear;
         w.lost = lost;
     }
 }
 
-// How the mirror image of what the ray has hit moved by itself.
-void tellMotion(ivec2 pixel, Ray ray, vec3 p, MarchResult hit) {
+// Writes the motion of the reflected image caused by the hit object's own motion.
+void writeReflectionMotion(ivec2 pixel, Ray ray, vec3 p, MarchResult hit) {
     vec3 there = uvToWorld(pixelToUv(hit.pixel, params.view.pixel), loadDepth(hit.pixel), params.view.clipToWorld);
     vec3 displacement = displacementAt(hit.pixel, there);
     if (displacement != vec3(0.0)) {
@@ -139,22 +140,22 @@ RayAnswer traceAnswer(ivec3 slot, Ray ray, vec3 p, vec3 n, inout WaitingRay w) {
         jitter = 1.0 - hashToUnit(hashPixel(uvec2(slot.xy), stream, params.own.frame));
     }
     MarchView view = marchView(params.view);
-    // The mirror is not in its own view: all that the view shows can be hit.
+    // The mirror itself is clipped from its planar view, so no surface there needs to be excluded.
     vec4 ownPlane = through == throughScreen ? planeOnScreen(p, n, params.view.clipToWorld) : vec4(0.0, 0.0, 0.0, 1.0);
     MarchOptions options = marchOptions(params.settings, params.longest, secondLayer, jitter);
     MarchResult hit = traceRay(makeMarchRay(p, ray.direction, ownPlane, view), options, view);
     if (countSteps != 0u) {
         imageStore(steps, slot, vec4(float(hit.steps)));
     }
-    // What it would see of a surface from behind, the screen does not show.
+    // The screen does not show the back of a surface.
     bool facesAway = params.settings.rejectBackfaces != 0u && hit.outcome == marchHit &&
                      dot(unpackUnitVector(texelFetch(geometricNormal, hit.pixel, 0).r), ray.direction) > 0.0;
-    noteWay(hit, hit.occluded || facesAway, w);
+    updateClearDistance(hit, hit.occluded || facesAway, w);
     if (tellsMotion != 0u && slot.z == 0 && hit.outcome == marchHit && !facesAway) {
-        tellMotion(slot.xy, ray, p, hit);
+        writeReflectionMotion(slot.xy, ray, p, hit);
     }
     if (through == throughMirror) {
-        return facesAway ? noAnswer : answerOfMirror(hit, p, ray);
+        return facesAway ? noAnswer : shadeMirrorHit(hit, p, ray);
     }
     if (hit.outcome != marchHit || facesAway) {
         return noAnswer;
@@ -189,7 +190,7 @@ void main() {
         WaitingRay w = unpackWaitingRay(waiting.items[i]);
         Ray ray = unpackRay(imageLoad(direction, w.slot).xy);
         RayAnswer a = answerRay(w.slot, ray, w);
-        // Not by ?: of two vectors: where a specialization constant decides, Mesa 22 gets all but their x wrong.
+        // Not ?: of two vectors: with a specialization constant as condition, Mesa 22 gets all components but x wrong.
         vec4 color = sourcePlanar;
         if (through == throughScreen) {
             color = sourceScreen;

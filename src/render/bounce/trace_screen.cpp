@@ -1,4 +1,4 @@
-// Records the screen, and planar views, as sources of answers.
+// Records the screen and planar reflections as ray sources.
 #include "render/bounce/trace_screen.h"
 
 #include <algorithm>
@@ -10,12 +10,12 @@ namespace {
 
 struct Trace {
     const ScreenImages& seen;
-    std::string_view missed;  // name of the list
+    std::string_view missed;  // name of the miss list
     uint32_t through = throughScreen;
     MirrorParams mirror{};
 };
 
-// The pass as far as both sources have it in common. rays.waiting: what it answers, and then what it has missed.
+// The pass as shared by both sources. rays.waiting: in: rays to trace; out: misses.
 void record(gpu::Frame& f, gpu::Pass pass, Rays& rays, const Trace& trace, const TraceScreenSettings& settings,
             float longest) {
     const ScreenImages& seen = trace.seen;

@@ -1,5 +1,5 @@
-// The first source of the chain: rays marched through what the camera sees; and, by the same passes, the planar views:
-// rays marched through what the mirrored camera sees. Shared by C++ and GLSL.
+// Screen-space ray tracing (SSR, SSGI): rays marched through the camera's depth buffer; and, by the same pass, planar
+// reflections: rays marched through the mirrored camera's depth buffer. Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_TRACE_SCREEN_H
 #define REFLET_RENDER_TRACE_SCREEN_H
 
@@ -30,50 +30,69 @@ CHOICES(ThicknessMode, THICKNESSES)
     OPTION(HitLight, previous, 2)
 CHOICES(HitLight, HIT_LIGHTS)
 
-#define TRACE_SCREEN_SETTINGS(VALUE, SWITCH, CHOICE)                                                                 \
-    SWITCH(enabled, 1, "Ask what the camera sees; off: rays go on to the next source at once.")                      \
-    CHOICE(TraceMethod, method, hiz,                                                                                 \
-           "How rays find what they hit; linear: fixed steps in the world; halving: steps halved before what they "  \
-           "would go behind; fixed_point: the distance is replaced by that of what the screen shows; dda: steps of " \
-           "whole pixels; exhaustive: every pixel that the ray crosses; hiz: the same pixel by hierarchical depth.") \
-    VALUE(float, step, 0.15, 0.001, 100.0,                                                                           \
-          "Length of a step in metres (linear), of the first (halving), first distance (fixed_point).")              \
-    VALUE(float, minStep, 0.01, 0.0001, 10.0, "Metres; halving ends below it, fixed_point when it moves by less.")   \
-    VALUE(float, stride, 1.0, 1.0, 64.0, "Pixels of a step of dda.")                                                 \
-    VALUE(uint, firstSteps, 2, 0, 64, "Single pixels that hiz visits before it tries larger cells.")                 \
-    VALUE(float, maxDistance, 1000.0, 0.01, 100000.0, "How far rays go in metres.")                                  \
-    VALUE(uint, maxSteps, 128, 1, 4096,                                                                              \
-          "Steps a ray may take (exhaustive: all it needs); one that has taken them all has missed.")                \
-    SWITCH(jitter, 1, "Start each ray at a random part of its first step: bands become grain.")                      \
-    VALUE(uint, binarySteps, 0, 0, 16, "Halvings of the last step after a hit (linear, halving, dda).")              \
-    SWITCH(interpolate, 0, "Place a hit between the last two samples, by similar triangles (linear, halving, dda).") \
-    VALUE(float, thickness, 0.3, 0.001, 1000.0, "How thick every surface is taken to be, in metres along the view.") \
-    CHOICE(ThicknessMode, thicknessMode, constant,                                                                   \
-           "constant: the thickness; step: more by as much as a step goes along the view (linear, halving); "        \
-           "second_layer: up to the back face, drawn once more, where there is one.")                                \
-    SWITCH(rejectBackfaces, 1, "A ray that meets the far side of what the screen shows has missed.")                 \
-    VALUE(float, edgeFade, 0.0, 0.0, 0.5, "Hits this near the screen's edges fade out: a share of its size.")        \
-    VALUE(float, distanceFade, 0.0, 0.0, 1.0, "Hits in this last part of maxDistance fade out.")                     \
-    VALUE(float, cameraFade, 0.0, 0.0, 1.0,                                                                          \
-          "Rays toward the camera fade out, where 1 - the angle's cosine is less than this.")                        \
-    CHOICE(HitLight, light, lit,                                                                                     \
-           "What a hit brings: this frame's direct light; lit: and, to reflections, this frame's diffuse light; "    \
-           "previous: the last frame's whole picture (further bounces).")                                            \
-    SWITCH(countSteps, 0, "Keep how many depth samples each ray took (--show steps does so by itself).")
+#define TRACE_SCREEN_SETTINGS(VALUE, SWITCH, CHOICE)                                                                   \
+    SWITCH(enabled, 1,                                                                                                 \
+           "Screen-space ray tracing (SSR, SSGI): march rays through the depth buffer. Off: rays go straight to the "  \
+           "next source.")                                                                                             \
+    CHOICE(TraceMethod, method, hiz,                                                                                   \
+           "Ray march algorithm. linear: fixed steps in world space. halving: the step is halved before it would "     \
+           "pass behind a surface. fixed_point: iterate the distance to that of the depth sample. dda: steps of "      \
+           "whole pixels in screen space. exhaustive: every pixel along the ray, as a reference. hiz: the same "       \
+           "result by hierarchical depth (Hi-Z), usually fastest.")                                                    \
+    VALUE(float, step, 0.15, 0.001, 100.0,                                                                             \
+          "Step length in metres (linear), initial step (halving), initial distance (fixed_point). Smaller: fewer "    \
+          "missed objects, more steps for the same distance.")                                                         \
+    VALUE(float, minStep, 0.01, 0.0001, 10.0,                                                                          \
+          "Metres. halving stops when its step is shorter than this, fixed_point when the distance changes by less.")  \
+    VALUE(float, stride, 1.0, 1.0, 64.0, "Pixels per step (dda). More: faster, but thin objects are missed.")          \
+    VALUE(uint, firstSteps, 2, 0, 64, "Single-pixel steps that hiz takes before it moves to coarser levels.")          \
+    VALUE(float, maxDistance, 1000.0, 0.01, 100000.0,                                                                  \
+          "Maximum ray length in metres. Shorter: fewer steps, but distant reflections are missing.")                  \
+    VALUE(uint, maxSteps, 128, 1, 4096,                                                                                \
+          "Maximum steps per ray; a ray that runs out of steps is a miss. More: longer reach, higher cost. "           \
+          "exhaustive ignores it.")                                                                                    \
+    SWITCH(jitter, 1,                                                                                                  \
+           "Start each ray at a random fraction of its first step (linear, halving, dda): banding becomes noise.")     \
+    VALUE(uint, binarySteps, 0, 0, 16,                                                                                 \
+          "Binary search steps that refine a hit (linear, halving, and dda with a stride above 1). More: less "        \
+          "stair-stepping.")                                                                                           \
+    SWITCH(interpolate, 0,                                                                                             \
+           "Refine a hit by linear interpolation between the last two samples (linear, halving, and dda with a "       \
+           "stride above 1).")                                                                                         \
+    VALUE(float, thickness, 0.3, 0.001, 1000.0,                                                                        \
+          "Assumed thickness of every surface in metres along the view. Too small: rays slip through objects; too "    \
+          "large: false hits behind them.")                                                                            \
+    CHOICE(ThicknessMode, thicknessMode, constant,                                                                     \
+           "How thick surfaces are taken to be. constant: `thickness`. step: `thickness` plus the depth that one "     \
+           "step covers (linear, halving). second_layer: up to the back face, from a second depth layer, where there " \
+           "is one; draws the scene's back faces as well.")                                                            \
+    SWITCH(rejectBackfaces, 1,                                                                                         \
+           "Treat a hit on the far side of a visible surface as a miss, because the screen does not show that side.")  \
+    VALUE(float, edgeFade, 0.0, 0.0, 0.5,                                                                              \
+          "Fade out hits this close to the screen edge, as a fraction of the screen's size. Hides hard cut-offs of "   \
+          "reflections.")                                                                                              \
+    VALUE(float, distanceFade, 0.0, 0.0, 1.0, "Fade out hits in this last fraction of the maximum ray length.")        \
+    VALUE(float, cameraFade, 0.0, 0.0, 1.0,                                                                            \
+          "Fade out rays that point back to the camera, where 1 - cos(angle) is below this value.")                    \
+    CHOICE(HitLight, light, lit,                                                                                       \
+           "Radiance taken at a hit. direct: direct light of this frame (one bounce). lit: the same; reflections "     \
+           "also get this frame's diffuse GI. previous: the whole previous frame, reprojected, which adds further "    \
+           "bounces over time.")                                                                                       \
+    SWITCH(countSteps, 0, "Count the depth samples of each ray; `--show steps` switches this on by itself.")
 SETTINGS(TraceScreenSettings, TRACE_SCREEN_SETTINGS)
 
-// What rays are asked of, as the specialization constant `through`.
+// The view that rays are traced in, as the specialization constant `through`.
 const uint throughScreen = 0;
-const uint throughMirror = 1;        // a mirrored camera's picture: marched
-const uint throughMirrorLookup = 2;  // any camera's picture, where it shows the ray's own start
-const uint throughMirrorCamera = 3;  // a picture that lies on the mirror
+const uint throughMirror = 1;        // a mirrored camera's view: ray march
+const uint throughMirrorLookup = 2;  // the planar image at the ray's origin, no march
+const uint throughMirrorCamera = 3;  // a camera image mapped onto the mirror
 
 struct TraceScreenParams {
-    ViewParams own;   // of the surfaces that rays leave
-    ViewParams view;  // that they are traced through
+    ViewParams own;   // of the surfaces that rays start from
+    ViewParams view;  // in which they are traced
     MirrorParams mirror;
     TraceScreenSettings settings;
-    float longest;  // metres: no ray goes farther
+    float longest;  // maximum ray length, metres
     uint firstRay;
     uint previousValid;  // 0: there is no last frame
 };
@@ -90,33 +109,33 @@ SHARED_END
 
 namespace reflet {
 
-/// What rays are traced through, and the light that they find.
+/// The buffers that rays are marched through, and the light at hits.
 struct ScreenImages {
     GBuffer g;
     ViewParams view;
-    gpu::Image backDepth;  ///< drawBackDepth; only where settings.thicknessMode is second_layer
-    gpu::Image pyramid;    ///< makePyramid; for hiz only
+    gpu::Image backDepth;  ///< from drawBackDepth; only if settings.thicknessMode is second_layer
+    gpu::Image pyramid;    ///< from makePyramid; only for hiz
     gpu::Image light;      ///< RGBA16F: of this frame
-    gpu::History lit;      ///< of the last frame, found by the hit's own motion
-    gpu::Image lightMips;  ///< makeLightMips, of the image that hits take their light from; where rays stand for all of
-                           ///< the lobe (Ray.spread), their hits' light is blurred
+    gpu::History lit;      ///< of the last frame, reprojected by the hit's motion
+    gpu::Image
+        lightMips;  ///< from makeLightMips, of the image that hits read; blurs the light at hits of cones (Ray.spread)
 };
 
-/// Answers rays that hit what the screen shows with the light there. Hands on the others. longest: of the lobe's rays
-/// [m].
+/// Gives rays that hit a visible surface the light there; the others stay in rays.waiting. longest: maximum length of
+/// the lobe's rays [m].
 void traceScreen(gpu::Frame& f, Rays& rays, const ScreenImages& screen, const TraceScreenSettings& settings,
                  float longest);
 
-/// What a mirror shows.
+/// One planar reflection.
 struct PlanarView {
-    std::string name;   ///< another for each of a frame's
-    ScreenImages seen;  ///< by the mirrored camera (traced, lookup), from the camera itself (duplicate), by the
-                        ///< mirror's (camera); `lit` is not used
+    std::string name;   ///< unique within a frame
+    ScreenImages seen;  ///< by the mirrored camera (traced, lookup), the camera itself (duplicate), or the mirror's own
+                        ///< camera (camera); `lit` is not used
     MirrorParams mirror;
     PlanarForm form = PlanarForm::traced;
 };
 
-/// Answers rays that start on the mirror with what its view shows; what that cannot say, it hands on.
+/// Gives rays that start on the mirror the light of its planar view; misses stay in rays.waiting.
 void traceMirror(gpu::Frame& f, Rays& rays, const PlanarView& mirror, const TraceScreenSettings& settings,
                  float longest);
 

@@ -1,6 +1,6 @@
-// Indirect light times what the surface reflects of it, and the sum of all light. In: G-buffer, direct light, the
-// lobes' mean radiance, with the surfaces that they belong to where those are fewer than pixels. Out: both indirect layers, and lit = direct + both, with the
-// distance along the view [m], 0: the sky.
+// Multiplies indirect light by the surface's reflectance and sums all light. In: G-buffer, direct light, the lobes'
+// mean radiance, at reduced resolution with their surfaces. Out: both indirect layers, and lit = direct + both, with
+// the distance along the view [m], 0: the sky.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/composite/composite.h"
@@ -10,7 +10,7 @@
 #include "shaders/projection.glsl"
 #include "shaders/shadow_kernel.glsl"
 
-layout(constant_id = 0) const uint diffuseScale = 1u;  // 0: the lobe is dark
+layout(constant_id = 0) const uint diffuseScale = 1u;  // 0: the lobe is black
 layout(constant_id = 1) const uint specularScale = 1u;
 layout(constant_id = 2) const uint lambertOnly = 0u;
 layout(constant_id = 3) const uint layers = 1u;
@@ -37,7 +37,7 @@ layout(set = 0, binding = 15, r32f) uniform readonly image2D specularDepth;
 layout(set = 0, binding = 16, r32ui) uniform readonly uimage2D specularNormal;
 layout(set = 0, binding = 17, rgba16f) uniform readonly image2D diffuseDirectional;
 
-// A pixel, and the surface that it shows.
+// A pixel and its surface.
 struct Shown {
     ivec2 pixel;
     float depth;
@@ -45,10 +45,11 @@ struct Shown {
     ScreenPlane plane;
 };
 
-// The four block pixels around a pixel, and how much each counts (after Kopf et al., Joint Bilateral Upsampling, 2007).
+// The four low-resolution pixels around a pixel and their weights (joint bilateral upsampling, after Kopf et al., Joint
+// Bilateral Upsampling, 2007).
 struct Blocks {
     ivec2 corner;
-    vec4 weights;  // of bilinear interpolation
+    vec4 weights;  // bilinear
 };
 
 Blocks blocksAt(Shown shown, uint scale, uint place, ivec2 size) {
@@ -62,7 +63,7 @@ Blocks blocksAt(Shown shown, uint scale, uint place, ivec2 size) {
 
 ivec2 blockAt(Blocks b, int i, ivec2 size) { return min(b.corner + ivec2(i & 1, i >> 1), size - 1); }
 
-// How far what a block shows lies on the pixel's surface, 0..1.
+// How well a block's surface matches the pixel's plane, 0..1.
 float onSameSurface(Shown shown, vec2 away, float blockDepth) {
     float length2 = max(dot(away, away), 1.0);
     float height = heightAbove(shown.plane, away, blockDepth - shown.depth);
@@ -71,12 +72,12 @@ float onSameSurface(Shown shown, vec2 away, float blockDepth) {
     return length4 / (length4 + height2 * height2);
 }
 
-// None is quite 0: a pixel that no block knows gets what is around.
+// Weights never reach 0, so a pixel without a matching neighbour still gets the average.
 float weighed(float share, float same, float blockDepth) {
     return blockDepth > 0.0 ? share * (same + 1e-4) + 1e-7 : 0.0;
 }
 
-// Turned light may come from other normals.
+// Edge-stopping weight by normals, wider for light that is adapted to the normal (directional_light.glsl).
 float facingLike(vec3 blockNormal, vec3 normal, bool turns) {
     float facing = max(dot(blockNormal, normal), 0.0);
     float facing2 = facing * facing;
@@ -93,13 +94,13 @@ vec3 diffuseRadiance(Shown shown) {
     }
     const bool turns = hasDirectional != 0u;
     ivec2 size = imageSize(diffuseDepth);
-    Blocks b = blocksAt(shown, diffuseScale, params.diffusePlace, size);
+    Blocks b = blocksAt(shown, diffuseScale, params.diffuseBlockOffset, size);
     vec4 sum = vec4(0.0);
     vec4 directional = vec4(0.0);
     vec3 normals = vec3(0.0);
     for (int i = 0; i < 4; ++i) {
         ivec2 block = blockAt(b, i, size);
-        vec2 away = vec2(block * int(diffuseScale) + int(params.diffusePlace) - shown.pixel);
+        vec2 away = vec2(block * int(diffuseScale) + int(params.diffuseBlockOffset) - shown.pixel);
         float d = imageLoad(diffuseDepth, block).r;
         vec3 n = unpackUnitVector(imageLoad(diffuseNormal, block).r);
         float same = onSameSurface(shown, away, d) * facingLike(n, shown.normal, turns);
@@ -122,11 +123,11 @@ vec3 specularRadiance(Shown shown) {
         return imageLoad(specular, shown.pixel).rgb;
     }
     ivec2 size = imageSize(specularDepth);
-    Blocks b = blocksAt(shown, specularScale, params.specularPlace, size);
+    Blocks b = blocksAt(shown, specularScale, params.specularBlockOffset, size);
     vec4 sum = vec4(0.0);
     for (int i = 0; i < 4; ++i) {
         ivec2 block = blockAt(b, i, size);
-        vec2 away = vec2(block * int(specularScale) + int(params.specularPlace) - shown.pixel);
+        vec2 away = vec2(block * int(specularScale) + int(params.specularBlockOffset) - shown.pixel);
         float d = imageLoad(specularDepth, block).r;
         vec3 n = unpackUnitVector(imageLoad(specularNormal, block).r);
         float same = onSameSurface(shown, away, d) * facingLike(n, shown.normal, false);

@@ -7,7 +7,7 @@ namespace reflet {
 
 namespace {
 
-// 0: the lobe brings nothing, and is not looked at.
+// 0: the lobe is black and not read.
 uint32_t scaleOf(const LobeLight& light) {
     return light.dark ? 0 : light.from.scale;
 }
@@ -22,14 +22,14 @@ Composite composite(gpu::Frame& f, const CompositeInputs& in, gpu::Image lit, Co
     const Composite result{
         .indirectDiffuse = layer("indirect_diffuse"), .indirectSpecular = layer("indirect_specular"), .lit = lit};
     const gpu::Image unwritten = in.layers ? lit : f.image("no_layer", VK_FORMAT_R16G16B16A16_SFLOAT, uvec2(1));
-    // Lobes of the picture's own size have no blocks.
+    // Lobes at full resolution need no upsampling.
     const auto blockImage = [&](const LobeLight& light, gpu::Image image, VkFormat format) {
         return light.from.scale > 1
                    ? image
                    : f.image(format == VK_FORMAT_R32_UINT ? "no_normals" : "no_depths", format, uvec2(1));
     };
-    params.diffusePlace = placeInBlock(in.diffuse.from.scale);
-    params.specularPlace = placeInBlock(in.specular.from.scale);
+    params.diffuseBlockOffset = blockPixelOffset(in.diffuse.from.scale);
+    params.specularBlockOffset = blockPixelOffset(in.specular.from.scale);
     f.compute("composite", "composite.comp")
         .constant("diffuseScale", scaleOf(in.diffuse))
         .constant("specularScale", scaleOf(in.specular))

@@ -1,4 +1,5 @@
-// Puts the lobes' light on the surfaces and adds it to the direct light. Shared by C++ and GLSL.
+// Applies the surfaces' reflectance to the lobes' light, upsamples it if needed, and adds it to the direct light.
+// Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_COMPOSITE_H
 #define REFLET_RENDER_COMPOSITE_H
 
@@ -7,17 +8,17 @@
 
 SHARED_BEGIN
 
-#define COMPOSITE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                 \
-    SWITCH(layers, 1,                                                                                             \
-           "Keep indirect diffuse and specular light as images of their own; render and bench do where they are " \
-           "asked for, and only then.")
+#define COMPOSITE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                     \
+    SWITCH(layers, 1,                                                                                                 \
+           "Keep diffuse GI and reflections as separate layers (AOVs). `render` and `bench` set this by themselves, " \
+           "only if the layers are asked for.")
 SETTINGS(CompositeSettings, COMPOSITE_SETTINGS)
 
 struct CompositeParams {
     ViewParams view;
-    float diffuseGain;  // factor on indirect diffuse light
-    uint diffusePlace;  // which pixel of a block its rays leave, along each side (RaySurfaces)
-    uint specularPlace;
+    float diffuseGain;        // factor on indirect diffuse light
+    uint diffuseBlockOffset;  // traced pixel of a block, along each side (RaySurfaces)
+    uint specularBlockOffset;
 };
 
 SHARED_END
@@ -33,11 +34,11 @@ namespace reflet {
 struct CompositeInputs {
     GBuffer g;
     gpu::Image direct;
-    LobeLight diffuse;  ///< lobes whose rays leave a coarser grid are spread over all pixels
+    LobeLight diffuse;  ///< lobes at reduced resolution are upsampled
     LobeLight specular;
     gpu::Image ggxTable;
     bool lambertOnly = false;  ///< MaterialsSettings
-    bool layers = true;        ///< false: only their sum is written
+    bool layers = true;        ///< false: only the sum is written
 };
 
 /// RGBA16F radiance: lit = direct + indirectDiffuse + indirectSpecular.
@@ -47,7 +48,7 @@ struct Composite {
     gpu::Image lit;
 };
 
-/// params: places are set here. lit: written.
+/// Sets the block offsets of params. lit: written.
 Composite composite(gpu::Frame& f, const CompositeInputs& in, gpu::Image lit, CompositeParams params);
 
 }  // namespace reflet

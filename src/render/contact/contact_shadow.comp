@@ -1,5 +1,5 @@
-// Shadows of what is near, by a march through the depth buffer toward the sun. In: depth and its pyramid, geometric normal,
-// sun visibility by the shadow map. Out: the lesser of that and of what the march finds.
+// Contact shadows: a short march through the depth buffer toward the sun. In: depth and its pyramid, geometric normal,
+// sun visibility by the shadow map. Out: the minimum of that and the march's result.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/contact/contact.h"
@@ -16,7 +16,7 @@ layout(set = 0, binding = 4) uniform sampler2D sunVisibility;
 layout(set = 0, binding = 5, r8) uniform writeonly image2D visibility;
 
 float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
-float loadBackDepth(ivec2 pixel) { return 0.0; }  // casters are as thick as the setting says
+float loadBackDepth(ivec2 pixel) { return 0.0; }  // no second layer: thickness by the setting
 vec2 loadCell(ivec2 cell, int level) {
     return imageLoad(pyramid, cell + ivec2(0, levelRow(ivec2(params.view.size), level))).rg;
 }
@@ -27,26 +27,26 @@ vec3 positionAt(ivec2 pixel) {
     return uvToWorld(pixelToUv(pixel, params.view.pixel), loadDepth(pixel), params.view.clipToWorld);
 }
 
-// Whether the plane of what the pixel shows is between p and the end of the search. One depth stands for a pixel's whole
-// width: without this, a wall that the sun shines on would darken the ground at its foot, which it only rises beside.
+// Whether the hit pixel's surface plane crosses the ray between p and its end. A depth sample covers a pixel's whole
+// width: without this test, a sunlit wall would darken the ground at its foot.
 bool isBetween(ivec2 pixel, vec3 p) {
     vec3 n = normalAt(pixel);
     float t = dot(n, positionAt(pixel) - p) / dot(n, params.toSun);
     return t > 0.0 && t <= params.settings.distance;
 }
 
-// A ray that is lost behind something thicker, or that leaves the screen, has found nothing.
+// A ray that passes behind a thicker surface or leaves the screen counts as unoccluded.
 bool findsCaster(ivec2 pixel) {
     vec3 n = normalAt(pixel);
     if (dot(n, params.toSun) <= 0.0) {
-        return false;  // faces away: it is dark by itself
+        return false;  // faces away from the sun: dark anyway
     }
     vec3 p = positionAt(pixel);
     ContactSettings s = params.settings;
     MarchView view = MarchView(params.view.worldToClip, params.view.clipToWorld, params.view.viewPlane,
                                params.view.depthToDistance, params.view.size, params.view.pixel);
     MarchRay ray = makeMarchRay(p, params.toSun, planeOnScreen(p, n, params.view.clipToWorld), view);
-    MarchOptions o;  // hierarchical depth reads no others
+    MarchOptions o;  // marchHiz uses only these
     o.maxDistance = s.distance;
     o.maxSteps = s.maxSteps;
     o.thickness = s.thickness;

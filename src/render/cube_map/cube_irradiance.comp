@@ -1,6 +1,6 @@
-// Irradiance / pi of cube maps as nine coefficients of spherical harmonics, a group for each cube (Ramamoorthi and
+// Irradiance / pi of cube maps as nine spherical harmonics coefficients, one thread group per cube (Ramamoorthi and
 // Hanrahan, An Efficient Representation for Irradiance Environment Maps, 2001). In: sharp (one of its mips).
-// Out: irradiance, a row of nine texels for each cube.
+// Out: irradiance, a row of nine texels per cube.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/cube_map/cube_map.glsl"
@@ -13,7 +13,7 @@ layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D irradiance;
 
 shared vec4 sums[threads][irradianceCoefficients];
 
-// What is left of each degree by the cosine over the hemisphere, over pi.
+// Factors of the cosine convolution by degree, over pi.
 float cosineFactor(uint coefficient) { return coefficient == 0u ? 1.0 : coefficient < 4u ? 2.0 / 3.0 : 0.25; }
 
 void main() {

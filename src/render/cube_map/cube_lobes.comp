@@ -1,7 +1,7 @@
-// One level of a cube map that is filtered by a GGX lobe: radiance that a surface reflects toward its own normal,
-// by importance sampling with samples that stand for the solid angle between them (Křivánek and Colbert, Real-time
-// Shading with Filtered Importance Sampling, 2008; Karis, Real Shading in Unreal Engine 4, 2013). Weights are the
-// lobe's own, over their sum: a constant map stays as it is.
+// Prefilters one level of a cube map with a GGX lobe, with the viewer along the normal, by importance sampling from
+// mips that match the samples' solid angle (Křivánek and Colbert, Real-time Shading with Filtered Importance Sampling,
+// 2008; Karis, Real Shading in Unreal Engine 4, 2013). Weights are normalised by their sum, so that a constant map is
+// unchanged.
 // In: sharp (with mips). Out: lobes, one level.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -14,7 +14,7 @@ layout(set = 0, binding = 0, scalar) uniform ParamsBlock { CubeLobesParams param
 layout(set = 0, binding = 1) uniform samplerCubeArray sharp;
 layout(set = 0, binding = 2, rgba16f) uniform writeonly image2DArray lobes;
 
-// Samples overlap: each is of twice its share of the lobe.
+// Samples overlap: each covers twice its solid angle.
 const float overlap = 1.0;
 
 vec4 filterAround(vec3 n, float cube) {
@@ -25,7 +25,7 @@ vec4 filterAround(vec3 n, float cube) {
     vec4 sum = vec4(0.0);
     float weights = 0.0;
     for (uint i = 0u; i < params.samples; ++i) {
-        // Evenly spread over the lobe: the golden ratio's turns.
+        // Low-discrepancy sequence by the golden ratio.
         vec2 u = vec2((float(i) + 0.5) / float(params.samples), fract(float(i) * 0.618033989));
         vec3 h = sampleGgx(u, alpha);
         vec3 l = vec3(2.0 * h.z * h.xy, 2.0 * h.z * h.z - 1.0);

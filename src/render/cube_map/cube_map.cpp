@@ -1,4 +1,4 @@
-// Records the filtering of cube maps.
+// Records the prefiltering of cube maps.
 #include "render/cube_map/cube_map.h"
 
 #include "base/error.h"
@@ -14,14 +14,14 @@ namespace {
 constexpr VkImageUsageFlags usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
                                     VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
 
-// Irradiance changes so slowly with direction that texels of 3 degrees are enough.
+// Irradiance varies slowly with direction: texels of 3 degrees suffice.
 constexpr uint32_t irradianceSide = 32;
 
-// Few samples do where the lobe is narrow and texels are many.
+// Narrow lobes need fewer samples, and their levels have more texels.
 constexpr uint32_t fewestSamples = 64;
 constexpr uint32_t mostSamples = 512;
 
-// Down to 4x4 texels a face, for the widest lobe.
+// Down to 4x4 texels per face for the widest lobe.
 uint32_t lobeLevels(uint32_t side) {
     return std::max(static_cast<uint32_t>(std::bit_width(side)), 3U) - 2U;
 }

@@ -1,12 +1,12 @@
-// Texels and directions of cube maps, and what a filtered one (cube_map.h) tells: radiance along a direction, around it,
-// and over the hemisphere.
+// Texel directions of cube maps, and lookups in prefiltered ones (cube_map.h): exact radiance, GGX-prefiltered
+// radiance, irradiance.
 #ifndef REFLET_CUBE_MAP_GLSL
 #define REFLET_CUBE_MAP_GLSL
 
 #include "render/cube_map/cube_map.h"
 #include "shaders/sampling.glsl"
 
-// A direction, not unit, from a place on a face: -1 to 1 from left to right and from top to bottom.
+// Direction (not unit) of a point on a face: -1 to 1 from left to right and from top to bottom.
 vec3 cubeFaceDirection(vec2 at, uint face) {
     switch (face) {
         case 0u: return vec3(1.0, -at.y, -at.x);
@@ -18,7 +18,7 @@ vec3 cubeFaceDirection(vec2 at, uint face) {
     }
 }
 
-// Where on its face a texel's centre is, -1 to 1.
+// A texel centre's position on its face, -1 to 1.
 vec2 cubeTexelCenter(ivec2 texel, int side) { return (2.0 * vec2(texel) + 1.0) / float(side) - 1.0; }
 
 // Solid angle of the part of a face from its centre to `at`; negative where one coordinate is.
@@ -31,15 +31,15 @@ float cubeTexelSolidAngle(ivec2 texel, int side) {
            cubeCornerSolidAngle(vec2(high.x, low.y));
 }
 
-// Look-ups. All maps want linear filtering, between mips too; directions are of any length but 0.
+// Lookups. All maps need trilinear filtering; directions may have any length except for 0.
 
 vec3 cubeMapRadiance(samplerCubeArray sharp, uint cube, vec3 direction) {
     return textureLod(sharp, vec4(direction, float(cube)), 0.0).rgb;
 }
 
-// Where between two levels a roughness is. Linear by 1 / alpha (no narrower than a texel), because a small light's mean
-// falls fast with the roughness: a light of 0.1 rad is off by 13 % of its mean, halfway between roughness 0.2 and 0.4.
-// Linear by roughness it is 49 %.
+// Fractional level of a roughness. Interpolates linearly in 1 / alpha (alpha limited by the texel size), because a
+// small light's mean falls quickly with roughness: halfway between roughness 0.2 and 0.4, a light of 0.1 rad is off by
+// 13 % of its mean; with linear roughness it would be 49 %.
 float lobeLevel(samplerCubeArray lobes, float roughness) {
     float last = float(textureQueryLevels(lobes) - 1);
     float narrower = floor(roughness * last);
@@ -48,12 +48,12 @@ float lobeLevel(samplerCubeArray lobes, float roughness) {
     return last == 0.0 ? 0.0 : narrower + alphas.z * (alphas.y - alphas.x) / (alphas.y * max(alphas.z - alphas.x, 1e-6));
 }
 
-// Mean radiance, weighted by the lobe of this perceptual roughness around the direction.
+// Mean radiance weighted by the lobe of this perceptual roughness around the direction.
 vec3 cubeMapLobe(samplerCubeArray lobes, uint cube, vec3 direction, float roughness) {
     return textureLod(lobes, vec4(direction, float(cube)), lobeLevel(lobes, roughness)).rgb;
 }
 
-// The spherical harmonics at a unit vector, in the order of the coefficients.
+// Spherical harmonics basis at a unit vector, in coefficient order.
 float[irradianceCoefficients] sphericalHarmonics(vec3 n) {
     return float[irradianceCoefficients](
         0.282094792, 0.488602512 * n.y, 0.488602512 * n.z, 0.488602512 * n.x, 1.092548431 * n.x * n.y,
@@ -61,8 +61,8 @@ float[irradianceCoefficients] sphericalHarmonics(vec3 n) {
         0.546274215 * (n.x * n.x - n.y * n.y));
 }
 
-// Irradiance / pi on a surface that faces along n (unit): the mean radiance of cosine-spread rays. Nine coefficients
-// ring around small bright lights: by 4 % of the light's own irradiance below zero on the far side, which is cut off.
+// Irradiance / pi for the unit normal n: the mean radiance of cosine-distributed rays. Nine coefficients ring around
+// small bright lights, down to -4 % of the light's irradiance on the far side; negative values are clamped.
 vec3 cubeMapIrradiance(sampler2D irradiance, uint cube, vec3 n) {
     float[irradianceCoefficients] basis = sphericalHarmonics(n);
     vec3 sum = vec3(0.0);

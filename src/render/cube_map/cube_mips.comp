@@ -1,4 +1,4 @@
-// One level of a cube map's mips from the level before it: means over directions. In: finer. Out: coarser.
+// One mip level of a cube map from the finer one: means over solid angle. In: finer. Out: coarser.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/cube_map/cube_map.glsl"
@@ -9,7 +9,7 @@ layout(set = 0, binding = 0, scalar) uniform ParamsBlock { CubeMipParams params;
 layout(set = 0, binding = 1) uniform sampler2DArray finer;
 layout(set = 0, binding = 2, rgba16f) uniform writeonly image2DArray coarser;
 
-// Texels of one size differ in solid angle: relative to one in the middle of the face.
+// A texel's solid angle relative to one in the middle of the face.
 float weightOf(ivec2 texel, int side) {
     vec2 at = cubeTexelCenter(texel, side);
     float distance2 = 1.0 + dot(at, at);

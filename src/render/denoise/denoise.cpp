@@ -1,4 +1,4 @@
-// Records the cleaning of indirect light.
+// Records the denoiser of indirect light.
 #include "render/denoise/denoise.h"
 
 #include <string>
@@ -11,12 +11,12 @@ constexpr VkFormat lightFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr VkFormat surfaceFormat = VK_FORMAT_R32G32_UINT;
 constexpr VkFormat momentsFormat = VK_FORMAT_R16G16_SFLOAT;
 
-// What the passes hand on: light, and of what it is the mean.
+// Outputs of the gather pass.
 struct Gathered {
     gpu::Image light;
     gpu::Image surface;
     gpu::Image moments;
-    gpu::Image nextLight;  // that the next frame remembers
+    gpu::Image nextLight;  // history for the next frame
     gpu::Image directional;
     gpu::Image nextDirectional;
 };
@@ -42,7 +42,7 @@ Gathered gather(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const View
     const uvec2 size = light.radiance.size;
     const DenoiseHistory past = denoiseHistory(f, lobe, size, settings);
     const gpu::Image limits = tileLimits(f, light, lobe, settings);
-    // Without a blur that is the result, and the other lobe must not write over it.
+    // Without blur passes this is the result and must not be overwritten by the other lobe.
     const std::string_view unblurred = lobe == lobeDiffuse ? "denoise.diffuse" : "denoise.specular";
     const gpu::Image gathered = f.image(settings.passes == 0 ? unblurred : "denoise.gathered", lightFormat, size);
     const bool turns = static_cast<bool>(light.directional);

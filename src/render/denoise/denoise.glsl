@@ -1,4 +1,4 @@
-// What the passes of the denoiser share: how they keep a pixel's surface, and which are alike.
+// Shared by the denoiser's passes: packed surfaces and their similarity.
 #ifndef REFLET_DENOISE_GLSL
 #define REFLET_DENOISE_GLSL
 
@@ -9,12 +9,12 @@
 #include "shaders/octahedral.glsl"
 #include "shaders/shadow_kernel.glsl"
 
-// At most this perceptual roughness, reflections have no noise worth cleaning, and edges that blur would spoil.
+// Up to this perceptual roughness, reflections have little noise and sharp edges that a blur would destroy.
 const float smoothRoughness = 0.1;
 
-// A pixel's surface as the denoiser keeps it.
+// A pixel's surface in the denoiser's history.
 struct KeptSurface {
-    float depth;  // reversed; 0: there is none, or none with this lobe
+    float depth;  // reversed; 0: no surface with this lobe
     vec3 normal;  // shading, world space, within 0.04 degrees
     float roughness;
 };
@@ -30,8 +30,8 @@ KeptSurface unpackSurface(uvec2 bits) {
     return KeptSurface(uintBitsToFloat(bits.x), octahedralDecode(n), float(bits.y >> 24u) / 255.0);
 }
 
-// How far another surface's light may be taken for this one's, 0..1, by normals and roughness.
-float alike(KeptSurface a, KeptSurface b, uint lobe) {
+// Edge-stopping weight by normals and roughness, 0..1.
+float surfaceSimilarity(KeptSurface a, KeptSurface b, uint lobe) {
     float facing = max(dot(a.normal, b.normal), 0.0);
     float f4 = facing * facing * facing * facing;
     if (lobe == 0u) {
@@ -42,8 +42,8 @@ float alike(KeptSurface a, KeptSurface b, uint lobe) {
     return f16 * f16 * rough;
 }
 
-// The same for diffuse light that is turned to the surface's own normal (directional_light.glsl).
-float facingAlike(KeptSurface a, KeptSurface b) {
+// The same for diffuse light that is adapted to each surface's normal (directional_light.glsl).
+float normalSimilarity(KeptSurface a, KeptSurface b) {
     float facing = max(dot(a.normal, b.normal), 0.0);
     return facing * facing;
 }

@@ -1,11 +1,11 @@
-// Cleans what few rays per pixel brought: over frames, then over neighbours on the same surface. One for both lobes, on
-// the grid of pixels that the rays leave. Shared by C++ and GLSL.
+// Spatiotemporal denoiser for diffuse GI and reflections: accumulation over frames, then a blur over neighbours on the
+// same surface. Works on the traced grid. Shared by C++ and GLSL.
 //
-// tiles: how bright 8x8 pixels are → gather: fireflies spread, what of the last frames still holds → blur, several
-// times. What it cleans is light before the surface's own colour comes in. (After: Schied et al., Spatiotemporal
-// Variance-Guided Filtering, HPG 2017: moments over time; Zhdan, ReBLUR, Ray Tracing Gems II, 2021: a recurrent blur
-// whose radius follows history and hit distance; Stachowiak and Uludag, Stochastic Screen-Space Reflections, SIGGRAPH
-// 2015: reflections are reprojected by where they seem to be.)
+// tiles: brightness of 8x8 pixels → gather: firefly clamp, reprojected history → blur, several passes. The light is
+// demodulated: not yet multiplied by the surface's reflectance. (After: Schied et al., Spatiotemporal Variance-Guided
+// Filtering, HPG 2017: moments over time; Zhdan, ReBLUR, Ray Tracing Gems II, 2021: a recurrent blur whose radius
+// follows history and hit distance; Stachowiak and Uludag, Stochastic Screen-Space Reflections, SIGGRAPH 2015:
+// reflections are reprojected at their virtual image.)
 #ifndef REFLET_RENDER_DENOISE_H
 #define REFLET_RENDER_DENOISE_H
 
@@ -14,21 +14,27 @@
 
 SHARED_BEGIN
 
-#define DENOISE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                    \
-    SWITCH(enabled, 0, "Clean indirect light of the noise that few rays leave.")                                   \
-    VALUE(uint, history, 64, 0, 1024, "Frames whose mean is kept, at most; 0: each frame is cleaned by itself.")   \
-    VALUE(uint, passes, 2, 0, 4, "Times that neighbours are asked, eight each; every time half as far away.")      \
-    VALUE(float, radius, 24.0, 0.0, 256.0,                                                                         \
-          "Pixels of the picture up to which neighbours are asked where nothing is remembered; less where less "   \
-          "noise is left, and where what rays hit is near or the lobe narrow.")                                    \
-    VALUE(float, fireflies, 8.0, 0.0, 1000.0,                                                                      \
-          "What is brighter than so many times the mean around it is spread over its neighbours; 0: it is not.")   \
-    VALUE(float, clip, 2.0, 0.0, 100.0,                                                                            \
-          "How far the past may differ from what neighbours show now, in standard deviations of a pixel's light; " \
-          "less: nothing trails behind; more: less noise. 0: as far as it likes.")                                 \
-    SWITCH(directional, 1,                                                                                         \
-           "Keep how diffuse light changes with the normal, so that neighbours with other normals share it, and "  \
-           "light of half resolution shows the picture's normals.")
+#define DENOISE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                        \
+    SWITCH(enabled, 0,                                                                                                 \
+           "Denoise indirect light (diffuse GI and reflections) with a spatiotemporal filter. Removes the noise of "   \
+           "low sample counts.")                                                                                       \
+    VALUE(uint, history, 64, 0, 1024,                                                                                  \
+          "Maximum history length in frames (temporal accumulation). More: less noise, more ghosting. 0: no history, " \
+          "each frame is denoised alone.")                                                                             \
+    VALUE(uint, passes, 2, 0, 4,                                                                                       \
+          "Blur passes of eight taps each; every pass halves the radius. More: smoother, slower.")                     \
+    VALUE(float, radius, 24.0, 0.0, 256.0,                                                                             \
+          "Maximum blur radius in pixels, used where there is no history. Shrinks with remaining noise, near hits "    \
+          "and narrow lobes.")                                                                                         \
+    VALUE(float, fireflies, 8.0, 0.0, 1000.0,                                                                          \
+          "Firefly clamp: samples brighter than this many times the local mean are clamped and their energy spread "   \
+          "over the neighbours. 0: off.")                                                                              \
+    VALUE(float, clip, 2.0, 0.0, 100.0,                                                                                \
+          "History clip (variance clipping): maximum difference of the history from current neighbours, in standard "  \
+          "deviations. Lower: less ghosting. Higher: less noise. 0: off.")                                             \
+    SWITCH(directional, 1,                                                                                             \
+           "Store how diffuse light varies with the normal, so that pixels with different normals can share samples, " \
+           "and normal map detail survives denoising and half resolution.")
 SETTINGS(DenoiseSettings, DENOISE_SETTINGS)
 
 const uint denoiseTileSide = 8;  // pixels of the grid
@@ -41,14 +47,14 @@ struct DenoiseTilesParams {
 struct DenoiseGatherParams {
     ViewParams view;  // of the grid
     DenoiseSettings settings;
-    vec2 motionToPixels;  // pixels of the grid that a motion of 1 moves
+    vec2 motionToPixels;  // from motion in uv to pixels of the grid
     uint hasPrevious;     // 1: the history holds the last frame
 };
 
 struct DenoiseBlurParams {
     ViewParams view;  // of the grid
     float radius;     // pixels of the grid, without history
-    float gridAngle;  // what a pixel of the grid covers at distance 1 [m/m]; orthographic: at any distance [m]
+    float gridAngle;  // size of a grid pixel at distance 1 [m/m]; orthographic: at any distance [m]
     uint pass;        // 0, 1, …
 };
 
@@ -61,20 +67,20 @@ SHARED_END
 
 namespace reflet {
 
-/// What the denoiser remembers of a lobe from frame to frame; images of the grid's size.
+/// The denoiser's history of a lobe; images of the grid's size.
 struct DenoiseHistory {
-    gpu::History light;        ///< RGBA16F: mean radiance, mean hit distance [m]; 1x1 where nothing is remembered
-    gpu::History surface;      ///< RG32_UINT: bits of the depth, 0: none with this lobe; normal and roughness
-    gpu::History moments;      ///< RG16F: frames in the mean, mean square of a frame's luminance
-    gpu::History directional;  ///< of LobeLight, its mean; 1x1 where nothing is remembered or the lobe has none
-    bool valid = false;        ///< whether `previous` of all is there
+    gpu::History light;        ///< RGBA16F: mean radiance, mean hit distance [m]; 1x1 without history
+    gpu::History surface;      ///< RG32_UINT: depth as bits, 0: no surface with this lobe; normal and roughness
+    gpu::History moments;      ///< RG16F: history length in frames, mean squared luminance of a frame
+    gpu::History directional;  ///< mean of LobeLight.directional; 1x1 without history or if the lobe has none
+    bool valid = false;        ///< whether all `previous` images exist
 };
 
-/// That denoise() reads and writes in this frame. size: of the grid.
+/// The history that denoise() reads and writes in this frame. size: of the grid.
 DenoiseHistory denoiseHistory(gpu::Frame& f, uint32_t lobe, uvec2 size, const DenoiseSettings& settings);
 
-/// The same light with less noise. picture: the whole picture's view, of which light.from is a grid. Mean radiance is
-/// kept; what comes in as inf, NaN or beyond half floats goes out as finite.
+/// Denoises the lobe. picture: the full-resolution view of light.from. Preserves mean radiance; infinity, NaN and
+/// values beyond half floats become finite.
 LobeLight denoise(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
                   const DenoiseSettings& settings);
 

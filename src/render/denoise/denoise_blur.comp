@@ -1,7 +1,7 @@
-// One blur over neighbours on the same surface, on a disk that is turned from pixel to pixel. Its radius follows how noisy
-// the light still is, how far its rays went and how wide the lobe is.
-// In: light with hit distance, surfaces, moments, geometric normals. Out: light, blurred; where little is remembered, the
-// next frame remembers that instead.
+// One blur pass over neighbours on the same surface, on a disk rotated per pixel. Its radius depends on the remaining
+// noise, the hit distance and the width of the lobe.
+// In: light with hit distance, surfaces, moments, geometric normals. Out: light, blurred; where the history is short,
+// the blurred light also becomes the next frame's history.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/denoise/denoise.glsl"
@@ -26,13 +26,13 @@ layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D blurredDirection
 
 const int taps = 8;
 const float goldenAngle = 2.39996323;
-// Of what a ray spans on the way to what it hit, the share over which it brings about the same.
+// Radius within which incoming light is about the same, relative to the lobe's width at the hit.
 const float shareOfWay = 0.3;
-// Share of the radius for a relative noise of 1, chosen by the error at rest after 32 frames in five scenes out of
-// 0.5, 0.7, 1 and 2.
+// Fraction of the radius per unit of relative noise. Chosen from 0.5, 0.7, 1 and 2 by the error at rest after 32 frames
+// in five scenes.
 const float radiusOfNoise = 0.7;
-const float enoughToTell = 8.0;  // frames, from which on their variance is known; sooner, light would be lost
-const float rememberedLong = 4.0;  // frames, from which on the past is kept as it is
+const float varianceFrames = 8.0;  // history length from which the variance is reliable; using it earlier loses energy
+const float feedbackFrames = 4.0;  // history length from which the history is no longer replaced by blurred light
 
 // Pixels of the grid.
 float radiusAt(float d, float roughness, float hitDistance, float noise) {
@@ -43,10 +43,10 @@ float radiusAt(float d, float roughness, float hitDistance, float noise) {
     return min(params.radius, way) * noise;
 }
 
-// Standard deviation of the remembered mean over that mean, as five pixels around have it: where one has met no bright
-// light so far, its own would be too small. 1 and less by frames where too few are remembered to tell.
+// Relative standard deviation of the history's mean, estimated over five pixels: that of a single pixel is too small if
+// its rays have not hit a bright light yet. With a short history 1 / sqrt(frames).
 float noiseAt(ivec2 pixel, ivec2 size, float frames) {
-    if (frames < enoughToTell) {
+    if (frames < varianceFrames) {
         return inversesqrt(max(frames, 1.0));
     }
     const ivec2 around[5] = ivec2[](ivec2(0), ivec2(-2, -2), ivec2(2, -2), ivec2(-2, 2), ivec2(2, 2));
@@ -97,7 +97,7 @@ void main() {
         KeptSurface there = unpackSurface(imageLoad(surface, at).xy);
         vec2 o = vec2(at - pixel);
         if (there.depth > 0.0 && onSurface(plane, o, there.depth - own.depth)) {
-            float same = hasDirectional != 0u ? facingAlike(own, there) : alike(own, there, lobe);
+            float same = hasDirectional != 0u ? normalSimilarity(own, there) : surfaceSimilarity(own, there, lobe);
             float weight = exp(-1.5 * reach * reach) * same;
             sum += weight * imageLoad(from, at);
             if (hasDirectional != 0u) {
@@ -114,7 +114,7 @@ void main() {
     }
     vec4 mean = roundToHalf(min(sum / weights, vec4(largestHalf)));
     imageStore(blurred, pixel, mean);
-    if (feedsBack != 0u && m.x < rememberedLong) {
+    if (feedsBack != 0u && m.x < feedbackFrames) {
         imageStore(nextLight, pixel, mean);
         if (hasDirectional != 0u) {
             imageStore(nextDirectional, pixel, turning);

@@ -1,7 +1,7 @@
-// The first step of cleaning: fireflies are spread over their neighbours, then each pixel becomes the mean of this frame
-// and of those before as far as they still hold.
-// In: the limits of fireflies, surfaces, motion, radiance with hit distance, motion of mirror images, history. Out: the mean, with hit distance;
-// the same as history; surfaces; moments: how many frames it is the mean of, mean square of the luminance.
+// First denoising pass: firefly clamp with the excess spread over neighbours, then temporal accumulation with the
+// reprojected history.
+// In: firefly limits, surfaces, motion, radiance with hit distance, motion of reflected images, history. Out: the mean,
+// with hit distance; the same as history; surfaces; moments: history length, mean squared luminance.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/bounce/ray_tiles.glsl"
@@ -10,8 +10,8 @@
 
 layout(constant_id = 0) const uint lobe = 0u;
 layout(constant_id = 1) const uint hasImageMotion = 0u;
-// 0: all pixels have the same number of rays; else their mean: what pixels with more bring counts for more, and those
-// without any have a negative hit distance.
+// 0: all pixels have the same ray count. Else the mean count of adaptive sampling: pixels are weighted by their count,
+// and pixels without rays have a negative hit distance.
 layout(constant_id = 2) const uint meanRays = 0u;
 
 layout(constant_id = 3) const uint hasDirectional = 0u;
@@ -39,44 +39,45 @@ layout(set = 0, binding = 18, rgba16f) uniform readonly image2D previousDirectio
 layout(set = 0, binding = 19, rgba16f) uniform writeonly image2D nextDirectional;
 layout(set = 0, binding = 20, rgba16f) uniform writeonly image2D gatheredDirectional;
 
-const float heightSlack = 4.0;     // by which a remembered surface may lie off this one, times what neighbours may
-const float distanceSlack = 0.02;  // or this share of its distance: things move
-// Reflections up to this perceptual roughness move as what they show, those above the second as their surface.
+const float heightSlack = 4.0;     // tolerance for the height of a history surface off this one, relative to that of neighbours
+const float distanceSlack = 0.02;  // or relative to its distance, for moving objects
+// Reflections up to the first perceptual roughness are reprojected by their virtual image, those above the second by
+// their surface.
 const float movesAsImage = 0.25;
 const float movesAsSurface = 0.6;
 
-// In a mirror, what is nearer or farther by more than this share is another thing; the rougher it is, the more distances
-// differ by chance. From movesAsImage on, all that is behind the surface may be the same.
+// Relative difference in hit distance above which a mirror shows another object. It grows with roughness, as hit
+// distances become noisy; above movesAsImage there is no limit.
 const float sameThing = 0.15;
 const float sameThingRough = 3.0;
-// The past of a mirror is read between its pixels where it moves, which blurs it every time, and has no noise: it counts
-// for so many frames. Rougher reflections have more noise than detail.
+// Maximum history length of moving reflections. A mirror's history is blurred by every interpolation and has no noise,
+// so it is short; rougher reflections have more noise than detail.
 const float framesInMotion = 1.0;
 const float framesInMotionRough = 64.0;
 
-// What the pixel and its neighbours on the same surface show in this frame.
-struct Seen {
-    vec4 light;     // fireflies clipped, and what the neighbours' fireflies lost added; mean hit distance around it
+// This frame's light of the pixel and its neighbours on the same surface.
+struct Neighbourhood {
+    vec4 light;     // firefly-clamped, plus the excess of neighbouring fireflies; mean hit distance of the neighbourhood
     vec3 mean;      // of the neighbourhood
-    vec3 variance;  // of a pixel in it
+    vec3 variance;  // per pixel
     vec4 directional;  // of the light
-    float found;    // pixels of the neighbourhood that have light of this frame
-    bool traced;    // whether the pixel itself has
+    float found;    // pixels of the neighbourhood with rays in this frame
+    bool traced;    // whether the pixel itself has rays
 };
 
-// What earlier frames brought.
-struct Past {
+// Reprojected history.
+struct HistorySample {
     vec4 light;
     float frames;  // 0: nothing
-    float square;  // mean of the luminance's
+    float square;  // mean squared luminance
     vec4 directional;
 };
 
-const Past noPast = Past(vec4(0.0), 0.0, 0.0, vec4(0.0));
+const HistorySample noHistory = HistorySample(vec4(0.0), 0.0, 0.0, vec4(0.0));
 
-Seen look(ivec2 pixel, float d, ScreenPlane plane) {
+Neighbourhood gatherNeighbourhood(ivec2 pixel, float d, ScreenPlane plane) {
     ivec2 last = ivec2(params.view.size) - 1;
-    Seen s;
+    Neighbourhood s;
     s.light = vec4(0.0);
     s.directional = vec4(0.0);
     vec3 spread = vec3(0.0);
@@ -103,7 +104,7 @@ Seen look(ivec2 pixel, float d, ScreenPlane plane) {
         float bright = luminance(light);
         float limit = imageLoad(limits, at / int(denoiseTileSide)).r;
         vec3 kept = light * min(1.0, limit / max(bright, 1e-12));
-        // A pixel shares what it loses with all neighbours that it has, fewer at the picture's edges.
+        // A pixel's excess is split among its neighbours, fewer at the image's edges.
         ivec2 neighbours = 3 - ivec2(equal(at, ivec2(0))) - ivec2(equal(at, last));
         spread += (light - kept) / float(neighbours.x * neighbours.y);
         if (i == 4) {
@@ -121,7 +122,7 @@ Seen look(ivec2 pixel, float d, ScreenPlane plane) {
         }
     }
     float found = max(s.found, 1.0);
-    // What a firefly loses, those of its neighbours share that have light of this frame.
+    // Only pixels with rays in this frame take the excess.
     s.light.rgb += meanRays > 0u ? spread * inside / max(traced, 1.0) : spread;
     s.light.a = away / found;
     s.mean = sum / found;
@@ -129,30 +130,30 @@ Seen look(ivec2 pixel, float d, ScreenPlane plane) {
     return s;
 }
 
-// Whether a mirror of that roughness may have shown the same thing, by how far away that is.
-bool isSameThing(float now, float before, float roughness) {
+// Whether a reflection showed the same object, by its hit distance.
+bool isSameReflectedObject(float now, float before, float roughness) {
     float allowed = mix(sameThing, sameThingRough, min(roughness / movesAsImage, 1.0));
     return roughness > movesAsImage || max(now, before) <= (1.0 + allowed) * min(now, before) + 1e-3;
 }
 
-// Where a pixel's past is looked for.
-struct Whereabouts {
+// Where a pixel's history is looked up.
+struct HistoryLookup {
     vec2 at;         // pixels of the grid
-    vec2 home;       // where the last frame had the pixel's own point
-    float expected;  // depth of that
-    float away;      // metres from there to what a mirror shows; negative: whatever it shows
-    float most;      // frames that it may count for where it is read between pixels
+    vec2 home;       // pixel of the surface point in the last frame
+    float expected;  // its depth there
+    float away;      // hit distance of the reflection [m]; negative: ignore it
+    float most;      // maximum history length if interpolated between pixels
 };
 
-// What the last frame kept of a surface like this one.
-Past pastAt(Whereabouts w, KeptSurface own, ScreenPlane plane) {
+// Bilinear history lookup, restricted to similar surfaces.
+HistorySample historyAt(HistoryLookup w, KeptSurface own, ScreenPlane plane) {
     float allowed = heightSlack + distanceSlack / params.view.pixelAngle;
     vec2 nearest = round(w.at);
-    // What did not move stays what it is.
+    // Without motion the lookup is exact.
     vec2 at = all(lessThan(abs(w.at - nearest), vec2(1.0 / 64.0))) ? nearest : w.at;
     ivec2 corner = ivec2(floor(at));
     vec2 f = at - vec2(corner);
-    Past sum = noPast;
+    HistorySample sum = noHistory;
     float weights = 0.0;
     for (int i = 0; i < 4; ++i) {
         ivec2 o = ivec2(i & 1, i >> 1);
@@ -165,8 +166,8 @@ Past pastAt(Whereabouts w, KeptSurface own, ScreenPlane plane) {
         vec2 away = vec2(texel) - w.home;
         float height = heightAbove(plane, away, there.depth - w.expected) / max(length(away), 1.0);
         vec4 light = imageLoad(previousLight, texel);
-        bool same = w.away < 0.0 || isSameThing(w.away, light.a, own.roughness);
-        if (same && there.depth > 0.0 && abs(height) <= allowed && alike(own, there, lobe) > 0.3) {
+        bool same = w.away < 0.0 || isSameReflectedObject(w.away, light.a, own.roughness);
+        if (same && there.depth > 0.0 && abs(height) <= allowed && surfaceSimilarity(own, there, lobe) > 0.3) {
             float weight = share.x * share.y;
             vec2 m = imageLoad(previousMoments, texel).xy;
             sum.light += weight * light;
@@ -179,22 +180,23 @@ Past pastAt(Whereabouts w, KeptSurface own, ScreenPlane plane) {
         }
     }
     if (weights < 0.01) {
-        return noPast;
+        return noHistory;
     }
     float frames = sum.frames / weights;
-    return Past(sum.light / weights, f == vec2(0.0) ? frames : min(frames, w.most), sum.square / weights,
+    return HistorySample(sum.light / weights, f == vec2(0.0) ? frames : min(frames, w.most), sum.square / weights,
                 sum.directional / weights);
 }
 
 vec2 pixelOf(vec4 clip) { return ndcToUv(clip.xy / clip.w) * params.view.size - 0.5; }
 
-// The past of what is seen in a mirror moves as the image behind it does, and that as what it shows.
-Past remembered(ivec2 pixel, vec3 p, KeptSurface own, ScreenPlane plane, float hitDistance) {
+// Reflections are reprojected by their virtual image behind the mirror, including the reflected object's own motion;
+// diffuse light and rough reflections by the surface.
+HistorySample reprojectHistory(ivec2 pixel, vec3 p, KeptSurface own, ScreenPlane plane, float hitDistance) {
     vec4 before = params.view.previousWorldToClip * vec4(p, 1.0);
     float expected = before.z / before.w;
     vec2 home = vec2(pixel) - texelFetch(motion, pixel, 0).rg * params.motionToPixels;
     float asImage = lobe == 1u ? 1.0 - smoothstep(movesAsImage, movesAsSurface, own.roughness) : 0.0;
-    Past image = noPast;
+    HistorySample image = noHistory;
     if (asImage > 0.0) {
         vec3 behind = p - directionToEye(p, params.view.eye) * hitDistance;
         vec4 clip = params.view.previousWorldToClip * vec4(behind, 1.0);
@@ -205,23 +207,24 @@ Past remembered(ivec2 pixel, vec3 p, KeptSurface own, ScreenPlane plane, float h
             }
             float rough = min(own.roughness / movesAsImage, 1.0);
             float most = mix(framesInMotion, framesInMotionRough, rough * rough);
-            image = pastAt(Whereabouts(at, home, expected, hitDistance, most), own, plane);
+            image = historyAt(HistoryLookup(at, home, expected, hitDistance, most), own, plane);
         }
     }
     if (asImage == 1.0) {
         return image;
     }
-    Past still = pastAt(Whereabouts(home, home, expected, -1.0, 1e4), own, plane);
+    HistorySample still = historyAt(HistoryLookup(home, home, expected, -1.0, 1e4), own, plane);
     if (image.frames == 0.0 || still.frames == 0.0) {
         still.frames *= 1.0 - asImage;
         return image.frames > 0.0 ? image : still;
     }
-    return Past(mix(still.light, image.light, asImage), mix(still.frames, image.frames, asImage),
-                mix(still.square, image.square, asImage), vec4(0.0));  // only reflections come here
+    return HistorySample(mix(still.light, image.light, asImage), mix(still.frames, image.frames, asImage),
+                mix(still.square, image.square, asImage), vec4(0.0));  // only reflections get here
 }
 
-// Holds the past to what neighbours show now, as far as that is no chance. What had to give way counts for less.
-void holdTo(Seen seen, inout Past past) {
+// History clip (variance clipping): limits the history to current neighbours, within their noise. Clipped history
+// counts as fewer frames.
+void clipHistory(Neighbourhood seen, inout HistorySample past) {
     float ownVariance = max(past.square - luminance(past.light.rgb) * luminance(past.light.rgb), 0.0);
     vec3 deviation = params.settings.clip * sqrt(max(seen.variance, vec3(ownVariance)));
     vec3 held = clamp(past.light.rgb, seen.mean - deviation, seen.mean + deviation);
@@ -264,20 +267,20 @@ void main() {
     vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
     vec3 geometric = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
     ScreenPlane plane = screenPlane(p, geometric, params.view.clipToWorld, params.view.pixel, params.view.pixelAngle);
-    Seen seen = look(pixel, d, plane);
-    float bright = min(luminance(seen.light.rgb), 255.0);  // its square is a half float, too
-    Past past = params.hasPrevious != 0u ? remembered(pixel, p, own, plane, seen.light.a) : noPast;
+    Neighbourhood seen = gatherNeighbourhood(pixel, d, plane);
+    float bright = min(luminance(seen.light.rgb), 255.0);  // so that its square fits a half float
+    HistorySample past = params.hasPrevious != 0u ? reprojectHistory(pixel, p, own, plane, seen.light.a) : noHistory;
     if (past.frames > 0.0 && params.settings.clip > 0.0 && (meanRays == 0u || seen.found > 0.0)) {
-        holdTo(seen, past);
+        clipHistory(seen, past);
     }
-    float count = 1.0;  // frames that this one counts for
+    float count = 1.0;  // weight of this frame, in frames
     float most = float(params.settings.history);
     if (meanRays > 0u) {
         float rays = imageLoad(tiles, pixel / int(rayTileSide)).r;
         count = float(pixelRays(rays, uvec2(pixel), params.view.frame)) / float(meanRays);
         most *= rays / float(meanRays);
         if (!seen.traced) {
-            // The past stays as it is; without one, neighbours stand in and are not remembered.
+            // Keep the history unchanged; without one, show the neighbours' mean but do not store it.
             bool known = past.frames > 0.0;
             keep(pixel, known ? past.light : vec4(seen.mean, seen.light.a), past.directional, own,
                  known ? vec2(past.frames, past.square) : vec2(0.0));

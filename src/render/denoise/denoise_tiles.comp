@@ -1,6 +1,6 @@
-// How bright a pixel may be before it is a firefly, and how much pixels differ, for each tile of 8x8 pixels. A thread for each tile.
-// In: radiance, depth, material. Out: the limit, in luminance; variance of the luminance; both as a mirror has them where
-// there is one: no limit, no variance by chance.
+// Firefly limit and luminance variance of each tile of 8x8 pixels. One thread per tile.
+// In: radiance, depth, material. Out: the limit, in luminance; variance of the luminance. Tiles with a mirror have no
+// limit and no variance.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/denoise/denoise.glsl"
@@ -37,7 +37,7 @@ void main() {
             }
         }
     }
-    // What a mirror shows is no noise, however bright.
+    // Bright pixels in a mirror are detail, not noise.
     bool noisy = smoothest > smoothRoughness && sum.z > 0.0;
     vec2 mean = sum.xy / max(sum.z, 1.0);
     float limit = noisy && params.limit > 0.0 ? params.limit * mean.x : 4.0 * largestHalf;

@@ -1,4 +1,5 @@
-// Direct light of sun and lamps, emission and background. In: G-buffer, visibility of sun and lamps, lamps of each tile.
+// Direct light of sun and lamps, emission and background. In: G-buffer, visibility of sun and lamps, lamp masks per
+// tile.
 // Out: direct radiance.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

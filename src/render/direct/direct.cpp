@@ -21,7 +21,7 @@ gpu::Texture makeGgxTable(gpu::Frame& f) {
 gpu::Image directLight(gpu::Frame& f, const GBuffer& g, const LightVisibility& visibility, gpu::Image ggxTable,
                        const DirectParams& params, const DirectLights& lights) {
     const gpu::Image direct = f.image("direct", VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size);
-    // Bound, but not read where no lamp casts a shadow.
+    // Always bound, but not read if no lamp casts a shadow.
     const gpu::Image lampVisibility =
         visibility.lamps ? visibility.lamps
                          : f.image("no_lamp_visibility", VK_FORMAT_R8G8B8A8_UNORM, uvec2(1), 1, /*array=*/true);

@@ -1,4 +1,4 @@
-// Direct light: sun and lamps on the G-buffer, plus what surfaces emit and the background. Shared by C++ and GLSL.
+// Direct light: sun and lamps on the G-buffer, plus emission and background. Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_DIRECT_H
 #define REFLET_RENDER_DIRECT_H
 
@@ -24,17 +24,17 @@ SHARED_END
 
 namespace reflet {
 
-/// The GGX albedo table (RG16F, 32x32: A, B; see ggx_table.comp). Made once.
+/// The GGX directional albedo table (RG16F, 32x32: A, B; see ggx_table.comp). Computed once.
 gpu::Texture makeGgxTable(gpu::Frame& f);
 
-/// What of the lights reaches a pixel.
+/// Light visibility per pixel.
 struct LightVisibility {
     gpu::Image sun;
-    gpu::Image lamps;      ///< a layer for four lamps, by LampParams::shadow; none where no lamp casts a shadow
-    gpu::Image lampMasks;  ///< of findLampTiles
+    gpu::Image lamps;      ///< a layer per four lamps, by LampParams::shadow; none if no lamp casts a shadow
+    gpu::Image lampMasks;  ///< from findLampTiles
 };
 
-/// What shines, besides the sun.
+/// Light sources other than the sun.
 struct DirectLights {
     const LampBlock& lamps;
     const EnvironmentLight& environment;  ///< the background

@@ -1,4 +1,5 @@
-// Directional albedo of the single-scattering GGX lobe as A · F0 + B, by quadrature over the visible half vectors; a texel is (nv, roughness). (Karis, Real Shading in Unreal Engine 4, 2013, with exact visibility.)
+// Directional albedo of the single-scattering GGX lobe as A · F0 + B, by quadrature over the visible half vectors;
+// texel coordinates are (nv, roughness). (Karis, Real Shading in Unreal Engine 4, 2013, with exact visibility.)
 // Out: table (A, B).
 #version 460
 #include "shaders/ggx.glsl"

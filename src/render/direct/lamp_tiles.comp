@@ -1,12 +1,13 @@
-// Marks the lamps that reach the surfaces of a tile. A group for each tile: its threads first find the nearest and the
-// farthest surface, then share the lamps. In: depth, lamps. Out: a bit for each lamp; their number.
+// Tiled light culling: finds the lamps that reach the surfaces of a tile. One group per tile: its threads first find
+// the nearest and farthest surface, then test the lamps in parallel. In: depth, lamps. Out: lamp bit mask; number of
+// lamps.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/direct/lamp_tiles.h"
 #include "shaders/lamp_reach.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const uint all = 0u;  // 1: every tile has every lamp
+layout(constant_id = 0) const uint all = 0u;  // 1: every tile gets all lamps
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { LampTilesParams params; };
 layout(set = 0, binding = 1, scalar) uniform LampUniforms { LampBlock lampBlock; };
 layout(set = 0, binding = 2) uniform sampler2D depth;
@@ -17,7 +18,7 @@ const int groupSide = 8;
 const uint threads = 64u;
 const uint words = 4u * ((maxLamps + lampsPerLayer - 1u) / lampsPerLayer);
 
-shared uint nearest;   // depth as bits, which order as the depths do; 0: no surface
+shared uint nearest;   // depth as bits, which sort like the depths; 0: no surface
 shared uint farthest;
 shared uint mask[words];
 

@@ -1,4 +1,4 @@
-// Records the search for the lamps of every tile.
+// Records tiled light culling.
 #include "render/direct/lamp_tiles.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ LampTiles findLampTiles(gpu::Frame& f, gpu::Image depth, const LampBlock& lamps,
         return found;
     }
     found.count = f.image("lamp_count", VK_FORMAT_R32_SFLOAT, tiles);
-    constexpr uint32_t threads = 8;  // along each side of a group, of which each tile has one
+    constexpr uint32_t threads = 8;  // along each side of a tile's thread group
     f.compute("lamp_tiles", "lamp_tiles.comp")
         .read("depth", depth)
         .write("masks", found.masks)

@@ -1,7 +1,8 @@
-// Which lamps may light which tile of the screen, so that direct light looks at no others. Shared by C++ and GLSL.
+// Tiled light culling: finds the lamps that may light each screen tile, so that direct light evaluates no others.
+// Shared by C++ and GLSL.
 //
-// Tiled deferred lighting (O. Olsson, U. Assarsson, Tiled Shading, 2011), with a bit for each lamp in place of a list
-// of indices: lamps keep their order, so that sums round as without tiles, and no list is too short.
+// Tiled deferred lighting (O. Olsson, U. Assarsson, Tiled Shading, 2011), with a bit mask of lamps instead of an index
+// list: lamps keep their order, so that sums round as without tiles, and no list can overflow.
 #ifndef REFLET_RENDER_LAMP_TILES_H
 #define REFLET_RENDER_LAMP_TILES_H
 
@@ -11,10 +12,10 @@
 
 SHARED_BEGIN
 
-#define DIRECT_SETTINGS(VALUE, SWITCH, CHOICE)                                                                      \
-    SWITCH(lampTiles, 1,                                                                                            \
-           "Find out first which lamps reach which part of the picture, and look at those alone; else every pixel " \
-           "looks at every lamp. The light is the same.")
+#define DIRECT_SETTINGS(VALUE, SWITCH, CHOICE)                                                                     \
+    SWITCH(lampTiles, 1,                                                                                           \
+           "Tiled light culling: find the lamps that reach each 16x16 pixel tile and shade with those only. Off: " \
+           "every pixel evaluates every lamp. The image is the same.")
 SETTINGS(DirectSettings, DIRECT_SETTINGS)
 
 struct LampTilesParams {
@@ -29,13 +30,13 @@ SHARED_END
 
 namespace reflet {
 
-/// Of the screen's tiles, as many as touch it.
+/// Images with a texel per screen tile.
 struct LampTiles {
-    gpu::Image masks;  ///< as lamps.h says
+    gpu::Image masks;  ///< as defined in lamps.h
     gpu::Image count;  ///< R32F: number of lamps that may light the tile; none without lamps
 };
 
-/// No lamp is missing that brings light to a surface of the tile; with lampTiles off every tile has all lamps.
+/// Conservative: includes every lamp that lights a surface of the tile. With lampTiles off, every tile gets all lamps.
 LampTiles findLampTiles(gpu::Frame& f, gpu::Image depth, const LampBlock& lamps, const ViewParams& view,
                         const DirectSettings& settings);
 

@@ -1,5 +1,5 @@
-// Radiance of the environment along a direction, exactly. bindEnvironment (environment_light.h) binds it. A pass that
-// includes this leaves the bindings from 100 on alone.
+// Exact radiance of the environment along a direction. Bound by bindEnvironment (environment_light.h); uses the
+// bindings from 100 on.
 #ifndef REFLET_ENVIRONMENT_GLSL
 #define REFLET_ENVIRONMENT_GLSL
 
@@ -10,7 +10,7 @@ layout(constant_id = 100) const uint environmentIsOneColor = 0u;  // no image: o
 layout(set = 0, binding = 100, scalar) uniform EnvironmentUniforms { EnvironmentParams environment; };
 layout(set = 0, binding = 101) uniform sampler2D environmentTexels;
 
-// A direction of the world, in the image's own directions.
+// Rotates a world direction to the image's frame.
 vec3 toEnvironment(vec3 direction) {
     vec2 turn = environment.turn;
     return vec3(direction.x * turn.x - direction.z * turn.y, direction.y, direction.z * turn.x + direction.x * turn.y);

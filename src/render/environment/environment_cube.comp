@@ -1,4 +1,4 @@
-// A cube map of an equirectangular image: the mean of places spread over each texel. In: texels. Out: faces.
+// Converts an equirectangular image to a cube map, by supersampling each texel. In: texels. Out: faces.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/cube_map/cube_map.glsl"
@@ -9,7 +9,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0) uniform sampler2D texels;
 layout(set = 0, binding = 1, rgba16f) uniform writeonly image2DArray faces;
 
-// On each axis. Where the cube has 256 pixels a side, as many as the columns of an image of 8192.
+// Samples per axis. For a cube of 256 pixels a side they match the columns of an image of width 8192.
 const int places = 8;
 
 void main() {

@@ -1,4 +1,4 @@
-// The environment's images: uploaded, and filtered on the device.
+// Uploads the environment's image and prefilters it on the device.
 #include "render/environment/environment_light.h"
 
 #include "gpu/device.h"
@@ -14,17 +14,17 @@ namespace reflet {
 
 namespace {
 
-// Powers of two. A larger one would leave too little of the dim parts of an image with a sun in it.
+// A power of two. A larger one would lose the dim parts of an image that contains the sun.
 constexpr int largestScale = 10;
 constexpr int smallestScale = -20;
 
-// Pixels of a cube's side: about as many on a quarter turn as the image has. More than 256 only serve surfaces that
-// are almost mirrors and take no rays; fewer than 64 would blur small images, whose texels are constant.
+// Side of the cube map in pixels, about the image's pixels per quarter turn. More than 256 would only matter for
+// near-mirrors without rays; fewer than 64 would blur small images, which are read with nearest filtering.
 uint32_t sideFor(const FloatImage& image) {
     return std::clamp(std::bit_ceil(image.width / 4), 64U, 256U);
 }
 
-// A power of two which makes the brightest value at most what a half float holds.
+// A power of two that brings the brightest value into the range of half floats.
 float scaleFor(const FloatImage& image) {
     const float brightest = *std::ranges::max_element(image.data);
     if (brightest <= 0.0F) {
@@ -62,7 +62,7 @@ void bindEnvironmentLobes(gpu::Pass& pass, gpu::Device& device, const Environmen
     pass.read("environmentLobes", light.lobes, linear).read("environmentIrradiance", light.irradiance);
 }
 
-// In a frame of its own: others, that capture probes, may be submitted before the one that shows the picture.
+// In a separate frame, because frames that capture probes may be submitted before the current one.
 void EnvironmentMaps::load(gpu::Device& device) {
     gpu::Frame f(device);
     const FloatImage& image = image_ ? *image_ : whiteImage();

@@ -1,4 +1,5 @@
-// The environment on the device: its exact texels, and cube maps of it for wide looks. Shared by C++ and GLSL.
+// The environment on the device: its equirectangular image, and prefiltered cube maps for image-based lighting. Shared
+// by C++ and GLSL.
 #ifndef REFLET_RENDER_ENVIRONMENT_LIGHT_H
 #define REFLET_RENDER_ENVIRONMENT_LIGHT_H
 
@@ -7,8 +8,8 @@
 SHARED_BEGIN
 
 struct EnvironmentParams {
-    vec3 factor;  // on all that the images hold
-    vec2 turn;    // cosine and sine of the rotation: images are kept unrotated
+    vec3 factor;  // scale of all image values
+    vec2 turn;    // cosine and sine of the rotation; images are stored unrotated
 };
 
 SHARED_END
@@ -23,26 +24,26 @@ SHARED_END
 
 namespace reflet {
 
-/// What passes take. Valid as long as its EnvironmentMaps, until their next update.
+/// The environment for passes. Valid until the next update of its EnvironmentMaps.
 struct EnvironmentLight {
-    gpu::Image texels;      ///< RGBA16F, equirectangular, radiance over the factor
+    gpu::Image texels;      ///< RGBA16F, equirectangular, radiance / factor
     gpu::Image lobes;       ///< CubeMap::lobes
     gpu::Image irradiance;  ///< CubeMap::irradiance
     EnvironmentParams params{};
 };
 
-/// Binds what environment.glsl declares, for the exact radiance along a direction.
+/// Binds environment.glsl's resources, for exact radiance.
 void bindEnvironment(gpu::Pass& pass, const EnvironmentLight& light);
 
-/// Binds what environment_lobes.glsl declares, besides: radiance around directions.
+/// Binds environment_lobes.glsl's additional resources, for prefiltered radiance.
 void bindEnvironmentLobes(gpu::Pass& pass, gpu::Device& device, const EnvironmentLight& light);
 
 /// Owns the images. Constant radiance is an image of one white texel.
 class EnvironmentMaps {
 public:
-    /// Filters the image, and waits for it, when it is another one than last time; its intensity and rotation are free
-    /// to change. Values above what 16-bit floats hold are kept as long as the image's
-    /// largest value is at most 6.7e7, and cut off there: images are stored over a power of two of up to 1024.
+    /// Prefilters the image, and waits for that, if the image has changed; intensity and rotation may change freely.
+    /// Values beyond half floats are kept up to 6.7e7 and clamped above: images are stored divided by a power of two of
+    /// up to 1024.
     EnvironmentLight update(gpu::Device& device, const Environment& environment);
 
 private:
@@ -51,7 +52,7 @@ private:
     std::shared_ptr<const FloatImage> image_;
     gpu::Texture texels_;
     CubeMap cube_;
-    float scale_ = 1.0F;  ///< of radiance, to what the images hold
+    float scale_ = 1.0F;  ///< from radiance to stored values
 };
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// Radiance of the environment around a direction. bindEnvironmentLobes (environment_light.h) binds it.
+// Prefiltered radiance and irradiance of the environment. Bound by bindEnvironmentLobes (environment_light.h).
 #ifndef REFLET_ENVIRONMENT_LOBES_GLSL
 #define REFLET_ENVIRONMENT_LOBES_GLSL
 
@@ -8,12 +8,12 @@
 layout(set = 0, binding = 102) uniform samplerCubeArray environmentLobes;
 layout(set = 0, binding = 103) uniform sampler2D environmentIrradiance;
 
-// Mean, weighted by the GGX lobe of this perceptual roughness around the direction.
+// Mean radiance weighted by the GGX lobe of this perceptual roughness around the direction.
 vec3 environmentLobe(vec3 direction, float roughness) {
     return environment.factor * cubeMapLobe(environmentLobes, 0u, toEnvironment(direction), roughness);
 }
 
-// Irradiance / pi on a surface that faces along n (unit): the mean radiance of cosine-spread rays.
+// Irradiance / pi for the unit normal n: the mean radiance of cosine-distributed rays.
 vec3 environmentIrradianceOverPi(vec3 n) {
     return environment.factor * cubeMapIrradiance(environmentIrradiance, 0u, toEnvironment(n));
 }

@@ -10,7 +10,7 @@ vec2 equirectangularUv(vec3 direction) {
     return vec2(u - floor(u), atan(across, direction.y) / pi);
 }
 
-// Texels are constant.
+// Nearest filtering.
 vec3 equirectangularTexel(sampler2D texels, vec3 direction) {
     ivec2 size = textureSize(texels, 0);
     return texelFetch(texels, min(ivec2(equirectangularUv(direction) * vec2(size)), size - 1), 0).rgb;

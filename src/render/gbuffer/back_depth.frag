@@ -1,8 +1,9 @@
-// Second depth layer, fragments (back faces only): what is not behind the first layer, or cut out by alpha, is peeled off.
+// Second depth layer (back faces only), by depth peeling: discards fragments not behind the first layer and those that
+// fail the alpha test.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/gbuffer/back_depth.h"
-const uint usedSlots = 1u;  // the colour, for its alpha
+const uint usedSlots = 1u;  // base colour, for alpha
 #include "render/material.glsl"
 #include "shaders/projection.glsl"
 
@@ -12,8 +13,8 @@ layout(set = 0, binding = 1) uniform sampler2D firstDepth;
 layout(location = 0) in vec4 uv;
 layout(location = 1) in vec4 vertexColor;
 
-// How much farther than the first layer, as a part of the distance: a double-sided sheet seen from behind is no back of
-// its own.
+// Relative distance by which the second layer must be behind the first, so that the back of a double-sided sheet does
+// not count as its own far side.
 const float farther = 1e-5;
 
 void main() {

@@ -1,4 +1,4 @@
-// The second depth layer: where what the camera sees ends. Shared by C++ and GLSL.
+// The second depth layer: the back faces of visible objects, for their thickness. Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_BACK_DEPTH_H
 #define REFLET_RENDER_BACK_DEPTH_H
 
@@ -21,9 +21,9 @@ SHARED_END
 
 namespace reflet {
 
-/// Of each pixel, the depth of the nearest back face behind what the G-buffer shows there: D32, reversed, 0: none.
-/// Closed things get their own far side. Behind an open sheet, which has none, lies that of the next thing behind it,
-/// or nothing. depth: the G-buffer's own as it was drawn (the same view and list), of the view's size.
+/// Depth of the nearest back face behind the G-buffer's surface, per pixel: D32, reversed, 0: none. For closed objects
+/// that is their own far side, for open sheets that of the next object behind, if any. depth: the G-buffer's depth as
+/// rendered (same view and list), of the view's size.
 gpu::Image drawBackDepth(gpu::Frame& f, const DrawList& list, gpu::Image depth, const ViewParams& view);
 
 }  // namespace reflet

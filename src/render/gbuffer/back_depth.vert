@@ -1,4 +1,4 @@
-// Second depth layer, vertices: to clip space exactly as the G-buffer has them.
+// Second depth layer: clip-space positions identical to the G-buffer's.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/gbuffer/back_depth.h"

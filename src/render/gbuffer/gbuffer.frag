@@ -1,4 +1,4 @@
-// G-buffer, fragments: the material's textures and factors, and the shading normal.
+// G-buffer: evaluates the material's textures and factors, and the shading normal.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/gbuffer/gbuffer.glsl"
@@ -24,7 +24,7 @@ layout(location = 3) out vec4 outMaterial;
 layout(location = 4) out vec3 outEmissive;
 layout(location = 5) out vec4 outMotion;
 
-// The triangle's own, toward the camera. An edge-on triangle that gives none gets the shading normal.
+// The triangle's normal, facing the camera; the shading normal if the triangle is seen edge-on.
 vec3 geometricNormal(vec3 shading) {
     vec3 n = cross(dFdx(fromEye), dFdy(fromEye));
     float square = dot(n, n);
@@ -49,7 +49,7 @@ vec3 shadingNormal() {
 
 void main() {
     vec3 n = shadingNormal();
-    uint packedGeometric = packUnitVector(geometricNormal(n));  // derivatives come before any discard
+    uint packedGeometric = packUnitVector(geometricNormal(n));  // derivatives must be taken before any discard
     vec3 positionW = fromEye + params.view.eye.xyz * params.view.eye.w;
     if (clipped != 0u && dot(params.clipPlane, vec4(positionW, 1.0)) <= 0.0) {
         discard;

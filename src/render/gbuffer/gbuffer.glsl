@@ -1,4 +1,4 @@
-// How the G-buffer's texels are packed.
+// Packing of the G-buffer's texels.
 #ifndef REFLET_GBUFFER_GLSL
 #define REFLET_GBUFFER_GLSL
 
@@ -21,8 +21,8 @@ MaterialTexel unpackMaterial(vec4 texel) {
 }
 bool isLambert(MaterialTexel m) { return (m.flags & materialFlagLambert) != 0u; }
 
-// The surface seen at a pixel, its specular directional albedo taken from the table toward nv. lambert: as its flag has
-// it; where a constant says it for all, CPUs need not work out both.
+// The surface at a pixel; its specular directional albedo is read from the table at nv. lambert: as in the material's
+// flag, or a constant, which saves CPU devices from computing both branches.
 Surface surfaceAt(vec3 baseColorTexel, MaterialTexel m, float nv, sampler2D ggxTable, bool lambert) {
     vec2 table = lambert ? vec2(0.0) : textureLod(ggxTable, ggxTableUv(nv, m.roughness), 0.0).rg;
     return makeSurface(unpackBaseColor(baseColorTexel), m.metallic, m.roughness, table, lambert);

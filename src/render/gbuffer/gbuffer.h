@@ -1,4 +1,4 @@
-// The G-buffer: what each pixel sees, and nothing about how it is lit. Shared by C++ and GLSL.
+// The G-buffer: geometry and material of the visible surface at each pixel, without lighting. Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_GBUFFER_H
 #define REFLET_RENDER_GBUFFER_H
 
@@ -7,12 +7,15 @@
 
 SHARED_BEGIN
 
-#define MATERIALS_SETTINGS(VALUE, SWITCH, CHOICE)                                                                   \
-    SWITCH(lambertOnly, 0, "Treat every material as pure Lambert of its base colour: no specular, no metal.")       \
-    SWITCH(mips, 1,                                                                                                 \
-           "Read textures through their mips; off: in full detail always, as the reference does, for many samples " \
-           "a pixel.")                                                                                              \
-    VALUE(uint, anisotropy, 8, 1, 16, "Texture samples along a slanted surface, at most; 1: blurred at grazing angles.")
+#define MATERIALS_SETTINGS(VALUE, SWITCH, CHOICE)                                                                     \
+    SWITCH(lambertOnly, 0,                                                                                            \
+           "Shade every material as Lambert diffuse with its base colour: no specular lobe, no metals.")              \
+    SWITCH(                                                                                                           \
+        mips, 1,                                                                                                      \
+        "Use texture mipmaps. Off: always the finest level, as the reference renders; needs many samples per pixel.") \
+    VALUE(                                                                                                            \
+        uint, anisotropy, 8, 1, 16,                                                                                   \
+        "Maximum samples of anisotropic texture filtering. 1: off, blurry at grazing angles. More: sharper, slower.")
 SETTINGS(MaterialsSettings, MATERIALS_SETTINGS)
 
 // Bits of the material image's alpha.
@@ -21,7 +24,7 @@ const uint materialFlagLambert = 1;
 struct GBufferParams {
     ViewParams view;
     MaterialsSettings settings;
-    vec4 clipPlane;  // world space: only what is in front of it, dot(clipPlane, (p, 1)) > 0, is drawn
+    vec4 clipPlane;  // world space: only geometry in front of it, dot(clipPlane, (p, 1)) > 0, is drawn
 };
 
 SHARED_END
@@ -36,22 +39,21 @@ namespace reflet {
 /// Images of the view's size.
 struct GBuffer {
     gpu::Image depth;   ///< D32, reversed, 0: sky
-    gpu::Image normal;  ///< R32_UINT: world-space shading normal, octahedral, two snorm16 (packUnitVector). The
-                        ///< design's RG16 snorm is no colour target on SwiftShader, nor promised by Vulkan
-    gpu::Image geometricNormal;  ///< R32_UINT, packed alike: of the triangle itself, toward the camera. What depth
-                                 ///< does along a surface, which neither normal maps nor smooth normals tell
-    gpu::Image baseColor;  ///< RGB10A2: square root of the linear base colour. The design's RGBA8 sRGB is off by up to
-                           ///< 0.8 % (llvmpipe, base colour 0.5), this by 0.15 % in the same four bytes
+    gpu::Image normal;  ///< R32_UINT: world-space shading normal, octahedral, two snorm16 (packUnitVector). Vulkan does
+                        ///< not guarantee RG16 snorm as a colour target, and SwiftShader lacks it
+    gpu::Image geometricNormal;  ///< R32_UINT, packed alike: of the triangle, facing the camera; matches the depth
+                                 ///< gradient, unlike smooth or mapped normals
+    gpu::Image baseColor;  ///< RGB10A2: square root of the linear base colour. Error up to 0.15 %, against 0.8 % for
+                           ///< RGBA8 sRGB in the same four bytes (llvmpipe, base colour 0.5)
     gpu::Image material;   ///< RGBA8: perceptual roughness, metallic, occlusion, flags / 255
     gpu::Image emissive;   ///< B10G11R11: emitted radiance
-    gpu::Image motion;     ///< RGBA16F: uv now minus uv last frame; metres that the surface itself has gone away from
-                           ///< the camera along its axis, exactly 0 where it stands still; 0
+    gpu::Image motion;     ///< RGBA16F: uv now minus uv last frame; the surface's own motion away from the camera along
+                           ///< its axis [m], exactly 0 at rest; 0
 };
 
-/// Draws the list as seen by the view: reversed Z, back faces of single-sided draws culled. clipPlane: as in
-/// GBufferParams; zero: everything is drawn. A plane that pixels are tested against leaves depth as it is; one that is
-/// the projection's near plane (Lengyel, Oblique View Frustum Depth Projection and Clipping, 2005) would bend it, and
-/// rays that are marched through depth rely on distance = near / depth.
+/// Draws the list for the view: reversed Z, back faces of single-sided draws culled. clipPlane: as in GBufferParams;
+/// zero: none. Clipping is done per pixel, because an oblique near plane (Lengyel, Oblique View Frustum Depth
+/// Projection and Clipping, 2005) would distort depth, and ray marching relies on distance = near / depth.
 GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view, const MaterialsSettings& settings,
                     const vec4& clipPlane = vec4(0.0F));
 

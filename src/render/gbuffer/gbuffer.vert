@@ -1,9 +1,9 @@
-// G-buffer, vertices: to clip space now and in the last frame, normal and tangent to the world.
+// G-buffer: clip-space positions of this frame and the last, normal and tangent in world space.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/gbuffer/gbuffer.h"
 
-layout(constant_id = 1) const uint bent = 0u;  // 1: some vertices move by themselves
+layout(constant_id = 1) const uint bent = 0u;  // 1: some vertices are skinned
 
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { GBufferParams params; };
 layout(push_constant, scalar) uniform DrawBlock {
@@ -24,13 +24,13 @@ layout(location = 1) out vec4 tangentW;
 layout(location = 2) out vec4 uv;
 layout(location = 3) out vec4 vertexColor;
 layout(location = 4) out vec3 clipNow;
-layout(location = 5) out vec4 clipBefore;  // and metres gone away from the camera along its axis
+layout(location = 5) out vec4 clipBefore;  // and own motion away from the camera along its axis [m]
 layout(location = 6) out vec3 fromEye;
-invariant gl_Position;  // back_depth.vert computes the same: a surface must find itself there
+invariant gl_Position;  // must be identical to back_depth.vert
 
 void main() {
     mat3 m = mat3(draw.objectToWorld);
-    // The cofactors are the inverse transpose times the determinant; its sign is taken out again.
+    // Cofactor matrix: the inverse transpose times the determinant, whose sign is removed below.
     mat3 cofactors = mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1]));
     float handedness = dot(m[0], cofactors[0]) < 0.0 ? -1.0 : 1.0;
     normalW = normalize(cofactors * normal) * handedness;

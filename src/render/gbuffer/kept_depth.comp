@@ -1,4 +1,4 @@
-// What a fixed-point depth buffer would have kept. In: depth, reversed. Out: the same, after rounding, reversed.
+// Quantizes depth as a fixed-point depth buffer would. In: depth, reversed. Out: the same after rounding, reversed.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/gbuffer/kept_depth.h"

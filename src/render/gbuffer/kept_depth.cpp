@@ -1,4 +1,4 @@
-// Records what a depth buffer of another kind would have kept.
+// Records the emulation of other depth buffer formats.
 #include "render/gbuffer/kept_depth.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@ namespace reflet {
 
 namespace {
 
-constexpr float farDistance = 1000.0F;  // metres; where a perspective view, which has no far plane, gets one
+constexpr float farDistance = 1000.0F;  // metres; substitute far plane of perspective views, which have none
 
 }  // namespace
 

@@ -1,5 +1,5 @@
-// What a depth buffer keeps of each depth: reversed floats keep everything, fixed point with the near plane at 0 does
-// not. For looking at what that costs. Shared by C++ and GLSL.
+// Emulates the precision of other depth buffer formats: fixed point with the near plane at 0 loses precision that
+// reversed floats keep. For demonstration. Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_KEPT_DEPTH_H
 #define REFLET_RENDER_KEPT_DEPTH_H
 
@@ -9,7 +9,7 @@ SHARED_BEGIN
 
 struct KeptDepthParams {
     float farDepth;  // reversed depth at the far plane
-    float steps;     // highest whole number
+    float steps;     // highest integer value
     uvec2 size;
 };
 
@@ -22,26 +22,26 @@ SHARED_END
 
 namespace reflet {
 
-// Not for shaders, where `buffer` is reserved.
+// Not visible to shaders, where `buffer` is a reserved word.
 #define DEPTH_BUFFERS(OPTION)             \
     OPTION(DepthBuffer, reversedFloat, 0) \
     OPTION(DepthBuffer, standard24, 1)    \
     OPTION(DepthBuffer, standard16, 2)
 CHOICES(DepthBuffer, DEPTH_BUFFERS)
 
-#define DEPTH_SETTINGS(VALUE, SWITCH, CHOICE)                                                                   \
-    CHOICE(DepthBuffer, format, reversedFloat,                                                                  \
-           "What is kept of each depth; reversed_float: 32-bit floats, 1 at the near plane, 0 at infinity; "    \
-           "standard24, standard16: whole numbers of so many bits, 0 at the near plane, the highest at 1000 m " \
-           "(orthographic: at the far plane).")
+#define DEPTH_SETTINGS(VALUE, SWITCH, CHOICE)                                                                         \
+    CHOICE(DepthBuffer, format, reversedFloat,                                                                        \
+           "Depth buffer format, to show what its precision costs. reversed_float: 32-bit float, 1 at the near "      \
+           "plane, 0 at infinity. standard24, standard16: unsigned integers of that many bits, 0 at the near plane, " \
+           "maximum at 1000 m (orthographic: at the far plane).")
 SETTINGS(DepthSettings, DEPTH_SETTINGS)
 
-/// What is left of `depth` (reversed, 0: sky) after it has been in such a buffer, reversed again: R32F under `name`.
-/// With reversed_float: `depth` itself, and no pass.
+/// `depth` (reversed, 0: sky) after rounding to such a format, reversed again: R32F under `name`. With reversed_float:
+/// `depth` itself, without a pass.
 gpu::Image keptDepth(gpu::Frame& f, std::string_view name, gpu::Image depth, const ViewParams& view,
                      const DepthSettings& settings);
 
-/// Parameters of that buffer (not reversed_float) for the view.
+/// Parameters for a fixed-point format and the view.
 KeptDepthParams keptDepthParams(const ViewParams& view, DepthBuffer buffer);
 
 }  // namespace reflet

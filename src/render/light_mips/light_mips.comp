@@ -1,5 +1,5 @@
-// Makes one level of the mips of an image of light. In: the image (level 1), or the level below. Out: the level, in the
-// same image.
+// Builds one mip level of a radiance image. In: the image (level 1), or the level below. Out: the level, in the same
+// image.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/levels.glsl"
@@ -13,11 +13,11 @@ layout(set = 0, binding = 2, rgba16f) uniform image2D mips;
 ivec2 pixels = ivec2(params.size);
 int level = int(params.level);
 
-// Light of a cell of the level below, times the pixels that it stands for; alpha: their number.
+// Sum over the pixels of a cell of the finer level; alpha: their number.
 vec4 below(ivec2 cell) {
     ivec2 sides = min((cell + 1) << (level - 1), pixels) - (cell << (level - 1));
     if (any(lessThanEqual(sides, ivec2(0)))) {
-        return vec4(0.0);  // beyond the edge of an odd size
+        return vec4(0.0);  // outside, with odd sizes
     }
     vec3 radiance = level == 1 ? texelFetch(light, cell, 0).rgb
                                : imageLoad(mips, cell + ivec2(0, levelRow(pixels, level - 1))).rgb;

@@ -1,4 +1,4 @@
-// Records the mips of an image of light.
+// Records the mips of a radiance image.
 #include "render/light_mips/light_mips.h"
 
 #include "render/levels.h"

@@ -1,12 +1,11 @@
-// Looks up light that is blurred as much as wanted: linear between a level's cells and between two levels.
-// The includer defines, before it includes this: vec3 loadLight(ivec2 cell, int level): of the image (level 0) or of
-// its mips.
+// Trilinear lookup of radiance blurred to a given width. The includer first defines vec3 loadLight(ivec2 cell, int
+// level), which reads the image (level 0) or its mips.
 #ifndef REFLET_LIGHT_MIPS_GLSL
 #define REFLET_LIGHT_MIPS_GLSL
 
 #include "render/levels.glsl"
 
-// at: in pixels of level 0, (0.5, 0.5) is the first one's centre. Beyond the edges is what is at the edge.
+// at: in pixels of level 0, (0.5, 0.5) is the first one's centre. Clamped at the edges.
 vec3 lightOfLevel(vec2 at, int level, ivec2 pixels) {
     vec2 cell = at / float(1 << level) - 0.5;
     vec2 part = fract(cell);
@@ -18,7 +17,7 @@ vec3 lightOfLevel(vec2 at, int level, ivec2 pixels) {
     return mix(top, bottom, part.y);
 }
 
-// The light around `at`, of cells of `width` pixels.
+// Radiance around `at`, blurred over `width` pixels.
 vec3 blurredLight(vec2 at, float width, ivec2 pixels) {
     int top = findMSB(max(pixels.x, pixels.y) - 1) + 1;  // one cell; findMSB(0) is -1
     float level = clamp(log2(max(width, 1.0)), 0.0, float(top));

@@ -1,5 +1,5 @@
-// Mips of an image of light: mean radiance of ever larger squares of pixels, for what must not see single ones.
-// Shared by C++ and GLSL. All levels lie in one image, as render/levels.h says, down to a single cell.
+// Mips of a radiance image, for prefiltered lookups at the hits of cones. Shared by C++ and GLSL. All levels are in one
+// image, in the layout of render/levels.h, down to a single cell.
 #ifndef REFLET_RENDER_LIGHT_MIPS_H
 #define REFLET_RENDER_LIGHT_MIPS_H
 
@@ -20,7 +20,7 @@ SHARED_END
 
 namespace reflet {
 
-/// RGBA16F: level 1 and up of an RGBA16F image. Each cell is the mean of its pixels, be they fewer at an edge.
+/// RGBA16F: level 1 and up of an RGBA16F image. Each cell is the mean of its pixels; cells at edges may have fewer.
 gpu::Image makeLightMips(gpu::Frame& f, gpu::Image light);
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// Copies what a camera sees into the picture that materials show. In: radiance. Out: picture.
+// Copies a camera's rendering to the image shown by materials. In: radiance. Out: picture.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/live/live_picture.h"

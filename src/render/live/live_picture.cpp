@@ -1,4 +1,4 @@
-// Records live pictures.
+// Records live camera images.
 #include "render/live/live_picture.h"
 
 namespace reflet {

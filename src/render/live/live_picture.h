@@ -1,4 +1,4 @@
-// Live pictures: what a camera of the scene sees, on the surfaces whose material names it. Shared by C++ and GLSL.
+// Live camera images: the view of a scene camera, shown on surfaces whose material names it. Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_LIVE_PICTURE_H
 #define REFLET_RENDER_LIVE_PICTURE_H
 
@@ -7,7 +7,8 @@
 SHARED_BEGIN
 
 #define LIVE_SETTINGS(VALUE, SWITCH, CHOICE) \
-    VALUE(uint, height, 180, 9, 1080, "Height of the pictures that materials show of cameras, in pixels; 16:9.")
+    VALUE(uint, height, 180, 9, 1080,        \
+          "Height in pixels of live camera images shown by materials; their aspect ratio is 16:9.")
 SETTINGS(LiveSettings, LIVE_SETTINGS)
 
 struct LivePictureParams {
@@ -23,13 +24,13 @@ SHARED_END
 
 namespace reflet {
 
-/// A picture to be drawn before what shows it.
+/// A camera image, rendered before the surfaces that show it.
 struct LiveView {
-    ViewParams view;     ///< of the picture's size
-    gpu::Image picture;  ///< RGBA16F, storage; it keeps what it shows until the next frame
+    ViewParams view;     ///< of the image's size
+    gpu::Image picture;  ///< RGBA16F, storage; persists until the next frame
 };
 
-/// Puts radiance (RGBA16F, of its size) into the picture.
+/// Copies radiance (RGBA16F, same size) to the picture.
 void showLive(gpu::Frame& f, gpu::Image radiance, gpu::Image picture);
 
 }  // namespace reflet

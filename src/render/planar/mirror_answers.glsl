@@ -1,10 +1,10 @@
-// What a mirror's picture answers. The includer has what trace_screen.comp has: params, the picture's images, and
-// functions to read its light.
+// Radiance from planar reflection images. The includer is trace_screen.comp, which declares params, the planar view's
+// images and functions that read its light.
 #ifndef REFLET_MIRROR_ANSWERS_GLSL
 #define REFLET_MIRROR_ANSWERS_GLSL
 
-const float mirrorSlack = 2e-4;   // metres off the plane per metre from the camera: what depth cannot tell
-const float mirrorCosine = 0.999; // between the plane's normal and the surface's
+const float mirrorSlack = 2e-4;   // metres off the plane per metre from the camera: limit of the depth buffer's precision
+const float mirrorCosine = 0.999;  // between the plane's normal and the surface's
 
 bool liesOnMirror(vec3 p, vec3 n) {
     vec4 plane = params.mirror.plane;
@@ -20,7 +20,7 @@ vec2 uvOf(vec4 pointW) {
 
 bool isInside(vec2 uv) { return all(greaterThanEqual(uv, vec2(0.0))) && all(lessThan(uv, vec2(1.0))); }
 
-// Smaller pictures than the screen are read between their pixels; one as large pixel by pixel.
+// Planar images of lower resolution than the screen are interpolated, others are read by nearest pixel.
 vec3 lightOfMirror(vec2 uv, float width) {
     if (width > 1.0 || params.view.pixelAngle > 1.01 * params.own.pixelAngle) {
         return blurredLight(uv * params.view.size, cones != 0u ? width : 1.0, ivec2(params.view.size));
@@ -28,9 +28,9 @@ vec3 lightOfMirror(vec2 uv, float width) {
     return loadLight(ivec2(uv * params.view.size), 0);
 }
 
-// A hit; or the sky, if the ray has come to its end without meeting anything and sees it there. The picture has the
-// environment behind everything.
-RayAnswer answerOfMirror(MarchResult hit, vec3 p, Ray ray) {
+// Radiance of a hit; or of the sky, if the ray reached its end without a hit and the planar image shows the sky there
+// (the image contains the environment as its background).
+RayAnswer shadeMirrorHit(MarchResult hit, vec3 p, Ray ray) {
     if (hit.outcome == marchHit) {
         vec2 uv = uvOf(vec4(p + ray.direction * hit.distance, 1.0));
         uv = clamp(uv, vec2(hit.pixel) * params.view.pixel, (vec2(hit.pixel) + 0.999) * params.view.pixel);
@@ -47,19 +47,19 @@ RayAnswer answerOfMirror(MarchResult hit, vec3 p, Ray ray) {
     return RayAnswer(lightOfMirror(uv, ray.spread > 0.0 ? angle : 1.0), 1.0, environmentDistance);
 }
 
-// Metres from a point to what the picture shows there.
+// Metres from a point to the surface that the planar image shows at uv.
 float distanceTo(vec2 uv, vec3 from) {
     float d = loadDepth(ivec2(uv * params.view.size));
     return d > 0.0 ? distance(from, uvToWorld(uv, d, params.view.clipToWorld)) : environmentDistance;
 }
 
-// The picture at the pixel itself, whatever the normal and the roughness there.
+// Form lookup: the planar image at the pixel itself, regardless of its normal and roughness.
 RayAnswer lookUpMirror(vec3 p) {
     vec2 uv = uvOf(vec4(p, 1.0));
     return isInside(uv) ? RayAnswer(lightOfMirror(uv, 1.0), 1.0, distanceTo(uv, p)) : noAnswer;
 }
 
-// A picture that is stretched over the mirror's rectangle, turned left to right.
+// Form camera: an image stretched over the mirror's rectangle, flipped left to right.
 RayAnswer lookUpCamera(vec3 p) {
     vec3 fromCenter = p - params.mirror.center;
     vec2 across = vec2(dot(fromCenter, params.mirror.right), dot(fromCenter, params.mirror.up));

@@ -1,4 +1,4 @@
-// Finds flat pieces in a scene, and those of them that are largest on the screen.
+// Finds planar surfaces in a scene and selects the mirrors that are largest on screen.
 #include "render/planar/mirrors.h"
 
 #include <algorithm>
@@ -10,8 +10,8 @@ namespace reflet {
 
 namespace {
 
-constexpr size_t mostPieces = 16;         // of one instance; what has more is not flat but round
-constexpr float flatness = 1e-4F;         // of an instance's size: how far vertices may be from their plane
+constexpr size_t mostPieces = 16;  // per instance; an instance with more planes counts as curved
+constexpr float flatness = 1e-4F;  // largest distance of vertices from their plane, relative to the instance's size
 constexpr float sameDirection = 0.9999F;  // cosine
 constexpr float smallestArea = 1e-4F;     // share of the screen
 
@@ -47,7 +47,7 @@ float meanRoughness(const Scene& scene, const Material& material) {
     return material.roughness * static_cast<float>(sum / 255.0 / std::max<double>(1.0, double(rgba.size()) / 4.0));
 }
 
-/// Empty where the triangles lie in too many planes.
+/// Empty if the triangles lie in more than mostPieces planes.
 std::vector<FlatPiece> piecesOf(const Mesh& mesh, const mat4& objectToWorld) {
     const float mirrored = glm::determinant(mat3(objectToWorld)) < 0.0F ? -1.0F : 1.0F;
     const float tolerance =
@@ -60,7 +60,7 @@ std::vector<FlatPiece> piecesOf(const Mesh& mesh, const mat4& objectToWorld) {
         }
         const vec3 across = mirrored * glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
         if (!(glm::length(across) > tolerance * tolerance)) {
-            continue;  // no area
+            continue;  // degenerate triangle
         }
         const vec3 normal = glm::normalize(across);
         auto piece = std::ranges::find_if(pieces, [&](const FlatPiece& p) { return liesIn(p, normal, corners); });
@@ -80,7 +80,7 @@ std::vector<FlatPiece> piecesOf(const Mesh& mesh, const mat4& objectToWorld) {
     return pieces;
 }
 
-// Seen from the other side.
+// The same piece as seen from its other side.
 FlatPiece turnedOver(FlatPiece piece) {
     piece.plane = -piece.plane;
     piece.right = -piece.right;
@@ -99,7 +99,8 @@ bool samePlane(const Mirror& mirror, const FlatPiece& piece) {
 
 using ClipPolygon = std::vector<vec4>;  // clip space
 
-// Cuts away what has a negative product with the plane. (Sutherland and Hodgman, Reentrant Polygon Clipping, 1974)
+// Clips the polygon to the half-space with dot(plane, p) >= 0. (Sutherland and Hodgman, Reentrant Polygon Clipping,
+// 1974)
 ClipPolygon cut(const ClipPolygon& polygon, const vec4& plane) {
     ClipPolygon result;
     for (size_t i = 0; i < polygon.size(); ++i) {
@@ -117,7 +118,7 @@ ClipPolygon cut(const ClipPolygon& polygon, const vec4& plane) {
     return result;
 }
 
-// Adds what the screen shows of the piece to the mirror's area and bounds.
+// Adds the piece's visible part on screen to the mirror's area and bounds.
 void addOnScreen(Mirror& mirror, const FlatPiece& piece, const mat4& worldToClip) {
     ClipPolygon polygon;
     for (const vec2 corner :
@@ -157,7 +158,7 @@ void addPiece(std::vector<Mirror>& mirrors, const FlatPiece& piece, const mat4& 
 }  // namespace
 
 std::vector<FlatPiece> findFlatPieces(const Scene& scene) {
-    std::map<uint32_t, float> roughness;  // by material: a texture's mean is worked out once
+    std::map<uint32_t, float> roughness;  // by material, so that a texture's mean is computed once
     std::vector<FlatPiece> all;
     const ScenePose pose = scenePose(scene, 0.0);
     for (size_t i = 0; i < scene.instances.size(); ++i) {

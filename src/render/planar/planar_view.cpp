@@ -1,4 +1,4 @@
-// Mirrors cameras, and rooms.
+// Reflects cameras, draws and lights in mirror planes.
 #include "render/planar/planar_view.h"
 
 #include "render/renderer.h"
@@ -11,9 +11,10 @@ namespace reflet {
 namespace {
 
 constexpr float largestCameraWidth = 4096.0F;  // pixels
-constexpr float grid = 16.0F;  // pixels of the screen; views' edges lie on it, lest their size change with every move
+constexpr float grid =
+    16.0F;  // screen pixels; view edges snap to multiples of it, so that sizes do not change with every camera move
 
-// A part of a picture, in its uv.
+// A crop rectangle in uv.
 struct Cut {
     vec2 low;
     vec2 size;
@@ -26,7 +27,7 @@ Cut cutAround(const Mirror& mirror, const vec2& pixels, float margin) {
     return {low / pixels, (high - low) / pixels};
 }
 
-// From clip space to that of the part alone.
+// From the full clip space to that of the crop.
 mat4 clipToCut(const Cut& cut) {
     mat4 m(1.0F);
     for (int axis = 0; axis < 2; ++axis) {
@@ -36,11 +37,11 @@ mat4 clipToCut(const Cut& cut) {
     return m;
 }
 
-// reflection: of the camera; its own inverse. clipToPart: from the camera's clip space to that of the part it keeps.
+// reflection: applied to the camera; its own inverse. clipToPart: from the camera's clip space to that of the crop.
 ViewParams changedView(ViewParams view, const mat4& reflection, const mat4& clipToPart, const vec2& size) {
     view.worldToClip = clipToPart * view.worldToClip * reflection;
     view.clipToWorld = reflection * view.clipToWorld * glm::inverse(clipToPart);
-    view.anyPlaceToWorld = reflection * view.anyPlaceToWorld * glm::inverse(clipToPart);
+    view.paddedClipToWorld = reflection * view.paddedClipToWorld * glm::inverse(clipToPart);
     view.previousWorldToClip = clipToPart * view.previousWorldToClip * reflection;
     view.eye = reflection * view.eye;
     view.viewPlane = glm::transpose(reflection) * view.viewPlane;
@@ -75,7 +76,7 @@ ViewParams mirroredView(const ViewParams& view, const Mirror& mirror, const Plan
                        sizeOf(part, view.size, settings.scale));
 }
 
-ViewParams viewThrough(const ViewParams& view, const Mirror& mirror, const PlanarSettings& settings) {
+ViewParams croppedView(const ViewParams& view, const Mirror& mirror, const PlanarSettings& settings) {
     const Cut part = cutAround(mirror, view.size, settings.margin);
     return changedView(view, mat4(1.0F), clipToCut(part), sizeOf(part, view.size, settings.scale));
 }
@@ -89,10 +90,10 @@ Camera mirrorCamera(const Mirror& mirror, const PlanarSettings& settings) {
     return camera;
 }
 
-MirroredRoom mirroredRoom(const ViewInputs& in, const Mirror& mirror, const ShadowSettings& settings,
-                          uint32_t largestSide) {
+MirroredScene mirroredScene(const ViewInputs& in, const Mirror& mirror, const ShadowSettings& settings,
+                            uint32_t largestSide) {
     const mat4 reflection = reflectionIn(mirror.plane);
-    MirroredRoom room{in.draws, in.lamps, {}, mat3(reflection) * in.sunDirection};
+    MirroredScene room{in.draws, in.lamps, {}, mat3(reflection) * in.sunDirection};
     room.draws.boundsW = Aabb{};
     room.draws.version = 0;
     for (Draw& draw : room.draws.draws) {
@@ -111,7 +112,7 @@ MirroredRoom mirroredRoom(const ViewInputs& in, const Mirror& mirror, const Shad
     return room;
 }
 
-ViewInputs beforeMirror(const ViewInputs& in, const Mirror& mirror, const PlanarSettings& settings) {
+ViewInputs mirrorViewInputs(const ViewInputs& in, const Mirror& mirror, const PlanarSettings& settings) {
     ViewInputs view = in;
     view.clipPlane = mirror.plane - vec4(0, 0, 0, mirror.tolerance);
     if (settings.form != PlanarForm::camera) {
@@ -125,10 +126,10 @@ ViewInputs beforeMirror(const ViewInputs& in, const Mirror& mirror, const Planar
     return view;
 }
 
-ViewInputs behindMirror(const ViewInputs& in, const Mirror& mirror, const PlanarSettings& settings,
-                        const MirroredRoom& room) {
+ViewInputs duplicateViewInputs(const ViewInputs& in, const Mirror& mirror, const PlanarSettings& settings,
+                               const MirroredScene& room) {
     return {.draws = room.draws,
-            .view = viewThrough(in.view, mirror, settings),
+            .view = croppedView(in.view, mirror, settings),
             .sunDirection = room.sunDirection,
             .sunIrradiance = in.sunIrradiance,
             .sunAngularDiameter = in.sunAngularDiameter,

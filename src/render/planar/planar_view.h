@@ -1,4 +1,4 @@
-// Cameras that see what mirrors show, and what they draw.
+// Cameras and inputs for rendering planar reflections.
 #pragma once
 
 #include "render/direct_view.h"
@@ -6,37 +6,37 @@
 
 namespace reflet {
 
-/// The camera mirrored in the mirror's plane: of its picture, what lies about the mirror (with the margin, which may
-/// reach beyond the screen), as wide as the scale says. The picture is turned left to right, so that it is that of a
-/// camera like all others: front faces stay counter-clockwise.
+/// The camera reflected in the mirror's plane, cropped to the mirror plus the margin (which may extend beyond the
+/// screen) and resized by the scale. The image is flipped left to right, so that front faces stay counter-clockwise.
 ViewParams mirroredView(const ViewParams& view, const Mirror& mirror, const PlanarSettings& settings);
 
-/// The camera itself, cut and scaled alike.
-ViewParams viewThrough(const ViewParams& view, const Mirror& mirror, const PlanarSettings& settings);
+/// The unmirrored camera, cropped and scaled in the same way.
+ViewParams croppedView(const ViewParams& view, const Mirror& mirror, const PlanarSettings& settings);
 
-/// A camera at the middle of the mirror, upright, that looks straight out of it.
+/// An upright camera at the mirror's centre that looks along its normal.
 Camera mirrorCamera(const Mirror& mirror, const PlanarSettings& settings);
 
-/// Everything that is drawn, once more behind the mirror, and the lights with it. largestSide: as of planLampShadows.
-struct MirroredRoom {
+/// A mirrored copy of all draws and lights. largestSide: as for planLampShadows.
+struct MirroredScene {
     DrawList draws;
     LampBlock lamps;
     LampShadows lampShadows;
     vec3 sunDirection;
 };
-MirroredRoom mirroredRoom(const ViewInputs& in, const Mirror& mirror, const ShadowSettings& settings,
-                          uint32_t largestSide);
+MirroredScene mirroredScene(const ViewInputs& in, const Mirror& mirror, const ShadowSettings& settings,
+                            uint32_t largestSide);
 
-/// What the mirror's view is made from: by the mirrored camera (traced, lookup), or by the mirror's own (camera).
-ViewInputs beforeMirror(const ViewInputs& in, const Mirror& mirror, const PlanarSettings& settings);
+/// Inputs of a planar view rendered by the mirrored camera (forms traced, lookup) or by the mirror's own camera (form
+/// camera).
+ViewInputs mirrorViewInputs(const ViewInputs& in, const Mirror& mirror, const PlanarSettings& settings);
 
-/// And what a duplicate is made from. Refers to the room.
-ViewInputs behindMirror(const ViewInputs& in, const Mirror& mirror, const PlanarSettings& settings,
-                        const MirroredRoom& room);
+/// Inputs of a planar view for form duplicate. Keeps references into `room`.
+ViewInputs duplicateViewInputs(const ViewInputs& in, const Mirror& mirror, const PlanarSettings& settings,
+                               const MirroredScene& room);
 
 MirrorParams mirrorParams(const Mirror& mirror, const PlanarSettings& settings);
 
-/// World space to world space: mirrors points in the plane.
+/// Reflection in the plane, world space to world space.
 mat4 reflectionIn(const vec4& plane);
 
 }  // namespace reflet

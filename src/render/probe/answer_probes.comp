@@ -1,5 +1,5 @@
-// Answers waiting rays with what probes see. In: the list, ray directions, depth, material, cube maps. Out: answers,
-// sources, the list of what is left.
+// Gives the remaining rays the radiance of reflection probes. In: the list, ray directions, depth, material, cube maps.
+// Out: results, sources, the list of remaining rays.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/bounce/rays.glsl"
@@ -40,11 +40,11 @@ RayAnswer answerRay(ivec2 pixel, Ray ray) {
     float d = texelFetch(depth, pixel, 0).r;
     vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
     bool hemisphere = lobe == lobeDiffuse && ray.spread > 0.0;
-    ProbeQuestion q = ProbeQuestion(p, ray.direction, hemisphere ? 0.0 : ray.spread, hemisphere,
+    ProbeQuery q = ProbeQuery(p, ray.direction, hemisphere ? 0.0 : ray.spread, hemisphere,
                                     params.settings.parallax != 0u, params.settings.blend);
     float hitDistance;
-    vec4 seen = askProbes(params.probes, q, hitDistance);
-    // Occlusion maps know of nearby surfaces that the rays could not meet.
+    vec4 seen = sampleProbes(params.probes, q, hitDistance);
+    // Occlusion maps stand for nearby geometry that the rays could not hit.
     float occlusion = lobe == lobeDiffuse ? texelFetch(material, pixel, 0).b : 1.0;
     return RayAnswer(seen.rgb * occlusion / max(seen.a, 1e-4), seen.a, hitDistance);
 }
@@ -53,7 +53,7 @@ void main() {
     uint stride = gl_NumWorkGroups.x * listGroupSize;
     for (uint i = gl_GlobalInvocationID.x; i < waiting.count; i += stride) {
         WaitingRay w = unpackWaitingRay(waiting.items[i]);
-        if (!meetsNothing(w)) {  // else it is known that the sky is what it sees, which a probe's box would hide
+        if (!isKnownMiss(w)) {  // else the ray is known to reach the sky, which a probe's box would hide
             Ray ray = unpackRay(imageLoad(direction, w.slot).xy);
             w.rest = addAnswer(w.slot, answerRay(w.slot.xy, ray), w.rest, sourceProbe);
         }

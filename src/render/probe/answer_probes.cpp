@@ -1,4 +1,4 @@
-// Records local probes as a source of answers.
+// Records reflection probes as a ray source.
 #include "render/probe/answer_probes.h"
 
 #include "gpu/device.h"

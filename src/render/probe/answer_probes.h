@@ -1,4 +1,4 @@
-// A source of the chain: local probes. They stand in for what the ray would meet. Shared by C++ and GLSL.
+// Reflection probes as a ray source: an approximation of what the ray would hit. Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_ANSWER_PROBES_H
 #define REFLET_RENDER_ANSWER_PROBES_H
 
@@ -23,7 +23,8 @@ SHARED_END
 
 namespace reflet {
 
-/// Answers rays from points in a probe's box, as far as the probes there do not see the sky. Hands on the others.
+/// Gives rays that start in a probe's box its radiance, as far as the probe does not see the sky. The others stay in
+/// rays.waiting.
 void answerProbes(gpu::Frame& f, Rays& rays, const ProbeMaps& probes, const ProbesSettings& settings);
 
 }  // namespace reflet

@@ -1,6 +1,6 @@
-// Stores one face of a probe's cube map, mirrored (see cubeFaceCamera), and adds what earlier captures light it with.
+// Stores one face of a probe's cube map, mirrored (see cubeFaceCamera), and adds indirect light from earlier captures.
 // In: G-buffer and direct light of the face's camera, all probes' maps. Out: radiance, 0 for the sky, with alpha;
-// distance; the same radiance in an image of all faces.
+// distance; the same radiance in an atlas of all faces.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/environment/environment_lobes.glsl"
@@ -27,9 +27,9 @@ layout(set = 0, binding = 11, r32f) uniform writeonly image2DArray distance;
 layout(set = 0, binding = 12, rgba16f) uniform writeonly image2D atlas;
 #include "render/probe/probes.glsl"
 
-vec3 probesOrSky(ProbeQuestion q, vec3 sky) {
+vec3 probesOrSky(ProbeQuery q, vec3 sky) {
     float hitDistance;
-    vec4 seen = askProbes(params.probes, q, hitDistance);
+    vec4 seen = sampleProbes(params.probes, q, hitDistance);
     return seen.rgb + (1.0 - seen.a) * sky;
 }
 
@@ -39,8 +39,8 @@ vec3 indirectAt(ivec2 pixel, vec3 p) {
     MaterialTexel m = unpackMaterial(texelFetch(material, pixel, 0));
     Surface s = surfaceAt(texelFetch(baseColor, pixel, 0).rgb, m, dot(n, v), ggxTable, isLambert(m));
     vec3 r = reflect(-v, n);
-    ProbeQuestion around = ProbeQuestion(p, n, 0.0, true, true, params.blend);
-    ProbeQuestion mirrored = ProbeQuestion(p, r, m.roughness, false, true, params.blend);
+    ProbeQuery around = ProbeQuery(p, n, 0.0, true, true, params.blend);
+    ProbeQuery mirrored = ProbeQuery(p, r, m.roughness, false, true, params.blend);
     vec3 radiance = s.diffuse * m.occlusion * probesOrSky(around, environmentIrradianceOverPi(n));
     return radiance + s.specular * probesOrSky(mirrored, environmentLobe(r, m.roughness));
 }

@@ -1,4 +1,4 @@
-// Records the captures of probes, and knows when they are out of date.
+// Captures probes and tracks when captures are out of date.
 #include "render/probe/capture_probe.h"
 
 #include "gpu/device.h"
@@ -35,7 +35,7 @@ ProbeBlock blockOf(std::span<const Probe> probes) {
     return block;
 }
 
-// What shows in captures as much as in the picture, at the least cost.
+// Settings reduced to what matters in captures.
 Settings captureSettings(const Settings& settings) {
     Settings s = settings;
     s.depth = {};
@@ -60,8 +60,8 @@ VkSampler probeSampler(gpu::Device& device) {
     return device.sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
 }
 
-// All that the maps depend on but the scene: whether they follow what moves in it is the settings' to say. Captures of
-// one face a frame follow the lights by themselves.
+// Everything that the maps depend on, except for the scene, whose motion matters only with refresh moving. With refresh
+// face, captures follow the lights by themselves.
 std::vector<std::byte> keyOf(const ProbeBlock& block, const ViewInputs& in, const Settings& settings) {
     std::vector<std::byte> key;
     append(key, block);
@@ -110,7 +110,7 @@ gpu::Image Probes::captureFace(gpu::Frame& f, const Capture& capture, uint32_t f
     in.view = makeViewParams(cubeFaceCamera(position, face % probeFaces), size, in.view.frame, in.view.seed);
     const ViewImages images = directView(f, in, captureSettings(capture.settings), lampShadowMap);
     gpu::Pass pass = f.compute("capture_probe", "capture_probe.comp");
-    pass.params(in.environment.params, "environment");  // and not its texels, which no look-up here asks
+    pass.params(in.environment.params, "environment");  // without its texels, which are not used here
     bindEnvironmentLobes(pass, f.device(), in.environment);
     pass.constant("furtherLight", capture.furtherLight ? 1U : 0U)
         .read("depth", images.g.depth)
@@ -121,7 +121,7 @@ gpu::Image Probes::captureFace(gpu::Frame& f, const Capture& capture, uint32_t f
         .read("direct", images.direct)
         .read("probeLobes", map_.lobes.image(), probeSampler(f.device()))
         .read("probeIrradiance", map_.irradiance.image())
-        .read("probeDistance", map_.lobes.image())  // no look-up here asks for it, and it is being written
+        .read("probeDistance", map_.lobes.image())  // placeholder: unused here, and the real one is being written
         .write("sharp", map_.sharp.mip(0))
         .write("distance", distance_.mip(0))
         .write("atlas", atlas_.image())
@@ -130,7 +130,7 @@ gpu::Image Probes::captureFace(gpu::Frame& f, const Capture& capture, uint32_t f
     return images.lampShadowMap;
 }
 
-// A frame for each probe: one holds only so many passes.
+// One frame per probe, as a frame's number of passes is limited.
 void Probes::captureAll(const ViewInputs& in, const Settings& settings) {
     gpu::Frame f(device_);
     for (uint32_t bounce = 0; bounce <= settings.probes.bounces; ++bounce) {
@@ -181,7 +181,7 @@ ProbeMaps Probes::update(gpu::Frame& f, const ViewInputs& in, std::span<const Pr
         facesCaptured_ = 0;
     }
     if (byFace_) {
-        if (changed) {  // nothing is known yet
+        if (changed) {  // nothing is captured yet
             f.clear(map_.lobes.image());
             f.clear(map_.irradiance.image());
             f.clear(atlas_.image());

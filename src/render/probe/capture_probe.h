@@ -30,22 +30,22 @@ SHARED_END
 
 namespace reflet {
 
-/// A camera at a place that sees one face of a cube, 0 to 5: +X -X +Y -Y +Z -Z. Its picture is that face mirrored left
-/// to right: cube maps have left-handed axes.
+/// The camera at `position` for one cube face, 0 to 5: +X -X +Y -Y +Z -Z. Its image is the face mirrored left to right,
+/// because cube maps are left-handed.
 Camera cubeFaceCamera(const vec3& position, uint32_t face);
 
-/// Owns the cube maps, and captures them when that is needed.
+/// Owns the cube maps and captures them when needed.
 class Probes {
 public:
     explicit Probes(gpu::Device& device) : device_(device) {}
 
-    /// Maps of these probes (at most maxProbes) in the lights of `in`. refresh=once and moving: captures all of them,
-    /// within frames of its own, unless that has been done for the same probes, lights and settings; nothing of `f` may
-    /// have been recorded before. refresh=face: records the capture of one face into `f`; a probe's map changes with
-    /// its sixth.
+    /// Maps of these probes (at most maxProbes) in the lighting of `in`. refresh once and moving: captures all of them
+    /// in separate frames, unless they are up to date for the same probes, lights and settings; nothing may have been
+    /// recorded in `f` yet. refresh face: records the capture of one face in `f`; a probe's map is updated after its
+    /// sixth face.
     ProbeMaps update(gpu::Frame& f, const ViewInputs& in, std::span<const Probe> probes, const Settings& settings);
 
-    /// With refresh=face captures begin anew. What was captured at once stays, as it is the same whenever that is done,
+    /// With refresh face, captures start over. Maps captured all at once are kept, because they do not depend on time,
     /// unless the scene moves.
     void restart(bool sceneMoves);
 
@@ -53,12 +53,12 @@ private:
     struct Capture {
         const ViewInputs& in;
         const Settings& settings;
-        bool furtherLight;  ///< add what the maps so far light the surfaces with
+        bool furtherLight;  ///< add indirect light from the existing maps
     };
     void makeMaps(uint32_t resolution);
     void captureAll(const ViewInputs& in, const Settings& settings);
     void captureNextFace(gpu::Frame& f, const ViewInputs& in, const Settings& settings);
-    /// face: 6 · probe + its number. Returns the map of the lamps' shadows, which serves other faces of the frame.
+    /// face: 6 · probe + its number. Returns the lamps' shadow map, to be shared with other faces of the frame.
     gpu::Image captureFace(gpu::Frame& f, const Capture& capture, uint32_t face, gpu::Image lampShadowMap = {});
 
     gpu::Device& device_;
@@ -66,9 +66,9 @@ private:
     gpu::Texture distance_;
     gpu::Texture atlas_;
     ProbeBlock block_{};
-    std::vector<std::byte> key_;  ///< all that the maps depend on, as they were captured
-    bool byFace_ = false;         ///< the maps are those of refresh=face
-    uint32_t facesCaptured_ = 0;  ///< with refresh=face, since it began
+    std::vector<std::byte> key_;  ///< everything that the captured maps depend on
+    bool byFace_ = false;         ///< the maps were captured with refresh face
+    uint32_t facesCaptured_ = 0;  ///< with refresh face, since its start
 };
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// Places probes by a few rays from each, against all triangles.
+// Places probes automatically, by casting a few rays from each against all triangles.
 #include "render/probe/place_probes.h"
 
 #include <algorithm>
@@ -46,7 +46,7 @@ std::vector<Body> bodiesOf(const Scene& scene) {
 
 struct Hit {
     float distance = never;
-    bool inside = false;  ///< met from behind, of a surface with one side
+    bool inside = false;  ///< back face of a single-sided surface
 };
 
 bool meets(const Aabb& box, const vec3& from, const vec3& direction) {
@@ -76,7 +76,7 @@ void intersect(const Body& body, const vec3& from, const vec3& direction, Hit& n
     }
 }
 
-// direction: no component 0; distances count its lengths.
+// direction: no component may be 0; distances are in units of its length.
 Hit trace(const std::vector<Body>& bodies, const vec3& from, const vec3& direction) {
     Hit nearest;
     for (const Body& body : bodies) {
@@ -87,7 +87,8 @@ Hit trace(const std::vector<Body>& bodies, const vec3& from, const vec3& directi
     return nearest;
 }
 
-// Along the axis 0 to 2, forward or back, and aside by tangents. Never quite along it, so that nothing is parallel.
+// Direction along axis side / 2, tilted by the tangents `aside`. Never exactly along the axis, to avoid parallel
+// surfaces.
 vec3 axisRay(int side, const vec2& aside) {
     const int axis = side / 2;
     vec3 direction(0.0F);
@@ -98,17 +99,17 @@ vec3 axisRay(int side, const vec2& aside) {
 }
 
 constexpr int sides = 6;
-constexpr float clearance = 0.1F;  // of the cell's shortest side: nothing shall be nearer to a probe
+constexpr float clearance = 0.1F;  // smallest distance of surfaces to a probe, relative to the cell's shortest side
 
 struct Surroundings {
     std::array<Hit, sides> hits;
-    [[nodiscard]] bool inside() const {  // as most of what was met says
+    [[nodiscard]] bool inside() const {  // by majority of the hits
         const auto met = std::ranges::count_if(hits, [](const Hit& h) { return h.distance < never; });
         return 2 * std::ranges::count_if(hits, &Hit::inside) > met;
     }
 };
 
-Surroundings lookAround(const std::vector<Body>& bodies, const vec3& from) {
+Surroundings castAxisRays(const std::vector<Body>& bodies, const vec3& from) {
     Surroundings around;
     for (int side = 0; side < sides; ++side) {
         around.hits.at(side) = trace(bodies, from, axisRay(side, vec2(0.0F)));
@@ -116,9 +117,9 @@ Surroundings lookAround(const std::vector<Body>& bodies, const vec3& from) {
     return around;
 }
 
-// Out through the nearest side that leads out; where none does, it stays.
+// Moves a point out of solid bodies through the nearest side; if there is none, it stays.
 vec3 leaveBodies(const std::vector<Body>& bodies, const vec3& from, float clear) {
-    const Surroundings around = lookAround(bodies, from);
+    const Surroundings around = castAxisRays(bodies, from);
     if (!around.inside()) {
         return from;
     }
@@ -127,7 +128,7 @@ vec3 leaveBodies(const std::vector<Body>& bodies, const vec3& from, float clear)
     for (int side = 0; side < sides; ++side) {
         const Hit& hit = around.hits.at(side);
         const vec3 out = from + axisRay(side, vec2(0.0F)) * (hit.distance + clear);
-        if (hit.inside && hit.distance < shortest && !lookAround(bodies, out).inside()) {
+        if (hit.inside && hit.distance < shortest && !castAxisRays(bodies, out).inside()) {
             best = out;
             shortest = hit.distance;
         }
@@ -135,7 +136,7 @@ vec3 leaveBodies(const std::vector<Body>& bodies, const vec3& from, float clear)
     return best;
 }
 
-// Away from what is nearer than `clear`; between two walls that both are, to the middle.
+// Moves away from surfaces closer than `clear`, or to the middle between two such walls.
 vec3 keepClear(const std::vector<Body>& bodies, vec3 p, float clear) {
     for (int axis = 0; axis < 3; ++axis) {
         const float ahead = trace(bodies, p, axisRay(2 * axis, vec2(0.0F))).distance;
@@ -153,7 +154,7 @@ Aabb boxAround(const std::vector<Body>& bodies, const vec3& p, const Aabb& scene
                                          vec2(-0.5F, -0.5F)};
     Aabb box;
     for (int side = 0; side < sides; ++side) {
-        std::array<float, asides.size()> reach{};  // along the axis: a ray's component there is 1
+        std::array<float, asides.size()> reach{};  // distances along the axis, as a ray's component there is 1
         std::ranges::transform(asides, reach.begin(),
                                [&](const vec2& aside) { return trace(bodies, p, axisRay(side, aside)).distance; });
         std::ranges::nth_element(reach, reach.begin() + reach.size() / 2);
@@ -163,13 +164,13 @@ Aabb boxAround(const std::vector<Body>& bodies, const vec3& p, const Aabb& scene
         const float wall = p[axis] + (side % 2 == 0 ? median : -median);
         (side % 2 == 0 ? box.max : box.min)[axis] = median < never ? wall : limit;
     }
-    // A probe pushed past the scene's bounds, or a flat scene, would leave nothing between.
+    // Keeps the box from being empty for probes outside of the scene's bounds and for flat scenes.
     box.min = glm::min(box.min, p - 0.01F);
     box.max = glm::max(box.max, p + 0.01F);
     return box;
 }
 
-// Cells along each axis: one more where cells are longest, as long as that makes no more than `count`.
+// Cells along each axis: split where cells are longest, as long as there are at most `count`.
 glm::uvec3 cellsOf(const vec3& size, uint32_t count) {
     glm::uvec3 cells(1);
     for (;;) {

@@ -1,4 +1,4 @@
-// Places probes where nobody has.
+// Automatic placement of reflection probes.
 #pragma once
 
 #include "scene/scene.h"
@@ -8,10 +8,10 @@
 
 namespace reflet {
 
-/// At most `count` probes (none for 0, else at least one), always the same for the same scene; none for an empty one.
-/// The scene's bounds are cut into cells, halving and so on where they are longest, a probe in each cell's middle. One
-/// that stands inside of something or too near to it is moved out. A box reaches as far as most of some rays around
-/// each axis do; where those meet nothing, to the scene's bounds.
+/// At most `count` probes (none for 0, else at least one), deterministic; none for an empty scene. The scene's bounds
+/// are split into cells along their longest sides, with a probe at each cell's centre. Probes inside of objects or too
+/// close to them are moved out. A probe's box extends to the median hit distance of a few rays around each axis, or to
+/// the scene's bounds if they hit nothing.
 std::vector<Probe> placeProbes(const Scene& scene, uint32_t count);
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// What probes know of a ray: cube maps that are looked up where the ray leaves the probe's box.
+// Parallax-corrected probe lookup: cube maps are sampled where the ray leaves the probe's box.
 // The includer declares `probeLobes`, `probeIrradiance` and `probeDistance`.
 #ifndef REFLET_PROBES_GLSL
 #define REFLET_PROBES_GLSL
@@ -6,16 +6,16 @@
 #include "render/cube_map/cube_map.glsl"
 #include "render/probe/probes.h"
 
-// 1 in the box, 0 from `blend` metres outside of it. Walls lie on the box itself, so it fades outside, not inside.
+// 1 inside of the box, fading to 0 at `blend` metres outside. Walls lie on the box itself, so the fade is outside.
 float insideBox(ProbeParams probe, vec3 p, float blend) {
     vec3 outside = max(max(probe.boxMin - p, p - probe.boxMax), vec3(0.0));
-    float rounding = 1e-3 * length(probe.boxMax - probe.boxMin);  // surfaces on the box are in it
+    float rounding = 1e-3 * length(probe.boxMax - probe.boxMin);  // counts surfaces on the box as inside
     return 1.0 - smoothstep(0.0, max(blend, rounding), length(outside));
 }
 
-// Metres along the ray to the box's far side. For a point outside, that side goes through the point.
+// Metres along the ray to the box's far side. For a point outside, the box is extended to the point.
 float distanceToBox(ProbeParams probe, vec3 p, vec3 direction) {
-    bvec3 along = lessThan(abs(direction), vec3(1e-6));  // such sides are never met
+    bvec3 along = lessThan(abs(direction), vec3(1e-6));  // sides parallel to the ray are never hit
     vec3 d = mix(direction, vec3(1.0), along);
     vec3 far = max((min(probe.boxMin, p) - p) / d, (max(probe.boxMax, p) - p) / d);
     far = mix(far, vec3(1e6), along);
@@ -29,10 +29,10 @@ float weightOfProbe(ProbeParams probe, vec3 p, float inside) {
     return inside / (d2 * d2);
 }
 
-// Of the largest weight: what has less has none, and what has more has so much less, that none makes a step.
+// Probes below this share of the largest weight are ignored; it is subtracted from the others' weights for continuity.
 const float smallestShare = 0.05;
 
-// Light on a surface that faces along n, over pi. rgb: radiance · alpha.
+// Irradiance / pi for the normal n. rgb: radiance · alpha.
 vec4 irradianceOfProbe(uint probe, vec3 n) {
     float[irradianceCoefficients] basis = sphericalHarmonics(n);
     vec4 sum = vec4(0.0);
@@ -42,17 +42,17 @@ vec4 irradianceOfProbe(uint probe, vec3 n) {
     return vec4(max(sum.rgb, vec3(0.0)), clamp(sum.a, 0.0, 1.0));
 }
 
-struct ProbeQuestion {
+struct ProbeQuery {
     vec3 origin;
     vec3 direction;    // unit
-    float roughness;   // perceptual, of the lobe around the direction; 0: the direction alone
-    bool hemisphere;   // instead: all of it around the direction
+    float roughness;   // perceptual, of the lobe around the direction; 0: the exact direction
+    bool hemisphere;   // instead: cosine-weighted hemisphere around the direction
     bool parallax;
     float blend;  // metres
 };
 
-// Adds a share of what one probe knows.
-void askProbe(uint i, ProbeParams probe, ProbeQuestion q, float share, inout vec4 radiance, inout float hitDistance) {
+// Adds one probe's contribution.
+void sampleProbe(uint i, ProbeParams probe, ProbeQuery q, float share, inout vec4 radiance, inout float hitDistance) {
     float t = distanceToBox(probe, q.origin, q.direction);
     vec3 at = q.parallax ? q.origin + t * q.direction - probe.position : q.direction;
     vec4 seen = share * (q.hemisphere ? irradianceOfProbe(i, q.direction)
@@ -61,9 +61,8 @@ void askProbe(uint i, ProbeParams probe, ProbeQuestion q, float share, inout vec
     hitDistance += seen.a * (q.parallax ? t : textureLod(probeDistance, vec4(at, float(i)), 0.0).r);
 }
 
-// rgb: radiance · a; a: the share that is answered, 0..1: less at the boxes' ends and toward the sky. Continuous
-// wherever the origin goes.
-vec4 askProbes(ProbeBlock block, ProbeQuestion q, out float hitDistance) {
+// rgb: radiance · a; a: confidence, 0..1: lower at box borders and toward the sky. Continuous in the origin.
+vec4 sampleProbes(ProbeBlock block, ProbeQuery q, out float hitDistance) {
     float inside = 0.0;
     float largest = 0.0;
     for (uint i = 0u; i < block.count; ++i) {
@@ -78,7 +77,7 @@ vec4 askProbes(ProbeBlock block, ProbeQuestion q, out float hitDistance) {
         float b = insideBox(block.probes[i], q.origin, q.blend);
         float weight = weightOfProbe(block.probes[i], q.origin, b) / largest - smallestShare;
         if (weight > 0.0) {
-            askProbe(i, block.probes[i], q, weight, sum, hitDistance);
+            sampleProbe(i, block.probes[i], q, weight, sum, hitDistance);
             weights += weight;
         }
     }

@@ -1,6 +1,6 @@
-// Local probes: cube maps of what is seen from some places in the scene, captured from its G-buffer and direct light,
-// that answer rays as if all they show lay on the walls of a box (Lagarde and Zanuttini, Local Image-Based Lighting
-// with Parallax-Corrected Cubemaps, SIGGRAPH 2012). Shared by C++ and GLSL.
+// Local reflection probes: cube maps captured in the scene from G-buffer and direct light, with parallax correction by
+// box projection (Lagarde and Zanuttini, Local Image-Based Lighting with Parallax-Corrected Cubemaps, SIGGRAPH 2012).
+// Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_PROBES_H
 #define REFLET_RENDER_PROBES_H
 
@@ -16,18 +16,20 @@ SHARED_BEGIN
 CHOICES(ProbeRefresh, PROBE_REFRESHES)
 
 #define PROBES_SETTINGS(VALUE, SWITCH, CHOICE)                                                                         \
-    SWITCH(enabled, 0, "Ask cube maps of the scene, captured at some places in it, before the environment.")           \
-    VALUE(uint, count, 4, 0, 16, "Probes that are placed, at most, where the view file names none.")                   \
-    VALUE(uint, resolution, 128, 16, 512,                                                                              \
-          "Texels along each side of a cube map's faces; a power of two, others are rounded down to one.")             \
+    SWITCH(enabled, 0,                                                                                                 \
+           "Reflection probes: cube maps captured in the scene, used before the environment for rays without a hit.")  \
+    VALUE(uint, count, 4, 0, 16, "Maximum number of probes placed automatically, if the view file lists none.")        \
+    VALUE(uint, resolution, 128, 16, 512, "Side of a cube map face in texels, rounded down to a power of two.")        \
     CHOICE(ProbeRefresh, refresh, once,                                                                                \
-           "When they are captured; once: all, and anew when lights or probes change; face: one face a frame, always " \
-           "in the light of now; moving: as once, and anew whenever something has moved.")                             \
+           "When probes are captured. once: all of them, and again when lights or probes change. face: one cube face " \
+           "per frame, always with the current lighting. moving: as once, and again whenever something moved.")        \
     VALUE(uint, bounces, 1, 0, 8,                                                                                      \
-          "Bounces of light in the captures beyond direct light; each is one more capture, lit by the one before. "    \
-          "face: 0 none, else one more with every round of the faces.")                                                \
-    SWITCH(parallax, 1, "Take what a cube map shows to lie on its box; off: infinitely far away.")                     \
-    VALUE(float, blend, 0.25, 0.0, 100.0, "Metres outside of its box over which a probe fades out.")
+          "Bounces of indirect light in the captures. Each costs one more capture that is lit by the previous one. "   \
+          "With refresh face: 0 is none, otherwise each round over the faces adds one.")                               \
+    SWITCH(parallax, 1,                                                                                                \
+           "Parallax correction: intersect rays with the probe's box (box projection). Off: the cube map is taken as " \
+           "infinitely far away.")                                                                                     \
+    VALUE(float, blend, 0.25, 0.0, 100.0, "Distance outside of its box over which a probe fades out, in metres.")
 SETTINGS(ProbesSettings, PROBES_SETTINGS)
 
 const uint maxProbes = 16;
@@ -54,10 +56,10 @@ namespace reflet {
 
 /// Cube maps for passes to read.
 struct ProbeMaps {
-    gpu::Image lobes;       ///< of CubeMap (cube_map.h): radiance · alpha; alpha: 1 a surface, 0 the sky
-    gpu::Image irradiance;  ///< of CubeMap, alike
-    gpu::Image distance;    ///< R32F cube array: metres from the probe, 0 the sky
-    gpu::Image atlas;       ///< RGBA16F: the faces as they were captured, a row of six for each probe
+    gpu::Image lobes;       ///< of CubeMap (cube_map.h): radiance · alpha; alpha: 1 surface, 0 sky
+    gpu::Image irradiance;  ///< of CubeMap, with alpha as well
+    gpu::Image distance;    ///< R32F cube array: metres from the probe, 0: sky
+    gpu::Image atlas;       ///< RGBA16F: the captured faces, a row of six per probe
     ProbeBlock block{};
 
     explicit operator bool() const { return block.count > 0; }

@@ -1,4 +1,5 @@
-// Makes one level of the depth pyramid. In: depth of the first layer and of the second (level 1), or the level below.
+// Builds one level of the hierarchical depth buffer. In: depth of the first layer and of the second (level 1), or the
+// level below.
 // Out: the level, in the same image.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -15,7 +16,7 @@ ivec2 pixels = ivec2(params.size);
 int level = int(params.level);
 
 vec2 below(ivec2 cell) {
-    cell = min(cell, levelSize(pixels, level - 1) - 1);  // of an odd size, the last one twice
+    cell = min(cell, levelSize(pixels, level - 1) - 1);  // with odd sizes the last cell is read twice
     if (level == 1) {
         float front = texelFetch(depth, cell, 0).r;
         float back = params.secondLayer != 0u ? texelFetch(backDepth, cell, 0).r : 0.0;

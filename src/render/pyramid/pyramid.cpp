@@ -1,4 +1,4 @@
-// Records the depth pyramid.
+// Records the hierarchical depth buffer.
 #include "render/pyramid/pyramid.h"
 
 #include "render/levels.h"

@@ -1,6 +1,7 @@
-// The sun's shadow maps as cascades: the view's depth is split (Zhang, Sun, Xu and Lun, Parallel-split shadow maps for
-// large-scale virtual environments, 2006), and each part has a map of the same resolution. A part is held by its
-// bounding sphere, whose size neither turning nor moving the camera changes; its map moves by whole texels.
+// Cascaded shadow maps of the sun: the view's depth range is split (Zhang, Sun, Xu and Lun, Parallel-split shadow maps
+// for large-scale virtual environments, 2006), and each part has a map of the same resolution. Maps cover the parts'
+// bounding spheres, whose size does not depend on camera motion, and move in whole texels, so that shadow edges do not
+// shimmer.
 #include "render/shadow/light_space.h"
 
 #include <algorithm>
@@ -10,20 +11,20 @@ namespace reflet {
 
 namespace {
 
-// Where maps can be of use: distances in front of the camera [m].
+// Range to be covered by cascades: distances in front of the camera [m].
 struct DepthRange {
-    float first = 0.0F;  // nothing of the scene is nearer
-    float near = 0.0F;   // where the logarithmic split begins
-    float far = 0.0F;    // nothing of the scene is farther
+    float first = 0.0F;  // near end of the scene
+    float near = 0.0F;   // start of the logarithmic split
+    float far = 0.0F;    // far end of the scene
 };
 
 vec3 middleOfView(const ViewParams& view) {
-    const vec4 p = view.anyPlaceToWorld * vec4(0, 0, 0.5F, 1);
+    const vec4 p = view.paddedClipToWorld * vec4(0, 0, 0.5F, 1);
     return vec3(p) / p.w;
 }
 
-// From the camera's axis to the corners of what the view shows, per metre from the camera (orthographic: metres). A
-// view may be a part of a wider one, with its middle off the axis.
+// Distance of the view's corners from the camera's axis, per metre in front of the camera (orthographic: in metres). A
+// view may be an off-centre crop of a wider one.
 float cornerSlope(const ViewParams& view) {
     const float half = 0.5F * view.pixelAngle * glm::length(view.size);
     if (view.eye.w == 0.0F) {
@@ -32,10 +33,10 @@ float cornerSlope(const ViewParams& view) {
     const vec3 toMiddle = middleOfView(view) - vec3(view.eye);
     const float ahead = glm::dot(vec3(view.viewPlane), toMiddle);
     const float aside = glm::length(toMiddle - vec3(view.viewPlane) * ahead) / ahead;
-    return half + (aside > 1e-3F ? aside : 0.0F);  // less is rounding, which would change with every turn
+    return half + (aside > 1e-3F ? aside : 0.0F);  // less is rounding error, which would change with every rotation
 }
 
-// Turning a camera leaves all three as they are, and moving it changes them in steps only.
+// Camera rotation does not change these; translation changes them in steps.
 DepthRange depthRangeOf(const ViewParams& view, const Aabb& scene) {
     const bool orthographic = view.eye.w == 0.0F;
     float nearest = std::numeric_limits<float>::max();
@@ -54,7 +55,7 @@ DepthRange depthRangeOf(const ViewParams& view, const Aabb& scene) {
     DepthRange range;
     range.far = steppedUp(farthest);
     const float begin = nearest > 0.0F ? 1.0F / steppedUp(1.0F / nearest) : 0.0F;
-    // To the side of the view, what is `begin` away is not so far in front of the camera.
+    // Toward the corners, a point at distance `begin` is less far in front of the camera.
     const float corner = cornerSlope(view);
     range.first = orthographic ? begin : begin / std::sqrt(1.0F + corner * corner);
     range.near = std::max(begin, range.far * nearestSplit);
@@ -66,13 +67,13 @@ struct Sphere {
     float radius;
 };
 
-// The smallest around what the view sees between two distances.
+// The smallest bounding sphere of the view frustum between two distances.
 Sphere boundingSphere(const ViewParams& view, float begin, float end) {
     const float slope = cornerSlope(view);
     const bool orthographic = view.eye.w == 0.0F;
     const float beginRadius = orthographic ? slope : slope * begin;
     const float endRadius = orthographic ? slope : slope * end;
-    // As far from the corners of the one side as from those of the other, but not beyond the farther side.
+    // Equidistant from near and far corners, but not beyond the far plane.
     const float middle = 0.5F * (begin + end + (endRadius * endRadius - beginRadius * beginRadius) / (end - begin));
     const float along = std::min(middle, end);
     const vec3 onAxis = orthographic ? middleOfView(view) : vec3(view.eye);
@@ -103,7 +104,7 @@ SunShadowParams fitCascades(const ViewParams& view, const Aabb& sceneBounds, con
     const DepthRange range = depthRangeOf(view, sceneBounds);
     SunShadowParams sun{};
     sun.count = settings.cascades;
-    float begin = range.first;  // where the blend into this cascade begins
+    float begin = range.first;  // start of the blend into this cascade
     float lastEnd = begin;
     for (uint i = 0; i < sun.count; ++i) {
         const float part = static_cast<float>(i + 1) / static_cast<float>(sun.count);
@@ -142,7 +143,7 @@ SunShadowParams fitSunShadows(const ViewParams& view, const Aabb& sceneBounds, c
         return oneMap(centredSunShadow(sceneBounds, direction, settings.extent, settings.resolution));
     }
     if (settings.cascades == 1) {
-        return oneMap(fitSunShadow(view.anyPlaceToWorld, sceneBounds, direction, settings.resolution, reach));
+        return oneMap(fitSunShadow(view.paddedClipToWorld, sceneBounds, direction, settings.resolution, reach));
     }
     return fitCascades(view, sceneBounds, direction, settings, reach);
 }

@@ -1,5 +1,5 @@
-// Fits one shadow map of the sun to the view: the visible part of the scene's box, as a convex polyhedron cut by
-// planes. Or leaves it where a user has put it.
+// Fits a single shadow map of the sun to the visible part of the scene's bounding box, a convex polyhedron clipped by
+// the frustum planes; or places it at a fixed extent.
 #include "render/shadow/light_space.h"
 
 #include <array>
@@ -41,14 +41,14 @@ std::array<Polygon, 6> boxFaces(const Aabb& box) {
     return polygons;
 }
 
-// Left, right, top, bottom, near. There is no far plane: the box ends the view.
+// Left, right, top, bottom, near. There is no far plane: the box limits the depth.
 std::array<vec4, 5> frustumPlanes(const mat4& worldToClip) {
     const mat4 rows = glm::transpose(worldToClip);
     return {rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1], rows[3] - rows[2]};
 }
 
-// Corners of the intersection of box and view: the box's faces cut by the view, and (where the view's edges pass
-// through the box) the view's faces cut by the box, which a large polygon on each plane stands for.
+// Corners of the intersection of box and frustum: the box's faces clipped by the frustum, and (where frustum edges pass
+// through the box) the frustum's faces, as large polygons, clipped by the box.
 Polygon visibleCorners(const Aabb& box, const mat4& clipToWorld) {
     const auto planes = frustumPlanes(glm::inverse(clipToWorld));
     Polygon corners;
@@ -93,10 +93,10 @@ ShadowMapParams fitSunShadow(const mat4& clipToWorld, const Aabb& sceneBounds, c
     for (const vec3& p : visibleCorners(sceneBounds, clipToWorld)) {
         seen.add(light.worldToLight * p);
     }
-    if (seen.empty()) {  // the view sees nothing of the scene
+    if (seen.empty()) {  // the scene is out of view
         seen = light.scene;
     }
-    // Rounded up to steps, or texels would change their size with every move of the camera.
+    // Rounded up to steps, so that texels do not change their size with every camera move.
     const vec2 low = glm::max(vec2(seen.min) - reach, vec2(light.scene.min));
     const vec2 high = glm::min(vec2(seen.max) + reach, vec2(light.scene.max));
     const vec2 extent(steppedUp(high.x - low.x), steppedUp(high.y - low.y));

@@ -1,4 +1,4 @@
-// Plans and records the lamps' shadow maps and their look-up.
+// Plans and records the lamps' shadow maps and their lookup.
 #include "render/shadow/lamp_shadow.h"
 
 #include "gpu/device.h"
@@ -13,7 +13,7 @@ namespace reflet {
 
 namespace {
 
-constexpr float widestSpot = 60.0F;  // degrees from the axis: one tile wider than that wastes more than a cube does
+constexpr float widestSpot = 60.0F;  // degrees from the axis; beyond that a cube map wastes less than a single tile
 
 float strength(const LampParams& lamp) {
     return std::max({lamp.intensity.x, lamp.intensity.y, lamp.intensity.z});
@@ -49,7 +49,7 @@ LampShadow shadowOf(const LampBlock& lamps, uint32_t index, uint32_t firstTile, 
         const vec3 side = glm::normalize(glm::cross(std::abs(axis.y) < 0.99F ? vec3(0, 1, 0) : vec3(1, 0, 0), axis));
         shadow.tiles = 1;
         shadow.worldToTile = glm::transpose(mat3(side, glm::cross(axis, side), axis));
-        // Two texels to spare for look-ups at the cone's edge, and a disk is seen past the cone.
+        // Padding: two texels for lookups at the cone's edge, and the search radius beyond the cone.
         const float tangent = std::sqrt(1.0F - lamp.cosOuter * lamp.cosOuter) / lamp.cosOuter;
         shadow.halfTangent =
             (tangent + (lamp.radius > 0.0F ? lampSearchTangent : 0.0F)) * (1.0F + 4.0F / static_cast<float>(tileSize));
@@ -83,7 +83,7 @@ float distanceTo(const Aabb& box, const vec3& p) {
     return glm::distance(p, glm::clamp(p, box.min, box.max));
 }
 
-// All draws, or all cut-out draws, into the tiles that they can be seen in.
+// Draws all opaque or all cut-out draws into the tiles in which they are visible.
 void drawTiles(const gpu::DrawCommands& to, const DrawList& list, const LampShadows& shadows,
                const LampTileParams& params, bool masked) {
     for (uint32_t i = 0; i < shadows.count; ++i) {
@@ -118,8 +118,9 @@ LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, ui
     shadows.count = std::min({settings.lamps, maxShadowedLamps, static_cast<uint32_t>(indices.size())});
     shadows.tileSize = settings.lampResolution;
     if (indices.size() > shadows.count) {
-        warn(fmt::format("the scene has {} point and spot lamps, of which the strongest {} cast shadows (shadow.lamps)",
-                         indices.size(), shadows.count));
+        warn(fmt::format(
+            "the scene has {} point and spot lamps, but only the strongest {} cast shadows: shadow.lamps is the limit",
+            indices.size(), shadows.count));
     }
     indices.resize(shadows.count);
     uint32_t tiles = 0;
@@ -135,17 +136,17 @@ LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, ui
         shadows.lamps[i] = shadowOf(lamps, indices[i], tile, shadows.tileSize);
     }
     if (shadows.tileSize < settings.lampResolution) {
-        warn(
-            fmt::format("{} shadow maps of {} texels a side do not fit into one image; they have {} (shadow.lamps, "
-                        "shadow.lamp_resolution)",
-                        tiles, settings.lampResolution, shadows.tileSize));
+        warn(fmt::format(
+            "{} lamp shadow maps of {} texels a side do not fit into one image and are reduced to {}; lower "
+            "shadow.lamps or shadow.lamp_resolution",
+            tiles, settings.lampResolution, shadows.tileSize));
     }
     return shadows;
 }
 
 namespace {
 
-// All that the maps depend on.
+// Everything that the maps depend on, as a cache key.
 struct LampMapContents {
     LampTileParams tiles;
     uint32_t tileSize;
@@ -169,7 +170,7 @@ gpu::Image drawLampShadowMap(gpu::Frame& f, const DrawList& list, const LampShad
     if (list.version != 0 && f.holds(map, LampMapContents{params, shadows.tileSize, shadows.columns, list.version})) {
         return map;
     }
-    // Opaque draws need no fragment shader; cut-out ones look up their alpha.
+    // Opaque draws need no fragment shader; cut-out draws test alpha.
     f.raster("lamp_shadow_map", {"lamp_shadow_map.vert"})
         .depth(map, 0.0F)
         .vertices(vertexLayout())

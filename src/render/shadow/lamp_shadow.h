@@ -1,4 +1,5 @@
-// Shadows of point and spot lamps: shadow maps in one atlas, looked up per pixel. Shared by C++ and GLSL.
+// Shadows of point and spot lamps: shadow maps in one atlas, looked up per pixel (hard, PCF, PCSS). Shared by C++ and
+// GLSL.
 //
 // A spot has one tile that covers its cone; a point lamp, or a spot wider than 60 degrees to each side, six: the faces
 // of a cube. Every tile is a perspective view from the lamp. Directional lamps besides the sun cast no shadows.
@@ -15,18 +16,18 @@ SHARED_BEGIN
 const uint maxShadowedLamps = 16;
 const uint cubeFaces = 6;  // +X -X +Y -Y +Z -Z
 
-// How far past a cone's edge, and to the side of a receiver, blockers are searched for, as tangents seen from the lamp:
-// what is ten radii away from the lamp or farther is found whenever it hides a part of the lamp's disk.
+// Limit of the blocker search to the side of a receiver and beyond a spot cone's edge, as a tangent seen from the lamp.
+// Blockers at least ten lamp radii from the lamp are always found.
 const float lampSearchTangent = 0.1;
 
 // Tile space: x and y across, z along the tile's axis, from the lamp, in metres. Face 2a or 2a + 1 of a cube has the
 // axes a + 1, a + 2 (modulo 3) for x and y, and plus or minus a for z.
 struct LampShadow {
     LampParams lamp;
-    uint index;         // of the lamp, among all
+    uint index;         // of the lamp, among all lamps
     mat3 worldToTile;   // of directions, for a single tile
     float halfTangent;  // the tile reaches to ±halfTangent · z along x and y
-    float near;         // what is nearer along z casts nothing; depth = near / z [m]
+    float near;         // geometry closer along z casts no shadow; depth = near / z [m]
     uint firstTile;     // in the atlas, rows from the top
     uint tiles;         // 1 or cubeFaces
 };
@@ -60,23 +61,22 @@ SHARED_END
 
 namespace reflet {
 
-/// Gives tiles to as many lamps as `settings` allow: the strongest, by the largest of red, green and blue of their
-/// intensity, whatever the view, so that no shadow comes or goes as the camera moves. Sets the lamps' `shadow`. Tiles
-/// are halved in size until the atlas has at most `largestSide` texels a side. `warn` hears of what is left out.
+/// Assigns tiles to as many lamps as `settings` allow: the strongest by the largest of red, green and blue intensity,
+/// independent of the view, so that shadows do not pop as the camera moves. Sets the lamps' `shadow`. Tiles are halved
+/// in size until the atlas has at most `largestSide` texels a side. `warn` receives messages about what is left out.
 LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, uint32_t largestSide,
                             const std::function<void(const std::string&)>& warn);
 
-/// Draws depth as the lamps see it, both sides of every surface: D32, reversed (near / distance along the tile's axis).
+/// Draws depth from the lamps, both sides of every surface: D32, reversed (near / distance along the tile's axis).
 gpu::Image drawLampShadowMap(gpu::Frame& f, const DrawList& list, const LampShadows& shadows);
 
 struct LampShadowInputs {
     gpu::Image map;    ///< of drawLampShadowMap
-    gpu::Image masks;  ///< which lamps may light which tile, as lamps.h says
+    gpu::Image masks;  ///< lamp bit masks per tile, see lamps.h
     gpu::BufferView blueNoise;
 };
 
-/// RGBA8, a layer for four lamps, a channel for each: 1 lit; 0 in shadow and where none of the
-/// lamp's light arrives.
+/// RGBA8, a layer per four lamps, a channel each: 1 lit; 0 in shadow and out of the lamp's range or cone.
 gpu::Image lampVisibility(gpu::Frame& f, const GBuffer& g, const LampShadowInputs& in, const LampShadows& shadows,
                           const LampVisibilityParams& params);
 

@@ -1,4 +1,4 @@
-// Shadow maps of lamps, draws whose material is cut out by alpha.
+// Shadow maps of lamps, alpha-tested draws.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/shadow/lamp_shadow.h"

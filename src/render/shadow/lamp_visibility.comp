@@ -1,5 +1,5 @@
-// How much a pixel sees of each lamp that casts shadows and may reach it: one texel, PCF or PCSS. In: depth, geometric
-// normal, the lamps' shadow maps, which lamps reach which tile, blue noise. Out: visibility, 1 lit.
+// Visibility of each shadow-casting lamp that may reach the pixel: one texel, PCF or PCSS. In: depth, geometric normal,
+// the lamps' shadow maps, lamp masks per tile, blue noise. Out: visibility, 1 lit.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/shadow/lamp_shadow.h"
@@ -31,8 +31,8 @@ LampReceiver receiver;
 ShadowTexel shadowTexel(vec2 offset) { return lampTexel(receiver, offset); }
 #include "shaders/soft_shadow.glsl"
 
-// Shrinks the search to the blockers that samples of it find: none higher, none that hides the lamp from farther. Else a
-// few samples in a disk as wide as a lamp's surroundings would miss narrow penumbras. 0: nothing casts.
+// Shrinks the blocker search radius iteratively to the penumbra radius of the highest blocker sampled so far. Otherwise
+// few samples over a very wide disk would miss narrow penumbras. 0: no blockers.
 float shrunkSearch(ShadowCone cone, float radius, float least, vec2 noise) {
     for (int i = 0; i < 3; ++i) {
         uint count = params.settings.blockerSamples;
@@ -57,8 +57,8 @@ float shrunkSearch(ShadowCone cone, float radius, float least, vec2 noise) {
 float pcss(ShadowCone cone, vec4 noise) {
     ShadowSettings s = params.settings;
     float least = minFilterRadius * receiver.texel;
-    // All of the tile's depth could cast, but what is nearer to the lamp than ten radii is found only by what it hides of
-    // the lamp's middle: a search for it would be as wide as the room (planLampShadows).
+    // Any depth of the tile could cast, but for blockers closer to the lamp than ten radii the search would get far too
+    // wide: they are found only where they hide the lamp's centre (lampSearchTangent).
     float radius = min(penumbraRadius(cone, receiver.distance - receiver.shadow.near),
                        lampSearchTangent * receiver.distance);
     if (radius <= least) {
@@ -108,7 +108,7 @@ void main() {
     for (uint i = 0u; i < maxShadowedLamps; ++i) {
         results[i] = 0.0;
     }
-    uint lamps = 0u;  // that may light the pixel: a bit for each
+    uint lamps = 0u;  // bit mask of the lamps that may light the pixel
     for (uint i = 0u; i < shadowBlock.count; ++i) {
         lamps |= lampMayReach(pixel, shadowBlock.lamps[i].index) ? 1u << i : 0u;
     }

@@ -1,4 +1,4 @@
-// Maps of the sun as boxes in light space.
+// Sun shadow maps as boxes in light space.
 #include "render/shadow/light_space.h"
 
 #include <cmath>
@@ -21,7 +21,7 @@ ShadowMapParams mapOf(const LightSpace& light, const glm::dvec2& low, const glm:
     const glm::dvec2 size = high - low;
     const double bottom = light.scene.min.z - spare;
     const double depth = light.scene.max.z + spare - bottom;
-    // In double: far from the world's origin, floats would shift the grid.
+    // In double: far from the world's origin, float precision would shift the grid.
     glm::dmat4 lightToShadow(0.0);
     lightToShadow[0][0] = 2.0 / size.x;
     lightToShadow[1][1] = 2.0 / size.y;
@@ -38,7 +38,7 @@ ShadowMapParams mapOf(const LightSpace& light, const glm::dvec2& low, const glm:
 ShadowMapParams snappedMap(const LightSpace& light, const vec2& low, const vec2& extent, uint resolution) {
     constexpr double margin = 2.0;  // texels
     const vec2 all = glm::max(vec2(light.scene.size()), 1e-3F);
-    // Never larger than the scene, and then where the scene is.
+    // At most the scene's size, and then at the scene's position.
     const vec2 held = glm::min(extent, all);
     const vec2 from = glm::mix(low, vec2(light.scene.min), glm::greaterThanEqual(extent, all));
     const glm::dvec2 texel = glm::dvec2(held) / (resolution - 2.0 * margin - 1.0);  // one more for the snapping

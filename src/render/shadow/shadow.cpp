@@ -1,4 +1,4 @@
-// Records the sun's shadow maps and their look-up.
+// Records the sun's shadow maps and their lookup.
 #include "render/shadow/shadow.h"
 
 #include "render/levels.h"
@@ -9,7 +9,7 @@ namespace reflet {
 
 namespace {
 
-// All that a map and its ranges depend on.
+// Everything that a map and its min/max pyramid depend on, as a cache key.
 struct SunMapContents {
     uint64_t draws;
     SunShadowParams sun;
@@ -17,7 +17,7 @@ struct SunMapContents {
 };
 static_assert(sizeof(SunMapContents) == sizeof(SunShadowParams) + 12, "padding would differ at random");
 
-// Whether the image still shows that.
+// Whether the cached image is still valid.
 bool holds(gpu::Frame& f, gpu::Image image, const DrawList& list, const SunShadowParams& sun,
            const ShadowSettings& settings) {
     return list.version != 0 &&
@@ -45,7 +45,7 @@ gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const SunShadowPar
                         false);
         }
     };
-    // Opaque draws need no fragment shader; cut-out ones look up their alpha.
+    // Opaque draws need no fragment shader; cut-out draws test alpha.
     f.raster("shadow_map", {"shadow_map.vert"})
         .depth(depth, 0.0F)
         .vertices(vertexLayout())
@@ -61,7 +61,7 @@ gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const SunShadowPar
 
 gpu::Image makeShadowRange(gpu::Frame& f, gpu::Image shadowMap, const DrawList& list, const SunShadowParams& sun,
                            const ShadowSettings& settings) {
-    const uvec2 cells = levelSize(shadowMap.size, 2);  // 4 texels each: what level 0 would be
+    const uvec2 cells = levelSize(shadowMap.size, 2);  // of 4 texels each: the size of level 0
     const gpu::Image range =
         f.image("shadow_range", VK_FORMAT_R32G32_SFLOAT, levelsImageSize(cells, shadowRangeLevels));
     if (holds(f, range, list, sun, settings)) {
@@ -82,7 +82,7 @@ SunVisibility sunVisibility(gpu::Frame& f, const GBuffer& g, const ShadowInputs&
     const ShadowFilter filter = params.settings.filter;
     const bool soft = filter == ShadowFilter::pcf || filter == ShadowFilter::pcss;
     const bool cascades = params.sun.count > 1;
-    // Bound in any case, but neither read nor written where it is not needed.
+    // Always bound, but 1x1 and unused where not needed.
     const auto imageIf = [&](bool needed, const char* name, VkFormat format) {
         return f.image(name, format, needed ? g.depth.size : uvec2(1));
     };

@@ -1,4 +1,5 @@
-// Sun visibility: shadow maps fitted to what the view can see or what casts into it, looked up per pixel.
+// Sun visibility: shadow maps, single or cascaded, fitted to the view frustum and its casters, looked up per pixel
+// (hard, PCF, PCSS).
 // Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_SHADOW_H
 #define REFLET_RENDER_SHADOW_H
@@ -33,45 +34,61 @@ CHOICES(ShadowUnit, SHADOW_UNITS)
 
 #define SHADOW_SETTINGS(VALUE, SWITCH, CHOICE)                                                                         \
     CHOICE(ShadowFilter, filter, pcss,                                                                                 \
-           "How shadow maps are read; none: no shadows; hard: one texel; pcf: a disk of `radius`; pcss: a disk as "    \
-           "large as the light's size and the height of what casts make it; traced: `rays` through the scene, no "     \
-           "maps, and all lamps cast shadows.")                                                                        \
-    VALUE(uint, rays, 1, 1, 64, "Rays to the sun, and as many to lamps (traced).")                                     \
-    VALUE(uint, resolution, 2048, 64, 8192, "Texels along each side of the sun's shadow map, of each cascade.")        \
+           "Shadow technique. none: no shadows. hard: one texel per pixel. pcf: percentage-closer filtering over a "   \
+           "disk of fixed `radius`. pcss: PCSS, blocker search, then a disk sized by the light and the blockers' "     \
+           "distance, so penumbras widen with height. traced: ray-traced shadows, `rays` per pixel, no shadow maps; "  \
+           "all lamps cast.")                                                                                          \
+    VALUE(uint, rays, 1, 1, 64,                                                                                        \
+          "Shadow rays per pixel toward the sun, and as many toward lamps (traced). More: less noise, cost grows "     \
+          "linearly.")                                                                                                 \
+    VALUE(uint, resolution, 2048, 64, 8192,                                                                            \
+          "Side of the sun's shadow map in texels, per cascade. More: sharper contact, more memory and time.")         \
     VALUE(float, extent, 0.0, 0.0, 10000.0,                                                                            \
-          "Metres from the middle of the map, the world's origin, to each side; what is outside is lit, and there is " \
-          "one cascade; 0: fitted to the view.")                                                                       \
+          "Half the side of a fixed, single shadow map centred on the world origin, in metres; everything outside is " \
+          "lit. 0: fit the map to the view.")                                                                          \
     CHOICE(ShadowBias, biasKind, slope,                                                                                \
-           "What keeps surfaces from shadowing themselves; slope: they are followed along their own plane to the "     \
-           "texel's centre, then `bias`; constant: `constant_bias` alone.")                                            \
+           "How self-shadowing (shadow acne) is prevented. slope: receiver-plane bias, evaluated at the texel's "      \
+           "centre, plus `bias`. constant: `constant_bias` alone.")                                                    \
     VALUE(float, bias, 0.4, 0.0, 16.0,                                                                                 \
-          "How far above themselves surfaces ask for shadow, in texels of the map (slope).")                           \
+          "Shadow bias in texels of the shadow map (slope). More: less acne, but shadows detach from their casters.")  \
     VALUE(float, constantBias, 0.01, 0.0, 10.0,                                                                        \
-          "How much nearer to the sun surfaces are taken to be, in metres (constant).")                                \
-    VALUE(float, radius, 0.05, 0.0, 100.0, "Radius of the disk that is looked at, in `radius_unit` (pcf).")            \
-    CHOICE(ShadowUnit, radiusUnit, metres, "What `radius` counts: metres, or texels of the map (pcf).")                \
-    VALUE(uint, samples, 16, 1, 256, "Look-ups in the disk (pcf, pcss).")                                              \
-    VALUE(uint, blockerSamples, 16, 1, 256, "Look-ups of the search for what casts (pcss).")                           \
-    SWITCH(                                                                                                            \
-        earlyOut, 1,                                                                                                   \
-        "Look up the lowest and the highest of a part of the map at once, to shrink the search and to leave it out "   \
-        "where all or nothing is hidden (pcss).")                                                                      \
-    CHOICE(ShadowPattern, pattern, vogel,                                                                              \
-           "Where in the disk samples lie; vogel: evenly, turned for each pixel by blue noise; rings: on a spiral of " \
-           "`rings` turns, denser in the middle, turned by a hash.")                                                   \
-    VALUE(float, rings, 10.0, 0.0, 100.0, "Turns of the spiral (rings).")                                              \
-    SWITCH(mirrored, 0, "Every second sample is the one before, mirrored (rings).")                                    \
+          "Shadow bias toward the sun in metres (constant). More: less acne, but shadows detach from their casters.")  \
+    VALUE(float, radius, 0.05, 0.0, 100.0,                                                                             \
+          "Radius of the filter disk in `radius_unit` (pcf). Larger: softer shadows, more noise.")                     \
+    CHOICE(ShadowUnit, radiusUnit, metres, "Unit of `radius`: metres, or texels of the shadow map (pcf).")             \
+    VALUE(uint, samples, 16, 1, 256,                                                                                   \
+          "Shadow map samples per pixel in the filter disk (pcf, pcss). More: less noise in penumbras, cost grows "    \
+          "linearly.")                                                                                                 \
+    VALUE(uint, blockerSamples, 16, 1, 256,                                                                            \
+          "Samples per pixel of the blocker search (pcss). More: steadier penumbra widths, cost grows linearly.")      \
+    SWITCH(earlyOut, 1,                                                                                                \
+           "Use a min/max pyramid of the shadow map to shrink the blocker search, and to skip it where a pixel is "    \
+           "fully lit or fully shadowed (pcss). Faster.")                                                              \
+    CHOICE(                                                                                                            \
+        ShadowPattern, pattern, vogel,                                                                                 \
+        "Sample pattern in the filter disk. vogel: a Vogel (golden angle) disk with uniform density, rotated per "     \
+        "pixel by blue noise. rings: a spiral of `rings` turns, denser at the centre, rotated per pixel by a hash.")   \
+    VALUE(float, rings, 10.0, 0.0, 100.0, "Turns of the spiral (pattern rings).")                                      \
+    SWITCH(mirrored, 0, "Make every second sample the mirror image of the one before (pattern rings).")                \
     VALUE(uint, cascades, 1, 1, 4,                                                                                     \
-          "Shadow maps of the sun that share the view's depth, for large scenes; 1: one, fitted to all that is seen.") \
-    VALUE(float, cascadeSplit, 1.0, 0.0, 1.0,                                                                          \
-          "Where cascades end; 0: at equal steps of distance, 1: at equal ratios (near ones smaller and finer).")      \
-    VALUE(float, cascadeBlend, 0.1, 0.0, 1.0, "Part of a cascade's depth, at its end, that blends into the next.")     \
+          "Number of cascades of the sun's cascaded shadow map, for large scenes. 1: a single map fitted to "          \
+          "everything in view. More: finer shadows near the camera; each cascade is one more map to draw.")            \
+    VALUE(                                                                                                             \
+        float, cascadeSplit, 1.0, 0.0, 1.0,                                                                            \
+        "Distribution of cascade splits along the view: 0 uniform, 1 logarithmic (near cascades shorter and finer).")  \
+    VALUE(float, cascadeBlend, 0.1, 0.0, 1.0,                                                                          \
+          "Fraction of each cascade's depth range, at its far end, that is blended into the next. 0: visible seams.")  \
     VALUE(uint, lamps, 8, 0, 16,                                                                                       \
-          "How many point and spot lamps cast shadows at most: the strongest; the others shine through everything.")   \
+          "Maximum number of point and spot lamps with shadows; the strongest are chosen, the others shine through "   \
+          "geometry.")                                                                                                 \
     VALUE(uint, lampResolution, 512, 64, 4096,                                                                         \
-          "Texels along each side of a lamp's shadow map; a point lamp has six, a spot one.")                          \
-    SWITCH(denoise, 1, "Blur what few samples leave of noise along and within penumbras (pcf, pcss).")                 \
-    VALUE(uint, history, 0, 0, 1024, "Frames whose mean is taken where nothing moves; 0: none is kept (clean).")
+          "Side of a lamp's shadow map in texels. A point lamp has six maps, a spot lamp one.")                        \
+    SWITCH(                                                                                                            \
+        denoise, 1,                                                                                                    \
+        "Denoise penumbras over neighbouring pixels and frames (pcf, pcss). Removes the noise of low sample counts.")  \
+    VALUE(uint, history, 0, 0, 1024,                                                                                   \
+          "Maximum history length of shadow denoising, in frames. More: less noise, slower reaction to moving "        \
+          "shadows. 0: no history.")
 SETTINGS(ShadowSettings, SHADOW_SETTINGS)
 
 // Shadow space: x, y in clip space of the map, z reversed depth (1 nearest to the sun), all of it linear.
@@ -83,13 +100,13 @@ struct ShadowMapParams {
 };
 
 const uint maxCascades = 4;
-const float nearestSplit = 0.005;  // where the first of equal ratios begins, as a part of the farthest distance
+const float nearestSplit = 0.005;  // start of the logarithmic split, relative to the farthest distance
 
-// Cascade i lies in a tile of the shadow image: i % 2 to the right and i / 2 downwards, `resolution` texels a side.
+// Cascade i is a tile of the shadow image, at column i % 2 and row i / 2, `resolution` texels a side.
 struct SunShadowParams {
     ShadowMapParams maps[maxCascades];  // from near to far
-    float ends[maxCascades];            // where each ends: metres in front of the camera
-    float blends[maxCascades];          // where its blend into the next begins
+    float ends[maxCascades];            // far end of each: metres in front of the camera
+    float blends[maxCascades];          // start of its blend into the next
     uint count;
 };
 
@@ -100,8 +117,8 @@ struct ShadowVisibilityParams {
     float sunSlope;  // tangent of half the sun's angular diameter
 };
 
-// The range images: levels 1 to below shadowRangeLevels as render/levels.h says, of which a cell of level l spans
-// 4 · 2^l texels of the map.
+// The range image, a min/max pyramid: levels 1 to shadowRangeLevels - 1 in the layout of render/levels.h. A cell of
+// level l spans 4 · 2^l texels of the map.
 const uint shadowRangeLevels = 11;
 const uint shadowRangeTexels = 4;
 
@@ -120,51 +137,49 @@ SHARED_END
 
 namespace reflet {
 
-/// The maps that the settings ask for: one of fitSunShadow or centredSunShadow, or cascades. `reach`: metres around
-/// what is seen that filters look at, too; two texels are always there.
+/// The maps for the settings: one by fitSunShadow or centredSunShadow, or cascades. `reach`: extra metres around the
+/// visible part for filters; two texels are always added.
 SunShadowParams fitSunShadows(const ViewParams& view, const Aabb& sceneBounds, const vec3& direction,
                               const ShadowSettings& settings, float reach = 0.0F);
 
-/// How far from a surface, across the sun, its filter may look for what hides the sun from it [m]. sunSlope: as in
-/// ShadowVisibilityParams.
+/// Largest filter radius, perpendicular to the sun direction [m]. sunSlope: as in ShadowVisibilityParams.
 float filterReach(const Aabb& sceneBounds, const ShadowSettings& settings, float sunSlope);
 
-/// Fits an orthographic map of `resolution` texels to the part of `sceneBounds` that the view sees, as deep as all of
-/// it. direction: the way the light travels. Texels keep to a grid and change their size in steps of 9 %.
+/// Fits an orthographic map of `resolution` texels to the visible part of `sceneBounds`, with the depth of the whole.
+/// direction: direction of travel of the light. Texels snap to a grid, and their size changes in steps of 9 %.
 ShadowMapParams fitSunShadow(const mat4& clipToWorld, const Aabb& sceneBounds, const vec3& direction, uint resolution,
                              float reach = 0.0F);
 
-/// A map for each part of the view's depth. Their texels keep to a grid and their size, however the camera turns; so
-/// they do when it moves, but for steps of 9 % in how far away the scene begins or ends.
+/// One map per cascade. Texels snap to a grid and keep their size under camera rotation, and under translation except
+/// for steps of 9 % in the scene's near and far distance.
 SunShadowParams fitCascades(const ViewParams& view, const Aabb& sceneBounds, const vec3& direction,
                             const ShadowSettings& settings, float reach = 0.0F);
 
-/// An orthographic map of ±extent metres around the world's origin, whatever the view sees, as deep as `sceneBounds`.
+/// A fixed orthographic map of ±extent metres around the world's origin, with the depth of `sceneBounds`.
 ShadowMapParams centredSunShadow(const Aabb& sceneBounds, const vec3& direction, float extent, uint resolution);
 
-/// Draws depth as the sun sees it, both sides of every surface: D32, reversed (1 nearest to the sun). A tile for each
-/// cascade: one, two beside one another, or two by two.
+/// Draws depth from the sun, both sides of every surface: D32, reversed (1 nearest to the sun). A tile per cascade:
+/// 1x1, 2x1 or 2x2.
 gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const SunShadowParams& sun,
                          const ShadowSettings& settings);
 
-/// RG32F: the largest (nearest to the sun) and the smallest depth of ever larger squares of the map. list, sun,
-/// settings: as of drawShadowMap; where the map was kept, they are, too.
+/// Min/max pyramid of the map, RG32F: the largest (nearest to the sun) and the smallest depth of each cell. list, sun,
+/// settings: as for drawShadowMap; reused whenever the map is.
 gpu::Image makeShadowRange(gpu::Frame& f, gpu::Image shadowMap, const DrawList& list, const SunShadowParams& sun,
                            const ShadowSettings& settings);
 
-/// What the sun's map tells the pixels.
+/// Result of the shadow map lookup.
 struct SunVisibility {
-    gpu::Image visibility;  ///< R8, 1: lit. The sky is lit. Without a map (filter none): 1 everywhere
-    gpu::Image
-        penumbra;  ///< RG16F: x: full width of the penumbra across the sun's direction [m], 0 where the
-                   ///< visibility is exact; negative where no blocker was found: at most so wide; y: mean
-                   ///< distance of the blockers toward the sun [m], 0 none or unknown. None with filter none or hard
-    gpu::Image cascadeIndex;  ///< R8: number of the cascade over 3, between two where they blend; none with one cascade
+    gpu::Image visibility;  ///< R8, 1: lit, as is the sky. 1 everywhere with filter none
+    gpu::Image penumbra;    ///< RG16F: x: full penumbra width perpendicular to the sun's direction [m], 0 where the
+                          ///< visibility is exact, negative (minus the upper bound) where no blocker was found; y: mean
+                          ///< blocker distance toward the sun [m], 0 none or unknown. None with filter none or hard
+    gpu::Image cascadeIndex;  ///< R8: cascade index / 3, fractional where two blend; none with one cascade
 };
 
 struct ShadowInputs {
-    gpu::Image map;    ///< of drawShadowMap; may be none
-    gpu::Image range;  ///< of makeShadowRange; may be none
+    gpu::Image map;    ///< from drawShadowMap; may be none
+    gpu::Image range;  ///< from makeShadowRange; may be none
     gpu::BufferView blueNoise;
 };
 

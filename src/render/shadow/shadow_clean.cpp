@@ -1,4 +1,4 @@
-// Records the cleaning of the sun's visibility.
+// Records the shadow denoiser.
 #include "render/shadow/shadow_clean.h"
 
 namespace reflet {
@@ -29,8 +29,8 @@ gpu::BufferView listTiles(gpu::Frame& f, gpu::Image visibility, gpu::Image penum
 
 }  // namespace
 
-gpu::Image cleanShadow(gpu::Frame& f, const GBuffer& g, gpu::Image visibility, gpu::Image penumbra,
-                       ShadowCleanParams params) {
+gpu::Image denoiseShadow(gpu::Frame& f, const GBuffer& g, gpu::Image visibility, gpu::Image penumbra,
+                         ShadowDenoiseParams params) {
     const uvec2 size = visibility.size;
     const gpu::Image cleaned = f.image("shadow_clean", VK_FORMAT_R8_UNORM, size);
     const gpu::BufferView tiles = listTiles(f, visibility, penumbra, cleaned);

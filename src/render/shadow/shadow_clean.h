@@ -1,8 +1,8 @@
-// Cleans the sun's visibility of the noise that few samples leave: over frames, then over neighbours on the same
-// surface, by a kernel in proportion to the penumbra, longer along the shadow's edge than across it. Shared by C++ and
-// GLSL.
+// Shadow denoiser: removes the sun visibility's noise of low sample counts by accumulation over frames, then by a blur
+// over neighbours on the same surface. The kernel is proportional to the penumbra and anisotropic, longer along the
+// shadow's edge than across it. Shared by C++ and GLSL.
 //
-// tiles: which need cleaning → gather: what of the last frames still holds, and each pixel's kernel → blur, twice.
+// tiles: those with penumbras → gather: temporal accumulation, and each pixel's kernel → blur, twice.
 // (After: Schied et al., Spatiotemporal Variance-Guided Filtering, HPG 2017: history, then wavelets that stop at edges;
 // Mehta et al., Axis-Aligned Filtering for Interactive Sampled Soft Shadows, ACM TOG 2012: kernels from the penumbra.)
 #ifndef REFLET_RENDER_SHADOW_CLEAN_H
@@ -13,29 +13,29 @@
 
 SHARED_BEGIN
 
-// A texel (R32_UINT) of what is gathered and blurred: visibility (unorm16) and, above it, the penumbra's width (half)
-// [m]; 0: the visibility is as it was.
-const uint shadowTileSide = 8;  // pixels; a group of threads each
+// Texels of the gathered and blurred images (R32_UINT): visibility (unorm16) and, in the upper bits, penumbra width
+// (half) [m]; 0: use the visibility unchanged.
+const uint shadowTileSide = 8;  // pixels; one thread group per tile
 const uint maxShadowTileGroups = 65535;
 
-// Bytes before the list of tiles: group counts for an indirect dispatch, then the number of tiles.
+// Header size of the tile list in bytes: group counts for an indirect dispatch, then the number of tiles.
 const uint shadowTilesHeader = 16;
 
 struct ShadowTilesParams {
     uvec2 size;
 };
 
-struct ShadowCleanParams {
+struct ShadowDenoiseParams {
     ViewParams view;
     vec3 toSun;          // world space, unit
-    uint historyFrames;  // whose mean is kept, at most; 0: none
-    uint samples;        // of a pixel and frame, that the visibility was made of
+    uint historyFrames;  // maximum history length; 0: no history
+    uint samples;        // samples per pixel and frame of the visibility
     uint hasPrevious;    // 1: the history holds the last frame
 };
 
 struct ShadowBlurParams {
     uvec2 size;
-    uint samples;  // as in ShadowCleanParams
+    uint samples;  // as in ShadowDenoiseParams
 };
 
 SHARED_END
@@ -47,10 +47,10 @@ SHARED_END
 
 namespace reflet {
 
-/// visibility: R8; penumbra: RG16F, x: full width across the sun's direction [m], 0 or less: none known (see
-/// SunVisibility). params.hasPrevious is set here. Gives R8.
-gpu::Image cleanShadow(gpu::Frame& f, const GBuffer& g, gpu::Image visibility, gpu::Image penumbra,
-                       ShadowCleanParams params);
+/// visibility: R8; penumbra: RG16F, x: full width perpendicular to the sun's direction [m], 0 or less: unknown (see
+/// SunVisibility). Sets params.hasPrevious. Returns R8.
+gpu::Image denoiseShadow(gpu::Frame& f, const GBuffer& g, gpu::Image visibility, gpu::Image penumbra,
+                         ShadowDenoiseParams params);
 
 }  // namespace reflet
 #endif

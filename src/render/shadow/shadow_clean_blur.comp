@@ -1,5 +1,5 @@
-// A pass of the blur that cleans shadows: 3x3 texels, the second time farther apart, as each pixel's kernel weighs them.
-// In: tiles, texels, kernels, depth, the visibility as it was. Out: texels; at last the visibility alone.
+// Blur pass of the shadow denoiser: 3x3 taps weighted by each pixel's kernel, with a larger stride in the second pass.
+// In: tiles, texels, kernels, depth, raw visibility. Out: texels; in the last pass the visibility alone.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/shadow/shadow_clean.h"
@@ -24,7 +24,8 @@ layout(set = 0, binding = 7, scalar) readonly buffer TilesBlock {
 float visibilityOf(uint texel) { return float(texel & 0xffffu) / 65535.0; }
 float widthOf(uint texel) { return unpackHalf2x16(texel).y; }
 
-// Where penumbras of different widths meet, each keeps its own; what is fully lit or dark belongs to all.
+// Similarity of penumbra widths, so that penumbras of different width are not blurred together; fully lit or dark
+// pixels match any width.
 float alike(float width, float other) {
     return other > 0.0 ? min(width, other) / max(width, other) : 1.0;
 }

@@ -1,4 +1,4 @@
-// Before shadows are blurred, each pixel's mean over the last frames as far as they still hold, and its kernel.
+// First pass of the shadow denoiser: temporal accumulation with the reprojected history, and each pixel's blur kernel.
 // In: tiles, depth, geometric normal, motion, visibility, penumbra, history. Out, where there is a penumbra: texels as the
 // blur reads them, kernels, history.
 #version 460
@@ -9,7 +9,7 @@
 #include "shaders/shadow_kernel.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ShadowCleanParams params; };
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ShadowDenoiseParams params; };
 layout(set = 0, binding = 1) uniform sampler2D depth;
 layout(set = 0, binding = 2) uniform usampler2D geometricNormal;
 layout(set = 0, binding = 3) uniform sampler2D motion;
@@ -25,25 +25,25 @@ layout(set = 0, binding = 10, scalar) readonly buffer TilesBlock {
     uint items[];
 } tiles;
 
-// Standard deviation of a pass across the edge, of the penumbra's width: both together widen it by 3 %.
+// Standard deviation of a pass across the edge, relative to the penumbra width; both passes together widen it by 3 %.
 const float acrossEdge = 0.05;
 const float alongEdge = 3.0;     // standard deviation of a pass along a straight edge, pixels
 const float longest = 6.0;       // of either, pixels
 const float shortest = 0.15;     // pixels; reaches no neighbour
-const float allowance = 0.06;    // how far beyond what the neighbours show the history may lie
+const float allowance = 0.06;    // tolerance of the history clip beyond the neighbours' range
 const float enoughFound = 3.0;   // of eight neighbours
 const float wideEnough = 8.0;    // pixels
-const float historySlack = 4.0;  // for surfaces, times what neighbours are allowed
+const float historySlack = 4.0;  // tolerance for the height of history surfaces, relative to that of neighbours
 
 struct Neighbours {
     vec2 gradient;  // of the visibility, per pixel
     float lowest;
     float highest;
-    float width;  // of the penumbra, mean of those that know [m]; 0: none does
-    vec2 found;   // visibility of those that know, and how many they are
+    float width;  // mean penumbra width of the pixels with a known one [m]; 0: none
+    vec2 found;   // sum of the visibility of those pixels, and their number
 };
 
-// Of the 3x3 around, those that lie on the same surface.
+// Statistics of the 3x3 pixels on the same surface.
 Neighbours look(ivec2 pixel, float d, float middle, ScreenPlane plane) {
     ivec2 last = ivec2(params.view.size) - 1;
     Neighbours n = Neighbours(vec2(0.0), middle, middle, 0.0, vec2(0.0));
@@ -65,12 +65,12 @@ Neighbours look(ivec2 pixel, float d, float middle, ScreenPlane plane) {
     return n;
 }
 
-// Mean and number of the frames that saw this point before; number 0: none.
+// Reprojected history: mean and length; length 0: none.
 vec2 remembered(ivec2 pixel, vec3 p, ScreenPlane plane) {
     vec4 before = params.view.previousWorldToClip * vec4(p, 1.0);
     float expected = before.z / before.w;
-    // Under jitter, pixels' means are over their area: they are read as if there were none, which does not blur them
-    // while nothing moves. Where in its pixel the last frame has met the surface counts for its depth alone.
+    // With subpixel jitter the history is the mean over a pixel's area, so it is read without jitter, which keeps it
+    // sharp while nothing moves. Jitter matters only for the depth comparison.
     vec2 jitter = params.view.jitterChange * params.view.size;
     vec2 at = (pixelToUv(pixel, params.view.pixel) - texelFetch(motion, pixel, 0).rg) * params.view.size - 0.5;
     ivec2 corner = ivec2(floor(at));
@@ -93,13 +93,14 @@ vec2 remembered(ivec2 pixel, vec3 p, ScreenPlane plane) {
     return sum.z > 0.01 ? sum.xy / sum.z : vec2(0.0);
 }
 
-// The quadratic form (inverse covariance) of the Gauss kernel of a pass, in pixels.
-// metres: of metresAcross.
+// The quadratic form (inverse covariance) of a pass's Gaussian kernel, in pixels.
+// metres: from metresAcross.
 vec3 formAt(vec3 metres, Neighbours n, float shrink) {
     float deviation = acrossEdge * n.width * shrink;
     vec3 disk = metres / (deviation * deviation) + vec3(1.0, 0.0, 1.0) / (longest * longest);
-    // Along the edge, what lies side by side is equally lit; where the gradient is as steep as the penumbra's width says,
-    // there is an edge, and not noise or the meeting of several. That adds nothing to the deviation across.
+    // Pixels along a shadow edge are equally lit, so the kernel is extended along it where the gradient is as steep as
+    // the penumbra width predicts (a single edge, not noise or several edges). This does not widen the kernel across
+    // the edge.
     vec3 pixels = inverseSymmetric(metres + 1e-12 * vec3(1.0, 0.0, 1.0));
     float steep = sqrt(max(quadratic(pixels, n.gradient), 0.0)) * n.width;
     vec2 along = vec2(-n.gradient.y, n.gradient.x) * inversesqrt(max(dot(n.gradient, n.gradient), 1e-12));
@@ -122,8 +123,8 @@ void gather(ivec2 pixel) {
     if (n.width <= 0.0) {
         return;
     }
-    // Where the search for blockers missed what it found all around, in a penumbra that is wider than what is around, the
-    // pixel is not lit: it does not know.
+    // If the blocker search failed here but succeeded in most neighbours, inside a penumbra wider than the
+    // neighbourhood, the pixel is not really lit: use the neighbours' mean.
     vec3 metres = metresAcross(uv, d, plane, params.view.clipToWorld, params.view.pixel, params.toSun);
     bool wide = n.width > wideEnough * sqrt(max(metres.x, metres.z));
     if (imageLoad(penumbra, pixel).r < 0.0 && n.found.y >= enoughFound && wide) {

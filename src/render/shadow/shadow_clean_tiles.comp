@@ -1,6 +1,5 @@
-// Lists the tiles of the screen where there is a penumbra and the sun is neither all seen nor all hidden, and takes the
-// visibility over for the others, which need no cleaning. A thread for each tile. In: visibility, penumbra. Out: tiles,
-// visibility.
+// Lists the screen tiles that contain a penumbra and are neither fully lit nor fully shadowed, and copies the
+// visibility, which the other tiles keep. One thread per tile. In: visibility, penumbra. Out: tiles, visibility.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/shadow/shadow_clean.h"

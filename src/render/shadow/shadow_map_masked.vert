@@ -1,4 +1,4 @@
-// Sun shadow maps, draws whose material is cut out by alpha. The instance is the number of the cascade.
+// Sun shadow maps, alpha-tested draws. The instance is the number of the cascade.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/shadow/shadow.h"

@@ -1,5 +1,5 @@
-// Makes one level of the shadow map's ranges. In: the map (level 1), or the level below. Out: the level, in the same
-// image.
+// Builds one level of the shadow map's min/max pyramid. In: the map (level 1), or the level below. Out: the level, in
+// the same image.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/levels.glsl"
@@ -14,7 +14,7 @@ ivec2 texels = ivec2(params.size);
 ivec2 cells = levelSize(texels, 2);
 int level = int(params.level);
 
-// Largest and smallest.
+// Combines two (max, min) pairs.
 vec2 ofBoth(vec2 a, vec2 b) { return vec2(max(a.x, b.x), min(a.y, b.y)); }
 
 vec2 ofTexels(ivec2 cell) {
@@ -29,7 +29,7 @@ vec2 ofTexels(ivec2 cell) {
 }
 
 vec2 below(ivec2 cell) {
-    cell = min(cell, levelSize(cells, level - 1) - 1);  // of an odd size, the last one twice
+    cell = min(cell, levelSize(cells, level - 1) - 1);  // with odd sizes the last cell is read twice
     return imageLoad(range, cell + ivec2(0, levelRow(cells, level - 1))).rg;
 }
 

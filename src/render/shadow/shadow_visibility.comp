@@ -1,6 +1,7 @@
-// How much of the sun's disk each pixel sees. In: depth, geometric normal, shadow maps and their ranges, blue noise.
-// Out: visibility, 1 lit; with soft filters also the width of the penumbra and the mean height of the blockers; where
-// there are cascades, which of them was asked.
+// Visible fraction of the sun's disk per pixel, by shadow map (hard, PCF, PCSS). In: depth, geometric normal, shadow
+// maps and their ranges, blue noise.
+// Out: visibility, 1 lit; with soft filters also the penumbra width and the mean height of the blockers; with cascades,
+// the cascade used.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/shadow/shadow.h"
@@ -35,7 +36,7 @@ ShadowReceiver receiver;
 ShadowTexel shadowTexel(vec2 offset) { return texelAt(receiver, offset); }
 #include "shaders/soft_shadow.glsl"
 
-// Four texels around the point, weighted by how near they are: an edge as sharp as the map allows.
+// Bilinear filter over four texels: the sharpest edge that the map's resolution allows.
 float sharpVisibility() {
     vec2 f = fract(receiver.at - 0.5);
     vec2 low = -f / receiver.texelsPerMetre;
@@ -50,15 +51,15 @@ float sharpVisibility() {
     return litFraction(sum);
 }
 
-// What the visibility image and the penumbra image get.
+// Values for the visibility and penumbra images.
 struct Result {
     float visibility;
     float width;
     float height;
 };
 
-// Shrinks the search to what can cast from within it: nothing there is higher than the map's highest, and what is not
-// higher hides the sun from no farther. True where the whole disk is hidden.
+// Shrinks the blocker search radius to the penumbra radius of the highest depth within it, by the min/max pyramid. True
+// if the whole disk is occluded.
 bool shrinkSearch(ShadowCone cone, float least, inout float radius) {
     for (int i = 0; i < 3 && radius > least; ++i) {
         vec2 heights = heightRange(receiver, textureSize(shadowMap, 0), radius);
@@ -100,13 +101,12 @@ Result pcss(ShadowCone cone, float texelSize, vec4 noise) {
 Result pcf(float texelSize, vec4 noise) {
     ShadowSettings s = params.settings;
     float radius = s.radius * (s.radiusUnit == ShadowUnit_texels ? texelSize : 1.0);
-    // PCF has no other way to tell the receiver's own surroundings from blockers.
-    float depthBias = receiver.depthBias * (1.0 + 0.1 * radius / texelSize);
+    float depthBias = receiver.depthBias * (1.0 + 0.1 * radius / texelSize);  // the bias grows with the filter
     float visible = pcfVisibility(radius, depthBias, shadowPattern(s, s.samples, noise.xy), s.samples);
     return Result(visible, 2.0 * radius, 0.0);
 }
 
-// The share of the sun that its surface's own plane leaves free.
+// The share of the sun's disk above the surface's horizon.
 float shareOfNormal(vec3 normal, vec3 toSun) {
     float facing = dot(normal, toSun);
     float sine = params.sunSlope * inversesqrt(1.0 + params.sunSlope * params.sunSlope);
@@ -150,11 +150,11 @@ Result resultAt(vec3 p, Cascade cascade, ivec2 pixel) {
 
 void look(ivec2 pixel) {
     float d = texelFetch(depth, pixel, 0).r;
-    Result r = Result(1.0, 0.0, 0.0);                 // of the sky
+    Result r = Result(1.0, 0.0, 0.0);                 // for the sky
     Cascade c = Cascade(cascades - 1u, 0.0);
     if (d > 0.0) {
         vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
-        if (cascades > 1u) {  // a map whose number is no constant is read lane by lane on CPUs
+        if (cascades > 1u) {  // with a non-constant index CPU devices process lanes one by one
             c = selectCascade(dot(params.view.viewPlane, vec4(p, 1.0)), params.sun);
         }
         r = resultAt(p, c, pixel);

@@ -1,5 +1,5 @@
-// Bends skinned meshes. In: vertices as their meshes have them, joints of this frame and the last. Out: positions of
-// both, normal and tangent, in the world, further on in the same buffers.
+// Linear blend skinning. In: vertices in bind pose, joints of this frame and the last. Out: positions of both frames,
+// normals and tangents in world space, later in the same buffers.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/skin/skin.h"
@@ -46,7 +46,7 @@ void main() {
     positions.items[target] = now * position;
     previousPositions.items[target] = toWorld(v, params.jointCount) * position;
     mat3 m = mat3(now);
-    // The cofactors are the inverse transpose times the determinant; its sign is taken out again.
+    // Cofactor matrix: the inverse transpose times the determinant, whose sign is removed below.
     mat3 cofactors = mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1]));
     float handedness = dot(m[0], cofactors[0]) < 0.0 ? -1.0 : 1.0;
     vec3 normal = attributes.items[v.source].normal;

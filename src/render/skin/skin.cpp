@@ -1,4 +1,4 @@
-// Uploads skinned vertices, and records the pass that bends them.
+// Uploads skinned vertices and records the skinning pass.
 #include "render/skin/skin.h"
 
 #include "gpu/device.h"

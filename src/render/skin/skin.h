@@ -1,7 +1,6 @@
-// Skinned meshes: a pass bends them into vertex buffers of their own, as they are in this frame and as they were in the
-// last one, so that whoever draws knows nothing of skins. Linear blend skinning (Magnenat-Thalmann, Laperrière and
-// Thalmann, Joint-Dependent Local Deformations for Hand Animation and Object Grasping, 1988), up to four joints a
-// vertex. Shared by C++ and GLSL.
+// Skinned meshes: a pass writes their vertices for this frame and the last one to vertex buffers, so that draws need no
+// knowledge of skins. Linear blend skinning (Magnenat-Thalmann, Laperrière and Thalmann, Joint-Dependent Local
+// Deformations for Hand Animation and Object Grasping, 1988), up to four joints a vertex. Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_SKIN_H
 #define REFLET_RENDER_SKIN_H
 
@@ -9,17 +8,17 @@
 
 SHARED_BEGIN
 
-// What one vertex is made of. Vertices and joints count over all meshes and all skins.
+// Skinning inputs of one vertex. Indices count over all meshes and all skins.
 struct SkinnedVertex {
-    uint source;  // the vertex as its mesh has it; its own number is SkinParams.firstVertex and on
+    uint source;  // vertex in bind pose; the skinned vertex i is vertex SkinParams.firstVertex + i
     uint joints[4];
     vec4 weights;
 };
 
 struct SkinParams {
-    uint firstVertex;  // of the skinned ones, which are one after another
+    uint firstVertex;  // of the skinned vertices, which are contiguous
     uint count;
-    uint jointCount;  // of all skins: the joints of now, then as many of the last frame
+    uint jointCount;  // of all skins: the current joints, then those of the last frame
 };
 
 SHARED_END
@@ -36,14 +35,14 @@ namespace reflet {
 /// The skinned vertices of a scene, and the joints that move them.
 class SkinnedVertices {
 public:
-    /// Adds the vertices of an instance with a skin. Vertices must be added in the order of their numbers.
+    /// Adds the vertices of a skinned instance. Vertices must be added in the order of their indices.
     void add(const Scene& scene, const Instance& instance, uint32_t firstSource);
-    /// firstVertex: number of the first that was added. After all were.
+    /// Call after all were added. firstVertex: index of the first skinned vertex.
     void upload(gpu::Device& device, const Scene& scene, uint32_t firstVertex);
 
     [[nodiscard]] bool empty() const { return count_ == 0; }
 
-    /// Joints of now and of the last frame. No frame that skins may be in flight.
+    /// Sets the joints of this frame and the last. No frame that uses them may be in flight.
     void pose(const ScenePose& now, const ScenePose& before);
 
     struct Buffers {
@@ -51,7 +50,7 @@ public:
         gpu::BufferView previousPositions;  ///< vec3
         gpu::BufferView attributes;         ///< VertexAttributes
     };
-    /// Records the pass; what follows in this frame and in later ones may draw.
+    /// Records the pass; later passes of this and following frames can draw the vertices.
     void record(gpu::Frame& f, const Buffers& vertices) const;
 
 private:

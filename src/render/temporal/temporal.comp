@@ -1,5 +1,5 @@
-// Temporal antialiasing. In: this frame's radiance, depth, motion; mean, number of frames and deviations of the last
-// ones. Out: the same with this frame.
+// Temporal antialiasing. In: this frame's radiance, depth, motion; history: mean, length, deviations. Out: the history
+// with this frame.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/temporal/temporal.h"
@@ -14,18 +14,18 @@ layout(set = 0, binding = 0, scalar) uniform ParamsBlock { TemporalParams params
 layout(set = 0, binding = 1, rgba16f) uniform readonly image2D radiance;
 layout(set = 0, binding = 2) uniform sampler2D depth;
 layout(set = 0, binding = 3) uniform sampler2D motion;
-layout(set = 0, binding = 4, rgba16f) uniform readonly image2D previousMean;    // radiance, number of frames
+layout(set = 0, binding = 4, rgba16f) uniform readonly image2D previousMean;    // radiance, history length
 layout(set = 0, binding = 5, rg16f) uniform readonly image2D previousDeviations;
 layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D mean;
 layout(set = 0, binding = 7, rg16f) uniform writeonly image2D deviations;
 
-// What rounding alone may make of a constant, in tone-compressed radiance.
+// Tolerance for rounding, in tone-compressed radiance.
 const float slack = 0.002;
-const float stillest = 0.25;     // pixels a frame, from where on nothing is taken to be at rest
-const float restAllowance = 1.25;  // factor on the limits at rest
-// At rest, an edge or a thin bar is in a pixel's frames by turns: limits are widened by how much frames have differed
-// from their mean. If they differ to the same side again and again, the mean is out of date. That is told by the square
-// of the recent mean difference, over the variance, within these limits.
+const float stillest = 0.25;     // pixels per frame; faster motion counts as not at rest
+const float restAllowance = 1.25;  // factor on the clip limits at rest
+// At rest, jitter makes an edge or a thin bar appear in some of a pixel's frames only, so limits are widened by the
+// variance of past frames around their mean. If the differences keep the same sign, the history is stale. The measure
+// is the squared recent mean difference over the variance, between these two bounds.
 const vec2 staleness = vec2(0.25, 0.5);
 const float recent = 0.25;  // weight of a frame in the recent mean difference
 
@@ -55,8 +55,8 @@ Row loadRow(ivec2 pixel) {
     return row;
 }
 
-// Mean radiance and number of frames at this place, in texels from the first one's centre.
-vec4 remembered(vec2 at) {
+// The history (mean radiance, length) at a position in texels from the first texel's centre.
+vec4 reprojectedHistory(vec2 at) {
     ivec2 last = ivec2(params.size) - 1;
     CatmullRom taps = catmullRom(at);
     vec4 sum = vec4(0.0);
@@ -73,27 +73,27 @@ vec4 remembered(vec2 at) {
     return max(sum / total, vec4(0.0));
 }
 
-// How far from the middle of a box toward c its side is, at most 1.
+// The fraction of the way from a box's centre to c at which its side lies, at most 1.
 float insideShare(vec3 c, vec3 middle, vec3 halfSize) {
     vec3 out3 = abs(c - middle) / halfSize;
     return 1.0 / max(max(out3.x, out3.y), max(out3.z, 1.0));
 }
 
-// The pixel whose surface is nearest of the nine.
+// The pixel with the nearest surface in the 3x3 neighbourhood.
 ivec2 nearestAround(Row above, Row row, Row below) {
     ivec2 at = above.nearest > row.nearest ? above.at : row.at;
     return below.nearest > max(above.nearest, row.nearest) ? below.at : at;
 }
 
-// uv now minus uv in the last frame. The G-buffer has none of the sky, and what is taken to stand still where the camera
-// turns keeps what had been before it.
+// uv now minus uv in the last frame. The G-buffer has no motion for the sky, which must still follow the camera's
+// rotation to avoid ghosting.
 vec2 motionAt(ivec2 pixel, float nearest) {
     if (nearest > 0.0) {
         return texelFetch(motion, pixel, 0).rg;
     }
     vec2 uv = pixelToUv(pixel, 1.0 / vec2(params.size));
     vec4 before = params.skyToPrevious * vec4(uvToNdc(uv), 0.0, 1.0);
-    return before.w > 0.0 ? uv - ndcToUv(before.xy / before.w) : vec2(2.0);  // 2: it was behind the camera
+    return before.w > 0.0 ? uv - ndcToUv(before.xy / before.w) : vec2(2.0);  // 2: off-screen: it was behind the camera
 }
 
 void resolve(ivec2 pixel, Row above, Row row, Row below) {
@@ -103,7 +103,7 @@ void resolve(ivec2 pixel, Row above, Row row, Row below) {
     bool known = params.hasPrevious != 0u && all(greaterThan(at, vec2(-0.5))) &&
                  all(lessThan(at, vec2(params.size) - 0.5));
     float still = known ? max(1.0 - length(moved) / stillest, 0.0) : 0.0;
-    vec4 before = known ? remembered(at) : vec4(0.0);
+    vec4 before = known ? reprojectedHistory(at) : vec4(0.0);
     vec2 differed = still > 0.0 ? imageLoad(previousDeviations, ivec2(at + 0.5)).rg : vec2(0.0);
     float stale = differed.y * differed.y / (differed.x + 1e-5);
     float trust = still * clamp((staleness.y - stale) / (staleness.y - staleness.x), 0.0, 1.0);
@@ -113,7 +113,7 @@ void resolve(ivec2 pixel, Row above, Row row, Row below) {
     vec3 middle = (above.sum + row.sum + below.sum) / 9.0;
     vec3 around = max((above.squares + row.squares + below.squares) / 9.0 - middle * middle, 0.0);
     float allowed = params.settings.clip * mix(1.0, restAllowance, still);
-    // What this frame shows itself is always allowed: it may be a bar of a pixel.
+    // This frame's own value is always within the box: it may be a one-pixel feature.
     vec3 halfSize = max(allowed * sqrt(around + variance) + slack, abs(toneCompress(row.middle) - middle));
     float share = insideShare(held, middle, halfSize);
     vec3 clipped = mix(middle, held, share);

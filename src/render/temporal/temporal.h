@@ -1,9 +1,9 @@
-// Temporal antialiasing: the picture's mean over the last frames, each of which looked through another place in the
-// pixel, as far as they still hold. Shared by C++ and GLSL.
+// Temporal antialiasing (TAA): the mean of the last frames, each with its own subpixel jitter, as far as the history is
+// still valid. Shared by C++ and GLSL.
 //
-// Each pixel finds where it was (by the motion of the nearest surface around it, so that edges move with what is in
-// front), reads the mean there (Catmull-Rom, so that it stays sharp), pulls it to what the pixels around it show now if
-// it is too far from that, and adds this frame to it with a weight of one over the number of frames in the mean.
+// Each pixel is reprojected (by the motion of the nearest surface in its neighbourhood, so that edges move with the
+// foreground), reads the history there (Catmull-Rom, to stay sharp), clips it to the local distribution of this frame's
+// pixels (history clip), and blends in this frame with a weight of one over the history length.
 // (Karis, High Quality Temporal Supersampling, SIGGRAPH 2014: jitter, clipping in YCoCg, tone-compressed;
 // Salvi, An Excursion in Temporal Supersampling, GDC 2016: limits from local mean and variance;
 // Jimenez, Filmic SMAA: Sharp Morphological and Temporal Antialiasing, SIGGRAPH 2016: Catmull-Rom without its corners.)
@@ -15,25 +15,28 @@
 
 SHARED_BEGIN
 
-#define TEMPORAL_SETTINGS(VALUE, SWITCH, CHOICE)                                                                    \
-    SWITCH(enabled, 0,                                                                                              \
-           "Antialias the picture over frames (--frames): each looks through another place in the pixel. Not with " \
-           "accumulate.enabled, whose mean is over the pixel already.")                                             \
-    VALUE(uint, frames, 32, 1, 1024, "Frames whose mean is taken where nothing moves.")                             \
-    VALUE(uint, framesInMotion, 8, 1, 1024,                                                                         \
-          "The same where something moves by a quarter of a pixel a frame, or faster.")                             \
-    VALUE(float, clip, 1.0, 0.0, 16.0,                                                                              \
-          "How far the mean over frames may be from the pixels around it now, in standard deviations of theirs.")
+#define TEMPORAL_SETTINGS(VALUE, SWITCH, CHOICE)                                                                       \
+    SWITCH(enabled, 0,                                                                                                 \
+           "Temporal antialiasing (TAA) over frames (--frames), with subpixel jitter. Ignored if accumulate.enabled, " \
+           "which antialiases by itself.")                                                                             \
+    VALUE(uint, frames, 32, 1, 1024,                                                                                   \
+          "Maximum history length where nothing moves, in frames. More: smoother edges, slower reaction to changes.")  \
+    VALUE(uint, framesInMotion, 8, 1, 1024,                                                                            \
+          "Maximum history length where the image moves by a quarter pixel per frame or faster. More: smoother; "      \
+          "fewer: sharper.")                                                                                           \
+    VALUE(float, clip, 1.0, 0.0, 16.0,                                                                                 \
+          "History clip (variance clipping): maximum difference of the history from the pixels around it, in "         \
+          "standard deviations. Lower: less ghosting, more flicker.")
 SETTINGS(TemporalSettings, TEMPORAL_SETTINGS)
 
-// Pixels below one another that a thread makes: they share what they read of their neighbours.
+// Vertically adjacent pixels per thread, which share their neighbourhood loads.
 const uint temporalColumn = 4;
 
 struct TemporalParams {
-    mat4 skyToPrevious;  // clip space of what lies at infinity, to that of the last frame
+    mat4 skyToPrevious;  // clip space to the last frame's clip space, for points at infinity
     TemporalSettings settings;
     uvec2 size;
-    uint frame;        // counts up; decorrelates the rounding of successive frames
+    uint frame;        // counts up; decorrelates dithering between frames
     uint hasPrevious;  // 1: the history holds the last frame
 };
 
@@ -46,9 +49,9 @@ SHARED_END
 
 namespace reflet {
 
-/// view: that it was drawn with, whose change the sky follows. radiance: RGBA16F, of a view that looked through a place
-/// in the pixel (jitter.h); motion: without jitter. Anything is allowed in it; what comes out is finite and at least 0.
-/// Gives RGBA16F: radiance, and the number of frames in it.
+/// view: of this frame; the sky is reprojected with it. radiance: RGBA16F, rendered with subpixel jitter (jitter.h),
+/// may contain NaN and infinity; g.motion: without jitter. Returns RGBA16F: radiance, finite and at least 0, and
+/// history length.
 gpu::Image temporal(gpu::Frame& f, const GBuffer& g, gpu::Image radiance, const TemporalSettings& settings,
                     const ViewParams& view);
 

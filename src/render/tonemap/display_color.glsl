@@ -1,5 +1,5 @@
-// The whole tone map of one pixel: exposure, curve, display encoding. Compiled as GLSL by tonemap.comp and as C++ by
-// tone_map_image.cpp, so that pictures from the CPU look like pictures from the device.
+// Tone mapping of one pixel: exposure, curve, display encoding. Compiled as GLSL by tonemap.comp and as C++ by
+// tone_map_image.cpp, so that CPU and GPU results match.
 #ifndef REFLET_DISPLAY_COLOR_GLSL
 #define REFLET_DISPLAY_COLOR_GLSL
 

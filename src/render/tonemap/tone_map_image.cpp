@@ -1,4 +1,4 @@
-// Compiles the shader's tone map as C++ and runs it on an image.
+// Compiles the shader's tone mapping as C++ and runs it on an image.
 #include "render/tonemap/tone_map_image.h"
 
 #include "base/error.h"
@@ -9,7 +9,7 @@
 namespace reflet {
 namespace {
 
-// The words that GLSL has built in. Headers that the file includes have all been included above.
+// GLSL built-ins. All headers that the file includes must be included above.
 namespace glsl {
 using namespace glm;
 #include "render/tonemap/display_color.glsl"

@@ -1,4 +1,4 @@
-// The tone map on the CPU, for pictures that no device has rendered. The curves are the shader's own source.
+// Tone mapping on the CPU, for images not rendered on a device. Uses the shader's source.
 #pragma once
 
 #include "base/image_file.h"
@@ -6,8 +6,8 @@
 
 namespace reflet {
 
-/// RGB, display encoded: what the pass `tonemap` makes of the same radiance, within 1 of 255. `radiance` has 3 channels
-/// [W/(m² sr)]; as in the renderer, values end at ±65504. Not a number is black.
+/// RGB, display encoded: the result of the pass `tonemap`, within 1 of 255. `radiance` has 3 channels [W/(m² sr)]; as
+/// in the renderer, values are clamped to ±65504. NaN becomes black.
 Bitmap toneMapped(const FloatImage& radiance, const TonemapSettings& settings);
 
 /// sRGB encoding (IEC 61966-2-1) of linear values, which are clamped to 0..1.

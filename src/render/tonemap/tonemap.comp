@@ -3,7 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "render/tonemap/display_color.glsl"
 
-layout(constant_id = 0) const uint curve = 0u;  // a CPU device computes all that an if could choose from
+layout(constant_id = 0) const uint curve = 0u;  // a constant, because CPU devices would compute all branches
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { TonemapParams params; };

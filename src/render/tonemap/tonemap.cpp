@@ -1,4 +1,4 @@
-// Records the tone map.
+// Records tone mapping.
 #include "render/tonemap/tonemap.h"
 
 namespace reflet {

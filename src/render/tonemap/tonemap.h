@@ -1,4 +1,4 @@
-// From radiance to what a display shows. Shared by C++ and GLSL.
+// Tone mapping: exposure, tone curve and display encoding. Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_TONEMAP_H
 #define REFLET_RENDER_TONEMAP_H
 
@@ -14,10 +14,11 @@ SHARED_BEGIN
     OPTION(ToneCurve, neutral, 4)
 CHOICES(ToneCurve, TONE_CURVES)
 
-#define TONEMAP_SETTINGS(VALUE, SWITCH, CHOICE)                                                   \
-    VALUE(float, exposure, 0.0, -24.0, 24.0, "Stops; 1 doubles the light before the tone curve.") \
-    CHOICE(ToneCurve, curve, neutral,                                                             \
-           "gamma22 and srgb clip (2.2 power or sRGB curve); aces, agx and neutral (Khronos) roll highlights off.")
+#define TONEMAP_SETTINGS(VALUE, SWITCH, CHOICE)                                                                        \
+    VALUE(float, exposure, 0.0, -24.0, 24.0, "Exposure in stops (EV): +1 doubles the radiance before the tone curve.") \
+    CHOICE(ToneCurve, curve, neutral,                                                                                  \
+           "Tone mapping curve. gamma22, srgb: clip, then 2.2 power or sRGB encoding. aces, agx, neutral (Khronos "    \
+           "PBR Neutral): compress highlights.")
 SETTINGS(TonemapSettings, TONEMAP_SETTINGS)
 
 struct TonemapParams {

@@ -1,4 +1,4 @@
-// Direct light with shadows by rays, by a hierarchy traversed in the shader (direct_rays.glsl).
+// Direct light with ray-traced shadows, software BVH traversal (direct_rays.glsl).
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/trace_scene/scene_surfaces.glsl"

@@ -1,4 +1,4 @@
-// Records direct light with shadows by rays.
+// Records direct light with ray-traced shadows.
 #include "render/trace_scene/direct_rays.h"
 
 #include "gpu/device.h"

@@ -1,5 +1,6 @@
-// Direct light of sun and lamps with shadow rays, emission and background. direct_rays.comp and direct_rays_query.comp
-// include it after their traversal. In: G-buffer, GGX table, lamps. Out: direct radiance, the sun's visibility.
+// Direct light of sun and lamps with shadow rays, emission and background. Included by direct_rays.comp and
+// direct_rays_query.comp after their traversal. In: G-buffer, GGX table, lamps. Out: direct radiance, the sun's
+// visibility.
 #include "render/environment/environment.glsl"
 #include "render/gbuffer/gbuffer.glsl"
 #include "render/lamps.h"

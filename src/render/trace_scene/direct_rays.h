@@ -1,4 +1,5 @@
-// Direct light with shadows by rays: what direct.h makes, without maps, and with all lamps. Shared by C++ and GLSL.
+// Direct light with ray-traced shadows: as direct.h, but without shadow maps and with shadows of all lamps. Shared by
+// C++ and GLSL.
 #ifndef REFLET_RENDER_DIRECT_RAYS_H
 #define REFLET_RENDER_DIRECT_RAYS_H
 
@@ -11,7 +12,7 @@ SHARED_BEGIN
 struct DirectRaysParams {
     ViewParams view;
     SceneLights lights;
-    uint rays;  // to the sun, and to lamps
+    uint rays;  // shadow rays to the sun, and as many to lamps
 };
 
 SHARED_END
@@ -23,7 +24,7 @@ SHARED_END
 
 namespace reflet {
 
-/// What is lit, and by what.
+/// Inputs of shading.
 struct DirectRaysInputs {
     const TracedScene& scene;
     gpu::Image ggxTable;
@@ -32,8 +33,8 @@ struct DirectRaysInputs {
 };
 
 struct DirectRays {
-    gpu::Image direct;         ///< RGBA16F, as of directLight
-    gpu::Image sunVisibility;  ///< R8: share of the rays to the sun's disk that nothing hides, 1 in the sky
+    gpu::Image direct;         ///< RGBA16F, as by directLight
+    gpu::Image sunVisibility;  ///< R8: unoccluded share of the rays to the sun's disk, 1 for the sky
 };
 
 DirectRays directByRays(gpu::Frame& f, const GBuffer& g, const DirectRaysInputs& in, const DirectRaysParams& params);

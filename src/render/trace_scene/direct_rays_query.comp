@@ -1,4 +1,4 @@
-// Direct light with shadows by rays, by ray query (direct_rays.glsl).
+// Direct light with ray-traced shadows, hardware ray query (direct_rays.glsl).
 #version 460
 #extension GL_EXT_ray_query : require
 #extension GL_EXT_scalar_block_layout : require

@@ -1,7 +1,7 @@
-// Light of sun and lamps at a surface, with shadow rays: one place on the sun's disk, one of the lamps and a place on its
-// disk. What the reference does at each surface of a path.
-// The includer defines, before it includes this: SceneLights sceneLights(), LampParams loadLamp(uint index),
-// uint lampCount(), float sunMapVisibility(vec3 p, vec3 normal): 0 or 1, or -1 where a ray must tell; and includes the
+// Direct light of sun and lamps at a surface with shadow rays: one sample of the sun's disk, and one of a randomly
+// chosen lamp's disk. The same estimator as in the reference path tracer.
+// The includer first defines SceneLights sceneLights(), LampParams loadLamp(uint index),
+// uint lampCount(), float sunMapVisibility(vec3 p, vec3 normal): 0 or 1, or -1 to trace a ray; and includes the
 // traversal, for anyHit.
 #ifndef REFLET_SCENE_LIGHT_GLSL
 #define REFLET_SCENE_LIGHT_GLSL
@@ -14,7 +14,7 @@
 
 const float sceneFar = 1e30;  // metres: farther than anything
 
-// Numbers in [0, 1), one after the other.
+// Pseudorandom numbers in [0, 1).
 float nextRandom(inout uint state) {
     state += 0x9e3779b9u;
     return hashToUnit(hashPcg(state));
@@ -24,26 +24,26 @@ vec2 nextRandom2(inout uint state) {
     return vec2(first, nextRandom(state));
 }
 
-// A point that is lit and seen.
+// A point to be shaded.
 struct LitPoint {
     vec3 position;         // world space
     vec3 geometricNormal;  // unit, on the side of the viewer
     vec3 normal;           // unit, shading
     vec3 toViewer;         // unit
-    float clearance;       // metres off the surface at which rays start
+    float clearance;       // offset of ray origins from the surface [m]
     Surface surface;
 };
 
-// Light that reaches the viewer, were nothing in the way of the ray that tells whether something is.
+// An unoccluded light sample and its shadow ray.
 struct LightRay {
     vec3 light;
     vec3 direction;  // the ray ends at `far` times this
     float far;
-    bool casts;      // false: nothing can be in its way
+    bool casts;      // false: needs no shadow ray
     bool sun;
 };
 
-// From the sides of the triangle and of the shading normal that are lit.
+// BRDF · cos, zero if the light is behind the geometric normal.
 vec3 reflectToViewer(LitPoint at, vec3 toLight) {
     return dot(toLight, at.geometricNormal) > 0.0 ? brdfTimesCosine(at.surface, at.normal, at.toViewer, toLight)
                                                   : vec3(0.0);
@@ -53,7 +53,7 @@ vec2 diskPoint(vec2 u) { return sqrt(u.x) * vec2(cos(2.0 * pi * u.y), sin(2.0 * 
 
 LightRay drawSun(LitPoint at, inout uint random) {
     SceneLights lights = sceneLights();
-    // Uniform in the disk's projection on a plane that faces it: every place brings the same.
+    // Uniform over the disk's projection, so that all samples have the same weight.
     vec2 place = lights.sunSine * diskPoint(nextRandom2(random));
     float z = sqrt(1.0 - dot(place, place));
     LightRay ray;
@@ -70,7 +70,7 @@ float lampStrength(LitPoint at, uint index, out vec3 irradiance, out vec3 toLamp
     return dot(toLamp, at.geometricNormal) > 0.0 ? luminance(irradiance) : 0.0;
 }
 
-// Toward a place on the lamp's disk, up to where the lamp's clearance begins (docs/conventions.md).
+// Shadow ray to a point of the lamp's disk, ending at the lamp's clearance (docs/conventions.md).
 void aimAtLamp(LitPoint at, LampParams lamp, vec3 origin, vec3 toLamp, vec2 u, inout LightRay ray) {
     ray.direction = toLamp;
     ray.far = sceneFar;
@@ -82,12 +82,12 @@ void aimAtLamp(LitPoint at, LampParams lamp, vec3 origin, vec3 toLamp, vec2 u, i
     float way = length(ray.direction);
     float square = dot(place, place);
     float clearance = max(lamp.radius, 1e-3);
-    float inward = square / way;  // from the ray's point nearest to the lamp to its end
+    float inward = square / way;  // from the ray's closest point to the lamp's centre to the ray's end
     float rest = inward * inward + clearance * clearance - square;
     ray.far = 1.0 - (inward + sqrt(max(rest, 0.0))) / way;
 }
 
-// One of the lamps, with a chance in proportion to the light that it sends here.
+// Samples one lamp, with probability proportional to its unoccluded luminance here.
 LightRay drawLamp(LitPoint at, inout uint random) {
     float choice = nextRandom(random);
     vec2 u = nextRandom2(random);
@@ -127,11 +127,11 @@ bool isHidden(LitPoint at, LightRay ray) {
            anyHit(at.position + at.geometricNormal * at.clearance, ray.direction, 0.0, ray.far);
 }
 
-// sunVisible: 1: the sun is not hidden.
+// sunVisible: 1 if the sun is unoccluded.
 vec3 sunAndLamps(LitPoint at, inout uint random, out float sunVisible) {
     vec3 sum = vec3(0.0);
     sunVisible = 0.0;
-    for (uint i = 0u; i < 2u; ++i) {  // a loop, so that the traversal is there once
+    for (uint i = 0u; i < 2u; ++i) {  // a loop, so that the traversal is compiled only once
         LightRay ray = i == 0u ? drawSun(at, random) : drawLamp(at, random);
         bool faces = i == 0u && dot(ray.direction, at.geometricNormal) > 0.0;
         if ((faces || ray.light != vec3(0.0)) && !isHidden(at, ray)) {

@@ -1,4 +1,4 @@
-// How rays find what the scene's triangles are made of. Shared by C++ and GLSL.
+// Materials and instances of the scene, for ray hits. Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_SCENE_MATERIALS_H
 #define REFLET_RENDER_SCENE_MATERIALS_H
 
@@ -11,14 +11,14 @@ const uint wrapRepeat = 0;
 const uint wrapMirror = 1;
 const uint wrapClamp = 2;
 
-// An image as a slot of a material reads it.
+// A texture slot of a material.
 struct SceneTexture {
     uint layer;
     uint wrapU;
     uint wrapV;
-    uint nearest;      // 1: texels are not interpolated where they are seen larger than they are
-    uint mips;         // 0: it is read at its own size only
-    float firstLevel;  // of the layer, that the image fills
+    uint nearest;      // 1: nearest filtering under magnification
+    uint mips;         // 0: only the finest level is used
+    float firstLevel;  // level of the layer at which the image has its own resolution
     vec2 size;         // of the image, in texels
 };
 
@@ -27,7 +27,7 @@ struct SceneMaterial {
     SceneTexture textures[slotCount];
 };
 
-// A mesh at a place: where its vertices begin, and the columns that turn its directions to the world.
+// An instance of a mesh: its first vertex, and the columns of its 3x3 object-to-world matrix.
 struct SceneInstance {
     vec3 axisX;
     uint material;

@@ -1,4 +1,4 @@
-// Uploads a scene's triangles and the hierarchy over them.
+// Uploads a scene's triangles and their BVH.
 #include "render/trace_scene/scene_rays.h"
 
 #include "base/error.h"
@@ -14,7 +14,7 @@ namespace reflet {
 
 namespace {
 
-// A triangle's corners, as acceleration structures are built from them, begin every 16 bytes.
+// Stride of a triangle's corners, for building acceleration structures.
 constexpr size_t cornerStride = offsetof(SceneTriangle, b);
 static_assert(sizeof(SceneTriangle) == 3 * cornerStride && offsetof(SceneTriangle, c) == 2 * cornerStride);
 
@@ -54,10 +54,10 @@ void SceneRays::upload(gpu::Device& device, const Bvh& bvh) {
 
 void SceneRays::upload(gpu::Device& device, std::vector<SceneTriangle> triangles) {
     if (!device.hasRayQuery()) {
-        fail("the device '{}' has no ray query", device.description().name);
+        fail("the device '{}' does not support ray query; set trace_scene.ray_query=false", device.description().name);
     }
     if (triangles.empty()) {
-        triangles.push_back({});  // without area: nothing hits it
+        triangles.push_back({});  // degenerate: never hit
     }
     triangles_ = gpu::uploadVector(device, triangles, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | gpu::accelerationInput,
                                    "scene triangles");

@@ -1,4 +1,4 @@
-// Rays through the scene's hierarchy, traversed in the shader. Bindings 24 and 25 of set 0: SceneRays::bind.
+// Ray tracing by software traversal of the scene's BVH. Bindings 24 and 25 of set 0: SceneRays::bind.
 // The includer defines testEveryHit and acceptHit (shaders/bvh.glsl), after scene_triangles.glsl, before this.
 #ifndef REFLET_SCENE_RAYS_GLSL
 #define REFLET_SCENE_RAYS_GLSL

@@ -1,6 +1,6 @@
-// The scene's triangles on the device, for rays. A pass that traces has two shaders, which include the same body:
-// x.comp after scene_rays.glsl (a hierarchy traversed in the shader, on every device) and x_query.comp after
-// scene_rays_query.glsl (VK_KHR_ray_query). Both files say what they ask of their includer; both give
+// The scene's triangles and BVH on the device. A pass that traces rays has two shaders, which include the same body:
+// x.comp after scene_rays.glsl (software BVH traversal, on every device) and x_query.comp after scene_rays_query.glsl
+// (VK_KHR_ray_query). Both files document what the includer must define; both provide
 //     bool closestHit(vec3 origin, vec3 direction, float nearest, float farthest, out SceneHit hit)
 //     bool anyHit(vec3 origin, vec3 direction, float nearest, float farthest)
 //     SceneTriangle loadSceneTriangle(uint triangle)
@@ -23,27 +23,27 @@ class Pass;
 
 namespace reflet {
 
-/// How rays find what they hit.
+/// Ray tracing method.
 enum class RayMethod : uint8_t {
-    traversal,  ///< a hierarchy of our own, in the shader
-    query,      ///< the device's, by VK_KHR_ray_query
+    traversal,  ///< software BVH traversal in the shader
+    query,      ///< hardware, by VK_KHR_ray_query
 };
 
 class SceneRays {
 public:
-    /// Keeps no reference to the scene. Throws Error: the device has no ray query, but it is asked for.
+    /// Keeps no reference to the scene. Throws Error if ray query is requested but not supported.
     SceneRays(gpu::Device& device, const Scene& scene, RayMethod method);
 
-    /// Everything to where it is at the pose, of the same scene. What stands still is not built anew. No frame that
-    /// traces may be in flight.
+    /// Moves everything to a pose of the same scene. The BVH of static geometry is not rebuilt. No frame that traces
+    /// may be in flight.
     void pose(gpu::Device& device, const Scene& scene, const ScenePose& pose);
 
     [[nodiscard]] RayMethod method() const { return method_; }
     [[nodiscard]] uint32_t triangleCount() const { return triangleCount_; }
 
-    /// The variant of a shader: "trace_scene" gives "trace_scene.comp" or "trace_scene_query.comp".
+    /// The shader variant for the method: "trace_scene" gives "trace_scene.comp" or "trace_scene_query.comp".
     [[nodiscard]] std::string shader(std::string_view name) const;
-    /// States what the shader's include reads.
+    /// Binds what the shader's include reads.
     gpu::Pass& bind(gpu::Pass& pass) const;
 
 private:
@@ -51,8 +51,8 @@ private:
     void upload(gpu::Device& device, std::vector<SceneTriangle> triangles);
 
     RayMethod method_;
-    std::optional<std::vector<SceneTriangle>> standing_;  ///< what stands still, once something has moved
-    std::optional<Bvh> standingBvh_;                      ///< traversal: over those, which are dropped
+    std::optional<std::vector<SceneTriangle>> standing_;  ///< static triangles, once something has moved
+    std::optional<Bvh> standingBvh_;  ///< traversal: BVH of the static triangles, which are not kept then
     uint32_t triangleCount_ = 0;
     gpu::Buffer triangles_;
     gpu::Buffer nodes_;                        ///< traversal

@@ -1,4 +1,4 @@
-// Rays through the device's own acceleration structure (GL_EXT_ray_query, which the includer requires). Bindings 24
+// Hardware ray tracing (GL_EXT_ray_query, which the includer requires). Bindings 24
 // and 25 of set 0: SceneRays::bind.
 // The includer defines testEveryHit and acceptHit (shaders/bvh.glsl), after scene_triangles.glsl, before this.
 #ifndef REFLET_SCENE_RAYS_QUERY_GLSL
@@ -8,7 +8,7 @@
 
 layout(set = 0, binding = 24) uniform accelerationStructureEXT sceneHierarchy;
 
-// Where some triangles are cut out the structure asks about all.
+// If some triangles are alpha-tested, the structure reports all triangles as candidates.
 bool acceptCandidate(uint triangle, vec2 barycentrics, vec3 direction) {
     bool tests = testEveryHit || (loadSceneTriangle(triangle).flags & triangleCutOut) != 0u;
     return !tests || acceptHit(triangle, barycentrics, direction);
@@ -37,12 +37,12 @@ bool queryScene(vec3 origin, vec3 direction, float nearest, float farthest, uint
     return true;
 }
 
-// The nearest triangle between the two distances.
+// The closest hit between the two distances.
 bool closestHit(vec3 origin, vec3 direction, float nearest, float farthest, out SceneHit hit) {
     return queryScene(origin, direction, nearest, farthest, 0u, hit);
 }
 
-// Whether there is one.
+// Whether there is any hit between the two distances.
 bool anyHit(vec3 origin, vec3 direction, float nearest, float farthest) {
     SceneHit hit;
     return queryScene(origin, direction, nearest, farthest, gl_RayFlagsTerminateOnFirstHitEXT, hit);

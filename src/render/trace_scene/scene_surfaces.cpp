@@ -1,4 +1,4 @@
-// Uploads what rays find at their hits.
+// Uploads the surface data for ray hits.
 #include "render/trace_scene/scene_surfaces.h"
 
 #include "base/error.h"
@@ -19,7 +19,7 @@ uint32_t wrapOf(Wrap wrap) {
     return wrap == Wrap::mirror ? wrapMirror : wrap == Wrap::clamp ? wrapClamp : wrapRepeat;
 }
 
-// The images of one kind that materials use, and the layer of each.
+// The images of one kind (colour or data) used by materials, and their layers.
 class Layers {
 public:
     Layers(const Scene& scene, bool srgb) : srgb_(srgb) {
@@ -42,14 +42,18 @@ public:
     gpu::Texture upload(gpu::Device& device, uint32_t largest, const std::function<void(const std::string&)>& warn) {
         const uint32_t most = device.limits().maxImageArrayLayers;
         if (images_.size() > most) {
-            warn(fmt::format("the scene has {} textures of one kind, of which rays see {}", images_.size(), most));
+            warn(fmt::format(
+                "the scene has {} textures of one kind, but only {} are used at ray hits, the others left out",
+                images_.size(), most));
             images_.resize(most);
         }
         const auto shrunk = std::ranges::count_if(
             images_, [&](const auto& image) { return image.size.x > largest || image.size.y > largest; });
         if (shrunk > 0) {
-            warn(fmt::format("rays see {} of the scene's textures shrunk to {} texels (trace_scene.texture_size)",
-                             shrunk, largest));
+            warn(
+                fmt::format("{} of the scene's textures are shrunk to {} texels for ray hits: trace_scene.texture_size "
+                            "is the limit",
+                            shrunk, largest));
         }
         size_ = min(size_, uvec2(largest));
         constexpr uint8_t white[] = {255, 255, 255, 255};
@@ -60,7 +64,7 @@ public:
         return gpu::uploadTextureArray(device, size_, images_, srgb_, srgb_ ? "scene colours" : "scene data");
     }
 
-    /// False: the image is not there.
+    /// False if the slot has no image.
     [[nodiscard]] bool find(const Scene& scene, const TextureSlot& slot, SceneTexture& texture) const {
         const auto found = layers_.find(slot.image);
         if (found == layers_.end() || found->second >= images_.size()) {
@@ -84,7 +88,7 @@ private:
     uvec2 size_{1};
 };
 
-// Draws are one for each instance, in their order.
+// There is one draw per instance, in the same order.
 std::vector<SceneInstance> sceneInstances(const Scene& scene, const DrawList& draws) {
     std::vector<SceneInstance> instances;
     for (size_t i = 0; i < scene.instances.size(); ++i) {

@@ -1,6 +1,6 @@
-// What a ray finds at its hit: the same surface as the G-buffer's (gbuffer.vert, gbuffer.frag), from buffers and texture
-// arrays. Bindings 26 to 31 of set 0: SceneSurfaces::bind. After scene_triangles.glsl, and before the traversal, which
-// asks acceptHit.
+// Surface evaluation at ray hits, equivalent to the G-buffer (gbuffer.vert, gbuffer.frag), from buffers and texture
+// arrays. Bindings 26 to 31 of set 0: SceneSurfaces::bind. Include after scene_triangles.glsl and before the traversal,
+// which calls acceptHit.
 #ifndef REFLET_SCENE_SURFACES_GLSL
 #define REFLET_SCENE_SURFACES_GLSL
 
@@ -23,7 +23,7 @@ layout(set = 0, binding = 29, scalar) readonly buffer SceneMaterialBlock { Scene
 layout(set = 0, binding = 30) uniform sampler2DArray sceneColors;
 layout(set = 0, binding = 31) uniform sampler2DArray sceneData;
 
-// A place on a triangle, as textures are looked up there. World space, metres.
+// A point on a triangle with its texture coordinates. World space, metres.
 struct ScenePlace {
     uint material;
     uvec3 vertices;
@@ -31,7 +31,7 @@ struct ScenePlace {
     vec2 uv0;
     vec2 uv1;
     vec2 density;   // of uv0 and uv1: uv units per metre
-    float width;    // of what is seen at once [m]; 0: as little as a texture can show
+    float width;    // of the ray's footprint [m]; 0: finest level
 };
 
 vec4 unpackVertexColor(uvec2 bits) { return vec4(unpackUnorm2x16(bits.x), unpackUnorm2x16(bits.y)); }
@@ -60,8 +60,8 @@ bool hasSceneTexture(ScenePlace place, uint slot) {
     return (sceneMaterials.items[place.material].params.textured & (1u << slot)) != 0u;
 }
 
-// halfTexel: of the level that is read. Linear interpolation past the first or last texel's middle takes the next one,
-// which the sampler has only where the image repeats.
+// halfTexel: of the level that is read. Clamps to texel centres, because the sampler repeats and would interpolate with
+// the opposite edge.
 float wrapCoordinate(float u, uint wrap, float halfTexel) {
     if (wrap == wrapRepeat) {
         return u;
@@ -70,7 +70,7 @@ float wrapCoordinate(float u, uint wrap, float halfTexel) {
     return clamp(u, halfTexel, 1.0 - halfTexel);
 }
 
-// Not where the slot has no texture.
+// Only for slots with a texture.
 vec4 readSceneTexture(ScenePlace place, uint slot) {
     uint m = place.material;
     SceneTexture t = sceneMaterials.items[m].textures[slot];
@@ -81,7 +81,7 @@ vec4 readSceneTexture(ScenePlace place, uint slot) {
     vec2 uv = vec2(dot(rowU, at), dot(rowV, at));
     bool color = slot == slotBaseColor || slot == slotEmissive;
     vec2 size = vec2(color ? textureSize(sceneColors, 0).xy : textureSize(sceneData, 0).xy);
-    // Texels of the finest level under the footprint, the same along both axes: the root of the area that they cover.
+    // Width of the isotropic footprint in texels of the finest level, from the texel density by area.
     float density = (second ? place.density.y : place.density.x) * sqrt(abs(determinant(mat2(rowU.xy, rowV.xy))));
     float texels = place.width * density * sqrt(size.x * size.y);
     float level = t.mips != 0u ? max(log2(max(texels, 1e-6)), t.firstLevel) : t.firstLevel;
@@ -101,7 +101,7 @@ vec4 sceneBaseColor(ScenePlace place) {
     return hasSceneTexture(place, slotBaseColor) ? color * readSceneTexture(place, slotBaseColor) : color;
 }
 
-// What the traversal asks: rays go through what is cut out.
+// Alpha test for the traversal.
 const bool testEveryHit = false;
 bool acceptHit(uint triangle, vec2 barycentrics, vec3 direction) {
     ScenePlace place = scenePlace(loadSceneTriangle(triangle), barycentrics);
@@ -110,24 +110,24 @@ bool acceptHit(uint triangle, vec2 barycentrics, vec3 direction) {
 
 struct SceneSurface {
     vec3 position;         // world space
-    vec3 geometricNormal;  // unit, of the triangle, toward where the ray came from
+    vec3 geometricNormal;  // unit, of the triangle, facing the ray's origin
     vec3 normal;           // unit, shading normal on the same side of the surface
     vec3 baseColor;        // linear
     float roughness;       // perceptual
     float metallic;
     float occlusion;       // of the occlusion map, 1 open
-    vec3 emissive;         // radiance; surfaces emit from the sides that they show
-    float clearance;       // how far off the surface a ray starts so as not to hit it again [m]
-    bool hiddenBack;       // of a single-sided surface: the camera would look through it
+    vec3 emissive;         // radiance; surfaces emit from their visible sides
+    float clearance;       // offset of ray origins against self-intersection [m]
+    bool hiddenBack;       // back of a single-sided surface, which is culled for the camera
 };
 
 vec3 largestOf(vec3 a, vec3 b, vec3 c) { return max(abs(a), max(abs(b), abs(c))); }
 
-// Rays that leave a point whose coordinates were rounded start this much off its surface.
+// Offset of ray origins from a surface, to compensate for rounded coordinates.
 const float relativeClearance = 4e-6;
 
-// The same for a point made of a pixel's depth, so many metres in front of the camera: the depth and the geometric normal
-// were rounded, too. Orthographic depths are rounded to some 1e-7 of all the way to the far plane.
+// The same for a point reconstructed from depth, `away` metres in front of the camera: depth and geometric normal are
+// rounded as well. Orthographic depth is rounded to about 1e-7 of the far distance.
 float clearanceOfPixel(vec3 p, float away, vec4 depthToDistance) {
     vec3 size = abs(p);
     return max(4.0 * relativeClearance * max(max(size.x, size.y), max(size.z, away)), 4e-7 * abs(depthToDistance.y));
@@ -162,12 +162,12 @@ vec3 sceneShadingNormal(SceneTriangle t, ScenePlace place, vec3 fallback) {
     return normalize(tangentW * bent.x + cross(n, tangentW) * (tangent.w * handedness * bent.y) + n * bent.z);
 }
 
-// direction: of the ray, unit. width: of what is seen at once, across the ray [m]; 0: textures are read in full detail.
+// direction: of the ray, unit. width: of the footprint across the ray [m]; 0: textures are read at the finest level.
 SceneSurface sceneSurface(SceneHit hit, vec3 direction, float width) {
     SceneTriangle t = loadSceneTriangle(hit.triangle);
     ScenePlace place = scenePlace(t, hit.barycentrics);
     SceneSurface s;
-    // From the corners, not along the ray: that would carry the ray's rounding over its whole length.
+    // From the corners, not along the ray, whose rounding error grows with its length.
     s.position = place.weights.x * t.a + place.weights.y * t.b + place.weights.z * t.c;
     vec3 largest = largestOf(t.a, t.b, t.c);
     s.clearance = relativeClearance * max(largest.x, max(largest.y, largest.z));
@@ -175,7 +175,7 @@ SceneSurface sceneSurface(SceneHit hit, vec3 direction, float width) {
     float facing = dot(front, direction);
     s.geometricNormal = facing <= 0.0 ? front : -front;
     s.hiddenBack = facing > 0.0 && (t.flags & triangleDoubleSided) == 0u;
-    // A footprint at a slant is as large as its area.
+    // The footprint on a slanted surface, by equal area.
     place.width = width * inversesqrt(max(abs(facing), 0.01));
     MaterialParams material = sceneMaterials.items[place.material].params;
     s.baseColor = clamp(sceneBaseColor(place).rgb, 0.0, 1.0);

@@ -1,5 +1,5 @@
-// What the scene's triangles are made of, for rays: vertex attributes, instances, materials, textures as layers of two
-// arrays (colours and data). A pass binds it all beside SceneRays; scene_surfaces.glsl reads it.
+// Surface data for ray hits: vertex attributes, instances, materials, textures as layers of two arrays (colours and
+// data). Passes bind it along with SceneRays; scene_surfaces.glsl reads it.
 #pragma once
 
 #include "gpu/resource.h"
@@ -19,15 +19,15 @@ namespace reflet {
 
 class SceneSurfaces {
 public:
-    /// textureSize: texels along each side of the largest layer; images that are larger are shrunk, of which `warn`
-    /// hears. Vertices are those of `onDevice`, which must be of the same scene and outlive this.
+    /// textureSize: maximum side of a layer in texels; larger images are downsampled, with a message to `warn`.
+    /// Vertices are those of `onDevice`, which must be of the same scene and outlive this.
     SceneSurfaces(gpu::Device& device, const Scene& scene, const GpuScene& onDevice, uint32_t textureSize,
                   const std::function<void(const std::string&)>& warn);
 
-    /// Instances to where the draws of `onDevice` are. No frame that traces may be in flight.
+    /// Updates the instances to the transforms of the draws of `onDevice`. No frame that traces may be in flight.
     void pose(gpu::Device& device, const Scene& scene, const GpuScene& onDevice);
 
-    /// States what scene_surfaces.glsl reads.
+    /// Binds what scene_surfaces.glsl reads.
     gpu::Pass& bind(gpu::Pass& pass) const;
 
 private:

@@ -1,4 +1,4 @@
-// The scene's triangles, as rays report them. Binding 25 of set 0: SceneRays::bind.
+// The scene's triangles, by the index that ray hits report. Binding 25 of set 0: SceneRays::bind.
 #ifndef REFLET_SCENE_TRIANGLES_GLSL
 #define REFLET_SCENE_TRIANGLES_GLSL
 

@@ -1,4 +1,4 @@
-// The scene as a source of answers, by a hierarchy traversed in the shader (trace_scene.glsl).
+// Ray tracing as a ray source, software BVH traversal (trace_scene.glsl).
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/trace_scene/scene_surfaces.glsl"

@@ -1,4 +1,4 @@
-// Records the scene as a source of answers.
+// Records ray tracing as a ray source.
 #include "render/trace_scene/trace_scene.h"
 
 #include "gpu/device.h"

@@ -1,8 +1,8 @@
-// Traces waiting rays through the scene and shades what they hit. trace_scene.comp and trace_scene_query.comp include it
-// after their traversal.
-// In: depth, geometric normal and material that rays leave; of the screen: depth, geometric normal, motion, light of this and the last frame, the sun's shadow map, GGX table, blue
-// noise, lamps, ray directions, the list. Out: answers, sources, how far the images of what mirrors show moved by
-// themselves, the list of what it has not answered.
+// Traces the remaining rays against the scene's BVH and shades their hits. Included by trace_scene.comp and
+// trace_scene_query.comp after their traversal.
+// In: depth, geometric normal and material of the rays' origins; of the screen: depth, geometric normal, motion, light
+// of this and the last frame; the sun's shadow map, GGX table, blue noise, lamps, ray directions, the list. Out:
+// results, sources, motion of reflected images, the list of remaining rays.
 #include "render/environment/environment.glsl"
 #include "render/bounce/rays.glsl"
 #include "render/gbuffer/gbuffer.glsl"
@@ -56,7 +56,7 @@ SceneLights sceneLights() { return params.lights; }
 LampParams loadLamp(uint index) { return lampBlock.lamps[index]; }
 uint lampCount() { return lampBlock.count; }
 
-// The first map that has the point: they go from fine to coarse.
+// Uses the first cascade that contains the point; they are ordered from fine to coarse.
 float sunMapVisibility(vec3 p, vec3 normal) {
     if (sunShadows != sunShadowMap) {
         return sunShadows == sunShadowNone ? 1.0 : -1.0;
@@ -74,27 +74,27 @@ float sunMapVisibility(vec3 p, vec3 normal) {
 #include "render/bounce/last_frame.glsl"
 #include "render/trace_scene/scene_light.glsl"
 
-// Below this perceptual roughness a lobe is narrower than anything it could show.
+// Up to this perceptual roughness a lobe is treated as a mirror.
 const float mirrorRoughness = 0.01;
-const uint rouletteStart = 4u;  // bounces that every path may take
-// How wide what a scattered ray stands for is taken to be, of what its lobe spans: little enough not to be seen.
+const uint rouletteStart = 4u;  // bounces before Russian roulette starts
+// Footprint of a scattered ray relative to its lobe's width, small enough for the blur to be invisible.
 const float shareOfLobe = 0.1;
 
-// A ray through the scene.
+// A ray with its footprint.
 struct SceneRay {
     vec3 origin;
     vec3 direction;
-    float width;    // at its origin, of what it stands for [m]
-    float spread;   // by which that grows for each metre
+    float width;    // of the footprint at the origin [m]
+    float spread;   // growth of the footprint per metre
 };
 
-// What the screen shows where a point is.
+// A point's projection on screen and the surface visible there.
 struct OnScreen {
-    bool inside;  // of the screen, before the camera
+    bool inside;  // within the screen and in front of the camera
     ivec2 pixel;
-    vec2 uv;      // of the point itself
-    float depth;  // of the pixel, 0: the sky
-    vec3 shown;   // the pixel's point
+    vec2 uv;      // of the point
+    float depth;  // of the pixel, 0: sky
+    vec3 shown;   // the point that the pixel shows
     vec3 normal;  // its geometric one
 };
 
@@ -110,7 +110,7 @@ OnScreen findOnScreen(vec3 position) {
     return s;
 }
 
-// Whether the point lies in the plane that the pixel shows.
+// Whether the point lies on the surface that the pixel shows.
 bool isShown(OnScreen s, vec3 position) {
     float away = dot(params.view.viewPlane, vec4(position, 1.0));
     float pixelWidth = params.view.pixelAngle * (params.view.eye.w > 0.0 ? away : 1.0);
@@ -118,8 +118,8 @@ bool isShown(OnScreen s, vec3 position) {
            distance(position, s.shown) < 4.0 * pixelWidth;
 }
 
-// A hit that the camera sees, too, and the light there. Depth is that of a pixel's centre: a slanted surface may be half
-// a pixel nearer or farther at the hit.
+// Radiance stored on screen for a hit that is visible to the camera. Depth is sampled at the pixel's centre, so on
+// slanted surfaces it may be off by half a pixel.
 bool screenLight(SceneSurface at, out vec3 radiance) {
     radiance = vec3(0.0);
     OnScreen s = findOnScreen(at.position);
@@ -145,8 +145,8 @@ Surface surfaceOf(SceneSurface at, vec3 toViewer) {
     return makeSurface(at.baseColor, at.metallic, at.roughness, table, lambert);
 }
 
-// The next ray of a path, by one lobe or the other, and what share of its light goes on along the one before. 0: it would
-// go below the surface.
+// Samples the next ray of a path from one of the two lobes and returns its throughput. 0: it would go below the
+// surface.
 vec3 scatter(LitPoint at, bool diffuseOnly, inout uint random, out SceneRay next) {
     float specularLight = dot(at.surface.specular, vec3(1.0));
     float both = specularLight + dot(at.surface.diffuse, vec3(1.0));
@@ -179,7 +179,7 @@ vec3 scatter(LitPoint at, bool diffuseOnly, inout uint random, out SceneRay next
     return l.z > 0.0 && dot(towards, at.geometricNormal) > 0.0 ? weight : vec3(0.0);
 }
 
-// Radiance along the ray from what it hits. hitDistance: metres; negative: it hits nothing.
+// Radiance along the ray from its hit. hitDistance: metres; negative: miss.
 vec3 radianceAlong(SceneRay ray, inout uint random, out float hitDistance) {
     vec3 radiance = vec3(0.0);
     vec3 throughput = vec3(1.0);
@@ -217,8 +217,8 @@ vec3 radianceAlong(SceneRay ray, inout uint random, out float hitDistance) {
     }
 }
 
-// From the surface on, not from where the screen has met nothing up to: that knows nothing of what is thinner than a pixel
-// (in the built-in cave it loses a tenth of the light).
+// Starts at the surface, not at the end of the screen-space march, which misses geometry thinner than a pixel (in the
+// built-in scene cave that loses a tenth of the light).
 SceneRay rayOfPixel(ivec3 slot, Ray ray) {
     float d = texelFetch(ownDepth, slot.xy, 0).r;
     vec3 p = uvToWorld(pixelToUv(slot.xy, params.own.pixel), d, params.own.clipToWorld);
@@ -231,7 +231,7 @@ SceneRay rayOfPixel(ivec3 slot, Ray ray) {
                     params.own.pixelAngle * params.own.eye.w + shareOfLobe * lobeWidth);
 }
 
-// Whether the ray is among those that the limit allows.
+// Whether the ray is within the ray budget, chosen by blue noise.
 bool isChosen(ivec3 slot) {
     float chance = params.rayLimit / float(waiting.count);
     uint stream = params.firstRay + uint(slot.z) + 16u * lobe + hashPcg(params.own.seed + 7u);
@@ -239,9 +239,9 @@ bool isChosen(ivec3 slot) {
     return float(mask & 0xffffu) < 65536.0 * chance;
 }
 
-// How the mirror image of what the ray has hit moved by itself, if the screen shows that, too. Nobody else knows where a
-// triangle was.
-void tellMotion(ivec2 pixel, SceneRay ray, float hitDistance) {
+// Writes the motion of the reflected image caused by the hit object's own motion, if the hit is visible on screen.
+// Otherwise its previous position is unknown.
+void writeReflectionMotion(ivec2 pixel, SceneRay ray, float hitDistance) {
     vec3 hit = ray.origin + ray.direction * hitDistance;
     OnScreen s = findOnScreen(hit);
     vec3 displacement = isShown(s, hit) ? displacementAt(s.pixel, s.shown) : vec3(0.0);
@@ -260,11 +260,11 @@ RayAnswer answerRay(inout WaitingRay w, Ray ray) {
     vec3 radiance = radianceAlong(traced, random, hitDistance);
     if (hitDistance < 0.0) {
         w.lost = false;
-        w.clear = largestHalf;  // it is known to meet nothing
+        w.clear = largestHalf;  // known to hit nothing
         return RayAnswer(vec3(0.0), 0.0, 0.0);
     }
     if (tellsMotion != 0u && w.slot.z == 0) {
-        tellMotion(w.slot.xy, traced, hitDistance);
+        writeReflectionMotion(w.slot.xy, traced, hitDistance);
     }
     return RayAnswer(radiance, 1.0, hitDistance);
 }

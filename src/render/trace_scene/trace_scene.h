@@ -1,5 +1,5 @@
-// A source of the chain that knows all of the scene: rays traced through its triangles, hits shaded with their
-// materials and lights. It answers what the sources before it have left over. Shared by C++ and GLSL.
+// Ray tracing as a ray source: rays that earlier sources left are traced against the scene's BVH, on screen or off, and
+// hits are shaded with their materials and lights. Shared by C++ and GLSL.
 #ifndef REFLET_RENDER_TRACE_SCENE_H
 #define REFLET_RENDER_TRACE_SCENE_H
 
@@ -19,32 +19,35 @@ CHOICES(SceneHitLight, SCENE_HIT_LIGHTS)
     OPTION(SceneShadows, map, 1)
 CHOICES(SceneShadows, SCENE_SHADOWS)
 
-#define TRACE_SCENE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                 \
-    SWITCH(enabled, 0,                                                                                              \
-           "Trace what the sources before it have not answered through all of the scene's triangles, on screen or " \
-           "not. Rays that stand for a whole lobe go on to the next source.")                                       \
-    CHOICE(SceneHitLight, light, screen,                                                                            \
-           "What a hit brings besides what it emits and light of sun and lamps; screen: what a hit on the screen "  \
-           "does (trace_screen.light; lit: to reflections, one diffuse ray more), so that there is no seam; path: " \
-           "`bounces` scattered rays.")                                                                             \
-    VALUE(uint, bounces, 1, 0, 1024,                                                                                \
-          "Scattered rays that follow one another from a hit, with light=path, or screen and "                      \
-          "trace_screen.light=previous; from the fifth on by Russian roulette.")                                    \
-    CHOICE(SceneShadows, shadows, ray,                                                                              \
-           "How a hit sees the sun; ray: a ray to a place on its disk; map: the sun's shadow map, and a ray where " \
-           "the map does not reach. Lamps are always seen by rays.")                                                \
-    SWITCH(reuseScreen, 1,                                                                                          \
-           "A hit that the camera sees takes the light that the screen shows there, where that is all it is to "    \
-           "bring: less noise, fewer rays.")                                                                        \
-    VALUE(uint, maxRays, 1000000, 0, 1000000,                                                                       \
-          "Thousands of rays that a frame answers so, about; the others, spread evenly, go on to the next source.") \
-    VALUE(uint, textureSize, 1024, 16, 8192, "Texels along each side up to which hits see textures in full.")       \
-    SWITCH(rayQuery, 1,                                                                                             \
-           "Rays are traced by the device, where it has ray query; off, or where it has none: by a hierarchy that " \
-           "a shader goes through.")
+#define TRACE_SCENE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                    \
+    SWITCH(enabled, 0,                                                                                                 \
+           "Ray tracing against the scene's BVH, on screen or off, for rays without a hit so far. Cones (prefiltered " \
+           "lobes) skip it. More complete, slower.")                                                                   \
+    CHOICE(SceneHitLight, light, screen,                                                                               \
+           "Indirect light at a hit, in addition to emission, sun and lamps. screen: the same as screen-space hits "   \
+           "get (trace_screen.light; for lit, reflections trace one diffuse ray more), so that both match. path: "     \
+           "path tracing with up to `bounces` bounces.")                                                               \
+    VALUE(uint, bounces, 1, 0, 1024,                                                                                   \
+          "Maximum bounces after a hit, with light path, or with light screen and trace_screen.light previous. "       \
+          "Russian roulette from the fifth on. More: brighter corners, slower.")                                       \
+    CHOICE(SceneShadows, shadows, ray,                                                                                 \
+           "Sun shadows at hits. ray: a shadow ray to a random point of the sun's disk. map: the sun's shadow map, "   \
+           "and a ray outside of it; faster, harder edges. Lamps always get shadow rays.")                             \
+    SWITCH(reuseScreen, 1,                                                                                             \
+           "Where a hit is visible on screen, reuse the light stored there instead of shading it again, if that is "   \
+           "all the hit needs. Less noise, fewer rays.")                                                               \
+    VALUE(uint, maxRays, 1000000, 0, 1000000,                                                                          \
+          "Ray budget per frame, in thousands, approximate. Rays above it, chosen by blue noise, go to the next "      \
+          "source.")                                                                                                   \
+    VALUE(uint, textureSize, 1024, 16, 8192,                                                                           \
+          "Maximum side of textures at ray hits, in texels; larger textures are downsampled. More: sharper "           \
+          "reflections, more memory.")                                                                                 \
+    SWITCH(rayQuery, 1,                                                                                                \
+           "Trace with hardware ray query where the device has it. Off, or without it: a software BVH in a compute "   \
+           "shader.")
 SETTINGS(TraceSceneSettings, TRACE_SCENE_SETTINGS)
 
-// What shines, besides lamps and glowing surfaces.
+// Light parameters, apart from lamps and emissive surfaces.
 struct SceneLights {
     vec3 toSun;
     float sunSine;       // of half the sun's angular diameter
@@ -54,21 +57,21 @@ struct SceneLights {
 };
 
 struct TraceSceneParams {
-    ViewParams own;   // of the surfaces that rays leave
+    ViewParams own;   // of the surfaces that rays start from
     ViewParams view;  // of the screen
     TraceSceneSettings settings;
     SceneLights lights;
     SunShadowParams sun;
     float shadowBias;   // texels
-    float rayLimit;     // rays that this batch may answer, about
-    uint bounces;       // scattered rays after a hit
-    uint diffuseOnly;   // 1: they are diffuse ones
-    uint mips;          // 0: textures are read in full detail
-    uint fromPrevious;  // 1: the screen's light is the last frame's
+    float rayLimit;     // approximate ray budget of this batch
+    uint bounces;       // bounces after a hit
+    uint diffuseOnly;   // 1: only diffuse bounces
+    uint mips;          // 0: textures are read at the finest level
+    uint fromPrevious;  // 1: screen light is the last frame's
     uint firstRay;
 };
 
-// Of the specialization constant `sunShadows`.
+// Values of the specialization constant `sunShadows`.
 const uint sunShadowNone = 0;
 const uint sunShadowRay = 1;
 const uint sunShadowMap = 2;
@@ -86,25 +89,25 @@ SHARED_END
 
 namespace reflet {
 
-/// A scene that rays can be traced through.
+/// A scene for ray tracing.
 struct TracedScene {
     SceneRays rays;
     SceneSurfaces surfaces;
 };
 
-/// What a frame lights hits with.
+/// Inputs for shading hits.
 struct TraceSceneInputs {
     const TracedScene& scene;
     const ScreenImages& screen;
-    gpu::Image shadowMap;  ///< of the sun; none: it has no shadows, or rays find them
+    gpu::Image shadowMap;  ///< of the sun; none without shadows or with ray-traced ones
     gpu::Image ggxTable;
     gpu::BufferView blueNoise;
     const EnvironmentLight& environment;
     const LampBlock& lamps;
 };
 
-/// Answers rays that hit something, with confidence 1. Hands on the others, of which it is then known that nothing is
-/// in their way, those past the limit, and those that stand for a whole lobe (Ray.spread).
+/// Hits get confidence 1. Misses stay in rays.waiting, marked as known misses, and so do rays beyond the budget and
+/// cones (Ray.spread).
 void traceScene(gpu::Frame& f, Rays& rays, const TraceSceneInputs& in, uint32_t sunShadows,
                 const TraceSceneParams& params);
 

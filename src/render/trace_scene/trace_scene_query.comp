@@ -1,4 +1,4 @@
-// The scene as a source of answers, by ray query (trace_scene.glsl).
+// Ray tracing as a ray source, hardware ray query (trace_scene.glsl).
 #version 460
 #extension GL_EXT_ray_query : require
 #extension GL_EXT_scalar_block_layout : require
