@@ -1,82 +1,122 @@
 #!/usr/bin/env bash
 # Builds everything and runs every test. The last line says "N passed, N failed"; the exit status is 0 only if tests
-# ran and none failed. Full output of each test program: build/test-logs/.
+# ran and none failed. Each test program runs in several shards, as many at a time as there are cores. Full output:
+# build/test-logs/. Arguments filter the tests, as --gtest_filter does: ./test.sh 'Sweep.*'
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
+filter=${1-*}
 
 finish() {  # passed failed
     echo "$1 passed, $2 failed"
     exit "$(($1 == 0 || $2 > 0))"
 }
 
+cores=$(nproc)
 build() {
     ./setup.sh --tests && cmake --preset release -DREFLET_TESTS=ON &&
-        cmake --build --preset release --parallel "$(nproc)"
+        cmake --build --preset release --parallel "$cores"
 }
 if ! build; then
     echo "test.sh: the build failed" >&2
     finish 0 1
 fi
-echo "built in $SECONDS s"
+built=$SECONDS
+echo "built in $built s; now the tests, $cores at a time"
 
 logs=build/test-logs
+rm -rf "$logs"
 mkdir -p "$logs"
-limit=1800 # seconds per test program; one that hangs has failed
+limit=900 # seconds for one shard; one that hangs has failed
 passed=0
 failed=0
 skipped=0
 failures=()
+declare -A seconds=() good=() bad=()
+# Shards run side by side: a driver that renders on the CPU gets its share of the cores.
+export LP_NUM_THREADS=${LP_NUM_THREADS-1}
 
-# A total from the head of a GoogleTest report.
+# A number from the head of a GoogleTest report, which holds the totals.
 total() {  # report key
     grep -m 1 "\"$2\":" "$1" | tr -dc '0-9'
 }
 
-runTests() {  # program [name filter]
-    local name=${2-${1##*/}} filter=${3-*} status=0 start=$SECONDS ok bad
-    local log="$logs/$name.log" report="$logs/$name.json"
-    rm -f "$report"
-    echo "== $name"
-    # Shows everything but passed tests.
-    timeout "$limit" "$1" "--gtest_filter=$filter" "--gtest_output=json:$report" 2>&1 | tee "$log" |
-        { grep -avE '^\[( RUN      |       OK |----------|==========)\]|^Running main|^$' || true; } || status=$?
-    local names
-    names=$(sed -nE 's/^\[  FAILED  \] (.*) \([0-9]+ ms\)$/\1/p' "$log")
-    [[ -z "$names" ]] || mapfile -t -O "${#failures[@]}" failures <<<"$names"
-    if [[ -f "$report" ]]; then
-        local skippedHere
-        skippedHere=$(grep -c '"result": "SKIPPED"' "$report" || true)
-        bad=$(total "$report" failures)
-        ok=$(($(total "$report" tests) - bad - $(total "$report" disabled) - skippedHere))
-        skipped=$((skipped + skippedHere))
-    else # it did not finish
-        ok=$(grep -ac '^\[       OK \]' "$log" || true)
-        bad=$(grep -acE '^\[  FAILED  \] .* ms\)$' "$log" || true)
-    fi
-    if [[ ! -f "$report" ]] || ((status != 0 && bad == 0)); then
-        local last
-        last=$(sed -nE 's/^\[ RUN      \] //p' "$log" | tail -n 1)
-        failures+=("$name ended with status $status, last in ${last:-no test}")
-        bad=$((bad + 1))
-    fi
-    passed=$((passed + ok))
-    failed=$((failed + bad))
-    echo "$name: $ok passed, $bad failed, $((SECONDS - start)) s"
+runShard() {  # name program filter shard shards
+    local base=$logs/$1.$4 start=$SECONDS status=0
+    GTEST_TOTAL_SHARDS=$5 GTEST_SHARD_INDEX=$4 timeout "$limit" "$2" "--gtest_filter=$3" \
+        "--gtest_output=json:$base.json" >"$base.log" 2>&1 || status=$?
+    echo "$status $((SECONDS - start))" >"$base.status"
+    # Shows all but what went well.
+    grep -avE '^\[ *(RUN|OK|-+|=+|PASSED|SKIPPED) *\]|^Running main|^Note: |^ *$|^ *[0-9]+ FAILED' "$base.log" || true
 }
 
-for program in build/bin/*_tests; do
-    if [[ -x "$program" ]]; then
-        runTests "$program"
+readShard() {  # name shard
+    local base=$logs/$1.$2 status took ok failedHere skippedHere=0 names
+    read -r status took <"$base.status"
+    names=$(sed -nE 's/^\[  FAILED  \] (.*) \([0-9]+ ms\)$/\1/p' "$base.log")
+    [[ -z "$names" ]] || mapfile -t -O "${#failures[@]}" failures <<<"$names"
+    if [[ -f "$base.json" ]]; then
+        skippedHere=$(grep -c '"result": "SKIPPED"' "$base.json" || true)
+        failedHere=$(total "$base.json" failures)
+        ok=$(($(total "$base.json" tests) - failedHere - $(total "$base.json" disabled) - skippedHere))
+    else # it did not come to its end
+        ok=$(grep -ac '^\[       OK \]' "$base.log" || true)
+        failedHere=$(grep -acE '^\[  FAILED  \] .* ms\)$' "$base.log" || true)
     fi
-done
+    if [[ ! -f "$base.json" ]] || ((status != 0 && failedHere == 0)); then
+        local last
+        last=$(sed -nE 's/^\[ RUN      \] //p' "$base.log" | tail -n 1)
+        failures+=("$1 ended with status $status, last in ${last:-no test}")
+        failedHere=$((failedHere + 1))
+    fi
+    passed=$((passed + ok))
+    failed=$((failed + failedHere))
+    skipped=$((skipped + skippedHere))
+    seconds[$1]=$((${seconds[$1]-0} + took))
+    good[$1]=$((${good[$1]-0} + ok))
+    bad[$1]=$((${bad[$1]-0} + failedHere))
+}
 
-# Tests that need ray query, if the installed driver does not support it.
+shards=() # name program filter shard shards
+addShards() {  # name program filter count
+    local shard
+    for ((shard = 0; shard < $4; ++shard)); do
+        shards+=("$1 $2 $3 $shard $4")
+    done
+}
+# The longest first.
+addShards cli_tests build/bin/cli_tests "$filter" 6
+addShards pass_tests build/bin/pass_tests "$filter" 12
+# What needs ray query, where the machine's own driver has none.
 if driver=$(tests/second_driver.sh build); then
-    VK_DRIVER_FILES=$driver VK_ICD_FILENAMES=$driver runTests build/bin/pass_tests pass_tests_ray_query '*SceneRays*'
+    rayQuery=$PWD/build/pass_tests_ray_query
+    printf '#!/bin/sh\nVK_DRIVER_FILES=%q VK_ICD_FILENAMES=%q exec %q "$@"\n' "$driver" "$driver" \
+        "$PWD/build/bin/pass_tests" >"$rayQuery"
+    chmod +x "$rayQuery"
+    addShards pass_tests_ray_query "$rayQuery" '*SceneRays*' 1
 else
     echo "tests by ray query are skipped"
 fi
+addShards shader_tests build/bin/shader_tests "$filter" 2
+addShards reference_tests build/bin/reference_tests "$filter" 1
+addShards unit_tests build/bin/unit_tests "$filter" 1
 
+for shard in "${shards[@]}"; do
+    while (($(jobs -rp | wc -l) >= cores)); do
+        wait -n || true
+    done
+    read -ra words <<<"$shard"
+    runShard "${words[@]}" &
+done
+wait
+
+for shard in "${shards[@]}"; do
+    read -ra words <<<"$shard"
+    readShard "${words[0]}" "${words[3]}"
+done
+for name in cli_tests pass_tests pass_tests_ray_query shader_tests reference_tests unit_tests; do
+    [[ -z "${seconds[$name]-}" ]] || echo "$name: ${good[$name]} passed, ${bad[$name]} failed, ${seconds[$name]} s of one core"
+done
+echo "build $built s, tests $((SECONDS - built)) s, in all $SECONDS s"
 ((${#failures[@]} == 0)) || printf 'failed: %s\n' "${failures[@]}"
 ((skipped == 0)) || echo "$skipped skipped"
 finish "$passed" "$failed"

@@ -13,10 +13,14 @@
 namespace reflet {
 namespace {
 
-std::string lowerCase(std::string_view text) {
-    std::string result(text);
-    std::ranges::transform(result, result.begin(),
-                           [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+// Lower case, without underscores: "maxSteps" is "max_steps".
+std::string lettersOf(std::string_view text) {
+    std::string result;
+    for (const char letter : text) {
+        if (letter != '_') {
+            result += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+        }
+    }
     return result;
 }
 
@@ -50,11 +54,11 @@ bool onePartOfOther(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::optional<std::string> nearestName(std::string_view name, std::span<const std::string> names) {
-    const std::string wanted = lowerCase(name);
+    const std::string wanted = lettersOf(name);
     std::optional<std::string> nearest;
     size_t nearestDistance = std::numeric_limits<size_t>::max();
     for (const std::string& candidate : names) {
-        const std::string known = lowerCase(candidate);
+        const std::string known = lettersOf(candidate);
         const size_t distance = editDistance(wanted, known);
         const bool near = 2 * distance < std::max(wanted.size(), known.size()) || onePartOfOther(wanted, known);
         if (near && distance < nearestDistance) {

@@ -93,6 +93,7 @@ TEST(Cascades, NoPointInFullShadowOrFullLightChangesOver60FramesOfATurningWalk) 
          {std::pair("1", "hard"), std::pair("2", "hard"), std::pair("4", "hard"), std::pair("4", "pcss")}) {
         Settings settings = settingsWith(cascades, "512");
         setSetting(settings, "shadow.filter", filter);
+        settings.shadow.history = 32;
         const float reach =
             filterReach(scene.bounds(), settings.shadow, std::tan(0.5F * path.front().sun.angularDiameter));
         Counts counts;

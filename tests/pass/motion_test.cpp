@@ -149,8 +149,9 @@ TEST(Moving, APictureAtATimeIsThatOfASceneThatStandsThere) {
     const Scene scene = findBuiltinScene("moving")->make();
     View view = defaultView(scene);
     const std::vector<std::string> everything{
-        "diffuse.rays=1",      "specular.rays=1", "trace_scene.enabled=true", "planar.enabled=true",
-        "probes.enabled=true", "probes.count=1",  "probes.resolution=32",     "shadow.resolution=1024"};
+        "diffuse.rays=1",       "specular.rays=1",        "trace_scene.enabled=true",
+        "planar.enabled=true",  "probes.enabled=true",    "probes.count=1",
+        "probes.resolution=32", "shadow.resolution=1024", "shadow.history=32"};
     for (const double time : {0.0, 0.7, 2.6}) {
         const Scene still = frozen(scene, time);
         View there = view;

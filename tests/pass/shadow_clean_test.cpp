@@ -99,7 +99,7 @@ float measuredWidth(const std::vector<GroundPixel>& pixels, const View& view) {
 }
 
 Settings settingsFor(std::vector<std::string> more) {
-    more.insert(more.end(), {"diffuse.rays=0", "specular.rays=0", "shadow.filter=pcss"});
+    more.insert(more.begin(), {"diffuse.rays=0", "specular.rays=0", "shadow.filter=pcss", "shadow.history=32"});
     return settingsOf(more);
 }
 

@@ -152,7 +152,7 @@ TEST(TemporalFrame, DenoisedShadowsConvergeUnderJitterToo) {
     view.camera.target = {0.1F, 0, 0.5F};
     view.sun = builtin::sun({0, -1, 0}, vec3(1.0F));
     view.sun.angularDiameter = glm::radians(6.0F);
-    const std::vector<std::string> soft{"diffuse.rays=0", "specular.rays=0", "shadow.filter=pcss"};
+    const std::vector<std::string> soft{"diffuse.rays=0", "specular.rays=0", "shadow.filter=pcss", "shadow.history=32"};
     const auto visibility = [&](const char* jitter, uint32_t frames, const char* samples = "shadow.samples=16") {
         std::vector<std::string> all = soft;
         all.emplace_back(jitter);

@@ -156,7 +156,7 @@ INSTANTIATE_TEST_SUITE_P(
         poke("NanPosition", 0, 4, nan, "meshes[0].primitives[0].attributes.POSITION: ", "vertex 1 is not finite"),
         poke("InfinitePosition", 0, 4, infinity, "meshes[0].primitives[0].attributes.POSITION: ", "vertex 1"),
         poke<uint16_t>("IndexPastTheVertices", 3, 2, 4, "accessors[3]: index 2 is 4, but there are 4 vertices", ""),
-        poke<uint16_t>("RestartIndex", 3, 2, 0xFFFF, "accessors[3]: index 2 is 65535", "restarts"),
+        poke<uint16_t>("RestartIndex", 3, 2, 0xFFFF, "accessors[3]: index 2 is 65535", "primitive restart"),
         poke<uint16_t>("SparseIndexPastTheEnd", 4, 0, 4, "accessors[4].sparse.indices: index 0 is 4", "4 elements"),
         set("WordRestartIndex", "/accessors/3",
             {{"bufferView", 1}, {"componentType", uintType}, {"type", "SCALAR"}, {"count", 3}, {"byteOffset", 8}},
