@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs missing build dependencies through apt. With --tests: also those of the tests. Does nothing, and asks for
-# nothing, if all are installed. Debian 12 or newer, Ubuntu 24.04 or newer.
+# nothing, if all are installed. Tried on Debian 12 and 13.
 set -euo pipefail
 
 needed=(
@@ -60,6 +60,7 @@ for entry in "${needed[@]}"; do
     fi
 done
 if ((${#missing[@]} == 0)); then
+    echo "setup.sh: all packages are installed"
     exit 0
 fi
 
@@ -94,3 +95,4 @@ if ((${#known[@]} == 0)); then
     giveUp "apt knows none of what is missing (is there a network?)"
 fi
 apt install -y --no-install-recommends "${known[@]}" || giveUp "apt-get could not install"
+echo "setup.sh: installed ${#known[@]} packages"

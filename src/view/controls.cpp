@@ -2,12 +2,12 @@
 #include "view/controls.h"
 
 #include "base/error.h"
+#include "view/setting_search.h"
 
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 
@@ -16,12 +16,6 @@ namespace reflet {
 namespace {
 
 const ImVec4 changedColor(1.0F, 0.78F, 0.35F, 1.0F);
-
-std::string lower(std::string_view text) {
-    std::string small(text);
-    std::ranges::transform(small, small.begin(), [](unsigned char c) { return std::tolower(c); });
-    return small;
-}
 
 std::string effectOf(const SettingEntry& entry) {
     return entry.name.substr(0, entry.name.find('.'));
@@ -144,7 +138,6 @@ bool chooseName(const char* label, const std::vector<std::string>& names, std::s
 }
 
 void settingControls(Settings& settings, const Settings& standard, const std::string& filter, ControlPlaces& places) {
-    const std::string wanted = lower(filter);
     const std::vector<SettingEntry>& entries = settingEntries();
     for (size_t i = 0; i < entries.size();) {
         const std::string effect = effectOf(entries[i]);
@@ -153,7 +146,7 @@ void settingControls(Settings& settings, const Settings& standard, const std::st
         std::vector<const SettingEntry*> shown;
         for (; end < entries.size() && effectOf(entries[end]) == effect; ++end) {
             changed += isChanged(settings, standard, entries[end]) ? 1 : 0;
-            if (wanted.empty() || lower(entries[end].name).find(wanted) != std::string::npos) {
+            if (isFound(entries[end], filter)) {
                 shown.push_back(&entries[end]);
             }
         }
@@ -164,8 +157,8 @@ void settingControls(Settings& settings, const Settings& standard, const std::st
         // Separate ids keep the sections opened by the search apart from those opened by the user.
         const std::string title =
             fmt::format("{}{}###{}{}", effect, changed > 0 ? fmt::format(" ({} changed)", changed) : "", effect,
-                        wanted.empty() ? "" : " found");
-        if (!wanted.empty()) {
+                        filter.empty() ? "" : " found");
+        if (!filter.empty()) {
             ImGui::SetNextItemOpen(true);
         }
         if (changed > 0) {

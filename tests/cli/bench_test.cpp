@@ -205,12 +205,15 @@ TEST_F(BenchTest, ABuildWithoutABenchIsAskedForItsTimings) {
     EXPECT_EQ(numbers()["comparisons"][0]["steady"]["frame"]["ratios"].size(), 1U);
 }
 
-TEST_F(BenchTest, WritesTablesAndAPlotWhereAsked) {
-    const Outcome outcome = bench({"--preset", "direct", "--markdown", "t.md", "--plot", "p.svg"});
-    ASSERT_TRUE(quietSuccess(outcome));
-    EXPECT_EQ(read("t.md"), outcome.out);
+TEST_F(BenchTest, PrintsAlignedTablesOrMarkdownAndWritesAPlot) {
+    const Outcome markdown = bench({"--preset", "direct", "--markdown", "--plot", "p.svg"});
+    ASSERT_TRUE(quietSuccess(markdown));
+    EXPECT_NE(markdown.out.find("| scene | variant | size |"), std::string::npos) << markdown.out;
     EXPECT_TRUE(read("p.svg").starts_with("<svg "));
     EXPECT_NE(read("p.svg").find("direct"), std::string::npos);
+    const Outcome aligned = bench({"--preset", "direct"});
+    EXPECT_EQ(aligned.out.find('|'), std::string::npos) << aligned.out;
+    EXPECT_NE(aligned.out.find("memory, MB "), std::string::npos) << aligned.out;
 }
 
 TEST_F(BenchTest, IsSilentUnderValidation) {

@@ -2,6 +2,9 @@
 #include "cli/program.h"
 
 #include "base/file.h"
+#include "base/json_text.h"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -45,8 +48,72 @@ TEST_F(Lists, EveryShowHasALineOfItsOwn) {
     EXPECT_TRUE(std::ranges::adjacent_find(names) == names.end()) << text;
 }
 
-TEST_F(Lists, SettingsAreShownWithRangeAndDefault) {
-    EXPECT_TRUE(has(output({"list", "settings"}), {"diffuse.rays ", "0 to 256", "default 4", "true or false"}));
+TEST_F(Lists, SettingsAreALineEachOfAtMostAHundredCharacters) {
+    const std::string text = output({"list", "settings"});
+    EXPECT_TRUE(has(text, {"diffuse.rays ", "trace_screen.max_steps ", "reflet list settings NAME"}));
+    size_t begin = 0;
+    while (begin < text.size()) {
+        const size_t end = text.find('\n', begin);
+        EXPECT_LE(end - begin, 100U) << text.substr(begin, end - begin);
+        begin = end + 1;
+    }
+}
+
+TEST_F(Lists, ASettingOrAGroupIsDescribedInFull) {
+    EXPECT_TRUE(has(output({"list", "settings", "diffuse.rays"}), {"diffuse.rays", "default 4", "0 to 256"}));
+    EXPECT_TRUE(has(output({"list", "settings", "shadow"}), {"shadow.filter", "choice", "pcss", "shadow.denoise"}));
+    EXPECT_TRUE(refused(run({"list", "settings", "shadw.filter"}), 2, {"did you mean 'shadow.filter'"}));
+}
+
+TEST_F(Lists, OldNamesOfSettingsAndPresetsAreToldTheNewOnes) {
+    for (const auto& [old, now] :
+         {std::pair("trace_screen.maxSteps", "trace_screen.max_steps"), std::pair("shadow.clean", "shadow.denoise"),
+          std::pair("environment.lostShare", "environment.occluded_weight")}) {
+        EXPECT_TRUE(refused(run({"list", "settings", old}), 2, {old, "is called", now}));
+    }
+    const Arguments render{"render", "builtin:cubes", "-o", "a.png"};
+    const auto refusedWith = [&](const std::string& option, const std::string& value, std::string_view now) {
+        Arguments all = render;
+        all.insert(all.end(), {option, value});
+        return refused(run(all), 2, {"is called", now});
+    };
+    EXPECT_TRUE(refusedWith("--preset", "screen+probes", "'screen_probes'"));
+    EXPECT_TRUE(refusedWith("--set", "depth.format=reversedFloat", "'reversed_float'"));
+}
+
+TEST_F(Lists, SettingsAsJsonHaveTypesAndLimits) {
+    const nlohmann::json all = parseJson(output({"list", "settings", "--json"}));
+    const auto found = std::ranges::find_if(all, [](const auto& s) { return s.at("name") == "diffuse.rays"; });
+    ASSERT_NE(found, all.end());
+    EXPECT_EQ(found->at("default"), "4");
+    EXPECT_EQ(found->at("maximum"), 256);
+    EXPECT_FALSE(found->at("help").get<std::string>().empty());
+}
+
+TEST_F(Lists, TheManualPageAndCompletionsNameEveryOptionOfTheHelp) {
+    EXPECT_TRUE(has(output({"man"}), {".TH REFLET 1", "reflet render", "\\-\\-view\\-file", "EXIT STATUS"}));
+    EXPECT_TRUE(has(output({"completion", "bash"}),
+                    {"--view-file", "balanced", "builtin:cave", "trace_screen.max_steps=", "sun_visibility"}));
+    EXPECT_TRUE(has(output({"completion", "zsh"}), {"#compdef reflet", "--view-file"}));
+    EXPECT_TRUE(has(output({"completion", "fish"}), {"complete -c reflet", "-l view-file", "balanced"}));
+    EXPECT_TRUE(refused(run({"completion", "tcsh"}), 2, {"bash"}));
+}
+
+// What bash offers after a line, by the completion that the program prints.
+TEST_F(Lists, BashCompletesCommandsOptionsValuesAndScenes) {
+    write("completion.bash", output({"completion", "bash"}));
+    const auto offered = [&](const std::string& words) {
+        const Outcome done = runOther(
+            "bash", {"-c", "source completion.bash; COMP_WORDS=(" + words +
+                               "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _reflet; printf '%s\n' \"${COMPREPLY[@]}\""});
+        EXPECT_EQ(done.status, 0) << done.err;
+        return done.out;
+    };
+    EXPECT_EQ(offered("reflet rend"), "render\n");
+    EXPECT_EQ(offered("reflet render --view-f"), "--view-file\n");
+    EXPECT_EQ(offered("reflet render --preset bal"), "balanced\n");
+    EXPECT_EQ(offered("reflet render --set trace_screen.max_st"), "trace_screen.max_steps=\n");
+    EXPECT_EQ(offered("reflet render builtin : cav"), "cave\n");
 }
 
 TEST_F(Lists, DevicesAreShownWithNumberAndWhetherTheyCanBeUsed) {

@@ -34,7 +34,7 @@ protected:
     }
 
 private:
-    Scene scene_ = findBuiltinScene("gloss")->make();
+    Scene scene_ = findBuiltinScene("colonnade")->make();
     View view_ = defaultView(scene_);
     Renderer renderer_{device(), scene_, [](const std::string&) {}};
 };

@@ -7,7 +7,7 @@
 namespace reflet::test::kept_depth_test {
 namespace {
 
-constexpr uvec2 size(160, 90);
+constexpr uvec2 size(96, 54);
 const std::string standard16 = "depth.format=standard16";
 const std::string standard24 = "depth.format=standard24";
 

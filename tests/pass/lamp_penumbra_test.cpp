@@ -8,7 +8,7 @@
 namespace reflet::test::lamp_penumbra_test {
 namespace {
 
-constexpr uvec2 size(160, 90);
+constexpr uvec2 size(96, 54);
 const std::vector<std::string> direct{"diffuse.rays=0", "specular.rays=0", "shadow.filter=hard"};
 
 TEST(LampShadow, WallsAroundAPointLampAreLitWithoutSeamsWhereverItHangs) {

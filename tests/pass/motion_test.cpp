@@ -10,7 +10,7 @@
 namespace reflet::test::motion_test {
 namespace {
 
-constexpr uvec2 size(160, 90);
+constexpr uvec2 size(96, 54);
 const std::vector<std::string> plainly{"diffuse.rays=0", "specular.rays=0"};
 
 View viewAt(double time, const vec3& position = {0, 0, 3}, const vec3& target = {0, 0, 0}) {

@@ -24,17 +24,18 @@ TEST_P(PathTracing, ComesNearerToTheReferenceAsTheNumberOfFramesGrows) {
     const Scene scene = findBuiltinScene(GetParam())->make();
     const View view = defaultView(scene);
     const ReferencePicture truth = traceReference(scene, view, size, {.samples = 1024});
-    const auto differenceAfter = [&](uint32_t frames, const char* layer, const FloatImage& expected) {
-        const Pictures p = render(scene, view, size, pathTracing(), {layer}, frames);
+    const std::vector<std::string> layers{"direct", "indirect_diffuse"};
+    const Pictures after12 = render(scene, view, size, pathTracing(), layers, 12);
+    const Pictures after48 = render(scene, view, size, pathTracing(), layers, 48);
+    const auto differenceOf = [&](const Pictures& p, const char* layer, const FloatImage& expected) {
         const Difference d = compareImages(p.images.at(layer), expected, {}).difference;
-        std::printf("%s %s, %u frames: relative MSE %.5f, bias %+.4f\n", GetParam(), layer, frames, d.relativeMse,
-                    d.bias);
+        std::printf("%s %s: relative MSE %.5f, bias %+.4f\n", GetParam(), layer, d.relativeMse, d.bias);
         return d;
     };
     for (const auto& [layer, expected] :
          {std::pair("direct", &truth.direct), std::pair("indirect_diffuse", &truth.indirectDiffuse)}) {
-        const Difference few = differenceAfter(12, layer, *expected);
-        const Difference many = differenceAfter(48, layer, *expected);
+        const Difference few = differenceOf(after12, layer, *expected);
+        const Difference many = differenceOf(after48, layer, *expected);
         EXPECT_LT(many.relativeMse, 0.36 * few.relativeMse) << layer;  // a quarter, were both without bias
         EXPECT_LT(many.relativeMse, 0.03) << layer;
         EXPECT_NEAR(many.bias, 0.0, 0.015) << layer;

@@ -10,7 +10,7 @@
 namespace reflet::test::reference_test {
 namespace {
 
-constexpr uvec2 size(160, 90);
+constexpr uvec2 size(96, 54);
 
 float at(const FloatImage& image, unsigned x, unsigned y, unsigned channel = 0) {
     return image.data[(size_t(y) * image.width + x) * image.channels.size() + channel];

@@ -6,7 +6,7 @@
 namespace reflet::test::reflected_motion_test {
 namespace {
 
-constexpr uvec2 size(160, 90);
+constexpr uvec2 size(96, 54);
 constexpr double frameTime = 1.0 / 24;
 constexpr double stopTime = 1.0;
 

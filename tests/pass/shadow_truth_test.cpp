@@ -140,7 +140,7 @@ TEST_P(ShadowNoise, OfSixteenSamplesIsLessWhenDenoisedAndOverFramesLessThanThatO
     const Scene scene = findBuiltinScene(GetParam().scene)->make();
     const View view = GetParam().view(scene);
     const std::string raw = "sun_visibility_raw";
-    const Settings sixteen = settingsOf(with({}));
+    const Settings sixteen = settingsOf(with({"shadow.history=32"}));
     const Settings sixtyFour = settingsOf(with({"shadow.samples=64"}));
     const FloatImage limit = renderMean(scene, view, large, sixtyFour, {raw}, 16, /*seed=*/1).images.at(raw);
     const Pictures few = render(scene, view, large, sixteen, {raw, "sun_visibility"});

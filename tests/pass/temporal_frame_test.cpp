@@ -9,7 +9,7 @@
 namespace reflet::test::temporal_frame_test {
 namespace {
 
-constexpr uvec2 size(160, 90);
+constexpr uvec2 size(96, 54);
 const std::vector<std::string> plain{"diffuse.rays=0", "specular.rays=0", "shadow.filter=hard"};
 
 Settings settingsWith(std::vector<std::string> more) {
@@ -32,7 +32,7 @@ TEST(TemporalFrame, AtRestItConvergesToTheMeanOverThePixelsArea) {
         const Scene scene = findBuiltinScene(name)->make();
         const View view = defaultView(scene);
         const FloatImage truth =
-            render(scene, view, size, settingsWith({"accumulate.enabled=on"}), {"final"}, 256).images.at("final");
+            render(scene, view, size, settingsWith({"accumulate.enabled=on"}), {"final"}, 128).images.at("final");
         const Pictures p =
             render(scene, view, size, settingsWith({"temporal.enabled=on"}), {"final", "unfiltered"}, 32);
         const double with = relativeMse(p.images.at("final"), truth);
