@@ -110,6 +110,11 @@ Window::Window(const std::string& title, uvec2 size) {
 // two frames: once a key is pressed, releases are deferred until after the next frame.
 void Window::takeKey(const KeyEvent& event) {
     happened_ = true;
+    if (event.action == GLFW_RELEASE) {
+        shortcuts_.erase(event.key);
+    } else if ((event.mods & GLFW_MOD_CONTROL) != 0) {
+        shortcuts_.insert(event.key);
+    }
     if (event.action == GLFW_RELEASE && pressed_) {
         released_.push_back(event);
         return;
@@ -172,7 +177,7 @@ std::vector<std::string> Window::takeDroppedFiles() {
 }
 
 bool Window::isHeld(int key) const {
-    return !ImGui::GetIO().WantTextInput && glfwGetKey(window_, key) == GLFW_PRESS;
+    return !ImGui::GetIO().WantTextInput && !shortcuts_.contains(key) && glfwGetKey(window_, key) == GLFW_PRESS;
 }
 
 bool Window::closing() const {

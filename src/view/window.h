@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <span>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -79,6 +80,7 @@ private:
     float scale_ = 1.0F;
     bool happened_ = true;
     std::vector<KeyPress> keys_;
+    std::set<int> shortcuts_;  ///< keys that went down with Control, which may be released before them
     std::vector<std::string> dropped_;
 };
 

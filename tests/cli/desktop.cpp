@@ -133,14 +133,14 @@ void DesktopTest::reveal(const std::string& control) const {
     }
 }
 
-// Waits until nothing is drawn any more, or for five seconds: reported positions of controls are outdated during
+// Waits until nothing is drawn any more, or for six seconds: reported positions of controls are outdated during
 // scrolling,
 // and ImGui 1.86 ignores a press and release within one slow frame.
 void DesktopTest::settle() const {
-    constexpr int mostLooks = 20;
+    constexpr int mostLooks = 15;
     for (int i = 0; i < mostLooks; ++i) {
         const nlohmann::json before = status()["drawn"];
-        std::this_thread::sleep_for(milliseconds(250));
+        std::this_thread::sleep_for(milliseconds(400));  // longer than a frame
         if (status()["drawn"] == before) {
             return;
         }

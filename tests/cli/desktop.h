@@ -39,12 +39,13 @@ protected:
     void press(const std::string& keys) const;
     void type(const std::string& text) const;
     void resize(uint32_t width, uint32_t height) const;
+    /// Waits until nothing is drawn any more, for six seconds at most.
+    void settle() const;
 
     [[nodiscard]] int viewer() const { return viewer_; }
     [[nodiscard]] Environment environment() const;
 
 private:
-    void settle() const;
     void reveal(const std::string& control) const;
     void use(const Arguments& arguments) const;
 

@@ -127,7 +127,7 @@ TEST_F(View, RestsWhilePaused) {
 }
 
 TEST_F(View, AScreenshotIsWhatRenderWritesAndAllComesBackTheNextTime) {
-    const Arguments remembered{"builtin:cubes", "--size", "160x400", "--preset", "fast"};
+    const Arguments remembered{"builtin:cubes", "--size", "96x400"};  // frames that are quick
     openViewer(remembered);
     const json first = status()["camera"];
     findSetting("tonemap.exposure");

@@ -44,7 +44,7 @@ TEST_F(WrongFile, ASettingsFileThatIsMissingOrMalformedIsNamedWithThePlace) {
     EXPECT_TRUE(refused(withSettings("{\n  \"diffuse\": { \"rays\": 4, }\n}"), failed, {"s.json:2:27", "'}'"}));
     EXPECT_TRUE(refused(withSettings("[]"), failed, {"s.json", "must be an object"}));
     EXPECT_TRUE(refused(withSettings(R"({"diffuse": 4})"), failed, {"s.json", "diffuse", "must be an object", "4"}));
-    EXPECT_TRUE(refused(withSettings(R"({"diffuse": {"rays": 1, "rays": 2}})"), failed, {"diffuse.rays", "twice"}));
+    EXPECT_TRUE(refused(withSettings(R"({"diffuse": {"rays": 1, "rays": 2}})"), failed, {"diffuse.rays", "duplicate key"}));
 }
 
 TEST_F(WrongFile, AnUnknownSettingInAFileIsNamedWithTheNearest) {
