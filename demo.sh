@@ -51,9 +51,7 @@ done <<<"$scenes"
 picture cave-direct.png "cave, direct light only: what indirect light adds is the difference" builtin:cave \
     --preset direct --size 480x270
 picture mirror-hall-hybrid.png "mirror-hall with planar reflections, ray tracing and probes where the screen has no data" \
-    builtin:mirror-hall --preset hybrid --size 480x270
-picture mirror-hall-source.png "where its reflections came from: green screen, cyan planar, yellow ray tracing, blue environment" \
-    builtin:mirror-hall --preset hybrid --show specular_source --size 480x270
+    builtin:mirror-hall --preset hybrid --size 320x180
 
 cat >out/index.html.part <<HTML
 <!doctype html>

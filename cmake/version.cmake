@@ -1,6 +1,7 @@
 # reflet_version(TARGET): writes version.h, `reflet::versionText` ("0.1.0 (a1b2c3d)"), anew at every build, and only if
 # it has changed. Run as a script (cmake -P), it is the build step that does so.
 if(CMAKE_SCRIPT_MODE_FILE)
+    cmake_policy(VERSION 3.22)
     execute_process(COMMAND git -C ${source} describe --always --dirty --abbrev=10 --exclude=*
         OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
     if(failed) # a source archive
