@@ -164,7 +164,7 @@ void addRenderCommand(CLI::App& app) {
     command
         ->add_option("--frames", options->frames,
                      "Frames to render; the last one is written, or, with # in the name, all of them [1; for a single "
-                     "image with denoise or temporal history 32]")
+                     "image as many as its histories need to settle]")
         ->check(CLI::Range(1U, 1000000U));
     const auto sequenceOptions = addSequenceOptions(*command, options->sequence);
     command->add_option("--show", options->show, "Render target to write (see reflet list shows)")

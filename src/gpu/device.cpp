@@ -5,6 +5,7 @@
 #include "gpu/physical_device.h"
 #include "gpu/pipeline.h"
 
+#include <algorithm>
 #include <array>
 
 namespace reflet::gpu {

@@ -3,6 +3,7 @@
 
 #include "scene/gltf_image.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace reflet {

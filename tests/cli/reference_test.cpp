@@ -1,6 +1,7 @@
 // Output of `reflet reference`, both complete and interrupted.
 #include "cli/reference_program.h"
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <regex>

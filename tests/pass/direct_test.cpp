@@ -1,6 +1,7 @@
 // Exact results: the contents of the G-buffer, and direct light on planes and spheres.
 #include "pass/harness.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace reflet::test::direct_test {

@@ -1,6 +1,7 @@
 // Indirect light with known results: the furnace test, form factors, a mirror, and rays that must miss.
 #include "pass/harness.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace reflet::test::indirect_test {

@@ -4,6 +4,8 @@
 #include "pass/harness.h"
 #include "scene/builtin.h"
 
+#include <algorithm>
+
 namespace reflet::test::place_probes_test {
 namespace {
 

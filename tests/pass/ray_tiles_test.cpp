@@ -4,6 +4,7 @@
 #include "pass/harness.h"
 #include "scene/builtin.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace reflet::test::ray_tiles_test {

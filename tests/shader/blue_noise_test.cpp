@@ -4,6 +4,7 @@
 #include "noise/blue_noise.h"
 #include "shader/harness.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 

@@ -7,6 +7,7 @@
 #include "shader/harness.h"
 #include "support/ggx_reference.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <functional>

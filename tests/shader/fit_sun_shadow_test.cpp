@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace reflet::test::fit_sun_shadow_test {
 namespace {
 

@@ -5,6 +5,7 @@
 #include "shader/harness.h"
 #include "support/ggx_reference.h"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 

@@ -5,6 +5,8 @@
 #include "shader/directions.h"
 #include "shader/harness.h"
 
+#include <algorithm>
+
 namespace reflet::test::lamp_test {
 namespace {
 

@@ -7,6 +7,7 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <functional>

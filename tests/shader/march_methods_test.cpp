@@ -1,6 +1,7 @@
 // The methods other than fixed steps: hits on walls at known depths, misses, and the DDA against the exhaustive march.
 #include "shader/march_scene.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace reflet::test::march_methods_test {

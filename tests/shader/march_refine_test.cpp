@@ -1,6 +1,7 @@
 // Refinement after a hit of march*.glsl: bisection of the last step, and interpolation between the last two samples.
 #include "shader/march_scene.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace reflet::test::march_refine_test {

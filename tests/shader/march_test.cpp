@@ -2,6 +2,8 @@
 // face it.
 #include "shader/march_scene.h"
 
+#include <algorithm>
+
 namespace reflet::test::march_test {
 namespace {
 

@@ -1,6 +1,8 @@
 // Thickness of surfaces in march*.glsl (a step, or up to the back face), and the reported clear distance of rays.
 #include "shader/march_scene.h"
 
+#include <algorithm>
+
 namespace reflet::test::march_thickness_test {
 namespace {
 

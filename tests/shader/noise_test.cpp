@@ -4,6 +4,7 @@
 
 #include "shader/harness.h"
 
+#include <algorithm>
 #include <functional>
 
 namespace reflet::test::noise_test {

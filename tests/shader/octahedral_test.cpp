@@ -2,6 +2,8 @@
 #include "shader/directions.h"
 #include "shader/harness.h"
 
+#include <algorithm>
+
 namespace reflet::test::octahedral_test {
 namespace {
 

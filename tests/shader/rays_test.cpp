@@ -4,6 +4,8 @@
 #include "shader/directions.h"
 #include "shader/harness.h"
 
+#include <algorithm>
+
 namespace reflet::test::rays_test {
 namespace {
 

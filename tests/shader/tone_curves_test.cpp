@@ -2,6 +2,7 @@
 #include "shader/directions.h"
 #include "shader/harness.h"
 
+#include <algorithm>
 #include <string>
 
 namespace reflet::test::tone_curves_test {

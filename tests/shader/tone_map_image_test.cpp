@@ -5,6 +5,7 @@
 #include "shader/directions.h"
 #include "shader/harness.h"
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <string>

@@ -1,6 +1,7 @@
 // Sun shadow maps as boxes in light space.
 #include "render/shadow/light_space.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace reflet {

@@ -5,6 +5,7 @@
 #include "scene/builtin/patterns.h"
 #include "scene/builtin/scenes.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
