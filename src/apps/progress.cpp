@@ -20,6 +20,12 @@ std::string durationText(double seconds) {
 
 }  // namespace
 
+void tellWritten(const std::string& what) {
+    if (isatty(STDERR_FILENO) != 0) {
+        fmt::print(stderr, "written: {}\n", what);
+    }
+}
+
 Progress::Progress(std::string what, uint64_t total)
     : what_(std::move(what)), total_(total), terminal_(isatty(STDERR_FILENO) != 0) {}
 

@@ -8,6 +8,9 @@
 
 namespace reflet {
 
+/// Ends work on a terminal by saying where its result is: "written: cubes.png".
+void tellWritten(const std::string& what);
+
 class Progress {
 public:
     Progress(std::string what, uint64_t total);

@@ -111,6 +111,9 @@ void render(const RenderOptions& asked) {
     } else if (!options.timings.empty()) {
         printWarning(fmt::format("{}: not written: all frames exist already, so none was rendered", options.timings));
     }
+    for (const std::string& file : options.outputs) {
+        tellWritten(sequence ? fmt::format("{} ({} frames)", file, options.frames) : file);
+    }
     if (options.validate && !device.validationMessages().empty()) {
         fail("the validation layers reported {} messages", device.validationMessages().size());
     }

@@ -45,6 +45,14 @@ TEST_F(Render, WritesEveryOutputOfOneRunAndNothingElse) {
     EXPECT_GT(mean(all[0].image), 0.01F);
 }
 
+TEST_F(Render, ATerminalIsToldWhatWasWritten) {
+    const std::string command =
+        std::string(REFLET_PROGRAM) + " render builtin:cubes --preset direct --size 8x8 -o a.png";
+    const Outcome done = runOther("script", {"-qec", command, "/dev/null"});
+    EXPECT_EQ(done.status, 0) << done.err;
+    EXPECT_NE(done.out.find("written: a.png"), std::string::npos) << done.out;
+}
+
 TEST_F(Render, TheSceneMayStandAfterAnyOption) {
     for (const Arguments& option :
          {Arguments{"-o", "b.png"}, Arguments{"--set", "diffuse.rays=1"}, Arguments{"--frames", "1"}}) {

@@ -2,6 +2,7 @@
 #include "apps/command_line.h"
 #include "apps/commands.h"
 #include "apps/device_options.h"
+#include "apps/progress.h"
 #include "apps/report/plot.h"
 #include "apps/report/scene_work.h"
 #include "apps/report/text.h"
@@ -175,6 +176,7 @@ void report(const ReportCommand& command, const std::string& typed) {
     writeFileAtomically(work.folder / "report.json", reportJson(page));
     writeFileAtomically(work.folder / "table.md", reportMarkdown(page));
     writeFileAtomically(work.folder / "index.html", reportHtml(page));
+    tellWritten((work.folder / "index.html").string());
 }
 
 constexpr const char* reportFooter =
