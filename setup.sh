@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs missing build dependencies through apt. With --tests: also those of the tests. Does nothing, and asks for
-# nothing, if all are installed. Tried on Debian 12.
+# nothing, if all are installed. Tried on Debian 12 and 13.
 set -euo pipefail
 
 needed=(
