@@ -17,8 +17,8 @@ step "1 of 3: packages that the build needs (apt; about a minute if they are mis
 step "2 of 3: build (about $((400 / cores)) s the first time)"
 # The first time without the tests, which need more packages; a build that has them keeps them.
 if [[ ! -f build/build.ninja ]]; then
-    cmake --preset release -DREFLET_TESTS=OFF >build.log 2>&1 || { cat build.log >&2; exit 1; }
-    mkdir -p build && mv build.log build/configure.log
+    mkdir -p build
+    cmake --preset release -DREFLET_TESTS=OFF >build/configure.log 2>&1 || { cat build/configure.log >&2; exit 1; }
 fi
 cmake --build --preset release --parallel "$cores" --target reflet
 

@@ -39,9 +39,9 @@ public:
     /// Another session of the same scene.
     Session(gpu::Device& device, const Session& other);
 
-    /// Whether another frame would change the image at this size.
     /// Frames after which the image has converged.
     [[nodiscard]] uint32_t framesToConverge(const ViewerState& state) const;
+    /// Whether another frame would change the image at this size.
     [[nodiscard]] bool wantsFrame(const ViewerState& state, uvec2 size) const;
     /// Renders one frame and its display image. keepValues: shownValues() will be needed.
     void render(const ViewerState& state, uvec2 size, bool keepValues);

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 namespace reflet::test::setting_search_test {
 namespace {
 
@@ -36,17 +34,6 @@ TEST(SettingSearch, FindsByTheTermsOfTheField) {
 TEST(SettingSearch, WantsEveryWord) {
     EXPECT_TRUE(finds("soft shadow samples", "shadow.samples"));
     EXPECT_FALSE(finds("soft shadow samples", "trace_screen.stride"));
-}
-
-TEST(SettingSearch, NoGroupIsWithoutTerms) {
-    for (const SettingEntry& entry : settingEntries()) {
-        const bool found = std::ranges::any_of(
-            std::initializer_list<const char*>{"reflection", "indirect", "shadow", "light", "lights", "texture",
-                                               "depth", "antialiasing", "brightness", "camera", "mean", "radiance",
-                                               "frame", "image", "layers"},
-            [&](const char* term) { return isFound(entry, term); });
-        EXPECT_TRUE(found) << entry.name;
-    }
 }
 
 }  // namespace
