@@ -47,7 +47,7 @@ case "${1-}" in
 esac
 
 if ! command -v dpkg-query >/dev/null; then
-    echo "setup.sh: no Debian packages here; see to it yourself that there is what these hold: ${needed[*]%%:*}" >&2
+    echo "setup.sh: this is not Debian or Ubuntu; install your system's counterparts of these packages: ${needed[*]%%:*}" >&2
     exit 0
 fi
 

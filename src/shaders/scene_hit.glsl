@@ -16,9 +16,4 @@ vec3 triangleNormal(SceneTriangle t) {
     return (t.flags & triangleMirrored) != 0u ? -n : n;
 }
 
-// Whether a ray hits the back of a single-sided surface, which camera rays pass through.
-bool isHiddenBack(SceneTriangle t, vec3 direction) {
-    return (t.flags & triangleDoubleSided) == 0u && dot(triangleNormal(t), direction) > 0.0;
-}
-
 #endif

@@ -17,7 +17,7 @@ const uint rayTileSide = 8;  // pixels of the grid
 // Groups per row of the indirect dispatch over a tile list; 65535 rows suffice for the largest frame.
 const uint tileListRow = 64;
 
-// Up to this perceptual roughness a lobe is too narrow to be resolved on screen.
+// Up to this perceptual roughness a lobe is treated as a mirror: it is too narrow to be resolved on screen.
 const float mirrorRoughness = 0.01;
 
 // Rays per pixel are multiples of 1 / rayShares. If they are fractional, some pixels of the tile trace one ray more

@@ -5,6 +5,7 @@
 // confidence and steps, of the pixel's own rays.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
+#include "render/bounce/ray_tiles.h"
 #include "render/bounce/rays.glsl"
 #include "render/bounce/reuse_rays.h"
 #include "render/gbuffer/gbuffer.glsl"
@@ -37,7 +38,6 @@ const float widest = 12.0;      // pixels to the farthest neighbour
 // Radius of the neighbourhood relative to the lobe's width at the hit. Chosen from 0.1 and 0.3 by the error against the
 // reference, on cave and gloss with 8 neighbours.
 const float shareOfWay = lobe == lobeDiffuse ? 0.1 : 0.3;
-const float narrowest = 0.01;   // perceptual roughness up to which a surface is a mirror
 const float leastFacing = 0.9;  // smallest cosine between neighbours' normals
 const float leastCosine = 1e-3;
 const float mostWeight = 4.0;   // of a neighbour's ray
@@ -175,7 +175,7 @@ void main() {
     vec4 light = traced ? vec4(own.light, own.away) * share : vec4(0.0);
     colors = traced ? colors * share : vec4(0.0);
     vec4 turning = traced ? own.directional * share : vec4(0.0);
-    if (traced && borrows && (lobe == lobeDiffuse || shown.alpha > narrowest * narrowest)) {
+    if (traced && borrows && (lobe == lobeDiffuse || shown.alpha > mirrorRoughness * mirrorRoughness)) {
         float before = sum.weight;
         addNeighbours(sum, pixel, shown, d);
         if (sum.weight > before) {

@@ -4,6 +4,7 @@
 // of this and the last frame; the sun's shadow map, GGX table, blue noise, lamps, ray directions, the list. Out:
 // results, sources, motion of reflected images, the list of remaining rays.
 #include "render/environment/environment.glsl"
+#include "render/bounce/ray_tiles.h"
 #include "render/bounce/rays.glsl"
 #include "render/gbuffer/gbuffer.glsl"
 #include "render/lamps.h"
@@ -74,8 +75,6 @@ float sunMapVisibility(vec3 p, vec3 normal) {
 #include "render/bounce/last_frame.glsl"
 #include "render/trace_scene/scene_light.glsl"
 
-// Up to this perceptual roughness a lobe is treated as a mirror.
-const float mirrorRoughness = 0.01;
 const uint rouletteStart = 4u;  // bounces before Russian roulette starts
 // Footprint of a scattered ray relative to its lobe's width, small enough for the blur to be invisible.
 const float shareOfLobe = 0.1;
