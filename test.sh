@@ -34,6 +34,8 @@ failures=()
 declare -A seconds=() good=() bad=()
 # Shards run side by side: a driver that renders on the CPU gets its share of the cores.
 export LP_NUM_THREADS=${LP_NUM_THREADS-1}
+# Mesa's CPU driver then compiles shaders without LLVM's optimization: tests compile much and render little.
+export GALLIVM_PERF=${GALLIVM_PERF-nopt}
 
 # A number from the head of a GoogleTest report, which holds the totals.
 total() {  # report key
