@@ -21,11 +21,12 @@ struct LampReceiver {
     float distance;      // to the lamp
     float facing;        // cosine between normal and toLamp, at least minLampFacing
     float texel;         // size of a texel of the map at the receiver [m]
-    float depthBias;     // metres toward the lamp; covers curvature, creases and rounding
+    DepthBias bias;
 };
 
 const float minLampFacing = 0.05;
-const ShadowTexel noLampTexel = ShadowTexel(-1e9, -1e9, true);  // nothing outside the map casts shadows
+const ShadowTexel noLampTexel = ShadowTexel(-1e9, -1e9, true);      // nothing outside the map casts shadows
+const ShadowTexel emptyLampTexel = ShadowTexel(-1e9, -1e9, false);  // nothing is on this ray, not even the receiver
 
 uint tileFace(LampShadow shadow, vec3 fromLamp) {
     if (shadow.tiles == 1u) {
@@ -63,7 +64,8 @@ LampReceiver lampReceiver(LampShadow shadow, uint tileSize, uint columns, vec3 p
     r.facing = max(facing, minLampFacing);
     float along = toTileSpace(shadow, tileFace(shadow, r.fromLamp), r.fromLamp).z;
     r.texel = 2.0 * shadow.halfTangent / float(tileSize) * along;
-    r.depthBias = bias * r.texel / r.facing;
+    float most = bias * r.texel / r.facing;
+    r.bias = DepthBias(most, ownShare * most);
     return r;
 }
 
@@ -93,7 +95,7 @@ ShadowTexel tileTexel(LampReceiver r, uint face, ivec2 texel, float aside) {
     uint tile = r.shadow.firstTile + face;
     float depth = loadLampDepth(ivec2(tile % r.columns, tile / r.columns) * int(r.tileSize) + texel);
     if (depth <= 0.0) {
-        return noLampTexel;
+        return emptyLampTexel;
     }
     // The stored depth is that of the ray through the texel's centre, so it is compared with the receiver's plane
     // there.
@@ -104,13 +106,14 @@ ShadowTexel tileTexel(LampReceiver r, uint face, ivec2 texel, float aside) {
     // Something farther from the lamp than the receiver can still be above its plane: at grazing angles, the next wall.
     // It is ignored if it is more than 4 metres farther per metre to the side.
     const float steepest = 4.0;
-    return ShadowTexel(height, min(above / r.facing, height + steepest * aside), true);
+    float clearance = min(above / r.facing, height + steepest * aside);
+    return ShadowTexel(height, clearance, clearance >= -r.bias.most);
 }
 
-// Depth to compare against, for a light ray `offset` metres beside the receiver. If the texel's centre sees neither the
-// receiver's plane nor anything above it, the centre lies beyond the edge of the surface, and may see light that passes
-// a wall which shadows the whole surface. Then the texel around it that occludes most is taken instead, and if none of
-// them knows the surface either, one that lies farther in the tilt direction of the surface.
+// For a light ray `offset` metres beside the receiver. If the texel's centre sees neither the receiver's plane nor
+// anything above it, the centre lies beyond the edge of the surface, and may see light that passes a wall which shadows
+// the whole surface. Then the texel around it that occludes most is taken instead, and if none of them knows the
+// surface either, one that lies farther in the tilt direction of the surface.
 ShadowTexel lampTexel(LampReceiver r, vec2 offset) {
     TileCoord coord = tileCoord(r, shiftedPoint(r, offset));
     if (!coord.inside) {
@@ -119,7 +122,7 @@ ShadowTexel lampTexel(LampReceiver r, vec2 offset) {
     float aside = length(offset) + 1.5 * r.texel;
     ivec2 middle = ivec2(floor(coord.at));
     ShadowTexel texel = tileTexel(r, coord.face, middle, aside);
-    if (texel.clearance >= -r.depthBias) {
+    if (texel.known) {
         return texel;
     }
     ivec2 next = ivec2(sign(fract(coord.at) - 0.5));
@@ -130,7 +133,7 @@ ShadowTexel lampTexel(LampReceiver r, vec2 offset) {
             texel = other;
         }
     }
-    if (texel.clearance < -r.depthBias) {
+    if (!texel.known) {
         coord = tileCoord(r, shiftedPoint(r, offset) + 1.5 * r.texel * r.tiltDirection);
         ShadowTexel other = tileTexel(r, coord.face, ivec2(floor(coord.at)), aside + 1.5 * r.texel);
         if (coord.inside && other.clearance > texel.clearance) {
@@ -140,8 +143,20 @@ ShadowTexel lampTexel(LampReceiver r, vec2 offset) {
     return texel;
 }
 
-// Visibility with a hard edge, exact to the texel; 1: lit.
-float hardLampVisibility(LampReceiver r) { return lampTexel(r, vec2(0.0)).clearance > r.depthBias ? 0.0 : 1.0; }
+// Visibility with a hard edge, exact to the texel; 1: lit. A texel a little above the receiver's surface is the surface
+// itself, bent, if one of the three next ones shows the surface; else it is a wall that meets it in a crease.
+float hardLampVisibility(LampReceiver r) {
+    ShadowTexel texel = lampTexel(r, vec2(0.0));
+    bool own = !texel.known || showsReceiver(texel, r.bias);
+    int others = own || blocks(texel, r.bias) ? 0 : 3;
+    TileCoord coord = tileCoord(r, r.fromLamp);
+    ivec2 next = ivec2(sign(fract(coord.at) - 0.5));
+    for (int i = 0; i < others; ++i) {
+        ivec2 to = next * ivec2(i != 1 ? 1 : 0, i != 0 ? 1 : 0);
+        own = own || showsReceiver(tileTexel(r, coord.face, ivec2(floor(coord.at)) + to, 1.5 * r.texel), r.bias);
+    }
+    return own ? 1.0 : 0.0;
+}
 
 // Bilinear filter of the four texels around the point: as sharp an edge as the map allows.
 float sharpLampVisibility(LampReceiver r) {
@@ -149,15 +164,17 @@ float sharpLampVisibility(LampReceiver r) {
     vec2 low = floor(coord.at - 0.5);
     vec2 f = coord.at - 0.5 - low;
     vec2 sum = vec2(0.0);
+    bool own = false;
     for (int i = 0; i < 4; ++i) {
         ivec2 corner = ivec2(i & 1, i >> 1);
         ShadowTexel texel = tileTexel(r, coord.face, ivec2(low) + corner, 1.5 * r.texel);
-        if (texel.clearance >= -r.depthBias) {
+        own = own || showsReceiver(texel, r.bias);
+        if (texel.known) {
             vec2 weight = mix(1.0 - f, f, vec2(corner));
-            sum += weight.x * weight.y * vec2(texel.clearance > r.depthBias ? 0.0 : 1.0, 1.0);
+            sum += weight.x * weight.y * vec2(blocks(texel, r.bias) ? 0.0 : 1.0, 1.0);
         }
     }
-    return sum.y > 0.0 ? sum.x / sum.y : hardLampVisibility(r);
+    return sum.y <= 0.0 ? hardLampVisibility(r) : own ? sum.x / sum.y : 0.0;
 }
 
 #endif

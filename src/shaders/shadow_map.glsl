@@ -7,7 +7,6 @@
 #include "shaders/shadow_texel.glsl"
 
 const float minFacing = 0.05;         // lower clamp of the cosine between normal and sun
-const float edgeBias = 0.75;          // part of the depth bias that is left out at edges
 const float maxBend = 2.0;            // metres that a surface may bend below its plane per metre to the side
 const float outsideClearance = -1e9;  // clearance outside the map
 
@@ -26,8 +25,8 @@ struct ShadowReceiver {
     vec2 slope;          // metres toward the sun by which the plane rises per unit of x and y in shadow space
     float depthRange;    // metres
     ShadowTile tile;
-    float depthBias;  // metres toward the sun; covers curvature, creases and rounding
-    bool ownPlane;    // receiver-plane depth bias is used
+    DepthBias bias;
+    bool ownPlane;  // receiver-plane depth bias is used
 };
 
 bool outsideMap(ivec2 texel, ivec2 size) {
@@ -47,7 +46,7 @@ ShadowReceiver receiverAt(vec3 p, ShadowMapParams map, ShadowTile tile) {
     r.slope = vec2(0.0);
     r.depthRange = map.depthRange;
     r.tile = tile;
-    r.depthBias = 0.0;
+    r.bias = DepthBias(0.0, 0.0);
     r.ownPlane = false;
     return r;
 }
@@ -64,7 +63,8 @@ ShadowReceiver slopeReceiver(vec3 p, vec3 normal, ShadowMapParams map, ShadowTil
     vec2 sideways = vec2(dot(normal, axisX), dot(normal, axisY));
     r.tiltDirection = dot(sideways, sideways) > 1e-6 * dot(axisX, axisX) ? normalize(sideways) : vec2(0.0);
     r.slope = -sideways / vec2(dot(axisX, axisX), dot(axisY, axisY)) / max(facing, minFacing);
-    r.depthBias = bias * map.texelSize / max(facing, minFacing);
+    float most = bias * map.texelSize / max(facing, minFacing);
+    r.bias = DepthBias(most, ownShare * most);
     r.ownPlane = true;
     return r;
 }
@@ -74,7 +74,7 @@ ShadowReceiver slopeReceiver(vec3 p, vec3 normal, ShadowMapParams map, ShadowTil
 // shadows itself; casters closer than that to the receiver are missed.
 ShadowReceiver constantReceiver(vec3 p, ShadowMapParams map, ShadowTile tile, float bias) {
     ShadowReceiver r = receiverAt(p, map, tile);
-    r.depthBias = bias;
+    r.bias = DepthBias(bias, bias);
     return r;
 }
 
@@ -90,32 +90,30 @@ ShadowTexel texelAt(ShadowReceiver r, vec2 offset) {
     float clearance = height - dot(r.slope, toCentre);
     // Depth 0: the texel is empty.
     return ShadowTexel(height, clearance,
-                       !r.ownPlane || (depth > 0.0 && clearance >= -r.depthBias - maxBend * length(offset)));
+                       !r.ownPlane || (depth > 0.0 && clearance >= -r.bias.most - maxBend * length(offset)));
 }
 
-// The texel that holds the receiver. If it does not know the receiver's surface, the neighbour that occludes most is
-// taken, among the three nearest ones and one farther in the tilt direction. Near its edges a surface casts on itself
-// by less than `depthBias`.
-ShadowTexel receiverTexel(ShadowReceiver r) {
+// Visibility with a hard edge, exact to the texel; 1: lit. If the texel that holds the receiver leaves it in doubt, four
+// more decide, the three nearest ones and one farther in the tilt direction. A texel a little above the receiver's
+// surface is the surface itself, bent, if one of them shows the surface; else it is a wall that meets it in a crease.
+// Instead of a texel beyond the surface's edge, the one that occludes most is taken.
+float hardVisibility(ShadowReceiver r) {
     ShadowTexel texel = texelAt(r, vec2(0.0));
+    bool own = showsReceiver(texel, r.bias);
+    float clearance = texel.clearance;
     // The trip count is dynamic on purpose: CPU drivers leave such a loop as soon as no pixel of the group needs more
     // iterations, but always run all iterations of a loop that can be unrolled.
-    int others = texel.known ? 0 : 4;
+    int others = own || blocks(texel, r.bias) ? 0 : 4;
     vec2 next = sign(fract(r.at) - 0.5) / r.texelsPerMetre;
     const float aside = 1.5;  // texels
     for (int i = 0; i < others; ++i) {
         vec2 offset = i == 3 ? aside * r.tiltDirection / r.texelsPerMetre
                              : next * vec2((i & 1) == 0 ? 1.0 : 0.0, i > 0 ? 1.0 : 0.0);
         ShadowTexel other = texelAt(r, offset);
-        if (other.clearance > texel.clearance) {
-            texel = other;
-        }
+        own = own || showsReceiver(other, r.bias);
+        clearance = max(clearance, other.clearance);
     }
-    texel.clearance += others > 0 ? edgeBias * r.depthBias : 0.0;
-    return texel;
+    return (texel.known ? own : clearance <= r.bias.own) ? 1.0 : 0.0;
 }
-
-// Visibility with a hard edge, exact to the texel; 1: lit.
-float hardVisibility(ShadowReceiver r) { return receiverTexel(r).clearance > r.depthBias ? 0.0 : 1.0; }
 
 #endif

@@ -9,6 +9,22 @@ struct ShadowTexel {
                       // surface's edge, and may see light that passes a wall which shadows the whole surface
 };
 
+// Clearances up to which a texel leaves its receiver lit [m].
+struct DepthBias {
+    float most;  // texels with more block; covers curvature, creases and rounding
+    float own;   // texels with at most this hold the receiver's own surface; covers rounding
+};
+
+const float ownShare = 0.125;  // of DepthBias.most
+
+bool blocks(ShadowTexel texel, DepthBias bias) { return texel.clearance > bias.most; }
+
+// Whether the light reaches the receiver's own surface at the texel's centre. A point is lit only if it does so nearby:
+// where another surface meets the receiver's in a crease, its clearance is less than any bias, but the receiver's own
+// surface is nowhere to be seen (priority buffer: Hourcade and Nicolas, Algorithms for Antialiased Cast Shadows, 1985,
+// which compares identities instead of depths).
+bool showsReceiver(ShadowTexel texel, DepthBias bias) { return texel.known && texel.clearance <= bias.own; }
+
 // The cone of directions from a receiver to a disk light.
 struct ShadowCone {
     float slope;    // radius / distance of the light; the sun: tan(angular diameter / 2)

@@ -11,9 +11,6 @@
 
 const float minFilterRadius = 0.75;  // texels; a smaller disk stays within the four texels around the point
 
-// Texels with less clearance than `depthBias` metres (toward the light) do not block.
-bool blocks(ShadowTexel texel, float depthBias) { return texel.clearance > depthBias; }
-
 // Fraction of the light's disk above the horizon of a surface that faces its centre with cosine `facing`. sine: of the
 // disk's angular radius.
 float fractionAboveHorizon(float facing, float sine) {
@@ -23,54 +20,56 @@ float fractionAboveHorizon(float facing, float sine) {
 
 // Accumulated look-ups.
 struct LitSum {
-    float lit;       // weight of lit texels
-    float all;       // weight of all texels
-    float knownLit;  // weight of lit texels that hold the receiver's surface or something above it
-    float known;     // weight of such texels, lit or not
+    float lit;    // weight of lit texels
+    float all;    // weight of all texels
+    float own;    // weight of texels that show the receiver's own surface
+    float known;  // weight of texels that hold the receiver's surface or something above it
 };
 
-void addTexel(inout LitSum sum, bool lit, bool known, float weight) {
+void addTexel(inout LitSum sum, ShadowTexel texel, DepthBias bias, bool lit, float weight) {
     sum.lit += lit ? weight : 0.0;
     sum.all += weight;
-    sum.knownLit += lit && known ? weight : 0.0;
-    sum.known += known ? weight : 0.0;
+    sum.own += showsReceiver(texel, bias) ? weight : 0.0;
+    sum.known += texel.known ? weight : 0.0;
 }
 
-// Texels beyond the edge of the receiver's surface count as lit as long as some known texel is lit. If all known texels
-// are in shadow, light beyond the edge is outside of a wall and must not leak in. -1: no texel is known.
-float litFraction(LitSum sum) { return sum.known <= 0.0 ? -1.0 : sum.knownLit <= 0.0 ? 0.0 : sum.lit / sum.all; }
+// Texels in doubt, a little above the receiver's surface or beyond its edge, count as lit as long as some texel shows
+// the surface. If none does, light beyond the edge is outside of a wall and must not leak in. -1: no texel is known.
+float litFraction(LitSum sum) { return sum.known <= 0.0 ? -1.0 : sum.own <= 0.0 ? 0.0 : sum.lit / sum.all; }
 
-float pcfVisibility(float radius, float depthBias, ShadowPattern pattern, uint count) {
+float pcfVisibility(float radius, DepthBias bias, ShadowPattern pattern, uint count) {
     LitSum sum = LitSum(0.0, 0.0, 0.0, 0.0);
     for (uint i = 0u; i < count; ++i) {
         ShadowTexel texel = shadowTexel(radius * nextPoint(pattern));
-        addTexel(sum, !blocks(texel, depthBias), texel.known, 1.0);
+        addTexel(sum, texel, bias, !blocks(texel, bias), 1.0);
     }
     return litFraction(sum);
 }
 
-// Mean height of the blockers within `radius`; 0: none found. A blocker to the side counts only if it is high enough to
+// Mean height of the blockers within `radius`; 0: none found; -1: nor the receiver's own surface. A blocker to the side counts only if it is high enough to
 // cover a part of the light as seen from the receiver: lower ones cast their shadows elsewhere and would bias the mean.
 // The weight is how much of the light a blocker hides: one over the square of its own penumbra radius, or of the
 // spacing of the samples if that is larger. least: half width that the map resolves [m].
-float meanBlockerHeight(ShadowCone cone, float radius, float least, float depthBias, ShadowPattern pattern,
+float meanBlockerHeight(ShadowCone cone, float radius, float least, DepthBias bias, ShadowPattern pattern,
                         uint count) {
     float spacing = max(radius * inversesqrt(float(count)), least);
     vec2 sum = vec2(0.0);
+    bool own = false;
     for (uint i = 0u; i <= count; ++i) {
         vec2 offset = i == 0u ? vec2(0.0) : radius * nextPoint(pattern);
         ShadowTexel texel = shadowTexel(offset);
         float reach = max(penumbraRadius(cone, texel.height), spacing);
-        if (blocks(texel, depthBias) && length(offset) <= reach) {
+        if (blocks(texel, bias) && length(offset) <= reach) {
             sum += vec2(max(texel.height, 0.0), 1.0) / (reach * reach);
         }
+        own = own || showsReceiver(texel, bias);
     }
-    return sum.y > 0.0 ? max(sum.x / sum.y, 1e-4) : 0.0;
+    return sum.y > 0.0 ? max(sum.x / sum.y, 1e-4) : own ? 0.0 : -1.0;
 }
 
 // Fraction of the light's disk that is visible, if all blockers are at `height`; -1: unknown. Texels that rise less
 // steeply than `steep` are the receiver's own surroundings and do not block.
-float diskVisibility(ShadowCone cone, float height, float least, float depthBias, ShadowPattern pattern, uint count) {
+float diskVisibility(ShadowCone cone, float height, float least, DepthBias bias, ShadowPattern pattern, uint count) {
     const float steep = 1.0;
     float radius = max(penumbraRadius(cone, height), least);
     LitSum sum = LitSum(0.0, 0.0, 0.0, 0.0);
@@ -78,7 +77,7 @@ float diskVisibility(ShadowCone cone, float height, float least, float depthBias
         vec2 point = nextPoint(pattern);
         ShadowTexel texel = shadowTexel(radius * point);
         bool before = texel.height >= steep * radius * length(point);
-        addTexel(sum, !(blocks(texel, depthBias) && before), texel.known, 1.0);
+        addTexel(sum, texel, bias, !(blocks(texel, bias) && before), 1.0);
     }
     return litFraction(sum);
 }

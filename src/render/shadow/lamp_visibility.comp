@@ -32,17 +32,19 @@ ShadowTexel shadowTexel(vec2 offset) { return lampTexel(receiver, offset); }
 #include "shaders/soft_shadow.glsl"
 
 // Shrinks the blocker search radius iteratively to the penumbra radius of the highest blocker sampled so far. Otherwise
-// few samples over a very wide disk would miss narrow penumbras. 0: no blockers.
+// few samples over a very wide disk would miss narrow penumbras. 0: no blockers; -1: nor the receiver's own surface.
 float shrunkSearch(ShadowCone cone, float radius, float least, vec2 noise) {
+    bool own = false;
     for (int i = 0; i < 3; ++i) {
         uint count = params.settings.blockerSamples;
         ShadowPattern pattern = shadowPattern(params.settings, count, fract(noise + 0.618 * float(i)));
         float highest = -1.0;
         for (uint k = 0u; k <= count; ++k) {
             ShadowTexel texel = shadowTexel(k == 0u ? vec2(0.0) : radius * nextPoint(pattern));
-            highest = blocks(texel, receiver.depthBias) ? max(highest, max(texel.height, 0.0)) : highest;
+            own = own || showsReceiver(texel, receiver.bias);
+            highest = blocks(texel, receiver.bias) ? max(highest, max(texel.height, 0.0)) : highest;
         }
-        float needed = highest < 0.0 ? 0.0 : max(penumbraRadius(cone, highest), least);
+        float needed = highest < 0.0 ? (own ? 0.0 : -1.0) : max(penumbraRadius(cone, highest), least);
         if (needed > 0.7 * radius) {
             break;
         }
@@ -68,12 +70,15 @@ float pcss(ShadowCone cone, vec4 noise) {
     if (radius == 0.0) {
         return 1.0;
     }
-    float height = meanBlockerHeight(cone, radius, least, receiver.depthBias,
-                                     shadowPattern(s, s.blockerSamples, noise.zw), s.blockerSamples);
-    if (height <= 0.0) {
+    float height = radius < 0.0 ? -1.0
+                                : meanBlockerHeight(cone, radius, least, receiver.bias,
+                                                    shadowPattern(s, s.blockerSamples, noise.zw), s.blockerSamples);
+    if (height == 0.0) {
         return 1.0;
     }
-    return diskVisibility(cone, height, least, receiver.depthBias, shadowPattern(s, s.samples, noise.xy), s.samples);
+    return height < 0.0
+               ? -1.0
+               : diskVisibility(cone, height, least, receiver.bias, shadowPattern(s, s.samples, noise.xy), s.samples);
 }
 
 float visibilityAt(ivec2 pixel, uint index, vec3 p, vec3 n) {
@@ -90,13 +95,17 @@ float visibilityAt(ivec2 pixel, uint index, vec3 p, vec3 n) {
         return hardLampVisibility(receiver);
     }
     vec4 noise = shadowNoise(pixel, params.view, s.pattern == ShadowPattern_rings, lampStream + 2u * index);
+    float visible;
+    float share = 1.0;
     if (filterKind == ShadowFilter_pcf) {
         float radius = s.radius * (s.radiusUnit == ShadowUnit_texels ? receiver.texel : 1.0);
-        return pcfVisibility(radius, receiver.depthBias, shadowPattern(s, s.samples, noise.xy), s.samples);
+        visible = pcfVisibility(radius, receiver.bias, shadowPattern(s, s.samples, noise.xy), s.samples);
+    } else {
+        float slope = shadow.lamp.radius / receiver.distance;
+        share = fractionAboveHorizon(facing, slope * inversesqrt(1.0 + slope * slope));
+        visible = pcss(ShadowCone(slope, 1.0 / receiver.distance), noise);
     }
-    float slope = shadow.lamp.radius / receiver.distance;
-    float share = fractionAboveHorizon(facing, slope * inversesqrt(1.0 + slope * slope));
-    return share * pcss(ShadowCone(slope, 1.0 / receiver.distance), noise);
+    return share * (visible < 0.0 ? hardLampVisibility(receiver) : visible);
 }
 
 void main() {

@@ -46,7 +46,7 @@ float sharpVisibility() {
     LitSum sum = LitSum(0.0, 0.0, 0.0, 0.0);
     for (int i = 0; i < 4; ++i) {
         ShadowTexel texel = shadowTexel(offsets[i]);
-        addTexel(sum, !blocks(texel, receiver.depthBias), texel.known, weights[i]);
+        addTexel(sum, texel, receiver.bias, !blocks(texel, receiver.bias), weights[i]);
     }
     return litFraction(sum);
 }
@@ -64,7 +64,7 @@ bool shrinkSearch(ShadowCone cone, float least, inout float radius) {
     for (int i = 0; i < 3 && radius > least; ++i) {
         vec2 heights = heightRange(receiver, textureSize(shadowMap, 0), radius);
         vec2 rise = abs(receiver.slope) * 2.0 * (radius * receiver.texelsPerMetre + 1.0) / vec2(receiver.tile.size);
-        if (heights.x > rise.x + rise.y + receiver.depthBias) {
+        if (heights.x > rise.x + rise.y + receiver.bias.most) {
             return true;
         }
         float needed = penumbraRadius(cone, heights.y);
@@ -87,22 +87,26 @@ Result pcss(ShadowCone cone, float texelSize, vec4 noise) {
     if (radius <= least) {
         return Result(sharpVisibility(), 0.0, 0.0);
     }
-    float height = meanBlockerHeight(cone, radius, least, receiver.depthBias,
+    float height = meanBlockerHeight(cone, radius, least, receiver.bias,
                                      shadowPattern(s, s.blockerSamples, noise.zw), s.blockerSamples);
-    if (height <= 0.0) {
+    if (height < 0.0) {
+        return Result(-1.0, 0.0, 0.0);
+    }
+    if (height == 0.0) {
         return Result(1.0, -2.0 * radius, 0.0);
     }
     float width = 2.0 * max(penumbraRadius(cone, height), least);
     float visible =
-        diskVisibility(cone, height, least, receiver.depthBias, shadowPattern(s, s.samples, noise.xy), s.samples);
+        diskVisibility(cone, height, least, receiver.bias, shadowPattern(s, s.samples, noise.xy), s.samples);
     return Result(visible, width, height);
 }
 
 Result pcf(float texelSize, vec4 noise) {
     ShadowSettings s = params.settings;
     float radius = s.radius * (s.radiusUnit == ShadowUnit_texels ? texelSize : 1.0);
-    float depthBias = receiver.depthBias * (1.0 + 0.1 * radius / texelSize);  // the bias grows with the filter
-    float visible = pcfVisibility(radius, depthBias, shadowPattern(s, s.samples, noise.xy), s.samples);
+    DepthBias bias = receiver.bias;
+    bias.most *= 1.0 + 0.1 * radius / texelSize;  // the bias grows with the filter
+    float visible = pcfVisibility(radius, bias, shadowPattern(s, s.samples, noise.xy), s.samples);
     return Result(visible, 2.0 * radius, 0.0);
 }
 
