@@ -132,6 +132,8 @@ std::vector<std::string> sharedWords(const BenchCommand& command) {
         }
     };
     add("--view-file", command.shared.viewFile);
+    add("--environment", command.shared.environment);
+    add("--background", command.shared.background);
     add("--camera", command.shared.camera);
     add("--scene", command.shared.sceneIndex ? std::to_string(*command.shared.sceneIndex) : "");
     add("--device", command.device);

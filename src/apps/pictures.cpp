@@ -1,6 +1,7 @@
 // Copies images of a frame to the host and writes them.
 #include "apps/pictures.h"
 
+#include "apps/texels.h"
 #include "base/error.h"
 #include "base/image_file.h"
 
@@ -13,6 +14,18 @@ namespace reflet {
 
 bool isExr(const std::string& file) {
     return std::filesystem::path(file).extension() == ".exr";
+}
+
+FloatImage withAlpha(const FloatImage& colors, const FloatImage& coverage) {
+    REFLET_CHECK(colors.channels.size() == 3 && colors.data.size() == 3 * coverage.data.size(), "{} values, {} alphas",
+                 colors.data.size(), coverage.data.size());
+    FloatImage result{colors.width, colors.height, {"R", "G", "B", "A"}, {}};
+    result.data.reserve(4 * coverage.data.size());
+    for (size_t i = 0; i < coverage.data.size(); ++i) {
+        const float* c = &colors.data[3 * i];
+        result.data.insert(result.data.end(), {c[0], c[1], c[2], coverage.data[i]});
+    }
+    return result;
 }
 
 Pictures::Pictures(const std::string& show, const std::vector<std::string>& aovs) : main_(&findShow(show)) {
@@ -57,6 +70,12 @@ void Pictures::request(gpu::Frame& f, const FrameImages& images, bool rays) {
         }
     }
     display_ = f.readback(images.display);
+    transparent_ = images.transparent;
+    coverage_.reset();
+    if (images.coverage) {
+        coverage_ = f.readback(images.coverage);
+        coverageFormat_ = images.coverage.format;
+    }
 }
 
 nlohmann::ordered_json Pictures::rayStatistics(const gpu::Frame& f, const ViewParams& view) const {
@@ -86,15 +105,28 @@ void Pictures::write(const std::string& file, const gpu::Frame& f, const ViewPar
 }
 
 void Pictures::writePngFile(const std::string& file, const gpu::Frame& f, const ViewParams& view) const {
-    writePng(file, main_->picture == nullptr ? fetchDisplay(f, display_, view.size)
+    writePng(file, main_->picture == nullptr ? fetchDisplay(f, display_, view.size, transparent_)
                                              : makePicture(*main_, fetchValues(f, readbacks_.at(main_), view)));
+}
+
+// The final image has an alpha channel where surfaces do not cover all of it.
+FloatImage Pictures::valuesOf(const Show& show, const gpu::Frame& f, const ViewParams& view) const {
+    FloatImage values = fetchValues(f, readbacks_.at(&show), view);
+    if (!coverage_ || show.name != "final") {
+        return values;
+    }
+    FloatImage coverage{values.width, values.height, {"Y"}, {}};
+    for (const vec4& texel : decodeTexels(coverageFormat_, f.bytes(*coverage_))) {
+        coverage.data.push_back(std::clamp(texel.x, 0.0F, 1.0F));
+    }
+    return withAlpha(values, coverage);
 }
 
 // The --show image under plain channel names, so that every viewer opens it; then a named layer for each AOV.
 void Pictures::writeExrFile(const std::string& file, const gpu::Frame& f, const ViewParams& view) const {
-    std::vector<ImageLayer> layers{{"", fetchValues(f, readbacks_.at(main_), view), PixelType::float32}};
+    std::vector<ImageLayer> layers{{"", valuesOf(*main_, f, view), PixelType::float32}};
     for (const Show* aov : aovs_) {
-        layers.push_back({std::string(aov->name), fetchValues(f, readbacks_.at(aov), view), PixelType::float32});
+        layers.push_back({std::string(aov->name), valuesOf(*aov, f, view), PixelType::float32});
     }
     writeExr(file, layers);
 }

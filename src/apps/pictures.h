@@ -8,6 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,9 @@
 namespace reflet {
 
 bool isExr(const std::string& file);
+
+/// Adds coverage ("Y") as the alpha of premultiplied colours.
+FloatImage withAlpha(const FloatImage& colors, const FloatImage& coverage);
 
 class Pictures {
 public:
@@ -37,12 +41,16 @@ public:
 
 private:
     void writePngFile(const std::string& file, const gpu::Frame& f, const ViewParams& view) const;
+    [[nodiscard]] FloatImage valuesOf(const Show& show, const gpu::Frame& f, const ViewParams& view) const;
     void writeExrFile(const std::string& file, const gpu::Frame& f, const ViewParams& view) const;
 
     const Show* main_ = nullptr;
     std::vector<const Show*> aovs_;
     std::map<const Show*, ShowReadback> readbacks_;
     gpu::Readback display_;
+    std::optional<gpu::Readback> coverage_;
+    bool transparent_ = false;
+    VkFormat coverageFormat_ = VK_FORMAT_UNDEFINED;
 };
 
 }  // namespace reflet

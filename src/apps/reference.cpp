@@ -7,6 +7,7 @@
 #include "apps/scene_options.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "render/background/background.h"
 #include "render/tonemap/tone_map_image.h"
 
 #include <CLI/CLI.hpp>
@@ -83,6 +84,16 @@ ReferencePicture tracePicture(const Scene& scene, const View& view, uvec2 size, 
     }
 }
 
+std::vector<ImageLayer> layersOf(const ReferencePicture& picture, const Background& background) {
+    std::vector<ImageLayer> layers = picture.layers();
+    for (ImageLayer& layer : layers) {
+        if (background.needsCoverage() && (layer.name.empty() || layer.name == "final")) {
+            layer.image = withAlpha(layer.image, picture.coverage);
+        }
+    }
+    return layers;
+}
+
 std::string summary(const ReferencePicture& picture) {
     constexpr double million = 1e6;
     const double rays = static_cast<double>(picture.rays) / million;
@@ -106,9 +117,10 @@ void trace(const ReferenceCommand& command) {
     const ReferencePicture picture = tracePicture(scene, view, size, options);
     for (const std::string& file : command.outputs) {
         if (isExr(file)) {
-            writeExr(file, picture.layers());
+            writeExr(file, layersOf(picture, view.background));
         } else {
-            writePng(file, toneMapped(picture.final, settings.tonemap));
+            const FloatImage straight = straightRadiance(picture.final, picture.coverage, view.background);
+            writePng(file, overBackground(toneMapped(straight, settings.tonemap), picture.coverage, view.background));
         }
     }
     if (!picture.complete && picture.samples < options.samples) {

@@ -5,7 +5,9 @@
 #include "base/json.h"
 #include "base/text.h"
 #include "render/presets.h"
+#include "scene/background.h"
 #include "scene/builtin.h"
+#include "scene/default_light.h"
 #include "scene/gltf.h"
 #include "scene/view_file.h"
 
@@ -52,6 +54,22 @@ const Camera& findCamera(const Scene& scene, const std::string& wanted) {
     return *found;
 }
 
+// stated: the view file.
+void chooseLight(const SceneOptions& options, const Scene& scene, const nlohmann::json& stated, View& view) {
+    const Background background = options.background.empty() ? view.background : parseBackground(options.background);
+    const bool keepsLight = stated.contains("sun") || stated.contains("environment");
+    if (!options.environment.empty()) {
+        chooseEnvironment(view, {.name = options.environment, .base = {}, .keepsSun = stated.contains("sun")});
+    } else if (!keepsLight && !options.scene.starts_with(builtinPrefix)) {
+        if (const auto added = addDefaultLight(scene, view)) {
+            printNote(fmt::format("{}: {}; choose with --environment sky|studio|none|FILE", options.scene, *added));
+        }
+    }
+    if (!options.background.empty() || stated.contains("background")) {
+        view.background = background;
+    }
+}
+
 }  // namespace
 
 void addSceneOptions(CLI::App& command, SceneOptions& options) {
@@ -67,6 +85,18 @@ void addViewOptions(CLI::App& command, SceneOptions& options) {
     command.add_option("--camera", options.camera, "Camera of the scene, by number from 0 or by name");
     command.add_option("--view-file", options.viewFile, "Camera, sun and environment from a JSON file")
         ->type_name("V.json");
+    command
+        .add_option(
+            "--environment", options.environment,
+            "Light from all around: a clear sky (with a sun, unless there is one), a studio of soft boxes, none, "
+            "or an equirectangular image [the view file's or the scene's; for files without light: sky]")
+        ->type_name("sky|studio|none|FILE");
+    command
+        .add_option("--background", options.background,
+                    "What is seen where there is no surface; lighting and reflections do not change: environment, its "
+                    "blur, transparent (PNG and EXR with alpha), a name or display values of 0 to 1 "
+                    "[environment; for sky and studio: blur]")
+        ->type_name("environment|blur|transparent|COLOR|R,G,B");
     command.add_option("--time", options.time, "Time of the scene's animations, in seconds; they loop")
         ->type_name("SECONDS");
     command.add_option("--size", options.size, "Width and height in pixels")->type_name("WxH")->capture_default_str();
@@ -84,6 +114,10 @@ void addViewOptions(CLI::App& command, SceneOptions& options) {
 
 void printWarning(const std::string& message) {
     fmt::print(stderr, "reflet: warning: {}\n", message);
+}
+
+void printNote(const std::string& message) {
+    fmt::print(stderr, "reflet: note: {}\n", message);
 }
 
 Scene loadScene(const SceneOptions& options) {
@@ -104,9 +138,12 @@ View loadView(const SceneOptions& options, const Scene& scene) {
     if (!options.camera.empty()) {
         view.camera = findCamera(scene, options.camera);
     }
+    nlohmann::json stated = nlohmann::json::object();
     if (!options.viewFile.empty()) {
-        applyViewFile(options.viewFile, view);
+        stated = parseJsonFile(options.viewFile);
+        applyViewJson(stated, options.viewFile, view);
     }
+    chooseLight(options, scene, stated, view);
     if (options.time) {
         if (!(*options.time >= 0.0 && *options.time <= View::largestTime)) {
             failUsage("--time must be 0 to {:g} seconds, is {}", View::largestTime, *options.time);

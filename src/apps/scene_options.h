@@ -19,6 +19,8 @@ struct SceneOptions {
     std::optional<int> sceneIndex;
     std::string camera;
     std::string viewFile;
+    std::string environment;  ///< "sky", "studio", "none" or a file; empty: the view file's, the scene's or a default
+    std::string background;   ///< as parseBackground takes it; empty: the view file's or a default
     std::optional<double> time;  ///< seconds, overrides the view file
     std::string size = "1280x720";
     std::string preset;
@@ -34,11 +36,14 @@ void addViewOptions(CLI::App& command, SceneOptions& options);
 
 /// One line on standard error.
 void printWarning(const std::string& message);
+/// The same for what is no problem, but good to know.
+void printNote(const std::string& message);
 
 /// A file, or `builtin:NAME`. Warnings are printed.
 Scene loadScene(const SceneOptions& options);
 
-/// The scene's view, changed by --camera, --view-file and --time.
+/// The scene's view, changed by --camera, --view-file, --environment, --background and --time. A file without enough
+/// light, with which none of these says what lights it, gets a default (scene/default_light.h), and a note says so.
 View loadView(const SceneOptions& options, const Scene& scene);
 
 /// "1280x720". Throws UsageError.

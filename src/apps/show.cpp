@@ -380,12 +380,13 @@ Bitmap makePicture(const Show& show, const FloatImage& values) {
     return bitmap;
 }
 
-Bitmap fetchDisplay(const gpu::Frame& f, gpu::Readback readback, uvec2 size) {
+Bitmap fetchDisplay(const gpu::Frame& f, gpu::Readback readback, uvec2 size, bool alpha) {
     const auto bytes = f.bytes(readback);
-    Bitmap bitmap{size.x, size.y, 3, {}};
-    bitmap.data.reserve(bytes.size() / 4 * 3);
+    const size_t channels = alpha ? 4 : 3;
+    Bitmap bitmap{size.x, size.y, static_cast<uint32_t>(channels), {}};
+    bitmap.data.reserve(bytes.size() / 4 * channels);
     for (size_t i = 0; i < bytes.size(); i += 4) {
-        for (size_t channel = 0; channel < 3; ++channel) {
+        for (size_t channel = 0; channel < channels; ++channel) {
             bitmap.data.push_back(static_cast<uint8_t>(bytes[i + channel]));
         }
     }

@@ -50,7 +50,7 @@ std::vector<float> fetchValue(const gpu::Frame& f, const ShowReadback& readback,
 
 /// The display image of a show other than `final`.
 Bitmap makePicture(const Show& show, const FloatImage& values);
-/// The tone-mapped display image as it is.
-Bitmap fetchDisplay(const gpu::Frame& f, gpu::Readback readback, uvec2 size);
+/// The tone-mapped display image as it is; alpha: with its fourth channel.
+Bitmap fetchDisplay(const gpu::Frame& f, gpu::Readback readback, uvec2 size, bool alpha = false);
 
 }  // namespace reflet

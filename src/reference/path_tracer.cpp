@@ -1,6 +1,9 @@
 // Traces one path.
 #include "reference/path_tracer.h"
 
+#include "scene/background.h"
+#include "scene/environment.h"
+
 #include <algorithm>
 
 namespace reflet {
@@ -48,7 +51,11 @@ struct PathTracer::Walk {
 };
 
 PathTracer::PathTracer(const RayScene& rays, const View& view, uvec2 size, const ReferenceOptions& options)
-    : rays_(rays), camera_(view.camera, size), lights_(rays, view), options_(options) {}
+    : rays_(rays), camera_(view.camera, size), lights_(rays, view), options_(options) {
+    const auto blurred =
+        needsBlurredImage(view) ? std::make_shared<FloatImage>(blurredImage(*view.environment.image)) : nullptr;
+    behind_ = environmentBehind(view, blurred);
+}
 
 std::optional<SurfacePoint> PathTracer::firstSurface(const vec2& place) const {
     const Ray ray = camera_.through(place);
@@ -61,7 +68,8 @@ PathSample PathTracer::trace(const vec2& place, const PixelSampler& random) cons
     walk.out.rays = 1;
     const auto first = firstSurface(place);
     if (!first) {
-        walk.out.direct = lights_.environment(camera_.through(place).direction);
+        walk.out.direct = radianceFrom(behind_, camera_.through(place).direction);
+        walk.out.background = true;
         return walk.out;
     }
     walk.point = *first;

@@ -17,7 +17,8 @@ struct PathSample {
     vec3 indirectSpecular{0.0F};
     vec3 albedo{0.0F};
     float sunVisibility = 1.0F;
-    uint32_t rays = 0;  ///< rays traced
+    bool background = false;  ///< the camera sees no surface
+    uint32_t rays = 0;        ///< rays traced
 };
 
 class PathTracer {
@@ -44,6 +45,7 @@ private:
     const RayScene& rays_;
     CameraRays camera_;
     Lights lights_;
+    Environment behind_;  ///< what the camera sees where there is no surface
     ReferenceOptions options_;
 };
 

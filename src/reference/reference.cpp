@@ -32,6 +32,7 @@ struct PixelSum {
     vec3 indirectSpecular{0.0F};
     vec3 albedo{0.0F};
     float sunVisibility = 0.0F;
+    uint32_t covered = 0;
     uint32_t count = 0;
     double luminance = 0.0;
     double luminanceSquared = 0.0;
@@ -42,6 +43,7 @@ struct PixelSum {
         indirectSpecular += s.indirectSpecular;
         albedo += s.albedo;
         sunVisibility += s.sunVisibility;
+        covered += s.background ? 0 : 1;
         ++count;
         const double l = reflet::luminance(s.direct + s.indirectDiffuse + s.indirectSpecular);
         luminance += l;
@@ -172,7 +174,9 @@ void gatherMeans(ReferencePicture& picture, uvec2 size, const std::vector<PixelS
             picture.direct.data[i] + picture.indirectDiffuse.data[i] + picture.indirectSpecular.data[i];
     }
     picture.sunVisibility = makeImage(size, grey);
+    picture.coverage = makeImage(size, grey);
     for (size_t i = 0; i < sums.size(); ++i) {
+        picture.coverage.data[i] = static_cast<float>(sums[i].covered) / static_cast<float>(sums[i].count);
         picture.sunVisibility.data[i] = sums[i].sunVisibility / static_cast<float>(sums[i].count);
     }
     picture.samples = std::ranges::min(sums, {}, &PixelSum::count).count;

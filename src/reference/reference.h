@@ -57,6 +57,7 @@ struct ReferencePicture {
     FloatImage normal;            ///< XYZ: world-space shading normal at the pixel's centre, 0 in the background
     FloatImage depth;             ///< Y: metres in front of the camera at the pixel's centre, 0 in the background
     FloatImage sunVisibility;     ///< Y: visible fraction of the sun's disk, 1 in the background
+    FloatImage coverage;          ///< Y: share of the pixel's samples that see a surface; no layer of its own
     uint32_t samples = 0;         ///< per pixel (the minimum)
     double noise = 0.0;           ///< root of the mean over pixels of variance of the mean / (luminance² + 0.01): its
                                   ///< square estimates the relative MSE of this image against a converged one. 0 with

@@ -233,6 +233,25 @@ gpu::Image renderLiveCameras(gpu::Frame& f, const ViewInputs& in, const Settings
     return lampShadowMap;
 }
 
+// Puts the background behind the radiance that is shown, and averages its coverage over frames as the radiance.
+void showBackground(gpu::Frame& f, const FrameInputs& in, const Settings& settings, FrameImages& out) {
+    const BackgroundImages shown =
+        drawBackground(f, out.g.depth, out.direct, out.light.lit, *in.background.environment, in.view);
+    out.direct = shown.direct;
+    out.light.lit = shown.lit;
+    if (!in.background.shown.needsCoverage()) {
+        return;
+    }
+    const auto scope = f.viewScope("coverage");
+    out.coverage = shown.coverage;
+    if (settings.accumulate.enabled != 0) {
+        const Composite same{shown.coverage, shown.coverage, shown.coverage};
+        out.coverage = accumulate(f, {shown.coverage, same}, in.framesBefore).direct;
+    } else if (historyUse(settings).temporal) {
+        out.coverage = temporal(f, out.g, shown.coverage, settings.temporal, in.view);
+    }
+}
+
 }  // namespace
 
 FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& settings) {
@@ -254,6 +273,9 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
     const CompositeInputs parts{
         out.g, out.direct, out.diffuse, out.specular, in.ggxTable, settings.materials.lambertOnly != 0, layers};
     out.light = composite(f, parts, lit.next, {in.view, settings.diffuse.gain});
+    if (in.background.environment) {
+        showBackground(f, in, settings, out);
+    }
     if (settings.accumulate.enabled != 0) {
         const LightLayers means = accumulate(f, {out.direct, out.light}, in.framesBefore);
         out.direct = means.direct;
@@ -264,7 +286,12 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
         out.temporal = temporal(f, out.g, out.light.lit, settings.temporal, in.view);
         out.light.lit = out.temporal;
     }
-    out.display = tonemap(f, out.light.lit, settings.tonemap);
+    out.display =
+        tonemap(f, out.coverage ? straightRadiance(f, out.light.lit, out.coverage) : out.light.lit, settings.tonemap);
+    if (out.coverage) {
+        out.display = overBackground(f, out.display, out.coverage, in.background.shown);
+        out.transparent = in.background.shown.mode == Background::Mode::transparent;
+    }
     return out;
 }
 

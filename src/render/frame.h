@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gpu/frame.h"
+#include "render/background/background.h"
 #include "render/bounce/rays.h"
 #include "render/composite/composite.h"
 #include "render/direct_view.h"
@@ -14,6 +15,7 @@ struct FrameInputs : ViewInputs {
     std::span<const Mirror> mirrors;  ///< from planMirrors
     std::span<const LiveView> live;   ///< live camera images shown by materials of `draws`
     uint32_t framesBefore = 0;        ///< this one with the same view, lights and settings
+    FrameBackground background{};
 };
 
 /// All images of the frame; formats are documented with the effects.
@@ -25,7 +27,10 @@ struct FrameImages : ViewImages {
     Composite light;
     gpu::Image unfiltered;  ///< light.lit before temporal antialiasing
     gpu::Image temporal;    ///< radiance, history length; none without temporal antialiasing
-    gpu::Image display;
+    gpu::Image coverage;    ///< red: share of the pixel that surfaces cover; light.lit is premultiplied by it. None
+                            ///< unless the background is a colour or transparent
+    gpu::Image display;     ///< alpha: straight, 1 unless the background is transparent
+    bool transparent = false;
 };
 
 /// Records all passes of one frame.

@@ -7,6 +7,7 @@
 #include "render/history.h"
 #include "render/jitter.h"
 #include "render/probe/place_probes.h"
+#include "scene/background.h"
 
 #include <algorithm>
 #include <iterator>
@@ -138,6 +139,19 @@ std::vector<LiveView> Renderer::liveViews(const ViewParams& view) {
     return live;
 }
 
+FrameBackground Renderer::backgroundOf(const View& view) {
+    const Background& background = view.background;
+    const bool constant = background.mode == Background::Mode::blur && !view.environment.image;
+    if (background.mode == Background::Mode::environment || constant) {
+        return {};
+    }
+    if (needsBlurredImage(view) && blurredFrom_ != view.environment.image) {
+        blurredFrom_ = view.environment.image;
+        blurred_ = std::make_shared<FloatImage>(blurredImage(*blurredFrom_));
+    }
+    return {background, background_.update(frame_.device(), environmentBehind(view, blurred_))};
+}
+
 void Renderer::restart(uint32_t frameNumber) {
     frameNumber_ = frameNumber;
     frame_.invalidateHistories();
@@ -188,7 +202,8 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
                         .time = view.time},
                        mirrors,
                        live,
-                       framesBefore};
+                       framesBefore,
+                       backgroundOf(view)};
     inputs.probes = probes_.update(frame_, inputs, probesOf(view, settings.probes), settings);
     const FrameImages images = renderFrame(frame_, inputs, settings);
     if (after) {

@@ -9,6 +9,7 @@
 #include "scene/pose.h"
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -44,6 +45,7 @@ private:
     const std::vector<Probe>& probesOf(const View& view, const ProbesSettings& settings);
     /// The live camera images for the frame of this view.
     std::vector<LiveView> liveViews(const ViewParams& view);
+    FrameBackground backgroundOf(const View& view);
     std::vector<Mirror> planMirrors(const View& view, const ViewParams& params, const Settings& settings);
     void warnOnce(const std::string& text);
 
@@ -60,6 +62,9 @@ private:
     gpu::Texture ggxTable_;
     gpu::Buffer blueNoise_;
     EnvironmentMaps environment_;
+    EnvironmentMaps background_{/*prefilters=*/false};
+    std::shared_ptr<const FloatImage> blurredFrom_;  ///< image of the environment
+    std::shared_ptr<const FloatImage> blurred_;
     Probes probes_;
     std::vector<Probe> placed_;
     std::optional<uint32_t> placedCount_;  ///< that placed_ were asked for

@@ -93,7 +93,8 @@ vec3 radianceFrom(const Environment& environment, const vec3& direction) {
 FloatImage readEnvironmentImage(const std::filesystem::path& path) {
     const std::string extension = lowerExtension(path);
     if (extension != ".hdr" && extension != ".exr") {
-        fail("{}: cannot be used as an environment: its name must end in .hdr or .exr", path.string());
+        fail("{}: cannot be used as an environment: its name must end in .hdr or .exr (or be sky, studio or none)",
+             path.string());
     }
     FloatImage image = extension == ".hdr" ? readHdr(path) : readExrColors(path);
     checkValues(path, image);

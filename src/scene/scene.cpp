@@ -49,7 +49,9 @@ Camera framingCamera(const Aabb& bounds) {
     return camera;
 }
 
-/// From behind the camera's left shoulder, 53° above the horizon: shadows fall to the right and stay in the image.
+}  // namespace
+
+// Shadows fall to the right and stay in the image.
 Sun defaultSun(const Camera& camera) {
     const vec3 forward = viewDirection(camera);
     vec3 ahead{forward.x, 0.0F, forward.z};
@@ -64,6 +66,8 @@ Sun defaultSun(const Camera& camera) {
     sun.irradiance = vec3(glm::pi<float>());
     return sun;
 }
+
+namespace {
 
 bool isLit(const Scene& scene) {
     // Emissive surfaces do not count: a glowing lamp on a robot does not light the robot.

@@ -153,7 +153,8 @@ struct Environment {
     vec3 radiance{0.0F};  ///< constant over all directions [W/(m² sr)]; not used where there is an image
     /// Equirectangular, "R" "G" "B", linear, finite, not negative [W/(m² sr)], rows from the top (+Y). May be null.
     std::shared_ptr<const FloatImage> image;
-    std::string imageFile;   ///< absolute path that it was read from; empty: not from a file
+    /// Absolute path that the image was read from; "sky" or "studio" (scene/default_light.h); empty: none of these.
+    std::string imageFile;
     float intensity = 1.0F;  ///< scale of the image, not negative
     float rotation = 0.0F;   ///< of the image about +Y; 0: its centre is at -Z; 90 degrees: at -X
 
@@ -187,6 +188,23 @@ struct Probe {
     bool operator==(const Probe&) const = default;
 };
 
+/// What the camera sees where there is no surface. It lights nothing and is in no reflection.
+struct Background {
+    enum class Mode : uint8_t {
+        environment,
+        blur,  ///< the environment, blurred
+        color,
+        transparent  ///< alpha 0 in PNG and EXR
+    };
+
+    Mode mode = Mode::environment;
+    vec3 color{0.0F};  ///< display value (sRGB-encoded, not exposed nor tone mapped), 0 to 1; used by Mode::color
+
+    /// Whether images need the share of each pixel that surfaces cover.
+    [[nodiscard]] bool needsCoverage() const { return mode == Mode::color || mode == Mode::transparent; }
+    bool operator==(const Background&) const = default;
+};
+
 /// Camera, lighting and time of a render: everything that a view file can change.
 struct View {
     static constexpr uint32_t maxProbes = 16;
@@ -196,6 +214,7 @@ struct View {
     Camera camera;
     Sun sun;
     Environment environment;
+    Background background;
     double time = 0.0;                         ///< of the scene's animations [s], 0 to largestTime
     std::optional<float> lampRadius;           ///< overrides the radius of all lamps [m]
     std::vector<uint32_t> lampsOff;            ///< indices into Scene::lamps that are off, ascending
@@ -210,6 +229,9 @@ struct View {
 /// slightly
 /// above; without any light: a sun from over the camera's shoulder.
 View defaultView(const Scene& scene);
+
+/// From behind the camera's left shoulder, 53 degrees above the horizon, white, pi W/m².
+Sun defaultSun(const Camera& camera);
 
 /// World-to-view matrix; view space looks along -Z.
 mat4 worldToView(const Camera& camera);

@@ -1,8 +1,11 @@
-// View files: camera, sun, lamps, environment, probes, mirrors and time as JSON. The view changes only if all is valid.
+// View files: camera, sun, lamps, environment, background, probes, mirrors and time as JSON. The view changes only if
+// all is valid.
 #include "scene/view_file.h"
 
 #include "base/error.h"
 #include "base/json.h"
+#include "scene/background.h"
+#include "scene/default_light.h"
 #include "scene/environment.h"
 #include "scene/json_values.h"
 
@@ -107,18 +110,11 @@ void readLamps(const JsonNode& node, View& view) {
     }
 }
 
-/// An image with its intensity and rotation; it replaces the whole environment.
-Environment readImage(const JsonNode& node, const JsonNode& imageNode, const std::filesystem::path& folder) {
+// Sets what the file says of an image that is chosen already.
+void readImageProperties(const JsonNode& node, Environment& environment) {
     if (const auto radiance = node.find("radiance")) {
         radiance->complain("cannot be given together with an image; to scale the image, use 'intensity'");
     }
-    if (!imageNode.json().is_string()) {
-        imageNode.complainMustBe("the name of an .hdr or .exr file");
-    }
-    Environment environment;
-    const std::filesystem::path file = folder / imageNode.json().get<std::string>();
-    environment.image = std::make_shared<FloatImage>(readEnvironmentImage(file));
-    environment.imageFile = std::filesystem::absolute(file).lexically_normal().string();
     if (const auto intensity = node.find("intensity")) {
         const double factor = intensity->number(0.0, largestRadiance);
         const double brightest = *std::ranges::max_element(environment.image->data);
@@ -131,14 +127,32 @@ Environment readImage(const JsonNode& node, const JsonNode& imageNode, const std
     if (const auto rotation = node.find("rotation")) {
         environment.rotation = static_cast<float>(rotation->number(-360.0, 360.0, "degrees") * radiansPerDegree);
     }
-    return environment;
 }
 
-Environment readEnvironment(const JsonNode& node, const Environment& environment, const std::filesystem::path& folder) {
+// By name, or an object with an image or a radiance; both replace the whole environment. `changed` has the file's
+// camera and sun.
+void readEnvironment(const JsonNode& node, View& changed, EnvironmentChoice choice) {
     static const std::array<std::string, 4> keys{"radiance", "image", "intensity", "rotation"};
+    if (node.json().is_string()) {
+        choice.name = node.json().get<std::string>();
+        chooseEnvironment(changed, choice);
+        return;
+    }
     node.requireKeys(keys);
     if (const auto image = node.find("image")) {
-        return readImage(node, *image, folder);
+        if (!image->json().is_string()) {
+            image->complainMustBe("'sky', 'studio' or the name of an .hdr or .exr file");
+        }
+        choice.name = image->json().get<std::string>();
+        if (node.find("radiance")) {
+            readImageProperties(node, changed.environment);  // complains before a file is read
+        }
+        chooseEnvironment(changed, choice);
+        if (!changed.environment.image) {
+            image->complainMustBe("'sky', 'studio' or the name of an .hdr or .exr file");
+        }
+        readImageProperties(node, changed.environment);
+        return;
     }
     for (const char* key : {"intensity", "rotation"}) {
         if (const auto ofImage = node.find(key)) {
@@ -146,9 +160,25 @@ Environment readEnvironment(const JsonNode& node, const Environment& environment
         }
     }
     if (const auto radiance = node.find("radiance")) {
-        return {.radiance = readVec3(*radiance, 0.0, largestRadiance)};
+        changed.environment = {.radiance = readVec3(*radiance, 0.0, largestRadiance)};
+        if (changed.hasDefaultSun && changed.environment.radiance != vec3(0.0F)) {
+            changed.sun.irradiance = vec3(0.0F);
+        }
     }
-    return environment;
+}
+
+Background readBackground(const JsonNode& node) {
+    if (node.json().is_array()) {
+        return {Background::Mode::color, readVec3(node, 0.0, 1.0)};
+    }
+    if (!node.json().is_string()) {
+        node.complainMustBe("a name or three numbers of 0 to 1");
+    }
+    try {
+        return parseBackground(node.json().get<std::string>());
+    } catch (const Error& error) {
+        node.complain(error.what());
+    }
 }
 
 Probe readProbe(const JsonNode& node) {
@@ -237,6 +267,11 @@ nlohmann::ordered_json viewJson(const View& view) {
                                {"intensity", double(view.environment.intensity)},
                                {"rotation", degrees(view.environment.rotation)}};
     }
+    if (view.background.mode == Background::Mode::color) {
+        json["background"] = list(view.background.color);
+    } else {
+        json["background"] = backgroundText(view.background);
+    }
     if (view.probes) {
         json["probes"] = ordered_json::array();
         for (const Probe& probe : *view.probes) {
@@ -257,7 +292,8 @@ void applyViewFile(const std::filesystem::path& path, View& view) {
 }
 
 void applyViewJson(const nlohmann::json& file, const std::filesystem::path& path, View& view) {
-    static const std::array<std::string, 7> keys{"camera", "sun", "lamps", "environment", "probes", "mirrors", "time"};
+    static const std::array<std::string, 8> keys{"camera",     "sun",    "lamps",   "environment",
+                                                 "background", "probes", "mirrors", "time"};
     const JsonNode root(file, path);
     root.requireKeys(keys);
     View changed = view;
@@ -272,11 +308,11 @@ void applyViewJson(const nlohmann::json& file, const std::filesystem::path& path
         readLamps(*lamps, changed);
     }
     if (const auto environment = root.find("environment")) {
-        changed.environment = readEnvironment(*environment, view.environment, path.parent_path());
-        const bool shines = changed.environment.image || changed.environment.radiance != vec3(0.0F);
-        if (changed.hasDefaultSun && shines) {
-            changed.sun.irradiance = vec3(0.0F);
-        }
+        readEnvironment(*environment, changed,
+                        {.name = {}, .base = path.parent_path(), .keepsSun = root.find("sun").has_value()});
+    }
+    if (const auto background = root.find("background")) {
+        changed.background = readBackground(*background);
     }
     if (const auto probes = root.find("probes")) {
         changed.probes = readProbes(*probes);

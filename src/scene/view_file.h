@@ -1,5 +1,5 @@
-// View files: camera, sun, lamps, environment, probes, mirrors and time as JSON, to render a scene from another view or
-// in other light.
+// View files: camera, sun, lamps, environment, background, probes, mirrors and time as JSON, to render a scene from
+// another view or in other light.
 #pragma once
 
 #include "scene/scene.h"
@@ -16,6 +16,8 @@ namespace reflet {
 ///     "sun": { "direction": [0.4,-0.9,-0.2], "irradiance": [3.14,3.14,3.14], "angular_diameter": 0.53 },
 ///     "lamps": { "radius": 0.05, "off": [0, 2] },
 ///     "environment": { "radiance": [0,0,0] },       or { "image": "sky.hdr", "intensity": 1, "rotation": 0 }
+///        or "sky", "studio", "none" or a file's name, as --environment; "sky" and "studio" can be the image, too
+///     "background": "blur",                         as --background, or three display values
 ///     "probes": [{ "position": [0,1,0], "box_min": [-2,0,-2], "box_max": [2,3,2] }],
 ///     "mirrors": ["looking glass"],
 ///     "time": 1.5 }

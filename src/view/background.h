@@ -14,12 +14,12 @@ namespace reflet {
 
 /// Runs one task at a time, on a separate thread.
 template <class T>
-class Background {
+class BackgroundTask {
 public:
-    Background() = default;
-    ~Background() { stop(); }
-    Background(const Background&) = delete;
-    Background& operator=(const Background&) = delete;
+    BackgroundTask() = default;
+    ~BackgroundTask() { stop(); }
+    BackgroundTask(const BackgroundTask&) = delete;
+    BackgroundTask& operator=(const BackgroundTask&) = delete;
 
     [[nodiscard]] bool busy() const { return future_.valid(); }
 

@@ -70,7 +70,7 @@ private:
     std::string fileProblem_;
     std::vector<ImageLayer> layers_;
     std::optional<Asked> asked_;
-    Background<ReferencePicture> truth_;
+    BackgroundTask<ReferencePicture> truth_;
     std::atomic<float> progress_ = 0.0F;
     uint32_t samples_ = 0;
     std::string layerShow_;                     ///< the show that values_ belong to
@@ -81,7 +81,7 @@ private:
     vec2 pictureRange_{0.0F};
     gpu::Texture texture_;
     gpu::Image picture_;
-    Background<Comparison> errorWork_;
+    BackgroundTask<Comparison> errorWork_;
     std::shared_ptr<const FloatImage> errorLeft_;  ///< inputs of the last or current error computation
     std::shared_ptr<const FloatImage> errorRight_;
     std::optional<Difference> error_;

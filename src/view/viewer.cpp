@@ -78,7 +78,8 @@ uvec2 parsePixel(const std::string& text) {
 }
 
 bool givesView(const SceneOptions& source) {
-    return !source.camera.empty() || !source.viewFile.empty() || source.time.has_value();
+    return !source.camera.empty() || !source.viewFile.empty() || !source.environment.empty() ||
+           !source.background.empty() || source.time.has_value();
 }
 
 bool givesSettings(const SceneOptions& source) {
@@ -140,9 +141,11 @@ void Viewer::openFile(const std::string& file) {
         tell(fmt::format("{}: used as environment", path.filename().string()));
     } else if (extension == ".json") {
         const nlohmann::json json = parseJsonFile(path);
-        const std::array<const char*, 5> viewKeys{"camera", "sun", "lamps", "time", "probes"};
+        const std::array<const char*, 6> viewKeys{"camera", "sun", "lamps", "time", "probes", "background"};
         const bool isView = std::ranges::any_of(viewKeys, [&](const char* key) { return json.contains(key); }) ||
-                            (json.contains("environment") && json["environment"].contains("radiance"));
+                            (json.contains("environment") &&
+                             (json["environment"].is_string() || json["environment"].contains("radiance") ||
+                              json["environment"].contains("image")));
         if (isView) {
             applyViewJson(json, path, state_.view);
         } else {

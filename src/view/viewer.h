@@ -99,6 +99,8 @@ private:
     void runPanel();
     void settingsPanel();
     void lightPanel();
+    void environmentPanel();
+    void skyFollowsSun(bool moved);
     void cameraPanel();
     void showPanel();
     void comparePanel();
@@ -123,6 +125,7 @@ private:
     CompareView compare_;
     ShaderWatch shaders_;
     ControlPlaces places_;
+    bool sunMoved_ = false;  ///< since the sky was made
 
     std::string notice_;   ///< the last completed action
     std::string problem_;  ///< the last failed action; stays until one succeeds

@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "base/json_text.h"
 #include "render/presets.h"
+#include "scene/default_light.h"
 #include "scene/view_file.h"
 #include "view/saved_state.h"
 
@@ -91,6 +92,14 @@ std::string Viewer::commandLine() {
     } else {
         if (!source.viewFile.empty()) {
             line += " --view-file " + shellWord(fs::absolute(source.viewFile).string());
+        }
+        if (!source.environment.empty()) {
+            line += " --environment " + shellWord(isMadeEnvironment(source.environment) || source.environment == "none"
+                                                      ? source.environment
+                                                      : fs::absolute(source.environment).string());
+        }
+        if (!source.background.empty()) {
+            line += " --background " + shellWord(source.background);
         }
         if (source.time) {
             line += fmt::format(" --time {}", *source.time);

@@ -2,6 +2,7 @@
 #include "view/viewer.h"
 
 #include "base/error.h"
+#include "scene/default_light.h"
 
 #include <imgui.h>
 
@@ -10,10 +11,57 @@
 
 namespace reflet {
 
+// The sky follows the sun once it is let go: making its image takes longer than a frame.
+void Viewer::skyFollowsSun(bool moved) {
+    sunMoved_ = sunMoved_ || moved;
+    View& view = state_.view;
+    if (!sunMoved_ || ImGui::IsAnyItemActive()) {
+        return;
+    }
+    sunMoved_ = false;
+    if (view.environment.imageFile == "sky") {
+        const float intensity = view.environment.intensity;
+        view.hasDefaultSun = false;  // it was placed here
+        chooseEnvironment(view, {.name = "sky", .base = {}, .keepsSun = true});
+        view.environment.intensity = intensity;
+    }
+}
+
+void Viewer::environmentPanel() {
+    View& view = state_.view;
+    ImGui::TextUnformatted("Environment");
+    for (const char* name : {"sky", "studio", "none"}) {
+        ImGui::SameLine();
+        if (ImGui::Button(name)) {
+            chooseEnvironment(view, {.name = name, .base = {}, .keepsSun = false});
+        }
+        places_.note(fmt::format("environment {}", name));
+    }
+    if (view.environment.image) {
+        ImGui::SliderFloat("intensity", &view.environment.intensity, 0.0F, 10.0F, "%.3f", ImGuiSliderFlags_AlwaysClamp);
+        ImGui::SliderAngle("rotation", &view.environment.rotation, -180.0F, 180.0F);
+    } else {
+        ImGui::ColorEdit3("radiance", &view.environment.radiance.x,
+                          ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR);
+        view.environment.radiance = glm::clamp(view.environment.radiance, 0.0F, 1e6F);
+        tooltip("Uniform from all directions, W/(m² sr).");
+    }
+    int mode = static_cast<int>(view.background.mode);
+    if (ImGui::Combo("background", &mode, "environment\0blurred environment\0colour\0transparent\0")) {
+        view.background.mode = static_cast<Background::Mode>(mode);
+    }
+    places_.note("background");
+    tooltip("What is seen where there is no surface. Lighting and reflections do not change.");
+    if (view.background.mode == Background::Mode::color) {
+        ImGui::ColorEdit3("colour", &view.background.color.x);
+    }
+}
+
 void Viewer::lightPanel() {
     View& view = state_.view;
     ImGui::TextUnformatted("Sun");
-    if (dragDirection("sun direction", view.sun.direction)) {
+    const bool dragged = dragDirection("sun direction", view.sun.direction);
+    if (dragged) {
         view.sun.node = -1;
     }
     places_.note("sun direction");
@@ -32,6 +80,7 @@ void Viewer::lightPanel() {
         view.sun.direction = -glm::normalize(vec3(std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a)));
         view.sun.node = -1;
     }
+    skyFollowsSun(dragged || turned || raised);
     ImGui::DragFloat3("irradiance", &view.sun.irradiance.x, 0.05F, 0.0F, 1e4F, "%.2f", ImGuiSliderFlags_AlwaysClamp);
     tooltip("W/m² on a surface that faces the sun: red, green, blue.");
     float diameter = glm::degrees(view.sun.angularDiameter);
@@ -60,19 +109,11 @@ void Viewer::lightPanel() {
         }
         ImGui::TreePop();
     }
-    ImGui::TextUnformatted("Environment");
-    if (view.environment.image) {
-        ImGui::SliderFloat("intensity", &view.environment.intensity, 0.0F, 10.0F, "%.3f", ImGuiSliderFlags_AlwaysClamp);
-        ImGui::SliderAngle("rotation", &view.environment.rotation, -180.0F, 180.0F);
-    } else {
-        ImGui::ColorEdit3("radiance", &view.environment.radiance.x,
-                          ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR);
-        view.environment.radiance = glm::clamp(view.environment.radiance, 0.0F, 1e6F);
-        tooltip("Uniform from all directions, W/(m² sr).");
-    }
+    environmentPanel();
     if (ImGui::Button("reset light")) {
         view.sun = session_->firstView().sun;
         view.environment = session_->firstView().environment;
+        view.background = session_->firstView().background;
         view.lampsOff = session_->firstView().lampsOff;
         view.lampRadius = session_->firstView().lampRadius;
     }

@@ -272,7 +272,7 @@ TEST_F(ViewFile, WithALightRemovesTheDefaultSun) {
 
 TEST_F(ViewFile, WithAnInvalidEnvironmentImageIsAnError) {
     EXPECT_EQ(errorOf(R"({"environment": {"image": 1}})"),
-              "FILE: environment.image: must be the name of an .hdr or .exr file, is 1");
+              "FILE: environment.image: must be 'sky', 'studio' or the name of an .hdr or .exr file, is 1");
     EXPECT_NE(errorOf(R"({"environment": {"image": "no/such/sky.hdr"}})").find("no/such/sky.hdr"), std::string::npos);
     EXPECT_NE(errorOf(R"({"environment": {"image": "sky.png"}})").find("must end in .hdr or .exr"), std::string::npos);
 }

@@ -174,10 +174,14 @@ void addTo(Fingerprint& print, const Scene& scene) {
 }
 
 void addTo(Fingerprint& print, const View& view) {
-    const auto& [camera, sun, environment, time, lampRadius, lampsOff, probes, mirrors, hasDefaultSun] = view;
+    const auto& [camera, sun, environment, background, time, lampRadius, lampsOff, probes, mirrors, hasDefaultSun] =
+        view;
     (void)probes;
     (void)mirrors;
     Adder(print).all(camera, sun, environment, time, lampRadius, lampsOff, hasDefaultSun);
+    if (background != Background{}) {  // others keep the print that they had before there were backgrounds
+        Adder(print).all(background.mode, background.color);
+    }
 }
 
 void addTo(Fingerprint& print, const ReferenceOptions& options) {

@@ -8,6 +8,7 @@
 #include "base/image_file.h"
 #include "compare/compare.h"
 #include "compare/heat_map.h"
+#include "render/background/background.h"
 #include "render/renderer.h"
 #include "render/tonemap/tone_map_image.h"
 
@@ -72,7 +73,8 @@ Rendered renderVariant(const ReportWork& work, const ReportInput& input, const S
     }
     const ViewParams params = makeViewParams(input.view.camera, work.size, 0, work.seed);
     result.radiance = fetchValues(renderer.frame(), radiance, params);
-    result.display = fetchDisplay(renderer.frame(), display, work.size);
+    result.display =
+        fetchDisplay(renderer.frame(), display, work.size, input.view.background.mode == Background::Mode::transparent);
     return result;
 }
 
@@ -129,9 +131,13 @@ ReportScene workOn(const ReportWork& work, const ReportInput& input, gpu::Device
     result.name = input.name;
     result.source = input.source;
     result.description = input.description;
-    result.truth = {folder.write("truth", toneMapped(truth.final, work.tonemap)), truth.samples, truth.noise};
-    result.visible = {folder.write("visible-only", toneMapped(visible.final, work.tonemap)), visible.samples,
-                      visible.noise};
+    const auto displayed = [&](const ReferencePicture& p) {
+        const Background& background = input.view.background;
+        const FloatImage straight = straightRadiance(p.final, p.coverage, background);
+        return overBackground(toneMapped(straight, work.tonemap), p.coverage, background);
+    };
+    result.truth = {folder.write("truth", displayed(truth)), truth.samples, truth.noise};
+    result.visible = {folder.write("visible-only", displayed(visible)), visible.samples, visible.noise};
     result.visibleErrorMap = folder.write("visible-only-error", heatMap(unknown.flip));
     result.visibleError = errorOf(unknown);
     for (size_t i = 0; i < rendered.size(); ++i) {

@@ -70,6 +70,9 @@ void EnvironmentMaps::load(gpu::Device& device) {
     const std::vector<uint64_t> texels = halfTexels(image, scale_);
     texels_ = gpu::uploadTexels(device, {VK_FORMAT_R16G16B16A16_SFLOAT, uvec2(image.width, image.height)},
                                 std::as_bytes(std::span(texels)), "environment");
+    if (!prefilters_) {
+        return;
+    }
     cube_ = CubeMap(device, image_ ? sideFor(image) : 1, 1, "environment");
     f.begin();
     const gpu::Image faces = cube_.sharp.mip(0);

@@ -41,6 +41,10 @@ void bindEnvironmentLobes(gpu::Pass& pass, gpu::Device& device, const Environmen
 /// Owns the images. Constant radiance is an image of one white texel.
 class EnvironmentMaps {
 public:
+    EnvironmentMaps() = default;
+    /// prefilters: false: makes only the texels.
+    explicit EnvironmentMaps(bool prefilters) : prefilters_(prefilters) {}
+
     /// Prefilters the image, and waits for that, if the image has changed; intensity and rotation may change freely.
     /// Values beyond half floats are kept up to 6.7e7 and clamped above: images are stored divided by a power of two of
     /// up to 1024.
@@ -49,6 +53,7 @@ public:
 private:
     void load(gpu::Device& device);
 
+    bool prefilters_ = true;
     std::shared_ptr<const FloatImage> image_;
     gpu::Texture texels_;
     CubeMap cube_;
