@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/image_file.h"
+#include "render/exposure/exposure.h"
 
 #include <nlohmann/json.hpp>
 
@@ -57,6 +58,11 @@ void Pictures::request(gpu::Frame& f, const FrameImages& images, bool rays) {
         }
     }
     display_ = f.readback(images.display);
+    exposure_ = images.exposure ? std::optional(f.readback(images.exposure)) : std::nullopt;
+}
+
+std::optional<float> Pictures::autoExposure(const gpu::Frame& f) const {
+    return exposure_ ? std::optional(exposureOf(f, *exposure_)) : std::nullopt;
 }
 
 nlohmann::ordered_json Pictures::rayStatistics(const gpu::Frame& f, const ViewParams& view) const {

@@ -8,6 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,9 @@ public:
     /// Copies what they need of a frame that is being recorded; `rays`: and what rayStatistics needs.
     void request(gpu::Frame& f, const FrameImages& images, bool rays);
 
+    /// Stops of automatic exposure, without the correction; none where there is none. After the frame is done.
+    [[nodiscard]] std::optional<float> autoExposure(const gpu::Frame& f) const;
+
     /// Of the rays of each lobe: mean depth samples, and the fraction of screen-space hits. After the frame is done.
     [[nodiscard]] nlohmann::ordered_json rayStatistics(const gpu::Frame& f, const ViewParams& view) const;
 
@@ -43,6 +47,7 @@ private:
     std::vector<const Show*> aovs_;
     std::map<const Show*, ShowReadback> readbacks_;
     gpu::Readback display_;
+    std::optional<gpu::Readback> exposure_;
 };
 
 }  // namespace reflet

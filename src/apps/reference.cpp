@@ -7,6 +7,7 @@
 #include "apps/scene_options.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "render/exposure/exposure.h"
 #include "render/tonemap/tone_map_image.h"
 
 #include <CLI/CLI.hpp>
@@ -104,18 +105,21 @@ void trace(const ReferenceCommand& command) {
 
     const InterruptNote note;
     const ReferencePicture picture = tracePicture(scene, view, size, options);
+    const TonemapSettings tonemap = exposedAs(settings.tonemap, scene, picture.final, picture.depth);
     for (const std::string& file : command.outputs) {
         if (isExr(file)) {
             writeExr(file, picture.layers());
         } else {
-            writePng(file, toneMapped(picture.final, settings.tonemap));
+            writePng(file, toneMapped(picture.final, tonemap));
         }
     }
     if (!picture.complete && picture.samples < options.samples) {
         fail("interrupted after {} of {} samples per pixel; {} {} the samples so far", picture.samples, options.samples,
              fmt::join(command.outputs, ", "), command.outputs.size() == 1 ? "holds" : "hold");
     }
-    fmt::print("{}\n", summary(picture));
+    fmt::print(
+        "{}{}\n", summary(picture),
+        exposesAutomatically(settings.tonemap, scene) ? fmt::format("; exposure {:+.2f} stops", tonemap.exposure) : "");
 }
 
 constexpr const char* referenceFooter =

@@ -14,6 +14,8 @@ struct FrameInputs : ViewInputs {
     std::span<const Mirror> mirrors;  ///< from planMirrors
     std::span<const LiveView> live;   ///< live camera images shown by materials of `draws`
     uint32_t framesBefore = 0;        ///< this one with the same view, lights and settings
+    bool autoExposure = false;        ///< measure the exposure
+    float elapsed = 0.0F;             ///< seconds of the scene's time since the last frame, not negative
 };
 
 /// All images of the frame; formats are documented with the effects.
@@ -25,6 +27,7 @@ struct FrameImages : ViewImages {
     Composite light;
     gpu::Image unfiltered;  ///< light.lit before temporal antialiasing
     gpu::Image temporal;    ///< radiance, history length; none without temporal antialiasing
+    gpu::Image exposure;    ///< of measureExposure; none without automatic exposure
     gpu::Image display;
 };
 
