@@ -4,6 +4,7 @@
 #include "apps/texels.h"
 #include "base/error.h"
 #include "base/image_file.h"
+#include "render/exposure/exposure.h"
 
 #include <nlohmann/json.hpp>
 
@@ -14,6 +15,21 @@ namespace reflet {
 
 bool isExr(const std::string& file) {
     return std::filesystem::path(file).extension() == ".exr";
+}
+
+std::optional<CoverageReadback> requestCoverage(gpu::Frame& f, const FrameImages& images) {
+    if (!images.coverage) {
+        return std::nullopt;
+    }
+    return CoverageReadback{f.readback(images.coverage), images.coverage.format, images.coverage.size};
+}
+
+FloatImage CoverageReadback::fetch(const gpu::Frame& f) const {
+    FloatImage coverage{size.x, size.y, {"Y"}, {}};
+    for (const vec4& texel : decodeTexels(format, f.bytes(copy))) {
+        coverage.data.push_back(std::clamp(texel.x, 0.0F, 1.0F));
+    }
+    return coverage;
 }
 
 FloatImage withAlpha(const FloatImage& colors, const FloatImage& coverage) {
@@ -71,11 +87,12 @@ void Pictures::request(gpu::Frame& f, const FrameImages& images, bool rays) {
     }
     display_ = f.readback(images.display);
     transparent_ = images.transparent;
-    coverage_.reset();
-    if (images.coverage) {
-        coverage_ = f.readback(images.coverage);
-        coverageFormat_ = images.coverage.format;
-    }
+    coverage_ = requestCoverage(f, images);
+    exposure_ = images.exposure ? std::optional(f.readback(images.exposure)) : std::nullopt;
+}
+
+std::optional<float> Pictures::autoExposure(const gpu::Frame& f) const {
+    return exposure_ ? std::optional(exposureOf(f, *exposure_)) : std::nullopt;
 }
 
 nlohmann::ordered_json Pictures::rayStatistics(const gpu::Frame& f, const ViewParams& view) const {
@@ -115,11 +132,7 @@ FloatImage Pictures::valuesOf(const Show& show, const gpu::Frame& f, const ViewP
     if (!coverage_ || show.name != "final") {
         return values;
     }
-    FloatImage coverage{values.width, values.height, {"Y"}, {}};
-    for (const vec4& texel : decodeTexels(coverageFormat_, f.bytes(*coverage_))) {
-        coverage.data.push_back(std::clamp(texel.x, 0.0F, 1.0F));
-    }
-    return withAlpha(values, coverage);
+    return withAlpha(values, coverage_->fetch(f));
 }
 
 // The --show image under plain channel names, so that every viewer opens it; then a named layer for each AOV.

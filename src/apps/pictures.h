@@ -20,6 +20,19 @@ bool isExr(const std::string& file);
 /// Adds coverage ("Y") as the alpha of premultiplied colours.
 FloatImage withAlpha(const FloatImage& colors, const FloatImage& coverage);
 
+/// Copies the share of each pixel that surfaces cover to the host.
+struct CoverageReadback {
+    gpu::Readback copy;
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    uvec2 size{0};
+
+    /// "Y", 0 to 1. After the frame is done.
+    [[nodiscard]] FloatImage fetch(const gpu::Frame& f) const;
+};
+
+/// None where the background is the environment, which needs no coverage.
+std::optional<CoverageReadback> requestCoverage(gpu::Frame& f, const FrameImages& images);
+
 class Pictures {
 public:
     /// Throws UsageError for an unknown name, or for images that cannot be in one file.
@@ -32,6 +45,9 @@ public:
 
     /// Copies what they need of a frame that is being recorded; `rays`: and what rayStatistics needs.
     void request(gpu::Frame& f, const FrameImages& images, bool rays);
+
+    /// Stops of automatic exposure, without the correction; none where there is none. After the frame is done.
+    [[nodiscard]] std::optional<float> autoExposure(const gpu::Frame& f) const;
 
     /// Of the rays of each lobe: mean depth samples, and the fraction of screen-space hits. After the frame is done.
     [[nodiscard]] nlohmann::ordered_json rayStatistics(const gpu::Frame& f, const ViewParams& view) const;
@@ -48,9 +64,9 @@ private:
     std::vector<const Show*> aovs_;
     std::map<const Show*, ShowReadback> readbacks_;
     gpu::Readback display_;
-    std::optional<gpu::Readback> coverage_;
+    std::optional<CoverageReadback> coverage_;
     bool transparent_ = false;
-    VkFormat coverageFormat_ = VK_FORMAT_UNDEFINED;
+    std::optional<gpu::Readback> exposure_;
 };
 
 }  // namespace reflet

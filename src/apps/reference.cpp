@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "render/background/background.h"
-#include "render/tonemap/tone_map_image.h"
+#include "render/exposure/exposure.h"
 
 #include <CLI/CLI.hpp>
 
@@ -115,19 +115,21 @@ void trace(const ReferenceCommand& command) {
 
     const InterruptNote note;
     const ReferencePicture picture = tracePicture(scene, view, size, options);
+    const TonemapSettings tonemap = exposedAs(settings.tonemap, scene, picture.final, picture.depth);
     for (const std::string& file : command.outputs) {
         if (isExr(file)) {
             writeExr(file, layersOf(picture, view.background));
         } else {
-            const FloatImage straight = straightRadiance(picture.final, picture.coverage, view.background);
-            writePng(file, overBackground(toneMapped(straight, settings.tonemap), picture.coverage, view.background));
+            writePng(file, displayedOver(picture.final, picture.coverage, view.background, tonemap));
         }
     }
     if (!picture.complete && picture.samples < options.samples) {
         fail("interrupted after {} of {} samples per pixel; {} {} the samples so far", picture.samples, options.samples,
              fmt::join(command.outputs, ", "), command.outputs.size() == 1 ? "holds" : "hold");
     }
-    fmt::print("{}\n", summary(picture));
+    fmt::print(
+        "{}{}\n", summary(picture),
+        exposesAutomatically(settings.tonemap, scene) ? fmt::format("; exposure {:+.2f} stops", tonemap.exposure) : "");
 }
 
 constexpr const char* referenceFooter =

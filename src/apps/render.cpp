@@ -73,6 +73,9 @@ void writeTimings(const RenderJob& job) {
         const ViewParams params = makeViewParams(job.view.camera, job.size, 0, job.options.scene.seed);
         json["rays"] = job.pictures.rayStatistics(job.renderer.frame(), params);
     }
+    if (const auto stops = job.pictures.autoExposure(job.renderer.frame())) {
+        json["exposure"] = *stops + job.settings.tonemap.exposure;
+    }
     writeFileAtomically(job.options.timings, jsonText(json, 2) + "\n");
 }
 

@@ -15,6 +15,7 @@
 #include "render/bounce/reuse_rays.h"
 #include "render/bounce/trace_screen.h"
 #include "render/denoise/denoise.h"
+#include "render/exposure/exposure.h"
 #include "render/history.h"
 #include "render/light_mips/light_mips.h"
 #include "render/planar/planar_view.h"
@@ -286,8 +287,11 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
         out.temporal = temporal(f, out.g, out.light.lit, settings.temporal, in.view);
         out.light.lit = out.temporal;
     }
-    out.display =
-        tonemap(f, out.coverage ? straightRadiance(f, out.light.lit, out.coverage) : out.light.lit, settings.tonemap);
+    if (in.autoExposure) {
+        out.exposure = measureExposure(f, out.light.lit, out.g.depth, in.elapsed, settings.tonemap.adaptation);
+    }
+    out.display = tonemap(f, out.coverage ? straightRadiance(f, out.light.lit, out.coverage) : out.light.lit,
+                          settings.tonemap, out.exposure);
     if (out.coverage) {
         out.display = overBackground(f, out.display, out.coverage, in.background.shown);
         out.transparent = in.background.shown.mode == Background::Mode::transparent;

@@ -16,6 +16,8 @@ struct FrameInputs : ViewInputs {
     std::span<const LiveView> live;   ///< live camera images shown by materials of `draws`
     uint32_t framesBefore = 0;        ///< this one with the same view, lights and settings
     FrameBackground background{};
+    bool autoExposure = false;        ///< measure the exposure
+    float elapsed = 0.0F;             ///< seconds of the scene's time since the last frame, not negative
 };
 
 /// All images of the frame; formats are documented with the effects.
@@ -29,6 +31,7 @@ struct FrameImages : ViewImages {
     gpu::Image temporal;    ///< radiance, history length; none without temporal antialiasing
     gpu::Image coverage;    ///< red: share of the pixel that surfaces cover; light.lit is premultiplied by it. None
                             ///< unless the background is a colour or transparent
+    gpu::Image exposure;    ///< of measureExposure; none without automatic exposure
     gpu::Image display;     ///< alpha: straight, 1 unless the background is transparent
     bool transparent = false;
 };

@@ -1,6 +1,7 @@
 // What of a frame depends on the frames before it.
 #include "render/history.h"
 
+#include "render/exposure/exposure.h"
 #include "render/jitter.h"
 #include "render/settings.h"
 #include "scene/scene.h"
@@ -30,16 +31,19 @@ HistoryUse historyUse(const Settings& settings) {
             .denoise = traced && settings.denoise.enabled != 0 && settings.denoise.history > 0,
             .temporal = settings.temporal.enabled != 0 && !mean,
             .accumulate = mean,
-            .cameraTextures = false};
+            .cameraTextures = false,
+            .exposure = false};
 }
 
 HistoryUse historyUse(const Settings& settings, const Scene& scene) {
     HistoryUse use = historyUse(settings);
     use.cameraTextures = std::ranges::any_of(scene.materials, [](const Material& m) { return !m.camera.empty(); });
+    use.exposure = exposesAutomatically(settings.tonemap, scene) && settings.tonemap.adaptation > 0.0F;
     return use;
 }
 
-uint32_t framesToSettle(const HistoryUse& use, const Settings& settings) {
+uint32_t framesToSettle(HistoryUse use, const Settings& settings) {
+    use.exposure = false;
     if (use.accumulate) {
         return meanFrames;
     }

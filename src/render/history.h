@@ -20,9 +20,10 @@ struct HistoryUse {
     bool temporal = false;        ///< temporal antialiasing
     bool accumulate = false;      ///< mean over all frames of a still view
     bool cameraTextures = false;  ///< textures that show what another camera of the scene sees
+    bool exposure = false;        ///< smoothed exposure: it settles in the first frame of a still view
 
     [[nodiscard]] bool any() const {
-        return shadows || hitLight || probes || denoise || temporal || accumulate || cameraTextures;
+        return shadows || hitLight || probes || denoise || temporal || accumulate || cameraTextures || exposure;
     }
 };
 
@@ -31,7 +32,7 @@ HistoryUse historyUse(const Settings& settings, const Scene& scene);
 
 /// Frames of a still view and scene after which its image is settled: what `render` takes without --frames. 1 where
 /// there is no history. A mean (accumulate) never settles; it counts as the reference's default, 64 samples per pixel.
-uint32_t framesToSettle(const HistoryUse& use, const Settings& settings);
+uint32_t framesToSettle(HistoryUse use, const Settings& settings);
 
 /// Subpixel jitter of a frame, in pixels off the pixel's centre; 0 where nothing averages over frames. `frame` counts
 /// from the renderer's start, `framesBefore` those with the same view and settings.

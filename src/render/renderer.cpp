@@ -4,12 +4,14 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "noise/blue_noise.h"
+#include "render/exposure/exposure.h"
 #include "render/history.h"
 #include "render/jitter.h"
 #include "render/probe/place_probes.h"
 #include "scene/background.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace reflet {
@@ -157,6 +159,7 @@ void Renderer::restart(uint32_t frameNumber) {
     frame_.invalidateHistories();
     previousWorldToClip_.reset();
     previousPlace_ = vec2(0.0F);
+    previousTime_.reset();
     asked_.reset();
     framesBefore_ = 0;
     pose_.reset();
@@ -203,7 +206,10 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
                        mirrors,
                        live,
                        framesBefore,
-                       backgroundOf(view)};
+                       backgroundOf(view),
+                       exposesAutomatically(settings.tonemap, source_),
+                       static_cast<float>(std::abs(view.time - previousTime_.value_or(view.time)))};
+    previousTime_ = view.time;
     inputs.probes = probes_.update(frame_, inputs, probesOf(view, settings.probes), settings);
     const FrameImages images = renderFrame(frame_, inputs, settings);
     if (after) {

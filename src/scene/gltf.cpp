@@ -40,6 +40,7 @@ Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
     try {
         const GltfDocument document = readGltfDocument(path, report);
         Scene scene;
+        scene.fromFile = true;
         const std::vector<int> roots = chooseScene(document, options.scene, scene.name, report);
         if (scene.name.empty()) {
             scene.name = path.stem().string();

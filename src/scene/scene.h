@@ -163,6 +163,7 @@ struct Environment {
 
 struct Scene {
     std::string name;
+    bool fromFile = false;  ///< its lights may have any unit; those of other scenes suit an exposure of 0
     std::vector<Image> images;
     std::vector<Sampler> samplers;
     std::vector<Material> materials;

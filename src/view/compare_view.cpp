@@ -204,7 +204,7 @@ void CompareView::updateError(const Session& live) {
     });
 }
 
-void CompareView::updatePicture(const ViewerState& state) {
+void CompareView::updatePicture(const ViewerState& state, const TonemapSettings& tonemap) {
     const bool asError = state.compare.errorImage && errorMap_;
     const std::shared_ptr<const FloatImage>& of = asError ? errorMap_ : values_;
     const vec2 range(state.low, state.high);
@@ -213,16 +213,16 @@ void CompareView::updatePicture(const ViewerState& state) {
         pictureOf_ = nullptr;
         return;
     }
-    if (of == pictureOf_ && pictureTone_ && sameTone(*pictureTone_, state.settings.tonemap) &&
-        pictureIsError_ == asError && pictureFalse_ == state.falseColor && pictureRange_ == range) {
+    if (of == pictureOf_ && pictureTone_ && sameTone(*pictureTone_, tonemap) && pictureIsError_ == asError &&
+        pictureFalse_ == state.falseColor && pictureRange_ == range) {
         return;
     }
     pictureOf_ = of;
-    pictureTone_ = state.settings.tonemap;
+    pictureTone_ = tonemap;
     pictureIsError_ = asError;
     pictureFalse_ = state.falseColor;
     pictureRange_ = range;
-    texture_ = uploadPicture(device_, asError ? heatMap(*of) : shownPicture(state, *of), "right side");
+    texture_ = uploadPicture(device_, asError ? heatMap(*of) : shownPicture(state, tonemap, *of), "right side");
     picture_ = texture_.image();
 }
 
@@ -244,7 +244,7 @@ void CompareView::update(const ViewerState& state, const Session& live, uvec2 si
             updateTruth(state, live, size, mayRender);
         }
         updateError(live);
-        updatePicture(state);
+        updatePicture(state, live.shownTonemap(state));
     } catch (const Error& error) {
         setProblem(error.what());
         values_ = nullptr;

@@ -60,7 +60,8 @@ private:
     void startTruth(const ViewerState& state, const Session& live);
     void chooseLayer(const ViewerState& state);
     void updateError(const Session& live);
-    void updatePicture(const ViewerState& state);
+    /// tonemap: of the left side, whose exposure both have.
+    void updatePicture(const ViewerState& state, const TonemapSettings& tonemap);
     void setProblem(const std::string& text);
 
     gpu::Device& device_;

@@ -4,6 +4,7 @@
 #include "apps/pictures.h"
 #include "base/error.h"
 #include "compare/heat_map.h"
+#include "render/exposure/exposure.h"
 #include "render/history.h"
 #include "render/tonemap/tone_map_image.h"
 #include "scene/pose.h"
@@ -21,7 +22,8 @@ constexpr uint32_t meanSettledAfter = 1024;  // accumulate
 
 uint32_t framesFor(const Settings& settings, const Scene& scene) {
     const HistoryUse use = historyUse(settings, scene);
-    return use.accumulate ? meanSettledAfter : framesToSettle(use, settings);
+    const uint32_t exposed = use.exposure ? exposureFrames : 1;
+    return use.accumulate ? meanSettledAfter : std::max(framesToSettle(use, settings), exposed);
 }
 
 bool isMade(const Show& show, const FrameImages& images) {
@@ -41,7 +43,7 @@ Settings renderedSettings(const ViewerState& state) {
     return settings;
 }
 
-Bitmap shownPicture(const ViewerState& state, const FloatImage& values) {
+Bitmap shownPicture(const ViewerState& state, const TonemapSettings& tonemap, const FloatImage& values) {
     const Show& show = findShow(state.show);
     if (state.falseColor) {
         FloatImage first{values.width, values.height, {"Y"}, {}};
@@ -51,7 +53,7 @@ Bitmap shownPicture(const ViewerState& state, const FloatImage& values) {
         }
         return heatMap(first);
     }
-    return show.picture == nullptr ? toneMapped(values, state.settings.tonemap) : makePicture(show, values);
+    return show.picture == nullptr ? toneMapped(values, tonemap) : makePicture(show, values);
 }
 
 gpu::Texture uploadPicture(gpu::Device& device, const Bitmap& bitmap, const std::string& name) {
@@ -104,6 +106,7 @@ void Session::render(const ViewerState& state, uvec2 size, bool keepValues) {
     const Show& show = findShow(state.show);
     const bool values = keepValues || needsValues(state);
     std::optional<ShowReadback> readback;
+    std::optional<gpu::Readback> exposure;
     problem_.clear();
     const FrameImages images =
         renderFrame(state, state.view, size, settings, [&](gpu::Frame& f, const FrameImages& made) {
@@ -113,7 +116,9 @@ void Session::render(const ViewerState& state, uvec2 size, bool keepValues) {
             } else if (values) {
                 readback = requestShow(f, made, show);
             }
+            exposure = made.exposure ? std::optional(f.readback(made.exposure)) : std::nullopt;
         });
+    exposure_ = exposure ? std::optional(exposureOf(frame(), *exposure)) : std::nullopt;
     ++frames_;
     values_ = readback ? std::make_shared<const FloatImage>(fetchValues(frame(), *readback, params_)) : nullptr;
     picture_ = problem_.empty() ? images.display : gpu::Image{};
@@ -122,9 +127,16 @@ void Session::render(const ViewerState& state, uvec2 size, bool keepValues) {
     }
 }
 
+TonemapSettings Session::shownTonemap(const ViewerState& state) const {
+    TonemapSettings tonemap = state.settings.tonemap;
+    tonemap.autoExposure = AutoExposure::off;
+    tonemap.exposure += exposure_.value_or(0.0F);
+    return tonemap;
+}
+
 void Session::refreshPicture(const ViewerState& state) {
     if (values_) {
-        uploaded_ = uploadPicture(device_, shownPicture(state, *values_), "shown");
+        uploaded_ = uploadPicture(device_, shownPicture(state, shownTonemap(state), *values_), "shown");
         picture_ = uploaded_.image();
     }
 }

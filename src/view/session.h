@@ -29,7 +29,7 @@ struct Picked {
 };
 
 /// The display image of a show's values: tone mapped, as by --show, or in false colours.
-Bitmap shownPicture(const ViewerState& state, const FloatImage& values);
+Bitmap shownPicture(const ViewerState& state, const TonemapSettings& tonemap, const FloatImage& values);
 
 class Session {
 public:
@@ -53,6 +53,8 @@ public:
     [[nodiscard]] const std::string& showProblem() const { return problem_; }
     /// The values of the show; null if they were not kept.
     [[nodiscard]] const std::shared_ptr<const FloatImage>& shownValues() const { return values_; }
+    /// Settings that show other pictures with the exposure of the last frame, the automatic one included.
+    [[nodiscard]] TonemapSettings shownTonemap(const ViewerState& state) const;
     /// Redraws the display image of the same frame, with other false colours.
     void refreshPicture(const ViewerState& state);
 
@@ -92,6 +94,7 @@ private:
     gpu::Texture uploaded_;
     std::string problem_;
     std::shared_ptr<const FloatImage> values_;
+    std::optional<float> exposure_;  ///< automatic, of the last frame [stops]
     ViewParams params_{};
     uvec2 size_{0};
     std::optional<Asked> asked_;

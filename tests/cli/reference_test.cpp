@@ -1,5 +1,8 @@
 // Output of `reflet reference`, both complete and interrupted.
+#include "base/json_text.h"
 #include "cli/reference_program.h"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <csignal>
@@ -75,6 +78,20 @@ TEST_F(Reference, ExposureChangesThePngAndNotTheValues) {
     ASSERT_TRUE(quietSuccess(reference(cubes, brighter)));
     EXPECT_NE(png, read("a.png"));
     EXPECT_EQ(exr, read("a.exr"));
+}
+
+TEST_F(Reference, TellsAnAutomaticExposureWhichIsThatOfTheRenderer) {
+    const Arguments on{"--set", "tonemap.auto_exposure=on", "--set", "tonemap.exposure=0.5"};
+    Arguments more{"--spp", "16", "-o", "a.png"};
+    more.insert(more.end(), on.begin(), on.end());
+    const Outcome done = reference(cubes, more);
+    ASSERT_TRUE(quietSuccess(done));
+    std::smatch match;
+    ASSERT_TRUE(std::regex_search(done.out, match, std::regex("; exposure ([-+][0-9.]+) stops\n"))) << done.out;
+    Arguments rendered{"-o", "b.png", "--timings", "t.json"};
+    rendered.insert(rendered.end(), on.begin(), on.end());
+    ASSERT_TRUE(quietSuccess(render(cubes, rendered)));
+    EXPECT_NEAR(std::stod(match[1]), parseJson(read("t.json")).at("exposure").get<double>(), 0.3);
 }
 
 TEST_F(Reference, TheSameSeedGivesTheSameBytesWhateverTheThreads) {

@@ -107,6 +107,21 @@ TEST_F(ReportTest, TheSameCommandGivesTheSameReportExceptForTimes) {
     EXPECT_EQ(read("out/cubes-fast.png"), fast);
 }
 
+TEST_F(ReportTest, AllPicturesHaveTheExposureOfTheGroundTruth) {
+    const Arguments twice{"--preset", "direct", "--set", "tonemap.auto_exposure=on"};
+    ASSERT_TRUE(quietSuccess(report({"builtin:cubes"}, twice)));
+    const nlohmann::json scene = numbers()["scenes"][0];
+    const double exposure = scene["exposure"];
+    const std::string direct = read("out/cubes-direct.png");
+    EXPECT_NE(read("out/index.html").find(fmt::format("Exposure {:+.2f} stops", exposure)), std::string::npos);
+    const Arguments fixed{"--preset", "direct",
+                          "--set",    "tonemap.auto_exposure=off",
+                          "--set",    fmt::format("tonemap.exposure={}", exposure)};
+    ASSERT_TRUE(quietSuccess(report({"builtin:cubes"}, fixed)));
+    EXPECT_EQ(read("out/cubes-direct.png"), direct);
+    EXPECT_TRUE(numbers()["scenes"][0]["exposure"].is_null());
+}
+
 TEST_F(ReportTest, SaysWithWhichCommandItWasMade) {
     ASSERT_TRUE(quietSuccess(report({"builtin:cubes"}, {"--preset", "direct,fast", "--variant", "it's=fast"})));
     EXPECT_EQ(numbers()["command"],

@@ -96,6 +96,23 @@ TEST_F(Sequence, SharesOfASceneThatMovesGiveTheWhole) {
     EXPECT_NE(read("a_3.exr"), read("a_2.exr"));
 }
 
+TEST_F(Sequence, SharesAreExposedAsTheWhole) {
+    const auto frames = [&](const std::string& folder, const Arguments& more) {
+        fs::create_directory(path(folder));
+        Arguments all{"--frames", "6", "--path", "orbit", "--segment", "2", "-o", folder + "/a_#.png"};
+        all.insert(all.end(), {"--preset", "direct", "--set", "tonemap.auto_exposure=on"});
+        all.insert(all.end(), more.begin(), more.end());
+        EXPECT_TRUE(quietSuccess(render("builtin:cubes", all)));
+        return pictures(folder);
+    };
+    const Bytes whole = frames("whole", {});
+    frames("shares", {"--share", "2/2"});
+    EXPECT_EQ(frames("shares", {"--share", "1/2"}), whole);
+    EXPECT_NE(frames("alone", {"--set", "tonemap.adaptation=0"}), whole);
+    const Bytes longer = frames("one", {"--segment", "0"});  // the default warm-up is as long as the smoothing
+    EXPECT_EQ(longer, whole);
+}
+
 TEST_F(Sequence, GoesOnWhereItWasKilledWithTheSameBytes) {
     const Bytes whole = orbitIn("whole");
     fs::create_directory(path("killed"));

@@ -183,6 +183,7 @@ const std::vector<Context>& contexts() {
         {"temporal.", {"temporal.enabled=true"}, "gloss", 4},
         {"temporal.enabled", {}, "gloss", 2},
         {"temporal.frames_in_motion", {"temporal.enabled=true"}, "gloss", 4, true},
+        {"tonemap.adaptation", {"tonemap.auto_exposure=on"}, "gloss", 2, true},
     };
     return all;
 }

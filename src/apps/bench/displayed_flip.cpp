@@ -2,16 +2,18 @@
 
 #include "apps/picture_input.h"
 #include "compare/compare.h"
+#include "render/exposure/exposure.h"
 #include "render/tonemap/tone_map_image.h"
 
 namespace reflet {
 
-double displayedFlip(const FloatImage& picture, const FloatImage& truth, const TonemapSettings& tonemap,
-                     float pixelsPerDegree) {
+double displayedFlip(const FloatImage& picture, const FloatImage& truth, const FloatImage& depth,
+                     const TonemapSettings& tonemap, const Scene& scene, float pixelsPerDegree) {
     CompareOptions options;
     options.kind = ImageKind::display;
     options.pixelsPerDegree = pixelsPerDegree;
-    return compareImages(toFloat(toneMapped(picture, tonemap)), toFloat(toneMapped(truth, tonemap)), options)
+    const TonemapSettings exposed = exposedAs(tonemap, scene, truth, depth);
+    return compareImages(toFloat(toneMapped(picture, exposed)), toFloat(toneMapped(truth, exposed)), options)
         .difference.flip;
 }
 

@@ -3,13 +3,15 @@
 
 #include "base/image_file.h"
 #include "render/tonemap/tonemap.h"
+#include "scene/scene.h"
 
 namespace reflet {
 
 /// Mean LDR-FLIP (Andersson et al., FLIP: A Difference Evaluator for Alternating Images, 2020) of both images after
 /// tone mapping to 8 bits. HDR-FLIP, in contrast, takes all exposures into account, also those that are not displayed.
-/// Throws as compareImages does.
-double displayedFlip(const FloatImage& picture, const FloatImage& truth, const TonemapSettings& tonemap,
-                     float pixelsPerDegree);
+/// Both are displayed with one exposure; an automatic one (`tonemap` of a scene) is that of the truth, metered where
+/// `depth` has a surface. Throws as compareImages does.
+double displayedFlip(const FloatImage& picture, const FloatImage& truth, const FloatImage& depth,
+                     const TonemapSettings& tonemap, const Scene& scene, float pixelsPerDegree);
 
 }  // namespace reflet

@@ -167,8 +167,9 @@ private:
 }  // namespace
 
 void addTo(Fingerprint& print, const Scene& scene) {
-    const auto& [name, images, samplers, materials, meshes, instances, lamps, cameras, sun, environment, nodes,
-                 animations, skins] = scene;
+    const auto& [name, fromFile, images, samplers, materials, meshes, instances, lamps, cameras, sun, environment,
+                 nodes, animations, skins] = scene;
+    (void)fromFile;  // it does not change radiance
     Adder(print).all(name, images, samplers, materials, meshes, instances, lamps, cameras, sun, environment, nodes,
                      animations, skins);
 }

@@ -38,6 +38,7 @@ constexpr uint32_t finalFrames = 16;
 struct Moved {
     FloatImage picture;
     FloatImage motion;
+    FloatImage depth;
 };
 
 struct MovedFrames {
@@ -82,8 +83,9 @@ MovedFrames renderMotion(gpu::Device& device, const BenchScene& scene, uvec2 siz
     MovedFrames frames;
     for (uint32_t i = 0; i < plan.frames; ++i) {
         subject.setView(viewInMotion(scene.view, plan, i + 1));
-        Layers layers = subject.picture({"final", "motion"});
-        frames.moving.push_back({std::move(layers.at("final")), std::move(layers.at("motion"))});
+        Layers layers = subject.picture({"final", "motion", "depth"});
+        frames.moving.push_back(
+            {std::move(layers.at("final")), std::move(layers.at("motion")), std::move(layers.at("depth"))});
         progress.advance();
     }
     if (plan.rest > 0) {
@@ -170,8 +172,8 @@ MotionResult measureMotion(gpu::Device& device, const BenchScene& scene, uvec2 s
         const FloatImage& picture = own.layers.at("final");
         const CompareOptions options;
         result.flip.push_back(compareImages(frames[i].picture, picture, options).difference.flip);
-        result.displayedFlip.push_back(
-            displayedFlip(frames[i].picture, picture, settings.tonemap, options.pixelsPerDegree));
+        result.displayedFlip.push_back(displayedFlip(frames[i].picture, picture, frames[i].depth, settings.tonemap,
+                                                     scene.scene, options.pixelsPerDegree));
         if (i > 0) {
             const double turns = plan.frames - 1;
             result.flicker += changeBeyondMotion(frames[i].picture, frames[i - 1].picture, frames[i].motion) / turns;

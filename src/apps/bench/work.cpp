@@ -83,7 +83,7 @@ void Turns::measureFirst() {
     if (comparesPictures()) {
         forEach([&](size_t v, Subject& subject) {
             subject.forgetHistory();
-            firstPictures_[v] = subject.picture({plan_.layer});
+            firstPictures_[v] = subject.picture({plan_.layer, "depth"});
         });
     }
 }
@@ -99,7 +99,7 @@ void Turns::measureSteady() {
         forEach([&](size_t v, Subject& subject) { subject.render(runs_[v].steady.samples); });
     }
     if (comparesPictures()) {
-        forEach([&](size_t v, Subject& subject) { steadyPictures_[v] = subject.picture({plan_.layer}); });
+        forEach([&](size_t v, Subject& subject) { steadyPictures_[v] = subject.picture({plan_.layer, "depth"}); });
     }
 }
 
@@ -111,7 +111,8 @@ void Turns::compareTo(const Truth& truth, const Layers& picture, BenchState& sta
     const FloatImage& of = picture.at(plan_.layer);
     const FloatImage& to = truth.layers.at(plan_.layer);
     state.error = compareImages(of, to, options).difference;
-    state.displayedFlip = displayedFlip(of, to, variant.settings.tonemap, plan_.pixelsPerDegree);
+    state.displayedFlip =
+        displayedFlip(of, to, picture.at("depth"), variant.settings.tonemap, scene_.scene, plan_.pixelsPerDegree);
 }
 
 std::vector<BenchRun> Turns::measure(gpu::Device& device) {

@@ -46,6 +46,7 @@ Json sceneJson(const ReportScene& scene) {
     visible["against_truth"] = errorJson(scene.visibleError);
     return {{"name", scene.name},
             {"source", scene.source},
+            {"exposure", scene.exposure ? Json(*scene.exposure) : Json()},
             {"truth", referenceJson(scene.truth)},
             {"visible_only", visible},
             {"variants", variants}};

@@ -48,8 +48,9 @@ struct ReportScene {
     std::string description;  ///< one line
     ReportReference truth;
     ReportReference visible;
-    std::string visibleErrorMap;  ///< FLIP of visible-only against the ground truth
-    ReportError visibleError;     ///< of visible-only against the ground truth
+    std::string visibleErrorMap;    ///< FLIP of visible-only against the ground truth
+    ReportError visibleError;       ///< of visible-only against the ground truth
+    std::optional<float> exposure;  ///< stops, metered from the ground truth; none without automatic exposure
     std::vector<ReportVariant> variants;
 };
 

@@ -121,10 +121,12 @@ std::string facts(const ReportScene& scene) {
         return fmt::format("{} per pixel, noise {:.4f}", countText(r.samples, "sample"), r.noise);
     };
     const double noise = std::max(scene.truth.noise, scene.visible.noise);
+    const std::string exposure =
+        scene.exposure ? fmt::format(" Exposure {:+.2f} stops, that of the ground truth.", *scene.exposure) : "";
     return fmt::format(
         "<p class=\"facts\">{}</p>\n<p class=\"facts\">Ground truth: {}; visible-only: {}. Differences in relative MSE "
-        "below {} are noise of these references.</p>\n",
-        xmlText(scene.description), of(scene.truth), of(scene.visible), relativeMseText(noise * noise));
+        "below {} are noise of these references.{}</p>\n",
+        xmlText(scene.description), of(scene.truth), of(scene.visible), relativeMseText(noise * noise), exposure);
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 #include "compare/compare.h"
 #include "compare/heat_map.h"
 #include "render/background/background.h"
+#include "render/exposure/exposure.h"
 #include "render/renderer.h"
-#include "render/tonemap/tone_map_image.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -50,7 +50,7 @@ ReferencePicture traceReference(const ReportWork& work, const ReportInput& input
 // The last frame of a variant.
 struct Rendered {
     FloatImage radiance;
-    Bitmap display;
+    FloatImage coverage;  ///< empty unless the background needs it
     Timings timings;
 };
 
@@ -60,12 +60,12 @@ Rendered renderVariant(const ReportWork& work, const ReportInput& input, const S
     Renderer renderer(device, input.scene, printWarning);
     Rendered result;
     ShowReadback radiance;
-    gpu::Readback display;
+    std::optional<CoverageReadback> coverage;
     for (uint32_t i = 0; i < work.frames; ++i) {
         renderer.render(input.view, work.size, work.seed, settings, [&](gpu::Frame& f, const FrameImages& images) {
             if (i + 1 == work.frames) {
                 radiance = requestShow(f, images, findShow("final"));
-                display = f.readback(images.display);
+                coverage = requestCoverage(f, images);
             }
         });
         result.timings.add(renderer.frame().passTimes());
@@ -73,8 +73,7 @@ Rendered renderVariant(const ReportWork& work, const ReportInput& input, const S
     }
     const ViewParams params = makeViewParams(input.view.camera, work.size, 0, work.seed);
     result.radiance = fetchValues(renderer.frame(), radiance, params);
-    result.display =
-        fetchDisplay(renderer.frame(), display, work.size, input.view.background.mode == Background::Mode::transparent);
+    result.coverage = coverage ? coverage->fetch(renderer.frame()) : FloatImage{};
     return result;
 }
 
@@ -91,15 +90,17 @@ ReportError errorOf(const Comparison& comparison) {
     return {d.relativeMse, d.flip, d.psnr};
 }
 
+// All pictures of a scene have the ground truth's exposure.
 ReportVariant workOnVariant(const Variant& variant, const Rendered& rendered, const FloatImage& truth,
-                            const FloatImage& visible, PictureFolder& folder) {
+                            const FloatImage& visible, const Background& background,
+                            const TonemapSettings& tonemap, PictureFolder& folder) {
     const std::string file = fileNameOf(variant.name);
     const Comparison againstTruth = compareNamed(rendered.radiance, variant.name, truth, "the ground truth");
     const Comparison againstVisible = compareNamed(rendered.radiance, variant.name, visible, "visible-only");
     ReportVariant result;
     result.name = variant.name;
     result.settings = changedSettings(variant.settings);
-    result.picture = folder.write(file, rendered.display);
+    result.picture = folder.write(file, displayedOver(rendered.radiance, rendered.coverage, background, tonemap));
     result.truthErrorMap = folder.write(file + "-error", heatMap(againstTruth.flip));
     result.visibleErrorMap = folder.write(file + "-method-error", heatMap(againstVisible.flip));
     result.againstTruth = errorOf(againstTruth);
@@ -131,17 +132,24 @@ ReportScene workOn(const ReportWork& work, const ReportInput& input, gpu::Device
     result.name = input.name;
     result.source = input.source;
     result.description = input.description;
+    const auto exposed = [&](const TonemapSettings& t) { return exposedAs(t, input.scene, truth.final, truth.depth); };
+    const TonemapSettings tonemap = exposed(work.tonemap);
+    if (exposesAutomatically(work.tonemap, input.scene)) {
+        result.exposure = tonemap.exposure;
+    }
+    const Background& background = input.view.background;
     const auto displayed = [&](const ReferencePicture& p) {
-        const Background& background = input.view.background;
-        const FloatImage straight = straightRadiance(p.final, p.coverage, background);
-        return overBackground(toneMapped(straight, work.tonemap), p.coverage, background);
+        return displayedOver(p.final, p.coverage, background, tonemap);
     };
     result.truth = {folder.write("truth", displayed(truth)), truth.samples, truth.noise};
     result.visible = {folder.write("visible-only", displayed(visible)), visible.samples, visible.noise};
     result.visibleErrorMap = folder.write("visible-only-error", heatMap(unknown.flip));
     result.visibleError = errorOf(unknown);
     for (size_t i = 0; i < rendered.size(); ++i) {
-        result.variants.push_back(workOnVariant(work.variants[i], rendered[i], truth.final, visible.final, folder));
+        const Variant& variant = work.variants[i];
+        result.variants.push_back(
+            workOnVariant(variant, rendered[i], truth.final, visible.final, background,
+                          exposed(variant.settings.tonemap), folder));
     }
     return result;
 }

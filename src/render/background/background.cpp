@@ -2,6 +2,7 @@
 #include "render/background/background.h"
 
 #include "base/error.h"
+#include "render/tonemap/tone_map_image.h"
 
 #include <algorithm>
 #include <cmath>
@@ -85,6 +86,12 @@ Bitmap overBackground(const Bitmap& display, const FloatImage& coverage, const B
         }
     }
     return over;
+}
+
+Bitmap displayedOver(const FloatImage& premultiplied, const FloatImage& coverage, const Background& background,
+                     const TonemapSettings& settings) {
+    const FloatImage straight = straightRadiance(premultiplied, coverage, background);
+    return overBackground(toneMapped(straight, settings), coverage, background);
 }
 
 }  // namespace reflet

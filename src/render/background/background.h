@@ -32,6 +32,7 @@ SHARED_END
 #include "base/image_file.h"
 #include "gpu/frame.h"
 #include "render/environment/environment_light.h"
+#include "render/tonemap/tonemap.h"
 #include "scene/scene.h"
 
 #include <optional>
@@ -64,6 +65,10 @@ gpu::Image overBackground(gpu::Frame& f, gpu::Image display, gpu::Image coverage
 /// background needs coverage.
 FloatImage straightRadiance(const FloatImage& premultiplied, const FloatImage& coverage, const Background& background);
 Bitmap overBackground(const Bitmap& display, const FloatImage& coverage, const Background& background);
+
+/// Both, with the tone map between them: the display image of premultiplied radiance.
+Bitmap displayedOver(const FloatImage& premultiplied, const FloatImage& coverage, const Background& background,
+                     const TonemapSettings& settings);
 
 }  // namespace reflet
 #endif
