@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "render/presets.h"
 #include "scene/builtin.h"
+#include "scene/framing.h"
 #include "scene/gltf.h"
 #include "scene/view_file.h"
 
@@ -100,7 +101,10 @@ Scene loadScene(const SceneOptions& options) {
 }
 
 View loadView(const SceneOptions& options, const Scene& scene) {
-    View view = defaultView(scene);
+    const uvec2 size = parseSize(options.size);
+    const float aspect = float(size.x) / float(size.y);
+    View view = defaultView(scene, aspect);
+    const Camera made = view.camera;
     if (!options.camera.empty()) {
         view.camera = findCamera(scene, options.camera);
     }
@@ -112,6 +116,9 @@ View loadView(const SceneOptions& options, const Scene& scene) {
             failUsage("--time must be 0 to {:g} seconds, is {}", View::largestTime, *options.time);
         }
         view.time = *options.time;
+    }
+    if (scene.cameras.empty() && view.camera == made && view.time > 0.0) {
+        view.camera = framingCamera(scene, aspect, view.time);  // what is animated is elsewhere then
     }
     return view;
 }
