@@ -18,7 +18,8 @@ constexpr float insideFov = glm::radians(65.0F);
 constexpr size_t mostPoints = size_t(1) << 24U;        // beyond, instances count as their boxes
 constexpr size_t sampledTriangles = size_t(1) << 16U;  // about as many decide on the direction
 constexpr size_t leastPerInstance = 12;
-constexpr float muchLarger = 5.0F;  // what surrounds the rest, and is this many times its size, is background
+constexpr float largeGround = 5.0F;  // times the size of the rest, which are background then
+constexpr float largeDome = 10.0F;
 constexpr size_t mostBackgrounds = 3;
 constexpr float farthest = 1e18F;  // products of coordinates beyond this overflow [m]
 
@@ -196,14 +197,12 @@ std::vector<size_t> subjectOf(const Scene& scene, const ScenePose& pose) {
     }
     size_t backgrounds = 0;
     for (size_t k = 1; k <= mostBackgrounds && k < order.size(); ++k) {
-        const size_t instance = order[k - 1];
-        detail -= trianglesIn(instance);
-        if (diagonal(instance) <= muchLarger * glm::length(rest[k].size())) {
-            continue;
-        }
+        detail -= trianglesIn(order[k - 1]);
         const bool background = std::ranges::all_of(order.begin(), order.begin() + std::ptrdiff_t(k), [&](size_t i) {
-            return isGround(boxes[i]) ? contains(boxes[i], rest[k], false) && trianglesIn(i) <= detail
-                                      : contains(boxes[i], rest[k], true) && isDome(scene, pose, i, boxes[i]);
+            const float times = diagonal(i) / glm::length(rest[k].size());
+            return isGround(boxes[i])
+                       ? times > largeGround && contains(boxes[i], rest[k], false) && trianglesIn(i) <= detail
+                       : times > largeDome && contains(boxes[i], rest[k], true) && isDome(scene, pose, i, boxes[i]);
         });
         if (background) {
             backgrounds = k;

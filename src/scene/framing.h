@@ -15,9 +15,9 @@ constexpr float framedShare = 0.85F;
 Camera fitCamera(const std::vector<vec3>& points, const vec3& forward, float fovY, float aspect);
 
 /// Frames the posed vertices at that time [s], from where their front faces are seen: from the front (+Z), the right
-/// and slightly above, unless that shows less than 60 % of what another side does. Sky domes and flat ground planes
-/// more than five times as large as everything else are not framed. The camera is inside a closed room that shows only
-/// the backs of its walls. aspect: width / height of the image, > 0.
+/// and slightly above, unless that shows less than 60 % of what another side does. Flat ground planes more than
+/// five times, and sky domes more than ten times as large as everything else are not framed. The camera is inside a
+/// closed room that shows only the backs of its walls. aspect: width / height of the image, > 0.
 Camera framingCamera(const Scene& scene, float aspect, double time = 0.0);
 
 /// The default view (scene.h) of images of that aspect, if not 16:9.

@@ -51,10 +51,7 @@ public:
         const Side facing = area > 0.0F ? Side::front : Side::back;
         const vec3 low = glm::floor(glm::min(p[0], glm::min(p[1], p[2])));
         const vec3 high = glm::floor(glm::max(p[0], glm::max(p[1], p[2])));
-        if (low.x == high.x && low.y == high.y) {  // within a pixel: small triangles count wherever they are in it
-            set(int(low.x), int(low.y), (p[0].z + p[1].z + p[2].z) / 3.0F, facing);
-            return;
-        }
+        bool drawn = false;
         for (int y = std::max(int(low.y), 0); y <= std::min(int(high.y), side - 1); ++y) {
             for (int x = std::max(int(low.x), 0); x <= std::min(int(high.x), side - 1); ++x) {
                 const vec2 at{float(x) + 0.5F, float(y) + 0.5F};
@@ -62,8 +59,12 @@ public:
                 const float v = cross(p[1], p[2], at) / area;  // of corner 0
                 if (u >= 0.0F && v >= 0.0F && u + v <= 1.0F) {
                     set(x, y, v * p[0].z + (1.0F - u - v) * p[1].z + u * p[2].z, facing);
+                    drawn = true;
                 }
             }
+        }
+        for (size_t i = 0; i < 3 && !drawn; ++i) {  // too thin or too small to cover a pixel's centre: its edges
+            drawLine(p.at(i), p.at((i + 1) % 3), facing);
         }
     }
 
@@ -78,6 +79,14 @@ private:
 
     static float cross(const vec3& a, const vec3& b, const vec2& p) {
         return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+    }
+
+    void drawLine(const vec3& a, const vec3& b, Side facing) {
+        const int steps = std::max(int(std::abs(a.x - b.x)), int(std::abs(a.y - b.y))) + 1;
+        for (int i = 0; i < steps; ++i) {
+            const vec3 p = glm::mix(a, b, float(i) / float(steps));
+            set(int(p.x), int(p.y), p.z, facing);
+        }
     }
 
     void set(int x, int y, float near, Side facing) {

@@ -17,12 +17,24 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-// Errors that are none to the loader.
 struct Difference {
     std::string_view code;
     std::string_view reason;
 };
-constexpr std::array<Difference, 0> accepted{};
+// Errors that change nothing of what is drawn, so that a warning would only be noise.
+constexpr std::string_view bounds = "the loader computes bounds from the values";
+constexpr std::array accepted{
+    Difference{"ACCESSOR_MIN_MISMATCH", bounds},
+    Difference{"ACCESSOR_MAX_MISMATCH", bounds},
+    Difference{"ACCESSOR_ELEMENT_OUT_OF_M", bounds},
+    Difference{"MESH_PRIMITIVE_POSITION_ACCESSOR_WITHOUT_BOUNDS", bounds},
+    Difference{"ANIMATION_SAMPLER_INPUT_ACCESSOR_WITHOUT_BOUNDS", bounds},
+    Difference{"/min", bounds},  // of the wrong type or length
+    Difference{"/max", bounds},
+    Difference{"BUFFER_VIEW_TARGET_OVERRIDE", "the target of a buffer view is not read"},
+    Difference{"MESH_PRIMITIVE_ACCESSOR_WITHOUT_BYTESTRIDE", "elements without a stride can only be tightly packed"},
+    Difference{"ACCESSOR_JOINTS_INDEX_DUPLICATE", "the weights of a joint that is named twice add up"},
+};
 
 // What is valid, and yet refused; parts of the loader's message.
 constexpr std::array<Difference, 0> refused{};
@@ -76,7 +88,12 @@ void addBounds(GltfBuilder& b) {
         return b.bin.data() + b.document["bufferViews"][view.get<size_t>()]["byteOffset"].get<size_t>();
     };
     for (json& accessor : b.document["accessors"]) {
-        if (accessor["componentType"] != floatType || accessor["type"] == "MAT4" || !accessor.contains("bufferView")) {
+        if (accessor["componentType"] != floatType || accessor["type"] == "MAT4") {
+            continue;
+        }
+        if (!accessor.contains("bufferView")) {  // Draco's square
+            accessor["min"] = {0, 0, 0};
+            accessor["max"] = {1, 1, 1};
             continue;
         }
         const size_t width = GltfBuilder::componentsOf(accessor["type"].get<std::string>());
@@ -110,8 +127,15 @@ GltfBuilder bentByTheBook() {
     return b;
 }
 
+// everything() with a stride where two accessors share a view.
+GltfBuilder everythingByTheBook() {
+    GltfBuilder b = everything();
+    b.document["bufferViews"][0]["byteStride"] = 12;
+    return b;
+}
+
 std::vector<GltfBuilder> originals() {
-    std::vector<GltfBuilder> all{triangle(), slider(), bentByTheBook(), everything()};
+    std::vector<GltfBuilder> all{triangle(), slider(), bentByTheBook(), everythingByTheBook()};
     std::ranges::for_each(all, addBounds);
     return all;
 }
@@ -165,7 +189,7 @@ TEST(GltfValidator, AgreesAboutWhatIsValid) {
     for (const GltfBuilder& original : originals()) {
         GltfBuilder(original).writeGlb(folder / fmt::format("original_{}.glb", made));
         GltfBuilder(original).writeGltf(folder / fmt::format("original_{}.gltf", made));
-        for (int i = 0; i < 50; ++i) {
+        for (int i = 0; i < (std::getenv("MORE") ? 600 : 50); ++i) {
             GltfBuilder b = original;
             for (unsigned changes = 1 + random() % 3; changes > 0; --changes) {
                 change(b, random);
