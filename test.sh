@@ -20,6 +20,7 @@ if ! build; then
     echo "test.sh: the build failed" >&2
     finish 0 1
 fi
+tests/gltf_validator.sh build || echo "the test against glTF-Validator is skipped"
 built=$SECONDS
 echo "built in $built s; now the tests, $cores at a time"
 

@@ -87,6 +87,7 @@ std::vector<BenchScene> scenesOf(const BenchCommand& command) {
     for (const std::string& source : command.scenes) {
         SceneOptions options = command.shared;
         options.scene = source;
+        options.size = command.sizes.empty() ? options.size : command.sizes.front();  // for a camera to be framed
         BenchScene scene{source, loadScene(options), {}, command.shared.seed};
         scene.view = loadView(options, scene.scene);
         scenes.push_back(std::move(scene));

@@ -8,6 +8,7 @@
 #include "scene/background.h"
 #include "scene/builtin.h"
 #include "scene/default_light.h"
+#include "scene/framing.h"
 #include "scene/gltf.h"
 #include "scene/view_file.h"
 
@@ -134,7 +135,10 @@ Scene loadScene(const SceneOptions& options) {
 }
 
 View loadView(const SceneOptions& options, const Scene& scene) {
-    View view = defaultView(scene);
+    const uvec2 size = parseSize(options.size);
+    const float aspect = float(size.x) / float(size.y);
+    View view = defaultView(scene, aspect);
+    const Camera made = view.camera;
     if (!options.camera.empty()) {
         view.camera = findCamera(scene, options.camera);
     }
@@ -143,13 +147,16 @@ View loadView(const SceneOptions& options, const Scene& scene) {
         stated = parseJsonFile(options.viewFile);
         applyViewJson(stated, options.viewFile, view);
     }
-    chooseLight(options, scene, stated, view);
     if (options.time) {
         if (!(*options.time >= 0.0 && *options.time <= View::largestTime)) {
             failUsage("--time must be 0 to {:g} seconds, is {}", View::largestTime, *options.time);
         }
         view.time = *options.time;
     }
+    if (scene.cameras.empty() && view.camera == made && view.time > 0.0) {
+        view.camera = framingCamera(scene, aspect, view.time);  // what is animated is elsewhere then
+    }
+    chooseLight(options, scene, stated, view);
     return view;
 }
 

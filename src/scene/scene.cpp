@@ -2,6 +2,7 @@
 #include "scene/scene.h"
 
 #include "base/error.h"
+#include "scene/framing.h"
 #include "scene/gltf_normals.h"
 #include "scene/pose.h"
 
@@ -28,30 +29,9 @@ vec3 viewDirection(const Camera& camera) {
     return distance > 0.0F ? toTarget / distance : vec3(0, 0, -1);
 }
 
-/// Sees the whole box from a little above and from the right of its front (+Z).
-Camera framingCamera(const Aabb& bounds) {
-    Camera camera;
-    if (bounds.empty()) {
-        return camera;
-    }
-    camera.fovY = glm::radians(45.0F);
-    // The bounding sphere touches the upper and the lower edge of the image, and fits if the image is at least square.
-    const float radius = std::max(0.5F * glm::length(bounds.size()), 1e-3F);
-    const float distance = radius / std::sin(0.5F * camera.fovY);
-    const float azimuth = glm::radians(30.0F);
-    const float elevation = glm::radians(20.0F);
-    const vec3 towardsCamera{std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
-                             std::cos(elevation) * std::cos(azimuth)};
-    camera.target = bounds.center();
-    camera.position = camera.target + distance * towardsCamera;
-    // Close enough that one can fly into the scene; reversed float depth has the precision for it.
-    camera.near = 0.01F * radius;
-    return camera;
-}
-
 }  // namespace
 
-// Shadows fall to the right and stay in the image.
+// From behind the camera's left shoulder, 53° above the horizon: shadows fall to the right and stay in the image.
 Sun defaultSun(const Camera& camera) {
     const vec3 forward = viewDirection(camera);
     vec3 ahead{forward.x, 0.0F, forward.z};
@@ -108,13 +88,17 @@ float lampClearance(float radius) {
     return std::max(radius, 1e-3F);
 }
 
-View defaultView(const Scene& scene) {
+View defaultView(const Scene& scene, float aspect) {
     View view;
-    view.camera = scene.cameras.empty() ? framingCamera(scene.bounds()) : scene.cameras.front();
+    view.camera = scene.cameras.empty() ? framingCamera(scene, aspect) : scene.cameras.front();
     view.hasDefaultSun = !isLit(scene);
     view.sun = view.hasDefaultSun ? defaultSun(view.camera) : scene.sun.value_or(Sun{});
     view.environment = scene.environment;
     return view;
+}
+
+View defaultView(const Scene& scene) {
+    return defaultView(scene, 16.0F / 9.0F);
 }
 
 mat4 worldToView(const Camera& camera) {

@@ -147,6 +147,10 @@ void Session::resetHistory() {
     frames_ = 0;
 }
 
+bool Session::isDefaultView(const ViewerState& state, uvec2 size) const {
+    return state.view == firstView_ && (!scene_->cameras.empty() || size == parseSize(state.source.size));
+}
+
 // Uses a separate renderer without history, as `reflet render` does; the live image is unaffected.
 void Session::screenshot(const ViewerState& state, uvec2 size, const std::string& file) {
     Pictures pictures(state.show, {});
@@ -154,7 +158,7 @@ void Session::screenshot(const ViewerState& state, uvec2 size, const std::string
     const uint32_t frames = framesToSettle(historyUse(settings, *scene_), settings);
     // A changed view goes through its JSON form, as in the copied command line: directions may differ in the last bit.
     View view = firstView_;
-    if (!(state.view == firstView_)) {
+    if (!isDefaultView(state, size)) {
         applyViewJson(nlohmann::json(viewJson(state.view)), "view", view);
     }
     Renderer renderer(device_, *scene_, printWarning);

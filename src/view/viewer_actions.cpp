@@ -87,7 +87,7 @@ std::string Viewer::commandLine() {
     if (!source.camera.empty()) {
         line += " --camera " + shellWord(source.camera);
     }
-    if (!(state_.view == session_->firstView())) {
+    if (!session_->isDefaultView(state_, size)) {
         line += " --view-file " + shellWord(keptViewFile(source.scene, state_.view));
     } else {
         if (!source.viewFile.empty()) {

@@ -1,0 +1,26 @@
+// The camera of a scene that brings none: three-quarter view, as near as the whole picture allows.
+#pragma once
+
+#include "scene/scene.h"
+
+#include <vector>
+
+namespace reflet {
+
+/// What is framed fills this share of the image's width or height, whichever it reaches first, and is centred.
+constexpr float framedShare = 0.85F;
+
+/// The nearest perspective camera that looks along `forward` (unit length, not vertical) and has all points, in world
+/// space, within the middle `framedShare` of the image. Without points, or if they coincide: one that looks at them.
+Camera fitCamera(const std::vector<vec3>& points, const vec3& forward, float fovY, float aspect);
+
+/// Frames the posed vertices at that time [s], from where their front faces are seen: from the front (+Z), the right
+/// and slightly above, unless that shows less than 60 % of what another side does. Flat ground planes more than
+/// five times, and sky domes more than ten times as large as everything else are not framed. The camera is inside a
+/// closed room that shows only the backs of its walls. aspect: width / height of the image, > 0.
+Camera framingCamera(const Scene& scene, float aspect, double time = 0.0);
+
+/// The default view (scene.h) of images of that aspect, if not 16:9.
+View defaultView(const Scene& scene, float aspect);
+
+}  // namespace reflet
