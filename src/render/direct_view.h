@@ -38,6 +38,7 @@ struct ViewImages {
     gpu::Image backDepth;         ///< none unless trace_screen.thickness_mode is second_layer
     gpu::Image pyramid;           ///< none unless trace_screen.method is hiz or there are contact shadows
     gpu::Image shadowMap;         ///< none without sun or shadows
+    gpu::Image shadowRange;       ///< its min/max pyramid; none unless it is used
     SunShadowParams sun{};        ///< its cascades
     gpu::Image rawSunVisibility;  ///< before denoising
     gpu::Image sunVisibility;     ///< as used by direct light
@@ -55,5 +56,8 @@ SceneLights sceneLights(const ViewInputs& in, const Settings& settings);
 /// Records the passes of one view. Views other than the frame's own must be inside a viewScope, or they overwrite its
 /// images. lampShadowMap: from another view of the same frame, to be shared; none: it is drawn.
 ViewImages directView(gpu::Frame& f, const ViewInputs& in, const Settings& settings, gpu::Image lampShadowMap = {});
+
+/// The same for given surfaces: visibility and direct light at out.g. Shadow maps that `out` has are used.
+void lightSurfaces(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out);
 
 }  // namespace reflet

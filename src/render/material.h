@@ -25,6 +25,7 @@ struct MaterialParams {
     float occlusionStrength;
     uint textured;    // bit per slot: has a texture
     uint secondUv;    // bit per slot: uses uv1
+    uint blended;     // 1: alpha is coverage (Material::blended)
     vec3 uvRows[10];  // two per slot, KHR_texture_transform
 };
 
