@@ -8,6 +8,7 @@
 #include "render/shadow/shadow_clean.h"
 #include "render/trace_scene/direct_rays.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace reflet {
@@ -16,7 +17,7 @@ namespace {
 
 void drawSurfaces(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
     GBufferContent content{.clipPlane = in.clipPlane};
-    content.opaqueAlpha = settings.blend.layers > 0 ? content.opaqueAlpha : blendCutoff;
+    content.blendedFrom = settings.blend.layers > 0 ? opaqueAlpha : blendCutoff;
     out.g = drawGBuffer(f, in.draws, in.view, settings.materials, content);
     if (settings.traceScreen.thicknessMode == ThicknessMode::secondLayer) {
         const gpu::Image back = drawBackDepth(f, in.draws, out.g.depth, in.view);
@@ -37,13 +38,15 @@ void renderSunVisibility(gpu::Frame& f, const ViewInputs& in, const Settings& se
     const float sunSlope = std::tan(0.5F * in.sunAngularDiameter);
     out.sun = fitSunShadows(in.view, in.draws.boundsW, in.sunDirection, shadow,
                             filterReach(in.draws.boundsW, shadow, sunSlope));
+    const bool throughBlended = shadow.filter != ShadowFilter::none && settings.blend.layers > 0 &&
+                                std::ranges::any_of(in.draws.draws, &Draw::blended);
     if (shadow.filter != ShadowFilter::none && !out.shadowMap) {
-        out.shadowMap = drawShadowMap(f, in.draws, out.sun, shadow);
+        out.shadowMap = drawShadowMap(f, in.draws, out.sun, shadow, throughBlended);
     }
     ShadowInputs maps{.map = out.shadowMap, .range = {}, .blueNoise = in.blueNoise};
     if (shadow.filter == ShadowFilter::pcss && shadow.earlyOut != 0) {
         if (!out.shadowRange) {
-            out.shadowRange = makeShadowRange(f, out.shadowMap, in.draws, out.sun, shadow);
+            out.shadowRange = makeShadowRange(f, out.shadowMap, in.draws, out.sun, shadow, throughBlended);
         }
         maps.range = out.shadowRange;
     }
@@ -58,6 +61,13 @@ void renderSunVisibility(gpu::Frame& f, const ViewInputs& in, const Settings& se
     if (settings.contact.distance > 0.0F && in.sunIrradiance != vec3(0.0F)) {
         out.sunVisibility =
             contactShadow(f, out.g, out.pyramid, out.sunVisibility, {in.view, settings.contact, -in.sunDirection});
+    }
+    if (throughBlended) {
+        if (!out.blendShadow.front().depth) {
+            out.blendShadow = drawBlendShadowMaps(f, in.draws, out.sun, shadow);
+        }
+        out.sunVisibility = blendShadow(f, out.g, out.blendShadow, out.sunVisibility,
+                                        {in.view, out.sun, shadow.resolution, shadow.bias});
     }
 }
 

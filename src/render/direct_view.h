@@ -3,6 +3,7 @@
 #pragma once
 
 #include "gpu/frame.h"
+#include "render/blend/blend_shadow.h"
 #include "render/direct/direct.h"
 #include "render/direct/lamp_tiles.h"
 #include "render/draw_list.h"
@@ -40,6 +41,7 @@ struct ViewImages {
     gpu::Image shadowMap;         ///< none without sun or shadows
     gpu::Image shadowRange;       ///< its min/max pyramid; none unless it is used
     SunShadowParams sun{};        ///< its cascades
+    BlendShadowMaps blendShadow;  ///< none without sun, shadows or blended surfaces
     gpu::Image rawSunVisibility;  ///< before denoising
     gpu::Image sunVisibility;     ///< as used by direct light
     gpu::Image shadowPenumbra;    ///< of sunVisibility(); none with hard shadows

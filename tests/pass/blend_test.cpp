@@ -145,6 +145,92 @@ TEST(Blend, LayersOfTheFrameAddUp) {
     }
 }
 
+// A pane in front of a box on a floor, under a sky and a sun.
+Scene lit(float alpha) {
+    Scene scene;
+    add(scene, {.color = vec3(0.6F)}, builtin::ground({6, 6}, {1, 1}, {1, 1}), at({0, -1, 0}));
+    add(scene, {.color = {0.1F, 0.6F, 0.2F}}, builtin::box(vec3(0.5F)), at({0.4F, -0.5F, -1}));
+    add(scene, {.color = {0.8F, 0.2F, 0.1F}, .alpha = alpha, .roughness = 0.3F}, wall(0.8F), at({-0.3F, -0.1F, 0.5F}));
+    return scene;
+}
+
+View daylight() {
+    View view = darkView();
+    view.camera.position = {0.5F, 0.8F, 4};
+    view.camera.target = {0, -0.4F, 0};
+    view.environment.radiance = {0.5F, 0.7F, 1};
+    view.sun.direction = glm::normalize(vec3(0.6F, -1, -0.7F));
+    view.sun.irradiance = vec3(3);
+    return view;
+}
+
+double errorOf(const Settings& settings, const FloatImage& truth, const Scene& scene) {
+    const Pictures p = render(scene, daylight(), size, settings, {"final"});
+    expectSilentValidation("a lit pane");
+    return compareImages(p.images.at("final"), truth).difference.relativeMse;
+}
+
+TEST(Blend, ALitPaneIsThatOfTheReference) {
+    const Scene scene = lit(0.4F);
+    ReferenceOptions options;
+    options.samples = 128;
+    options.filter = PixelFilter::center;
+    const FloatImage truth = traceReference(scene, daylight(), size, options).final;
+    const double maps = errorOf(settingsOf({"diffuse.rays=16", "specular.rays=16"}), truth, scene);
+    const double rays =
+        errorOf(settingsOf({"diffuse.rays=16", "specular.rays=16", "trace_scene.enabled=true", "trace_scene.light=path",
+                            "trace_screen.enabled=false", "shadow.filter=traced", "shadow.rays=16"}),
+                truth, scene);
+    const double masked = errorOf(settingsOf({"diffuse.rays=16", "specular.rays=16", "blend.layers=0"}), truth, scene);
+    RecordProperty("maps", std::to_string(maps));
+    RecordProperty("rays", std::to_string(rays));
+    RecordProperty("masked", std::to_string(masked));
+    EXPECT_LT(maps, 0.01);
+    EXPECT_LT(rays, 0.005);
+    EXPECT_GT(masked, 5 * maps) << "the pane matters";
+}
+
+TEST(Blend, ThePaneTakesItsShareOfTheSun) {
+    Scene scene;
+    add(scene, {.color = vec3(0.5F)}, builtin::ground({6, 6}, {1, 1}, {1, 1}), at({0, -1, 0}));
+    View view = darkView();
+    view.camera.position = {0, 0, 2};
+    view.camera.target = {0, -1, 0};
+    view.sun.direction = {0, -1, 0};
+    view.sun.irradiance = vec3(3);
+    const auto seen = [&](const char* layers) {
+        return render(scene, view, size, settingsOf({"diffuse.rays=0", "specular.rays=0", layers}), {"direct"})
+            .value("direct", 32, 24);
+    };
+    const float whole = seen("blend.layers=4");
+    // Above the camera, so that it sees only their shadows. The upper one is found by peeling the lower one.
+    const mat4 lying = turned(-90, {1, 0, 0});
+    add(scene, {.alpha = 0.25F}, wall(3), at({0, 2, 0}) * lying);
+    EXPECT_NEAR(seen("blend.layers=4"), 0.75F * whole, 0.01F * whole);
+    add(scene, {.alpha = 0.5F}, wall(3), at({0, 3, 0}) * lying);
+    EXPECT_NEAR(seen("blend.layers=4"), 0.75F * 0.5F * whole, 0.01F * whole);
+    EXPECT_NEAR(seen("blend.layers=0"), 0.0F, 0.01F * whole) << "as masked: alpha of 0.5 casts a whole shadow";
+}
+
+TEST(Blend, AMirrorShowsThePaneInFrontOfTheWall) {
+    Scene scene;
+    add(scene, light({4, 4, 4}), wall(3), at({0, 0, -2}));
+    add(scene, light({4, 0, 0}, 0.5F), wall(3), at({0, 0, -1.5F}));
+    Look mirror{.color = vec3(1), .roughness = 0};
+    Material silver = material(mirror);
+    silver.metallic = 1;
+    builtin::place(scene, "mirror", builtin::addMaterial(scene, silver), builtin::ground({3, 3}, {1, 1}, {1, 1}),
+                   at({0, -1, 0}));
+    for (const char* source : {"planar.enabled=false", "planar.enabled=true"}) {
+        const Pictures p = render(scene, darkView(), size, settingsOf({"diffuse.rays=0", source}), {"final"});
+        expectSilentValidation(source);
+        const vec3 straight = p.color("final", 32, 20);
+        const vec3 mirrored = p.color("final", 32, 36);
+        EXPECT_LT(glm::distance(straight, vec3(4, 2, 2)), 0.2F) << source;
+        EXPECT_LT(glm::distance(mirrored, straight), 0.2F) << source << ' ' << mirrored.x << ' ' << mirrored.y;
+    }
+}
+
 class BlendPasses : public DeviceTest {};
 
 TEST_F(BlendPasses, OpaqueScenesRecordNothingOfIt) {

@@ -50,10 +50,10 @@ GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view,
         .color("outMotion", g.motion, zero)
         .depth(g.depth, 0.0F)
         .vertices(vertexLayout(), list.materialLayout)
-        .params(GBufferParams{view, settings, clipPlane, content.opaqueAlpha})
+        .params(GBufferParams{view, settings, clipPlane, content.blendedFrom})
         .draw([&](const gpu::DrawCommands& to) {
             const auto keep = [&](const Draw& draw) {
-                const bool drawn = blended ? draw.blended : draw.alpha >= content.opaqueAlpha;
+                const bool drawn = blended ? draw.blended : draw.alpha >= content.blendedFrom;
                 return drawn && (!clipped || isInFront(draw.boundsW, clipPlane));
             };
             recordDraws(to, list, {keep, Cull::back, true, view.worldToClip}, true);

@@ -50,19 +50,17 @@ vec3 shadingNormal() {
     return gl_FrontFacing ? n : -n;
 }
 
-// Whether a blended surface belongs to the layer that is drawn.
+// Whether a blended surface belongs to what is drawn.
 bool isInLayer(float alpha) {
-    const float invisible = 1.0 / 512.0;
-    const float tolerance = 1e-6;  // relative, of depths
     if (surfaces == surfacesOpaque) {
-        return alpha >= params.opaqueAlpha;
+        return alpha >= params.blendedFrom;
     }
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    bool seen = gl_FragCoord.z >= texelFetch(opaqueDepth, pixel, 0).r * (1.0 - tolerance);
+    bool seen = gl_FragCoord.z >= texelFetch(opaqueDepth, pixel, 0).r * (1.0 - peelTolerance);
     if (surfaces == surfacesBehind) {
-        seen = seen && gl_FragCoord.z < texelFetch(nearerDepth, pixel, 0).r * (1.0 - tolerance);
+        seen = seen && gl_FragCoord.z < texelFetch(nearerDepth, pixel, 0).r * (1.0 - peelTolerance);
     }
-    return seen && alpha >= invisible && alpha < params.opaqueAlpha;
+    return seen && isTranslucent(alpha);
 }
 
 void main() {

@@ -22,15 +22,15 @@ SETTINGS(MaterialsSettings, MATERIALS_SETTINGS)
 const uint materialFlagLambert = 1;
 
 // What is drawn, as the specialization constant `surfaces`.
-const uint surfacesOpaque = 0;   // and blended ones from opaqueAlpha on
-const uint surfacesNearest = 1;  // the nearest blended ones, up to opaqueAlpha, in front of the opaque ones
+const uint surfacesOpaque = 0;   // and blended ones from an alpha of blendedFrom on
+const uint surfacesNearest = 1;  // the nearest translucent ones in front of the opaque ones
 const uint surfacesBehind = 2;   // the next ones, behind those of another layer
 
 struct GBufferParams {
     ViewParams view;
     MaterialsSettings settings;
     vec4 clipPlane;     // world space: only geometry in front of it, dot(clipPlane, (p, 1)) > 0, is drawn
-    float opaqueAlpha;  // from which blended surfaces are opaque
+    float blendedFrom;  // alpha from which blended surfaces are drawn with the opaque ones
 };
 
 SHARED_END
@@ -39,6 +39,7 @@ SHARED_END
 
 #include "gpu/frame.h"
 #include "render/draw_list.h"
+#include "render/material.h"
 
 namespace reflet {
 
@@ -59,10 +60,10 @@ struct GBuffer {
 
 /// What of the draw list a G-buffer holds.
 struct GBufferContent {
-    vec4 clipPlane{0.0F};        ///< as in GBufferParams; zero: none
-    float opaqueAlpha = 0.998F;  ///< from which blended surfaces are opaque: 254.5 / 255
-    gpu::Image opaqueDepth;      ///< given: blended surfaces in front of this, below opaqueAlpha; none: opaque surfaces
-    gpu::Image nearerDepth;      ///< given: of those the nearest ones behind this; none: the nearest ones
+    vec4 clipPlane{0.0F};             ///< as in GBufferParams; zero: none
+    float blendedFrom = opaqueAlpha;  ///< alpha from which blended surfaces count as opaque
+    gpu::Image opaqueDepth{};         ///< given: translucent surfaces in front of this; none: opaque surfaces
+    gpu::Image nearerDepth{};         ///< given: of those the nearest ones behind this; none: the nearest ones
 };
 
 /// Draws the list for the view: reversed Z, back faces of single-sided draws culled. Layers of blended surfaces are
