@@ -165,7 +165,7 @@ LightSample Lights::drawTriangle(const SurfacePoint& point, float choice, const 
     s.distance = distance;
     s.toLight = toLight / distance;
     s.pdf = emitterPdf(point.position, emitter);
-    s.light = s.pdf > 0.0F ? emitter.emission / s.pdf : vec3(0.0F);
+    s.light = s.pdf > 0.0F ? emitter.emission * (coverageAt(rays_, s.hit) / s.pdf) : vec3(0.0F);
     return s;
 }
 

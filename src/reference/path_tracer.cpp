@@ -48,6 +48,11 @@ struct PathTracer::Walk {
         out.indirectSpecular += throughput.specular * radiance;
     }
     [[nodiscard]] vec2 pair(Purpose purpose) const { return random.pair(pairFor(vertex, purpose)); }
+    // Counts the ray.
+    [[nodiscard]] Ray counted(Ray ray) {
+        ray.random = random.bits(out.rays++);
+        return ray;
+    }
 };
 
 PathTracer::PathTracer(const RayScene& rays, const View& view, uvec2 size, const ReferenceOptions& options)
@@ -57,16 +62,16 @@ PathTracer::PathTracer(const RayScene& rays, const View& view, uvec2 size, const
     behind_ = environmentBehind(view, blurred);
 }
 
-std::optional<SurfacePoint> PathTracer::firstSurface(const vec2& place) const {
-    const Ray ray = camera_.through(place);
+std::optional<SurfacePoint> PathTracer::firstSurface(const vec2& place, uint32_t random) const {
+    Ray ray = camera_.through(place);
+    ray.random = random;
     const auto hit = rays_.intersect(ray, RayKind::camera);
     return hit ? std::optional(surfaceAt(rays_, *hit, ray.direction)) : std::nullopt;
 }
 
 PathSample PathTracer::trace(const vec2& place, const PixelSampler& random) const {
     Walk walk{{}, 0, {}, random, {}};
-    walk.out.rays = 1;
-    const auto first = firstSurface(place);
+    const auto first = firstSurface(place, random.bits(walk.out.rays++));
     if (!first) {
         walk.out.direct = radianceFrom(behind_, camera_.through(place).direction);
         walk.out.background = true;
@@ -89,16 +94,18 @@ PathSample PathTracer::trace(const vec2& place, const PixelSampler& random) cons
     return walk.out;
 }
 
-bool PathTracer::lit(const SurfacePoint& point, const LightSample& light, PathSample& out) const {
-    ++out.rays;
+bool PathTracer::lit(Walk& walk, const LightSample& light) const {
+    const SurfacePoint& point = walk.point;
     const vec3 origin = point.rayOrigin(light.toLight);
-    Ray ray{origin, light.toLight};
+    Ray ray = walk.counted({origin, light.toLight});
     if (light.onSurface) {  // ends just off the emissive surface
         const vec3 place = point.position + light.toLight * light.distance;
         ray.direction = place - origin;
         ray.far = 1.0F - 1e-4F;
     } else if (std::isfinite(light.distance)) {
+        const uint32_t random = ray.random;
         ray = rayToLamp(origin, point.position + light.toLight * light.distance, light);
+        ray.random = random;
     }
     return ray.far <= 0.0F || !rays_.occluded(ray, RayKind::light);
 }
@@ -112,7 +119,7 @@ void PathTracer::addLamps(Walk& walk, const Bsdf& bsdf) const {
         const vec3 reflected = bsdf.reflectLamp(sun.toLight).sum() * sun.light;
         const bool faces = glm::dot(sun.toLight, walk.point.geometricNormal) > 0.0F;
         const bool needed = faces && (first || reflected != vec3(0.0F));
-        const bool visible = needed && lit(walk.point, sun, walk.out);
+        const bool visible = needed && lit(walk, sun);
         sum += visible ? reflected : vec3(0.0F);
         if (first) {
             walk.out.sunVisibility = visible ? 1.0F : 0.0F;
@@ -121,7 +128,7 @@ void PathTracer::addLamps(Walk& walk, const Bsdf& bsdf) const {
     if (lights_.hasLamps()) {
         const LightSample lamp = lights_.drawLamp(walk.point, walk.pair(forLampAndLobe).x, walk.pair(forLampDisk));
         const vec3 reflected = bsdf.reflectLamp(lamp.toLight).sum() * lamp.light;
-        if (reflected != vec3(0.0F) && (!options_.lampShadows || lit(walk.point, lamp, walk.out))) {
+        if (reflected != vec3(0.0F) && (!options_.lampShadows || lit(walk, lamp))) {
             sum += reflected;
         }
     }
@@ -142,10 +149,10 @@ void PathTracer::addEmitters(Walk& walk, const Bsdf& bsdf) const {
         return;
     }
     Reflection r = bsdf.reflect(s.toLight);
-    if (r.sum() == vec3(0.0F) || !lit(walk.point, s, walk.out)) {
+    if (r.sum() == vec3(0.0F) || !lit(walk, s)) {
         return;
     }
-    if (options_.visibleOnly && s.onSurface && !cameraSees(surfaceAt(rays_, s.hit, s.toLight), walk.out)) {
+    if (options_.visibleOnly && s.onSurface && !cameraSees(walk, surfaceAt(rays_, s.hit, s.toLight))) {
         return;
     }
     const vec3 light = s.light * (s.pdf / (s.pdf + bsdf.pdf(s.toLight)));
@@ -178,15 +185,14 @@ bool PathTracer::step(Walk& walk, const Bsdf& bsdf) const {
         return false;
     }
     const vec3 from = walk.point.position;
-    const auto hit = rays_.intersect({walk.point.rayOrigin(s.direction), s.direction}, RayKind::light);
-    ++walk.out.rays;
+    const auto hit = rays_.intersect(walk.counted({walk.point.rayOrigin(s.direction), s.direction}), RayKind::light);
     const auto weight = [&](float otherPdf) { return s.pdf > 0.0F ? s.pdf / (s.pdf + otherPdf) : 1.0F; };
     if (!hit) {
         walk.addIndirect(lights_.environment(s.direction) * weight(lights_.environmentPdf(s.direction)));
         return false;
     }
     walk.point = surfaceAt(rays_, *hit, s.direction);
-    if (options_.visibleOnly && !cameraSees(walk.point, walk.out)) {
+    if (options_.visibleOnly && !cameraSees(walk, walk.point)) {
         return false;
     }
     if (walk.point.emission != vec3(0.0F)) {
@@ -195,7 +201,7 @@ bool PathTracer::step(Walk& walk, const Bsdf& bsdf) const {
     return true;
 }
 
-bool PathTracer::cameraSees(const SurfacePoint& point, PathSample& out) const {
+bool PathTracer::cameraSees(Walk& walk, const SurfacePoint& point) const {
     if (!point.front && !rays_.material(point.hit.instance).doubleSided) {
         return false;  // a back face that the camera does not draw
     }
@@ -204,8 +210,7 @@ bool PathTracer::cameraSees(const SurfacePoint& point, PathSample& out) const {
         return false;
     }
     back->origin = point.rayOrigin(back->direction);
-    ++out.rays;
-    return !rays_.occluded(*back, RayKind::camera);
+    return !rays_.occluded(walk.counted(*back), RayKind::camera);
 }
 
 }  // namespace reflet

@@ -28,8 +28,8 @@ public:
     /// place: position in the image, in pixels.
     [[nodiscard]] PathSample trace(const vec2& place, const PixelSampler& random) const;
 
-    /// The surface that the camera sees there; nullopt: the background.
-    [[nodiscard]] std::optional<SurfacePoint> firstSurface(const vec2& place) const;
+    /// The surface that the camera sees there; nullopt: the background. random: as Ray::random.
+    [[nodiscard]] std::optional<SurfacePoint> firstSurface(const vec2& place, uint32_t random = 0) const;
     [[nodiscard]] float depth(const SurfacePoint& point) const { return camera_.depth(point.position); }
 
 private:
@@ -39,8 +39,8 @@ private:
     void addEmitters(Walk& walk, const Bsdf& bsdf) const;
     /// False if the path ends here.
     [[nodiscard]] bool step(Walk& walk, const Bsdf& bsdf) const;
-    [[nodiscard]] bool cameraSees(const SurfacePoint& point, PathSample& out) const;
-    [[nodiscard]] bool lit(const SurfacePoint& point, const LightSample& light, PathSample& out) const;
+    [[nodiscard]] bool cameraSees(Walk& walk, const SurfacePoint& point) const;
+    [[nodiscard]] bool lit(Walk& walk, const LightSample& light) const;
 
     const RayScene& rays_;
     CameraRays camera_;

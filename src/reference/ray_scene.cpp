@@ -2,6 +2,7 @@
 #include "reference/ray_scene.h"
 
 #include "base/error.h"
+#include "reference/sampler.h"
 #include "reference/surface.h"
 
 #if REFLET_EMBREE_MAJOR >= 4
@@ -35,11 +36,15 @@ const EmbreeGeometry& geometryOf(const RTCFilterFunctionNArguments& args) {
     return *static_cast<const EmbreeGeometry*>(args.geometryUserPtr);
 }
 
-// Alpha test: rejects hits where the alpha is below the cutoff.
+// Alpha test: rejects hits where the alpha is below the cutoff; of blended surfaces by chance, so that the ray hits
+// with a probability of alpha (E. Enderton et al., Stochastic Transparency, 2010).
 void passCutOut(const RTCFilterFunctionNArguments* args) {
     const EmbreeGeometry& g = geometryOf(*args);
     const Hit hit{0.0F, g.instance, RTCHitN_primID(args->hit, args->N, 0), barycentricOf(*args)};
-    if (isCutOut(*g.owner, hit)) {
+    const uint32_t random = RTCRayN_id(args->ray, args->N, 0);
+    const uint32_t hash = mixBits(random ^ mixBits(hit.triangle ^ mixBits(hit.instance)));
+    const float cutoff = random == 0 ? 1.0F : (static_cast<float>(hash >> 8U) + 0.5F) * 0x1p-24F;
+    if (isCutOut(*g.owner, hit, cutoff)) {
         args->valid[0] = 0;
     }
 }
@@ -119,6 +124,7 @@ RTCRay embreeRay(const Ray& ray) {
     r.dir_z = ray.direction.z;
     r.tfar = ray.far;
     r.mask = 0xFFFFFFFFU;
+    r.id = ray.random;
     return r;
 }
 

@@ -15,6 +15,9 @@ struct Ray {
     vec3 direction{0.0F};  ///< of any length, which is the unit of distances
     float near = 0.0F;
     float far = std::numeric_limits<float>::infinity();
+    /// Decides, with a hash of the triangle, which blended surfaces the ray passes through (stochastic transparency).
+    /// 0: it passes through all that are not opaque.
+    uint32_t random = 0;
 };
 
 enum class RayKind : uint8_t {

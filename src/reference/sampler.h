@@ -28,6 +28,11 @@ public:
     /// others.
     [[nodiscard]] vec2 pair(uint32_t pair) const;
 
+    /// Random bits, independent for each index and sample; never 0.
+    [[nodiscard]] uint32_t bits(uint32_t index) const {
+        return mixBits(stream_ ^ mixBits(sample_ ^ mixBits(index ^ 0x68bc21ebU))) | 1U;
+    }
+
 private:
     uint32_t stream_;
     uint32_t sample_;

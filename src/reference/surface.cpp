@@ -117,9 +117,19 @@ SurfacePoint surfaceAt(const RayScene& rays, const Hit& hit, const vec3& directi
     return s;
 }
 
-bool isCutOut(const RayScene& rays, const Hit& hit) {
+bool isCutOut(const RayScene& rays, const Hit& hit, float blendedCutoff) {
     const Material& material = rays.material(hit.instance);
-    return baseColorAt(rays.scene(), material, Corners(rays.scene(), hit)).a < material.alphaCutoff;
+    const float alpha = baseColorAt(rays.scene(), material, Corners(rays.scene(), hit)).a;
+    return alpha < (material.blended ? blendedCutoff : material.alphaCutoff);
+}
+
+float coverageAt(const RayScene& rays, const Hit& hit) {
+    const Material& material = rays.material(hit.instance);
+    if (!(material.alphaCutoff > 0.0F)) {
+        return 1.0F;
+    }
+    const float alpha = baseColorAt(rays.scene(), material, Corners(rays.scene(), hit)).a;
+    return material.blended ? std::clamp(alpha, 0.0F, 1.0F) : alpha < material.alphaCutoff ? 0.0F : 1.0F;
 }
 
 vec3 emissionAt(const RayScene& rays, const Hit& hit) {

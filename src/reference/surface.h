@@ -26,8 +26,11 @@ struct SurfacePoint {
 
 SurfacePoint surfaceAt(const RayScene& rays, const Hit& hit, const vec3& direction);
 
-/// Whether the material's alpha is below its cutoff there.
-bool isCutOut(const RayScene& rays, const Hit& hit);
+/// Whether the material's alpha is below its cutoff there; below `blendedCutoff` if it is blended.
+bool isCutOut(const RayScene& rays, const Hit& hit, float blendedCutoff);
+
+/// Share of the surface that is there: 1, alpha of blended surfaces, 0 where it is cut out.
+float coverageAt(const RayScene& rays, const Hit& hit);
 
 /// Textured emission of the front face.
 vec3 emissionAt(const RayScene& rays, const Hit& hit);

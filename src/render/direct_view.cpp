@@ -8,6 +8,7 @@
 #include "render/shadow/shadow_clean.h"
 #include "render/trace_scene/direct_rays.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace reflet {
@@ -15,7 +16,9 @@ namespace reflet {
 namespace {
 
 void drawSurfaces(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
-    out.g = drawGBuffer(f, in.draws, in.view, settings.materials, in.clipPlane);
+    GBufferContent content{.clipPlane = in.clipPlane};
+    content.blendedFrom = settings.blend.layers > 0 ? opaqueAlpha : blendCutoff;
+    out.g = drawGBuffer(f, in.draws, in.view, settings.materials, content);
     if (settings.traceScreen.thicknessMode == ThicknessMode::secondLayer) {
         const gpu::Image back = drawBackDepth(f, in.draws, out.g.depth, in.view);
         out.backDepth = keptDepth(f, "kept_back_depth", back, in.view, settings.depth);
@@ -35,12 +38,17 @@ void renderSunVisibility(gpu::Frame& f, const ViewInputs& in, const Settings& se
     const float sunSlope = std::tan(0.5F * in.sunAngularDiameter);
     out.sun = fitSunShadows(in.view, in.draws.boundsW, in.sunDirection, shadow,
                             filterReach(in.draws.boundsW, shadow, sunSlope));
-    if (shadow.filter != ShadowFilter::none) {
-        out.shadowMap = drawShadowMap(f, in.draws, out.sun, shadow);
+    const bool throughBlended = shadow.filter != ShadowFilter::none && settings.blend.layers > 0 &&
+                                std::ranges::any_of(in.draws.draws, &Draw::blended);
+    if (shadow.filter != ShadowFilter::none && !out.shadowMap) {
+        out.shadowMap = drawShadowMap(f, in.draws, out.sun, shadow, throughBlended);
     }
     ShadowInputs maps{.map = out.shadowMap, .range = {}, .blueNoise = in.blueNoise};
     if (shadow.filter == ShadowFilter::pcss && shadow.earlyOut != 0) {
-        maps.range = makeShadowRange(f, out.shadowMap, in.draws, out.sun, shadow);
+        if (!out.shadowRange) {
+            out.shadowRange = makeShadowRange(f, out.shadowMap, in.draws, out.sun, shadow, throughBlended);
+        }
+        maps.range = out.shadowRange;
     }
     const SunVisibility seen = sunVisibility(f, out.g, maps, {in.view, out.sun, shadow, sunSlope});
     out.rawSunVisibility = seen.visibility;
@@ -53,6 +61,13 @@ void renderSunVisibility(gpu::Frame& f, const ViewInputs& in, const Settings& se
     if (settings.contact.distance > 0.0F && in.sunIrradiance != vec3(0.0F)) {
         out.sunVisibility =
             contactShadow(f, out.g, out.pyramid, out.sunVisibility, {in.view, settings.contact, -in.sunDirection});
+    }
+    if (throughBlended) {
+        if (!out.blendShadow.front().depth) {
+            out.blendShadow = drawBlendShadowMaps(f, in.draws, out.sun, shadow);
+        }
+        out.sunVisibility = blendShadow(f, out.g, out.blendShadow, out.sunVisibility,
+                                        {in.view, out.sun, shadow.resolution, shadow.bias});
     }
 }
 
@@ -81,20 +96,24 @@ ViewImages directView(gpu::Frame& f, const ViewInputs& in, const Settings& setti
     ViewImages out;
     out.lampShadowMap = lampShadowMap;
     drawSurfaces(f, in, settings, out);
+    lightSurfaces(f, in, settings, out);
+    return out;
+}
+
+void lightSurfaces(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
     if (settings.shadow.filter == ShadowFilter::traced && in.traced != nullptr) {
         const DirectRays rays = directByRays(f, out.g, {*in.traced, in.ggxTable, in.environment, in.lamps},
                                              {in.view, sceneLights(in, settings), settings.shadow.rays});
         out.direct = rays.direct;
         out.sunVisibility = rays.sunVisibility;
         out.rawSunVisibility = rays.sunVisibility;
-        return out;
+        return;
     }
     renderSunVisibility(f, in, settings, out);
     renderLampVisibility(f, in, settings, out);
     out.direct = directLight(f, out.g, {out.sunVisibility, out.lampVisibility, out.lampTiles.masks}, in.ggxTable,
                              {in.view, -in.sunDirection, in.sunIrradiance},
                              {in.lamps, in.environment, settings.materials.lambertOnly != 0});
-    return out;
 }
 
 }  // namespace reflet

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "gpu/frame.h"
+#include "render/blend/blend_shadow.h"
 #include "render/direct/direct.h"
 #include "render/direct/lamp_tiles.h"
 #include "render/draw_list.h"
@@ -38,7 +39,9 @@ struct ViewImages {
     gpu::Image backDepth;         ///< none unless trace_screen.thickness_mode is second_layer
     gpu::Image pyramid;           ///< none unless trace_screen.method is hiz or there are contact shadows
     gpu::Image shadowMap;         ///< none without sun or shadows
+    gpu::Image shadowRange;       ///< its min/max pyramid; none unless it is used
     SunShadowParams sun{};        ///< its cascades
+    BlendShadowMaps blendShadow;  ///< none without sun, shadows or blended surfaces
     gpu::Image rawSunVisibility;  ///< before denoising
     gpu::Image sunVisibility;     ///< as used by direct light
     gpu::Image shadowPenumbra;    ///< of sunVisibility(); none with hard shadows
@@ -55,5 +58,8 @@ SceneLights sceneLights(const ViewInputs& in, const Settings& settings);
 /// Records the passes of one view. Views other than the frame's own must be inside a viewScope, or they overwrite its
 /// images. lampShadowMap: from another view of the same frame, to be shared; none: it is drawn.
 ViewImages directView(gpu::Frame& f, const ViewInputs& in, const Settings& settings, gpu::Image lampShadowMap = {});
+
+/// The same for given surfaces: visibility and direct light at out.g. Shadow maps that `out` has are used.
+void lightSurfaces(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out);
 
 }  // namespace reflet

@@ -4,6 +4,7 @@
 #include "gpu/device.h"
 #include "scene/scene.h"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace reflet {
@@ -46,12 +47,20 @@ VkCullModeFlags cullMode(Cull cull, const Draw& draw) {
     return cull == Cull::back && !draw.doubleSided ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
 }
 
+bool passes(const Draw& draw, const DrawFilter& filter) {
+    return filter.keep(draw) && intersectsFrustum(draw.boundsW, filter.worldToClip);
+}
+
 struct DrawConstants {
     glm::mat4x3 objectToWorld;
     glm::mat4x3 previousObjectToWorld;
 };
 
 }  // namespace
+
+bool anyDraws(const DrawList& list, const DrawFilter& filter) {
+    return std::ranges::any_of(list.draws, [&](const Draw& draw) { return passes(draw, filter); });
+}
 
 void drawIntoTile(const gpu::DrawCommands& to, const uvec2& tile, uint32_t side) {
     const glm::ivec2 corner(tile * side);
@@ -71,7 +80,7 @@ void recordDraws(const gpu::DrawCommands& to, const DrawList& list, const DrawFi
     vk.vkCmdBindIndexBuffer(to.commands, list.indices, 0, VK_INDEX_TYPE_UINT32);
     VkDescriptorSet boundMaterial = VK_NULL_HANDLE;
     for (const Draw& draw : list.draws) {
-        if (!filter.keep(draw) || !intersectsFrustum(draw.boundsW, filter.worldToClip)) {
+        if (!passes(draw, filter)) {
             continue;
         }
         if (filter.bindMaterials && draw.material != boundMaterial) {

@@ -19,7 +19,9 @@ struct Draw {
     mat4 previousObjectToWorld{1.0F};
     Aabb boundsW;
     VkDescriptorSet material = VK_NULL_HANDLE;
-    bool masked = false;  ///< has an alpha cutoff
+    bool masked = false;   ///< has an alpha cutoff
+    bool blended = false;  ///< alpha is coverage; masked, too
+    float alpha = 1.0F;    ///< of blended draws: the largest that occurs, or more
     bool doubleSided = false;
     bool turnedOver = false;  ///< its triangles have clockwise winding in object space
 };
@@ -54,6 +56,9 @@ struct DrawFilter {
     mat4 worldToClip{1.0F};     ///< for frustum culling
     uint32_t instance = 0;      ///< the shader's gl_InstanceIndex
 };
+
+/// Whether recordDraws would record any draw.
+bool anyDraws(const DrawList& list, const DrawFilter& filter);
 
 /// Sets viewport and scissor to a square tile of the target, `side` pixels a side; tile: its column and row.
 void drawIntoTile(const gpu::DrawCommands& to, const uvec2& tile, uint32_t side);

@@ -1,7 +1,8 @@
 // The frame, top to bottom: values in, values out. Start reading here.
 //
 // direct view (G-buffer → depth pyramid → sun and lamp visibility → direct light) → diffuse rays → source chain
-// → planar views → specular rays → source chain → composite → temporal antialiasing → tone map
+// → layers of blended surfaces → planar views → specular rays → source chain → composite → temporal antialiasing
+// → tone map
 //
 // renderFrame, at the end, does all of it; its parts are above it, and those shared with other views in
 // direct_view.cpp. There is no render graph: the `if`s in these two files are all that culls passes.
@@ -9,6 +10,7 @@
 
 #include "gpu/device.h"
 #include "render/accumulate/accumulate.h"
+#include "render/blend/blend.h"
 #include "render/bounce/adaptive_rays.h"
 #include "render/bounce/answer_environment.h"
 #include "render/bounce/ray_tiles.h"
@@ -36,9 +38,9 @@ namespace {
 // edges as hard as in a mirror. Prefiltered sources have no such edges.
 constexpr float coneShareOnScreen = 0.1F;
 
-// A view's images, and the views that its rays are traced in.
+// Surfaces that rays start from, and the views that these are traced in.
 struct TracedView {
-    ViewImages images;
+    ViewImages images;  // of the screen itself, or a layer of blended surfaces in front of it
     ScreenImages screen;
     std::vector<PlanarView> mirrors;
 };
@@ -103,10 +105,10 @@ LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& setting
     const uint32_t neighbours = diffuse ? settings.diffuse.reuse : settings.specular.reuse;
     const float longest = diffuse ? settings.diffuse.maxDistance : settings.traceScreen.maxDistance;
     if (perPixel == 0) {
-        return blackLobe(f, lobe, {screen.g, in.view}, counted);
+        return blackLobe(f, lobe, {seen.images.g, in.view}, counted);
     }
     const RaySurfaces from =
-        pickSurfaces(f, screen.g, in.view, diffuse ? settings.diffuse.downsample : settings.specular.downsample);
+        pickSurfaces(f, seen.images.g, in.view, diffuse ? settings.diffuse.downsample : settings.specular.downsample);
     const float coneShare = settings.traceScreen.enabled != 0 ? coneShareOnScreen : 0.0F;
     const RayTiles tiles = tilesOfLobe(f, from, settings, screen.lit, lobe);
     const uint32_t most = tiles.meanRays > 0 ? adaptiveRayLimit(f, from.g.depth.size, perPixel) : perPixel;
@@ -144,23 +146,114 @@ TracedView tracedView(const ViewInputs& in, const ViewImages& images) {
     return {images, screen, {}};
 }
 
-// Sets the light that reflections read at hits: direct light, or all light so far; and its mips for cones.
-void lightForReflections(gpu::Frame& f, const ViewInputs& in, const Settings& settings, const LobeLight& diffuse,
-                         ScreenImages& screen) {
+// Light of blended surfaces, and in alpha what they let through of the light behind. Layers only if they are kept.
+struct BlendedLight {
+    gpu::Image lit;  // none: the view shows no blended surfaces
+    gpu::Image direct;
+    gpu::Image indirectDiffuse;
+    gpu::Image indirectSpecular;
+};
+
+// Settings for blended surfaces: layers have no history, and no depth pyramid for contact shadows.
+Settings blendedSettings(Settings settings) {
+    settings.contact.distance = 0.0F;
+    settings.shadow.history = 0;
+    settings.denoise.history = 0;
+    settings.traceScreen.countSteps = 0;
+    return settings;
+}
+
+// One layer of blended surfaces, lit like the opaque ones. Its rays are traced in the screen of the opaque surfaces.
+Composite lightLayer(gpu::Frame& f, const ViewInputs& in, const Settings& settings, TracedView& layer, bool layers) {
+    lightSurfaces(f, in, settings, layer.images);
+    const LobeLight diffuse = traceLobe(f, in, settings, layer, lobeDiffuse);
+    const LobeLight specular = traceLobe(f, in, settings, layer, lobeSpecular);
+    const CompositeInputs parts{layer.images.g, layer.images.direct, diffuse,
+                                specular,       in.ggxTable,         settings.materials.lambertOnly != 0,
+                                layers};
+    const gpu::Image lit = f.image("lit", VK_FORMAT_R16G16B16A16_SFLOAT, layer.images.g.depth.size);
+    return composite(f, parts, lit, {in.view, settings.diffuse.gain});
+}
+
+BlendedLight lightBlended(gpu::Frame& f, const ViewInputs& in, const Settings& asked, const TracedView& seen,
+                          bool layers) {
+    BlendedLight out;
+    if (asked.blend.layers == 0 || !showsBlended(in.draws, in.view)) {
+        return out;
+    }
+    const auto scope = f.viewScope("blend");
+    const Settings settings = blendedSettings(asked);
+    const auto sum = [&](const char* name) {
+        return f.image(name, VK_FORMAT_R16G16B16A16_SFLOAT, seen.images.g.depth.size);
+    };
+    out.lit = sum("blended");
+    if (layers) {
+        out = {out.lit, sum("blended_direct"), sum("blended_diffuse"), sum("blended_specular")};
+    }
+    gpu::Image nearer;
+    for (uint32_t i = 0; i < settings.blend.layers; ++i) {
+        TracedView layer{seen.images, seen.screen, {}};
+        {
+            const auto peeled = f.viewScope(i % 2 == 0 ? "even" : "odd");  // the last layer's depth is read
+            const GBufferContent content{
+                .clipPlane = in.clipPlane, .opaqueDepth = seen.images.g.depth, .nearerDepth = nearer};
+            layer.images.g = drawGBuffer(f, in.draws, in.view, settings.materials, content);
+        }
+        nearer = layer.images.g.depth;
+        const Composite light = lightLayer(f, in, settings, layer, layers);
+        const gpu::Image alpha = layer.images.g.motion;
+        blendLayer(f, out.lit, light.lit, alpha, i == 0);
+        if (layers) {
+            blendLayer(f, out.direct, layer.images.direct, alpha, i == 0);
+            blendLayer(f, out.indirectDiffuse, light.indirectDiffuse, alpha, i == 0);
+            blendLayer(f, out.indirectSpecular, light.indirectSpecular, alpha, i == 0);
+        }
+    }
+    return out;
+}
+
+// `behind` with the blended surfaces in front of it, in another image.
+gpu::Image withBlended(gpu::Frame& f, gpu::Image front, gpu::Image behind, std::string_view name) {
+    if (!front) {
+        return behind;
+    }
+    const gpu::Image over = f.image(name, VK_FORMAT_R16G16B16A16_SFLOAT, behind.size);
+    blendOver(f, front, behind, over);
+    return over;
+}
+
+// The light that rays from blended surfaces, and then reflections, read at hits: direct light, or all light so far.
+gpu::Image lightSoFar(gpu::Frame& f, const ViewInputs& in, const Settings& settings, const LobeLight& diffuse,
+                      const ScreenImages& screen) {
+    if (settings.traceScreen.light != HitLight::lit || settings.specular.rays == 0 || settings.diffuse.rays == 0) {
+        return screen.light;
+    }
     const auto scope = f.scope("specular");
+    const LobeLight none = blackLobe(f, lobeSpecular, {screen.g, in.view}, settings.traceScreen.countSteps != 0);
+    const gpu::Image soFar = f.image("lit_so_far", VK_FORMAT_R16G16B16A16_SFLOAT, screen.light.size);
+    const CompositeInputs parts{screen.g, screen.light, diffuse, none, in.ggxTable, settings.materials.lambertOnly != 0,
+                                false};
+    return composite(f, parts, soFar, {in.view, settings.diffuse.gain}).lit;
+}
+
+// Lights the blended surfaces, and sets the light that reflections read at hits: all light so far, with blended
+// surfaces in front; and its mips for cones. read: any rays read it.
+BlendedLight lightForReflections(gpu::Frame& f, const ViewInputs& in, const Settings& settings,
+                                 const LobeLight& diffuse, TracedView& seen, bool read, bool layers) {
+    ScreenImages& screen = seen.screen;
     const SpecularSettings& s = settings.specular;
-    const HitLight light = settings.traceScreen.light;
-    if (light == HitLight::lit && s.rays > 0 && settings.diffuse.rays > 0) {
-        const LobeLight none = blackLobe(f, lobeSpecular, {screen.g, in.view}, settings.traceScreen.countSteps != 0);
-        const gpu::Image soFar = f.image("lit_so_far", VK_FORMAT_R16G16B16A16_SFLOAT, screen.light.size);
-        const CompositeInputs parts{
-            screen.g, screen.light, diffuse, none, in.ggxTable, settings.materials.lambertOnly != 0, false};
-        screen.light = composite(f, parts, soFar, {in.view, settings.diffuse.gain}).lit;
+    screen.light = read ? lightSoFar(f, in, settings, diffuse, screen) : screen.light;
+    const BlendedLight blended = lightBlended(f, in, settings, seen, layers);
+    if (!read || s.rays == 0) {
+        return blended;
     }
-    if (s.roughFallback == RoughFallback::mips && s.maxRoughness < 1.0F && s.rays > 0) {
-        screen.lightMips =
-            makeLightMips(f, light == HitLight::previous && screen.lit.valid ? screen.lit.previous : screen.light);
+    const auto scope = f.scope("specular");
+    screen.light = withBlended(f, blended.lit, screen.light, "lit_so_far.blended");
+    if (s.roughFallback == RoughFallback::mips && s.maxRoughness < 1.0F) {
+        const bool previous = settings.traceScreen.light == HitLight::previous && screen.lit.valid;
+        screen.lightMips = makeLightMips(f, previous ? screen.lit.previous : screen.light);
     }
+    return blended;
 }
 
 // Renders a planar view, for use by reflections. It has no last frame: `previous` acts as `lit` there.
@@ -174,13 +267,14 @@ ScreenImages renderReflectionView(gpu::Frame& f, const ViewInputs& in, Settings 
     const ViewImages images = directView(f, in, settings, lampShadowMap);
     TracedView seen = tracedView(in, images);
     const LobeLight diffuse = traceLobe(f, in, settings, seen, lobeDiffuse);
-    lightForReflections(f, in, settings, diffuse, seen.screen);
+    const BlendedLight blended = lightForReflections(f, in, settings, diffuse, seen, true, false);
     if (lit && settings.planar.specular != 0) {
         const LobeLight specular = traceLobe(f, in, settings, seen, lobeSpecular);
         const gpu::Image all = f.image("lit", VK_FORMAT_R16G16B16A16_SFLOAT, images.direct.size);
         const CompositeInputs parts{
             images.g, images.direct, diffuse, specular, in.ggxTable, settings.materials.lambertOnly != 0, false};
-        seen.screen.light = composite(f, parts, all, {in.view, settings.diffuse.gain}).lit;
+        const Composite sum = composite(f, parts, all, {in.view, settings.diffuse.gain});
+        seen.screen.light = withBlended(f, blended.lit, sum.lit, "lit.blended");
     }
     const bool blurred = settings.planar.form == PlanarForm::camera && settings.planar.cameraBlur > 1.0F;
     if (seen.screen.lightMips || blurred) {
@@ -223,11 +317,13 @@ std::vector<PlanarView> renderPlanarViews(gpu::Frame& f, const FrameInputs& in, 
 gpu::Image renderLiveCameras(gpu::Frame& f, const ViewInputs& in, const Settings& settings,
                              std::span<const LiveView> pictures) {
     gpu::Image lampShadowMap;
+    Settings direct = settings;
+    direct.blend.layers = 0;
     for (size_t i = 0; i < pictures.size(); ++i) {
         const auto scope = f.viewScope("live" + std::to_string(i));
         ViewInputs view = in;
         view.view = pictures[i].view;
-        const ViewImages seen = directView(f, view, settings, lampShadowMap);
+        const ViewImages seen = directView(f, view, direct, lampShadowMap);
         lampShadowMap = seen.lampShadowMap;
         showLive(f, seen.direct, pictures[i].picture);
     }
@@ -235,7 +331,8 @@ gpu::Image renderLiveCameras(gpu::Frame& f, const ViewInputs& in, const Settings
 }
 
 // Puts the background behind the radiance that is shown, and averages its coverage over frames as the radiance.
-void showBackground(gpu::Frame& f, const FrameInputs& in, const Settings& settings, FrameImages& out) {
+void showBackground(gpu::Frame& f, const FrameInputs& in, const Settings& settings, const BlendedLight& blended,
+                    FrameImages& out) {
     const BackgroundImages shown =
         drawBackground(f, out.g.depth, out.direct, out.light.lit, *in.background.environment, in.view);
     out.direct = shown.direct;
@@ -245,12 +342,29 @@ void showBackground(gpu::Frame& f, const FrameInputs& in, const Settings& settin
     }
     const auto scope = f.viewScope("coverage");
     out.coverage = shown.coverage;
-    if (settings.accumulate.enabled != 0) {
-        const Composite same{shown.coverage, shown.coverage, shown.coverage};
-        out.coverage = accumulate(f, {shown.coverage, same}, in.framesBefore).direct;
-    } else if (historyUse(settings).temporal) {
-        out.coverage = temporal(f, out.g, shown.coverage, settings.temporal, in.view);
+    if (blended.lit) {
+        out.coverage = f.image("blended", VK_FORMAT_R16G16B16A16_SFLOAT, shown.coverage.size);
+        coverOver(f, blended.lit, shown.coverage, out.coverage);
     }
+    if (settings.accumulate.enabled != 0) {
+        out.coverage = accumulate(f, {out.coverage, {out.coverage, out.coverage, out.coverage}}, in.framesBefore).direct;
+    } else if (historyUse(settings).temporal) {
+        out.coverage = temporal(f, out.g, out.coverage, settings.temporal, in.view);
+    }
+}
+
+// Composites blended surfaces over the frame's light and its layers. lit: the image of the sum.
+void addBlended(gpu::Frame& f, const BlendedLight& blended, gpu::Image lit, FrameImages& out) {
+    if (!blended.lit) {
+        return;
+    }
+    blendOver(f, blended.lit, out.light.lit, lit);
+    out.light.lit = lit;
+    out.direct = withBlended(f, blended.direct, out.direct, "direct.blended");
+    out.light.indirectDiffuse =
+        withBlended(f, blended.indirectDiffuse, out.light.indirectDiffuse, "indirect_diffuse.blended");
+    out.light.indirectSpecular =
+        withBlended(f, blended.indirectSpecular, out.light.indirectSpecular, "indirect_specular.blended");
 }
 
 }  // namespace
@@ -263,20 +377,29 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
     out.view = in.view;
     out.probeAtlas = in.probes.atlas;
     out.diffuse = traceLobe(f, in, settings, seen, lobeDiffuse);
+    const bool layers = settings.composite.layers != 0 || settings.accumulate.enabled != 0;
     const bool reused = settings.traceScene.enabled != 0 && settings.traceScene.reuseScreen != 0;
-    if (settings.traceScreen.enabled != 0 || reused) {
-        lightForReflections(f, in, settings, out.diffuse, seen.screen);
-    }
+    const bool read = settings.traceScreen.enabled != 0 || reused;
+    const BlendedLight blended = lightForReflections(f, in, settings, out.diffuse, seen, read, layers);
     seen.mirrors = renderPlanarViews(f, in, settings, out.lampShadowMap);
     out.specular = traceLobe(f, in, settings, seen, lobeSpecular);
 
-    const bool layers = settings.composite.layers != 0 || settings.accumulate.enabled != 0;
     const CompositeInputs parts{
         out.g, out.direct, out.diffuse, out.specular, in.ggxTable, settings.materials.lambertOnly != 0, layers};
-    out.light = composite(f, parts, lit.next, {in.view, settings.diffuse.gain});
+    const auto image = [&](const char* name) {
+        return f.image(name, VK_FORMAT_R16G16B16A16_SFLOAT, lit.next.size);
+    };
+    const gpu::Image behind = blended.lit ? image("lit_behind") : lit.next;
+    out.light = composite(f, parts, behind, {in.view, settings.diffuse.gain});
+    gpu::Image sum = lit.next;
     if (in.background.environment) {
-        showBackground(f, in, settings, out);
+        if (blended.lit) {
+            blendOver(f, blended.lit, behind, lit.next);  // rays of the next frame see the environment behind
+            sum = image("lit_shown");
+        }
+        showBackground(f, in, settings, blended, out);
     }
+    addBlended(f, blended, sum, out);
     if (settings.accumulate.enabled != 0) {
         const LightLayers means = accumulate(f, {out.direct, out.light}, in.framesBefore);
         out.direct = means.direct;

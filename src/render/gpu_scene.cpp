@@ -253,6 +253,8 @@ void GpuScene::addDraws(const Scene& scene) {
         draw.boundsW = transformed(mesh.bounds, instance.objectToWorld);
         draw.material = materialBindings_[mesh.material].set;
         draw.masked = material.alphaCutoff > 0.0F;
+        draw.blended = material.blended;
+        draw.alpha = material.blended ? material.baseColor.a : 1.0F;
         draw.doubleSided = material.doubleSided;
         draws_.boundsW.add(draw.boundsW);
         draws_.draws.push_back(draw);

@@ -17,6 +17,7 @@ MaterialParams materialParams(const Material& m) {
     p.baseColor = m.baseColor;
     p.emissive = m.emissive;
     p.alphaCutoff = m.alphaCutoff;
+    p.blended = m.blended ? 1U : 0U;
     p.metallic = m.metallic;
     p.roughness = m.roughness;
     p.normalScale = m.normalScale;

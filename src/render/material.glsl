@@ -29,4 +29,7 @@ bool materialBaseColor(vec2 uv0, vec2 uv1, vec4 vertexColor, out vec4 color) {
     return color.a >= material.alphaCutoff;
 }
 
+// Whether a blended surface of this alpha is in the layers of blended surfaces.
+bool isTranslucent(float alpha) { return material.blended != 0u && alpha >= invisibleAlpha && alpha < opaqueAlpha; }
+
 #endif

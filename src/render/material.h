@@ -15,6 +15,13 @@ const uint slotOcclusion = 3;
 const uint slotEmissive = 4;
 const uint slotCount = 5;
 
+// Alpha from which blended surfaces are opaque, 254.5 / 255, and below which they are not there.
+const float opaqueAlpha = 0.998;
+const float invisibleAlpha = 0.002;
+
+// Relative difference of depths that counts as none in depth peeling.
+const float peelTolerance = 1e-6;
+
 struct MaterialParams {
     vec4 baseColor;
     vec3 emissive;
@@ -25,6 +32,7 @@ struct MaterialParams {
     float occlusionStrength;
     uint textured;    // bit per slot: has a texture
     uint secondUv;    // bit per slot: uses uv1
+    uint blended;     // 1: alpha is coverage (Material::blended)
     vec3 uvRows[10];  // two per slot, KHR_texture_transform
 };
 

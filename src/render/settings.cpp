@@ -42,6 +42,7 @@ std::vector<SettingEntry> makeEntries() {
     addEffect<SpecularSettings>(entries, "specular", offsetof(Settings, specular));
     addEffect<DenoiseSettings>(entries, "denoise", offsetof(Settings, denoise));
     addEffect<CompositeSettings>(entries, "composite", offsetof(Settings, composite));
+    addEffect<BlendSettings>(entries, "blend", offsetof(Settings, blend));
     addEffect<AccumulateSettings>(entries, "accumulate", offsetof(Settings, accumulate));
     addEffect<TemporalSettings>(entries, "temporal", offsetof(Settings, temporal));
     addEffect<TonemapSettings>(entries, "tonemap", offsetof(Settings, tonemap));

@@ -3,6 +3,7 @@
 
 #include "base/setting_info.h"
 #include "render/accumulate/accumulate.h"
+#include "render/blend/blend.h"
 #include "render/bounce/answer_environment.h"
 #include "render/bounce/rays.h"
 #include "render/bounce/trace_screen.h"
@@ -44,6 +45,7 @@ struct Settings {
     SpecularSettings specular;
     DenoiseSettings denoise;
     CompositeSettings composite;
+    BlendSettings blend;
     AccumulateSettings accumulate;
     TemporalSettings temporal;
     TonemapSettings tonemap;

@@ -2,6 +2,7 @@
 #include "scene/gltf.h"
 
 #include "scene/gltf_nodes.h"
+#include "scene/opacity.h"
 
 #include <algorithm>
 #include <new>
@@ -48,6 +49,7 @@ Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
         GltfMaterials materials(document, scene, report);
         GltfMeshes meshes(document, materials, scene, report);
         placeGltfNodes(document, roots, meshes, scene, report);
+        makeOpaqueWhereAlphaIsOne(scene);
         return scene;
     } catch (const std::bad_alloc&) {
         report.fail("", "needs more memory than is available");

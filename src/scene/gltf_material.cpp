@@ -10,8 +10,6 @@ namespace reflet {
 
 namespace {
 
-constexpr float blendCutoff = 0.5F;
-
 Wrap wrapOf(int value) {
     switch (value) {
         case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
@@ -86,8 +84,7 @@ Material GltfMaterials::convert(int material) {
         result.alphaCutoff = static_cast<float>(source.alphaCutoff);
     } else if (source.alphaMode == "BLEND") {
         result.alphaCutoff = blendCutoff;
-        report_.warn("blend", part + ".alphaMode",
-                     "blended surfaces will be drawn with an alpha cutoff of {}: BLEND is not supported", blendCutoff);
+        result.blended = true;
     }
     const auto slotOf = [&](const auto& info, const char* name) {
         return slot(info.index, info.texCoord, info.extensions, part + "." + name);

@@ -24,6 +24,9 @@ struct Image {
     std::vector<uint8_t> rgba;  ///< width · height · 4 bytes
 };
 
+/// Material::alphaCutoff of blended materials.
+constexpr float blendCutoff = 0.5F;
+
 enum class Wrap : uint8_t { repeat, mirror, clamp };
 
 /// Texture filtering and addressing. Mips are always generated; `mips` says whether they are used.
@@ -57,6 +60,9 @@ struct Material {
     float normalScale = 1.0F;
     float occlusionStrength = 1.0F;
     float alphaCutoff = 0.0F;  ///< fragments with alpha < cutoff are discarded; 0: opaque
+    /// alphaMode BLEND: alpha is coverage, the surface is composited over what is behind it. Its alphaCutoff, blendCutoff,
+    /// is used where surfaces are there or not: in shadow maps, probes, live pictures.
+    bool blended = false;
     bool doubleSided = false;
     std::string camera;            ///< name of the camera whose image the surface emits (alone); empty: none
     TextureSlot baseColorTexture;  ///< sRGB

@@ -1,6 +1,7 @@
 // glTF materials, textures and images.
 #include "base/error.h"
 #include "gltf_builder.h"
+#include "scene/opacity.h"
 
 #include <gtest/gtest.h>
 #include <stb/stb_image_write.h>
@@ -56,18 +57,47 @@ TEST(GltfMaterial, AMaterialThatShowsACameraEmitsNothingElse) {
     EXPECT_EQ(materialOf(withMaterial({{"extras", 7}})).camera, "");
 }
 
-TEST(GltfMaterial, MaskHasItsCutoffAndBlendIsDrawnAsMaskWithOneWarning) {
+TEST(GltfMaterial, MaskHasItsCutoff) {
     EXPECT_EQ(materialOf(withMaterial({{"alphaMode", "MASK"}})).alphaCutoff, 0.5F);
     EXPECT_EQ(materialOf(withMaterial({{"alphaMode", "MASK"}, {"alphaCutoff", 0.25}})).alphaCutoff, 0.25F);
     EXPECT_EQ(materialOf(withMaterial({{"alphaMode", "OPAQUE"}, {"alphaCutoff", 0.25}})).alphaCutoff, 0.0F);
-    GltfBuilder b = withMaterial({{"alphaMode", "BLEND"}});
-    b.addPrimitive({{"attributes", {{"POSITION", 0}}}, {"material", b.add("materials", {{"alphaMode", "BLEND"}})}});
-    const Loaded loaded = load(std::move(b));
-    ASSERT_EQ(loaded.scene.materials.size(), 2U);
-    EXPECT_EQ(loaded.scene.materials[1].alphaCutoff, 0.5F);
-    ASSERT_EQ(loaded.warnings.size(), 1U);
-    EXPECT_NE(loaded.warnings[0].find("materials[0].alphaMode: blended surfaces will be drawn with an alpha cutoff"),
-              std::string::npos);
+    EXPECT_FALSE(materialOf(withMaterial({{"alphaMode", "MASK"}})).blended);
+}
+
+json blendedWith(const json& factor) {
+    return {{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorFactor", factor}}}};
+}
+
+TEST(GltfMaterial, BlendIsBlendedUnlessItsAlphaIsOneEverywhere) {
+    const Loaded glass = load(withMaterial(blendedWith({1, 1, 1, 0.5})));
+    EXPECT_TRUE(glass.scene.materials.at(0).blended);
+    EXPECT_EQ(glass.scene.materials.at(0).alphaCutoff, blendCutoff);
+    EXPECT_TRUE(glass.warnings.empty());
+    EXPECT_FALSE(materialOf(withMaterial({{"alphaMode", "BLEND"}})).blended);
+    EXPECT_EQ(materialOf(withMaterial({{"alphaMode", "BLEND"}})).alphaCutoff, 0.0F);
+    for (const uint8_t alpha : {uint8_t(255), uint8_t(254)}) {
+        GltfBuilder b = triangle();
+        json material = blendedWith({1, 1, 1, 1});
+        material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", b.addTexture({9, 9, 9, alpha})}};
+        b.document["meshes"][0]["primitives"][0]["material"] = b.add("materials", material);
+        EXPECT_EQ(materialOf(std::move(b)).blended, alpha < 255);
+    }
+}
+
+TEST(GltfMaterial, BlendFollowsTheAlphaOfAnyMeshsVertices) {
+    Scene scene;
+    scene.materials.resize(2);
+    scene.materials[0].blended = scene.materials[1].blended = true;
+    scene.materials[0].alphaCutoff = scene.materials[1].alphaCutoff = blendCutoff;
+    scene.meshes.resize(3);
+    for (size_t i = 0; i < 3; ++i) {
+        scene.meshes[i].attributes.resize(3);
+        scene.meshes[i].material = i < 2 ? 0 : 1;
+    }
+    scene.meshes[1].attributes[2].color.a = 65534;
+    makeOpaqueWhereAlphaIsOne(scene);
+    EXPECT_TRUE(scene.materials[0].blended);
+    EXPECT_FALSE(scene.materials[1].blended);
 }
 
 TEST(GltfMaterial, EverySlotHasItsTextureItsUvSetAndItsFactor) {

@@ -89,10 +89,11 @@ private:
 
     void add(const Material& material) {
         const auto& [name, baseColor, metallic, roughness, emissive, normalScale, occlusionStrength, alphaCutoff,
-                     doubleSided, camera, baseColorTexture, metallicRoughnessTexture, normalTexture, occlusionTexture,
-                     emissiveTexture] = material;
-        all(name, baseColor, metallic, roughness, emissive, normalScale, occlusionStrength, alphaCutoff, doubleSided,
-            camera, baseColorTexture, metallicRoughnessTexture, normalTexture, occlusionTexture, emissiveTexture);
+                     blended, doubleSided, camera, baseColorTexture, metallicRoughnessTexture, normalTexture,
+                     occlusionTexture, emissiveTexture] = material;
+        all(name, baseColor, metallic, roughness, emissive, normalScale, occlusionStrength, alphaCutoff, blended,
+            doubleSided, camera, baseColorTexture, metallicRoughnessTexture, normalTexture, occlusionTexture,
+            emissiveTexture);
     }
 
     void add(const VertexAttributes& vertex) {

@@ -11,7 +11,8 @@ gpu::Image drawBackDepth(gpu::Frame& f, const DrawList& list, gpu::Image depth, 
         .vertices(vertexLayout(), list.materialLayout)
         .params(BackDepthParams{view.worldToClip, view.depthToDistance})
         .draw([&](const gpu::DrawCommands& to) {
-            recordDraws(to, list, {[](const Draw&) { return true; }, Cull::front, true, view.worldToClip}, false);
+            recordDraws(to, list, {[](const Draw& d) { return !d.blended; }, Cull::front, true, view.worldToClip},
+                        false);
         });
     return back;
 }

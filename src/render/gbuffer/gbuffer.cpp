@@ -13,7 +13,10 @@ bool isInFront(const Aabb& box, const vec4& plane) {
 }  // namespace
 
 GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view, const MaterialsSettings& settings,
-                    const vec4& clipPlane) {
+                    const GBufferContent& content) {
+    const vec4& clipPlane = content.clipPlane;
+    const bool blended = bool(content.opaqueDepth);
+    const uint32_t surfaces = !blended ? surfacesOpaque : content.nearerDepth ? surfacesBehind : surfacesNearest;
     const bool clipped = clipPlane != vec4(0.0F);
     const uvec2 size(view.size);
     const GBuffer g{
@@ -30,8 +33,14 @@ GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view,
     for (const gpu::Image picture : list.livePictures) {
         pass.read(picture);
     }
+    // Always bound, but not read where not needed.
+    const auto depthOr = [&](gpu::Image given) {
+        return given ? given : f.image("no_depth", VK_FORMAT_R32_SFLOAT, uvec2(1));
+    };
+    pass.read("opaqueDepth", depthOr(content.opaqueDepth)).read("nearerDepth", depthOr(content.nearerDepth));
     pass.constant("clipped", clipped ? 1U : 0U)
         .constant("usedSlots", list.textureSlots)
+        .constant("surfaces", surfaces)
         .constant("bent", list.previousPositions != VK_NULL_HANDLE ? 1U : 0U)
         .color("outBaseColor", g.baseColor, zero)
         .color("outNormal", g.normal, zero)
@@ -41,9 +50,12 @@ GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view,
         .color("outMotion", g.motion, zero)
         .depth(g.depth, 0.0F)
         .vertices(vertexLayout(), list.materialLayout)
-        .params(GBufferParams{view, settings, clipPlane})
+        .params(GBufferParams{view, settings, clipPlane, content.blendedFrom})
         .draw([&](const gpu::DrawCommands& to) {
-            const auto keep = [&](const Draw& draw) { return !clipped || isInFront(draw.boundsW, clipPlane); };
+            const auto keep = [&](const Draw& draw) {
+                const bool drawn = blended ? draw.blended : draw.alpha >= content.blendedFrom;
+                return drawn && (!clipped || isInFront(draw.boundsW, clipPlane));
+            };
             recordDraws(to, list, {keep, Cull::back, true, view.worldToClip}, true);
         });
     return g;

@@ -5,9 +5,12 @@
 
 layout(constant_id = 0) const uint clipped = 0u;
 layout(constant_id = 2) const uint usedSlots = 31u;
+layout(constant_id = 3) const uint surfaces = surfacesOpaque;
 #include "render/material.glsl"
 
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { GBufferParams params; };
+layout(set = 0, binding = 1) uniform sampler2D opaqueDepth;
+layout(set = 0, binding = 2) uniform sampler2D nearerDepth;
 
 layout(location = 0) in vec3 normalW;
 layout(location = 1) in vec4 tangentW;
@@ -47,6 +50,19 @@ vec3 shadingNormal() {
     return gl_FrontFacing ? n : -n;
 }
 
+// Whether a blended surface belongs to what is drawn.
+bool isInLayer(float alpha) {
+    if (surfaces == surfacesOpaque) {
+        return alpha >= params.blendedFrom;
+    }
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    bool seen = gl_FragCoord.z >= texelFetch(opaqueDepth, pixel, 0).r * (1.0 - peelTolerance);
+    if (surfaces == surfacesBehind) {
+        seen = seen && gl_FragCoord.z < texelFetch(nearerDepth, pixel, 0).r * (1.0 - peelTolerance);
+    }
+    return seen && isTranslucent(alpha);
+}
+
 void main() {
     vec3 n = shadingNormal();
     uint packedGeometric = packUnitVector(geometricNormal(n));  // derivatives must be taken before any discard
@@ -55,7 +71,8 @@ void main() {
         discard;
     }
     vec4 baseColor;
-    if (!materialBaseColor(uv.xy, uv.zw, vertexColor, baseColor)) {
+    bool kept = materialBaseColor(uv.xy, uv.zw, vertexColor, baseColor);
+    if (!(material.blended != 0u ? isInLayer(baseColor.a) : kept)) {
         discard;
     }
     vec2 roughnessMetallic = vec2(material.roughness, material.metallic);
@@ -77,5 +94,6 @@ void main() {
     outNormal = packUnitVector(n);
     outGeometricNormal = packedGeometric;
     outMaterial = vec4(roughnessMetallic, occlusion, float(flags) / 255.0);
-    outMotion = vec4(0.5 * (clipNow.xy / clipNow.z - clipBefore.xy / clipBefore.z), clipBefore.w, 0.0);
+    outMotion = vec4(0.5 * (clipNow.xy / clipNow.z - clipBefore.xy / clipBefore.z), clipBefore.w,
+                     surfaces == surfacesOpaque ? 0.0 : baseColor.a);
 }

@@ -21,10 +21,16 @@ SETTINGS(MaterialsSettings, MATERIALS_SETTINGS)
 // Bits of the material image's alpha.
 const uint materialFlagLambert = 1;
 
+// What is drawn, as the specialization constant `surfaces`.
+const uint surfacesOpaque = 0;   // and blended ones from an alpha of blendedFrom on
+const uint surfacesNearest = 1;  // the nearest translucent ones in front of the opaque ones
+const uint surfacesBehind = 2;   // the next ones, behind those of another layer
+
 struct GBufferParams {
     ViewParams view;
     MaterialsSettings settings;
-    vec4 clipPlane;  // world space: only geometry in front of it, dot(clipPlane, (p, 1)) > 0, is drawn
+    vec4 clipPlane;     // world space: only geometry in front of it, dot(clipPlane, (p, 1)) > 0, is drawn
+    float blendedFrom;  // alpha from which blended surfaces are drawn with the opaque ones
 };
 
 SHARED_END
@@ -33,6 +39,7 @@ SHARED_END
 
 #include "gpu/frame.h"
 #include "render/draw_list.h"
+#include "render/material.h"
 
 namespace reflet {
 
@@ -48,14 +55,23 @@ struct GBuffer {
     gpu::Image material;   ///< RGBA8: perceptual roughness, metallic, occlusion, flags / 255
     gpu::Image emissive;   ///< B10G11R11: emitted radiance
     gpu::Image motion;     ///< RGBA16F: uv now minus uv last frame; the surface's own motion away from the camera along
-                           ///< its axis [m], exactly 0 at rest; 0
+                           ///< its axis [m], exactly 0 at rest; alpha of blended surfaces, else 0
 };
 
-/// Draws the list for the view: reversed Z, back faces of single-sided draws culled. clipPlane: as in GBufferParams;
-/// zero: none. Clipping is done per pixel, because an oblique near plane (Lengyel, Oblique View Frustum Depth
-/// Projection and Clipping, 2005) would distort depth, and ray marching relies on distance = near / depth.
+/// What of the draw list a G-buffer holds.
+struct GBufferContent {
+    vec4 clipPlane{0.0F};             ///< as in GBufferParams; zero: none
+    float blendedFrom = opaqueAlpha;  ///< alpha from which blended surfaces count as opaque
+    gpu::Image opaqueDepth{};         ///< given: translucent surfaces in front of this; none: opaque surfaces
+    gpu::Image nearerDepth{};         ///< given: of those the nearest ones behind this; none: the nearest ones
+};
+
+/// Draws the list for the view: reversed Z, back faces of single-sided draws culled. Layers of blended surfaces are
+/// found by depth peeling (C. Everitt, Interactive Order-Independent Transparency, 2001). Clipping is done per pixel,
+/// because an oblique near plane (Lengyel, Oblique View Frustum Depth Projection and Clipping, 2005) would distort
+/// depth, and ray marching relies on distance = near / depth.
 GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view, const MaterialsSettings& settings,
-                    const vec4& clipPlane = vec4(0.0F));
+                    const GBufferContent& content = {});
 
 }  // namespace reflet
 #endif

@@ -39,6 +39,7 @@ ProbeBlock blockOf(std::span<const Probe> probes) {
 Settings captureSettings(const Settings& settings) {
     Settings s = settings;
     s.depth = {};
+    s.blend.layers = 0;
     s.contact.distance = 0.0F;
     s.traceScreen.method = TraceMethod::linear;  // no pyramid
     s.traceScreen.thicknessMode = ThicknessMode::constant;

@@ -13,37 +13,48 @@ namespace {
 struct SunMapContents {
     uint64_t draws;
     SunShadowParams sun;
-    uint32_t resolution;
+    uint16_t resolution;
+    uint16_t opaqueOnly;
 };
 static_assert(sizeof(SunMapContents) == sizeof(SunShadowParams) + 12, "padding would differ at random");
 
-// Whether the cached image is still valid.
-bool holds(gpu::Frame& f, gpu::Image image, const DrawList& list, const SunShadowParams& sun,
-           const ShadowSettings& settings) {
-    return list.version != 0 &&
-           f.holds(image, SunMapContents{.draws = list.version, .sun = sun, .resolution = settings.resolution});
-}
-
 }  // namespace
 
+bool holdsSunMap(gpu::Frame& f, gpu::Image image, const DrawList& list, const SunShadowParams& sun,
+                 const ShadowSettings& settings, bool opaqueOnly) {
+    return list.version != 0 && f.holds(image, SunMapContents{.draws = list.version,
+                                                              .sun = sun,
+                                                              .resolution = uint16_t(settings.resolution),
+                                                              .opaqueOnly = uint16_t(opaqueOnly ? 1 : 0)});
+}
+
+uvec2 sunMapSize(const SunShadowParams& sun, const ShadowSettings& settings) {
+    return uvec2(sun.count > 1 ? 2 : 1, sun.count > 2 ? 2 : 1) * settings.resolution;
+}
+
+void recordSunMap(const gpu::DrawCommands& to, const DrawList& list, const SunShadowParams& sun,
+                  const ShadowSettings& settings, const std::function<bool(const Draw&)>& keep, bool bindMaterials) {
+    for (uint i = 0; i < sun.count; ++i) {
+        drawIntoTile(to, uvec2(i % 2, i / 2), settings.resolution);
+        recordDraws(to, list,
+                    {.keep = keep,
+                     .cull = Cull::none,
+                     .bindMaterials = bindMaterials,
+                     .worldToClip = sun.maps[i].worldToShadow,
+                     .instance = i},
+                    false);
+    }
+}
+
 gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const SunShadowParams& sun,
-                         const ShadowSettings& settings) {
-    const uvec2 tiles(sun.count > 1 ? 2 : 1, sun.count > 2 ? 2 : 1);
-    const gpu::Image depth = f.target("shadow_map", VK_FORMAT_D32_SFLOAT, tiles * settings.resolution);
-    if (holds(f, depth, list, sun, settings)) {
+                         const ShadowSettings& settings, bool opaqueOnly) {
+    const gpu::Image depth = f.target("shadow_map", VK_FORMAT_D32_SFLOAT, sunMapSize(sun, settings));
+    if (holdsSunMap(f, depth, list, sun, settings, opaqueOnly)) {
         return depth;
     }
     const auto record = [&](const gpu::DrawCommands& to, bool masked) {
-        for (uint i = 0; i < sun.count; ++i) {
-            drawIntoTile(to, uvec2(i % 2, i / 2), settings.resolution);
-            recordDraws(to, list,
-                        {.keep = [masked](const Draw& d) { return d.masked == masked; },
-                         .cull = Cull::none,
-                         .bindMaterials = masked,
-                         .worldToClip = sun.maps[i].worldToShadow,
-                         .instance = i},
-                        false);
-        }
+        const auto keep = [masked](const Draw& d) { return d.masked == masked; };
+        recordSunMap(to, list, sun, settings, keep, masked);
     };
     // Opaque draws need no fragment shader; cut-out draws test alpha.
     f.raster("shadow_map", {"shadow_map.vert"})
@@ -55,16 +66,17 @@ gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const SunShadowPar
         .depth(depth, std::nullopt)
         .vertices(vertexLayout(), list.materialLayout)
         .params(sun)
+        .constant("opaqueOnly", opaqueOnly ? 1U : 0U)
         .draw([&](const gpu::DrawCommands& to) { record(to, true); });
     return depth;
 }
 
 gpu::Image makeShadowRange(gpu::Frame& f, gpu::Image shadowMap, const DrawList& list, const SunShadowParams& sun,
-                           const ShadowSettings& settings) {
+                           const ShadowSettings& settings, bool opaqueOnly) {
     const uvec2 cells = levelSize(shadowMap.size, 2);  // of 4 texels each: the size of level 0
     const gpu::Image range =
         f.image("shadow_range", VK_FORMAT_R32G32_SFLOAT, levelsImageSize(cells, shadowRangeLevels));
-    if (holds(f, range, list, sun, settings)) {
+    if (holdsSunMap(f, range, list, sun, settings, opaqueOnly)) {
         return range;
     }
     for (uint32_t level = 1; level < shadowRangeLevels; ++level) {

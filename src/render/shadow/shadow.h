@@ -159,14 +159,22 @@ SunShadowParams fitCascades(const ViewParams& view, const Aabb& sceneBounds, con
 ShadowMapParams centredSunShadow(const Aabb& sceneBounds, const vec3& direction, float extent, uint resolution);
 
 /// Draws depth from the sun, both sides of every surface: D32, reversed (1 nearest to the sun). A tile per cascade:
-/// 1x1, 2x1 or 2x2.
+/// 1x1, 2x1 or 2x2. opaqueOnly: of blended surfaces only what is opaque; else what has an alpha of blendCutoff.
 gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const SunShadowParams& sun,
-                         const ShadowSettings& settings);
+                         const ShadowSettings& settings, bool opaqueOnly = false);
+
+/// What another map of the same size needs: its size, whether a cached one is still valid, its draws.
+uvec2 sunMapSize(const SunShadowParams& sun, const ShadowSettings& settings);
+bool holdsSunMap(gpu::Frame& f, gpu::Image image, const DrawList& list, const SunShadowParams& sun,
+                 const ShadowSettings& settings, bool opaqueOnly = false);
+void recordSunMap(const gpu::DrawCommands& to, const DrawList& list, const SunShadowParams& sun,
+                  const ShadowSettings& settings, const std::function<bool(const Draw&)>& keep,
+                  bool bindMaterials = true);
 
 /// Min/max pyramid of the map, RG32F: the largest (nearest to the sun) and the smallest depth of each cell. list, sun,
-/// settings: as for drawShadowMap; reused whenever the map is.
+/// settings, opaqueOnly: as for drawShadowMap; reused whenever the map is.
 gpu::Image makeShadowRange(gpu::Frame& f, gpu::Image shadowMap, const DrawList& list, const SunShadowParams& sun,
-                           const ShadowSettings& settings);
+                           const ShadowSettings& settings, bool opaqueOnly = false);
 
 /// Result of the shadow map lookup.
 struct SunVisibility {

@@ -4,12 +4,18 @@
 const uint usedSlots = 1u;  // the colour, for its alpha
 #include "render/material.glsl"
 
+layout(constant_id = 0) const uint opaqueOnly = 0u;  // 1: of blended surfaces only what is opaque
+
 layout(location = 0) in vec4 uv;
 layout(location = 1) in vec4 vertexColor;
 
 void main() {
     vec4 color;
-    if (!materialBaseColor(uv.xy, uv.zw, vertexColor, color)) {
+    bool kept = materialBaseColor(uv.xy, uv.zw, vertexColor, color);
+    if (opaqueOnly != 0u && material.blended != 0u) {
+        kept = color.a >= opaqueAlpha;
+    }
+    if (!kept) {
         discard;
     }
 }

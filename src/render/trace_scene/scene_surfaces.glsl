@@ -6,6 +6,7 @@
 
 #include "render/trace_scene/scene_materials.h"
 #include "render/trace_scene/scene_triangles.glsl"
+#include "shaders/noise.glsl"
 
 // VertexAttributes (scene/scene.h); color: four 16-bit parts of 1.
 struct SceneVertex {
@@ -105,7 +106,13 @@ vec4 sceneBaseColor(ScenePlace place) {
 const bool testEveryHit = false;
 bool acceptHit(uint triangle, vec2 barycentrics, vec3 direction) {
     ScenePlace place = scenePlace(loadSceneTriangle(triangle), barycentrics);
-    return sceneBaseColor(place).a >= sceneMaterials.items[place.material].params.alphaCutoff;
+    float alpha = sceneBaseColor(place).a;
+    if (sceneMaterials.items[place.material].params.blended != 0u) {
+        // Stochastic transparency (E. Enderton et al., 2010): the mean over many rays is the light through the surface.
+        uvec3 bits = floatBitsToUint(vec3(barycentrics, direction.x));
+        return hashToUnit(hashPcg(bits.x + hashPcg(bits.y + hashPcg(bits.z + hashPcg(triangle))))) < alpha;
+    }
+    return alpha >= sceneMaterials.items[place.material].params.alphaCutoff;
 }
 
 struct SceneSurface {

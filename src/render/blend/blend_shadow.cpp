@@ -1,0 +1,53 @@
+// Records the shadows of blended surfaces.
+#include "render/blend/blend_shadow.h"
+
+#include <string>
+
+namespace reflet {
+
+BlendShadowMaps drawBlendShadowMaps(gpu::Frame& f, const DrawList& list, const SunShadowParams& sun,
+                                    const ShadowSettings& settings) {
+    const uvec2 size = sunMapSize(sun, settings);
+    const VkClearColorValue all{{1, 1, 1, 1}};
+    BlendShadowMaps maps;
+    for (uint32_t layer = 0; layer < blendShadowLayers; ++layer) {
+        const std::string name = "blend_shadow_map." + std::to_string(layer);
+        BlendShadowMap& map = maps.at(layer);
+        map = {f.target(name + ".depth", VK_FORMAT_D32_SFLOAT, size),
+               f.target(name + ".transmittance", VK_FORMAT_R8_UNORM, size)};
+        if (holdsSunMap(f, map.depth, list, sun, settings)) {
+            continue;
+        }
+        f.raster(name, {"shadow_map_masked.vert", "blend_shadow_map.frag"})
+            .read("nearerDepth", layer > 0 ? maps.front().depth : f.image("no_depth", VK_FORMAT_R32_SFLOAT, uvec2(1)))
+            .constant("peeled", layer)
+            .color("transmittance", map.transmittance, all)
+            .depth(map.depth, 0.0F)
+            .vertices(vertexLayout(), list.materialLayout)
+            .params(sun)
+            .draw([&](const gpu::DrawCommands& to) {
+                recordSunMap(to, list, sun, settings, [](const Draw& d) { return d.blended; });
+            });
+    }
+    return maps;
+}
+
+gpu::Image blendShadow(gpu::Frame& f, const GBuffer& g, const BlendShadowMaps& maps, gpu::Image sunVisibility,
+                       const BlendShadowParams& params) {
+    const gpu::Image visibility = f.image("blend_visibility", VK_FORMAT_R8_UNORM, g.depth.size);
+    f.compute("blend_shadow", "blend_shadow.comp")
+        .read("depth", g.depth)
+        .read("geometricNormal", g.geometricNormal)
+        .read("sunVisibility", sunVisibility)
+        .read("depth0", maps[0].depth)
+        .read("depth1", maps[1].depth)
+        .read("transmittance0", maps[0].transmittance)
+        .read("transmittance1", maps[1].transmittance)
+        .write("visibility", visibility)
+        .constant("cascades", params.sun.count)
+        .params(params)
+        .dispatch(visibility.size);
+    return visibility;
+}
+
+}  // namespace reflet
