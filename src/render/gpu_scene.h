@@ -31,8 +31,8 @@ public:
     /// draws the scene may be in flight.
     void setTextureFilter(uint32_t anisotropy, bool mips);
 
-    /// Sets the current and the previous pose of draws, lamps and live cameras. Skinned vertices follow with skin(). No
-    /// frame that draws the scene may be in flight.
+    /// Sets the current and the previous pose of draws, lamps and live cameras. Deformed vertices follow with skin().
+    /// No frame that draws the scene may be in flight.
     void pose(const Scene& scene, const ScenePose& now, const ScenePose& before);
     /// Records the skinning pass for the pose set by pose().
     void skin(gpu::Frame& f) const;
@@ -82,15 +82,15 @@ private:
     void writeMaterialSet(const MaterialBinding& binding);
 
     gpu::Device& device_;
-    gpu::Buffer positions_;          ///< of meshes, then of skinned instances
-    gpu::Buffer previousPositions_;  ///< same count; none without skins
+    gpu::Buffer positions_;          ///< of meshes, then of deformed instances
+    gpu::Buffer previousPositions_;  ///< same count; none without deformed instances
     gpu::Buffer attributes_;         ///< same count
     gpu::Buffer indices_;
     gpu::Buffer materials_;
     std::vector<MeshRange> ranges_;
     SkinnedVertices skinned_;
-    std::map<size_t, int32_t> skinnedFirst_;                     ///< first vertex of a skinned instance
-    std::map<size_t, std::vector<Aabb>> skinnedBounds_;          ///< by joint, of a skinned instance
+    std::map<size_t, int32_t> skinnedFirst_;                     ///< first vertex of a deformed instance
+    std::map<size_t, std::vector<Aabb>> skinnedBounds_;          ///< by joint, of a deformed instance
     std::map<std::pair<int32_t, bool>, gpu::Texture> textures_;  ///< by image and sRGB
     VkDescriptorSetLayout materialLayout_ = VK_NULL_HANDLE;
     VkDescriptorPool materialPool_ = VK_NULL_HANDLE;

@@ -1,22 +1,23 @@
-// Animated poses of the scene's draws, lamps and skinned meshes.
+// Animated poses of the scene's draws, lamps and deformed meshes.
 #include "render/gpu_scene.h"
 
 #include <algorithm>
 
 namespace reflet {
 
-// Each skinned instance has its own vertices, after those of all meshes.
+// Each deformed instance has its own vertices, after those of all meshes.
 void GpuScene::addSkinned(const Scene& scene, std::vector<vec3>& positions, std::vector<VertexAttributes>& attributes) {
     const auto first = static_cast<uint32_t>(positions.size());
     for (size_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
-        if (instance.skin < 0) {
+        if (!isDeformed(instance)) {
             continue;
         }
         const Mesh& mesh = scene.meshes.at(instance.mesh);
         skinnedFirst_[i] = static_cast<int32_t>(positions.size());
-        skinnedBounds_[i] = jointBounds(mesh, scene.skins[static_cast<size_t>(instance.skin)].joints.size());
-        skinned_.add(scene, instance, static_cast<uint32_t>(ranges_[instance.mesh].firstVertex));
+        const size_t joints = instance.skin < 0 ? 0 : scene.skins[static_cast<size_t>(instance.skin)].joints.size();
+        skinnedBounds_[i] = jointBounds(mesh, joints);
+        skinned_.add(scene, i, static_cast<uint32_t>(ranges_[instance.mesh].firstVertex));
         positions.insert(positions.end(), mesh.positions.begin(), mesh.positions.end());
         attributes.insert(attributes.end(), mesh.attributes.begin(), mesh.attributes.end());
     }
@@ -33,12 +34,12 @@ void GpuScene::pose(const Scene& scene, const ScenePose& now, const ScenePose& b
         const Instance& instance = scene.instances[i];
         Draw& draw = draws_.draws[i];
         if (isAnimated(now, instance)) {
-            const bool skinned = instance.skin >= 0;
+            const bool deformed = isDeformed(instance);
             draw.objectToWorld = now.objectToWorld[i];
             draw.previousObjectToWorld = before.objectToWorld[i];
-            draw.boundsW = instanceBounds(scene, now, i, skinned ? skinnedBounds_.at(i) : std::vector<Aabb>{});
-            draw.firstVertex = skinned ? skinnedFirst_.at(i) : draw.firstVertex;
-            draw.turnedOver = skinned && flipsWinding(now.skins[static_cast<size_t>(instance.skin)]);
+            draw.boundsW = instanceBounds(scene, now, i, deformed ? skinnedBounds_.at(i) : std::vector<Aabb>{});
+            draw.firstVertex = deformed ? skinnedFirst_.at(i) : draw.firstVertex;
+            draw.turnedOver = instance.skin >= 0 && flipsWinding(now.skins[static_cast<size_t>(instance.skin)]);
         }
         draws_.boundsW.add(draw.boundsW);
     }

@@ -1,5 +1,5 @@
-// Animation data of a scene: nodes, keyframes and skins. scene/pose.h evaluates them at a time.
-// After: Khronos, glTF 2.0 Specification, 2021, sections 3.5, 3.7.3 and 3.11.
+// Animation data of a scene: nodes, keyframes, skins and morph targets. scene/pose.h evaluates them at a time.
+// After: Khronos, glTF 2.0 Specification, 2021, sections 3.5, 3.7.2.2, 3.7.3 and 3.11.
 #pragma once
 
 #include "base/math.h"
@@ -24,7 +24,7 @@ enum class Interpolation : uint8_t { step, linear, cubicSpline };
 
 /// Keyframes of one property of one node. The value is constant before the first and after the last key.
 struct Channel {
-    enum class Target : uint8_t { translation, rotation, scale };
+    enum class Target : uint8_t { translation, rotation, scale, weights };
 
     uint32_t node = 0;
     Target target = Target::translation;
@@ -32,6 +32,8 @@ struct Channel {
     std::vector<float> times;  ///< seconds, not negative, ascending; at least one
     /// One for each time; cubicSpline: three (in-tangent, value, out-tangent). Rotations: unit quaternions x, y, z, w.
     std::vector<vec4> values;
+    /// Target::weights, instead of `values`: in place of each of them, one number per morph target of the node's mesh.
+    std::vector<float> weights;
 };
 
 struct Animation {
@@ -49,6 +51,27 @@ struct Skin {
 struct VertexSkin {
     glm::u16vec4 joints{0};  ///< of the skin
     vec4 weights{1, 0, 0, 0};
+};
+
+/// What one morph target adds to a vertex at weight 1, in object space.
+struct MorphDelta {
+    uint32_t target = 0;
+    vec3 position{0.0F};
+    vec3 normal{0.0F};
+    vec3 tangent{0.0F};
+};
+
+/// The morph targets of a mesh: a vertex is where it is plus the weighted sum of its deltas. Targets that leave a
+/// vertex alone have no delta there, and vertices may share deltas.
+struct Morph {
+    struct Range {
+        uint32_t first = 0;  ///< index into `deltas`
+        uint32_t count = 0;
+    };
+
+    std::vector<Range> vertices;  ///< one per position; empty: the mesh has no morph targets
+    std::vector<MorphDelta> deltas;
+    std::vector<Aabb> targets;  ///< per target: a box that holds its position deltas and 0
 };
 
 }  // namespace reflet

@@ -18,9 +18,8 @@ struct GltfOptions {
 
 /// Loads the file and everything it refers to. Throws Error with one line that names the file and the invalid part;
 /// never crashes or hangs on any input. URIs that leave the file's folder are refused.
-/// Supported: KHR_mesh_quantization, KHR_draco_mesh_compression, KHR_texture_transform, KHR_lights_punctual and
-/// KHR_materials_emissive_strength; animations of translation, rotation and scale; skins with four joints per vertex.
-/// Morph targets are ignored with a warning. An unsupported extension is an error if it is required, else a warning.
+/// Supported: the extensions in knownExtensions (gltf_schema_tables.h); animations of translation, rotation, scale and
+/// morph weights; skins with four joints per vertex; PNG, JPEG, WebP and KTX 2 without Basis. An unsupported extension is an error if it is required, else a warning.
 Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options = {});
 
 }  // namespace reflet

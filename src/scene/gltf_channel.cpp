@@ -13,6 +13,7 @@ std::optional<Channel::Target> targetOf(const std::string& path) {
     return path == "translation" ? std::optional(Channel::Target::translation)
            : path == "rotation"  ? std::optional(Channel::Target::rotation)
            : path == "scale"     ? std::optional(Channel::Target::scale)
+           : path == "weights"   ? std::optional(Channel::Target::weights)
                                  : std::nullopt;
 }
 
@@ -43,6 +44,37 @@ std::vector<float> readTimes(const GltfDocument& document, int input, GltfReport
         times.push_back(time);
     }
     return times;
+}
+
+void checkComponents(const AccessorView& view, Channel::Target target, const std::string& part,
+                     const GltfReport& report) {
+    struct Rule {
+        const char* name;
+        int components;
+    };
+    const Rule rule = target == Channel::Target::rotation  ? Rule{"rotation", 4}
+                      : target == Channel::Target::weights ? Rule{"weight", 1}
+                      : target == Channel::Target::scale   ? Rule{"scale", 3}
+                                                           : Rule{"translation", 3};
+    if (view.components != rule.components) {
+        report.fail(part, "has {} components, but a {} has {}", view.components, rule.name, rule.components);
+    }
+}
+
+void readValues(Channel& channel, const AccessorView& view, const std::string& part, GltfReport& report) {
+    const bool weights = channel.target == Channel::Target::weights;
+    report.charge(part, uint64_t(view.count) * (weights ? sizeof(float) : sizeof(vec4)));
+    for (uint32_t i = 0; i < view.count; ++i) {
+        const vec4 value = view.at(i);
+        if (!isFinite(value)) {
+            report.fail(part, "value {} is not finite", i);
+        }
+        if (weights) {
+            channel.weights.push_back(value.x);
+        } else {
+            channel.values.push_back(value);
+        }
+    }
 }
 
 // Normalizes rotations, but not the tangents of splines, which may have any length.
@@ -79,24 +111,15 @@ std::optional<Channel> readGltfChannel(const GltfDocument& document, const GltfC
     channel.times = readTimes(document, sampler.input, report);
     const std::string part = fmt::format("accessors[{}]", sampler.output);
     const AccessorView view = viewAccessor(document, sampler.output, report);
-    const bool rotation = *target == Channel::Target::rotation;
-    const uint32_t each = channel.interpolation == Interpolation::cubicSpline ? 3 : 1;
-    if (view.components != (rotation ? 4 : 3)) {
-        report.fail(part, "has {} components, but a {} has {}", view.components, source.channel.target_path,
-                    rotation ? 4 : 3);
-    }
-    if (view.count != uint64_t(each) * channel.times.size()) {
+    checkComponents(view, *target, part, report);
+    const uint64_t each = (channel.interpolation == Interpolation::cubicSpline ? 3 : 1) *
+                          (*target == Channel::Target::weights ? source.morphTargets : 1);
+    if (view.count != each * channel.times.size()) {
         report.fail(part, "has {} elements for {} keyframes, must have {} for each", view.count, channel.times.size(),
                     each);
     }
-    report.charge(part, uint64_t(view.count) * sizeof(vec4));
-    for (uint32_t i = 0; i < view.count; ++i) {
-        channel.values.push_back(view.at(i));
-        if (!isFinite(channel.values.back())) {
-            report.fail(part, "value {} is not finite", i);
-        }
-    }
-    if (rotation) {
+    readValues(channel, view, part, report);
+    if (*target == Channel::Target::rotation) {
         makeUnit(channel, part, report);
     }
     return channel;

@@ -12,7 +12,8 @@ namespace reflet {
 struct GltfChannelSource {
     const tinygltf::Animation& animation;
     const tinygltf::AnimationChannel& channel;
-    std::string part;  ///< JSON path of the channel
+    std::string part;         ///< JSON path of the channel
+    size_t morphTargets = 0;  ///< of the node's mesh
 };
 
 /// The node is left for the caller to set. nullopt, with a warning, if the property is not supported. Throws Error.

@@ -6,6 +6,7 @@
 
 #include "base/json_text.h"
 #include "scene/gltf_container.h"
+#include "scene/gltf_meshopt.h"
 #include "scene/gltf_schema.h"
 #include "scene/gltf_uri.h"
 
@@ -44,7 +45,7 @@ struct UnsupportedExtension {
     std::string_view name;
     std::string_view consequence;
 };
-constexpr std::array<UnsupportedExtension, 10> unsupportedExtensions{
+constexpr std::array<UnsupportedExtension, 9> unsupportedExtensions{
     {{"KHR_materials_transmission", "glass will be drawn opaque"},
      {"KHR_materials_diffuse_transmission", "translucent surfaces will be drawn opaque"},
      {"KHR_materials_clearcoat", "clear coats will be missing"},
@@ -53,8 +54,7 @@ constexpr std::array<UnsupportedExtension, 10> unsupportedExtensions{
      {"KHR_materials_anisotropy", "anisotropic highlights will be drawn isotropic"},
      {"KHR_materials_specular", "dielectrics will reflect 4 % at normal incidence"},
      {"KHR_materials_ior", "dielectrics will reflect 4 % at normal incidence"},
-     {"KHR_materials_unlit", "unlit materials will be lit"},
-     {"EXT_mesh_gpu_instancing", "one copy of each instanced mesh will be drawn"}}};
+     {"KHR_materials_unlit", "unlit materials will be lit"}}};
 
 /// How the rendered image differs from what the file asks for.
 std::string_view consequenceOf(std::string_view extension) {
@@ -167,7 +167,9 @@ void readBuffers(const json& document, GltfContainer& container, GltfDocument& r
     for (const json& buffer : arrayOf(document, "buffers")) {
         const std::string part = fmt::format("buffers[{}]", i++);
         tinygltf::Buffer read;
-        read.data = readBuffer(buffer, part, container, result.folder, report);
+        if (!isMeshoptFallback(buffer)) {
+            read.data = readBuffer(buffer, part, container, result.folder, report);
+        }
         report.charge(part, read.data.size());
         result.model.buffers.push_back(std::move(read));
     }
@@ -196,6 +198,7 @@ GltfDocument readGltfDocument(const std::filesystem::path& path, GltfReport& rep
     checkVariants(document, report);
     result.model = parseStructure(document, report);
     readBuffers(document, container, result, report);
+    decodeMeshopt(document, result.model, report);
     listImages(document, result);
     checkGltfBuffers(result.model, report);
     checkGltfNodes(result, report);

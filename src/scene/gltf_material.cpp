@@ -110,12 +110,11 @@ TextureSlot GltfMaterials::slot(int texture, int uvSet, const tinygltf::Extensio
         return result;
     }
     const tinygltf::Texture& source = document_.model.textures[static_cast<size_t>(texture)];
-    if (source.source < 0) {
-        const std::string here = fmt::format("textures[{}]", texture);
-        report_.warn("no image", here, "the texture will be ignored: it has no source image");
+    const int image = imageOf(source, fmt::format("textures[{}]", texture));
+    if (image < 0) {
         return result;
     }
-    result.image = useImage(source.source);
+    result.image = useImage(image);
     result.sampler = useSampler(source.sampler);
     setUvSet(result, uvSet, part);
     const auto transform = extensions.find("KHR_texture_transform");
@@ -123,6 +122,29 @@ TextureSlot GltfMaterials::slot(int texture, int uvSet, const tinygltf::Extensio
         transformUv(result, transform->second, part);
     }
     return result;
+}
+
+int GltfMaterials::imageOf(const tinygltf::Texture& texture, const std::string& part) {
+    const auto sourceOf = [&](const char* extension) {
+        const auto found = texture.extensions.find(extension);
+        return found != texture.extensions.end() ? found->second.Get("source").GetNumberAsInt() : -1;
+    };
+    if (const int webp = sourceOf("EXT_texture_webp"); webp >= 0) {
+        return webp;
+    }
+    const int ktx = sourceOf("KHR_texture_basisu");
+    if (ktx >= 0 && !gltfImageIsBasis(document_, static_cast<size_t>(ktx), report_)) {
+        return ktx;
+    }
+    if (texture.source < 0 && ktx >= 0) {
+        report_.warn("basis", part,
+                     "the texture will be missing: images[{}] is compressed with Basis Universal, which is not "
+                     "supported; convert it, for example with \"ktx transcode --target rgba8\"",
+                     ktx);
+    } else if (texture.source < 0) {
+        report_.warn("no image", part, "the texture will be ignored: it has no source image");
+    }
+    return texture.source;
 }
 
 void GltfMaterials::setUvSet(TextureSlot& slot, int uvSet, const std::string& part) {

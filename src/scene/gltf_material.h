@@ -22,6 +22,8 @@ private:
     TextureSlot slot(int texture, int uvSet, const tinygltf::ExtensionMap& extensions, const std::string& part);
     void transformUv(TextureSlot& slot, const tinygltf::Value& transform, const std::string& part);
     int32_t useImage(int image);
+    /// Index of the file's image that the texture shows; < 0, with a warning: none that can be decoded.
+    int imageOf(const tinygltf::Texture& texture, const std::string& part);
     int32_t useSampler(int sampler);
     void setUvSet(TextureSlot& slot, int uvSet, const std::string& part);
 

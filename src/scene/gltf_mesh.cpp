@@ -1,6 +1,7 @@
 // Converts primitives of a glTF file to meshes.
 #include "scene/gltf_mesh.h"
 
+#include "scene/gltf_morph.h"
 #include "scene/gltf_normals.h"
 #include "scene/gltf_primitive.h"
 
@@ -132,6 +133,7 @@ void completeFrames(Mesh& mesh, const PrimitiveSource& source, const TextureSlot
     if (flat) {
         report.charge(part, mesh.indices.size() * vertexBytes);
         makeFlat(mesh);
+        makeMorphFlat(mesh, part, report);
     } else if (const size_t broken = repairNormals(mesh); broken > 0) {
         report.warn("normals", part + ".attributes.NORMAL",
                     "{} vertices will get the normals of their triangles: theirs have no direction", broken);
@@ -173,10 +175,6 @@ void GltfMeshes::loadPrimitive(size_t mesh, size_t primitive) {
         report_.warn("no position", part + ".attributes", "the primitive will not be drawn: it has no POSITION");
         return;
     }
-    if (!source.targets.empty()) {
-        report_.warn("morph targets", part + ".targets",
-                     "the mesh will keep its base shape: morph targets are not supported");
-    }
     if (source.attributes.contains("JOINTS_1")) {
         report_.warn("joints", part + ".attributes.JOINTS_1",
                      "vertices will follow their first four joints only: more are not supported");
@@ -190,6 +188,7 @@ void GltfMeshes::loadPrimitive(size_t mesh, size_t primitive) {
     readPositions(result, opened, used, part, report_);
     readAttributes(result, opened, used);
     readSkin(result, opened, used);
+    readGltfMorph(result, document_, source, opened, used, part, report_);
     result.indices = std::move(opened.triangles);
     completeFrames(result, opened, scene_.materials[result.material].normalTexture, part, report_);
     meshes_[mesh].push_back(static_cast<uint32_t>(scene_.meshes.size()));

@@ -3,6 +3,7 @@
 
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_channel.h"
+#include "scene/gltf_morph.h"
 
 #include <algorithm>
 #include <cmath>
@@ -86,18 +87,7 @@ void GltfMotion::readAnimation(size_t index) {
         if (channel.target_node < 0) {
             continue;  // the target is defined by an extension
         }
-        if (channel.target_path == "weights") {
-            report_.warn("weights", part + ".target.path",
-                         "the channel will be ignored: morph targets are not supported");
-            continue;
-        }
-        if (!document_.model.nodes[static_cast<size_t>(channel.target_node)].matrix.empty()) {
-            report_.warn("animated matrix", part + ".target.node",
-                         "nodes[{}] will not be animated: it has a matrix instead of translation, rotation and scale",
-                         channel.target_node);
-            continue;
-        }
-        if (auto read = readGltfChannel(document_, {source, channel, part}, report_)) {
+        if (auto read = readChannel(source, channel, part)) {
             read->node = static_cast<uint32_t>(node(channel.target_node));
             animation.channels.push_back(std::move(*read));
         }
@@ -105,6 +95,28 @@ void GltfMotion::readAnimation(size_t index) {
     if (!animation.channels.empty()) {
         scene_.animations.push_back(std::move(animation));
     }
+}
+
+std::optional<Channel> GltfMotion::readChannel(const tinygltf::Animation& animation,
+                                               const tinygltf::AnimationChannel& channel, const std::string& part) {
+    const tinygltf::Node& target = document_.model.nodes[static_cast<size_t>(channel.target_node)];
+    const bool weights = channel.target_path == "weights";
+    const size_t morphTargets = weights && target.mesh >= 0 ? gltfMorphTargets(document_, target.mesh, report_) : 0;
+    if (weights && morphTargets == 0) {
+        report_.warn("weights without targets", part + ".target.node",
+                     "the channel will be ignored: nodes[{}] has no mesh with morph targets", channel.target_node);
+        return std::nullopt;
+    }
+    if (!weights && !target.matrix.empty()) {
+        report_.warn("animated matrix", part + ".target.node",
+                     "nodes[{}] will not be animated: it has a matrix instead of translation, rotation and scale",
+                     channel.target_node);
+        return std::nullopt;
+    }
+    if (weights) {
+        weighted_.insert(channel.target_node);
+    }
+    return readGltfChannel(document_, {animation, channel, part, morphTargets}, report_);
 }
 
 void GltfMotion::readSkin(size_t index) {

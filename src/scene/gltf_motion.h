@@ -4,6 +4,7 @@
 #include "scene/gltf_document.h"
 #include "scene/scene.h"
 
+#include <set>
 #include <vector>
 
 namespace reflet {
@@ -25,15 +26,22 @@ public:
     /// to a joint that the skin does not have. part: of the node.
     [[nodiscard]] int32_t skin(int index, uint32_t mesh, const std::string& part) const;
 
+    /// Whether a channel animates the morph weights of the file's node.
+    [[nodiscard]] bool animatesWeights(int index) const { return weighted_.contains(index); }
+
 private:
     void readNodes();
     void readAnimation(size_t index);
     void readSkin(size_t index);
+    /// nullopt, with a warning, if it cannot be played.
+    std::optional<Channel> readChannel(const tinygltf::Animation& animation, const tinygltf::AnimationChannel& channel,
+                                       const std::string& part);
 
     const GltfDocument& document_;
     Scene& scene_;
     GltfReport& report_;
     std::vector<int32_t> nodes_;  ///< from the file's index to the scene's
+    std::set<int> weighted_;      ///< the file's nodes with animated morph weights
 };
 
 }  // namespace reflet

@@ -1,16 +1,21 @@
 // Places instances, cameras, lamps and the sun by the nodes of a glTF scene.
 #include "scene/gltf_nodes.h"
 
+#include "scene/gltf_instancing.h"
+#include "scene/gltf_morph.h"
 #include "scene/gltf_motion.h"
+#include "scene/morph.h"
 #include "scene/pose.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace reflet {
 
 namespace {
 
+constexpr uint64_t posedVertexBytes = 2 * sizeof(vec3) + sizeof(VertexAttributes);
 constexpr float minNear = 1e-3F;  // metres; for orthographic cameras, whose znear may be 0 in glTF
 
 Camera placeCamera(const tinygltf::Camera& source, const mat4& toWorld, const std::string& part,
@@ -77,7 +82,7 @@ public:
             report_.fail(part, "its transform to the world is not finite");
         }
         if (node.mesh >= 0) {
-            addInstances(index, toWorld, part);
+            addCopies(index, exact, part);
         }
         if (node.camera >= 0) {
             const auto& camera = document_.model.cameras[static_cast<size_t>(node.camera)];
@@ -92,9 +97,26 @@ public:
     }
 
 private:
-    void addInstances(int index, const mat4& toWorld, const std::string& part) {
+    void addCopies(int index, const glm::dmat4& nodeToWorld, const std::string& part) {
         const tinygltf::Node& node = document_.model.nodes[static_cast<size_t>(index)];
-        for (const uint32_t mesh : meshes_.use(node.mesh)) {
+        for (const glm::dmat4& toNode : readGltfCopies(document_, node, part, report_)) {
+            const mat4 toWorld(nodeToWorld * toNode);
+            if (!isFinite(toWorld)) {
+                report_.fail(part, "the transform of an instance to the world is not finite");
+            }
+            addInstances(index, toWorld, mat4(toNode), part);
+            if (node.skin >= 0) {
+                break;  // joints alone place a skinned mesh: all copies would be in the same place
+            }
+        }
+    }
+
+    void addInstances(int index, const mat4& toWorld, const mat4& toNode, const std::string& part) {
+        const tinygltf::Node& node = document_.model.nodes[static_cast<size_t>(index)];
+        const std::vector<float> weights = gltfMorphWeights(document_, node, part, report_);
+        for (const uint32_t primitive : meshes_.use(node.mesh)) {
+            const bool animated = !weights.empty() && motion_.animatesWeights(index);
+            const uint32_t mesh = animated ? primitive : shaped(primitive, weights, part);
             const Aabb box = transformed(scene_.meshes[mesh].bounds, toWorld);
             if (!std::isfinite(glm::length(glm::dvec3(box.min) - glm::dvec3(box.max)))) {
                 report_.fail(part, "its mesh extends beyond the range of floats");
@@ -104,8 +126,27 @@ private:
                                         .mesh = mesh,
                                         .objectToWorld = toWorld,
                                         .node = motion_.node(index),
-                                        .skin = node.skin >= 0 ? motion_.skin(node.skin, mesh, part) : -1});
+                                        .skin = node.skin >= 0 ? motion_.skin(node.skin, mesh, part) : -1,
+                                        .weights = animated ? weights : std::vector<float>{},
+                                        .objectToNode = toNode});
+            if (animated) {
+                report_.charge(part, posedVertexBytes * scene_.meshes[mesh].positions.size());
+            }
         }
+    }
+
+    /// The mesh with weights that never change: a mesh of its own unless they are 0.
+    uint32_t shaped(uint32_t mesh, const std::vector<float>& weights, const std::string& part) {
+        if (std::ranges::all_of(weights, [](float w) { return w == 0.0F; })) {
+            return mesh;
+        }
+        const auto [found, isNew] = shaped_.try_emplace({mesh, weights}, static_cast<uint32_t>(scene_.meshes.size()));
+        if (isNew) {
+            report_.charge(part, scene_.meshes[mesh].positions.size() * (posedVertexBytes + sizeof(VertexSkin)) +
+                                     scene_.meshes[mesh].indices.size() * sizeof(uint32_t));
+            scene_.meshes.push_back(morphed(scene_.meshes[mesh], weights));
+        }
+        return found->second;
     }
 
     void addLight(int light, int node, const mat4& toWorld) {
@@ -124,6 +165,7 @@ private:
     const GltfMotion& motion_;
     Scene& scene_;
     GltfReport& report_;
+    std::map<std::pair<uint32_t, std::vector<float>>, uint32_t> shaped_;  ///< by mesh and weights
 };
 
 }  // namespace

@@ -41,6 +41,7 @@ void makeFlat(Mesh& mesh) {
     std::vector<vec3> positions;
     std::vector<VertexAttributes> attributes;
     std::vector<VertexSkin> skin;
+    std::vector<Morph::Range> morph;
     positions.reserve(mesh.indices.size());
     attributes.reserve(mesh.indices.size());
     for (size_t i = 0; i < mesh.indices.size(); ++i) {
@@ -50,6 +51,9 @@ void makeFlat(Mesh& mesh) {
         if (!mesh.skin.empty()) {
             skin.push_back(mesh.skin[mesh.indices[i]]);
         }
+        if (!mesh.morph.vertices.empty()) {
+            morph.push_back(mesh.morph.vertices[mesh.indices[i]]);
+        }
     }
     for (size_t i = 0; i < mesh.indices.size(); ++i) {
         mesh.indices[i] = static_cast<uint32_t>(i);
@@ -57,6 +61,7 @@ void makeFlat(Mesh& mesh) {
     mesh.positions = std::move(positions);
     mesh.attributes = std::move(attributes);
     mesh.skin = std::move(skin);
+    mesh.morph.vertices = std::move(morph);
 }
 
 size_t repairNormals(Mesh& mesh) {

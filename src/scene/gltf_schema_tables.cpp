@@ -20,8 +20,11 @@ constexpr std::array<std::string_view, 7> accessorTypes{"SCALAR", "VEC2", "VEC3"
 constexpr std::array<std::string_view, 3> alphaModes{"OPAQUE", "MASK", "BLEND"};
 constexpr std::array<std::string_view, 2> cameraTypes{"perspective", "orthographic"};
 constexpr std::array<std::string_view, 3> lightTypes{"directional", "point", "spot"};
-constexpr std::array<std::string_view, 9> attributes{"POSITION", "NORMAL",   "TANGENT",   "TEXCOORD_0", "TEXCOORD_1",
-                                                     "COLOR_0",  "JOINTS_0", "WEIGHTS_0", "JOINTS_1"};
+constexpr std::array<std::string_view, 12> attributes{"POSITION",   "NORMAL",      "TANGENT",  "TEXCOORD_0",
+                                                      "TEXCOORD_1", "COLOR_0",     "JOINTS_0", "WEIGHTS_0",
+                                                      "JOINTS_1",   "TRANSLATION", "ROTATION", "SCALE"};
+constexpr std::array<std::string_view, 3> meshoptModes{"ATTRIBUTES", "TRIANGLES", "INDICES"};
+constexpr std::array<std::string_view, 4> meshoptFilters{"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"};
 constexpr std::array<std::string_view, 3> interpolations{"STEP", "LINEAR", "CUBICSPLINE"};
 
 constexpr std::array asset{
@@ -30,15 +33,35 @@ constexpr std::array asset{
 };
 
 // Buffers, views and accessors.
+constexpr std::array meshoptBuffer{
+    Field{.name = "fallback", .type = Type::boolean},
+};
+constexpr std::array bufferExtensions{
+    Field{.name = "EXT_meshopt_compression", .type = Type::object, .fields = meshoptBuffer},
+};
 constexpr std::array buffer{
     Field{.name = "uri", .type = Type::text},
     Field{.name = "byteLength", .type = Type::integer, .required = true, .min = 1},
+    Field{.name = "extensions", .type = Type::object, .fields = bufferExtensions},
+};
+constexpr std::array meshopt{
+    Field{.name = "buffer", .type = Type::index, .required = true, .refersTo = "buffers"},
+    Field{.name = "byteOffset", .type = Type::integer},
+    Field{.name = "byteLength", .type = Type::integer, .required = true, .min = 1},
+    Field{.name = "byteStride", .type = Type::integer, .required = true, .min = 1, .max = 256},
+    Field{.name = "count", .type = Type::integer, .required = true, .min = 1},
+    Field{.name = "mode", .type = Type::text, .required = true, .words = meshoptModes},
+    Field{.name = "filter", .type = Type::text, .words = meshoptFilters},
+};
+constexpr std::array viewExtensions{
+    Field{.name = "EXT_meshopt_compression", .type = Type::object, .fields = meshopt},
 };
 constexpr std::array bufferView{
     Field{.name = "buffer", .type = Type::index, .required = true, .refersTo = "buffers"},
     Field{.name = "byteOffset", .type = Type::integer},
     Field{.name = "byteLength", .type = Type::integer, .required = true, .min = 1},
     Field{.name = "byteStride", .type = Type::integer, .min = 4, .max = 252, .multipleOf = 4},
+    Field{.name = "extensions", .type = Type::object, .fields = viewExtensions},
 };
 constexpr std::array sparseIndices{
     Field{.name = "bufferView", .type = Type::index, .required = true, .refersTo = "bufferViews"},
@@ -77,9 +100,17 @@ constexpr std::array sampler{
     Field{.name = "wrapS", .type = Type::integer, .numbers = wraps},
     Field{.name = "wrapT", .type = Type::integer, .numbers = wraps},
 };
+constexpr std::array textureFormat{
+    Field{.name = "source", .type = Type::index, .refersTo = "images"},
+};
+constexpr std::array textureFormats{
+    Field{.name = "EXT_texture_webp", .type = Type::object, .fields = textureFormat},
+    Field{.name = "KHR_texture_basisu", .type = Type::object, .fields = textureFormat},
+};
 constexpr std::array texture{
     Field{.name = "sampler", .type = Type::index, .refersTo = "samplers"},
     Field{.name = "source", .type = Type::index, .refersTo = "images"},
+    Field{.name = "extensions", .type = Type::object, .fields = textureFormats},
 };
 
 // Materials.
@@ -146,13 +177,18 @@ constexpr std::array primitive{
 constexpr std::array mesh{
     Field{.name = "name", .type = Type::text},
     Field{.name = "primitives", .type = Type::object, .required = true, .array = true, .fields = primitive},
+    Field{.name = "weights", .array = true},
 };
 
 // Nodes, cameras, lights, skins and animations.
 constexpr std::array nodeLight{
     Field{.name = "light", .type = Type::index, .required = true, .refersTo = "lights"},
 };
+constexpr std::array instancing{
+    Field{.name = "attributes", .type = Type::indexMap, .required = true, .refersTo = "accessors"},
+};
 constexpr std::array nodeExtensions{
+    Field{.name = "EXT_mesh_gpu_instancing", .type = Type::object, .fields = instancing},
     Field{.name = "KHR_lights_punctual", .type = Type::object, .fields = nodeLight},
 };
 constexpr std::array node{
@@ -165,6 +201,7 @@ constexpr std::array node{
     Field{.name = "translation", .array = true, .items = 3},
     Field{.name = "rotation", .array = true, .items = 4},
     Field{.name = "scale", .array = true, .items = 3},
+    Field{.name = "weights", .array = true},
     Field{.name = "extensions", .type = Type::object, .fields = nodeExtensions},
 };
 constexpr std::array skin{

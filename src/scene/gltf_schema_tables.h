@@ -32,11 +32,19 @@ struct Field {
 /// The document itself.
 std::span<const Field> document();
 
-/// Whether the loader reads the vertex attribute of this name.
+/// Whether the loader reads the attribute of this name, of vertices or of instances.
 bool knownAttribute(std::string_view name);
 
-constexpr std::array<std::string_view, 5> knownExtensions{"KHR_draco_mesh_compression", "KHR_lights_punctual",
-                                                          "KHR_materials_emissive_strength", "KHR_mesh_quantization",
-                                                          "KHR_texture_transform"};
+constexpr auto knownExtensions = std::to_array<std::string_view>({
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "EXT_texture_webp",
+    "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_mesh_quantization",
+    "KHR_texture_basisu",
+    "KHR_texture_transform",
+});
 
 }  // namespace reflet::gltf_schema

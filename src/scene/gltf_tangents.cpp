@@ -122,6 +122,9 @@ private:
                 if (!mesh_.skin.empty()) {
                     mesh_.skin.push_back(mesh_.skin[v]);
                 }
+                if (!mesh_.morph.vertices.empty()) {
+                    mesh_.morph.vertices.push_back(mesh_.morph.vertices[v]);
+                }
                 group_.push_back(group_[v]);
                 side_.push_back(side);
             }

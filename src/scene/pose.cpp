@@ -1,7 +1,8 @@
-// Evaluates a scene at a time: keyframes, then nodes, then instances, skins, cameras and lights.
+// Evaluates a scene at a time: keyframes, then nodes, then instances, skins, morph targets, cameras and lights.
 #include "scene/pose.h"
 
 #include "scene/gltf_normals.h"
+#include "scene/morph.h"
 #include "scene/sample_channel.h"
 
 #include <algorithm>
@@ -23,6 +24,8 @@ void apply(const Channel& channel, double time, Node& node) {
         case Channel::Target::scale:
             node.scale = glm::dvec3(value);
             break;
+        case Channel::Target::weights:  // of instances, not of the node
+            break;
     }
 }
 
@@ -43,6 +46,10 @@ bool isMoving(int32_t node, const ScenePose& pose) {
 
 const mat4& placeOf(int32_t node, const ScenePose& pose) {
     return pose.nodeToWorld[static_cast<size_t>(node)];
+}
+
+mat4 placeOf(const Instance& instance, const ScenePose& pose) {
+    return finiteOr(glm::dmat4(placeOf(instance.node, pose)) * glm::dmat4(instance.objectToNode), mat4(1.0F));
 }
 
 /// The mesh deformed by its skin, in world space.
@@ -99,8 +106,13 @@ ScenePose scenePose(const Scene& scene, double time) {
     pose.time = loopedTime(scene, time);
     std::vector<Node> nodes = scene.nodes;
     pose.moving.assign(nodes.size(), false);
+    std::vector<const Channel*> weightsOf(nodes.size(), nullptr);
     for (const Animation& animation : scene.animations) {
         for (const Channel& channel : animation.channels) {
+            if (channel.target == Channel::Target::weights) {
+                weightsOf[channel.node] = &channel;
+                continue;
+            }
             apply(channel, pose.time, nodes[channel.node]);
             pose.moving[channel.node] = true;
         }
@@ -116,8 +128,11 @@ ScenePose scenePose(const Scene& scene, double time) {
     }
     for (const Instance& instance : scene.instances) {
         pose.objectToWorld.push_back(instance.skin >= 0              ? mat4(1.0F)
-                                     : isMoving(instance.node, pose) ? placeOf(instance.node, pose)
+                                     : isMoving(instance.node, pose) ? placeOf(instance, pose)
                                                                      : instance.objectToWorld);
+        const Channel* weights = instance.node >= 0 ? weightsOf[static_cast<size_t>(instance.node)] : nullptr;
+        pose.weights.push_back(instance.weights.empty() || weights == nullptr ? instance.weights
+                                                                              : sampleWeights(*weights, pose.time));
     }
     for (const Skin& skin : scene.skins) {
         std::vector<mat4>& joints = pose.skins.emplace_back();
@@ -128,8 +143,12 @@ ScenePose scenePose(const Scene& scene, double time) {
     return pose;
 }
 
+bool isDeformed(const Instance& instance) {
+    return instance.skin >= 0 || !instance.weights.empty();
+}
+
 bool isAnimated(const ScenePose& pose, const Instance& instance) {
-    return instance.skin >= 0 || isMoving(instance.node, pose);
+    return isDeformed(instance) || isMoving(instance.node, pose);
 }
 
 mat4 skinToWorld(const VertexSkin& vertex, const std::vector<mat4>& joints) {
@@ -154,7 +173,7 @@ std::vector<vec3> worldPositions(const Scene& scene, const ScenePose& pose, size
     for (size_t i = 0; i < mesh.positions.size(); ++i) {
         const mat4 toWorld = placed.skin >= 0 ? skinToWorld(mesh.skin[i], pose.skins[static_cast<size_t>(placed.skin)])
                                               : pose.objectToWorld[instance];
-        positions.emplace_back(toWorld * vec4(mesh.positions[i], 1.0F));
+        positions.emplace_back(toWorld * vec4(morphedPosition(mesh, i, pose.weights[instance]), 1.0F));
     }
     return positions;
 }
@@ -173,18 +192,19 @@ std::vector<Aabb> jointBounds(const Mesh& mesh, size_t joints) {
 
 Aabb instanceBounds(const Scene& scene, const ScenePose& pose, size_t instance, const std::vector<Aabb>& byJoint) {
     const Instance& placed = scene.instances[instance];
-    const Aabb& box = scene.meshes.at(placed.mesh).bounds;
-    if (box.empty()) {
+    const Mesh& mesh = scene.meshes.at(placed.mesh);
+    if (mesh.bounds.empty()) {
         return {};
     }
+    const auto boundsOf = [&](const Aabb& box) { return morphedBounds(mesh, box, pose.weights[instance]); };
     if (placed.skin < 0) {
-        return transformed(box, pose.objectToWorld[instance]);
+        return transformed(boundsOf(mesh.bounds), pose.objectToWorld[instance]);
     }
     const std::vector<mat4>& joints = pose.skins[static_cast<size_t>(placed.skin)];
     Aabb result;
     for (size_t j = 0; j < byJoint.size(); ++j) {
         if (!byJoint[j].empty()) {
-            result.add(transformed(byJoint[j], joints[j]));
+            result.add(transformed(boundsOf(byJoint[j]), joints[j]));
         }
     }
     return result;
@@ -226,13 +246,20 @@ Scene frozen(const Scene& scene, double time) {
     Scene still = scene;
     for (size_t i = 0; i < still.instances.size(); ++i) {
         Instance& instance = still.instances[i];
-        if (instance.skin >= 0) {
-            still.meshes.push_back(
-                skinned(scene.meshes.at(instance.mesh), pose.skins[static_cast<size_t>(instance.skin)]));
+        if (isDeformed(instance)) {
+            Mesh mesh = scene.meshes.at(instance.mesh);
+            if (!pose.weights[i].empty()) {
+                mesh = morphed(mesh, pose.weights[i]);
+            }
+            if (instance.skin >= 0) {
+                mesh = skinned(mesh, pose.skins[static_cast<size_t>(instance.skin)]);
+            }
+            still.meshes.push_back(std::move(mesh));
             instance.mesh = static_cast<uint32_t>(still.meshes.size() - 1);
         }
         instance.objectToWorld = pose.objectToWorld[i];
         instance.skin = -1;
+        instance.weights.clear();
         instance.node = -1;
     }
     for (Lamp& lamp : still.lamps) {

@@ -1,4 +1,5 @@
-// Evaluates a scene at a time: transforms of nodes, instances, joints, cameras and lights. Pure functions.
+// Evaluates a scene at a time: transforms of nodes, instances, joints, cameras and lights; weights of morph targets.
+// Pure functions.
 #pragma once
 
 #include "scene/scene.h"
@@ -18,17 +19,21 @@ double animationDuration(const Scene& scene);
 double loopedTime(const Scene& scene, double time);
 
 struct ScenePose {
-    double time = 0.0;                     ///< from loopedTime
-    std::vector<mat4> nodeToWorld;         ///< per node of Scene::nodes
-    std::vector<bool> moving;              ///< per node: it or an ancestor has channels
-    std::vector<mat4> objectToWorld;       ///< per instance; the identity for skinned instances
-    std::vector<std::vector<mat4>> skins;  ///< per skin and joint: bind pose to world
+    double time = 0.0;                        ///< from loopedTime
+    std::vector<mat4> nodeToWorld;            ///< per node of Scene::nodes
+    std::vector<bool> moving;                 ///< per node: it or an ancestor has channels
+    std::vector<mat4> objectToWorld;          ///< per instance; the identity for skinned instances
+    std::vector<std::vector<mat4>> skins;     ///< per skin and joint: bind pose to world
+    std::vector<std::vector<float>> weights;  ///< per instance and morph target; empty: it keeps its shape
 };
 
 /// If several channels animate the same property of a node, the last one wins.
 ScenePose scenePose(const Scene& scene, double time);
 
-/// Whether the instance is animated or skinned.
+/// Whether the shape of the instance changes with time: it is skinned or morphed.
+bool isDeformed(const Instance& instance);
+
+/// Whether the instance is animated or deformed.
 bool isAnimated(const ScenePose& pose, const Instance& instance);
 
 /// Skinning matrix of a vertex, from the mesh to the world. Normals are transformed by its cofactor matrix.
@@ -37,7 +42,7 @@ mat4 skinToWorld(const VertexSkin& vertex, const std::vector<mat4>& joints);
 /// Whether the skin mirrors the mesh, which flips its winding (decided by the first joint).
 bool flipsWinding(const std::vector<mat4>& joints);
 
-/// The mesh's positions in world space, skinned if the instance has a skin.
+/// The mesh's positions in world space, morphed and skinned.
 std::vector<vec3> worldPositions(const Scene& scene, const ScenePose& pose, size_t instance);
 
 /// Per joint: mesh-space box of the vertices that it influences; empty if none. joints: number of joints of the skin;
@@ -45,8 +50,8 @@ std::vector<vec3> worldPositions(const Scene& scene, const ScenePose& pose, size
 std::vector<Aabb> jointBounds(const Mesh& mesh, size_t joints);
 
 /// World-space bounds of the instance: its mesh's transformed box or, with a skin, the union of its joints' boxes,
-/// which
-/// contains every weighted mean. byJoint: from jointBounds, for instances with a skin.
+/// which contains every weighted mean; with morph targets enlarged by their weighted boxes. byJoint: from jointBounds,
+/// for instances with a skin.
 Aabb instanceBounds(const Scene& scene, const ScenePose& pose, size_t instance, const std::vector<Aabb>& byJoint);
 
 /// Moved with their node, if it is animated; otherwise unchanged.
@@ -57,7 +62,7 @@ Sun posed(Sun sun, const ScenePose& pose);
 /// Camera and sun at the view's time, which is replaced by loopedTime.
 View posed(View view, const Scene& scene);
 
-/// The scene baked at that time, without animation: skinned instances get meshes of their own.
+/// The scene baked at that time, without animation: deformed instances get meshes of their own.
 Scene frozen(const Scene& scene, double time);
 
 }  // namespace reflet

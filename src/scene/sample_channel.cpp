@@ -42,15 +42,16 @@ Between findKeys(const std::vector<float>& times, double time) {
     return {key, (time - double(times[key])) / seconds, seconds};
 }
 
-// Cubic Hermite spline; tangents are per second.
-glm::dvec4 spline(const std::vector<vec4>& values, const Between& at) {
-    const glm::dvec4 from(values[3 * at.key + 1]);
+// Cubic Hermite spline; tangents are per second. valueAt(i): element i of the channel's values.
+template <class ValueAt>
+auto spline(const ValueAt& valueAt, const Between& at) {
+    const auto from = valueAt(3 * at.key + 1);
     if (at.share == 0.0) {
         return from;
     }
-    const glm::dvec4 leaving(values[3 * at.key + 2]);
-    const glm::dvec4 arriving(values[3 * at.key + 3]);
-    const glm::dvec4 to(values[3 * at.key + 4]);
+    const auto leaving = valueAt(3 * at.key + 2);
+    const auto arriving = valueAt(3 * at.key + 3);
+    const auto to = valueAt(3 * at.key + 4);
     const double t = at.share;
     const double t2 = t * t;
     const double t3 = t2 * t;
@@ -64,7 +65,7 @@ glm::dvec4 sampleChannel(const Channel& channel, double time) {
     const bool rotation = channel.target == Channel::Target::rotation;
     const Between at = findKeys(channel.times, time);
     if (channel.interpolation == Interpolation::cubicSpline) {
-        const glm::dvec4 value = spline(channel.values, at);
+        const glm::dvec4 value = spline([&](size_t i) { return glm::dvec4(channel.values[i]); }, at);
         const double length = glm::length(value);
         return rotation && length > 0.0 ? value / length : rotation ? glm::dvec4(0, 0, 0, 1) : value;
     }
@@ -75,6 +76,26 @@ glm::dvec4 sampleChannel(const Channel& channel, double time) {
     }
     const glm::dvec4 to(channel.values[at.key + 1]);
     return rotation ? spherical(start, glm::normalize(to), at.share) : glm::mix(start, to, at.share);
+}
+
+std::vector<float> sampleWeights(const Channel& channel, double time) {
+    const bool isSpline = channel.interpolation == Interpolation::cubicSpline;
+    const size_t targets = channel.weights.size() / (channel.times.size() * (isSpline ? 3 : 1));
+    const Between at = findKeys(channel.times, time);
+    std::vector<float> result(targets);
+    for (size_t t = 0; t < targets; ++t) {
+        const auto valueAt = [&](size_t i) { return double(channel.weights[i * targets + t]); };
+        double value = 0.0;
+        if (isSpline) {
+            value = spline(valueAt, at);
+        } else if (channel.interpolation == Interpolation::step || at.share == 0.0) {
+            value = valueAt(at.key);
+        } else {
+            value = glm::mix(valueAt(at.key), valueAt(at.key + 1), at.share);
+        }
+        result[t] = static_cast<float>(value);
+    }
+    return result;
 }
 
 }  // namespace reflet

@@ -87,6 +87,7 @@ struct Mesh {
     std::vector<vec3> positions;
     std::vector<VertexAttributes> attributes;  ///< one per position
     std::vector<VertexSkin> skin;              ///< one per position, or empty
+    Morph morph;
     std::vector<uint32_t> indices;
     uint32_t material = 0;  ///< index into Scene::materials
     Aabb bounds;
@@ -99,6 +100,10 @@ struct Instance {
     mat4 objectToWorld{1.0F};  ///< unless its node is animated or it has a skin
     int32_t node = -1;         ///< index into Scene::nodes; < 0: none
     int32_t skin = -1;         ///< index into Scene::skins, whose joints place the mesh; < 0: none
+    /// Of an animated morph, which needs a node: one for each morph target, where the node has no channel for them.
+    /// Empty: the mesh keeps its shape.
+    std::vector<float> weights;
+    mat4 objectToNode{1.0F};  ///< an animated node places the mesh by its transform times this
 };
 
 /// Perspective where orthographicHeight is 0, with reversed depth and an infinite far plane.

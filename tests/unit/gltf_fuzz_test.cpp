@@ -1,6 +1,6 @@
 // Fuzzing: loading thousands of damaged glTF files returns a valid scene or throws Error.
 #include "base/error.h"
-#include "gltf_builder.h"
+#include "gltf_encoders.h"
 #include "scene/pose.h"
 
 #include <gtest/gtest.h>
@@ -94,8 +94,8 @@ std::string damaged(std::string bytes, std::mt19937& random) {
 TEST(GltfFuzz, DamagedBytesNeverDoMoreThanThrow) {
     std::mt19937 random(1);
     const auto folder = testFolder();
-    for (const std::string& whole :
-         {everything().glbBytes(), everything().gltfBytes(), slider().gltfBytes(), bent().gltfBytes()}) {
+    for (const std::string& whole : {everything().glbBytes(), everything().gltfBytes(), slider().gltfBytes(),
+                                     bent().gltfBytes(), morphing().gltfBytes(), compressed().gltfBytes()}) {
         int loaded = 0;
         for (int i = 0; i < 2000; ++i) {
             loaded += survives(folder / "scene.gltf", damaged(whole, random)) ? 1 : 0;
@@ -108,14 +108,15 @@ TEST(GltfFuzz, DamagedBytesNeverDoMoreThanThrow) {
 TEST(GltfFuzz, NumbersThatAreReplacedNeverDoMoreThanThrow) {
     using nlohmann::json;
     const std::array<json, 12> values{0, 1, 2, 3, -1, 255, 256, 65535, 5121, 1e30, 4294967295U, 18446744073709551615U};
-    const GltfBuilder original = everything();
-    const json flat = original.document.flatten();
     const auto path = testFolder() / "scene.glb";
-    for (const auto& [pointer, value] : flat.items()) {
-        for (size_t i = 0; value.is_number() && i < values.size(); ++i) {
-            GltfBuilder b = original;
-            b.document[json::json_pointer(pointer)] = values.at(i);
-            survives(path, b.glbBytes());
+    for (const GltfBuilder& original : {everything(), morphing(), compressed()}) {
+        const json flat = original.document.flatten();
+        for (const auto& [pointer, value] : flat.items()) {
+            for (size_t i = 0; value.is_number() && i < values.size(); ++i) {
+                GltfBuilder b = original;
+                b.document[json::json_pointer(pointer)] = values.at(i);
+                survives(path, b.glbBytes());
+            }
         }
     }
 }

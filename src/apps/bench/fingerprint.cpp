@@ -102,9 +102,19 @@ private:
     }
 
     void add(const Mesh& mesh) {
-        const auto& [name, positions, attributes, skin, indices, material, bounds] = mesh;
+        const auto& [name, positions, attributes, skin, morph, indices, material, bounds] = mesh;
         (void)bounds;  // follows from the positions
-        all(name, positions, attributes, skin, indices, material);
+        all(name, positions, attributes, skin, morph.vertices, morph.deltas, indices, material);
+    }
+
+    void add(const Morph::Range& range) {
+        const auto& [first, count] = range;
+        all(first, count);
+    }
+
+    void add(const MorphDelta& delta) {
+        const auto& [target, position, normal, tangent] = delta;
+        all(target, position, normal, tangent);
     }
 
     void add(const VertexSkin& vertex) {
@@ -118,8 +128,8 @@ private:
     }
 
     void add(const Channel& channel) {
-        const auto& [node, target, interpolation, times, values] = channel;
-        all(node, target, interpolation, times, values);
+        const auto& [node, target, interpolation, times, values, weights] = channel;
+        all(node, target, interpolation, times, values, weights);
     }
 
     void add(const Animation& animation) {
@@ -133,8 +143,8 @@ private:
     }
 
     void add(const Instance& instance) {
-        const auto& [name, mesh, objectToWorld, node, skin] = instance;
-        all(name, mesh, objectToWorld, node, skin);
+        const auto& [name, mesh, objectToWorld, node, skin, weights, objectToNode] = instance;
+        all(name, mesh, objectToWorld, node, skin, weights, objectToNode);
     }
 
     void add(const Camera& camera) {

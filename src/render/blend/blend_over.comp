@@ -1,6 +1,6 @@
 // Composites all layers of blended surfaces over the light behind them. In: their radiance, and the share that they let
-// through; the light behind. Out: the sum, or with `coverage`
-// what surfaces cover of the pixel; its alpha is that of the light behind.
+// through; the light behind. Out: the sum, or with `coverage` what surfaces cover of the pixel; its alpha is that of the
+// light behind.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/blend/blend.h"

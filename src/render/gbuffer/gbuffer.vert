@@ -3,7 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "render/gbuffer/gbuffer.h"
 
-layout(constant_id = 1) const uint bent = 0u;  // 1: some vertices are skinned
+layout(constant_id = 1) const uint bent = 0u;  // 1: some vertices are skinned or morphed
 
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { GBufferParams params; };
 layout(push_constant, scalar) uniform DrawBlock {

@@ -165,7 +165,7 @@ std::vector<FlatPiece> findFlatPieces(const Scene& scene) {
         const Instance& instance = scene.instances[i];
         const Mesh& mesh = scene.meshes.at(instance.mesh);
         const Material& material = scene.materials.at(mesh.material);
-        if (instance.skin >= 0 || material.blended) {  // blended ones are not in the G-buffer
+        if (isDeformed(instance) || material.blended) {  // blended ones are not in the G-buffer
             continue;
         }
         if (!roughness.contains(mesh.material)) {

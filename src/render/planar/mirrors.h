@@ -25,7 +25,7 @@ struct FlatPiece {
     bool doubleSided = false;
 };
 
-/// Planar parts of instances whose triangles lie in few planes, one per plane, at time 0. Other instances and skinned
+/// Planar parts of instances whose triangles lie in few planes, one per plane, at time 0. Other instances and deformed
 /// ones have none.
 std::vector<FlatPiece> findFlatPieces(const Scene& scene);
 
