@@ -84,7 +84,8 @@ void Lights::collectTriangles() {
     std::vector<double> weights;
     emissiveIndex_.resize(scene.instances.size());
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
-        const float strength = luminance(rays_.material(i).emissive);
+        const Material& material = rays_.material(i);
+        const float strength = luminance(material.unlit ? vec3(material.baseColor) : material.emissive);
         if (!(strength > 0.0F)) {
             continue;
         }
@@ -165,7 +166,8 @@ LightSample Lights::drawTriangle(const SurfacePoint& point, float choice, const 
     s.distance = distance;
     s.toLight = toLight / distance;
     s.pdf = emitterPdf(point.position, emitter);
-    s.light = s.pdf > 0.0F ? emitter.emission / s.pdf : vec3(0.0F);
+    const bool emits = s.pdf > 0.0F && !isCutOut(rays_, s.hit);
+    s.light = emits ? emitter.emission / s.pdf : vec3(0.0F);
     return s;
 }
 

@@ -35,8 +35,9 @@ std::span<const Field> document();
 /// Whether the loader reads the vertex attribute of this name.
 bool knownAttribute(std::string_view name);
 
-constexpr std::array<std::string_view, 5> knownExtensions{"KHR_draco_mesh_compression", "KHR_lights_punctual",
-                                                          "KHR_materials_emissive_strength", "KHR_mesh_quantization",
-                                                          "KHR_texture_transform"};
+constexpr std::array<std::string_view, 9> knownExtensions{
+    "KHR_draco_mesh_compression", "KHR_lights_punctual",    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",          "KHR_materials_specular", "KHR_materials_unlit",
+    "KHR_materials_variants",     "KHR_mesh_quantization",  "KHR_texture_transform"};
 
 }  // namespace reflet::gltf_schema

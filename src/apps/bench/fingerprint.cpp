@@ -89,10 +89,12 @@ private:
 
     void add(const Material& material) {
         const auto& [name, baseColor, metallic, roughness, emissive, normalScale, occlusionStrength, alphaCutoff,
-                     doubleSided, camera, baseColorTexture, metallicRoughnessTexture, normalTexture, occlusionTexture,
-                     emissiveTexture] = material;
+                     doubleSided, unlit, ior, specular, specularColor, camera, baseColorTexture,
+                     metallicRoughnessTexture, normalTexture, occlusionTexture, emissiveTexture, specularTexture,
+                     specularColorTexture] = material;
         all(name, baseColor, metallic, roughness, emissive, normalScale, occlusionStrength, alphaCutoff, doubleSided,
-            camera, baseColorTexture, metallicRoughnessTexture, normalTexture, occlusionTexture, emissiveTexture);
+            unlit, ior, specular, specularColor, camera, baseColorTexture, metallicRoughnessTexture, normalTexture,
+            occlusionTexture, emissiveTexture, specularTexture, specularColorTexture);
     }
 
     void add(const VertexAttributes& vertex) {
@@ -168,7 +170,8 @@ private:
 
 void addTo(Fingerprint& print, const Scene& scene) {
     const auto& [name, images, samplers, materials, meshes, instances, lamps, cameras, sun, environment, nodes,
-                 animations, skins] = scene;
+                 animations, skins, variants] = scene;
+    (void)variants;  // names alone
     Adder(print).all(name, images, samplers, materials, meshes, instances, lamps, cameras, sun, environment, nodes,
                      animations, skins);
 }

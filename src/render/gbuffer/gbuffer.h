@@ -20,6 +20,7 @@ SETTINGS(MaterialsSettings, MATERIALS_SETTINGS)
 
 // Bits of the material image's alpha.
 const uint materialFlagLambert = 1;
+const uint materialFlagUnlit = 2;  // emits the base colour, reflects nothing
 
 struct GBufferParams {
     ViewParams view;
@@ -49,6 +50,8 @@ struct GBuffer {
     gpu::Image emissive;   ///< B10G11R11: emitted radiance
     gpu::Image motion;     ///< RGBA16F: uv now minus uv last frame; the surface's own motion away from the camera along
                            ///< its axis [m], exactly 0 at rest; 0
+    gpu::Image reflectance{};  ///< RGBA16F: F0 of the dielectric over 4 %, F90; null unless a material differs from 1
+    uint32_t features = 0;     ///< materialFeature… of the draw list
 };
 
 /// Draws the list for the view: reversed Z, back faces of single-sided draws culled. clipPlane: as in GBufferParams;
@@ -56,6 +59,9 @@ struct GBuffer {
 /// Projection and Clipping, 2005) would distort depth, and ray marching relies on distance = near / depth.
 GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view, const MaterialsSettings& settings,
                     const vec4& clipPlane = vec4(0.0F));
+
+/// Specializes a pass whose shader includes gbuffer_surface.glsl, and binds what that reads.
+gpu::Pass& bindSurfaces(gpu::Frame& f, gpu::Pass& pass, const GBuffer& g);
 
 }  // namespace reflet
 #endif
