@@ -33,7 +33,7 @@ MaterialParams materialParams(const Material& m) {
     p.normalScale = m.normalScale;
     p.occlusionStrength = m.occlusionStrength;
     p.unlit = m.unlit ? 1U : 0U;
-    p.f0 = dielectricF0Over4Percent(m.ior) * m.specularColor;
+    p.f0 = glm::min(dielectricF0Over4Percent(m.ior) * m.specularColor, 1e6F);  // infinity times 0 would be a NaN
     p.f90 = m.specular;
     const auto slots = textureSlots(m);
     for (size_t i = 0; i < slotCount; ++i) {

@@ -46,6 +46,15 @@ Image oneColor(std::array<uint8_t, 4> rgba) {
     return {.name = "color", .width = 1, .height = 1, .rgba = {rgba.begin(), rgba.end()}};
 }
 
+/// A texture of the colour beside black, of which its transform shows the colour alone.
+TextureSlot colorBesideBlack(Scene& scene, std::array<uint8_t, 4> rgba) {
+    Image image{.name = "half", .width = 2, .height = 1, .rgba = {0, 0, 0, 0}};
+    image.rgba.insert(image.rgba.end(), rgba.begin(), rgba.end());
+    TextureSlot slot = builtin::addTexture(scene, std::move(image));
+    slot.uvTransform = {vec3(0, 0, 0.75F), vec3(0, 0, 0.5F)};
+    return slot;
+}
+
 /// Its base colour tells it from others.
 Material glossy(float grey) {
     Material m = lambertMaterial(vec3(grey));
@@ -65,8 +74,8 @@ std::vector<Material> unusual(Scene& scene) {
     all[4].ior = 1.8F;
     all[4].specularColor = {1.0F, 0.2F, 3.0F};
     all[5].ior = 2.4F;
-    all[5].specularTexture = builtin::addTexture(scene, oneColor({255, 255, 255, 128}));
-    all[5].specularColorTexture = builtin::addTexture(scene, oneColor({188, 255, 0, 255}));
+    all[5].specularTexture = colorBesideBlack(scene, {255, 255, 255, 128});
+    all[5].specularColorTexture = colorBesideBlack(scene, {188, 255, 0, 255});
     return all;
 }
 
