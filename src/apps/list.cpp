@@ -1,5 +1,6 @@
 // `reflet list`: lists scenes, presets, shows, settings and devices.
 #include "apps/commands.h"
+#include "apps/scene_options.h"
 #include "apps/show.h"
 #include "apps/text_table.h"
 #include "base/error.h"
@@ -122,6 +123,12 @@ void listSettingsAsMarkdown() {
     }
 }
 
+void listVariants(const SceneOptions& options) {
+    for (const std::string& name : loadScene(options).variants) {
+        fmt::print("{}\n", name);
+    }
+}
+
 void listDevices() {
     const auto devices = gpu::listDevices();
     if (devices.empty()) {
@@ -140,7 +147,8 @@ void listDevices() {
 }  // namespace
 
 void addListCommand(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("list", "List scenes, presets, shows, settings or devices");
+    CLI::App* command =
+        app.add_subcommand("list", "List scenes, presets, shows, settings, devices or material variants");
     const std::vector<std::pair<const char*, void (*)()>> lists{
         {"scenes", listScenes}, {"presets", listPresets}, {"shows", listShows}, {"devices", listDevices}};
     const char* descriptions[] = {"Built-in scenes", "Presets of settings", "Render targets for --show and --aov",
@@ -165,6 +173,10 @@ void addListCommand(CLI::App& app) {
             o->markdown ? listSettingsAsMarkdown() : o->json ? listSettingsAsJson() : listSettings();
         }
     });
+    auto scene = std::make_shared<SceneOptions>();
+    CLI::App* variants = command->add_subcommand("variants", "Material variants of a glTF file, for --variant");
+    variants->add_option("FILE", scene->scene, "A .gltf or .glb file")->required();
+    variants->callback([scene] { listVariants(*scene); });
     command->require_subcommand(1);
 }
 

@@ -78,6 +78,8 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
         ->required();
     command.add_option("--preset", options.preset, "Preset of settings (see reflet list presets) [balanced]")
         ->type_name("P");
+    command.add_option("--variant", options.variant, "Material variant of the glTF file (see reflet list variants)")
+        ->type_name("NAME");
     addViewOptions(command, options);
 }
 
@@ -126,12 +128,16 @@ Scene loadScene(const SceneOptions& options) {
         if (options.sceneIndex.value_or(0) != 0) {
             failUsage("--scene {}: a built-in scene is one scene", *options.sceneIndex);
         }
+        if (!options.variant.empty()) {
+            failUsage("--variant {}: a built-in scene has no material variants", options.variant);
+        }
         return makeBuiltin(std::string_view(options.scene).substr(builtinPrefix.size()));
     }
     if (options.sceneIndex && *options.sceneIndex < 0) {
         failUsage("--scene must be 0 or more, is {}", *options.sceneIndex);
     }
-    return loadGltf(options.scene, {.scene = options.sceneIndex.value_or(-1), .warn = printWarning});
+    return loadGltf(options.scene,
+                    {.scene = options.sceneIndex.value_or(-1), .variant = options.variant, .warn = printWarning});
 }
 
 View loadView(const SceneOptions& options, const Scene& scene) {

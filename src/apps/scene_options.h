@@ -17,6 +17,7 @@ namespace reflet {
 struct SceneOptions {
     std::string scene;
     std::optional<int> sceneIndex;
+    std::string variant;  ///< of the glTF file's materials; empty: its default
     std::string camera;
     std::string viewFile;
     std::string environment;  ///< "sky", "studio", "none" or a file; empty: the view file's, the scene's or a default
@@ -31,7 +32,7 @@ struct SceneOptions {
 
 /// Adds SCENE and the options to a subcommand.
 void addSceneOptions(CLI::App& command, SceneOptions& options);
-/// Adds the options other than SCENE and --preset, for a subcommand that takes several of these.
+/// Adds the options other than SCENE, --preset and --variant, for a subcommand that takes several of these.
 void addViewOptions(CLI::App& command, SceneOptions& options);
 
 /// One line on standard error.

@@ -92,6 +92,7 @@ nlohmann::ordered_json makeRecord(const RenderJob& job, const SequencePlan& plan
                                   {"scene", fs::path(o.scene.scene).filename().string()},
                                   {"scene_fingerprint", sceneFingerprint(o.scene.scene)},
                                   {"scene_index", o.scene.sceneIndex.value_or(-1)},
+                                  {"variant", o.scene.variant},
                                   {"size", {job.size.x, job.size.y}},
                                   {"seed", o.scene.seed},
                                   {"first_frame", o.sequence.firstFrame},

@@ -11,7 +11,6 @@ namespace reflet {
 
 namespace {
 
-constexpr float dielectricF0 = 0.04F;
 constexpr float leastLampRoughness = 0.045F;
 constexpr float mirrorAlpha = 1e-4F;  // lobes narrower than a hundredth of a degree are treated as a perfect mirror
 constexpr float leastCosine = 1e-4F;
@@ -119,10 +118,14 @@ private:
     std::vector<LobeAlbedo> entries_;
 };
 
-// Directional albedo of a layer of this F0 including multiple scattering, from that of single scattering.
-vec3 compensated(const vec3& f0, const LobeAlbedo& a) {
+// Directional albedo of a layer of this reflectance including multiple scattering, from that of single scattering.
+vec3 compensated(const vec3& f0, float f90, const LobeAlbedo& a) {
     const float lost = 1.0F / std::max(a.scale + a.bias, 1e-3F) - 1.0F;
-    return (f0 * a.scale + a.bias) * (1.0F + f0 * lost);
+    return (f0 * a.scale + f90 * a.bias) * (1.0F + f0 * lost);
+}
+
+float largest(const vec3& v) {
+    return std::max({v.x, v.y, v.z});
 }
 
 }  // namespace
@@ -146,17 +149,23 @@ Bsdf::Bsdf(const SurfacePoint& point, const ReferenceOptions& options)
       uniform_(options.diffuse == DiffuseSampling::uniform) {
     // Shading normals may face away from the viewer.
     view_ = glm::normalize(vec3(view_.x, view_.y, std::max(view_.z, leastCosine)));
+    if (point.unlit) {
+        diffuse_ = vec3(0.0F);
+        return;
+    }
     if (options.lambertOnly) {
         return;
     }
     const LobeAlbedo albedo = ggxAlbedo(view_.z, point.roughness);
     // glTF blends a dielectric and a metal by `metallic`; their albedos are blended likewise.
-    const vec3 coat = compensated(vec3(dielectricF0), albedo);
-    const vec3 metal = compensated(point.baseColor, albedo);
+    const vec3 coat = compensated(point.dielectricF0, point.dielectricF90, albedo);
+    const vec3 metal = compensated(point.baseColor, 1.0F, albedo);
     const vec3 specular = glm::min(glm::mix(coat, metal, point.metallic), 1.0F);
-    f0_ = glm::mix(vec3(dielectricF0), point.baseColor, point.metallic);
-    compensation_ = specular / glm::max(f0_ * albedo.scale + albedo.bias, 1e-4F);
-    diffuse_ = point.baseColor * ((1.0F - point.metallic) * (1.0F - coat.x));
+    f0_ = glm::mix(point.dielectricF0, point.baseColor, point.metallic);
+    f90_ = point.dielectricF90 + point.metallic * (1.0F - point.dielectricF90);
+    compensation_ = specular / glm::max(f0_ * albedo.scale + f90_ * albedo.bias, 1e-4F);
+    // KHR_materials_specular: the base gets what the layer's most reflective channel leaves.
+    diffuse_ = point.baseColor * ((1.0F - point.metallic) * (1.0F - std::min(largest(coat), 1.0F)));
     alpha_ = square(point.roughness);
     mirror_ = alpha_ < mirrorAlpha;
     const float specularLight = specular.x + specular.y + specular.z;
@@ -174,7 +183,7 @@ bool Bsdf::above(const vec3& world) const {
 vec3 Bsdf::specularLobe(const vec3& l, float alpha) const {
     const vec3 h = glm::normalize(view_ + l);
     const float masking = 1.0F / (1.0F + smithLambda(view_, alpha) + smithLambda(l, alpha));
-    const vec3 fresnel = f0_ + (1.0F - f0_) * schlick(glm::dot(view_, h));
+    const vec3 fresnel = f0_ + (f90_ - f0_) * schlick(glm::dot(view_, h));
     return fresnel * compensation_ * (ggxDensity(h, alpha) * masking / (4.0F * view_.z));
 }
 
@@ -216,7 +225,7 @@ Scattered Bsdf::scatter(float lobe, const vec2& u) const {
         const vec3 l(-view_.x, -view_.y, view_.z);
         s.direction = frame_ * l;
         if (above(s.direction)) {
-            const vec3 fresnel = f0_ + (1.0F - f0_) * schlick(view_.z);
+            const vec3 fresnel = f0_ + (f90_ - f0_) * schlick(view_.z);
             s.weight.specular = fresnel * compensation_ / specularChance_;
         }
         return s;

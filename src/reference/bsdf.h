@@ -63,6 +63,7 @@ private:
     vec3 view_;     ///< local, z > 0
     vec3 diffuse_;  ///< albedo of the diffuse base, attenuated by the specular layer
     vec3 f0_{0.0F};
+    float f90_ = 1.0F;
     vec3 compensation_{0.0F};
     float alpha_ = 1.0F;
     bool mirror_ = false;

@@ -84,7 +84,8 @@ void Lights::collectTriangles() {
     std::vector<double> weights;
     emissiveIndex_.resize(scene.instances.size());
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
-        const float strength = luminance(rays_.material(i).emissive);
+        const Material& material = rays_.material(i);
+        const float strength = luminance(material.unlit ? vec3(material.baseColor) : material.emissive);
         if (!(strength > 0.0F)) {
             continue;
         }

@@ -48,10 +48,28 @@ vec4 baseColorAt(const Scene& scene, const Material& material, const Corners& co
 }
 
 vec3 emissionOf(const Scene& scene, const Material& material, const Corners& corners) {
+    if (material.unlit) {
+        return glm::clamp(vec3(baseColorAt(scene, material, corners)), 0.0F, 1.0F);
+    }
     if (material.emissive == vec3(0.0F) || material.emissiveTexture.image < 0) {
         return material.emissive;
     }
     return material.emissive * vec3(readTexture(scene, material.emissiveTexture, corners.uv0(), corners.uv1(), true));
+}
+
+// KHR_materials_ior and KHR_materials_specular. Fresnel's reflectance at normal incidence, tinted and at most 1, and
+// Schlick's 1 at grazing incidence are both scaled by the strength.
+void setDielectric(SurfacePoint& s, const Scene& scene, const Material& material, const Corners& corners) {
+    const double root = (double(material.ior) - 1.0) / (double(material.ior) + 1.0);
+    vec3 tint = material.specularColor;
+    if (material.specularColorTexture.image >= 0) {
+        tint *= vec3(readTexture(scene, material.specularColorTexture, corners.uv0(), corners.uv1(), true));
+    }
+    s.dielectricF90 = material.specular;
+    if (material.specularTexture.image >= 0) {
+        s.dielectricF90 *= readTexture(scene, material.specularTexture, corners.uv0(), corners.uv1(), false).w;
+    }
+    s.dielectricF0 = glm::min(static_cast<float>(root * root) * tint, 1.0F) * s.dielectricF90;
 }
 
 // The interpolated and normal-mapped normal; it points outwards, whichever side the ray came from.
@@ -111,6 +129,8 @@ SurfacePoint surfaceAt(const RayScene& rays, const Hit& hit, const vec3& directi
         s.roughness *= texel.y;
         s.metallic *= texel.z;
     }
+    setDielectric(s, scene, material, corners);
+    s.unlit = material.unlit;
     if (s.front || material.doubleSided) {
         s.emission = emissionOf(scene, material, corners);
     }

@@ -13,9 +13,12 @@ struct SurfacePoint {
     vec3 baseColor{0.0F};
     float roughness = 1.0F;  ///< perceptual
     float metallic = 0.0F;
-    vec3 emission{0.0F};     ///< radiance toward the ray's origin; 0 from the back of single-sided surfaces
-    float clearance = 0.0F;  ///< offset of new rays from the surface, to avoid self-intersection [m]
-    bool front = true;       ///< the ray hit the front face
+    vec3 dielectricF0{0.04F};    ///< reflectance at normal incidence, as far as the material is not metallic
+    float dielectricF90 = 1.0F;  ///< at grazing incidence
+    bool unlit = false;          ///< reflects nothing
+    vec3 emission{0.0F};         ///< radiance toward the ray's origin; 0 from the back of single-sided surfaces
+    float clearance = 0.0F;      ///< offset of new rays from the surface, to avoid self-intersection [m]
+    bool front = true;           ///< the ray hit the front face
     Hit hit;
 
     /// Origin of a ray to `direction`.

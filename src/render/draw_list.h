@@ -35,6 +35,8 @@ struct DrawList {
     std::vector<Draw> draws;
     Aabb boundsW;                          ///< of all
     uint32_t textureSlots = 0;             ///< bit mask of the slots for which any material has a texture (material.h)
+    uint32_t materialFeatures = 0;         ///< bit mask of materialFeature… that any material has (material.h)
+    bool unlit = false;                    ///< nothing reflects light
     std::vector<gpu::Image> livePictures;  ///< camera images shown by materials, written by passes
     /// Changes whenever the draws' geometry or transforms change. 0: treat as always changed.
     uint64_t version = 0;

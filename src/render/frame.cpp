@@ -104,7 +104,7 @@ LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& setting
     const uint32_t perPixel = diffuse ? settings.diffuse.rays : settings.specular.rays;
     const uint32_t neighbours = diffuse ? settings.diffuse.reuse : settings.specular.reuse;
     const float longest = diffuse ? settings.diffuse.maxDistance : settings.traceScreen.maxDistance;
-    if (perPixel == 0) {
+    if (perPixel == 0 || in.draws.unlit) {
         return blackLobe(f, lobe, {seen.images.g, in.view}, counted);
     }
     const RaySurfaces from =

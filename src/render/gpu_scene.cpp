@@ -17,7 +17,7 @@ namespace reflet {
 
 namespace {
 
-// Binding 0: MaterialParams; 1..5: the slots' textures.
+// Binding 0: MaterialParams; the others: the slots' textures.
 VkDescriptorSetLayout makeMaterialLayout(gpu::Device& device) {
     std::array<VkDescriptorSetLayoutBinding, 1 + slotCount> bindings{};
     for (uint32_t i = 0; i < bindings.size(); ++i) {
@@ -197,6 +197,7 @@ void GpuScene::uploadMaterials(const Scene& scene, const std::function<void(cons
             params.textured |= 1U << slotEmissive;
         }
         draws_.textureSlots |= params.textured;
+        draws_.materialFeatures |= materialFeatures(scene.materials[i]);
         std::memcpy(blocks.data() + i * stride, &params, sizeof(params));
     }
     materials_ = gpu::uploadBuffer(device_, blocks, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, "materials");
@@ -241,6 +242,7 @@ void GpuScene::addDraws(const Scene& scene) {
     draws_.attributes = attributes_.handle();
     draws_.indices = indices_.handle();
     draws_.materialLayout = materialLayout_;
+    draws_.unlit = isUnlit(scene);
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes.at(instance.mesh);
         const Material& material = scene.materials.at(mesh.material);

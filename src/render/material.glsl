@@ -4,7 +4,7 @@
 #ifndef REFLET_MATERIAL_GLSL
 #define REFLET_MATERIAL_GLSL
 
-#include "render/material.h"
+#include "render/material_features.glsl"
 
 layout(set = 1, binding = 0, scalar) uniform MaterialBlock { MaterialParams material; };
 layout(set = 1, binding = 1) uniform sampler2D baseColorTexture;
@@ -12,6 +12,8 @@ layout(set = 1, binding = 2) uniform sampler2D metallicRoughnessTexture;
 layout(set = 1, binding = 3) uniform sampler2D normalTexture;
 layout(set = 1, binding = 4) uniform sampler2D occlusionTexture;
 layout(set = 1, binding = 5) uniform sampler2D emissiveTexture;
+layout(set = 1, binding = 6) uniform sampler2D specularTexture;
+layout(set = 1, binding = 7) uniform sampler2D specularColorTexture;
 
 bool hasTexture(uint slot) { return (usedSlots & (1u << slot)) != 0u && (material.textured & (1u << slot)) != 0u; }
 
@@ -31,5 +33,18 @@ bool materialBaseColor(vec2 uv0, vec2 uv1, vec4 vertexColor, out vec4 color) {
 
 // Whether a blended surface of this alpha is in the layers of blended surfaces.
 bool isTranslucent(float alpha) { return material.blended != 0u && alpha >= invisibleAlpha && alpha < opaqueAlpha; }
+
+// Of the dielectric: texel of the G-buffer's reflectance.
+vec4 materialReflectance(vec2 uv0, vec2 uv1) {
+    vec3 color = material.f0;
+    float weight = material.f90;
+    if (hasTexture(slotSpecular)) {
+        weight *= texture(specularTexture, slotUv(slotSpecular, uv0, uv1)).a;
+    }
+    if (hasTexture(slotSpecularColor)) {
+        color *= texture(specularColorTexture, slotUv(slotSpecularColor, uv0, uv1)).rgb;
+    }
+    return reflectanceTexel(color, weight);
+}
 
 #endif

@@ -7,13 +7,19 @@
 
 SHARED_BEGIN
 
-// Slots of Material, in the order of the bindings 1..5 of set 1; binding 0 is this block.
+// Slots of Material, in the order of the bindings 1..7 of set 1; binding 0 is this block.
 const uint slotBaseColor = 0;
 const uint slotMetallicRoughness = 1;
 const uint slotNormal = 2;
 const uint slotOcclusion = 3;
 const uint slotEmissive = 4;
-const uint slotCount = 5;
+const uint slotSpecular = 5;
+const uint slotSpecularColor = 6;
+const uint slotCount = 7;
+
+// What shaders are specialized for, because any material in the draw list has it.
+const uint materialFeatureReflectance = 1;  // the dielectric's F0 is not 4 % of all light, or its F90 is not 1
+const uint materialFeatureUnlit = 2;
 
 // Alpha from which blended surfaces are opaque, 254.5 / 255, and below which they are not there.
 const float opaqueAlpha = 0.998;
@@ -33,7 +39,10 @@ struct MaterialParams {
     uint textured;    // bit per slot: has a texture
     uint secondUv;    // bit per slot: uses uv1
     uint blended;     // 1: alpha is coverage (Material::blended)
-    vec3 uvRows[10];  // two per slot, KHR_texture_transform
+    uint unlit;       // 1: emits its base colour and reflects nothing
+    vec3 f0;          // of the dielectric, over dielectricF0, without the factor that follows
+    float f90;        // of the dielectric, 0..1; a factor of F0, too
+    vec3 uvRows[14];  // two per slot, KHR_texture_transform
 };
 
 SHARED_END
@@ -53,6 +62,9 @@ std::array<const TextureSlot*, slotCount> textureSlots(const Material& material)
 bool isSrgb(uint slot);
 
 MaterialParams materialParams(const Material& material);
+
+/// Bit mask of materialFeature….
+uint materialFeatures(const Material& material);
 
 }  // namespace reflet
 #endif

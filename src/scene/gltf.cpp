@@ -34,6 +34,30 @@ std::vector<int> chooseScene(const GltfDocument& document, int wanted, std::stri
     return scenes[static_cast<size_t>(chosen)].nodes;
 }
 
+std::vector<std::string> variantNames(const tinygltf::Model& model) {
+    std::vector<std::string> names;
+    if (const auto found = model.extensions.find("KHR_materials_variants"); found != model.extensions.end()) {
+        const tinygltf::Value& variants = found->second.Get("variants");
+        for (size_t i = 0; i < variants.Size(); ++i) {
+            names.push_back(variants.Get(static_cast<int>(i)).Get("name").Get<std::string>());
+        }
+    }
+    return names;
+}
+
+/// Index of the chosen variant; -1: none.
+int chooseVariant(const std::vector<std::string>& names, const std::string& wanted, const GltfReport& report) {
+    if (wanted.empty()) {
+        return -1;
+    }
+    const auto found = std::ranges::find(names, wanted);
+    if (found == names.end()) {
+        report.failUsage("", "there is no material variant '{}'; the file's variants: {}", wanted,
+                         names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")));
+    }
+    return static_cast<int>(found - names.begin());
+}
+
 }  // namespace
 
 Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
@@ -47,7 +71,8 @@ Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
             scene.name = path.stem().string();
         }
         GltfMaterials materials(document, scene, report);
-        GltfMeshes meshes(document, materials, scene, report);
+        scene.variants = variantNames(document.model);
+        GltfMeshes meshes(document, materials, scene, report, chooseVariant(scene.variants, options.variant, report));
         placeGltfNodes(document, roots, meshes, scene, report);
         makeOpaqueWhereAlphaIsOne(scene);
         return scene;

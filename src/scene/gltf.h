@@ -12,6 +12,8 @@ namespace reflet {
 struct GltfOptions {
     /// Index of the scene to load; < 0: the file's default scene, or the first.
     int scene = -1;
+    /// Name of the material variant (KHR_materials_variants) to load; empty: the file's default materials.
+    std::string variant;
     /// Receives each warning once, one line without a full stop.
     std::function<void(const std::string&)> warn;
 };
@@ -19,7 +21,8 @@ struct GltfOptions {
 /// Loads the file and everything it refers to. Throws Error with one line that names the file and the invalid part;
 /// never crashes or hangs on any input. URIs that leave the file's folder are refused.
 /// Supported: the extensions in knownExtensions (gltf_schema_tables.h); animations of translation, rotation, scale and
-/// morph weights; skins with four joints per vertex; PNG, JPEG, WebP and KTX 2 without Basis. An unsupported extension is an error if it is required, else a warning.
+/// morph weights; skins with four joints per vertex; PNG, JPEG, WebP and KTX 2 without Basis. An unsupported extension
+/// is an error if it is required, else a warning.
 Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options = {});
 
 }  // namespace reflet

@@ -45,16 +45,13 @@ struct UnsupportedExtension {
     std::string_view name;
     std::string_view consequence;
 };
-constexpr std::array<UnsupportedExtension, 9> unsupportedExtensions{
+constexpr std::array<UnsupportedExtension, 6> unsupportedExtensions{
     {{"KHR_materials_transmission", "glass will be drawn opaque"},
      {"KHR_materials_diffuse_transmission", "translucent surfaces will be drawn opaque"},
      {"KHR_materials_clearcoat", "clear coats will be missing"},
      {"KHR_materials_sheen", "sheen will be missing"},
      {"KHR_materials_iridescence", "iridescence will be missing"},
-     {"KHR_materials_anisotropy", "anisotropic highlights will be drawn isotropic"},
-     {"KHR_materials_specular", "dielectrics will reflect 4 % at normal incidence"},
-     {"KHR_materials_ior", "dielectrics will reflect 4 % at normal incidence"},
-     {"KHR_materials_unlit", "unlit materials will be lit"}}};
+     {"KHR_materials_anisotropy", "anisotropic highlights will be drawn isotropic"}}};
 
 /// How the rendered image differs from what the file asks for.
 std::string_view consequenceOf(std::string_view extension) {

@@ -10,6 +10,8 @@ namespace reflet {
 
 namespace {
 
+constexpr float defaultIor = 1.5F;
+
 Wrap wrapOf(int value) {
     switch (value) {
         case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
@@ -51,6 +53,17 @@ vec3 emissiveOf(const tinygltf::Material& source) {
     const auto found = source.extensions.find("KHR_materials_emissive_strength");
     const double strength = found != source.extensions.end() ? numberOr(found->second, "emissiveStrength", 1.0) : 1.0;
     return glm::dvec3(factor[0], factor[1], factor[2]) * strength;
+}
+
+/// KHR_materials_ior: 0 is allowed and means total reflection.
+float iorOf(const tinygltf::Value& extension, const std::string& part, GltfReport& report) {
+    const double ior = numberOr(extension, "ior", defaultIor);
+    if (ior > 0.0 && ior < 1.0) {
+        report.warn("ior", part + ".ior", "the surface will reflect as one of {}: {} is neither 0 nor at least 1",
+                    defaultIor, ior);
+        return defaultIor;
+    }
+    return static_cast<float>(ior);
 }
 
 }  // namespace
@@ -95,12 +108,47 @@ Material GltfMaterials::convert(int material) {
     result.normalTexture = slotOf(source.normalTexture, "normalTexture");
     result.occlusionTexture = slotOf(source.occlusionTexture, "occlusionTexture");
     result.emissiveTexture = slotOf(source.emissiveTexture, "emissiveTexture");
+    readSpecular(result, source.extensions, part + ".extensions.");
+    result.unlit = source.extensions.contains("KHR_materials_unlit");
     if (source.extras.Has("camera")) {
+        result.unlit = false;
         result.camera = source.extras.Get("camera").Get<std::string>();
         result.emissive = vec3(0.0F);
         result.emissiveTexture = {};
     }
     return result;
+}
+
+void GltfMaterials::readSpecular(Material& material, const tinygltf::ExtensionMap& extensions,
+                                 const std::string& part) {
+    if (const auto ior = extensions.find("KHR_materials_ior"); ior != extensions.end()) {
+        material.ior = iorOf(ior->second, part + ior->first, report_);
+    }
+    const auto found = extensions.find("KHR_materials_specular");
+    if (found == extensions.end()) {
+        return;
+    }
+    const auto& [name, specular] = *found;
+    material.specular = static_cast<float>(numberOr(specular, "specularFactor", 1.0));
+    for (int c = 0; c < 3; ++c) {
+        material.specularColor[c] = static_cast<float>(numberAt(specular, "specularColorFactor", c, 1.0));
+    }
+    material.specularTexture = slotOf(specular, "specularTexture", part + name);
+    material.specularColorTexture = slotOf(specular, "specularColorTexture", part + name);
+}
+
+/// A texture that tinygltf keeps as plain values, because an extension refers to it.
+TextureSlot GltfMaterials::slotOf(const tinygltf::Value& object, const std::string& name, const std::string& part) {
+    if (!object.Has(name)) {
+        return {};
+    }
+    const tinygltf::Value& info = object.Get(name);
+    tinygltf::ExtensionMap extensions;
+    if (info.Has("extensions")) {
+        extensions = info.Get("extensions").Get<tinygltf::Value::Object>();
+    }
+    return slot(info.Get("index").GetNumberAsInt(), static_cast<int>(numberOr(info, "texCoord", 0)), extensions,
+                part + "." + name);
 }
 
 TextureSlot GltfMaterials::slot(int texture, int uvSet, const tinygltf::ExtensionMap& extensions,

@@ -150,6 +150,26 @@ void completeFrames(Mesh& mesh, const PrimitiveSource& source, const TextureSlot
     }
 }
 
+/// Index in the file; < 0: the default material. KHR_materials_variants: a primitive keeps its own material in variants
+/// that it does not name.
+int materialOf(const tinygltf::Primitive& primitive, int variant) {
+    const auto found = primitive.extensions.find("KHR_materials_variants");
+    if (variant < 0 || found == primitive.extensions.end()) {
+        return primitive.material;
+    }
+    const tinygltf::Value& mappings = found->second.Get("mappings");
+    for (size_t m = 0; m < mappings.Size(); ++m) {
+        const tinygltf::Value& mapping = mappings.Get(static_cast<int>(m));
+        const tinygltf::Value& variants = mapping.Get("variants");
+        for (size_t i = 0; i < variants.Size(); ++i) {
+            if (variants.Get(static_cast<int>(i)).GetNumberAsInt() == variant) {
+                return mapping.Get("material").GetNumberAsInt();
+            }
+        }
+    }
+    return primitive.material;
+}
+
 }  // namespace
 
 const std::vector<uint32_t>& GltfMeshes::use(int mesh) {
@@ -184,7 +204,7 @@ void GltfMeshes::loadPrimitive(size_t mesh, size_t primitive) {
     report_.charge(part, used.size() * vertexBytes + document_.model.meshes[mesh].name.size());
     Mesh result;
     result.name = document_.model.meshes[mesh].name;
-    result.material = materials_.use(source.material);
+    result.material = materials_.use(materialOf(source, variant_));
     readPositions(result, opened, used, part, report_);
     readAttributes(result, opened, used);
     readSkin(result, opened, used);

@@ -10,12 +10,13 @@ namespace reflet {
 
 class GltfMeshes {
 public:
-    /// All four must outlive this object.
-    GltfMeshes(const GltfDocument& document, GltfMaterials& materials, Scene& scene, GltfReport& report)
+    /// The references must outlive this object. variant: index of the material variant; < 0: none.
+    GltfMeshes(const GltfDocument& document, GltfMaterials& materials, Scene& scene, GltfReport& report, int variant)
         : document_(document),
           materials_(materials),
           scene_(scene),
           report_(report),
+          variant_(variant),
           meshes_(document.model.meshes.size()),
           loaded_(document.model.meshes.size(), false) {}
 
@@ -29,6 +30,7 @@ private:
     GltfMaterials& materials_;
     Scene& scene_;
     GltfReport& report_;
+    int variant_;
     std::vector<std::vector<uint32_t>> meshes_;
     std::vector<bool> loaded_;
 };

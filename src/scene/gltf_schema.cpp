@@ -42,10 +42,8 @@ public:
                 sizes_[name] = value.size();
             }
         }
-        const json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
-        if (document.contains(lights) && document[lights].is_array()) {
-            sizes_["lights"] = document[lights].size();
-        }
+        countOf(document, "lights", "/extensions/KHR_lights_punctual/lights");
+        countOf(document, "variants", "/extensions/KHR_materials_variants/variants");
     }
 
     json object(const json& value, std::span<const Field> fields, const Place* place) {
@@ -72,6 +70,14 @@ public:
     }
 
 private:
+    /// Of an array that an extension adds.
+    void countOf(const json& document, const char* name, const char* path) {
+        const json::json_pointer pointer(path);
+        if (document.contains(pointer) && document[pointer].is_array()) {
+            sizes_[name] = document[pointer].size();
+        }
+    }
+
     template <class... Args>
     [[noreturn]] void fail(const Place* place, fmt::format_string<Args...> format, Args&&... args) const {
         report_.fail(place != nullptr ? place->path() : "JSON", format, std::forward<Args>(args)...);

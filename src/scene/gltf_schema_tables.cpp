@@ -138,8 +138,19 @@ constexpr std::array metallicRoughness{
     Field{.name = "metallicRoughnessTexture", .type = Type::object, .fields = textureInfo},
 };
 constexpr std::array emissiveStrength{Field{.name = "emissiveStrength", .min = 0}};
+constexpr std::array ior{Field{.name = "ior", .min = 0}};
+constexpr std::array specular{
+    Field{.name = "specularFactor", .min = 0, .max = 1},
+    Field{.name = "specularTexture", .type = Type::object, .fields = textureInfo},
+    Field{.name = "specularColorFactor", .array = true, .items = 3, .min = 0},
+    Field{.name = "specularColorTexture", .type = Type::object, .fields = textureInfo},
+};
+constexpr std::array<Field, 0> unlit{};
 constexpr std::array materialExtensions{
     Field{.name = "KHR_materials_emissive_strength", .type = Type::object, .fields = emissiveStrength},
+    Field{.name = "KHR_materials_ior", .type = Type::object, .fields = ior},
+    Field{.name = "KHR_materials_specular", .type = Type::object, .fields = specular},
+    Field{.name = "KHR_materials_unlit", .type = Type::object, .fields = unlit},
 };
 constexpr std::array materialExtras{
     Field{.name = "camera", .type = Type::text},  // Reflet's own: Material::camera
@@ -163,7 +174,15 @@ constexpr std::array draco{
     Field{.name = "bufferView", .type = Type::index, .required = true, .refersTo = "bufferViews"},
     Field{.name = "attributes", .type = Type::indexMap, .required = true},
 };
+constexpr std::array variantMapping{
+    Field{.name = "variants", .type = Type::index, .required = true, .array = true, .refersTo = "variants"},
+    Field{.name = "material", .type = Type::index, .required = true, .refersTo = "materials"},
+};
+constexpr std::array variantMappings{
+    Field{.name = "mappings", .type = Type::object, .required = true, .array = true, .fields = variantMapping},
+};
 constexpr std::array primitiveExtensions{
+    Field{.name = "KHR_materials_variants", .type = Type::object, .fields = variantMappings},
     Field{.name = "KHR_draco_mesh_compression", .type = Type::object, .fields = draco},
 };
 constexpr std::array primitive{
@@ -268,7 +287,14 @@ constexpr std::array light{
 constexpr std::array lights{
     Field{.name = "lights", .type = Type::object, .required = true, .array = true, .fields = light},
 };
+constexpr std::array variant{
+    Field{.name = "name", .type = Type::text, .required = true},
+};
+constexpr std::array variants{
+    Field{.name = "variants", .type = Type::object, .required = true, .array = true, .fields = variant},
+};
 constexpr std::array documentExtensions{
+    Field{.name = "KHR_materials_variants", .type = Type::object, .fields = variants},
     Field{.name = "KHR_lights_punctual", .type = Type::object, .fields = lights},
 };
 

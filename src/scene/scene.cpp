@@ -88,10 +88,17 @@ float lampClearance(float radius) {
     return std::max(radius, 1e-3F);
 }
 
+bool isUnlit(const Scene& scene) {
+    return !scene.instances.empty() && std::ranges::all_of(scene.instances, [&](const Instance& instance) {
+        const size_t material = scene.meshes.at(instance.mesh).material;
+        return material < scene.materials.size() && scene.materials[material].unlit;
+    });
+}
+
 View defaultView(const Scene& scene, float aspect) {
     View view;
     view.camera = scene.cameras.empty() ? framingCamera(scene, aspect) : scene.cameras.front();
-    view.hasDefaultSun = !isLit(scene);
+    view.hasDefaultSun = !isLit(scene) && !isUnlit(scene);
     view.sun = view.hasDefaultSun ? defaultSun(view.camera) : scene.sun.value_or(Sun{});
     view.environment = scene.environment;
     return view;

@@ -64,12 +64,18 @@ struct Material {
     /// is used where surfaces are there or not: in shadow maps, probes, live pictures.
     bool blended = false;
     bool doubleSided = false;
+    bool unlit = false;            ///< KHR_materials_unlit: emits its base colour, reflects nothing
+    float ior = 1.5F;              ///< KHR_materials_ior: index of refraction of the dielectric; 0: reflects all light
+    float specular = 1.0F;         ///< KHR_materials_specular: strength of the dielectric's reflection, factor, 0..1
+    vec3 specularColor{1.0F};      ///< its tint at normal incidence, factor, not negative
     std::string camera;            ///< name of the camera whose image the surface emits (alone); empty: none
     TextureSlot baseColorTexture;  ///< sRGB
     TextureSlot metallicRoughnessTexture;
     TextureSlot normalTexture;
     TextureSlot occlusionTexture;
-    TextureSlot emissiveTexture;  ///< sRGB
+    TextureSlot emissiveTexture;       ///< sRGB
+    TextureSlot specularTexture;       ///< alpha
+    TextureSlot specularColorTexture;  ///< sRGB
 };
 
 /// Vertex attributes besides the position. Unit normal; unit tangent, w = ±1 (bitangent = w · cross(n, t)).
@@ -187,6 +193,7 @@ struct Scene {
     std::vector<Node> nodes;            ///< parents first; empty if there are neither animations nor skins
     std::vector<Animation> animations;  ///< all play at once
     std::vector<Skin> skins;
+    std::vector<std::string> variants;  ///< names of the file's material variants, whether chosen or not
 
     /// World-space bounds of all instances at time 0; empty if there are none.
     [[nodiscard]] Aabb bounds() const;
@@ -239,11 +246,15 @@ struct View {
 
 /// The scene's first camera, its sun and its environment. Without a camera: one that frames the whole scene from
 /// slightly
-/// above; without any light: a sun from over the camera's shoulder.
+/// above; without any light, unless it is unlit: a sun from over the camera's shoulder.
 View defaultView(const Scene& scene);
 
 /// From behind the camera's left shoulder, 53 degrees above the horizon, white, pi W/m².
 Sun defaultSun(const Camera& camera);
+
+/// Whether nothing in the scene receives light, because all materials are unlit: such a scene, often with baked light,
+/// needs no default light. False for an empty scene.
+bool isUnlit(const Scene& scene);
 
 /// World-to-view matrix; view space looks along -Z.
 mat4 worldToView(const Camera& camera);

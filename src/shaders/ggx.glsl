@@ -11,6 +11,7 @@
 // Below this perceptual roughness, the highlight of a point-like light would exceed the range of half floats.
 const float minLightRoughness = 0.045;
 const float dielectricF0 = 0.04;
+const vec4 standardDielectric = vec4(vec3(dielectricF0), 1.0);  // F0, F90
 
 // Normal distribution D; nh: cosine between normal and half vector.
 float ggxDistribution(float nh, float alpha) {
@@ -27,11 +28,13 @@ float ggxVisibility(float nl, float nv, float alpha) {
     return 0.5 / max(v + l, 1e-7);
 }
 
-vec3 fresnelSchlick(vec3 f0, float vh) {
+// f90: reflectance at grazing incidence.
+vec3 fresnelSchlick(vec3 f0, float f90, float vh) {
     float m = clamp(1.0 - vh, 0.0, 1.0);
     float m2 = m * m;
-    return f0 + (1.0 - f0) * (m2 * m2 * m);
+    return f0 + (f90 - f0) * (m2 * m2 * m);
 }
+vec3 fresnelSchlick(vec3 f0, float vh) { return fresnelSchlick(f0, 1.0, vh); }
 
 // Tangent of the half angle of a cone that holds about half of the reflected light.
 float ggxConeTangent(float alpha) { return 1.5 * alpha; }
@@ -52,32 +55,40 @@ vec3 ggxMeanDirection(vec3 v, float alpha) {
 struct Surface {
     vec3 diffuse;       // albedo of the diffuse base, times what the specular layer transmits
     vec3 f0;
+    float f90;
     float roughness;    // perceptual
     vec3 compensation;  // factor on single-scattering specular
     vec3 specular;      // directional albedo toward the camera, compensated
 };
 
-// table: directional albedo of the single-scattering lobe toward the camera as A · F0 + B: texel (nv, roughness) of the
-// image that ggx_table.comp makes. lambertOnly: no specular layer.
-Surface makeSurface(vec3 baseColor, float metallic, float roughness, vec2 table, bool lambertOnly) {
+// Reflects nothing.
+Surface blackSurface() { return Surface(vec3(0.0), vec3(0.0), 0.0, 1.0, vec3(0.0), vec3(0.0)); }
+
+// dielectric: its F0 and F90, the reflectance of the material as far as it is not metallic. KHR_materials_specular: the
+// base gets what the layer's most reflective channel leaves. table: directional albedo of the single-scattering lobe
+// toward the camera as A · F0 + B · F90: texel (nv, roughness) of the image that ggx_table.comp makes. lambertOnly: no
+// specular layer.
+Surface makeSurface(vec3 baseColor, float metallic, float roughness, vec4 dielectric, vec2 table, bool lambertOnly) {
     Surface s;
     s.roughness = roughness;
     if (lambertOnly) {
         s.diffuse = baseColor;
         s.f0 = vec3(0.0);
+        s.f90 = 1.0;
         s.compensation = vec3(0.0);
         s.specular = vec3(0.0);
         return s;
     }
-    s.f0 = mix(vec3(dielectricF0), baseColor, metallic);
+    s.f0 = mix(dielectric.rgb, baseColor, metallic);
+    s.f90 = dielectric.a + metallic * (1.0 - dielectric.a);
     float lost = 1.0 / max(table.x + table.y, 1e-3) - 1.0;
-    float coat = (dielectricF0 * table.x + table.y) * (1.0 + dielectricF0 * lost);
+    vec3 coat = (dielectric.rgb * table.x + dielectric.a * table.y) * (1.0 + dielectric.rgb * lost);
     vec3 metal = (baseColor * table.x + table.y) * (1.0 + baseColor * lost);
     // Interpolated by metallic, as glTF defines. The compensation is not linear in F0, so it is derived from the
     // result.
-    s.specular = min(mix(vec3(coat), metal, metallic), vec3(1.0));
-    s.compensation = s.specular / max(s.f0 * table.x + table.y, vec3(1e-4));
-    s.diffuse = baseColor * ((1.0 - metallic) * (1.0 - coat));
+    s.specular = min(mix(coat, metal, metallic), vec3(1.0));
+    s.compensation = s.specular / max(s.f0 * table.x + s.f90 * table.y, vec3(1e-4));
+    s.diffuse = baseColor * ((1.0 - metallic) * (1.0 - min(max(coat.r, max(coat.g, coat.b)), 1.0)));
     return s;
 }
 
@@ -96,12 +107,12 @@ vec3 brdfTimesCosine(Surface s, vec3 n, vec3 v, vec3 l) {
     }
     vec3 result = s.diffuse * (nl / pi);
     float nv = max(dot(n, v), 1e-4);
-    if (s.compensation.x > 0.0) {
+    if (any(greaterThan(s.compensation, vec3(0.0)))) {
         vec3 h = normalize(v + l);
         float roughness = max(s.roughness, minLightRoughness);
         float alpha = roughness * roughness;
         float dv = ggxDistribution(clamp(dot(n, h), 0.0, 1.0), alpha) * ggxVisibility(nl, nv, alpha);
-        result += fresnelSchlick(s.f0, dot(v, h)) * s.compensation * (dv * nl);
+        result += fresnelSchlick(s.f0, s.f90, dot(v, h)) * s.compensation * (dv * nl);
     }
     return result;
 }

@@ -74,6 +74,9 @@ std::string Viewer::commandLine() {
     if (source.sceneIndex) {
         line += fmt::format(" --scene {}", *source.sceneIndex);
     }
+    if (!source.variant.empty()) {
+        line += " --variant " + shellWord(source.variant);
+    }
     line += fmt::format(" --size {}x{}", size.x, size.y);
     if (state_.preset != defaultPreset) {
         line += " --preset " + shellWord(state_.preset);

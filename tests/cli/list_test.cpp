@@ -39,6 +39,16 @@ TEST_F(Lists, PresetsAreShownWithWhatTheySet) {
     EXPECT_TRUE(has(output({"list", "presets"}), {"plain", "direct", "fast", "balanced", "quality", R"("rays":0)"}));
 }
 
+TEST_F(Lists, MaterialVariantsOfAFileAreThoseThatRenderTakes) {
+    write("shoe.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{}], "extensions": {"KHR_materials_variants":
+        {"variants": [{"name": "beach"}, {"name": "street"}]}}})");
+    EXPECT_EQ(output({"list", "variants", "shoe.gltf"}), "beach\nstreet\n");
+    EXPECT_TRUE(refused(run({"render", "shoe.gltf", "--variant", "snow", "-o", "x.png"}), 2,
+                        {"shoe.gltf", "no material variant 'snow'", "beach, street"}));
+    EXPECT_TRUE(refused(run({"render", "builtin:cubes", "--variant", "snow", "-o", "x.png"}), 2,
+                        {"--variant snow", "built-in"}));
+}
+
 TEST_F(Lists, EveryShowHasALineOfItsOwn) {
     const std::string text = output({"list", "shows"});
     std::vector<std::string> names = firstWords(text);

@@ -69,6 +69,46 @@ TEST(Furnace, AWhiteThingInAWhiteEnvironmentIsInvisible) {
     }
 }
 
+// The base gets what the layer's strongest channel leaves: with a grey layer all light returns, with a tinted one that
+// channel's.
+TEST(Furnace, AWhiteDielectricOfAnyIorAndSpecularReturnsWhatItsTintDoesNotTake) {
+    struct Layer {
+        float ior;
+        float specular;
+        vec3 color;
+    };
+    for (const Layer& layer :
+         {Layer{1.0F, 1.0F, vec3(1)}, Layer{2.4F, 1.0F, vec3(1)}, Layer{0.0F, 1.0F, vec3(1)},
+          Layer{1.5F, 0.0F, vec3(1)}, Layer{1.8F, 0.5F, vec3(1)}, Layer{2.4F, 1.0F, {1, 0.3, 0}}}) {
+        for (const float roughness : {0.0F, 0.5F}) {
+            Scene scene;
+            Material material = lambertMaterial(vec3(1.0F));
+            material.roughness = roughness;
+            material.ior = layer.ior;
+            material.specular = layer.specular;
+            material.specularColor = layer.color;
+            add(scene, material, square({0, 0, 0}, {0, 1, 0}, 10.0F));
+            View view = darkView({0, 2, 0}, {0, 0, 0}, 10.0F);  // straight from above
+            view.environment.radiance = vec3(1.0F);
+            const ReferencePicture p = traceReference(scene, view, {8, 8}, {.samples = 512});
+            const vec3 got = mean(p.final);
+            const double root = (layer.ior - 1.0) / (layer.ior + 1.0);
+            const double alpha = double(roughness) * roughness;
+            const double black = test::ggxAlbedo(1.0, std::max(alpha, 1e-3), 0.0);
+            const double white = test::ggxAlbedo(1.0, std::max(alpha, 1e-3), 1.0);
+            const auto reflected = [&](float tint) {
+                const double f0 = layer.specular * std::min(root * root * tint, 1.0);
+                return (f0 * (white - black) + layer.specular * black) * (1.0 + f0 * (1.0 / white - 1.0));
+            };
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_NEAR(got[c], 1.0 - reflected(1.0F) + reflected(layer.color[c]), 0.01)
+                    << layer.ior << ", " << layer.specular << ", " << roughness;
+                EXPECT_NEAR(mean(p.indirectSpecular)[c], reflected(layer.color[c]), 0.01);
+            }
+        }
+    }
+}
+
 // Irradiance at the origin, facing up, from a rectangle of radiance 1 parallel to the floor at a height, with one
 // corner
 // above the origin. (A catalogue of radiation heat transfer configuration factors, J. Howell, B-3)

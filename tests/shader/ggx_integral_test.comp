@@ -17,7 +17,7 @@ void main() {
     }
     GgxRing c = inputs.items[i];
     vec2 table = textureLod(ggxTable, ggxTableUv(c.nv, c.material.roughness), 0.0).rg;
-    Surface s = makeSurface(c.material.baseColor, c.material.metallic, c.material.roughness, table, false);
+    Surface s = makeSurface(c.material.baseColor, c.material.metallic, c.material.roughness, standardDielectric, table, false);
     vec3 n = vec3(0.0, 0.0, 1.0);
     vec3 v = vec3(sqrt(1.0 - c.nv * c.nv), 0.0, c.nv);
     float alpha = max(c.material.roughness, minLightRoughness);

@@ -17,7 +17,7 @@ void main() {
     GgxCase c = inputs.items[i];
     GgxResult o;
     o.table = textureLod(ggxTable, ggxTableUv(c.v.z, c.material.roughness), 0.0).rg;
-    Surface s = makeSurface(c.material.baseColor, c.material.metallic, c.material.roughness, o.table,
+    Surface s = makeSurface(c.material.baseColor, c.material.metallic, c.material.roughness, standardDielectric, o.table,
                             c.material.lambert != 0u);
     o.reflected = brdfTimesCosine(s, vec3(0.0, 0.0, 1.0), c.v, c.l);
     o.diffuse = s.diffuse;

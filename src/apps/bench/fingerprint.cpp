@@ -89,11 +89,12 @@ private:
 
     void add(const Material& material) {
         const auto& [name, baseColor, metallic, roughness, emissive, normalScale, occlusionStrength, alphaCutoff,
-                     blended, doubleSided, camera, baseColorTexture, metallicRoughnessTexture, normalTexture,
-                     occlusionTexture, emissiveTexture] = material;
+                     blended, doubleSided, unlit, ior, specular, specularColor, camera, baseColorTexture,
+                     metallicRoughnessTexture, normalTexture, occlusionTexture, emissiveTexture, specularTexture,
+                     specularColorTexture] = material;
         all(name, baseColor, metallic, roughness, emissive, normalScale, occlusionStrength, alphaCutoff, blended,
-            doubleSided, camera, baseColorTexture, metallicRoughnessTexture, normalTexture, occlusionTexture,
-            emissiveTexture);
+            doubleSided, unlit, ior, specular, specularColor, camera, baseColorTexture, metallicRoughnessTexture,
+            normalTexture, occlusionTexture, emissiveTexture, specularTexture, specularColorTexture);
     }
 
     void add(const VertexAttributes& vertex) {
@@ -179,8 +180,9 @@ private:
 
 void addTo(Fingerprint& print, const Scene& scene) {
     const auto& [name, fromFile, images, samplers, materials, meshes, instances, lamps, cameras, sun, environment,
-                 nodes, animations, skins] = scene;
+                 nodes, animations, skins, variants] = scene;
     (void)fromFile;  // it does not change radiance
+    (void)variants;  // names alone
     Adder(print).all(name, images, samplers, materials, meshes, instances, lamps, cameras, sun, environment, nodes,
                      animations, skins);
 }

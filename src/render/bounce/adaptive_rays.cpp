@@ -30,7 +30,8 @@ RayTiles shareRays(gpu::Frame& f, const RaySurfaces& from, uint32_t lobe, const 
     const gpu::BufferView histogram = f.buffer("rays.noise_histogram", histogramSize * sizeof(uint32_t));
     constexpr std::array<uint32_t, histogramSize> none{};
     f.update(histogram, std::as_bytes(std::span(none)));
-    f.compute("measure_noise", "measure_noise.comp")
+    gpu::Pass pass = f.compute("measure_noise", "measure_noise.comp");
+    bindSurfaces(f, pass, from.g)
         .constant("lobe", lobe)
         .read("depth", from.g.depth)
         .read("material", from.g.material)

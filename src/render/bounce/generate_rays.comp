@@ -6,7 +6,7 @@
 #include "render/bounce/adaptive_rays.h"
 #include "render/bounce/ray_tiles.glsl"
 #include "render/bounce/rays.glsl"
-#include "render/gbuffer/gbuffer.glsl"
+#include "render/gbuffer/gbuffer_surface.glsl"
 #include "shaders/projection.glsl"
 #include "shaders/sampling.glsl"
 
@@ -80,6 +80,14 @@ vec3 raiseAbove(vec3 direction, vec3 geometric) {
     return height < lowestRay ? normalize(direction + geometric * (lowestRay - height)) : direction;
 }
 
+// F0 by its luminance over F90, by which the weight of a ray does not change; of a surface that reflects nothing: any.
+float relativeF0(ivec2 pixel, MaterialTexel m) {
+    vec4 dielectric = dielectricAt(pixel);
+    vec3 f0 = mix(dielectric.rgb, unpackBaseColor(texelFetch(baseColor, pixel, 0).rgb), m.metallic);
+    float f90 = dielectric.a + m.metallic * (1.0 - dielectric.a);
+    return f90 > 0.0 ? dot(f0, vec3(0.2126, 0.7152, 0.0722)) / f90 : dielectricF0;
+}
+
 // Reflection at a sampled visible GGX normal. The weight is BRDF · cos / pdf divided by the directional albedo, which
 // the composite multiplies in. One weight for all three channels: F0 is taken by its luminance.
 Ray specularRay(RayNumber number, vec3 n, vec3 v, MaterialTexel m) {
@@ -106,8 +114,7 @@ Ray specularRay(RayNumber number, vec3 n, vec3 v, MaterialTexel m) {
         share = ggxVisibility(max(l.z, 0.0), eye.z, alpha) * 2.0 * max(l.z, 0.0) *
                 (eye.z + sqrt(eye.z * eye.z * (1.0 - a2) + a2));
     }
-    vec3 f0 = mix(vec3(dielectricF0), unpackBaseColor(texelFetch(baseColor, number.pixel, 0).rgb), m.metallic);
-    float y = dot(f0, vec3(0.2126, 0.7152, 0.0722));
+    float y = relativeF0(number.pixel, m);
     vec2 table = textureLod(ggxTable, ggxTableUv(eye.z, m.roughness), 0.0).rg;
     float weight = share * fresnelSchlick(vec3(y), dot(eye, h)).x / max(y * table.x + table.y, 1e-3);
     float fade = params.specular.maxRoughness < 1.0 && params.specular.roughFallback == RoughFallback_next

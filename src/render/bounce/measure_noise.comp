@@ -6,7 +6,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "render/bounce/adaptive_rays.h"
 #include "render/bounce/rays.h"
-#include "render/gbuffer/gbuffer.glsl"
+#include "render/gbuffer/gbuffer_surface.glsl"
 #include "shaders/luminance.glsl"
 #include "shaders/projection.glsl"
 
@@ -39,8 +39,12 @@ const float sameDistance = 0.1;  // tolerance for the distance of a reprojected 
 // Approximate reflectance of the surface for the lobe.
 float reflectance(ivec2 pixel) {
     MaterialTexel m = loadMaterial(pixel);
+    if (isUnlit(m)) {
+        return 0.0;
+    }
     float base = luminance(unpackBaseColor(texelFetch(baseColor, pixel, 0).rgb));
-    return lobe == lobeDiffuse ? base * (1.0 - m.metallic) : mix(dielectricF0, base, m.metallic);
+    float dielectric = mayReflectUnusually() ? luminance(dielectricAt(pixel).rgb) : dielectricF0;
+    return lobe == lobeDiffuse ? base * (1.0 - m.metallic) : mix(dielectric, base, m.metallic);
 }
 
 // Reprojects to the last frame's pixel; negative if there is none.

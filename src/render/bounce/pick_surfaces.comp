@@ -3,6 +3,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/bounce/ray_surfaces.h"
+#include "render/gbuffer/gbuffer_surface.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { PickSurfacesParams params; };
@@ -18,6 +19,7 @@ layout(set = 0, binding = 9, r32ui) uniform writeonly uimage2D pickedGeometricNo
 layout(set = 0, binding = 10, rgba8) uniform writeonly image2D pickedBaseColor;
 layout(set = 0, binding = 11, rgba8) uniform writeonly image2D pickedMaterial;
 layout(set = 0, binding = 12, rg16f) uniform writeonly image2D pickedMotion;
+layout(set = 0, binding = 13, rgba16f) uniform writeonly image2D pickedReflectance;
 
 void main() {
     ivec2 block = ivec2(gl_GlobalInvocationID.xy);
@@ -33,4 +35,7 @@ void main() {
     imageStore(pickedBaseColor, block, texelFetch(baseColor, pixel, 0));
     imageStore(pickedMaterial, block, texelFetch(material, pixel, 0));
     imageStore(pickedMotion, block, texelFetch(motion, pixel, 0));
+    if (mayReflectUnusually()) {
+        imageStore(pickedReflectance, block, texelFetch(surfaceReflectance, pixel, 0));
+    }
 }

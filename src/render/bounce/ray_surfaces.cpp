@@ -38,14 +38,18 @@ RaySurfaces pickSurfaces(gpu::Frame& f, const GBuffer& g, const ViewParams& view
     const auto image = [&](std::string_view name, VkFormat format) {
         return f.image("surfaces_" + std::to_string(scale) + "." + std::string(name), format, size);
     };
-    const GBuffer picked{.depth = image("depth", VK_FORMAT_R32_SFLOAT),
-                         .normal = image("normal", VK_FORMAT_R32_UINT),
-                         .geometricNormal = image("geometric_normal", VK_FORMAT_R32_UINT),
-                         .baseColor = image("base_color", VK_FORMAT_R8G8B8A8_UNORM),
-                         .material = image("material", VK_FORMAT_R8G8B8A8_UNORM),
-                         .emissive = {},
-                         .motion = image("motion", VK_FORMAT_R16G16_SFLOAT)};
-    f.compute("pick_surfaces", "pick_surfaces.comp")
+    const GBuffer picked{
+        .depth = image("depth", VK_FORMAT_R32_SFLOAT),
+        .normal = image("normal", VK_FORMAT_R32_UINT),
+        .geometricNormal = image("geometric_normal", VK_FORMAT_R32_UINT),
+        .baseColor = image("base_color", VK_FORMAT_R8G8B8A8_UNORM),
+        .material = image("material", VK_FORMAT_R8G8B8A8_UNORM),
+        .emissive = {},
+        .motion = image("motion", VK_FORMAT_R16G16_SFLOAT),
+        .reflectance = g.reflectance ? image("reflectance", VK_FORMAT_R16G16B16A16_SFLOAT) : gpu::Image{},
+        .features = g.features};
+    gpu::Pass pass = f.compute("pick_surfaces", "pick_surfaces.comp");
+    bindSurfaces(f, pass, g)
         .read("depth", g.depth)
         .read("normal", g.normal)
         .read("geometricNormal", g.geometricNormal)
@@ -58,6 +62,9 @@ RaySurfaces pickSurfaces(gpu::Frame& f, const GBuffer& g, const ViewParams& view
         .write("pickedBaseColor", picked.baseColor)
         .write("pickedMaterial", picked.material)
         .write("pickedMotion", picked.motion)
+        .write("pickedReflectance", picked.reflectance
+                                        ? picked.reflectance
+                                        : f.image("no_picked_reflectance", VK_FORMAT_R16G16B16A16_SFLOAT, uvec2(1)))
         .params(PickSurfacesParams{uvec2(view.size), size, scale, blockPixelOffset(scale)})
         .dispatch(size);
     return {picked, blocks, scale};

@@ -49,7 +49,8 @@ Rays generateRays(gpu::Frame& f, const RaySurfaces& from, const RayTables& table
         f.clear(rays.steps);  // pixels without rays have 0 steps
     }
     rays.waiting = makeRayList(f, rays, "rays.generated");
-    f.compute("generate_rays", "generate_rays.comp")
+    gpu::Pass pass = f.compute("generate_rays", "generate_rays.comp");
+    bindSurfaces(f, pass, g)
         .constant("lobe", lobe)
         .constant("noise", static_cast<uint32_t>(lobe == lobeDiffuse ? params.diffuse.noise : params.specular.noise))
         .constant("distribution", static_cast<uint32_t>(params.diffuse.distribution))

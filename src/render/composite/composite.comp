@@ -4,7 +4,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/composite/composite.h"
-#include "render/gbuffer/gbuffer.glsl"
+#include "render/gbuffer/gbuffer_surface.glsl"
 #include "shaders/directional_light.glsl"
 #include "shaders/half_float.glsl"
 #include "shaders/projection.glsl"
@@ -149,7 +149,7 @@ void main() {
         vec3 n = unpackUnitVector(texelFetch(normal, pixel, 0).r);
         float nv = dot(n, directionToEye(p, params.view.eye));
         MaterialTexel m = unpackMaterial(texelFetch(material, pixel, 0));
-        Surface s = surfaceAt(texelFetch(baseColor, pixel, 0).rgb, m, nv, ggxTable, lambertOnly != 0u);
+        Surface s = surfaceAt(pixel, texelFetch(baseColor, pixel, 0).rgb, m, nv, ggxTable, lambertOnly != 0u);
         Shown shown;
         shown.pixel = pixel;
         if (diffuseScale > 1u || specularScale > 1u) {

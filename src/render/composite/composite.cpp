@@ -30,7 +30,8 @@ Composite composite(gpu::Frame& f, const CompositeInputs& in, gpu::Image lit, Co
     };
     params.diffuseBlockOffset = blockPixelOffset(in.diffuse.from.scale);
     params.specularBlockOffset = blockPixelOffset(in.specular.from.scale);
-    f.compute("composite", "composite.comp")
+    gpu::Pass pass = f.compute("composite", "composite.comp");
+    bindSurfaces(f, pass, in.g)
         .constant("diffuseScale", scaleOf(in.diffuse))
         .constant("specularScale", scaleOf(in.specular))
         .constant("lambertOnly", in.lambertOnly ? 1U : 0U)

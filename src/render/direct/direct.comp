@@ -5,7 +5,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "render/direct/direct.h"
 #include "render/environment/environment.glsl"
-#include "render/gbuffer/gbuffer.glsl"
+#include "render/gbuffer/gbuffer_surface.glsl"
 #include "shaders/half_float.glsl"
 #include "shaders/lamp.glsl"
 #include "shaders/projection.glsl"
@@ -50,10 +50,11 @@ vec3 radianceAt(ivec2 pixel) {
     vec3 n = unpackUnitVector(texelFetch(normal, pixel, 0).r);
     vec3 v = directionToEye(p, params.view.eye);
     MaterialTexel m = unpackMaterial(texelFetch(material, pixel, 0));
-    Surface s = surfaceAt(texelFetch(baseColor, pixel, 0).rgb, m, dot(n, v), ggxTable, lambertOnly != 0u);
+    vec3 base = texelFetch(baseColor, pixel, 0).rgb;
+    Surface s = surfaceAt(pixel, base, m, dot(n, v), ggxTable, lambertOnly != 0u);
 
     float visibility = texelFetch(sunVisibility, pixel, 0).r;
-    vec3 radiance = texelFetch(emissive, pixel, 0).rgb;
+    vec3 radiance = emissionAt(texelFetch(emissive, pixel, 0).rgb, base, m);
     radiance += brdfTimesCosine(s, n, v, params.toSun) * params.sunIrradiance * visibility;
     for (uint first = 0u; anyLamps != 0u && first < lampBlock.count; first += lampsPerLayer) {
         uvec4 bits = lampMaskAt(pixel, first / lampsPerLayer);

@@ -28,6 +28,7 @@ gpu::Image directLight(gpu::Frame& f, const GBuffer& g, const LightVisibility& v
     const VkSampler linear = f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR});
     gpu::Pass pass = f.compute("direct", "direct.comp");
     bindEnvironment(pass, lights.environment);
+    bindSurfaces(f, pass, g);
     pass.read("depth", g.depth)
         .read("normal", g.normal)
         .read("baseColor", g.baseColor)

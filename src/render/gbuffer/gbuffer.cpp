@@ -1,6 +1,8 @@
 // Draws the G-buffer.
 #include "render/gbuffer/gbuffer.h"
 
+#include "render/material.h"
+
 namespace reflet {
 
 namespace {
@@ -18,6 +20,7 @@ GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view,
     const bool blended = bool(content.opaqueDepth);
     const uint32_t surfaces = !blended ? surfacesOpaque : content.nearerDepth ? surfacesBehind : surfacesNearest;
     const bool clipped = clipPlane != vec4(0.0F);
+    const bool reflectance = (list.materialFeatures & materialFeatureReflectance) != 0;
     const uvec2 size(view.size);
     const GBuffer g{
         .depth = f.target("depth", VK_FORMAT_D32_SFLOAT, size),
@@ -27,6 +30,8 @@ GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view,
         .material = f.target("material", VK_FORMAT_R8G8B8A8_UNORM, size),
         .emissive = f.target("emissive", VK_FORMAT_B10G11R11_UFLOAT_PACK32, size),
         .motion = f.target("motion", VK_FORMAT_R16G16B16A16_SFLOAT, size),
+        .reflectance = reflectance ? f.target("reflectance", VK_FORMAT_R16G16B16A16_SFLOAT, size) : gpu::Image{},
+        .features = list.materialFeatures,
     };
     const VkClearColorValue zero{};
     gpu::Pass pass = f.raster("gbuffer", {"gbuffer.vert", "gbuffer.frag"});
@@ -41,6 +46,7 @@ GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view,
     pass.constant("clipped", clipped ? 1U : 0U)
         .constant("usedSlots", list.textureSlots)
         .constant("surfaces", surfaces)
+        .constant("materialFeatures", list.materialFeatures)
         .constant("bent", list.previousPositions != VK_NULL_HANDLE ? 1U : 0U)
         .color("outBaseColor", g.baseColor, zero)
         .color("outNormal", g.normal, zero)
@@ -48,6 +54,7 @@ GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view,
         .color("outMaterial", g.material, zero)
         .color("outEmissive", g.emissive, zero)
         .color("outMotion", g.motion, zero)
+        .color("outReflectance", g.reflectance, zero)
         .depth(g.depth, 0.0F)
         .vertices(vertexLayout(), list.materialLayout)
         .params(GBufferParams{view, settings, clipPlane, content.blendedFrom})
@@ -59,6 +66,12 @@ GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view,
             recordDraws(to, list, {keep, Cull::back, true, view.worldToClip}, true);
         });
     return g;
+}
+
+gpu::Pass& bindSurfaces(gpu::Frame& f, gpu::Pass& pass, const GBuffer& g) {
+    const gpu::Image unread = f.image("no_reflectance", VK_FORMAT_R16G16B16A16_SFLOAT, uvec2(1));
+    return pass.constant("materialFeatures", g.features)
+        .read("surfaceReflectance", g.reflectance ? g.reflectance : unread);
 }
 
 }  // namespace reflet

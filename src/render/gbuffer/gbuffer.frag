@@ -4,7 +4,7 @@
 #include "render/gbuffer/gbuffer.glsl"
 
 layout(constant_id = 0) const uint clipped = 0u;
-layout(constant_id = 2) const uint usedSlots = 31u;
+layout(constant_id = 2) const uint usedSlots = 127u;
 layout(constant_id = 3) const uint surfaces = surfacesOpaque;
 #include "render/material.glsl"
 
@@ -26,6 +26,7 @@ layout(location = 2) out uint outGeometricNormal;
 layout(location = 3) out vec4 outMaterial;
 layout(location = 4) out vec3 outEmissive;
 layout(location = 5) out vec4 outMotion;
+layout(location = 6) out vec4 outReflectance;  // has a target only where materialFeatures need it
 
 // The triangle's normal, facing the camera; the shading normal if the triangle is seen edge-on.
 vec3 geometricNormal(vec3 shading) {
@@ -90,6 +91,15 @@ void main() {
         outEmissive *= texture(emissiveTexture, slotUv(slotEmissive, uv.xy, uv.zw)).rgb;
     }
     uint flags = params.settings.lambertOnly != 0u ? materialFlagLambert : 0u;
+    if (mayBeUnlit() && material.unlit != 0u) {
+        flags |= materialFlagUnlit;
+        roughnessMetallic = vec2(1.0, 0.0);
+        occlusion = 1.0;
+        outEmissive = vec3(0.0);
+    }
+    if (mayReflectUnusually()) {
+        outReflectance = materialReflectance(uv.xy, uv.zw);
+    }
     outBaseColor = vec4(packBaseColor(baseColor.rgb), 1.0);
     outNormal = packUnitVector(n);
     outGeometricNormal = packedGeometric;

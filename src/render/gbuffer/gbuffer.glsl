@@ -21,11 +21,4 @@ MaterialTexel unpackMaterial(vec4 texel) {
 }
 bool isLambert(MaterialTexel m) { return (m.flags & materialFlagLambert) != 0u; }
 
-// The surface at a pixel; its specular directional albedo is read from the table at nv. lambert: as in the material's
-// flag, or a constant, which saves CPU devices from computing both branches.
-Surface surfaceAt(vec3 baseColorTexel, MaterialTexel m, float nv, sampler2D ggxTable, bool lambert) {
-    vec2 table = lambert ? vec2(0.0) : textureLod(ggxTable, ggxTableUv(nv, m.roughness), 0.0).rg;
-    return makeSurface(unpackBaseColor(baseColorTexel), m.metallic, m.roughness, table, lambert);
-}
-
 #endif

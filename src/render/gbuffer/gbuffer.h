@@ -20,6 +20,7 @@ SETTINGS(MaterialsSettings, MATERIALS_SETTINGS)
 
 // Bits of the material image's alpha.
 const uint materialFlagLambert = 1;
+const uint materialFlagUnlit = 2;  // emits the base colour, reflects nothing
 
 // What is drawn, as the specialization constant `surfaces`.
 const uint surfacesOpaque = 0;   // and blended ones from an alpha of blendedFrom on
@@ -56,6 +57,8 @@ struct GBuffer {
     gpu::Image emissive;   ///< B10G11R11: emitted radiance
     gpu::Image motion;     ///< RGBA16F: uv now minus uv last frame; the surface's own motion away from the camera along
                            ///< its axis [m], exactly 0 at rest; alpha of blended surfaces, else 0
+    gpu::Image reflectance{};  ///< RGBA16F: F0 of the dielectric over 4 %, F90; null unless a material differs from 1
+    uint32_t features = 0;     ///< materialFeature… of the draw list
 };
 
 /// What of the draw list a G-buffer holds.
@@ -72,6 +75,9 @@ struct GBufferContent {
 /// depth, and ray marching relies on distance = near / depth.
 GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view, const MaterialsSettings& settings,
                     const GBufferContent& content = {});
+
+/// Specializes a pass whose shader includes gbuffer_surface.glsl, and binds what that reads.
+gpu::Pass& bindSurfaces(gpu::Frame& f, gpu::Pass& pass, const GBuffer& g);
 
 }  // namespace reflet
 #endif

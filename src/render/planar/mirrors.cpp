@@ -34,7 +34,11 @@ void extend(FlatPiece& piece, const vec3& p) {
     piece.high = glm::max(piece.high, at);
 }
 
+// 1 where nothing is reflected.
 float meanRoughness(const Scene& scene, const Material& material) {
+    if (material.unlit || (material.metallic == 0.0F && material.specular == 0.0F)) {
+        return 1.0F;
+    }
     const int32_t image = material.metallicRoughnessTexture.image;
     if (image < 0) {
         return material.roughness;

@@ -4,7 +4,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/environment/environment_lobes.glsl"
-#include "render/gbuffer/gbuffer.glsl"
+#include "render/gbuffer/gbuffer_surface.glsl"
 #include "render/probe/capture_probe.h"
 #include "shaders/half_float.glsl"
 #include "shaders/projection.glsl"
@@ -37,7 +37,7 @@ vec3 indirectAt(ivec2 pixel, vec3 p) {
     vec3 n = unpackUnitVector(texelFetch(normal, pixel, 0).r);
     vec3 v = directionToEye(p, params.view.eye);
     MaterialTexel m = unpackMaterial(texelFetch(material, pixel, 0));
-    Surface s = surfaceAt(texelFetch(baseColor, pixel, 0).rgb, m, dot(n, v), ggxTable, isLambert(m));
+    Surface s = surfaceAt(pixel, texelFetch(baseColor, pixel, 0).rgb, m, dot(n, v), ggxTable, isLambert(m));
     vec3 r = reflect(-v, n);
     ProbeQuery around = ProbeQuery(p, n, 0.0, true, true, params.blend);
     ProbeQuery mirrored = ProbeQuery(p, r, m.roughness, false, true, params.blend);

@@ -113,6 +113,7 @@ gpu::Image Probes::captureFace(gpu::Frame& f, const Capture& capture, uint32_t f
     gpu::Pass pass = f.compute("capture_probe", "capture_probe.comp");
     pass.params(in.environment.params, "environment");  // without its texels, which are not used here
     bindEnvironmentLobes(pass, f.device(), in.environment);
+    bindSurfaces(f, pass, images.g);
     pass.constant("furtherLight", capture.furtherLight ? 1U : 0U)
         .read("depth", images.g.depth)
         .read("normal", images.g.normal)

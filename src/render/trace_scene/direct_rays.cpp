@@ -13,6 +13,7 @@ DirectRays directByRays(gpu::Frame& f, const GBuffer& g, const DirectRaysInputs&
     in.scene.rays.bind(pass);
     in.scene.surfaces.bind(pass);
     bindEnvironment(pass, in.environment);
+    bindSurfaces(f, pass, g);
     pass.read("depth", g.depth)
         .read("normal", g.normal)
         .read("geometricNormal", g.geometricNormal)

@@ -2,7 +2,7 @@
 // direct_rays_query.comp after their traversal. In: G-buffer, GGX table, lamps. Out: direct radiance, the sun's
 // visibility.
 #include "render/environment/environment.glsl"
-#include "render/gbuffer/gbuffer.glsl"
+#include "render/gbuffer/gbuffer_surface.glsl"
 #include "render/lamps.h"
 #include "render/trace_scene/direct_rays.h"
 #include "shaders/half_float.glsl"
@@ -38,8 +38,14 @@ LitPoint pointAt(ivec2 pixel, float d) {
     at.clearance = clearanceOfPixel(at.position, depthToViewDistance(d, params.view.depthToDistance),
                                     params.view.depthToDistance);
     MaterialTexel m = unpackMaterial(texelFetch(material, pixel, 0));
-    at.surface = surfaceAt(texelFetch(baseColor, pixel, 0).rgb, m, dot(at.normal, at.toViewer), ggxTable, isLambert(m));
+    at.surface = surfaceAt(pixel, texelFetch(baseColor, pixel, 0).rgb, m, dot(at.normal, at.toViewer), ggxTable,
+                           isLambert(m));
     return at;
+}
+
+vec3 emissionOf(ivec2 pixel) {
+    return emissionAt(texelFetch(emissive, pixel, 0).rgb, texelFetch(baseColor, pixel, 0).rgb,
+                      unpackMaterial(texelFetch(material, pixel, 0)));
 }
 
 void main() {
@@ -60,7 +66,7 @@ void main() {
             sum += sunAndLamps(at, random, sunVisible);
             visible += sunVisible;
         }
-        radiance = texelFetch(emissive, pixel, 0).rgb + sum / float(params.rays);
+        radiance = emissionOf(pixel) + sum / float(params.rays);
         visible /= float(params.rays);
     } else {
         radiance = environmentRadiance(viewDirection(pixelToUv(pixel, params.view.pixel), params.view.clipToWorld, params.view.eye));

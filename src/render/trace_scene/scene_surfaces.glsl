@@ -4,6 +4,7 @@
 #ifndef REFLET_SCENE_SURFACES_GLSL
 #define REFLET_SCENE_SURFACES_GLSL
 
+#include "render/material_features.glsl"
 #include "render/trace_scene/scene_materials.h"
 #include "render/trace_scene/scene_triangles.glsl"
 #include "shaders/noise.glsl"
@@ -80,7 +81,7 @@ vec4 readSceneTexture(ScenePlace place, uint slot) {
     vec3 rowV = sceneMaterials.items[m].params.uvRows[2u * slot + 1u];
     vec3 at = vec3(second ? place.uv1 : place.uv0, 1.0);
     vec2 uv = vec2(dot(rowU, at), dot(rowV, at));
-    bool color = slot == slotBaseColor || slot == slotEmissive;
+    bool color = slot == slotBaseColor || slot >= slotEmissive;  // as isSrgb
     vec2 size = vec2(color ? textureSize(sceneColors, 0).xy : textureSize(sceneData, 0).xy);
     // Width of the isotropic footprint in texels of the finest level, from the texel density by area.
     float density = (second ? place.density.y : place.density.x) * sqrt(abs(determinant(mat2(rowU.xy, rowV.xy))));
@@ -122,6 +123,8 @@ struct SceneSurface {
     vec3 baseColor;        // linear
     float roughness;       // perceptual
     float metallic;
+    vec4 reflectance;      // of the dielectric: F0 over dielectricF0, F90
+    bool unlit;            // reflects nothing
     float occlusion;       // of the occlusion map, 1 open
     vec3 emissive;         // radiance; surfaces emit from their visible sides
     float clearance;       // offset of ray origins against self-intersection [m]
@@ -169,6 +172,18 @@ vec3 sceneShadingNormal(SceneTriangle t, ScenePlace place, vec3 fallback) {
     return normalize(tangentW * bent.x + cross(n, tangentW) * (tangent.w * handedness * bent.y) + n * bent.z);
 }
 
+vec4 sceneReflectance(ScenePlace place) {
+    vec3 color = sceneMaterials.items[place.material].params.f0;
+    float weight = sceneMaterials.items[place.material].params.f90;
+    if (hasSceneTexture(place, slotSpecular)) {
+        weight *= readSceneTexture(place, slotSpecular).a;
+    }
+    if (hasSceneTexture(place, slotSpecularColor)) {
+        color *= readSceneTexture(place, slotSpecularColor).rgb;
+    }
+    return reflectanceTexel(color, weight);
+}
+
 // direction: of the ray, unit. width: of the footprint across the ray [m]; 0: textures are read at the finest level.
 SceneSurface sceneSurface(SceneHit hit, vec3 direction, float width) {
     SceneTriangle t = loadSceneTriangle(hit.triangle);
@@ -202,6 +217,11 @@ SceneSurface sceneSurface(SceneHit hit, vec3 direction, float width) {
     s.emissive = s.hiddenBack ? vec3(0.0) : material.emissive;
     if (s.emissive != vec3(0.0) && hasSceneTexture(place, slotEmissive)) {
         s.emissive *= readSceneTexture(place, slotEmissive).rgb;
+    }
+    s.reflectance = mayReflectUnusually() ? sceneReflectance(place) : vec4(1.0);
+    s.unlit = mayBeUnlit() && material.unlit != 0u;
+    if (s.unlit) {
+        s.emissive = s.hiddenBack ? vec3(0.0) : s.baseColor;
     }
     return s;
 }

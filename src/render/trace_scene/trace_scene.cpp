@@ -17,6 +17,7 @@ void traceScene(gpu::Frame& f, Rays& rays, const TraceSceneInputs& in, uint32_t 
     in.scene.surfaces.bind(pass);
     bindEnvironment(pass, in.environment);
     pass.constant("lobe", rays.lobe)
+        .constant("materialFeatures", g.features)
         .constant("sunShadows", sunShadows)
         .constant("reuseScreen", reuse ? 1U : 0U)
         .constant("tellsMotion", tellsMotion ? 1U : 0U)

@@ -138,10 +138,14 @@ bool screenLight(SceneSurface at, out vec3 radiance) {
 }
 
 Surface surfaceOf(SceneSurface at, vec3 toViewer) {
+    if (at.unlit) {
+        return blackSurface();
+    }
     bool lambert = params.lights.lambertOnly != 0u;
     float nv = dot(at.normal, toViewer);
     vec2 table = lambert ? vec2(0.0) : textureLod(ggxTable, ggxTableUv(nv, at.roughness), 0.0).rg;
-    return makeSurface(at.baseColor, at.metallic, at.roughness, table, lambert);
+    vec4 dielectric = vec4(dielectricF0 * at.reflectance.rgb, at.reflectance.a);
+    return makeSurface(at.baseColor, at.metallic, at.roughness, dielectric, table, lambert);
 }
 
 // Samples the next ray of a path from one of the two lobes and returns its throughput. 0: it would go below the
@@ -167,7 +171,7 @@ vec3 scatter(LitPoint at, bool diffuseOnly, inout uint random, out SceneRay next
         float a2 = alpha * alpha;
         float unmasked = mirror ? 1.0 : ggxVisibility(max(l.z, 0.0), eye.z, alpha) * 2.0 * max(l.z, 0.0) *
                                             (eye.z + sqrt(eye.z * eye.z * (1.0 - a2) + a2));
-        weight = fresnelSchlick(at.surface.f0, dot(eye, h)) * at.surface.compensation * (unmasked / chance);
+        weight = fresnelSchlick(at.surface.f0, at.surface.f90, dot(eye, h)) * at.surface.compensation * (unmasked / chance);
         lobeWidth = ggxConeTangent(alpha);
     } else {
         l = sampleCosineHemisphere(u);

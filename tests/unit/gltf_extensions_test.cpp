@@ -1,0 +1,186 @@
+// Material extensions of glTF: unlit, ior, specular, variants.
+#include "base/error.h"
+#include "gltf_builder.h"
+
+#include <gtest/gtest.h>
+
+namespace reflet::test::gltf_extensions_test {
+namespace {
+
+using nlohmann::json;
+
+GltfBuilder withExtension(const char* name, const json& extension) {
+    GltfBuilder b = triangle();
+    b.document["extensionsUsed"] = {name};
+    b.document["extensionsRequired"] = {name};
+    b.document["meshes"][0]["primitives"][0]["material"] =
+        b.add("materials", {{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 0.125, 1}}}},
+                            {"emissiveFactor", {1, 0, 0}},
+                            {"extensions", {{name, extension}}}});
+    return b;
+}
+
+Material materialOf(GltfBuilder builder) {
+    const Loaded loaded = load(std::move(builder));
+    EXPECT_TRUE(loaded.warnings.empty()) << loaded.warnings.front();
+    return loaded.scene.materials.at(0);
+}
+
+TEST(GltfExtensions, MaterialsWithoutThemAreLitAndReflectFourPercent) {
+    const Material m = load(triangle()).scene.materials.at(0);
+    EXPECT_FALSE(m.unlit);
+    EXPECT_EQ(m.ior, 1.5F);
+    EXPECT_EQ(m.specular, 1.0F);
+    EXPECT_EQ(m.specularColor, vec3(1.0F));
+    EXPECT_LT(m.specularTexture.image, 0);
+    EXPECT_LT(m.specularColorTexture.image, 0);
+}
+
+TEST(GltfExtensions, ASceneOfUnlitMaterialsGetsNoSunAndOneOfBothDoes) {
+    GltfBuilder b = withExtension("KHR_materials_unlit", json::object());
+    const Scene unlit = load(b).scene;
+    EXPECT_TRUE(unlit.materials.at(0).unlit);
+    EXPECT_TRUE(isUnlit(unlit));
+    EXPECT_EQ(defaultView(unlit).sun.irradiance, vec3(0.0F));
+    EXPECT_FALSE(defaultView(unlit).hasDefaultSun);
+    b.addPrimitive({{"attributes", {{"POSITION", 0}}}});
+    const Scene both = load(b).scene;
+    EXPECT_FALSE(isUnlit(both));
+    EXPECT_TRUE(defaultView(both).hasDefaultSun);
+    EXPECT_FALSE(isUnlit(Scene{}));
+}
+
+TEST(GltfExtensions, AMaterialThatShowsACameraIsNotUnlit) {
+    GltfBuilder b = withExtension("KHR_materials_unlit", json::object());
+    b.document["materials"][0]["extras"]["camera"] = "door";
+    EXPECT_FALSE(materialOf(b).unlit);
+}
+
+TEST(GltfExtensions, IorIsReadAndMayBe0) {
+    EXPECT_EQ(materialOf(withExtension("KHR_materials_ior", {{"ior", 2.25}})).ior, 2.25F);
+    EXPECT_EQ(materialOf(withExtension("KHR_materials_ior", {{"ior", 0}})).ior, 0.0F);
+    EXPECT_EQ(materialOf(withExtension("KHR_materials_ior", json::object())).ior, 1.5F);
+    const Loaded below = load(withExtension("KHR_materials_ior", {{"ior", 0.5}}));
+    EXPECT_EQ(below.scene.materials.at(0).ior, 1.5F);
+    ASSERT_EQ(below.warnings.size(), 1U);
+    EXPECT_NE(below.warnings[0].find("materials[0].extensions.KHR_materials_ior.ior: the surface will reflect as one "
+                                     "of 1.5: 0.5 is neither 0 nor at least 1"),
+              std::string::npos)
+        << below.warnings[0];
+}
+
+TEST(GltfExtensions, SpecularHasItsFactorsAndTexturesWithTheirTransformAndUvSet) {
+    GltfBuilder b = withExtension("KHR_materials_specular", json::object());
+    const auto info = [&](uint8_t value, const json& transform) {
+        return json{{"index", b.addTexture({value, 0, 0, 255})},
+                    {"texCoord", 0},
+                    {"extensions", {{"KHR_texture_transform", transform}}}};
+    };
+    json& specular = b.document["materials"][0]["extensions"]["KHR_materials_specular"];
+    specular = {{"specularFactor", 0.5},
+                {"specularColorFactor", {0, 1, 2}},
+                {"specularTexture", info(1, {{"offset", {0.25, 0.5}}})},
+                {"specularColorTexture", info(2, {{"texCoord", 1}, {"scale", {2, 3}}})}};
+    const Scene scene = load(b).scene;
+    const Material& m = scene.materials.at(0);
+    EXPECT_EQ(m.specular, 0.5F);
+    EXPECT_EQ(m.specularColor, vec3(0, 1, 2));
+    EXPECT_EQ(scene.images.at(static_cast<size_t>(m.specularTexture.image)).rgba.at(0), 1);
+    EXPECT_EQ(m.specularTexture.uvSet, 0U);
+    EXPECT_EQ(m.specularTexture.uvTransform[0], vec3(1, 0, 0.25F));
+    EXPECT_EQ(m.specularTexture.uvTransform[1], vec3(0, 1, 0.5F));
+    EXPECT_EQ(scene.images.at(static_cast<size_t>(m.specularColorTexture.image)).rgba.at(0), 2);
+    EXPECT_EQ(m.specularColorTexture.uvSet, 1U);
+    EXPECT_EQ(m.specularColorTexture.uvTransform[0], vec3(2, 0, 0));
+    EXPECT_EQ(m.specularColorTexture.uvTransform[1], vec3(0, 3, 0));
+}
+
+std::string complaintAbout(GltfBuilder b) {
+    return complaint(b.writeGltf(testFolder() / "scene.gltf"));
+}
+
+TEST(GltfExtensions, ValuesOutOfRangeAreErrors) {
+    const auto specular = [](const json& extension) {
+        return complaintAbout(withExtension("KHR_materials_specular", extension));
+    };
+    const std::string part = "materials[0].extensions.KHR_materials_specular.";
+    EXPECT_EQ(specular({{"specularFactor", 1.5}}), part + "specularFactor: is 1.5, not between 0 and 1");
+    EXPECT_EQ(specular({{"specularColorFactor", {1, 1}}}), part + "specularColorFactor: has 2 elements, not 3");
+    EXPECT_TRUE(specular({{"specularColorFactor", {1, -1, 1}}}).starts_with(part + "specularColorFactor[1]: is -1"));
+    EXPECT_EQ(specular({{"specularTexture", {{"index", 3}}}}),
+              part + "specularTexture.index: is 3, but there are 0 textures");
+    EXPECT_EQ(specular({{"specularColorTexture", json::object()}}), part + "specularColorTexture.index: is missing");
+    EXPECT_TRUE(complaintAbout(withExtension("KHR_materials_ior", {{"ior", -1}}))
+                    .starts_with("materials[0].extensions.KHR_materials_ior.ior: is -1"));
+    EXPECT_EQ(complaintAbout(withExtension("KHR_materials_unlit", 7)),
+              "materials[0].extensions.KHR_materials_unlit: is a number, not an object");
+}
+
+// Two triangles: red, or blue in "night" and "dusk"; and green, always.
+GltfBuilder withVariants() {
+    GltfBuilder b = triangle();
+    b.document["extensionsUsed"] = {"KHR_materials_variants"};
+    b.document["extensionsRequired"] = {"KHR_materials_variants"};
+    b.document["extensions"]["KHR_materials_variants"]["variants"] = {
+        {{"name", "day"}}, {{"name", "night"}}, {{"name", "dusk"}}};
+    const auto colored = [&](const char* name) { return b.add("materials", {{"name", name}}); };
+    json& primitive = b.document["meshes"][0]["primitives"][0];
+    primitive["material"] = colored("red");
+    primitive["extensions"]["KHR_materials_variants"]["mappings"] =
+        json::array({{{"variants", {1, 2}}, {"material", colored("blue")}}});
+    b.addPrimitive({{"attributes", {{"POSITION", 0}}}, {"material", colored("green")}});
+    return b;
+}
+
+std::string materialsIn(const std::string& variant) {
+    const Scene scene =
+        loadGltf(withVariants().writeGltf(testFolder() / "scene.gltf"), {.variant = variant, .warn = nullptr});
+    EXPECT_EQ(scene.variants, (std::vector<std::string>{"day", "night", "dusk"}));
+    std::string names;
+    for (const Instance& instance : scene.instances) {
+        names += scene.materials.at(scene.meshes.at(instance.mesh).material).name + " ";
+    }
+    return names;
+}
+
+TEST(GltfExtensions, AVariantChangesTheMaterialsThatItNames) {
+    EXPECT_EQ(materialsIn(""), "red green ");
+    EXPECT_EQ(materialsIn("day"), "red green ");
+    EXPECT_EQ(materialsIn("night"), "blue green ");
+    EXPECT_EQ(materialsIn("dusk"), "blue green ");
+}
+
+TEST(GltfExtensions, AnUnknownVariantIsAnErrorThatListsThem) {
+    const auto error = [](GltfBuilder b) -> std::string {
+        try {
+            loadGltf(b.writeGltf(testFolder() / "scene.gltf"), {.variant = "noon", .warn = nullptr});
+        } catch (const UsageError& e) {
+            return e.what();
+        }
+        return "";
+    };
+    EXPECT_TRUE(
+        error(withVariants()).ends_with("there is no material variant 'noon'; the file's variants: day, night, dusk"));
+    EXPECT_TRUE(error(triangle()).ends_with("there is no material variant 'noon'; the file's variants: none"));
+}
+
+TEST(GltfExtensions, BrokenVariantsAreErrors) {
+    const auto with = [](const char* pointer, const json& value) {
+        GltfBuilder b = withVariants();
+        b.document[json::json_pointer(pointer)] = value;
+        return complaintAbout(std::move(b));
+    };
+    const std::string mappings = "/meshes/0/primitives/0/extensions/KHR_materials_variants/mappings";
+    const std::string part = "meshes[0].primitives[0].extensions.KHR_materials_variants.mappings";
+    EXPECT_EQ(with((mappings + "/0/variants").c_str(), {3}), part + "[0].variants[0]: is 3, but there are 3 variants");
+    EXPECT_EQ(with((mappings + "/0/material").c_str(), 9), part + "[0].material: is 9, but there are 3 materials");
+    EXPECT_EQ(with(mappings.c_str(), 1), part + ": is a number, not an array");
+    EXPECT_EQ(with(mappings.c_str(), json::array()), "");
+    EXPECT_EQ(with("/extensions/KHR_materials_variants/variants/1", json::object()),
+              "extensions.KHR_materials_variants.variants[1].name: is missing");
+    EXPECT_EQ(with("/extensions/KHR_materials_variants", json::object()),
+              "extensions.KHR_materials_variants.variants: is missing");
+}
+
+}  // namespace
+}  // namespace reflet::test::gltf_extensions_test
