@@ -100,6 +100,10 @@ std::optional<std::string> addDefaultLight(const Scene& scene, View& view) {
     if (scene.environment.image || scene.environment.radiance != vec3(0.0F)) {
         return std::nullopt;
     }
+    if (isUnlit(scene)) {  // light changes nothing; the sky is only the background
+        chooseEnvironment(view, {.name = "sky", .base = {}, .keepsSun = false});
+        return std::nullopt;
+    }
     const float ofSun = scene.sun ? luminance(scene.sun->irradiance) : 0.0F;
     const float ofLamps = lampIrradiance(scene);
     if (ofSun > 0.0F && elevationOf(view.sun) > 0.0F) {

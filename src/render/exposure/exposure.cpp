@@ -14,7 +14,7 @@ namespace reflet {
 
 bool exposesAutomatically(const TonemapSettings& settings, const Scene& scene) {
     return settings.autoExposure == AutoExposure::on ||
-           (settings.autoExposure == AutoExposure::files && scene.fromFile);
+           (settings.autoExposure == AutoExposure::files && scene.fromFile && !isUnlit(scene));
 }
 
 uint32_t meterStep(uvec2 size) {
