@@ -26,7 +26,7 @@ layout(set = 0, binding = 8, r8) uniform writeonly image2D visibility;
 // receiver there.
 float passes(float d, float share, ShadowReceiver r, float plane) {
     float clearance = (d - r.s.z) * r.depthRange - plane;
-    return d > 0.0 && clearance > r.depthBias ? share : 1.0;
+    return d > 0.0 && clearance > r.bias.most ? share : 1.0;
 }
 
 // Bilinear over four texels.
