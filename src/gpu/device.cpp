@@ -69,9 +69,13 @@ VkBool32 Device::onValidation(VkDebugUtilsMessageSeverityFlagBitsEXT severity, V
         return VK_FALSE;
     }
     auto& device = *static_cast<Device*>(self);
-    device.messages_.emplace_back(data->pMessage);
+    // Newer layers leave the identifier out of the text.
+    const std::string_view text = data->pMessage;
+    const std::string_view id = data->pMessageIdName == nullptr ? "" : data->pMessageIdName;
+    device.messages_.push_back(text.find(id) != std::string_view::npos ? std::string(text)
+                                                                       : fmt::format("{}: {}", id, text));
     if (device.onMessage_) {
-        device.onMessage_(data->pMessage);
+        device.onMessage_(device.messages_.back());
     }
     return VK_FALSE;
 }

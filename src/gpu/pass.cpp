@@ -122,6 +122,10 @@ void Pass::checkAccess(const ShaderBinding& binding, const Bound& bound) const {
     const bool canWrite = binding.type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE || wantsBuffer;
     REFLET_CHECK(bound.write == (canWrite && writable), "{}: '{}' is {} here, and {} in the shader", name_, bound.name,
                  bound.write ? "written" : "read", canWrite && writable ? "not readonly" : "readonly");
+    // Elsewhere a mismatch reads garbage, and only newer validation layers report it.
+    REFLET_CHECK(binding.type != VK_DESCRIPTOR_TYPE_STORAGE_IMAGE || bound.image.format == binding.format,
+                 "{}: '{}' has VkFormat {} here and {} in the shader", name_, bound.name,
+                 static_cast<int>(bound.image.format), static_cast<int>(binding.format));
 }
 
 void Pass::checkBindings(const Pipeline& pipeline) const {

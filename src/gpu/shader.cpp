@@ -42,6 +42,35 @@ constexpr ResourceKind resourceKinds[] = {
     {SPVC_RESOURCE_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
 };
 
+VkFormat formatOf(SpvImageFormat format, std::string_view shader) {
+    switch (format) {
+        case SpvImageFormatR8:
+            return VK_FORMAT_R8_UNORM;
+        case SpvImageFormatRgba8:
+            return VK_FORMAT_R8G8B8A8_UNORM;
+        case SpvImageFormatRg16f:
+            return VK_FORMAT_R16G16_SFLOAT;
+        case SpvImageFormatRgba16f:
+            return VK_FORMAT_R16G16B16A16_SFLOAT;
+        case SpvImageFormatR32f:
+            return VK_FORMAT_R32_SFLOAT;
+        case SpvImageFormatRg32f:
+            return VK_FORMAT_R32G32_SFLOAT;
+        case SpvImageFormatRgba32f:
+            return VK_FORMAT_R32G32B32A32_SFLOAT;
+        case SpvImageFormatR32ui:
+            return VK_FORMAT_R32_UINT;
+        case SpvImageFormatRg32ui:
+            return VK_FORMAT_R32G32_UINT;
+        case SpvImageFormatRgba32ui:
+            return VK_FORMAT_R32G32B32A32_UINT;
+        default:
+            break;
+    }
+    REFLET_CHECK(false, "{}: no VkFormat is known for SPIR-V's image format {}", shader, static_cast<int>(format));
+    return VK_FORMAT_UNDEFINED;
+}
+
 class Reflector {
 public:
     explicit Reflector(const EmbeddedShader& source) : name_(source.name) {
@@ -130,6 +159,8 @@ private:
             result.blockSize = blockSize(resource);
         } else if (type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE) {
             result.readOnly = spvc_compiler_has_decoration(compiler_, resource.id, SpvDecorationNonWritable) != 0;
+            const spvc_type type = spvc_compiler_get_type_handle(compiler_, resource.type_id);
+            result.format = formatOf(spvc_type_get_image_storage_format(type), name_);
         } else if (type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) {
             result.readOnly = isReadOnlyBuffer(resource);
         }

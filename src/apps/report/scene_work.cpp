@@ -3,6 +3,7 @@
 
 #include "apps/progress.h"
 #include "apps/sample_progress.h"
+#include "apps/pictures.h"
 #include "apps/show.h"
 #include "apps/timings.h"
 #include "base/image_file.h"

@@ -8,7 +8,7 @@
 
 layout(local_size_x = 16, local_size_y = 16) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { MeterParams params; };
-layout(set = 0, binding = 1, rgba16f) uniform readonly image2D radiance;
+layout(set = 0, binding = 1) uniform sampler2D radiance;  // RGBA16F, or RGBA32F if accumulated
 layout(set = 0, binding = 2) uniform sampler2D depth;
 layout(set = 0, binding = 3, scalar) buffer HistogramBlock { uint numbers[meterSize]; } histogram;
 
@@ -20,7 +20,7 @@ uint meterCount(uint i) { return inGroup[i]; }
 #include "render/exposure/meter.glsl"
 
 void meterPixel(ivec2 pixel) {
-    int level = meterLevel(luminance(imageLoad(radiance, pixel).rgb));
+    int level = meterLevel(luminance(texelFetch(radiance, pixel, 0).rgb));
     if (level >= 0) {
         uint kind = texelFetch(depth, pixel, 0).r > 0.0 ? meterSurfaces : meterBackground;
         uint bin = kind + uint(level) / levelsPerBin;

@@ -8,7 +8,7 @@ layout(constant_id = 0) const uint curve = 0u;  // a constant, because CPU devic
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { TonemapParams params; };
-layout(set = 0, binding = 1, rgba16f) uniform readonly image2D radiance;
+layout(set = 0, binding = 1) uniform sampler2D radiance;  // RGBA16F, or RGBA32F if accumulated
 layout(set = 0, binding = 2, rgba8) uniform writeonly image2D display;
 layout(set = 0, binding = 3, rg32f) uniform readonly image2D exposure;
 
@@ -16,6 +16,6 @@ void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (all(lessThan(uvec2(pixel), params.size))) {
         float stops = params.settings.exposure + imageLoad(exposure, ivec2(exposureFrames, 0)).r;
-        imageStore(display, pixel, vec4(displayColor(imageLoad(radiance, pixel).rgb, curve, stops), 1.0));
+        imageStore(display, pixel, vec4(displayColor(texelFetch(radiance, pixel, 0).rgb, curve, stops), 1.0));
     }
 }
