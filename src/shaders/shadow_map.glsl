@@ -7,8 +7,7 @@
 #include "shaders/shadow_texel.glsl"
 
 const float minFacing = 0.05;         // lower clamp of the cosine between normal and sun
-const float maxBend = 2.0;            // metres that a surface may bend below its plane per metre to the side
-const float outsideClearance = -1e9;  // clearance outside the map
+const float outsideClearance = -1e9;  // clearance outside the map and of empty texels
 
 // Position of a map in the image that several maps share.
 struct ShadowTile {
@@ -26,7 +25,6 @@ struct ShadowReceiver {
     float depthRange;    // metres
     ShadowTile tile;
     DepthBias bias;
-    bool ownPlane;  // receiver-plane depth bias is used
 };
 
 bool outsideMap(ivec2 texel, ivec2 size) {
@@ -46,8 +44,7 @@ ShadowReceiver receiverAt(vec3 p, ShadowMapParams map, ShadowTile tile) {
     r.slope = vec2(0.0);
     r.depthRange = map.depthRange;
     r.tile = tile;
-    r.bias = DepthBias(0.0, 0.0);
-    r.ownPlane = false;
+    r.bias = DepthBias(0.0, 0.0, 0.0);
     return r;
 }
 
@@ -63,9 +60,7 @@ ShadowReceiver slopeReceiver(vec3 p, vec3 normal, ShadowMapParams map, ShadowTil
     vec2 sideways = vec2(dot(normal, axisX), dot(normal, axisY));
     r.tiltDirection = dot(sideways, sideways) > 1e-6 * dot(axisX, axisX) ? normalize(sideways) : vec2(0.0);
     r.slope = -sideways / vec2(dot(axisX, axisX), dot(axisY, axisY)) / max(facing, minFacing);
-    float most = bias * map.texelSize / max(facing, minFacing);
-    r.bias = DepthBias(most, ownShare * most);
-    r.ownPlane = true;
+    r.bias = planeBias(bias * map.texelSize / max(facing, minFacing));
     return r;
 }
 
@@ -74,7 +69,7 @@ ShadowReceiver slopeReceiver(vec3 p, vec3 normal, ShadowMapParams map, ShadowTil
 // shadows itself; casters closer than that to the receiver are missed.
 ShadowReceiver constantReceiver(vec3 p, ShadowMapParams map, ShadowTile tile, float bias) {
     ShadowReceiver r = receiverAt(p, map, tile);
-    r.bias = DepthBias(bias, bias);
+    r.bias = DepthBias(bias, bias, -outsideClearance);
     return r;
 }
 
@@ -82,15 +77,12 @@ ShadowReceiver constantReceiver(vec3 p, ShadowMapParams map, ShadowTile tile, fl
 ShadowTexel texelAt(ShadowReceiver r, vec2 offset) {
     ivec2 texel = ivec2(floor(r.at + offset * r.texelsPerMetre));
     if (outsideMap(texel, r.tile.size)) {
-        return ShadowTexel(outsideClearance, outsideClearance, !r.ownPlane);
+        return ShadowTexel(outsideClearance, outsideClearance);
     }
     vec2 toCentre = (2.0 * (vec2(texel) + 0.5) / vec2(r.tile.size) - 1.0) - r.s.xy;
     float depth = loadShadowDepth(r.tile.origin + texel);
     float height = (depth - r.s.z) * r.depthRange;
-    float clearance = height - dot(r.slope, toCentre);
-    // Depth 0: the texel is empty.
-    return ShadowTexel(height, clearance,
-                       !r.ownPlane || (depth > 0.0 && clearance >= -r.bias.most - maxBend * length(offset)));
+    return ShadowTexel(height, depth > 0.0 ? height - dot(r.slope, toCentre) : outsideClearance);
 }
 
 // Visibility with a hard edge, exact to the texel; 1: lit. If the texel that holds the receiver leaves it in doubt, four
@@ -113,7 +105,7 @@ float hardVisibility(ShadowReceiver r) {
         own = own || showsReceiver(other, r.bias);
         clearance = max(clearance, other.clearance);
     }
-    return (texel.known ? own : clearance <= r.bias.own) ? 1.0 : 0.0;
+    return (texel.clearance > r.bias.own ? own : clearance <= r.bias.own) ? 1.0 : 0.0;
 }
 
 #endif

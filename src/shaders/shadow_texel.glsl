@@ -4,26 +4,27 @@
 
 struct ShadowTexel {
     float height;     // of the stored surface above the receiver, toward the light [m]
-    float clearance;  // of the stored surface above the receiver's plane, toward the light [m]; -1e9: outside
-    bool known;       // the texel holds the receiver's surface or something above it. If not, its centre lies beyond the
-                      // surface's edge, and may see light that passes a wall which shadows the whole surface
+    float clearance;  // of the stored surface above the receiver's plane, toward the light [m]; -1e9: none is stored
 };
 
-// Clearances up to which a texel leaves its receiver lit [m].
+// Clearances by which texels are told apart [m].
 struct DepthBias {
-    float most;  // texels with more block; covers curvature, creases and rounding
-    float own;   // texels with at most this hold the receiver's own surface; covers rounding
+    float most;   // above: another surface, which blocks; covers curvature, creases and rounding
+    float own;    // up to this: the receiver's own surface; covers rounding
+    float below;  // down to minus this; farther below: the texel's centre lies beyond the surface's edge
 };
 
-const float ownShare = 0.125;  // of DepthBias.most
+// Bias of a receiver whose plane is known.
+DepthBias planeBias(float most) { return DepthBias(most, 0.125 * most, 0.125 * most); }
 
 bool blocks(ShadowTexel texel, DepthBias bias) { return texel.clearance > bias.most; }
 
-// Whether the light reaches the receiver's own surface at the texel's centre. A point is lit only if it does so nearby:
-// where another surface meets the receiver's in a crease, its clearance is less than any bias, but the receiver's own
-// surface is nowhere to be seen (priority buffer: Hourcade and Nicolas, Algorithms for Antialiased Cast Shadows, 1985,
-// which compares identities instead of depths).
-bool showsReceiver(ShadowTexel texel, DepthBias bias) { return texel.known && texel.clearance <= bias.own; }
+// Whether the light reaches the receiver's own surface at the texel's centre. Where it does so in no texel nearby, a
+// surface that does not block is a wall that meets the receiver's in a crease, or lies outside of it. (Hourcade and
+// Nicolas, Algorithms for Antialiased Cast Shadows, 1985, compare the identities of surfaces to the same end.)
+bool showsReceiver(ShadowTexel texel, DepthBias bias) {
+    return texel.clearance <= bias.own && texel.clearance >= -bias.below;
+}
 
 // The cone of directions from a receiver to a disk light.
 struct ShadowCone {

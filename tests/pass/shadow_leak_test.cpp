@@ -56,7 +56,9 @@ Mesh cave() {
 const std::vector<Sealed>& sealedScenes() {
     static const std::vector<Sealed> all{
         {"Room",
-         [] { return builtin::box({3, 1.5F, 2.5F}); },
+         [] {
+             return builtin::box({3, 1.5F, 2.5F});
+         },
          {{{2.5F, 1.1F, 2.1F}, {-2, -1.4F, -2}}, {{-2.4F, -0.9F, -1.8F}, {2.6F, 1.2F, 2.2F}}}},
         {"Corridor", corridor, {{{0.4F, 0.4F, 5.5F}, {-0.4F, -0.9F, -1}}, {{-9, 0.3F, 0.4F}, {1, -0.4F, -0.6F}}}},
         {"Cave", cave, {{{0, 0, 0}, {1.5F, -1, -1.5F}}, {{0.3F, -0.5F, 0.5F}, {-1.5F, 1, 0.6F}}}},
@@ -87,9 +89,9 @@ Count leaks(const Sealed& sealed, const std::string& filter, const Light& light)
             view.camera.fovY = glm::radians(80.0F);
             view.camera.near = 0.02F;
             light(scene, view, mat3(turn));
-            const Pictures p = render(scene, view, size,
-                                      settingsOf({"diffuse.rays=0", "specular.rays=0", "shadow.filter=" + filter}),
-                                      {"direct", "depth"});
+            const Pictures p =
+                render(scene, view, size, settingsOf({"diffuse.rays=0", "specular.rays=0", "shadow.filter=" + filter}),
+                       {"direct", "depth"});
             EXPECT_GT(rangeOf(p.images.at("depth")).min, 0.0F) << "the camera looks at walls only";
             for (unsigned y = 0; y < size.y; ++y) {
                 for (unsigned x = 0; x < size.x; ++x) {
@@ -126,16 +128,17 @@ TEST_P(ShadowLeak, LightsAtMostOneInFiveThousandPixelsOfASealedSceneInTheSun) {
 
 TEST_P(ShadowLeak, LightsAtMostOneInFiveThousandPixelsOfASealedSceneAmongLamps) {
     const Sealed& sealed = sealedScenes()[GetParam().scene];
-    expectDark("lamps", leaks(sealed, GetParam().filter, [](Scene& scene, View&, const mat3& turn) {
-                   scene.lamps.clear();
-                   for (const vec3& direction : {vec3(0.9F, 0.35F, 0.2F), vec3(-0.3F, 0.9F, 0.4F), vec3(0.1F, -0.2F, -1)}) {
-                       Lamp lamp;
-                       lamp.type = Lamp::Type::point;
-                       lamp.position = turn * (14.0F * glm::normalize(direction));
-                       lamp.intensity = vec3(1000.0F);
-                       scene.lamps.push_back(lamp);
-                   }
-               }));
+    expectDark(
+        "lamps", leaks(sealed, GetParam().filter, [](Scene& scene, View&, const mat3& turn) {
+            scene.lamps.clear();
+            for (const vec3& direction : {vec3(0.9F, 0.35F, 0.2F), vec3(-0.3F, 0.9F, 0.4F), vec3(0.1F, -0.2F, -1)}) {
+                Lamp lamp;
+                lamp.type = Lamp::Type::point;
+                lamp.position = turn * (14.0F * glm::normalize(direction));
+                lamp.intensity = vec3(1000.0F);
+                scene.lamps.push_back(lamp);
+            }
+        }));
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ShadowLeak,
