@@ -102,9 +102,9 @@ ShadowTexel tileTexel(LampReceiver r, uint face, ivec2 texel, float aside) {
     float height = r.distance + dot(held, toTileSpace(r.shadow, face, r.toLamp));
     float above = dot(held - toTileSpace(r.shadow, face, r.fromLamp), toTileSpace(r.shadow, face, r.normal));
     // Something farther from the lamp than the receiver can still be above its plane: at grazing angles, the next wall.
-    // It is ignored if it is more than 4 metres farther per metre to the side.
+    // It does not block if it is more than 4 metres farther per metre to the side.
     const float steepest = 4.0;
-    return ShadowTexel(height, min(above / r.facing, height + steepest * aside));
+    return ShadowTexel(height, min(above / r.facing, max(height + steepest * aside, r.bias.most)));
 }
 
 // For a light ray `offset` metres beside the receiver. If the texel's centre sees neither the receiver's plane nor

@@ -86,9 +86,9 @@ ShadowTexel texelAt(ShadowReceiver r, vec2 offset) {
 }
 
 // Visibility with a hard edge, exact to the texel; 1: lit. If the texel that holds the receiver leaves it in doubt, four
-// more decide, the three nearest ones and one farther in the tilt direction. A texel a little above the receiver's
-// surface is the surface itself, bent, if one of them shows the surface; else it is a wall that meets it in a crease.
-// Instead of a texel beyond the surface's edge, the one that occludes most is taken.
+// more decide, the three nearest ones and one farther in the tilt direction. A texel a little above or below the
+// receiver's plane is the surface itself, bent, if one of them shows the surface; else it is a wall that meets it in a
+// crease. Instead of a texel beyond the surface's edge, the one that occludes most is taken.
 float hardVisibility(ShadowReceiver r) {
     ShadowTexel texel = texelAt(r, vec2(0.0));
     bool own = showsReceiver(texel, r.bias);
@@ -105,7 +105,8 @@ float hardVisibility(ShadowReceiver r) {
         own = own || showsReceiver(other, r.bias);
         clearance = max(clearance, other.clearance);
     }
-    return (texel.clearance > r.bias.own ? own : clearance <= r.bias.own) ? 1.0 : 0.0;
+    bool near = texel.clearance >= -r.bias.most;
+    return (near && own) || clearance <= r.bias.own ? 1.0 : 0.0;
 }
 
 #endif

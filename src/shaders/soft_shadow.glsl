@@ -46,8 +46,8 @@ float pcfVisibility(float radius, DepthBias bias, ShadowPattern pattern, uint co
     return litFraction(sum);
 }
 
-// Mean height of the blockers within `radius`; 0: none found; -1: nor the receiver's own surface. A blocker to the side
-// counts only if it is high enough to cover a part of the light as seen from the receiver: lower ones cast their
+// Mean height of the blockers within `radius`; 0: none found; -1: nor the receiver's own surface in the texel that holds
+// it. A blocker to the side counts only if it is high enough to cover a part of the light as seen from the receiver: lower ones cast their
 // shadows elsewhere and would bias the mean. The weight is how much of the light a blocker hides: one over the square
 // of its own penumbra radius, or of the spacing of the samples if that is larger. least: half width that the map
 // resolves [m].
@@ -63,7 +63,7 @@ float meanBlockerHeight(ShadowCone cone, float radius, float least, DepthBias bi
         if (blocks(texel, bias) && length(offset) <= reach) {
             sum += vec2(max(texel.height, 0.0), 1.0) / (reach * reach);
         }
-        own = own || showsReceiver(texel, bias);
+        own = own || (i == 0u && showsReceiver(texel, bias));
     }
     return sum.y > 0.0 ? max(sum.x / sum.y, 1e-4) : own ? 0.0 : -1.0;
 }

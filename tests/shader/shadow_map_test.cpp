@@ -135,11 +135,12 @@ TEST_F(ShadowMap, aShadowsEdgeIsRightToATexelAndAHalf) {
     }
 }
 
-TEST_F(ShadowMap, anOccluderCountsAsSoonAsItIsHigherThanTheBias) {
+// A receiver that the sun reaches nowhere nearby is in the occluder's shadow, however low that is.
+TEST_F(ShadowMap, anOccluderThatHidesTheSurfaceCountsAsSoonAsItIsHigherThanAnEighthOfTheBias) {
     for (const float degrees : {90.0F, 60.0F, 30.0F, 10.0F}) {
         ShadowScene scene = sceneOf(toSunAt(glm::radians(degrees), 0.3F), vec3(0, 1, 0));
-        const float lift = scene.bias * scene.map.texelSize;  // along the normal
-        scene.occluderEdge = vec4(0, 0, 0, -1);               // everywhere
+        const float lift = 0.125F * scene.bias * scene.map.texelSize;  // along the normal
+        scene.occluderEdge = vec4(0, 0, 0, -1);                        // everywhere
         auto cases = pointsOnReceiver(scene, 2000);
         // Nor below the map's lowest depth, which stands for nothing.
         std::erase_if(cases, [&](const ShadowCase& c) {
@@ -148,6 +149,24 @@ TEST_F(ShadowMap, anOccluderCountsAsSoonAsItIsHigherThanTheBias) {
         scene.occluder = vec4(0, 1, 0, -1.1F * lift);
         EXPECT_EQ(std::ranges::count(lookUp(scene, cases), 1.0F), 0) << degrees;
         scene.occluder = vec4(0, 1, 0, -0.9F * lift);
+        EXPECT_EQ(std::ranges::count(lookUp(scene, cases), 0.0F), 0) << degrees;
+    }
+}
+
+// At the bottom of a valley a texel's centre may lie on the other slope, above the receiver's plane.
+TEST_F(ShadowMap, aValleyDoesNotShadowItselfAlongItsBottom) {
+    for (const float degrees : {80.0F, 50.0F}) {
+        ShadowScene scene = sceneOf(toSunAt(glm::radians(degrees), 0.9F), vec3(0, 1, 0));
+        const vec3 across = glm::normalize(vec3(0.8F, 0, 0.6F));
+        const float slope = 0.35F;
+        scene.occluder = vec4(glm::normalize(vec3(0, 1, 0) - slope * across), 0.0F);  // y = slope · across
+        scene.occluderEdge = vec4(-across, 0.0F);
+        auto cases = pointsOnReceiver(scene, 20000);
+        std::erase_if(cases, [&](const ShadowCase& c) {
+            const float side = glm::dot(c.point, across);
+            return !isInside(scene, c) || side > 0.0F || side < -1.5F * scene.map.texelSize;
+        });
+        EXPECT_GT(cases.size(), 20U);
         EXPECT_EQ(std::ranges::count(lookUp(scene, cases), 0.0F), 0) << degrees;
     }
 }

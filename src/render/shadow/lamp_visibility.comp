@@ -33,7 +33,8 @@ float hardShadow() { return hardLampVisibility(receiver); }
 #include "shaders/soft_shadow.glsl"
 
 // Shrinks the blocker search radius iteratively to the penumbra radius of the highest blocker sampled so far. Otherwise
-// few samples over a very wide disk would miss narrow penumbras. 0: no blockers; -1: nor the receiver's own surface.
+// few samples over a very wide disk would miss narrow penumbras. 0: no blockers; -1: nor the receiver's own
+// surface in the texel that holds it.
 float shrunkSearch(ShadowCone cone, float radius, float least, vec2 noise) {
     bool own = false;
     for (int i = 0; i < 3; ++i) {
@@ -42,7 +43,7 @@ float shrunkSearch(ShadowCone cone, float radius, float least, vec2 noise) {
         float highest = -1.0;
         for (uint k = 0u; k <= count; ++k) {
             ShadowTexel texel = shadowTexel(k == 0u ? vec2(0.0) : radius * nextPoint(pattern));
-            own = own || showsReceiver(texel, receiver.bias);
+            own = own || (k == 0u && showsReceiver(texel, receiver.bias));
             highest = blocks(texel, receiver.bias) ? max(highest, max(texel.height, 0.0)) : highest;
         }
         float needed = highest < 0.0 ? (own ? 0.0 : -1.0) : max(penumbraRadius(cone, highest), least);
