@@ -63,7 +63,7 @@ LampReceiver lampReceiver(LampShadow shadow, uint tileSize, uint columns, vec3 p
     r.facing = max(facing, minLampFacing);
     float along = toTileSpace(shadow, tileFace(shadow, r.fromLamp), r.fromLamp).z;
     r.texel = 2.0 * shadow.halfTangent / float(tileSize) * along;
-    r.bias = planeBias(bias * r.texel / r.facing);
+    r.bias = planeBias(bias * r.texel / r.facing, rounding(p) / r.facing);
     return r;
 }
 
@@ -140,19 +140,21 @@ ShadowTexel lampTexel(LampReceiver r, vec2 offset) {
     return texel;
 }
 
-// Visibility with a hard edge, exact to the texel; 1: lit. A texel a little above the receiver's surface is the surface
-// itself, bent, if one of the three next ones shows the surface; else it is a wall that meets it in a crease.
+// Visibility with a hard edge, exact to the texel; 1: lit. Decides as hardVisibility of shadow_map.glsl does.
 float hardLampVisibility(LampReceiver r) {
     ShadowTexel texel = lampTexel(r, vec2(0.0));
     bool own = texel.clearance <= r.bias.own;
-    int others = own || blocks(texel, r.bias) ? 0 : 3;
+    bool bent = true;
+    int others = own || blocks(texel, r.bias) ? 0 : 4;
     TileCoord coord = tileCoord(r, r.fromLamp);
     ivec2 next = ivec2(sign(fract(coord.at) - 0.5));
     for (int i = 0; i < others; ++i) {
-        ivec2 to = next * ivec2(i != 1 ? 1 : 0, i != 0 ? 1 : 0);
-        own = own || showsReceiver(tileTexel(r, coord.face, ivec2(floor(coord.at)) + to, 1.5 * r.texel), r.bias);
+        ivec2 at = ivec2(floor(coord.at)) + next * ivec2(i & 1, i >> 1);
+        ShadowTexel other = tileTexel(r, coord.face, at, 1.5 * r.texel);
+        own = own || showsReceiver(other, r.bias);
+        bent = bent && isNear(other, r.bias);
     }
-    return own ? 1.0 : 0.0;
+    return own || (others > 0 && bent) ? 1.0 : 0.0;
 }
 
 // Bilinear filter of the four texels around the point: as sharp an edge as the map allows.
@@ -161,17 +163,18 @@ float sharpLampVisibility(LampReceiver r) {
     vec2 low = floor(coord.at - 0.5);
     vec2 f = coord.at - 0.5 - low;
     vec2 sum = vec2(0.0);
-    bool own = false;
+    uint own = 0u;
     for (int i = 0; i < 4; ++i) {
         ivec2 corner = ivec2(i & 1, i >> 1);
         ShadowTexel texel = tileTexel(r, coord.face, ivec2(low) + corner, 1.5 * r.texel);
-        own = own || showsReceiver(texel, r.bias);
+        own += showsReceiver(texel, r.bias) ? 1u : 0u;
         if (texel.clearance >= -r.bias.most) {
             vec2 weight = mix(1.0 - f, f, vec2(corner));
             sum += weight.x * weight.y * vec2(blocks(texel, r.bias) ? 0.0 : 1.0, 1.0);
         }
     }
-    return sum.y <= 0.0 || !own ? hardLampVisibility(r) : sum.x / sum.y;
+    float hard = own > 1u ? 1.0 : hardLampVisibility(r);
+    return sum.y > 0.0 ? min(hard, sum.x / sum.y) : hard;
 }
 
 #endif

@@ -60,7 +60,7 @@ ShadowReceiver slopeReceiver(vec3 p, vec3 normal, ShadowMapParams map, ShadowTil
     vec2 sideways = vec2(dot(normal, axisX), dot(normal, axisY));
     r.tiltDirection = dot(sideways, sideways) > 1e-6 * dot(axisX, axisX) ? normalize(sideways) : vec2(0.0);
     r.slope = -sideways / vec2(dot(axisX, axisX), dot(axisY, axisY)) / max(facing, minFacing);
-    r.bias = planeBias(bias * map.texelSize / max(facing, minFacing));
+    r.bias = planeBias(bias * map.texelSize / max(facing, minFacing), rounding(p) / max(facing, minFacing));
     return r;
 }
 
@@ -87,15 +87,17 @@ ShadowTexel texelAt(ShadowReceiver r, vec2 offset) {
 
 // Visibility with a hard edge, exact to the texel; 1: lit. If the texel that holds the receiver leaves it in doubt, four
 // more decide, the three nearest ones and one farther in the tilt direction. A texel a little above or below the
-// receiver's plane is the surface itself, bent, if one of them shows the surface; else it is a wall that meets it in a
-// crease. Instead of a texel beyond the surface's edge, the one that occludes most is taken.
+// receiver's plane is the surface itself, bent, if the nearest ones are so, too, or if one shows the surface; else it is
+// a wall that meets it in a crease. Instead of a texel beyond the surface's edge, the one that occludes most is taken.
 float hardVisibility(ShadowReceiver r) {
     ShadowTexel texel = texelAt(r, vec2(0.0));
     bool own = showsReceiver(texel, r.bias);
+    bool bent = isNear(texel, r.bias);
     float clearance = texel.clearance;
     // The trip count is dynamic on purpose: CPU drivers leave such a loop as soon as no pixel of the group needs more
     // iterations, but always run all iterations of a loop that can be unrolled.
     int others = own || blocks(texel, r.bias) ? 0 : 4;
+    bool near = own || bent;
     vec2 next = sign(fract(r.at) - 0.5) / r.texelsPerMetre;
     const float aside = 1.5;  // texels
     for (int i = 0; i < others; ++i) {
@@ -103,10 +105,10 @@ float hardVisibility(ShadowReceiver r) {
                              : next * vec2((i & 1) == 0 ? 1.0 : 0.0, i > 0 ? 1.0 : 0.0);
         ShadowTexel other = texelAt(r, offset);
         own = own || showsReceiver(other, r.bias);
+        bent = bent && (i == 3 || isNear(other, r.bias));
         clearance = max(clearance, other.clearance);
     }
-    bool near = texel.clearance >= -r.bias.most;
-    return (near && own) || clearance <= r.bias.own ? 1.0 : 0.0;
+    return (near ? own || bent : clearance <= edgeShare * r.bias.most) ? 1.0 : 0.0;
 }
 
 #endif

@@ -11,20 +11,31 @@ struct ShadowTexel {
 struct DepthBias {
     float most;   // above: another surface, which blocks; covers curvature, creases and rounding
     float own;    // up to this: the receiver's own surface; covers rounding
-    float below;  // down to minus this; farther below: the texel's centre lies beyond the surface's edge
+    float below;  // down to minus this, too
 };
 
-// Bias of a receiver whose plane is known.
-DepthBias planeBias(float most) { return DepthBias(most, 0.125 * most, 0.125 * most); }
+const float edgeShare = 0.25;  // of DepthBias.most: what counts of it beyond the edge of a surface
+
+// Bias of a receiver whose plane is known. rounding: of positions [m].
+DepthBias planeBias(float most, float rounding) {
+    float own = min(max(most / 32.0, rounding), most);
+    return DepthBias(most, own, own);
+}
+
+// Rounding of a position in world space [m].
+float rounding(vec3 p) { return 1e-6 * max(max(abs(p.x), abs(p.y)), abs(p.z)); }
 
 bool blocks(ShadowTexel texel, DepthBias bias) { return texel.clearance > bias.most; }
 
 // Whether the light reaches the receiver's own surface at the texel's centre. Where it does so in no texel nearby, a
-// surface that does not block is a wall that meets the receiver's in a crease, or lies outside of it. (Hourcade and
+// surface that does not block may be a wall that meets the receiver's in a crease, or lie outside of it. (Hourcade and
 // Nicolas, Algorithms for Antialiased Cast Shadows, 1985, compare the identities of surfaces to the same end.)
 bool showsReceiver(ShadowTexel texel, DepthBias bias) {
     return texel.clearance <= bias.own && texel.clearance >= -bias.below;
 }
+
+// Whether the texel may show the receiver's own surface, bent.
+bool isNear(ShadowTexel texel, DepthBias bias) { return abs(texel.clearance) <= bias.most; }
 
 // The cone of directions from a receiver to a disk light.
 struct ShadowCone {

@@ -22,23 +22,23 @@ float fractionAboveHorizon(float facing, float sine) {
 struct LitSum {
     float lit;  // weight of lit texels
     float all;  // weight of all texels
-    bool own;   // a texel shows the receiver's own surface
+    uint own;   // number of texels that show the receiver's own surface
 };
 
 void addTexel(inout LitSum sum, ShadowTexel texel, DepthBias bias, bool lit, float weight) {
     sum.lit += lit ? weight : 0.0;
     sum.all += weight;
-    sum.own = sum.own || showsReceiver(texel, bias);
+    sum.own += showsReceiver(texel, bias) ? 1u : 0u;
 }
 
 // Texels a little above the receiver's surface and those beyond its edge count as lit, unless they are in truth a wall
-// and the outside of it: then neither they nor the texels next to the receiver show its surface.
+// and the outside of it: then neither they nor the texels next to the receiver show its surface, but for one by chance.
 float litFraction(LitSum sum) {
-    return sum.own || (sum.lit > 0.0 && hardShadow() > 0.0) ? sum.lit / sum.all : 0.0;
+    return sum.own > 1u || (sum.lit > 0.0 && hardShadow() > 0.0) ? sum.lit / sum.all : 0.0;
 }
 
 float pcfVisibility(float radius, DepthBias bias, ShadowPattern pattern, uint count) {
-    LitSum sum = LitSum(0.0, 0.0, false);
+    LitSum sum = LitSum(0.0, 0.0, 0u);
     for (uint i = 0u; i < count; ++i) {
         ShadowTexel texel = shadowTexel(radius * nextPoint(pattern));
         addTexel(sum, texel, bias, !blocks(texel, bias), 1.0);
@@ -73,7 +73,7 @@ float meanBlockerHeight(ShadowCone cone, float radius, float least, DepthBias bi
 float diskVisibility(ShadowCone cone, float height, float least, DepthBias bias, ShadowPattern pattern, uint count) {
     const float steep = 1.0;
     float radius = max(penumbraRadius(cone, height), least);
-    LitSum sum = LitSum(0.0, 0.0, false);
+    LitSum sum = LitSum(0.0, 0.0, 0u);
     for (uint i = 0u; i < count; ++i) {
         vec2 point = nextPoint(pattern);
         ShadowTexel texel = shadowTexel(radius * point);
