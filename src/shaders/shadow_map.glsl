@@ -6,7 +6,7 @@
 #include "render/shadow/shadow.h"
 #include "shaders/shadow_texel.glsl"
 
-const float minFacing = 0.05;         // lower clamp of the cosine between normal and sun
+const float minFacing = 0.01;         // lower clamp of the cosine between normal and sun
 const float outsideClearance = -1e9;  // clearance outside the map and of empty texels
 
 // Position of a map in the image that several maps share.
@@ -60,7 +60,9 @@ ShadowReceiver slopeReceiver(vec3 p, vec3 normal, ShadowMapParams map, ShadowTil
     vec2 sideways = vec2(dot(normal, axisX), dot(normal, axisY));
     r.tiltDirection = dot(sideways, sideways) > 1e-6 * dot(axisX, axisX) ? normalize(sideways) : vec2(0.0);
     r.slope = -sideways / vec2(dot(axisX, axisX), dot(axisY, axisY)) / max(facing, minFacing);
-    r.bias = planeBias(bias * map.texelSize / max(facing, minFacing), rounding(p) / max(facing, minFacing));
+    float most = bias * map.texelSize / max(facing, minFacing);
+    // Below minFacing, the slope is not that of the plane.
+    r.bias = planeBias(most, facing < minFacing ? most : rounding(p) / facing);
     return r;
 }
 

@@ -23,27 +23,30 @@ struct LitSum {
     float lit;  // weight of lit texels
     float all;  // weight of all texels
     uint own;   // number of texels that show the receiver's own surface
+    bool near;  // a lit texel may show it, bent
 };
 
 void addTexel(inout LitSum sum, ShadowTexel texel, DepthBias bias, bool lit, float weight) {
     sum.lit += lit ? weight : 0.0;
     sum.all += weight;
     sum.own += showsReceiver(texel, bias) ? 1u : 0u;
+    sum.near = sum.near || (lit && isNear(texel, bias));
 }
 
 // Texels a little above the receiver's surface and those beyond its edge count as lit, unless they are in truth a wall
 // and the outside of it: then neither they nor the texels next to the receiver show its surface, but for one by chance.
-float litFraction(LitSum sum) {
-    return sum.own > 1u || (sum.lit > 0.0 && hardShadow() > 0.0) ? sum.lit / sum.all : 0.0;
+// tall: what blocks is far above the receiver, not in a crease; then a bent surface suffices.
+float litFraction(LitSum sum, bool tall) {
+    return sum.own > 1u || (tall && sum.near) || (sum.lit > 0.0 && hardShadow() > 0.0) ? sum.lit / sum.all : 0.0;
 }
 
 float pcfVisibility(float radius, DepthBias bias, ShadowPattern pattern, uint count) {
-    LitSum sum = LitSum(0.0, 0.0, 0u);
+    LitSum sum = LitSum(0.0, 0.0, 0u, false);
     for (uint i = 0u; i < count; ++i) {
         ShadowTexel texel = shadowTexel(radius * nextPoint(pattern));
         addTexel(sum, texel, bias, !blocks(texel, bias), 1.0);
     }
-    return litFraction(sum);
+    return litFraction(sum, false);
 }
 
 // Mean height of the blockers within `radius`; 0: none found; -1: nor the receiver's own surface in the texel that holds
@@ -73,14 +76,14 @@ float meanBlockerHeight(ShadowCone cone, float radius, float least, DepthBias bi
 float diskVisibility(ShadowCone cone, float height, float least, DepthBias bias, ShadowPattern pattern, uint count) {
     const float steep = 1.0;
     float radius = max(penumbraRadius(cone, height), least);
-    LitSum sum = LitSum(0.0, 0.0, 0u);
+    LitSum sum = LitSum(0.0, 0.0, 0u, false);
     for (uint i = 0u; i < count; ++i) {
         vec2 point = nextPoint(pattern);
         ShadowTexel texel = shadowTexel(radius * point);
         bool before = texel.height >= steep * radius * length(point);
         addTexel(sum, texel, bias, !(blocks(texel, bias) && before), 1.0);
     }
-    return litFraction(sum);
+    return litFraction(sum, radius > least);
 }
 
 #endif

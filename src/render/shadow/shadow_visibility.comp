@@ -44,12 +44,12 @@ float sharpVisibility() {
     vec2 high = (1.0 - f) / receiver.texelsPerMetre;
     vec2 offsets[4] = vec2[](low, vec2(high.x, low.y), vec2(low.x, high.y), high);
     vec4 weights = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
-    LitSum sum = LitSum(0.0, 0.0, 0u);
+    LitSum sum = LitSum(0.0, 0.0, 0u, false);
     for (int i = 0; i < 4; ++i) {
         ShadowTexel texel = shadowTexel(offsets[i]);
         addTexel(sum, texel, receiver.bias, !blocks(texel, receiver.bias), weights[i]);
     }
-    return litFraction(sum);
+    return litFraction(sum, false);
 }
 
 // Values for the visibility and penumbra images.
