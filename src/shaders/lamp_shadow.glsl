@@ -25,8 +25,7 @@ struct LampReceiver {
 };
 
 const float minLampFacing = 0.05;
-const ShadowTexel noLampTexel = ShadowTexel(-1e9, -1e9, true);      // nothing outside the map casts shadows
-const ShadowTexel emptyLampTexel = ShadowTexel(-1e9, -1e9, false);  // nothing is on this ray, not even the receiver
+const ShadowTexel noLampTexel = ShadowTexel(-1e9, -1e9);  // nothing outside the map casts shadows
 
 uint tileFace(LampShadow shadow, vec3 fromLamp) {
     if (shadow.tiles == 1u) {
@@ -64,8 +63,7 @@ LampReceiver lampReceiver(LampShadow shadow, uint tileSize, uint columns, vec3 p
     r.facing = max(facing, minLampFacing);
     float along = toTileSpace(shadow, tileFace(shadow, r.fromLamp), r.fromLamp).z;
     r.texel = 2.0 * shadow.halfTangent / float(tileSize) * along;
-    float most = bias * r.texel / r.facing;
-    r.bias = DepthBias(most, ownShare * most);
+    r.bias = planeBias(bias * r.texel / r.facing, rounding(p) / r.facing);
     return r;
 }
 
@@ -95,7 +93,7 @@ ShadowTexel tileTexel(LampReceiver r, uint face, ivec2 texel, float aside) {
     uint tile = r.shadow.firstTile + face;
     float depth = loadLampDepth(ivec2(tile % r.columns, tile / r.columns) * int(r.tileSize) + texel);
     if (depth <= 0.0) {
-        return emptyLampTexel;
+        return noLampTexel;
     }
     // The stored depth is that of the ray through the texel's centre, so it is compared with the receiver's plane
     // there.
@@ -104,10 +102,9 @@ ShadowTexel tileTexel(LampReceiver r, uint face, ivec2 texel, float aside) {
     float height = r.distance + dot(held, toTileSpace(r.shadow, face, r.toLamp));
     float above = dot(held - toTileSpace(r.shadow, face, r.fromLamp), toTileSpace(r.shadow, face, r.normal));
     // Something farther from the lamp than the receiver can still be above its plane: at grazing angles, the next wall.
-    // It is ignored if it is more than 4 metres farther per metre to the side.
+    // It does not block if it is more than 4 metres farther per metre to the side.
     const float steepest = 4.0;
-    float clearance = min(above / r.facing, height + steepest * aside);
-    return ShadowTexel(height, clearance, clearance >= -r.bias.most);
+    return ShadowTexel(height, min(above / r.facing, max(height + steepest * aside, r.bias.most)));
 }
 
 // For a light ray `offset` metres beside the receiver. If the texel's centre sees neither the receiver's plane nor
@@ -122,7 +119,7 @@ ShadowTexel lampTexel(LampReceiver r, vec2 offset) {
     float aside = length(offset) + 1.5 * r.texel;
     ivec2 middle = ivec2(floor(coord.at));
     ShadowTexel texel = tileTexel(r, coord.face, middle, aside);
-    if (texel.known) {
+    if (texel.clearance >= -r.bias.most) {
         return texel;
     }
     ivec2 next = ivec2(sign(fract(coord.at) - 0.5));
@@ -133,7 +130,7 @@ ShadowTexel lampTexel(LampReceiver r, vec2 offset) {
             texel = other;
         }
     }
-    if (!texel.known) {
+    if (texel.clearance < -r.bias.most) {
         coord = tileCoord(r, shiftedPoint(r, offset) + 1.5 * r.texel * r.tiltDirection);
         ShadowTexel other = tileTexel(r, coord.face, ivec2(floor(coord.at)), aside + 1.5 * r.texel);
         if (coord.inside && other.clearance > texel.clearance) {
@@ -143,19 +140,21 @@ ShadowTexel lampTexel(LampReceiver r, vec2 offset) {
     return texel;
 }
 
-// Visibility with a hard edge, exact to the texel; 1: lit. A texel a little above the receiver's surface is the surface
-// itself, bent, if one of the three next ones shows the surface; else it is a wall that meets it in a crease.
+// Visibility with a hard edge, exact to the texel; 1: lit. Decides as hardVisibility of shadow_map.glsl does.
 float hardLampVisibility(LampReceiver r) {
     ShadowTexel texel = lampTexel(r, vec2(0.0));
-    bool own = !texel.known || showsReceiver(texel, r.bias);
-    int others = own || blocks(texel, r.bias) ? 0 : 3;
+    bool own = texel.clearance <= r.bias.own;
+    bool bent = true;
+    int others = own || blocks(texel, r.bias) ? 0 : 4;
     TileCoord coord = tileCoord(r, r.fromLamp);
     ivec2 next = ivec2(sign(fract(coord.at) - 0.5));
     for (int i = 0; i < others; ++i) {
-        ivec2 to = next * ivec2(i != 1 ? 1 : 0, i != 0 ? 1 : 0);
-        own = own || showsReceiver(tileTexel(r, coord.face, ivec2(floor(coord.at)) + to, 1.5 * r.texel), r.bias);
+        ivec2 at = ivec2(floor(coord.at)) + next * ivec2(i & 1, i >> 1);
+        ShadowTexel other = tileTexel(r, coord.face, at, 1.5 * r.texel);
+        own = own || showsReceiver(other, r.bias);
+        bent = bent && isNear(other, r.bias);
     }
-    return own ? 1.0 : 0.0;
+    return own || (others > 0 && bent) ? 1.0 : 0.0;
 }
 
 // Bilinear filter of the four texels around the point: as sharp an edge as the map allows.
@@ -164,17 +163,18 @@ float sharpLampVisibility(LampReceiver r) {
     vec2 low = floor(coord.at - 0.5);
     vec2 f = coord.at - 0.5 - low;
     vec2 sum = vec2(0.0);
-    bool own = false;
+    uint own = 0u;
     for (int i = 0; i < 4; ++i) {
         ivec2 corner = ivec2(i & 1, i >> 1);
         ShadowTexel texel = tileTexel(r, coord.face, ivec2(low) + corner, 1.5 * r.texel);
-        own = own || showsReceiver(texel, r.bias);
-        if (texel.known) {
+        own += showsReceiver(texel, r.bias) ? 1u : 0u;
+        if (texel.clearance >= -r.bias.most) {
             vec2 weight = mix(1.0 - f, f, vec2(corner));
             sum += weight.x * weight.y * vec2(blocks(texel, r.bias) ? 0.0 : 1.0, 1.0);
         }
     }
-    return sum.y <= 0.0 ? hardLampVisibility(r) : own ? sum.x / sum.y : 0.0;
+    float hard = own > 1u ? 1.0 : hardLampVisibility(r);
+    return sum.y > 0.0 ? min(hard, sum.x / sum.y) : hard;
 }
 
 #endif

@@ -6,9 +6,8 @@
 #include "render/shadow/shadow.h"
 #include "shaders/shadow_texel.glsl"
 
-const float minFacing = 0.05;         // lower clamp of the cosine between normal and sun
-const float maxBend = 2.0;            // metres that a surface may bend below its plane per metre to the side
-const float outsideClearance = -1e9;  // clearance outside the map
+const float minFacing = 0.01;         // lower clamp of the cosine between normal and sun
+const float outsideClearance = -1e9;  // clearance outside the map and of empty texels
 
 // Position of a map in the image that several maps share.
 struct ShadowTile {
@@ -26,7 +25,6 @@ struct ShadowReceiver {
     float depthRange;    // metres
     ShadowTile tile;
     DepthBias bias;
-    bool ownPlane;  // receiver-plane depth bias is used
 };
 
 bool outsideMap(ivec2 texel, ivec2 size) {
@@ -46,8 +44,7 @@ ShadowReceiver receiverAt(vec3 p, ShadowMapParams map, ShadowTile tile) {
     r.slope = vec2(0.0);
     r.depthRange = map.depthRange;
     r.tile = tile;
-    r.bias = DepthBias(0.0, 0.0);
-    r.ownPlane = false;
+    r.bias = DepthBias(0.0, 0.0, 0.0);
     return r;
 }
 
@@ -64,8 +61,8 @@ ShadowReceiver slopeReceiver(vec3 p, vec3 normal, ShadowMapParams map, ShadowTil
     r.tiltDirection = dot(sideways, sideways) > 1e-6 * dot(axisX, axisX) ? normalize(sideways) : vec2(0.0);
     r.slope = -sideways / vec2(dot(axisX, axisX), dot(axisY, axisY)) / max(facing, minFacing);
     float most = bias * map.texelSize / max(facing, minFacing);
-    r.bias = DepthBias(most, ownShare * most);
-    r.ownPlane = true;
+    // Below minFacing, the slope is not that of the plane.
+    r.bias = planeBias(most, facing < minFacing ? most : rounding(p) / facing);
     return r;
 }
 
@@ -74,7 +71,7 @@ ShadowReceiver slopeReceiver(vec3 p, vec3 normal, ShadowMapParams map, ShadowTil
 // shadows itself; casters closer than that to the receiver are missed.
 ShadowReceiver constantReceiver(vec3 p, ShadowMapParams map, ShadowTile tile, float bias) {
     ShadowReceiver r = receiverAt(p, map, tile);
-    r.bias = DepthBias(bias, bias);
+    r.bias = DepthBias(bias, bias, -outsideClearance);
     return r;
 }
 
@@ -82,28 +79,27 @@ ShadowReceiver constantReceiver(vec3 p, ShadowMapParams map, ShadowTile tile, fl
 ShadowTexel texelAt(ShadowReceiver r, vec2 offset) {
     ivec2 texel = ivec2(floor(r.at + offset * r.texelsPerMetre));
     if (outsideMap(texel, r.tile.size)) {
-        return ShadowTexel(outsideClearance, outsideClearance, !r.ownPlane);
+        return ShadowTexel(outsideClearance, outsideClearance);
     }
     vec2 toCentre = (2.0 * (vec2(texel) + 0.5) / vec2(r.tile.size) - 1.0) - r.s.xy;
     float depth = loadShadowDepth(r.tile.origin + texel);
     float height = (depth - r.s.z) * r.depthRange;
-    float clearance = height - dot(r.slope, toCentre);
-    // Depth 0: the texel is empty.
-    return ShadowTexel(height, clearance,
-                       !r.ownPlane || (depth > 0.0 && clearance >= -r.bias.most - maxBend * length(offset)));
+    return ShadowTexel(height, depth > 0.0 ? height - dot(r.slope, toCentre) : outsideClearance);
 }
 
 // Visibility with a hard edge, exact to the texel; 1: lit. If the texel that holds the receiver leaves it in doubt, four
-// more decide, the three nearest ones and one farther in the tilt direction. A texel a little above the receiver's
-// surface is the surface itself, bent, if one of them shows the surface; else it is a wall that meets it in a crease.
-// Instead of a texel beyond the surface's edge, the one that occludes most is taken.
+// more decide, the three nearest ones and one farther in the tilt direction. A texel a little above or below the
+// receiver's plane is the surface itself, bent, if the nearest ones are so, too, or if one shows the surface; else it is
+// a wall that meets it in a crease. Instead of a texel beyond the surface's edge, the one that occludes most is taken.
 float hardVisibility(ShadowReceiver r) {
     ShadowTexel texel = texelAt(r, vec2(0.0));
     bool own = showsReceiver(texel, r.bias);
+    bool bent = isNear(texel, r.bias);
     float clearance = texel.clearance;
     // The trip count is dynamic on purpose: CPU drivers leave such a loop as soon as no pixel of the group needs more
     // iterations, but always run all iterations of a loop that can be unrolled.
     int others = own || blocks(texel, r.bias) ? 0 : 4;
+    bool near = own || bent;
     vec2 next = sign(fract(r.at) - 0.5) / r.texelsPerMetre;
     const float aside = 1.5;  // texels
     for (int i = 0; i < others; ++i) {
@@ -111,9 +107,10 @@ float hardVisibility(ShadowReceiver r) {
                              : next * vec2((i & 1) == 0 ? 1.0 : 0.0, i > 0 ? 1.0 : 0.0);
         ShadowTexel other = texelAt(r, offset);
         own = own || showsReceiver(other, r.bias);
+        bent = bent && (i == 3 || isNear(other, r.bias));
         clearance = max(clearance, other.clearance);
     }
-    return (texel.known ? own : clearance <= r.bias.own) ? 1.0 : 0.0;
+    return (near ? own || bent : clearance <= edgeShare * r.bias.most) ? 1.0 : 0.0;
 }
 
 #endif

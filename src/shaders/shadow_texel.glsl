@@ -4,26 +4,38 @@
 
 struct ShadowTexel {
     float height;     // of the stored surface above the receiver, toward the light [m]
-    float clearance;  // of the stored surface above the receiver's plane, toward the light [m]; -1e9: outside
-    bool known;       // the texel holds the receiver's surface or something above it. If not, its centre lies beyond the
-                      // surface's edge, and may see light that passes a wall which shadows the whole surface
+    float clearance;  // of the stored surface above the receiver's plane, toward the light [m]; -1e9: none is stored
 };
 
-// Clearances up to which a texel leaves its receiver lit [m].
+// Clearances by which texels are told apart [m].
 struct DepthBias {
-    float most;  // texels with more block; covers curvature, creases and rounding
-    float own;   // texels with at most this hold the receiver's own surface; covers rounding
+    float most;   // above: another surface, which blocks; covers curvature, creases and rounding
+    float own;    // up to this: the receiver's own surface; covers rounding
+    float below;  // down to minus this, too
 };
 
-const float ownShare = 0.125;  // of DepthBias.most
+const float edgeShare = 0.25;  // of DepthBias.most: what counts of it beyond the edge of a surface
+
+// Bias of a receiver whose plane is known. rounding: of positions [m].
+DepthBias planeBias(float most, float rounding) {
+    float own = min(max(most / 32.0, rounding), most);
+    return DepthBias(most, own, own);
+}
+
+// Rounding of a position in world space [m].
+float rounding(vec3 p) { return 1e-6 * max(max(abs(p.x), abs(p.y)), abs(p.z)); }
 
 bool blocks(ShadowTexel texel, DepthBias bias) { return texel.clearance > bias.most; }
 
-// Whether the light reaches the receiver's own surface at the texel's centre. A point is lit only if it does so nearby:
-// where another surface meets the receiver's in a crease, its clearance is less than any bias, but the receiver's own
-// surface is nowhere to be seen (priority buffer: Hourcade and Nicolas, Algorithms for Antialiased Cast Shadows, 1985,
-// which compares identities instead of depths).
-bool showsReceiver(ShadowTexel texel, DepthBias bias) { return texel.known && texel.clearance <= bias.own; }
+// Whether the light reaches the receiver's own surface at the texel's centre. Where it does so in no texel nearby, a
+// surface that does not block may be a wall that meets the receiver's in a crease, or lie outside of it. (Hourcade and
+// Nicolas, Algorithms for Antialiased Cast Shadows, 1985, compare the identities of surfaces to the same end.)
+bool showsReceiver(ShadowTexel texel, DepthBias bias) {
+    return texel.clearance <= bias.own && texel.clearance >= -bias.below;
+}
+
+// Whether the texel may show the receiver's own surface, bent.
+bool isNear(ShadowTexel texel, DepthBias bias) { return abs(texel.clearance) <= bias.most; }
 
 // The cone of directions from a receiver to a disk light.
 struct ShadowCone {

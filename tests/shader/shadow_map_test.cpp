@@ -152,6 +152,24 @@ TEST_F(ShadowMap, anOccluderCountsAsSoonAsItIsHigherThanTheBias) {
     }
 }
 
+// At the bottom of a valley a texel's centre may lie on the other slope, above the receiver's plane.
+TEST_F(ShadowMap, aValleyDoesNotShadowItselfAlongItsBottom) {
+    for (const float degrees : {80.0F, 50.0F}) {
+        ShadowScene scene = sceneOf(toSunAt(glm::radians(degrees), 0.9F), vec3(0, 1, 0));
+        const vec3 across = glm::normalize(vec3(0.8F, 0, 0.6F));
+        const float slope = 0.35F;
+        scene.occluder = vec4(glm::normalize(vec3(0, 1, 0) - slope * across), 0.0F);  // y = slope · across
+        scene.occluderEdge = vec4(-across, 0.0F);
+        auto cases = pointsOnReceiver(scene, 20000);
+        std::erase_if(cases, [&](const ShadowCase& c) {
+            const float side = glm::dot(c.point, across);
+            return !isInside(scene, c) || side > 0.0F || side < -1.5F * scene.map.texelSize;
+        });
+        EXPECT_GT(cases.size(), 20U);
+        EXPECT_EQ(std::ranges::count(lookUp(scene, cases), 0.0F), 0) << degrees;
+    }
+}
+
 TEST_F(ShadowMap, whatTheMapDoesNotHoldIsLit) {
     ShadowScene scene = sceneOf(toSunAt(1.0F, 0.0F), vec3(0, 1, 0));
     scene.occluder = vec4(0, 1, 0, -4.0F);

@@ -29,10 +29,12 @@ const uint lampStream = 0x1a90u;       // of the noise
 
 LampReceiver receiver;
 ShadowTexel shadowTexel(vec2 offset) { return lampTexel(receiver, offset); }
+float hardShadow() { return hardLampVisibility(receiver); }
 #include "shaders/soft_shadow.glsl"
 
 // Shrinks the blocker search radius iteratively to the penumbra radius of the highest blocker sampled so far. Otherwise
-// few samples over a very wide disk would miss narrow penumbras. 0: no blockers; -1: nor the receiver's own surface.
+// few samples over a very wide disk would miss narrow penumbras. 0: no blockers; -1: nor the receiver's own
+// surface in the texel that holds it.
 float shrunkSearch(ShadowCone cone, float radius, float least, vec2 noise) {
     bool own = false;
     for (int i = 0; i < 3; ++i) {
@@ -41,7 +43,7 @@ float shrunkSearch(ShadowCone cone, float radius, float least, vec2 noise) {
         float highest = -1.0;
         for (uint k = 0u; k <= count; ++k) {
             ShadowTexel texel = shadowTexel(k == 0u ? vec2(0.0) : radius * nextPoint(pattern));
-            own = own || showsReceiver(texel, receiver.bias);
+            own = own || (k == 0u && showsReceiver(texel, receiver.bias));
             highest = blocks(texel, receiver.bias) ? max(highest, max(texel.height, 0.0)) : highest;
         }
         float needed = highest < 0.0 ? (own ? 0.0 : -1.0) : max(penumbraRadius(cone, highest), least);
@@ -77,7 +79,7 @@ float pcss(ShadowCone cone, vec4 noise) {
         return 1.0;
     }
     return height < 0.0
-               ? -1.0
+               ? hardShadow()
                : diskVisibility(cone, height, least, receiver.bias, shadowPattern(s, s.samples, noise.xy), s.samples);
 }
 
@@ -95,17 +97,13 @@ float visibilityAt(ivec2 pixel, uint index, vec3 p, vec3 n) {
         return hardLampVisibility(receiver);
     }
     vec4 noise = shadowNoise(pixel, params.view, s.pattern == ShadowPattern_rings, lampStream + 2u * index);
-    float visible;
-    float share = 1.0;
     if (filterKind == ShadowFilter_pcf) {
         float radius = s.radius * (s.radiusUnit == ShadowUnit_texels ? receiver.texel : 1.0);
-        visible = pcfVisibility(radius, receiver.bias, shadowPattern(s, s.samples, noise.xy), s.samples);
-    } else {
-        float slope = shadow.lamp.radius / receiver.distance;
-        share = fractionAboveHorizon(facing, slope * inversesqrt(1.0 + slope * slope));
-        visible = pcss(ShadowCone(slope, 1.0 / receiver.distance), noise);
+        return pcfVisibility(radius, receiver.bias, shadowPattern(s, s.samples, noise.xy), s.samples);
     }
-    return share * (visible < 0.0 ? hardLampVisibility(receiver) : visible);
+    float slope = shadow.lamp.radius / receiver.distance;
+    float share = fractionAboveHorizon(facing, slope * inversesqrt(1.0 + slope * slope));
+    return share * pcss(ShadowCone(slope, 1.0 / receiver.distance), noise);
 }
 
 void main() {

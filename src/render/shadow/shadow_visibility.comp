@@ -34,6 +34,7 @@ const uint sunStream = 0x5ad0u;        // of the noise
 
 ShadowReceiver receiver;
 ShadowTexel shadowTexel(vec2 offset) { return texelAt(receiver, offset); }
+float hardShadow() { return hardVisibility(receiver); }
 #include "shaders/soft_shadow.glsl"
 
 // Bilinear filter over four texels: the sharpest edge that the map's resolution allows.
@@ -43,12 +44,12 @@ float sharpVisibility() {
     vec2 high = (1.0 - f) / receiver.texelsPerMetre;
     vec2 offsets[4] = vec2[](low, vec2(high.x, low.y), vec2(low.x, high.y), high);
     vec4 weights = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
-    LitSum sum = LitSum(0.0, 0.0, 0.0, 0.0);
+    LitSum sum = LitSum(0.0, 0.0, 0u, false);
     for (int i = 0; i < 4; ++i) {
         ShadowTexel texel = shadowTexel(offsets[i]);
         addTexel(sum, texel, receiver.bias, !blocks(texel, receiver.bias), weights[i]);
     }
-    return litFraction(sum);
+    return litFraction(sum, false);
 }
 
 // Values for the visibility and penumbra images.
@@ -90,7 +91,7 @@ Result pcss(ShadowCone cone, float texelSize, vec4 noise) {
     float height = meanBlockerHeight(cone, radius, least, receiver.bias,
                                      shadowPattern(s, s.blockerSamples, noise.zw), s.blockerSamples);
     if (height < 0.0) {
-        return Result(-1.0, 0.0, 0.0);
+        return Result(hardShadow(), 0.0, 0.0);
     }
     if (height == 0.0) {
         return Result(1.0, -2.0 * radius, 0.0);
@@ -126,10 +127,8 @@ Result resultIn(uint cascade, vec3 p, vec3 normal, vec4 noise) {
     if (filterKind == ShadowFilter_hard) {
         return Result(hardVisibility(receiver), 0.0, 0.0);
     }
-    Result r = filterKind == ShadowFilter_pcss ? pcss(ShadowCone(params.sunSlope, 0.0), map.texelSize, noise)
-                                               : pcf(map.texelSize, noise);
-    r.visibility = r.visibility < 0.0 ? hardVisibility(receiver) : r.visibility;
-    return r;
+    return filterKind == ShadowFilter_pcss ? pcss(ShadowCone(params.sunSlope, 0.0), map.texelSize, noise)
+                                           : pcf(map.texelSize, noise);
 }
 
 Result mixed(Result a, Result b, float share) {
