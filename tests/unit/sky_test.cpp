@@ -57,10 +57,16 @@ TEST(Sky, IsFiniteAndNotNegativeForEveryHeightOfTheSun) {
 }
 
 TEST(Sky, IsMirroredAtTheSunsAzimuthAndBrighterTowardTheSun) {
-    const Environment sky = environmentOf(makeSky(30.0F * degree).image);
+    const FloatImage image = makeSky(30.0F * degree).image;
+    for (uint32_t row = 0; row < image.height; row += 7) {
+        const float* texels = &image.data[size_t{3} * row * image.width];
+        for (uint32_t i = 0; i < image.width / 2; ++i) {
+            ASSERT_NEAR(texels[3 * i], texels[3 * (image.width - 1 - i)], 1e-4F) << row << ", " << i;
+        }
+    }
+    const Environment sky = environmentOf(image);
     for (const float elevation : {5.0F, 30.0F, 70.0F}) {
-        for (const float azimuth : {20.0F, 90.0F, 150.0F}) {
-            EXPECT_NEAR(luminanceAt(sky, elevation, azimuth), luminanceAt(sky, elevation, -azimuth), 1e-4F);
+        for (const float azimuth : {20.0F, 50.0F}) {  // the paper's function rises again toward the antisolar point
             EXPECT_GT(luminanceAt(sky, elevation, azimuth - 20.0F), luminanceAt(sky, elevation, azimuth + 20.0F));
         }
     }
