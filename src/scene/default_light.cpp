@@ -40,7 +40,7 @@ Environment made(const std::string& name, FloatImage image, float rotation) {
 void addSky(View& view, bool keepsSun) {
     const bool dark = !(luminance(view.sun.irradiance) > 0.0F);
     const bool own = view.hasDefaultSun || (dark && !keepsSun);
-    if (own) {
+    if (own && !view.hasDefaultSun) {  // a default sun stays where it is, whatever the camera is now
         view.sun = defaultSun(view.camera);
     }
     const float strength = own || dark ? Sky::sunLuminance : luminance(view.sun.irradiance);
@@ -87,7 +87,7 @@ void chooseEnvironment(View& view, const EnvironmentChoice& choice) {
         view.environment.imageFile = std::filesystem::absolute(file).lexically_normal().string();
     }
     if (view.hasDefaultSun && choice.name == "none") {
-        view.sun = defaultSun(view.camera);
+        view.sun.irradiance = defaultSun(view.camera).irradiance;
     } else if (view.hasDefaultSun && choice.name != "sky") {
         view.sun.irradiance = vec3(0.0F);
     }

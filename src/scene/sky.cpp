@@ -114,6 +114,14 @@ dvec3 sunIrradiance(double elevation) {
     return glm::max(rgbFromXyz(outside * sum / whole), dvec3(0.0));
 }
 
+// A camera's picture of the sky: white-balanced, and with half the saturation, without which shadows and metals look
+// dyed. Linear, so that both changes keep the neutral sum of sun and sky.
+dvec3 toned(const dvec3& color, const dvec3& gains) {
+    constexpr double saturation = 0.5;
+    const dvec3 balanced = gains * color;
+    return glm::mix(dvec3(luminance(vec3(balanced))), balanced, saturation);
+}
+
 // Irradiance of the dome on a horizontal surface [klx]: midpoint rule in cos² theta and azimuth.
 dvec3 skyIrradiance(const Dome& dome) {
     constexpr int count = 32;
@@ -141,17 +149,17 @@ dvec3 whiteBalance() {
 Sky makeSky(float elevation) {
     constexpr double lowest = 10.0 * radian;
     constexpr double night = -18.0 * radian;
-    static const dvec3 balance = whiteBalance();
+    static const dvec3 gains = whiteBalance();
     const double shown = std::clamp<double>(elevation, 0.0, 90.0 * radian);
-    const dvec3 unit =
-        Sky::sunLuminance / double(luminance(vec3(balance * sunIrradiance(std::max(shown, lowest))))) * balance;
+    const double unit =
+        Sky::sunLuminance / double(luminance(vec3(toned(sunIrradiance(std::max(shown, lowest)), gains))));
     // Illuminance falls by a factor of 120 from sunset to civil dusk, 6 degrees below the horizon.
-    const double twilight = std::pow(120.0, std::clamp<double>(elevation, night, 0.0) / (6.0 * radian));
+    const double twilight = unit * std::pow(120.0, std::clamp<double>(elevation, night, 0.0) / (6.0 * radian));
     const Dome dome(90.0 * radian - shown);
     Sky sky;
-    sky.sunIrradiance = elevation > 0.0F ? vec3(unit * sunIrradiance(shown)) : vec3(0.0F);
+    sky.sunIrradiance = elevation > 0.0F ? vec3(unit * toned(sunIrradiance(shown), gains)) : vec3(0.0F);
     const dvec3 ground = groundAlbedo / glm::pi<double>() *
-                         (twilight * unit * skyIrradiance(dome) + std::sin(shown) * dvec3(sky.sunIrradiance));
+                         (twilight * toned(skyIrradiance(dome), gains) + std::sin(shown) * dvec3(sky.sunIrradiance));
     sky.image = {imageSize.x, imageSize.y, {"R", "G", "B"}, {}};
     sky.image.data.reserve(size_t{3} * imageSize.x * imageSize.y);
     for (uint32_t row = 0; row < imageSize.y; ++row) {
@@ -160,7 +168,7 @@ Sky makeSky(float elevation) {
             const dvec3 direction = environmentDirection(uv, 0.0F);
             const dvec3 above = glm::normalize(dvec3(direction.x, std::max(direction.y, 0.0), direction.z));
             const double below = glm::smoothstep(0.0, 0.06, -direction.y);  // haze over the horizon
-            const vec3 radiance = glm::mix(twilight * unit * dome(above), ground, below);
+            const vec3 radiance = glm::mix(twilight * toned(dome(above), gains), ground, below);
             sky.image.data.insert(sky.image.data.end(), {radiance.x, radiance.y, radiance.z});
         }
     }
@@ -193,17 +201,17 @@ float coverage(const SoftBox& box, const vec3& direction) {
 
 FloatImage makeStudio() {
     // The camera looks along -Z, so it stands at +Z and its left is -X.
-    static constexpr std::array<SoftBox, 4> boxes{{{{-0.75F, 0.75F, 0.65F}, {0.55F, 0.45F}, 7.0F},
-                                                   {{0.95F, 0.25F, 0.45F}, {0.30F, 0.55F}, 2.2F},
-                                                   {{0.55F, 0.35F, -1.0F}, {0.12F, 0.60F}, 5.0F},
-                                                   {{0.0F, 1.0F, -0.12F}, {0.60F, 0.35F}, 3.0F}}};
+    static constexpr std::array<SoftBox, 4> boxes{{{{-0.75F, 0.60F, 0.80F}, {0.70F, 0.60F}, 3.2F},
+                                                   {{0.95F, 0.25F, 0.45F}, {0.35F, 0.60F}, 1.1F},
+                                                   {{0.75F, 0.60F, -0.90F}, {0.12F, 0.50F}, 3.0F},
+                                                   {{0.0F, 1.0F, -0.12F}, {0.60F, 0.40F}, 1.2F}}};
     FloatImage image{imageSize.x, imageSize.y, {"R", "G", "B"}, {}};
     image.data.reserve(size_t{3} * imageSize.x * imageSize.y);
     for (uint32_t row = 0; row < imageSize.y; ++row) {
         for (uint32_t column = 0; column < imageSize.x; ++column) {
             const vec3 direction = environmentDirection((vec2(column, row) + 0.5F) / vec2(imageSize), 0.0F);
             // The surround: darker floor, lighter above.
-            float radiance = glm::mix(0.22F, 0.5F, glm::smoothstep(-0.4F, 0.5F, direction.y));
+            float radiance = glm::mix(0.15F, 0.33F, glm::smoothstep(-0.4F, 0.5F, direction.y));
             for (const SoftBox& box : boxes) {
                 radiance = glm::mix(radiance, box.radiance, coverage(box, direction));
             }

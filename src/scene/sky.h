@@ -13,6 +13,7 @@ namespace reflet {
 struct Sky {
     /// Largest luminance of the sun's irradiance [W/m²]: all values are scaled so that a white surface in the light of
     /// both has a radiance of about 1, and the horizontal surface under a high sun looks neutral (white balance).
+    /// Colours have half the model's saturation.
     static constexpr float sunLuminance = 3.0F;
 
     /// "R" "G" "B", 1024x512 [W/(m² sr)]; without the sun's disk. The sun's azimuth is the image's centre.

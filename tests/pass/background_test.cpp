@@ -19,6 +19,7 @@ namespace {
 
 using Mode = Background::Mode;
 constexpr uvec2 size(96, 64);
+constexpr uvec2 small(48, 32);
 
 class BackgroundImage : public DeviceTest {
 protected:
@@ -45,10 +46,10 @@ Background of(Mode mode, const vec3& color = vec3(0.0F)) {
     return {mode, color};
 }
 
-// What reads the last frame's image, light mips, mirrors and probes, which might all meet the background.
+// What reads the last frame's image, light mips and mirrors, which might meet the background.
 const std::vector<std::vector<std::string>> looks{
     {"trace_screen.light=previous", "denoise.enabled=true", "temporal.enabled=false", "diffuse.rays=1"},
-    {"specular.rough_fallback=mips", "specular.max_roughness=0.2", "planar.enabled=true", "probes.enabled=true"}};
+    {"specular.rough_fallback=mips", "specular.max_roughness=0.2", "planar.enabled=true"}};
 
 TEST_F(BackgroundImage, ChangesNoLightOnSurfaces) {
     const Scene scene = findBuiltinScene("gloss")->make();
@@ -57,15 +58,15 @@ TEST_F(BackgroundImage, ChangesNoLightOnSurfaces) {
     for (const std::vector<std::string>& look : looks) {
         const auto shown = [&](const Background& background) {
             view.background = background;
-            return render(scene, view, size, settingsOf(look), {"final", "direct", "depth"}, 3);
+            return render(scene, view, small, settingsOf(look), {"final", "direct", "depth"}, 2);
         };
         const Pictures plain = shown({});
         size_t sky = 0;
         for (const Background& b : {of(Mode::blur), of(Mode::color, {1, 0, 0}), of(Mode::transparent)}) {
             const Pictures other = shown(b);
             size_t different = 0;
-            for (unsigned y = 0; y < size.y; ++y) {
-                for (unsigned x = 0; x < size.x; ++x) {
+            for (unsigned y = 0; y < small.y; ++y) {
+                for (unsigned x = 0; x < small.x; ++x) {
                     if (plain.hasSurface(x, y)) {
                         ASSERT_EQ(other.color("final", x, y), plain.color("final", x, y)) << x << ", " << y;
                         ASSERT_EQ(other.color("direct", x, y), plain.color("direct", x, y)) << x << ", " << y;
@@ -75,9 +76,9 @@ TEST_F(BackgroundImage, ChangesNoLightOnSurfaces) {
                     }
                 }
             }
-            EXPECT_GT(different, 100U);
+            EXPECT_GT(different, 30U);
         }
-        EXPECT_GT(sky, 300U);
+        EXPECT_GT(sky, 100U);
     }
     expectSilentValidation("backgrounds");
 }
@@ -146,10 +147,12 @@ TEST_F(BackgroundImage, OfTransparentImagesLeavesStraightColorsAndTheAreaAsAlpha
             if (expected == 0.0F) {
                 ASSERT_LE(texel[3], 8) << i;
             }
-            if (texel[3] > 32 && texel[3] < 224) {
+            if (texel[3] > 0 && texel[3] < 255) {
                 ++edges;
                 for (int channel = 0; channel < 3; ++channel) {
-                    ASSERT_NEAR(texel[channel], center[channel], 12) << averaging << ", alpha " << int{texel[3]};
+                    // Weighted as it will be seen: TAA clips the histories of colour and alpha separately.
+                    const double off = (texel[channel] - center[channel]) * (texel[3] / 255.0);
+                    ASSERT_NEAR(off, 0.0, 5.0) << averaging << ", alpha " << int{texel[3]};
                 }
             }
         }
@@ -208,7 +211,7 @@ TEST(Sky, GivesItsOwnIntegralAsIrradianceInTheRendererAndTheReference) {
         view.camera.up = up;
         view.camera.fovY = glm::radians(5.0F);
         const vec3 expected = irradiance(view.environment, normal) / glm::pi<float>();
-        const auto center = [&](const FloatImage& image) {
+        const auto mean = [&](const FloatImage& image) {
             glm::dvec3 sum(0.0);
             for (size_t i = 0; i < image.data.size(); i += 3) {
                 sum += glm::dvec3(image.data[i], image.data[i + 1], image.data[i + 2]);
@@ -216,22 +219,22 @@ TEST(Sky, GivesItsOwnIntegralAsIrradianceInTheRendererAndTheReference) {
             return vec3(sum / (double(image.data.size()) / 3.0));
         };
         const Pictures prefiltered =
-            render(scene, view, size,
+            render(scene, view, {16, 16},
                    settingsOf({"trace_screen.enabled=false", "specular.rays=0", "diffuse.distribution=normal",
                                "diffuse.rays=1", "materials.lambert_only=true"}),
                    {"indirect_diffuse"});
-        const Pictures rays =
-            render(scene, view, size, settingsOf({"specular.rays=0", "diffuse.rays=64", "materials.lambert_only=true"}),
-                   {"indirect_diffuse"});
+        const Pictures rays = render(scene, view, {16, 16},
+                                     settingsOf({"specular.rays=0", "diffuse.rays=64", "materials.lambert_only=true"}),
+                                     {"indirect_diffuse"});
         ReferenceOptions options;
         options.samples = 64;
         options.bounces = 1;
         options.lambertOnly = true;
-        const vec3 traced = center(traceReference(scene, view, {16, 16}, options).final);
+        const vec3 traced = mean(traceReference(scene, view, {16, 16}, options).final);
         for (int channel = 0; channel < 3; ++channel) {
-            EXPECT_NEAR(center(prefiltered.images.at("indirect_diffuse"))[channel], expected[channel],
+            EXPECT_NEAR(mean(prefiltered.images.at("indirect_diffuse"))[channel], expected[channel],
                         0.02F * expected[channel]);
-            EXPECT_NEAR(center(rays.images.at("indirect_diffuse"))[channel], expected[channel],
+            EXPECT_NEAR(mean(rays.images.at("indirect_diffuse"))[channel], expected[channel],
                         0.02F * expected[channel]);
             EXPECT_NEAR(traced[channel], expected[channel], 0.02F * expected[channel]);
         }

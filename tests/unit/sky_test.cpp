@@ -57,10 +57,16 @@ TEST(Sky, IsFiniteAndNotNegativeForEveryHeightOfTheSun) {
 }
 
 TEST(Sky, IsMirroredAtTheSunsAzimuthAndBrighterTowardTheSun) {
-    const Environment sky = environmentOf(makeSky(30.0F * degree).image);
+    const FloatImage image = makeSky(30.0F * degree).image;
+    for (uint32_t row = 0; row < image.height; row += 7) {
+        const float* texels = &image.data[size_t{3} * row * image.width];
+        for (uint32_t i = 0; i < image.width / 2; ++i) {
+            ASSERT_NEAR(texels[3 * i], texels[3 * (image.width - 1 - i)], 1e-4F) << row << ", " << i;
+        }
+    }
+    const Environment sky = environmentOf(image);
     for (const float elevation : {5.0F, 30.0F, 70.0F}) {
-        for (const float azimuth : {20.0F, 90.0F, 150.0F}) {
-            EXPECT_NEAR(luminanceAt(sky, elevation, azimuth), luminanceAt(sky, elevation, -azimuth), 1e-4F);
+        for (const float azimuth : {20.0F, 50.0F}) {  // the paper's function rises again toward the antisolar point
             EXPECT_GT(luminanceAt(sky, elevation, azimuth - 20.0F), luminanceAt(sky, elevation, azimuth + 20.0F));
         }
     }
@@ -123,9 +129,9 @@ TEST(Studio, IsGreyWithLightsUpperLeftBehindTheCameraAndOverhead) {
         ASSERT_GT(studio.image->data[i], 0.1F);
     }
     const auto at = [&](const vec3& d) { return radianceFrom(studio, d).r; };
-    EXPECT_GT(at({-0.75F, 0.75F, 0.65F}), 3.0F * at({0.75F, 0.75F, 0.65F}));
-    EXPECT_GT(at({0, 1, -0.1F}), 2.0F);
-    EXPECT_LT(at({0, -1, 0}), 0.3F);
+    EXPECT_GT(at({-0.75F, 0.6F, 0.8F}), 3.0F * at({0.3F, 0.9F, 0.9F}));
+    EXPECT_GT(at({0, 1, -0.1F}), 1.0F);
+    EXPECT_LT(at({0, -1, 0}), 0.2F);
     // A surface that faces the camera from below the key light: about as bright as under the sky.
     const float shown = luminance(irradiance(*studio.image, glm::normalize(vec3(0, 0.5F, 1)))) / glm::pi<float>();
     EXPECT_GT(shown, 0.7F);
