@@ -149,7 +149,7 @@ TEST_F(Exposure, OfTheDeviceIsThatOfTheHostAndAlwaysTheSame) {
         Seen seen(size, vec3(0.0F), true);
         for (size_t i = 0; i < seen.radiance.size(); ++i) {
             const auto at = static_cast<float>(i);
-            const float strength = std::exp2(-12.0F + 8.0F * std::sin(at * 0.37F) + 4.0F * std::sin(at * 0.0013F));
+            const float strength = std::exp2(-2.0F + 8.0F * std::sin(at * 0.37F) + 4.0F * std::sin(at * 0.0013F));
             seen.radiance[i] = strength * vec3(1.0F, 0.5F + 0.5F * std::sin(at), 0.2F);
             seen.surface[i] = i % 7 != 0;
         }
