@@ -208,8 +208,8 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
                        framesBefore,
                        backgroundOf(view),
                        exposesAutomatically(settings.tonemap, source_),
-                       static_cast<float>(std::abs(view.time - previousTime_.value_or(view.time)))};
-    previousTime_ = view.time;
+                       static_cast<float>(std::abs(asked.time - previousTime_.value_or(asked.time)))};
+    previousTime_ = asked.time;
     inputs.probes = probes_.update(frame_, inputs, probesOf(view, settings.probes), settings);
     const FrameImages images = renderFrame(frame_, inputs, settings);
     if (after) {

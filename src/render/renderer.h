@@ -83,7 +83,7 @@ private:
     uint32_t framesBefore_ = 0;
     std::optional<mat4> previousWorldToClip_;  ///< without jitter
     vec2 previousPlace_{0.0F};                 ///< in the pixel, that the last frame looked through
-    std::optional<double> previousTime_;       ///< of the last frame's view [s]
+    std::optional<double> previousTime_;       ///< that the last frame was asked for, not looped [s]
     uint32_t frameNumber_ = 0;
 };
 

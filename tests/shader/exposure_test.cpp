@@ -11,7 +11,7 @@
 namespace reflet::test::exposure_test {
 namespace {
 
-constexpr float grey = 0.18F;
+constexpr float grey = 0.22F;
 
 // A picture: radiance, and where there is a surface.
 struct Seen {
@@ -128,6 +128,12 @@ TEST_F(Exposure, LeavesOutBlackAndBurntPixels) {
     expectBoth(seen, std::log2(grey / 0.25F), "a lamp and shadows");
 }
 
+TEST_F(Exposure, DoesNotBurnWhatIsLitWhereMostIsInShadow) {
+    Seen seen({64, 32}, vec3(0.001F), true);
+    seen.with({0, 20}, {64, 32}, vec3(2.0F));  // 37 % of the picture
+    expectBoth(seen, std::log2(0.6F / 2.0F), "a lit part");
+}
+
 TEST_F(Exposure, IsFiniteForEveryPicture) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     expectBoth(Seen({64, 32}, vec3(0.0F), true), 0.0F, "black");
@@ -143,7 +149,7 @@ TEST_F(Exposure, OfTheDeviceIsThatOfTheHostAndAlwaysTheSame) {
         Seen seen(size, vec3(0.0F), true);
         for (size_t i = 0; i < seen.radiance.size(); ++i) {
             const auto at = static_cast<float>(i);
-            const float strength = std::exp2(-12.0F + 8.0F * std::sin(at * 0.37F) + 4.0F * std::sin(at * 0.0013F));
+            const float strength = std::exp2(-2.0F + 8.0F * std::sin(at * 0.37F) + 4.0F * std::sin(at * 0.0013F));
             seen.radiance[i] = strength * vec3(1.0F, 0.5F + 0.5F * std::sin(at), 0.2F);
             seen.surface[i] = i % 7 != 0;
         }
@@ -154,8 +160,8 @@ TEST_F(Exposure, OfTheDeviceIsThatOfTheHostAndAlwaysTheSame) {
 }
 
 TEST_F(Exposure, IsTheMeanOfTheLastFramesByTheirAge) {
-    const Seen dark({64, 32}, vec3(0.18F / 16.0F), true);  // +4 stops
-    const Seen bright({64, 32}, vec3(0.18F), true);        // 0 stops
+    const Seen dark({64, 32}, vec3(grey / 16.0F), true);  // +4 stops
+    const Seen bright({64, 32}, vec3(grey), true);        // 0 stops
     constexpr float elapsed = 0.25F;
     EXPECT_NEAR(next(dark), 4.0F, 0.002F);
     float darkWeight = 1.0F;
@@ -169,8 +175,8 @@ TEST_F(Exposure, IsTheMeanOfTheLastFramesByTheirAge) {
 }
 
 TEST_F(Exposure, OfTwiceAsManyFramesPerSecondAdaptsInTheSameTime) {
-    const Seen dark({64, 32}, vec3(0.18F / 16.0F), true);
-    const Seen bright({64, 32}, vec3(0.18F), true);
+    const Seen dark({64, 32}, vec3(grey / 16.0F), true);
+    const Seen bright({64, 32}, vec3(grey), true);
     std::array<float, 2> after{};
     for (uint32_t rate = 1; rate <= 2; ++rate) {
         frame().invalidateHistories();
@@ -187,7 +193,7 @@ TEST_F(Exposure, OfTwiceAsManyFramesPerSecondAdaptsInTheSameTime) {
 
 TEST_F(Exposure, WithoutAdaptationIsTheFramesOwn) {
     next(Seen({64, 32}, vec3(0.01F), true));
-    const Seen bright({64, 32}, vec3(0.18F), true);
+    const Seen bright({64, 32}, vec3(grey), true);
     EXPECT_EQ(next(bright, 0.0F, 0.0F), first(bright));
 }
 

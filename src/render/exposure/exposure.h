@@ -3,8 +3,8 @@
 //
 // E. Reinhard, M. Stark, P. Shirley, J. Ferwerda: Photographic Tone Reproduction for Digital Images (2002), with a
 // histogram instead of the mean over all pixels: the darkest and brightest pixels are cut off, so that deep shadows and
-// lamps in the picture do not decide. Black pixels do not count, and the background only where there is hardly a
-// surface. All sums are of integers, so the order of the pixels does not matter.
+// lamps in the picture do not decide, and light tones have a limit. Black pixels do not count, and the background only
+// where there is hardly a surface. All sums are of integers, so the order of the pixels does not matter.
 #ifndef REFLET_RENDER_EXPOSURE_H
 #define REFLET_RENDER_EXPOSURE_H
 

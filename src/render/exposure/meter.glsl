@@ -6,9 +6,14 @@
 
 #include "render/exposure/exposure.h"
 
-const float middleGrey = 0.18f;
-// Of the surfaces' pixels that are not black; the mean is over those between.
+// The neutral curve subtracts 0.04: it shows this as 0.18.
+const float middleGrey = 0.22f;
+// The mean of the light tones is at most this, so that what is lit is not burnt where most is in shadow.
+const float lightestGrey = 0.6f;
+// Shares of the pixels that are not black, from dark to bright: the mean is over those from the first to the last;
+// light tones are those from the second on.
 const float darkestShare = 0.1f;
+const float lightShare = 0.7f;
 const float brightestShare = 0.9f;
 // Surfaces with this share of the pixels that are not black decide alone.
 const float enoughSurface = 0.01f;
@@ -49,9 +54,13 @@ float meterMean(uint kind, uint total, float from, float to) {
     return sum / (last - first) + float(lowestStop);
 }
 
-// Stops that make the mean middle grey. 0 where all is black.
+// Stops that make the mean middle grey, unless light tones would become too light. 0 where all is black.
 float exposureFor(uint kind, uint total) {
-    return total == 0u ? 0.0f : log2(middleGrey) - meterMean(kind, total, darkestShare, brightestShare);
+    if (total == 0u) {
+        return 0.0f;
+    }
+    return min(log2(middleGrey) - meterMean(kind, total, darkestShare, brightestShare),
+               log2(lightestGrey) - meterMean(kind, total, lightShare, brightestShare));
 }
 
 // Stops for the whole histogram.
