@@ -47,6 +47,9 @@ Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
         GltfMaterials materials(document, scene, report);
         GltfMeshes meshes(document, materials, scene, report);
         placeGltfNodes(document, roots, meshes, scene, report);
+        if (scene.instances.empty()) {
+            report.warn("empty", "scenes", "nothing will be drawn: the scene has no mesh that can be");
+        }
         return scene;
     } catch (const std::bad_alloc&) {
         report.fail("", "needs more memory than is available");
