@@ -129,19 +129,6 @@ std::vector<FramedTriangle> trianglesOf(const Scene& scene, const ScenePose& pos
     return triangles;
 }
 
-// Posed vertices of the instance's triangles; files often have vertices that no triangle uses.
-void addPoints(const Mesh& mesh, const std::vector<vec3>& positions, std::vector<vec3>& points) {
-    std::vector<bool> used(positions.size(), false);
-    for (const uint32_t i : mesh.indices) {
-        used[i] = true;
-    }
-    for (size_t i = 0; i < positions.size(); ++i) {
-        if (used[i] && isSomewhere(positions[i])) {
-            points.push_back(positions[i]);
-        }
-    }
-}
-
 Aabb boxOf(const Scene& scene, const ScenePose& pose, size_t instance) {
     const Instance& placed = scene.instances[instance];
     const size_t joints = placed.skin < 0 ? 0 : scene.skins[static_cast<size_t>(placed.skin)].joints.size();
@@ -229,7 +216,7 @@ Subject gather(const Scene& scene, const ScenePose& pose) {
             continue;
         }
         const std::vector<vec3> positions = worldPositions(scene, pose, i);
-        addPoints(mesh, positions, subject.points);
+        std::ranges::copy_if(positions, std::back_inserter(subject.points), isSomewhere);
         const auto share = sampledTriangles * (mesh.indices.size() / 3) / std::max<size_t>(all, 1);
         std::ranges::copy(trianglesOf(scene, pose, i, positions, std::max(share, leastPerInstance)),
                           std::back_inserter(subject.triangles));

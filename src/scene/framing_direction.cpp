@@ -36,7 +36,7 @@ public:
     VisibleSides(const vec3& toCamera, const Aabb& box) : toCamera_(toCamera), center_(box.center()) {
         right_ = glm::normalize(glm::cross(vec3(0, 1, 0), toCamera));
         up_ = glm::cross(toCamera, right_);
-        scale_ = float(side) / std::max(glm::length(box.size()), std::numeric_limits<float>::min());
+        scale_ = float(side) / std::max(glm::length(box.size()), 1e-18F);
         nearest_.fill(std::numeric_limits<float>::lowest());
         sides_.fill(Side::none);
     }
@@ -45,7 +45,7 @@ public:
         std::array<vec3, 3> p;
         std::ranges::transform(triangle.corners, p.begin(), [&](const vec3& v) { return toPixels(v); });
         const float area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x);
-        if (area == 0.0F || (area < 0.0F && !triangle.doubleSided)) {
+        if (!(std::abs(area) > 0.0F) || (area < 0.0F && !triangle.doubleSided)) {
             return;
         }
         const Side facing = area > 0.0F ? Side::front : Side::back;

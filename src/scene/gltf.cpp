@@ -75,6 +75,9 @@ Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
         GltfMeshes meshes(document, materials, scene, report, chooseVariant(scene.variants, options.variant, report));
         placeGltfNodes(document, roots, meshes, scene, report);
         makeOpaqueWhereAlphaIsOne(scene);
+        if (scene.instances.empty()) {
+            report.warn("empty", "scenes", "nothing will be drawn: the scene has no mesh that can be");
+        }
         return scene;
     } catch (const std::bad_alloc&) {
         report.fail("", "needs more memory than is available");

@@ -75,17 +75,28 @@ void readPositions(Mesh& mesh, const PrimitiveSource& source, const std::vector<
     }
 }
 
-void readUvs(Mesh& mesh, const AccessorView* view, vec2 VertexAttributes::*member, const std::vector<uint32_t>& used) {
+/// Warns of attributes that are not finite; they are replaced later.
+void warnUnlessFinite(const vec4& value, const char* semantic, const std::string& part, GltfReport& report) {
+    if (!isFinite(value)) {
+        report.warn(fmt::format("not finite {}", semantic), fmt::format("{}.attributes.{}", part, semantic),
+                    "some vertices will be drawn with other values: theirs are not finite");
+    }
+}
+
+void readUvs(Mesh& mesh, const AccessorView* view, vec2 VertexAttributes::*member, const std::vector<uint32_t>& used,
+             const std::string& part, GltfReport& report) {
     for (size_t i = 0; view != nullptr && i < used.size(); ++i) {
         const vec4 uv = view->at(used[i]);
+        warnUnlessFinite(uv, member == &VertexAttributes::uv0 ? "TEXCOORD_0" : "TEXCOORD_1", part, report);
         mesh.attributes[i].*member = isFinite(uv) ? vec2(uv) : vec2(0.0F);
     }
 }
 
-void readAttributes(Mesh& mesh, const PrimitiveSource& source, const std::vector<uint32_t>& used) {
+void readAttributes(Mesh& mesh, const PrimitiveSource& source, const std::vector<uint32_t>& used,
+                    const std::string& part, GltfReport& report) {
     mesh.attributes.resize(used.size());
-    readUvs(mesh, source.find("TEXCOORD_0"), &VertexAttributes::uv0, used);
-    readUvs(mesh, source.find("TEXCOORD_1"), &VertexAttributes::uv1, used);
+    readUvs(mesh, source.find("TEXCOORD_0"), &VertexAttributes::uv0, used, part, report);
+    readUvs(mesh, source.find("TEXCOORD_1"), &VertexAttributes::uv1, used, part, report);
     const AccessorView* normals = source.find("NORMAL");
     const AccessorView* tangents = source.find("TANGENT");
     const AccessorView* colors = source.find("COLOR_0");
@@ -96,15 +107,19 @@ void readAttributes(Mesh& mesh, const PrimitiveSource& source, const std::vector
         }
         if (tangents != nullptr) {
             vertex.tangent = tangents->at(used[i]);
+            warnUnlessFinite(vertex.tangent, "TANGENT", part, report);
         }
         if (colors != nullptr) {
-            vertex.color = colorOf(colors->at(used[i]), *colors);
+            const vec4 color = colors->at(used[i]);
+            warnUnlessFinite(color, "COLOR_0", part, report);
+            vertex.color = colorOf(color, *colors);
         }
     }
 }
 
 /// Normalizes the weights to a sum of 1; a vertex without weights follows the first joint.
-void readSkin(Mesh& mesh, const PrimitiveSource& source, const std::vector<uint32_t>& used) {
+void readSkin(Mesh& mesh, const PrimitiveSource& source, const std::vector<uint32_t>& used, const std::string& part,
+              GltfReport& report) {
     const AccessorView* joints = source.find("JOINTS_0");
     const AccessorView* weights = source.find("WEIGHTS_0");
     if (joints == nullptr || weights == nullptr) {
@@ -112,6 +127,7 @@ void readSkin(Mesh& mesh, const PrimitiveSource& source, const std::vector<uint3
     }
     for (const uint32_t v : used) {
         const vec4 weight = glm::max(weights->at(v), 0.0F);
+        warnUnlessFinite(weights->at(v), "WEIGHTS_0", part, report);
         const float sum = weight.x + weight.y + weight.z + weight.w;
         VertexSkin& vertex = mesh.skin.emplace_back();
         if (!(sum > 0.0F) || !std::isfinite(sum)) {
@@ -206,8 +222,8 @@ void GltfMeshes::loadPrimitive(size_t mesh, size_t primitive) {
     result.name = document_.model.meshes[mesh].name;
     result.material = materials_.use(materialOf(source, variant_));
     readPositions(result, opened, used, part, report_);
-    readAttributes(result, opened, used);
-    readSkin(result, opened, used);
+    readAttributes(result, opened, used, part, report_);
+    readSkin(result, opened, used, part, report_);
     readGltfMorph(result, document_, source, opened, used, part, report_);
     result.indices = std::move(opened.triangles);
     completeFrames(result, opened, scene_.materials[result.material].normalTexture, part, report_);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <random>
@@ -33,11 +34,17 @@ constexpr std::array accepted{
     Difference{"/max", bounds},
     Difference{"BUFFER_VIEW_TARGET_OVERRIDE", "the target of a buffer view is not read"},
     Difference{"MESH_PRIMITIVE_ACCESSOR_WITHOUT_BYTESTRIDE", "elements without a stride can only be tightly packed"},
+    Difference{"ACCESSOR_VECTOR3_NON_UNIT", "normals are normalized"},
+    Difference{"ACCESSOR_WEIGHTS_NON_NORMALIZED", "weights are normalized"},
     Difference{"ACCESSOR_JOINTS_INDEX_DUPLICATE", "the weights of a joint that is named twice add up"},
 };
 
 // What is valid, and yet refused; parts of the loader's message.
-constexpr std::array<Difference, 0> refused{};
+constexpr std::array refused{
+    Difference{"Draco data is broken", "the validator does not decode Draco"},
+    Difference{"is a broken image", "the validator does not decode images"},
+    Difference{"is neither PNG nor JPEG", "the validator only warns of an unknown image format"},
+};
 
 bool isListed(std::span<const Difference> list, std::string_view text) {
     return std::ranges::any_of(list, [&](const Difference& d) { return text.find(d.code) != std::string_view::npos; });
@@ -189,7 +196,7 @@ TEST(GltfValidator, AgreesAboutWhatIsValid) {
     for (const GltfBuilder& original : originals()) {
         GltfBuilder(original).writeGlb(folder / fmt::format("original_{}.glb", made));
         GltfBuilder(original).writeGltf(folder / fmt::format("original_{}.gltf", made));
-        for (int i = 0; i < (std::getenv("MORE") ? 600 : 50); ++i) {
+        for (int i = 0; i < 50; ++i) {
             GltfBuilder b = original;
             for (unsigned changes = 1 + random() % 3; changes > 0; --changes) {
                 change(b, random);
