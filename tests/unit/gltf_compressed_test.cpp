@@ -71,8 +71,11 @@ TEST(GltfMeshopt, VerticesAndIndicesAreThoseThatWereEncoded) {
 TEST(GltfMeshopt, FiltersGiveBackPositionsNormalsAndRotations) {
     GltfBuilder b;
     const std::vector<float> positions{0, 0, 0, 1.5F, 0, 0, 0, -2.25F, 0.125F};
-    std::vector<uint32_t> exponents(9);
-    meshopt_encodeFilterExp(exponents.data(), 3, 12, 24, positions.data());
+    std::vector<uint32_t> exponents;  // an exponent of two in 8 bits, a mantissa in 24
+    for (const float value : positions) {
+        exponents.push_back(uint32_t(-3) << 24U |
+                            (static_cast<uint32_t>(static_cast<int32_t>(value * 8.0F)) & 0xFFFFFFU));
+    }
     const std::vector<float> normals{0, 0, 1, 0, 0.6F, 0, 0.8F, 0, 0, -1, 0, 0};
     std::vector<int8_t> octahedral(12);
     meshopt_encodeFilterOct(octahedral.data(), 3, 4, 8, normals.data());
