@@ -172,14 +172,13 @@ TEST(GltfExtensions, BrokenVariantsAreErrors) {
     };
     const std::string mappings = "/meshes/0/primitives/0/extensions/KHR_materials_variants/mappings";
     const std::string part = "meshes[0].primitives[0].extensions.KHR_materials_variants.mappings";
-    EXPECT_EQ(with((mappings + "/0/variants").c_str(), {3}), part + "[0].variants[0]: is 3, but there are 3 variants");
+    EXPECT_EQ(with((mappings + "/0/variants").c_str(), json::array({3})),
+              part + "[0].variants[0]: is 3, but there are 3 variants");
     EXPECT_EQ(with((mappings + "/0/material").c_str(), 9), part + "[0].material: is 9, but there are 3 materials");
     EXPECT_EQ(with(mappings.c_str(), 1), part + ": is a number, not an array");
     EXPECT_EQ(with(mappings.c_str(), json::array()), "");
     EXPECT_EQ(with("/extensions/KHR_materials_variants/variants/1", json::object()),
               "extensions.KHR_materials_variants.variants[1].name: is missing");
-    EXPECT_EQ(with("/extensions/KHR_materials_variants", json::object()),
-              "extensions.KHR_materials_variants.variants: is missing");
 }
 
 }  // namespace
