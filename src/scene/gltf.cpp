@@ -12,7 +12,7 @@ namespace reflet {
 namespace {
 
 /// The roots of the chosen scene. A file without scenes is a library of parts: all of them are shown.
-std::vector<int> chooseScene(const GltfDocument& document, int wanted, std::string& name, GltfReport& report) {
+std::vector<int> chooseScene(GltfDocument& document, int wanted, std::string& name, GltfReport& report) {
     const auto& scenes = document.model.scenes;
     if (wanted >= 0 && static_cast<size_t>(wanted) >= scenes.size()) {
         report.failUsage("", "there is no scene {}: the file has {} {}, numbered from 0", wanted, scenes.size(),
@@ -30,24 +30,36 @@ std::vector<int> chooseScene(const GltfDocument& document, int wanted, std::stri
     }
     const int chosen = wanted >= 0 ? wanted : std::max(document.model.defaultScene, 0);
     name = scenes[static_cast<size_t>(chosen)].name;
-    return scenes[static_cast<size_t>(chosen)].nodes;
+    return rootsOfGltfScene(document, static_cast<size_t>(chosen));
+}
+
+Scene readScene(const std::filesystem::path& path, int wanted, GltfReport& report) {
+    GltfDocument document = readGltfDocument(path, report);
+    Scene scene;
+    const std::vector<int> roots = chooseScene(document, wanted, scene.name, report);
+    if (scene.name.empty()) {
+        scene.name = path.stem().string();
+    }
+    GltfMaterials materials(document, scene, report);
+    GltfMeshes meshes(document, materials, scene, report);
+    placeGltfNodes(document, roots, meshes, scene, report);
+    if (scene.instances.empty() && !report.firstProblem().empty()) {
+        report.fail("", "nothing is left to draw: {}", report.firstProblem());
+    }
+    return scene;
 }
 
 }  // namespace
 
 Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
-    GltfReport report(path.string(), options.warn);
+    GltfReport report(path.string(), options.warn, options.strict);
     try {
-        const GltfDocument document = readGltfDocument(path, report);
-        Scene scene;
-        const std::vector<int> roots = chooseScene(document, options.scene, scene.name, report);
-        if (scene.name.empty()) {
-            scene.name = path.stem().string();
-        }
-        GltfMaterials materials(document, scene, report);
-        GltfMeshes meshes(document, materials, scene, report);
-        placeGltfNodes(document, roots, meshes, scene, report);
+        Scene scene = readScene(path, options.scene, report);
+        report.printWarnings();
         return scene;
+    } catch (const Error&) {
+        report.printWarnings();
+        throw;
     } catch (const std::bad_alloc&) {
         report.fail("", "needs more memory than is available");
     } catch (const std::length_error&) {

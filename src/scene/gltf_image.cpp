@@ -72,7 +72,7 @@ Image decode(std::span<const uint8_t> bytes, const std::string& part, GltfReport
     if (pixels > mostPixels(bytes)) {
         report.fail(part, "claims {} x {} pixels in only {} bytes", width, height, bytes.size());
     }
-    report.charge(part, pixels * 4);
+    report.charge(part, pixels * 4 + bytes.size());  // the bytes limit the total time where images share them
     const std::unique_ptr<stbi_uc, void (*)(void*)> decoded(
         stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, 4), stbi_image_free);
     if (!decoded || uint64_t(width) * uint64_t(height) != pixels) {
@@ -91,6 +91,7 @@ Image decodeGltfImage(const GltfDocument& document, size_t index, GltfReport& re
     const std::string part = fmt::format("images[{}]", index);
     Image image;
     if (source.bufferView >= 0) {
+        report.use("bufferViews", static_cast<size_t>(source.bufferView));
         const auto& view = document.model.bufferViews[static_cast<size_t>(source.bufferView)];
         const std::span bytes(document.model.buffers[static_cast<size_t>(view.buffer)].data);
         image = decode(bytes.subspan(view.byteOffset, view.byteLength), part, report);

@@ -90,7 +90,10 @@ Material GltfMaterials::convert(int material) {
                      "blended surfaces will be drawn with an alpha cutoff of {}: BLEND is not supported", blendCutoff);
     }
     const auto slotOf = [&](const auto& info, const char* name) {
-        return slot(info.index, info.texCoord, info.extensions, part + "." + name);
+        TextureSlot read;
+        report_.tolerate("the texture will be left out",
+                         [&] { read = slot(info.index, info.texCoord, info.extensions, part + "." + name); });
+        return read;
     };
     result.baseColorTexture = slotOf(pbr.baseColorTexture, "pbrMetallicRoughness.baseColorTexture");
     result.metallicRoughnessTexture =
@@ -115,7 +118,7 @@ TextureSlot GltfMaterials::slot(int texture, int uvSet, const tinygltf::Extensio
     const tinygltf::Texture& source = document_.model.textures[static_cast<size_t>(texture)];
     if (source.source < 0) {
         const std::string here = fmt::format("textures[{}]", texture);
-        report_.warn("no image", here, "the texture will be ignored: it has no source image");
+        report_.warn("no image", here, "the texture will be left out: it has no source image");
         return result;
     }
     result.image = useImage(source.source);
@@ -130,7 +133,7 @@ TextureSlot GltfMaterials::slot(int texture, int uvSet, const tinygltf::Extensio
 
 void GltfMaterials::setUvSet(TextureSlot& slot, int uvSet, const std::string& part) {
     if (uvSet > 1) {
-        report_.warn("uv set", part + ".texCoord", "is {}, but set 0 will be used: only UV sets 0 and 1 are supported",
+        report_.warn("uv set", part + ".texCoord", "UV set 0 will be used, not {}: only sets 0 and 1 are supported",
                      uvSet);
     }
     slot.uvSet = uvSet == 1 ? 1 : 0;
@@ -154,8 +157,14 @@ int32_t GltfMaterials::useImage(int image) {
     if (found != images_.end()) {
         return found->second;
     }
-    scene_.images.push_back(decodeGltfImage(document_, static_cast<size_t>(image), report_));
-    return images_[image] = static_cast<int32_t>(scene_.images.size() - 1);
+    const auto index = static_cast<size_t>(image);
+    report_.use("images", index);
+    report_.tolerateUntilUsed("images", index, [&] {
+        scene_.images.push_back(decodeGltfImage(document_, index, report_));
+        images_[image] = static_cast<int32_t>(scene_.images.size() - 1);
+    });
+    report_.use("images", index);
+    return images_[image];
 }
 
 int32_t GltfMaterials::useSampler(int sampler) {

@@ -8,8 +8,8 @@
 
 namespace reflet {
 
-/// The node's own transform: its matrix, or translation, rotation and scale. Throws Error.
-Node readGltfNode(const tinygltf::Node& node, const std::string& part, const GltfReport& report);
+/// The node's own transform: its matrix, or translation, rotation and scale.
+Node readGltfNode(const tinygltf::Node& node);
 
 class GltfMotion {
 public:
@@ -34,6 +34,7 @@ private:
     Scene& scene_;
     GltfReport& report_;
     std::vector<int32_t> nodes_;  ///< from the file's index to the scene's
+    std::vector<int32_t> skins_;  ///< the same
 };
 
 }  // namespace reflet
