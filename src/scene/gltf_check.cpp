@@ -104,7 +104,6 @@ void checkGltfBuffers(tinygltf::Model& model, GltfReport& report) {
     for (size_t i = 0; i < model.bufferViews.size(); ++i) {
         tinygltf::BufferView& view = model.bufferViews[i];
         const bool isValid = report.tolerateUntilUsed("bufferViews", i, [&] {
-            report.use("bufferViews", i);
             report.use("buffers", static_cast<size_t>(view.buffer));
             checkView(model, i, report);
         });
@@ -115,10 +114,8 @@ void checkGltfBuffers(tinygltf::Model& model, GltfReport& report) {
     }
     for (size_t i = 0; i < model.accessors.size(); ++i) {
         tinygltf::Accessor& accessor = model.accessors[i];
-        const bool isValid = report.tolerateUntilUsed("accessors", i, [&] {
-            report.use("accessors", i);
-            checkAccessor(model, accessor, fmt::format("accessors[{}]", i), report);
-        });
+        const bool isValid = report.tolerateUntilUsed(
+            "accessors", i, [&] { checkAccessor(model, accessor, fmt::format("accessors[{}]", i), report); });
         if (!isValid) {
             accessor.bufferView = -1;
             accessor.sparse.isSparse = false;

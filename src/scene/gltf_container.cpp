@@ -52,15 +52,7 @@ int nesting(Bytes text) {
     return deepest;
 }
 
-nlohmann::json parseJson(Bytes text, GltfReport& report) {
-    const auto last = std::find_if(text.rbegin(), text.rend(), [](uint8_t c) { return c != 0; });
-    const auto zeros = static_cast<size_t>(last - text.rbegin());  // some writers pad with zeros instead of spaces
-    report.tolerate("they will be ignored", [&] {
-        if (zeros > 0) {
-            report.fail("JSON", "ends with {} zero bytes", zeros);
-        }
-    });
-    text = text.first(text.size() - zeros);
+nlohmann::json parseJson(Bytes text, const GltfReport& report) {
     if (text.size() > maxJsonBytes) {
         report.fail("JSON", "has {} bytes, more than the limit of {} MiB", text.size(), maxJsonBytes >> 20U);
     }
@@ -78,6 +70,18 @@ nlohmann::json parseJson(Bytes text, GltfReport& report) {
     }
 }
 
+/// Some writers pad the JSON of a .glb with zeros instead of spaces.
+Bytes withoutZeros(Bytes text, GltfReport& report) {
+    const auto last = std::find_if(text.rbegin(), text.rend(), [](uint8_t c) { return c != 0; });
+    const auto zeros = static_cast<size_t>(last - text.rbegin());
+    report.tolerate("they will be ignored", [&] {
+        if (zeros > 0) {
+            report.fail("JSON", "ends with {} zero bytes", zeros);
+        }
+    });
+    return text.first(text.size() - zeros);
+}
+
 /// The bytes of the chunk that starts at `at`, which is advanced past it.
 Bytes nextChunk(Bytes file, size_t& at, uint32_t& type, GltfReport& report) {
     if (file.size() - at < chunkHeaderBytes) {
@@ -86,12 +90,16 @@ Bytes nextChunk(Bytes file, size_t& at, uint32_t& type, GltfReport& report) {
     const uint64_t length = readU32(file, at);
     type = readU32(file, at + 4);
     at += chunkHeaderBytes;
-    report.tolerate("what lies beyond the end of the file will be missing", [&] {
+    const auto check = [&] {
         if (length > file.size() - at) {
             report.fail("GLB chunk", "at byte {} says it has {} bytes, but only {} follow", at - chunkHeaderBytes,
                         length, file.size() - at);
         }
-    });
+    };
+    if (type != chunkBin) {
+        check();
+    }
+    report.tolerate("what lies beyond the end of the file will be missing", check);
     const Bytes chunk = file.subspan(at, std::min<uint64_t>(length, file.size() - at));
     at += chunk.size();
     return chunk;
@@ -125,7 +133,7 @@ GltfContainer splitGlb(Bytes file, GltfReport& report) {
             }
         }
     });
-    result.document = parseJson(json, report);
+    result.document = parseJson(withoutZeros(json, report), report);
     return result;
 }
 

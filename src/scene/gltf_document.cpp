@@ -171,10 +171,8 @@ void readBuffers(const json& document, GltfContainer& container, GltfDocument& r
     for (const json& buffer : arrayOf(document, "buffers")) {
         const std::string part = fmt::format("buffers[{}]", i);
         tinygltf::Buffer read;
-        report.tolerateUntilUsed("buffers", i, [&] {
-            report.use("buffers", i);
-            read.data = readBuffer(buffer, part, container, result.folder, report);
-        });
+        report.tolerateUntilUsed("buffers", i,
+                                 [&] { read.data = readBuffer(buffer, part, container, result.folder, report); });
         report.charge(part, read.data.size());
         result.model.buffers.push_back(std::move(read));
         ++i;

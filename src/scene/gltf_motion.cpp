@@ -39,10 +39,7 @@ GltfMotion::GltfMotion(const GltfDocument& document, Scene& scene, GltfReport& r
     }
     skins_.assign(document.model.skins.size(), -1);
     for (size_t i = 0; i < document.model.skins.size(); ++i) {
-        report_.tolerateUntilUsed("skins", i, [&] {
-            report_.use("skins", i);
-            readSkin(i);
-        });
+        report_.tolerateUntilUsed("skins", i, [&] { readSkin(i); });
     }
 }
 

@@ -76,6 +76,9 @@ public:
     /// `use` throws the problem where the element is used. An element that is never used has its warning at the end.
     template <class Read>
     bool tolerateUntilUsed(std::string_view array, size_t index, const Read& read) {
+        if (!invalid_.empty() && invalid_.contains({std::string(array), index})) {
+            return false;  // known already
+        }
         try {
             read();
             return true;

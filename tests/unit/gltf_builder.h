@@ -99,8 +99,8 @@ Loaded load(GltfBuilder builder, int scene = -1);
 /// The loader's error message without "FILE: "; empty if there is none. Expects one line that starts with the file.
 std::string complaint(const std::filesystem::path& path, bool strict = true);
 /// That message, which must start with `starts`. Loading that is not strict must warn of the same, with `consequence`
-/// between part and problem, and give a valid scene; null: the message must be the same, or say that nothing is left.
-/// Returns the message.
+/// ("": any) between part and problem, and give a valid scene; null: the message must be the same, or say that nothing
+/// is left. Returns the message.
 std::string expectProblem(const std::filesystem::path& path, const std::string& starts, const char* consequence);
 
 }  // namespace reflet::test

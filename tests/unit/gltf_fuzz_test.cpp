@@ -34,7 +34,7 @@ TEST_P(GltfFuzz, AGlbThatIsCutOffIsAnErrorUnlessPartOfItCanBeDrawn) {
     const auto path = testFolder() / "scene.glb";
     ASSERT_TRUE(survives(path, whole));
     size_t drawn = 0;
-    for (size_t length = 0; length < whole.size(); ++length) {
+    for (size_t length = GetParam() ? 0 : 1; length < whole.size(); length += 2) {
         drawn += survives(path, whole.substr(0, length)) ? 1 : 0;
     }
     EXPECT_EQ(drawn > 0, !GetParam());
@@ -44,7 +44,7 @@ TEST_P(GltfFuzz, AGltfThatIsCutOffAnywhereIsAnError) {
     const std::string whole = everything().gltfBytes();
     const auto path = testFolder() / "scene.gltf";
     ASSERT_TRUE(survives(path, whole));
-    for (size_t length = 0; length < whole.size(); ++length) {
+    for (size_t length = GetParam() ? 0 : 1; length < whole.size(); length += 2) {
         ASSERT_FALSE(survives(path, whole.substr(0, length))) << length;
     }
 }
@@ -74,7 +74,7 @@ TEST_P(GltfFuzz, DamagedBytesNeverDoMoreThanThrow) {
     for (const std::string& whole :
          {everything().glbBytes(), everything().gltfBytes(), slider().gltfBytes(), bent().gltfBytes()}) {
         int loaded = 0;
-        for (int i = 0; i < 2000; ++i) {
+        for (int i = 0; i < 1000; ++i) {
             loaded += survives(folder / "scene.gltf", damaged(whole, random)) ? 1 : 0;
         }
         EXPECT_GT(loaded, 10);  // not always fatal: otherwise only the first check would be tested
