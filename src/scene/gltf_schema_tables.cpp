@@ -260,8 +260,8 @@ constexpr std::array orthographic{
 constexpr std::array camera{
     Field{.name = "name", .type = Type::text},
     Field{.name = "type", .type = Type::text, .required = true, .words = cameraTypes},
-    Field{.name = "perspective", .type = Type::object, .fields = perspective},
-    Field{.name = "orthographic", .type = Type::object, .fields = orthographic},
+    Field{.name = "perspective", .type = Type::object, .fields = perspective, .vital = true},
+    Field{.name = "orthographic", .type = Type::object, .fields = orthographic, .vital = true},
 };
 constexpr std::array spot{
     Field{.name = "innerConeAngle", .min = 0, .max = halfPi},
@@ -276,7 +276,7 @@ constexpr std::array light{
     Field{.name = "intensity", .min = 0},
     Field{.name = "type", .type = Type::text, .required = true, .words = lightTypes},
     Field{.name = "range", .min = 1e-6, .clamps = false},
-    Field{.name = "spot", .type = Type::object, .fields = spot},
+    Field{.name = "spot", .type = Type::object, .fields = spot, .vital = true},
     Field{.name = "extras", .type = Type::object, .fields = lightExtras, .anyType = true},
 };
 constexpr std::array lights{
