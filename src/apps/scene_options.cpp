@@ -85,6 +85,8 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
 
 void addViewOptions(CLI::App& command, SceneOptions& options) {
     command.add_option("--scene", options.sceneIndex, "Scene in the glTF file, by number from 0");
+    command.add_flag("--strict", options.strict,
+                     "Refuse a glTF file with any invalid part; otherwise warn, and draw the rest");
     command.add_option("--camera", options.camera, "Camera of the scene, by number from 0 or by name");
     command.add_option("--view-file", options.viewFile, "Camera, sun and environment from a JSON file")
         ->type_name("V.json");
@@ -136,8 +138,10 @@ Scene loadScene(const SceneOptions& options) {
     if (options.sceneIndex && *options.sceneIndex < 0) {
         failUsage("--scene must be 0 or more, is {}", *options.sceneIndex);
     }
-    return loadGltf(options.scene,
-                    {.scene = options.sceneIndex.value_or(-1), .variant = options.variant, .warn = printWarning});
+    return loadGltf(options.scene, {.scene = options.sceneIndex.value_or(-1),
+                                    .variant = options.variant,
+                                    .warn = printWarning,
+                                    .strict = options.strict});
 }
 
 View loadView(const SceneOptions& options, const Scene& scene) {

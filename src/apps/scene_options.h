@@ -28,6 +28,7 @@ struct SceneOptions {
     std::vector<std::string> settingsFiles;
     std::vector<std::string> set;
     uint32_t seed = 0;
+    bool strict = false;  ///< invalid parts of a file are errors
 };
 
 /// Adds SCENE and the options to a subcommand.

@@ -13,7 +13,7 @@ namespace reflet {
 namespace {
 
 /// The roots of the chosen scene. A file without scenes is a library of parts: all of them are shown.
-std::vector<int> chooseScene(const GltfDocument& document, int wanted, std::string& name, GltfReport& report) {
+std::vector<int> chooseScene(GltfDocument& document, int wanted, std::string& name, GltfReport& report) {
     const auto& scenes = document.model.scenes;
     if (wanted >= 0 && static_cast<size_t>(wanted) >= scenes.size()) {
         report.failUsage("", "there is no scene {}: the file has {} {}, numbered from 0", wanted, scenes.size(),
@@ -31,7 +31,7 @@ std::vector<int> chooseScene(const GltfDocument& document, int wanted, std::stri
     }
     const int chosen = wanted >= 0 ? wanted : std::max(document.model.defaultScene, 0);
     name = scenes[static_cast<size_t>(chosen)].name;
-    return scenes[static_cast<size_t>(chosen)].nodes;
+    return rootsOfGltfScene(document, static_cast<size_t>(chosen));
 }
 
 std::vector<std::string> variantNames(const tinygltf::Model& model) {
@@ -58,27 +58,39 @@ int chooseVariant(const std::vector<std::string>& names, const std::string& want
     return static_cast<int>(found - names.begin());
 }
 
+Scene readScene(const std::filesystem::path& path, const GltfOptions& options, GltfReport& report) {
+    GltfDocument document = readGltfDocument(path, report);
+    Scene scene;
+    scene.fromFile = true;
+    const std::vector<int> roots = chooseScene(document, options.scene, scene.name, report);
+    if (scene.name.empty()) {
+        scene.name = path.stem().string();
+    }
+    GltfMaterials materials(document, scene, report);
+    scene.variants = variantNames(document.model);
+    GltfMeshes meshes(document, materials, scene, report, chooseVariant(scene.variants, options.variant, report));
+    placeGltfNodes(document, roots, meshes, scene, report);
+    makeOpaqueWhereAlphaIsOne(scene);
+    if (scene.instances.empty() && !report.firstProblem().empty()) {
+        report.fail("", "nothing is left to draw: {}", report.firstProblem());
+    }
+    if (scene.instances.empty()) {
+        report.warn("empty", "scenes", "nothing will be drawn: the scene has no mesh that can be");
+    }
+    return scene;
+}
+
 }  // namespace
 
 Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
-    GltfReport report(path.string(), options.warn);
+    GltfReport report(path.string(), options.warn, options.strict);
     try {
-        const GltfDocument document = readGltfDocument(path, report);
-        Scene scene;
-        scene.fromFile = true;
-        const std::vector<int> roots = chooseScene(document, options.scene, scene.name, report);
-        if (scene.name.empty()) {
-            scene.name = path.stem().string();
-        }
-        GltfMaterials materials(document, scene, report);
-        scene.variants = variantNames(document.model);
-        GltfMeshes meshes(document, materials, scene, report, chooseVariant(scene.variants, options.variant, report));
-        placeGltfNodes(document, roots, meshes, scene, report);
-        makeOpaqueWhereAlphaIsOne(scene);
-        if (scene.instances.empty()) {
-            report.warn("empty", "scenes", "nothing will be drawn: the scene has no mesh that can be");
-        }
+        Scene scene = readScene(path, options, report);
+        report.printWarnings();
         return scene;
+    } catch (const Error&) {
+        report.printWarnings();
+        throw;
     } catch (const std::bad_alloc&) {
         report.fail("", "needs more memory than is available");
     } catch (const std::length_error&) {

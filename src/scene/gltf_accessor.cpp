@@ -126,6 +126,7 @@ uint32_t AccessorView::integerAt(uint32_t i) const {
 }
 
 AccessorView viewAccessor(const GltfDocument& document, int index, GltfReport& report) {
+    report.use("accessors", static_cast<size_t>(index));
     const auto& accessor = document.model.accessors[static_cast<size_t>(index)];
     AccessorView view;
     view.componentType = accessor.componentType;

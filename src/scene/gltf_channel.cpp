@@ -105,6 +105,9 @@ std::optional<Channel> readGltfChannel(const GltfDocument& document, const GltfC
                     samplers.size());
     }
     const tinygltf::AnimationSampler& sampler = samplers[static_cast<size_t>(source.channel.sampler)];
+    if (sampler.input < 0 || sampler.output < 0) {
+        return std::nullopt;  // a stand-in
+    }
     Channel channel;
     channel.target = *target;
     channel.interpolation = interpolationOf(sampler.interpolation);

@@ -1,8 +1,7 @@
-// Cross-checks of a glTF document: buffer views in buffers, accessors in views, the node hierarchy.
+// Cross-checks of a glTF document: buffer views in buffers, accessors in views.
 #include "scene/gltf_document.h"
 
 #include <string>
-#include <utility>
 
 namespace reflet {
 
@@ -27,7 +26,8 @@ struct Reach {
     uint64_t alignment = 1;
 };
 
-void checkReach(const tinygltf::Model& model, const Reach& reach, const std::string& part, const GltfReport& report) {
+void checkReach(const tinygltf::Model& model, const Reach& reach, const std::string& part, GltfReport& report) {
+    report.use("bufferViews", static_cast<size_t>(reach.view));
     const auto& view = model.bufferViews[static_cast<size_t>(reach.view)];
     const uint64_t end = reach.offset + (reach.count - 1) * reach.stride + reach.bytes;
     if (end > view.byteLength) {
@@ -37,14 +37,16 @@ void checkReach(const tinygltf::Model& model, const Reach& reach, const std::str
         report.fail(part, "has elements of {} bytes, but bufferViews[{}].byteStride is {}", reach.bytes, reach.view,
                     reach.stride);
     }
-    if ((view.byteOffset + reach.offset) % reach.alignment != 0 || reach.stride % reach.alignment != 0) {
-        report.fail(part, "is misaligned: starts at byte {} with a stride of {}, but its components have {} bytes",
-                    view.byteOffset + reach.offset, reach.stride, reach.alignment);
-    }
+    report.tolerate("it will be read as it is", [&] {
+        if ((view.byteOffset + reach.offset) % reach.alignment != 0 || reach.stride % reach.alignment != 0) {
+            report.fail(part, "is misaligned: starts at byte {} with a stride of {}, but its components have {} bytes",
+                        view.byteOffset + reach.offset, reach.stride, reach.alignment);
+        }
+    });
 }
 
 void checkSparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor, const std::string& part,
-                 const GltfReport& report) {
+                 GltfReport& report) {
     const auto& sparse = accessor.sparse;
     const auto count = static_cast<uint64_t>(sparse.count);
     if (count > accessor.count) {
@@ -70,7 +72,7 @@ void checkSparse(const tinygltf::Model& model, const tinygltf::Accessor& accesso
 }
 
 void checkAccessor(const tinygltf::Model& model, const tinygltf::Accessor& accessor, const std::string& part,
-                   const GltfReport& report) {
+                   GltfReport& report) {
     if (accessor.bufferView >= 0) {
         const uint64_t stride = model.bufferViews[static_cast<size_t>(accessor.bufferView)].byteStride;
         checkReach(model,
@@ -87,66 +89,37 @@ void checkAccessor(const tinygltf::Model& model, const tinygltf::Accessor& acces
     }
 }
 
-/// Every node in a cycle has a parent, so a walk from the nodes without one never reaches it.
-void checkCycles(const GltfDocument& document, const GltfReport& report) {
-    std::vector<bool> reached(document.model.nodes.size(), false);
-    std::vector<size_t> open;
-    for (size_t i = 0; i < reached.size(); ++i) {
-        if (!document.isChild[i]) {
-            open.push_back(i);
-        }
-    }
-    while (!open.empty()) {
-        const size_t node = open.back();
-        open.pop_back();
-        reached[node] = true;
-        for (const int child : document.model.nodes[node].children) {
-            open.push_back(static_cast<size_t>(child));
-        }
-    }
-    for (size_t i = 0; i < reached.size(); ++i) {
-        if (!reached[i]) {
-            report.fail(fmt::format("nodes[{}]", i), "is in a cycle of nodes, or below one");
-        }
+void checkView(const tinygltf::Model& model, size_t index, const GltfReport& report) {
+    const auto& view = model.bufferViews[index];
+    const uint64_t size = model.buffers[static_cast<size_t>(view.buffer)].data.size();
+    if (view.byteOffset + view.byteLength > size) {  // each at most 2^53 by the schema
+        report.fail(fmt::format("bufferViews[{}]", index), "reaches {} bytes past buffers[{}]",
+                    view.byteOffset + view.byteLength - size, view.buffer);
     }
 }
 
 }  // namespace
 
-void checkGltfBuffers(const tinygltf::Model& model, const GltfReport& report) {
+void checkGltfBuffers(tinygltf::Model& model, GltfReport& report) {
     for (size_t i = 0; i < model.bufferViews.size(); ++i) {
-        const auto& view = model.bufferViews[i];
-        const uint64_t size = model.buffers[static_cast<size_t>(view.buffer)].data.size();
-        if (view.byteOffset + view.byteLength > size) {  // each at most 2^53 by the schema
-            report.fail(fmt::format("bufferViews[{}]", i), "reaches {} bytes past buffers[{}]",
-                        view.byteOffset + view.byteLength - size, view.buffer);
+        tinygltf::BufferView& view = model.bufferViews[i];
+        const bool isValid = report.tolerateUntilUsed("bufferViews", i, [&] {
+            report.use("buffers", static_cast<size_t>(view.buffer));
+            checkView(model, i, report);
+        });
+        if (!isValid) {
+            view.byteOffset = 0;
+            view.byteLength = 0;
         }
     }
     for (size_t i = 0; i < model.accessors.size(); ++i) {
-        checkAccessor(model, model.accessors[i], fmt::format("accessors[{}]", i), report);
-    }
-}
-
-void checkGltfNodes(GltfDocument& document, const GltfReport& report) {
-    const auto& nodes = document.model.nodes;
-    document.isChild.assign(nodes.size(), false);
-    for (size_t i = 0; i < nodes.size(); ++i) {
-        for (const int child : nodes[i].children) {
-            if (document.isChild[static_cast<size_t>(child)]) {
-                report.fail(fmt::format("nodes[{}]", child), "has two parents; the second is nodes[{}]", i);
-            }
-            document.isChild[static_cast<size_t>(child)] = true;
-        }
-    }
-    checkCycles(document, report);
-    std::vector<size_t> lastListedIn(nodes.size(), document.model.scenes.size());
-    for (size_t s = 0; s < document.model.scenes.size(); ++s) {
-        for (const int node : document.model.scenes[s].nodes) {
-            const bool twice = std::exchange(lastListedIn[static_cast<size_t>(node)], s) == s;
-            if (twice || document.isChild[static_cast<size_t>(node)]) {
-                report.fail(fmt::format("scenes[{}].nodes", s), "lists nodes[{}], which is {}", node,
-                            twice ? "already in it" : "the child of another node");
-            }
+        tinygltf::Accessor& accessor = model.accessors[i];
+        const bool isValid = report.tolerateUntilUsed(
+            "accessors", i, [&] { checkAccessor(model, accessor, fmt::format("accessors[{}]", i), report); });
+        if (!isValid) {
+            accessor.bufferView = -1;
+            accessor.sparse.isSparse = false;
+            accessor.count = 1;
         }
     }
 }

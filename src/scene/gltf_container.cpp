@@ -70,33 +70,54 @@ nlohmann::json parseJson(Bytes text, const GltfReport& report) {
     }
 }
 
+/// Some writers pad the JSON of a .glb with zeros instead of spaces.
+Bytes withoutZeros(Bytes text, GltfReport& report) {
+    const auto last = std::find_if(text.rbegin(), text.rend(), [](uint8_t c) { return c != 0; });
+    const auto zeros = static_cast<size_t>(last - text.rbegin());
+    report.tolerate("they will be ignored", [&] {
+        if (zeros > 0) {
+            report.fail("JSON", "ends with {} zero bytes", zeros);
+        }
+    });
+    return text.first(text.size() - zeros);
+}
+
 /// The bytes of the chunk that starts at `at`, which is advanced past it.
-Bytes nextChunk(Bytes file, size_t& at, uint32_t& type, const GltfReport& report) {
+Bytes nextChunk(Bytes file, size_t& at, uint32_t& type, GltfReport& report) {
     if (file.size() - at < chunkHeaderBytes) {
         report.fail("GLB chunk", "its header at byte {} is truncated", at);
     }
     const uint64_t length = readU32(file, at);
     type = readU32(file, at + 4);
     at += chunkHeaderBytes;
-    if (length > file.size() - at) {
-        report.fail("GLB chunk", "at byte {} says it has {} bytes, but only {} follow", at - chunkHeaderBytes, length,
-                    file.size() - at);
+    const auto check = [&] {
+        if (length > file.size() - at) {
+            report.fail("GLB chunk", "at byte {} says it has {} bytes, but only {} follow", at - chunkHeaderBytes,
+                        length, file.size() - at);
+        }
+    };
+    if (type != chunkBin) {
+        check();
     }
-    const Bytes chunk = file.subspan(at, length);
-    at += length;
+    report.tolerate("what lies beyond the end of the file will be missing", check);
+    const Bytes chunk = file.subspan(at, std::min<uint64_t>(length, file.size() - at));
+    at += chunk.size();
     return chunk;
 }
 
-GltfContainer splitGlb(Bytes file, const GltfReport& report) {
+GltfContainer splitGlb(Bytes file, GltfReport& report) {
     if (file.size() < headerBytes) {
         report.fail("GLB header", "is truncated after {} bytes", file.size());
     }
     if (const uint32_t version = readU32(file, 4); version != 2) {
-        report.fail("GLB header", "says version {}, but only version 2 is supported", version);
+        report.fail("GLB header",
+                    "says version {}, but only version 2 is supported: convert the file, or export it anew", version);
     }
-    if (const uint32_t length = readU32(file, 8); length != file.size()) {
-        report.fail("GLB header", "says the file has {} bytes, but it has {}", length, file.size());
-    }
+    report.tolerate("what the file has will be read", [&] {
+        if (const uint32_t length = readU32(file, 8); length != file.size()) {
+            report.fail("GLB header", "says the file has {} bytes, but it has {}", length, file.size());
+        }
+    });
     GltfContainer result;
     size_t at = headerBytes;
     uint32_t type = 0;
@@ -104,13 +125,15 @@ GltfContainer splitGlb(Bytes file, const GltfReport& report) {
     if (type != chunkJson) {
         report.fail("GLB chunk", "the first one is not JSON");
     }
-    while (at < file.size() && !result.bin) {
-        const Bytes chunk = nextChunk(file, at, type, report);
-        if (type == chunkBin) {
-            result.bin.emplace(chunk.begin(), chunk.end());
+    report.tolerate("what follows the last whole chunk will be missing", [&] {
+        while (at < file.size() && !result.bin) {
+            const Bytes chunk = nextChunk(file, at, type, report);
+            if (type == chunkBin) {
+                result.bin.emplace(chunk.begin(), chunk.end());
+            }
         }
-    }
-    result.document = parseJson(json, report);
+    });
+    result.document = parseJson(withoutZeros(json, report), report);
     return result;
 }
 
@@ -139,7 +162,7 @@ std::vector<uint8_t> readFileBytes(const std::filesystem::path& path, uint64_t m
     return bytes;
 }
 
-GltfContainer readGltfContainer(const std::filesystem::path& path, const GltfReport& report) {
+GltfContainer readGltfContainer(const std::filesystem::path& path, GltfReport& report) {
     const std::vector<uint8_t> file = readFileBytes(path, maxFileBytes, "", report);
     if (file.empty()) {
         report.fail("", "is empty");

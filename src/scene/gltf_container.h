@@ -17,7 +17,7 @@ struct GltfContainer {
 };
 
 /// A .glb is recognized by its first bytes, not by its name. Throws Error.
-GltfContainer readGltfContainer(const std::filesystem::path& path, const GltfReport& report);
+GltfContainer readGltfContainer(const std::filesystem::path& path, GltfReport& report);
 
 /// The first `maxBytes` bytes of a regular file, or all of it if shorter. Throws Error that names `part`.
 std::vector<uint8_t> readFileBytes(const std::filesystem::path& path, uint64_t maxBytes, std::string_view part,

@@ -12,7 +12,7 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
+#include <set>
 #include <string_view>
 
 namespace reflet {
@@ -29,66 +29,66 @@ const json& arrayOf(const json& document, const char* name) {
 }
 
 /// "MAJOR.MINOR" with MAJOR 2; a file that depends on a minor version says so in minVersion.
-void checkVersion(const json& document, const GltfReport& report) {
+void checkVersion(const json& document, GltfReport& report) {
     const auto& asset = document["asset"];
     const std::string version = asset["version"];
     if (version != "2" && !version.starts_with("2.")) {
-        report.fail("asset.version", "is {}, but only glTF 2.0 is supported", version);
+        report.fail("asset.version", "is {}, but only glTF 2.0 is supported: convert the file, or export it anew",
+                    version);
     }
     const std::string least = asset.value("minVersion", "2.0");
-    if (least != "2.0") {
-        report.fail("asset.minVersion", "is {}, but only glTF 2.0 is supported", least);
-    }
+    report.tolerate("the file will be drawn as glTF 2.0", [&] {
+        if (least != "2.0") {
+            report.fail("asset.minVersion", "is {}, but only glTF 2.0 is supported", least);
+        }
+    });
 }
 
 struct UnsupportedExtension {
     std::string_view name;
     std::string_view consequence;
 };
-constexpr std::array<UnsupportedExtension, 6> unsupportedExtensions{
+constexpr std::array<UnsupportedExtension, 9> unsupportedExtensions{
     {{"KHR_materials_transmission", "glass will be drawn opaque"},
      {"KHR_materials_diffuse_transmission", "translucent surfaces will be drawn opaque"},
      {"KHR_materials_clearcoat", "clear coats will be missing"},
      {"KHR_materials_sheen", "sheen will be missing"},
      {"KHR_materials_iridescence", "iridescence will be missing"},
-     {"KHR_materials_anisotropy", "anisotropic highlights will be drawn isotropic"}}};
+     {"KHR_materials_anisotropy", "anisotropic highlights will be drawn isotropic"},
+     {"EXT_texture_avif", "AVIF textures will be missing"},
+     {"KHR_animation_pointer", "animated materials, lamps and cameras will stand still"},
+     {"EXT_lights_image_based", "image-based light will be missing"}}};
 
-/// How the rendered image differs from what the file asks for.
+/// How the rendered image differs from what the file asks for; empty if that is not known.
 std::string_view consequenceOf(std::string_view extension) {
     const auto found = std::ranges::find(unsupportedExtensions, extension, &UnsupportedExtension::name);
-    return found != unsupportedExtensions.end() ? found->consequence : "the extension will be ignored";
+    return found != unsupportedExtensions.end()                 ? found->consequence
+           : extension.find("_materials_") != std::string::npos ? "materials will look different"
+                                                                : "";
 }
 
+/// A required extension can be done without if the consequence is known.
 void checkExtensions(const json& document, GltfReport& report) {
+    std::set<std::string> told;
     for (const std::string name : arrayOf(document, "extensionsRequired")) {
-        if (!knownGltfExtension(name)) {
-            report.fail("extensionsRequired", "{} is not supported: export the file without it", name);
+        const std::string_view consequence = consequenceOf(name);
+        const auto check = [&] {
+            if (!knownGltfExtension(name)) {
+                report.fail("extensionsRequired", "{} is not supported: export the file without it", name);
+            }
+        };
+        if (consequence.empty()) {
+            check();
+        } else if (!report.tolerate(consequence, check)) {
+            told.insert(name);
         }
     }
     for (const std::string name : arrayOf(document, "extensionsUsed")) {
-        if (!knownGltfExtension(name)) {
-            report.warn("extension " + name, "extensionsUsed", "{}: {} is not supported", consequenceOf(name), name);
+        if (!knownGltfExtension(name) && told.insert(name).second) {
+            const std::string_view consequence = consequenceOf(name);
+            report.warn("extension " + name, "extensionsUsed", "{}: {} is not supported",
+                        consequence.empty() ? "the extension will be ignored" : consequence, name);
         }
-    }
-}
-
-/// A camera and a spot light must have an object that is named like their type.
-void checkVariants(const json& document, const GltfReport& report) {
-    size_t i = 0;
-    for (const json& camera : arrayOf(document, "cameras")) {
-        const std::string type = camera["type"];
-        if (!camera.contains(type)) {
-            report.fail(fmt::format("cameras[{}].{}", i, type), "is missing");
-        }
-        ++i;
-    }
-    i = 0;
-    const json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
-    for (const json& light : document.value(lights, json::array())) {
-        if (light["type"] == "spot" && !light.contains("spot")) {
-            report.fail(fmt::format("extensions.KHR_lights_punctual.lights[{}].spot", i), "is missing");
-        }
-        ++i;
     }
 }
 
@@ -142,7 +142,7 @@ tinygltf::Model parseStructure(const json& document, const GltfReport& report) {
 
 /// A buffer without a URI is the binary chunk of a .glb; only the first buffer may be.
 std::vector<uint8_t> readBuffer(const json& buffer, const std::string& part, GltfContainer& container,
-                                const std::filesystem::path& folder, const GltfReport& report) {
+                                const std::filesystem::path& folder, GltfReport& report) {
     const auto length = buffer["byteLength"].get<uint64_t>();
     std::vector<uint8_t> bytes;
     if (buffer.contains("uri")) {
@@ -152,23 +152,28 @@ std::vector<uint8_t> readBuffer(const json& buffer, const std::string& part, Glt
     } else {
         report.fail(part, "has neither a uri nor a binary chunk");
     }
-    if (bytes.size() < length) {
-        report.fail(part, "has {} bytes, but its byteLength is {}", bytes.size(), length);
-    }
-    bytes.resize(length);
+    report.tolerate("what lies beyond its end will be missing", [&] {
+        if (bytes.size() < length) {
+            report.fail(part, "has {} bytes, but its byteLength is {}", bytes.size(), length);
+        }
+    });
+    bytes.resize(std::min<uint64_t>(bytes.size(), length));
     return bytes;
 }
 
 void readBuffers(const json& document, GltfContainer& container, GltfDocument& result, GltfReport& report) {
     size_t i = 0;
     for (const json& buffer : arrayOf(document, "buffers")) {
-        const std::string part = fmt::format("buffers[{}]", i++);
+        const std::string part = fmt::format("buffers[{}]", i);
         tinygltf::Buffer read;
-        if (!isMeshoptFallback(buffer)) {
-            read.data = readBuffer(buffer, part, container, result.folder, report);
-        }
+        report.tolerateUntilUsed("buffers", i, [&] {
+            if (!isMeshoptFallback(buffer)) {
+                read.data = readBuffer(buffer, part, container, result.folder, report);
+            }
+        });
         report.charge(part, read.data.size());
         result.model.buffers.push_back(std::move(read));
+        ++i;
     }
 }
 
@@ -192,7 +197,6 @@ GltfDocument readGltfDocument(const std::filesystem::path& path, GltfReport& rep
     container.document = nullptr;
     checkVersion(document, report);
     checkExtensions(document, report);
-    checkVariants(document, report);
     result.model = parseStructure(document, report);
     readBuffers(document, container, result, report);
     decodeMeshopt(document, result.model, report);

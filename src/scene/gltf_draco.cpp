@@ -76,7 +76,7 @@ std::unique_ptr<draco::Mesh> decodeMesh(std::span<const uint8_t> bytes, const st
         report.fail(part, "claims {} triangles and {} vertices in only {} bytes of Draco data", faces, vertices,
                     bytes.size());
     }
-    report.charge(part, faces * decoderBytesPerFace);
+    report.charge(part, faces * decoderBytesPerFace + bytes.size());
     auto decoded = draco::Decoder().DecodeMeshFromBuffer(&buffer);
     if (!decoded.ok()) {
         report.fail(part, "its Draco data is broken: {}", decoded.status().error_msg_string());
@@ -169,7 +169,9 @@ DracoPrimitive decodeDraco(const GltfDocument& document, const tinygltf::Primiti
     const auto& model = document.model;
     const tinygltf::Value& extension = primitive.extensions.at("KHR_draco_mesh_compression");
     const std::string here = part + ".extensions.KHR_draco_mesh_compression";
-    const auto& view = model.bufferViews[static_cast<size_t>(extension.Get("bufferView").GetNumberAsInt())];
+    const auto viewIndex = static_cast<size_t>(extension.Get("bufferView").GetNumberAsInt());
+    report.use("bufferViews", viewIndex);
+    const auto& view = model.bufferViews[viewIndex];
     const std::span bytes(model.buffers[static_cast<size_t>(view.buffer)].data);
     const auto mesh = decodeMesh(bytes.subspan(view.byteOffset, view.byteLength), here, report);
 

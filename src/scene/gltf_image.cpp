@@ -19,6 +19,7 @@ Image decode(std::span<const uint8_t> bytes, const std::string& part, GltfReport
     if (bytes.size() > maxImageBytes) {
         report.fail(part, "has {} bytes, more than the limit of {} MiB", bytes.size(), maxImageBytes >> 20U);
     }
+    report.charge(part, bytes.size());  // limits the total time where images share them
     if (isWebp(bytes)) {
         return decodeWebp(bytes, part, report);
     }
@@ -31,7 +32,8 @@ Image decode(std::span<const uint8_t> bytes, const std::string& part, GltfReport
     return decodeStb(bytes, part, report);
 }
 
-std::span<const uint8_t> bytesOfView(const GltfDocument& document, int index) {
+std::span<const uint8_t> bytesOfView(const GltfDocument& document, int index, GltfReport& report) {
+    report.use("bufferViews", static_cast<size_t>(index));
     const auto& view = document.model.bufferViews[static_cast<size_t>(index)];
     const std::span bytes(document.model.buffers[static_cast<size_t>(view.buffer)].data);
     return bytes.subspan(view.byteOffset, view.byteLength);
@@ -51,7 +53,7 @@ Image decodeGltfImage(const GltfDocument& document, size_t index, GltfReport& re
     const std::string part = fmt::format("images[{}]", index);
     Image image;
     if (source.bufferView >= 0) {
-        image = decode(bytesOfView(document, source.bufferView), part, report);
+        image = decode(bytesOfView(document, source.bufferView, report), part, report);
     } else if (!source.uri.empty()) {
         image = decode(readUri(source.uri, document.folder, maxImageBytes + 1, part + ".uri", report), part, report);
     } else {
@@ -61,10 +63,10 @@ Image decodeGltfImage(const GltfDocument& document, size_t index, GltfReport& re
     return image;
 }
 
-bool gltfImageIsBasis(const GltfDocument& document, size_t index, const GltfReport& report) {
+bool gltfImageIsBasis(const GltfDocument& document, size_t index, GltfReport& report) {
     const tinygltf::Image& source = document.model.images[index];
     if (source.bufferView >= 0) {
-        return isBasis(bytesOfView(document, source.bufferView));
+        return isBasis(bytesOfView(document, source.bufferView, report));
     }
     return !source.uri.empty() &&
            isBasis(readUri(source.uri, document.folder, formatBytes, fmt::format("images[{}].uri", index), report));

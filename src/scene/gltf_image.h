@@ -11,6 +11,6 @@ namespace reflet {
 Image decodeGltfImage(const GltfDocument& document, size_t index, GltfReport& report);
 
 /// Whether it is compressed with Basis Universal, which decodeGltfImage cannot decode.
-bool gltfImageIsBasis(const GltfDocument& document, size_t index, const GltfReport& report);
+bool gltfImageIsBasis(const GltfDocument& document, size_t index, GltfReport& report);
 
 }  // namespace reflet

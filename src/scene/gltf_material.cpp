@@ -100,7 +100,10 @@ Material GltfMaterials::convert(int material) {
         result.blended = true;
     }
     const auto slotOf = [&](const auto& info, const char* name) {
-        return slot(info.index, info.texCoord, info.extensions, part + "." + name);
+        TextureSlot read;
+        report_.tolerate("the texture will be left out",
+                         [&] { read = slot(info.index, info.texCoord, info.extensions, part + "." + name); });
+        return read;
     };
     result.baseColorTexture = slotOf(pbr.baseColorTexture, "pbrMetallicRoughness.baseColorTexture");
     result.metallicRoughnessTexture =
@@ -181,23 +184,28 @@ int GltfMaterials::imageOf(const tinygltf::Texture& texture, const std::string& 
         return webp;
     }
     const int ktx = sourceOf("KHR_texture_basisu");
-    if (ktx >= 0 && !gltfImageIsBasis(document_, static_cast<size_t>(ktx), report_)) {
-        return ktx;
+    bool basis = false;
+    if (ktx >= 0 && report_.tolerate("the texture will be left out", [&] {
+            basis = gltfImageIsBasis(document_, static_cast<size_t>(ktx), report_);
+        })) {
+        if (!basis) {
+            return ktx;
+        }
     }
-    if (texture.source < 0 && ktx >= 0) {
+    if (texture.source < 0 && basis) {
         report_.warn("basis", part,
                      "the texture will be missing: images[{}] is compressed with Basis Universal, which is not "
                      "supported; convert it, for example with \"ktx transcode --target rgba8\"",
                      ktx);
-    } else if (texture.source < 0) {
-        report_.warn("no image", part, "the texture will be ignored: it has no source image");
+    } else if (texture.source < 0 && ktx < 0) {
+        report_.warn("no image", part, "the texture will be left out: it has no source image");
     }
     return texture.source;
 }
 
 void GltfMaterials::setUvSet(TextureSlot& slot, int uvSet, const std::string& part) {
     if (uvSet > 1) {
-        report_.warn("uv set", part + ".texCoord", "is {}, but set 0 will be used: only UV sets 0 and 1 are supported",
+        report_.warn("uv set", part + ".texCoord", "UV set 0 will be used, not {}: only sets 0 and 1 are supported",
                      uvSet);
     }
     slot.uvSet = uvSet == 1 ? 1 : 0;
@@ -221,8 +229,14 @@ int32_t GltfMaterials::useImage(int image) {
     if (found != images_.end()) {
         return found->second;
     }
-    scene_.images.push_back(decodeGltfImage(document_, static_cast<size_t>(image), report_));
-    return images_[image] = static_cast<int32_t>(scene_.images.size() - 1);
+    const auto index = static_cast<size_t>(image);
+    report_.use("images", index);
+    report_.tolerateUntilUsed("images", index, [&] {
+        scene_.images.push_back(decodeGltfImage(document_, index, report_));
+        images_[image] = static_cast<int32_t>(scene_.images.size() - 1);
+    });
+    report_.use("images", index);
+    return images_[image];
 }
 
 int32_t GltfMaterials::useSampler(int sampler) {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace reflet {
 
@@ -61,17 +62,50 @@ glm::u16vec4 colorOf(vec4 value, const AccessorView& view) {
     return result;
 }
 
-void readPositions(Mesh& mesh, const PrimitiveSource& source, const std::vector<uint32_t>& used,
-                   const std::string& part, const GltfReport& report) {
+/// Leaves out the triangles whose corners are not all finite; their vertices stay, at the place of another one.
+void dropInvalidTriangles(Mesh& mesh, std::vector<uint32_t>& triangles, const std::string& part,
+                          const GltfReport& report) {
+    const auto isPlaced = [&](uint32_t v) { return isFinite(vec4(mesh.positions[v], 1.0F)); };
+    size_t kept = 0;
+    for (size_t i = 0; i < triangles.size(); i += 3) {
+        const auto corner = triangles.begin() + static_cast<std::ptrdiff_t>(i);
+        if (std::all_of(corner, corner + 3, isPlaced)) {
+            std::copy(corner, corner + 3, triangles.begin() + static_cast<std::ptrdiff_t>(kept));
+            kept += 3;
+        }
+    }
+    triangles.resize(kept);
+    if (triangles.empty()) {
+        report.fail(part + ".attributes.POSITION", "no triangle has finite positions");
+    }
+    const vec3 somewhere = mesh.positions[triangles[0]];
+    for (uint32_t v = 0; v < mesh.positions.size(); ++v) {
+        mesh.positions[v] = isPlaced(v) ? mesh.positions[v] : somewhere;
+    }
+}
+
+/// The source's triangles index `used`.
+void readPositions(Mesh& mesh, PrimitiveSource& source, const std::vector<uint32_t>& used, const std::string& part,
+                   GltfReport& report) {
     const AccessorView& view = *source.find("POSITION");
     mesh.positions.reserve(used.size());
+    std::optional<uint32_t> invalid;
     for (const uint32_t v : used) {
         const vec4 position = view.at(v);
-        if (!isFinite(position)) {
-            report.fail(part + ".attributes.POSITION", "the position of vertex {} is not finite", v);
-        }
         mesh.positions.emplace_back(position);
-        mesh.bounds.add(mesh.positions.back());
+        if (isFinite(position)) {
+            mesh.bounds.add(mesh.positions.back());
+        } else if (!invalid) {
+            invalid = v;
+        }
+    }
+    const bool isValid = report.tolerate("triangles will be missing", [&] {
+        if (invalid) {
+            report.fail(part + ".attributes.POSITION", "the position of vertex {} is not finite", *invalid);
+        }
+    });
+    if (!isValid) {
+        dropInvalidTriangles(mesh, source.triangles, part, report);
     }
 }
 
@@ -193,7 +227,7 @@ const std::vector<uint32_t>& GltfMeshes::use(int mesh) {
     if (!loaded_[index]) {
         loaded_[index] = true;
         for (size_t p = 0; p < document_.model.meshes[index].primitives.size(); ++p) {
-            loadPrimitive(index, p);
+            report_.tolerate("the primitive will not be drawn", [&] { loadPrimitive(index, p); });
         }
     }
     return meshes_[index];
@@ -202,6 +236,9 @@ const std::vector<uint32_t>& GltfMeshes::use(int mesh) {
 void GltfMeshes::loadPrimitive(size_t mesh, size_t primitive) {
     const tinygltf::Primitive& source = document_.model.meshes[mesh].primitives[primitive];
     const std::string part = fmt::format("meshes[{}].primitives[{}]", mesh, primitive);
+    if (source.mode < 0) {
+        return;  // a stand-in
+    }
     if (source.mode < TINYGLTF_MODE_TRIANGLES) {
         report_.warn("points and lines", part + ".mode",
                      "points and lines will not be drawn: only triangles are supported");

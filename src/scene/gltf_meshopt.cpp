@@ -113,14 +113,16 @@ void decodeMeshopt(const json& document, tinygltf::Model& model, GltfReport& rep
         }
         tinygltf::BufferView& view = model.bufferViews[i];
         const std::string part = fmt::format("bufferViews[{}].extensions.{}", i, extensionName);
-        const Compressed compressed = open(*extension, model, part, report);
-        check(compressed, view.byteLength, part, report);
-        report.charge(part, view.byteLength);
         tinygltf::Buffer decoded;
-        decoded.data.resize(view.byteLength);
-        if (!decode(compressed, decoded.data)) {
-            report.fail(part, "its compressed data is broken");
-        }
+        report.tolerateUntilUsed("bufferViews", i, [&] {
+            const Compressed compressed = open(*extension, model, part, report);
+            check(compressed, view.byteLength, part, report);
+            report.charge(part, view.byteLength);
+            decoded.data.resize(view.byteLength);
+            if (!decode(compressed, decoded.data)) {
+                report.fail(part, "its compressed data is broken");
+            }
+        });
         view.buffer = static_cast<int>(model.buffers.size());
         view.byteOffset = 0;
         model.buffers.push_back(std::move(decoded));

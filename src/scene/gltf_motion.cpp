@@ -10,15 +10,12 @@
 
 namespace reflet {
 
-Node readGltfNode(const tinygltf::Node& node, const std::string& part, const GltfReport& report) {
+Node readGltfNode(const tinygltf::Node& node) {
     Node result;
     if (node.matrix.size() == 16) {
         glm::dmat4 m(1.0);
         for (int i = 0; i < 16; ++i) {
             m[i / 4][i % 4] = node.matrix[static_cast<size_t>(i)];
-        }
-        if (m[0].w != 0.0 || m[1].w != 0.0 || m[2].w != 0.0 || m[3].w != 1.0) {
-            report.fail(part + ".matrix", "its last row is not 0 0 0 1");
         }
         result.matrix = m;
         return result;
@@ -26,11 +23,7 @@ Node readGltfNode(const tinygltf::Node& node, const std::string& part, const Glt
     result.translation = vectorOr(node.translation, glm::dvec3(0.0));
     if (node.rotation.size() == 4) {
         const glm::dquat rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
-        const double length = glm::length(rotation);
-        if (length == 0.0 || !std::isfinite(length)) {
-            report.fail(part + ".rotation", "is not a rotation: the quaternion's length is {}", length);
-        }
-        result.rotation = rotation / length;
+        result.rotation = rotation / glm::length(rotation);
     }
     result.scale = vectorOr(node.scale, glm::dvec3(1.0));
     return result;
@@ -45,8 +38,9 @@ GltfMotion::GltfMotion(const GltfDocument& document, Scene& scene, GltfReport& r
     for (size_t i = 0; i < document.model.animations.size(); ++i) {
         readAnimation(i);
     }
+    skins_.assign(document.model.skins.size(), -1);
     for (size_t i = 0; i < document.model.skins.size(); ++i) {
-        readSkin(i);
+        report_.tolerateUntilUsed("skins", i, [&] { readSkin(i); });
     }
 }
 
@@ -69,7 +63,7 @@ void GltfMotion::readNodes() {
         }
     }
     for (const size_t index : order) {
-        scene_.nodes.push_back(readGltfNode(nodes[index], fmt::format("nodes[{}]", index), report_));
+        scene_.nodes.push_back(readGltfNode(nodes[index]));
     }
     for (const size_t index : order) {
         for (const int child : nodes[index].children) {
@@ -87,7 +81,9 @@ void GltfMotion::readAnimation(size_t index) {
         if (channel.target_node < 0) {
             continue;  // the target is defined by an extension
         }
-        if (auto read = readChannel(source, channel, part)) {
+        std::optional<Channel> read;
+        report_.tolerate("the channel will be ignored", [&] { read = readChannel(source, channel, part); });
+        if (read) {
             read->node = static_cast<uint32_t>(node(channel.target_node));
             animation.channels.push_back(std::move(*read));
         }
@@ -150,12 +146,15 @@ void GltfMotion::readSkin(size_t index) {
             }
         }
     }
+    skins_[index] = static_cast<int32_t>(scene_.skins.size());
     scene_.skins.push_back(std::move(skin));
 }
 
 int32_t GltfMotion::skin(int index, uint32_t mesh, const std::string& part) const {
+    report_.use("skins", static_cast<size_t>(index));
+    const int32_t skin = skins_[static_cast<size_t>(index)];
     const Mesh& skinned = scene_.meshes[mesh];
-    const size_t joints = scene_.skins[static_cast<size_t>(index)].joints.size();
+    const size_t joints = scene_.skins[static_cast<size_t>(skin)].joints.size();
     if (skinned.skin.empty()) {
         report_.warn("skin without joints", part + ".skin",
                      "the mesh will not be deformed: it has no JOINTS_0 and WEIGHTS_0");
@@ -169,7 +168,7 @@ int32_t GltfMotion::skin(int index, uint32_t mesh, const std::string& part) cons
         }
     }
     report_.charge(part, skinned.positions.size() * (2 * sizeof(vec3) + sizeof(VertexAttributes)));
-    return index;
+    return skin;
 }
 
 }  // namespace reflet

@@ -9,8 +9,8 @@
 
 namespace reflet {
 
-/// The node's own transform: its matrix, or translation, rotation and scale. Throws Error.
-Node readGltfNode(const tinygltf::Node& node, const std::string& part, const GltfReport& report);
+/// The node's own transform: its matrix, or translation, rotation and scale.
+Node readGltfNode(const tinygltf::Node& node);
 
 class GltfMotion {
 public:
@@ -42,6 +42,7 @@ private:
     GltfReport& report_;
     std::vector<int32_t> nodes_;  ///< from the file's index to the scene's
     std::set<int> weighted_;      ///< the file's nodes with animated morph weights
+    std::vector<int32_t> skins_;  ///< the same
 };
 
 }  // namespace reflet

@@ -16,7 +16,9 @@ namespace reflet {
 namespace {
 
 constexpr uint64_t posedVertexBytes = 2 * sizeof(vec3) + sizeof(VertexAttributes);
-constexpr float minNear = 1e-3F;  // metres; for orthographic cameras, whose znear may be 0 in glTF
+constexpr float narrowest = 1e-3F;  // of spot lights whose angles are invalid [rad]
+constexpr float sharpEdge = 0.99F;  // of the outer angle
+constexpr float minNear = 1e-3F;    // metres; for orthographic cameras, whose znear may be 0 in glTF
 
 Camera placeCamera(const tinygltf::Camera& source, const mat4& toWorld, const std::string& part,
                    const GltfReport& report) {
@@ -39,7 +41,23 @@ Camera placeCamera(const tinygltf::Camera& source, const mat4& toWorld, const st
     return camera;
 }
 
-Lamp placeLamp(const tinygltf::Light& source, const mat4& toWorld, const std::string& part, const GltfReport& report) {
+/// Sets the angles. glTF has no spot light with a hard edge.
+void readCone(const tinygltf::SpotLight& source, const std::string& part, Lamp& lamp, GltfReport& report) {
+    lamp.innerAngle = static_cast<float>(source.innerConeAngle);
+    lamp.outerAngle = static_cast<float>(source.outerConeAngle);
+    const bool isCone = report.tolerate("the edge of its cone will be sharp", [&] {
+        if (!(source.innerConeAngle < source.outerConeAngle)) {
+            report.fail(part + ".spot", "innerConeAngle {} is not less than outerConeAngle {}", source.innerConeAngle,
+                        source.outerConeAngle);
+        }
+    });
+    if (!isCone) {
+        lamp.outerAngle = std::max(lamp.outerAngle, narrowest);
+        lamp.innerAngle = sharpEdge * lamp.outerAngle;
+    }
+}
+
+Lamp placeLamp(const tinygltf::Light& source, const mat4& toWorld, const std::string& part, GltfReport& report) {
     Lamp lamp;
     lamp.name = source.name;
     lamp.type = source.type == "spot"          ? Lamp::Type::spot
@@ -53,12 +71,7 @@ Lamp placeLamp(const tinygltf::Light& source, const mat4& toWorld, const std::st
     }
     lamp.range = static_cast<float>(source.range);
     if (lamp.type == Lamp::Type::spot) {
-        lamp.innerAngle = static_cast<float>(source.spot.innerConeAngle);
-        lamp.outerAngle = static_cast<float>(source.spot.outerConeAngle);
-        if (!(source.spot.innerConeAngle < source.spot.outerConeAngle)) {
-            report.fail(part + ".spot", "innerConeAngle {} is not less than outerConeAngle {}",
-                        source.spot.innerConeAngle, source.spot.outerConeAngle);
-        }
+        readCone(source.spot, part, lamp, report);
     }
     if (source.extras.Has("radius")) {
         lamp.radius = static_cast<float>(source.extras.Get("radius").GetNumberAsDouble());
@@ -76,7 +89,7 @@ public:
     glm::dmat4 place(int index, const glm::dmat4& parentToWorld) {
         const tinygltf::Node& node = document_.model.nodes[static_cast<size_t>(index)];
         const std::string part = fmt::format("nodes[{}]", index);
-        const glm::dmat4 exact = parentToWorld * localTransform(readGltfNode(node, part, report_));
+        const glm::dmat4 exact = parentToWorld * localTransform(readGltfNode(node));
         const mat4 toWorld(exact);
         if (!isFinite(toWorld)) {
             report_.fail(part, "its transform to the world is not finite");
@@ -85,13 +98,12 @@ public:
             addCopies(index, exact, part);
         }
         if (node.camera >= 0) {
-            const auto& camera = document_.model.cameras[static_cast<size_t>(node.camera)];
-            scene_.cameras.push_back(placeCamera(camera, toWorld, fmt::format("cameras[{}]", node.camera), report_));
-            scene_.cameras.back().node = motion_.node(index);
+            report_.tolerate("the camera will be missing", [&] { addCamera(node.camera, index, toWorld); });
         }
         const auto light = node.extensions.find("KHR_lights_punctual");
         if (light != node.extensions.end()) {
-            addLight(light->second.Get("light").GetNumberAsInt(), index, toWorld);
+            const int which = light->second.Get("light").GetNumberAsInt();
+            report_.tolerate("the lamp will be missing", [&] { addLight(which, index, toWorld); });
         }
         return exact;
     }
@@ -101,10 +113,12 @@ private:
         const tinygltf::Node& node = document_.model.nodes[static_cast<size_t>(index)];
         for (const glm::dmat4& toNode : readGltfCopies(document_, node, part, report_)) {
             const mat4 toWorld(nodeToWorld * toNode);
-            if (!isFinite(toWorld)) {
-                report_.fail(part, "the transform of an instance to the world is not finite");
-            }
-            addInstances(index, toWorld, mat4(toNode), part);
+            report_.tolerate("the mesh will not be drawn", [&] {
+                if (!isFinite(toWorld)) {
+                    report_.fail(part, "the transform of an instance to the world is not finite");
+                }
+                addInstances(index, toWorld, mat4(toNode), part);
+            });
             if (node.skin >= 0) {
                 break;  // joints alone place a skinned mesh: all copies would be in the same place
             }
@@ -115,24 +129,32 @@ private:
         const tinygltf::Node& node = document_.model.nodes[static_cast<size_t>(index)];
         const std::vector<float> weights = gltfMorphWeights(document_, node, part, report_);
         for (const uint32_t primitive : meshes_.use(node.mesh)) {
-            const bool animated = !weights.empty() && motion_.animatesWeights(index);
-            const uint32_t mesh = animated ? primitive : shaped(primitive, weights, part);
-            const Aabb box = transformed(scene_.meshes[mesh].bounds, toWorld);
-            if (!std::isfinite(glm::length(glm::dvec3(box.min) - glm::dvec3(box.max)))) {
-                report_.fail(part, "its mesh extends beyond the range of floats");
-            }
-            report_.charge(part, sizeof(Instance) + node.name.size());
-            scene_.instances.push_back({.name = node.name,
-                                        .mesh = mesh,
-                                        .objectToWorld = toWorld,
-                                        .node = motion_.node(index),
-                                        .skin = node.skin >= 0 ? motion_.skin(node.skin, mesh, part) : -1,
-                                        .weights = animated ? weights : std::vector<float>{},
-                                        .objectToNode = toNode});
-            if (animated) {
-                report_.charge(part, posedVertexBytes * scene_.meshes[mesh].positions.size());
-            }
+            report_.tolerate("the mesh will not be drawn", [&] {
+                Instance instance{.name = node.name, .mesh = primitive, .objectToWorld = toWorld};
+                instance.objectToNode = toNode;
+                addInstance(index, std::move(instance), weights, part);
+            });
         }
+    }
+
+    void addInstance(int index, Instance instance, const std::vector<float>& weights, const std::string& part) {
+        const tinygltf::Node& node = document_.model.nodes[static_cast<size_t>(index)];
+        const bool animated = !weights.empty() && motion_.animatesWeights(index);
+        instance.mesh = animated ? instance.mesh : shaped(instance.mesh, weights, part);
+        const Mesh& mesh = scene_.meshes[instance.mesh];
+        const Aabb box = transformed(mesh.bounds, instance.objectToWorld);
+        if (!std::isfinite(glm::length(glm::dvec3(box.min) - glm::dvec3(box.max)))) {
+            report_.fail(part, "its mesh extends beyond the range of floats");
+        }
+        if (node.skin >= 0) {
+            report_.tolerate("the mesh will not be deformed",
+                             [&] { instance.skin = motion_.skin(node.skin, instance.mesh, part); });
+        }
+        report_.charge(part, sizeof(Instance) + node.name.size() +
+                                 (animated ? posedVertexBytes * mesh.positions.size() : 0));
+        instance.node = motion_.node(index);
+        instance.weights = animated ? weights : std::vector<float>{};
+        scene_.instances.push_back(std::move(instance));
     }
 
     /// The mesh with weights that never change: a mesh of its own unless they are 0.
@@ -147,6 +169,12 @@ private:
             scene_.meshes.push_back(morphed(scene_.meshes[mesh], weights));
         }
         return found->second;
+    }
+
+    void addCamera(int camera, int node, const mat4& toWorld) {
+        const auto& source = document_.model.cameras[static_cast<size_t>(camera)];
+        scene_.cameras.push_back(placeCamera(source, toWorld, fmt::format("cameras[{}]", camera), report_));
+        scene_.cameras.back().node = motion_.node(node);
     }
 
     void addLight(int light, int node, const mat4& toWorld) {
@@ -188,8 +216,10 @@ void placeGltfNodes(const GltfDocument& document, const std::vector<int>& roots,
     while (!open.empty()) {
         const Open next = open.back();
         open.pop_back();
-        const glm::dmat4 toWorld = placer.place(next.node, next.parentToWorld);
-        push(document.model.nodes[static_cast<size_t>(next.node)].children, toWorld);
+        report.tolerate("the node and those below it will not be drawn", [&] {
+            const glm::dmat4 toWorld = placer.place(next.node, next.parentToWorld);
+            push(document.model.nodes[static_cast<size_t>(next.node)].children, toWorld);
+        });
     }
 }
 

@@ -1,7 +1,9 @@
 // Gives access to the attributes and triangles of a glTF primitive, whether from accessors or from Draco.
 #include "scene/gltf_primitive.h"
 
+#include <algorithm>
 #include <array>
+#include <optional>
 
 namespace reflet {
 
@@ -11,15 +13,18 @@ struct SemanticRule {
     const char* semantic;
     int minComponents;
     int maxComponents;
+    const char* without;  ///< consequence of leaving it out; null: the primitive cannot be drawn without it
 };
-constexpr std::array<SemanticRule, 8> semantics{{{"POSITION", 3, 3},
-                                                 {"NORMAL", 3, 3},
-                                                 {"TANGENT", 4, 4},
-                                                 {"TEXCOORD_0", 2, 2},
-                                                 {"TEXCOORD_1", 2, 2},
-                                                 {"COLOR_0", 3, 4},
-                                                 {"JOINTS_0", 4, 4},
-                                                 {"WEIGHTS_0", 4, 4}}};
+constexpr std::array<SemanticRule, 8> semantics{{{"POSITION", 3, 3, nullptr},
+                                                 {"NORMAL", 3, 3, "the surface will be faceted"},
+                                                 {"TANGENT", 4, 4, "the tangents will be computed"},
+                                                 {"TEXCOORD_0", 2, 2, "textures will have one colour"},
+                                                 {"TEXCOORD_1", 2, 2, "textures will have one colour"},
+                                                 {"COLOR_0", 3, 4, "vertex colours will be missing"},
+                                                 {"JOINTS_0", 4, 4, "the mesh will not be deformed"},
+                                                 {"WEIGHTS_0", 4, 4, "the mesh will not be deformed"}}};
+
+constexpr uint32_t noVertex = 0xFFFFFFFF;  // greater than any index
 
 /// The types of glTF 2.0 and KHR_mesh_quantization: all but 32-bit integers, which floats cannot represent.
 void checkType(const tinygltf::Accessor& accessor, const SemanticRule& rule, int index, const GltfReport& report) {
@@ -39,6 +44,21 @@ void checkType(const tinygltf::Accessor& accessor, const SemanticRule& rule, int
     }
 }
 
+/// `expected`: the number of vertices.
+AccessorView openAttribute(const GltfDocument& document, const SemanticRule& rule, int accessor,
+                           const DracoPrimitive& draco, std::optional<uint32_t> expected, const std::string& part,
+                           GltfReport& report) {
+    report.use("accessors", static_cast<size_t>(accessor));
+    checkType(document.model.accessors[static_cast<size_t>(accessor)], rule, accessor, report);
+    const auto decoded = draco.attributes.find(rule.semantic);
+    AccessorView view = decoded != draco.attributes.end() ? decoded->second : viewAccessor(document, accessor, report);
+    if (view.count != expected.value_or(view.count)) {
+        report.fail(fmt::format("{}.attributes.{}", part, rule.semantic), "has {} vertices, but POSITION has {}",
+                    view.count, *expected);
+    }
+    return view;
+}
+
 std::map<std::string, AccessorView> openAttributes(const GltfDocument& document, const tinygltf::Primitive& primitive,
                                                    const DracoPrimitive& draco, const std::string& part,
                                                    GltfReport& report) {
@@ -48,19 +68,22 @@ std::map<std::string, AccessorView> openAttributes(const GltfDocument& document,
         if (found == primitive.attributes.end()) {
             continue;
         }
-        checkType(document.model.accessors[static_cast<size_t>(found->second)], rule, found->second, report);
-        const auto decoded = draco.attributes.find(rule.semantic);
-        result[rule.semantic] =
-            decoded != draco.attributes.end() ? decoded->second : viewAccessor(document, found->second, report);
-        const uint32_t expected = result.at("POSITION").count;  // the first of the semantics
-        if (result[rule.semantic].count != expected) {
-            report.fail(fmt::format("{}.attributes.{}", part, rule.semantic), "has {} vertices, but POSITION has {}",
-                        result[rule.semantic].count, expected);
+        const auto positions = result.find("POSITION");  // the first of the semantics
+        const auto expected = positions != result.end() ? std::optional(positions->second.count) : std::nullopt;
+        const auto open = [&] {
+            result.insert_or_assign(rule.semantic,
+                                    openAttribute(document, rule, found->second, draco, expected, part, report));
+        };
+        if (rule.without == nullptr) {
+            open();
+        } else {
+            report.tolerate(rule.without, open);
         }
     }
     return result;
 }
 
+/// Indices that are invalid are noVertex.
 std::vector<uint32_t> readIndices(const GltfDocument& document, int index, uint32_t vertices, GltfReport& report) {
     const auto& accessor = document.model.accessors[static_cast<size_t>(index)];
     const std::string part = fmt::format("accessors[{}]", index);
@@ -83,15 +106,24 @@ std::vector<uint32_t> readIndices(const GltfDocument& document, int index, uint3
     const AccessorView view = viewAccessor(document, index, report);
     report.charge(part, uint64_t(view.count) * sizeof(uint32_t));
     std::vector<uint32_t> indices(view.count);
+    uint32_t firstInvalid = view.count;
     for (uint32_t i = 0; i < view.count; ++i) {
         indices[i] = view.integerAt(i);
-        if (indices[i] == restart) {
-            report.fail(part, "index {} is {}, the primitive restart value, which glTF does not allow", i, restart);
-        }
-        if (indices[i] >= vertices) {
-            report.fail(part, "index {} is {}, but there are {} vertices", i, indices[i], vertices);
+        if (indices[i] == restart || indices[i] >= vertices) {
+            firstInvalid = std::min(firstInvalid, i);
+            indices[i] = noVertex;
         }
     }
+    report.tolerate("triangles will be missing", [&] {
+        if (firstInvalid < view.count) {
+            const uint32_t invalid = view.integerAt(firstInvalid);
+            if (invalid == restart) {
+                report.fail(part, "index {} is {}, the primitive restart value, which glTF does not allow",
+                            firstInvalid, invalid);
+            }
+            report.fail(part, "index {} is {}, but there are {} vertices", firstInvalid, invalid, vertices);
+        }
+    });
     return indices;
 }
 
@@ -112,17 +144,30 @@ std::vector<uint32_t> makeTriangles(int mode, const std::vector<uint32_t>* indic
                                     const std::string& part, GltfReport& report) {
     const uint32_t count = indices != nullptr ? static_cast<uint32_t>(indices->size()) : vertices;
     const bool list = mode == TINYGLTF_MODE_TRIANGLES;
-    if (count < 3 || (list && count % 3 != 0)) {
-        report.fail(part, "{} {} do not make whole triangles", count, indices != nullptr ? "indices" : "vertices");
+    const auto check = [&] {
+        if (count < 3 || (list && count % 3 != 0)) {
+            report.fail(part, "{} {} do not make whole triangles", count, indices != nullptr ? "indices" : "vertices");
+        }
+    };
+    if (count < 3) {
+        check();
     }
+    report.tolerate("the incomplete triangle will be missing", check);
     const uint32_t triangles = list ? count / 3 : count - 2;
     report.charge(part, uint64_t(triangles) * 3 * sizeof(uint32_t));
     std::vector<uint32_t> result;
     result.reserve(size_t(triangles) * 3);
     for (uint32_t t = 0; t < triangles; ++t) {
-        for (const uint32_t corner : corners(mode, t)) {
-            result.push_back(indices != nullptr ? (*indices)[corner] : corner);
+        std::array<uint32_t, 3> triangle = corners(mode, t);
+        for (uint32_t& corner : triangle) {
+            corner = indices != nullptr ? (*indices)[corner] : corner;
         }
+        if (std::ranges::find(triangle, noVertex) == triangle.end()) {
+            result.insert(result.end(), triangle.begin(), triangle.end());
+        }
+    }
+    if (result.empty()) {
+        report.fail(part, "has no triangle whose indices are all valid");
     }
     return result;
 }

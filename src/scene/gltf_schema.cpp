@@ -2,10 +2,12 @@
 // property, after the JSON schemas of the Khronos glTF 2.0 specification, 2021.
 #include "scene/gltf_schema.h"
 
+#include "base/json_text.h"
 #include "scene/gltf_schema_tables.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace reflet {
@@ -36,7 +38,7 @@ struct Place {
 
 class Checker {
 public:
-    Checker(const json& document, const GltfReport& report) : report_(report) {
+    Checker(const json& document, GltfReport& report) : report_(report) {
         for (const auto& [name, value] : document.items()) {
             if (value.is_array()) {
                 sizes_[name] = value.size();
@@ -51,7 +53,7 @@ public:
             fail(place, "is {}, not an object", kindOf(value));
         }
         if (++objects_ > maxObjects) {
-            fail(place, "exceeds the limit of {} objects", maxObjects);
+            report_.refuse(pathOf(place), "exceeds the limit of {} objects", maxObjects);
         }
         json result = json::object();
         for (const Field& field : fields) {
@@ -60,12 +62,14 @@ public:
             if (found != value.end() && field.anyType && !found->is_object()) {
                 continue;
             }
-            if (found != value.end()) {
-                result[field.name] = property(*found, field, inner);
-            } else if (field.required) {
+            if (found == value.end() && field.required) {
                 fail(&inner, "is missing");
             }
+            if (found != value.end() && !addProperty(result, *found, field, inner) && place == nullptr) {
+                sizes_.erase(field.name);
+            }
         }
+        requireVariant(result, fields, place);
         return result;
     }
 
@@ -80,12 +84,50 @@ private:
 
     template <class... Args>
     [[noreturn]] void fail(const Place* place, fmt::format_string<Args...> format, Args&&... args) const {
-        report_.fail(place != nullptr ? place->path() : "JSON", format, std::forward<Args>(args)...);
+        report_.fail(pathOf(place), format, std::forward<Args>(args)...);
     }
+
+    static std::string pathOf(const Place* place) { return place != nullptr ? place->path() : "JSON"; }
 
     static std::string kindOf(const json& value) {
         const std::string type = value.type_name();
         return (type == "object" || type == "array" ? "an " : type == "null" ? "" : "a ") + type;
+    }
+
+    /// False if the value is invalid, and is left out.
+    bool addProperty(json& object, const json& value, const Field& field, const Place& place) {
+        const auto add = [&] {
+            json checked = property(value, field, place);
+            object[field.name] = std::move(checked);
+        };
+        if (field.required || field.vital) {
+            add();
+            return true;
+        }
+        const bool ofElements = field.standIn != nullptr || field.without == nullptr;
+        return report_.tolerate(ofElements ? "its default will be used" : field.without, add);
+    }
+
+    /// A camera and a spot light must have an object that is named like their type.
+    void requireVariant(const json& object, std::span<const Field> fields, const Place* place) const {
+        const auto type = object.find("type");
+        for (const Field& field : fields) {
+            const Place inner{.parent = place, .name = field.name};
+            if (type != object.end() && *type == field.name && !object.contains(field.name)) {
+                fail(&inner, "is missing");
+            }
+        }
+    }
+
+    /// False if the element is invalid, and is replaced or left out.
+    bool addElement(json& array, const json& value, const Field& field, const Place& place) {
+        const auto add = [&] { array.push_back(single(value, field, place)); };
+        if (field.standIn == nullptr) {
+            add();
+            return true;
+        }
+        return field.without != nullptr ? report_.tolerate(field.without, add)
+                                        : report_.tolerateUntilUsed(field.name, place.index, add);
     }
 
     json property(const json& value, const Field& field, const Place& place) {
@@ -100,7 +142,10 @@ private:
         }
         json result = json::array();
         for (size_t i = 0; i < value.size(); ++i) {
-            result.push_back(single(value[i], field, {.parent = &place, .index = i}));
+            const bool isValid = addElement(result, value[i], field, {.parent = &place, .index = i});
+            if (!isValid && *field.standIn != '\0') {
+                result.push_back(parseJson(field.standIn));
+            }
         }
         return result;
     }
@@ -139,15 +184,21 @@ private:
         return value;
     }
 
-    [[nodiscard]] json number(const json& value, const Field& field, const Place& place) const {
+    [[nodiscard]] json number(const json& value, const Field& field, const Place& place) {
         if (!value.is_number()) {
             fail(&place, "is {}, not a number", kindOf(value));
         }
         const auto number = value.get<double>();
-        if (!(number >= field.min && number <= field.max)) {
-            fail(&place, "is {}, not between {} and {}", number, field.min, field.max);
+        if (number >= field.min && number <= field.max) {
+            return value;
         }
-        return value;
+        const double nearest = std::clamp(number, field.min, field.max);
+        const auto check = [&] { fail(&place, "is {}, not between {} and {}", number, field.min, field.max); };
+        if (!field.clamps || std::abs(nearest) == std::numeric_limits<float>::max()) {
+            check();
+        }
+        report_.tolerate(fmt::format("{} will be used", nearest), check);
+        return nearest;
     }
 
     [[nodiscard]] json integer(const json& value, const Field& field, const Place& place) const {
@@ -174,13 +225,14 @@ private:
         return result;
     }
 
-    [[nodiscard]] json index(const json& value, const char* refersTo, const Place& place) const {
+    [[nodiscard]] json index(const json& value, const char* refersTo, const Place& place) {
         json result = integer(value, {.name = "", .type = Type::index}, place);
         const auto size = sizes_.find(refersTo);
         const size_t count = size != sizes_.end() ? size->second : 0;
         if (result.get<uint64_t>() >= count) {
             fail(&place, "is {}, but there are {} {}", result.get<uint64_t>(), count, refersTo);
         }
+        report_.use(refersTo, result.get<uint64_t>());
         return result;
     }
 
@@ -191,16 +243,23 @@ private:
         json result = json::object();
         for (const auto& [name, item] : value.items()) {
             const Place inner{.parent = &place, .name = name.empty() ? "\"\"" : std::string_view(name)};
-            json checked = field.refersTo != nullptr ? index(item, field.refersTo, inner)
-                                                     : integer(item, {.name = "", .max = 4294967295.0}, inner);
-            if (gltf_schema::knownAttribute(name)) {
-                result[name] = std::move(checked);
+            const auto add = [&] {
+                json checked = field.refersTo != nullptr ? index(item, field.refersTo, inner)
+                                                         : integer(item, {.name = "", .max = 4294967295.0}, inner);
+                if (gltf_schema::knownAttribute(name)) {
+                    result[name] = std::move(checked);
+                }
+            };
+            if (field.without == nullptr || field.array || name == "POSITION") {
+                add();
+            } else {
+                report_.tolerate(field.without, add);
             }
         }
         return result;
     }
 
-    const GltfReport& report_;
+    GltfReport& report_;
     std::map<std::string, size_t, std::less<>> sizes_;
     size_t objects_ = 0;
 };
@@ -212,7 +271,7 @@ bool knownGltfExtension(const std::string& name) {
     return std::find(known.begin(), known.end(), name) != known.end();
 }
 
-json checkedGltfDocument(const json& document, const GltfReport& report) {
+json checkedGltfDocument(const json& document, GltfReport& report) {
     return Checker(document, report).object(document, gltf_schema::document(), nullptr);
 }
 

@@ -27,6 +27,16 @@ struct Field {
     std::span<const uint64_t> numbers{};        ///< integer: allowed values; empty: any
     std::span<const Field> fields{};            ///< object
     bool anyType = false;                       ///< may have any type; ignored unless an object
+
+    // What an invalid value does unless the loader is strict. If `required`: it makes the object invalid.
+    bool vital = false;  ///< the same, although it may be missing
+    bool clamps = true;  ///< number: is clamped to min..max, unless that limit is the largest float
+    /// Consequence of leaving the value out, or one element of an array that has a standIn. Null: "its default will be
+    /// used"; where there is a standIn: other objects refer to the elements, and tell their own consequences.
+    const char* without = nullptr;
+    /// Array: JSON that replaces an invalid element, so that the others keep their indices; "": the element is left
+    /// out. Null: the array is invalid.
+    const char* standIn = nullptr;
 };
 
 /// The document itself.

@@ -158,6 +158,7 @@ void Viewer::openFile(const std::string& file) {
         SceneOptions source;
         source.scene = file.starts_with("builtin:") ? file : path.string();
         source.size = state_.source.size;
+        source.strict = state_.source.strict;
         open(source, true);
         tell(fmt::format("{}: opened", source.scene));
     }

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/json_text.h"
+#include "valid_scene.h"
 
 #include <draco/compression/encode.h>
 #include <draco/mesh/triangle_soup_mesh_builder.h>
@@ -281,9 +282,9 @@ Loaded load(GltfBuilder builder, int scene) {
     return load(builder.writeGltf(testFolder() / "scene.gltf"), scene);
 }
 
-std::string complaint(const std::filesystem::path& path) {
+std::string complaint(const std::filesystem::path& path, bool strict) {
     try {
-        loadGltf(path);
+        loadGltf(path, {.strict = strict});
     } catch (const Error& error) {
         const std::string message = error.what();
         EXPECT_EQ(message.find('\n'), std::string::npos) << message;
@@ -291,6 +292,27 @@ std::string complaint(const std::filesystem::path& path) {
         return message.substr(std::min(message.size(), path.string().size() + 2));
     }
     return "";
+}
+
+std::string expectProblem(const std::filesystem::path& path, const std::string& starts, const char* consequence) {
+    const std::string message = complaint(path);
+    EXPECT_EQ(message.rfind(starts, 0), 0U) << message;
+    if (consequence == nullptr) {
+        const std::string forgiving = complaint(path, false);
+        EXPECT_TRUE(forgiving == message || forgiving == "nothing is left to draw: " + message) << forgiving;
+        return message;
+    }
+    const Loaded loaded = load(path);
+    expectValid(loaded.scene);
+    const std::string middle = std::string(": ") + consequence;
+    const auto saysTheSame = [&](std::string warning) {
+        const size_t at = warning.find(middle, path.string().size() + 1);
+        return at != std::string::npos && warning.erase(at, middle.size()).starts_with(path.string() + ": " + message);
+    };
+    const bool warned =
+        *consequence == '\0' ? !loaded.warnings.empty() : std::ranges::any_of(loaded.warnings, saysTheSame);
+    EXPECT_TRUE(warned) << message << "\n" << fmt::format("{}", fmt::join(loaded.warnings, "\n"));
+    return message;
 }
 
 }  // namespace reflet::test

@@ -86,7 +86,7 @@ GltfBuilder everything();
 /// A Draco mesh of two triangles on the square 0..1, with the attributes POSITION (unique id 0) and NORMAL (1).
 std::vector<uint8_t> dracoSquare();
 
-/// A scene and the warnings of loading it.
+/// A scene and the warnings of loading it, which is not strict.
 struct Loaded {
     Scene scene;
     std::vector<std::string> warnings;
@@ -97,6 +97,10 @@ Loaded load(const std::filesystem::path& path, int scene = -1);
 Loaded load(GltfBuilder builder, int scene = -1);
 
 /// The loader's error message without "FILE: "; empty if there is none. Expects one line that starts with the file.
-std::string complaint(const std::filesystem::path& path);
+std::string complaint(const std::filesystem::path& path, bool strict = true);
+/// That message, which must start with `starts`. Loading that is not strict must warn of the same, with `consequence`
+/// ("": any) between part and problem, and give a valid scene; null: the message must be the same, or say that nothing
+/// is left. Returns the message.
+std::string expectProblem(const std::filesystem::path& path, const std::string& starts, const char* consequence);
 
 }  // namespace reflet::test

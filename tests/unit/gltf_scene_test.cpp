@@ -131,18 +131,24 @@ TEST(GltfScene, TheFirstDirectionalLightIsTheSunAndTheOthersAreLamps) {
 }
 
 TEST(GltfScene, ALampsRadiusIsReadFromItsExtrasAndMustBeZeroOrMore) {
-    const auto loadLamp = [](const json& extras) {
-        GltfBuilder b = withNodes(json::array({lightNode(0)}));
+    const auto withExtras = [](const json& extras) {
+        GltfBuilder b = withNodes(json::array({lightNode(0), {{"mesh", 0}}}));
+        b.document["scenes"][0]["nodes"] = {0, 1};
         b.document["extensions"]["KHR_lights_punctual"]["lights"] =
             json::array({{{"type", "point"}, {"extras", extras}}});
-        return load(std::move(b)).scene.lamps.at(0).radius;
+        return b;
     };
-    EXPECT_EQ(loadLamp(json::object({{"radius", 0.25}})), 0.25F);
-    EXPECT_EQ(loadLamp(json::object({{"radius", 2}})), 2.0F);
-    EXPECT_EQ(loadLamp(json::object({{"size", 1}})), 0.0F);
-    EXPECT_EQ(loadLamp("no object"), 0.0F);
+    const auto radiusOf = [&](const json& extras) { return load(withExtras(extras)).scene.lamps.at(0).radius; };
+    EXPECT_EQ(radiusOf(json::object({{"radius", 0.25}})), 0.25F);
+    EXPECT_EQ(radiusOf(json::object({{"radius", 2}})), 2.0F);
+    EXPECT_EQ(radiusOf(json::object({{"size", 1}})), 0.0F);
+    EXPECT_EQ(radiusOf("no object"), 0.0F);
     for (const json& wrong : {json(-0.1), json("wide"), json(1e300), json(nullptr)}) {
-        EXPECT_THROW(loadLamp(json::object({{"radius", wrong}})), Error) << wrong;
+        const json extras = json::object({{"radius", wrong}});
+        expectProblem(withExtras(extras).writeGltf(testFolder() / "scene.gltf"),
+                      "extensions.KHR_lights_punctual.lights[0].extras.radius: is ",
+                      wrong == -0.1 ? "0 will be used" : "its default will be used");
+        EXPECT_EQ(radiusOf(extras), 0.0F);
     }
 }
 
