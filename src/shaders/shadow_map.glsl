@@ -84,7 +84,7 @@ ShadowTexel texelAt(ShadowReceiver r, vec2 offset) {
     vec2 toCentre = (2.0 * (vec2(texel) + 0.5) / vec2(r.tile.size) - 1.0) - r.s.xy;
     float depth = loadShadowDepth(r.tile.origin + texel);
     float height = (depth - r.s.z) * r.depthRange;
-    return ShadowTexel(height, depth > 0.0 ? height - dot(r.slope, toCentre) : outsideClearance);
+    return ShadowTexel(height, depth != 0.0 ? height - dot(r.slope, toCentre) : outsideClearance);
 }
 
 // Visibility with a hard edge, exact to the texel; 1: lit. If the texel that holds the receiver leaves it in doubt, four
@@ -110,7 +110,8 @@ float hardVisibility(ShadowReceiver r) {
         bent = bent && (i == 3 || isNear(other, r.bias));
         clearance = max(clearance, other.clearance);
     }
-    return (near ? own || bent : clearance <= edgeShare * r.bias.most) ? 1.0 : 0.0;
+    float highest = near ? r.bias.own : edgeShare * r.bias.most;
+    return (near && own) || bent || clearance <= highest ? 1.0 : 0.0;
 }
 
 #endif

@@ -14,7 +14,7 @@ struct DepthBias {
     float below;  // down to minus this, too
 };
 
-const float edgeShare = 0.25;  // of DepthBias.most: what counts of it beyond the edge of a surface
+const float edgeShare = 0.125; // of DepthBias.most: what counts of it beyond the edge of a surface
 
 // Bias of a receiver whose plane is known. rounding: of positions [m].
 DepthBias planeBias(float most, float rounding) {

@@ -23,19 +23,19 @@ struct LitSum {
     float lit;  // weight of lit texels
     float all;  // weight of all texels
     uint own;   // number of texels that show the receiver's own surface
-    bool near;  // a lit texel may show it, bent
+    bool near;  // a texel shows it, or it bent away from the light
 };
 
 void addTexel(inout LitSum sum, ShadowTexel texel, DepthBias bias, bool lit, float weight) {
     sum.lit += lit ? weight : 0.0;
     sum.all += weight;
     sum.own += showsReceiver(texel, bias) ? 1u : 0u;
-    sum.near = sum.near || (lit && isNear(texel, bias));
+    sum.near = sum.near || (texel.clearance <= bias.own && texel.clearance >= -bias.most);
 }
 
 // Texels a little above the receiver's surface and those beyond its edge count as lit, unless they are in truth a wall
 // and the outside of it: then neither they nor the texels next to the receiver show its surface, but for one by chance.
-// tall: what blocks is far above the receiver, not in a crease; then a bent surface suffices.
+// tall: what blocks is far above the receiver, not in a crease; then the surface may be bent away from the light.
 float litFraction(LitSum sum, bool tall) {
     return sum.own > 1u || (tall && sum.near) || (sum.lit > 0.0 && hardShadow() > 0.0) ? sum.lit / sum.all : 0.0;
 }
