@@ -97,20 +97,19 @@ TEST_F(Sequence, SharesOfASceneThatMovesGiveTheWhole) {
 }
 
 TEST_F(Sequence, SharesAreExposedAsTheWhole) {
-    const auto frames = [&](const std::string& folder, const Arguments& more) {
+    const auto frames = [&](const std::string& folder, const std::string& segment, const Arguments& more) {
         fs::create_directory(path(folder));
-        Arguments all{"--frames", "6", "--path", "orbit", "--segment", "2", "-o", folder + "/a_#.png"};
+        Arguments all{"--frames", "6", "--path", "orbit", "--segment", segment, "-o", folder + "/a_#.png"};
         all.insert(all.end(), {"--preset", "direct", "--set", "tonemap.auto_exposure=on"});
         all.insert(all.end(), more.begin(), more.end());
         EXPECT_TRUE(quietSuccess(render("builtin:cubes", all)));
         return pictures(folder);
     };
-    const Bytes whole = frames("whole", {});
-    frames("shares", {"--share", "2/2"});
-    EXPECT_EQ(frames("shares", {"--share", "1/2"}), whole);
-    EXPECT_NE(frames("alone", {"--set", "tonemap.adaptation=0"}), whole);
-    const Bytes longer = frames("one", {"--segment", "0"});  // the default warm-up is as long as the smoothing
-    EXPECT_EQ(longer, whole);
+    const Bytes whole = frames("whole", "2", {});
+    frames("shares", "2", {"--share", "2/2"});
+    EXPECT_EQ(frames("shares", "2", {"--share", "1/2"}), whole);
+    EXPECT_NE(frames("alone", "2", {"--set", "tonemap.adaptation=0"}), whole);
+    EXPECT_EQ(frames("one", "0", {}), whole) << "the default warm-up is as long as the smoothing";
 }
 
 TEST_F(Sequence, GoesOnWhereItWasKilledWithTheSameBytes) {
