@@ -102,10 +102,10 @@ AccelerationStructure::Level AccelerationStructure::build(VkAccelerationStructur
                                                &info, &primitives, &sizes);
 
     Level level;
-    level.memory = Buffer(*device_, sizes.accelerationStructureSize,
-                          VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR |
-                              VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
-                          MemoryUse::device, "scene hierarchy");
+    level.memory =
+        Buffer(*device_, sizes.accelerationStructureSize,
+               VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+               MemoryUse::device, "scene hierarchy");
     VkAccelerationStructureCreateInfoKHR create{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_CREATE_INFO_KHR};
     create.buffer = level.memory.handle();
     create.size = sizes.accelerationStructureSize;

@@ -33,9 +33,9 @@ struct ShaderBinding {
     uint32_t binding = 0;
     uint32_t count = 1;
     VkDescriptorType type = VK_DESCRIPTOR_TYPE_MAX_ENUM;
-    bool readOnly = true;                     ///< storage images and buffers: declared readonly
-    uint32_t blockSize = 0;                   ///< uniform buffers: bytes
-    VkFormat format = VK_FORMAT_UNDEFINED;    ///< storage images: as declared
+    bool readOnly = true;                   ///< storage images and buffers: declared readonly
+    uint32_t blockSize = 0;                 ///< uniform buffers: bytes
+    VkFormat format = VK_FORMAT_UNDEFINED;  ///< storage images: as declared
 
     bool operator==(const ShaderBinding&) const = default;
 };

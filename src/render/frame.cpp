@@ -347,7 +347,8 @@ void showBackground(gpu::Frame& f, const FrameInputs& in, const Settings& settin
         coverOver(f, blended.lit, shown.coverage, out.coverage);
     }
     if (settings.accumulate.enabled != 0) {
-        out.coverage = accumulate(f, {out.coverage, {out.coverage, out.coverage, out.coverage}}, in.framesBefore).direct;
+        out.coverage =
+            accumulate(f, {out.coverage, {out.coverage, out.coverage, out.coverage}}, in.framesBefore).direct;
     } else if (historyUse(settings).temporal) {
         out.coverage = temporal(f, out.g, out.coverage, settings.temporal, in.view);
     }
@@ -386,9 +387,7 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
 
     const CompositeInputs parts{
         out.g, out.direct, out.diffuse, out.specular, in.ggxTable, settings.materials.lambertOnly != 0, layers};
-    const auto image = [&](const char* name) {
-        return f.image(name, VK_FORMAT_R16G16B16A16_SFLOAT, lit.next.size);
-    };
+    const auto image = [&](const char* name) { return f.image(name, VK_FORMAT_R16G16B16A16_SFLOAT, lit.next.size); };
     const gpu::Image behind = blended.lit ? image("lit_behind") : lit.next;
     out.light = composite(f, parts, behind, {in.view, settings.diffuse.gain});
     gpu::Image sum = lit.next;

@@ -16,8 +16,8 @@ struct FrameInputs : ViewInputs {
     std::span<const LiveView> live;   ///< live camera images shown by materials of `draws`
     uint32_t framesBefore = 0;        ///< this one with the same view, lights and settings
     FrameBackground background{};
-    bool autoExposure = false;        ///< measure the exposure
-    float elapsed = 0.0F;             ///< seconds of the scene's time since the last frame, not negative
+    bool autoExposure = false;  ///< measure the exposure
+    float elapsed = 0.0F;       ///< seconds of the scene's time since the last frame, not negative
 };
 
 /// All images of the frame; formats are documented with the effects.

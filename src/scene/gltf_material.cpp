@@ -185,9 +185,8 @@ int GltfMaterials::imageOf(const tinygltf::Texture& texture, const std::string& 
     }
     const int ktx = sourceOf("KHR_texture_basisu");
     bool basis = false;
-    if (ktx >= 0 && report_.tolerate("the texture will be left out", [&] {
-            basis = gltfImageIsBasis(document_, static_cast<size_t>(ktx), report_);
-        })) {
+    if (ktx >= 0 && report_.tolerate("the texture will be left out",
+                                     [&] { basis = gltfImageIsBasis(document_, static_cast<size_t>(ktx), report_); })) {
         if (!basis) {
             return ktx;
         }

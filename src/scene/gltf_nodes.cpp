@@ -150,8 +150,8 @@ private:
             report_.tolerate("the mesh will not be deformed",
                              [&] { instance.skin = motion_.skin(node.skin, instance.mesh, part); });
         }
-        report_.charge(part, sizeof(Instance) + node.name.size() +
-                                 (animated ? posedVertexBytes * mesh.positions.size() : 0));
+        report_.charge(part,
+                       sizeof(Instance) + node.name.size() + (animated ? posedVertexBytes * mesh.positions.size() : 0));
         instance.node = motion_.node(index);
         instance.weights = animated ? weights : std::vector<float>{};
         scene_.instances.push_back(std::move(instance));

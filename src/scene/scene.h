@@ -60,8 +60,8 @@ struct Material {
     float normalScale = 1.0F;
     float occlusionStrength = 1.0F;
     float alphaCutoff = 0.0F;  ///< fragments with alpha < cutoff are discarded; 0: opaque
-    /// alphaMode BLEND: alpha is coverage, the surface is composited over what is behind it. Its alphaCutoff, blendCutoff,
-    /// is used where surfaces are there or not: in shadow maps, probes, live pictures.
+    /// alphaMode BLEND: alpha is coverage, the surface is composited over what is behind it. Its alphaCutoff,
+    /// blendCutoff, is used where surfaces are there or not: in shadow maps, probes, live pictures.
     bool blended = false;
     bool doubleSided = false;
     bool unlit = false;            ///< KHR_materials_unlit: emits its base colour, reflects nothing

@@ -69,8 +69,8 @@ public:
     [[nodiscard]] const std::shared_ptr<const Scene>& sharedScene() const { return scene_; }
     [[nodiscard]] const View& firstView() const { return firstView_; }
 
-    /// Whether `reflet render` at this size has the state's view without a view file: nothing was changed, and no camera
-    /// was framed for another size.
+    /// Whether `reflet render` at this size has the state's view without a view file: nothing was changed, and no
+    /// camera was framed for another size.
     [[nodiscard]] bool isDefaultView(const ViewerState& state, uvec2 size) const;
 
     /// Writes the same file as `reflet render` for this state, with its number of frames. Throws Error.

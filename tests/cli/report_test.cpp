@@ -67,9 +67,9 @@ TEST_F(ReportTest, EveryFileThatThePageNamesIsThere) {
 TEST_F(ReportTest, ComparesAllPresetsUnlessSomeAreNamed) {
     // What presets differ in is switched off, so that they share their pipelines.
     Arguments alike;
-    for (const char* change :
-         {"diffuse.rays=1", "specular.rays=0", "materials.anisotropy=1", "probes.enabled=false", "denoise.enabled=false",
-          "trace_scene.enabled=false", "planar.enabled=false", "temporal.enabled=false", "shadow.filter=hard"}) {
+    for (const char* change : {"diffuse.rays=1", "specular.rays=0", "materials.anisotropy=1", "probes.enabled=false",
+                               "denoise.enabled=false", "trace_scene.enabled=false", "planar.enabled=false",
+                               "temporal.enabled=false", "shadow.filter=hard"}) {
         alike.insert(alike.end(), {"--set", change});
     }
     ASSERT_TRUE(quietSuccess(report({"builtin:tilted-cube"}, alike)));

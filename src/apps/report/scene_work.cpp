@@ -1,9 +1,9 @@
 // Does the long work of a report.
 #include "apps/report/scene_work.h"
 
+#include "apps/pictures.h"
 #include "apps/progress.h"
 #include "apps/sample_progress.h"
-#include "apps/pictures.h"
 #include "apps/show.h"
 #include "apps/timings.h"
 #include "base/image_file.h"
@@ -93,8 +93,8 @@ ReportError errorOf(const Comparison& comparison) {
 
 // All pictures of a scene have the ground truth's exposure.
 ReportVariant workOnVariant(const Variant& variant, const Rendered& rendered, const FloatImage& truth,
-                            const FloatImage& visible, const Background& background,
-                            const TonemapSettings& tonemap, PictureFolder& folder) {
+                            const FloatImage& visible, const Background& background, const TonemapSettings& tonemap,
+                            PictureFolder& folder) {
     const std::string file = fileNameOf(variant.name);
     const Comparison againstTruth = compareNamed(rendered.radiance, variant.name, truth, "the ground truth");
     const Comparison againstVisible = compareNamed(rendered.radiance, variant.name, visible, "visible-only");
@@ -148,9 +148,8 @@ ReportScene workOn(const ReportWork& work, const ReportInput& input, gpu::Device
     result.visibleError = errorOf(unknown);
     for (size_t i = 0; i < rendered.size(); ++i) {
         const Variant& variant = work.variants[i];
-        result.variants.push_back(
-            workOnVariant(variant, rendered[i], truth.final, visible.final, background,
-                          exposed(variant.settings.tonemap), folder));
+        result.variants.push_back(workOnVariant(variant, rendered[i], truth.final, visible.final, background,
+                                                exposed(variant.settings.tonemap), folder));
     }
     return result;
 }
