@@ -159,8 +159,8 @@ private:
             result.blockSize = blockSize(resource);
         } else if (type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE) {
             result.readOnly = spvc_compiler_has_decoration(compiler_, resource.id, SpvDecorationNonWritable) != 0;
-            const spvc_type type = spvc_compiler_get_type_handle(compiler_, resource.type_id);
-            result.format = formatOf(spvc_type_get_image_storage_format(type), name_);
+            const spvc_type image = spvc_compiler_get_type_handle(compiler_, resource.type_id);
+            result.format = formatOf(spvc_type_get_image_storage_format(image), name_);
         } else if (type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) {
             result.readOnly = isReadOnlyBuffer(resource);
         }
