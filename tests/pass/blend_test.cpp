@@ -167,7 +167,7 @@ View daylight() {
 double errorOf(const Settings& settings, const FloatImage& truth, const Scene& scene) {
     const Pictures p = render(scene, daylight(), size, settings, {"final"});
     expectSilentValidation("a lit pane");
-    return compareImages(p.images.at("final"), truth).difference.relativeMse;
+    return compareImages(p.images.at("final"), truth, {}).difference.relativeMse;
 }
 
 TEST(Blend, ALitPaneIsThatOfTheReference) {
