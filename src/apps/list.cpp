@@ -1,6 +1,5 @@
 // `reflet list`: lists scenes, presets, shows, settings and devices.
 #include "apps/commands.h"
-#include "apps/scene_options.h"
 #include "apps/show.h"
 #include "apps/text_table.h"
 #include "base/error.h"
@@ -8,6 +7,7 @@
 #include "gpu/device.h"
 #include "render/presets.h"
 #include "scene/builtin.h"
+#include "scene/gltf.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -123,8 +123,9 @@ void listSettingsAsMarkdown() {
     }
 }
 
-void listVariants(const SceneOptions& options) {
-    for (const std::string& name : loadScene(options).variants) {
+// Without the file's warnings: they are about what is drawn.
+void listVariants(const std::string& file) {
+    for (const std::string& name : loadGltf(file).variants) {
         fmt::print("{}\n", name);
     }
 }
@@ -173,10 +174,10 @@ void addListCommand(CLI::App& app) {
             o->markdown ? listSettingsAsMarkdown() : o->json ? listSettingsAsJson() : listSettings();
         }
     });
-    auto scene = std::make_shared<SceneOptions>();
+    auto file = std::make_shared<std::string>();
     CLI::App* variants = command->add_subcommand("variants", "Material variants of a glTF file, for --variant");
-    variants->add_option("FILE", scene->scene, "A .gltf or .glb file")->required();
-    variants->callback([scene] { listVariants(*scene); });
+    variants->add_option("FILE", *file, "A .gltf or .glb file")->required();
+    variants->callback([file] { listVariants(*file); });
     command->require_subcommand(1);
 }
 
