@@ -24,7 +24,8 @@ struct Sealed {
 };
 
 Mesh corridor() {
-    const std::array<vec2, 6> outline{vec2(-11, -1), {1, -1}, {1, 7}, {-1, 7}, {-1, 1}, {-11, 1}};
+    // Every corner of a patch is a corner of its neighbours: there are no cracks.
+    const std::array<vec2, 8> outline{vec2(-11, -1), {-1, -1}, {1, -1}, {1, 1}, {1, 7}, {-1, 7}, {-1, 1}, {-11, 1}};
     Mesh mesh;
     const auto add = [&](const vec3& from, const vec3& to) {
         const vec3 half = 0.5F * (to - from);
@@ -37,7 +38,8 @@ Mesh corridor() {
         add({a.x, -1.2F, a.y}, {b.x, 1.2F, b.y});
     }
     for (const float y : {-1.2F, 1.2F}) {
-        add({-11, y, -1}, {1, y, 1});
+        add({-11, y, -1}, {-1, y, 1});
+        add({-1, y, -1}, {1, y, 1});
         add({-1, y, 1}, {1, y, 7});
     }
     builtin::finish(mesh);
