@@ -39,6 +39,7 @@ void GltfReport::forgive(const GltfProblem::Detail& problem, std::string_view co
     if (++problems_ > maxProblems) {
         refuse("", "has more than {} problems", maxProblems);
     }
+    told_.insert(line(problem.part, problem.text));
     if (firstProblem_.empty()) {
         firstProblem_ = problem.part.empty() ? problem.text : problem.part + ": " + problem.text;
     }
@@ -47,18 +48,17 @@ void GltfReport::forgive(const GltfProblem::Detail& problem, std::string_view co
     }
 }
 
-void GltfReport::throwIfInvalid(std::string_view array, size_t index) {
+void GltfReport::throwIfInvalid(std::string_view array, size_t index) const {
     const auto found = invalid_.find({std::string(array), index});
     if (found != invalid_.end()) {
-        found->second.used = true;
-        throw GltfProblem(found->second.problem);
+        throw GltfProblem(found->second);
     }
 }
 
 void GltfReport::printWarnings() {
-    for (const auto& [element, invalid] : invalid_) {
-        if (!invalid.used) {
-            forgive(invalid.problem.detail, "nothing is missing, because nothing uses it");
+    for (const auto& [element, problem] : invalid_) {
+        if (!told_.contains(problem.what())) {
+            forgive(problem.detail, "nothing is missing, because nothing uses it");
         }
     }
     invalid_.clear();

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -86,13 +87,13 @@ public:
             if (strict_) {
                 throw;
             }
-            invalid_.try_emplace({std::string(array), index}, Invalid{problem, false});
+            invalid_.try_emplace({std::string(array), index}, problem);
             return false;
         }
     }
 
     /// Throws the problem of this element, if it has one.
-    void use(std::string_view array, size_t index) {
+    void use(std::string_view array, size_t index) const {
         if (!invalid_.empty()) {
             throwIfInvalid(array, index);
         }
@@ -121,23 +122,20 @@ private:
         std::string text;
         uint64_t count;
     };
-    struct Invalid {
-        GltfProblem problem;
-        bool used;
-    };
 
     [[nodiscard]] std::string place(std::string_view part) const;
     [[nodiscard]] std::string line(std::string_view part, std::string_view what) const;
     [[nodiscard]] bool countKind(const std::string& kind);
     void forgive(const GltfProblem::Detail& problem, std::string_view consequence);
-    void throwIfInvalid(std::string_view array, size_t index);
+    void throwIfInvalid(std::string_view array, size_t index) const;
 
     std::string file_;
     std::function<void(const std::string&)> warn_;
     bool strict_;
     std::vector<Warning> warnings_;
     std::map<std::string, size_t> kinds_;  ///< index into warnings_
-    std::map<std::pair<std::string, size_t>, Invalid> invalid_;
+    std::map<std::pair<std::string, size_t>, GltfProblem> invalid_;
+    std::set<std::string> told_;  ///< problems that were tolerated: an element may be invalid because of another one
     std::string firstProblem_;
     uint64_t problems_ = 0;
     uint64_t charged_ = 0;

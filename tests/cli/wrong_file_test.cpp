@@ -39,12 +39,21 @@ TEST_F(WrongFile, ABrokenGltfIsNamedWithThePlace) {
     EXPECT_TRUE(refused(renderScene("picture.png"), failed, {"picture.png", "JSON"}));
 }
 
+TEST_F(WrongFile, AGltfThatCanBeDrawnInPartIsRefusedOnlyIfStrict) {
+    write("slip.gltf", R"({"asset": {"version": "2.0"}, "scene": 7, "scenes": [{}]})");
+    EXPECT_TRUE(refused(render("slip.gltf", {"-o", "a.png", "--strict"}), failed, {"slip.gltf", "scene: is 7"}));
+    const Outcome forgiving = renderScene("slip.gltf");
+    EXPECT_NE(forgiving.err.find("warning: slip.gltf: scene: its default will be used: is 7"), std::string::npos)
+        << forgiving.err;
+}
+
 TEST_F(WrongFile, ASettingsFileThatIsMissingOrMalformedIsNamedWithThePlace) {
     EXPECT_TRUE(refused(render(cubes, {"-o", "a.png", "--settings", "absent.json"}), failed, {"absent.json"}));
     EXPECT_TRUE(refused(withSettings("{\n  \"diffuse\": { \"rays\": 4, }\n}"), failed, {"s.json:2:27", "'}'"}));
     EXPECT_TRUE(refused(withSettings("[]"), failed, {"s.json", "must be an object"}));
     EXPECT_TRUE(refused(withSettings(R"({"diffuse": 4})"), failed, {"s.json", "diffuse", "must be an object", "4"}));
-    EXPECT_TRUE(refused(withSettings(R"({"diffuse": {"rays": 1, "rays": 2}})"), failed, {"diffuse.rays", "duplicate key"}));
+    EXPECT_TRUE(
+        refused(withSettings(R"({"diffuse": {"rays": 1, "rays": 2}})"), failed, {"diffuse.rays", "duplicate key"}));
 }
 
 TEST_F(WrongFile, AnUnknownSettingInAFileIsNamedWithTheNearest) {
