@@ -91,7 +91,7 @@ protected:
     static Subject& subject(const std::string& name) {
         auto& subjects = all();
         if (!subjects.contains(name)) {
-            Scene scene = name == "monitor" ? monitor() : findBuiltinScene(name)->make();
+            Scene scene = name == "monitor" ? monitor() : name == "glass" ? glass() : findBuiltinScene(name)->make();
             subjects[name] = std::make_unique<Subject>(device(), std::move(scene));
         }
         return *subjects.at(name);
@@ -113,6 +113,15 @@ private:
         scene.cameras.push_back(builtin::camera("other", {3, 2, 4}, {0, 0.5F, 0}, 40));
         return scene;
     }
+    static Scene glass() {
+        Scene scene = findBuiltinScene("gloss")->make();
+        for (Material& material : scene.materials) {
+            material.baseColor.a = 0.4F;
+            material.blended = true;
+            material.alphaCutoff = blendCutoff;
+        }
+        return scene;
+    }
 };
 
 // What a setting needs in order to be read.
@@ -128,6 +137,7 @@ struct Context {
 const std::vector<Context>& contexts() {
     static const std::vector<Context> all{
         {"", {}},
+        {"blend.", {}, "glass"},
         {"materials.mips", {}, "cubes"},
         {"materials.anisotropy", {}, "cubes"},
         {"shadow.", {}, "colonnade"},
