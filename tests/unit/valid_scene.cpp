@@ -87,7 +87,10 @@ void expectValidMotion(const Scene& scene) {
             ASSERT_LT(channel.node, scene.nodes.size());
             ASSERT_FALSE(channel.times.empty());
             const size_t each = channel.interpolation == Interpolation::cubicSpline ? 3 : 1;
-            ASSERT_EQ(channel.values.size(), each * channel.times.size());
+            const bool weights = channel.target == Channel::Target::weights;
+            ASSERT_EQ(channel.values.size(), weights ? 0 : each * channel.times.size());
+            ASSERT_EQ(channel.weights.size() % (each * channel.times.size()), 0U);
+            ASSERT_NE(channel.weights.empty(), weights);
         }
     }
 }
