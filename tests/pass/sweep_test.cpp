@@ -103,6 +103,16 @@ private:
         static std::map<std::string, std::unique_ptr<Subject>> subjects;
         return subjects;
     }
+    // Half of the materials are blended.
+    static Scene glass() {
+        Scene scene = findBuiltinScene("gloss")->make();
+        for (size_t i = 1; i < scene.materials.size(); i += 2) {
+            scene.materials[i].baseColor.a = 0.5F;
+            scene.materials[i].alphaCutoff = blendCutoff;
+            scene.materials[i].blended = true;
+        }
+        return scene;
+    }
     // A surface that shows what a camera of the scene sees.
     static Scene monitor() {
         Scene scene = findBuiltinScene("gloss")->make();
@@ -188,6 +198,7 @@ const std::vector<Context>& contexts() {
         {"denoise.enabled", {}},
         {"denoise.clip", {"denoise.enabled=true"}, "gloss", 4, true},
         {"denoise.fireflies", {"denoise.enabled=true", "diffuse.rays=1"}, "mirror-hall"},
+        {"blend.", {}, "glass"},
         {"accumulate.", {"accumulate.enabled=true"}, "gloss", 2},
         {"accumulate.enabled", {}, "gloss", 2},
         {"temporal.", {"temporal.enabled=true"}, "gloss", 4},
