@@ -123,15 +123,6 @@ private:
         scene.cameras.push_back(builtin::camera("other", {3, 2, 4}, {0, 0.5F, 0}, 40));
         return scene;
     }
-    static Scene glass() {
-        Scene scene = findBuiltinScene("gloss")->make();
-        for (Material& material : scene.materials) {
-            material.baseColor.a = 0.4F;
-            material.blended = true;
-            material.alphaCutoff = blendCutoff;
-        }
-        return scene;
-    }
 };
 
 // What a setting needs in order to be read.
@@ -147,7 +138,6 @@ struct Context {
 const std::vector<Context>& contexts() {
     static const std::vector<Context> all{
         {"", {}},
-        {"blend.", {}, "glass"},
         {"materials.mips", {}, "cubes"},
         {"materials.anisotropy", {}, "cubes"},
         {"shadow.", {}, "colonnade"},
