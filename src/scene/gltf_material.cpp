@@ -178,7 +178,7 @@ TextureSlot GltfMaterials::slot(int texture, int uvSet, const tinygltf::Extensio
 int GltfMaterials::imageOf(const tinygltf::Texture& texture, const std::string& part) {
     const auto sourceOf = [&](const char* extension) {
         const auto found = texture.extensions.find(extension);
-        return found != texture.extensions.end() ? found->second.Get("source").GetNumberAsInt() : -1;
+        return found != texture.extensions.end() ? static_cast<int>(numberOr(found->second, "source", -1.0)) : -1;
     };
     if (const int webp = sourceOf("EXT_texture_webp"); webp >= 0) {
         return webp;

@@ -129,7 +129,7 @@ constexpr std::array sampler{
     Field{.name = "wrapT", .type = Type::integer, .numbers = wraps},
 };
 constexpr std::array textureFormat{
-    Field{.name = "source", .type = Type::index, .refersTo = "images"},
+    Field{.name = "source", .type = Type::index, .refersTo = "images", .vital = true},
 };
 constexpr std::array textureFormats{
     Field{.name = "EXT_texture_webp", .type = Type::object, .fields = textureFormat},
