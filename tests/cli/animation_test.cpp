@@ -71,6 +71,7 @@ protected:
     }
 };
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(Animation, ARenderAtATimeHasTheBytesOfOneOfAStaticFile) {
     const std::string half = picture("half.gltf", {});
     EXPECT_EQ(picture("moving.gltf", {"--time", "1.5"}), half);

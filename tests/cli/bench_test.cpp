@@ -58,6 +58,7 @@ void expectState(const nlohmann::json& state, size_t frames) {
     }
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(BenchTest, NumbersAreThereForEveryStateOfEveryPreset) {
     const Outcome outcome = bench({"--preset", "fast,games202"});
     ASSERT_TRUE(quietSuccess(outcome));
@@ -84,6 +85,7 @@ TEST_F(BenchTest, NumbersAreThereForEveryStateOfEveryPreset) {
     EXPECT_NE(outcome.out.find("builtin:cubes"), std::string::npos) << outcome.out;
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(BenchTest, OneSettingAgainstItselfHasARatioForEveryTurnAndEqualErrors) {
     ASSERT_TRUE(quietSuccess(bench({"--compare", "preset:fast,diffuse.rays=2", "fast,diffuse.rays=2"})));
     const nlohmann::json json = numbers();
@@ -106,6 +108,7 @@ TEST_F(BenchTest, OneSettingAgainstItselfHasARatioForEveryTurnAndEqualErrors) {
     }
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(BenchTest, TheCommandThatIsRecordedDoesTheSameAgain) {
     ASSERT_TRUE(quietSuccess(bench({"--compare", "direct", "fast,diffuse.rays=2", "--truth-all-light"})));
     const auto command = numbers().at("command").get<std::string>();
@@ -114,6 +117,7 @@ TEST_F(BenchTest, TheCommandThatIsRecordedDoesTheSameAgain) {
     EXPECT_NE(command.find(" --truth-all-light"), std::string::npos) << command;
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(BenchTest, AReferenceIsRenderedOnceForAllThatShareIt) {
     ASSERT_TRUE(quietSuccess(bench({"--preset", "fast,direct"})));
     EXPECT_EQ(truths(), 2U);  // one image and its metadata: both presets share the reference
@@ -132,6 +136,7 @@ TEST_F(BenchTest, AReferenceIsRenderedOnceForAllThatShareIt) {
     EXPECT_EQ(truths(), 6U);
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(BenchTest, WithManyRaysOfItsOwnASettingComesNearTheChain) {
     ASSERT_TRUE(quietSuccess(bench({"--truth", "chain:64", "--variant", "few=diffuse.rays=1,specular.rays=1",
                                     "--variant", "many=diffuse.rays=32,specular.rays=32"})));
@@ -149,6 +154,7 @@ TEST_F(BenchTest, WithoutATruthThereAreNoErrors) {
     EXPECT_FALSE(numbers()["runs"][0]["steady"]["passes"]["gbuffer"].contains("floor_ms"));
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(BenchTest, AllVariantsMayBeComparedWithOtherSettings) {
     const Arguments both{"--preset", "direct", "--variant", "near=direct,trace_screen.max_steps=8",
                          "--truth",  "chain:2"};
@@ -172,6 +178,7 @@ TEST_F(BenchTest, SeveralSizesSayWhatAPixelCosts) {
     EXPECT_GE(json["scaling"][0]["spread"], 0.0);
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(BenchTest, MovingFramesAreEachComparedWithAReference) {
     ASSERT_TRUE(quietSuccess(bench({"--preset", "direct", "--motion", "3", "--orbit", "10", "--rest", "2"})));
     const nlohmann::json motion = numbers()["runs"][0]["motion"];
@@ -185,6 +192,7 @@ TEST_F(BenchTest, MovingFramesAreEachComparedWithAReference) {
     EXPECT_TRUE(refused(bench({"--rest", "3"}), 2, {"--rest", "--motion"}));
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(BenchTest, AnotherBuildTakesTurnsWithThisOne) {
     ASSERT_TRUE(quietSuccess(
         bench({"--against", REFLET_PROGRAM, "--rounds", "2", "--preset", "fast", "--set", "diffuse.rays=2"})));
@@ -205,6 +213,7 @@ TEST_F(BenchTest, ABuildWithoutABenchIsAskedForItsTimings) {
     EXPECT_EQ(numbers()["comparisons"][0]["steady"]["frame"]["ratios"].size(), 1U);
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(BenchTest, PrintsAlignedTablesOrMarkdownAndWritesAPlot) {
     const Outcome markdown = bench({"--preset", "direct", "--markdown", "--plot", "p.svg"});
     ASSERT_TRUE(quietSuccess(markdown));
@@ -217,6 +226,7 @@ TEST_F(BenchTest, PrintsAlignedTablesOrMarkdownAndWritesAPlot) {
     EXPECT_NE(aligned.out.find("memory, MB "), std::string::npos) << aligned.out;
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(BenchTest, IsSilentUnderValidation) {
     EXPECT_TRUE(quietSuccess(bench({"--preset", "fast", "--validate"})));
 }

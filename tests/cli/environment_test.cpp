@@ -61,6 +61,7 @@ protected:
     std::string note_;
 };
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(ChosenLight, FilesWithoutEnoughLightGetSomeAndOneLineSaysSo) {
     const std::string sky = picture("dark.gltf", {});
     EXPECT_NE(note_.find("reflet: note: dark.gltf: no light: added a clear sky with its sun"), std::string::npos)
@@ -77,6 +78,7 @@ TEST_F(ChosenLight, FilesWithoutEnoughLightGetSomeAndOneLineSaysSo) {
     EXPECT_NE(none, sky);
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(ChosenLight, BuiltinScenesAndViewFilesThatStateLightKeepTheirs) {
     (void)picture("builtin:cornell", {});
     EXPECT_EQ(note_, "");
@@ -106,6 +108,7 @@ TEST_F(ChosenLight, AFileOfAnEnvironmentIsTakenAndAWrongOneRefused) {
     EXPECT_TRUE(refused(render("dark.gltf", {"-o", "b.exr", "--background", "pink"}), usage, {"pink", "transparent"}));
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(ChosenLight, BackgroundsGoIntoTheImagesOfRenderAndReference) {
     const auto shown = [&](const char* command, const char* background) {
         Arguments all{command, "dark.gltf", "--size", "32x18", "--environment", "studio",

@@ -53,6 +53,7 @@ TEST_F(Render, ATerminalIsToldWhatWasWritten) {
     EXPECT_NE(done.out.find("written: a.png"), std::string::npos) << done.out;
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(Render, TheSceneMayStandAfterAnyOption) {
     for (const Arguments& option :
          {Arguments{"-o", "b.png"}, Arguments{"--set", "diffuse.rays=1"}, Arguments{"--frames", "1"}}) {
@@ -87,6 +88,7 @@ TEST_F(Render, FinalIsDirectPlusBothIndirectLayers) {
 }
 
 // What each show holds in each scene is tested by Sweep, without a process for each.
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(Render, AShowMakesAPictureAndValuesOfItsSize) {
     const std::map<std::string, uvec2> sizes{
         {"final", {32, 18}},      {"depth", {32, 18}}, {"lamp_visibility", {32, 18}},
@@ -120,6 +122,7 @@ TEST_F(Render, AllListedShowsOfTheFramesSizeFitIntoOneFile) {
     EXPECT_EQ(layers("a.exr").size(), shows.size() + 1);
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(Render, TheSameCommandTwiceGivesTheSameBytes) {
     for (const char* scene : {"builtin:cubes", "builtin:cave"}) {
         const Arguments outputs{"-o", "a.png", "-o", "a.exr", "--aov", "indirect_diffuse,source", "--frames", "2"};
@@ -132,6 +135,7 @@ TEST_F(Render, TheSameCommandTwiceGivesTheSameBytes) {
     }
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(Render, AnotherSeedGivesOtherNoise) {
     EXPECT_EQ(picture({}), picture({"--seed", "0"}));
     EXPECT_NE(picture({}), picture({"--seed", "1"}));
@@ -160,6 +164,7 @@ TEST_F(Render, TimingsTellEveryPassOfTheFrame) {
     }
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(Render, LaterSourcesOfSettingsWin) {
     write("bright.json", R"({"tonemap": {"exposure": 2}})");
     write("dark.json", R"({"tonemap": {"exposure": -2, "curve": "srgb"}, "trace_screen": {"jitter": false}})");
@@ -173,6 +178,7 @@ TEST_F(Render, LaterSourcesOfSettingsWin) {
     EXPECT_EQ(bright, picture({"--preset", "direct", "--set", "tonemap.exposure=1", "--set", "tonemap.exposure=2"}));
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(Render, ASettingsFileOverridesThePreset) {
     write("rays.json", R"({"diffuse": {"rays": 4}, "specular": {"rays": 1}})");
     EXPECT_EQ(picture({}), picture({"--preset", "direct", "--settings", "rays.json"}));
@@ -190,6 +196,7 @@ TEST_F(Render, AViewFileChangesCameraSunAndEnvironment) {
     EXPECT_EQ(mean(layers("a.exr").at(0).image), 0.0F);
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(Render, ACameraIsChosenByNumberOrName) {
     EXPECT_EQ(picture({"--camera", "1"}), picture({"--camera", "side"}));
     EXPECT_NE(picture({"--camera", "1"}), picture({"--camera", "main"}));

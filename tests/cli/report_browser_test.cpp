@@ -124,6 +124,7 @@ std::vector<std::string> consoleLines(const Outcome& run) {
     return found;
 }
 
+// Over 5 s: starts a browser.
 TEST_F(ReportBrowserTest, TheDividerAndTheChoicesWork) {
     extendPage("test.html", userScript);
     const Outcome shown = open("test.html", "1280,900");
@@ -151,6 +152,7 @@ TEST_F(ReportBrowserTest, TheDividerAndTheChoicesWork) {
     EXPECT_EQ(said("overflow"), "0");
 }
 
+// Over 5 s: starts a browser.
 TEST_F(ReportBrowserTest, APhonesWidthIsEnough) {
     extendPage("test.html", userScript);
     const Outcome shown = open("test.html", "500,900");  // Chromium's minimum width
@@ -160,6 +162,7 @@ TEST_F(ReportBrowserTest, APhonesWidthIsEnough) {
     EXPECT_EQ(html.elements.front().value("data-test-overflow"), "0");
 }
 
+// Over 5 s: starts a browser.
 TEST_F(ReportBrowserTest, AScriptErrorWouldBeDetected) {
     extendPage("test.html", "<script>undefinedFunction();</script></body>");
     EXPECT_EQ(consoleLines(open("test.html", "1280,900")).size(), 1U);

@@ -64,6 +64,7 @@ TEST_F(ReportTest, EveryFileThatThePageNamesIsThere) {
     EXPECT_TRUE(read("out/table.md").find("| cubes | fast |") != std::string::npos);
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(ReportTest, ComparesAllPresetsUnlessSomeAreNamed) {
     // What presets differ in is switched off, so that they share their pipelines.
     Arguments alike;

@@ -73,6 +73,7 @@ TEST_F(Sequence, TwoRunsGiveTheSameBytesAndEveryFrameIsAnother) {
     }
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(Sequence, SharesTogetherGiveTheWholeAndItsRecord) {
     const Bytes whole = orbitIn("whole");
     EXPECT_EQ(namesOf(orbitIn("shares", {"--share", "2/2"})), (Names{"a_002.png", "a_003.png"}));
@@ -96,6 +97,7 @@ TEST_F(Sequence, SharesOfASceneThatMovesGiveTheWhole) {
     EXPECT_NE(read("a_3.exr"), read("a_2.exr"));
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(Sequence, SharesAreExposedAsTheWhole) {
     const auto frames = [&](const std::string& folder, const std::string& segment, const Arguments& more) {
         fs::create_directory(path(folder));
@@ -112,6 +114,7 @@ TEST_F(Sequence, SharesAreExposedAsTheWhole) {
     EXPECT_EQ(frames("one", "0", {}), whole) << "the default warm-up is as long as the smoothing";
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(Sequence, GoesOnWhereItWasKilledWithTheSameBytes) {
     const Bytes whole = orbitIn("whole");
     fs::create_directory(path("killed"));
@@ -137,6 +140,7 @@ TEST_F(Sequence, AnInterruptEndsItWithWholeFramesAndSaysSo) {
     }
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(Sequence, RendersOnlyWhatIsMissingAndLeavesTheRestAlone) {
     const Bytes whole = orbitIn("a");
     fs::remove(path("a/a_002.png"));
@@ -149,6 +153,7 @@ TEST_F(Sequence, RendersOnlyWhatIsMissingAndLeavesTheRestAlone) {
     EXPECT_EQ(orbitIn("a", {"--overwrite"}), whole);
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(Sequence, FramesOfOtherSettingsAreRefusedUnlessTheyMayBeOverwritten) {
     const Bytes whole = orbitIn("a");
     const Arguments other = orbit({"-o", "a/a_###.png", "--set", "diffuse.rays=3"});
@@ -166,6 +171,7 @@ TEST_F(Sequence, FramesOfOtherSettingsAreRefusedUnlessTheyMayBeOverwritten) {
     EXPECT_TRUE(refused(run(other), 1, {"a_###.png.sequence.json", "--overwrite"}));
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(Sequence, WithoutAnOrbitMoreFramesMayBeAddedLater) {
     write("path.json", R"({"keyframes": [{"time": 0, "position": [6, 2, 0], "target": [0, 0, 0]},
                                          {"time": 0.2, "position": [4, 3, 4], "target": [0, 0, 0]}]})");
@@ -187,6 +193,7 @@ TEST_F(Sequence, WithoutAnOrbitMoreFramesMayBeAddedLater) {
                         {"path.keyframes"}));
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(Sequence, WithoutHistoryEveryFrameIsTheSameWhicheverAreThere) {
     write("path.json", R"({"keyframes": [{"time": 0, "position": [6, 2, 0], "target": [0, 0, 0]},
                                          {"time": 1, "position": [5, 3, 2], "target": [0, 0, 0]}]})");

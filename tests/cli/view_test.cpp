@@ -55,6 +55,7 @@ Arguments with(Arguments arguments, const Arguments& more) {
     return arguments;
 }
 
+// Over 5 s: a walk through the window, which must rest after each input.
 TEST_F(View, AUserWalksThroughItUnderTheValidationLayers) {
     openViewer(with(cubes, {"--validate", "--preset", "plain"}));  // without history, each rest is one frame
     EXPECT_EQ(status()["size"], json({240, 400}));
@@ -109,6 +110,7 @@ TEST_F(View, AUserWalksThroughItUnderTheValidationLayers) {
     EXPECT_TRUE(quietSuccess(quit()));
 }
 
+// Over 5 s: three of them are the pause that is measured.
 TEST_F(View, RestsWhilePaused) {
     openViewer(with(cubes, {"--preset", "direct"}));
     press("space");
@@ -126,6 +128,7 @@ TEST_F(View, RestsWhilePaused) {
     EXPECT_TRUE(quietSuccess(quit()));
 }
 
+// Over 5 s: opens the window three times and waits for it to rest after each input.
 TEST_F(View, AScreenshotIsWhatRenderWritesAndAllComesBackTheNextTime) {
     const Arguments remembered{"builtin:cubes", "--size", "96x400"};  // frames that are quick
     openViewer(remembered);
@@ -170,6 +173,7 @@ TEST_F(View, AScreenshotIsWhatRenderWritesAndAllComesBackTheNextTime) {
     EXPECT_TRUE(quietSuccess(quit()));
 }
 
+// Over 5 s: compiles shaders, and waits for the state to be saved.
 TEST_F(View, CompilesShadersThatAreEditedKeepsTheLastGoodOneAndLosesNothingWithTheDisplay) {
     std::filesystem::copy(std::filesystem::path(REFLET_SOURCE) / "src", path("src"),
                           std::filesystem::copy_options::recursive);

@@ -51,6 +51,7 @@ const std::vector<std::vector<std::string>> looks{
     {"trace_screen.light=previous", "denoise.enabled=true", "temporal.enabled=false", "diffuse.rays=1"},
     {"specular.rough_fallback=mips", "specular.max_roughness=0.2", "planar.enabled=true"}};
 
+// Over 5 s: all effects are on, since each could see the background.
 TEST_F(BackgroundImage, ChangesNoLightOnSurfaces) {
     const Scene scene = findBuiltinScene("gloss")->make();
     View view = skyView(scene);

@@ -85,6 +85,7 @@ void countGround(const Pictures& p, const SunShadowParams& sun, Counts& counts) 
     }
 }
 
+// Over 5 s: 60 frames with four shadow maps each.
 TEST(Cascades, NoPointInFullShadowOrFullLightChangesOver60FramesOfATurningWalk) {
     const Scene scene = slabsOverGround();
     std::vector<View> path(60);

@@ -39,6 +39,7 @@ private:
     Renderer renderer_{device(), scene_, [](const std::string&) {}};
 };
 
+// Over 5 s: two chains of frames for each setting that keeps history.
 TEST_F(History, IsUsedWhereAFrameDependsOnThoseBeforeIt) {
     const std::vector<std::pair<bool, std::vector<std::string>>> cases{
         {false, {}},

@@ -72,6 +72,7 @@ struct HybridCase {
 
 class Hybrid : public testing::TestWithParam<HybridCase> {};
 
+// Over 5 s: many rays, so that noise does not hide a bias.
 TEST_P(Hybrid, IsThePathTracersPictureWhereTheScreenAloneIsNot) {
     const auto& [name, layer, limit, pixels, mirrorsOnly] = GetParam();
     const Scene scene = findBuiltinScene(name)->make();

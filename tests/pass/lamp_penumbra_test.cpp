@@ -35,6 +35,7 @@ TEST(LampShadow, WallsAroundAPointLampAreLitWithoutSeamsWhereverItHangs) {
     }
 }
 
+// Over 5 s: many places of the lamp.
 TEST(LampShadow, AClosedBoxIsBlackInsideToATexelFromItsCreases) {
     for (const Lamp::Type type : {Lamp::Type::point, Lamp::Type::spot}) {
         for (const vec3& lamp : {vec3(0, 5, 0), vec3(4, 4, 4), vec3(0.3F, 0.2F, 3.2F), vec3(3.1F, 3.1F, 0)}) {

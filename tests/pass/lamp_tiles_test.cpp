@@ -160,6 +160,7 @@ TEST(LampTiles, WithoutASurfaceHoldNoLamp) {
     }
 }
 
+// Over 5 s: the reference samples a hundred lamps.
 TEST(LampTiles, AHundredLampsLightTheCourtAsThePathTracerSays) {
     const Scene scene = findBuiltinScene("lamps")->make();
     ASSERT_EQ(scene.lamps.size(), 100U);

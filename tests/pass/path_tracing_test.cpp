@@ -20,6 +20,7 @@ Settings pathTracing() {
 
 class PathTracing : public testing::TestWithParam<const char*> {};
 
+// Over 5 s: the error falls slowly, so hundreds of frames are traced.
 TEST_P(PathTracing, ComesNearerToTheReferenceAsTheNumberOfFramesGrows) {
     const Scene scene = findBuiltinScene(GetParam())->make();
     const View view = defaultView(scene);

@@ -130,6 +130,7 @@ TEST(Planar, TheSourceIsGreenForTheScreenAndCyanForPlanarReflections) {
     EXPECT_EQ(answeredBy(green, {"trace_screen.enabled=false"}), 0U);
 }
 
+// Over 5 s: two references and many rays.
 TEST(Planar, UnevenAndRoughMirrorsAreNearerToTheReferenceTracedThanLookedUp) {
     for (const bool waves : {true, false}) {
         const Scene scene = makeMirrorRoom({.roughness = waves ? 0.0F : 0.15F, .waves = waves});
@@ -209,6 +210,7 @@ void expectSound(const std::vector<std::string>& assignments) {
     expectSilentValidation(during);
 }
 
+// Over 5 s: a frame for each end, with pipelines of their own.
 TEST(Planar, EverySettingWorksAtItsEnds) {
     expectSound({"planar.before_screen=false", "planar.count=4", "planar.scale=0.25", "planar.margin=1"});
     expectSound({"planar.count=0", "planar.diffuse=false"});
@@ -220,6 +222,7 @@ TEST(Planar, EverySettingWorksAtItsEnds) {
     expectSound({"depth.format=standard24", "contact.distance=0.1"});
 }
 
+// Over 5 s: many combinations of settings, with pipelines of their own.
 TEST(Planar, EveryFormWorksWithOtherSettings) {
     for (const char* form : {"lookup", "duplicate", "camera"}) {
         const std::string chosen = std::string("planar.form=") + form;

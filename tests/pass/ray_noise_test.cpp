@@ -89,6 +89,7 @@ TEST_F(NoiseOfRays, WhiteAndBlueConvergeToTheSamePictureOverRays) {
     expectSilentValidation("noise");
 }
 
+// Over 5 s: means of many frames.
 TEST_F(NoiseOfRays, WhiteAndBlueConvergeToTheSamePictureOverFrames) {
     const Pictures white = renderFrames("white", 3, 64);  // twice through the mask
     const Pictures blue = renderFrames("blue", 3, 64);
@@ -101,6 +102,7 @@ TEST_F(NoiseOfRays, WhiteAndBlueConvergeToTheSamePictureOverFrames) {
     }
 }
 
+// Over 5 s: means of many frames.
 TEST_F(NoiseOfRays, FramesAfterTheMasksLastSliceStillBringSomethingNew) {
     const Pictures once = renderFrames("blue", 1, 32);
     const Pictures threeTimes = renderFrames("blue", 1, 96);
@@ -111,6 +113,7 @@ TEST_F(NoiseOfRays, FramesAfterTheMasksLastSliceStillBringSomethingNew) {
     }
 }
 
+// Over 5 s: means of many frames.
 TEST_F(NoiseOfRays, BlueIsNearerToTheTruthAndStaysSoInABlur) {
     // Errors of a frame, summed over some: one frame's depend much on whether a ray happens to meet a lamp.
     std::map<std::string, double> errors;

@@ -70,6 +70,7 @@ TEST(RaySurfaces, IndirectLightIsTheSameFromACoarserGrid) {
     expectSilentValidation("coarser grids");
 }
 
+// Over 5 s: each source has pipelines of its own.
 TEST(RaySurfaces, EverySourceAnswersRaysFromACoarserGrid) {
     const Scene scene = findBuiltinScene("mirror-hall")->make();
     constexpr uvec2 size{96, 54};

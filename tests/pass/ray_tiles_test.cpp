@@ -171,6 +171,7 @@ TEST(AdaptiveRays, MakeTheSameFirstPictureAsEvenOnes) {
     EXPECT_EQ(picture({}), picture({"diffuse.adaptive=false", "specular.adaptive=false"}));
 }
 
+// Over 5 s: means of many frames.
 TEST(AdaptiveRays, KeepTheirMeanWhateverTheNoise) {
     for (const char* name : {"gloss", "colonnade", "mirror-hall"}) {
         const Scene scene = findBuiltinScene(name)->make();

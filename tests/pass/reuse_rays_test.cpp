@@ -74,6 +74,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Lobe{"cave", "indirect_diffuse", "diffuse.rays", "diffuse.reuse", 0.06, 0.4}),
     [](const auto& lobe) { return std::string(lobe.param.scene); });
 
+// Over 5 s: means of many frames, so that noise does not hide a bias.
 TEST_P(ReuseOfLobe, KeepsTheMeanAndHasLessError) {
     const Lobe lobe = GetParam();
     const Scene scene = findBuiltinScene(lobe.scene)->make();

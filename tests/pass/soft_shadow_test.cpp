@@ -221,6 +221,7 @@ std::string joined(const std::vector<std::string>& words) {
 
 // The depth bias lets some light leak in where a wall stands on the ground: half a texel along the normal, which at
 // grazing light is `lift` along the ground.
+// Over 5 s: every filter under many suns.
 TEST(SoftShadow, AClosedBoxIsBlackInsideButForATexelAtItsCreasesWithEveryFilterAndSun) {
     Material material = lambertMaterial(vec3(0.5F));
     material.doubleSided = true;
@@ -260,6 +261,7 @@ TEST(SoftShadow, AClosedBoxIsBlackInsideButForATexelAtItsCreasesWithEveryFilterA
     }
 }
 
+// Over 5 s: every filter at many heights of the sun.
 TEST(SoftShadow, OpenGroundIsFullyLitAtEverySunHeightAboveFiveDegreesWithEveryFilter) {
     const Scene scene = sceneOf(lambertMaterial(vec3(0.5F)), builtin::ground({10, 10}, {1, 1}, {1, 1}));
     for (const float degrees : {5.1F, 7.0F, 10.0F, 20.0F, 45.0F, 70.0F, 90.0F}) {

@@ -232,6 +232,7 @@ std::vector<std::string> endsOf(const SettingEntry& entry) {
 // A setting that nothing reads would give the same images at both ends.
 class SweepOfGroup : public Sweep, public testing::WithParamInterface<std::string> {};
 
+// Over 5 s: a frame for each end of each setting, most with pipelines of their own.
 TEST_P(SweepOfGroup, EverySettingIsSoundAtItsEndsAndRead) {
     for (const SettingEntry& entry : settingEntries()) {
         if (entry.name.substr(0, entry.name.find('.')) != GetParam()) {
@@ -270,6 +271,7 @@ INSTANTIATE_TEST_SUITE_P(Settings, SweepOfGroup, testing::ValuesIn(groups()),
 
 class SweepOfScene : public Sweep, public testing::WithParamInterface<std::string> {};
 
+// Over 5 s: a frame with each preset, with pipelines of their own.
 TEST_P(SweepOfScene, IsSoundInEveryShowAndWithEveryPreset) {
     Subject& scene = subject(GetParam());
     const Settings all = settingsOf({"trace_screen.thickness_mode=second_layer", "trace_screen.count_steps=true",

@@ -27,6 +27,7 @@ double relativeMse(const FloatImage& image, const FloatImage& truth) {
     return sum / (double(image.data.size()) / 3.0);
 }
 
+// Over 5 s: the mean that it is compared with is one of 128 frames.
 TEST(TemporalFrame, AtRestItConvergesToTheMeanOverThePixelsArea) {
     for (const char* name : {"cubes", "colonnade"}) {
         const Scene scene = findBuiltinScene(name)->make();

@@ -125,6 +125,7 @@ TEST_P(SceneFurnace, StaysAsBrightWithTheSceneAsASource) {
 
 INSTANTIATE_TEST_SUITE_P(Roughness, SceneFurnace, testing::Values(0.0F, 0.5F, 1.0F));
 
+// Over 5 s: many budgets of rays in a scene with a large BVH.
 TEST(TraceScene, AnswersAsManyRaysAsItMayEvenlyOverThePicture) {
     const Scene scene = findBuiltinScene("cornell")->make();
     const auto confidence = [&](const char* thousands) {

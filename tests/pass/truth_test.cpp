@@ -92,6 +92,7 @@ TEST(Truth, AFlatMirrorShowsThePathTracersFlippedPictureWhereTheScreenKnowsIt) {
 class VisibleOnly : public testing::TestWithParam<const char*> {};
 
 // 256 rays a pixel: their noise is under a third of the error that is left.
+// Over 5 s: many rays, so that noise does not hide a bias.
 TEST_P(VisibleOnly, DiffuseLightOfOneBounceIsThatOfAPathTracerThatSeesWhatTheCameraSees) {
     const Scene scene = findBuiltinScene(GetParam())->make();
     const View view = defaultView(scene);
@@ -112,6 +113,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, VisibleOnly, testing::Values("cubes", "cornell"
 
 class Energy : public testing::TestWithParam<const BuiltinScene*> {};
 
+// Over 5 s: noise must be far below the 2 % that are tested.
 TEST_P(Energy, IsAtMostTwoPercentAboveTheTruthWithOneBounceAndWithAll) {
     const Scene scene = GetParam()->make();
     const View view = defaultView(scene);
