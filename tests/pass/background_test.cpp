@@ -141,6 +141,7 @@ TEST_F(BackgroundImage, OfTransparentImagesLeavesStraightColorsAndTheAreaAsAlpha
         const uint8_t* center = &shown.data[4 * (size_t(size.y / 2) * size.x + size.x / 2)];
         unsigned edges = 0;
         double difference = 0.0;
+        double fringe = 0.0;
         for (size_t i = 0; i < truth.coverage.data.size(); ++i) {
             const uint8_t* texel = &shown.data[4 * i];
             const float expected = 255.0F * truth.coverage.data[i];
@@ -152,14 +153,16 @@ TEST_F(BackgroundImage, OfTransparentImagesLeavesStraightColorsAndTheAreaAsAlpha
                 ++edges;
                 for (int channel = 0; channel < 3; ++channel) {
                     // Weighted as it will be seen. TAA clips the histories of colour and alpha separately.
-                    const double limit = settings.temporal.enabled != 0 ? 12.0 : 5.0;
+                    const double limit = settings.temporal.enabled != 0 ? 24.0 : 5.0;
                     const double off = (texel[channel] - center[channel]) * (texel[3] / 255.0);
                     ASSERT_NEAR(off, 0.0, limit) << averaging << ", alpha " << int{texel[3]};
+                    fringe += std::abs(off);
                 }
             }
         }
         EXPECT_EQ(center[3], 255);
         EXPECT_GT(edges, 50U) << averaging;
+        EXPECT_LT(fringe / (3.0 * edges), 3.0) << averaging;
         EXPECT_LT(difference / static_cast<double>(edges), 40.0) << averaging;
     }
 }
