@@ -34,7 +34,7 @@ GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view,
         .features = list.materialFeatures,
     };
     const VkClearColorValue zero{};
-    gpu::Pass pass = f.raster("gbuffer", {"gbuffer.vert", "gbuffer.frag"});
+    gpu::Pass pass = f.raster("gbuffer", {"gbuffer.vert", reflectance ? "gbuffer_reflectance.frag" : "gbuffer.frag"});
     for (const gpu::Image picture : list.livePictures) {
         pass.read(picture);
     }
@@ -54,17 +54,19 @@ GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view,
         .color("outMaterial", g.material, zero)
         .color("outEmissive", g.emissive, zero)
         .color("outMotion", g.motion, zero)
-        .color("outReflectance", g.reflectance, zero)
         .depth(g.depth, 0.0F)
         .vertices(vertexLayout(), list.materialLayout)
-        .params(GBufferParams{view, settings, clipPlane, content.blendedFrom})
-        .draw([&](const gpu::DrawCommands& to) {
-            const auto keep = [&](const Draw& draw) {
-                const bool drawn = blended ? draw.blended : draw.alpha >= content.blendedFrom;
-                return drawn && (!clipped || isInFront(draw.boundsW, clipPlane));
-            };
-            recordDraws(to, list, {keep, Cull::back, true, view.worldToClip}, true);
-        });
+        .params(GBufferParams{view, settings, clipPlane, content.blendedFrom});
+    if (reflectance) {
+        pass.color("outReflectance", g.reflectance, zero);
+    }
+    pass.draw([&](const gpu::DrawCommands& to) {
+        const auto keep = [&](const Draw& draw) {
+            const bool drawn = blended ? draw.blended : draw.alpha >= content.blendedFrom;
+            return drawn && (!clipped || isInFront(draw.boundsW, clipPlane));
+        };
+        recordDraws(to, list, {keep, Cull::back, true, view.worldToClip}, true);
+    });
     return g;
 }
 
