@@ -85,12 +85,7 @@ Pass& Pass::constant(std::string_view name, uint32_t value) {
 }
 
 Pass& Pass::color(std::string_view output, Image image, std::optional<VkClearColorValue> clear) {
-    if (image) {
-        REFLET_CHECK(discarded_.empty(), "{}: the output '{}' follows one without a target", name_, output);
-        colors_.push_back({std::string(output), image, clear});
-    } else {
-        discarded_.emplace_back(output);
-    }
+    colors_.push_back({std::string(output), image, clear});
     return *this;
 }
 
@@ -289,13 +284,9 @@ void Pass::dispatchIndirect(BufferView arguments, VkDeviceSize offset) {
 
 // Attachments are declared by the name of the fragment shader's output; the pipeline needs them ordered by location.
 void Pass::orderAttachments(const Pipeline& pipeline) {
-    REFLET_CHECK(colors_.size() + discarded_.size() == pipeline.colorOutputs.size(),
-                 "{}: {} render targets for {} shader outputs", name_, colors_.size() + discarded_.size(),
-                 pipeline.colorOutputs.size());
+    REFLET_CHECK(colors_.size() == pipeline.colorOutputs.size(), "{}: {} render targets for {} shader outputs", name_,
+                 colors_.size(), pipeline.colorOutputs.size());
     for (const ShaderLocation& output : pipeline.colorOutputs) {
-        if (std::ranges::find(discarded_, output.name) != discarded_.end()) {
-            continue;
-        }
         const auto given = std::ranges::find(colors_, output.name, &Attachment::output);
         REFLET_CHECK(given != colors_.end(), "{}: no render target for the output '{}'", name_, output.name);
         REFLET_CHECK(static_cast<size_t>(given - colors_.begin()) == output.location,

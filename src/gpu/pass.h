@@ -72,8 +72,7 @@ public:
     /// Group counts from a VkDispatchIndirectCommand at the start of the buffer plus `offset`.
     void dispatchIndirect(BufferView arguments, VkDeviceSize offset);
 
-    /// Raster only. Cleared to `clear` if given; otherwise the contents are kept. A null image discards the output;
-    /// only the last ones may be null.
+    /// Raster only. Cleared to `clear` if given; otherwise the contents are kept.
     Pass& color(std::string_view output, Image image, std::optional<VkClearColorValue> clear);
     Pass& depth(Image image, std::optional<float> clear);
     /// Alpha-blends colours over the contents.
@@ -120,7 +119,6 @@ private:
     std::vector<Bound> bound_;
     std::vector<UniformBytes> uniforms_;
     std::vector<Attachment> colors_;
-    std::vector<std::string> discarded_;  ///< outputs without a target
     Image depth_;
     std::optional<float> clearDepth_;
     std::vector<std::pair<Image, Access>> imageUses_;
