@@ -1,123 +1,19 @@
-// Entry point: registers the subcommands and runs the chosen one. Exit status: 0 success, 1 failure, 2 usage error.
+// Entry point: names the shaders and the subcommands.
 #include "apps/commands.h"
-#include "apps/manual.h"
-#include "base/error.h"
-#include "base/text.h"
+#include "apps/program.h"
 #include "gpu/shader.h"
-#include "version.h"
 #include "view/view_command.h"
 
-#include <CLI/CLI.hpp>
-
-#include <algorithm>
-#include <cctype>
-#include <cstdio>
 #include <span>
 
 std::span<const reflet::gpu::EmbeddedShader> refletShaders();
 std::span<const reflet::gpu::EmbeddedShader> refletViewShaders();
 
-namespace {
-
-constexpr int exitFailed = 1;
-constexpr int exitUsage = 2;
-
-// Prints one line: control characters in names from outside become spaces.
-int reportError(std::string message, int status) {
-    std::ranges::replace_if(
-        message, [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
-    fmt::print(stderr, "reflet: {}\n", message);
-    return status;
-}
-
-// "reflet list scenes"
-std::string fullName(const CLI::App& command) {
-    const CLI::App* parent = command.get_parent();
-    return parent == nullptr ? command.get_name() : fullName(*parent) + " " + command.get_name();
-}
-
-// Runs before CLI11 parses, whose error would only say that a subcommand is missing.
-void checkSubcommand(CLI::App& app, std::span<char* const> arguments) {
-    if (app.get_require_subcommand_min() == 0) {
-        return;
-    }
-    std::vector<std::string> names;
-    std::ranges::transform(app.get_subcommands({}), std::back_inserter(names), &CLI::App::get_name);
-    if (arguments.empty()) {
-        reflet::failUsage("'{}' needs a subcommand: {} (see {} --help)", fullName(app), fmt::join(names, ", "),
-                          fullName(app));
-    }
-    const std::string name = arguments[0];
-    if (app.get_option_no_throw(name) != nullptr) {
-        return;
-    }
-    if (std::ranges::find(names, name) == names.end()) {
-        reflet::failUsage("'{}' has no {} '{}'; its subcommands: {}{}", fullName(app),
-                          name.starts_with('-') ? "option" : "subcommand", name, fmt::join(names, ", "),
-                          reflet::suggestion(name, names));
-    }
-    checkSubcommand(*app.get_subcommand(name), arguments.subspan(1));
-}
-
-// The error for the first argument that no option consumed, with the option it was probably meant to be.
-std::string unexpectedArgument(const CLI::App& app) {
-    const CLI::App* command = &app;
-    while (!command->get_subcommands().empty()) {
-        command = command->get_subcommands().front();
-    }
-    const std::vector<std::string> rest = command->remaining();
-    if (rest.empty()) {
-        return fmt::format("unexpected argument (see {} --help)", fullName(*command));
-    }
-    std::vector<std::string> names;
-    for (const CLI::Option* option : command->get_options()) {
-        std::ranges::transform(option->get_lnames(), std::back_inserter(names),
-                               [](const std::string& name) { return "--" + name; });
-    }
-    return fmt::format("unexpected argument '{}' (see {} --help){}", rest.front(), fullName(*command),
-                       rest.front().starts_with('-') ? reflet::suggestion(rest.front(), names) : "");
-}
-
-int run(int argc, char** argv) {
+int main(int argc, char** argv) {
     reflet::gpu::registerShaders(refletShaders());
     reflet::gpu::registerShaders(refletViewShaders());
-    CLI::App app("Reflet: screen-space reflections (SSR), indirect light (SSGI) and soft shadows on any Vulkan device.",
-                 "reflet");
-    app.set_version_flag("--version", std::string("reflet ") + reflet::versionText);
-    app.require_subcommand(1);
-    app.footer("Try: reflet render builtin:cubes -o cubes.png\nEach subcommand has its own --help.");
-    reflet::addRenderCommand(app);
-    reflet::addViewCommand(app);
-    reflet::addReferenceCommand(app);
-    reflet::addCompareCommand(app);
-    reflet::addBenchCommand(app);
-    reflet::addReportCommand(app);
-    reflet::addListCommand(app);
-    reflet::addManualCommands(app, reflet::versionText);
-    checkSubcommand(app, std::span(argv, static_cast<size_t>(argc)).subspan(1));
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::Success& success) {  // --help, --version
-        app.exit(success);
-    } catch (const CLI::ExtrasError&) {
-        return reportError(unexpectedArgument(app), exitUsage);
-    } catch (const CLI::ParseError& error) {
-        return reportError(fmt::format("{} (see reflet --help)", error.what()), exitUsage);
-    }
-    if (std::fflush(stdout) != 0) {
-        return reportError("cannot write to standard output", exitFailed);
-    }
-    return 0;
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-    try {
-        return run(argc, argv);
-    } catch (const reflet::UsageError& error) {
-        return reportError(error.what(), exitUsage);
-    } catch (const std::exception& error) {
-        return reportError(error.what(), exitFailed);
-    }
+    constexpr reflet::AddCommand commands[] = {
+        reflet::addRenderCommand, reflet::addViewCommand,   reflet::addReferenceCommand, reflet::addCompareCommand,
+        reflet::addBenchCommand,  reflet::addReportCommand, reflet::addListCommand};
+    return reflet::runProgram(argc, argv, commands);
 }
