@@ -130,8 +130,8 @@ TEST_F(View, RestsWhilePaused) {
 
 // Over 5 s: opens the window three times and waits for it to rest after each input.
 TEST_F(View, AScreenshotIsWhatRenderWritesAndAllComesBackTheNextTime) {
-    const Arguments remembered{"builtin:cubes", "--size", "96x400"};  // frames that are quick
-    openViewer(remembered);
+    const Arguments remembered{"builtin:cubes", "--size", "96x400"};
+    openViewer(with(remembered, {"--preset", "fast"}));
     const json first = status()["camera"];
     findSetting("tonemap.exposure");
     click("tonemap.exposure");

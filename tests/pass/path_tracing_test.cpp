@@ -10,7 +10,7 @@
 namespace reflet::test::path_tracing_test {
 namespace {
 
-constexpr uvec2 size(80, 45);
+constexpr uvec2 size(48, 27);
 
 Settings pathTracing() {
     Settings settings;
