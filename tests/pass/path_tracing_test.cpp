@@ -10,7 +10,7 @@
 namespace reflet::test::path_tracing_test {
 namespace {
 
-constexpr uvec2 size(48, 27);
+constexpr uvec2 size(64, 36);
 
 Settings pathTracing() {
     Settings settings;
