@@ -149,6 +149,7 @@ VkSampler Device::sampler(const SamplerInfo& info) {
     create.addressModeV = info.v;
     create.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     create.maxLod = info.maxLod;
+    create.mipLodBias = std::clamp(info.lodBias, -limits_.maxSamplerLodBias, limits_.maxSamplerLodBias);
     create.anisotropyEnable =
         anisotropic_ && info.anisotropy > 1.0F && info.min == VK_FILTER_LINEAR ? VK_TRUE : VK_FALSE;
     create.maxAnisotropy = std::min(info.anisotropy, limits_.maxSamplerAnisotropy);

@@ -46,6 +46,7 @@ struct SamplerInfo {
     VkSamplerAddressMode v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     float maxLod = VK_LOD_CLAMP_NONE;
     float anisotropy = 1.0F;  ///< maximum anisotropy; 1: off. Clamped to what the device supports
+    float lodBias = 0.0F;     ///< added to the mip level. Clamped to what the device supports
 
     bool operator==(const SamplerInfo&) const = default;
 };

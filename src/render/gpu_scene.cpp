@@ -159,8 +159,9 @@ void GpuScene::writeMaterialSet(const MaterialBinding& binding) {
         writes[i].pBufferInfo = &block;
         if (i > 0) {
             gpu::SamplerInfo info = binding.samplers[i - 1];
-            info.anisotropy = mips_ ? static_cast<float>(anisotropy_) : 1.0F;
-            info.maxLod = mips_ ? info.maxLod : 0.0F;
+            info.anisotropy = filter_.mips ? static_cast<float>(filter_.anisotropy) : 1.0F;
+            info.lodBias = filter_.mipBias;
+            info.maxLod = filter_.mips ? info.maxLod : 0.0F;
             images[i - 1] = {device_.sampler(info), binding.views[i - 1],
                              binding.live && i - 1 == slotEmissive ? VK_IMAGE_LAYOUT_GENERAL
                                                                    : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
@@ -171,10 +172,9 @@ void GpuScene::writeMaterialSet(const MaterialBinding& binding) {
                                       nullptr);
 }
 
-void GpuScene::setTextureFilter(uint32_t anisotropy, bool mips) {
-    if (anisotropy != anisotropy_ || mips != mips_) {
-        anisotropy_ = anisotropy;
-        mips_ = mips;
+void GpuScene::setTextureFilter(const TextureFilter& filter) {
+    if (filter != filter_) {
+        filter_ = filter;
         ++draws_.version;  // alpha cut-outs may have changed
         for (const MaterialBinding& binding : materialBindings_) {
             writeMaterialSet(binding);

@@ -19,6 +19,15 @@
 
 namespace reflet {
 
+/// How textures of materials are filtered, as in MaterialsSettings.
+struct TextureFilter {
+    uint32_t anisotropy = 1;
+    bool mips = true;
+    float mipBias = 0.0F;
+
+    bool operator==(const TextureFilter&) const = default;
+};
+
 class GpuScene {
 public:
     /// Uploads everything. `warn` receives messages about what is left out (of more than maxLamps lamps, the weakest).
@@ -27,9 +36,8 @@ public:
     GpuScene(const GpuScene&) = delete;
     GpuScene& operator=(const GpuScene&) = delete;
 
-    /// anisotropy: maximum samples of anisotropic filtering. mips: false: only the finest level is used. No frame that
-    /// draws the scene may be in flight.
-    void setTextureFilter(uint32_t anisotropy, bool mips);
+    /// Filters the textures of materials as the settings say. No frame that draws the scene may be in flight.
+    void setTextureFilter(const TextureFilter& filter);
 
     /// Sets the current and the previous pose of draws, lamps and live cameras. Deformed vertices follow with skin().
     /// No frame that draws the scene may be in flight.
@@ -96,8 +104,7 @@ private:
     VkDescriptorPool materialPool_ = VK_NULL_HANDLE;
     std::vector<MaterialBinding> materialBindings_;
     std::vector<LivePicture> live_;
-    uint32_t anisotropy_ = 1;
-    bool mips_ = true;
+    TextureFilter filter_;
     LampBlock lamps_{};
     std::vector<size_t> lampSources_;  ///< indices into Scene::lamps
     std::optional<double> posedTime_;  ///< time of the current pose

@@ -183,7 +183,7 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
     previousPlace_ = place;
     LampBlock lamps = scene_.lamps();
     const LampShadows lampShadows = planLamps(lamps, view, settings.shadow);
-    scene_.setTextureFilter(settings.materials.anisotropy, settings.materials.mips != 0);
+    scene_.setTextureFilter({settings.materials.anisotropy, settings.materials.mips != 0, settings.materials.mipBias});
     scene_.setLiveHeight(settings.live.height);
     const std::vector<LiveView> live = liveViews(params);
     const TracedScene* traced = tracedScene(settings);

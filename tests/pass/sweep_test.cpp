@@ -138,7 +138,7 @@ struct Context {
 const std::vector<Context>& contexts() {
     static const std::vector<Context> all{
         {"", {}},
-        {"materials.mips", {}, "cubes"},
+        {"materials.mip", {}, "cubes"},
         {"materials.anisotropy", {}, "cubes"},
         {"shadow.", {}, "colonnade"},
         {"shadow.rays", {"shadow.filter=traced"}},

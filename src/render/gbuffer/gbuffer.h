@@ -15,7 +15,10 @@ SHARED_BEGIN
         "Use texture mipmaps. Off: always the finest level, as the reference renders; needs many samples per pixel.") \
     VALUE(                                                                                                            \
         uint, anisotropy, 8, 1, 16,                                                                                   \
-        "Maximum samples of anisotropic texture filtering. 1: off, blurry at grazing angles. More: sharper, slower.")
+        "Maximum samples of anisotropic texture filtering. 1: off, blurry at grazing angles. More: sharper, slower.") \
+    VALUE(float, mipBias, 0, -2, 2,                                                                                   \
+          "Added to the texture mip level. Below 0: sharper; -1 to -2 suits temporal antialiasing, which averages "   \
+          "jittered frames; flickers without it. Above 0: blurrier.")
 SETTINGS(MaterialsSettings, MATERIALS_SETTINGS)
 
 // Bits of the material image's alpha.
