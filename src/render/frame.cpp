@@ -223,7 +223,7 @@ gpu::Image renderLiveCameras(gpu::Frame& f, const ViewInputs& in, const Settings
     return lampShadowMap;
 }
 
-// Puts the background behind the radiance that is shown, and averages its coverage over frames as the radiance.
+// Puts the background behind the radiance that is shown; coverage is accumulated as the radiance.
 void showBackground(gpu::Frame& f, const FrameInputs& in, const Settings& settings, const BlendedLight& blended,
                     FrameImages& out) {
     const BackgroundImages shown =
@@ -242,8 +242,6 @@ void showBackground(gpu::Frame& f, const FrameInputs& in, const Settings& settin
     if (settings.accumulate.enabled != 0) {
         out.coverage =
             accumulate(f, {out.coverage, {out.coverage, out.coverage, out.coverage}}, in.framesBefore).direct;
-    } else if (historyUse(settings).temporal) {
-        out.coverage = temporal(f, out.g, out.coverage, settings.temporal, in.view);
     }
 }
 
@@ -299,8 +297,11 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
     }
     out.unfiltered = out.light.lit;
     if (historyUse(settings).temporal) {
-        out.temporal = temporal(f, out.g, out.light.lit, settings.temporal, in.view);
-        out.light.lit = out.temporal;
+        const TemporalImages means =
+            temporal(f, {out.g, out.light.lit, out.coverage, in.view}, settings.temporal);
+        out.temporal = means.mean;
+        out.light.lit = means.mean;
+        out.coverage = means.coverage;
     }
     if (in.autoExposure) {
         out.exposure = measureExposure(f, out.light.lit, out.g.depth, in.elapsed, settings.tonemap.adaptation);

@@ -152,10 +152,9 @@ TEST_F(BackgroundImage, OfTransparentImagesLeavesStraightColorsAndTheAreaAsAlpha
             if (texel[3] > 0 && texel[3] < 255) {
                 ++edges;
                 for (int channel = 0; channel < 3; ++channel) {
-                    // Weighted as it will be seen. TAA clips the histories of colour and alpha separately.
-                    const double limit = settings.temporal.enabled != 0 ? 24.0 : 5.0;
+                    // Weighted as it will be seen.
                     const double off = (texel[channel] - center[channel]) * (texel[3] / 255.0);
-                    ASSERT_NEAR(off, 0.0, limit) << averaging << ", alpha " << int{texel[3]};
+                    ASSERT_NEAR(off, 0.0, 5.0) << averaging << ", alpha " << int{texel[3]};
                     fringe += std::abs(off);
                 }
             }

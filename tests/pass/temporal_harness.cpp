@@ -39,7 +39,7 @@ std::vector<vec4> TemporalRun::add(const MadeUpFrame& picture) {
     g.depth = fill("depth", depth);
     ViewParams view{};
     view.frame = count_++;
-    const gpu::Readback copy = frame_.readback(temporal(frame_, g, shown, settings_, view));
+    const gpu::Readback copy = frame_.readback(temporal(frame_, {g, shown, {}, view}, settings_).mean);
     frame_.submit();
     frame_.wait();
     return decodeTexels(VK_FORMAT_R16G16B16A16_SFLOAT, frame_.bytes(copy));

@@ -13,24 +13,32 @@ mat4 skyToPrevious(const ViewParams& view) {
 
 }  // namespace
 
-gpu::Image temporal(gpu::Frame& f, const GBuffer& g, gpu::Image radiance, const TemporalSettings& settings,
-                    const ViewParams& view) {
-    const uvec2 size = radiance.size;
+TemporalImages temporal(gpu::Frame& f, const TemporalInputs& in, const TemporalSettings& settings) {
+    const uvec2 size = in.radiance.size;
     const gpu::History mean = f.history("temporal", VK_FORMAT_R16G16B16A16_SFLOAT, size);
     // Of frames at rest, deviation of the tone-compressed luma from the history: variance, and mean over the last few
     // frames.
     const gpu::History deviations = f.history("temporal_deviations", VK_FORMAT_R16G16_SFLOAT, size);
-    f.compute("temporal", "temporal.comp")
-        .read("radiance", radiance)
-        .read("depth", g.depth)
-        .read("motion", g.motion)
+    bool valid = mean.valid;
+    TemporalImages out{mean.next, {}};
+    gpu::Pass pass = f.compute("temporal", in.coverage ? "temporal_coverage.comp" : "temporal.comp");
+    if (in.coverage) {
+        const gpu::History coverage = f.history("temporal_coverage", VK_FORMAT_R32_SFLOAT, size);
+        pass.read("coverage", in.coverage).read("previousCoverage", coverage.previous);
+        pass.write("meanCoverage", coverage.next);
+        valid = valid && coverage.valid;
+        out.coverage = coverage.next;
+    }
+    pass.read("radiance", in.radiance)
+        .read("depth", in.g.depth)
+        .read("motion", in.g.motion)
         .read("previousMean", mean.previous)
         .read("previousDeviations", deviations.previous)
         .write("mean", mean.next)
         .write("deviations", deviations.next)
-        .params(TemporalParams{skyToPrevious(view), settings, size, view.frame, mean.valid ? 1U : 0U})
+        .params(TemporalParams{skyToPrevious(in.view), settings, size, in.view.frame, valid ? 1U : 0U})
         .dispatch(size.x, (size.y + temporalColumn - 1) / temporalColumn);
-    return mean.next;
+    return out;
 }
 
 }  // namespace reflet

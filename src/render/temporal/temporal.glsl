@@ -1,7 +1,6 @@
 // Temporal antialiasing. In: this frame's radiance, depth, motion; history: mean, length, deviations. Out: the history
-// with this frame.
-#version 460
-#extension GL_EXT_scalar_block_layout : require
+// with this frame. With HAS_COVERAGE also the coverage of pixels by surfaces, averaged with the radiance that is
+// premultiplied by it: with the same weights, so that their quotient is the surfaces' colour.
 #include "render/temporal/temporal.h"
 #include "shaders/catmull_rom.glsl"
 #include "shaders/half_float.glsl"
@@ -18,6 +17,11 @@ layout(set = 0, binding = 4, rgba16f) uniform readonly image2D previousMean;    
 layout(set = 0, binding = 5, rg16f) uniform readonly image2D previousDeviations;
 layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D mean;
 layout(set = 0, binding = 7, rg16f) uniform writeonly image2D deviations;
+#if HAS_COVERAGE
+layout(set = 0, binding = 8) uniform sampler2D coverage;
+layout(set = 0, binding = 9, r32f) uniform readonly image2D previousCoverage;
+layout(set = 0, binding = 10, r32f) uniform writeonly image2D meanCoverage;
+#endif
 
 // Tolerance for rounding, in tone-compressed radiance.
 const float slack = 0.002;
@@ -36,11 +40,24 @@ struct Row {
     vec3 squares;
     float nearest;  // reversed depth
     ivec2 at;       // of that
+#if HAS_COVERAGE
+    float covered;         // the middle pixel
+    float coveredSum;
+    float coveredSquares;
+#endif
 };
 
 Row loadRow(ivec2 pixel) {
     ivec2 last = ivec2(params.size) - 1;
-    Row row = Row(vec3(0.0), vec3(0.0), vec3(0.0), -1.0, pixel);
+    Row row;
+    row.sum = vec3(0.0);
+    row.squares = vec3(0.0);
+    row.nearest = -1.0;
+#if HAS_COVERAGE
+    row.covered = texelFetch(coverage, clamp(pixel, ivec2(0), last), 0).r;
+    row.coveredSum = 0.0;
+    row.coveredSquares = 0.0;
+#endif
     for (int x = -1; x <= 1; ++x) {
         ivec2 at = clamp(pixel + ivec2(x, 0), ivec2(0), last);
         vec3 c = clampToHalf(imageLoad(radiance, at).rgb);
@@ -51,26 +68,41 @@ Row loadRow(ivec2 pixel) {
         float d = texelFetch(depth, at, 0).r;
         row.at = d > row.nearest ? at : row.at;
         row.nearest = max(d, row.nearest);
+#if HAS_COVERAGE
+        float covered = texelFetch(coverage, at, 0).r;
+        row.coveredSum += covered;
+        row.coveredSquares += covered * covered;
+#endif
     }
     return row;
 }
 
-// The history (mean radiance, length) at a position in texels from the first texel's centre.
-vec4 reprojectedHistory(vec2 at) {
+struct HistorySample {
+    vec4 mean;  // radiance, length
+    float covered;
+};
+
+// The history at a position in texels from the first texel's centre.
+HistorySample reprojectedHistory(vec2 at) {
     ivec2 last = ivec2(params.size) - 1;
     CatmullRom taps = catmullRom(at);
     vec4 sum = vec4(0.0);
+    float covered = 0.0;
     float total = 0.0;
     for (int y = taps.first.y; y <= taps.last.y; ++y) {
         bool outer = y == -1 || y == 2;
         int end = outer ? min(taps.last.x, 1) : taps.last.x;
         for (int x = outer ? max(taps.first.x, 0) : taps.first.x; x <= end; ++x) {
             float weight = taps.x[x + 1] * taps.y[y + 1];
-            sum += weight * imageLoad(previousMean, clamp(taps.corner + ivec2(x, y), ivec2(0), last));
+            ivec2 tap = clamp(taps.corner + ivec2(x, y), ivec2(0), last);
+            sum += weight * imageLoad(previousMean, tap);
+#if HAS_COVERAGE
+            covered += weight * imageLoad(previousCoverage, tap).r;
+#endif
             total += weight;
         }
     }
-    return max(sum / total, vec4(0.0));
+    return HistorySample(max(sum / total, vec4(0.0)), clamp(covered / total, 0.0, 1.0));
 }
 
 // The fraction of the way from a box's centre to c at which its side lies, at most 1.
@@ -103,7 +135,11 @@ void resolve(ivec2 pixel, Row above, Row row, Row below) {
     bool known = params.hasPrevious != 0u && all(greaterThan(at, vec2(-0.5))) &&
                  all(lessThan(at, vec2(params.size) - 0.5));
     float still = known ? max(1.0 - length(moved) / stillest, 0.0) : 0.0;
-    vec4 before = known ? reprojectedHistory(at) : vec4(0.0);
+    HistorySample history = HistorySample(vec4(0.0), 0.0);
+    if (known) {
+        history = reprojectedHistory(at);
+    }
+    vec4 before = history.mean;
     vec2 differed = still > 0.0 ? imageLoad(previousDeviations, ivec2(at + 0.5)).rg : vec2(0.0);
     float stale = differed.y * differed.y / (differed.x + 1e-5);
     float trust = still * clamp((staleness.y - stale) / (staleness.y - staleness.x), 0.0, 1.0);
@@ -116,6 +152,16 @@ void resolve(ivec2 pixel, Row above, Row row, Row below) {
     // This frame's own value is always within the box: it may be a one-pixel feature.
     vec3 halfSize = max(allowed * sqrt(around + variance) + slack, abs(toneCompress(row.middle) - middle));
     float share = insideShare(held, middle, halfSize);
+#if HAS_COVERAGE
+    float middleCovered = (above.coveredSum + row.coveredSum + below.coveredSum) / 9.0;
+    float coveredSquares = (above.coveredSquares + row.coveredSquares + below.coveredSquares) / 9.0;
+    float coveredAround = max(coveredSquares - middleCovered * middleCovered, 0.0);
+    float coveredOverTime = trust * history.covered * (1.0 - history.covered);
+    float halfCovered =
+        max(allowed * sqrt(coveredAround + coveredOverTime) + slack, abs(row.covered - middleCovered));
+    share = min(share, halfCovered / max(abs(history.covered - middleCovered), halfCovered));
+    float keptCovered = mix(middleCovered, history.covered, share);
+#endif
     vec3 clipped = mix(middle, held, share);
     vec3 kept = share < 1.0 ? toneExpand(clipped) : before.rgb;
 
@@ -126,6 +172,9 @@ void resolve(ivec2 pixel, Row above, Row row, Row below) {
     vec3 sum = frames > 1.0 ? mix(kept, row.middle, weight) : row.middle;
     uint random = hashPixel(uvec2(pixel), 0u, params.frame);
     imageStore(mean, pixel, vec4(ditherToHalf(clampToHalf(sum), random), frames));
+#if HAS_COVERAGE
+    imageStore(meanCoverage, pixel, vec4(frames > 1.0 ? mix(keptCovered, row.covered, weight) : row.covered));
+#endif
     float off = toneCompress(row.middle).x - clipped.x;
     vec2 differs = vec2(still * mix(variance, off * off, weight), trust * mix(differed.y, off, max(weight, recent)));
     imageStore(deviations, pixel, vec4(differs, 0.0, 0.0));

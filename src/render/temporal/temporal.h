@@ -50,10 +50,21 @@ SHARED_END
 namespace reflet {
 
 /// view: of this frame; the sky is reprojected with it. radiance: RGBA16F, rendered with subpixel jitter (jitter.h),
-/// may contain NaN and infinity; g.motion: without jitter. Returns RGBA16F: radiance, finite and at least 0, and
-/// history length.
-gpu::Image temporal(gpu::Frame& f, const GBuffer& g, gpu::Image radiance, const TemporalSettings& settings,
-                    const ViewParams& view);
+/// may contain NaN and infinity; g.motion: without jitter. coverage: if given, that of the pixels by surfaces, red, 0 to
+/// 1; radiance is premultiplied by it.
+struct TemporalInputs {
+    const GBuffer& g;
+    gpu::Image radiance;
+    gpu::Image coverage;
+    const ViewParams& view;
+};
+
+struct TemporalImages {
+    gpu::Image mean;      ///< RGBA16F: radiance, finite and at least 0, and history length
+    gpu::Image coverage;  ///< R32F, averaged with the same weights as the radiance; none if none was given
+};
+
+TemporalImages temporal(gpu::Frame& f, const TemporalInputs& in, const TemporalSettings& settings);
 
 }  // namespace reflet
 #endif
