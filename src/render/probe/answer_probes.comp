@@ -41,7 +41,7 @@ RayAnswer answerRay(ivec2 pixel, Ray ray) {
     vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
     bool hemisphere = lobe == lobeDiffuse && ray.spread > 0.0;
     ProbeQuery q = ProbeQuery(p, ray.direction, hemisphere ? 0.0 : ray.spread, hemisphere,
-                                    params.settings.parallax != 0u, params.settings.blend);
+                                    params.settings.parallax, params.settings.blend);
     float hitDistance;
     vec4 seen = sampleProbes(params.probes, q, hitDistance);
     // Occlusion maps stand for nearby geometry that the rays could not hit.

@@ -1,6 +1,6 @@
 // Stores one face of a probe's cube map, mirrored (see cubeFaceCamera), and adds indirect light from earlier captures.
 // In: G-buffer and direct light of the face's camera, all probes' maps. Out: radiance, 0 for the sky, with alpha;
-// distance; the same radiance in an atlas of all faces.
+// reciprocal distance, which is linear enough to interpolate; the same radiance in an atlas of all faces.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "render/environment/environment_lobes.glsl"
@@ -39,8 +39,8 @@ vec3 indirectAt(ivec2 pixel, vec3 p) {
     MaterialTexel m = unpackMaterial(texelFetch(material, pixel, 0));
     Surface s = surfaceAt(pixel, texelFetch(baseColor, pixel, 0).rgb, m, dot(n, v), ggxTable, isLambert(m));
     vec3 r = reflect(-v, n);
-    ProbeQuery around = ProbeQuery(p, n, 0.0, true, true, params.blend);
-    ProbeQuery mirrored = ProbeQuery(p, r, m.roughness, false, true, params.blend);
+    ProbeQuery around = ProbeQuery(p, n, 0.0, true, ProbeParallax_box, params.blend);
+    ProbeQuery mirrored = ProbeQuery(p, r, m.roughness, false, ProbeParallax_box, params.blend);
     vec3 radiance = s.diffuse * m.occlusion * probesOrSky(around, environmentIrradianceOverPi(n));
     return radiance + s.specular * probesOrSky(mirrored, environmentLobe(r, m.roughness));
 }
@@ -53,10 +53,10 @@ void main() {
     }
     float d = texelFetch(depth, pixel, 0).r;
     vec4 radiance = vec4(0.0);
-    float away = 0.0;
+    float nearness = 0.0;
     if (d > 0.0) {
         vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
-        away = length(p - params.view.eye.xyz);
+        nearness = 1.0 / max(length(p - params.view.eye.xyz), 1e-6);
         radiance = vec4(imageLoad(direct, pixel).rgb, 1.0);
         if (furtherLight != 0u) {
             radiance.rgb += indirectAt(pixel, p);
@@ -65,6 +65,6 @@ void main() {
     }
     ivec2 texel = ivec2(size.x - 1 - pixel.x, pixel.y);
     imageStore(sharp, ivec3(texel, params.face), radiance);
-    imageStore(distance, ivec3(texel, params.face), vec4(away));
+    imageStore(distance, ivec3(texel, params.face), vec4(nearness));
     imageStore(atlas, texel + size * ivec2(params.face % probeFaces, params.face / probeFaces), radiance);
 }

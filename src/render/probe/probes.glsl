@@ -47,18 +47,96 @@ struct ProbeQuery {
     vec3 direction;    // unit
     float roughness;   // perceptual, of the lobe around the direction; 0: the exact direction
     bool hemisphere;   // instead: cosine-weighted hemisphere around the direction
-    bool parallax;
+    uint parallax;     // ProbeParallax
     float blend;  // metres
 };
 
-// Adds one probe's contribution.
-void sampleProbe(uint i, ProbeParams probe, ProbeQuery q, float share, inout vec4 radiance, inout float hitDistance) {
+// Where a ray ends in a probe's view.
+struct ProbePoint {
+    vec3 direction;  // from the probe, any length
+    float distance;  // metres along the ray; 0: sky
+    float certainty;
+};
+
+const uint probeSteps = 16u;
+const uint probeRefinements = 4u;
+const float inFront = 1.02;    // the ray counts as seen where it is nearer than the surface by this factor
+const float uncertain = 0.05;  // certainty where the probe sees nothing of the ray
+
+// Marches the ray through the probe's distances: it ends where it passes from the space that the probe sees to behind a
+// surface, or in the sky (Szirmay-Kalos, Aszódi, Lazányi and Premecz, Approximate Ray-Tracing on the GPU with Distance
+// Impostors, 2005; McGuire, Mara, Nowrouzezahrai and Luebke, Real-Time Global Illumination using Precomputed Light Field
+// Probes, I3D 2017). Seen from the probe, the ray is an arc of a great circle from its origin to its direction. Steps are
+// equal angles on it; by the sine rule, the ray's distance from the probe there is |start| · sin(all) / sin(all - angle).
+bool marchProbe(uint probe, vec3 start, vec3 direction, out ProbePoint point) {
+    float from = max(length(start), 1e-4);
+    vec3 first = start / from;
+    float cosine = dot(first, direction);
+    float sine = length(cross(first, direction));
+    if (sine < 1e-3) {
+        float seen = textureLod(probeDistance, vec4(direction, float(probe)), 0.0).r;
+        point = ProbePoint(direction, seen > 0.0 ? max(1.0 / seen - cosine * from, 0.0) : 0.0, 1.0);
+        return cosine > 0.0;
+    }
+    float all = atan(sine, cosine);
+    vec3 aside = (direction - cosine * first) / sine;  // unit, in the arc's plane
+    float reciprocal = 1.0 / (from * sine);
+    bool inSight = false;
+    float near = 0.0;
+    for (uint i = 1u; i <= probeSteps; ++i) {
+        float angle = all * (float(i) / float(probeSteps));
+        vec3 at = cos(angle) * first + sin(angle) * aside;
+        float seen = textureLod(probeDistance, vec4(at, float(probe)), 0.0).r;
+        float mine = sin(all - angle) * reciprocal;  // 1 / distance of the ray from the probe
+        if (inSight && seen > 0.0 && mine <= seen) {
+            float far = angle;
+            for (uint k = 0u; k < probeRefinements; ++k) {
+                angle = 0.5 * (near + far);
+                at = cos(angle) * first + sin(angle) * aside;
+                seen = textureLod(probeDistance, vec4(at, float(probe)), 0.0).r;
+                bool behind = sin(all - angle) * reciprocal <= seen;
+                near = behind ? near : angle;
+                far = behind ? angle : far;
+            }
+            at = cos(far) * first + sin(far) * aside;
+            point = ProbePoint(at, from * sin(far) / max(sin(all - far), 1e-6), 1.0);
+            return true;
+        }
+        inSight = inSight || mine > inFront * seen;
+        near = angle;
+    }
+    point = ProbePoint(direction, 0.0, 1.0);
+    return inSight;
+}
+
+ProbePoint endOfRay(uint i, ProbeParams probe, ProbeQuery q) {
+    vec3 start = q.origin - probe.position;
+    ProbePoint point;
+    if (q.parallax == ProbeParallax_none) {
+        float seen = textureLod(probeDistance, vec4(q.direction, float(i)), 0.0).r;
+        return ProbePoint(q.direction, seen > 0.0 ? 1.0 / seen : 0.0, 1.0);
+    }
+    if (q.parallax == ProbeParallax_depth && marchProbe(i, start, q.direction, point)) {
+        return point;
+    }
     float t = distanceToBox(probe, q.origin, q.direction);
-    vec3 at = q.parallax ? q.origin + t * q.direction - probe.position : q.direction;
-    vec4 seen = share * (q.hemisphere ? irradianceOfProbe(i, q.direction)
-                                      : textureLod(probeLobes, vec4(at, float(i)), lobeLevel(probeLobes, q.roughness)));
+    return ProbePoint(start + t * q.direction, t, q.parallax == ProbeParallax_depth ? uncertain : 1.0);
+}
+
+// Adds one probe's contribution.
+void sampleProbe(uint i, ProbeParams probe, ProbeQuery q, inout float share, inout vec4 radiance,
+                 inout float hitDistance) {
+    if (q.hemisphere) {
+        vec4 seen = share * irradianceOfProbe(i, q.direction);
+        radiance += seen;
+        hitDistance += seen.a * distanceToBox(probe, q.origin, q.direction);
+        return;
+    }
+    ProbePoint point = endOfRay(i, probe, q);
+    share *= point.certainty;
+    vec4 seen = share * textureLod(probeLobes, vec4(point.direction, float(i)), lobeLevel(probeLobes, q.roughness));
     radiance += seen;
-    hitDistance += seen.a * (q.parallax ? t : textureLod(probeDistance, vec4(at, float(i)), 0.0).r);
+    hitDistance += seen.a * point.distance;
 }
 
 // rgb: radiance · a; a: confidence, 0..1: lower at box borders and toward the sky. Continuous in the origin.
@@ -77,7 +155,7 @@ vec4 sampleProbes(ProbeBlock block, ProbeQuery q, out float hitDistance) {
         float b = insideBox(block.probes[i], q.origin, q.blend);
         float weight = weightOfProbe(block.probes[i], q.origin, b) / largest - smallestShare;
         if (weight > 0.0) {
-            sampleProbe(i, block.probes[i], q, weight, sum, hitDistance);
+            sampleProbe(i, block.probes[i], q, weight, sum, hitDistance);  // may lower the weight
             weights += weight;
         }
     }

@@ -15,6 +15,12 @@ SHARED_BEGIN
     OPTION(ProbeRefresh, moving, 2)
 CHOICES(ProbeRefresh, PROBE_REFRESHES)
 
+#define PROBE_PARALLAXES(OPTION)   \
+    OPTION(ProbeParallax, none, 0) \
+    OPTION(ProbeParallax, box, 1)  \
+    OPTION(ProbeParallax, depth, 2)
+CHOICES(ProbeParallax, PROBE_PARALLAXES)
+
 #define PROBES_SETTINGS(VALUE, SWITCH, CHOICE)                                                                         \
     SWITCH(enabled, 0,                                                                                                 \
            "Reflection probes: cube maps captured in the scene, used before the environment for rays without a hit.")  \
@@ -26,9 +32,9 @@ CHOICES(ProbeRefresh, PROBE_REFRESHES)
     VALUE(uint, bounces, 1, 0, 8,                                                                                      \
           "Bounces of indirect light in the captures. Each costs one more capture that is lit by the previous one. "   \
           "With refresh face: 0 is none, otherwise each round over the faces adds one.")                               \
-    SWITCH(parallax, 1,                                                                                                \
-           "Parallax correction: intersect rays with the probe's box (box projection). Off: the cube map is taken as " \
-           "infinitely far away.")                                                                                     \
+    CHOICE(ProbeParallax, parallax, depth,                                                                             \
+           "Parallax correction. depth: march rays through the distances that the probe captured; box: intersect "     \
+           "them with the probe's box (box projection), faster; none: the cube map is taken as infinitely far away.")  \
     VALUE(float, blend, 0.25, 0.0, 100.0, "Distance outside of its box over which a probe fades out, in metres.")
 SETTINGS(ProbesSettings, PROBES_SETTINGS)
 
@@ -58,7 +64,7 @@ namespace reflet {
 struct ProbeMaps {
     gpu::Image lobes;       ///< of CubeMap (cube_map.h): radiance · alpha; alpha: 1 surface, 0 sky
     gpu::Image irradiance;  ///< of CubeMap, with alpha as well
-    gpu::Image distance;    ///< R32F cube array: metres from the probe, 0: sky
+    gpu::Image distance;    ///< R32F cube array: 1 / metres from the probe, 0: sky
     gpu::Image atlas;       ///< RGBA16F: the captured faces, a row of six per probe
     ProbeBlock block{};
 
