@@ -36,9 +36,10 @@ failures=()
 declare -A seconds=() good=() bad=()
 # Shards run side by side: a driver that renders on the CPU gets its share of the cores.
 export LP_NUM_THREADS=${LP_NUM_THREADS-1}
-# Mesa's CPU driver then compiles shaders without LLVM's optimization: tests compile much and render little.
-export GALLIVM_PERF=${GALLIVM_PERF-nopt}
-
+# With "nopt" Mesa's CPU driver compiles shaders without LLVM's optimization: most tests compile much and render little.
+# Those of this filter trace many rays.
+tracing='*PathTracing*:*Hybrid*:*SceneRays*:*TraceScene*'
+shaderCompiler=${GALLIVM_PERF-nopt}
 # That driver takes and returns much memory: huge pages that stay with the process halve the time that this takes.
 glibc=glibc.malloc
 export GLIBC_TUNABLES=${GLIBC_TUNABLES-$glibc.hugetlb=1:$glibc.top_pad=67108864:$glibc.trim_threshold=1000000000:$glibc.mmap_threshold=1000000000}
@@ -50,6 +51,9 @@ total() {  # report key
 
 runShard() {  # name program filter shard shards
     local base=$logs/$1.$4 start=$SECONDS status=0
+    GALLIVM_PERF=$shaderCompiler
+    [[ "$1" != *_tracing ]] || GALLIVM_PERF=
+    export GALLIVM_PERF
     GTEST_TOTAL_SHARDS=$5 GTEST_SHARD_INDEX=$4 timeout "$limit" "$2" "--gtest_filter=$3" \
         "--gtest_output=json:$base.json" >"$base.log" 2>&1 || status=$?
     echo "$status $((SECONDS - start))" >"$base.status"
@@ -93,18 +97,21 @@ addShards() {  # name program filter count
 }
 # The longest first.
 addShards cli_tests build/bin/cli_tests "$filter" 4
-addShards pass_tests build/bin/pass_tests "$filter" 4
-# What needs ray query, where the machine's own driver has none.
 if [[ "$filter" != "*" ]]; then
-    : # what is asked for runs on the machine's own driver
-elif driver=$(tests/second_driver.sh build); then
-    rayQuery=$PWD/build/pass_tests_ray_query
-    printf '#!/bin/sh\nVK_DRIVER_FILES=%q VK_ICD_FILENAMES=%q exec %q "$@"\n' "$driver" "$driver" \
-        "$PWD/build/bin/pass_tests" >"$rayQuery"
-    chmod +x "$rayQuery"
-    addShards pass_tests_ray_query "$rayQuery" '*SceneRays*' 1
+    addShards pass_tests build/bin/pass_tests "$filter" 4
 else
-    echo "tests by ray query are skipped"
+    addShards pass_tests build/bin/pass_tests "*-$tracing" 4
+    addShards pass_tests_tracing build/bin/pass_tests "$tracing" 2
+    # What needs ray query, where the machine's own driver has none.
+    if driver=$(tests/second_driver.sh build); then
+        rayQuery=$PWD/build/pass_tests_ray_query
+        printf '#!/bin/sh\nVK_DRIVER_FILES=%q VK_ICD_FILENAMES=%q exec %q "$@"\n' "$driver" "$driver" \
+            "$PWD/build/bin/pass_tests" >"$rayQuery"
+        chmod +x "$rayQuery"
+        addShards pass_tests_ray_query_tracing "$rayQuery" '*SceneRays*' 1
+    else
+        echo "tests by ray query are skipped"
+    fi
 fi
 addShards shader_tests build/bin/shader_tests "$filter" 1
 addShards reference_tests build/bin/reference_tests "$filter" 1
@@ -123,7 +130,7 @@ for shard in "${shards[@]}"; do
     read -ra words <<<"$shard"
     readShard "${words[0]}" "${words[3]}"
 done
-for name in cli_tests pass_tests pass_tests_ray_query shader_tests reference_tests unit_tests; do
+for name in cli_tests pass_tests pass_tests_tracing pass_tests_ray_query_tracing shader_tests reference_tests unit_tests; do
     [[ -z "${seconds[$name]-}" ]] || echo "$name: ${good[$name]} passed, ${bad[$name]} failed, ${seconds[$name]} s of one core"
 done
 echo "build $built s, tests $((SECONDS - built)) s, in all $SECONDS s"

@@ -9,7 +9,7 @@
 namespace reflet::test::scene_rays_frame_test {
 namespace {
 
-constexpr uvec2 size(96, 54);
+constexpr uvec2 size(64, 36);
 
 class SceneRaysInAFrame : public DeviceTest, public testing::WithParamInterface<const char*> {};
 
