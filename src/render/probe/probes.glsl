@@ -59,7 +59,8 @@ struct ProbePoint {
 };
 
 const uint probeSteps = 16u;
-const uint probeRefinements = 4u;
+const uint probeRefinements = 5u;
+const float sameSurface = 1.15;  // a ray farther than the surface by a larger factor passes behind its edge
 const float inFront = 1.02;    // the ray counts as seen where it is nearer than the surface by this factor
 const float uncertain = 0.05;  // certainty where the probe sees nothing of the ray
 
@@ -91,16 +92,20 @@ bool marchProbe(uint probe, vec3 start, vec3 direction, out ProbePoint point) {
         if (inSight && seen > 0.0 && mine <= seen) {
             float far = angle;
             for (uint k = 0u; k < probeRefinements; ++k) {
-                angle = 0.5 * (near + far);
-                at = cos(angle) * first + sin(angle) * aside;
-                seen = textureLod(probeDistance, vec4(at, float(probe)), 0.0).r;
-                bool behind = sin(all - angle) * reciprocal <= seen;
-                near = behind ? near : angle;
-                far = behind ? angle : far;
+                float middle = 0.5 * (near + far);
+                at = cos(middle) * first + sin(middle) * aside;
+                float seenThere = textureLod(probeDistance, vec4(at, float(probe)), 0.0).r;
+                bool behind = sin(all - middle) * reciprocal <= seenThere;
+                near = behind ? near : middle;
+                far = behind ? middle : far;
+                seen = behind ? seenThere : seen;
             }
-            at = cos(far) * first + sin(far) * aside;
-            point = ProbePoint(at, from * sin(far) / max(sin(all - far), 1e-6), 1.0);
-            return true;
+            if (seen <= sameSurface * sin(all - far) * reciprocal) {
+                at = cos(far) * first + sin(far) * aside;
+                point = ProbePoint(at, from * sin(far) / max(sin(all - far), 1e-6), 1.0);
+                return true;
+            }
+            inSight = false;
         }
         inSight = inSight || mine > inFront * seen;
         near = angle;
