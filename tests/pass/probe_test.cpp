@@ -251,7 +251,7 @@ TEST(Probe, BouncesKeepAWhiteFurnaceWhite) {
     view.environment.radiance = vec3(1.0F);
     view.probes = {{probeIn(open, {1.5F, 0.5F, 0.8F})}};
     const std::vector<std::string> base{"trace_screen.enabled=false", "materials.lambert_only=true",
-                                        "probes.resolution=32", "diffuse.rays=16"};
+                                        "probes.resolution=32", "diffuse.rays=16", "probes.parallax=box"};
     const auto mean = [&](const char* enabled, const char* bounces) {
         std::vector<std::string> all = base;
         all.insert(all.end(), {std::string("probes.enabled=") + enabled, std::string("probes.bounces=") + bounces});
