@@ -9,12 +9,12 @@ step() {  # text
 }
 
 cores=$(nproc)
-echo "Reflet's demo: packages, build, pictures. On a fresh machine with $cores cores about $(((500 / cores + 180 + 59) / 60)) minutes,"
+echo "Reflet's demo: packages, build, pictures. On a fresh machine with $cores cores about $(((350 / cores + 130 + 59) / 60)) minutes,"
 echo "less the next time. Everything but the packages stays in this folder (build/, out/)."
 
 step "1 of 3: packages that the build needs (apt; about a minute if they are missing)"
 ./setup.sh
-step "2 of 3: build (about $((400 / cores)) s the first time)"
+step "2 of 3: build (about $((250 / cores)) s the first time)"
 # The first time without the tests, which need more packages; a build that has them keeps them.
 if [[ ! -f build/build.ninja ]]; then
     mkdir -p build
@@ -22,7 +22,7 @@ if [[ ! -f build/build.ninja ]]; then
 fi
 cmake --build --preset release --parallel "$cores" --target reflet
 
-step "3 of 3: pictures (about two minutes on two cores and no GPU)"
+step "3 of 3: pictures (about a minute on two cores and no GPU)"
 reflet=build/bin/reflet
 mkdir -p out
 cards=""
