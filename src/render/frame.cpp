@@ -149,7 +149,29 @@ BlendedLight lightForReflections(gpu::Frame& f, const ViewInputs& in, const Sett
     return blended;
 }
 
-// Renders a planar view, for use by reflections. It has no last frame: `previous` acts as `lit` there.
+// Direct light with diffuse light from the probes, if there are any.
+gpu::Image withProbeLight(gpu::Frame& f, const ViewInputs& in, Settings settings, const TracedView& seen) {
+    if (!in.probes) {
+        return seen.images.direct;
+    }
+    const auto scope = f.scope("ambient");
+    settings.traceScreen.enabled = 0;
+    settings.traceScene.enabled = 0;
+    settings.denoise.enabled = 0;
+    settings.diffuse.rays = 1;
+    settings.diffuse.distribution = RayDistribution::normal;
+    settings.diffuse.adaptive = 0;
+    settings.diffuse.reuse = 0;
+    const LobeLight diffuse = traceLobe(f, in, settings, seen, lobeDiffuse);
+    const LobeLight none = blackLobe(f, lobeSpecular, {seen.images.g, in.view}, false);
+    const gpu::Image sum = f.image("ambient", VK_FORMAT_R16G16B16A16_SFLOAT, seen.images.direct.size);
+    const CompositeInputs parts{
+        seen.images.g, seen.images.direct, diffuse, none, in.ggxTable, settings.materials.lambertOnly != 0, false};
+    return composite(f, parts, sum, {in.view, settings.diffuse.gain}).lit;
+}
+
+// Renders a planar view, for use by reflections. It has no last frame: `previous` acts as `lit` there, and probes bring
+// further bounces.
 ScreenImages renderReflectionView(gpu::Frame& f, const ViewInputs& in, Settings settings, gpu::Image lampShadowMap) {
     const bool lit = settings.traceScreen.light != HitLight::direct;
     settings.traceScreen.light = lit ? HitLight::lit : HitLight::direct;
@@ -159,13 +181,17 @@ ScreenImages renderReflectionView(gpu::Frame& f, const ViewInputs& in, Settings 
     settings.denoise.history = 0;
     const ViewImages images = directView(f, in, settings, lampShadowMap);
     TracedView seen = tracedView(in, images);
+    seen.screen.light = lit ? withProbeLight(f, in, settings, seen) : images.direct;
     const LobeLight diffuse = traceLobe(f, in, settings, seen, lobeDiffuse);
+    // Without diffuse rays, the probes' light remains.
+    const gpu::Image base = settings.diffuse.rays > 0 ? images.direct : seen.screen.light;
+    seen.screen.light = base;
     const BlendedLight blended = lightForReflections(f, in, settings, diffuse, seen, true, false);
     if (lit && settings.planar.specular != 0) {
         const LobeLight specular = traceLobe(f, in, settings, seen, lobeSpecular);
         const gpu::Image all = f.image("lit", VK_FORMAT_R16G16B16A16_SFLOAT, images.direct.size);
-        const CompositeInputs parts{
-            images.g, images.direct, diffuse, specular, in.ggxTable, settings.materials.lambertOnly != 0, false};
+        const CompositeInputs parts{images.g, base, diffuse, specular, in.ggxTable, settings.materials.lambertOnly != 0,
+                                    false};
         const Composite sum = composite(f, parts, all, {in.view, settings.diffuse.gain});
         seen.screen.light = withBlended(f, blended.lit, sum.lit, "lit.blended");
     }
@@ -297,8 +323,7 @@ FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& se
     }
     out.unfiltered = out.light.lit;
     if (historyUse(settings).temporal) {
-        const TemporalImages means =
-            temporal(f, {out.g, out.light.lit, out.coverage, in.view}, settings.temporal);
+        const TemporalImages means = temporal(f, {out.g, out.light.lit, out.coverage, in.view}, settings.temporal);
         out.temporal = means.mean;
         out.light.lit = means.mean;
         out.coverage = means.coverage;

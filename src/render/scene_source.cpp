@@ -40,7 +40,13 @@ void traceSceneFallback(gpu::Frame& f, Rays& rays, const ViewInputs& in, const S
     const float share =
         static_cast<float>(rays.count) / static_cast<float>(settings.diffuse.rays + settings.specular.rays);
     const bool previous = settings.traceScreen.light == HitLight::previous && screen.lit.valid;
-    traceScene(f, rays, {*in.traced, screen, seen.shadowMap, in.ggxTable, in.blueNoise, in.environment, in.lamps},
+    // Where hits bring all bounces, as the last frame does on screen.
+    const bool all =
+        settings.traceScene.light == SceneHitLight::screen && settings.traceScreen.light != HitLight::direct;
+    const ProbeMaps none;
+    traceScene(f, rays,
+               {*in.traced, screen, seen.shadowMap, in.ggxTable, in.blueNoise, in.environment, in.lamps,
+                all ? in.probes : none},
                sunShadowsAtHits(settings, seen),
                {.own = rays.from.view,
                 .view = in.view,

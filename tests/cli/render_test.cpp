@@ -49,6 +49,9 @@ TEST_F(Render, ATerminalIsToldWhatWasWritten) {
     const std::string command =
         std::string(REFLET_PROGRAM) + " render builtin:cubes --preset direct --size 8x8 -o a.png";
     const Outcome done = runOther("script", {"-qec", command, "/dev/null"});
+    if (done.err.find("pseudo-terminal") != std::string::npos) {
+        GTEST_SKIP() << "no terminal can be made here";
+    }
     EXPECT_EQ(done.status, 0) << done.err;
     EXPECT_NE(done.out.find("written: a.png"), std::string::npos) << done.out;
 }

@@ -219,7 +219,10 @@ TEST_F(View, WritesAPictureOfItself) {
 }
 
 TEST_F(View, SaysThatThereIsNoDisplay) {
-    const Outcome outcome = run({"view", "builtin:cubes"}, {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}});
+    Environment none = environment();
+    none["DISPLAY"] = "";
+    none["WAYLAND_DISPLAY"] = "";
+    const Outcome outcome = run({"view", "builtin:cubes"}, none);
     EXPECT_TRUE(refused(outcome, 1, {"no window can be opened", "reflet render"}));
 }
 

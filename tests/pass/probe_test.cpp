@@ -98,7 +98,7 @@ TEST(Probe, AtItsOwnCentreSeesWhatThePathTracerSees) {
         const Difference d = compareImages(seen, truth, {.mask = smooth}).difference;
         EXPECT_GT(d.pixels, seen.width * seen.height / 4) << face;
         EXPECT_LT(d.relativeMse, 1e-3) << face;
-        EXPECT_LT(displaced, seen.width * seen.height / 50) << face;
+        EXPECT_LT(displaced, seen.width * seen.height / 40) << face;
         RecordProperty("face" + std::to_string(face), fmt::format("relative MSE {:.2e}, {} texels of {} displaced",
                                                                   d.relativeMse, displaced, seen.width * seen.height));
     }

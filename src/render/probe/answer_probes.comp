@@ -4,6 +4,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "render/bounce/rays.glsl"
 #include "render/probe/answer_probes.h"
+#include "shaders/noise.glsl"
 #include "shaders/projection.glsl"
 
 layout(constant_id = 0) const uint lobe = 0u;
@@ -34,16 +35,24 @@ missed;
 layout(set = 0, binding = 10) uniform sampler2D probeIrradiance;
 #include "render/bounce/rays_answer.glsl"
 #include "render/bounce/rays_append.glsl"
+
+uint probeCount() { return params.probes.count; }
+ProbeParams loadProbe(uint index) { return params.probes.probes[index]; }
 #include "render/probe/probes.glsl"
 
-RayAnswer answerRay(ivec2 pixel, Ray ray) {
+RayAnswer answerRay(ivec3 slot, Ray ray) {
+    ivec2 pixel = slot.xy;
     float d = texelFetch(depth, pixel, 0).r;
     vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
     bool hemisphere = lobe == lobeDiffuse && ray.spread > 0.0;
-    ProbeQuery q = ProbeQuery(p, ray.direction, hemisphere ? 0.0 : ray.spread, hemisphere,
-                                    params.settings.parallax, params.settings.blend);
+    // Scattered rays are averaged over frames anyway. A mirror's would show the choice as grain.
+    uint stream = params.firstRay + uint(slot.z) + hashPcg(params.view.seed + 11u);
+    bool one = lobe == lobeDiffuse && !hemisphere;
+    float pick = one ? hashToUnit(hashPixel(uvec2(pixel), stream, params.view.frame)) : -1.0;
+    ProbeQuery q = ProbeQuery(p, ray.direction, hemisphere ? 0.0 : ray.spread, hemisphere, params.settings.parallax,
+                              params.settings.blend, pick);
     float hitDistance;
-    vec4 seen = sampleProbes(params.probes, q, hitDistance);
+    vec4 seen = sampleProbes(q, hitDistance);
     // Occlusion maps stand for nearby geometry that the rays could not hit.
     float occlusion = lobe == lobeDiffuse ? texelFetch(material, pixel, 0).b : 1.0;
     return RayAnswer(seen.rgb * occlusion / max(seen.a, 1e-4), seen.a, hitDistance);
@@ -55,7 +64,7 @@ void main() {
         WaitingRay w = unpackWaitingRay(waiting.items[i]);
         if (!isKnownMiss(w)) {  // else the ray is known to reach the sky, which a probe's box would hide
             Ray ray = unpackRay(imageLoad(direction, w.slot).xy);
-            w.rest = addAnswer(w.slot, answerRay(w.slot.xy, ray), w.rest, sourceProbe);
+            w.rest = addAnswer(w.slot, answerRay(w.slot, ray), w.rest, sourceProbe);
         }
         if (w.rest > 0.0) {
             appendRay(w);

@@ -20,7 +20,7 @@ void answerProbes(gpu::Frame& f, Rays& rays, const ProbeMaps& probes, const Prob
         .write("answer", rays.answer)
         .write("source", rays.source)
         .write("missed", missed)
-        .params(AnswerProbesParams{rays.from.view, settings, probes.block})
+        .params(AnswerProbesParams{rays.from.view, settings, probes.block, rays.firstRay})
         .dispatchIndirect(rays.waiting, 0);
     rays.waiting = missed;
 }

@@ -12,6 +12,7 @@ struct AnswerProbesParams {
     ViewParams view;
     ProbesSettings settings;
     ProbeBlock probes;
+    uint firstRay;
 };
 
 SHARED_END

@@ -25,11 +25,14 @@ layout(set = 0, binding = 9) uniform samplerCubeArray probeDistance;
 layout(set = 0, binding = 10, rgba16f) uniform writeonly image2DArray sharp;
 layout(set = 0, binding = 11, r32f) uniform writeonly image2DArray distance;
 layout(set = 0, binding = 12, rgba16f) uniform writeonly image2D atlas;
+
+uint probeCount() { return params.probes.count; }
+ProbeParams loadProbe(uint index) { return params.probes.probes[index]; }
 #include "render/probe/probes.glsl"
 
 vec3 probesOrSky(ProbeQuery q, vec3 sky) {
     float hitDistance;
-    vec4 seen = sampleProbes(params.probes, q, hitDistance);
+    vec4 seen = sampleProbes(q, hitDistance);
     return seen.rgb + (1.0 - seen.a) * sky;
 }
 
@@ -39,8 +42,8 @@ vec3 indirectAt(ivec2 pixel, vec3 p) {
     MaterialTexel m = unpackMaterial(texelFetch(material, pixel, 0));
     Surface s = surfaceAt(pixel, texelFetch(baseColor, pixel, 0).rgb, m, dot(n, v), ggxTable, isLambert(m));
     vec3 r = reflect(-v, n);
-    ProbeQuery around = ProbeQuery(p, n, 0.0, true, ProbeParallax_box, params.blend);
-    ProbeQuery mirrored = ProbeQuery(p, r, m.roughness, false, ProbeParallax_box, params.blend);
+    ProbeQuery around = ProbeQuery(p, n, 0.0, true, ProbeParallax_box, params.blend, -1.0);
+    ProbeQuery mirrored = ProbeQuery(p, r, m.roughness, false, ProbeParallax_box, params.blend, -1.0);
     vec3 radiance = s.diffuse * m.occlusion * probesOrSky(around, environmentIrradianceOverPi(n));
     return radiance + s.specular * probesOrSky(mirrored, environmentLobe(r, m.roughness));
 }

@@ -1,5 +1,6 @@
 // Parallax-corrected probe lookup: cube maps are sampled where the ray leaves the probe's box.
-// The includer declares `probeLobes`, `probeIrradiance` and `probeDistance`.
+// The includer declares `probeLobes`, `probeIrradiance`, `probeDistance`, uint probeCount() and ProbeParams
+// loadProbe(uint index).
 #ifndef REFLET_PROBES_GLSL
 #define REFLET_PROBES_GLSL
 
@@ -29,9 +30,6 @@ float weightOfProbe(ProbeParams probe, vec3 p, float inside) {
     return inside / (d2 * d2);
 }
 
-// Probes below this share of the largest weight are ignored; it is subtracted from the others' weights for continuity.
-const float smallestShare = 0.05;
-
 // Irradiance / pi for the normal n. rgb: radiance · alpha.
 vec4 irradianceOfProbe(uint probe, vec3 n) {
     float[irradianceCoefficients] basis = sphericalHarmonics(n);
@@ -48,8 +46,16 @@ struct ProbeQuery {
     float roughness;   // perceptual, of the lobe around the direction; 0: the exact direction
     bool hemisphere;   // instead: cosine-weighted hemisphere around the direction
     uint parallax;     // ProbeParallax
-    float blend;  // metres
+    float blend;       // metres
+    float pick;        // 0..1: one probe answers, chosen by this number in proportion to the weights; -1: all do
 };
+
+// Probes below this share of the largest weight are ignored; it is subtracted from the others' weights for continuity.
+const float smallestShare = 0.05;
+float shareOfProbe(ProbeParams probe, ProbeQuery q, float largest) {
+    float weight = weightOfProbe(probe, q.origin, insideBox(probe, q.origin, q.blend));
+    return max(weight / max(largest, 1e-30) - smallestShare, 0.0);
+}
 
 // Where a ray ends in a probe's view.
 struct ProbePoint {
@@ -58,60 +64,63 @@ struct ProbePoint {
     float certainty;
 };
 
-const uint probeSteps = 16u;
-const uint probeRefinements = 5u;
+const uint probeSteps = 10u;
+const uint probeRefinements = 4u;
 const float sameSurface = 1.15;  // a ray farther than the surface by a larger factor passes behind its edge
-const float inFront = 1.02;    // the ray counts as seen where it is nearer than the surface by this factor
-const float uncertain = 0.05;  // certainty where the probe sees nothing of the ray
+const float inFront = 1.02;      // the ray counts as seen where it is nearer than the surface by this factor
+const float enough = 0.5;        // certainty at which no other probe is asked, if one answers
+const float uncertain = 0.05;    // certainty where the probe sees nothing of the ray
+
+// A ray's point: part 0 is its start, part 1 infinitely far. Returns 1 / distance from the probe.
+float alongRay(vec3 first, vec3 direction, float nearness, float part, out vec3 fromProbe) {
+    fromProbe = mix(first, direction, part);
+    return (1.0 - part) * nearness * inversesqrt(max(dot(fromProbe, fromProbe), 1e-12));
+}
 
 // Marches the ray through the probe's distances: it ends where it passes from the space that the probe sees to behind a
 // surface, or in the sky (Szirmay-Kalos, Aszódi, Lazányi and Premecz, Approximate Ray-Tracing on the GPU with Distance
 // Impostors, 2005; McGuire, Mara, Nowrouzezahrai and Luebke, Real-Time Global Illumination using Precomputed Light Field
-// Probes, I3D 2017). Seen from the probe, the ray is an arc of a great circle from its origin to its direction. Steps are
-// equal angles on it; by the sine rule, the ray's distance from the probe there is |start| · sin(all) / sin(all - angle).
+// Probes, I3D 2017). start: from the probe.
 bool marchProbe(uint probe, vec3 start, vec3 direction, out ProbePoint point) {
     float from = max(length(start), 1e-4);
     vec3 first = start / from;
-    float cosine = dot(first, direction);
-    float sine = length(cross(first, direction));
-    if (sine < 1e-3) {
-        float seen = textureLod(probeDistance, vec4(direction, float(probe)), 0.0).r;
-        point = ProbePoint(direction, seen > 0.0 ? max(1.0 / seen - cosine * from, 0.0) : 0.0, 1.0);
-        return cosine > 0.0;
-    }
-    float all = atan(sine, cosine);
-    vec3 aside = (direction - cosine * first) / sine;  // unit, in the arc's plane
-    float reciprocal = 1.0 / (from * sine);
+    float nearness = 1.0 / from;
     bool inSight = false;
     float near = 0.0;
+    vec3 at;
     for (uint i = 1u; i <= probeSteps; ++i) {
-        float angle = all * (float(i) / float(probeSteps));
-        vec3 at = cos(angle) * first + sin(angle) * aside;
+        float part = float(i) / float(probeSteps);
+        float mine = alongRay(first, direction, nearness, part, at);
         float seen = textureLod(probeDistance, vec4(at, float(probe)), 0.0).r;
-        float mine = sin(all - angle) * reciprocal;  // 1 / distance of the ray from the probe
         if (inSight && seen > 0.0 && mine <= seen) {
-            float far = angle;
+            float far = part;
             for (uint k = 0u; k < probeRefinements; ++k) {
                 float middle = 0.5 * (near + far);
-                at = cos(middle) * first + sin(middle) * aside;
+                float mineThere = alongRay(first, direction, nearness, middle, at);
                 float seenThere = textureLod(probeDistance, vec4(at, float(probe)), 0.0).r;
-                bool behind = sin(all - middle) * reciprocal <= seenThere;
+                bool behind = mineThere <= seenThere;
                 near = behind ? near : middle;
                 far = behind ? middle : far;
                 seen = behind ? seenThere : seen;
             }
-            if (seen <= sameSurface * sin(all - far) * reciprocal) {
-                at = cos(far) * first + sin(far) * aside;
-                point = ProbePoint(at, from * sin(far) / max(sin(all - far), 1e-6), 1.0);
+            mine = alongRay(first, direction, nearness, far, at);
+            if (seen <= sameSurface * mine) {
+                point = ProbePoint(at, from * far / max(1.0 - far, 1e-6), 1.0);
                 return true;
             }
             inSight = false;
         }
         inSight = inSight || mine > inFront * seen;
-        near = angle;
+        near = part;
     }
     point = ProbePoint(direction, 0.0, 1.0);
     return inSight;
+}
+
+// 1 where the probe sees the point, less where something hides it.
+float inSightOf(uint i, vec3 fromProbe) {
+    float seen = textureLod(probeDistance, vec4(fromProbe, float(i)), 0.0).r;
+    return mix(uncertain, 1.0, 1.0 - smoothstep(1.05, 1.25, seen * length(fromProbe)));
 }
 
 ProbePoint endOfRay(uint i, ProbeParams probe, ProbeQuery q) {
@@ -132,6 +141,7 @@ ProbePoint endOfRay(uint i, ProbeParams probe, ProbeQuery q) {
 void sampleProbe(uint i, ProbeParams probe, ProbeQuery q, inout float share, inout vec4 radiance,
                  inout float hitDistance) {
     if (q.hemisphere) {
+        share *= q.parallax == ProbeParallax_depth ? inSightOf(i, q.origin - probe.position) : 1.0;
         vec4 seen = share * irradianceOfProbe(i, q.direction);
         radiance += seen;
         hitDistance += seen.a * distanceToBox(probe, q.origin, q.direction);
@@ -144,24 +154,45 @@ void sampleProbe(uint i, ProbeParams probe, ProbeQuery q, inout float share, ino
     hitDistance += seen.a * point.distance;
 }
 
-// rgb: radiance · a; a: confidence, 0..1: lower at box borders and toward the sky. Continuous in the origin.
-vec4 sampleProbes(ProbeBlock block, ProbeQuery q, out float hitDistance) {
+// rgb: radiance · a; a: confidence, 0..1: lower at box borders and toward the sky. Continuous in the origin, or, if one
+// probe answers, in the mean.
+vec4 sampleProbes(ProbeQuery q, out float hitDistance) {
+    uint count = probeCount();
     float inside = 0.0;
     float largest = 0.0;
-    for (uint i = 0u; i < block.count; ++i) {
-        float b = insideBox(block.probes[i], q.origin, q.blend);
+    float total = 0.0;
+    for (uint i = 0u; i < count; ++i) {
+        ProbeParams probe = loadProbe(i);
+        float b = insideBox(probe, q.origin, q.blend);
         inside = max(inside, b);
-        largest = max(largest, weightOfProbe(block.probes[i], q.origin, b));
+        largest = max(largest, weightOfProbe(probe, q.origin, b));
+    }
+    for (uint i = 0u; i < count; ++i) {
+        total += shareOfProbe(loadProbe(i), q, largest);
     }
     vec4 sum = vec4(0.0);
     float weights = 0.0;
+    float before = 0.0;  // the weight of the probes before this one
     hitDistance = 0.0;
-    for (uint i = 0u; i < block.count && inside > 0.0; ++i) {
-        float b = insideBox(block.probes[i], q.origin, q.blend);
-        float weight = weightOfProbe(block.probes[i], q.origin, b) / largest - smallestShare;
-        if (weight > 0.0) {
-            sampleProbe(i, block.probes[i], q, weight, sum, hitDistance);  // may lower the weight
-            weights += weight;
+    // If the chosen one does not see the ray, the next may.
+    bool one = q.pick >= 0.0;
+    float chosen = one ? q.pick * total : 0.0;
+    for (uint k = 0u; k < 2u * count && inside > 0.0; ++k) {
+        uint i = k < count ? k : k - count;
+        ProbeParams probe = loadProbe(i);
+        float weight = shareOfProbe(probe, q, largest);
+        before += weight;
+        bool asked = before > chosen && weight > 0.0;
+        if (asked) {
+            float share = weight;
+            sampleProbe(i, probe, q, share, sum, hitDistance);
+            weights += share;
+            if (one && share > enough * weight) {
+                break;
+            }
+        }
+        if (before >= chosen + total || (!one && k + 1u == count)) {
+            break;  // all were asked
         }
     }
     hitDistance /= max(sum.a, 1e-6);

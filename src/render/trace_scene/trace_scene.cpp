@@ -16,11 +16,18 @@ void traceScene(gpu::Frame& f, Rays& rays, const TraceSceneInputs& in, uint32_t 
     in.scene.rays.bind(pass);
     in.scene.surfaces.bind(pass);
     bindEnvironment(pass, in.environment);
+    bindEnvironmentLobes(pass, f.device(), in.environment);
+    const VkSampler linear = f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
     pass.constant("lobe", rays.lobe)
         .constant("materialFeatures", g.features)
         .constant("sunShadows", sunShadows)
         .constant("reuseScreen", reuse ? 1U : 0U)
         .constant("tellsMotion", tellsMotion ? 1U : 0U)
+        .constant("endsInProbes", in.probes ? 1U : 0U)
+        .read("probeLobes", in.probes ? in.probes.lobes : in.environment.lobes, linear)
+        .read("probeIrradiance", in.probes ? in.probes.irradiance : in.environment.irradiance)
+        .read("probeDistance", in.probes ? in.probes.distance : in.environment.lobes)
+        .params(in.probes.block, "probeBlock")
         .read("ownDepth", rays.from.g.depth)
         .read("ownGeometricNormal", rays.from.g.geometricNormal)
         .read("depth", g.depth)

@@ -3,11 +3,12 @@
 // In: depth, geometric normal and material of the rays' origins; of the screen: depth, geometric normal, motion, light
 // of this and the last frame; the sun's shadow map, GGX table, blue noise, lamps, ray directions, the list. Out:
 // results, sources, motion of reflected images, the list of remaining rays.
-#include "render/environment/environment.glsl"
+#include "render/environment/environment_lobes.glsl"
 #include "render/bounce/ray_tiles.h"
 #include "render/bounce/rays.glsl"
 #include "render/gbuffer/gbuffer.glsl"
 #include "render/lamps.h"
+#include "render/probe/probes.h"
 #include "render/trace_scene/trace_scene.h"
 #include "shaders/cascades.glsl"
 #include "shaders/projection.glsl"
@@ -16,6 +17,7 @@ layout(constant_id = 0) const uint lobe = 0u;
 layout(constant_id = 1) const uint sunShadows = sunShadowRay;
 layout(constant_id = 2) const uint reuseScreen = 0u;
 layout(constant_id = 3) const uint tellsMotion = 0u;
+layout(constant_id = 4) const uint endsInProbes = 0u;
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) uniform ParamsBlock { TraceSceneParams params; };
@@ -23,6 +25,10 @@ layout(set = 0, binding = 1, scalar) uniform LampUniforms { LampBlock lampBlock;
 layout(set = 0, binding = 16) uniform sampler2D ownDepth;
 layout(set = 0, binding = 18, rg16f) uniform writeonly image2D imageMotion;
 layout(set = 0, binding = 17) uniform usampler2D ownGeometricNormal;
+layout(set = 0, binding = 19, scalar) uniform ProbesUniforms { ProbeBlock probeBlock; };
+layout(set = 0, binding = 20) uniform samplerCubeArray probeLobes;
+layout(set = 0, binding = 21) uniform sampler2D probeIrradiance;
+layout(set = 0, binding = 22) uniform samplerCubeArray probeDistance;
 layout(set = 0, binding = 2) uniform sampler2D depth;
 layout(set = 0, binding = 3) uniform usampler2D geometricNormal;
 layout(set = 0, binding = 4) uniform sampler2D material;
@@ -73,6 +79,10 @@ float sunMapVisibility(vec3 p, vec3 normal) {
     return -1.0;
 }
 #include "render/bounce/last_frame.glsl"
+
+uint probeCount() { return probeBlock.count; }
+ProbeParams loadProbe(uint index) { return probeBlock.probes[index]; }
+#include "render/probe/probes.glsl"
 #include "render/trace_scene/scene_light.glsl"
 
 const uint rouletteStart = 4u;  // bounces before Russian roulette starts
@@ -182,6 +192,30 @@ vec3 scatter(LitPoint at, bool diffuseOnly, inout uint random, out SceneRay next
     return l.z > 0.0 && dot(towards, at.geometricNormal) > 0.0 ? weight : vec3(0.0);
 }
 
+const float roughest = 0.5;  // rougher lobes are taken for hemispheres
+
+vec3 probesOrEnvironment(vec3 position, vec3 direction, float roughness, bool hemisphere) {
+    float unused;
+    ProbeQuery q = ProbeQuery(position, direction, roughness, hemisphere, ProbeParallax_depth, 1e6, -1.0);
+    vec4 seen = sampleProbes(q, unused);
+    if (seen.a >= 1.0) {
+        return seen.rgb;
+    }
+    vec3 behind = hemisphere ? environmentIrradianceOverPi(direction) : environmentLobe(direction, roughness);
+    return seen.rgb + (1.0 - seen.a) * behind;
+}
+
+// What arrives at the point besides light of sun and lamps, as the probes know it, reflected to the viewer.
+vec3 probeLight(LitPoint at) {
+    vec3 from = at.position + at.geometricNormal * at.clearance;
+    vec3 around = probesOrEnvironment(from, at.normal, 0.0, true);
+    vec3 mirrored = around;
+    if (at.surface.roughness < roughest) {
+        mirrored = probesOrEnvironment(from, reflect(-at.toViewer, at.normal), at.surface.roughness, false);
+    }
+    return at.surface.diffuse * around + at.surface.specular * mirrored;
+}
+
 // Radiance along the ray from its hit. hitDistance: metres; negative: miss.
 vec3 radianceAlong(SceneRay ray, inout uint random, out float hitDistance) {
     vec3 radiance = vec3(0.0);
@@ -204,7 +238,7 @@ vec3 radianceAlong(SceneRay ray, inout uint random, out float hitDistance) {
         float sunVisible;
         radiance += throughput * (found.emissive + sunAndLamps(at, random, sunVisible));
         if (bounce >= params.bounces) {
-            return radiance;
+            return endsInProbes != 0u ? radiance + throughput * probeLight(at) : radiance;
         }
         SceneRay next;
         throughput *= scatter(at, params.diffuseOnly != 0u, random, next);

@@ -28,8 +28,9 @@ CHOICES(SceneShadows, SCENE_SHADOWS)
            "get (trace_screen.light; for lit, reflections trace one diffuse ray more), so that both match. path: "     \
            "path tracing with up to `bounces` bounces.")                                                               \
     VALUE(uint, bounces, 1, 0, 1024,                                                                                   \
-          "Maximum bounces after a hit, with light path, or with light screen and trace_screen.light previous. "       \
-          "Russian roulette from the fifth on. More: brighter corners, slower.")                                       \
+          "Maximum bounces after a hit, with light path, or with light screen and trace_screen.light previous, whose " \
+          "paths end in probes' light, if there are any. Russian roulette from the fifth on. More: brighter corners, " \
+          "slower.")                                                                                                   \
     CHOICE(SceneShadows, shadows, ray,                                                                                 \
            "Sun shadows at hits. ray: a shadow ray to a random point of the sun's disk. map: the sun's shadow map, "   \
            "and a ray outside of it; faster, harder edges. Lamps always get shadow rays.")                             \
@@ -84,6 +85,7 @@ SHARED_END
 #include "render/bounce/trace_screen.h"
 #include "render/environment/environment_light.h"
 #include "render/lamps.h"
+#include "render/probe/probes.h"
 #include "render/trace_scene/scene_rays.h"
 #include "render/trace_scene/scene_surfaces.h"
 
@@ -104,6 +106,7 @@ struct TraceSceneInputs {
     gpu::BufferView blueNoise;
     const EnvironmentLight& environment;
     const LampBlock& lamps;
+    const ProbeMaps& probes;  ///< if there are any, they bring the light of further bounces where a path ends
 };
 
 /// Hits get confidence 1. Misses stay in rays.waiting, marked as known misses, and so do rays beyond the budget and
