@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Makes docs/accuracy.md: errors of every preset on every built-in scene, of every tracing method and shadow filter, against
+# Makes docs/accuracy.md: errors of five presets on every built-in scene, of every tracing method and shadow filter, against
 # the path-traced reference. Takes about half an hour on two cores, which should be idle otherwise because the tables have
 # times. The reports with the images stay in out/accuracy*.
 #
 #     docs/accuracy.sh            makes the whole page
+#     docs/accuracy.sh presets    only the first section, "All bounces"
 #     docs/accuracy.sh tables     all but the last two sections, "Shadows" and "Sources"
 #     docs/accuracy.sh shadows    only the last two sections
 #     docs/accuracy.sh sources    only the last section
@@ -62,27 +63,7 @@ diffuse_table() {
     done
 }
 
-{
-    cat <<'TEXT'
-# Accuracy
-
-The error of every preset against a path-traced reference, and its cost, on all built-in scenes, including the cases where
-it is bad. [performance.md](performance.md) summarises this page. Made by `docs/accuracy.sh`.
-
-- **truth** (the reference, ground truth): all light, path-traced by `reflet reference`.
-- **visible-only**: the same, but scattered rays return light only from points that the camera sees, and from the
-  environment. Its error against the reference, in a row of its own, is the limit of screen-space methods. A preset's error
-  against visible-only is that of the preset itself. The two need not add up: an approximation can make up for missing
-  light.
-- **relative MSE**: mean of (a - b)² / (b² + 0.01) over pixels and channels of linear light. **FLIP**: HDR-FLIP.
-  `reflet compare --help` has all definitions.
-- **noise of the references**: the relative MSE between one run of the reference and its converged result. Smaller
-  differences are not significant. FLIP includes that noise, too.
-- Each image is the sixth frame. Presets with a denoiser (`denoise.enabled`) are better at frame 32.
-TEXT
-    section "All bounces" out/accuracy
-    section "One bounce" out/accuracy-one-bounce --bounces 1 --set trace_screen.light=direct
-
+otherSections() {
     printf '\n## Tracing methods\n\nThe settings of `plain` except `trace_screen.method`; one bounce.\n\n'
     variants=()
     for method in $methods; do
@@ -103,6 +84,33 @@ TEXT
         docs/accuracy_shadows.py
         echo
         docs/accuracy_sources.py
+    fi
+}
+
+{
+    cat <<'TEXT'
+# Accuracy
+
+The error of the presets against a path-traced reference, and its cost, on all built-in scenes, including the cases where
+it is bad. [performance.md](performance.md) summarises this page. Made by `docs/accuracy.sh`.
+
+- **truth** (the reference, ground truth): all light, path-traced by `reflet reference`.
+- **visible-only**: the same, but scattered rays return light only from points that the camera sees, and from the
+  environment. Its error against the reference, in a row of its own, is the limit of screen-space methods. A preset's error
+  against visible-only is that of the preset itself. The two need not add up: an approximation can make up for missing
+  light.
+- **relative MSE**: mean of (a - b)² / (b² + 0.01) over pixels and channels of linear light. **FLIP**: HDR-FLIP.
+  `reflet compare --help` has all definitions.
+- **noise of the references**: the relative MSE between one run of the reference and its converged result. Smaller
+  differences are not significant. FLIP includes that noise, too.
+- Each image is frame 32 of a still view: settled.
+TEXT
+    section "All bounces" out/accuracy --preset direct,fast,balanced,quality,hybrid
+    if [[ ${1:-} == presets ]]; then
+        echo
+        sed -n '/^## Tracing methods$/,$p' docs/accuracy.md
+    else
+        otherSections "$@"
     fi
 } >"$table"
 cp "$table" docs/accuracy.md

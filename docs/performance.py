@@ -261,7 +261,7 @@ def overview(folder):
     text = (f"Per preset at {size} on {device}: the median over the {scenes} built-in scenes, and in brackets the lowest and "
             "the highest. Milliseconds are device time. The *reference* is path-traced with all bounces; "
             "*visible-only* is the part of it that the camera sees, the best that a screen-space method can reach. Errors are "
-            "those of the sixth frame. Values by scene are in [accuracy.md](accuracy.md).\n\n" + table)
+            "those of frame 32. Values by scene are in [accuracy.md](accuracy.md).\n\n" + table)
     if data := load(folder, "sizes"):
         runs = data["runs"]
         text += (f"\n\nLarger images, from submission to fence, `{runs[0]['variant']}` on `{short(runs[0]['scene'])}`:\n\n"

@@ -110,11 +110,11 @@ TEST_F(BenchTest, OneSettingAgainstItselfHasARatioForEveryTurnAndEqualErrors) {
 
 // Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(BenchTest, TheCommandThatIsRecordedDoesTheSameAgain) {
-    ASSERT_TRUE(quietSuccess(bench({"--compare", "direct", "fast,diffuse.rays=2", "--truth-all-light"})));
+    ASSERT_TRUE(quietSuccess(bench({"--compare", "direct", "fast,diffuse.rays=2", "--truth-visible-only"})));
     const auto command = numbers().at("command").get<std::string>();
     EXPECT_TRUE(command.starts_with("reflet bench builtin:cubes")) << command;
     EXPECT_NE(command.find(" --compare direct fast,diffuse.rays=2"), std::string::npos) << command;
-    EXPECT_NE(command.find(" --truth-all-light"), std::string::npos) << command;
+    EXPECT_NE(command.find(" --truth-visible-only"), std::string::npos) << command;
 }
 
 // Over 5 s: its processes each have their shaders compiled by the driver.
@@ -132,7 +132,7 @@ TEST_F(BenchTest, AReferenceIsRenderedOnceForAllThatShareIt) {
     }
     ASSERT_TRUE(quietSuccess(bench({"--preset", "fast", "--truth-bounces", "2"})));
     EXPECT_EQ(truths(), 4U);
-    ASSERT_TRUE(quietSuccess(bench({"--preset", "fast", "--truth-all-light"})));
+    ASSERT_TRUE(quietSuccess(bench({"--preset", "fast", "--truth-visible-only"})));
     EXPECT_EQ(truths(), 6U);
 }
 

@@ -70,7 +70,8 @@ TEST_F(History, OfPresetsIsKeptByThoseThatDenoise) {
         Settings settings;
         applyPreset(settings, preset.name);
         const HistoryUse use = historyUse(settings);
-        const bool denoises = preset.name == "fast" || preset.name == "balanced" || preset.name == "quality";
+        const bool denoises = preset.name == "fast" || preset.name == "balanced" || preset.name == "quality" ||
+                              preset.name == "hybrid";
         EXPECT_EQ(use.shadows && use.denoise && use.temporal, denoises) << preset.name;
         EXPECT_EQ(use.any(), denoises || preset.name == "pathtrace") << preset.name;
         EXPECT_EQ(framesToSettle(use, settings), denoises ? 32U : use.accumulate ? 64U : 1U) << preset.name;

@@ -352,7 +352,7 @@ TEST(Probe, IsNotUsedForRaysThatAreKnownToHitNothing) {
     const auto reflections = [&](const char* probes) {
         return render(scene, defaultView(scene), {64, 36},
                       settingsOf({"diffuse.rays=0", "specular.rays=4", "trace_screen.enabled=false",
-                                  "trace_scene.enabled=true", "probes.resolution=32", probes}),
+                                  "trace_scene.enabled=true", "trace_scene.light=path", "probes.resolution=32", probes}),
                       {"specular_radiance"})
             .images.at("specular_radiance");
     };

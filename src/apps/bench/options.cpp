@@ -73,7 +73,7 @@ void addTruthOptions(CLI::App& command, BenchCommand& options) {
         ->type_name("N|unlimited")
         ->capture_default_str();
     command.add_flag("--truth-visible-only,!--truth-all-light", options.truthVisibleOnly,
-                     "Scattered rays return light only from points that the camera sees [on]");
+                     "Scattered rays return light only from points that the camera sees [off]");
     command.add_option("--truth-spp", options.truthSamples, "Samples per pixel of the path tracer")
         ->check(CLI::Range(2U, largestSamples))
         ->capture_default_str();

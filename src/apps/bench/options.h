@@ -29,8 +29,8 @@ struct BenchCommand {
     uint32_t frames = 20;
     std::string truth = "reference";
     std::string truthOf;
-    std::string truthBounces = "1";
-    bool truthVisibleOnly = true;
+    std::string truthBounces = "unlimited";
+    bool truthVisibleOnly = false;
     uint32_t truthSamples = 256;
     std::string truthFilter = "box";
     std::string truthCache;

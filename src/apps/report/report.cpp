@@ -40,7 +40,7 @@ struct ReportCommand {
     std::vector<std::string> presets;
     std::vector<std::string> variants;
     std::string device;
-    uint32_t frames = 6;
+    uint32_t frames = 32;
     std::optional<uint32_t> bounces;
     std::optional<uint32_t> samples;
     float noise = 0.0F;

@@ -65,7 +65,7 @@ struct ProbePoint {
 };
 
 const uint probeSteps = 10u;
-const uint probeRefinements = 4u;
+const uint probeRefinements = 6u;
 const float sameSurface = 1.15;  // a ray farther than the surface by a larger factor passes behind its edge
 const float inFront = 1.02;      // the ray counts as seen where it is nearer than the surface by this factor
 const float enough = 0.5;        // certainty at which no other probe is asked, if one answers
