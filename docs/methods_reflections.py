@@ -1,4 +1,4 @@
-"""The images and table of docs/methods/reflections.md: one scene, eight reflection techniques; called by methods.py."""
+"""The images and table of docs/methods/reflections.md: one scene, nine reflection techniques; called by methods.py."""
 import json
 
 from methods import Frame, Render, Truth, cached, options, run

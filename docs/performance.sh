@@ -47,7 +47,7 @@ fi
 
 if [[ ${1:-} != page ]]; then
     # Error against time: every preset, and games202 with 32 rays.
-    names=$("$reflet" list presets | grep -v '^ ' | cut -d ' ' -f 1 | grep -v '^pathtrace$' | paste -sd ,)
+    names=$("$reflet" list presets | grep '^[a-z]' | cut -d ' ' -f 1 | grep -v '^pathtrace$' | paste -sd ,)
     measure presets builtin:cave builtin:gloss --preset "$names" --variant games202-32=games202,diffuse.rays=32 \
         --size 640x360 "${one_bounce[@]}" --truth-spp 256 --first 2 --frames 3 --plot "$out/presets.svg"
     # A whole frame against the GAMES202 method.

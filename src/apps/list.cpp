@@ -25,7 +25,13 @@ void listScenes() {
 }
 
 void listPresets() {
+    fmt::print("# To render with\n");
+    bool study = false;
     for (const Preset& preset : presets()) {
+        if (preset.study && !study) {
+            fmt::print("\n# To study single methods\n");
+            study = true;
+        }
         fmt::print("{:<18} {}\n                   {}\n", preset.name, preset.description, preset.json);
     }
 }

@@ -8,13 +8,21 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 
 namespace reflet {
 
 namespace {
 
+/// Presets to render with, in the order of time and error; all others show single methods.
+constexpr std::array<std::string_view, 5> toRenderWith{"fast", "balanced", "quality", "hybrid", "pathtrace"};
+
 std::string_view presetName(const EmbeddedFile& file) {
     return file.name.substr(0, file.name.find('.'));
+}
+
+auto rankOf(const Preset& preset) {
+    return std::ranges::find(toRenderWith, preset.name) - toRenderWith.begin();
 }
 
 }  // namespace
@@ -25,8 +33,11 @@ std::vector<Preset> presets() {
         auto json = parseOrderedJson(embedded.text);
         const auto description = json.at("description").get<std::string>();
         json.erase("description");
-        all.push_back({std::string(presetName(embedded)), description, jsonText(json)});
+        const std::string name(presetName(embedded));
+        const bool study = std::ranges::find(toRenderWith, name) == toRenderWith.end();
+        all.push_back({name, description, jsonText(json), study});
     }
+    std::ranges::stable_sort(all, {}, rankOf);
     return all;
 }
 

@@ -18,8 +18,10 @@ struct Preset {
     std::string name;
     std::string description;
     std::string json;  ///< on one line, without the description
+    bool study;        ///< shows a single method, rather than being the best that its time allows
 };
 
+/// Those to render with first, from the fastest to the most exact; then those for study, by name.
 std::vector<Preset> presets();
 
 /// The preset that programs use by default.

@@ -115,6 +115,8 @@ TEST_F(ChosenLight, BackgroundsGoIntoTheImagesOfRenderAndReference) {
                       "-o",    "a.png",     "-o",     "a.exr", "--background",  background};
         if (command == std::string("reference")) {
             all.insert(all.end(), {"--spp", "16"});
+        } else {
+            all.insert(all.end(), {"--preset", "direct", "--set", "temporal.enabled=true"});
         }
         const Outcome done = run(all);
         EXPECT_EQ(done.status, 0) << done.err;

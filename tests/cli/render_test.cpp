@@ -60,7 +60,7 @@ TEST_F(Render, ATerminalIsToldWhatWasWritten) {
 TEST_F(Render, TheSceneMayStandAfterAnyOption) {
     for (const Arguments& option :
          {Arguments{"-o", "b.png"}, Arguments{"--set", "diffuse.rays=1"}, Arguments{"--frames", "1"}}) {
-        Arguments all{"render", "-o", "a.png", "--size", "8x8"};
+        Arguments all{"render", "-o", "a.png", "--size", "8x8", "--preset", "plain"};
         all.insert(all.end(), option.begin(), option.end());
         all.push_back(cubes);
         EXPECT_TRUE(quietSuccess(run(all))) << option.front();

@@ -9,7 +9,7 @@
 namespace reflet::test::scene_rays_frame_test {
 namespace {
 
-constexpr uvec2 size(64, 36);
+constexpr uvec2 size(40, 22);
 
 class SceneRaysInAFrame : public DeviceTest, public testing::WithParamInterface<const char*> {};
 
