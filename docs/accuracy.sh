@@ -11,7 +11,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-reflet=build/bin/reflet
+reflet=${REFLET:-build/bin/reflet}
 scenes=$("$reflet" list scenes | cut -d ' ' -f 1)
 table=$(mktemp)
 trap 'rm -f "$table"' EXIT
@@ -99,8 +99,8 @@ it is bad. [performance.md](performance.md) summarises this page. Made by `docs/
   environment. Its error against the reference, in a row of its own, is the limit of screen-space methods. A preset's error
   against visible-only is that of the preset itself. The two need not add up: an approximation can make up for missing
   light.
-- **relative MSE**: mean of (a - b)² / (b² + 0.01) over pixels and channels of linear light. **FLIP**: HDR-FLIP.
-  `reflet compare --help` has all definitions.
+- **relative MSE**: mean of (a - b)² / (b² + 0.01) over pixels and channels of linear light. **Bias**: of the mean radiance; above 0
+  the image is too bright. **FLIP**: HDR-FLIP. `reflet compare --help` has all definitions.
 - **noise of the references**: the relative MSE between one run of the reference and its converged result. Smaller
   differences are not significant. FLIP includes that noise, too.
 - Each image is frame 32 of a still view: settled.

@@ -18,7 +18,6 @@ out=out/performance
 mkdir -p "$out"
 preset=${PRESET:-balanced}
 lambert=(--set materials.lambert_only=true)
-one_bounce=(--truth-bounces 1 --truth-visible-only)
 all_scenes=$("$reflet" list scenes | cut -d ' ' -f 1)
 wanted=("$@")
 
@@ -40,36 +39,35 @@ measure() {
 if [[ ${1:-} == gpu ]]; then
     wanted=()
     # shellcheck disable=SC2086  # a word for each scene
-    measure gpu $all_scenes --preset "$preset" --size 1920x1080 "${one_bounce[@]}"
+    measure gpu $all_scenes --preset "$preset" --size 1920x1080 --first 1 --warmup 31
     measure gpu-sizes builtin:cave --preset "$preset" --sizes 640x360,1280x720,1920x1080,3840x2160 --truth none
     exit
 fi
 
 if [[ ${1:-} != page ]]; then
-    # Error against time: every preset, and games202 with 32 rays.
-    names=$("$reflet" list presets | grep '^[a-z]' | cut -d ' ' -f 1 | grep -v '^pathtrace$' | paste -sd ,)
-    measure presets builtin:cave builtin:gloss --preset "$names" --variant games202-32=games202,diffuse.rays=32 \
-        --size 640x360 "${one_bounce[@]}" --truth-spp 256 --first 2 --frames 3 --plot "$out/presets.svg"
+    # Error against time: the presets to render with, and games202 with 5 and with 32 rays.
+    measure presets builtin:cave builtin:gloss --preset direct,games202,plain,fast,balanced,quality,hybrid \
+        --variant games202-32=games202,diffuse.rays=32 --size 640x360 --truth-spp 256 --first 1 --warmup 31 --frames 3 \
+        --plot "$out/presets.svg"
     # A whole frame against the GAMES202 method.
-    against=(--compare "preset:$preset" preset:games202,diffuse.rays=32 --size 1280x720 "${lambert[@]}"
-        --set specular.rays=0 "${one_bounce[@]}" --truth-spp 256 --first 2 --warmup 12 --frames 3)
+    against=(--compare "preset:$preset" preset:games202,diffuse.rays=32 --size 640x360 "${lambert[@]}"
+        --set specular.rays=0 --truth-spp 256 --first 2 --warmup 31 --frames 3)
     measure games202 builtin:cave "${against[@]}"
     if [[ -n ${CUBE1:-} ]]; then
         measure games202-cube1 "$CUBE1" --view-file "${CUBE1%.gltf}.view.json" "${against[@]}"
     fi
-    # Reflections: a full-screen mirror, without sky. Where the screen misses, the visible-only reference is black; an
-    # environment as fallback would make nearly all of both errors.
-    measure mirror builtin:mirror-hall --view-file docs/methods/views/into-the-mirror-without-sky.json --size 1280x720 \
-        --compare "preset:$preset,diffuse.rays=0" \
-        preset:games202_linear,materials.lambert_only=false,specular.rays=1,diffuse.rays=0,trace_screen.max_steps=150 \
-        --layer indirect_specular "${one_bounce[@]}" --truth-spp 256 --first 2 --warmup 12 --frames 3
+    # Reflections: a full-screen mirror.
+    measure mirror builtin:mirror-hall --view-file docs/methods/views/into-the-mirror-without-sky.json --size 640x360 \
+        --compare "preset:$preset" \
+        preset:games202_linear,materials.lambert_only=false,specular.rays=1,trace_screen.max_steps=150 \
+        --layer indirect_specular --truth-spp 256 --first 2 --warmup 31 --frames 3
     # Soft shadows against hard ones.
     measure shadow builtin:colonnade builtin:cave --size 1280x720 --truth none --first 3 \
         --compare "preset:$preset,diffuse.rays=0,specular.rays=0,shadow.filter=pcss" \
         "preset:$preset,diffuse.rays=0,specular.rays=0,shadow.filter=hard"
     # Pixels and triangles.
-    measure sizes builtin:cave --preset "$preset" --sizes 640x360,1280x720,1920x1080,3840x2160 --truth none --first 2 \
-        --warmup 3 --frames 9
+    measure sizes builtin:cave --preset "$preset" --sizes 640x360,1280x720,1920x1080,3840x2160 --truth none --first 1 \
+        --warmup 2 --frames 5
     measure triangles-100 builtin:tessellated-100 --preset "$preset" --size 1280x720 --truth none
     measure triangles-1000000 builtin:tessellated-1000000 --preset "$preset" --size 1280x720 --truth none
     # At rest.

@@ -89,21 +89,6 @@ void fly(Camera& camera, const vec3& metres) {
     camera.target += step;
 }
 
-void frameAll(Camera& camera, const Aabb& box, float aspect) {
-    takeOver(camera);
-    const vec3 ahead = axesOf(camera).ahead;
-    const float radius = std::max(0.5F * glm::length(box.size()), nearest);
-    const float narrower = std::min(1.0F, aspect);
-    camera.target = 0.5F * (box.min + box.max);
-    if (camera.orthographicHeight > 0.0F) {
-        camera.orthographicHeight = 2.0F * radius / narrower;
-        camera.position = camera.target - ahead * (2.0F * radius);
-        return;
-    }
-    const float half = std::atan(std::tan(0.5F * camera.fovY) * narrower);
-    camera.position = camera.target - ahead * (radius / std::sin(half));
-}
-
 float flightSpeed(const Aabb& box) {
     return box.empty() ? 1.0F : 0.25F * std::max(glm::length(box.size()), nearest);
 }

@@ -20,9 +20,6 @@ void dolly(Camera& camera, float factor);
 /// Moves camera and target: metres to the right, up, ahead.
 void fly(Camera& camera, const vec3& metres);
 
-/// Moves the camera until it sees the whole box, without turning it. The box is not empty; aspect: width / height.
-void frameAll(Camera& camera, const Aabb& box, float aspect);
-
 /// A convenient flying speed for a scene of this size, in metres per second.
 float flightSpeed(const Aabb& box);
 

@@ -45,6 +45,37 @@ std::vector<vec3> toCameraSpace(const std::vector<vec3>& points, const Axes& axe
     return result;
 }
 
+Axes axesAlong(const vec3& forward, const vec3& up, const Aabb& box) {
+    Axes axes{};
+    axes.origin = 0.5 * (glm::dvec3(box.min) + glm::dvec3(box.max));
+    axes.ahead = forward;
+    axes.right = glm::normalize(glm::cross(axes.ahead, glm::dvec3(up)));
+    axes.up = glm::cross(axes.right, axes.ahead);
+    return axes;
+}
+
+// Moves an orthographic camera, without turning it, so that it has all points within the framed share of the image.
+void fitOrthographic(Camera& camera, const std::vector<vec3>& points, const vec3& forward, float aspect) {
+    Aabb box;
+    for (const vec3& p : points) {
+        box.add(p);
+    }
+    const Axes axes = axesAlong(forward, camera.up, box);
+    Aabb seen;
+    for (const vec3& p : toCameraSpace(points, axes)) {
+        seen.add(p);
+    }
+    const vec3 size = seen.size();
+    const glm::dvec3 middle(seen.center());
+    const double slack = std::max(0.05 * double(glm::length(size)), 1e-3);
+    const double away = 0.5 * double(size.z) + slack + double(camera.near);
+    const glm::dvec3 target = axes.origin + axes.right * middle.x + axes.up * middle.y + axes.ahead * middle.z;
+    camera.orthographicHeight = std::max(std::max(size.y, size.x / aspect) / framedShare, 1e-3F);
+    camera.target = vec3(target);
+    camera.position = vec3(target - axes.ahead * away);
+    camera.far = std::max(camera.far, float(away + 0.5 * double(size.z) + slack));
+}
+
 // The farthest-ahead z from which all points are within ±slope along the axis. Each side of the frustum is a plane
 // that must pass outside of all points: x - slope·z and -x - slope·z are bounded.
 double fittingDepth(const std::vector<vec3>& points, int axis, double slope) {
@@ -226,7 +257,7 @@ Subject gather(const Scene& scene, const ScenePose& pose) {
 
 }  // namespace
 
-Camera fitCamera(const std::vector<vec3>& points, const vec3& forward, float fovY, float aspect) {
+Camera fitCamera(const std::vector<vec3>& points, const vec3& forward, float fovY, float aspect, const vec3& up) {
     REFLET_CHECK(aspect > 0.0F && fovY > 0.0F, "aspect {}, fovY {}", aspect, fovY);
     Aabb box;
     for (const vec3& p : points) {
@@ -235,11 +266,7 @@ Camera fitCamera(const std::vector<vec3>& points, const vec3& forward, float fov
     if (box.empty()) {
         box.add(vec3(0.0F));
     }
-    Axes axes{};
-    axes.origin = 0.5 * (glm::dvec3(box.min) + glm::dvec3(box.max));
-    axes.ahead = forward;
-    axes.right = glm::normalize(glm::cross(axes.ahead, glm::dvec3(0, 1, 0)));
-    axes.up = glm::cross(axes.right, axes.ahead);
+    const Axes axes = axesAlong(forward, up, box);
     const std::vector<vec3> local = toCameraSpace(points.empty() ? std::vector<vec3>{vec3(0.0F)} : points, axes);
 
     const double slopeY = double(framedShare) * std::tan(0.5 * fovY);
@@ -284,6 +311,24 @@ Camera framingCamera(const Scene& scene, float aspect, double time) {
         }
     }
     return fitCamera(subject.points, forward.value_or(threeQuarterView()), usualFov, aspect);
+}
+
+void frameScene(Camera& camera, const Scene& scene, float aspect, double time) {
+    const Subject subject = gather(scene, scenePose(scene, time));
+    if (subject.points.empty()) {
+        return;
+    }
+    const vec3 forward = glm::normalize(camera.target - camera.position);
+    if (camera.orthographicHeight > 0.0F) {
+        fitOrthographic(camera, subject.points, forward, aspect);
+    } else {
+        const Camera fitted = fitCamera(subject.points, forward, camera.fovY, aspect, camera.up);
+        camera.position = fitted.position;
+        camera.target = fitted.target;
+        camera.near = fitted.near;
+    }
+    camera.aims = true;
+    camera.node = -1;
 }
 
 }  // namespace reflet

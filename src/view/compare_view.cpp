@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "compare/heat_map.h"
+#include "render/background/background.h"
 #include "render/presets.h"
 
 #include <algorithm>
@@ -167,6 +168,7 @@ void CompareView::updateTruth(const ViewerState& state, const Session& live, uve
     if (auto picture = truth_.take(); picture && !unwanted) {
         samples_ = picture->samples;
         layers_ = picture->layers();
+        coverage_ = std::move(picture->coverage);
         layerShow_.clear();
     }
     if (mayRender && !truth_.busy() && samples_ < state.compare.samples) {
@@ -222,7 +224,12 @@ void CompareView::updatePicture(const ViewerState& state, const TonemapSettings&
     pictureIsError_ = asError;
     pictureFalse_ = state.falseColor;
     pictureRange_ = range;
-    texture_ = uploadPicture(device_, asError ? heatMap(*of) : shownPicture(state, tonemap, *of), "right side");
+    const bool overBackground = with_ == CompareWith::truth && state.show == "final" && !state.falseColor;
+    texture_ = uploadPicture(device_,
+                             asError          ? heatMap(*of)
+                             : overBackground ? displayedOver(*of, coverage_, asked_->view.background, tonemap)
+                                              : shownPicture(state, tonemap, *of),
+                             "right side");
     picture_ = texture_.image();
 }
 

@@ -74,6 +74,7 @@ private:
     BackgroundTask<ReferencePicture> truth_;
     std::atomic<float> progress_ = 0.0F;
     uint32_t samples_ = 0;
+    FloatImage coverage_;                       ///< of the ground truth
     std::string layerShow_;                     ///< the show that values_ belong to
     std::shared_ptr<const FloatImage> values_;  ///< of the right side
     std::shared_ptr<const FloatImage> pictureOf_;

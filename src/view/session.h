@@ -65,6 +65,8 @@ public:
     [[nodiscard]] uint64_t changes() const { return changes_; }
     /// The view parameters of the last frame.
     [[nodiscard]] const ViewParams& view() const { return params_; }
+    /// Automatic exposure of the last frame [stops], if it has one.
+    [[nodiscard]] std::optional<float> exposure() const { return exposure_; }
     [[nodiscard]] const Scene& scene() const { return *scene_; }
     [[nodiscard]] const std::shared_ptr<const Scene>& sharedScene() const { return scene_; }
     [[nodiscard]] const View& firstView() const { return firstView_; }

@@ -179,6 +179,9 @@ void Viewer::writeStatus() {
         {"preset", state_.preset},
         {"camera", {state_.view.camera.position.x, state_.view.camera.position.y, state_.view.camera.position.z}},
         {"compare", {{"message", compare_.message()}, {"samples", compare_.samples()}}}};
+    if (session_->exposure()) {
+        json["exposure"] = *session_->exposure();
+    }
     if (compare_.error()) {
         json["compare"]["relative_mse"] = compare_.error()->relativeMse;
         json["compare"]["flip"] = compare_.error()->flip;

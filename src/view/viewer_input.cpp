@@ -1,6 +1,7 @@
 // Handles keys and the pointer.
 #include "base/error.h"
 #include "scene/camera_control.h"
+#include "scene/framing.h"
 #include "scene/pose.h"
 #include "view/viewer.h"
 
@@ -80,10 +81,8 @@ void Viewer::handleKey(const KeyPress& press) {
             state_.running = state_.running == Running::continuous ? Running::onDemand : Running::continuous;
             break;
         case GLFW_KEY_F:
-            if (const Aabb box = session_->scene().bounds(); !box.empty()) {
-                const uvec2 size = renderSize();
-                frameAll(detachedCamera(), box, float(size.x) / float(size.y));
-            }
+            frameScene(detachedCamera(), session_->scene(), float(renderSize().x) / float(renderSize().y),
+                       state_.view.time);
             break;
         case GLFW_KEY_R:
             state_.view.camera = session_->firstView().camera;

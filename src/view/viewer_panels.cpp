@@ -75,6 +75,9 @@ void Viewer::runPanel() {
                        state_.running == Running::paused ? ", paused"
                        : settled                         ? ", converged"
                                                          : fmt::format(" of {} until converged", rest).c_str());
+    if (const std::optional<float> stops = session_->exposure()) {
+        ImGui::TextColored(quietColor, "automatic exposure: %+.2f stops", double(*stops));
+    }
     if (!session_->scene().animations.empty()) {
         ImGui::Checkbox("play animations", &state_.plays);
         places_.note("play");

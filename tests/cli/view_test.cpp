@@ -131,7 +131,8 @@ TEST_F(View, RestsWhilePaused) {
 // Over 5 s: opens the window three times and waits for it to rest after each input.
 TEST_F(View, AScreenshotIsWhatRenderWritesAndAllComesBackTheNextTime) {
     const Arguments remembered{"builtin:cubes", "--size", "96x400"};
-    openViewer(with(remembered, {"--preset", "fast", "--set", "probes.enabled=false"}));  // without captures at each change
+    openViewer(
+        with(remembered, {"--preset", "fast", "--set", "probes.enabled=false"}));  // without captures at each change
     const json first = status()["camera"];
     findSetting("tonemap.exposure");
     click("tonemap.exposure");

@@ -163,6 +163,39 @@ TEST(Framing, ASkinnedFigureIsFramedWhereItsPosePutsIt) {
     expectFramed(scene);
 }
 
+TEST(Framing, ACameraOfAnyDirectionFramesTheSceneWithoutTurning) {
+    const Scene scene = sceneOf({box({-1, 0, -2}, {3, 1, 4})});
+    for (const float height : {0.0F, 1.0F}) {
+        for (const vec3& up : {vec3(0, 1, 0), vec3(1, 0.2F, 0)}) {
+            for (const float aspect : aspects) {
+                Camera camera;
+                camera.position = {0.5F, 9, 1};
+                camera.target = {1, 0, 2};
+                camera.up = up;
+                camera.orthographicHeight = height;
+                camera.far = 0.2F;
+                camera.node = 3;
+                const vec3 forward = glm::normalize(camera.target - camera.position);
+                frameScene(camera, scene, aspect);
+                const std::vector<vec3> points = allPoints(scene);
+                const Extent extent = extentOf(camera, points, aspect);
+                const vec2 size = extent.high - extent.low;
+                EXPECT_NEAR(std::max(size.x, size.y), framedShare, 0.005F) << aspect;
+                EXPECT_NEAR(extent.low.x + extent.high.x, 1.0F, 0.005F) << aspect;
+                EXPECT_NEAR(extent.low.y + extent.high.y, 1.0F, 0.005F) << aspect;
+                EXPECT_NEAR(glm::distance(glm::normalize(camera.target - camera.position), forward), 0.0F, 1e-5F);
+                EXPECT_EQ(camera.node, -1);
+                const mat4 toClip = viewToClip(camera, aspect) * worldToView(camera);
+                for (const vec3& p : points) {  // reversed depth, between the planes
+                    const vec4 clip = toClip * vec4(p, 1.0F);
+                    EXPECT_GE(clip.z / clip.w, 0.0F);
+                    EXPECT_LE(clip.z / clip.w, 1.0F);
+                }
+            }
+        }
+    }
+}
+
 TEST(Framing, WhatMovesIsFramedAtTheTimeThatIsAskedFor) {
     const Scene scene = test::load(test::slider()).scene;
     const Camera camera = framingCamera(scene, 1.0F, 1.0);

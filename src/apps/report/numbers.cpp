@@ -13,7 +13,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json errorJson(const ReportError& error) {
-    return {{"relative_mse", error.relativeMse}, {"flip", error.flip}, {"psnr", error.psnr}};
+    return {{"relative_mse", error.relativeMse}, {"flip", error.flip}, {"psnr", error.psnr}, {"bias", error.bias}};
 }
 
 Json referenceJson(const ReportReference& reference) {
@@ -53,7 +53,8 @@ Json sceneJson(const ReportScene& scene) {
 }
 
 std::string errorCells(const ReportError& error) {
-    return fmt::format("{} | {} | {}", relativeMseText(error.relativeMse), flipText(error.flip), psnrText(error.psnr));
+    return fmt::format("{} | {:+.1f} | {}", relativeMseText(error.relativeMse), 100.0 * error.bias,
+                       flipText(error.flip));
 }
 
 void addRows(std::string& table, const ReportScene& scene) {
@@ -96,8 +97,9 @@ std::string reportMarkdown(const ReportPage& page) {
         page.version);
     table += fmt::format("    {}\n\n", page.command);
     table +=
-        "| scene | variant | ground truth: relative MSE | FLIP | PSNR [dB] | visible-only: relative MSE | FLIP | PSNR "
-        "[dB] | ms per frame |\n|---|---|--:|--:|--:|--:|--:|--:|--:|\n";
+        "| scene | variant | ground truth: relative MSE | bias [%] | FLIP | visible-only: relative MSE | bias [%] | "
+        "FLIP "
+        "| ms per frame |\n|---|---|--:|--:|--:|--:|--:|--:|--:|\n";
     for (const ReportScene& scene : page.scenes) {
         addRows(table, scene);
     }

@@ -16,6 +16,7 @@ struct ReportError {
     double relativeMse = 0.0;
     double flip = 0.0;  ///< mean, 0 (equal) to 1
     double psnr = 0.0;  ///< dB, infinite for equal images
+    double bias = 0.0;  ///< mean of the variant / mean of the reference - 1: above 0 too bright
 };
 
 struct ReportPass {

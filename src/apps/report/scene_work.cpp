@@ -88,7 +88,7 @@ Comparison compareNamed(const FloatImage& picture, const std::string& name, cons
 
 ReportError errorOf(const Comparison& comparison) {
     const Difference& d = comparison.difference;
-    return {d.relativeMse, d.flip, d.psnr};
+    return {d.relativeMse, d.flip, d.psnr, d.bias};
 }
 
 // All pictures of a scene have the ground truth's exposure.
