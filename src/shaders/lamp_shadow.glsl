@@ -63,7 +63,7 @@ LampReceiver lampReceiver(LampShadow shadow, uint tileSize, uint columns, vec3 p
     r.facing = max(facing, minLampFacing);
     float along = toTileSpace(shadow, tileFace(shadow, r.fromLamp), r.fromLamp).z;
     r.texel = 2.0 * shadow.halfTangent / float(tileSize) * along;
-    r.bias = planeBias(bias * r.texel / r.facing, rounding(p) / r.facing);
+    r.bias = planeBias(bias * r.texel, r.facing, rounding(p) / r.facing);
     return r;
 }
 

@@ -60,9 +60,8 @@ ShadowReceiver slopeReceiver(vec3 p, vec3 normal, ShadowMapParams map, ShadowTil
     vec2 sideways = vec2(dot(normal, axisX), dot(normal, axisY));
     r.tiltDirection = dot(sideways, sideways) > 1e-6 * dot(axisX, axisX) ? normalize(sideways) : vec2(0.0);
     r.slope = -sideways / vec2(dot(axisX, axisX), dot(axisY, axisY)) / max(facing, minFacing);
-    float most = bias * map.texelSize / max(facing, minFacing);
     // Below minFacing, the slope is not that of the plane.
-    r.bias = planeBias(most, facing < minFacing ? most : rounding(p) / facing);
+    r.bias = planeBias(bias * map.texelSize, facing, facing < minFacing ? bias * map.texelSize / minFacing : rounding(p) / facing);
     return r;
 }
 

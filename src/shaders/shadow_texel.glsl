@@ -16,8 +16,14 @@ struct DepthBias {
 
 const float edgeShare = 0.125; // of DepthBias.most: what counts of it beyond the edge of a surface
 
-// Bias of a receiver whose plane is known. rounding: of positions [m].
-DepthBias planeBias(float most, float rounding) {
+// Lower clamp of the cosine between normal and light by which the bias grows. At grazing light it would reach across the
+// folds of the receiver's own surface, which then seem bent where they block.
+const float leastBiasFacing = 0.1;
+
+// Bias of a receiver whose plane is known. width: of the bias along the normal [m]; rounding: of positions [m], along the
+// light.
+DepthBias planeBias(float width, float facing, float rounding) {
+    float most = width / max(facing, leastBiasFacing);
     float own = min(max(most / 32.0, rounding), most);
     return DepthBias(most, own, own);
 }
