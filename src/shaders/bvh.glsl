@@ -87,6 +87,10 @@ bool intersectLeaf(BvhRay ray, uint leaf, float nearest, inout SceneHit hit) {
     return any;
 }
 
+const uint bvhNothing = 0xFFFFFFFFu;  // no child has this number
+
+// Down to the next leaf before any triangle is tested: rays of a group, which run in step, reach their leaves together.
+// (T. Aila and S. Laine, "Understanding the Efficiency of Ray Traversal on GPUs", 2009.)
 bool traverseBvh(vec3 origin, vec3 direction, float nearest, float farthest, bool first, out SceneHit hit) {
     BvhRay ray = makeBvhRay(origin, direction);
     hit = SceneHit(farthest, vec2(0.0), 0u);
@@ -95,23 +99,26 @@ bool traverseBvh(vec3 origin, vec3 direction, float nearest, float farthest, boo
     uint waiting = 0u;
     uint at = 0u;
     for (;;) {
-        if ((at & bvhLeaf) != 0u) {
-            any = intersectLeaf(ray, at, nearest, hit) || any;
-        } else {
+        while ((at & bvhLeaf) == 0u) {
             BvhNode node = loadBvhNode(at);
             float left = intersectBox(ray, node.leftMin, node.leftMax, nearest, hit.distance);
             float right = intersectBox(ray, node.rightMin, node.rightMax, nearest, hit.distance);
             bool hitsLeft = left < 1.0 / 0.0;
             bool hitsRight = right < 1.0 / 0.0;
+            bool leftFirst = hitsLeft && (left <= right || !hitsRight);
             if (hitsLeft || hitsRight) {
-                bool leftFirst = hitsLeft && (left <= right || !hitsRight);
                 at = leftFirst ? node.left : node.right;
                 if (hitsLeft && hitsRight) {
                     stack[waiting++] = leftFirst ? node.right : node.left;
                 }
-                continue;
+            } else {
+                at = waiting > 0u ? stack[--waiting] : bvhNothing;
             }
         }
+        if (at == bvhNothing) {
+            return any;
+        }
+        any = intersectLeaf(ray, at, nearest, hit) || any;
         if (waiting == 0u || (first && any)) {
             return any;
         }
