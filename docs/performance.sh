@@ -46,7 +46,7 @@ fi
 
 if [[ ${1:-} != page ]]; then
     # Error against time: the presets to render with, and games202 with 5 and with 32 rays.
-    measure presets builtin:cave builtin:gloss --preset direct,games202,plain,fast,balanced,quality,hybrid \
+    measure presets builtin:cave --preset direct,games202,plain,fast,balanced,quality,hybrid \
         --variant games202-32=games202,diffuse.rays=32 --size 640x360 --truth-spp 256 --first 1 --warmup 31 --frames 3 \
         --plot "$out/presets.svg"
     # A whole frame against the GAMES202 method.
