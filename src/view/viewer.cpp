@@ -366,7 +366,7 @@ void Viewer::loop() {
             continue;
         }
         redraws_ = std::max(redraws_ - 1, 0);
-        Window::beginUi();
+        window_.beginUi();
         handlePointer();
         handleKeys();  // after the pointer, so that a screenshot has the current view
         flyByKeys();

@@ -9,6 +9,7 @@
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
@@ -222,6 +223,13 @@ std::span<const uint8_t> Window::font(uvec2& size) {
 void Window::beginUi() {
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
+#if IMGUI_VERSION_NUM >= 18700
+    // A frame may take only a few of the waiting key presses and clicks: the others need more frames.
+    if (!ImGui::GetCurrentContext()->InputEventsQueue.empty()) {
+        happened_ = true;
+        wake();
+    }
+#endif
 }
 
 const ImDrawData& Window::endUi() {

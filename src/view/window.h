@@ -59,7 +59,7 @@ public:
     /// The font atlas as RGBA8.
     static std::span<const uint8_t> font(uvec2& size);
     /// Begin and end a frame of the user interface.
-    static void beginUi();
+    void beginUi();
     const ImDrawData& endUi();
 
 private:
