@@ -24,7 +24,7 @@ public:
 
     /// Records one frame; `after` may record more (read-backs). Returns when the device is done. Motion is that since
     /// the last frame, whatever its view and time were; in the first frame there is none.
-    FrameImages render(const View& view, uvec2 size, uint32_t seed, const Settings& settings,
+    FrameImages render(const View& asked, uvec2 size, uint32_t seed, const Settings& settings,
                        const std::function<void(gpu::Frame&, const FrameImages&)>& after = {});
 
     /// Discards all history: the next frame is rendered like a renderer's first, with the noise of the frame of this

@@ -47,6 +47,15 @@ void addFont(float pixels) {
     fonts.AddFontDefault(&plain);
 }
 
+// From ImGui 1.87 on a frame may take only a few of the waiting key presses and clicks: the others need more frames.
+bool hasQueuedInput() {
+#if IMGUI_VERSION_NUM >= 18700
+    return !ImGui::GetCurrentContext()->InputEventsQueue.empty();
+#else
+    return false;
+#endif
+}
+
 }  // namespace
 
 Window::Window(const std::string& title, uvec2 size) {
@@ -223,13 +232,10 @@ std::span<const uint8_t> Window::font(uvec2& size) {
 void Window::beginUi() {
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
-#if IMGUI_VERSION_NUM >= 18700
-    // A frame may take only a few of the waiting key presses and clicks: the others need more frames.
-    if (!ImGui::GetCurrentContext()->InputEventsQueue.empty()) {
+    if (hasQueuedInput()) {
         happened_ = true;
         wake();
     }
-#endif
 }
 
 const ImDrawData& Window::endUi() {

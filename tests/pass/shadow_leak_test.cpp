@@ -114,7 +114,7 @@ struct LeakCase {
 
 class ShadowLeak : public testing::TestWithParam<LeakCase> {
 protected:
-    void expectDark(const char* what, const Count& count, double limit) {
+    static void expectDark(const char* what, const Count& count, double limit) {
         RecordProperty(what, fmt::format("{} of {}", count.lit, count.all));
         EXPECT_LE(limit * count.lit, count.all) << what << ": " << count.lit << " of " << count.all;
     }
