@@ -15,7 +15,7 @@ namespace reflet {
 
 namespace {
 
-void drawSurfaces(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
+void drawSurfaces(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
     GBufferContent content{.clipPlane = in.clipPlane};
     content.blendedFrom = settings.blend.layers > 0 ? opaqueAlpha : blendCutoff;
     out.g = drawGBuffer(f, in.draws, in.view, settings.materials, content);
@@ -30,7 +30,7 @@ void drawSurfaces(gpu::Frame& f, const ViewInputs& in, const Settings& settings,
 }
 
 // Sun visibility per pixel: shadow map, denoising, contact shadows.
-void renderSunVisibility(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
+void renderSunVisibility(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
     ShadowSettings shadow = settings.shadow;
     if (in.sunIrradiance == vec3(0.0F)) {
         shadow.filter = ShadowFilter::none;
@@ -71,7 +71,7 @@ void renderSunVisibility(gpu::Frame& f, const ViewInputs& in, const Settings& se
     }
 }
 
-void renderLampVisibility(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
+void renderLampVisibility(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
     out.lampTiles = findLampTiles(f, out.g.depth, in.lamps, in.view, settings.direct);
     if (in.lampShadows.count > 0) {
         if (!out.lampShadowMap) {
@@ -92,7 +92,7 @@ SceneLights sceneLights(const ViewInputs& in, const Settings& settings) {
             .lambertOnly = settings.materials.lambertOnly};
 }
 
-ViewImages directView(gpu::Frame& f, const ViewInputs& in, const Settings& settings, gpu::Image lampShadowMap) {
+ViewImages directView(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, gpu::Image lampShadowMap) {
     ViewImages out;
     out.lampShadowMap = lampShadowMap;
     drawSurfaces(f, in, settings, out);
@@ -100,7 +100,7 @@ ViewImages directView(gpu::Frame& f, const ViewInputs& in, const Settings& setti
     return out;
 }
 
-void lightSurfaces(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
+void lightSurfaces(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
     if (settings.shadow.filter == ShadowFilter::traced && in.traced != nullptr) {
         const DirectRays rays = directByRays(f, out.g, {*in.traced, in.ggxTable, in.environment, in.lamps},
                                              {in.view, sceneLights(in, settings), settings.shadow.rays});

@@ -2,7 +2,7 @@
 // also used for planar views and probe faces.
 #pragma once
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/blend/blend_shadow.h"
 #include "render/direct/direct.h"
 #include "render/direct/lamp_tiles.h"
@@ -57,9 +57,9 @@ SceneLights sceneLights(const ViewInputs& in, const Settings& settings);
 
 /// Records the passes of one view. Views other than the frame's own must be inside a viewScope, or they overwrite its
 /// images. lampShadowMap: from another view of the same frame, to be shared; none: it is drawn.
-ViewImages directView(gpu::Frame& f, const ViewInputs& in, const Settings& settings, gpu::Image lampShadowMap = {});
+ViewImages directView(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, gpu::Image lampShadowMap = {});
 
 /// The same for given surfaces: visibility and direct light at out.g. Shadow maps that `out` has are used.
-void lightSurfaces(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out);
+void lightSurfaces(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, ViewImages& out);
 
 }  // namespace reflet

@@ -8,7 +8,7 @@
 // and a lobe's rays in trace_lobe.cpp. There is no render graph: the `if`s in these files are all that culls passes.
 #include "render/frame.h"
 
-#include "gpu/device.h"
+#include "gpu/context.h"
 #include "render/accumulate/accumulate.h"
 #include "render/blend/blend.h"
 #include "render/bounce/trace_screen.h"
@@ -57,7 +57,7 @@ Settings blendedSettings(Settings settings) {
 }
 
 // One layer of blended surfaces, lit like the opaque ones. Its rays are traced in the screen of the opaque surfaces.
-Composite lightLayer(gpu::Frame& f, const ViewInputs& in, const Settings& settings, TracedView& layer, bool layers) {
+Composite lightLayer(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, TracedView& layer, bool layers) {
     lightSurfaces(f, in, settings, layer.images);
     const LobeLight diffuse = traceLobe(f, in, settings, layer, lobeDiffuse);
     const LobeLight specular = traceLobe(f, in, settings, layer, lobeSpecular);
@@ -68,7 +68,7 @@ Composite lightLayer(gpu::Frame& f, const ViewInputs& in, const Settings& settin
     return composite(f, parts, lit, {in.view, settings.diffuse.gain});
 }
 
-BlendedLight lightBlended(gpu::Frame& f, const ViewInputs& in, const Settings& asked, const TracedView& seen,
+BlendedLight lightBlended(gpu::Recorder& f, const ViewInputs& in, const Settings& asked, const TracedView& seen,
                           bool layers) {
     BlendedLight out;
     if (asked.blend.layers == 0 || !showsBlended(in.draws, in.view)) {
@@ -106,7 +106,7 @@ BlendedLight lightBlended(gpu::Frame& f, const ViewInputs& in, const Settings& a
 }
 
 // `behind` with the blended surfaces in front of it, in another image.
-gpu::Image withBlended(gpu::Frame& f, gpu::Image front, gpu::Image behind, std::string_view name) {
+gpu::Image withBlended(gpu::Recorder& f, gpu::Image front, gpu::Image behind, std::string_view name) {
     if (!front) {
         return behind;
     }
@@ -116,7 +116,7 @@ gpu::Image withBlended(gpu::Frame& f, gpu::Image front, gpu::Image behind, std::
 }
 
 // The light that rays from blended surfaces, and then reflections, read at hits: direct light, or all light so far.
-gpu::Image lightSoFar(gpu::Frame& f, const ViewInputs& in, const Settings& settings, const LobeLight& diffuse,
+gpu::Image lightSoFar(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const LobeLight& diffuse,
                       const ScreenImages& screen) {
     if (settings.traceScreen.light != HitLight::lit || settings.specular.rays == 0 || settings.diffuse.rays == 0) {
         return screen.light;
@@ -131,7 +131,7 @@ gpu::Image lightSoFar(gpu::Frame& f, const ViewInputs& in, const Settings& setti
 
 // Lights the blended surfaces, and sets the light that reflections read at hits: all light so far, with blended
 // surfaces in front; and its mips for cones. read: any rays read it.
-BlendedLight lightForReflections(gpu::Frame& f, const ViewInputs& in, const Settings& settings,
+BlendedLight lightForReflections(gpu::Recorder& f, const ViewInputs& in, const Settings& settings,
                                  const LobeLight& diffuse, TracedView& seen, bool read, bool layers) {
     ScreenImages& screen = seen.screen;
     const SpecularSettings& s = settings.specular;
@@ -150,7 +150,7 @@ BlendedLight lightForReflections(gpu::Frame& f, const ViewInputs& in, const Sett
 }
 
 // Direct light with diffuse light from the probes, if there are any.
-gpu::Image withProbeLight(gpu::Frame& f, const ViewInputs& in, Settings settings, const TracedView& seen) {
+gpu::Image withProbeLight(gpu::Recorder& f, const ViewInputs& in, Settings settings, const TracedView& seen) {
     if (!in.probes) {
         return seen.images.direct;
     }
@@ -172,7 +172,7 @@ gpu::Image withProbeLight(gpu::Frame& f, const ViewInputs& in, Settings settings
 
 // Renders a planar view, for use by reflections. It has no last frame: `previous` acts as `lit` there, and probes bring
 // further bounces.
-ScreenImages renderReflectionView(gpu::Frame& f, const ViewInputs& in, Settings settings, gpu::Image lampShadowMap) {
+ScreenImages renderReflectionView(gpu::Recorder& f, const ViewInputs& in, Settings settings, gpu::Image lampShadowMap) {
     const bool lit = settings.traceScreen.light != HitLight::direct;
     settings.traceScreen.light = lit ? HitLight::lit : HitLight::direct;
     settings.traceScreen.countSteps = 0;
@@ -202,11 +202,11 @@ ScreenImages renderReflectionView(gpu::Frame& f, const ViewInputs& in, Settings 
     return seen.screen;
 }
 
-ScreenImages renderPlanarView(gpu::Frame& f, const FrameInputs& in, const Settings& settings, const Mirror& mirror,
+ScreenImages renderPlanarView(gpu::Recorder& f, const FrameInputs& in, const Settings& settings, const Mirror& mirror,
                               gpu::Image lampShadowMap) {
     const PlanarSettings& s = settings.planar;
     if (s.form == PlanarForm::duplicate) {
-        const uint32_t largestMap = f.device().limits().maxImageDimension2D;
+        const uint32_t largestMap = f.context().limits().maxImageDimension2D;
         const MirroredScene room = mirroredScene(in, mirror, settings.shadow, largestMap);
         ViewInputs behind = duplicateViewInputs(in, mirror, s, room);
         behind.traced = nullptr;  // these are not mirrored
@@ -220,7 +220,7 @@ ScreenImages renderPlanarView(gpu::Frame& f, const FrameInputs& in, const Settin
     return renderReflectionView(f, mirrorViewInputs(in, mirror, s), settings, lampShadowMap);
 }
 
-std::vector<PlanarView> renderPlanarViews(gpu::Frame& f, const FrameInputs& in, const Settings& settings,
+std::vector<PlanarView> renderPlanarViews(gpu::Recorder& f, const FrameInputs& in, const Settings& settings,
                                           gpu::Image lampShadowMap) {
     std::vector<PlanarView> views;
     for (const Mirror& mirror : in.mirrors) {
@@ -233,7 +233,7 @@ std::vector<PlanarView> renderPlanarViews(gpu::Frame& f, const FrameInputs& in, 
 }
 
 // Renders the live camera images shown by materials. Returns the lamps' shadow map if one was drawn.
-gpu::Image renderLiveCameras(gpu::Frame& f, const ViewInputs& in, const Settings& settings,
+gpu::Image renderLiveCameras(gpu::Recorder& f, const ViewInputs& in, const Settings& settings,
                              std::span<const LiveView> pictures) {
     gpu::Image lampShadowMap;
     Settings direct = settings;
@@ -250,7 +250,7 @@ gpu::Image renderLiveCameras(gpu::Frame& f, const ViewInputs& in, const Settings
 }
 
 // Puts the background behind the radiance that is shown; coverage is accumulated as the radiance.
-void showBackground(gpu::Frame& f, const FrameInputs& in, const Settings& settings, const BlendedLight& blended,
+void showBackground(gpu::Recorder& f, const FrameInputs& in, const Settings& settings, const BlendedLight& blended,
                     FrameImages& out) {
     const BackgroundImages shown =
         drawBackground(f, out.g.depth, out.direct, out.light.lit, *in.background.environment, in.view);
@@ -272,7 +272,7 @@ void showBackground(gpu::Frame& f, const FrameInputs& in, const Settings& settin
 }
 
 // Composites blended surfaces over the frame's light and its layers. lit: the image of the sum.
-void addBlended(gpu::Frame& f, const BlendedLight& blended, gpu::Image lit, FrameImages& out) {
+void addBlended(gpu::Recorder& f, const BlendedLight& blended, gpu::Image lit, FrameImages& out) {
     if (!blended.lit) {
         return;
     }
@@ -287,7 +287,7 @@ void addBlended(gpu::Frame& f, const BlendedLight& blended, gpu::Image lit, Fram
 
 }  // namespace
 
-FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& settings) {
+FrameImages renderFrame(gpu::Recorder& f, const FrameInputs& in, const Settings& settings) {
     TracedView seen = tracedView(in, directView(f, in, settings, renderLiveCameras(f, in, settings, in.live)));
     const gpu::History lit = f.history("lit", VK_FORMAT_R16G16B16A16_SFLOAT, seen.images.g.depth.size);
     seen.screen.lit = lit;

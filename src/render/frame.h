@@ -1,7 +1,7 @@
 // One frame: a lit image from a draw list, a view and lights.
 #pragma once
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/background/background.h"
 #include "render/bounce/rays.h"
 #include "render/composite/composite.h"
@@ -37,6 +37,6 @@ struct FrameImages : ViewImages {
 };
 
 /// Records all passes of one frame.
-FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& settings);
+FrameImages renderFrame(gpu::Recorder& f, const FrameInputs& in, const Settings& settings);
 
 }  // namespace reflet

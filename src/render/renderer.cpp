@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "device/upload.h"
 #include "noise/blue_noise.h"
 #include "render/exposure/exposure.h"
 #include "render/history.h"

@@ -1,7 +1,7 @@
 // Renders a scene: owns everything that outlives a frame, including the last view for motion vectors.
 #pragma once
 
-#include "gpu/frame.h"
+#include "device/frame.h"
 #include "render/frame.h"
 #include "render/gpu_scene.h"
 #include "render/probe/capture_probe.h"
@@ -31,7 +31,7 @@ public:
     /// number.
     void restart(uint32_t frameNumber);
 
-    [[nodiscard]] const gpu::Frame& frame() const { return frame_; }
+    [[nodiscard]] const gpu::Recorder& frame() const { return frame_; }
 
 private:
     /// Poses the scene at the time of the view.

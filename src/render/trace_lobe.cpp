@@ -1,7 +1,7 @@
 // Traces a lobe: picks surfaces, generates rays, asks the sources in turn, resolves and denoises.
 #include "render/trace_lobe.h"
 
-#include "gpu/device.h"
+#include "gpu/context.h"
 #include "render/bounce/adaptive_rays.h"
 #include "render/bounce/answer_environment.h"
 #include "render/bounce/ray_tiles.h"
@@ -25,7 +25,7 @@ constexpr float coneShareOnScreen = 0.1F;
 
 // Screen-space tracing and planar reflections, in the order of the setting. Planar views see more than the screen and
 // need no thickness assumption.
-void traceScreenAndPlanar(gpu::Frame& f, Rays& rays, const TracedView& seen, const Settings& settings, float longest) {
+void traceScreenAndPlanar(gpu::Recorder& f, Rays& rays, const TracedView& seen, const Settings& settings, float longest) {
     const bool screenFirst = settings.planar.beforeScreen == 0;
     for (const bool asksScreen : {screenFirst, !screenFirst}) {
         if (asksScreen && settings.traceScreen.enabled != 0) {
@@ -40,7 +40,7 @@ void traceScreenAndPlanar(gpu::Frame& f, Rays& rays, const TracedView& seen, con
 }
 
 // No motion of reflected images, unless a source overwrites it.
-gpu::Image noImageMotion(gpu::Frame& f, const RaySurfaces& from) {
+gpu::Image noImageMotion(gpu::Recorder& f, const RaySurfaces& from) {
     const gpu::Image motion = f.image("rays.image_motion", VK_FORMAT_R16G16_SFLOAT, from.g.depth.size);
     f.clear(motion);
     return motion;
@@ -55,7 +55,7 @@ uint32_t mirrorRayCount(uint32_t perPixel, const Settings& settings) {
 }
 
 // Rays per tile. Adaptive sampling needs the denoiser's history.
-RayTiles tilesOfLobe(gpu::Frame& f, const RaySurfaces& from, const Settings& settings, const gpu::History& lit,
+RayTiles tilesOfLobe(gpu::Recorder& f, const RaySurfaces& from, const Settings& settings, const gpu::History& lit,
                      uint32_t lobe) {
     const bool diffuse = lobe == lobeDiffuse;
     const uint32_t perPixel = diffuse ? settings.diffuse.rays : settings.specular.rays;
@@ -74,7 +74,7 @@ RayTiles tilesOfLobe(gpu::Frame& f, const RaySurfaces& from, const Settings& set
 
 }  // namespace
 
-LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+LobeLight traceLobe(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
                     uint32_t lobe) {
     const ScreenImages& screen = seen.screen;
     const bool diffuse = lobe == lobeDiffuse;

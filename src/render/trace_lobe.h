@@ -19,7 +19,7 @@ struct TracedView {
 };
 
 /// The chain of both lobes: rays, then sources in order of accuracy, each for the misses of the previous one.
-LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+LobeLight traceLobe(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
                     uint32_t lobe);
 
 }  // namespace reflet

@@ -4,6 +4,7 @@
 #include "apps/pictures.h"
 #include "base/error.h"
 #include "compare/heat_map.h"
+#include "device/upload.h"
 #include "render/exposure/exposure.h"
 #include "render/history.h"
 #include "render/tonemap/tone_map_image.h"

@@ -2,7 +2,7 @@
 #include "render/gbuffer/back_depth.h"
 
 #include "apps/texels.h"
-#include "gpu/frame.h"
+#include "device/frame.h"
 #include "pass/harness.h"
 #include "render/gpu_scene.h"
 #include "support/device_fixture.h"

@@ -2,6 +2,8 @@
 #include "pass/denoise_harness.h"
 
 #include "apps/texels.h"
+#include "device/device.h"
+#include "device/upload.h"
 #include "pass/test_shaders.h"
 #include "render/view_params.h"
 
@@ -40,7 +42,7 @@ private:
 
 DenoiseRun::DenoiseRun(gpu::Device& device, uvec2 size, uint32_t lobe, const DenoiseSettings& settings)
     : frame_(device), size_(size), lobe_(lobe), settings_(settings) {
-    registerPassTestShaders();
+    addPassTestShaders(device);
 }
 
 ViewParams DenoiseRun::viewAt(float x) const {

@@ -1,7 +1,7 @@
 // Runs the denoiser on synthetic light on a wall that faces the camera.
 #pragma once
 
-#include "gpu/frame.h"
+#include "device/frame.h"
 #include "render/denoise/denoise.h"
 #include "scene/scene.h"
 

@@ -1,6 +1,6 @@
 // Guarantees of the GPU layer: a pass that does not match its shader is rejected with a name, histories swap.
 #include "base/error.h"
-#include "gpu/frame.h"
+#include "device/frame.h"
 #include "gpu/pipeline.h"
 #include "gpu/shader.h"
 #include "pass/harness.h"
@@ -149,13 +149,13 @@ TEST_F(Gpu, TimesAreThereForEveryPassByItsScopedName) {
 }
 
 TEST_F(Gpu, AShaderIsReplacedOnlyByOneThatBindsTheSame) {
-    const gpu::Shader known = gpu::reflectShader("tonemap.comp");
+    const gpu::Shader known = device().shaders().reflect("tonemap.comp");
     const std::vector<uint32_t> same(known.words.begin(), known.words.end());
-    const gpu::Shader other = gpu::reflectShader("composite.comp");
-    EXPECT_THROW(gpu::replaceShader("tonemap.comp", {other.words.begin(), other.words.end()}), Error);
-    EXPECT_EQ(gpu::reflectShader("tonemap.comp").words.data(), known.words.data()) << "the old one is kept";
-    gpu::replaceShader("tonemap.comp", same);
-    EXPECT_NE(gpu::reflectShader("tonemap.comp").words.data(), known.words.data());
+    const gpu::Shader other = device().shaders().reflect("composite.comp");
+    EXPECT_THROW(device().shaders().replace("tonemap.comp", {other.words.begin(), other.words.end()}), Error);
+    EXPECT_EQ(device().shaders().reflect("tonemap.comp").words.data(), known.words.data()) << "the old one is kept";
+    device().shaders().replace("tonemap.comp", same);
+    EXPECT_NE(device().shaders().reflect("tonemap.comp").words.data(), known.words.data());
     device().pipelines().clear();
     EXPECT_EQ(complaint(recordTonemap), "");
 }

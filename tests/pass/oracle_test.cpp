@@ -28,7 +28,7 @@ struct Agreement {
 class OracleRays : public DeviceTest {
 protected:
     static std::vector<OracleRay> trace(const char* name, uvec2 size, bool secondLayer = false) {
-        registerPassTestShaders();
+        addPassTestShaders(device());
         const Scene scene = findBuiltinScene(name)->make();
         const View view = defaultView(scene);
         const gpu::Buffer outputs(device(), rayCount * sizeof(OracleRay), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,

@@ -2,7 +2,8 @@
 #include "render/pyramid/pyramid.h"
 #include "render/levels.h"
 
-#include "gpu/frame.h"
+#include "device/frame.h"
+#include "device/upload.h"
 #include "pass/test_shaders.h"
 #include "support/device_fixture.h"
 
@@ -75,7 +76,7 @@ protected:
 
     /// All levels from the first on, one after another, each by rows.
     static std::vector<vec2> build(const Layers& layers, bool second) {
-        registerPassTestShaders();
+        addPassTestShaders(device());
         const gpu::Buffer front = upload(layers.front);
         const gpu::Buffer back = upload(layers.back);
         gpu::Frame& f = frame();

@@ -2,13 +2,15 @@
 #include "pass/temporal_harness.h"
 
 #include "apps/texels.h"
+#include "device/device.h"
+#include "device/upload.h"
 #include "pass/test_shaders.h"
 
 namespace reflet::test {
 
 TemporalRun::TemporalRun(gpu::Device& device, uvec2 size, const TemporalSettings& settings)
     : frame_(device), size_(size), settings_(settings) {
-    registerPassTestShaders();
+    addPassTestShaders(device);
 }
 
 std::vector<vec4> TemporalRun::add(const MadeUpFrame& picture) {

@@ -1,7 +1,7 @@
 // Runs the temporal antialiasing pass on synthetic images.
 #pragma once
 
-#include "gpu/frame.h"
+#include "device/frame.h"
 #include "render/temporal/temporal.h"
 
 #include <functional>

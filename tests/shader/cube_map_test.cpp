@@ -1,7 +1,7 @@
 // render/cube_map: faces, filtered lobes against an integral over the GGX lobe, irradiance against closed forms.
 #include "shader/cube_map_test.h"
 
-#include "gpu/device.h"
+#include "device/device.h"
 #include "render/cube_map/cube_map.h"
 #include "shader/directions.h"
 #include "shader/harness.h"

@@ -11,8 +11,7 @@ std::span<const reflet::gpu::EmbeddedShader> shaderTestShaders();
 namespace reflet::test {
 
 void ShaderTest::registerTestShaders() {
-    static const bool registered = (gpu::registerShaders(shaderTestShaders()), true);
-    (void)registered;
+    device().shaders().add(shaderTestShaders());
 }
 
 void ShaderTest::runShader(std::string_view shader, const Io& io) {

@@ -1,7 +1,7 @@
 // Measures bandwidth by copying images and buffers.
 #include "apps/bench/bandwidth.h"
 
-#include "gpu/frame.h"
+#include "device/frame.h"
 #include "render/live/live_picture.h"
 
 #include <algorithm>

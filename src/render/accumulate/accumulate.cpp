@@ -3,7 +3,7 @@
 
 namespace reflet {
 
-LightLayers accumulate(gpu::Frame& f, const LightLayers& frame, uint32_t framesBefore) {
+LightLayers accumulate(gpu::Recorder& f, const LightLayers& frame, uint32_t framesBefore) {
     constexpr VkFormat exact = VK_FORMAT_R32G32B32A32_SFLOAT;
     const uvec2 size = frame.direct.size;
     const gpu::History direct = f.history("accumulated_direct", exact, size);

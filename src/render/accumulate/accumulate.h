@@ -23,7 +23,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/composite/composite.h"
 
 namespace reflet {
@@ -36,7 +36,7 @@ struct LightLayers {
 
 /// The means of the layers over this frame and the `framesBefore` before it. RGBA32F, as half floats would lose a
 /// single frame's contribution to many.
-LightLayers accumulate(gpu::Frame& f, const LightLayers& frame, uint32_t framesBefore);
+LightLayers accumulate(gpu::Recorder& f, const LightLayers& frame, uint32_t framesBefore);
 
 }  // namespace reflet
 #endif

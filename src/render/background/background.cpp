@@ -9,7 +9,7 @@
 
 namespace reflet {
 
-BackgroundImages drawBackground(gpu::Frame& f, gpu::Image depth, gpu::Image direct, gpu::Image lit,
+BackgroundImages drawBackground(gpu::Recorder& f, gpu::Image depth, gpu::Image direct, gpu::Image lit,
                                 const EnvironmentLight& environment, const ViewParams& view) {
     constexpr VkFormat format = VK_FORMAT_R16G16B16A16_SFLOAT;
     const BackgroundImages out{f.image("background.direct", format, depth.size),
@@ -28,7 +28,7 @@ BackgroundImages drawBackground(gpu::Frame& f, gpu::Image depth, gpu::Image dire
     return out;
 }
 
-gpu::Image straightRadiance(gpu::Frame& f, gpu::Image premultiplied, gpu::Image coverage) {
+gpu::Image straightRadiance(gpu::Recorder& f, gpu::Image premultiplied, gpu::Image coverage) {
     const gpu::Image radiance = f.image("background.straight", VK_FORMAT_R16G16B16A16_SFLOAT, premultiplied.size);
     f.compute("straight", "straight.comp")
         .read("premultiplied", premultiplied)
@@ -39,7 +39,7 @@ gpu::Image straightRadiance(gpu::Frame& f, gpu::Image premultiplied, gpu::Image 
     return radiance;
 }
 
-gpu::Image overBackground(gpu::Frame& f, gpu::Image display, gpu::Image coverage, const Background& background) {
+gpu::Image overBackground(gpu::Recorder& f, gpu::Image display, gpu::Image coverage, const Background& background) {
     const gpu::Image over = f.image("background.display", VK_FORMAT_R8G8B8A8_UNORM, display.size);
     f.compute("underlay", "underlay.comp")
         .constant("transparent", background.mode == Background::Mode::transparent ? 1U : 0U)

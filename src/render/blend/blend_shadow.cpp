@@ -5,7 +5,7 @@
 
 namespace reflet {
 
-BlendShadowMaps drawBlendShadowMaps(gpu::Frame& f, const DrawList& list, const SunShadowParams& sun,
+BlendShadowMaps drawBlendShadowMaps(gpu::Recorder& f, const DrawList& list, const SunShadowParams& sun,
                                     const ShadowSettings& settings) {
     const uvec2 size = sunMapSize(sun, settings);
     const VkClearColorValue all{{1, 1, 1, 1}};
@@ -32,7 +32,7 @@ BlendShadowMaps drawBlendShadowMaps(gpu::Frame& f, const DrawList& list, const S
     return maps;
 }
 
-gpu::Image blendShadow(gpu::Frame& f, const GBuffer& g, const BlendShadowMaps& maps, gpu::Image sunVisibility,
+gpu::Image blendShadow(gpu::Recorder& f, const GBuffer& g, const BlendShadowMaps& maps, gpu::Image sunVisibility,
                        const BlendShadowParams& params) {
     const gpu::Image visibility = f.image("blend_visibility", VK_FORMAT_R8_UNORM, g.depth.size);
     f.compute("blend_shadow", "blend_shadow.comp")

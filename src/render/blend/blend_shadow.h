@@ -36,11 +36,11 @@ struct BlendShadowMap {
 };
 using BlendShadowMaps = std::array<BlendShadowMap, blendShadowLayers>;
 
-BlendShadowMaps drawBlendShadowMaps(gpu::Frame& f, const DrawList& list, const SunShadowParams& sun,
+BlendShadowMaps drawBlendShadowMaps(gpu::Recorder& f, const DrawList& list, const SunShadowParams& sun,
                                     const ShadowSettings& settings);
 
 /// The sun's visibility (R8) times what the blended surfaces let through.
-gpu::Image blendShadow(gpu::Frame& f, const GBuffer& g, const BlendShadowMaps& maps, gpu::Image sunVisibility,
+gpu::Image blendShadow(gpu::Recorder& f, const GBuffer& g, const BlendShadowMaps& maps, gpu::Image sunVisibility,
                        const BlendShadowParams& params);
 
 }  // namespace reflet

@@ -17,11 +17,11 @@ constexpr uint32_t mostTimes = 4;
 
 }  // namespace
 
-uint32_t adaptiveRayLimit(gpu::Frame& f, uvec2 size, uint32_t mean) {
+uint32_t adaptiveRayLimit(gpu::Recorder& f, uvec2 size, uint32_t mean) {
     return std::max(raysPerBatch(f, size, std::min(mostTimes * mean, maxAdaptiveRays)), mean);
 }
 
-RayTiles shareRays(gpu::Frame& f, const RaySurfaces& from, uint32_t lobe, const RayCounts& counts,
+RayTiles shareRays(gpu::Recorder& f, const RaySurfaces& from, uint32_t lobe, const RayCounts& counts,
                    const LobeHistory& past) {
     const uvec2 size = (from.g.depth.size + rayTileSide - 1U) / rayTileSide;
     const gpu::Image noise = f.image("rays.tile_noise", VK_FORMAT_R32G32_SFLOAT, size);

@@ -29,7 +29,7 @@ ViewParams viewOfBlocks(const ViewParams& view, uint32_t scale) {
     return v;
 }
 
-RaySurfaces pickSurfaces(gpu::Frame& f, const GBuffer& g, const ViewParams& view, uint32_t scale) {
+RaySurfaces pickSurfaces(gpu::Recorder& f, const GBuffer& g, const ViewParams& view, uint32_t scale) {
     if (scale == 1) {
         return {g, view, scale};
     }

@@ -22,7 +22,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/gbuffer/gbuffer.h"
 
 namespace reflet {
@@ -45,7 +45,7 @@ ViewParams viewOfBlocks(const ViewParams& view, uint32_t scale);
 
 /// The surfaces of a grid with blocks of scale x scale pixels; with 1 nothing is copied. A block whose picked pixel
 /// lies outside of the image counts as sky.
-RaySurfaces pickSurfaces(gpu::Frame& f, const GBuffer& g, const ViewParams& view, uint32_t scale);
+RaySurfaces pickSurfaces(gpu::Recorder& f, const GBuffer& g, const ViewParams& view, uint32_t scale);
 
 }  // namespace reflet
 #endif

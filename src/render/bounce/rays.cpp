@@ -2,22 +2,22 @@
 #include "render/bounce/rays.h"
 
 #include "base/error.h"
-#include "gpu/device.h"
+#include "gpu/context.h"
 
 #include <algorithm>
 
 namespace reflet {
 
-uint32_t raysPerBatch(gpu::Frame& f, uvec2 size, uint32_t most) {
+uint32_t raysPerBatch(gpu::Recorder& f, uvec2 size, uint32_t most) {
     const VkDeviceSize layer = VkDeviceSize(size.x) * size.y * sizeof(RayItem);
-    const VkDeviceSize fit = (f.device().limits().maxStorageBufferRange - rayListHeader) / layer;
+    const VkDeviceSize fit = (f.context().limits().maxStorageBufferRange - rayListHeader) / layer;
     if (fit == 0 || std::max(size.x, size.y) > maxFrameSize) {
         fail("this device cannot trace rays at {}x{} pixels; render at a smaller size", size.x, size.y);
     }
     return static_cast<uint32_t>(std::min<VkDeviceSize>(fit, most));
 }
 
-gpu::BufferView makeRayList(gpu::Frame& f, const Rays& rays, std::string_view name) {
+gpu::BufferView makeRayList(gpu::Recorder& f, const Rays& rays, std::string_view name) {
     const uvec2 size = rays.direction.size;
     const VkDeviceSize items = VkDeviceSize(size.x) * size.y * rays.direction.layers;
     const gpu::BufferView list = f.buffer(name, rayListHeader + items * sizeof(RayItem));
@@ -26,7 +26,7 @@ gpu::BufferView makeRayList(gpu::Frame& f, const Rays& rays, std::string_view na
     return list;
 }
 
-Rays generateRays(gpu::Frame& f, const RaySurfaces& from, const RayTables& tables, uint32_t lobe,
+Rays generateRays(gpu::Recorder& f, const RaySurfaces& from, const RayTables& tables, uint32_t lobe,
                   GenerateRaysParams params, bool countSteps) {
     const GBuffer& g = from.g;
     const uvec2 size = g.depth.size;
@@ -60,7 +60,7 @@ Rays generateRays(gpu::Frame& f, const RaySurfaces& from, const RayTables& table
         .read("geometricNormal", g.geometricNormal)
         .read("material", g.material)
         .read("baseColor", g.baseColor)
-        .read("ggxTable", tables.ggx, f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
+        .read("ggxTable", tables.ggx, f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
         .read("blueNoise", tables.blueNoise)
         .read("tiles", tables.tiles.tiles)
         .read("list", tables.tiles.list)
@@ -73,7 +73,7 @@ Rays generateRays(gpu::Frame& f, const RaySurfaces& from, const RayTables& table
     return rays;
 }
 
-LobeLight lobeImages(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps) {
+LobeLight lobeImages(gpu::Recorder& f, uint32_t lobe, const RaySurfaces& from, bool countSteps) {
     const bool diffuse = lobe == lobeDiffuse;
     const uvec2 size = from.g.depth.size;
     LobeLight light{
@@ -90,7 +90,7 @@ LobeLight lobeImages(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool
     return light;
 }
 
-LobeLight blackLobe(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps) {
+LobeLight blackLobe(gpu::Recorder& f, uint32_t lobe, const RaySurfaces& from, bool countSteps) {
     LobeLight light = lobeImages(f, lobe, from, countSteps);
     light.dark = true;
     f.clear(light.radiance);
@@ -101,16 +101,16 @@ LobeLight blackLobe(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool 
     return light;
 }
 
-gpu::Image directionalImage(gpu::Frame& f, const Rays& rays) {
+gpu::Image directionalImage(gpu::Recorder& f, const Rays& rays) {
     return rays.directional ? f.image("diffuse.directional", VK_FORMAT_R16G16B16A16_SFLOAT, rays.direction.size)
                             : gpu::Image{};
 }
 
-gpu::Image noDirectional(gpu::Frame& f) {
+gpu::Image noDirectional(gpu::Recorder& f) {
     return f.image("no_directional", VK_FORMAT_R16G16B16A16_SFLOAT, uvec2(1));
 }
 
-LobeLight resolveRays(gpu::Frame& f, const Rays& rays) {
+LobeLight resolveRays(gpu::Recorder& f, const Rays& rays) {
     const uvec2 size = rays.direction.size;
     LobeLight light = lobeImages(f, rays.lobe, rays.from, rays.countSteps);
     light.tiles = rays.tiles;

@@ -112,7 +112,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/bounce/ray_surfaces.h"
 #include "render/bounce/ray_tiles.h"
 
@@ -161,30 +161,30 @@ struct RayTables {
 
 /// Rays per pixel of one batch, 1 to `most`: as many as the device's buffers can hold at this size. Throws Error if not
 /// even one fits.
-uint32_t raysPerBatch(gpu::Frame& f, uvec2 size, uint32_t most = maxRaysPerBatch);
+uint32_t raysPerBatch(gpu::Recorder& f, uvec2 size, uint32_t most = maxRaysPerBatch);
 
 /// Generates rays firstRay .. firstRay + count for every pixel of `from` with a surface (and the lobe), up to its
 /// tile's rays per pixel. Sets params.view. countSteps: count the depth samples of each ray.
-Rays generateRays(gpu::Frame& f, const RaySurfaces& from, const RayTables& tables, uint32_t lobe,
+Rays generateRays(gpu::Recorder& f, const RaySurfaces& from, const RayTables& tables, uint32_t lobe,
                   GenerateRaysParams params, bool countSteps);
 
 /// An empty list with room for all rays, for a source's misses.
-gpu::BufferView makeRayList(gpu::Frame& f, const Rays& rays, std::string_view name);
+gpu::BufferView makeRayList(gpu::Recorder& f, const Rays& rays, std::string_view name);
 
 /// A lobe's images, not yet written.
-LobeLight lobeImages(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps);
+LobeLight lobeImages(gpu::Recorder& f, uint32_t lobe, const RaySurfaces& from, bool countSteps);
 
 /// A lobe without rays, cleared to black.
-LobeLight blackLobe(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps);
+LobeLight blackLobe(gpu::Recorder& f, uint32_t lobe, const RaySurfaces& from, bool countSteps);
 
 /// LobeLight.directional if the rays request it, or none.
-gpu::Image directionalImage(gpu::Frame& f, const Rays& rays);
+gpu::Image directionalImage(gpu::Recorder& f, const Rays& rays);
 
 /// A placeholder to bind where there is no directional image.
-gpu::Image noDirectional(gpu::Frame& f);
+gpu::Image noDirectional(gpu::Recorder& f);
 
 /// Adds the batch to the lobe's images, weighted by 1 over the pixel's ray count.
-LobeLight resolveRays(gpu::Frame& f, const Rays& rays);
+LobeLight resolveRays(gpu::Recorder& f, const Rays& rays);
 
 }  // namespace reflet
 #endif

@@ -3,7 +3,7 @@
 
 namespace reflet {
 
-LobeLight reuseRays(gpu::Frame& f, const Rays& rays, const ViewParams& picture, uint32_t neighbours) {
+LobeLight reuseRays(gpu::Recorder& f, const Rays& rays, const ViewParams& picture, uint32_t neighbours) {
     const GBuffer& g = rays.from.g;
     const uvec2 size = rays.direction.size;
     LobeLight light = lobeImages(f, rays.lobe, rays.from, rays.countSteps);

@@ -16,7 +16,7 @@ struct Trace {
 };
 
 // The pass as shared by both sources. rays.waiting: in: rays to trace; out: misses.
-void record(gpu::Frame& f, gpu::Pass pass, Rays& rays, const Trace& trace, const TraceScreenSettings& settings,
+void record(gpu::Recorder& f, gpu::Pass pass, Rays& rays, const Trace& trace, const TraceScreenSettings& settings,
             float longest) {
     const ScreenImages& seen = trace.seen;
     const bool countSteps = rays.countSteps && trace.through == throughScreen;
@@ -66,13 +66,13 @@ uint32_t throughOf(PlanarForm form) {
 
 }  // namespace
 
-void traceScreen(gpu::Frame& f, Rays& rays, const ScreenImages& screen, const TraceScreenSettings& settings,
+void traceScreen(gpu::Recorder& f, Rays& rays, const ScreenImages& screen, const TraceScreenSettings& settings,
                  float longest) {
     record(f, f.compute("trace_screen", "trace_screen.comp"), rays, {screen, "rays.missed_by_screen"}, settings,
            longest);
 }
 
-void traceMirror(gpu::Frame& f, Rays& rays, const PlanarView& mirror, const TraceScreenSettings& settings,
+void traceMirror(gpu::Recorder& f, Rays& rays, const PlanarView& mirror, const TraceScreenSettings& settings,
                  float longest) {
     const std::string missed = "rays.missed_by_" + mirror.name;
     record(f, f.compute("trace_mirror", "trace_screen.comp"), rays,

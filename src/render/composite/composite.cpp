@@ -1,7 +1,7 @@
 // Records the composite.
 #include "render/composite/composite.h"
 
-#include "gpu/device.h"
+#include "gpu/context.h"
 
 namespace reflet {
 
@@ -14,7 +14,7 @@ uint32_t scaleOf(const LobeLight& light) {
 
 }  // namespace
 
-Composite composite(gpu::Frame& f, const CompositeInputs& in, gpu::Image lit, CompositeParams params) {
+Composite composite(gpu::Recorder& f, const CompositeInputs& in, gpu::Image lit, CompositeParams params) {
     const uvec2 size = in.g.depth.size;
     const auto layer = [&](const char* name) {
         return in.layers ? f.image(name, VK_FORMAT_R16G16B16A16_SFLOAT, size) : gpu::Image{};
@@ -41,7 +41,7 @@ Composite composite(gpu::Frame& f, const CompositeInputs& in, gpu::Image lit, Co
         .read("normal", in.g.normal)
         .read("baseColor", in.g.baseColor)
         .read("material", in.g.material)
-        .read("ggxTable", in.ggxTable, f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
+        .read("ggxTable", in.ggxTable, f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
         .read("geometricNormal", in.g.geometricNormal)
         .read("diffuseDepth", blockImage(in.diffuse, in.diffuse.from.g.depth, VK_FORMAT_R32_SFLOAT))
         .read("diffuseNormal", blockImage(in.diffuse, in.diffuse.from.g.normal, VK_FORMAT_R32_UINT))

@@ -25,7 +25,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/bounce/rays.h"
 #include "render/gbuffer/gbuffer.h"
 
@@ -49,7 +49,7 @@ struct Composite {
 };
 
 /// Sets the block offsets of params. lit: written.
-Composite composite(gpu::Frame& f, const CompositeInputs& in, gpu::Image lit, CompositeParams params);
+Composite composite(gpu::Recorder& f, const CompositeInputs& in, gpu::Image lit, CompositeParams params);
 
 }  // namespace reflet
 #endif

@@ -21,7 +21,7 @@ struct Gathered {
     gpu::Image nextDirectional;
 };
 
-gpu::Image tileLimits(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const DenoiseSettings& settings) {
+gpu::Image tileLimits(gpu::Recorder& f, const LobeLight& light, uint32_t lobe, const DenoiseSettings& settings) {
     const uvec2 size = light.radiance.size;
     const uvec2 tiles = (size + denoiseTileSide - 1U) / denoiseTileSide;
     const gpu::Image limits = f.image("denoise.limits", VK_FORMAT_R32G32_SFLOAT, tiles);
@@ -37,7 +37,7 @@ gpu::Image tileLimits(gpu::Frame& f, const LobeLight& light, uint32_t lobe, cons
     return limits;
 }
 
-Gathered gather(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
+Gathered gather(gpu::Recorder& f, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
                 const DenoiseSettings& settings) {
     const uvec2 size = light.radiance.size;
     const DenoiseHistory past = denoiseHistory(f, lobe, size, settings);
@@ -87,7 +87,7 @@ Gathered gather(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const View
 
 }  // namespace
 
-DenoiseHistory denoiseHistory(gpu::Frame& f, uint32_t lobe, uvec2 size, const DenoiseSettings& settings) {
+DenoiseHistory denoiseHistory(gpu::Recorder& f, uint32_t lobe, uvec2 size, const DenoiseSettings& settings) {
     const uvec2 kept = settings.history > 0 ? size : uvec2(1);
     const std::string name = lobe == lobeDiffuse ? "denoise_diffuse" : "denoise_specular";
     const bool turns = lobe == lobeDiffuse && settings.directional != 0;
@@ -99,7 +99,7 @@ DenoiseHistory denoiseHistory(gpu::Frame& f, uint32_t lobe, uvec2 size, const De
     return past;
 }
 
-LobeLight denoise(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
+LobeLight denoise(gpu::Recorder& f, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
                   const DenoiseSettings& settings) {
     const uvec2 size = light.radiance.size;
     const Gathered gathered = gather(f, light, lobe, picture, settings);

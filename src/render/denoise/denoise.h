@@ -62,7 +62,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/bounce/rays.h"
 
 namespace reflet {
@@ -77,11 +77,11 @@ struct DenoiseHistory {
 };
 
 /// The history that denoise() reads and writes in this frame. size: of the grid.
-DenoiseHistory denoiseHistory(gpu::Frame& f, uint32_t lobe, uvec2 size, const DenoiseSettings& settings);
+DenoiseHistory denoiseHistory(gpu::Recorder& f, uint32_t lobe, uvec2 size, const DenoiseSettings& settings);
 
 /// Denoises the lobe. picture: the full-resolution view of light.from. Preserves mean radiance; infinity, NaN and
 /// values beyond half floats become finite.
-LobeLight denoise(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
+LobeLight denoise(gpu::Recorder& f, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
                   const DenoiseSettings& settings);
 
 }  // namespace reflet

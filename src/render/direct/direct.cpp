@@ -1,14 +1,15 @@
 // Records direct light.
 #include "render/direct/direct.h"
 
-#include "gpu/device.h"
+#include "device/frame.h"
+#include "gpu/context.h"
 
 namespace reflet {
 
 gpu::Texture makeGgxTable(gpu::Frame& f) {
     constexpr uint32_t side = 32;  // ggxTableSize in ggx.glsl
     gpu::Texture table(
-        f.device(),
+        f.context(),
         {VK_FORMAT_R16G16_SFLOAT, uvec2(side), 1, 1, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT},
         "ggx_table");
     f.begin();
@@ -18,14 +19,14 @@ gpu::Texture makeGgxTable(gpu::Frame& f) {
     return table;
 }
 
-gpu::Image directLight(gpu::Frame& f, const GBuffer& g, const LightVisibility& visibility, gpu::Image ggxTable,
+gpu::Image directLight(gpu::Recorder& f, const GBuffer& g, const LightVisibility& visibility, gpu::Image ggxTable,
                        const DirectParams& params, const DirectLights& lights) {
     const gpu::Image direct = f.image("direct", VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size);
     // Always bound, but not read if no lamp casts a shadow.
     const gpu::Image lampVisibility =
         visibility.lamps ? visibility.lamps
                          : f.image("no_lamp_visibility", VK_FORMAT_R8G8B8A8_UNORM, uvec2(1), 1, /*array=*/true);
-    const VkSampler linear = f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR});
+    const VkSampler linear = f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR});
     gpu::Pass pass = f.compute("direct", "direct.comp");
     bindEnvironment(pass, lights.environment);
     bindSurfaces(f, pass, g);

@@ -18,7 +18,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/environment/environment_light.h"
 #include "render/gbuffer/gbuffer.h"
 
@@ -42,7 +42,7 @@ struct DirectLights {
 };
 
 /// RGBA16F: radiance of direct light, emission and background, alpha 1.
-gpu::Image directLight(gpu::Frame& f, const GBuffer& g, const LightVisibility& visibility, gpu::Image ggxTable,
+gpu::Image directLight(gpu::Recorder& f, const GBuffer& g, const LightVisibility& visibility, gpu::Image ggxTable,
                        const DirectParams& params, const DirectLights& lights);
 
 }  // namespace reflet

@@ -22,7 +22,7 @@ uint32_t meterStep(uvec2 size) {
     return static_cast<uint32_t>(std::max(std::sqrt(double(size.x) * size.y / enough), 1.0));
 }
 
-gpu::Image measureExposure(gpu::Frame& f, gpu::Image radiance, gpu::Image depth, float elapsed, float adaptation) {
+gpu::Image measureExposure(gpu::Recorder& f, gpu::Image radiance, gpu::Image depth, float elapsed, float adaptation) {
     const auto scope = f.scope("exposure");
     const gpu::BufferView histogram = f.buffer("exposure.histogram", meterSize * sizeof(uint32_t));
     constexpr std::array<uint32_t, meterSize> none{};
@@ -45,7 +45,7 @@ gpu::Image measureExposure(gpu::Frame& f, gpu::Image radiance, gpu::Image depth,
     return exposures.next;
 }
 
-float exposureOf(const gpu::Frame& f, gpu::Readback exposure) {
+float exposureOf(const gpu::Recorder& f, gpu::Readback exposure) {
     vec2 smoothed(0.0F);
     std::memcpy(&smoothed, f.bytes(exposure).data() + exposureFrames * sizeof(vec2), sizeof(vec2));
     return smoothed.x;

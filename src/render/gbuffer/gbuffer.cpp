@@ -14,7 +14,7 @@ bool isInFront(const Aabb& box, const vec4& plane) {
 
 }  // namespace
 
-GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view, const MaterialsSettings& settings,
+GBuffer drawGBuffer(gpu::Recorder& f, const DrawList& list, const ViewParams& view, const MaterialsSettings& settings,
                     const GBufferContent& content) {
     const vec4& clipPlane = content.clipPlane;
     const bool blended = bool(content.opaqueDepth);
@@ -70,7 +70,7 @@ GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view,
     return g;
 }
 
-gpu::Pass& bindSurfaces(gpu::Frame& f, gpu::Pass& pass, const GBuffer& g) {
+gpu::Pass& bindSurfaces(gpu::Recorder& f, gpu::Pass& pass, const GBuffer& g) {
     const gpu::Image unread = f.image("no_reflectance", VK_FORMAT_R16G16B16A16_SFLOAT, uvec2(1));
     return pass.constant("materialFeatures", g.features)
         .read("surfaceReflectance", g.reflectance ? g.reflectance : unread);

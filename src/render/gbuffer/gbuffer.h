@@ -41,7 +41,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/draw_list.h"
 #include "render/material.h"
 
@@ -76,11 +76,11 @@ struct GBufferContent {
 /// found by depth peeling (C. Everitt, Interactive Order-Independent Transparency, 2001). Clipping is done per pixel,
 /// because an oblique near plane (Lengyel, Oblique View Frustum Depth Projection and Clipping, 2005) would distort
 /// depth, and ray marching relies on distance = near / depth.
-GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view, const MaterialsSettings& settings,
+GBuffer drawGBuffer(gpu::Recorder& f, const DrawList& list, const ViewParams& view, const MaterialsSettings& settings,
                     const GBufferContent& content = {});
 
 /// Specializes a pass whose shader includes gbuffer_surface.glsl, and binds what that reads.
-gpu::Pass& bindSurfaces(gpu::Frame& f, gpu::Pass& pass, const GBuffer& g);
+gpu::Pass& bindSurfaces(gpu::Recorder& f, gpu::Pass& pass, const GBuffer& g);
 
 }  // namespace reflet
 #endif

@@ -20,7 +20,7 @@ KeptDepthParams keptDepthParams(const ViewParams& view, DepthBuffer buffer) {
     return {farDepth, steps, uvec2(view.size)};
 }
 
-gpu::Image keptDepth(gpu::Frame& f, std::string_view name, gpu::Image depth, const ViewParams& view,
+gpu::Image keptDepth(gpu::Recorder& f, std::string_view name, gpu::Image depth, const ViewParams& view,
                      const DepthSettings& settings) {
     if (settings.format == DepthBuffer::reversedFloat) {
         return depth;

@@ -20,7 +20,7 @@ static_assert(sizeof(SunMapContents) == sizeof(SunShadowParams) + 12, "padding w
 
 }  // namespace
 
-bool holdsSunMap(gpu::Frame& f, gpu::Image image, const DrawList& list, const SunShadowParams& sun,
+bool holdsSunMap(gpu::Recorder& f, gpu::Image image, const DrawList& list, const SunShadowParams& sun,
                  const ShadowSettings& settings, bool opaqueOnly) {
     return list.version != 0 && f.holds(image, SunMapContents{.draws = list.version,
                                                               .sun = sun,
@@ -46,7 +46,7 @@ void recordSunMap(const gpu::DrawCommands& to, const DrawList& list, const SunSh
     }
 }
 
-gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const SunShadowParams& sun,
+gpu::Image drawShadowMap(gpu::Recorder& f, const DrawList& list, const SunShadowParams& sun,
                          const ShadowSettings& settings, bool opaqueOnly) {
     const gpu::Image depth = f.target("shadow_map", VK_FORMAT_D32_SFLOAT, sunMapSize(sun, settings));
     if (holdsSunMap(f, depth, list, sun, settings, opaqueOnly)) {
@@ -71,7 +71,7 @@ gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const SunShadowPar
     return depth;
 }
 
-gpu::Image makeShadowRange(gpu::Frame& f, gpu::Image shadowMap, const DrawList& list, const SunShadowParams& sun,
+gpu::Image makeShadowRange(gpu::Recorder& f, gpu::Image shadowMap, const DrawList& list, const SunShadowParams& sun,
                            const ShadowSettings& settings, bool opaqueOnly) {
     const uvec2 cells = levelSize(shadowMap.size, 2);  // of 4 texels each: the size of level 0
     const gpu::Image range =
@@ -89,7 +89,7 @@ gpu::Image makeShadowRange(gpu::Frame& f, gpu::Image shadowMap, const DrawList& 
     return range;
 }
 
-SunVisibility sunVisibility(gpu::Frame& f, const GBuffer& g, const ShadowInputs& in,
+SunVisibility sunVisibility(gpu::Recorder& f, const GBuffer& g, const ShadowInputs& in,
                             const ShadowVisibilityParams& params) {
     const ShadowFilter filter = params.settings.filter;
     const bool soft = filter == ShadowFilter::pcf || filter == ShadowFilter::pcss;

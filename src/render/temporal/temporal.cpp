@@ -13,7 +13,7 @@ mat4 skyToPrevious(const ViewParams& view) {
 
 }  // namespace
 
-TemporalImages temporal(gpu::Frame& f, const TemporalInputs& in, const TemporalSettings& settings) {
+TemporalImages temporal(gpu::Recorder& f, const TemporalInputs& in, const TemporalSettings& settings) {
     const uvec2 size = in.radiance.size;
     const gpu::History mean = f.history("temporal", VK_FORMAT_R16G16B16A16_SFLOAT, size);
     // Of frames at rest, deviation of the tone-compressed luma from the history: variance, and mean over the last few

@@ -1,11 +1,11 @@
 // Records direct light with ray-traced shadows.
 #include "render/trace_scene/direct_rays.h"
 
-#include "gpu/device.h"
+#include "gpu/context.h"
 
 namespace reflet {
 
-DirectRays directByRays(gpu::Frame& f, const GBuffer& g, const DirectRaysInputs& in, const DirectRaysParams& params) {
+DirectRays directByRays(gpu::Recorder& f, const GBuffer& g, const DirectRaysInputs& in, const DirectRaysParams& params) {
     const uvec2 size = g.depth.size;
     const DirectRays out{.direct = f.image("direct", VK_FORMAT_R16G16B16A16_SFLOAT, size),
                          .sunVisibility = f.image("sun_visibility", VK_FORMAT_R8_UNORM, size)};
@@ -20,7 +20,7 @@ DirectRays directByRays(gpu::Frame& f, const GBuffer& g, const DirectRaysInputs&
         .read("baseColor", g.baseColor)
         .read("material", g.material)
         .read("emissive", g.emissive)
-        .read("ggxTable", in.ggxTable, f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
+        .read("ggxTable", in.ggxTable, f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
         .write("direct", out.direct)
         .write("sunVisibility", out.sunVisibility)
         .params(params)

@@ -1,11 +1,11 @@
 // Records ray tracing as a ray source.
 #include "render/trace_scene/trace_scene.h"
 
-#include "gpu/device.h"
+#include "gpu/context.h"
 
 namespace reflet {
 
-void traceScene(gpu::Frame& f, Rays& rays, const TraceSceneInputs& in, uint32_t sunShadows,
+void traceScene(gpu::Recorder& f, Rays& rays, const TraceSceneInputs& in, uint32_t sunShadows,
                 const TraceSceneParams& params) {
     const GBuffer& g = in.screen.g;
     const gpu::BufferView missed = makeRayList(f, rays, "rays.missed_by_scene");
@@ -16,8 +16,8 @@ void traceScene(gpu::Frame& f, Rays& rays, const TraceSceneInputs& in, uint32_t 
     in.scene.rays.bind(pass);
     in.scene.surfaces.bind(pass);
     bindEnvironment(pass, in.environment);
-    bindEnvironmentLobes(pass, f.device(), in.environment);
-    const VkSampler linear = f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
+    bindEnvironmentLobes(pass, f.context(), in.environment);
+    const VkSampler linear = f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
     pass.constant("lobe", rays.lobe)
         .constant("materialFeatures", g.features)
         .constant("sunShadows", sunShadows)
@@ -37,7 +37,7 @@ void traceScene(gpu::Frame& f, Rays& rays, const TraceSceneInputs& in, uint32_t 
         .read("light", in.screen.light)
         .read("previousLit", in.screen.lit.previous ? in.screen.lit.previous : in.screen.light)
         .read("shadowMap", in.shadowMap ? in.shadowMap : g.depth)
-        .read("ggxTable", in.ggxTable, f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
+        .read("ggxTable", in.ggxTable, f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
         .read("blueNoise", in.blueNoise)
         .read("direction", rays.direction)
         .read("waiting", rays.waiting)

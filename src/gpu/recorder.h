@@ -1,21 +1,23 @@
-// Records the passes of a frame: binds resources by name and checks them against the shader, derives barriers from the
-// declared reads and writes, times every pass on the device, and owns the images that persist between passes.
+// Records the passes of a frame into a command buffer that it is given: binds resources by name and checks them against
+// the shader, derives barriers from the declared reads and writes, times every pass on the device, and owns the images
+// that persist between passes. It never submits or waits.
 #pragma once
 
 #include "gpu/pass.h"
 #include "gpu/resource.h"
 
-#include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <map>
-#include <memory>
+#include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace reflet::gpu {
 
-class Device;
+class Context;
 
 /// Device time of one pass in milliseconds; passes of the same name are summed.
 struct PassTime {
@@ -39,23 +41,30 @@ struct Readback {
     size_t index = 0;
 };
 
-class Frame {
+class Recorder {
 public:
-    explicit Frame(Device& device);
-    ~Frame();
-    Frame(const Frame&) = delete;
-    Frame& operator=(const Frame&) = delete;
+    static constexpr uint32_t maxFramesInFlight = 4;
 
-    /// Starts recording. Requires that `wait` was called for the last frame.
-    void begin();
-    /// Submits the recorded commands.
-    void submit();
-    /// Blocks until the device is done; pass times and read-backs are available then.
-    void wait();
+    /// framesInFlight: 1 to maxFramesInFlight.
+    explicit Recorder(Context& context, uint32_t framesInFlight = 1);
+    /// The device must have finished all frames.
+    ~Recorder();
+    Recorder(const Recorder&) = delete;
+    Recorder& operator=(const Recorder&) = delete;
+
+    /// Starts a frame: everything up to end() is recorded into `commands`, outside of render passes. The device must
+    /// have finished the frame that was begun `framesInFlight` frames before; its times and read-backs are available
+    /// from now on. Frames must be submitted in the order in which they begin.
+    void begin(VkCommandBuffer commands);
+    /// Ends the frame. The command buffer may record on: none of the bound pipelines and descriptor sets is kept.
+    void end();
+    /// The device has finished all frames begun so far: frees what only they used; times and read-backs of the last one
+    /// are available.
+    void finish();
 
     Pass compute(std::string_view name, std::string_view shader);
     Pass raster(std::string_view name, std::vector<std::string> shaders);
-    /// Overwrites the start of a buffer (at most 64 KiB, a multiple of 4 bytes).
+    /// Overwrites the start of a buffer (a multiple of 4 bytes).
     void update(BufferView buffer, std::span<const std::byte> bytes);
 
     /// Makes writes to the buffer visible to later draws that bind it as a vertex buffer.
@@ -85,21 +94,21 @@ public:
     /// Invalidates all histories, as before the first frame, and the contents of all images.
     void invalidateHistories();
 
-    /// Copies a single-layer image for the host to read after `wait`.
+    /// Copies a single-layer image for the host to read once the frame is finished.
     Readback readback(Image image);
-    /// Rows from the top, tightly packed.
+    /// Of the last frame that the device has finished: rows from the top, tightly packed.
     [[nodiscard]] std::span<const std::byte> bytes(Readback readback) const;
 
     /// While it lives, names of recorded passes get a prefix: "diffuse." + "trace_screen".
     class Scope {
     public:
-        Scope(Frame& frame, std::string_view prefix, bool images);
+        Scope(Recorder& recorder, std::string_view prefix, bool images);
         ~Scope();
         Scope(const Scope&) = delete;
         Scope& operator=(const Scope&) = delete;
 
     private:
-        Frame& frame_;
+        Recorder& recorder_;
         size_t passes_;
         size_t images_;
     };
@@ -108,37 +117,47 @@ public:
     /// alias those of the first.
     [[nodiscard]] Scope viewScope(std::string_view prefix) { return {*this, prefix, true}; }
 
-    /// Pass times of the last frame waited for, in recording order. The first entry, "frame", is from start to end.
+    /// Pass times of the last frame that the device has finished, in recording order. The first entry, "frame", is from
+    /// start to end.
     [[nodiscard]] const std::vector<PassTime>& passTimes() const { return times_; }
-    /// Milliseconds of host time from the submission of the last frame waited for until its completion was known.
-    [[nodiscard]] double submittedMs() const { return submittedMs_; }
 
-    [[nodiscard]] Device& device() { return device_; }
+    [[nodiscard]] Context& context() { return context_; }
 
 private:
     friend class Pass;
 
-    struct Uses;
     struct UniformSlice {
         VkBuffer buffer;
         VkDeviceSize offset;
+    };
+    // What one frame in flight needs for itself.
+    struct Slot {
+        uint64_t serial = 0;  ///< of its work; 0: none that is unfinished
+        Buffer uniforms;
+        VkDeviceSize uniformsUsed = 0;
+        std::vector<VkDescriptorPool> descriptorPools;
+        size_t descriptorPool = 0;  ///< that sets are allocated from now
+        VkQueryPool queries = VK_NULL_HANDLE;
+        std::vector<Buffer> readbacks;
+        size_t readbacksUsed = 0;
+        std::vector<PassTime> timed;  ///< times not yet read
     };
 
     /// `pass`: everything but the time.
     void beginTimer(const PassTime& pass);
     void endTimer();
-    void readTimers();
+    void readTimers(Slot& slot);
+    void finish(Slot& slot);
     UniformSlice uploadUniform(std::span<const std::byte> bytes);
     VkDescriptorSet allocateSet(VkDescriptorSetLayout layout);
     Image transient(std::string_view name, const ImageInfo& info);
+    [[nodiscard]] Slot& slot() { return slots_[number_ % slots_.size()]; }
 
-    Device& device_;
-    VkCommandPool commandPool_ = VK_NULL_HANDLE;
-    VkCommandBuffer commands_ = VK_NULL_HANDLE;
-    VkDescriptorPool descriptorPool_ = VK_NULL_HANDLE;
-    VkQueryPool queries_ = VK_NULL_HANDLE;
-    uint64_t serial_ = 0;
-    uint64_t number_ = 0;
+    Context& context_;
+    std::vector<Slot> slots_;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;  ///< null between frames
+    uint64_t number_ = 0;                        ///< of the frame, counts from 1
+    size_t finished_ = 0;                        ///< slot of the last frame that the device has finished
     std::string passPrefix_;
     std::string imagePrefix_;
 
@@ -151,15 +170,7 @@ private:
         bool valid = false;  ///< in the frame of the last use, however often it is requested
     };
     std::map<std::string, HistoryPair, std::less<>> histories_;
-
-    Buffer uniforms_;
-    VkDeviceSize uniformsUsed_ = 0;
-    std::vector<Buffer> readbacks_;
-    size_t readbacksUsed_ = 0;
-    std::vector<PassTime> timed_;  ///< in this frame, times not yet read
     std::vector<PassTime> times_;
-    std::chrono::steady_clock::time_point submitted_;
-    double submittedMs_ = 0.0;
 };
 
 }  // namespace reflet::gpu
