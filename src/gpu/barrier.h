@@ -2,6 +2,7 @@
 // an image every barrier is a memory barrier.
 #pragma once
 
+#include "gpu/functions.h"
 #include "gpu/pass.h"
 #include "gpu/resource.h"
 

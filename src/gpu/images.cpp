@@ -1,6 +1,7 @@
 // Makes images and buffers for their owners.
 #include "gpu/images.h"
 
+#include "gpu/context.h"
 #include "gpu/recorder.h"
 
 #include <algorithm>
@@ -25,13 +26,6 @@ ImageInfo targetInfo(VkFormat format, uvec2 size) {
                                              ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
                                              : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     return {format, size, 1, 1, attachment | VK_IMAGE_USAGE_SAMPLED_BIT | copied};
-}
-
-Buffer storageBuffer(Recorder& f, VkDeviceSize size, std::string_view name) {
-    return {f.context(), size,
-            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
-                VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-            MemoryUse::device, f.nameOf(name)};
 }
 
 }  // namespace
@@ -63,7 +57,7 @@ bool KeptImage::holds(const Recorder& f, std::span<const std::byte> key) {
 
 BufferView KeptBuffer::get(Recorder& f, VkDeviceSize size) {
     if (!buffer_.view() || buffer_.view().size != size) {
-        buffer_ = storageBuffer(f, size, name_);
+        buffer_ = storageBuffer(f.context(), size, f.nameOf(name_));
     }
     return buffer_.view();
 }

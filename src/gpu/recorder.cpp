@@ -17,9 +17,6 @@ constexpr uint32_t maxTimedPasses = 1024;
 constexpr uint32_t queriesPerPass = 3;
 constexpr VkDeviceSize maxUpdateBytes = 65536;
 
-constexpr VkImageUsageFlags copied = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-constexpr VkImageUsageFlags storageUsage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | copied;
-
 VkDescriptorPool makeDescriptorPool(Context& context) {
     std::vector<VkDescriptorPoolSize> sizes{{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2048},
                                             {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2048},
@@ -88,6 +85,7 @@ void Recorder::begin(VkCommandBuffer commands) {
 }
 
 void Recorder::end() {
+    dropUnused();
     commands_ = VK_NULL_HANDLE;
 }
 
@@ -154,11 +152,11 @@ void Recorder::readTimers(Slot& slot) {
 }
 
 Pass Recorder::compute(std::string_view name, std::string_view shader) {
-    return {*this, passPrefix_ + std::string(name), {std::string(shader)}};
+    return {*this, nameOf(name), {std::string(shader)}};
 }
 
 Pass Recorder::raster(std::string_view name, std::vector<std::string> shaders) {
-    return {*this, passPrefix_ + std::string(name), std::move(shaders)};
+    return {*this, nameOf(name), std::move(shaders)};
 }
 
 void Recorder::update(BufferView buffer, std::span<const std::byte> bytes) {
@@ -190,71 +188,67 @@ void Recorder::clear(Image image) {
     context_.vk.vkCmdClearColorImage(commands_, image.state->image, VK_IMAGE_LAYOUT_GENERAL, &zero, 1, &all);
 }
 
-// Returns the texture of that name; replaces it if its info (the size, say) differs.
-Image Recorder::transient(std::string_view name, const ImageInfo& info) {
-    const std::string fullName = imagePrefix_ + std::string(name);
-    Texture& texture = images_[fullName];
-    if (!(texture.info() == info)) {
-        texture = Texture(context_, info, fullName);
+Image Recorder::placeholder(VkFormat format, bool array) {
+    Texture& texture = placeholders_[{format, array}];
+    if (texture.info().size.x == 0) {
+        const VkImageUsageFlags usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+        const ImageInfo info{format, uvec2(1), 1, 1, usage, array ? ViewKind::array : ViewKind::byLayers};
+        texture = Texture(context_, info, "placeholder");
     }
     return texture.image();
 }
 
-Image Recorder::image(std::string_view name, VkFormat format, uvec2 size, uint32_t layers, bool array) {
-    return transient(name, {format, size, 1, layers, storageUsage, array ? ViewKind::array : ViewKind::byLayers});
-}
-
-Image Recorder::target(std::string_view name, VkFormat format, uvec2 size) {
-    const VkImageUsageFlags attachment = aspectOf(format) == VK_IMAGE_ASPECT_DEPTH_BIT
-                                             ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
-                                             : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-    return transient(name, {format, size, 1, 1, attachment | VK_IMAGE_USAGE_SAMPLED_BIT | copied});
-}
-
-BufferView Recorder::buffer(std::string_view name, VkDeviceSize size) {
-    const std::string fullName = imagePrefix_ + std::string(name);
-    auto known = buffers_.find(fullName);
-    if (known == buffers_.end() || known->second.view().size != size) {
-        Buffer made(context_, size,
-                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
-                        VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                    MemoryUse::device, fullName);
-        known = buffers_.insert_or_assign(fullName, std::move(made)).first;
+size_t Recorder::takeImage(const ImageInfo& info) {
+    auto place = std::ranges::find_if(pooledImages_,
+                                      [&](const PooledImage& p) { return !p.taken && p.texture.info() == info; });
+    if (place == pooledImages_.end()) {
+        place = std::ranges::find_if(pooledImages_, [](const PooledImage& p) { return p.texture.info().size.x == 0; });
+        if (place == pooledImages_.end()) {
+            place = pooledImages_.insert(place, PooledImage{});
+        }
+        place->texture = Texture(context_, info, nameOf("scratch"));
     }
-    return known->second.view();
+    place->taken = true;
+    place->lastUse = number_;
+    return static_cast<size_t>(place - pooledImages_.begin());
 }
 
-History Recorder::history(std::string_view name, VkFormat format, uvec2 size) {
-    HistoryPair& pair = histories_[imagePrefix_ + std::string(name)];
-    const ImageInfo info{format, size, 1, 1, storageUsage};
-    const bool fresh = !(pair.textures[0].info() == info);
-    if (fresh) {
-        for (Texture& texture : pair.textures) {
-            texture = Texture(context_, info, std::string(name));
+size_t Recorder::takeBuffer(VkDeviceSize size) {
+    const auto sizeOf = [](const PooledBuffer& p) { return p.buffer.view().size; };
+    auto place =
+        std::ranges::find_if(pooledBuffers_, [&](const PooledBuffer& p) { return !p.taken && sizeOf(p) == size; });
+    if (place == pooledBuffers_.end()) {
+        place = std::ranges::find(pooledBuffers_, VkDeviceSize(0), sizeOf);
+        if (place == pooledBuffers_.end()) {
+            place = pooledBuffers_.insert(place, PooledBuffer{});
+        }
+        place->buffer = storageBuffer(context_, size, nameOf("scratch"));
+    }
+    place->taken = true;
+    place->lastUse = number_;
+    return static_cast<size_t>(place - pooledBuffers_.begin());
+}
+
+void Recorder::giveBack(std::span<const size_t> images, std::span<const size_t> buffers) {
+    for (const size_t i : images) {
+        pooledImages_[i].taken = false;
+    }
+    for (const size_t i : buffers) {
+        pooledBuffers_[i].taken = false;
+    }
+}
+
+void Recorder::dropUnused() {
+    constexpr uint64_t keptFrames = 2;
+    for (PooledImage& p : pooledImages_) {
+        if (!p.taken && p.lastUse + keptFrames < number_) {
+            p.texture = {};
         }
     }
-    if (pair.lastUse != number_) {
-        pair.current ^= 1U;
-        pair.valid = pair.lastUse + 1 == number_;
-        pair.lastUse = number_;
-    }
-    pair.valid = pair.valid && !fresh;
-    return {pair.textures[pair.current ^ 1U].image(), pair.textures[pair.current].image(), pair.valid};
-}
-
-bool Recorder::holds(Image image, std::span<const std::byte> key) {
-    std::vector<std::byte>& known = image.state->contents;
-    if (std::ranges::equal(known, key)) {
-        return true;
-    }
-    known.assign(key.begin(), key.end());
-    return false;
-}
-
-void Recorder::invalidateHistories() {
-    histories_.clear();
-    for (auto& [name, texture] : images_) {
-        texture.image().state->contents.clear();
+    for (PooledBuffer& p : pooledBuffers_) {
+        if (!p.taken && p.lastUse + keptFrames < number_) {
+            p.buffer = {};
+        }
     }
 }
 
@@ -287,18 +281,13 @@ std::span<const std::byte> Recorder::bytes(Readback readback) const {
     return slots_[finished_].readbacks.at(readback.index).bytes();
 }
 
-Recorder::Scope::Scope(Recorder& recorder, std::string_view prefix, bool images)
-    : recorder_(recorder), passes_(recorder.passPrefix_.size()), images_(recorder.imagePrefix_.size()) {
-    const std::string added = std::string(prefix) + '.';
-    recorder.passPrefix_ += added;
-    if (images) {
-        recorder.imagePrefix_ += added;
-    }
+Recorder::Scope::Scope(Recorder& recorder, std::string_view prefix)
+    : recorder_(recorder), before_(recorder.prefix_.size()) {
+    recorder.prefix_ += std::string(prefix) + '.';
 }
 
 Recorder::Scope::~Scope() {
-    recorder_.passPrefix_.resize(passes_);
-    recorder_.imagePrefix_.resize(images_);
+    recorder_.prefix_.resize(before_);
 }
 
 Recorder::UniformSlice Recorder::uploadUniform(std::span<const std::byte> bytes) {

@@ -1,8 +1,9 @@
 // Records the passes of a frame into a command buffer that it is given: binds resources by name and checks them against
-// the shader, derives barriers from the declared reads and writes, times every pass on the device, and owns the images
-// that persist between passes. It never submits or waits.
+// the shader, derives barriers from the declared reads and writes, and times every pass on the device. It never submits
+// or waits.
 #pragma once
 
+#include "gpu/images.h"
 #include "gpu/pass.h"
 #include "gpu/resource.h"
 
@@ -12,7 +13,7 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace reflet::gpu {
@@ -27,13 +28,6 @@ struct PassTime {
     /// all of them. Excludes what draws bind themselves (vertices, textures of materials).
     uint64_t bytes = 0;
     bool raster = false;  ///< draws triangles
-};
-
-/// A double-buffered image: this frame's and the last frame's.
-struct History {
-    Image previous;
-    Image next;
-    bool valid = false;  ///< false: `previous` has no content (first frame, or a new size)
 };
 
 /// Handle of an image copy to the host.
@@ -73,26 +67,15 @@ public:
     /// Fills a colour image with zeros.
     void clear(Image image);
 
-    /// A storage image, also sampled. The same name returns the same image in every frame; its contents are undefined
-    /// unless `holds` says otherwise. With several layers, or `array`: an array view.
-    Image image(std::string_view name, VkFormat format, uvec2 size, uint32_t layers = 1, bool array = false);
-    /// A render target (colour or depth), also sampled.
-    Image target(std::string_view name, VkFormat format, uvec2 size);
-    /// A storage buffer, also usable for indirect arguments.
-    BufferView buffer(std::string_view name, VkDeviceSize size);
-    /// Two images that swap every frame.
-    History history(std::string_view name, VkFormat format, uvec2 size);
-    /// Whether the image (of `image` or `target`) still holds what an earlier frame wrote under the same key, and does
-    /// not have to be written again. If not, the caller must write all of it, which makes it valid for this key. Keys
-    /// hold everything that the contents depend on; their types have no padding.
-    template <class T>
-    bool holds(Image image, const T& key) {
-        static_assert(std::is_trivially_copyable_v<T>);
-        return holds(image, std::as_bytes(std::span(&key, 1)));
-    }
-    bool holds(Image image, std::span<const std::byte> key);
-    /// Invalidates all histories, as before the first frame, and the contents of all images.
-    void invalidateHistories();
+    /// An image of one texel, to bind where a shader does not use what it declares; `array`: an array view.
+    Image placeholder(VkFormat format, bool array = false);
+
+    /// Counts frames from 1.
+    [[nodiscard]] uint64_t number() const { return number_; }
+    /// Counts calls of forget().
+    [[nodiscard]] uint64_t generation() const { return generation_; }
+    /// Invalidates all histories, as before the first frame, and the contents of all kept images.
+    void forget() { ++generation_; }
 
     /// Copies a single-layer image for the host to read once the frame is finished.
     Readback readback(Image image);
@@ -102,20 +85,18 @@ public:
     /// While it lives, names of recorded passes get a prefix: "diffuse." + "trace_screen".
     class Scope {
     public:
-        Scope(Recorder& recorder, std::string_view prefix, bool images);
+        Scope(Recorder& recorder, std::string_view prefix);
         ~Scope();
         Scope(const Scope&) = delete;
         Scope& operator=(const Scope&) = delete;
 
     private:
         Recorder& recorder_;
-        size_t passes_;
-        size_t images_;
+        size_t before_;
     };
-    [[nodiscard]] Scope scope(std::string_view prefix) { return {*this, prefix, false}; }
-    /// The same, and prefixes the names of images, buffers and histories, too: for another view, whose images must not
-    /// alias those of the first.
-    [[nodiscard]] Scope viewScope(std::string_view prefix) { return {*this, prefix, true}; }
+    [[nodiscard]] Scope scope(std::string_view prefix) { return {*this, prefix}; }
+    /// The name with the prefix of the scope.
+    [[nodiscard]] std::string nameOf(std::string_view name) const { return prefix_ + std::string(name); }
 
     /// Pass times of the last frame that the device has finished, in recording order. The first entry, "frame", is from
     /// start to end.
@@ -125,6 +106,7 @@ public:
 
 private:
     friend class Pass;
+    friend class Scratch;
 
     struct UniformSlice {
         VkBuffer buffer;
@@ -150,7 +132,23 @@ private:
     void finish(Slot& slot);
     UniformSlice uploadUniform(std::span<const std::byte> bytes);
     VkDescriptorSet allocateSet(VkDescriptorSetLayout layout);
-    Image transient(std::string_view name, const ImageInfo& info);
+    // The pool that scratch images and buffers come from and return to. Unused ones are destroyed after two frames.
+    struct PooledImage {
+        Texture texture;  ///< none: the place is free
+        bool taken = false;
+        uint64_t lastUse = 0;
+    };
+    struct PooledBuffer {
+        Buffer buffer;
+        bool taken = false;
+        uint64_t lastUse = 0;
+    };
+    size_t takeImage(const ImageInfo& info);
+    size_t takeBuffer(VkDeviceSize size);
+    [[nodiscard]] Image pooledImage(size_t index) const { return pooledImages_[index].texture.image(); }
+    [[nodiscard]] BufferView pooledBuffer(size_t index) const { return pooledBuffers_[index].buffer.view(); }
+    void giveBack(std::span<const size_t> images, std::span<const size_t> buffers);
+    void dropUnused();
     [[nodiscard]] Slot& slot() { return slots_[number_ % slots_.size()]; }
 
     Context& context_;
@@ -158,18 +156,11 @@ private:
     VkCommandBuffer commands_ = VK_NULL_HANDLE;  ///< null between frames
     uint64_t number_ = 0;                        ///< of the frame, counts from 1
     size_t finished_ = 0;                        ///< slot of the last frame that the device has finished
-    std::string passPrefix_;
-    std::string imagePrefix_;
-
-    std::map<std::string, Texture, std::less<>> images_;
-    std::map<std::string, Buffer, std::less<>> buffers_;
-    struct HistoryPair {
-        Texture textures[2];
-        uint64_t lastUse = 0;
-        uint32_t current = 0;
-        bool valid = false;  ///< in the frame of the last use, however often it is requested
-    };
-    std::map<std::string, HistoryPair, std::less<>> histories_;
+    uint64_t generation_ = 0;
+    std::string prefix_;
+    std::vector<PooledImage> pooledImages_;
+    std::vector<PooledBuffer> pooledBuffers_;
+    std::map<std::pair<VkFormat, bool>, Texture> placeholders_;
     std::vector<PassTime> times_;
 };
 

@@ -193,4 +193,11 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
     return *this;
 }
 
+Buffer storageBuffer(Context& context, VkDeviceSize size, const std::string& name) {
+    return {context, size,
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+                VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+            MemoryUse::device, name};
+}
+
 }  // namespace reflet::gpu

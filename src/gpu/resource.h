@@ -29,7 +29,6 @@ struct ImageState {
     VkImage image = VK_NULL_HANDLE;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
     AccessState access;
-    std::vector<std::byte> contents;  ///< key of the contents, see Frame::holds
 };
 
 struct BufferState {
@@ -145,5 +144,8 @@ private:
     std::unique_ptr<BufferState> state_;
     Allocation allocation_;
 };
+
+/// A device buffer that shaders read and write, also usable for indirect arguments and copies.
+Buffer storageBuffer(Context& context, VkDeviceSize size, const std::string& name);
 
 }  // namespace reflet::gpu

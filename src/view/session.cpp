@@ -190,7 +190,7 @@ Picked Session::pick(const ViewerState& state, uvec2 size, uvec2 pixel) {
                     readbacks.push_back(requestShow(f, made, show));
                 }
             }
-            ray = recordRay(f, made, made.view, settings.traceScreen, pixel);
+            ray = recordRay(f, recordRay_, made, made.view, settings.traceScreen, pixel);
         });
     Picked picked{pixel, {}, recordedRay(frame(), ray), params_, changes_};
     for (const ShowReadback& readback : readbacks) {

@@ -41,6 +41,7 @@ private:
     [[nodiscard]] ViewParams viewAt(float x) const;
 
     gpu::Frame frame_;
+    DenoiseStore store_;
     uvec2 size_;
     uint32_t lobe_;
     DenoiseSettings settings_;

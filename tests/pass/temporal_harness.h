@@ -29,6 +29,7 @@ public:
 
 private:
     gpu::Frame frame_;
+    TemporalStore store_;
     uvec2 size_;
     TemporalSettings settings_;
     uint32_t count_ = 0;

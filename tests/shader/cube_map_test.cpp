@@ -60,13 +60,6 @@ protected:
         });
     }
 
-    static void record(const std::function<void(gpu::Frame&)>& passes) {
-        frame().begin();
-        passes(frame());
-        frame().submit();
-        frame().wait();
-    }
-
     static CubeMap filtered(uint32_t side, uint32_t cubes, const LightFrom& light) {
         CubeMap map = make(side, cubes, light);
         record([&](gpu::Frame& f) { filterCubeMap(f, map, 0, cubes); });

@@ -14,6 +14,14 @@ void ShaderTest::registerTestShaders() {
     device().shaders().add(shaderTestShaders());
 }
 
+void ShaderTest::record(const std::function<void(gpu::Frame&)>& passes) {
+    registerTestShaders();
+    frame().begin();
+    passes(frame());
+    frame().submit();
+    frame().wait();
+}
+
 void ShaderTest::runShader(std::string_view shader, const Io& io) {
     REFLET_CHECK(io.threads > 0, "{}: no inputs", shader);
     registerTestShaders();

@@ -59,9 +59,15 @@ struct RecordedRay {
     std::vector<RayStep> steps;
 };
 
+/// Owns the images of the pass.
+struct RecordRayStore {
+    gpu::KeptImage record{"ray_record"};
+    gpu::KeptImage pyramid{"pyramid"};  ///< of images that have none
+};
+
 /// Records the mirror ray of the pixel. Call recordRay while recording the frame with these images, recordedRay when
 /// the frame is done; it returns nothing if the pixel shows no surface.
-gpu::Readback recordRay(gpu::Recorder& f, const ViewImages& images, const ViewParams& view,
+gpu::Readback recordRay(gpu::Recorder& f, RecordRayStore& own, const ViewImages& images, const ViewParams& view,
                         const TraceScreenSettings& settings, uvec2 pixel);
 std::optional<RecordedRay> recordedRay(const gpu::Recorder& f, gpu::Readback readback);
 

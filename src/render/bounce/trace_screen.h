@@ -128,7 +128,6 @@ void traceScreen(gpu::Recorder& f, Rays& rays, const ScreenImages& screen, const
 
 /// One planar reflection.
 struct PlanarView {
-    std::string name;   ///< unique within a frame
     ScreenImages seen;  ///< by the mirrored camera (traced, lookup), the camera itself (duplicate), or the mirror's own
                         ///< camera (camera); `lit` is not used
     MirrorParams mirror;

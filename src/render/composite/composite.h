@@ -48,8 +48,14 @@ struct Composite {
     gpu::Image lit;
 };
 
+/// Owns the layers.
+struct CompositeStore {
+    gpu::KeptImage indirectDiffuse{"indirect_diffuse"};
+    gpu::KeptImage indirectSpecular{"indirect_specular"};
+};
+
 /// Sets the block offsets of params. lit: written.
-Composite composite(gpu::Recorder& f, const CompositeInputs& in, gpu::Image lit, CompositeParams params);
+Composite composite(gpu::Recorder& f, CompositeStore& own, const CompositeInputs& in, gpu::Image lit, CompositeParams params);
 
 }  // namespace reflet
 #endif

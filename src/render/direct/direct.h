@@ -24,8 +24,8 @@ SHARED_END
 
 namespace reflet {
 
-/// The GGX directional albedo table (RG16F, 32x32: A, B; see ggx_table.comp). Computed once.
-gpu::Texture makeGgxTable(gpu::Frame& f);
+/// The GGX directional albedo table (RG16F, 32x32: A, B; see ggx_table.comp). Computed in the first frame.
+gpu::Image ggxTable(gpu::Recorder& f, gpu::KeptImage& own);
 
 /// Light visibility per pixel.
 struct LightVisibility {
@@ -42,8 +42,8 @@ struct DirectLights {
 };
 
 /// RGBA16F: radiance of direct light, emission and background, alpha 1.
-gpu::Image directLight(gpu::Recorder& f, const GBuffer& g, const LightVisibility& visibility, gpu::Image ggxTable,
-                       const DirectParams& params, const DirectLights& lights);
+gpu::Image directLight(gpu::Recorder& f, gpu::KeptImage& own, const GBuffer& g, const LightVisibility& visibility,
+                       gpu::Image ggxTable, const DirectParams& params, const DirectLights& lights);
 
 }  // namespace reflet
 #endif

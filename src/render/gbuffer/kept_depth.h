@@ -36,9 +36,9 @@ CHOICES(DepthBuffer, DEPTH_BUFFERS)
            "maximum at 1000 m (orthographic: at the far plane).")
 SETTINGS(DepthSettings, DEPTH_SETTINGS)
 
-/// `depth` (reversed, 0: sky) after rounding to such a format, reversed again: R32F under `name`. With reversed_float:
+/// `depth` (reversed, 0: sky) after rounding to such a format, reversed again: R32F. With reversed_float:
 /// `depth` itself, without a pass.
-gpu::Image keptDepth(gpu::Recorder& f, std::string_view name, gpu::Image depth, const ViewParams& view,
+gpu::Image keptDepth(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image depth, const ViewParams& view,
                      const DepthSettings& settings);
 
 /// Parameters for a fixed-point format and the view.

@@ -105,12 +105,12 @@ void Probes::makeMaps(uint32_t resolution) {
 }
 
 gpu::Image Probes::captureFace(gpu::Recorder& f, const Capture& capture, uint32_t face, gpu::Image lampShadowMap) {
-    const auto scope = f.viewScope("probe");
+    const auto scope = f.scope("probe");
     const uvec2 size = distance_.info().size;
     const vec3& position = block_.probes[face / probeFaces].position;
     ViewInputs in = capture.in;
     in.view = makeViewParams(cubeFaceCamera(position, face % probeFaces), size, in.view.frame, in.view.seed);
-    const ViewImages images = directView(f, in, captureSettings(capture.settings), lampShadowMap);
+    const ViewImages images = directView(f, faces_, in, captureSettings(capture.settings), lampShadowMap);
     gpu::Pass pass = f.compute("capture_probe", "capture_probe.comp");
     pass.params(in.environment.params, "environment");  // without its texels, which are not used here
     bindEnvironmentLobes(pass, f.context(), in.environment);

@@ -62,6 +62,7 @@ private:
     gpu::Image captureFace(gpu::Recorder& f, const Capture& capture, uint32_t face, gpu::Image lampShadowMap = {});
 
     gpu::Device& device_;
+    DirectViewStore faces_;   ///< of the face that is captured
     CubeMap map_;
     gpu::Texture distance_;
     gpu::Texture atlas_;

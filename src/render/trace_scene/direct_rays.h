@@ -37,7 +37,14 @@ struct DirectRays {
     gpu::Image sunVisibility;  ///< R8: unoccluded share of the rays to the sun's disk, 1 for the sky
 };
 
-DirectRays directByRays(gpu::Recorder& f, const GBuffer& g, const DirectRaysInputs& in, const DirectRaysParams& params);
+/// Owns the images of DirectRays.
+struct DirectRaysStore {
+    gpu::KeptImage direct{"direct"};
+    gpu::KeptImage sunVisibility{"sun_visibility"};
+};
+
+DirectRays directByRays(gpu::Recorder& f, DirectRaysStore& own, const GBuffer& g, const DirectRaysInputs& in,
+                        const DirectRaysParams& params);
 
 }  // namespace reflet
 #endif

@@ -8,7 +8,7 @@ namespace reflet {
 void traceScene(gpu::Recorder& f, Rays& rays, const TraceSceneInputs& in, uint32_t sunShadows,
                 const TraceSceneParams& params) {
     const GBuffer& g = in.screen.g;
-    const gpu::BufferView missed = makeRayList(f, rays, "rays.missed_by_scene");
+    const gpu::BufferView missed = makeRayList(f, rays);
     const bool reuse = params.settings.reuseScreen != 0 &&
                        (params.settings.light == SceneHitLight::screen || params.fromPrevious != 0);
     const bool tellsMotion = rays.imageMotion && rays.firstRay == 0;
@@ -44,7 +44,7 @@ void traceScene(gpu::Recorder& f, Rays& rays, const TraceSceneInputs& in, uint32
         .write("answer", rays.answer)
         .write("source", rays.source)
         .write("imageMotion",
-               tellsMotion ? rays.imageMotion : f.image("no_image_motion", VK_FORMAT_R16G16_SFLOAT, uvec2(1)))
+               tellsMotion ? rays.imageMotion : f.placeholder(VK_FORMAT_R16G16_SFLOAT))
         .write("missed", missed)
         .params(params)
         .params(in.lamps, "lampBlock")
