@@ -8,6 +8,8 @@
 #include "scene/builtin/shapes.h"
 #include "support/device_fixture.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

@@ -7,6 +7,8 @@
 #include "scene/builtin.h"
 #include "support/device_fixture.h"
 
+#include <spdlog/fmt/fmt.h>
+
 namespace reflet::test::history_test {
 namespace {
 
