@@ -72,7 +72,7 @@ void drawIntoTile(const gpu::DrawCommands& to, const uvec2& tile, uint32_t side)
 }
 
 void recordDraws(const gpu::DrawCommands& to, const DrawList& list, const DrawFilter& filter, bool previousTransform) {
-    const DeviceFunctions& vk = to.context.vk;
+    const gpu::DeviceFunctions& vk = to.context.vk;
     const VkBuffer previous = list.previousPositions != VK_NULL_HANDLE ? list.previousPositions : list.positions;
     const VkBuffer buffers[] = {list.positions, list.attributes, previous};
     const VkDeviceSize offsets[] = {0, 0, 0};

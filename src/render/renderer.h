@@ -31,7 +31,7 @@ public:
     /// number.
     void restart(uint32_t frameNumber);
 
-    [[nodiscard]] const gpu::Recorder& frame() const { return frame_; }
+    [[nodiscard]] const gpu::Frame& frame() const { return frame_; }
 
 private:
     /// Poses the scene at the time of the view.

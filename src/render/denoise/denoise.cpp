@@ -113,8 +113,8 @@ LobeLight denoise(gpu::Recorder& f, DenoiseStore& own, const LobeLight& light, u
     gpu::Image spareDirectional;
     for (; params.pass < settings.passes; ++params.pass) {
         const bool last = params.pass + 1 == settings.passes;
-        const auto image = [&](gpu::KeptImage& result, gpu::Image spare) {
-            return last ? result.storage(f, lightFormat, size) : spare ? spare : scratch.storage(lightFormat, size);
+        const auto image = [&](gpu::KeptImage& result, gpu::Image free) {
+            return last ? result.storage(f, lightFormat, size) : free ? free : scratch.storage(lightFormat, size);
         };
         const gpu::Image to = image(own.denoised, spare);
         const gpu::Image toDirectional =

@@ -16,6 +16,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
+#include "device/device.h"
 #include "gpu/recorder.h"
 #include "render/cube_map/cube_map.h"
 #include "scene/scene.h"

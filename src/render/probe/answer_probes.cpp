@@ -6,7 +6,7 @@
 namespace reflet {
 
 void answerProbes(gpu::Recorder& f, Rays& rays, const ProbeMaps& probes, const ProbesSettings& settings) {
-    const gpu::BufferView missed = makeRayList(f, rays, "rays.missed_by_probes");
+    const gpu::BufferView missed = makeRayList(f, rays);
     const VkSampler trilinear = f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
     f.compute("answer_probes", "answer_probes.comp")
         .constant("lobe", rays.lobe)

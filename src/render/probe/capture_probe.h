@@ -19,6 +19,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
+#include "device/device.h"
 #include "gpu/recorder.h"
 #include "render/cube_map/cube_map.h"
 #include "render/direct_view.h"

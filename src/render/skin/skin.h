@@ -36,6 +36,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
+#include "device/device.h"
 #include "gpu/recorder.h"
 #include "scene/pose.h"
 
