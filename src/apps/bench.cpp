@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "render/presets.h"
+#include "render/shaders.h"
 #include "version.h"
 
 #include <CLI/CLI.hpp>
@@ -190,7 +191,10 @@ void writeResults(const BenchCommand& command, const BenchHead& head, const Benc
 
 void bench(const BenchCommand& command, const std::string& typed) {
     BenchPlan plan = makePlan(command);
-    gpu::Device device({.select = command.device, .validation = command.validate, .onMessage = printWarning});
+    gpu::Device device({.select = command.device,
+                        .validation = command.validate,
+                        .onMessage = printWarning,
+                        .shaders = {refletShaders()}});
     for (const uvec2& size : plan.sizes) {
         requireSize(device, size);
     }

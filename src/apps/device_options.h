@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/math.h"
-#include "gpu/device.h"
+#include "device/device.h"
 
 #include <string>
 

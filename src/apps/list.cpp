@@ -4,7 +4,7 @@
 #include "apps/text_table.h"
 #include "base/error.h"
 #include "base/json_text.h"
-#include "gpu/device.h"
+#include "device/device.h"
 #include "render/presets.h"
 #include "scene/builtin.h"
 #include "scene/gltf.h"

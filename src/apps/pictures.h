@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/show.h"
-#include "gpu/frame.h"
+#include "device/frame.h"
 #include "render/frame.h"
 
 #include <nlohmann/json_fwd.hpp>

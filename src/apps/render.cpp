@@ -7,9 +7,10 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json_text.h"
-#include "gpu/device.h"
+#include "device/device.h"
 #include "render/history.h"
 #include "render/renderer.h"
+#include "render/shaders.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -98,7 +99,10 @@ void render(const RenderOptions& asked) {
     options.frames = framesFor(asked, settings, scene);
     const View view = loadView(options.scene, scene);
 
-    gpu::Device device({.select = options.device, .validation = options.validate, .onMessage = printWarning});
+    gpu::Device device({.select = options.device,
+                        .validation = options.validate,
+                        .onMessage = printWarning,
+                        .shaders = {refletShaders()}});
     requireSize(device, size);
     Renderer renderer(device, scene, printWarning);
     Timings timings(!sequence);

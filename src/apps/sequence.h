@@ -4,7 +4,7 @@
 #include "apps/pictures.h"
 #include "apps/render_options.h"
 #include "apps/timings.h"
-#include "gpu/device.h"
+#include "device/device.h"
 #include "render/renderer.h"
 
 namespace reflet {

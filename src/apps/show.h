@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/image_file.h"
-#include "gpu/frame.h"
+#include "device/frame.h"
 #include "render/frame.h"
 
 #include <span>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/math.h"
-#include "gpu/frame.h"
+#include "device/frame.h"
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -59,7 +59,7 @@ void BarrierBatch::use(ImageState& image, VkImageAspectFlags aspect, const Acces
     use(image.access, access);
 }
 
-void BarrierBatch::record(const VolkDeviceTable& vk, VkCommandBuffer commands) const {
+void BarrierBatch::record(const DeviceFunctions& vk, VkCommandBuffer commands) const {
     VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
     info.memoryBarrierCount = memory_.srcStageMask != 0 ? 1 : 0;
     info.pMemoryBarriers = &memory_;
@@ -70,7 +70,7 @@ void BarrierBatch::record(const VolkDeviceTable& vk, VkCommandBuffer commands) c
     }
 }
 
-void layoutBarrier(const VolkDeviceTable& vk, VkCommandBuffer commands, VkImage image, const MipRange& mips,
+void layoutBarrier(const DeviceFunctions& vk, VkCommandBuffer commands, VkImage image, const MipRange& mips,
                    VkImageLayout from, VkImageLayout to) {
     VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
     barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;

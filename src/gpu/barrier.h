@@ -2,6 +2,7 @@
 // an image every barrier is a memory barrier.
 #pragma once
 
+#include "gpu/functions.h"
 #include "gpu/pass.h"
 #include "gpu/resource.h"
 
@@ -18,7 +19,7 @@ struct MipRange {
 };
 
 /// Barrier between two copies or blits of a colour image, all layers; changes the layout if `from` and `to` differ.
-void layoutBarrier(const VolkDeviceTable& vk, VkCommandBuffer commands, VkImage image, const MipRange& mips,
+void layoutBarrier(const DeviceFunctions& vk, VkCommandBuffer commands, VkImage image, const MipRange& mips,
                    VkImageLayout from, VkImageLayout to);
 
 /// Collects the barriers before one pass.
@@ -26,7 +27,7 @@ class BarrierBatch {
 public:
     void use(ImageState& image, VkImageAspectFlags aspect, const Access& access);
     void use(AccessState& state, const Access& access);
-    void record(const VolkDeviceTable& vk, VkCommandBuffer commands) const;
+    void record(const DeviceFunctions& vk, VkCommandBuffer commands) const;
 
 private:
     VkMemoryBarrier2 memory_{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};

@@ -2,6 +2,7 @@
 #include "gpu/memory.h"
 
 #include "base/error.h"
+#include "gpu/context.h"
 
 #include <algorithm>
 #include <iterator>
@@ -62,14 +63,12 @@ struct MemoryBlock {
     }
 };
 
-Memory::Memory(const VolkDeviceTable& vk, VkDevice device, VkPhysicalDevice physical, bool addresses)
-    : vk_(vk), device_(device), addresses_(addresses) {
-    vkGetPhysicalDeviceMemoryProperties(physical, &properties_);
-}
+Memory::Memory(Context& context, const VkPhysicalDeviceMemoryProperties& properties)
+    : context_(context), properties_(properties) {}
 
 Memory::~Memory() {
     for (const auto& block : blocks_) {
-        vk_.vkFreeMemory(device_, block->memory, nullptr);
+        context_.vk.vkFreeMemory(context_.handle(), block->memory, nullptr);
     }
 }
 
@@ -96,9 +95,9 @@ uint32_t Memory::chooseType(uint32_t allowed, MemoryUse use) const {
 MemoryBlock& Memory::addBlock(uint32_t type, bool linear, VkDeviceSize size) {
     auto block = std::make_unique<MemoryBlock>();
     VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
-    flags.flags = addresses_ && linear ? VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT : 0;
+    flags.flags = context_.hasRayQuery() && linear ? VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT : 0;
     const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &flags, size, type};
-    const VkResult result = vk_.vkAllocateMemory(device_, &info, nullptr, &block->memory);
+    const VkResult result = context_.vk.vkAllocateMemory(context_.handle(), &info, nullptr, &block->memory);
     if (result != VK_SUCCESS) {
         fail("out of device memory: {} MiB needed in addition to {} MiB in use ({}); render at a smaller --size",
              size >> 20U, reserved_ >> 20U, resultName(result));
@@ -109,10 +108,11 @@ MemoryBlock& Memory::addBlock(uint32_t type, bool linear, VkDeviceSize size) {
     block->holes[0] = size;
     if ((properties_.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0) {
         void* mapped = nullptr;
-        vkCheck(vk_.vkMapMemory(device_, block->memory, 0, VK_WHOLE_SIZE, 0, &mapped), "mapping device memory");
+        vkCheck(context_.vk.vkMapMemory(context_.handle(), block->memory, 0, VK_WHOLE_SIZE, 0, &mapped), "mapping device memory");
         block->mapped = static_cast<std::byte*>(mapped);
     }
     reserved_ += size;
+    ++context_.counts().memoryBlocks;
     return *blocks_.emplace_back(std::move(block));
 }
 
@@ -142,7 +142,7 @@ void Memory::release(const Allocation& allocation) {
     used_[static_cast<size_t>(allocation.use)] -= allocation.size;
     block.giveBack(allocation.offset, allocation.size);
     if (block.holes.size() == 1 && block.holes.begin()->second == block.size) {
-        vk_.vkFreeMemory(device_, block.memory, nullptr);
+        context_.vk.vkFreeMemory(context_.handle(), block.memory, nullptr);
         reserved_ -= block.size;
         std::erase_if(blocks_, [&](const auto& b) { return b.get() == &block; });
     }

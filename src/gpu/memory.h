@@ -12,6 +12,7 @@
 
 namespace reflet::gpu {
 
+class Context;
 struct MemoryBlock;
 
 enum class MemoryUse : uint8_t {
@@ -32,8 +33,8 @@ struct Allocation {
 
 class Memory {
 public:
-    /// `addresses`: enables device addresses for buffers.
-    Memory(const VolkDeviceTable& vk, VkDevice device, VkPhysicalDevice physical, bool addresses);
+    /// Buffers have device addresses if the context has ray query.
+    Memory(Context& context, const VkPhysicalDeviceMemoryProperties& properties);
     ~Memory();
     Memory(const Memory&) = delete;
     Memory& operator=(const Memory&) = delete;
@@ -49,10 +50,8 @@ private:
     uint32_t chooseType(uint32_t allowed, MemoryUse use) const;
     MemoryBlock& addBlock(uint32_t type, bool linear, VkDeviceSize size);
 
-    const VolkDeviceTable& vk_;
-    VkDevice device_;
-    bool addresses_;
-    VkPhysicalDeviceMemoryProperties properties_{};
+    Context& context_;
+    VkPhysicalDeviceMemoryProperties properties_;
     std::vector<std::unique_ptr<MemoryBlock>> blocks_;
     VkDeviceSize reserved_ = 0;  ///< bytes allocated from the device
     std::array<VkDeviceSize, 3> used_{};

@@ -3,8 +3,8 @@
 
 #include "base/error.h"
 #include "gpu/barrier.h"
-#include "gpu/device.h"
-#include "gpu/frame.h"
+#include "gpu/context.h"
+#include "gpu/recorder.h"
 
 #include <algorithm>
 
@@ -36,7 +36,7 @@ VkRenderingAttachmentInfo attachmentInfo(const Image& image, bool clear, VkClear
 
 }  // namespace
 
-Pass::Pass(Frame& frame, std::string name, std::vector<std::string> shaders) : frame_(frame), name_(std::move(name)) {
+Pass::Pass(Recorder& recorder, std::string name, std::vector<std::string> shaders) : recorder_(recorder), name_(std::move(name)) {
     info_.shaders = std::move(shaders);
 }
 
@@ -193,7 +193,7 @@ void Pass::emitBarriers() {
     for (const auto& [buffer, access] : bufferUses_) {
         batch.use(buffer.state->access, access);
     }
-    batch.record(frame_.device_.vk, frame_.commands_);
+    batch.record(recorder_.context_.vk, recorder_.commands_);
 }
 
 // Written resources count once: passes that also read them move more. Clears are not counted.
@@ -209,7 +209,7 @@ uint64_t Pass::boundBytes() const {
 }
 
 VkDescriptorSet Pass::writeSet(const Pipeline& pipeline) {
-    const VkDescriptorSet set = frame_.allocateSet(pipeline.set);
+    const VkDescriptorSet set = recorder_.allocateSet(pipeline.set);
     const size_t count = pipeline.bindings.size();
     std::vector<VkDescriptorImageInfo> images(count);
     std::vector<VkDescriptorBufferInfo> buffers(count);
@@ -226,10 +226,10 @@ VkDescriptorSet Pass::writeSet(const Pipeline& pipeline) {
         write.pBufferInfo = &buffers[i];
         if (binding.type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER) {
             const auto uniform = std::ranges::find(uniforms_, binding.name, &UniformBytes::name);
-            const Frame::UniformSlice slice = frame_.uploadUniform(uniform->bytes);
+            const Recorder::UniformSlice slice = recorder_.uploadUniform(uniform->bytes);
             buffers[i] = {slice.buffer, slice.offset, uniform->bytes.size()};
         } else if (const auto bound = std::ranges::find(bound_, binding.name, &Bound::name); bound->image) {
-            const VkSampler sampler = bound->sampler != VK_NULL_HANDLE ? bound->sampler : frame_.device_.sampler({});
+            const VkSampler sampler = bound->sampler != VK_NULL_HANDLE ? bound->sampler : recorder_.context_.sampler({});
             const VkImageLayout layout = bound->image.state->layout == VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
                                              ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
                                              : VK_IMAGE_LAYOUT_GENERAL;
@@ -243,7 +243,7 @@ VkDescriptorSet Pass::writeSet(const Pipeline& pipeline) {
         }
         writes.push_back(write);
     }
-    frame_.device_.vk.vkUpdateDescriptorSets(frame_.device_.handle(), static_cast<uint32_t>(writes.size()),
+    recorder_.context_.vk.vkUpdateDescriptorSets(recorder_.context_.handle(), static_cast<uint32_t>(writes.size()),
                                              writes.data(), 0, nullptr);
     return set;
 }
@@ -255,31 +255,31 @@ void Pass::prepare(const Pipeline& pipeline) {
     const VkPipelineBindPoint point = (pipeline.stages & VK_SHADER_STAGE_COMPUTE_BIT) != 0
                                           ? VK_PIPELINE_BIND_POINT_COMPUTE
                                           : VK_PIPELINE_BIND_POINT_GRAPHICS;
-    const VolkDeviceTable& vk = frame_.device_.vk;
-    vk.vkCmdBindPipeline(frame_.commands_, point, pipeline.handle);
+    const DeviceFunctions& vk = recorder_.context_.vk;
+    vk.vkCmdBindPipeline(recorder_.commands_, point, pipeline.handle);
     const VkDescriptorSet set = writeSet(pipeline);
-    vk.vkCmdBindDescriptorSets(frame_.commands_, point, pipeline.layout, 0, 1, &set, 0, nullptr);
+    vk.vkCmdBindDescriptorSets(recorder_.commands_, point, pipeline.layout, 0, 1, &set, 0, nullptr);
 }
 
 const Pipeline& Pass::startCompute() {
-    const Pipeline& pipeline = frame_.device_.pipelines().get(info_);
+    const Pipeline& pipeline = recorder_.context_.pipelines().get(info_);
     prepare(pipeline);
-    frame_.beginTimer({name_, 0.0, boundBytes(), false});
+    recorder_.beginTimer({name_, 0.0, boundBytes(), false});
     return pipeline;
 }
 
 void Pass::dispatch(uint32_t x, uint32_t y, uint32_t z) {
     const Pipeline& pipeline = startCompute();
     const glm::uvec3 groups = (glm::uvec3(x, y, z) + pipeline.localSize - 1U) / pipeline.localSize;
-    frame_.device_.vk.vkCmdDispatch(frame_.commands_, groups.x, groups.y, groups.z);
-    frame_.endTimer();
+    recorder_.context_.vk.vkCmdDispatch(recorder_.commands_, groups.x, groups.y, groups.z);
+    recorder_.endTimer();
 }
 
 void Pass::dispatchIndirect(BufferView arguments, VkDeviceSize offset) {
     use(arguments, {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, false});
     startCompute();
-    frame_.device_.vk.vkCmdDispatchIndirect(frame_.commands_, arguments.state->buffer, offset);
-    frame_.endTimer();
+    recorder_.context_.vk.vkCmdDispatchIndirect(recorder_.commands_, arguments.state->buffer, offset);
+    recorder_.endTimer();
 }
 
 // Attachments are declared by the name of the fragment shader's output; the pipeline needs them ordered by location.
@@ -298,7 +298,7 @@ void Pass::draw(const std::function<void(const DrawCommands&)>& record) {
     for (const Attachment& color : colors_) {
         info_.colorFormats.push_back(color.image.format);
     }
-    const Pipeline& pipeline = frame_.device_.pipelines().get(info_);
+    const Pipeline& pipeline = recorder_.context_.pipelines().get(info_);
     orderAttachments(pipeline);
     prepare(pipeline);
     const uvec2 size = depth_ ? depth_.size : colors_.front().image.size;
@@ -318,18 +318,18 @@ void Pass::draw(const std::function<void(const DrawCommands&)>& record) {
     rendering.pColorAttachments = colors.data();
     rendering.pDepthAttachment = depth_ ? &depth : nullptr;
 
-    const VolkDeviceTable& vk = frame_.device_.vk;
-    const VkCommandBuffer commands = frame_.commands_;
-    frame_.beginTimer({name_, 0.0, boundBytes(), true});
+    const DeviceFunctions& vk = recorder_.context_.vk;
+    const VkCommandBuffer commands = recorder_.commands_;
+    recorder_.beginTimer({name_, 0.0, boundBytes(), true});
     vk.vkCmdBeginRendering(commands, &rendering);
     const VkViewport viewport{0, 0, static_cast<float>(size.x), static_cast<float>(size.y), 0, 1};
     vk.vkCmdSetViewport(commands, 0, 1, &viewport);
     vk.vkCmdSetScissor(commands, 0, 1, &rendering.renderArea);
     vk.vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
     vk.vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
-    record({frame_.device_, commands, pipeline.layout});
+    record({recorder_.context_, commands, pipeline.layout});
     vk.vkCmdEndRendering(commands);
-    frame_.endTimer();
+    recorder_.endTimer();
 }
 
 }  // namespace reflet::gpu

@@ -9,7 +9,6 @@
 // std::logic_error that names the pass and the binding, in every build.
 #pragma once
 
-#include "gpu/acceleration.h"
 #include "gpu/pipeline.h"
 #include "gpu/resource.h"
 
@@ -23,12 +22,12 @@
 
 namespace reflet::gpu {
 
-class Device;
-class Frame;
+class Context;
+class Recorder;
 
 /// Passed to the callback that records the draws of a raster pass.
 struct DrawCommands {
-    Device& device;
+    Context& context;
     VkCommandBuffer commands;
     VkPipelineLayout layout;
 };
@@ -42,7 +41,7 @@ struct Access {
 
 class Pass {
 public:
-    Pass(Frame& frame, std::string name, std::vector<std::string> shaders);
+    Pass(Recorder& recorder, std::string name, std::vector<std::string> shaders);
 
     Pass& read(std::string_view binding, Image image, VkSampler sampler = VK_NULL_HANDLE);
     Pass& read(std::string_view binding, BufferView buffer);
@@ -113,7 +112,7 @@ private:
     const Pipeline& startCompute();
     void orderAttachments(const Pipeline& pipeline);
 
-    Frame& frame_;
+    Recorder& recorder_;
     std::string name_;
     PipelineInfo info_;
     std::vector<Bound> bound_;

@@ -2,7 +2,7 @@
 #include "gpu/pipeline.h"
 
 #include "base/error.h"
-#include "gpu/device.h"
+#include "gpu/context.h"
 
 #include <algorithm>
 #include <optional>
@@ -32,7 +32,7 @@ std::vector<ShaderBinding> mergeBindings(const std::vector<Shader>& shaders, uin
     return merged;
 }
 
-VkDescriptorSetLayout makeSetLayout(Device& device, const std::vector<ShaderBinding>& bindings) {
+VkDescriptorSetLayout makeSetLayout(Context& context, const std::vector<ShaderBinding>& bindings) {
     std::vector<VkDescriptorSetLayoutBinding> list;
     list.reserve(bindings.size());
     for (const ShaderBinding& b : bindings) {
@@ -42,11 +42,11 @@ VkDescriptorSetLayout makeSetLayout(Device& device, const std::vector<ShaderBind
     info.bindingCount = static_cast<uint32_t>(list.size());
     info.pBindings = list.data();
     VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-    vkCheck(device.vk.vkCreateDescriptorSetLayout(device.handle(), &info, nullptr, &layout), "creating a set layout");
+    vkCheck(context.vk.vkCreateDescriptorSetLayout(context.handle(), &info, nullptr, &layout), "creating a set layout");
     return layout;
 }
 
-VkPipelineLayout makeLayout(Device& device, const Pipeline& pipeline, VkDescriptorSetLayout drawSet) {
+VkPipelineLayout makeLayout(Context& context, const Pipeline& pipeline, VkDescriptorSetLayout drawSet) {
     const VkDescriptorSetLayout sets[] = {pipeline.set, drawSet};
     const VkPushConstantRange push{VK_SHADER_STAGE_ALL, 0, pipeline.pushConstantSize};
     VkPipelineLayoutCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
@@ -55,7 +55,7 @@ VkPipelineLayout makeLayout(Device& device, const Pipeline& pipeline, VkDescript
     info.pushConstantRangeCount = pipeline.pushConstantSize > 0 ? 1 : 0;
     info.pPushConstantRanges = &push;
     VkPipelineLayout layout = VK_NULL_HANDLE;
-    vkCheck(device.vk.vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "creating a pipeline layout");
+    vkCheck(context.vk.vkCreatePipelineLayout(context.handle(), &info, nullptr, &layout), "creating a pipeline layout");
     return layout;
 }
 
@@ -87,12 +87,12 @@ void checkConstants(const std::vector<Shader>& shaders, const PipelineInfo& info
     }
 }
 
-VkShaderModule makeModule(Device& device, const Shader& shader) {
+VkShaderModule makeModule(Context& context, const Shader& shader) {
     VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     info.codeSize = shader.words.size_bytes();
     info.pCode = shader.words.data();
     VkShaderModule shaderModule = VK_NULL_HANDLE;
-    vkCheck(device.vk.vkCreateShaderModule(device.handle(), &info, nullptr, &shaderModule), "creating a shader");
+    vkCheck(context.vk.vkCreateShaderModule(context.handle(), &info, nullptr, &shaderModule), "creating a shader");
     return shaderModule;
 }
 
@@ -118,7 +118,7 @@ VertexInput vertexInput(const Shader& shader, const VertexLayout* layout) {
 }
 
 // Fixed: triangle lists, reversed depth (greater or equal passes). Dynamic: viewport, scissor, culling.
-VkPipeline makeGraphics(Device& device, const PipelineInfo& info, const VertexInput& vertices, VkPipelineLayout layout,
+VkPipeline makeGraphics(Context& context, const PipelineInfo& info, const VertexInput& vertices, VkPipelineLayout layout,
                         const std::vector<VkPipelineShaderStageCreateInfo>& stages) {
     VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
     input.vertexBindingDescriptionCount = static_cast<uint32_t>(vertices.buffers.size());
@@ -175,22 +175,22 @@ VkPipeline makeGraphics(Device& device, const PipelineInfo& info, const VertexIn
     create.pDynamicState = &dynamic;
     create.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    vkCheck(device.vk.vkCreateGraphicsPipelines(device.handle(), VK_NULL_HANDLE, 1, &create, nullptr, &pipeline),
+    vkCheck(context.vk.vkCreateGraphicsPipelines(context.handle(), VK_NULL_HANDLE, 1, &create, nullptr, &pipeline),
             "creating a graphics pipeline");
     return pipeline;
 }
 
-VkPipeline makeCompute(Device& device, const VkPipelineShaderStageCreateInfo& stage, VkPipelineLayout layout) {
+VkPipeline makeCompute(Context& context, const VkPipelineShaderStageCreateInfo& stage, VkPipelineLayout layout) {
     VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     create.stage = stage;
     create.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    vkCheck(device.vk.vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &create, nullptr, &pipeline),
+    vkCheck(context.vk.vkCreateComputePipelines(context.handle(), VK_NULL_HANDLE, 1, &create, nullptr, &pipeline),
             "creating a compute pipeline");
     return pipeline;
 }
 
-void makePipeline(Device& device, const PipelineInfo& info, const std::vector<Shader>& shaders, Pipeline& pipeline) {
+void makePipeline(Context& context, const PipelineInfo& info, const std::vector<Shader>& shaders, Pipeline& pipeline) {
     std::vector<Specialization> specializations;
     std::vector<VkPipelineShaderStageCreateInfo> stages;
     specializations.reserve(shaders.size());
@@ -198,17 +198,17 @@ void makePipeline(Device& device, const PipelineInfo& info, const std::vector<Sh
         const Specialization& specialization = specializations.emplace_back(shader, info);
         VkPipelineShaderStageCreateInfo stage{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
         stage.stage = shader.stage;
-        stage.module = makeModule(device, shader);
+        stage.module = makeModule(context, shader);
         stage.pName = "main";
         stage.pSpecializationInfo = &specialization.info;
         stages.push_back(stage);
     }
     pipeline.handle =
         shaders.front().stage == VK_SHADER_STAGE_COMPUTE_BIT
-            ? makeCompute(device, stages.front(), pipeline.layout)
-            : makeGraphics(device, info, vertexInput(shaders.front(), info.vertices), pipeline.layout, stages);
+            ? makeCompute(context, stages.front(), pipeline.layout)
+            : makeGraphics(context, info, vertexInput(shaders.front(), info.vertices), pipeline.layout, stages);
     for (const auto& stage : stages) {
-        device.vk.vkDestroyShaderModule(device.handle(), stage.module, nullptr);
+        context.vk.vkDestroyShaderModule(context.handle(), stage.module, nullptr);
     }
 }
 
@@ -218,12 +218,14 @@ PipelineCache::~PipelineCache() {
     clear();
 }
 
+// Commands that are still recorded or in flight may use them.
 void PipelineCache::clear() {
-    device_.vk.vkDeviceWaitIdle(device_.handle());
     for (const auto& [info, pipeline] : pipelines_) {
-        device_.vk.vkDestroyPipeline(device_.handle(), pipeline->handle, nullptr);
-        device_.vk.vkDestroyPipelineLayout(device_.handle(), pipeline->layout, nullptr);
-        device_.vk.vkDestroyDescriptorSetLayout(device_.handle(), pipeline->set, nullptr);
+        context_.retire([&context = context_, handle = pipeline->handle, layout = pipeline->layout, set = pipeline->set] {
+            context.vk.vkDestroyPipeline(context.handle(), handle, nullptr);
+            context.vk.vkDestroyPipelineLayout(context.handle(), layout, nullptr);
+            context.vk.vkDestroyDescriptorSetLayout(context.handle(), set, nullptr);
+        });
     }
     pipelines_.clear();
 }
@@ -233,7 +235,8 @@ const Pipeline& PipelineCache::get(const PipelineInfo& info) {
         return *known->second;
     }
     std::vector<Shader> shaders;
-    std::ranges::transform(info.shaders, std::back_inserter(shaders), reflectShader);
+    std::ranges::transform(info.shaders, std::back_inserter(shaders),
+                           [&](const std::string& name) { return context_.shaders().reflect(name); });
     checkConstants(shaders, info);
     auto pipeline = std::make_unique<Pipeline>();
     pipeline->bindings = mergeBindings(shaders, 0);
@@ -245,9 +248,10 @@ const Pipeline& PipelineCache::get(const PipelineInfo& info) {
             pipeline->colorOutputs = shader.outputs;
         }
     }
-    pipeline->set = makeSetLayout(device_, pipeline->bindings);
-    pipeline->layout = makeLayout(device_, *pipeline, info.drawSet);
-    makePipeline(device_, info, shaders, *pipeline);
+    pipeline->set = makeSetLayout(context_, pipeline->bindings);
+    pipeline->layout = makeLayout(context_, *pipeline, info.drawSet);
+    makePipeline(context_, info, shaders, *pipeline);
+    ++context_.counts().pipelines;
     return *pipelines_.emplace(info, std::move(pipeline)).first->second;
 }
 

@@ -12,7 +12,7 @@
 
 namespace reflet::gpu {
 
-class Device;
+class Context;
 
 /// One vertex attribute that a draw list provides; pipelines use those that their vertex shader names.
 struct VertexAttribute {
@@ -53,7 +53,7 @@ struct Pipeline {
 
 class PipelineCache {
 public:
-    explicit PipelineCache(Device& device) : device_(device) {}
+    explicit PipelineCache(Context& context) : context_(context) {}
     ~PipelineCache();
     PipelineCache(const PipelineCache&) = delete;
     PipelineCache& operator=(const PipelineCache&) = delete;
@@ -61,11 +61,11 @@ public:
     /// Throws std::logic_error: an unknown shader or constant, or stages with conflicting bindings.
     const Pipeline& get(const PipelineInfo& info);
 
-    /// Destroys all pipelines once the device is idle: shaders have changed.
+    /// Forgets all pipelines, because shaders have changed.
     void clear();
 
 private:
-    Device& device_;
+    Context& context_;
     std::map<PipelineInfo, std::unique_ptr<Pipeline>> pipelines_;
 };
 

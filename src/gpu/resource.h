@@ -1,4 +1,4 @@
-// Images and buffers on the device. Owners (Texture, Buffer) are move-only; their destruction is deferred until the
+// Images and buffers on a device. Owners (Texture, Buffer) are move-only; their destruction is deferred until the
 // device has finished using them. Passes take small copyable views (Image, BufferView).
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace reflet::gpu {
 
-class Device;
+class Context;
 
 /// Synchronization state of a resource on the queue: what its next use must wait for.
 struct AccessState {
@@ -29,7 +29,6 @@ struct ImageState {
     VkImage image = VK_NULL_HANDLE;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
     AccessState access;
-    std::vector<std::byte> contents;  ///< key of the contents, see Frame::holds
 };
 
 struct BufferState {
@@ -76,6 +75,13 @@ struct BufferView {
     explicit operator bool() const { return state != nullptr; }
 };
 
+/// An acceleration structure (device/acceleration.h) that passes read. Valid as long as its owner. Empty: `!view`.
+struct AccelerationView {
+    VkAccelerationStructureKHR structure = VK_NULL_HANDLE;
+
+    explicit operator bool() const { return structure != VK_NULL_HANDLE; }
+};
+
 /// The depth aspect for depth formats, colour for all others.
 VkImageAspectFlags aspectOf(VkFormat format);
 /// Bytes per texel, for the formats that the renderer uses.
@@ -87,7 +93,7 @@ class Texture {
 public:
     Texture() = default;
     /// `name` appears in messages.
-    Texture(Device& device, const ImageInfo& info, const std::string& name);
+    Texture(Context& context, const ImageInfo& info, const std::string& name);
     ~Texture();
     Texture(Texture&& other) noexcept;
     Texture& operator=(Texture&& other) noexcept;
@@ -105,7 +111,7 @@ public:
 private:
     void retire();
 
-    Device* device_ = nullptr;
+    Context* context_ = nullptr;
     ImageInfo info_;
     std::unique_ptr<ImageState> state_;
     VkImageView view_ = VK_NULL_HANDLE;
@@ -116,7 +122,7 @@ private:
 class Buffer {
 public:
     Buffer() = default;
-    Buffer(Device& device, VkDeviceSize size, VkBufferUsageFlags usage, MemoryUse use, const std::string& name);
+    Buffer(Context& context, VkDeviceSize size, VkBufferUsageFlags usage, MemoryUse use, const std::string& name);
     ~Buffer();
     Buffer(Buffer&& other) noexcept;
     Buffer& operator=(Buffer&& other) noexcept;
@@ -133,32 +139,13 @@ public:
 private:
     void retire();
 
-    Device* device_ = nullptr;
+    Context* context_ = nullptr;
     VkDeviceSize size_ = 0;
     std::unique_ptr<BufferState> state_;
     Allocation allocation_;
 };
 
-/// Creates a sampled texture from 8-bit RGBA pixels, optionally with mips down to 1x1, in read-only layout for all
-/// shaders.
-Texture uploadTexture(Device& device, uvec2 size, std::span<const uint8_t> rgba, bool srgb, bool mips,
-                      const std::string& name);
-
-/// The same for one layer of any colour format. texels: of level 0, rows from the top, tightly packed; the other levels
-/// are generated.
-Texture uploadTexels(Device& device, const ImageInfo& info, std::span<const std::byte> texels, const std::string& name);
-
-/// Creates a device buffer with these bytes.
-Buffer uploadBuffer(Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage,
-                    const std::string& name);
-
-/// Creates a device buffer with these values, or with a single zero value if there are none, because buffers cannot be
-/// empty.
-template <class T>
-Buffer uploadVector(Device& device, const std::vector<T>& values, VkBufferUsageFlags usage, const std::string& name) {
-    const T none{};
-    const std::span<const T> span = values.empty() ? std::span(&none, 1) : std::span(values);
-    return uploadBuffer(device, std::as_bytes(span), usage, name);
-}
+/// A device buffer that shaders read and write, also usable for indirect arguments and copies.
+Buffer storageBuffer(Context& context, VkDeviceSize size, const std::string& name);
 
 }  // namespace reflet::gpu

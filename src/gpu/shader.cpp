@@ -16,11 +16,6 @@ namespace reflet::gpu {
 
 namespace {
 
-std::vector<EmbeddedShader>& registry() {
-    static std::vector<EmbeddedShader> shaders;
-    return shaders;
-}
-
 struct ContextDeleter {
     void operator()(spvc_context context) const { spvc_context_destroy(context); }
 };
@@ -180,20 +175,6 @@ private:
     spvc_resources resources_ = nullptr;
 };
 
-}  // namespace
-
-void registerShaders(std::span<const EmbeddedShader> shaders) {
-    registry().insert(registry().end(), shaders.begin(), shaders.end());
-}
-
-namespace {
-
-EmbeddedShader& knownShader(std::string_view name) {
-    const auto found = std::ranges::find(registry(), name, &EmbeddedShader::name);
-    REFLET_CHECK(found != registry().end(), "no shader is named '{}'", name);
-    return *found;
-}
-
 Shader reflected(const EmbeddedShader& source) {
     Shader shader;
     shader.name = source.name;
@@ -221,9 +202,20 @@ bool haveSameInterface(Shader a, Shader b) {
 
 }  // namespace
 
-void replaceShader(std::string_view name, std::vector<uint32_t> words) {
-    static std::map<std::string, std::vector<uint32_t>, std::less<>> replaced;
-    EmbeddedShader& known = knownShader(name);
+void ShaderLibrary::add(std::span<const EmbeddedShader> shaders) {
+    for (const EmbeddedShader& shader : shaders) {
+        shaders_.emplace(shader.name, shader);
+    }
+}
+
+const EmbeddedShader& ShaderLibrary::find(std::string_view name) const {
+    const auto found = shaders_.find(name);
+    REFLET_CHECK(found != shaders_.end(), "no shader is named '{}'", name);
+    return found->second;
+}
+
+void ShaderLibrary::replace(std::string_view name, std::vector<uint32_t> words) {
+    const EmbeddedShader& known = find(name);
     if (!haveSameInterface(reflected(known), reflected({known.name, words}))) {
         fail(
             "{}: bindings, constants, inputs or outputs differ from the shader that the program was built with; "
@@ -231,13 +223,13 @@ void replaceShader(std::string_view name, std::vector<uint32_t> words) {
             "the program",
             name);
     }
-    std::vector<uint32_t>& kept = replaced[std::string(name)];
+    std::vector<uint32_t>& kept = replaced_[known.name];
     kept = std::move(words);
-    known.words = kept;
+    shaders_[known.name].words = kept;
 }
 
-Shader reflectShader(std::string_view name) {
-    return reflected(knownShader(name));
+Shader ShaderLibrary::reflect(std::string_view name) const {
+    return reflected(find(name));
 }
 
 }  // namespace reflet::gpu

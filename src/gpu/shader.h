@@ -6,6 +6,7 @@
 #include "base/math.h"
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,15 +18,6 @@ struct EmbeddedShader {
     std::string_view name;  ///< "trace_screen.comp"
     std::span<const uint32_t> words;
 };
-
-/// Registers shaders by name; libraries and tests register those that they embed. Later registrations do not replace
-/// earlier ones.
-void registerShaders(std::span<const EmbeddedShader> shaders);
-
-/// Replaces the SPIR-V of a registered shader. Throws Error, and keeps the old one, if the interface (bindings,
-/// constants, inputs, outputs) differs, because the host code knows only that. Existing pipelines are unchanged (see
-/// PipelineCache::clear).
-void replaceShader(std::string_view name, std::vector<uint32_t> words);
 
 struct ShaderBinding {
     std::string name;
@@ -64,7 +56,25 @@ struct Shader {
     glm::uvec3 localSize{1};
 };
 
-/// Throws std::logic_error if there is no shader of that name.
-Shader reflectShader(std::string_view name);
+/// The shaders of a context, by name.
+class ShaderLibrary {
+public:
+    /// Adds shaders that are embedded in a program or library. A name that is there already keeps its shader.
+    void add(std::span<const EmbeddedShader> shaders);
+
+    /// Replaces the SPIR-V of a shader. Throws Error, and keeps the old one, if the interface (bindings, constants,
+    /// inputs, outputs) differs, because the host code knows only that. Existing pipelines are unchanged (see
+    /// PipelineCache::clear). Throws std::logic_error if there is no shader of that name.
+    void replace(std::string_view name, std::vector<uint32_t> words);
+
+    /// Throws std::logic_error if there is no shader of that name.
+    [[nodiscard]] Shader reflect(std::string_view name) const;
+
+private:
+    [[nodiscard]] const EmbeddedShader& find(std::string_view name) const;
+
+    std::map<std::string_view, EmbeddedShader> shaders_;  ///< names are those of the embedded tables
+    std::map<std::string_view, std::vector<uint32_t>> replaced_;
+};
 
 }  // namespace reflet::gpu

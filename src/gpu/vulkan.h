@@ -1,7 +1,10 @@
-// Vulkan, loaded by volk, and result checks.
+// Vulkan without prototypes (functions are called through tables, see functions.h), and result checks.
 #pragma once
 
-#include <volk.h>
+#ifndef VK_NO_PROTOTYPES
+#define VK_NO_PROTOTYPES
+#endif
+#include <vulkan/vulkan_core.h>
 
 #include <string>
 

@@ -4,9 +4,6 @@
 #include "render/contact/contact.h"
 #include "render/gbuffer/back_depth.h"
 #include "render/pyramid/pyramid.h"
-#include "render/shadow/shadow.h"
-#include "render/shadow/shadow_clean.h"
-#include "render/trace_scene/direct_rays.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,22 +12,23 @@ namespace reflet {
 
 namespace {
 
-void drawSurfaces(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
+void drawSurfaces(gpu::Recorder& f, DirectViewStore& own, const ViewInputs& in, const Settings& settings, ViewImages& out) {
     GBufferContent content{.clipPlane = in.clipPlane};
     content.blendedFrom = settings.blend.layers > 0 ? opaqueAlpha : blendCutoff;
-    out.g = drawGBuffer(f, in.draws, in.view, settings.materials, content);
+    out.g = drawGBuffer(f, own.g, in.draws, in.view, settings.materials, content);
     if (settings.traceScreen.thicknessMode == ThicknessMode::secondLayer) {
-        const gpu::Image back = drawBackDepth(f, in.draws, out.g.depth, in.view);
-        out.backDepth = keptDepth(f, "kept_back_depth", back, in.view, settings.depth);
+        const gpu::Image back = drawBackDepth(f, own.backDepth, in.draws, out.g.depth, in.view);
+        out.backDepth = keptDepth(f, own.keptBackDepth, back, in.view, settings.depth);
     }
-    out.g.depth = keptDepth(f, "kept_depth", out.g.depth, in.view, settings.depth);
+    out.g.depth = keptDepth(f, own.keptDepth, out.g.depth, in.view, settings.depth);
     if (settings.traceScreen.method == TraceMethod::hiz || settings.contact.distance > 0.0F) {
-        out.pyramid = makePyramid(f, out.g.depth, out.backDepth);
+        out.pyramid = makePyramid(f, own.pyramid, out.g.depth, out.backDepth);
     }
 }
 
 // Sun visibility per pixel: shadow map, denoising, contact shadows.
-void renderSunVisibility(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
+void renderSunVisibility(gpu::Recorder& f, SurfaceLightStore& own, const ViewInputs& in, const Settings& settings,
+                         ViewImages& out) {
     ShadowSettings shadow = settings.shadow;
     if (in.sunIrradiance == vec3(0.0F)) {
         shadow.filter = ShadowFilter::none;
@@ -41,43 +39,44 @@ void renderSunVisibility(gpu::Frame& f, const ViewInputs& in, const Settings& se
     const bool throughBlended = shadow.filter != ShadowFilter::none && settings.blend.layers > 0 &&
                                 std::ranges::any_of(in.draws.draws, &Draw::blended);
     if (shadow.filter != ShadowFilter::none && !out.shadowMap) {
-        out.shadowMap = drawShadowMap(f, in.draws, out.sun, shadow, throughBlended);
+        out.shadowMap = drawShadowMap(f, own.shadowMap, in.draws, out.sun, shadow, throughBlended);
     }
     ShadowInputs maps{.map = out.shadowMap, .range = {}, .blueNoise = in.blueNoise};
     if (shadow.filter == ShadowFilter::pcss && shadow.earlyOut != 0) {
         if (!out.shadowRange) {
-            out.shadowRange = makeShadowRange(f, out.shadowMap, in.draws, out.sun, shadow, throughBlended);
+            out.shadowRange = makeShadowRange(f, own.shadowRange, out.shadowMap, in.draws, out.sun, shadow, throughBlended);
         }
         maps.range = out.shadowRange;
     }
-    const SunVisibility seen = sunVisibility(f, out.g, maps, {in.view, out.sun, shadow, sunSlope});
+    const SunVisibility seen = sunVisibility(f, own.sun, out.g, maps, {in.view, out.sun, shadow, sunSlope});
     out.rawSunVisibility = seen.visibility;
     out.shadowPenumbra = seen.penumbra;
     out.sunVisibility = shadow.denoise != 0 && seen.penumbra
-                            ? denoiseShadow(f, out.g, seen.visibility, seen.penumbra,
+                            ? denoiseShadow(f, own.sunDenoise, out.g, seen.visibility, seen.penumbra,
                                             {in.view, -in.sunDirection, shadow.history, shadow.samples, 0})
                             : seen.visibility;
     out.cascadeIndex = seen.cascadeIndex;
     if (settings.contact.distance > 0.0F && in.sunIrradiance != vec3(0.0F)) {
         out.sunVisibility =
-            contactShadow(f, out.g, out.pyramid, out.sunVisibility, {in.view, settings.contact, -in.sunDirection});
+            contactShadow(f, own.contactVisibility, out.g, out.pyramid, out.sunVisibility, {in.view, settings.contact, -in.sunDirection});
     }
     if (throughBlended) {
         if (!out.blendShadow.front().depth) {
-            out.blendShadow = drawBlendShadowMaps(f, in.draws, out.sun, shadow);
+            out.blendShadow = drawBlendShadowMaps(f, own.blendShadow, in.draws, out.sun, shadow);
         }
-        out.sunVisibility = blendShadow(f, out.g, out.blendShadow, out.sunVisibility,
+        out.sunVisibility = blendShadow(f, own.blendVisibility, out.g, out.blendShadow, out.sunVisibility,
                                         {in.view, out.sun, shadow.resolution, shadow.bias});
     }
 }
 
-void renderLampVisibility(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
-    out.lampTiles = findLampTiles(f, out.g.depth, in.lamps, in.view, settings.direct);
+void renderLampVisibility(gpu::Recorder& f, SurfaceLightStore& own, const ViewInputs& in, const Settings& settings,
+                          ViewImages& out) {
+    out.lampTiles = findLampTiles(f, own.lampTiles, out.g.depth, in.lamps, in.view, settings.direct);
     if (in.lampShadows.count > 0) {
         if (!out.lampShadowMap) {
-            out.lampShadowMap = drawLampShadowMap(f, in.draws, in.lampShadows);
+            out.lampShadowMap = drawLampShadowMap(f, own.lampShadowMap, in.draws, in.lampShadows);
         }
-        out.lampVisibility = lampVisibility(f, out.g, {out.lampShadowMap, out.lampTiles.masks, in.blueNoise},
+        out.lampVisibility = lampVisibility(f, own.lampVisibility, out.g, {out.lampShadowMap, out.lampTiles.masks, in.blueNoise},
                                             in.lampShadows, {in.view, settings.shadow});
     }
 }
@@ -92,26 +91,28 @@ SceneLights sceneLights(const ViewInputs& in, const Settings& settings) {
             .lambertOnly = settings.materials.lambertOnly};
 }
 
-ViewImages directView(gpu::Frame& f, const ViewInputs& in, const Settings& settings, gpu::Image lampShadowMap) {
+ViewImages directView(gpu::Recorder& f, DirectViewStore& own, const ViewInputs& in, const Settings& settings,
+                      gpu::Image lampShadowMap) {
     ViewImages out;
     out.lampShadowMap = lampShadowMap;
-    drawSurfaces(f, in, settings, out);
-    lightSurfaces(f, in, settings, out);
+    drawSurfaces(f, own, in, settings, out);
+    lightSurfaces(f, own.light, in, settings, out);
     return out;
 }
 
-void lightSurfaces(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
+void lightSurfaces(gpu::Recorder& f, SurfaceLightStore& own, const ViewInputs& in, const Settings& settings,
+                   ViewImages& out) {
     if (settings.shadow.filter == ShadowFilter::traced && in.traced != nullptr) {
-        const DirectRays rays = directByRays(f, out.g, {*in.traced, in.ggxTable, in.environment, in.lamps},
+        const DirectRays rays = directByRays(f, own.rays, out.g, {*in.traced, in.ggxTable, in.environment, in.lamps},
                                              {in.view, sceneLights(in, settings), settings.shadow.rays});
         out.direct = rays.direct;
         out.sunVisibility = rays.sunVisibility;
         out.rawSunVisibility = rays.sunVisibility;
         return;
     }
-    renderSunVisibility(f, in, settings, out);
-    renderLampVisibility(f, in, settings, out);
-    out.direct = directLight(f, out.g, {out.sunVisibility, out.lampVisibility, out.lampTiles.masks}, in.ggxTable,
+    renderSunVisibility(f, own, in, settings, out);
+    renderLampVisibility(f, own, in, settings, out);
+    out.direct = directLight(f, own.direct, out.g, {out.sunVisibility, out.lampVisibility, out.lampTiles.masks}, in.ggxTable,
                              {in.view, -in.sunDirection, in.sunIrradiance},
                              {in.lamps, in.environment, settings.materials.lambertOnly != 0});
 }

@@ -2,7 +2,7 @@
 // also used for planar views and probe faces.
 #pragma once
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/blend/blend_shadow.h"
 #include "render/direct/direct.h"
 #include "render/direct/lamp_tiles.h"
@@ -12,6 +12,9 @@
 #include "render/probe/probes.h"
 #include "render/settings.h"
 #include "render/shadow/lamp_shadow.h"
+#include "render/shadow/shadow.h"
+#include "render/shadow/shadow_clean.h"
+#include "render/trace_scene/direct_rays.h"
 #include "render/trace_scene/trace_scene.h"
 
 namespace reflet {
@@ -25,7 +28,7 @@ struct ViewInputs {
     EnvironmentLight environment;     ///< of EnvironmentMaps::update
     const LampBlock& lamps;
     const LampShadows& lampShadows;       ///< of planLampShadows
-    gpu::Image ggxTable;                  ///< of makeGgxTable
+    gpu::Image ggxTable;                  ///< of ggxTable
     gpu::BufferView blueNoise;            ///< of blueNoise()
     const TracedScene* traced = nullptr;  ///< BVH; only if the settings trace the scene (tracesScene)
     double time = 0.0;                    ///< of the scene's animations [s]
@@ -55,11 +58,38 @@ struct ViewImages {
 /// Lights for shading at hits of traced rays.
 SceneLights sceneLights(const ViewInputs& in, const Settings& settings);
 
-/// Records the passes of one view. Views other than the frame's own must be inside a viewScope, or they overwrite its
-/// images. lampShadowMap: from another view of the same frame, to be shared; none: it is drawn.
-ViewImages directView(gpu::Frame& f, const ViewInputs& in, const Settings& settings, gpu::Image lampShadowMap = {});
+/// Owns the images of direct light on one set of surfaces.
+struct SurfaceLightStore {
+    gpu::KeptImage shadowMap{"shadow_map"};
+    gpu::KeptImage shadowRange{"shadow_range"};
+    SunVisibilityStore sun;
+    ShadowDenoiseStore sunDenoise;
+    gpu::KeptImage contactVisibility{"contact_visibility"};
+    BlendShadowStore blendShadow;
+    gpu::KeptImage blendVisibility{"blend_visibility"};
+    LampTilesStore lampTiles;
+    gpu::KeptImage lampShadowMap{"lamp_shadow_map"};
+    gpu::KeptImage lampVisibility{"lamp_visibility"};
+    gpu::KeptImage direct{"direct"};
+    DirectRaysStore rays;
+};
+
+/// Owns the images of one view.
+struct DirectViewStore {
+    GBufferStore g;
+    gpu::KeptImage backDepth{"back_depth"};
+    gpu::KeptImage keptDepth{"kept_depth"};
+    gpu::KeptImage keptBackDepth{"kept_back_depth"};
+    gpu::KeptImage pyramid{"pyramid"};
+    SurfaceLightStore light;
+};
+
+/// Records the passes of one view. lampShadowMap: from another view of the same frame, to be shared; none: it is drawn.
+ViewImages directView(gpu::Recorder& f, DirectViewStore& own, const ViewInputs& in, const Settings& settings,
+                      gpu::Image lampShadowMap = {});
 
 /// The same for given surfaces: visibility and direct light at out.g. Shadow maps that `out` has are used.
-void lightSurfaces(gpu::Frame& f, const ViewInputs& in, const Settings& settings, ViewImages& out);
+void lightSurfaces(gpu::Recorder& f, SurfaceLightStore& own, const ViewInputs& in, const Settings& settings,
+                   ViewImages& out);
 
 }  // namespace reflet

@@ -1,7 +1,7 @@
 // Frustum-culls and records draws.
 #include "render/draw_list.h"
 
-#include "gpu/device.h"
+#include "gpu/context.h"
 #include "scene/scene.h"
 
 #include <algorithm>
@@ -67,12 +67,12 @@ void drawIntoTile(const gpu::DrawCommands& to, const uvec2& tile, uint32_t side)
     const auto length = static_cast<float>(side);
     const VkViewport viewport{static_cast<float>(corner.x), static_cast<float>(corner.y), length, length, 0, 1};
     const VkRect2D scissor{{corner.x, corner.y}, {side, side}};
-    to.device.vk.vkCmdSetViewport(to.commands, 0, 1, &viewport);
-    to.device.vk.vkCmdSetScissor(to.commands, 0, 1, &scissor);
+    to.context.vk.vkCmdSetViewport(to.commands, 0, 1, &viewport);
+    to.context.vk.vkCmdSetScissor(to.commands, 0, 1, &scissor);
 }
 
 void recordDraws(const gpu::DrawCommands& to, const DrawList& list, const DrawFilter& filter, bool previousTransform) {
-    const VolkDeviceTable& vk = to.device.vk;
+    const gpu::DeviceFunctions& vk = to.context.vk;
     const VkBuffer previous = list.previousPositions != VK_NULL_HANDLE ? list.previousPositions : list.positions;
     const VkBuffer buffers[] = {list.positions, list.attributes, previous};
     const VkDeviceSize offsets[] = {0, 0, 0};

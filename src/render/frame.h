@@ -1,15 +1,77 @@
 // One frame: a lit image from a draw list, a view and lights.
 #pragma once
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
+#include "render/accumulate/accumulate.h"
 #include "render/background/background.h"
 #include "render/bounce/rays.h"
 #include "render/composite/composite.h"
 #include "render/direct_view.h"
 #include "render/planar/mirrors.h"
 #include "render/settings.h"
+#include "render/temporal/temporal.h"
+#include "render/trace_lobe.h"
+
+#include <array>
+#include <vector>
 
 namespace reflet {
+
+/// Owns the images of a view with indirect light.
+struct ViewStore {
+    DirectViewStore direct;
+    LobeStore diffuse;
+    LobeStore specular;
+    CompositeStore layers;
+    gpu::KeptImage ambientLit{"ambient"};
+    gpu::KeptImage litSoFar{"lit_so_far"};
+    gpu::KeptImage litSoFarBlended{"lit_so_far.blended"};
+    gpu::KeptImage lightMips{"light_mips"};
+    gpu::KeptImage lit{"lit"};
+    gpu::KeptImage litBlended{"lit.blended"};
+};
+
+/// Owns the images of the layers of blended surfaces in front of a view.
+struct BlendStore {
+    struct Layer {
+        GBufferStore g;
+        SurfaceLightStore light;
+        LobeStore diffuse;
+        LobeStore specular;
+        CompositeStore layers;
+        gpu::KeptImage lit{"lit"};
+    };
+    std::array<Layer, 2> layers;  ///< used in turn: a layer is peeled by the depth of the one before
+    gpu::KeptImage lit{"blended"};
+    gpu::KeptImage direct{"blended_direct"};
+    gpu::KeptImage indirectDiffuse{"blended_diffuse"};
+    gpu::KeptImage indirectSpecular{"blended_specular"};
+};
+
+/// Owns all images of a frame; every picture that is rendered over time has its own.
+struct FrameStore : ViewStore {
+    struct Planar : ViewStore {
+        BlendStore blend;
+    };
+    gpu::HistoryImage history{"lit"};
+    BlendStore blend;
+    std::vector<Planar> planar;
+    std::vector<DirectViewStore> live;
+    BackgroundStore background;
+    gpu::KeptImage coverageBlended{"coverage.blended"};
+    AccumulateStore coverageMean;
+    gpu::KeptImage litBehind{"lit_behind"};
+    gpu::KeptImage litShown{"lit_shown"};
+    gpu::KeptImage directBlended{"direct.blended"};
+    gpu::KeptImage diffuseBlended{"indirect_diffuse.blended"};
+    gpu::KeptImage specularBlended{"indirect_specular.blended"};
+    AccumulateStore accumulated;
+    TemporalStore temporal;
+    gpu::HistoryImage exposure{"exposure"};
+    gpu::KeptImage straight{"background.straight"};
+    gpu::KeptImage display{"display"};
+    gpu::KeptImage displayOver{"background.display"};
+};
 
 struct FrameInputs : ViewInputs {
     std::span<const Mirror> mirrors;  ///< from planMirrors
@@ -37,6 +99,6 @@ struct FrameImages : ViewImages {
 };
 
 /// Records all passes of one frame.
-FrameImages renderFrame(gpu::Frame& f, const FrameInputs& in, const Settings& settings);
+FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in, const Settings& settings);
 
 }  // namespace reflet

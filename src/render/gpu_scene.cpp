@@ -2,7 +2,8 @@
 #include "render/gpu_scene.h"
 
 #include "base/error.h"
-#include "gpu/device.h"
+#include "device/device.h"
+#include "device/upload.h"
 #include "render/live/live_picture.h"
 #include "render/material.h"
 

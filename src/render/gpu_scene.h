@@ -1,7 +1,7 @@
 // A scene on the device: vertex buffers, textures with mips, materials, lamps. Created once, drawn every frame.
 #pragma once
 
-#include "gpu/device.h"
+#include "device/device.h"
 #include "gpu/resource.h"
 #include "render/draw_list.h"
 #include "render/lamps.h"
@@ -43,7 +43,7 @@ public:
     /// No frame that draws the scene may be in flight.
     void pose(const Scene& scene, const ScenePose& now, const ScenePose& before);
     /// Records the skinning pass for the pose set by pose().
-    void skin(gpu::Frame& f) const;
+    void skin(gpu::Recorder& f) const;
     [[nodiscard]] bool hasSkins() const { return !skinned_.empty(); }
 
     /// Height of live camera images in pixels. No frame that draws the scene may be in flight.

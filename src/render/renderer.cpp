@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "device/upload.h"
 #include "noise/blue_noise.h"
 #include "render/exposure/exposure.h"
 #include "render/history.h"
@@ -22,11 +23,15 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const std::function<
       scene_(device, scene, warn),
       flatPieces_(findFlatPieces(scene)),
       posedPieces_(flatPieces_),
-      ggxTable_(makeGgxTable(frame_)),
       blueNoise_(
           gpu::uploadBuffer(device, std::as_bytes(blueNoise()), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "blue_noise")),
       probes_(device),
-      warn_(warn) {}
+      warn_(warn) {
+    frame_.begin();  // in a frame of its own, because probes may be captured in others before the first one
+    ggxTable(frame_, ggxTable_);
+    frame_.submit();
+    frame_.wait();
+}
 
 void Renderer::pose(const View& view, const Settings& settings) {
     if (source_.nodes.empty()) {
@@ -156,7 +161,7 @@ FrameBackground Renderer::backgroundOf(const View& view) {
 
 void Renderer::restart(uint32_t frameNumber) {
     frameNumber_ = frameNumber;
-    frame_.invalidateHistories();
+    frame_.forget();
     previousWorldToClip_.reset();
     previousPlace_ = vec2(0.0F);
     previousTime_.reset();
@@ -199,7 +204,7 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
                         .environment = environment_.update(frame_.device(), view.environment),
                         .lamps = lamps,
                         .lampShadows = lampShadows,
-                        .ggxTable = ggxTable_.image(),
+                        .ggxTable = ggxTable(frame_, ggxTable_),
                         .blueNoise = blueNoise_.view(),
                         .traced = traced,
                         .time = view.time},
@@ -211,7 +216,7 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
                        static_cast<float>(std::abs(asked.time - previousTime_.value_or(asked.time)))};
     previousTime_ = asked.time;
     inputs.probes = probes_.update(frame_, inputs, probesOf(view, settings.probes), settings);
-    const FrameImages images = renderFrame(frame_, inputs, settings);
+    const FrameImages images = renderFrame(frame_, store_, inputs, settings);
     if (after) {
         after(frame_, images);
     }

@@ -1,7 +1,7 @@
 // Renders a scene: owns everything that outlives a frame, including the last view for motion vectors.
 #pragma once
 
-#include "gpu/frame.h"
+#include "device/frame.h"
 #include "render/frame.h"
 #include "render/gpu_scene.h"
 #include "render/probe/capture_probe.h"
@@ -59,7 +59,8 @@ private:
     std::optional<ScenePose> pose_;  ///< of the last frame; none before the first one, and of scenes that stand still
     std::optional<double> tracedTime_;
     bool skins_ = false;  ///< the frame must run the skinning pass
-    gpu::Texture ggxTable_;
+    FrameStore store_;
+    gpu::KeptImage ggxTable_{"ggx_table"};
     gpu::Buffer blueNoise_;
     EnvironmentMaps environment_;
     EnvironmentMaps background_{/*prefilters=*/false};

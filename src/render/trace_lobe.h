@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/bounce/rays.h"
+#include "render/denoise/denoise.h"
 #include "render/direct_view.h"
 #include "render/planar/mirrors.h"
 #include "render/planar/planar_view.h"
@@ -18,8 +19,17 @@ struct TracedView {
     std::vector<PlanarView> mirrors;
 };
 
+/// Owns the images of a lobe in one view.
+struct LobeStore {
+    RaySurfacesStore surfaces;
+    gpu::KeptImage tiles{"tiles"};
+    gpu::HistoryImage adaptiveTiles{"adaptive_tiles"};
+    LobeLightStore light;
+    DenoiseStore denoise;
+};
+
 /// The chain of both lobes: rays, then sources in order of accuracy, each for the misses of the previous one.
-LobeLight traceLobe(gpu::Frame& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
-                    uint32_t lobe);
+LobeLight traceLobe(gpu::Recorder& f, LobeStore& own, const ViewInputs& in, const Settings& settings,
+                    const TracedView& seen, uint32_t lobe);
 
 }  // namespace reflet

@@ -2,7 +2,8 @@
 #include "view/canvas.h"
 
 #include "apps/show.h"
-#include "gpu/device.h"
+#include "device/device.h"
+#include "device/upload.h"
 
 #include <imgui.h>
 
@@ -10,6 +11,8 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+
+std::span<const reflet::gpu::EmbeddedShader> refletViewShaders();
 
 namespace reflet {
 
@@ -35,7 +38,9 @@ Canvas::Canvas(gpu::Device& device, uvec2 fontSize, std::span<const uint8_t> fon
       font_(gpu::uploadTexture(device, fontSize, font, false, false, "ui font")),
       none_(gpu::uploadTexture(device, uvec2(1), std::array<uint8_t, 4>{0, 0, 0, 255}, false, false, "no picture")),
       vertices_(device, 1 << 16, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, gpu::MemoryUse::upload, "ui vertices"),
-      indices_(device, 1 << 16, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, gpu::MemoryUse::upload, "ui indices") {}
+      indices_(device, 1 << 16, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, gpu::MemoryUse::upload, "ui indices") {
+    device.shaders().add(refletViewShaders());
+}
 
 void Canvas::upload(const ImDrawData& ui) {
     const size_t vertexBytes = size_t(ui.TotalVtxCount) * sizeof(ImDrawVert);

@@ -26,7 +26,7 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "base/image_file.h"
-#include "gpu/frame.h"
+#include "device/frame.h"
 
 struct ImDrawData;
 

@@ -4,6 +4,7 @@
 #include "apps/pictures.h"
 #include "base/error.h"
 #include "compare/heat_map.h"
+#include "device/upload.h"
 #include "render/exposure/exposure.h"
 #include "render/history.h"
 #include "render/tonemap/tone_map_image.h"
@@ -189,7 +190,7 @@ Picked Session::pick(const ViewerState& state, uvec2 size, uvec2 pixel) {
                     readbacks.push_back(requestShow(f, made, show));
                 }
             }
-            ray = recordRay(f, made, made.view, settings.traceScreen, pixel);
+            ray = recordRay(f, recordRay_, made, made.view, settings.traceScreen, pixel);
         });
     Picked picked{pixel, {}, recordedRay(frame(), ray), params_, changes_};
     for (const ShowReadback& readback : readbacks) {

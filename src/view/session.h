@@ -96,6 +96,7 @@ private:
     std::shared_ptr<const Scene> scene_;
     View firstView_;
     Renderer renderer_;
+    RecordRayStore recordRay_;
     gpu::Image picture_;
     gpu::Texture uploaded_;
     std::string problem_;

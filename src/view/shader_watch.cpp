@@ -50,7 +50,7 @@ Ran runCommand(const std::string& command) {
 
 }  // namespace
 
-ShaderWatch::ShaderWatch(const fs::path& sources) : sources_(sources) {
+ShaderWatch::ShaderWatch(gpu::ShaderLibrary& library, const fs::path& sources) : library_(library), sources_(sources) {
     std::error_code error;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(sources, error)) {
         if (entry.is_regular_file() && isSource(entry.path())) {
@@ -105,7 +105,7 @@ bool ShaderWatch::compile(const std::string& name) {
     std::vector<uint32_t> words(bytes.size() / sizeof(uint32_t));
     std::memcpy(words.data(), bytes.data(), words.size() * sizeof(uint32_t));
     try {
-        gpu::replaceShader(fs::path(name).filename().string(), std::move(words));
+        library_.replace(fs::path(name).filename().string(), std::move(words));
     } catch (const Error& error) {
         problem_ = error.what();
         return false;

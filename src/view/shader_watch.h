@@ -1,6 +1,8 @@
 // Hot reload: recompiles shaders of the source tree when they are edited while the program runs.
 #pragma once
 
+#include "gpu/shader.h"
+
 #include <filesystem>
 #include <map>
 #include <set>
@@ -12,7 +14,8 @@ namespace reflet {
 class ShaderWatch {
 public:
     /// sources: the folder `src` of the source tree. Watches nothing if it does not exist.
-    explicit ShaderWatch(const std::filesystem::path& sources);
+    /// library: of which shaders are replaced; must outlive the watch.
+    ShaderWatch(gpu::ShaderLibrary& library, const std::filesystem::path& sources);
 
     [[nodiscard]] bool watches() const { return !files_.empty(); }
 
@@ -35,6 +38,7 @@ private:
     [[nodiscard]] std::set<std::string> usersOf(const std::string& name) const;
     bool compile(const std::string& name);
 
+    gpu::ShaderLibrary& library_;
     std::filesystem::path sources_;
     std::map<std::string, File> files_;  ///< by their names relative to the folder
     std::set<std::string> broken_;

@@ -8,6 +8,7 @@
 #include "base/json.h"
 #include "gpu/pipeline.h"
 #include "render/presets.h"
+#include "render/shaders.h"
 #include "scene/view_file.h"
 #include "view/saved_state.h"
 
@@ -60,6 +61,7 @@ gpu::DeviceOptions deviceOptions(const ViewerOptions& options) {
     device.select = options.device;
     device.validation = options.validate;
     device.onMessage = printWarning;
+    device.shaders = {refletShaders()};
     device.windowExtensions = Window::vulkanExtensions();
     return device;
 }
@@ -95,7 +97,7 @@ Viewer::Viewer(const ViewerOptions& options)
       device_(deviceOptions(options)),
       presenter_(device_, window_.surface(device_.instance())),
       compare_(device_),
-      shaders_(options.shaders.empty() ? REFLET_SHADER_SOURCES : options.shaders) {
+      shaders_(device_.shaders(), options.shaders.empty() ? REFLET_SHADER_SOURCES : options.shaders) {
     if (!options.pick.empty()) {
         toPick_ = parsePixel(options.pick);
     }

@@ -1,8 +1,8 @@
 // The viewer: a window, a scene, and the user's actions.
 #pragma once
 
-#include "gpu/device.h"
-#include "gpu/presenter.h"
+#include "device/device.h"
+#include "device/presenter.h"
 #include "view/canvas.h"
 #include "view/compare_view.h"
 #include "view/controls.h"

@@ -241,8 +241,9 @@ TEST(Motion, WhatComesToRestIsHeldAgainstItsFinalValueWhereTheMotionChangedIt) {
 TEST_F(BenchDeviceTest, APassCountsTheBytesOfWhatItBinds) {
     gpu::Frame& f = frame();
     f.begin();
-    const gpu::Image from = f.image("bench_from", VK_FORMAT_R16G16B16A16_SFLOAT, {64, 32});
-    const gpu::Image to = f.image("bench_to", VK_FORMAT_R16G16B16A16_SFLOAT, {16, 8});
+    gpu::Scratch scratch(f);
+    const gpu::Image from = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, {64, 32});
+    const gpu::Image to = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, {16, 8});
     showLive(f, from, to);
     f.submit();
     f.wait();
@@ -264,12 +265,13 @@ TEST_F(BenchDeviceTest, BytesOfAnImageAreThoseOfAllItsLevelsAndLayers) {
 TEST_F(BenchDeviceTest, InvalidatedHistoryIsNotValidForOneFrame) {
     gpu::Frame& f = frame();
     std::vector<bool> valid;
+    gpu::HistoryImage history("bench_history");
     for (int i = 0; i < 5; ++i) {
         if (i == 3) {
-            f.invalidateHistories();
+            f.forget();
         }
         f.begin();
-        valid.push_back(f.history("bench_history", VK_FORMAT_R32_SFLOAT, {4, 4}).valid);
+        valid.push_back(history.swap(f, VK_FORMAT_R32_SFLOAT, {4, 4}).valid);
         f.submit();
         f.wait();
     }

@@ -1,7 +1,7 @@
 // Runs the denoiser on synthetic light on a wall that faces the camera.
 #pragma once
 
-#include "gpu/frame.h"
+#include "device/frame.h"
 #include "render/denoise/denoise.h"
 #include "scene/scene.h"
 
@@ -41,6 +41,7 @@ private:
     [[nodiscard]] ViewParams viewAt(float x) const;
 
     gpu::Frame frame_;
+    DenoiseStore store_;
     uvec2 size_;
     uint32_t lobe_;
     DenoiseSettings settings_;

@@ -1,6 +1,6 @@
 // Guarantees of the GPU layer: a pass that does not match its shader is rejected with a name, histories swap.
 #include "base/error.h"
-#include "gpu/frame.h"
+#include "device/frame.h"
 #include "gpu/pipeline.h"
 #include "gpu/shader.h"
 #include "pass/harness.h"
@@ -16,10 +16,13 @@ class Gpu : public DeviceTest {
 protected:
     static constexpr uvec2 size{8, 4};
 
-    static gpu::Image radiance(gpu::Frame& f) { return f.image("test.radiance", VK_FORMAT_R16G16B16A16_SFLOAT, size); }
-    static gpu::Image display(gpu::Frame& f) { return f.image("test.display", VK_FORMAT_R8G8B8A8_UNORM, size); }
+    gpu::KeptImage radiance_{"radiance"};
+    gpu::KeptImage display_{"display"};
 
-    static void recordTonemap(gpu::Frame& f) {
+    gpu::Image radiance(gpu::Frame& f) { return radiance_.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, size); }
+    gpu::Image display(gpu::Frame& f) { return display_.storage(f, VK_FORMAT_R8G8B8A8_UNORM, size); }
+
+    void recordTonemap(gpu::Frame& f) {
         f.clear(radiance(f));
         f.compute("tonemap", "tonemap.comp")
             .read("radiance", radiance(f))
@@ -46,7 +49,7 @@ protected:
 };
 
 TEST_F(Gpu, APassThatFitsIsRecorded) {
-    EXPECT_EQ(complaint(recordTonemap), "");
+    EXPECT_EQ(complaint([&](gpu::Frame& f) { recordTonemap(f); }), "");
 }
 
 TEST_F(Gpu, AnUnknownBindingIsNamed) {
@@ -108,10 +111,11 @@ TEST_F(Gpu, AnUnknownSpecializationConstantIsNamed) {
 
 TEST_F(Gpu, HistoryIsLastFramesImageAndStartsAnewWithASize) {
     gpu::Frame f(device());
+    gpu::HistoryImage images("test.history");
     const auto next = [&](uvec2 extent) {
         f.begin();
-        const gpu::History history = f.history("test.history", VK_FORMAT_R16G16B16A16_SFLOAT, extent);
-        const gpu::History again = f.history("test.history", VK_FORMAT_R16G16B16A16_SFLOAT, extent);
+        const gpu::History history = images.swap(f, VK_FORMAT_R16G16B16A16_SFLOAT, extent);
+        const gpu::History again = images.swap(f, VK_FORMAT_R16G16B16A16_SFLOAT, extent);
         EXPECT_EQ(again.valid, history.valid);
         EXPECT_EQ(again.next.state, history.next.state);
         f.clear(history.next);
@@ -138,7 +142,7 @@ TEST_F(Gpu, TimesAreThereForEveryPassByItsScopedName) {
     {
         const auto scope = f.scope("outer");
         f.clear(radiance(f));
-        tonemap(f, radiance(f), {});
+        tonemap(f, display_, radiance(f), {});
     }
     f.submit();
     f.wait();
@@ -149,15 +153,15 @@ TEST_F(Gpu, TimesAreThereForEveryPassByItsScopedName) {
 }
 
 TEST_F(Gpu, AShaderIsReplacedOnlyByOneThatBindsTheSame) {
-    const gpu::Shader known = gpu::reflectShader("tonemap.comp");
+    const gpu::Shader known = device().shaders().reflect("tonemap.comp");
     const std::vector<uint32_t> same(known.words.begin(), known.words.end());
-    const gpu::Shader other = gpu::reflectShader("composite.comp");
-    EXPECT_THROW(gpu::replaceShader("tonemap.comp", {other.words.begin(), other.words.end()}), Error);
-    EXPECT_EQ(gpu::reflectShader("tonemap.comp").words.data(), known.words.data()) << "the old one is kept";
-    gpu::replaceShader("tonemap.comp", same);
-    EXPECT_NE(gpu::reflectShader("tonemap.comp").words.data(), known.words.data());
+    const gpu::Shader other = device().shaders().reflect("composite.comp");
+    EXPECT_THROW(device().shaders().replace("tonemap.comp", {other.words.begin(), other.words.end()}), Error);
+    EXPECT_EQ(device().shaders().reflect("tonemap.comp").words.data(), known.words.data()) << "the old one is kept";
+    device().shaders().replace("tonemap.comp", same);
+    EXPECT_NE(device().shaders().reflect("tonemap.comp").words.data(), known.words.data());
     device().pipelines().clear();
-    EXPECT_EQ(complaint(recordTonemap), "");
+    EXPECT_EQ(complaint([&](gpu::Frame& f) { recordTonemap(f); }), "");
 }
 
 }  // namespace

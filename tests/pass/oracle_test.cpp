@@ -28,7 +28,7 @@ struct Agreement {
 class OracleRays : public DeviceTest {
 protected:
     static std::vector<OracleRay> trace(const char* name, uvec2 size, bool secondLayer = false) {
-        registerPassTestShaders();
+        addPassTestShaders(device());
         const Scene scene = findBuiltinScene(name)->make();
         const View view = defaultView(scene);
         const gpu::Buffer outputs(device(), rayCount * sizeof(OracleRay), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
@@ -36,6 +36,7 @@ protected:
         std::ranges::fill(outputs.bytes(), std::byte{0});
         OracleParams params{makeViewParams(view.camera, size, 0, 0), {}};
         params.settings.maxSteps = 4096;  // more than any ray needs
+        gpu::KeptImage pyramid("pyramid");
         Renderer renderer(device(), scene, [](const std::string&) {});
         Settings settings = settingsOf({"diffuse.rays=0", "specular.rays=0", "shadow.filter=none"});
         settings.traceScreen.thicknessMode = secondLayer ? ThicknessMode::secondLayer : ThicknessMode::constant;
@@ -44,7 +45,7 @@ protected:
                 .constant("secondLayer", secondLayer ? 1U : 0U)
                 .read("depth", images.g.depth)
                 .read("backDepth", secondLayer ? images.backDepth : images.g.depth)
-                .read("pyramid", makePyramid(f, images.g.depth, images.backDepth))
+                .read("pyramid", makePyramid(f, pyramid, images.g.depth, images.backDepth))
                 .read("geometricNormal", images.g.geometricNormal)
                 .write("outputs", outputs.view())
                 .params(params)

@@ -2,7 +2,8 @@
 #include "render/pyramid/pyramid.h"
 #include "render/levels.h"
 
-#include "gpu/frame.h"
+#include "device/frame.h"
+#include "device/upload.h"
 #include "pass/test_shaders.h"
 #include "support/device_fixture.h"
 
@@ -62,9 +63,9 @@ vec2 extremesOf(const Layers& layers, bool second, uvec2 cell, uint32_t level) {
 
 class Pyramid : public DeviceTest {
 protected:
-    static gpu::Image fill(gpu::Frame& f, const std::string& name, uvec2 size, const gpu::Buffer& values) {
-        const gpu::Image image = f.image(name, VK_FORMAT_R32_SFLOAT, size);
-        f.compute(name, "fill_image_test.comp").read("inputs", values.view()).write("image", image).dispatch(size);
+    static gpu::Image fill(gpu::Frame& f, gpu::Scratch& scratch, uvec2 size, const gpu::Buffer& values) {
+        const gpu::Image image = scratch.storage(VK_FORMAT_R32_SFLOAT, size);
+        f.compute("fill", "fill_image_test.comp").read("inputs", values.view()).write("image", image).dispatch(size);
         return image;
     }
 
@@ -75,14 +76,16 @@ protected:
 
     /// All levels from the first on, one after another, each by rows.
     static std::vector<vec2> build(const Layers& layers, bool second) {
-        registerPassTestShaders();
+        addPassTestShaders(device());
         const gpu::Buffer front = upload(layers.front);
         const gpu::Buffer back = upload(layers.back);
         gpu::Frame& f = frame();
         f.begin();
-        const gpu::Image depth = fill(f, "test.depth", layers.size, front);
-        const gpu::Image backDepth = second ? fill(f, "test.back_depth", layers.size, back) : gpu::Image{};
-        const gpu::Image pyramid = makePyramid(f, depth, backDepth);
+        gpu::Scratch scratch(f);
+        gpu::KeptImage store("pyramid");
+        const gpu::Image depth = fill(f, scratch, layers.size, front);
+        const gpu::Image backDepth = second ? fill(f, scratch, layers.size, back) : gpu::Image{};
+        const gpu::Image pyramid = makePyramid(f, store, depth, backDepth);
         const gpu::Readback readback = f.readback(pyramid);
         f.submit();
         f.wait();

@@ -19,8 +19,9 @@ protected:
         std::vector<std::optional<RecordedRay>> rays;
         for (const uvec2& pixel : pixels) {
             gpu::Readback readback;
+            RecordRayStore store;
             renderer.render(view_, size, 0, settings, [&](gpu::Frame& f, const FrameImages& images) {
-                readback = recordRay(f, images, makeViewParams(view_.camera, size, 0, 0), settings.traceScreen, pixel);
+                readback = recordRay(f, store, images, makeViewParams(view_.camera, size, 0, 0), settings.traceScreen, pixel);
             });
             rays.push_back(recordedRay(renderer.frame(), readback));
         }

@@ -1,6 +1,7 @@
 // Traces rays through a scene on the device and by Embree, and compares what they hit.
 #include "pass/scene_rays_harness.h"
 
+#include "device/upload.h"
 #include "pass/test_shaders.h"
 #include "reference/ray_scene.h"
 
@@ -13,7 +14,7 @@
 namespace reflet::test {
 
 void SceneRaysTest::SetUpTestSuite() {
-    registerPassTestShaders();
+    addPassTestShaders(device());
 }
 
 bool SceneRaysTest::hasRayQuery() {

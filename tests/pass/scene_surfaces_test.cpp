@@ -33,7 +33,7 @@ class SceneSurfacesTest : public DeviceTest {
 protected:
     static Seen look(const Scene& scene, const View& view, const Settings& settings, float widthPerPixel,
                      uint32_t textureSize = 1024) {
-        registerPassTestShaders();
+        addPassTestShaders(device());
         const auto silent = [](const std::string&) {};
         const GpuScene onDevice(device(), scene, silent);
         const TracedScene traced{SceneRays(device(), scene, RayMethod::traversal),

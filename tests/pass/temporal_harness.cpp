@@ -2,13 +2,15 @@
 #include "pass/temporal_harness.h"
 
 #include "apps/texels.h"
+#include "device/device.h"
+#include "device/upload.h"
 #include "pass/test_shaders.h"
 
 namespace reflet::test {
 
 TemporalRun::TemporalRun(gpu::Device& device, uvec2 size, const TemporalSettings& settings)
     : frame_(device), size_(size), settings_(settings) {
-    registerPassTestShaders();
+    addPassTestShaders(device);
 }
 
 std::vector<vec4> TemporalRun::add(const MadeUpFrame& picture) {
@@ -22,10 +24,11 @@ std::vector<vec4> TemporalRun::add(const MadeUpFrame& picture) {
         depth.emplace_back(p.depth);
     }
     std::vector<gpu::Buffer> uploads;
+    gpu::Scratch scratch(frame_);
     const auto fill = [&](const char* name, const std::vector<vec4>& texels) {
         uploads.push_back(gpu::uploadBuffer(frame_.device(), std::as_bytes(std::span(texels)),
                                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, name));
-        const gpu::Image image = frame_.image(name, VK_FORMAT_R16G16B16A16_SFLOAT, size_);
+        const gpu::Image image = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, size_);
         frame_.compute(name, "fill_color_test.comp")
             .read("inputs", uploads.back().view())
             .write("image", image)
@@ -39,7 +42,7 @@ std::vector<vec4> TemporalRun::add(const MadeUpFrame& picture) {
     g.depth = fill("depth", depth);
     ViewParams view{};
     view.frame = count_++;
-    const gpu::Readback copy = frame_.readback(temporal(frame_, {g, shown, {}, view}, settings_).mean);
+    const gpu::Readback copy = frame_.readback(temporal(frame_, store_, {g, shown, {}, view}, settings_).mean);
     frame_.submit();
     frame_.wait();
     return decodeTexels(VK_FORMAT_R16G16B16A16_SFLOAT, frame_.bytes(copy));

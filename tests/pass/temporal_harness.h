@@ -1,7 +1,7 @@
 // Runs the temporal antialiasing pass on synthetic images.
 #pragma once
 
-#include "gpu/frame.h"
+#include "device/frame.h"
 #include "render/temporal/temporal.h"
 
 #include <functional>
@@ -29,6 +29,7 @@ public:
 
 private:
     gpu::Frame frame_;
+    TemporalStore store_;
     uvec2 size_;
     TemporalSettings settings_;
     uint32_t count_ = 0;

@@ -1,15 +1,14 @@
 // Shaders of tests that record their own passes into frames.
 #pragma once
 
-#include "gpu/shader.h"
+#include "gpu/context.h"
 
 std::span<const reflet::gpu::EmbeddedShader> passTestShaders();
 
 namespace reflet::test {
 
-inline void registerPassTestShaders() {
-    static const bool registered = (gpu::registerShaders(passTestShaders()), true);
-    (void)registered;
+inline void addPassTestShaders(gpu::Context& context) {
+    context.shaders().add(passTestShaders());
 }
 
 }  // namespace reflet::test

@@ -1,7 +1,7 @@
 // render/cube_map: faces, filtered lobes against an integral over the GGX lobe, irradiance against closed forms.
 #include "shader/cube_map_test.h"
 
-#include "gpu/device.h"
+#include "device/device.h"
 #include "render/cube_map/cube_map.h"
 #include "shader/directions.h"
 #include "shader/harness.h"
@@ -58,13 +58,6 @@ protected:
                 .write("faces", faces)
                 .dispatch(faces.size.x, faces.size.y, faces.layers);
         });
-    }
-
-    static void record(const std::function<void(gpu::Frame&)>& passes) {
-        frame().begin();
-        passes(frame());
-        frame().submit();
-        frame().wait();
     }
 
     static CubeMap filtered(uint32_t side, uint32_t cubes, const LightFrom& light) {

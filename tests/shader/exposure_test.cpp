@@ -50,8 +50,13 @@ protected:
     void SetUp() override {
         ShaderTest::SetUp();
         registerTestShaders();
-        frame().invalidateHistories();
+        history.emplace("exposure");
     }
+    void TearDown() override {
+        history.reset();
+        ShaderTest::TearDown();
+    }
+    static inline std::optional<gpu::HistoryImage> history;
 
     /// The frame after those so far.
     static float next(const Seen& seen, float elapsed = 0.0F, float adaptation = 0.5F) {
@@ -63,17 +68,18 @@ protected:
         const gpu::Buffer depthColors = upload(depths);
         gpu::Frame& f = frame();
         f.begin();
-        const gpu::Image radiance = f.image("exposed.radiance", VK_FORMAT_R16G16B16A16_SFLOAT, seen.size);
-        const gpu::Image depth = f.image("exposed.depth", VK_FORMAT_R16G16B16A16_SFLOAT, seen.size);
+        gpu::Scratch scratch(f);
+        const gpu::Image radiance = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, seen.size);
+        const gpu::Image depth = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, seen.size);
         fill(f, colors, radiance);
         fill(f, depthColors, depth);
-        const gpu::Readback copy = f.readback(measureExposure(f, radiance, depth, elapsed, adaptation));
+        const gpu::Readback copy = f.readback(measureExposure(f, *history, radiance, depth, elapsed, adaptation));
         f.submit();
         f.wait();
         return exposureOf(f, copy);
     }
     static float first(const Seen& seen) {
-        frame().invalidateHistories();
+        frame().forget();
         return next(seen);
     }
     static void expectBoth(const Seen& seen, float expected, const char* what) {
@@ -179,7 +185,7 @@ TEST_F(Exposure, OfTwiceAsManyFramesPerSecondAdaptsInTheSameTime) {
     const Seen bright({64, 32}, vec3(grey), true);
     std::array<float, 2> after{};
     for (uint32_t rate = 1; rate <= 2; ++rate) {
-        frame().invalidateHistories();
+        frame().forget();
         for (uint32_t i = 0; i < 7 * rate; ++i) {
             next(dark, 0.05F / static_cast<float>(rate));
         }

@@ -33,11 +33,12 @@ protected:
     template <class Out, class In>
     static std::vector<Out> withTable(std::string_view shader, const std::vector<In>& inputs) {
         if (!table()) {
-            table() = makeGgxTable(frame());
+            table().emplace("ggx_table");
+            record([](gpu::Frame& f) { static_cast<void>(ggxTable(f, *table())); });
         }
         VkSampler linear = device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR});
         return mapOnDevice<Out>(shader, inputs, {},
-                                [&](gpu::Pass& pass) { pass.read("ggxTable", table()->image(), linear); });
+                                [&](gpu::Pass& pass) { pass.read("ggxTable", table()->last(), linear); });
     }
 
     static std::vector<GgxResult> surfaces(const std::vector<GgxCase>& cases) {
@@ -85,8 +86,8 @@ protected:
     }
 
 private:
-    static std::optional<gpu::Texture>& table() {
-        static std::optional<gpu::Texture> instance;
+    static std::optional<gpu::KeptImage>& table() {
+        static std::optional<gpu::KeptImage> instance;
         return instance;
     }
 };

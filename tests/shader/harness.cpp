@@ -11,8 +11,15 @@ std::span<const reflet::gpu::EmbeddedShader> shaderTestShaders();
 namespace reflet::test {
 
 void ShaderTest::registerTestShaders() {
-    static const bool registered = (gpu::registerShaders(shaderTestShaders()), true);
-    (void)registered;
+    device().shaders().add(shaderTestShaders());
+}
+
+void ShaderTest::record(const std::function<void(gpu::Frame&)>& passes) {
+    registerTestShaders();
+    frame().begin();
+    passes(frame());
+    frame().submit();
+    frame().wait();
 }
 
 void ShaderTest::runShader(std::string_view shader, const Io& io) {

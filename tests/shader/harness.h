@@ -40,6 +40,8 @@ protected:
 
     /// For tests that record their own passes.
     static void registerTestShaders();
+    /// Records and runs a frame.
+    static void record(const std::function<void(gpu::Frame&)>& passes);
 
 private:
     struct Io {

@@ -20,9 +20,11 @@ using LightAt = std::function<vec3(uint32_t x, uint32_t y)>;
 class LightMips : public ShaderTest {
 protected:
     struct Images {
-        gpu::Image light;
-        gpu::Image mips;
-        gpu::Readback copy;  ///< of the mips
+        gpu::KeptImage lightStore{"light"};
+        gpu::KeptImage mipsStore{"mips"};
+        gpu::Image light{};
+        gpu::Image mips{};
+        gpu::Readback copy{};  ///< of the mips
     };
 
     static Images make(uvec2 size, const LightAt& lightAt) {
@@ -36,12 +38,13 @@ protected:
         registerTestShaders();
         gpu::Frame& f = frame();
         f.begin();
-        Images images{.light = f.image("light", VK_FORMAT_R16G16B16A16_SFLOAT, size), .mips = {}, .copy = {}};
+        Images images;
+        images.light = images.lightStore.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, size);
         f.compute("fill", "tone_map_image_test.comp")
             .read("colors", upload.view())
             .write("radiance", images.light)
             .dispatch(size);
-        images.mips = makeLightMips(f, images.light);
+        images.mips = makeLightMips(f, images.mipsStore, images.light);
         images.copy = f.readback(images.mips);
         f.submit();
         f.wait();

@@ -1,13 +1,11 @@
 // One Vulkan device for all tests of a process.
 #include "support/device_fixture.h"
 
-#include "gpu/shader.h"
+#include "render/shaders.h"
 
 #include <memory>
 #include <string>
 #include <vector>
-
-std::span<const reflet::gpu::EmbeddedShader> refletShaders();
 
 namespace reflet::test {
 
@@ -42,9 +40,9 @@ const ::testing::Environment* const deviceEnd = ::testing::AddGlobalTestEnvironm
 
 gpu::Device& DeviceTest::device() {
     if (!shared().device) {
-        gpu::registerShaders(refletShaders());
         gpu::DeviceOptions options;
         options.validation = true;
+        options.shaders = {refletShaders()};
         options.onMessage = [](const std::string& message) { shared().messages.push_back(message); };
         shared().device = std::make_unique<gpu::Device>(options);
     }

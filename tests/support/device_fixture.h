@@ -3,8 +3,8 @@
 // the test that caused it; one at destruction (such as a leak) fails the run.
 #pragma once
 
-#include "gpu/device.h"
-#include "gpu/frame.h"
+#include "device/device.h"
+#include "device/frame.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Measures bandwidth by copying images and buffers.
 #include "apps/bench/bandwidth.h"
 
-#include "gpu/frame.h"
+#include "device/frame.h"
 #include "render/live/live_picture.h"
 
 #include <algorithm>
@@ -20,8 +20,9 @@ double perSecond(uint64_t bytes, double ms) {
 
 double copyImages(gpu::Frame& f) {
     f.begin();
-    const gpu::Image from = f.image("bandwidth_from", VK_FORMAT_R16G16B16A16_SFLOAT, imageSize);
-    const gpu::Image to = f.image("bandwidth_to", VK_FORMAT_R16G16B16A16_SFLOAT, imageSize);
+    gpu::Scratch scratch(f);
+    const gpu::Image from = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, imageSize);
+    const gpu::Image to = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, imageSize);
     showLive(f, from, to);
     f.submit();
     f.wait();

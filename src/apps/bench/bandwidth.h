@@ -1,7 +1,7 @@
 // Measures the device's memory bandwidth.
 #pragma once
 
-#include "gpu/device.h"
+#include "device/device.h"
 
 namespace reflet {
 

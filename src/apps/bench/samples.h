@@ -1,7 +1,7 @@
 // Collects times of many frames, by pass and group of passes.
 #pragma once
 
-#include "gpu/frame.h"
+#include "device/frame.h"
 
 #include <cstdint>
 #include <span>

@@ -13,6 +13,7 @@
 #include "compare/heat_map.h"
 #include "render/presets.h"
 #include "render/renderer.h"
+#include "render/shaders.h"
 #include "scene/builtin.h"
 #include "version.h"
 
@@ -156,7 +157,7 @@ void report(const ReportCommand& command, const std::string& typed) {
     const ReportWork work = makeWork(command);
     const std::vector<ReportInput> inputs = loadInputs(command);
     makeReportFolder(work.folder);
-    gpu::Device device({.select = command.device, .onMessage = printWarning});
+    gpu::Device device({.select = command.device, .onMessage = printWarning, .shaders = {refletShaders()}});
     requireSize(device, work.size);
 
     ReportPage page;

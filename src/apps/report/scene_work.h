@@ -5,7 +5,7 @@
 #include "apps/report/file_names.h"
 #include "apps/report/page.h"
 #include "apps/report/variants.h"
-#include "gpu/device.h"
+#include "device/device.h"
 #include "reference/reference.h"
 #include "scene/scene.h"
 

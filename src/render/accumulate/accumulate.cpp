@@ -3,13 +3,13 @@
 
 namespace reflet {
 
-LightLayers accumulate(gpu::Frame& f, const LightLayers& frame, uint32_t framesBefore) {
+LightLayers accumulate(gpu::Recorder& f, AccumulateStore& own, const LightLayers& frame, uint32_t framesBefore) {
     constexpr VkFormat exact = VK_FORMAT_R32G32B32A32_SFLOAT;
     const uvec2 size = frame.direct.size;
-    const gpu::History direct = f.history("accumulated_direct", exact, size);
-    const gpu::History diffuse = f.history("accumulated_indirect_diffuse", exact, size);
-    const gpu::History specular = f.history("accumulated_indirect_specular", exact, size);
-    const gpu::Image lit = f.image("accumulated_lit", exact, size);
+    const gpu::History direct = own.direct.swap(f, exact, size);
+    const gpu::History diffuse = own.indirectDiffuse.swap(f, exact, size);
+    const gpu::History specular = own.indirectSpecular.swap(f, exact, size);
+    const gpu::Image lit = own.lit.storage(f, exact, size);
     const float frames = direct.valid ? static_cast<float>(framesBefore) + 1.0F : 1.0F;
     f.compute("accumulate", "accumulate.comp")
         .read("direct", frame.direct)

@@ -23,7 +23,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/composite/composite.h"
 
 namespace reflet {
@@ -34,9 +34,17 @@ struct LightLayers {
     Composite light;
 };
 
+/// Owns the means.
+struct AccumulateStore {
+    gpu::HistoryImage direct{"accumulated_direct"};
+    gpu::HistoryImage indirectDiffuse{"accumulated_indirect_diffuse"};
+    gpu::HistoryImage indirectSpecular{"accumulated_indirect_specular"};
+    gpu::KeptImage lit{"accumulated_lit"};
+};
+
 /// The means of the layers over this frame and the `framesBefore` before it. RGBA32F, as half floats would lose a
 /// single frame's contribution to many.
-LightLayers accumulate(gpu::Frame& f, const LightLayers& frame, uint32_t framesBefore);
+LightLayers accumulate(gpu::Recorder& f, AccumulateStore& own, const LightLayers& frame, uint32_t framesBefore);
 
 }  // namespace reflet
 #endif

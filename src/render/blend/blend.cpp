@@ -7,7 +7,7 @@ bool showsBlended(const DrawList& list, const ViewParams& view) {
     return anyDraws(list, {.keep = [](const Draw& draw) { return draw.blended; }, .worldToClip = view.worldToClip});
 }
 
-void blendLayer(gpu::Frame& f, gpu::Image accumulated, gpu::Image radiance, gpu::Image motion, bool first) {
+void blendLayer(gpu::Recorder& f, gpu::Image accumulated, gpu::Image radiance, gpu::Image motion, bool first) {
     f.compute("blend_layer", "blend_layer.comp")
         .read("radiance", radiance)
         .read("motion", motion)
@@ -18,7 +18,7 @@ void blendLayer(gpu::Frame& f, gpu::Image accumulated, gpu::Image radiance, gpu:
 
 namespace {
 
-void compositeOver(gpu::Frame& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over, uint32_t coverage) {
+void compositeOver(gpu::Recorder& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over, uint32_t coverage) {
     f.compute("blend_over", "blend_over.comp")
         .read("accumulated", accumulated)
         .read("behind", behind)
@@ -29,11 +29,11 @@ void compositeOver(gpu::Frame& f, gpu::Image accumulated, gpu::Image behind, gpu
 
 }  // namespace
 
-void blendOver(gpu::Frame& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over) {
+void blendOver(gpu::Recorder& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over) {
     compositeOver(f, accumulated, behind, over, 0);
 }
 
-void coverOver(gpu::Frame& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over) {
+void coverOver(gpu::Recorder& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over) {
     compositeOver(f, accumulated, behind, over, 1);
 }
 

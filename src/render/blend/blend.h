@@ -34,7 +34,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/draw_list.h"
 #include "render/view.h"
 
@@ -47,13 +47,13 @@ bool showsBlended(const DrawList& list, const ViewParams& view);
 
 /// Composites a layer under those in front of it. accumulated: RGBA16F, their light and what they let through; written
 /// by the first layer. radiance: of the layer; motion: its G-buffer's, with alpha.
-void blendLayer(gpu::Frame& f, gpu::Image accumulated, gpu::Image radiance, gpu::Image motion, bool first);
+void blendLayer(gpu::Recorder& f, gpu::Image accumulated, gpu::Image radiance, gpu::Image motion, bool first);
 
 /// over = accumulated layers over the light `behind` them; the alpha of `behind` is kept. RGBA16F, not the same image.
-void blendOver(gpu::Frame& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over);
+void blendOver(gpu::Recorder& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over);
 
 /// The same for the share of the pixel that surfaces cover, in red, green and blue.
-void coverOver(gpu::Frame& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over);
+void coverOver(gpu::Recorder& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over);
 
 }  // namespace reflet
 #endif

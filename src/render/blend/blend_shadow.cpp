@@ -5,7 +5,7 @@
 
 namespace reflet {
 
-BlendShadowMaps drawBlendShadowMaps(gpu::Frame& f, const DrawList& list, const SunShadowParams& sun,
+BlendShadowMaps drawBlendShadowMaps(gpu::Recorder& f, BlendShadowStore& own, const DrawList& list, const SunShadowParams& sun,
                                     const ShadowSettings& settings) {
     const uvec2 size = sunMapSize(sun, settings);
     const VkClearColorValue all{{1, 1, 1, 1}};
@@ -13,13 +13,14 @@ BlendShadowMaps drawBlendShadowMaps(gpu::Frame& f, const DrawList& list, const S
     for (uint32_t layer = 0; layer < blendShadowLayers; ++layer) {
         const std::string name = "blend_shadow_map." + std::to_string(layer);
         BlendShadowMap& map = maps.at(layer);
-        map = {f.target(name + ".depth", VK_FORMAT_D32_SFLOAT, size),
-               f.target(name + ".transmittance", VK_FORMAT_R8_UNORM, size)};
-        if (holdsSunMap(f, map.depth, list, sun, settings)) {
+        BlendShadowStore::Layer& store = own.layers.at(layer);
+        map = {store.depth.target(f, VK_FORMAT_D32_SFLOAT, size),
+               store.transmittance.target(f, VK_FORMAT_R8_UNORM, size)};
+        if (holdsSunMap(f, store.depth, list, sun, settings)) {
             continue;
         }
         f.raster(name, {"shadow_map_masked.vert", "blend_shadow_map.frag"})
-            .read("nearerDepth", layer > 0 ? maps.front().depth : f.image("no_depth", VK_FORMAT_R32_SFLOAT, uvec2(1)))
+            .read("nearerDepth", layer > 0 ? maps.front().depth : f.placeholder(VK_FORMAT_R32_SFLOAT))
             .constant("peeled", layer)
             .color("transmittance", map.transmittance, all)
             .depth(map.depth, 0.0F)
@@ -32,9 +33,9 @@ BlendShadowMaps drawBlendShadowMaps(gpu::Frame& f, const DrawList& list, const S
     return maps;
 }
 
-gpu::Image blendShadow(gpu::Frame& f, const GBuffer& g, const BlendShadowMaps& maps, gpu::Image sunVisibility,
-                       const BlendShadowParams& params) {
-    const gpu::Image visibility = f.image("blend_visibility", VK_FORMAT_R8_UNORM, g.depth.size);
+gpu::Image blendShadow(gpu::Recorder& f, gpu::KeptImage& own, const GBuffer& g, const BlendShadowMaps& maps,
+                       gpu::Image sunVisibility, const BlendShadowParams& params) {
+    const gpu::Image visibility = own.storage(f, VK_FORMAT_R8_UNORM, g.depth.size);
     f.compute("blend_shadow", "blend_shadow.comp")
         .read("depth", g.depth)
         .read("geometricNormal", g.geometricNormal)

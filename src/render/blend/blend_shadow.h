@@ -36,12 +36,21 @@ struct BlendShadowMap {
 };
 using BlendShadowMaps = std::array<BlendShadowMap, blendShadowLayers>;
 
-BlendShadowMaps drawBlendShadowMaps(gpu::Frame& f, const DrawList& list, const SunShadowParams& sun,
+/// Owns the images of BlendShadowMaps.
+struct BlendShadowStore {
+    struct Layer {
+        gpu::KeptImage depth{"blend_shadow_map.depth"};
+        gpu::KeptImage transmittance{"blend_shadow_map.transmittance"};
+    };
+    std::array<Layer, blendShadowLayers> layers;
+};
+
+BlendShadowMaps drawBlendShadowMaps(gpu::Recorder& f, BlendShadowStore& own, const DrawList& list, const SunShadowParams& sun,
                                     const ShadowSettings& settings);
 
 /// The sun's visibility (R8) times what the blended surfaces let through.
-gpu::Image blendShadow(gpu::Frame& f, const GBuffer& g, const BlendShadowMaps& maps, gpu::Image sunVisibility,
-                       const BlendShadowParams& params);
+gpu::Image blendShadow(gpu::Recorder& f, gpu::KeptImage& own, const GBuffer& g, const BlendShadowMaps& maps,
+                       gpu::Image sunVisibility, const BlendShadowParams& params);
 
 }  // namespace reflet
 #endif

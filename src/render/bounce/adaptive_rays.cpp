@@ -17,17 +17,16 @@ constexpr uint32_t mostTimes = 4;
 
 }  // namespace
 
-uint32_t adaptiveRayLimit(gpu::Frame& f, uvec2 size, uint32_t mean) {
+uint32_t adaptiveRayLimit(gpu::Recorder& f, uvec2 size, uint32_t mean) {
     return std::max(raysPerBatch(f, size, std::min(mostTimes * mean, maxAdaptiveRays)), mean);
 }
 
-RayTiles shareRays(gpu::Frame& f, const RaySurfaces& from, uint32_t lobe, const RayCounts& counts,
-                   const LobeHistory& past) {
+RayTiles shareRays(gpu::Recorder& f, gpu::Scratch& scratch, gpu::HistoryImage& own, const RaySurfaces& from,
+                   uint32_t lobe, const RayCounts& counts, const LobeHistory& past) {
     const uvec2 size = (from.g.depth.size + rayTileSide - 1U) / rayTileSide;
-    const gpu::Image noise = f.image("rays.tile_noise", VK_FORMAT_R32G32_SFLOAT, size);
-    const gpu::History tiles = f.history(lobe == lobeDiffuse ? "diffuse_adaptive.tiles" : "specular_adaptive.tiles",
-                                         VK_FORMAT_R32G32_SFLOAT, size);
-    const gpu::BufferView histogram = f.buffer("rays.noise_histogram", histogramSize * sizeof(uint32_t));
+    const gpu::Image noise = scratch.storage(VK_FORMAT_R32G32_SFLOAT, size);
+    const gpu::History tiles = own.swap(f, VK_FORMAT_R32G32_SFLOAT, size);
+    const gpu::BufferView histogram = scratch.buffer(histogramSize * sizeof(uint32_t));
     constexpr std::array<uint32_t, histogramSize> none{};
     f.update(histogram, std::as_bytes(std::span(none)));
     gpu::Pass pass = f.compute("measure_noise", "measure_noise.comp");
@@ -47,7 +46,7 @@ RayTiles shareRays(gpu::Frame& f, const RaySurfaces& from, uint32_t lobe, const 
         .params(MeasureNoiseParams{from.view, vec2(past.lit.size) / static_cast<float>(from.scale), past.lit.size,
                                    from.scale, blockPixelOffset(from.scale), past.valid && tiles.valid ? 1U : 0U})
         .dispatch(size);
-    const gpu::BufferView list = makeTileList(f, size);
+    const gpu::BufferView list = makeTileList(f, scratch, size);
     const auto mean = static_cast<float>(counts.rays);
     const uint32_t most = adaptiveRayLimit(f, from.g.depth.size, counts.rays);
     f.compute("share_rays", "share_rays.comp")

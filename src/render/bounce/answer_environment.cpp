@@ -3,11 +3,11 @@
 
 namespace reflet {
 
-void answerEnvironment(gpu::Frame& f, Rays& rays, const EnvironmentLight& environment,
+void answerEnvironment(gpu::Recorder& f, Rays& rays, const EnvironmentLight& environment,
                        const EnvironmentSettings& settings) {
     gpu::Pass pass = f.compute("answer_environment", "answer_environment.comp");
     bindEnvironment(pass, environment);
-    bindEnvironmentLobes(pass, f.device(), environment);
+    bindEnvironmentLobes(pass, f.context(), environment);
     pass.constant("lobe", rays.lobe)
         .read("material", rays.from.g.material)
         .read("direction", rays.direction)

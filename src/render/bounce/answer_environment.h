@@ -27,7 +27,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/bounce/rays.h"
 #include "render/environment/environment_light.h"
 #include "render/gbuffer/gbuffer.h"
@@ -36,7 +36,7 @@ namespace reflet {
 
 /// Single rays get the exact radiance, cones and hemispheres (Ray.spread) the prefiltered one. Diffuse rays from
 /// surfaces with an occlusion map get less, because the map stands for nearby geometry that the rays could not hit.
-void answerEnvironment(gpu::Frame& f, Rays& rays, const EnvironmentLight& environment,
+void answerEnvironment(gpu::Recorder& f, Rays& rays, const EnvironmentLight& environment,
                        const EnvironmentSettings& settings);
 
 }  // namespace reflet

@@ -1,8 +1,6 @@
 // Records the downsampling of the surfaces that rays start from.
 #include "render/bounce/ray_surfaces.h"
 
-#include <string>
-
 namespace reflet {
 
 ViewParams viewOfBlocks(const ViewParams& view, uint32_t scale) {
@@ -29,24 +27,22 @@ ViewParams viewOfBlocks(const ViewParams& view, uint32_t scale) {
     return v;
 }
 
-RaySurfaces pickSurfaces(gpu::Frame& f, const GBuffer& g, const ViewParams& view, uint32_t scale) {
+RaySurfaces pickSurfaces(gpu::Recorder& f, RaySurfacesStore& own, const GBuffer& g, const ViewParams& view,
+                         uint32_t scale) {
     if (scale == 1) {
         return {g, view, scale};
     }
     const ViewParams blocks = viewOfBlocks(view, scale);
     const uvec2 size(blocks.size);
-    const auto image = [&](std::string_view name, VkFormat format) {
-        return f.image("surfaces_" + std::to_string(scale) + "." + std::string(name), format, size);
-    };
     const GBuffer picked{
-        .depth = image("depth", VK_FORMAT_R32_SFLOAT),
-        .normal = image("normal", VK_FORMAT_R32_UINT),
-        .geometricNormal = image("geometric_normal", VK_FORMAT_R32_UINT),
-        .baseColor = image("base_color", VK_FORMAT_R8G8B8A8_UNORM),
-        .material = image("material", VK_FORMAT_R8G8B8A8_UNORM),
+        .depth = own.depth.storage(f, VK_FORMAT_R32_SFLOAT, size),
+        .normal = own.normal.storage(f, VK_FORMAT_R32_UINT, size),
+        .geometricNormal = own.geometricNormal.storage(f, VK_FORMAT_R32_UINT, size),
+        .baseColor = own.baseColor.storage(f, VK_FORMAT_R8G8B8A8_UNORM, size),
+        .material = own.material.storage(f, VK_FORMAT_R8G8B8A8_UNORM, size),
         .emissive = {},
-        .motion = image("motion", VK_FORMAT_R16G16_SFLOAT),
-        .reflectance = g.reflectance ? image("reflectance", VK_FORMAT_R16G16B16A16_SFLOAT) : gpu::Image{},
+        .motion = own.motion.storage(f, VK_FORMAT_R16G16_SFLOAT, size),
+        .reflectance = g.reflectance ? own.reflectance.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, size) : gpu::Image{},
         .features = g.features};
     gpu::Pass pass = f.compute("pick_surfaces", "pick_surfaces.comp");
     bindSurfaces(f, pass, g)
@@ -64,7 +60,7 @@ RaySurfaces pickSurfaces(gpu::Frame& f, const GBuffer& g, const ViewParams& view
         .write("pickedMotion", picked.motion)
         .write("pickedReflectance", picked.reflectance
                                         ? picked.reflectance
-                                        : f.image("no_picked_reflectance", VK_FORMAT_R16G16B16A16_SFLOAT, uvec2(1)))
+                                        : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT))
         .params(PickSurfacesParams{uvec2(view.size), size, scale, blockPixelOffset(scale)})
         .dispatch(size);
     return {picked, blocks, scale};

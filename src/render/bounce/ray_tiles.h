@@ -34,7 +34,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/bounce/ray_surfaces.h"
 
 namespace reflet {
@@ -54,10 +54,10 @@ struct RayCounts {
 };
 
 /// An empty list with room for all tiles.
-gpu::BufferView makeTileList(gpu::Frame& f, uvec2 tiles);
+gpu::BufferView makeTileList(gpu::Recorder& f, gpu::Scratch& scratch, uvec2 tiles);
 
-/// The same ray count for all pixels in tiles that have the lobe.
-RayTiles classifyTiles(gpu::Frame& f, const RaySurfaces& from, uint32_t lobe, const RayCounts& counts);
+/// The same ray count for all pixels in tiles that have the lobe. The list lives as long as `scratch`.
+RayTiles classifyTiles(gpu::Recorder& f, gpu::Scratch& scratch, gpu::KeptImage& own, const RaySurfaces& from, uint32_t lobe, const RayCounts& counts);
 
 }  // namespace reflet
 #endif

@@ -2,44 +2,46 @@
 #include "render/bounce/rays.h"
 
 #include "base/error.h"
-#include "gpu/device.h"
+#include "gpu/context.h"
 
 #include <algorithm>
 
 namespace reflet {
 
-uint32_t raysPerBatch(gpu::Frame& f, uvec2 size, uint32_t most) {
+uint32_t raysPerBatch(gpu::Recorder& f, uvec2 size, uint32_t most) {
     const VkDeviceSize layer = VkDeviceSize(size.x) * size.y * sizeof(RayItem);
-    const VkDeviceSize fit = (f.device().limits().maxStorageBufferRange - rayListHeader) / layer;
+    const VkDeviceSize fit = (f.context().limits().maxStorageBufferRange - rayListHeader) / layer;
     if (fit == 0 || std::max(size.x, size.y) > maxFrameSize) {
         fail("this device cannot trace rays at {}x{} pixels; render at a smaller size", size.x, size.y);
     }
     return static_cast<uint32_t>(std::min<VkDeviceSize>(fit, most));
 }
 
-gpu::BufferView makeRayList(gpu::Frame& f, const Rays& rays, std::string_view name) {
+gpu::BufferView makeRayList(gpu::Recorder& f, const Rays& rays) {
     const uvec2 size = rays.direction.size;
     const VkDeviceSize items = VkDeviceSize(size.x) * size.y * rays.direction.layers;
-    const gpu::BufferView list = f.buffer(name, rayListHeader + items * sizeof(RayItem));
+    const gpu::BufferView list = rays.scratch->buffer(rayListHeader + items * sizeof(RayItem));
     constexpr uint32_t empty[] = {0, 1, 1, 0};
     f.update(list, std::as_bytes(std::span(empty)));
     return list;
 }
 
-Rays generateRays(gpu::Frame& f, const RaySurfaces& from, const RayTables& tables, uint32_t lobe,
-                  GenerateRaysParams params, bool countSteps) {
+Rays generateRays(gpu::Recorder& f, gpu::Scratch& scratch, const RaySurfaces& from, const RayTables& tables,
+                  uint32_t lobe, GenerateRaysParams params, bool countSteps) {
     const GBuffer& g = from.g;
     const uvec2 size = g.depth.size;
     params.view = from.view;
-    const uint32_t layers = std::max(raysPerBatch(f, size), params.rayCount);
+    const uint32_t layers = params.rayCount;
     Rays rays{.from = from,
               .tiles = tables.tiles,
-              .direction = f.image("rays.direction", VK_FORMAT_R32G32_UINT, size, layers, true),
-              .answer = f.image("rays.answer", VK_FORMAT_R16G16B16A16_SFLOAT, size, layers, true),
-              .source = f.image("rays.source", VK_FORMAT_R8G8B8A8_UNORM, size, layers, true),
-              .steps = f.image("rays.steps", VK_FORMAT_R32_SFLOAT, countSteps ? size : uvec2(1), layers, true),
+              .direction = scratch.storage(VK_FORMAT_R32G32_UINT, size, layers, true),
+              .answer = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, size, layers, true),
+              .source = scratch.storage(VK_FORMAT_R8G8B8A8_UNORM, size, layers, true),
+              .steps = countSteps ? scratch.storage(VK_FORMAT_R32_SFLOAT, size, layers, true)
+                                 : f.placeholder(VK_FORMAT_R32_SFLOAT, /*array=*/true),
               .imageMotion = {},
               .waiting = {},
+              .scratch = &scratch,
               .firstRay = params.firstRay,
               .count = params.rayCount,
               .lobe = lobe,
@@ -48,7 +50,7 @@ Rays generateRays(gpu::Frame& f, const RaySurfaces& from, const RayTables& table
     if (countSteps) {
         f.clear(rays.steps);  // pixels without rays have 0 steps
     }
-    rays.waiting = makeRayList(f, rays, "rays.generated");
+    rays.waiting = makeRayList(f, rays);
     gpu::Pass pass = f.compute("generate_rays", "generate_rays.comp");
     bindSurfaces(f, pass, g)
         .constant("lobe", lobe)
@@ -60,7 +62,7 @@ Rays generateRays(gpu::Frame& f, const RaySurfaces& from, const RayTables& table
         .read("geometricNormal", g.geometricNormal)
         .read("material", g.material)
         .read("baseColor", g.baseColor)
-        .read("ggxTable", tables.ggx, f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
+        .read("ggxTable", tables.ggx, f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
         .read("blueNoise", tables.blueNoise)
         .read("tiles", tables.tiles.tiles)
         .read("list", tables.tiles.list)
@@ -73,25 +75,24 @@ Rays generateRays(gpu::Frame& f, const RaySurfaces& from, const RayTables& table
     return rays;
 }
 
-LobeLight lobeImages(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps) {
-    const bool diffuse = lobe == lobeDiffuse;
+LobeLight lobeImages(gpu::Recorder& f, LobeLightStore& own, const RaySurfaces& from, bool countSteps) {
     const uvec2 size = from.g.depth.size;
     LobeLight light{
         .from = from,
-        .radiance = f.image(diffuse ? "diffuse.radiance" : "specular.radiance", VK_FORMAT_R16G16B16A16_SFLOAT, size),
-        .source = f.image(diffuse ? "diffuse.source" : "specular.source", VK_FORMAT_R16G16B16A16_SFLOAT, size),
+        .radiance = own.radiance.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, size),
+        .source = own.source.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, size),
         .steps = {},
         .tiles = {},
         .imageMotion = {},
         .directional = {}};
     if (countSteps) {
-        light.steps = f.image(diffuse ? "diffuse.steps" : "specular.steps", VK_FORMAT_R32_SFLOAT, size);
+        light.steps = own.steps.storage(f, VK_FORMAT_R32_SFLOAT, size);
     }
     return light;
 }
 
-LobeLight blackLobe(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps) {
-    LobeLight light = lobeImages(f, lobe, from, countSteps);
+LobeLight blackLobe(gpu::Recorder& f, LobeLightStore& own, const RaySurfaces& from, bool countSteps) {
+    LobeLight light = lobeImages(f, own, from, countSteps);
     light.dark = true;
     f.clear(light.radiance);
     f.clear(light.source);
@@ -101,20 +102,16 @@ LobeLight blackLobe(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool 
     return light;
 }
 
-gpu::Image directionalImage(gpu::Frame& f, const Rays& rays) {
-    return rays.directional ? f.image("diffuse.directional", VK_FORMAT_R16G16B16A16_SFLOAT, rays.direction.size)
+gpu::Image directionalImage(gpu::Recorder& f, LobeLightStore& own, const Rays& rays) {
+    return rays.directional ? own.directional.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, rays.direction.size)
                             : gpu::Image{};
 }
 
-gpu::Image noDirectional(gpu::Frame& f) {
-    return f.image("no_directional", VK_FORMAT_R16G16B16A16_SFLOAT, uvec2(1));
-}
-
-LobeLight resolveRays(gpu::Frame& f, const Rays& rays) {
+LobeLight resolveRays(gpu::Recorder& f, LobeLightStore& own, const Rays& rays) {
     const uvec2 size = rays.direction.size;
-    LobeLight light = lobeImages(f, rays.lobe, rays.from, rays.countSteps);
+    LobeLight light = lobeImages(f, own, rays.from, rays.countSteps);
     light.tiles = rays.tiles;
-    light.directional = directionalImage(f, rays);
+    light.directional = directionalImage(f, own, rays);
     f.compute("resolve_rays", "resolve_rays.comp")
         .constant("countSteps", rays.countSteps ? 1U : 0U)
         .constant("hasDirectional", light.directional ? 1U : 0U)
@@ -126,9 +123,9 @@ LobeLight resolveRays(gpu::Frame& f, const Rays& rays) {
         .read("raySteps", rays.steps)
         .write("radiance", light.radiance)
         .write("source", light.source)
-        .write("steps", light.steps ? light.steps : f.image("no_steps", VK_FORMAT_R32_SFLOAT, uvec2(1)))
+        .write("steps", light.steps ? light.steps : f.placeholder(VK_FORMAT_R32_SFLOAT))
         .read("normal", rays.from.g.normal)
-        .write("directional", light.directional ? light.directional : noDirectional(f))
+        .write("directional", light.directional ? light.directional : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT))
         .params(ResolveRaysParams{rays.firstRay, rays.count, rays.from.view.frame, size})
         .dispatch(size);
     return light;

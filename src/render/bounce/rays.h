@@ -112,7 +112,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/bounce/ray_surfaces.h"
 #include "render/bounce/ray_tiles.h"
 
@@ -128,6 +128,7 @@ struct Rays {
     gpu::Image steps;         ///< R32F array: depth samples of the screen-space march; 1x1 unless counted
     gpu::Image imageMotion;   ///< of LobeLight, or none; sources write it for each pixel's first ray
     gpu::BufferView waiting;  ///< rays with remaining weight
+    gpu::Scratch* scratch = nullptr;  ///< owns the images and lists above; sources take their lists from it
     uint32_t firstRay = 0;
     uint32_t count = 0;  ///< per pixel, in this batch, at most
     uint32_t lobe = 0;
@@ -152,39 +153,45 @@ struct LobeLight {
     bool dark = false;  ///< made by blackLobe: all black
 };
 
+/// Owns the images of LobeLight.
+struct LobeLightStore {
+    gpu::KeptImage radiance{"radiance"};
+    gpu::KeptImage source{"source"};
+    gpu::KeptImage steps{"steps"};
+    gpu::KeptImage directional{"directional"};
+    gpu::KeptImage imageMotion{"image_motion"};
+};
+
 /// Lookup tables of the ray generator.
 struct RayTables {
-    gpu::Image ggx;             ///< of makeGgxTable
+    gpu::Image ggx;             ///< of ggxTable
     gpu::BufferView blueNoise;  ///< noise/blue_noise.h
     RayTiles tiles;             ///< of classifyTiles
 };
 
 /// Rays per pixel of one batch, 1 to `most`: as many as the device's buffers can hold at this size. Throws Error if not
 /// even one fits.
-uint32_t raysPerBatch(gpu::Frame& f, uvec2 size, uint32_t most = maxRaysPerBatch);
+uint32_t raysPerBatch(gpu::Recorder& f, uvec2 size, uint32_t most = maxRaysPerBatch);
 
 /// Generates rays firstRay .. firstRay + count for every pixel of `from` with a surface (and the lobe), up to its
 /// tile's rays per pixel. Sets params.view. countSteps: count the depth samples of each ray.
-Rays generateRays(gpu::Frame& f, const RaySurfaces& from, const RayTables& tables, uint32_t lobe,
+Rays generateRays(gpu::Recorder& f, gpu::Scratch& scratch, const RaySurfaces& from, const RayTables& tables, uint32_t lobe,
                   GenerateRaysParams params, bool countSteps);
 
 /// An empty list with room for all rays, for a source's misses.
-gpu::BufferView makeRayList(gpu::Frame& f, const Rays& rays, std::string_view name);
+gpu::BufferView makeRayList(gpu::Recorder& f, const Rays& rays);
 
 /// A lobe's images, not yet written.
-LobeLight lobeImages(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps);
+LobeLight lobeImages(gpu::Recorder& f, LobeLightStore& own, const RaySurfaces& from, bool countSteps);
 
 /// A lobe without rays, cleared to black.
-LobeLight blackLobe(gpu::Frame& f, uint32_t lobe, const RaySurfaces& from, bool countSteps);
+LobeLight blackLobe(gpu::Recorder& f, LobeLightStore& own, const RaySurfaces& from, bool countSteps);
 
 /// LobeLight.directional if the rays request it, or none.
-gpu::Image directionalImage(gpu::Frame& f, const Rays& rays);
-
-/// A placeholder to bind where there is no directional image.
-gpu::Image noDirectional(gpu::Frame& f);
+gpu::Image directionalImage(gpu::Recorder& f, LobeLightStore& own, const Rays& rays);
 
 /// Adds the batch to the lobe's images, weighted by 1 over the pixel's ray count.
-LobeLight resolveRays(gpu::Frame& f, const Rays& rays);
+LobeLight resolveRays(gpu::Recorder& f, LobeLightStore& own, const Rays& rays);
 
 }  // namespace reflet
 #endif

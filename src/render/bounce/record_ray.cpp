@@ -8,11 +8,11 @@
 
 namespace reflet {
 
-gpu::Readback recordRay(gpu::Frame& f, const ViewImages& images, const ViewParams& view,
+gpu::Readback recordRay(gpu::Recorder& f, RecordRayStore& own, const ViewImages& images, const ViewParams& view,
                         const TraceScreenSettings& settings, uvec2 pixel) {
     const gpu::Image record =
-        f.image("ray_record", VK_FORMAT_R32G32B32A32_SFLOAT, uvec2(recordHead + recordedSteps, 1));
-    const gpu::Image pyramid = images.pyramid ? images.pyramid : makePyramid(f, images.g.depth, images.backDepth);
+        own.record.storage(f, VK_FORMAT_R32G32B32A32_SFLOAT, uvec2(recordHead + recordedSteps, 1));
+    const gpu::Image pyramid = images.pyramid ? images.pyramid : makePyramid(f, own.pyramid, images.g.depth, images.backDepth);
     f.compute("record_ray", "record_ray.comp")
         .read("depth", images.g.depth)
         .read("normal", images.g.normal)
@@ -25,7 +25,7 @@ gpu::Readback recordRay(gpu::Frame& f, const ViewImages& images, const ViewParam
     return f.readback(record);
 }
 
-std::optional<RecordedRay> recordedRay(const gpu::Frame& f, gpu::Readback readback) {
+std::optional<RecordedRay> recordedRay(const gpu::Recorder& f, gpu::Readback readback) {
     std::vector<vec4> texels(recordHead + recordedSteps);
     std::memcpy(texels.data(), f.bytes(readback).data(), texels.size() * sizeof(vec4));
     if (texels[0].x < 0.0F) {

@@ -26,7 +26,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/direct_view.h"
 
 #include <optional>
@@ -59,11 +59,17 @@ struct RecordedRay {
     std::vector<RayStep> steps;
 };
 
+/// Owns the images of the pass.
+struct RecordRayStore {
+    gpu::KeptImage record{"ray_record"};
+    gpu::KeptImage pyramid{"pyramid"};  ///< of images that have none
+};
+
 /// Records the mirror ray of the pixel. Call recordRay while recording the frame with these images, recordedRay when
 /// the frame is done; it returns nothing if the pixel shows no surface.
-gpu::Readback recordRay(gpu::Frame& f, const ViewImages& images, const ViewParams& view,
+gpu::Readback recordRay(gpu::Recorder& f, RecordRayStore& own, const ViewImages& images, const ViewParams& view,
                         const TraceScreenSettings& settings, uvec2 pixel);
-std::optional<RecordedRay> recordedRay(const gpu::Frame& f, gpu::Readback readback);
+std::optional<RecordedRay> recordedRay(const gpu::Recorder& f, gpu::Readback readback);
 
 }  // namespace reflet
 #endif

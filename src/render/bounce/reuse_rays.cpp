@@ -3,11 +3,12 @@
 
 namespace reflet {
 
-LobeLight reuseRays(gpu::Frame& f, const Rays& rays, const ViewParams& picture, uint32_t neighbours) {
+LobeLight reuseRays(gpu::Recorder& f, LobeLightStore& own, const Rays& rays, const ViewParams& picture,
+                    uint32_t neighbours) {
     const GBuffer& g = rays.from.g;
     const uvec2 size = rays.direction.size;
-    LobeLight light = lobeImages(f, rays.lobe, rays.from, rays.countSteps);
-    light.directional = directionalImage(f, rays);
+    LobeLight light = lobeImages(f, own, rays.from, rays.countSteps);
+    light.directional = directionalImage(f, own, rays);
     f.compute("reuse_rays", "reuse_rays.comp")
         .constant("lobe", rays.lobe)
         .constant("countSteps", rays.countSteps ? 1U : 0U)
@@ -22,8 +23,8 @@ LobeLight reuseRays(gpu::Frame& f, const Rays& rays, const ViewParams& picture, 
         .read("raySteps", rays.steps)
         .write("radiance", light.radiance)
         .write("source", light.source)
-        .write("steps", light.steps ? light.steps : f.image("no_steps", VK_FORMAT_R32_SFLOAT, uvec2(1)))
-        .write("directional", light.directional ? light.directional : noDirectional(f))
+        .write("steps", light.steps ? light.steps : f.placeholder(VK_FORMAT_R32_SFLOAT))
+        .write("directional", light.directional ? light.directional : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT))
         .params(ReuseRaysParams{rays.from.view, rays.count, neighbours,
                                 picture.pixelAngle * static_cast<float>(rays.from.scale)})
         .dispatch(size);

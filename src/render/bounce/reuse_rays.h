@@ -21,7 +21,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/bounce/rays.h"
 
 namespace reflet {
@@ -29,7 +29,8 @@ namespace reflet {
 /// Needs all rays of the lobe in one batch. Radiance is the mean over own and reused rays, weighted by the pixel's own
 /// lobe over the pdf with which each was sampled. Source and steps are those of the pixel's own rays. Mirrors and cones
 /// reuse nothing. picture: the full-resolution view.
-LobeLight reuseRays(gpu::Frame& f, const Rays& rays, const ViewParams& picture, uint32_t neighbours);
+LobeLight reuseRays(gpu::Recorder& f, LobeLightStore& own, const Rays& rays, const ViewParams& picture,
+                    uint32_t neighbours);
 
 }  // namespace reflet
 #endif

@@ -2,7 +2,6 @@
 #include "render/bounce/trace_screen.h"
 
 #include <algorithm>
-#include <string>
 
 namespace reflet {
 
@@ -10,19 +9,18 @@ namespace {
 
 struct Trace {
     const ScreenImages& seen;
-    std::string_view missed;  // name of the miss list
     uint32_t through = throughScreen;
     MirrorParams mirror{};
 };
 
 // The pass as shared by both sources. rays.waiting: in: rays to trace; out: misses.
-void record(gpu::Frame& f, gpu::Pass pass, Rays& rays, const Trace& trace, const TraceScreenSettings& settings,
+void record(gpu::Recorder& f, gpu::Pass pass, Rays& rays, const Trace& trace, const TraceScreenSettings& settings,
             float longest) {
     const ScreenImages& seen = trace.seen;
     const bool countSteps = rays.countSteps && trace.through == throughScreen;
     const bool tellsMotion = rays.imageMotion && rays.firstRay == 0;
     const bool previous = trace.through == throughScreen && seen.lit.valid;
-    const gpu::BufferView missed = makeRayList(f, rays, trace.missed);
+    const gpu::BufferView missed = makeRayList(f, rays);
     pass.constant("method", static_cast<uint32_t>(settings.method))
         .constant("secondLayer", seen.backDepth ? 1U : 0U)
         .constant("cones", seen.lightMips ? 1U : 0U)
@@ -33,7 +31,7 @@ void record(gpu::Frame& f, gpu::Pass pass, Rays& rays, const Trace& trace, const
         .read("ownGeometricNormal", rays.from.g.geometricNormal)
         .read("depth", seen.g.depth)
         .read("backDepth", seen.backDepth ? seen.backDepth : seen.g.depth)
-        .read("pyramid", seen.pyramid ? seen.pyramid : f.image("no_pyramid", VK_FORMAT_R32G32_SFLOAT, uvec2(1)))
+        .read("pyramid", seen.pyramid ? seen.pyramid : f.placeholder(VK_FORMAT_R32G32_SFLOAT))
         .read("geometricNormal", seen.g.geometricNormal)
         .read("motion", seen.g.motion)
         .read("light", seen.light)
@@ -45,7 +43,7 @@ void record(gpu::Frame& f, gpu::Pass pass, Rays& rays, const Trace& trace, const
         .write("source", rays.source)
         .write("steps", rays.steps)
         .write("imageMotion",
-               tellsMotion ? rays.imageMotion : f.image("no_image_motion", VK_FORMAT_R16G16_SFLOAT, uvec2(1)))
+               tellsMotion ? rays.imageMotion : f.placeholder(VK_FORMAT_R16G16_SFLOAT))
         .write("missed", missed)
         .params(TraceScreenParams{rays.from.view, seen.view, trace.mirror, settings,
                                   std::min(longest, settings.maxDistance), rays.firstRay, previous ? 1U : 0U})
@@ -66,17 +64,16 @@ uint32_t throughOf(PlanarForm form) {
 
 }  // namespace
 
-void traceScreen(gpu::Frame& f, Rays& rays, const ScreenImages& screen, const TraceScreenSettings& settings,
+void traceScreen(gpu::Recorder& f, Rays& rays, const ScreenImages& screen, const TraceScreenSettings& settings,
                  float longest) {
-    record(f, f.compute("trace_screen", "trace_screen.comp"), rays, {screen, "rays.missed_by_screen"}, settings,
+    record(f, f.compute("trace_screen", "trace_screen.comp"), rays, {screen}, settings,
            longest);
 }
 
-void traceMirror(gpu::Frame& f, Rays& rays, const PlanarView& mirror, const TraceScreenSettings& settings,
+void traceMirror(gpu::Recorder& f, Rays& rays, const PlanarView& mirror, const TraceScreenSettings& settings,
                  float longest) {
-    const std::string missed = "rays.missed_by_" + mirror.name;
     record(f, f.compute("trace_mirror", "trace_screen.comp"), rays,
-           {mirror.seen, missed, throughOf(mirror.form), mirror.mirror}, settings, longest);
+           {mirror.seen, throughOf(mirror.form), mirror.mirror}, settings, longest);
 }
 
 }  // namespace reflet

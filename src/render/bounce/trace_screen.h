@@ -101,7 +101,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/bounce/rays.h"
 #include "render/gbuffer/gbuffer.h"
 
@@ -123,12 +123,11 @@ struct ScreenImages {
 
 /// Gives rays that hit a visible surface the light there; the others stay in rays.waiting. longest: maximum length of
 /// the lobe's rays [m].
-void traceScreen(gpu::Frame& f, Rays& rays, const ScreenImages& screen, const TraceScreenSettings& settings,
+void traceScreen(gpu::Recorder& f, Rays& rays, const ScreenImages& screen, const TraceScreenSettings& settings,
                  float longest);
 
 /// One planar reflection.
 struct PlanarView {
-    std::string name;   ///< unique within a frame
     ScreenImages seen;  ///< by the mirrored camera (traced, lookup), the camera itself (duplicate), or the mirror's own
                         ///< camera (camera); `lit` is not used
     MirrorParams mirror;
@@ -136,7 +135,7 @@ struct PlanarView {
 };
 
 /// Gives rays that start on the mirror the light of its planar view; misses stay in rays.waiting.
-void traceMirror(gpu::Frame& f, Rays& rays, const PlanarView& mirror, const TraceScreenSettings& settings,
+void traceMirror(gpu::Recorder& f, Rays& rays, const PlanarView& mirror, const TraceScreenSettings& settings,
                  float longest);
 
 }  // namespace reflet

@@ -1,7 +1,7 @@
 // Records the composite.
 #include "render/composite/composite.h"
 
-#include "gpu/device.h"
+#include "gpu/context.h"
 
 namespace reflet {
 
@@ -14,19 +14,18 @@ uint32_t scaleOf(const LobeLight& light) {
 
 }  // namespace
 
-Composite composite(gpu::Frame& f, const CompositeInputs& in, gpu::Image lit, CompositeParams params) {
+Composite composite(gpu::Recorder& f, CompositeStore& own, const CompositeInputs& in, gpu::Image lit, CompositeParams params) {
     const uvec2 size = in.g.depth.size;
-    const auto layer = [&](const char* name) {
-        return in.layers ? f.image(name, VK_FORMAT_R16G16B16A16_SFLOAT, size) : gpu::Image{};
+    const auto layer = [&](gpu::KeptImage& image) {
+        return in.layers ? image.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, size) : gpu::Image{};
     };
-    const Composite result{
-        .indirectDiffuse = layer("indirect_diffuse"), .indirectSpecular = layer("indirect_specular"), .lit = lit};
-    const gpu::Image unwritten = in.layers ? lit : f.image("no_layer", VK_FORMAT_R16G16B16A16_SFLOAT, uvec2(1));
+    const Composite result{.indirectDiffuse = layer(own.indirectDiffuse),
+                           .indirectSpecular = layer(own.indirectSpecular),
+                           .lit = lit};
+    const gpu::Image unwritten = in.layers ? lit : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT);
     // Lobes at full resolution need no upsampling.
     const auto blockImage = [&](const LobeLight& light, gpu::Image image, VkFormat format) {
-        return light.from.scale > 1
-                   ? image
-                   : f.image(format == VK_FORMAT_R32_UINT ? "no_normals" : "no_depths", format, uvec2(1));
+        return light.from.scale > 1 ? image : f.placeholder(format);
     };
     params.diffuseBlockOffset = blockPixelOffset(in.diffuse.from.scale);
     params.specularBlockOffset = blockPixelOffset(in.specular.from.scale);
@@ -41,7 +40,7 @@ Composite composite(gpu::Frame& f, const CompositeInputs& in, gpu::Image lit, Co
         .read("normal", in.g.normal)
         .read("baseColor", in.g.baseColor)
         .read("material", in.g.material)
-        .read("ggxTable", in.ggxTable, f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
+        .read("ggxTable", in.ggxTable, f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
         .read("geometricNormal", in.g.geometricNormal)
         .read("diffuseDepth", blockImage(in.diffuse, in.diffuse.from.g.depth, VK_FORMAT_R32_SFLOAT))
         .read("diffuseNormal", blockImage(in.diffuse, in.diffuse.from.g.normal, VK_FORMAT_R32_UINT))

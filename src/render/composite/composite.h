@@ -25,7 +25,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/bounce/rays.h"
 #include "render/gbuffer/gbuffer.h"
 
@@ -48,8 +48,14 @@ struct Composite {
     gpu::Image lit;
 };
 
+/// Owns the layers.
+struct CompositeStore {
+    gpu::KeptImage indirectDiffuse{"indirect_diffuse"};
+    gpu::KeptImage indirectSpecular{"indirect_specular"};
+};
+
 /// Sets the block offsets of params. lit: written.
-Composite composite(gpu::Frame& f, const CompositeInputs& in, gpu::Image lit, CompositeParams params);
+Composite composite(gpu::Recorder& f, CompositeStore& own, const CompositeInputs& in, gpu::Image lit, CompositeParams params);
 
 }  // namespace reflet
 #endif

@@ -2,7 +2,7 @@
 #include "render/cube_map/cube_map.h"
 
 #include "base/error.h"
-#include "gpu/device.h"
+#include "gpu/context.h"
 
 #include <algorithm>
 #include <bit>
@@ -28,20 +28,20 @@ uint32_t lobeLevels(uint32_t side) {
 
 }  // namespace
 
-CubeMap::CubeMap(gpu::Device& device, uint32_t side, uint32_t cubes, const std::string& name)
-    : sharp(device,
+CubeMap::CubeMap(gpu::Context& context, uint32_t side, uint32_t cubes, const std::string& name)
+    : sharp(context,
             {VK_FORMAT_R16G16B16A16_SFLOAT, uvec2(side), static_cast<uint32_t>(std::bit_width(side)), 6 * cubes, usage,
              gpu::ViewKind::cubeArray},
             name + ".sharp"),
-      lobes(device,
+      lobes(context,
             {VK_FORMAT_R16G16B16A16_SFLOAT, uvec2(side), lobeLevels(side), 6 * cubes, usage, gpu::ViewKind::cubeArray},
             name + ".lobes"),
-      irradiance(device, {VK_FORMAT_R32G32B32A32_SFLOAT, uvec2(irradianceCoefficients, cubes), 1, 1, usage},
+      irradiance(context, {VK_FORMAT_R32G32B32A32_SFLOAT, uvec2(irradianceCoefficients, cubes), 1, 1, usage},
                  name + ".irradiance") {
     REFLET_CHECK(std::has_single_bit(side), "{} pixels", side);
 }
 
-void makeCubeMips(gpu::Frame& f, const CubeMap& map, const CubeFaces& faces) {
+void makeCubeMips(gpu::Recorder& f, const CubeMap& map, const CubeFaces& faces) {
     for (uint32_t level = 1; level < map.sharp.info().mips; ++level) {
         const gpu::Image coarser = map.sharp.mip(level);
         f.compute("cube_mips", "cube_mips.comp")
@@ -52,8 +52,8 @@ void makeCubeMips(gpu::Frame& f, const CubeMap& map, const CubeFaces& faces) {
     }
 }
 
-void filterCubeLobes(gpu::Frame& f, const CubeMap& map, const CubeFaces& faces) {
-    const VkSampler linear = f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
+void filterCubeLobes(gpu::Recorder& f, const CubeMap& map, const CubeFaces& faces) {
+    const VkSampler linear = f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
     const uint32_t levels = map.lobes.info().mips;
     for (uint32_t level = 0; level < levels; ++level) {
         const gpu::Image lobes = map.lobes.mip(level);
@@ -67,7 +67,7 @@ void filterCubeLobes(gpu::Frame& f, const CubeMap& map, const CubeFaces& faces) 
     }
 }
 
-void projectCubeIrradiance(gpu::Frame& f, const CubeMap& map, uint32_t firstCube, uint32_t count) {
+void projectCubeIrradiance(gpu::Recorder& f, const CubeMap& map, uint32_t firstCube, uint32_t count) {
     uint32_t level = 0;
     while (map.sharp.info().size.x >> level > irradianceSide) {
         ++level;
@@ -80,7 +80,7 @@ void projectCubeIrradiance(gpu::Frame& f, const CubeMap& map, uint32_t firstCube
         .dispatch(threads * count);
 }
 
-void filterCubeMap(gpu::Frame& f, const CubeMap& map, uint32_t firstCube, uint32_t count) {
+void filterCubeMap(gpu::Recorder& f, const CubeMap& map, uint32_t firstCube, uint32_t count) {
     const CubeFaces faces{6 * firstCube, 6 * count};
     makeCubeMips(f, map, faces);
     filterCubeLobes(f, map, faces);

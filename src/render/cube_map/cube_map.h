@@ -30,7 +30,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 
 #include <string>
 
@@ -41,7 +41,7 @@ namespace reflet {
 struct CubeMap {
     CubeMap() = default;
     /// side: of a face [pixels], a power of 2.
-    CubeMap(gpu::Device& device, uint32_t side, uint32_t cubes, const std::string& name);
+    CubeMap(gpu::Context& context, uint32_t side, uint32_t cubes, const std::string& name);
 
     gpu::Texture sharp;       ///< RGBA16F cube array: radiance; mips are means over solid angle
     gpu::Texture lobes;       ///< RGBA16F cube array: level l is radiance prefiltered by the normalised GGX lobe of
@@ -56,18 +56,18 @@ struct CubeFaces {
 };
 
 /// Makes the mips of `sharp`, for these faces only.
-void makeCubeMips(gpu::Frame& f, const CubeMap& map, const CubeFaces& faces);
+void makeCubeMips(gpu::Recorder& f, const CubeMap& map, const CubeFaces& faces);
 
 /// Makes all levels of `lobes`, for these faces only. Reads the mips of `sharp` of all faces of their cubes. Costs 1
 /// sample per texel on level 0, 64 on level 1, doubling with each level up to 512: 3 million samples for a cube of 128
 /// pixels a side, half of them for level 1.
-void filterCubeLobes(gpu::Frame& f, const CubeMap& map, const CubeFaces& faces);
+void filterCubeLobes(gpu::Recorder& f, const CubeMap& map, const CubeFaces& faces);
 
 /// Makes the irradiance coefficients of `count` cubes, from the mips of `sharp`.
-void projectCubeIrradiance(gpu::Frame& f, const CubeMap& map, uint32_t firstCube, uint32_t count);
+void projectCubeIrradiance(gpu::Recorder& f, const CubeMap& map, uint32_t firstCube, uint32_t count);
 
 /// All three, for whole cubes.
-void filterCubeMap(gpu::Frame& f, const CubeMap& map, uint32_t firstCube, uint32_t count);
+void filterCubeMap(gpu::Recorder& f, const CubeMap& map, uint32_t firstCube, uint32_t count);
 
 }  // namespace reflet
 #endif

@@ -1,7 +1,7 @@
 // Records the denoiser of indirect light.
 #include "render/denoise/denoise.h"
 
-#include <string>
+#include <utility>
 
 namespace reflet {
 
@@ -21,10 +21,11 @@ struct Gathered {
     gpu::Image nextDirectional;
 };
 
-gpu::Image tileLimits(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const DenoiseSettings& settings) {
+gpu::Image tileLimits(gpu::Recorder& f, gpu::Scratch& scratch, const LobeLight& light, uint32_t lobe,
+                      const DenoiseSettings& settings) {
     const uvec2 size = light.radiance.size;
     const uvec2 tiles = (size + denoiseTileSide - 1U) / denoiseTileSide;
-    const gpu::Image limits = f.image("denoise.limits", VK_FORMAT_R32G32_SFLOAT, tiles);
+    const gpu::Image limits = scratch.storage(VK_FORMAT_R32G32_SFLOAT, tiles);
     f.compute("denoise_tiles", "denoise_tiles.comp")
         .constant("lobe", lobe)
         .constant("meanRays", light.tiles.meanRays)
@@ -37,21 +38,21 @@ gpu::Image tileLimits(gpu::Frame& f, const LobeLight& light, uint32_t lobe, cons
     return limits;
 }
 
-Gathered gather(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
-                const DenoiseSettings& settings) {
+Gathered gather(gpu::Recorder& f, gpu::Scratch& scratch, DenoiseStore& own, const LobeLight& light, uint32_t lobe,
+                const ViewParams& picture, const DenoiseSettings& settings) {
     const uvec2 size = light.radiance.size;
-    const DenoiseHistory past = denoiseHistory(f, lobe, size, settings);
-    const gpu::Image limits = tileLimits(f, light, lobe, settings);
-    // Without blur passes this is the result and must not be overwritten by the other lobe.
-    const std::string_view unblurred = lobe == lobeDiffuse ? "denoise.diffuse" : "denoise.specular";
-    const gpu::Image gathered = f.image(settings.passes == 0 ? unblurred : "denoise.gathered", lightFormat, size);
+    const DenoiseHistory past = denoiseHistory(f, own, lobe, size, settings);
+    const gpu::Image limits = tileLimits(f, scratch, light, lobe, settings);
+    const auto image = [&](gpu::KeptImage& result) {  // without blur passes this is the result
+        return settings.passes == 0 ? result.storage(f, lightFormat, size) : scratch.storage(lightFormat, size);
+    };
     const bool turns = static_cast<bool>(light.directional);
     const Gathered out{
-        .light = gathered,
+        .light = image(own.denoised),
         .surface = past.surface.next,
         .moments = past.moments.next,
         .nextLight = past.light.next,
-        .directional = turns ? f.image("denoise.gathered_directional", lightFormat, size) : noDirectional(f),
+        .directional = turns ? image(own.denoisedDirectional) : f.placeholder(lightFormat),
         .nextDirectional = past.directional.next};
     f.compute("denoise_gather", "denoise_gather.comp")
         .constant("lobe", lobe)
@@ -67,7 +68,7 @@ Gathered gather(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const View
         .read("motion", light.from.g.motion)
         .read("radiance", light.radiance)
         .read("imageMotion",
-              light.imageMotion ? light.imageMotion : f.image("no_image_motion", VK_FORMAT_R16G16_SFLOAT, uvec2(1)))
+              light.imageMotion ? light.imageMotion : f.placeholder(VK_FORMAT_R16G16_SFLOAT))
         .read("previousLight", past.light.previous)
         .read("previousSurface", past.surface.previous)
         .read("previousMoments", past.moments.previous)
@@ -87,34 +88,37 @@ Gathered gather(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const View
 
 }  // namespace
 
-DenoiseHistory denoiseHistory(gpu::Frame& f, uint32_t lobe, uvec2 size, const DenoiseSettings& settings) {
+DenoiseHistory denoiseHistory(gpu::Recorder& f, DenoiseStore& own, uint32_t lobe, uvec2 size,
+                              const DenoiseSettings& settings) {
     const uvec2 kept = settings.history > 0 ? size : uvec2(1);
-    const std::string name = lobe == lobeDiffuse ? "denoise_diffuse" : "denoise_specular";
     const bool turns = lobe == lobeDiffuse && settings.directional != 0;
-    DenoiseHistory past{f.history(name + ".light", lightFormat, kept),
-                        f.history(name + ".surface", surfaceFormat, size),
-                        f.history(name + ".moments", momentsFormat, size),
-                        f.history(name + ".directional", lightFormat, turns ? kept : uvec2(1))};
+    DenoiseHistory past{own.light.swap(f, lightFormat, kept), own.surface.swap(f, surfaceFormat, size),
+                        own.moments.swap(f, momentsFormat, size),
+                        own.directional.swap(f, lightFormat, turns ? kept : uvec2(1))};
     past.valid = settings.history > 0 && past.light.valid && past.surface.valid && past.directional.valid;
     return past;
 }
 
-LobeLight denoise(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
+LobeLight denoise(gpu::Recorder& f, DenoiseStore& own, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
                   const DenoiseSettings& settings) {
+    gpu::Scratch scratch(f);
     const uvec2 size = light.radiance.size;
-    const Gathered gathered = gather(f, light, lobe, picture, settings);
+    const Gathered gathered = gather(f, scratch, own, light, lobe, picture, settings);
     const auto scale = static_cast<float>(light.from.scale);
     DenoiseBlurParams params{light.from.view, settings.radius / scale, picture.pixelAngle * scale, 0};
     gpu::Image from = gathered.light;
     gpu::Image directional = gathered.directional;
     const bool turns = static_cast<bool>(light.directional);
+    gpu::Image spare;  // of an earlier pass, no longer read
+    gpu::Image spareDirectional;
     for (; params.pass < settings.passes; ++params.pass) {
         const bool last = params.pass + 1 == settings.passes;
-        const std::string_view result = lobe == lobeDiffuse ? "denoise.diffuse" : "denoise.specular";
-        const std::string_view between = params.pass % 2 == 0 ? "denoise.even" : "denoise.odd";
-        const gpu::Image to = f.image(last ? result : between, lightFormat, size);
-        const std::string_view turned = params.pass % 2 == 0 ? "denoise.even_directional" : "denoise.odd_directional";
-        const gpu::Image toDirectional = turns ? f.image(turned, lightFormat, size) : noDirectional(f);
+        const auto image = [&](gpu::KeptImage& result, gpu::Image free) {
+            return last ? result.storage(f, lightFormat, size) : free ? free : scratch.storage(lightFormat, size);
+        };
+        const gpu::Image to = image(own.denoised, spare);
+        const gpu::Image toDirectional =
+            turns ? image(own.denoisedDirectional, spareDirectional) : f.placeholder(lightFormat);
         f.compute("denoise_blur", "denoise_blur.comp")
             .constant("lobe", lobe)
             .constant("feedsBack", params.pass == 0 && settings.history > 0 ? 1U : 0U)
@@ -130,8 +134,8 @@ LobeLight denoise(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const Vi
             .write("blurredDirectional", toDirectional)
             .params(params)
             .dispatch(size);
-        from = to;
-        directional = toDirectional;
+        spare = std::exchange(from, to);
+        spareDirectional = std::exchange(directional, toDirectional);
         params.radius *= 0.5F;
     }
     LobeLight clean = light;

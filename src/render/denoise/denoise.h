@@ -62,10 +62,20 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/bounce/rays.h"
 
 namespace reflet {
+
+/// Owns the denoiser's history and result of a lobe.
+struct DenoiseStore {
+    gpu::HistoryImage light{"denoise.light"};
+    gpu::HistoryImage surface{"denoise.surface"};
+    gpu::HistoryImage moments{"denoise.moments"};
+    gpu::HistoryImage directional{"denoise.directional"};
+    gpu::KeptImage denoised{"denoised"};
+    gpu::KeptImage denoisedDirectional{"denoised_directional"};
+};
 
 /// The denoiser's history of a lobe; images of the grid's size.
 struct DenoiseHistory {
@@ -77,11 +87,12 @@ struct DenoiseHistory {
 };
 
 /// The history that denoise() reads and writes in this frame. size: of the grid.
-DenoiseHistory denoiseHistory(gpu::Frame& f, uint32_t lobe, uvec2 size, const DenoiseSettings& settings);
+DenoiseHistory denoiseHistory(gpu::Recorder& f, DenoiseStore& own, uint32_t lobe, uvec2 size,
+                              const DenoiseSettings& settings);
 
 /// Denoises the lobe. picture: the full-resolution view of light.from. Preserves mean radiance; infinity, NaN and
 /// values beyond half floats become finite.
-LobeLight denoise(gpu::Frame& f, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
+LobeLight denoise(gpu::Recorder& f, DenoiseStore& own, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
                   const DenoiseSettings& settings);
 
 }  // namespace reflet

@@ -1,31 +1,28 @@
 // Records direct light.
 #include "render/direct/direct.h"
 
-#include "gpu/device.h"
+#include "gpu/context.h"
 
 namespace reflet {
 
-gpu::Texture makeGgxTable(gpu::Frame& f) {
+gpu::Image ggxTable(gpu::Recorder& f, gpu::KeptImage& own) {
     constexpr uint32_t side = 32;  // ggxTableSize in ggx.glsl
-    gpu::Texture table(
-        f.device(),
-        {VK_FORMAT_R16G16_SFLOAT, uvec2(side), 1, 1, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT},
-        "ggx_table");
-    f.begin();
-    f.compute("ggx_table", "ggx_table.comp").write("table", table.image()).dispatch(uvec2(side));
-    f.submit();
-    f.wait();
+    const bool made = bool(own.last());
+    const gpu::Image table = own.storage(f, VK_FORMAT_R16G16_SFLOAT, uvec2(side));
+    if (!made) {
+        f.compute("ggx_table", "ggx_table.comp").write("table", table).dispatch(uvec2(side));
+    }
     return table;
 }
 
-gpu::Image directLight(gpu::Frame& f, const GBuffer& g, const LightVisibility& visibility, gpu::Image ggxTable,
-                       const DirectParams& params, const DirectLights& lights) {
-    const gpu::Image direct = f.image("direct", VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size);
+gpu::Image directLight(gpu::Recorder& f, gpu::KeptImage& own, const GBuffer& g, const LightVisibility& visibility,
+                       gpu::Image ggxTable, const DirectParams& params, const DirectLights& lights) {
+    const gpu::Image direct = own.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size);
     // Always bound, but not read if no lamp casts a shadow.
     const gpu::Image lampVisibility =
         visibility.lamps ? visibility.lamps
-                         : f.image("no_lamp_visibility", VK_FORMAT_R8G8B8A8_UNORM, uvec2(1), 1, /*array=*/true);
-    const VkSampler linear = f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR});
+                         : f.placeholder(VK_FORMAT_R8G8B8A8_UNORM, /*array=*/true);
+    const VkSampler linear = f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR});
     gpu::Pass pass = f.compute("direct", "direct.comp");
     bindEnvironment(pass, lights.environment);
     bindSurfaces(f, pass, g);

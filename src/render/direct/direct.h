@@ -18,14 +18,14 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/environment/environment_light.h"
 #include "render/gbuffer/gbuffer.h"
 
 namespace reflet {
 
-/// The GGX directional albedo table (RG16F, 32x32: A, B; see ggx_table.comp). Computed once.
-gpu::Texture makeGgxTable(gpu::Frame& f);
+/// The GGX directional albedo table (RG16F, 32x32: A, B; see ggx_table.comp). Computed in the first frame.
+gpu::Image ggxTable(gpu::Recorder& f, gpu::KeptImage& own);
 
 /// Light visibility per pixel.
 struct LightVisibility {
@@ -42,8 +42,8 @@ struct DirectLights {
 };
 
 /// RGBA16F: radiance of direct light, emission and background, alpha 1.
-gpu::Image directLight(gpu::Frame& f, const GBuffer& g, const LightVisibility& visibility, gpu::Image ggxTable,
-                       const DirectParams& params, const DirectLights& lights);
+gpu::Image directLight(gpu::Recorder& f, gpu::KeptImage& own, const GBuffer& g, const LightVisibility& visibility,
+                       gpu::Image ggxTable, const DirectParams& params, const DirectLights& lights);
 
 }  // namespace reflet
 #endif

@@ -1,7 +1,9 @@
 // Uploads the environment's image and prefilters it on the device.
 #include "render/environment/environment_light.h"
 
-#include "gpu/device.h"
+#include "device/device.h"
+#include "device/frame.h"
+#include "device/upload.h"
 
 #include <glm/gtc/packing.hpp>
 
@@ -57,8 +59,8 @@ void bindEnvironment(gpu::Pass& pass, const EnvironmentLight& light) {
         .params(light.params, "environment");
 }
 
-void bindEnvironmentLobes(gpu::Pass& pass, gpu::Device& device, const EnvironmentLight& light) {
-    const VkSampler linear = device.sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
+void bindEnvironmentLobes(gpu::Pass& pass, gpu::Context& context, const EnvironmentLight& light) {
+    const VkSampler linear = context.sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
     pass.read("environmentLobes", light.lobes, linear).read("environmentIrradiance", light.irradiance);
 }
 

@@ -16,7 +16,8 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "device/device.h"
+#include "gpu/recorder.h"
 #include "render/cube_map/cube_map.h"
 #include "scene/scene.h"
 
@@ -36,7 +37,7 @@ struct EnvironmentLight {
 void bindEnvironment(gpu::Pass& pass, const EnvironmentLight& light);
 
 /// Binds environment_lobes.glsl's additional resources, for prefiltered radiance.
-void bindEnvironmentLobes(gpu::Pass& pass, gpu::Device& device, const EnvironmentLight& light);
+void bindEnvironmentLobes(gpu::Pass& pass, gpu::Context& context, const EnvironmentLight& light);
 
 /// Owns the images. Constant radiance is an image of one white texel.
 class EnvironmentMaps {

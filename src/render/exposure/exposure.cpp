@@ -22,9 +22,11 @@ uint32_t meterStep(uvec2 size) {
     return static_cast<uint32_t>(std::max(std::sqrt(double(size.x) * size.y / enough), 1.0));
 }
 
-gpu::Image measureExposure(gpu::Frame& f, gpu::Image radiance, gpu::Image depth, float elapsed, float adaptation) {
+gpu::Image measureExposure(gpu::Recorder& f, gpu::HistoryImage& own, gpu::Image radiance, gpu::Image depth, float elapsed,
+                           float adaptation) {
+    gpu::Scratch scratch(f);
     const auto scope = f.scope("exposure");
-    const gpu::BufferView histogram = f.buffer("exposure.histogram", meterSize * sizeof(uint32_t));
+    const gpu::BufferView histogram = scratch.buffer(meterSize * sizeof(uint32_t));
     constexpr std::array<uint32_t, meterSize> none{};
     f.update(histogram, std::as_bytes(std::span(none)));
     const uint32_t step = meterStep(radiance.size);
@@ -35,7 +37,7 @@ gpu::Image measureExposure(gpu::Frame& f, gpu::Image radiance, gpu::Image depth,
         .write("histogram", histogram)
         .params(MeterParams{radiance.size, step})
         .dispatch((radiance.size + step * perThread - 1U) / (step * perThread));
-    const gpu::History exposures = f.history("exposure", VK_FORMAT_R32G32_SFLOAT, {exposureTexels, 1});
+    const gpu::History exposures = own.swap(f, VK_FORMAT_R32G32_SFLOAT, {exposureTexels, 1});
     f.compute("smooth", "exposure.comp")
         .read("histogram", histogram)
         .read("previous", exposures.previous)
@@ -45,7 +47,7 @@ gpu::Image measureExposure(gpu::Frame& f, gpu::Image radiance, gpu::Image depth,
     return exposures.next;
 }
 
-float exposureOf(const gpu::Frame& f, gpu::Readback exposure) {
+float exposureOf(const gpu::Recorder& f, gpu::Readback exposure) {
     vec2 smoothed(0.0F);
     std::memcpy(&smoothed, f.bytes(exposure).data() + exposureFrames * sizeof(vec2), sizeof(vec2));
     return smoothed.x;

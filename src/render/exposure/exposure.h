@@ -50,7 +50,7 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "base/image_file.h"
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 
 namespace reflet {
 
@@ -65,10 +65,11 @@ uint32_t meterStep(uvec2 size);
 
 /// R32G32_SFLOAT, exposureTexels wide; the last texel's R: stops by which the tone map multiplies the radiance.
 /// `radiance`: RGBA16F; `depth`: 0 where there is no surface; `elapsed`: seconds since the last frame.
-gpu::Image measureExposure(gpu::Frame& f, gpu::Image radiance, gpu::Image depth, float elapsed, float adaptation);
+gpu::Image measureExposure(gpu::Recorder& f, gpu::HistoryImage& own, gpu::Image radiance, gpu::Image depth, float elapsed,
+                           float adaptation);
 
 /// Stops, from a read-back of that image.
-float exposureOf(const gpu::Frame& f, gpu::Readback exposure);
+float exposureOf(const gpu::Recorder& f, gpu::Readback exposure);
 
 /// What measureExposure gives a first frame, within 0.002 stops. `radiance`: 3 channels; `depth`: 1 channel, 0 where
 /// there is no surface, or empty: surfaces everywhere.

@@ -3,8 +3,9 @@
 
 namespace reflet {
 
-gpu::Image drawBackDepth(gpu::Frame& f, const DrawList& list, gpu::Image depth, const ViewParams& view) {
-    const gpu::Image back = f.target("back_depth", VK_FORMAT_D32_SFLOAT, depth.size);
+gpu::Image drawBackDepth(gpu::Recorder& f, gpu::KeptImage& own, const DrawList& list, gpu::Image depth,
+                         const ViewParams& view) {
+    const gpu::Image back = own.target(f, VK_FORMAT_D32_SFLOAT, depth.size);
     f.raster("back_depth", {"back_depth.vert", "back_depth.frag"})
         .read("firstDepth", depth)
         .depth(back, 0.0F)

@@ -16,7 +16,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/draw_list.h"
 
 namespace reflet {
@@ -24,7 +24,8 @@ namespace reflet {
 /// Depth of the nearest back face behind the G-buffer's surface, per pixel: D32, reversed, 0: none. For closed objects
 /// that is their own far side, for open sheets that of the next object behind, if any. depth: the G-buffer's depth as
 /// rendered (same view and list), of the view's size.
-gpu::Image drawBackDepth(gpu::Frame& f, const DrawList& list, gpu::Image depth, const ViewParams& view);
+gpu::Image drawBackDepth(gpu::Recorder& f, gpu::KeptImage& own, const DrawList& list, gpu::Image depth,
+                         const ViewParams& view);
 
 }  // namespace reflet
 #endif

@@ -14,8 +14,8 @@ bool isInFront(const Aabb& box, const vec4& plane) {
 
 }  // namespace
 
-GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view, const MaterialsSettings& settings,
-                    const GBufferContent& content) {
+GBuffer drawGBuffer(gpu::Recorder& f, GBufferStore& own, const DrawList& list, const ViewParams& view,
+                    const MaterialsSettings& settings, const GBufferContent& content) {
     const vec4& clipPlane = content.clipPlane;
     const bool blended = bool(content.opaqueDepth);
     const uint32_t surfaces = !blended ? surfacesOpaque : content.nearerDepth ? surfacesBehind : surfacesNearest;
@@ -23,14 +23,14 @@ GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view,
     const bool reflectance = (list.materialFeatures & materialFeatureReflectance) != 0;
     const uvec2 size(view.size);
     const GBuffer g{
-        .depth = f.target("depth", VK_FORMAT_D32_SFLOAT, size),
-        .normal = f.target("normal", VK_FORMAT_R32_UINT, size),
-        .geometricNormal = f.target("geometric_normal", VK_FORMAT_R32_UINT, size),
-        .baseColor = f.target("base_color", VK_FORMAT_A2B10G10R10_UNORM_PACK32, size),
-        .material = f.target("material", VK_FORMAT_R8G8B8A8_UNORM, size),
-        .emissive = f.target("emissive", VK_FORMAT_B10G11R11_UFLOAT_PACK32, size),
-        .motion = f.target("motion", VK_FORMAT_R16G16B16A16_SFLOAT, size),
-        .reflectance = reflectance ? f.target("reflectance", VK_FORMAT_R16G16B16A16_SFLOAT, size) : gpu::Image{},
+        .depth = own.depth.target(f, VK_FORMAT_D32_SFLOAT, size),
+        .normal = own.normal.target(f, VK_FORMAT_R32_UINT, size),
+        .geometricNormal = own.geometricNormal.target(f, VK_FORMAT_R32_UINT, size),
+        .baseColor = own.baseColor.target(f, VK_FORMAT_A2B10G10R10_UNORM_PACK32, size),
+        .material = own.material.target(f, VK_FORMAT_R8G8B8A8_UNORM, size),
+        .emissive = own.emissive.target(f, VK_FORMAT_B10G11R11_UFLOAT_PACK32, size),
+        .motion = own.motion.target(f, VK_FORMAT_R16G16B16A16_SFLOAT, size),
+        .reflectance = reflectance ? own.reflectance.target(f, VK_FORMAT_R16G16B16A16_SFLOAT, size) : gpu::Image{},
         .features = list.materialFeatures,
     };
     const VkClearColorValue zero{};
@@ -40,7 +40,7 @@ GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view,
     }
     // Always bound, but not read where not needed.
     const auto depthOr = [&](gpu::Image given) {
-        return given ? given : f.image("no_depth", VK_FORMAT_R32_SFLOAT, uvec2(1));
+        return given ? given : f.placeholder(VK_FORMAT_R32_SFLOAT);
     };
     pass.read("opaqueDepth", depthOr(content.opaqueDepth)).read("nearerDepth", depthOr(content.nearerDepth));
     pass.constant("clipped", clipped ? 1U : 0U)
@@ -70,10 +70,10 @@ GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view,
     return g;
 }
 
-gpu::Pass& bindSurfaces(gpu::Frame& f, gpu::Pass& pass, const GBuffer& g) {
-    const gpu::Image unread = f.image("no_reflectance", VK_FORMAT_R16G16B16A16_SFLOAT, uvec2(1));
+gpu::Pass& bindSurfaces(gpu::Recorder& f, gpu::Pass& pass, const GBuffer& g) {
     return pass.constant("materialFeatures", g.features)
-        .read("surfaceReflectance", g.reflectance ? g.reflectance : unread);
+        .read("surfaceReflectance",
+              g.reflectance ? g.reflectance : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT));
 }
 
 }  // namespace reflet

@@ -41,7 +41,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/draw_list.h"
 #include "render/material.h"
 
@@ -64,6 +64,18 @@ struct GBuffer {
     uint32_t features = 0;     ///< materialFeature… of the draw list
 };
 
+/// Owns the images of a G-buffer.
+struct GBufferStore {
+    gpu::KeptImage depth{"depth"};
+    gpu::KeptImage normal{"normal"};
+    gpu::KeptImage geometricNormal{"geometric_normal"};
+    gpu::KeptImage baseColor{"base_color"};
+    gpu::KeptImage material{"material"};
+    gpu::KeptImage emissive{"emissive"};
+    gpu::KeptImage motion{"motion"};
+    gpu::KeptImage reflectance{"reflectance"};
+};
+
 /// What of the draw list a G-buffer holds.
 struct GBufferContent {
     vec4 clipPlane{0.0F};             ///< as in GBufferParams; zero: none
@@ -76,11 +88,11 @@ struct GBufferContent {
 /// found by depth peeling (C. Everitt, Interactive Order-Independent Transparency, 2001). Clipping is done per pixel,
 /// because an oblique near plane (Lengyel, Oblique View Frustum Depth Projection and Clipping, 2005) would distort
 /// depth, and ray marching relies on distance = near / depth.
-GBuffer drawGBuffer(gpu::Frame& f, const DrawList& list, const ViewParams& view, const MaterialsSettings& settings,
-                    const GBufferContent& content = {});
+GBuffer drawGBuffer(gpu::Recorder& f, GBufferStore& own, const DrawList& list, const ViewParams& view,
+                    const MaterialsSettings& settings, const GBufferContent& content = {});
 
 /// Specializes a pass whose shader includes gbuffer_surface.glsl, and binds what that reads.
-gpu::Pass& bindSurfaces(gpu::Frame& f, gpu::Pass& pass, const GBuffer& g);
+gpu::Pass& bindSurfaces(gpu::Recorder& f, gpu::Pass& pass, const GBuffer& g);
 
 }  // namespace reflet
 #endif

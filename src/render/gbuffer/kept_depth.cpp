@@ -20,12 +20,12 @@ KeptDepthParams keptDepthParams(const ViewParams& view, DepthBuffer buffer) {
     return {farDepth, steps, uvec2(view.size)};
 }
 
-gpu::Image keptDepth(gpu::Frame& f, std::string_view name, gpu::Image depth, const ViewParams& view,
+gpu::Image keptDepth(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image depth, const ViewParams& view,
                      const DepthSettings& settings) {
     if (settings.format == DepthBuffer::reversedFloat) {
         return depth;
     }
-    const gpu::Image kept = f.image(name, VK_FORMAT_R32_SFLOAT, depth.size);
+    const gpu::Image kept = own.storage(f, VK_FORMAT_R32_SFLOAT, depth.size);
     f.compute("kept_depth", "kept_depth.comp")
         .read("depth", depth)
         .write("kept", kept)

@@ -17,7 +17,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/view.h"
 
 namespace reflet {
@@ -36,9 +36,9 @@ CHOICES(DepthBuffer, DEPTH_BUFFERS)
            "maximum at 1000 m (orthographic: at the far plane).")
 SETTINGS(DepthSettings, DEPTH_SETTINGS)
 
-/// `depth` (reversed, 0: sky) after rounding to such a format, reversed again: R32F under `name`. With reversed_float:
+/// `depth` (reversed, 0: sky) after rounding to such a format, reversed again: R32F. With reversed_float:
 /// `depth` itself, without a pass.
-gpu::Image keptDepth(gpu::Frame& f, std::string_view name, gpu::Image depth, const ViewParams& view,
+gpu::Image keptDepth(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image depth, const ViewParams& view,
                      const DepthSettings& settings);
 
 /// Parameters for a fixed-point format and the view.

@@ -19,7 +19,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/view.h"
 
 namespace reflet {
@@ -31,7 +31,7 @@ struct LiveView {
 };
 
 /// Copies radiance (RGBA16F, same size) to the picture.
-void showLive(gpu::Frame& f, gpu::Image radiance, gpu::Image picture);
+void showLive(gpu::Recorder& f, gpu::Image radiance, gpu::Image picture);
 
 }  // namespace reflet
 #endif

@@ -1,13 +1,13 @@
 // Records reflection probes as a ray source.
 #include "render/probe/answer_probes.h"
 
-#include "gpu/device.h"
+#include "gpu/context.h"
 
 namespace reflet {
 
-void answerProbes(gpu::Frame& f, Rays& rays, const ProbeMaps& probes, const ProbesSettings& settings) {
-    const gpu::BufferView missed = makeRayList(f, rays, "rays.missed_by_probes");
-    const VkSampler trilinear = f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
+void answerProbes(gpu::Recorder& f, Rays& rays, const ProbeMaps& probes, const ProbesSettings& settings) {
+    const gpu::BufferView missed = makeRayList(f, rays);
+    const VkSampler trilinear = f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
     f.compute("answer_probes", "answer_probes.comp")
         .constant("lobe", rays.lobe)
         .read("depth", rays.from.g.depth)

@@ -19,14 +19,14 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/bounce/rays.h"
 
 namespace reflet {
 
 /// Gives rays that start in a probe's box its radiance, as far as the probe does not see the sky. The others stay in
 /// rays.waiting.
-void answerProbes(gpu::Frame& f, Rays& rays, const ProbeMaps& probes, const ProbesSettings& settings);
+void answerProbes(gpu::Recorder& f, Rays& rays, const ProbeMaps& probes, const ProbesSettings& settings);
 
 }  // namespace reflet
 #endif

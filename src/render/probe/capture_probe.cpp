@@ -1,7 +1,8 @@
 // Captures probes and tracks when captures are out of date.
 #include "render/probe/capture_probe.h"
 
-#include "gpu/device.h"
+#include "device/device.h"
+#include "device/frame.h"
 #include "render/view_params.h"
 
 #include <algorithm>
@@ -57,8 +58,8 @@ void append(std::vector<std::byte>& bytes, const T& value) {
     std::ranges::copy(std::as_bytes(std::span(&value, 1)), std::back_inserter(bytes));
 }
 
-VkSampler probeSampler(gpu::Device& device) {
-    return device.sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
+VkSampler probeSampler(gpu::Context& context) {
+    return context.sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
 }
 
 // Everything that the maps depend on, except for the scene, whose motion matters only with refresh moving. With refresh
@@ -103,25 +104,25 @@ void Probes::makeMaps(uint32_t resolution) {
     atlas_ = gpu::Texture(device_, {VK_FORMAT_R16G16B16A16_SFLOAT, all, 1, 1, usage}, "probes.atlas");
 }
 
-gpu::Image Probes::captureFace(gpu::Frame& f, const Capture& capture, uint32_t face, gpu::Image lampShadowMap) {
-    const auto scope = f.viewScope("probe");
+gpu::Image Probes::captureFace(gpu::Recorder& f, const Capture& capture, uint32_t face, gpu::Image lampShadowMap) {
+    const auto scope = f.scope("probe");
     const uvec2 size = distance_.info().size;
     const vec3& position = block_.probes[face / probeFaces].position;
     ViewInputs in = capture.in;
     in.view = makeViewParams(cubeFaceCamera(position, face % probeFaces), size, in.view.frame, in.view.seed);
-    const ViewImages images = directView(f, in, captureSettings(capture.settings), lampShadowMap);
+    const ViewImages images = directView(f, faces_, in, captureSettings(capture.settings), lampShadowMap);
     gpu::Pass pass = f.compute("capture_probe", "capture_probe.comp");
     pass.params(in.environment.params, "environment");  // without its texels, which are not used here
-    bindEnvironmentLobes(pass, f.device(), in.environment);
+    bindEnvironmentLobes(pass, f.context(), in.environment);
     bindSurfaces(f, pass, images.g);
     pass.constant("furtherLight", capture.furtherLight ? 1U : 0U)
         .read("depth", images.g.depth)
         .read("normal", images.g.normal)
         .read("baseColor", images.g.baseColor)
         .read("material", images.g.material)
-        .read("ggxTable", in.ggxTable, f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
+        .read("ggxTable", in.ggxTable, f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
         .read("direct", images.direct)
-        .read("probeLobes", map_.lobes.image(), probeSampler(f.device()))
+        .read("probeLobes", map_.lobes.image(), probeSampler(f.context()))
         .read("probeIrradiance", map_.irradiance.image())
         .read("probeDistance", map_.lobes.image())  // placeholder: unused here, and the real one is being written
         .write("sharp", map_.sharp.mip(0))
@@ -152,7 +153,7 @@ void Probes::captureAll(const ViewInputs& in, const Settings& settings) {
     }
 }
 
-void Probes::captureNextFace(gpu::Frame& f, const ViewInputs& in, const Settings& settings) {
+void Probes::captureNextFace(gpu::Recorder& f, const ViewInputs& in, const Settings& settings) {
     const uint32_t faces = block_.count * probeFaces;
     const uint32_t face = facesCaptured_ % faces;
     captureFace(f, {in, settings, settings.probes.bounces > 0 && facesCaptured_ >= faces}, face);
@@ -169,7 +170,7 @@ void Probes::restart(bool sceneMoves) {
     }
 }
 
-ProbeMaps Probes::update(gpu::Frame& f, const ViewInputs& in, std::span<const Probe> probes, const Settings& settings) {
+ProbeMaps Probes::update(gpu::Recorder& f, const ViewInputs& in, std::span<const Probe> probes, const Settings& settings) {
     if (settings.probes.enabled == 0 || probes.empty()) {
         return {};
     }

@@ -19,7 +19,8 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "device/device.h"
+#include "gpu/recorder.h"
 #include "render/cube_map/cube_map.h"
 #include "render/direct_view.h"
 #include "scene/scene.h"
@@ -43,7 +44,7 @@ public:
     /// in separate frames, unless they are up to date for the same probes, lights and settings; nothing may have been
     /// recorded in `f` yet. refresh face: records the capture of one face in `f`; a probe's map is updated after its
     /// sixth face.
-    ProbeMaps update(gpu::Frame& f, const ViewInputs& in, std::span<const Probe> probes, const Settings& settings);
+    ProbeMaps update(gpu::Recorder& f, const ViewInputs& in, std::span<const Probe> probes, const Settings& settings);
 
     /// With refresh face, captures start over. Maps captured all at once are kept, because they do not depend on time,
     /// unless the scene moves.
@@ -57,11 +58,12 @@ private:
     };
     void makeMaps(uint32_t resolution);
     void captureAll(const ViewInputs& in, const Settings& settings);
-    void captureNextFace(gpu::Frame& f, const ViewInputs& in, const Settings& settings);
+    void captureNextFace(gpu::Recorder& f, const ViewInputs& in, const Settings& settings);
     /// face: 6 · probe + its number. Returns the lamps' shadow map, to be shared with other faces of the frame.
-    gpu::Image captureFace(gpu::Frame& f, const Capture& capture, uint32_t face, gpu::Image lampShadowMap = {});
+    gpu::Image captureFace(gpu::Recorder& f, const Capture& capture, uint32_t face, gpu::Image lampShadowMap = {});
 
     gpu::Device& device_;
+    DirectViewStore faces_;   ///< of the face that is captured
     CubeMap map_;
     gpu::Texture distance_;
     gpu::Texture atlas_;

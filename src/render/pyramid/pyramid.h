@@ -21,13 +21,13 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 
 namespace reflet {
 
 /// RG32F: the largest (nearest) and the smallest (farthest) reversed depth of each cell, negative where there is sky.
 /// backDepth: the second layer, or none.
-gpu::Image makePyramid(gpu::Frame& f, gpu::Image depth, gpu::Image backDepth = {});
+gpu::Image makePyramid(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image depth, gpu::Image backDepth = {});
 
 }  // namespace reflet
 #endif

@@ -1,7 +1,7 @@
 // Plans and records the lamps' shadow maps and their lookup.
 #include "render/shadow/lamp_shadow.h"
 
-#include "gpu/device.h"
+#include "gpu/context.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -94,7 +94,7 @@ void drawTiles(const gpu::DrawCommands& to, const DrawList& list, const LampShad
         for (uint32_t face = 0; face < shadow.tiles; ++face) {
             const uint32_t tile = shadow.firstTile + face;
             drawIntoTile(to, uvec2(tile % shadows.columns, tile / shadows.columns), shadows.tileSize);
-            to.device.vk.vkCmdPushConstants(to.commands, to.layout, VK_SHADER_STAGE_ALL, sizeof(glm::mat4x3),
+            to.context.vk.vkCmdPushConstants(to.commands, to.layout, VK_SHADER_STAGE_ALL, sizeof(glm::mat4x3),
                                             sizeof(tile), &tile);
             recordDraws(to, list, {lit, Cull::none, masked, params.worldToTile[tile]}, false);
         }
@@ -157,7 +157,8 @@ static_assert(sizeof(LampMapContents) == sizeof(LampTileParams) + 16, "padding w
 
 }  // namespace
 
-gpu::Image drawLampShadowMap(gpu::Frame& f, const DrawList& list, const LampShadows& shadows) {
+gpu::Image drawLampShadowMap(gpu::Recorder& f, gpu::KeptImage& own, const DrawList& list,
+                             const LampShadows& shadows) {
     LampTileParams params{};
     for (uint32_t i = 0; i < shadows.count; ++i) {
         for (uint32_t face = 0; face < shadows.lamps[i].tiles; ++face) {
@@ -166,8 +167,8 @@ gpu::Image drawLampShadowMap(gpu::Frame& f, const DrawList& list, const LampShad
     }
     const uint32_t rows = (tilesOf(shadows) + shadows.columns - 1) / shadows.columns;
     const gpu::Image map =
-        f.target("lamp_shadow_map", VK_FORMAT_D32_SFLOAT, uvec2(shadows.columns, rows) * shadows.tileSize);
-    if (list.version != 0 && f.holds(map, LampMapContents{params, shadows.tileSize, shadows.columns, list.version})) {
+        own.target(f, VK_FORMAT_D32_SFLOAT, uvec2(shadows.columns, rows) * shadows.tileSize);
+    if (list.version != 0 && own.holds(f, LampMapContents{params, shadows.tileSize, shadows.columns, list.version})) {
         return map;
     }
     // Opaque draws need no fragment shader; cut-out draws test alpha.
@@ -184,11 +185,11 @@ gpu::Image drawLampShadowMap(gpu::Frame& f, const DrawList& list, const LampShad
     return map;
 }
 
-gpu::Image lampVisibility(gpu::Frame& f, const GBuffer& g, const LampShadowInputs& in, const LampShadows& shadows,
-                          const LampVisibilityParams& params) {
+gpu::Image lampVisibility(gpu::Recorder& f, gpu::KeptImage& own, const GBuffer& g, const LampShadowInputs& in,
+                          const LampShadows& shadows, const LampVisibilityParams& params) {
     const uint32_t layers = (shadows.count + 3) / 4;
     const gpu::Image visibility =
-        f.image("lamp_visibility", VK_FORMAT_R8G8B8A8_UNORM, g.depth.size, layers, /*array=*/true);
+        own.storage(f, VK_FORMAT_R8G8B8A8_UNORM, g.depth.size, layers, /*array=*/true);
     f.compute("lamp_visibility", "lamp_visibility.comp")
         .read("depth", g.depth)
         .read("geometricNormal", g.geometricNormal)

@@ -52,7 +52,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/draw_list.h"
 #include "render/gbuffer/gbuffer.h"
 
@@ -68,7 +68,8 @@ LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, ui
                             const std::function<void(const std::string&)>& warn);
 
 /// Draws depth from the lamps, both sides of every surface: D32, reversed (near / distance along the tile's axis).
-gpu::Image drawLampShadowMap(gpu::Frame& f, const DrawList& list, const LampShadows& shadows);
+gpu::Image drawLampShadowMap(gpu::Recorder& f, gpu::KeptImage& own, const DrawList& list,
+                             const LampShadows& shadows);
 
 struct LampShadowInputs {
     gpu::Image map;    ///< of drawLampShadowMap
@@ -77,8 +78,8 @@ struct LampShadowInputs {
 };
 
 /// RGBA8, a layer per four lamps, a channel each: 1 lit; 0 in shadow and out of the lamp's range or cone.
-gpu::Image lampVisibility(gpu::Frame& f, const GBuffer& g, const LampShadowInputs& in, const LampShadows& shadows,
-                          const LampVisibilityParams& params);
+gpu::Image lampVisibility(gpu::Recorder& f, gpu::KeptImage& own, const GBuffer& g, const LampShadowInputs& in,
+                          const LampShadows& shadows, const LampVisibilityParams& params);
 
 }  // namespace reflet
 #endif

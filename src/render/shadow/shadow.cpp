@@ -20,12 +20,12 @@ static_assert(sizeof(SunMapContents) == sizeof(SunShadowParams) + 12, "padding w
 
 }  // namespace
 
-bool holdsSunMap(gpu::Frame& f, gpu::Image image, const DrawList& list, const SunShadowParams& sun,
+bool holdsSunMap(const gpu::Recorder& f, gpu::KeptImage& image, const DrawList& list, const SunShadowParams& sun,
                  const ShadowSettings& settings, bool opaqueOnly) {
-    return list.version != 0 && f.holds(image, SunMapContents{.draws = list.version,
-                                                              .sun = sun,
-                                                              .resolution = uint16_t(settings.resolution),
-                                                              .opaqueOnly = uint16_t(opaqueOnly ? 1 : 0)});
+    return list.version != 0 && image.holds(f, SunMapContents{.draws = list.version,
+                                                                  .sun = sun,
+                                                                  .resolution = uint16_t(settings.resolution),
+                                                                  .opaqueOnly = uint16_t(opaqueOnly ? 1 : 0)});
 }
 
 uvec2 sunMapSize(const SunShadowParams& sun, const ShadowSettings& settings) {
@@ -46,10 +46,10 @@ void recordSunMap(const gpu::DrawCommands& to, const DrawList& list, const SunSh
     }
 }
 
-gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const SunShadowParams& sun,
+gpu::Image drawShadowMap(gpu::Recorder& f, gpu::KeptImage& own, const DrawList& list, const SunShadowParams& sun,
                          const ShadowSettings& settings, bool opaqueOnly) {
-    const gpu::Image depth = f.target("shadow_map", VK_FORMAT_D32_SFLOAT, sunMapSize(sun, settings));
-    if (holdsSunMap(f, depth, list, sun, settings, opaqueOnly)) {
+    const gpu::Image depth = own.target(f, VK_FORMAT_D32_SFLOAT, sunMapSize(sun, settings));
+    if (holdsSunMap(f, own, list, sun, settings, opaqueOnly)) {
         return depth;
     }
     const auto record = [&](const gpu::DrawCommands& to, bool masked) {
@@ -71,12 +71,12 @@ gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const SunShadowPar
     return depth;
 }
 
-gpu::Image makeShadowRange(gpu::Frame& f, gpu::Image shadowMap, const DrawList& list, const SunShadowParams& sun,
-                           const ShadowSettings& settings, bool opaqueOnly) {
+gpu::Image makeShadowRange(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image shadowMap, const DrawList& list,
+                           const SunShadowParams& sun, const ShadowSettings& settings, bool opaqueOnly) {
     const uvec2 cells = levelSize(shadowMap.size, 2);  // of 4 texels each: the size of level 0
     const gpu::Image range =
-        f.image("shadow_range", VK_FORMAT_R32G32_SFLOAT, levelsImageSize(cells, shadowRangeLevels));
-    if (holdsSunMap(f, range, list, sun, settings, opaqueOnly)) {
+        own.storage(f, VK_FORMAT_R32G32_SFLOAT, levelsImageSize(cells, shadowRangeLevels));
+    if (holdsSunMap(f, own, list, sun, settings, opaqueOnly)) {
         return range;
     }
     for (uint32_t level = 1; level < shadowRangeLevels; ++level) {
@@ -89,19 +89,19 @@ gpu::Image makeShadowRange(gpu::Frame& f, gpu::Image shadowMap, const DrawList& 
     return range;
 }
 
-SunVisibility sunVisibility(gpu::Frame& f, const GBuffer& g, const ShadowInputs& in,
+SunVisibility sunVisibility(gpu::Recorder& f, SunVisibilityStore& own, const GBuffer& g, const ShadowInputs& in,
                             const ShadowVisibilityParams& params) {
     const ShadowFilter filter = params.settings.filter;
     const bool soft = filter == ShadowFilter::pcf || filter == ShadowFilter::pcss;
     const bool cascades = params.sun.count > 1;
-    // Always bound, but 1x1 and unused where not needed.
-    const auto imageIf = [&](bool needed, const char* name, VkFormat format) {
-        return f.image(name, format, needed ? g.depth.size : uvec2(1));
+    // Always bound, but unused where not needed.
+    const auto imageIf = [&](bool needed, gpu::KeptImage& image, VkFormat format) {
+        return needed ? image.storage(f, format, g.depth.size) : f.placeholder(format);
     };
     const gpu::Image map = in.map ? in.map : g.depth;
-    const gpu::Image penumbra = imageIf(soft, "shadow_penumbra", VK_FORMAT_R16G16_SFLOAT);
-    const gpu::Image index = imageIf(cascades, "cascade_index", VK_FORMAT_R8_UNORM);
-    const gpu::Image visibility = imageIf(true, "sun_visibility", VK_FORMAT_R8_UNORM);
+    const gpu::Image penumbra = imageIf(soft, own.penumbra, VK_FORMAT_R16G16_SFLOAT);
+    const gpu::Image index = imageIf(cascades, own.cascadeIndex, VK_FORMAT_R8_UNORM);
+    const gpu::Image visibility = own.visibility.storage(f, VK_FORMAT_R8_UNORM, g.depth.size);
     f.compute("shadow_visibility", "shadow_visibility.comp")
         .read("depth", g.depth)
         .read("geometricNormal", g.geometricNormal)

@@ -131,7 +131,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/draw_list.h"
 #include "render/gbuffer/gbuffer.h"
 
@@ -160,12 +160,12 @@ ShadowMapParams centredSunShadow(const Aabb& sceneBounds, const vec3& direction,
 
 /// Draws depth from the sun, both sides of every surface: D32, reversed (1 nearest to the sun). A tile per cascade:
 /// 1x1, 2x1 or 2x2. opaqueOnly: of blended surfaces only what is opaque; else what has an alpha of blendCutoff.
-gpu::Image drawShadowMap(gpu::Frame& f, const DrawList& list, const SunShadowParams& sun,
+gpu::Image drawShadowMap(gpu::Recorder& f, gpu::KeptImage& own, const DrawList& list, const SunShadowParams& sun,
                          const ShadowSettings& settings, bool opaqueOnly = false);
 
 /// What another map of the same size needs: its size, whether a cached one is still valid, its draws.
 uvec2 sunMapSize(const SunShadowParams& sun, const ShadowSettings& settings);
-bool holdsSunMap(gpu::Frame& f, gpu::Image image, const DrawList& list, const SunShadowParams& sun,
+bool holdsSunMap(const gpu::Recorder& f, gpu::KeptImage& image, const DrawList& list, const SunShadowParams& sun,
                  const ShadowSettings& settings, bool opaqueOnly = false);
 void recordSunMap(const gpu::DrawCommands& to, const DrawList& list, const SunShadowParams& sun,
                   const ShadowSettings& settings, const std::function<bool(const Draw&)>& keep,
@@ -173,8 +173,8 @@ void recordSunMap(const gpu::DrawCommands& to, const DrawList& list, const SunSh
 
 /// Min/max pyramid of the map, RG32F: the largest (nearest to the sun) and the smallest depth of each cell. list, sun,
 /// settings, opaqueOnly: as for drawShadowMap; reused whenever the map is.
-gpu::Image makeShadowRange(gpu::Frame& f, gpu::Image shadowMap, const DrawList& list, const SunShadowParams& sun,
-                           const ShadowSettings& settings, bool opaqueOnly = false);
+gpu::Image makeShadowRange(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image shadowMap, const DrawList& list,
+                           const SunShadowParams& sun, const ShadowSettings& settings, bool opaqueOnly = false);
 
 /// Result of the shadow map lookup.
 struct SunVisibility {
@@ -191,7 +191,14 @@ struct ShadowInputs {
     gpu::BufferView blueNoise;
 };
 
-SunVisibility sunVisibility(gpu::Frame& f, const GBuffer& g, const ShadowInputs& in,
+/// Owns the images of SunVisibility.
+struct SunVisibilityStore {
+    gpu::KeptImage visibility{"sun_visibility"};
+    gpu::KeptImage penumbra{"shadow_penumbra"};
+    gpu::KeptImage cascadeIndex{"cascade_index"};
+};
+
+SunVisibility sunVisibility(gpu::Recorder& f, SunVisibilityStore& own, const GBuffer& g, const ShadowInputs& in,
                             const ShadowVisibilityParams& params);
 
 }  // namespace reflet

@@ -42,14 +42,20 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/gbuffer/gbuffer.h"
 
 namespace reflet {
 
+/// Owns the denoiser's result and history.
+struct ShadowDenoiseStore {
+    gpu::KeptImage cleaned{"shadow_clean"};
+    gpu::HistoryImage history{"shadow_clean.history"};
+};
+
 /// visibility: R8; penumbra: RG16F, x: full width perpendicular to the sun's direction [m], 0 or less: unknown (see
 /// SunVisibility). Sets params.hasPrevious. Returns R8.
-gpu::Image denoiseShadow(gpu::Frame& f, const GBuffer& g, gpu::Image visibility, gpu::Image penumbra,
+gpu::Image denoiseShadow(gpu::Recorder& f, ShadowDenoiseStore& own, const GBuffer& g, gpu::Image visibility, gpu::Image penumbra,
                          ShadowDenoiseParams params);
 
 }  // namespace reflet

@@ -1,7 +1,8 @@
 // Uploads skinned and morphed vertices and records the skinning pass.
 #include "render/skin/skin.h"
 
-#include "gpu/device.h"
+#include "device/device.h"
+#include "device/upload.h"
 
 #include <algorithm>
 #include <cstring>
@@ -110,7 +111,7 @@ void SkinnedVertices::pose(const ScenePose& now, const ScenePose& before) {
     }
 }
 
-void SkinnedVertices::record(gpu::Frame& f, const Buffers& vertices) const {
+void SkinnedVertices::record(gpu::Recorder& f, const Buffers& vertices) const {
     if (empty()) {
         return;
     }

@@ -36,7 +36,8 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "device/device.h"
+#include "gpu/recorder.h"
 #include "scene/pose.h"
 
 #include <map>
@@ -63,7 +64,7 @@ public:
         gpu::BufferView attributes;         ///< VertexAttributes
     };
     /// Records the pass; later passes of this and following frames can draw the vertices.
-    void record(gpu::Frame& f, const Buffers& vertices) const;
+    void record(gpu::Recorder& f, const Buffers& vertices) const;
 
 private:
     void addMorph(const Scene& scene, size_t instance);

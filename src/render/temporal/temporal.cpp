@@ -13,17 +13,18 @@ mat4 skyToPrevious(const ViewParams& view) {
 
 }  // namespace
 
-TemporalImages temporal(gpu::Frame& f, const TemporalInputs& in, const TemporalSettings& settings) {
+TemporalImages temporal(gpu::Recorder& f, TemporalStore& own, const TemporalInputs& in,
+                        const TemporalSettings& settings) {
     const uvec2 size = in.radiance.size;
-    const gpu::History mean = f.history("temporal", VK_FORMAT_R16G16B16A16_SFLOAT, size);
+    const gpu::History mean = own.mean.swap(f, VK_FORMAT_R16G16B16A16_SFLOAT, size);
     // Of frames at rest, deviation of the tone-compressed luma from the history: variance, and mean over the last few
     // frames.
-    const gpu::History deviations = f.history("temporal_deviations", VK_FORMAT_R16G16_SFLOAT, size);
+    const gpu::History deviations = own.deviations.swap(f, VK_FORMAT_R16G16_SFLOAT, size);
     bool valid = mean.valid;
     TemporalImages out{mean.next, {}};
     gpu::Pass pass = f.compute("temporal", in.coverage ? "temporal_coverage.comp" : "temporal.comp");
     if (in.coverage) {
-        const gpu::History coverage = f.history("temporal_coverage", VK_FORMAT_R32_SFLOAT, size);
+        const gpu::History coverage = own.coverage.swap(f, VK_FORMAT_R32_SFLOAT, size);
         pass.read("coverage", in.coverage).read("previousCoverage", coverage.previous);
         pass.write("meanCoverage", coverage.next);
         valid = valid && coverage.valid;

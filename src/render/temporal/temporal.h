@@ -44,7 +44,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/gbuffer/gbuffer.h"
 
 namespace reflet {
@@ -64,7 +64,14 @@ struct TemporalImages {
     gpu::Image coverage;  ///< R32F, averaged with the same weights as the radiance; none if none was given
 };
 
-TemporalImages temporal(gpu::Frame& f, const TemporalInputs& in, const TemporalSettings& settings);
+/// Owns the histories.
+struct TemporalStore {
+    gpu::HistoryImage mean{"temporal"};
+    gpu::HistoryImage deviations{"temporal_deviations"};
+    gpu::HistoryImage coverage{"temporal_coverage"};
+};
+
+TemporalImages temporal(gpu::Recorder& f, TemporalStore& own, const TemporalInputs& in, const TemporalSettings& settings);
 
 }  // namespace reflet
 #endif

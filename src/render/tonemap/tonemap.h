@@ -45,13 +45,14 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 
 namespace reflet {
 
 /// RGBA8, display encoded (sRGB unless the curve is gamma22), alpha 1. `exposure`: from measureExposure; none: that of
 /// the settings alone.
-gpu::Image tonemap(gpu::Frame& f, gpu::Image radiance, const TonemapSettings& settings, gpu::Image exposure = {});
+gpu::Image tonemap(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image radiance, const TonemapSettings& settings,
+                   gpu::Image exposure = {});
 
 }  // namespace reflet
 #endif

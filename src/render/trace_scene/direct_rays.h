@@ -19,7 +19,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/gbuffer/gbuffer.h"
 
 namespace reflet {
@@ -37,7 +37,14 @@ struct DirectRays {
     gpu::Image sunVisibility;  ///< R8: unoccluded share of the rays to the sun's disk, 1 for the sky
 };
 
-DirectRays directByRays(gpu::Frame& f, const GBuffer& g, const DirectRaysInputs& in, const DirectRaysParams& params);
+/// Owns the images of DirectRays.
+struct DirectRaysStore {
+    gpu::KeptImage direct{"direct"};
+    gpu::KeptImage sunVisibility{"sun_visibility"};
+};
+
+DirectRays directByRays(gpu::Recorder& f, DirectRaysStore& own, const GBuffer& g, const DirectRaysInputs& in,
+                        const DirectRaysParams& params);
 
 }  // namespace reflet
 #endif

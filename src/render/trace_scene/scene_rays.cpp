@@ -2,7 +2,8 @@
 #include "render/trace_scene/scene_rays.h"
 
 #include "base/error.h"
-#include "gpu/device.h"
+#include "device/device.h"
+#include "device/upload.h"
 #include "gpu/pass.h"
 #include "scene/bvh.h"
 

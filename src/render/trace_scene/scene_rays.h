@@ -6,7 +6,7 @@
 //     SceneTriangle loadSceneTriangle(uint triangle)
 #pragma once
 
-#include "gpu/acceleration.h"
+#include "device/acceleration.h"
 #include "gpu/resource.h"
 #include "scene/bvh.h"
 

@@ -2,9 +2,10 @@
 #include "render/trace_scene/scene_surfaces.h"
 
 #include "base/error.h"
-#include "gpu/device.h"
+#include "device/device.h"
+#include "device/upload.h"
 #include "gpu/pass.h"
-#include "gpu/texture_array.h"
+#include "device/texture_array.h"
 #include "render/trace_scene/scene_materials.h"
 
 #include <algorithm>

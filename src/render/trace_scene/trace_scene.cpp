@@ -1,14 +1,14 @@
 // Records ray tracing as a ray source.
 #include "render/trace_scene/trace_scene.h"
 
-#include "gpu/device.h"
+#include "gpu/context.h"
 
 namespace reflet {
 
-void traceScene(gpu::Frame& f, Rays& rays, const TraceSceneInputs& in, uint32_t sunShadows,
+void traceScene(gpu::Recorder& f, Rays& rays, const TraceSceneInputs& in, uint32_t sunShadows,
                 const TraceSceneParams& params) {
     const GBuffer& g = in.screen.g;
-    const gpu::BufferView missed = makeRayList(f, rays, "rays.missed_by_scene");
+    const gpu::BufferView missed = makeRayList(f, rays);
     const bool reuse = params.settings.reuseScreen != 0 &&
                        (params.settings.light == SceneHitLight::screen || params.fromPrevious != 0);
     const bool tellsMotion = rays.imageMotion && rays.firstRay == 0;
@@ -16,8 +16,8 @@ void traceScene(gpu::Frame& f, Rays& rays, const TraceSceneInputs& in, uint32_t 
     in.scene.rays.bind(pass);
     in.scene.surfaces.bind(pass);
     bindEnvironment(pass, in.environment);
-    bindEnvironmentLobes(pass, f.device(), in.environment);
-    const VkSampler linear = f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
+    bindEnvironmentLobes(pass, f.context(), in.environment);
+    const VkSampler linear = f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
     pass.constant("lobe", rays.lobe)
         .constant("materialFeatures", g.features)
         .constant("sunShadows", sunShadows)
@@ -37,14 +37,14 @@ void traceScene(gpu::Frame& f, Rays& rays, const TraceSceneInputs& in, uint32_t 
         .read("light", in.screen.light)
         .read("previousLit", in.screen.lit.previous ? in.screen.lit.previous : in.screen.light)
         .read("shadowMap", in.shadowMap ? in.shadowMap : g.depth)
-        .read("ggxTable", in.ggxTable, f.device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
+        .read("ggxTable", in.ggxTable, f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
         .read("blueNoise", in.blueNoise)
         .read("direction", rays.direction)
         .read("waiting", rays.waiting)
         .write("answer", rays.answer)
         .write("source", rays.source)
         .write("imageMotion",
-               tellsMotion ? rays.imageMotion : f.image("no_image_motion", VK_FORMAT_R16G16_SFLOAT, uvec2(1)))
+               tellsMotion ? rays.imageMotion : f.placeholder(VK_FORMAT_R16G16_SFLOAT))
         .write("missed", missed)
         .params(params)
         .params(in.lamps, "lampBlock")

@@ -81,7 +81,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/frame.h"
+#include "gpu/recorder.h"
 #include "render/bounce/trace_screen.h"
 #include "render/environment/environment_light.h"
 #include "render/lamps.h"
@@ -111,7 +111,7 @@ struct TraceSceneInputs {
 
 /// Hits get confidence 1. Misses stay in rays.waiting, marked as known misses, and so do rays beyond the budget and
 /// cones (Ray.spread).
-void traceScene(gpu::Frame& f, Rays& rays, const TraceSceneInputs& in, uint32_t sunShadows,
+void traceScene(gpu::Recorder& f, Rays& rays, const TraceSceneInputs& in, uint32_t sunShadows,
                 const TraceSceneParams& params);
 
 }  // namespace reflet

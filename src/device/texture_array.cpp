@@ -1,9 +1,9 @@
 // Uploads images one by one and copies them into the array on the device.
-#include "gpu/texture_array.h"
+#include "device/texture_array.h"
 
 #include "base/error.h"
 #include "gpu/barrier.h"
-#include "gpu/device.h"
+#include "device/device.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,9 +1,9 @@
 // Shows images in a window by blits to the images of a swapchain.
-#include "gpu/presenter.h"
+#include "device/presenter.h"
 
 #include "base/error.h"
 #include "gpu/barrier.h"
-#include "gpu/device.h"
+#include "device/device.h"
 
 #include <algorithm>
 
@@ -51,18 +51,18 @@ Presenter::Presenter(Device& device, VkSurfaceKHR surface) : device_(device), su
         fail("the device '{}' cannot present to this window; select another with --device", device.description().name);
     }
     const VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, nullptr, 0};
-    vkCheck(device.vk.vkCreateFence(device.handle(), &fence, nullptr, &acquired_), "creating a fence");
+    vkCheck(device.functions().vkCreateFence(device.handle(), &fence, nullptr, &acquired_), "creating a fence");
 }
 
 Presenter::~Presenter() {
     dropSwapchain();
-    device_.vk.vkDestroyFence(device_.handle(), acquired_, nullptr);
+    device_.functions().vkDestroyFence(device_.handle(), acquired_, nullptr);
     vkDestroySurfaceKHR(device_.instance(), surface_, nullptr);
 }
 
 void Presenter::dropSwapchain() {
-    device_.vk.vkDeviceWaitIdle(device_.handle());
-    device_.vk.vkDestroySwapchainKHR(device_.handle(), swapchain_, nullptr);
+    device_.functions().vkDeviceWaitIdle(device_.handle());
+    device_.functions().vkDestroySwapchainKHR(device_.handle(), swapchain_, nullptr);
     swapchain_ = VK_NULL_HANDLE;
 }
 
@@ -102,13 +102,13 @@ void Presenter::makeSwapchain(uvec2 window) {
                               : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
     info.presentMode = chooseMode(device_.physical(), surface_, verticalSync_);
     info.clipped = VK_TRUE;
-    vkCheck(device_.vk.vkCreateSwapchainKHR(device_.handle(), &info, nullptr, &swapchain_),
+    vkCheck(device_.functions().vkCreateSwapchainKHR(device_.handle(), &info, nullptr, &swapchain_),
             "creating the window's images");
     uint32_t count = 0;
-    vkCheck(device_.vk.vkGetSwapchainImagesKHR(device_.handle(), swapchain_, &count, nullptr),
+    vkCheck(device_.functions().vkGetSwapchainImagesKHR(device_.handle(), swapchain_, &count, nullptr),
             "counting the window's images");
     images_.resize(count);
-    vkCheck(device_.vk.vkGetSwapchainImagesKHR(device_.handle(), swapchain_, &count, images_.data()),
+    vkCheck(device_.functions().vkGetSwapchainImagesKHR(device_.handle(), swapchain_, &count, images_.data()),
             "getting the window's images");
 }
 
@@ -123,7 +123,7 @@ void Presenter::copy(VkCommandBuffer commands, const Image& from, VkImage to) co
     blit.dstSubresource = blit.srcSubresource;
     blit.srcOffsets[1] = {static_cast<int32_t>(from.size.x), static_cast<int32_t>(from.size.y), 1};
     blit.dstOffsets[1] = {static_cast<int32_t>(imageSize_.x), static_cast<int32_t>(imageSize_.y), 1};
-    device_.vk.vkCmdBlitImage(commands, from.state->image, VK_IMAGE_LAYOUT_GENERAL, to,
+    device_.functions().vkCmdBlitImage(commands, from.state->image, VK_IMAGE_LAYOUT_GENERAL, to,
                               VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &blit, VK_FILTER_NEAREST);
     layoutBarrier(device_.vk, commands, to, {}, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
 }
@@ -138,7 +138,7 @@ bool Presenter::present(const Image& image, uvec2 window) {
     }
     uint32_t index = 0;
     const VkResult acquired =
-        device_.vk.vkAcquireNextImageKHR(device_.handle(), swapchain_, UINT64_MAX, VK_NULL_HANDLE, acquired_, &index);
+        device_.functions().vkAcquireNextImageKHR(device_.handle(), swapchain_, UINT64_MAX, VK_NULL_HANDLE, acquired_, &index);
     if (acquired == VK_ERROR_OUT_OF_DATE_KHR) {
         dropSwapchain();
         return false;
@@ -146,14 +146,14 @@ bool Presenter::present(const Image& image, uvec2 window) {
     if (acquired != VK_SUBOPTIMAL_KHR) {
         vkCheck(acquired, "acquiring a swapchain image");
     }
-    vkCheck(device_.vk.vkWaitForFences(device_.handle(), 1, &acquired_, VK_TRUE, UINT64_MAX), "waiting for the window");
-    vkCheck(device_.vk.vkResetFences(device_.handle(), 1, &acquired_), "resetting a fence");
+    vkCheck(device_.functions().vkWaitForFences(device_.handle(), 1, &acquired_, VK_TRUE, UINT64_MAX), "waiting for the window");
+    vkCheck(device_.functions().vkResetFences(device_.handle(), 1, &acquired_), "resetting a fence");
     device_.runNow([&](VkCommandBuffer commands) { copy(commands, image, images_[index]); });
     VkPresentInfoKHR info{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
     info.swapchainCount = 1;
     info.pSwapchains = &swapchain_;
     info.pImageIndices = &index;
-    const VkResult presented = device_.vk.vkQueuePresentKHR(device_.queue(), &info);
+    const VkResult presented = device_.functions().vkQueuePresentKHR(device_.queue(), &info);
     if (presented == VK_ERROR_OUT_OF_DATE_KHR) {
         dropSwapchain();
         return false;

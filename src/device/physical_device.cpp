@@ -1,5 +1,5 @@
 // Lists Vulkan devices, checks them against the minimum requirements and selects one.
-#include "gpu/physical_device.h"
+#include "device/physical_device.h"
 
 #include "base/error.h"
 
@@ -172,31 +172,6 @@ std::optional<size_t> findSelected(std::span<const DeviceDescription> all, const
 }
 
 }  // namespace
-
-void vkCheck(VkResult result, const char* what) {
-    if (result < 0) {
-        fail("{} failed: {}", what, resultName(result));
-    }
-}
-
-std::string resultName(VkResult result) {
-    switch (result) {
-        case VK_ERROR_OUT_OF_HOST_MEMORY:
-            return "out of host memory";
-        case VK_ERROR_OUT_OF_DEVICE_MEMORY:
-            return "out of device memory";
-        case VK_ERROR_DEVICE_LOST:
-            return "the device was lost";
-        case VK_ERROR_INITIALIZATION_FAILED:
-            return "initialization failed";
-        case VK_ERROR_LAYER_NOT_PRESENT:
-            return "a layer is not installed";
-        case VK_ERROR_INCOMPATIBLE_DRIVER:
-            return "no driver fits";
-        default:
-            return fmt::format("VkResult {}", static_cast<int>(result));
-    }
-}
 
 RequiredFeatures requiredFeatures() {
     RequiredFeatures required;

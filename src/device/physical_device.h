@@ -1,7 +1,7 @@
 // Lists Vulkan devices, checks them against the minimum requirements and selects one.
 #pragma once
 
-#include "gpu/device.h"
+#include "device/device.h"
 
 #include <array>
 #include <optional>

@@ -1,11 +1,9 @@
 // Opens a Vulkan device and tracks submitted work by serial numbers, for waiting and for deferred destruction.
-#include "gpu/device.h"
+#include "device/device.h"
 
 #include "base/error.h"
-#include "gpu/physical_device.h"
-#include "gpu/pipeline.h"
+#include "device/physical_device.h"
 
-#include <algorithm>
 #include <array>
 
 namespace reflet::gpu {
@@ -26,32 +24,18 @@ VkDebugUtilsMessengerCreateInfoEXT messengerInfo(PFN_vkDebugUtilsMessengerCallba
 
 }  // namespace
 
-Device::Device(const DeviceOptions& options) : onMessage_(options.onMessage) {
+DeviceHandles::DeviceHandles(std::function<void(const std::string&)> onMessage) : onMessage_(std::move(onMessage)) {}
+
+DeviceHandles::DeviceHandles(const DeviceOptions& options) : DeviceHandles(options.onMessage) {
     createInstance(options);
     physical_ = choosePhysicalDevice(instance_, options.select);
     description_ = describe(physical_);
-    VkPhysicalDeviceProperties properties{};
-    vkGetPhysicalDeviceProperties(physical_, &properties);
-    limits_ = properties.limits;
     createDevice(!options.windowExtensions.empty());
-    memory_ = std::make_unique<Memory>(vk, device_, physical_, rayQuery_);
-    pipelines_ = std::make_unique<PipelineCache>(*this);
 }
 
-Device::~Device() {
+DeviceHandles::~DeviceHandles() {
     if (device_ != VK_NULL_HANDLE) {
-        vk.vkDeviceWaitIdle(device_);
-        for (const Retired& retired : retired_) {
-            retired.destroy();
-        }
-        pipelines_.reset();
-        memory_.reset();
-        for (const auto& [info, sampler] : samplers_) {
-            vk.vkDestroySampler(device_, sampler, nullptr);
-        }
-        vk.vkDestroyCommandPool(device_, immediatePool_, nullptr);
-        vk.vkDestroySemaphore(device_, timeline_, nullptr);
-        vk.vkDestroyDevice(device_, nullptr);
+        functions_.vkDestroyDevice(device_, nullptr);
     }
     if (messenger_ != VK_NULL_HANDLE) {
         vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
@@ -61,14 +45,14 @@ Device::~Device() {
     }
 }
 
-VkBool32 Device::onValidation(VkDebugUtilsMessageSeverityFlagBitsEXT severity, VkDebugUtilsMessageTypeFlagsEXT types,
+VkBool32 DeviceHandles::onValidation(VkDebugUtilsMessageSeverityFlagBitsEXT severity, VkDebugUtilsMessageTypeFlagsEXT types,
                               const VkDebugUtilsMessengerCallbackDataEXT* data, void* self) {
     // Messages of the loader (about a driver that does not load, say) matter only if they are errors.
     if ((types & VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT) == 0 &&
         severity < VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT) {
         return VK_FALSE;
     }
-    auto& device = *static_cast<Device*>(self);
+    auto& device = *static_cast<DeviceHandles*>(self);
     // Newer layers leave the identifier out of the text.
     const std::string_view text = data->pMessage;
     const std::string_view id = data->pMessageIdName == nullptr ? "" : data->pMessageIdName;
@@ -80,7 +64,7 @@ VkBool32 Device::onValidation(VkDebugUtilsMessageSeverityFlagBitsEXT severity, V
     return VK_FALSE;
 }
 
-void Device::createInstance(const DeviceOptions& options) {
+void DeviceHandles::createInstance(const DeviceOptions& options) {
     instance_ = makeInstance(options.validation ? validationLayer : nullptr, options.windowExtensions);
     if (options.validation) {
         const auto info = messengerInfo(onValidation, this);
@@ -88,7 +72,7 @@ void Device::createInstance(const DeviceOptions& options) {
     }
 }
 
-void Device::createDevice(bool fillsWindows) {
+void DeviceHandles::createDevice(bool fillsWindows) {
     queueFamily_ = graphicsQueueFamily(physical_).value();
     const float priority = 1.0F;
     VkDeviceQueueCreateInfo queueInfo{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
@@ -98,7 +82,6 @@ void Device::createDevice(bool fillsWindows) {
 
     VkPhysicalDeviceFeatures has{};
     vkGetPhysicalDeviceFeatures(physical_, &has);
-    anisotropic_ = has.samplerAnisotropy != 0;
     RequiredFeatures required = requiredFeatures();
     required.core.features.samplerAnisotropy = has.samplerAnisotropy;
     RayQueryFeatures rays;
@@ -109,8 +92,8 @@ void Device::createDevice(bool fillsWindows) {
     }
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
     info.pNext = required.chain();
-    rayQuery_ = gpu::hasRayQuery(physical_);
-    if (rayQuery_) {
+    const bool rayQuery = hasRayQuery(physical_);
+    if (rayQuery) {
         required.v12.bufferDeviceAddress = VK_TRUE;
         rays.structures.accelerationStructure = VK_TRUE;
         rays.query.rayQuery = VK_TRUE;
@@ -122,41 +105,34 @@ void Device::createDevice(bool fillsWindows) {
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queueInfo;
     vkCheck(vkCreateDevice(physical_, &info, nullptr, &device_), "opening the device");
-    volkLoadDeviceTable(&vk, device_);
-    vk.vkGetDeviceQueue(device_, queueFamily_, 0, &queue_);
+    volkLoadDeviceTable(&functions_, device_);
+    functions_.vkGetDeviceQueue(device_, queueFamily_, 0, &queue_);
+    opened_ = {.instance = instance_,
+               .physical = physical_,
+               .device = device_,
+               .lookUp = vkGetInstanceProcAddr,
+               .samplerAnisotropy = has.samplerAnisotropy != 0,
+               .rayQuery = rayQuery};
+}
 
+Device::Device(const DeviceOptions& options) : DeviceHandles(options), Context(opened()) {
+    for (const std::span<const EmbeddedShader> list : options.shaders) {
+        shaders().add(list);
+    }
     VkSemaphoreTypeCreateInfo type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
     type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
     const VkSemaphoreCreateInfo semaphore{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &type, 0};
-    vkCheck(vk.vkCreateSemaphore(device_, &semaphore, nullptr, &timeline_), "creating the timeline");
+    vkCheck(functions().vkCreateSemaphore(handle(), &semaphore, nullptr, &timeline_), "creating the timeline");
 
     const VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr,
-                                       VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, queueFamily_};
-    vkCheck(vk.vkCreateCommandPool(device_, &pool, nullptr, &immediatePool_), "creating a command pool");
+                                       VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, queueFamily()};
+    vkCheck(functions().vkCreateCommandPool(handle(), &pool, nullptr, &immediatePool_), "creating a command pool");
 }
 
-VkSampler Device::sampler(const SamplerInfo& info) {
-    for (const auto& [known, sampler] : samplers_) {
-        if (known == info) {
-            return sampler;
-        }
-    }
-    VkSamplerCreateInfo create{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
-    create.magFilter = info.mag;
-    create.minFilter = info.min;
-    create.mipmapMode = info.mip;
-    create.addressModeU = info.u;
-    create.addressModeV = info.v;
-    create.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    create.maxLod = info.maxLod;
-    create.mipLodBias = std::clamp(info.lodBias, -limits_.maxSamplerLodBias, limits_.maxSamplerLodBias);
-    create.anisotropyEnable =
-        anisotropic_ && info.anisotropy > 1.0F && info.min == VK_FILTER_LINEAR ? VK_TRUE : VK_FALSE;
-    create.maxAnisotropy = std::min(info.anisotropy, limits_.maxSamplerAnisotropy);
-    VkSampler sampler = VK_NULL_HANDLE;
-    vkCheck(vk.vkCreateSampler(device_, &create, nullptr, &sampler), "creating a sampler");
-    samplers_.emplace_back(info, sampler);
-    return sampler;
+Device::~Device() {
+    functions().vkDeviceWaitIdle(handle());
+    functions().vkDestroyCommandPool(handle(), immediatePool_, nullptr);
+    functions().vkDestroySemaphore(handle(), timeline_, nullptr);
 }
 
 uint64_t Device::submit(VkCommandBuffer commands) {
@@ -172,7 +148,7 @@ uint64_t Device::submit(VkCommandBuffer commands) {
     info.pCommandBufferInfos = &command;
     info.signalSemaphoreInfoCount = 1;
     info.pSignalSemaphoreInfos = &signal;
-    vkCheck(vk.vkQueueSubmit2(queue_, 1, &info, VK_NULL_HANDLE), "submitting work");
+    vkCheck(functions().vkQueueSubmit2(queue(), 1, &info, VK_NULL_HANDLE), "submitting work");
     submitted_ = serial;
     return serial;
 }
@@ -182,22 +158,7 @@ void Device::wait(uint64_t serial) {
     info.semaphoreCount = 1;
     info.pSemaphores = &timeline_;
     info.pValues = &serial;
-    vkCheck(vk.vkWaitSemaphores(device_, &info, UINT64_MAX), "waiting for the device");
-    completed_ = std::max(completed_, serial);
-    collectRetired();
-}
-
-void Device::retire(std::function<void()> destroy) {
-    // The commands being recorded are submitted next and may use the resource, too.
-    retired_.push_back({submitted_ + 1, std::move(destroy)});
-}
-
-void Device::collectRetired() {
-    while (!retired_.empty() && retired_.front().serial <= completed_) {
-        const auto destroy = std::move(retired_.front().destroy);
-        retired_.pop_front();
-        destroy();
-    }
+    vkCheck(functions().vkWaitSemaphores(handle(), &info, UINT64_MAX), "waiting for the device");
 }
 
 void Device::runNow(const std::function<void(VkCommandBuffer)>& record) {
@@ -206,14 +167,16 @@ void Device::runNow(const std::function<void(VkCommandBuffer)>& record) {
     allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     allocate.commandBufferCount = 1;
     VkCommandBuffer commands = VK_NULL_HANDLE;
-    vkCheck(vk.vkAllocateCommandBuffers(device_, &allocate, &commands), "allocating commands");
+    vkCheck(functions().vkAllocateCommandBuffers(handle(), &allocate, &commands), "allocating commands");
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    vkCheck(vk.vkBeginCommandBuffer(commands, &begin), "beginning commands");
+    vkCheck(functions().vkBeginCommandBuffer(commands, &begin), "beginning commands");
+    const uint64_t work = beginWork();
     record(commands);
-    vkCheck(vk.vkEndCommandBuffer(commands), "ending commands");
+    vkCheck(functions().vkEndCommandBuffer(commands), "ending commands");
     wait(submit(commands));
-    vk.vkFreeCommandBuffers(device_, immediatePool_, 1, &commands);
+    finishWork(work);
+    functions().vkFreeCommandBuffers(handle(), immediatePool_, 1, &commands);
 }
 
 }  // namespace reflet::gpu

@@ -9,12 +9,7 @@
 
 namespace reflet::gpu {
 
-/// View that passes read. Valid as long as its owner. Empty: `!view`.
-struct AccelerationView {
-    VkAccelerationStructureKHR structure = VK_NULL_HANDLE;
-
-    explicit operator bool() const { return structure != VK_NULL_HANDLE; }
-};
+class Device;
 
 /// Usage flags that buffers need, besides others, as input of an AccelerationStructure.
 constexpr VkBufferUsageFlags accelerationInput =

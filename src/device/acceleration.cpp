@@ -1,8 +1,9 @@
 // Builds acceleration structures.
-#include "gpu/acceleration.h"
+#include "device/acceleration.h"
 
 #include "base/error.h"
-#include "gpu/device.h"
+#include "device/device.h"
+#include "device/upload.h"
 
 namespace reflet::gpu {
 
@@ -11,14 +12,6 @@ namespace {
 VkDeviceAddress addressOf(Device& device, const Buffer& buffer) {
     const VkBufferDeviceAddressInfo info{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO, nullptr, buffer.handle()};
     return device.vk.vkGetBufferDeviceAddress(device.handle(), &info);
-}
-
-VkDeviceSize scratchAlignment(const Device& device) {
-    VkPhysicalDeviceAccelerationStructurePropertiesKHR structures{
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
-    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &structures};
-    vkGetPhysicalDeviceProperties2(device.physical(), &properties);
-    return structures.minAccelerationStructureScratchOffsetAlignment;
 }
 
 VkAccelerationStructureGeometryKHR triangleGeometry(Device& device, const TriangleInput& input) {
@@ -97,7 +90,7 @@ AccelerationStructure::Level AccelerationStructure::build(VkAccelerationStructur
     info.geometryCount = 1;
     info.pGeometries = &geometry;
     VkAccelerationStructureBuildSizesInfoKHR sizes{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR};
-    const VolkDeviceTable& vk = device_->vk;
+    const DeviceFunctions& vk = device_->vk;
     vk.vkGetAccelerationStructureBuildSizesKHR(device_->handle(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR,
                                                &info, &primitives, &sizes);
 
@@ -113,7 +106,7 @@ AccelerationStructure::Level AccelerationStructure::build(VkAccelerationStructur
     vkCheck(vk.vkCreateAccelerationStructureKHR(device_->handle(), &create, nullptr, &level.structure),
             "creating an acceleration structure");
 
-    const VkDeviceSize alignment = scratchAlignment(*device_);
+    const VkDeviceSize alignment = device_->scratchAlignment();
     const Buffer scratch(*device_, sizes.buildScratchSize + alignment,
                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
                          MemoryUse::device, "scene hierarchy's scratch");

@@ -2,7 +2,7 @@
 // not include descriptor indexing.
 #pragma once
 
-#include "gpu/resource.h"
+#include "device/upload.h"
 
 #include <span>
 #include <string>

@@ -1,0 +1,48 @@
+// Submits the passes of a frame and waits for them.
+#include "device/frame.h"
+
+#include "base/error.h"
+#include "device/device.h"
+
+namespace reflet::gpu {
+
+Frame::Frame(Device& device) : Recorder(device), device_(device) {
+    const VolkDeviceTable& vk = device.functions();
+    const VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, 0, device.queueFamily()};
+    vkCheck(vk.vkCreateCommandPool(device.handle(), &pool, nullptr, &commandPool_), "creating a command pool");
+    VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    allocate.commandPool = commandPool_;
+    allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    allocate.commandBufferCount = 1;
+    vkCheck(vk.vkAllocateCommandBuffers(device.handle(), &allocate, &commands_), "allocating commands");
+}
+
+Frame::~Frame() {
+    device_.functions().vkDeviceWaitIdle(device_.handle());
+    device_.functions().vkDestroyCommandPool(device_.handle(), commandPool_, nullptr);
+}
+
+void Frame::begin() {
+    const VolkDeviceTable& vk = device_.functions();
+    device_.wait(serial_);
+    vkCheck(vk.vkResetCommandPool(device_.handle(), commandPool_, 0), "resetting commands");
+    VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    vkCheck(vk.vkBeginCommandBuffer(commands_, &info), "beginning commands");
+    Recorder::begin(commands_);
+}
+
+void Frame::submit() {
+    end();
+    vkCheck(device_.functions().vkEndCommandBuffer(commands_), "ending commands");
+    submitted_ = std::chrono::steady_clock::now();
+    serial_ = device_.submit(commands_);
+}
+
+void Frame::wait() {
+    device_.wait(serial_);
+    submittedMs_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - submitted_).count();
+    finish();
+}
+
+}  // namespace reflet::gpu

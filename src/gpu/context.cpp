@@ -1,0 +1,101 @@
+// Adopts an open device.
+#include "gpu/context.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+
+namespace reflet::gpu {
+
+namespace {
+
+template <class F>
+F instanceFunction(const OpenDevice& open, const char* name) {
+    const PFN_vkVoidFunction found = open.lookUp(open.instance, name);
+    if (found == nullptr) {
+        fail("the Vulkan instance has no {}: Vulkan 1.3 is needed", name);
+    }
+    return reinterpret_cast<F>(found);
+}
+
+}  // namespace
+
+Context::Context(const OpenDevice& open)
+    : device_(open.device), anisotropic_(open.samplerAnisotropy), rayQuery_(open.rayQuery) {
+    vk = loadFunctions(instanceFunction<PFN_vkGetDeviceProcAddr>(open, "vkGetDeviceProcAddr"), open.device, rayQuery_);
+    VkPhysicalDeviceAccelerationStructurePropertiesKHR structures{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
+                                           rayQuery_ ? &structures : nullptr};
+    instanceFunction<PFN_vkGetPhysicalDeviceProperties2>(open, "vkGetPhysicalDeviceProperties2")(open.physical,
+                                                                                                 &properties);
+    limits_ = properties.properties.limits;
+    scratchAlignment_ = structures.minAccelerationStructureScratchOffsetAlignment;
+    VkPhysicalDeviceMemoryProperties memory{};
+    instanceFunction<PFN_vkGetPhysicalDeviceMemoryProperties>(open, "vkGetPhysicalDeviceMemoryProperties")(
+        open.physical, &memory);
+    memory_ = std::make_unique<Memory>(*this, memory);
+    pipelines_ = std::make_unique<PipelineCache>(*this);
+}
+
+Context::~Context() {
+    unfinished_.clear();
+    pipelines_.reset();
+    collectRetired();
+    memory_.reset();
+    for (const auto& [info, sampler] : samplers_) {
+        vk.vkDestroySampler(device_, sampler, nullptr);
+    }
+}
+
+VkSampler Context::sampler(const SamplerInfo& info) {
+    for (const auto& [known, sampler] : samplers_) {
+        if (known == info) {
+            return sampler;
+        }
+    }
+    VkSamplerCreateInfo create{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
+    create.magFilter = info.mag;
+    create.minFilter = info.min;
+    create.mipmapMode = info.mip;
+    create.addressModeU = info.u;
+    create.addressModeV = info.v;
+    create.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    create.maxLod = info.maxLod;
+    create.mipLodBias = std::clamp(info.lodBias, -limits_.maxSamplerLodBias, limits_.maxSamplerLodBias);
+    create.anisotropyEnable =
+        anisotropic_ && info.anisotropy > 1.0F && info.min == VK_FILTER_LINEAR ? VK_TRUE : VK_FALSE;
+    create.maxAnisotropy = std::min(info.anisotropy, limits_.maxSamplerAnisotropy);
+    VkSampler sampler = VK_NULL_HANDLE;
+    vkCheck(vk.vkCreateSampler(device_, &create, nullptr, &sampler), "creating a sampler");
+    samplers_.emplace_back(info, sampler);
+    ++counts_.samplers;
+    return sampler;
+}
+
+uint64_t Context::beginWork() {
+    unfinished_.insert(++lastSerial_);
+    return lastSerial_;
+}
+
+void Context::finishWork(uint64_t serial) {
+    unfinished_.erase(serial);
+    collectRetired();
+}
+
+void Context::retire(std::function<void()> destroy) {
+    retired_.push_back({lastSerial_, std::move(destroy)});
+    collectRetired();
+}
+
+void Context::collectRetired() {
+    const uint64_t oldest = unfinished_.empty() ? UINT64_MAX : *unfinished_.begin();
+    const auto used = std::ranges::find_if(retired_, [&](const Retired& r) { return r.serial >= oldest; });
+    std::vector<Retired> free(std::make_move_iterator(retired_.begin()), std::make_move_iterator(used));
+    retired_.erase(retired_.begin(), used);
+    for (const Retired& retired : free) {
+        retired.destroy();
+    }
+}
+
+}  // namespace reflet::gpu

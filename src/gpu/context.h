@@ -1,0 +1,114 @@
+// A Vulkan device that is open already, by the host or by the program, and what all recording on it shares: functions,
+// memory, samplers, shaders, pipelines. A context never submits, waits or touches a queue.
+#pragma once
+
+#include "gpu/functions.h"
+#include "gpu/memory.h"
+#include "gpu/pipeline.h"
+#include "gpu/shader.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace reflet::gpu {
+
+/// An open device, as its owner describes it. The handles must outlive the context.
+struct OpenDevice {
+    VkInstance instance = VK_NULL_HANDLE;
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    PFN_vkGetInstanceProcAddr lookUp = nullptr;
+    // Which optional features were enabled, because a device does not tell.
+    bool samplerAnisotropy = false;
+    /// VK_KHR_acceleration_structure, VK_KHR_ray_query and buffer device addresses.
+    bool rayQuery = false;
+};
+
+/// Parameters of a sampler.
+struct SamplerInfo {
+    VkFilter mag = VK_FILTER_NEAREST;
+    VkFilter min = VK_FILTER_NEAREST;
+    VkSamplerMipmapMode mip = VK_SAMPLER_MIPMAP_MODE_NEAREST;
+    VkSamplerAddressMode u = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    VkSamplerAddressMode v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    float maxLod = VK_LOD_CLAMP_NONE;
+    float anisotropy = 1.0F;  ///< maximum anisotropy; 1: off. Clamped to what the device supports
+    float lodBias = 0.0F;     ///< added to the mip level. Clamped to what the device supports
+
+    bool operator==(const SamplerInfo&) const = default;
+};
+
+/// How many objects a context and its recorders have made so far. In a steady state none of them grows.
+struct ObjectCounts {
+    uint64_t images = 0;
+    uint64_t buffers = 0;
+    uint64_t memoryBlocks = 0;
+    uint64_t pipelines = 0;
+    uint64_t samplers = 0;
+    uint64_t descriptorPools = 0;
+
+    bool operator==(const ObjectCounts&) const = default;
+};
+
+class Context {
+public:
+    /// Throws Error that names a function that the device does not have.
+    explicit Context(const OpenDevice& open);
+    /// The device must have finished all work that was recorded.
+    ~Context();
+    Context(const Context&) = delete;
+    Context& operator=(const Context&) = delete;
+
+    [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return limits_; }
+    /// Whether acceleration structures can be built and queried by shaders.
+    [[nodiscard]] bool hasRayQuery() const { return rayQuery_; }
+    /// Alignment of the memory that building an acceleration structure needs; 0 without ray query.
+    [[nodiscard]] VkDeviceSize scratchAlignment() const { return scratchAlignment_; }
+    [[nodiscard]] VkDevice handle() const { return device_; }
+    [[nodiscard]] Memory& memory() { return *memory_; }
+    [[nodiscard]] ShaderLibrary& shaders() { return shaders_; }
+    [[nodiscard]] PipelineCache& pipelines() { return *pipelines_; }
+    [[nodiscard]] ObjectCounts& counts() { return counts_; }
+
+    /// Equal infos share one sampler, which lives as long as the context.
+    VkSampler sampler(const SamplerInfo& info);
+
+    /// Announces commands that are going to be recorded and submitted; returns their serial number for finishWork.
+    uint64_t beginWork();
+    /// The device has finished these commands, or they will never be submitted. Destroys what only they could use.
+    void finishWork(uint64_t serial);
+
+    /// Deferred destruction: runs `destroy` once all work that has begun is finished; at once if there is none.
+    void retire(std::function<void()> destroy);
+
+    /// Device-level functions.
+    DeviceFunctions vk{};
+
+private:
+    struct Retired {
+        uint64_t serial;  ///< of the last work that may use it
+        std::function<void()> destroy;
+    };
+
+    void collectRetired();
+
+    VkDevice device_ = VK_NULL_HANDLE;
+    VkPhysicalDeviceLimits limits_{};
+    VkDeviceSize scratchAlignment_ = 0;
+    bool anisotropic_ = false;
+    bool rayQuery_ = false;
+    ObjectCounts counts_;
+    std::unique_ptr<Memory> memory_;
+    ShaderLibrary shaders_;
+    std::unique_ptr<PipelineCache> pipelines_;
+    std::vector<std::pair<SamplerInfo, VkSampler>> samplers_;
+    uint64_t lastSerial_ = 0;
+    std::set<uint64_t> unfinished_;
+    std::vector<Retired> retired_;  ///< serials ascend
+};
+
+}  // namespace reflet::gpu

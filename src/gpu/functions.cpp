@@ -1,0 +1,36 @@
+// Looks up the functions of a device.
+#include "gpu/functions.h"
+
+#include "base/error.h"
+
+#include <string>
+
+namespace reflet::gpu {
+
+namespace {
+
+// A host may have opened its device with an extension in place of the version that took it up.
+PFN_vkVoidFunction find(PFN_vkGetDeviceProcAddr lookUp, VkDevice device, const char* name) {
+    if (const PFN_vkVoidFunction found = lookUp(device, name)) {
+        return found;
+    }
+    if (const PFN_vkVoidFunction found = lookUp(device, (std::string(name) + "KHR").c_str())) {
+        return found;
+    }
+    fail("this device has no {}: Vulkan 1.3 is needed", name);
+}
+
+}  // namespace
+
+DeviceFunctions loadFunctions(PFN_vkGetDeviceProcAddr lookUp, VkDevice device, bool rayQuery) {
+    DeviceFunctions functions;
+#define REFLET_LOAD(name) functions.name = reinterpret_cast<PFN_##name>(find(lookUp, device, #name));
+    REFLET_DEVICE_FUNCTIONS(REFLET_LOAD)
+    if (rayQuery) {
+        REFLET_RAY_QUERY_FUNCTIONS(REFLET_LOAD)
+    }
+#undef REFLET_LOAD
+    return functions;
+}
+
+}  // namespace reflet::gpu

@@ -1,0 +1,88 @@
+// Vulkan functions of one device, in tables of its own: two devices, or two libraries in one process, do not share
+// pointers, and nothing named vk* is exported.
+#pragma once
+
+#include "gpu/vulkan.h"
+
+namespace reflet::gpu {
+
+// Those of Vulkan 1.3 without ray tracing. Each is looked up by its name, then with the suffix KHR.
+#define REFLET_DEVICE_FUNCTIONS(F)     \
+    F(vkAllocateDescriptorSets)        \
+    F(vkAllocateMemory)                \
+    F(vkBindBufferMemory)              \
+    F(vkBindImageMemory)               \
+    F(vkCmdBeginRendering)             \
+    F(vkCmdBindDescriptorSets)         \
+    F(vkCmdBindIndexBuffer)            \
+    F(vkCmdBindPipeline)               \
+    F(vkCmdBindVertexBuffers)          \
+    F(vkCmdBlitImage)                  \
+    F(vkCmdClearColorImage)            \
+    F(vkCmdCopyBuffer)                 \
+    F(vkCmdCopyBufferToImage)          \
+    F(vkCmdCopyImageToBuffer)          \
+    F(vkCmdDispatch)                   \
+    F(vkCmdDispatchIndirect)           \
+    F(vkCmdDrawIndexed)                \
+    F(vkCmdEndRendering)               \
+    F(vkCmdFillBuffer)                 \
+    F(vkCmdPipelineBarrier2)           \
+    F(vkCmdPushConstants)              \
+    F(vkCmdResetQueryPool)             \
+    F(vkCmdSetCullMode)                \
+    F(vkCmdSetFrontFace)               \
+    F(vkCmdSetScissor)                 \
+    F(vkCmdSetViewport)                \
+    F(vkCmdUpdateBuffer)               \
+    F(vkCmdWriteTimestamp2)            \
+    F(vkCreateBuffer)                  \
+    F(vkCreateComputePipelines)        \
+    F(vkCreateDescriptorPool)          \
+    F(vkCreateDescriptorSetLayout)     \
+    F(vkCreateGraphicsPipelines)       \
+    F(vkCreateImage)                   \
+    F(vkCreateImageView)               \
+    F(vkCreatePipelineLayout)          \
+    F(vkCreateQueryPool)               \
+    F(vkCreateSampler)                 \
+    F(vkCreateShaderModule)            \
+    F(vkDestroyBuffer)                 \
+    F(vkDestroyDescriptorPool)         \
+    F(vkDestroyDescriptorSetLayout)    \
+    F(vkDestroyImage)                  \
+    F(vkDestroyImageView)              \
+    F(vkDestroyPipeline)               \
+    F(vkDestroyPipelineLayout)         \
+    F(vkDestroyQueryPool)              \
+    F(vkDestroySampler)                \
+    F(vkDestroyShaderModule)           \
+    F(vkFreeMemory)                    \
+    F(vkGetBufferMemoryRequirements)   \
+    F(vkGetImageMemoryRequirements)    \
+    F(vkGetQueryPoolResults)           \
+    F(vkMapMemory)                     \
+    F(vkResetDescriptorPool)           \
+    F(vkUpdateDescriptorSets)
+
+// Those of VK_KHR_acceleration_structure, and the addresses that it needs.
+#define REFLET_RAY_QUERY_FUNCTIONS(F)             \
+    F(vkCmdBuildAccelerationStructuresKHR)        \
+    F(vkCreateAccelerationStructureKHR)           \
+    F(vkDestroyAccelerationStructureKHR)          \
+    F(vkGetAccelerationStructureBuildSizesKHR)    \
+    F(vkGetAccelerationStructureDeviceAddressKHR) \
+    F(vkGetBufferDeviceAddress)
+
+struct DeviceFunctions {
+#define REFLET_MEMBER(name) PFN_##name name = nullptr;
+    REFLET_DEVICE_FUNCTIONS(REFLET_MEMBER)
+    REFLET_RAY_QUERY_FUNCTIONS(REFLET_MEMBER)
+#undef REFLET_MEMBER
+};
+
+/// Loads the functions. rayQuery: those for acceleration structures, too; without, they stay null. Throws Error that
+/// names the first function that the device does not have.
+DeviceFunctions loadFunctions(PFN_vkGetDeviceProcAddr lookUp, VkDevice device, bool rayQuery);
+
+}  // namespace reflet::gpu
