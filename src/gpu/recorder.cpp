@@ -12,21 +12,22 @@ namespace reflet::gpu {
 
 namespace {
 
-constexpr VkDeviceSize uniformBytes = VkDeviceSize(4) << 20U;
-constexpr uint32_t maxTimedPasses = 1024;
+// Of a block; a frame of many passes takes several.
+constexpr VkDeviceSize uniformBytes = VkDeviceSize(1) << 20U;
+constexpr uint32_t passesPerBlock = 256;
 constexpr uint32_t queriesPerPass = 3;
 constexpr VkDeviceSize maxUpdateBytes = 65536;
 
 VkDescriptorPool makeDescriptorPool(Context& context) {
-    std::vector<VkDescriptorPoolSize> sizes{{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2048},
-                                            {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2048},
-                                            {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 4096},
-                                            {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 8192}};
+    std::vector<VkDescriptorPoolSize> sizes{{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 * passesPerBlock},
+                                            {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2 * passesPerBlock},
+                                            {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 4 * passesPerBlock},
+                                            {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 8 * passesPerBlock}};
     if (context.hasRayQuery()) {
-        sizes.push_back({VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, maxTimedPasses});
+        sizes.push_back({VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, passesPerBlock});
     }
     VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
-    info.maxSets = maxTimedPasses;
+    info.maxSets = passesPerBlock;
     info.poolSizeCount = static_cast<uint32_t>(sizes.size());
     info.pPoolSizes = sizes.data();
     ++context.counts().descriptorPools;
@@ -35,10 +36,14 @@ VkDescriptorPool makeDescriptorPool(Context& context) {
     return pool;
 }
 
+Buffer makeUniforms(Context& context) {
+    return {context, uniformBytes, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, MemoryUse::upload, "uniforms"};
+}
+
 VkQueryPool makeQueryPool(Context& context) {
     VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
     info.queryType = VK_QUERY_TYPE_TIMESTAMP;
-    info.queryCount = queriesPerPass * maxTimedPasses;
+    info.queryCount = queriesPerPass * passesPerBlock;
     VkQueryPool pool = VK_NULL_HANDLE;
     vkCheck(context.vk.vkCreateQueryPool(context.handle(), &info, nullptr, &pool), "creating a query pool");
     return pool;
@@ -49,9 +54,9 @@ VkQueryPool makeQueryPool(Context& context) {
 Recorder::Recorder(Context& context, uint32_t framesInFlight) : context_(context), slots_(framesInFlight) {
     REFLET_CHECK(framesInFlight >= 1 && framesInFlight <= maxFramesInFlight, "{} frames in flight", framesInFlight);
     for (Slot& slot : slots_) {
-        slot.uniforms = Buffer(context, uniformBytes, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, MemoryUse::upload, "uniforms");
+        slot.uniforms.push_back(makeUniforms(context));
         slot.descriptorPools.push_back(makeDescriptorPool(context));
-        slot.queries = makeQueryPool(context);
+        slot.queries.push_back(makeQueryPool(context));
     }
 }
 
@@ -63,12 +68,13 @@ Recorder::~Recorder() {
         for (const VkDescriptorPool pool : slot.descriptorPools) {
             context_.vk.vkDestroyDescriptorPool(context_.handle(), pool, nullptr);
         }
-        context_.vk.vkDestroyQueryPool(context_.handle(), slot.queries, nullptr);
+        for (const VkQueryPool pool : slot.queries) {
+            context_.vk.vkDestroyQueryPool(context_.handle(), pool, nullptr);
+        }
     }
 }
 
 void Recorder::begin(VkCommandBuffer commands) {
-    REFLET_CHECK(commands_ == VK_NULL_HANDLE, "frame {} has not ended", number_);
     ++number_;
     finish(slot());
     Slot& now = slot();
@@ -76,12 +82,16 @@ void Recorder::begin(VkCommandBuffer commands) {
         vkCheck(context_.vk.vkResetDescriptorPool(context_.handle(), pool, 0), "resetting descriptors");
     }
     now.descriptorPool = 0;
+    now.uniforms.resize(std::min(now.uniforms.size(), now.uniformBlock + 1));  // what the last frame needed
+    now.uniformBlock = 0;
     now.uniformsUsed = 0;
     now.readbacksUsed = 0;
     now.timed.clear();
     now.serial = context_.beginWork();
     commands_ = commands;
-    context_.vk.vkCmdResetQueryPool(commands_, now.queries, 0, queriesPerPass * maxTimedPasses);
+    for (const VkQueryPool pool : now.queries) {
+        context_.vk.vkCmdResetQueryPool(commands_, pool, 0, queriesPerPass * passesPerBlock);
+    }
 }
 
 void Recorder::end() {
@@ -90,7 +100,6 @@ void Recorder::end() {
 }
 
 void Recorder::finish() {
-    REFLET_CHECK(commands_ == VK_NULL_HANDLE, "frame {} has not ended", number_);
     for (uint64_t i = 1; i <= slots_.size(); ++i) {  // from the oldest
         finish(slots_[(number_ + i) % slots_.size()]);
     }
@@ -106,21 +115,29 @@ void Recorder::finish(Slot& slot) {
     finished_ = static_cast<size_t>(&slot - slots_.data());
 }
 
+std::pair<VkQueryPool, uint32_t> Recorder::timestamp(uint32_t which) {
+    Slot& now = slot();
+    const auto pass = static_cast<uint32_t>(now.timed.size() - 1);
+    if (pass / passesPerBlock == now.queries.size()) {
+        now.queries.push_back(makeQueryPool(context_));
+        context_.vk.vkCmdResetQueryPool(commands_, now.queries.back(), 0, queriesPerPass * passesPerBlock);
+    }
+    return {now.queries[pass / passesPerBlock], queriesPerPass * (pass % passesPerBlock) + which};
+}
+
 void Recorder::beginTimer(const PassTime& pass) {
-    std::vector<PassTime>& timed = slot().timed;
-    REFLET_CHECK(timed.size() < maxTimedPasses, "{} passes in one frame", timed.size());
+    slot().timed.push_back(pass);
     // The second timestamp is never read. llvmpipe takes a timestamp only when the next one flushes it, which otherwise
     // would be after the pass.
-    const auto query = static_cast<uint32_t>(queriesPerPass * timed.size());
-    const VkQueryPool queries = slot().queries;
-    context_.vk.vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries, query);
-    context_.vk.vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries, query + 1);
-    timed.push_back(pass);
+    for (const uint32_t which : {0U, 1U}) {
+        const auto [pool, query] = timestamp(which);
+        context_.vk.vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, query);
+    }
 }
 
 void Recorder::endTimer() {
-    const auto query = static_cast<uint32_t>(queriesPerPass * slot().timed.size() - 1);
-    context_.vk.vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot().queries, query);
+    const auto [pool, query] = timestamp(2);
+    context_.vk.vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, query);
 }
 
 void Recorder::readTimers(Slot& slot) {
@@ -130,13 +147,17 @@ void Recorder::readTimers(Slot& slot) {
         return;
     }
     std::vector<uint64_t> ticks(queriesPerPass * timed.size());
-    const VkResult result = context_.vk.vkGetQueryPoolResults(
-        context_.handle(), slot.queries, 0, static_cast<uint32_t>(ticks.size()), ticks.size() * sizeof(uint64_t),
-        ticks.data(), sizeof(uint64_t), VK_QUERY_RESULT_64_BIT);
-    if (result == VK_NOT_READY) {  // the commands were never submitted
-        return;
+    constexpr size_t perBlock = size_t(queriesPerPass) * passesPerBlock;
+    for (size_t first = 0; first < ticks.size(); first += perBlock) {
+        const std::span<uint64_t> block = std::span(ticks).subspan(first, std::min(perBlock, ticks.size() - first));
+        const VkResult result = context_.vk.vkGetQueryPoolResults(
+            context_.handle(), slot.queries[first / perBlock], 0, static_cast<uint32_t>(block.size()),
+            block.size_bytes(), block.data(), sizeof(uint64_t), VK_QUERY_RESULT_64_BIT);
+        if (result == VK_NOT_READY) {  // the commands were never submitted
+            return;
+        }
+        vkCheck(result, "reading timestamps");
     }
-    vkCheck(result, "reading timestamps");
     const double tick = context_.limits().timestampPeriod * 1e-6;
     times_.push_back({"frame", static_cast<double>(ticks.back() - ticks.front()) * tick});
     for (size_t i = 0; i < timed.size(); ++i) {
@@ -186,6 +207,22 @@ void Recorder::clear(Image image) {
     const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS, 0,
                                       VK_REMAINING_ARRAY_LAYERS};
     context_.vk.vkCmdClearColorImage(commands_, image.state->image, VK_IMAGE_LAYOUT_GENERAL, &zero, 1, &all);
+}
+
+void Recorder::upload(Image image, std::span<const std::byte> texels) {
+    REFLET_CHECK(texels.size() == size_t(image.size.x) * image.size.y * bytesPerTexel(image.format), "{} bytes for {}x{}",
+                 texels.size(), image.size.x, image.size.y);
+    const Buffer staging(context_, texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::upload, "staging");
+    std::memcpy(staging.bytes().data(), texels.data(), texels.size());
+    BarrierBatch batch;
+    batch.use(*image.state, aspectOf(image.format),
+              {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, true});
+    batch.record(context_.vk, commands_);
+    VkBufferImageCopy copy{};
+    copy.imageSubresource = {aspectOf(image.format), 0, 0, 1};
+    copy.imageExtent = {image.size.x, image.size.y, 1};
+    context_.vk.vkCmdCopyBufferToImage(commands_, staging.handle(), image.state->image, VK_IMAGE_LAYOUT_GENERAL, 1,
+                                       &copy);
 }
 
 Image Recorder::placeholder(VkFormat format, bool array) {
@@ -293,11 +330,18 @@ Recorder::Scope::~Scope() {
 Recorder::UniformSlice Recorder::uploadUniform(std::span<const std::byte> bytes) {
     Slot& now = slot();
     const VkDeviceSize alignment = std::max<VkDeviceSize>(context_.limits().minUniformBufferOffsetAlignment, 1);
-    const VkDeviceSize offset = (now.uniformsUsed + alignment - 1) / alignment * alignment;
-    REFLET_CHECK(offset + bytes.size() <= uniformBytes, "uniform buffer of the frame: {} bytes", offset + bytes.size());
-    std::memcpy(now.uniforms.bytes().data() + offset, bytes.data(), bytes.size());
+    VkDeviceSize offset = (now.uniformsUsed + alignment - 1) / alignment * alignment;
+    REFLET_CHECK(bytes.size() <= uniformBytes, "a uniform block of {} bytes", bytes.size());
+    if (offset + bytes.size() > uniformBytes) {
+        offset = 0;
+        if (++now.uniformBlock == now.uniforms.size()) {
+            now.uniforms.push_back(makeUniforms(context_));
+        }
+    }
+    const Buffer& block = now.uniforms[now.uniformBlock];
+    std::memcpy(block.bytes().data() + offset, bytes.data(), bytes.size());
     now.uniformsUsed = offset + bytes.size();
-    return {now.uniforms.handle(), offset};
+    return {block.handle(), offset};
 }
 
 VkDescriptorSet Recorder::allocateSet(VkDescriptorSetLayout layout) {

@@ -48,7 +48,8 @@ public:
 
     /// Starts a frame: everything up to end() is recorded into `commands`, outside of render passes. The device must
     /// have finished the frame that was begun `framesInFlight` frames before; its times and read-backs are available
-    /// from now on. Frames must be submitted in the order in which they begin.
+    /// from now on. Frames must be submitted in the order in which they begin. A frame that has begun and not ended, after
+    /// an exception, is abandoned: its commands must not be submitted.
     void begin(VkCommandBuffer commands);
     /// Ends the frame. The command buffer may record on: none of the bound pipelines and descriptor sets is kept.
     void end();
@@ -66,6 +67,9 @@ public:
 
     /// Fills a colour image with zeros.
     void clear(Image image);
+
+    /// Overwrites all of a single-layer image's first level. texels: rows from the top, tightly packed.
+    void upload(Image image, std::span<const std::byte> texels);
 
     /// An image of one texel, to bind where a shader does not use what it declares; `array`: an array view.
     Image placeholder(VkFormat format, bool array = false);
@@ -114,12 +118,13 @@ private:
     };
     // What one frame in flight needs for itself.
     struct Slot {
-        uint64_t serial = 0;  ///< of its work; 0: none that is unfinished
-        Buffer uniforms;
-        VkDeviceSize uniformsUsed = 0;
+        uint64_t serial = 0;               ///< of its work; 0: none that is unfinished
+        std::vector<Buffer> uniforms;      ///< blocks, filled in turn
+        size_t uniformBlock = 0;           ///< that is filled now
+        VkDeviceSize uniformsUsed = 0;     ///< of that block
         std::vector<VkDescriptorPool> descriptorPools;
-        size_t descriptorPool = 0;  ///< that sets are allocated from now
-        VkQueryPool queries = VK_NULL_HANDLE;
+        size_t descriptorPool = 0;         ///< that sets are allocated from now
+        std::vector<VkQueryPool> queries;  ///< blocks, filled in turn
         std::vector<Buffer> readbacks;
         size_t readbacksUsed = 0;
         std::vector<PassTime> timed;  ///< times not yet read
@@ -149,6 +154,8 @@ private:
     [[nodiscard]] BufferView pooledBuffer(size_t index) const { return pooledBuffers_[index].buffer.view(); }
     void giveBack(std::span<const size_t> images, std::span<const size_t> buffers);
     void dropUnused();
+    /// The block and index of a timestamp of the last pass; makes the block.
+    std::pair<VkQueryPool, uint32_t> timestamp(uint32_t which);
     [[nodiscard]] Slot& slot() { return slots_[number_ % slots_.size()]; }
 
     Context& context_;

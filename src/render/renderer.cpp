@@ -25,15 +25,9 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const std::function<
       posedPieces_(flatPieces_),
       blueNoise_(
           gpu::uploadBuffer(device, std::as_bytes(blueNoise()), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "blue_noise")),
-      probes_(device),
-      warn_(warn) {
-    frame_.begin();  // in a frame of its own, because probes may be captured in others before the first one
-    ggxTable(frame_, ggxTable_);
-    frame_.submit();
-    frame_.wait();
-}
+      warn_(warn) {}
 
-void Renderer::pose(const View& view, const Settings& settings) {
+void Renderer::pose(const View& view) {
     if (source_.nodes.empty()) {
         return;
     }
@@ -43,15 +37,6 @@ void Renderer::pose(const View& view, const Settings& settings) {
     }
     scene_.pose(source_, now, pose_.value_or(now));
     pose_ = std::move(now);
-    skins_ = scene_.hasSkins();
-    if (skins_ && settings.probes.enabled != 0) {  // they are captured in frames of their own, before this one
-        gpu::Frame f(frame_.device());
-        f.begin();
-        scene_.skin(f);
-        f.submit();
-        f.wait();
-        skins_ = false;
-    }
 }
 
 LampShadows Renderer::planLamps(LampBlock& lamps, const View& view, const ShadowSettings& settings) {
@@ -127,18 +112,13 @@ uint32_t Renderer::countFramesBefore(const View& view, const ViewParams& params,
     return framesBefore_;
 }
 
-// New pictures are cleared first, in a frame of their own: what captures probes may show them before this frame is
-// submitted.
+// New pictures are cleared: what captures probes, or shows itself in its own picture, reads them before they are drawn.
 std::vector<LiveView> Renderer::liveViews(const ViewParams& view) {
     std::vector<LiveView> live;
     for (GpuScene::LivePicture& p : scene_.livePictures()) {
         const gpu::Image picture = p.texture.image();
         if (p.fresh) {
-            gpu::Frame f(frame_.device());
-            f.begin();
-            f.clear(picture);
-            f.submit();
-            f.wait();
+            frame_.clear(picture);
             p.fresh = false;
         }
         live.push_back({makeViewParams(p.posed, picture.size, view.frame, view.seed), picture});
@@ -156,7 +136,7 @@ FrameBackground Renderer::backgroundOf(const View& view) {
         blurredFrom_ = view.environment.image;
         blurred_ = std::make_shared<FloatImage>(blurredImage(*blurredFrom_));
     }
-    return {background, background_.update(frame_.device(), environmentBehind(view, blurred_))};
+    return {background, background_.update(frame_, environmentBehind(view, blurred_))};
 }
 
 void Renderer::restart(uint32_t frameNumber) {
@@ -177,7 +157,7 @@ void Renderer::restart(uint32_t frameNumber) {
 FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const Settings& settings,
                              const std::function<void(gpu::Frame&, const FrameImages&)>& after) {
     const View view = posed(asked, source_);
-    pose(view, settings);
+    pose(view);
     ViewParams params = makeViewParams(view.camera, size, frameNumber_++, seed);
     params.previousWorldToClip = previousWorldToClip_.value_or(params.worldToClip);
     previousWorldToClip_ = params.worldToClip;
@@ -190,18 +170,18 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
     const LampShadows lampShadows = planLamps(lamps, view, settings.shadow);
     scene_.setTextureFilter({settings.materials.anisotropy, settings.materials.mips != 0, settings.materials.mipBias});
     scene_.setLiveHeight(settings.live.height);
-    const std::vector<LiveView> live = liveViews(params);
     const TracedScene* traced = tracedScene(settings);
     frame_.begin();
-    if (skins_) {
+    if (pose_ && scene_.hasSkins()) {
         scene_.skin(frame_);
     }
+    const std::vector<LiveView> live = liveViews(params);
     FrameInputs inputs{{.draws = scene_.draws(),
                         .view = params,
                         .sunDirection = view.sun.direction,
                         .sunIrradiance = view.sun.irradiance,
                         .sunAngularDiameter = view.sun.angularDiameter,
-                        .environment = environment_.update(frame_.device(), view.environment),
+                        .environment = environment_.update(frame_, view.environment),
                         .lamps = lamps,
                         .lampShadows = lampShadows,
                         .ggxTable = ggxTable(frame_, ggxTable_),

@@ -35,7 +35,7 @@ public:
 
 private:
     /// Poses the scene at the time of the view.
-    void pose(const View& view, const Settings& settings);
+    void pose(const View& view);
     /// Radii that the view gives; who casts a shadow. Warns, but only once of the same.
     LampShadows planLamps(LampBlock& lamps, const View& view, const ShadowSettings& settings);
 
@@ -58,7 +58,6 @@ private:
     std::vector<FlatPiece> posedPieces_;
     std::optional<ScenePose> pose_;  ///< of the last frame; none before the first one, and of scenes that stand still
     std::optional<double> tracedTime_;
-    bool skins_ = false;  ///< the frame must run the skinning pass
     FrameStore store_;
     gpu::KeptImage ggxTable_{"ggx_table"};
     gpu::Buffer blueNoise_;

@@ -1,9 +1,7 @@
 // Uploads the environment's image and prefilters it on the device.
 #include "render/environment/environment_light.h"
 
-#include "device/device.h"
-#include "device/frame.h"
-#include "device/upload.h"
+#include "gpu/context.h"
 
 #include <glm/gtc/packing.hpp>
 
@@ -64,38 +62,33 @@ void bindEnvironmentLobes(gpu::Pass& pass, gpu::Context& context, const Environm
     pass.read("environmentLobes", light.lobes, linear).read("environmentIrradiance", light.irradiance);
 }
 
-// In a separate frame, because frames that capture probes may be submitted before the current one.
-void EnvironmentMaps::load(gpu::Device& device) {
-    gpu::Frame f(device);
+void EnvironmentMaps::load(gpu::Recorder& f) {
     const FloatImage& image = image_ ? *image_ : whiteImage();
     scale_ = image_ ? scaleFor(image) : 1.0F;
-    const std::vector<uint64_t> texels = halfTexels(image, scale_);
-    texels_ = gpu::uploadTexels(device, {VK_FORMAT_R16G16B16A16_SFLOAT, uvec2(image.width, image.height)},
-                                std::as_bytes(std::span(texels)), "environment");
+    const gpu::Image texels = texels_.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, uvec2(image.width, image.height));
+    const std::vector<uint64_t> halves = halfTexels(image, scale_);
+    f.upload(texels, std::as_bytes(std::span(halves)));
     if (!prefilters_) {
         return;
     }
-    cube_ = CubeMap(device, image_ ? sideFor(image) : 1, 1, "environment");
-    f.begin();
+    const auto scope = f.scope("environment");
+    cube_ = CubeMap(f.context(), image_ ? sideFor(image) : 1, 1, "environment");
     const gpu::Image faces = cube_.sharp.mip(0);
     f.compute("environment_cube", "environment_cube.comp")
-        .read("texels", texels_.image())
+        .read("texels", texels)
         .write("faces", faces)
         .dispatch(faces.size.x, faces.size.y, faces.layers);
     filterCubeMap(f, cube_, 0, 1);
-    f.submit();
-    f.wait();
 }
 
-EnvironmentLight EnvironmentMaps::update(gpu::Device& device, const Environment& environment) {
-    const bool first = texels_.info().size.x == 0;
-    if (first || image_ != environment.image) {
+EnvironmentLight EnvironmentMaps::update(gpu::Recorder& f, const Environment& environment) {
+    if (!texels_.last() || image_ != environment.image) {
         image_ = environment.image;
-        load(device);
+        load(f);
     }
     const vec3 factor = image_ ? vec3(environment.intensity * scale_) : environment.radiance;
     const float angle = image_ ? environment.rotation : 0.0F;
-    return {texels_.image(),
+    return {texels_.last(),
             cube_.lobes.image(),
             cube_.irradiance.image(),
             {factor, vec2(std::cos(angle), std::sin(angle))}};

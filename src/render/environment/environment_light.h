@@ -16,7 +16,6 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "device/device.h"
 #include "gpu/recorder.h"
 #include "render/cube_map/cube_map.h"
 #include "scene/scene.h"
@@ -46,17 +45,17 @@ public:
     /// prefilters: false: makes only the texels.
     explicit EnvironmentMaps(bool prefilters) : prefilters_(prefilters) {}
 
-    /// Prefilters the image, and waits for that, if the image has changed; intensity and rotation may change freely.
+    /// Records the upload and prefiltering of the image if it has changed; intensity and rotation may change freely.
     /// Values beyond half floats are kept up to 6.7e7 and clamped above: images are stored divided by a power of two of
     /// up to 1024.
-    EnvironmentLight update(gpu::Device& device, const Environment& environment);
+    EnvironmentLight update(gpu::Recorder& f, const Environment& environment);
 
 private:
-    void load(gpu::Device& device);
+    void load(gpu::Recorder& f);
 
     bool prefilters_ = true;
     std::shared_ptr<const FloatImage> image_;
-    gpu::Texture texels_;
+    gpu::KeptImage texels_{"environment"};
     CubeMap cube_;
     float scale_ = 1.0F;  ///< from radiance to stored values
 };

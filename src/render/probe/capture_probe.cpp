@@ -1,8 +1,7 @@
 // Captures probes and tracks when captures are out of date.
 #include "render/probe/capture_probe.h"
 
-#include "device/device.h"
-#include "device/frame.h"
+#include "gpu/context.h"
 #include "render/view_params.h"
 
 #include <algorithm>
@@ -89,7 +88,7 @@ std::vector<std::byte> keyOf(const ProbeBlock& block, const ViewInputs& in, cons
 
 }  // namespace
 
-void Probes::makeMaps(uint32_t resolution) {
+void Probes::makeMaps(gpu::Context& context, uint32_t resolution) {
     constexpr VkImageUsageFlags usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
                                         VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     const uint32_t side = std::bit_floor(resolution);
@@ -98,10 +97,10 @@ void Probes::makeMaps(uint32_t resolution) {
     if (distance_.info() == distance) {
         return;
     }
-    map_ = CubeMap(device_, side, block_.count, "probes");
-    distance_ = gpu::Texture(device_, distance, "probes.distance");
+    map_ = CubeMap(context, side, block_.count, "probes");
+    distance_ = gpu::Texture(context, distance, "probes.distance");
     const uvec2 all = side * uvec2(probeFaces, block_.count);
-    atlas_ = gpu::Texture(device_, {VK_FORMAT_R16G16B16A16_SFLOAT, all, 1, 1, usage}, "probes.atlas");
+    atlas_ = gpu::Texture(context, {VK_FORMAT_R16G16B16A16_SFLOAT, all, 1, 1, usage}, "probes.atlas");
 }
 
 gpu::Image Probes::captureFace(gpu::Recorder& f, const Capture& capture, uint32_t face, gpu::Image lampShadowMap) {
@@ -133,23 +132,14 @@ gpu::Image Probes::captureFace(gpu::Recorder& f, const Capture& capture, uint32_
     return images.lampShadowMap;
 }
 
-// One frame per probe, as a frame's number of passes is limited.
-void Probes::captureAll(const ViewInputs& in, const Settings& settings) {
-    gpu::Frame f(device_);
+void Probes::captureAll(gpu::Recorder& f, const ViewInputs& in, const Settings& settings) {
+    gpu::Image lampShadowMap;
     for (uint32_t bounce = 0; bounce <= settings.probes.bounces; ++bounce) {
-        for (uint32_t probe = 0; probe < block_.count; ++probe) {
-            f.begin();
-            gpu::Image lampShadowMap;
-            for (uint32_t face = 0; face < probeFaces; ++face) {
-                lampShadowMap = captureFace(f, {in, settings, bounce > 0}, probe * probeFaces + face, lampShadowMap);
-            }
-            f.submit();
-            f.wait();
+        for (uint32_t face = 0; face < block_.count * probeFaces; ++face) {
+            lampShadowMap = captureFace(f, {in, settings, bounce > 0}, face, lampShadowMap);
         }
-        f.begin();
+        const auto scope = f.scope("probe");
         filterCubeMap(f, map_, 0, block_.count);
-        f.submit();
-        f.wait();
     }
 }
 
@@ -180,7 +170,7 @@ ProbeMaps Probes::update(gpu::Recorder& f, const ViewInputs& in, std::span<const
     byFace_ = settings.probes.refresh == ProbeRefresh::face;
     key_ = std::move(key);
     if (changed) {
-        makeMaps(settings.probes.resolution);
+        makeMaps(f.context(), settings.probes.resolution);
         facesCaptured_ = 0;
     }
     if (byFace_) {
@@ -191,7 +181,7 @@ ProbeMaps Probes::update(gpu::Recorder& f, const ViewInputs& in, std::span<const
         }
         captureNextFace(f, in, settings);
     } else if (changed) {
-        captureAll(in, settings);
+        captureAll(f, in, settings);
     }
     return {map_.lobes.image(), map_.irradiance.image(), distance_.image(), atlas_.image(), block_};
 }

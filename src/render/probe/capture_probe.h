@@ -19,7 +19,6 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "device/device.h"
 #include "gpu/recorder.h"
 #include "render/cube_map/cube_map.h"
 #include "render/direct_view.h"
@@ -38,12 +37,9 @@ Camera cubeFaceCamera(const vec3& position, uint32_t face);
 /// Owns the cube maps and captures them when needed.
 class Probes {
 public:
-    explicit Probes(gpu::Device& device) : device_(device) {}
-
-    /// Maps of these probes (at most maxProbes) in the lighting of `in`. refresh once and moving: captures all of them
-    /// in separate frames, unless they are up to date for the same probes, lights and settings; nothing may have been
-    /// recorded in `f` yet. refresh face: records the capture of one face in `f`; a probe's map is updated after its
-    /// sixth face.
+    /// Maps of these probes (at most maxProbes) in the lighting of `in`. refresh once and moving: records the capture of
+    /// all of them, unless they are up to date for the same probes, lights and settings. refresh face: records the
+    /// capture of one face; a probe's map is updated after its sixth face.
     ProbeMaps update(gpu::Recorder& f, const ViewInputs& in, std::span<const Probe> probes, const Settings& settings);
 
     /// With refresh face, captures start over. Maps captured all at once are kept, because they do not depend on time,
@@ -56,13 +52,12 @@ private:
         const Settings& settings;
         bool furtherLight;  ///< add indirect light from the existing maps
     };
-    void makeMaps(uint32_t resolution);
-    void captureAll(const ViewInputs& in, const Settings& settings);
+    void makeMaps(gpu::Context& context, uint32_t resolution);
+    void captureAll(gpu::Recorder& f, const ViewInputs& in, const Settings& settings);
     void captureNextFace(gpu::Recorder& f, const ViewInputs& in, const Settings& settings);
     /// face: 6 · probe + its number. Returns the lamps' shadow map, to be shared with other faces of the frame.
     gpu::Image captureFace(gpu::Recorder& f, const Capture& capture, uint32_t face, gpu::Image lampShadowMap = {});
 
-    gpu::Device& device_;
     DirectViewStore faces_;   ///< of the face that is captured
     CubeMap map_;
     gpu::Texture distance_;
