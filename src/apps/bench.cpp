@@ -10,8 +10,8 @@
 #include "apps/text_table.h"
 #include "base/error.h"
 #include "base/file.h"
-#include "render/presets.h"
-#include "render/shaders.h"
+#include "renderer/presets.h"
+#include "renderer/shaders.h"
 #include "version.h"
 
 #include <CLI/CLI.hpp>
@@ -194,7 +194,7 @@ void bench(const BenchCommand& command, const std::string& typed) {
     gpu::Device device({.select = command.device,
                         .validation = command.validate,
                         .onMessage = printWarning,
-                        .shaders = {refletShaders()}});
+                        .shaders = {effectShaders(), rendererShaders()}});
     for (const uvec2& size : plan.sizes) {
         requireSize(device, size);
     }

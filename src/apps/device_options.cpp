@@ -2,7 +2,7 @@
 #include "apps/device_options.h"
 
 #include "base/error.h"
-#include "render/bounce/rays.h"
+#include "effects/lobe/rays.h"
 
 #include <CLI/CLI.hpp>
 

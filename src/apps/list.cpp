@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "base/json_text.h"
 #include "device/device.h"
-#include "render/presets.h"
+#include "renderer/presets.h"
 #include "scene/builtin.h"
 #include "scene/gltf.h"
 
@@ -114,7 +114,8 @@ void listSettingsAsJson() {
 // docs/settings.md. No help text has a vertical bar in it.
 void listSettingsAsMarkdown() {
     fmt::print(
-        "# Settings\n\nMade by `reflet list settings --markdown`. To change it, change the tables in `src/render/`.\n\n"
+        "# Settings\n\nMade by `reflet list settings --markdown`. To change it, change the tables in `src/effects/` "
+        "and `src/renderer/`.\n\n"
         "On the command line: `--set EFFECT.NAME=VALUE`. In a file for `--settings`:\n"
         "`{{ \"EFFECT\": {{ \"NAME\": VALUE }} }}`, a choice as text, a switch as `true` or `false`.\n");
     const Settings defaults;

@@ -3,7 +3,7 @@
 
 #include "apps/show.h"
 #include "base/error.h"
-#include "render/presets.h"
+#include "renderer/presets.h"
 #include "scene/builtin.h"
 
 #include <CLI/CLI.hpp>

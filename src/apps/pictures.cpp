@@ -4,7 +4,7 @@
 #include "apps/texels.h"
 #include "base/error.h"
 #include "base/image_file.h"
-#include "render/exposure/exposure.h"
+#include "effects/exposure/exposure.h"
 
 #include <nlohmann/json.hpp>
 

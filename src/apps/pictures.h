@@ -3,7 +3,7 @@
 
 #include "apps/show.h"
 #include "device/frame.h"
-#include "render/frame.h"
+#include "renderer/frame.h"
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -7,8 +7,9 @@
 #include "apps/scene_options.h"
 #include "base/error.h"
 #include "base/file.h"
-#include "render/background/background.h"
-#include "render/exposure/exposure.h"
+#include "effects/exposure/exposure.h"
+#include "renderer/background/background.h"
+#include "renderer/exposure/scene_exposure.h"
 
 #include <CLI/CLI.hpp>
 

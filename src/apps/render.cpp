@@ -8,9 +8,9 @@
 #include "base/file.h"
 #include "base/json_text.h"
 #include "device/device.h"
-#include "render/history.h"
-#include "render/renderer.h"
-#include "render/shaders.h"
+#include "renderer/history.h"
+#include "renderer/renderer.h"
+#include "renderer/shaders.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -102,7 +102,7 @@ void render(const RenderOptions& asked) {
     gpu::Device device({.select = options.device,
                         .validation = options.validate,
                         .onMessage = printWarning,
-                        .shaders = {refletShaders()}});
+                        .shaders = {effectShaders(), rendererShaders()}});
     requireSize(device, size);
     Renderer renderer(device, scene, printWarning);
     Timings timings(!sequence);

@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "base/json.h"
 #include "base/text.h"
-#include "render/presets.h"
+#include "renderer/presets.h"
 #include "scene/background.h"
 #include "scene/builtin.h"
 #include "scene/default_light.h"

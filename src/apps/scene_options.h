@@ -1,7 +1,7 @@
 // Options shared by the subcommands that take a scene: the scene, the view, size, seed and settings.
 #pragma once
 
-#include "render/settings.h"
+#include "renderer/settings.h"
 #include "scene/scene.h"
 
 #include <optional>

@@ -8,7 +8,7 @@
 #include "apps/sequence_record.h"
 #include "base/error.h"
 #include "base/json.h"
-#include "render/history.h"
+#include "renderer/history.h"
 #include "scene/camera_path.h"
 #include "scene/pose.h"
 #include "version.h"

@@ -5,7 +5,7 @@
 #include "apps/render_options.h"
 #include "apps/timings.h"
 #include "device/device.h"
-#include "render/renderer.h"
+#include "renderer/renderer.h"
 
 namespace reflet {
 

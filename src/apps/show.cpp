@@ -4,8 +4,8 @@
 #include "apps/texels.h"
 #include "base/error.h"
 #include "base/text.h"
-#include "render/shadow/shadow.h"
-#include "render/tonemap/tone_map_image.h"
+#include "effects/shadow/shadow.h"
+#include "effects/tonemap/tone_map_image.h"
 
 #include <algorithm>
 #include <cmath>

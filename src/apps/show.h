@@ -3,7 +3,7 @@
 
 #include "base/image_file.h"
 #include "device/frame.h"
-#include "render/frame.h"
+#include "renderer/frame.h"
 
 #include <span>
 #include <string>

@@ -45,8 +45,9 @@ DeviceHandles::~DeviceHandles() {
     }
 }
 
-VkBool32 DeviceHandles::onValidation(VkDebugUtilsMessageSeverityFlagBitsEXT severity, VkDebugUtilsMessageTypeFlagsEXT types,
-                              const VkDebugUtilsMessengerCallbackDataEXT* data, void* self) {
+VkBool32 DeviceHandles::onValidation(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
+                                     VkDebugUtilsMessageTypeFlagsEXT types,
+                                     const VkDebugUtilsMessengerCallbackDataEXT* data, void* self) {
     // Messages of the loader (about a driver that does not load, say) matter only if they are errors.
     if ((types & VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT) == 0 &&
         severity < VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT) {

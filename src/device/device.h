@@ -1,5 +1,5 @@
-// The program's own way to a device: selected, checked against the minimum requirements and opened. Passes know only the
-// context that it is.
+// The program's own way to a device: selected, checked against the minimum requirements and opened. Passes know only
+// the context that it is.
 #pragma once
 
 #include "gpu/context.h"

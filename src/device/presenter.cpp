@@ -2,8 +2,8 @@
 #include "device/presenter.h"
 
 #include "base/error.h"
-#include "gpu/barrier.h"
 #include "device/device.h"
+#include "gpu/barrier.h"
 
 #include <algorithm>
 
@@ -124,7 +124,7 @@ void Presenter::copy(VkCommandBuffer commands, const Image& from, VkImage to) co
     blit.srcOffsets[1] = {static_cast<int32_t>(from.size.x), static_cast<int32_t>(from.size.y), 1};
     blit.dstOffsets[1] = {static_cast<int32_t>(imageSize_.x), static_cast<int32_t>(imageSize_.y), 1};
     device_.functions().vkCmdBlitImage(commands, from.state->image, VK_IMAGE_LAYOUT_GENERAL, to,
-                              VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &blit, VK_FILTER_NEAREST);
+                                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &blit, VK_FILTER_NEAREST);
     layoutBarrier(device_.vk, commands, to, {}, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
 }
 
@@ -137,8 +137,8 @@ bool Presenter::present(const Image& image, uvec2 window) {
         return false;
     }
     uint32_t index = 0;
-    const VkResult acquired =
-        device_.functions().vkAcquireNextImageKHR(device_.handle(), swapchain_, UINT64_MAX, VK_NULL_HANDLE, acquired_, &index);
+    const VkResult acquired = device_.functions().vkAcquireNextImageKHR(device_.handle(), swapchain_, UINT64_MAX,
+                                                                        VK_NULL_HANDLE, acquired_, &index);
     if (acquired == VK_ERROR_OUT_OF_DATE_KHR) {
         dropSwapchain();
         return false;
@@ -146,7 +146,8 @@ bool Presenter::present(const Image& image, uvec2 window) {
     if (acquired != VK_SUBOPTIMAL_KHR) {
         vkCheck(acquired, "acquiring a swapchain image");
     }
-    vkCheck(device_.functions().vkWaitForFences(device_.handle(), 1, &acquired_, VK_TRUE, UINT64_MAX), "waiting for the window");
+    vkCheck(device_.functions().vkWaitForFences(device_.handle(), 1, &acquired_, VK_TRUE, UINT64_MAX),
+            "waiting for the window");
     vkCheck(device_.functions().vkResetFences(device_.handle(), 1, &acquired_), "resetting a fence");
     device_.runNow([&](VkCommandBuffer commands) { copy(commands, image, images_[index]); });
     VkPresentInfoKHR info{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};

@@ -2,8 +2,8 @@
 #include "device/texture_array.h"
 
 #include "base/error.h"
-#include "gpu/barrier.h"
 #include "device/device.h"
+#include "gpu/barrier.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,6 +1,7 @@
-// Who owns the images and buffers of effects. What an effect keeps from frame to frame, and what it returns, are members
-// of a struct that its caller owns, one for each instance of the effect: KeptImage, KeptBuffer, HistoryImage. What it
-// needs only while it records comes from a Scratch and goes back to the recorder, for the next effect, when that ends.
+// Who owns the images and buffers of effects. What an effect keeps from frame to frame, and what it returns, are
+// members of a struct that its caller owns, one for each instance of the effect: KeptImage, KeptBuffer, HistoryImage.
+// What it needs only while it records comes from a Scratch and goes back to the recorder, for the next effect, when
+// that ends.
 //
 // All are made when they are first asked for, and again when they are asked for with another format or size: from the
 // second frame of the same settings and size on, nothing is made.

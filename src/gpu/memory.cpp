@@ -108,7 +108,8 @@ MemoryBlock& Memory::addBlock(uint32_t type, bool linear, VkDeviceSize size) {
     block->holes[0] = size;
     if ((properties_.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0) {
         void* mapped = nullptr;
-        vkCheck(context_.vk.vkMapMemory(context_.handle(), block->memory, 0, VK_WHOLE_SIZE, 0, &mapped), "mapping device memory");
+        vkCheck(context_.vk.vkMapMemory(context_.handle(), block->memory, 0, VK_WHOLE_SIZE, 0, &mapped),
+                "mapping device memory");
         block->mapped = static_cast<std::byte*>(mapped);
     }
     reserved_ += size;

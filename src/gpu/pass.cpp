@@ -36,7 +36,8 @@ VkRenderingAttachmentInfo attachmentInfo(const Image& image, bool clear, VkClear
 
 }  // namespace
 
-Pass::Pass(Recorder& recorder, std::string name, std::vector<std::string> shaders) : recorder_(recorder), name_(std::move(name)) {
+Pass::Pass(Recorder& recorder, std::string name, std::vector<std::string> shaders)
+    : recorder_(recorder), name_(std::move(name)) {
     info_.shaders = std::move(shaders);
 }
 
@@ -229,7 +230,8 @@ VkDescriptorSet Pass::writeSet(const Pipeline& pipeline) {
             const Recorder::UniformSlice slice = recorder_.uploadUniform(uniform->bytes);
             buffers[i] = {slice.buffer, slice.offset, uniform->bytes.size()};
         } else if (const auto bound = std::ranges::find(bound_, binding.name, &Bound::name); bound->image) {
-            const VkSampler sampler = bound->sampler != VK_NULL_HANDLE ? bound->sampler : recorder_.context_.sampler({});
+            const VkSampler sampler =
+                bound->sampler != VK_NULL_HANDLE ? bound->sampler : recorder_.context_.sampler({});
             const VkImageLayout layout = bound->image.state->layout == VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
                                              ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
                                              : VK_IMAGE_LAYOUT_GENERAL;
@@ -244,7 +246,7 @@ VkDescriptorSet Pass::writeSet(const Pipeline& pipeline) {
         writes.push_back(write);
     }
     recorder_.context_.vk.vkUpdateDescriptorSets(recorder_.context_.handle(), static_cast<uint32_t>(writes.size()),
-                                             writes.data(), 0, nullptr);
+                                                 writes.data(), 0, nullptr);
     return set;
 }
 

@@ -118,8 +118,8 @@ VertexInput vertexInput(const Shader& shader, const VertexLayout* layout) {
 }
 
 // Fixed: triangle lists, reversed depth (greater or equal passes). Dynamic: viewport, scissor, culling.
-VkPipeline makeGraphics(Context& context, const PipelineInfo& info, const VertexInput& vertices, VkPipelineLayout layout,
-                        const std::vector<VkPipelineShaderStageCreateInfo>& stages) {
+VkPipeline makeGraphics(Context& context, const PipelineInfo& info, const VertexInput& vertices,
+                        VkPipelineLayout layout, const std::vector<VkPipelineShaderStageCreateInfo>& stages) {
     VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
     input.vertexBindingDescriptionCount = static_cast<uint32_t>(vertices.buffers.size());
     input.pVertexBindingDescriptions = vertices.buffers.data();
@@ -221,11 +221,12 @@ PipelineCache::~PipelineCache() {
 // Commands that are still recorded or in flight may use them.
 void PipelineCache::clear() {
     for (const auto& [info, pipeline] : pipelines_) {
-        context_.retire([&context = context_, handle = pipeline->handle, layout = pipeline->layout, set = pipeline->set] {
-            context.vk.vkDestroyPipeline(context.handle(), handle, nullptr);
-            context.vk.vkDestroyPipelineLayout(context.handle(), layout, nullptr);
-            context.vk.vkDestroyDescriptorSetLayout(context.handle(), set, nullptr);
-        });
+        context_.retire(
+            [&context = context_, handle = pipeline->handle, layout = pipeline->layout, set = pipeline->set] {
+                context.vk.vkDestroyPipeline(context.handle(), handle, nullptr);
+                context.vk.vkDestroyPipelineLayout(context.handle(), layout, nullptr);
+                context.vk.vkDestroyDescriptorSetLayout(context.handle(), set, nullptr);
+            });
     }
     pipelines_.clear();
 }

@@ -210,8 +210,8 @@ void Recorder::clear(Image image) {
 }
 
 void Recorder::upload(Image image, std::span<const std::byte> texels) {
-    REFLET_CHECK(texels.size() == size_t(image.size.x) * image.size.y * bytesPerTexel(image.format), "{} bytes for {}x{}",
-                 texels.size(), image.size.x, image.size.y);
+    REFLET_CHECK(texels.size() == size_t(image.size.x) * image.size.y * bytesPerTexel(image.format),
+                 "{} bytes for {}x{}", texels.size(), image.size.x, image.size.y);
     const Buffer staging(context_, texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::upload, "staging");
     std::memcpy(staging.bytes().data(), texels.data(), texels.size());
     BarrierBatch batch;
@@ -236,8 +236,8 @@ Image Recorder::placeholder(VkFormat format, bool array) {
 }
 
 size_t Recorder::takeImage(const ImageInfo& info) {
-    auto place = std::ranges::find_if(pooledImages_,
-                                      [&](const PooledImage& p) { return !p.taken && p.texture.info() == info; });
+    auto place =
+        std::ranges::find_if(pooledImages_, [&](const PooledImage& p) { return !p.taken && p.texture.info() == info; });
     if (place == pooledImages_.end()) {
         place = std::ranges::find_if(pooledImages_, [](const PooledImage& p) { return p.texture.info().size.x == 0; });
         if (place == pooledImages_.end()) {
@@ -307,7 +307,7 @@ Readback Recorder::readback(Image image) {
     copy.imageSubresource = {aspectOf(image.format), 0, 0, 1};
     copy.imageExtent = {image.size.x, image.size.y, 1};
     context_.vk.vkCmdCopyImageToBuffer(commands_, image.state->image, VK_IMAGE_LAYOUT_GENERAL, target.state->buffer, 1,
-                                      &copy);
+                                       &copy);
     BarrierBatch after;
     after.use(target.state->access, {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT, false});
     after.record(context_.vk, commands_);

@@ -48,8 +48,8 @@ public:
 
     /// Starts a frame: everything up to end() is recorded into `commands`, outside of render passes. The device must
     /// have finished the frame that was begun `framesInFlight` frames before; its times and read-backs are available
-    /// from now on. Frames must be submitted in the order in which they begin. A frame that has begun and not ended, after
-    /// an exception, is abandoned: its commands must not be submitted.
+    /// from now on. Frames must be submitted in the order in which they begin. A frame that has begun and not ended,
+    /// after an exception, is abandoned: its commands must not be submitted.
     void begin(VkCommandBuffer commands);
     /// Ends the frame. The command buffer may record on: none of the bound pipelines and descriptor sets is kept.
     void end();
@@ -118,10 +118,10 @@ private:
     };
     // What one frame in flight needs for itself.
     struct Slot {
-        uint64_t serial = 0;               ///< of its work; 0: none that is unfinished
-        std::vector<Buffer> uniforms;      ///< blocks, filled in turn
-        size_t uniformBlock = 0;           ///< that is filled now
-        VkDeviceSize uniformsUsed = 0;     ///< of that block
+        uint64_t serial = 0;            ///< of its work; 0: none that is unfinished
+        std::vector<Buffer> uniforms;   ///< blocks, filled in turn
+        size_t uniformBlock = 0;        ///< that is filled now
+        VkDeviceSize uniformsUsed = 0;  ///< of that block
         std::vector<VkDescriptorPool> descriptorPools;
         size_t descriptorPool = 0;         ///< that sets are allocated from now
         std::vector<VkQueryPool> queries;  ///< blocks, filled in turn

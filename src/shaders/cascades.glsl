@@ -2,7 +2,7 @@
 #ifndef REFLET_CASCADES_GLSL
 #define REFLET_CASCADES_GLSL
 
-#include "render/shadow/shadow.h"
+#include "effects/shadow/shadow.h"
 
 struct Cascade {
     uint index;

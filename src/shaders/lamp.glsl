@@ -2,7 +2,7 @@
 #ifndef REFLET_LAMP_GLSL
 #define REFLET_LAMP_GLSL
 
-#include "render/lamps.h"
+#include "effects/lamps.h"
 
 // Irradiance on a surface at p that faces the lamp. toLamp: unit, from p.
 vec3 lampIrradiance(LampParams lamp, vec3 p, out vec3 toLamp) {

@@ -3,7 +3,7 @@
 #ifndef REFLET_LAMP_MASK_GLSL
 #define REFLET_LAMP_MASK_GLSL
 
-#include "render/lamps.h"
+#include "effects/lamps.h"
 
 // Bit mask of the lamps from layer · lampsPerLayer on.
 uvec4 lampMaskAt(ivec2 pixel, uint layer) { return loadLampMask(ivec3(pixel >> int(lampTileShift), layer)); }

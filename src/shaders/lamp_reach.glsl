@@ -3,8 +3,8 @@
 #ifndef REFLET_LAMP_REACH_GLSL
 #define REFLET_LAMP_REACH_GLSL
 
-#include "render/lamps.h"
-#include "render/view.h"
+#include "effects/lamps.h"
+#include "effects/view.h"
 #include "shaders/projection.glsl"
 
 // The part of the view frustum inside all planes and the sphere. World space.

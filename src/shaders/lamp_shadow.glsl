@@ -4,7 +4,7 @@
 #ifndef REFLET_LAMP_SHADOW_GLSL
 #define REFLET_LAMP_SHADOW_GLSL
 
-#include "render/shadow/lamp_shadow.h"
+#include "effects/shadow/lamp_shadow.h"
 #include "shaders/shadow_texel.glsl"
 
 // A shading point relative to a lamp and its shadow maps. World space, metres.

@@ -3,7 +3,7 @@
 #ifndef REFLET_SHADOW_MAP_GLSL
 #define REFLET_SHADOW_MAP_GLSL
 
-#include "render/shadow/shadow.h"
+#include "effects/shadow/shadow.h"
 #include "shaders/shadow_texel.glsl"
 
 const float minFacing = 0.01;         // lower clamp of the cosine between normal and sun

@@ -3,7 +3,7 @@
 #ifndef REFLET_SHADOW_NOISE_GLSL
 #define REFLET_SHADOW_NOISE_GLSL
 
-#include "render/shadow/shadow.h"
+#include "effects/shadow/shadow.h"
 #include "shaders/blue_noise.glsl"
 
 // Two numbers for the filter and two for the blocker search. stream: an even number, one for each light.

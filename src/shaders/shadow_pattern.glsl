@@ -5,7 +5,7 @@
 #ifndef REFLET_SHADOW_PATTERN_GLSL
 #define REFLET_SHADOW_PATTERN_GLSL
 
-#include "render/shadow/shadow.h"
+#include "effects/shadow/shadow.h"
 
 struct ShadowPattern {
     vec2 direction;  // of the next point

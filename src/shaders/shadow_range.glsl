@@ -1,10 +1,10 @@
 // Lower and upper bounds of the blocker heights around a receiver, from the min/max hierarchy of the shadow map
-// (render/shadow/shadow.h).
+// (effects/shadow/shadow.h).
 // The includer defines, before it includes this: vec2 loadShadowRange(ivec2 cell), of the image that holds all levels.
 #ifndef REFLET_SHADOW_RANGE_GLSL
 #define REFLET_SHADOW_RANGE_GLSL
 
-#include "render/levels.glsl"
+#include "effects/levels.glsl"
 #include "shaders/shadow_map.glsl"
 
 // Bounds in metres above the receiver, toward the sun, of everything within `radius` metres across the sun's direction.

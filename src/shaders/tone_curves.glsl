@@ -1,5 +1,5 @@
 // Tone curves: linear Rec. 709 in, linear display light in 0..1 out; and the sRGB encoding.
-// C++ too: render/tonemap/tone_map_image.cpp includes this among GLM's names, which is why numbers end in f.
+// C++ too: effects/tonemap/tone_map_image.cpp includes this among GLM's names, which is why numbers end in f.
 #ifndef REFLET_TONE_CURVES_GLSL
 #define REFLET_TONE_CURVES_GLSL
 

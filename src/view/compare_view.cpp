@@ -3,8 +3,8 @@
 
 #include "base/error.h"
 #include "compare/heat_map.h"
-#include "render/background/background.h"
-#include "render/presets.h"
+#include "renderer/background/background.h"
+#include "renderer/presets.h"
 
 #include <algorithm>
 #include <thread>

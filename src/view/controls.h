@@ -1,7 +1,7 @@
 // The controls of the panels, and their positions on the screen.
 #pragma once
 
-#include "render/settings.h"
+#include "renderer/settings.h"
 #include "scene/scene.h"
 
 #include <map>

@@ -6,7 +6,7 @@
 #include "base/file.h"
 #include "base/json.h"
 #include "base/json_text.h"
-#include "render/presets.h"
+#include "renderer/presets.h"
 #include "scene/view_file.h"
 
 #include <algorithm>

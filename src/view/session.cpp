@@ -5,9 +5,9 @@
 #include "base/error.h"
 #include "compare/heat_map.h"
 #include "device/upload.h"
-#include "render/exposure/exposure.h"
-#include "render/history.h"
-#include "render/tonemap/tone_map_image.h"
+#include "effects/exposure/exposure.h"
+#include "effects/tonemap/tone_map_image.h"
+#include "renderer/history.h"
 #include "scene/pose.h"
 #include "scene/view_file.h"
 
@@ -190,7 +190,8 @@ Picked Session::pick(const ViewerState& state, uvec2 size, uvec2 pixel) {
                     readbacks.push_back(requestShow(f, made, show));
                 }
             }
-            ray = recordRay(f, recordRay_, made, made.view, settings.traceScreen, pixel);
+            ray = recordRay(f, recordRay_, {made.g, made.backDepth, made.pyramid}, made.view, settings.traceScreen,
+                            pixel);
         });
     Picked picked{pixel, {}, recordedRay(frame(), ray), params_, changes_};
     for (const ShowReadback& readback : readbacks) {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "apps/show.h"
-#include "render/bounce/record_ray.h"
-#include "render/renderer.h"
+#include "effects/lobe/record_ray.h"
+#include "renderer/renderer.h"
 #include "view/viewer_state.h"
 
 #include <memory>

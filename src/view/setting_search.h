@@ -1,7 +1,7 @@
 // Search in the settings panel.
 #pragma once
 
-#include "render/settings.h"
+#include "renderer/settings.h"
 
 #include <string_view>
 

@@ -7,8 +7,8 @@
 #include "base/file.h"
 #include "base/json.h"
 #include "gpu/pipeline.h"
-#include "render/presets.h"
-#include "render/shaders.h"
+#include "renderer/presets.h"
+#include "renderer/shaders.h"
 #include "scene/view_file.h"
 #include "view/saved_state.h"
 
@@ -61,7 +61,7 @@ gpu::DeviceOptions deviceOptions(const ViewerOptions& options) {
     device.select = options.device;
     device.validation = options.validate;
     device.onMessage = printWarning;
-    device.shaders = {refletShaders()};
+    device.shaders = {effectShaders(), rendererShaders()};
     device.windowExtensions = Window::vulkanExtensions();
     return device;
 }

@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json_text.h"
-#include "render/presets.h"
+#include "renderer/presets.h"
 #include "scene/default_light.h"
 #include "scene/view_file.h"
 #include "view/saved_state.h"

@@ -1,6 +1,6 @@
 // The panels on the left.
 #include "base/json_text.h"
-#include "render/presets.h"
+#include "renderer/presets.h"
 #include "scene/builtin.h"
 #include "scene/view_file.h"
 #include "view/saved_state.h"

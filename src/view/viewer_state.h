@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/scene_options.h"
-#include "render/settings.h"
+#include "renderer/settings.h"
 #include "scene/scene.h"
 
 #include <cstdint>

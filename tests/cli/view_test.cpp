@@ -179,7 +179,7 @@ TEST_F(View, CompilesShadersThatAreEditedKeepsTheLastGoodOneAndLosesNothingWithT
     std::filesystem::copy(std::filesystem::path(REFLET_SOURCE) / "src", path("src"),
                           std::filesystem::copy_options::recursive);
     openViewer(with(cubes, {"--preset", "direct", "--shaders", "src"}));
-    const std::string file = "src/render/tonemap/tonemap.comp";
+    const std::string file = "src/effects/tonemap/tonemap.comp";
     const std::string good = read(file);
     write(file, good + "broken\n");
     EXPECT_TRUE(shows([](const json& now) {

@@ -1,10 +1,11 @@
 // The second depth layer: the far side of visible objects, found from geometry alone.
-#include "render/gbuffer/back_depth.h"
+#include "renderer/gbuffer/back_depth.h"
 
 #include "apps/texels.h"
 #include "device/frame.h"
 #include "pass/harness.h"
-#include "render/gpu_scene.h"
+#include "renderer/gbuffer/draw_gbuffer.h"
+#include "renderer/gpu_scene.h"
 #include "support/device_fixture.h"
 
 #include <algorithm>

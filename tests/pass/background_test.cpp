@@ -1,10 +1,10 @@
 // Backgrounds: they show what they should, change no light, and cover pixels as the reference's do. The sky as light.
 #include "scene/background.h"
 #include "apps/show.h"
+#include "effects/tonemap/tone_map_image.h"
 #include "pass/harness.h"
 #include "reference/reference.h"
-#include "render/background/background.h"
-#include "render/tonemap/tone_map_image.h"
+#include "renderer/background/background.h"
 #include "scene/builtin.h"
 #include "scene/default_light.h"
 #include "scene/environment.h"

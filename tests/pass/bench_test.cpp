@@ -5,7 +5,7 @@
 #include "apps/bench/truth.h"
 #include "apps/spread.h"
 #include "base/error.h"
-#include "render/live/live_picture.h"
+#include "renderer/live/live_picture.h"
 #include "scene/builtin.h"
 #include "support/device_fixture.h"
 

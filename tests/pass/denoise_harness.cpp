@@ -5,7 +5,7 @@
 #include "device/device.h"
 #include "device/upload.h"
 #include "pass/test_shaders.h"
-#include "render/view_params.h"
+#include "renderer/view_params.h"
 
 #include <numeric>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "device/frame.h"
-#include "render/denoise/denoise.h"
+#include "effects/denoise/denoise.h"
 #include "scene/scene.h"
 
 #include <functional>

@@ -1,9 +1,10 @@
 // Automatic exposure of frames.
-#include "render/exposure/exposure.h"
+#include "effects/exposure/exposure.h"
 
 #include "apps/show.h"
 #include "pass/harness.h"
-#include "render/history.h"
+#include "renderer/exposure/scene_exposure.h"
+#include "renderer/history.h"
 #include "scene/builtin.h"
 #include "scene/builtin/shapes.h"
 #include "support/device_fixture.h"

@@ -1,10 +1,10 @@
 // Guarantees of the GPU layer: a pass that does not match its shader is rejected with a name, histories swap.
 #include "base/error.h"
 #include "device/frame.h"
+#include "effects/tonemap/tonemap.h"
 #include "gpu/pipeline.h"
 #include "gpu/shader.h"
 #include "pass/harness.h"
-#include "render/tonemap/tonemap.h"
 #include "support/device_fixture.h"
 
 #include <functional>

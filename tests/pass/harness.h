@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/image_file.h"
-#include "render/renderer.h"
+#include "renderer/renderer.h"
 #include "scene/builtin/assemble.h"
 #include "scene/scene.h"
 

@@ -1,9 +1,9 @@
 // What historyUse says of settings is what frames do.
-#include "render/history.h"
+#include "renderer/history.h"
 
 #include "apps/show.h"
 #include "pass/harness.h"
-#include "render/presets.h"
+#include "renderer/presets.h"
 #include "scene/builtin.h"
 #include "support/device_fixture.h"
 
@@ -72,8 +72,8 @@ TEST_F(History, OfPresetsIsKeptByThoseThatDenoise) {
         Settings settings;
         applyPreset(settings, preset.name);
         const HistoryUse use = historyUse(settings);
-        const bool denoises = preset.name == "fast" || preset.name == "balanced" || preset.name == "quality" ||
-                              preset.name == "hybrid";
+        const bool denoises =
+            preset.name == "fast" || preset.name == "balanced" || preset.name == "quality" || preset.name == "hybrid";
         EXPECT_EQ(use.shadows && use.denoise && use.temporal, denoises) << preset.name;
         EXPECT_EQ(use.any(), denoises || preset.name == "pathtrace") << preset.name;
         EXPECT_EQ(framesToSettle(use, settings), denoises ? 32U : use.accumulate ? 64U : 1U) << preset.name;

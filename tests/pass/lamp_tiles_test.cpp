@@ -1,5 +1,5 @@
 // Tiled light culling: the light equals that of all lamps, and no tile keeps many lamps that do not reach it.
-#include "render/direct/lamp_tiles.h"
+#include "effects/direct/lamp_tiles.h"
 #include "compare/compare.h"
 #include "pass/lamp_room.h"
 #include "reference/reference.h"

@@ -3,8 +3,8 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "oracle_test.h"
-#include "render/levels.glsl"
-#include "render/pyramid/pyramid.h"
+#include "effects/levels.glsl"
+#include "effects/pyramid/pyramid.h"
 #include "shaders/noise.glsl"
 #include "shaders/octahedral.glsl"
 #include "shaders/projection.glsl"

@@ -2,9 +2,9 @@
 // the images that the passes of the frame read.
 #include "pass/oracle_test.h"
 
+#include "effects/pyramid/pyramid.h"
 #include "pass/harness.h"
 #include "pass/test_shaders.h"
-#include "render/pyramid/pyramid.h"
 #include "scene/builtin.h"
 #include "support/device_fixture.h"
 

@@ -3,7 +3,7 @@
 #define REFLET_TESTS_ORACLE_TEST_H
 
 #include "base/shared.h"
-#include "render/bounce/trace_screen.h"
+#include "effects/lobe/trace_screen.h"
 
 SHARED_BEGIN
 

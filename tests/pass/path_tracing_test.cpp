@@ -2,7 +2,7 @@
 #include "compare/compare.h"
 #include "pass/harness.h"
 #include "reference/reference.h"
-#include "render/presets.h"
+#include "renderer/presets.h"
 #include "scene/builtin.h"
 
 #include <cstdio>

@@ -1,5 +1,5 @@
 // Automatic placement of probes.
-#include "render/probe/place_probes.h"
+#include "renderer/probe/place_probes.h"
 
 #include "pass/harness.h"
 #include "scene/builtin.h"

@@ -3,7 +3,7 @@
 
 #include "compare/compare.h"
 #include "reference/reference.h"
-#include "render/probe/capture_probe.h"
+#include "renderer/probe/capture_probe.h"
 #include "scene/builtin.h"
 
 #include <spdlog/fmt/fmt.h>
@@ -350,10 +350,11 @@ Pictures afterFrames(const Scene& scene, const View& view, const char* refresh, 
 TEST(Probe, IsNotUsedForRaysThatAreKnownToHitNothing) {
     const Scene scene = findBuiltinScene("gloss")->make();
     const auto reflections = [&](const char* probes) {
-        return render(scene, defaultView(scene), {64, 36},
-                      settingsOf({"diffuse.rays=0", "specular.rays=4", "trace_screen.enabled=false",
-                                  "trace_scene.enabled=true", "trace_scene.light=path", "probes.resolution=32", probes}),
-                      {"specular_radiance"})
+        return render(
+                   scene, defaultView(scene), {64, 36},
+                   settingsOf({"diffuse.rays=0", "specular.rays=4", "trace_screen.enabled=false",
+                               "trace_scene.enabled=true", "trace_scene.light=path", "probes.resolution=32", probes}),
+                   {"specular_radiance"})
             .images.at("specular_radiance");
     };
     const Difference d =

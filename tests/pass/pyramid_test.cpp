@@ -1,6 +1,6 @@
 // The depth pyramid of random depth, at even and odd sizes, against brute force over the pixels of each cell.
-#include "render/pyramid/pyramid.h"
-#include "render/levels.h"
+#include "effects/pyramid/pyramid.h"
+#include "effects/levels.h"
 
 #include "device/frame.h"
 #include "device/upload.h"

@@ -2,8 +2,8 @@
 #include "pass/harness.h"
 
 #include "compare/compare.h"
-#include "render/bounce/ray_surfaces.h"
-#include "render/view_params.h"
+#include "effects/lobe/ray_surfaces.h"
+#include "renderer/view_params.h"
 #include "scene/builtin.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Tiles of rays: their classes, their number of rays, and how adaptive sampling follows the noise.
-#include "render/bounce/ray_tiles.h"
+#include "effects/lobe/ray_tiles.h"
 #include "compare/compare.h"
 #include "pass/harness.h"
 #include "scene/builtin.h"

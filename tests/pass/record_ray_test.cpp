@@ -1,5 +1,5 @@
 // The recorded mirror ray of one pixel is the ray that the frame traced.
-#include "render/bounce/record_ray.h"
+#include "effects/lobe/record_ray.h"
 
 #include "pass/mirror_room.h"
 #include "support/device_fixture.h"
@@ -21,7 +21,8 @@ protected:
             gpu::Readback readback;
             RecordRayStore store;
             renderer.render(view_, size, 0, settings, [&](gpu::Frame& f, const FrameImages& images) {
-                readback = recordRay(f, store, images, makeViewParams(view_.camera, size, 0, 0), settings.traceScreen, pixel);
+                readback = recordRay(f, store, {images.g, images.backDepth, images.pyramid},
+                                     makeViewParams(view_.camera, size, 0, 0), settings.traceScreen, pixel);
             });
             rays.push_back(recordedRay(renderer.frame(), readback));
         }

@@ -1,7 +1,7 @@
 // A restarted renderer gives the same frames as a new one, whatever it rendered before.
 #include "apps/show.h"
 #include "pass/harness.h"
-#include "render/presets.h"
+#include "renderer/presets.h"
 #include "scene/builtin.h"
 #include "support/device_fixture.h"
 

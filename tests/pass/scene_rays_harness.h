@@ -2,7 +2,7 @@
 #pragma once
 
 #include "pass/scene_rays_test.h"
-#include "render/trace_scene/scene_rays.h"
+#include "renderer/trace_scene/scene_rays.h"
 #include "support/device_fixture.h"
 
 #include <iosfwd>

@@ -1,8 +1,8 @@
 // Surfaces hit by camera rays through pixel centres.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
-#include "render/trace_scene/scene_surfaces.glsl"
-#include "render/trace_scene/scene_rays.glsl"
+#include "renderer/trace_scene/scene_surfaces.glsl"
+#include "renderer/trace_scene/scene_rays.glsl"
 #include "scene_surfaces_test.h"
 #include "shaders/projection.glsl"
 

@@ -3,7 +3,7 @@
 
 #include "pass/harness.h"
 #include "pass/test_shaders.h"
-#include "render/trace_scene/trace_scene.h"
+#include "renderer/trace_scene/trace_scene.h"
 #include "scene/builtin.h"
 #include "scene/builtin/patterns.h"
 #include "support/device_fixture.h"

@@ -3,7 +3,7 @@
 #define REFLET_TESTS_SCENE_SURFACES_TEST_H
 
 #include "base/shared.h"
-#include "render/view.h"
+#include "effects/view.h"
 
 SHARED_BEGIN
 

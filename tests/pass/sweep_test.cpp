@@ -3,7 +3,7 @@
 #include "pass/harness.h"
 
 #include "apps/show.h"
-#include "render/presets.h"
+#include "renderer/presets.h"
 #include "scene/builtin.h"
 #include "support/device_fixture.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "device/frame.h"
-#include "render/temporal/temporal.h"
+#include "effects/temporal/temporal.h"
 
 #include <functional>
 #include <vector>

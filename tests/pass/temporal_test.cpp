@@ -1,7 +1,7 @@
 // Temporal antialiasing of synthetic images: what is preserved exactly, convergence at rest, and ghosting in motion.
 #include "pass/temporal_harness.h"
 
-#include "render/jitter.h"
+#include "effects/jitter.h"
 #include "support/device_fixture.h"
 
 #include <glm/gtc/packing.hpp>

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "cube_map_test.h"
-#include "render/cube_map/cube_map.glsl"
+#include "effects/cube_map/cube_map.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) readonly buffer InputBlock { CubeLookup items[]; } inputs;

@@ -1,8 +1,8 @@
-// render/cube_map: faces, filtered lobes against an integral over the GGX lobe, irradiance against closed forms.
+// effects/cube_map: faces, filtered lobes against an integral over the GGX lobe, irradiance against closed forms.
 #include "shader/cube_map_test.h"
 
 #include "device/device.h"
-#include "render/cube_map/cube_map.h"
+#include "effects/cube_map/cube_map.h"
 #include "shader/directions.h"
 #include "shader/harness.h"
 #include "support/ggx_reference.h"

@@ -1,7 +1,7 @@
 // View distances of depths.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
-#include "render/view.h"
+#include "effects/view.h"
 #include "shaders/projection.glsl"
 
 layout(local_size_x = 64) in;

@@ -1,5 +1,5 @@
-// render/exposure: what automatic exposure makes of made-up pictures, on the device and on the CPU.
-#include "render/exposure/exposure.h"
+// effects/exposure: what automatic exposure makes of made-up pictures, on the device and on the CPU.
+#include "effects/exposure/exposure.h"
 
 #include "shader/harness.h"
 

@@ -1,8 +1,8 @@
 // Boxes, cameras, suns and points for tests of how the sun's shadow maps are fitted.
 #pragma once
 
-#include "render/renderer.h"
-#include "render/shadow/shadow.h"
+#include "effects/shadow/shadow.h"
+#include "renderer/renderer.h"
 #include "shader/directions.h"
 
 #include <cmath>

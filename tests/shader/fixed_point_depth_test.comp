@@ -1,7 +1,7 @@
 // Depths quantized like fixed-point depth buffers.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
-#include "render/gbuffer/kept_depth.h"
+#include "effects/gbuffer/kept_depth.h"
 #include "shaders/fixed_point_depth.glsl"
 
 layout(local_size_x = 64) in;

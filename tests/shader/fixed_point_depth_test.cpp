@@ -1,6 +1,6 @@
 // fixed_point_depth.glsl against the textbook formula of standard depth in double precision.
-#include "render/gbuffer/kept_depth.h"
-#include "render/renderer.h"
+#include "effects/gbuffer/kept_depth.h"
+#include "renderer/renderer.h"
 #include "shader/harness.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Dielectrics of KHR_materials_ior and KHR_materials_specular in ggx.glsl: their energy.
 #include "shader/ggx_dielectric_test.h"
 
-#include "render/direct/direct.h"
+#include "effects/direct/direct.h"
 #include "shader/harness.h"
 #include "support/ggx_reference.h"
 

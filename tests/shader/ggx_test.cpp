@@ -1,7 +1,7 @@
 // ggx.glsl and ggx_table.comp against GGX in double precision and against the conservation of energy.
 #include "shader/ggx_test.h"
 
-#include "render/direct/direct.h"
+#include "effects/direct/direct.h"
 #include "shader/harness.h"
 #include "support/ggx_reference.h"
 

@@ -1,7 +1,7 @@
 // lamp.glsl, with lamps as the renderer passes them: KHR_lights_punctual.
 #include "shader/lamp_test.h"
 
-#include "render/gpu_scene.h"
+#include "renderer/gpu_scene.h"
 #include "shader/directions.h"
 #include "shader/harness.h"
 

@@ -3,7 +3,7 @@
 #define REFLET_TESTS_LAMP_TEST_H
 
 #include "base/shared.h"
-#include "render/lamps.h"
+#include "effects/lamps.h"
 
 SHARED_BEGIN
 

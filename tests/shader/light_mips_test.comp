@@ -2,7 +2,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "light_mips_test.h"
-#include "render/levels.glsl"
+#include "effects/levels.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) readonly buffer InputBlock { LightLookup items[]; } inputs;
@@ -14,7 +14,7 @@ vec3 loadLight(ivec2 cell, int level) {
     return level > 0 ? texelFetch(mips, cell + ivec2(0, levelRow(textureSize(light, 0), level)), 0).rgb
                      : texelFetch(light, cell, 0).rgb;
 }
-#include "render/light_mips/light_mips.glsl"
+#include "effects/light_mips/light_mips.glsl"
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

@@ -1,8 +1,8 @@
-// render/light_mips: levels against their definition, and interpolated look-ups.
+// effects/light_mips: levels against their definition, and interpolated look-ups.
 #include "shader/light_mips_test.h"
 
-#include "render/levels.h"
-#include "render/light_mips/light_mips.h"
+#include "effects/levels.h"
+#include "effects/light_mips/light_mips.h"
 #include "shader/harness.h"
 
 #include <glm/gtc/packing.hpp>

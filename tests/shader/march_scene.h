@@ -2,7 +2,7 @@
 // origin.
 #pragma once
 
-#include "render/renderer.h"
+#include "renderer/renderer.h"
 #include "shader/harness.h"
 #include "shader/march_test.h"
 

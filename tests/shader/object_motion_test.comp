@@ -2,7 +2,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "object_motion_test.h"
-#include "render/view.h"
+#include "effects/view.h"
 #include "shaders/object_motion.glsl"
 
 layout(local_size_x = 64) in;

@@ -1,8 +1,8 @@
 // object_motion.glsl against objects and mirrors at known positions.
 #include "shader/object_motion_test.h"
 
-#include "render/planar/planar_view.h"
-#include "render/view_params.h"
+#include "renderer/planar/planar_view.h"
+#include "renderer/view_params.h"
 #include "shader/harness.h"
 
 #include <random>

@@ -1,7 +1,7 @@
 // Projects world points to the screen and back, as passes do it.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
-#include "render/view.h"
+#include "effects/view.h"
 #include "shaders/projection.glsl"
 #include "projection_test.h"
 

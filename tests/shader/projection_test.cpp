@@ -1,7 +1,7 @@
 // projection.glsl with the matrices that the renderer gives it.
 #include "shader/projection_test.h"
 
-#include "render/renderer.h"
+#include "renderer/renderer.h"
 #include "shader/directions.h"
 #include "shader/harness.h"
 

@@ -1,7 +1,7 @@
 // Ray slots and rays, packed and unpacked.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
-#include "render/bounce/rays.glsl"
+#include "effects/lobe/rays.glsl"
 #include "rays_test.h"
 
 layout(local_size_x = 64) in;

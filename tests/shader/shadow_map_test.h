@@ -3,7 +3,7 @@
 #define REFLET_TESTS_SHADOW_MAP_TEST_H
 
 #include "base/shared.h"
-#include "render/shadow/shadow.h"
+#include "effects/shadow/shadow.h"
 
 SHARED_BEGIN
 

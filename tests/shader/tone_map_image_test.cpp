@@ -1,5 +1,5 @@
-// render/tonemap: the pass on the device and the function on the CPU give the same image.
-#include "render/tonemap/tone_map_image.h"
+// effects/tonemap: the pass on the device and the function on the CPU give the same image.
+#include "effects/tonemap/tone_map_image.h"
 
 #include "base/error.h"
 #include "shader/directions.h"

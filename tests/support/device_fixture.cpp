@@ -1,7 +1,7 @@
 // One Vulkan device for all tests of a process.
 #include "support/device_fixture.h"
 
-#include "render/shaders.h"
+#include "renderer/shaders.h"
 
 #include <memory>
 #include <string>
@@ -42,7 +42,7 @@ gpu::Device& DeviceTest::device() {
     if (!shared().device) {
         gpu::DeviceOptions options;
         options.validation = true;
-        options.shaders = {refletShaders()};
+        options.shaders = {effectShaders(), rendererShaders()};
         options.onMessage = [](const std::string& message) { shared().messages.push_back(message); };
         shared().device = std::make_unique<gpu::Device>(options);
     }

@@ -2,7 +2,7 @@
 #include "apps/bench/bandwidth.h"
 
 #include "device/frame.h"
-#include "render/live/live_picture.h"
+#include "renderer/live/live_picture.h"
 
 #include <algorithm>
 

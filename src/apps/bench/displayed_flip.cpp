@@ -2,8 +2,9 @@
 
 #include "apps/picture_input.h"
 #include "compare/compare.h"
-#include "render/exposure/exposure.h"
-#include "render/tonemap/tone_map_image.h"
+#include "effects/exposure/exposure.h"
+#include "effects/tonemap/tone_map_image.h"
+#include "renderer/exposure/scene_exposure.h"
 
 namespace reflet {
 

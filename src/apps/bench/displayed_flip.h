@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/image_file.h"
-#include "render/tonemap/tonemap.h"
+#include "effects/tonemap/tonemap.h"
 #include "scene/scene.h"
 
 namespace reflet {

@@ -4,7 +4,7 @@
 
 #include "apps/bench/samples.h"
 #include "base/image_file.h"
-#include "render/renderer.h"
+#include "renderer/renderer.h"
 
 #include <cstdint>
 #include <map>

@@ -11,9 +11,9 @@
 #include "base/file.h"
 #include "base/image_file.h"
 #include "compare/heat_map.h"
-#include "render/presets.h"
-#include "render/renderer.h"
-#include "render/shaders.h"
+#include "renderer/presets.h"
+#include "renderer/renderer.h"
+#include "renderer/shaders.h"
 #include "scene/builtin.h"
 #include "version.h"
 
@@ -157,7 +157,8 @@ void report(const ReportCommand& command, const std::string& typed) {
     const ReportWork work = makeWork(command);
     const std::vector<ReportInput> inputs = loadInputs(command);
     makeReportFolder(work.folder);
-    gpu::Device device({.select = command.device, .onMessage = printWarning, .shaders = {refletShaders()}});
+    gpu::Device device(
+        {.select = command.device, .onMessage = printWarning, .shaders = {effectShaders(), rendererShaders()}});
     requireSize(device, work.size);
 
     ReportPage page;

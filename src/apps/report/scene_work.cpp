@@ -9,9 +9,10 @@
 #include "base/image_file.h"
 #include "compare/compare.h"
 #include "compare/heat_map.h"
-#include "render/background/background.h"
-#include "render/exposure/exposure.h"
-#include "render/renderer.h"
+#include "effects/exposure/exposure.h"
+#include "renderer/background/background.h"
+#include "renderer/exposure/scene_exposure.h"
+#include "renderer/renderer.h"
 
 #include <spdlog/fmt/fmt.h>
 

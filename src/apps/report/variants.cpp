@@ -2,7 +2,7 @@
 #include "apps/report/variants.h"
 
 #include "base/error.h"
-#include "render/presets.h"
+#include "renderer/presets.h"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/scene_options.h"
-#include "render/settings.h"
+#include "renderer/settings.h"
 
 #include <string>
 #include <vector>

@@ -1,0 +1,170 @@
+// Multiplies indirect light by the surface's reflectance and sums all light. In: G-buffer, direct light, the lobes'
+// mean radiance, at reduced resolution with their surfaces. Out: both indirect layers, and lit = direct + both, with
+// the distance along the view [m], 0: the sky.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "effects/composite/composite.h"
+#include "effects/gbuffer/gbuffer_surface.glsl"
+#include "shaders/directional_light.glsl"
+#include "shaders/half_float.glsl"
+#include "shaders/projection.glsl"
+#include "shaders/shadow_kernel.glsl"
+
+layout(constant_id = 0) const uint diffuseScale = 1u;  // 0: the lobe is black
+layout(constant_id = 1) const uint specularScale = 1u;
+layout(constant_id = 2) const uint lambertOnly = 0u;
+layout(constant_id = 3) const uint layers = 1u;
+layout(constant_id = 4) const uint hasDirectional = 0u;
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { CompositeParams params; };
+layout(set = 0, binding = 1) uniform sampler2D depth;
+layout(set = 0, binding = 2) uniform usampler2D normal;
+layout(set = 0, binding = 3) uniform sampler2D baseColor;
+layout(set = 0, binding = 4) uniform sampler2D material;
+layout(set = 0, binding = 5) uniform sampler2D ggxTable;
+layout(set = 0, binding = 6, rgba16f) uniform readonly image2D direct;
+layout(set = 0, binding = 7, rgba16f) uniform readonly image2D diffuse;
+layout(set = 0, binding = 8, rgba16f) uniform readonly image2D specular;
+layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D indirectDiffuse;
+layout(set = 0, binding = 10, rgba16f) uniform writeonly image2D indirectSpecular;
+layout(set = 0, binding = 11, rgba16f) uniform writeonly image2D lit;
+
+layout(set = 0, binding = 12) uniform usampler2D geometricNormal;
+layout(set = 0, binding = 13, r32f) uniform readonly image2D diffuseDepth;
+layout(set = 0, binding = 14, r32ui) uniform readonly uimage2D diffuseNormal;
+layout(set = 0, binding = 15, r32f) uniform readonly image2D specularDepth;
+layout(set = 0, binding = 16, r32ui) uniform readonly uimage2D specularNormal;
+layout(set = 0, binding = 17, rgba16f) uniform readonly image2D diffuseDirectional;
+
+// A pixel and its surface.
+struct Shown {
+    ivec2 pixel;
+    float depth;
+    vec3 normal;
+    ScreenPlane plane;
+};
+
+// The four low-resolution pixels around a pixel and their weights (joint bilateral upsampling, after Kopf et al., Joint
+// Bilateral Upsampling, 2007).
+struct Blocks {
+    ivec2 corner;
+    vec4 weights;  // bilinear
+};
+
+Blocks blocksAt(Shown shown, uint scale, uint place, ivec2 size) {
+    vec2 at = vec2(shown.pixel - int(place)) / float(scale);
+    Blocks b;
+    b.corner = clamp(ivec2(floor(at)), ivec2(0), max(size - 2, ivec2(0)));
+    vec2 f = clamp(at - vec2(b.corner), vec2(0.0), vec2(1.0));
+    b.weights = vec4(1.0 - f.x, f.x, 1.0 - f.x, f.x) * vec4(1.0 - f.yy, f.yy);
+    return b;
+}
+
+ivec2 blockAt(Blocks b, int i, ivec2 size) { return min(b.corner + ivec2(i & 1, i >> 1), size - 1); }
+
+// How well a block's surface matches the pixel's plane, 0..1.
+float onSameSurface(Shown shown, vec2 away, float blockDepth) {
+    float length2 = max(dot(away, away), 1.0);
+    float height = heightAbove(shown.plane, away, blockDepth - shown.depth);
+    float height2 = height * height;
+    float length4 = length2 * length2;
+    return length4 / (length4 + height2 * height2);
+}
+
+// Weights never reach 0, so a pixel without a matching neighbour still gets the average.
+float weighed(float share, float same, float blockDepth) {
+    return blockDepth > 0.0 ? share * (same + 1e-4) + 1e-7 : 0.0;
+}
+
+// Edge-stopping weight by normals, wider for light that is adapted to the normal (directional_light.glsl).
+float facingLike(vec3 blockNormal, vec3 normal, bool turns) {
+    float facing = max(dot(blockNormal, normal), 0.0);
+    float facing2 = facing * facing;
+    float facing4 = facing2 * facing2;
+    return turns ? facing2 : facing4 * facing4;
+}
+
+vec3 diffuseRadiance(Shown shown) {
+    if (diffuseScale == 0u) {
+        return vec3(0.0);
+    }
+    if (diffuseScale == 1u) {
+        return imageLoad(diffuse, shown.pixel).rgb;
+    }
+    const bool turns = hasDirectional != 0u;
+    ivec2 size = imageSize(diffuseDepth);
+    Blocks b = blocksAt(shown, diffuseScale, params.diffuseBlockOffset, size);
+    vec4 sum = vec4(0.0);
+    vec4 directional = vec4(0.0);
+    vec3 normals = vec3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        ivec2 block = blockAt(b, i, size);
+        vec2 away = vec2(block * int(diffuseScale) + int(params.diffuseBlockOffset) - shown.pixel);
+        float d = imageLoad(diffuseDepth, block).r;
+        vec3 n = unpackUnitVector(imageLoad(diffuseNormal, block).r);
+        float same = onSameSurface(shown, away, d) * facingLike(n, shown.normal, turns);
+        float weight = weighed(b.weights[i], same, d);
+        sum += weight * vec4(imageLoad(diffuse, block).rgb, 1.0);
+        if (turns) {
+            directional += weight * imageLoad(diffuseDirectional, block);
+            normals += weight * n;
+        }
+    }
+    float whole = 1.0 / max(sum.a, 1e-12);
+    return sum.rgb * whole * (turns ? relightFactor(directional * whole, normals * whole, shown.normal) : 1.0);
+}
+
+vec3 specularRadiance(Shown shown) {
+    if (specularScale == 0u) {
+        return vec3(0.0);
+    }
+    if (specularScale == 1u) {
+        return imageLoad(specular, shown.pixel).rgb;
+    }
+    ivec2 size = imageSize(specularDepth);
+    Blocks b = blocksAt(shown, specularScale, params.specularBlockOffset, size);
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < 4; ++i) {
+        ivec2 block = blockAt(b, i, size);
+        vec2 away = vec2(block * int(specularScale) + int(params.specularBlockOffset) - shown.pixel);
+        float d = imageLoad(specularDepth, block).r;
+        vec3 n = unpackUnitVector(imageLoad(specularNormal, block).r);
+        float same = onSameSurface(shown, away, d) * facingLike(n, shown.normal, false);
+        sum += weighed(b.weights[i], same, d) * vec4(imageLoad(specular, block).rgb, 1.0);
+    }
+    return sum.rgb * (1.0 / max(sum.a, 1e-12));
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, ivec2(params.view.size)))) {
+        return;
+    }
+    vec3 fromDiffuse = vec3(0.0);
+    vec3 fromSpecular = vec3(0.0);
+    float d = texelFetch(depth, pixel, 0).r;
+    if (d > 0.0) {
+        vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
+        vec3 n = unpackUnitVector(texelFetch(normal, pixel, 0).r);
+        float nv = dot(n, directionToEye(p, params.view.eye));
+        MaterialTexel m = unpackMaterial(texelFetch(material, pixel, 0));
+        Surface s = surfaceAt(pixel, texelFetch(baseColor, pixel, 0).rgb, m, nv, ggxTable, lambertOnly != 0u);
+        Shown shown;
+        shown.pixel = pixel;
+        if (diffuseScale > 1u || specularScale > 1u) {
+            vec3 geometric = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
+            shown = Shown(pixel, d, n,
+                          screenPlane(p, geometric, params.view.clipToWorld, params.view.pixel, params.view.pixelAngle));
+        }
+        fromDiffuse = params.diffuseGain * s.diffuse * diffuseRadiance(shown);
+        fromSpecular = s.specular * specularRadiance(shown);
+    }
+    if (layers != 0u) {
+        imageStore(indirectDiffuse, pixel, vec4(clampToHalf(fromDiffuse), 1.0));
+        imageStore(indirectSpecular, pixel, vec4(clampToHalf(fromSpecular), 1.0));
+    }
+    vec3 sum = imageLoad(direct, pixel).rgb + fromDiffuse + fromSpecular;
+    float away = d > 0.0 ? min(depthToViewDistance(d, params.view.depthToDistance), largestHalf) : 0.0;
+    imageStore(lit, pixel, vec4(clampToHalf(sum), away));
+}

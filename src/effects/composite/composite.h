@@ -1,0 +1,64 @@
+// Applies the surfaces' reflectance to the lobes' light, upsamples it if needed, and adds it to the direct light.
+// Shared by C++ and GLSL.
+#ifndef REFLET_EFFECTS_COMPOSITE_H
+#define REFLET_EFFECTS_COMPOSITE_H
+
+#include "base/shared.h"
+#include "effects/view.h"
+
+SHARED_BEGIN
+
+#define COMPOSITE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                     \
+    SWITCH(layers, 1,                                                                                                 \
+           "Keep diffuse GI and reflections as separate layers (AOVs). `render` and `bench` set this by themselves, " \
+           "only if the layers are asked for.")
+SETTINGS(CompositeSettings, COMPOSITE_SETTINGS)
+
+struct CompositeParams {
+    ViewParams view;
+    float diffuseGain;        // factor on indirect diffuse light
+    uint diffuseBlockOffset;  // traced pixel of a block, along each side (RaySurfaces)
+    uint specularBlockOffset;
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "effects/gbuffer/gbuffer.h"
+#include "effects/lobe/rays.h"
+#include "gpu/recorder.h"
+
+namespace reflet {
+
+struct CompositeInputs {
+    GBuffer g;
+    gpu::Image direct;
+    LobeLight diffuse;  ///< lobes at reduced resolution are upsampled
+    LobeLight specular;
+    gpu::Image ggxTable;
+    bool lambertOnly = false;  ///< MaterialsSettings
+    bool layers = true;        ///< false: only the sum is written
+};
+
+/// RGBA16F radiance: lit = direct + indirectDiffuse + indirectSpecular.
+struct Composite {
+    gpu::Image indirectDiffuse;  ///< none without layers
+    gpu::Image indirectSpecular;
+    gpu::Image lit;
+};
+
+/// Owns the layers.
+struct CompositeStore {
+    gpu::KeptImage indirectDiffuse{"indirect_diffuse"};
+    gpu::KeptImage indirectSpecular{"indirect_specular"};
+};
+
+/// Sets the block offsets of params. lit: written.
+Composite composite(gpu::Recorder& f, CompositeStore& own, const CompositeInputs& in, gpu::Image lit,
+                    CompositeParams params);
+
+}  // namespace reflet
+#endif
+
+#endif

@@ -1,0 +1,20 @@
+// Records contact shadows.
+#include "effects/contact/contact.h"
+
+namespace reflet {
+
+gpu::Image contactShadow(gpu::Recorder& f, gpu::KeptImage& own, const GBuffer& g, gpu::Image pyramid,
+                         gpu::Image sunVisibility, const ContactParams& params) {
+    const gpu::Image visibility = own.storage(f, VK_FORMAT_R8_UNORM, g.depth.size);
+    f.compute("contact_shadow", "contact_shadow.comp")
+        .read("depth", g.depth)
+        .read("geometricNormal", g.geometricNormal)
+        .read("pyramid", pyramid)
+        .read("sunVisibility", sunVisibility)
+        .write("visibility", visibility)
+        .params(params)
+        .dispatch(visibility.size);
+    return visibility;
+}
+
+}  // namespace reflet

@@ -1,0 +1,123 @@
+// One blur pass over neighbours on the same surface, on a disk rotated per pixel. Its radius depends on the remaining
+// noise, the hit distance and the width of the lobe.
+// In: light with hit distance, surfaces, moments, geometric normals. Out: light, blurred; where the history is short,
+// the blurred light also becomes the next frame's history.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "effects/denoise/denoise.glsl"
+#include "shaders/ggx.glsl"
+#include "shaders/noise.glsl"
+
+layout(constant_id = 0) const uint lobe = 0u;
+layout(constant_id = 1) const uint feedsBack = 0u;
+layout(constant_id = 2) const uint hasDirectional = 0u;
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { DenoiseBlurParams params; };
+layout(set = 0, binding = 1, rgba16f) uniform readonly image2D from;
+layout(set = 0, binding = 2, rg32ui) uniform readonly uimage2D surface;
+layout(set = 0, binding = 3, rg16f) uniform readonly image2D moments;
+layout(set = 0, binding = 4) uniform usampler2D geometricNormal;
+layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D nextLight;
+layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D blurred;
+layout(set = 0, binding = 7, rgba16f) uniform readonly image2D directional;
+layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D nextDirectional;
+layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D blurredDirectional;
+
+const int taps = 8;
+const float goldenAngle = 2.39996323;
+// Radius within which incoming light is about the same, relative to the lobe's width at the hit.
+const float shareOfWay = 0.3;
+// Fraction of the radius per unit of relative noise, at frame 32 in seven scenes: with 0.7 mottling of 4 to 8 pixels is half as
+// strong again, with 1.5 blur adds a tenth to the relative MSE of builtin:cornell.
+const float radiusOfNoise = 1.0;
+const float varianceFrames = 8.0;  // history length from which the variance is reliable; using it earlier loses energy
+const float feedbackFrames = 4.0;  // history length from which the history is no longer replaced by blurred light
+
+// Pixels of the grid.
+float radiusAt(float d, float roughness, float hitDistance, float noise) {
+    float away = depthToViewDistance(d, params.view.depthToDistance);
+    float pixelWidth = params.gridAngle * (params.view.eye.w > 0.0 ? away : 1.0);
+    float lobeWidth = lobe == 0u ? 1.0 : ggxConeTangent(roughness * roughness);
+    float way = shareOfWay * lobeWidth * hitDistance / pixelWidth;
+    return min(params.radius, way) * noise;
+}
+
+// Relative standard deviation of the history's mean, estimated over five pixels: that of a single pixel is too small if
+// its rays have not hit a bright light yet. With a short history 1 / sqrt(frames).
+float noiseAt(ivec2 pixel, ivec2 size, float frames) {
+    if (frames < varianceFrames) {
+        return inversesqrt(max(frames, 1.0));
+    }
+    const ivec2 around[5] = ivec2[](ivec2(0), ivec2(-2, -2), ivec2(2, -2), ivec2(-2, 2), ivec2(2, 2));
+    float mean = 0.0;
+    float variance = 0.0;
+    for (int i = 0; i < 5; ++i) {
+        ivec2 at = clamp(pixel + around[i], ivec2(0), size - 1);
+        vec2 m = imageLoad(moments, at).xy;
+        float bright = luminance(imageLoad(from, at).rgb);
+        variance += max(m.y - bright * bright, 0.0) / max(m.x, 1.0);
+        mean += bright;
+    }
+    return min(1.0, radiusOfNoise * sqrt(5.0 * variance) / max(mean, 1e-6));
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 size = ivec2(params.view.size);
+    if (any(greaterThanEqual(pixel, size))) {
+        return;
+    }
+    vec4 middle = imageLoad(from, pixel);
+    KeptSurface own = unpackSurface(imageLoad(surface, pixel).xy);
+    vec2 m = imageLoad(moments, pixel).xy;
+    float radius = own.depth > 0.0 ? radiusAt(own.depth, own.roughness, middle.a, noiseAt(pixel, size, m.x)) : 0.0;
+    if (radius < 0.5) {
+        imageStore(blurred, pixel, middle);
+        if (hasDirectional != 0u) {
+            imageStore(blurredDirectional, pixel, imageLoad(directional, pixel));
+        }
+        return;
+    }
+    vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), own.depth, params.view.clipToWorld);
+    vec3 geometric = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
+    ScreenPlane plane = screenPlane(p, geometric, params.view.clipToWorld, params.view.pixel, params.view.pixelAngle);
+    float turn = 6.2831853 * hashToUnit(hashPixel(uvec2(pixel), params.pass + 31u + 2u * lobe, params.view.frame));
+    vec4 sum = middle;
+    float weights = 1.0;
+    vec4 turning = hasDirectional != 0u ? imageLoad(directional, pixel) : vec4(0.0);
+    vec3 normals = own.normal;
+    for (int i = 0; i < taps; ++i) {
+        float angle = turn + float(i) * goldenAngle;
+        float reach = sqrt((float(i) + 0.5) / float(taps));
+        ivec2 at = pixel + ivec2(round(radius * reach * vec2(cos(angle), sin(angle))));
+        if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size))) {
+            continue;
+        }
+        KeptSurface there = unpackSurface(imageLoad(surface, at).xy);
+        vec2 o = vec2(at - pixel);
+        if (there.depth > 0.0 && onSurface(plane, o, there.depth - own.depth)) {
+            float same = hasDirectional != 0u ? normalSimilarity(own, there) : surfaceSimilarity(own, there, lobe);
+            float weight = exp(-1.5 * reach * reach) * same;
+            sum += weight * imageLoad(from, at);
+            if (hasDirectional != 0u) {
+                turning += weight * imageLoad(directional, at);
+                normals += weight * there.normal;
+            }
+            weights += weight;
+        }
+    }
+    if (hasDirectional != 0u) {
+        sum.rgb *= relightFactor(turning, normals / weights, own.normal);
+        turning = roundToHalf(clamp(turning / weights, -largestHalf, largestHalf));
+        imageStore(blurredDirectional, pixel, turning);
+    }
+    vec4 mean = roundToHalf(min(sum / weights, vec4(largestHalf)));
+    imageStore(blurred, pixel, mean);
+    if (feedsBack != 0u && m.x < feedbackFrames) {
+        imageStore(nextLight, pixel, mean);
+        if (hasDirectional != 0u) {
+            imageStore(nextDirectional, pixel, turning);
+        }
+    }
+}

@@ -1,0 +1,294 @@
+// First denoising pass: firefly clamp with the excess spread over neighbours, then temporal accumulation with the
+// reprojected history.
+// In: firefly limits, surfaces, motion, radiance with hit distance, motion of reflected images, history. Out: the mean,
+// with hit distance; the same as history; surfaces; moments: history length, mean squared luminance.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "effects/lobe/ray_tiles.glsl"
+#include "effects/denoise/denoise.glsl"
+#include "effects/gbuffer/gbuffer.h"
+
+layout(constant_id = 0) const uint lobe = 0u;
+layout(constant_id = 1) const uint hasImageMotion = 0u;
+// 0: all pixels have the same ray count. Else the mean count of adaptive sampling: pixels are weighted by their count,
+// and pixels without rays have a negative hit distance.
+layout(constant_id = 2) const uint meanRays = 0u;
+
+layout(constant_id = 3) const uint hasDirectional = 0u;
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { DenoiseGatherParams params; };
+layout(set = 0, binding = 1, rg32f) uniform readonly image2D limits;
+layout(set = 0, binding = 2) uniform sampler2D depth;
+layout(set = 0, binding = 3) uniform usampler2D normal;
+layout(set = 0, binding = 4) uniform usampler2D geometricNormal;
+layout(set = 0, binding = 5) uniform sampler2D material;
+layout(set = 0, binding = 6) uniform sampler2D motion;
+layout(set = 0, binding = 15, rg16f) uniform readonly image2D imageMotion;
+layout(set = 0, binding = 7, rgba16f) uniform readonly image2D radiance;
+layout(set = 0, binding = 8, rgba16f) uniform readonly image2D previousLight;
+layout(set = 0, binding = 9, rg32ui) uniform readonly uimage2D previousSurface;
+layout(set = 0, binding = 10, rg16f) uniform readonly image2D previousMoments;
+layout(set = 0, binding = 11, rgba16f) uniform writeonly image2D nextLight;
+layout(set = 0, binding = 12, rg32ui) uniform writeonly uimage2D surface;
+layout(set = 0, binding = 13, rg16f) uniform writeonly image2D moments;
+layout(set = 0, binding = 14, rgba16f) uniform writeonly image2D gathered;
+layout(set = 0, binding = 16, rg32f) uniform readonly image2D tiles;
+layout(set = 0, binding = 17, rgba16f) uniform readonly image2D directional;
+layout(set = 0, binding = 18, rgba16f) uniform readonly image2D previousDirectional;
+layout(set = 0, binding = 19, rgba16f) uniform writeonly image2D nextDirectional;
+layout(set = 0, binding = 20, rgba16f) uniform writeonly image2D gatheredDirectional;
+
+const float heightSlack = 4.0;     // tolerance for the height of a history surface off this one, relative to that of neighbours
+const float distanceSlack = 0.02;  // or relative to its distance, for moving objects
+// Reflections up to the first perceptual roughness are reprojected by their virtual image, those above the second by
+// their surface.
+const float movesAsImage = 0.25;
+const float movesAsSurface = 0.6;
+
+// Relative difference in hit distance above which a mirror shows another object. It grows with roughness, as hit
+// distances become noisy; above movesAsImage there is no limit.
+const float sameThing = 0.15;
+const float sameThingRough = 3.0;
+// Maximum history length of moving reflections. A mirror's history is blurred by every interpolation and has no noise,
+// so it is short; rougher reflections have more noise than detail.
+const float framesInMotion = 1.0;
+const float framesInMotionRough = 64.0;
+
+// This frame's light of the pixel and its neighbours on the same surface.
+struct Neighbourhood {
+    vec4 light;     // firefly-clamped, plus the excess of neighbouring fireflies; mean hit distance of the neighbourhood
+    vec3 mean;      // of the neighbourhood
+    vec3 variance;  // per pixel
+    vec4 directional;  // of the light
+    float found;    // pixels of the neighbourhood with rays in this frame
+    bool traced;    // whether the pixel itself has rays
+};
+
+// Reprojected history.
+struct HistorySample {
+    vec4 light;
+    float frames;  // 0: nothing
+    float square;  // mean squared luminance
+    vec4 directional;
+};
+
+const HistorySample noHistory = HistorySample(vec4(0.0), 0.0, 0.0, vec4(0.0));
+
+Neighbourhood gatherNeighbourhood(ivec2 pixel, float d, ScreenPlane plane) {
+    ivec2 last = ivec2(params.view.size) - 1;
+    Neighbourhood s;
+    s.light = vec4(0.0);
+    s.directional = vec4(0.0);
+    vec3 spread = vec3(0.0);
+    vec3 sum = vec3(0.0);
+    vec3 squares = vec3(0.0);
+    float inside = 0.0;
+    float traced = 0.0;
+    float away = 0.0;
+    s.found = 0.0;
+    s.traced = false;
+    for (int i = 0; i < 9; ++i) {
+        ivec2 o = ivec2(i % 3, i / 3) - 1;
+        ivec2 at = pixel + o;
+        if (any(lessThan(at, ivec2(0))) || any(greaterThan(at, last))) {
+            continue;
+        }
+        vec4 texel = imageLoad(radiance, at);
+        inside += 1.0;
+        if (meanRays > 0u && texel.a < 0.0) {
+            continue;
+        }
+        traced += 1.0;
+        vec3 light = clampToHalf(texel.rgb);
+        float bright = luminance(light);
+        float limit = imageLoad(limits, at / int(denoiseTileSide)).r;
+        vec3 kept = light * min(1.0, limit / max(bright, 1e-12));
+        // A pixel's excess is split among its neighbours, fewer at the image's edges.
+        ivec2 neighbours = 3 - ivec2(equal(at, ivec2(0))) - ivec2(equal(at, last));
+        spread += (light - kept) / float(neighbours.x * neighbours.y);
+        if (i == 4) {
+            s.light.rgb = kept;
+            if (hasDirectional != 0u) {
+                s.directional = imageLoad(directional, at) * min(1.0, limit / max(bright, 1e-12));
+            }
+            s.traced = true;
+        }
+        if (onSurface(plane, vec2(o), texelFetch(depth, at, 0).r - d)) {
+            sum += kept;
+            squares += kept * kept;
+            s.found += 1.0;
+            away += clamp(texel.a, 0.0, largestHalf);
+        }
+    }
+    float found = max(s.found, 1.0);
+    // Only pixels with rays in this frame take the excess.
+    s.light.rgb += meanRays > 0u ? spread * inside / max(traced, 1.0) : spread;
+    s.light.a = away / found;
+    s.mean = sum / found;
+    s.variance = max(squares / found - s.mean * s.mean, imageLoad(limits, pixel / int(denoiseTileSide)).g);
+    return s;
+}
+
+// Whether a reflection showed the same object, by its hit distance.
+bool isSameReflectedObject(float now, float before, float roughness) {
+    float allowed = mix(sameThing, sameThingRough, min(roughness / movesAsImage, 1.0));
+    return roughness > movesAsImage || max(now, before) <= (1.0 + allowed) * min(now, before) + 1e-3;
+}
+
+// Where a pixel's history is looked up.
+struct HistoryLookup {
+    vec2 at;         // pixels of the grid
+    vec2 home;       // pixel of the surface point in the last frame
+    float expected;  // its depth there
+    float away;      // hit distance of the reflection [m]; negative: ignore it
+    float most;      // maximum history length if interpolated between pixels
+};
+
+// Bilinear history lookup, restricted to similar surfaces.
+HistorySample historyAt(HistoryLookup w, KeptSurface own, ScreenPlane plane) {
+    float allowed = heightSlack + distanceSlack / params.view.pixelAngle;
+    vec2 nearest = round(w.at);
+    // Without motion the lookup is exact.
+    vec2 at = all(lessThan(abs(w.at - nearest), vec2(1.0 / 64.0))) ? nearest : w.at;
+    ivec2 corner = ivec2(floor(at));
+    vec2 f = at - vec2(corner);
+    HistorySample sum = noHistory;
+    float weights = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 o = ivec2(i & 1, i >> 1);
+        ivec2 texel = corner + o;
+        vec2 share = mix(1.0 - f, f, vec2(o));
+        if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(params.view.size))) || share.x * share.y == 0.0) {
+            continue;
+        }
+        KeptSurface there = unpackSurface(imageLoad(previousSurface, texel).xy);
+        vec2 away = vec2(texel) - w.home;
+        float height = heightAbove(plane, away, there.depth - w.expected) / max(length(away), 1.0);
+        vec4 light = imageLoad(previousLight, texel);
+        bool same = w.away < 0.0 || isSameReflectedObject(w.away, light.a, own.roughness);
+        if (same && there.depth > 0.0 && abs(height) <= allowed && surfaceSimilarity(own, there, lobe) > 0.3) {
+            float weight = share.x * share.y;
+            vec2 m = imageLoad(previousMoments, texel).xy;
+            sum.light += weight * light;
+            sum.frames += weight * m.x;
+            sum.square += weight * m.y;
+            if (hasDirectional != 0u) {
+                sum.directional += weight * imageLoad(previousDirectional, texel);
+            }
+            weights += weight;
+        }
+    }
+    if (weights < 0.01) {
+        return noHistory;
+    }
+    float frames = sum.frames / weights;
+    return HistorySample(sum.light / weights, f == vec2(0.0) ? frames : min(frames, w.most), sum.square / weights,
+                sum.directional / weights);
+}
+
+vec2 pixelOf(vec4 clip) { return ndcToUv(clip.xy / clip.w) * params.view.size - 0.5; }
+
+// Reflections are reprojected by their virtual image behind the mirror, including the reflected object's own motion;
+// diffuse light and rough reflections by the surface.
+HistorySample reprojectHistory(ivec2 pixel, vec3 p, KeptSurface own, ScreenPlane plane, float hitDistance) {
+    vec4 before = params.view.previousWorldToClip * vec4(p, 1.0);
+    float expected = before.z / before.w;
+    vec2 home = vec2(pixel) - texelFetch(motion, pixel, 0).rg * params.motionToPixels;
+    float asImage = lobe == 1u ? 1.0 - smoothstep(movesAsImage, movesAsSurface, own.roughness) : 0.0;
+    HistorySample image = noHistory;
+    if (asImage > 0.0) {
+        vec3 behind = p - directionToEye(p, params.view.eye) * hitDistance;
+        vec4 clip = params.view.previousWorldToClip * vec4(behind, 1.0);
+        if (clip.w > 0.0) {
+            vec2 at = pixelOf(clip);
+            if (hasImageMotion != 0u) {
+                at -= imageLoad(imageMotion, pixel).xy * params.motionToPixels;
+            }
+            float rough = min(own.roughness / movesAsImage, 1.0);
+            float most = mix(framesInMotion, framesInMotionRough, rough * rough);
+            image = historyAt(HistoryLookup(at, home, expected, hitDistance, most), own, plane);
+        }
+    }
+    if (asImage == 1.0) {
+        return image;
+    }
+    HistorySample still = historyAt(HistoryLookup(home, home, expected, -1.0, 1e4), own, plane);
+    if (image.frames == 0.0 || still.frames == 0.0) {
+        still.frames *= 1.0 - asImage;
+        return image.frames > 0.0 ? image : still;
+    }
+    return HistorySample(mix(still.light, image.light, asImage), mix(still.frames, image.frames, asImage),
+                mix(still.square, image.square, asImage), vec4(0.0));  // only reflections get here
+}
+
+// History clip (variance clipping): limits the history to current neighbours, within their noise. Clipped history
+// counts as fewer frames.
+void clipHistory(Neighbourhood seen, inout HistorySample past) {
+    float ownVariance = max(past.square - luminance(past.light.rgb) * luminance(past.light.rgb), 0.0);
+    vec3 deviation = params.settings.clip * sqrt(max(seen.variance, vec3(ownVariance)));
+    vec3 held = clamp(past.light.rgb, seen.mean - deviation, seen.mean + deviation);
+    float moved = luminance(abs(held - past.light.rgb)) / max(luminance(past.light.rgb), 1e-6);
+    past.frames *= max(1.0 - moved, 0.0);
+    past.directional *= luminance(held) / max(luminance(past.light.rgb), 1e-6);
+    past.light.rgb = held;
+}
+
+void keep(ivec2 pixel, vec4 light, vec4 turning, KeptSurface own, vec2 m) {
+    light = roundToHalf(light);
+    imageStore(gathered, pixel, light);
+    imageStore(surface, pixel, uvec4(packSurface(own), 0u, 0u));
+    imageStore(moments, pixel, roundToHalf(vec4(m, 0.0, 0.0)));
+    if (params.settings.history > 0u) {
+        imageStore(nextLight, pixel, light);
+    }
+    if (hasDirectional != 0u) {
+        turning = roundToHalf(clamp(turning, -largestHalf, largestHalf));
+        imageStore(gatheredDirectional, pixel, turning);
+        if (params.settings.history > 0u) {
+            imageStore(nextDirectional, pixel, turning);
+        }
+    }
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, ivec2(params.view.size)))) {
+        return;
+    }
+    float d = texelFetch(depth, pixel, 0).r;
+    vec4 m = texelFetch(material, pixel, 0);
+    KeptSurface own = KeptSurface(d, unpackUnitVector(texelFetch(normal, pixel, 0).r), m.r);
+    if (d <= 0.0 || (lobe == 1u && (uint(m.a * 255.0 + 0.5) & materialFlagLambert) != 0u)) {
+        own.depth = 0.0;
+        keep(pixel, vec4(0.0), vec4(0.0), own, vec2(0.0));
+        return;
+    }
+    vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
+    vec3 geometric = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
+    ScreenPlane plane = screenPlane(p, geometric, params.view.clipToWorld, params.view.pixel, params.view.pixelAngle);
+    Neighbourhood seen = gatherNeighbourhood(pixel, d, plane);
+    float bright = min(luminance(seen.light.rgb), 255.0);  // so that its square fits a half float
+    HistorySample past = params.hasPrevious != 0u ? reprojectHistory(pixel, p, own, plane, seen.light.a) : noHistory;
+    if (past.frames > 0.0 && params.settings.clip > 0.0 && (meanRays == 0u || seen.found > 0.0)) {
+        clipHistory(seen, past);
+    }
+    float count = 1.0;  // weight of this frame, in frames
+    float most = float(params.settings.history);
+    if (meanRays > 0u) {
+        float rays = imageLoad(tiles, pixel / int(rayTileSide)).r;
+        count = float(pixelRays(rays, uvec2(pixel), params.view.frame)) / float(meanRays);
+        most *= rays / float(meanRays);
+        if (!seen.traced) {
+            // Keep the history unchanged; without one, show the neighbours' mean but do not store it.
+            bool known = past.frames > 0.0;
+            keep(pixel, known ? past.light : vec4(seen.mean, seen.light.a), past.directional, own,
+                 known ? vec2(past.frames, past.square) : vec2(0.0));
+            return;
+        }
+    }
+    float share = count / (past.frames + count);
+    float frames = min(past.frames + count, most);
+    keep(pixel, mix(past.light, seen.light, share), mix(past.directional, seen.directional, share), own,
+         vec2(frames, mix(past.square, bright * bright, share)));
+}

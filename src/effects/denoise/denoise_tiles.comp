@@ -1,0 +1,45 @@
+// Firefly limit and luminance variance of each tile of 8x8 pixels. One thread per tile.
+// In: radiance, depth, material. Out: the limit, in luminance; variance of the luminance. Tiles with a mirror have no
+// limit and no variance.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "effects/denoise/denoise.glsl"
+
+layout(constant_id = 0) const uint lobe = 0u;
+layout(constant_id = 1) const uint meanRays = 0u;  // as in denoise_gather.comp
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { DenoiseTilesParams params; };
+layout(set = 0, binding = 1) uniform sampler2D material;
+layout(set = 0, binding = 2) uniform sampler2D depth;
+layout(set = 0, binding = 3, rgba16f) uniform readonly image2D radiance;
+layout(set = 0, binding = 4, rg32f) uniform writeonly image2D limits;
+
+void main() {
+    ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 first = tile * int(denoiseTileSide);
+    ivec2 end = min(first + int(denoiseTileSide), ivec2(params.size));
+    vec3 sum = vec3(0.0);
+    float smoothest = 1.0;
+    for (int y = first.y; y < end.y; ++y) {
+        for (int x = first.x; x < end.x; ++x) {
+            if (texelFetch(depth, ivec2(x, y), 0).r <= 0.0) {
+                continue;
+            }
+            vec4 light = imageLoad(radiance, ivec2(x, y));
+            if (meanRays > 0u && light.a < 0.0) {
+                continue;
+            }
+            float bright = luminance(clampToHalf(light.rgb));
+            sum += vec3(bright, bright * bright, 1.0);
+            if (lobe == 1u) {
+                smoothest = min(smoothest, texelFetch(material, ivec2(x, y), 0).r);
+            }
+        }
+    }
+    // Bright pixels in a mirror are detail, not noise.
+    bool noisy = smoothest > smoothRoughness && sum.z > 0.0;
+    vec2 mean = sum.xy / max(sum.z, 1.0);
+    float limit = noisy && params.limit > 0.0 ? params.limit * mean.x : 4.0 * largestHalf;
+    imageStore(limits, tile, vec4(limit, noisy ? max(mean.y - mean.x * mean.x, 0.0) : 0.0, 0.0, 0.0));
+}

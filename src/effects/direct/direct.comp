@@ -1,0 +1,73 @@
+// Direct light of sun and lamps, emission and background. In: G-buffer, visibility of sun and lamps, lamp masks per
+// tile.
+// Out: direct radiance.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "effects/direct/direct.h"
+#include "effects/environment/environment.glsl"
+#include "effects/gbuffer/gbuffer_surface.glsl"
+#include "shaders/half_float.glsl"
+#include "shaders/lamp.glsl"
+#include "shaders/projection.glsl"
+
+layout(constant_id = 0) const uint lambertOnly = 0u;
+layout(constant_id = 1) const uint anyLamps = 1u;
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { DirectParams params; };
+layout(set = 0, binding = 1, scalar) uniform LampUniforms { LampBlock lampBlock; };
+layout(set = 0, binding = 2) uniform sampler2D depth;
+layout(set = 0, binding = 3) uniform usampler2D normal;
+layout(set = 0, binding = 4) uniform sampler2D baseColor;
+layout(set = 0, binding = 5) uniform sampler2D material;
+layout(set = 0, binding = 6) uniform sampler2D emissive;
+layout(set = 0, binding = 7) uniform sampler2D sunVisibility;
+layout(set = 0, binding = 8) uniform sampler2DArray lampVisibility;
+layout(set = 0, binding = 9) uniform sampler2D ggxTable;
+layout(set = 0, binding = 10) uniform usampler2DArray lampMasks;
+layout(set = 0, binding = 11, rgba16f) uniform writeonly image2D direct;
+
+uvec4 loadLampMask(ivec3 texel) { return texelFetch(lampMasks, texel, 0); }
+#include "shaders/lamp_mask.glsl"
+
+float visibilityOfLamp(uint shadow, ivec2 pixel) {
+    return shadow == noLampShadow ? 1.0 : texelFetch(lampVisibility, ivec3(pixel, shadow / 4u), 0)[shadow % 4u];
+}
+
+vec3 lampLight(uint index, Surface s, vec3 p, vec3 n, vec3 v, ivec2 pixel) {
+    vec3 toLamp;
+    vec3 irradiance = lampIrradiance(lampBlock.lamps[index], p, toLamp);
+    return brdfTimesCosine(s, n, v, toLamp) * irradiance * visibilityOfLamp(lampBlock.lamps[index].shadow, pixel);
+}
+
+vec3 radianceAt(ivec2 pixel) {
+    float d = texelFetch(depth, pixel, 0).r;
+    if (d <= 0.0) {
+        vec2 uv = pixelToUv(pixel, params.view.pixel);
+        return environmentRadiance(viewDirection(uv, params.view.clipToWorld, params.view.eye));
+    }
+    vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
+    vec3 n = unpackUnitVector(texelFetch(normal, pixel, 0).r);
+    vec3 v = directionToEye(p, params.view.eye);
+    MaterialTexel m = unpackMaterial(texelFetch(material, pixel, 0));
+    vec3 base = texelFetch(baseColor, pixel, 0).rgb;
+    Surface s = surfaceAt(pixel, base, m, dot(n, v), ggxTable, lambertOnly != 0u);
+
+    float visibility = texelFetch(sunVisibility, pixel, 0).r;
+    vec3 radiance = emissionAt(texelFetch(emissive, pixel, 0).rgb, base, m);
+    radiance += brdfTimesCosine(s, n, v, params.toSun) * params.sunIrradiance * visibility;
+    for (uint first = 0u; anyLamps != 0u && first < lampBlock.count; first += lampsPerLayer) {
+        uvec4 bits = lampMaskAt(pixel, first / lampsPerLayer);
+        while (bits != uvec4(0u)) {
+            radiance += lampLight(first + popFirstLamp(bits), s, p, n, v, pixel);
+        }
+    }
+    return radiance;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (all(lessThan(pixel, ivec2(params.view.size)))) {
+        imageStore(direct, pixel, vec4(clampToHalf(radianceAt(pixel)), 1.0));
+    }
+}

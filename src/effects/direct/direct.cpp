@@ -1,0 +1,46 @@
+// Records direct light.
+#include "effects/direct/direct.h"
+
+#include "gpu/context.h"
+
+namespace reflet {
+
+gpu::Image ggxTable(gpu::Recorder& f, gpu::KeptImage& own) {
+    constexpr uint32_t side = 32;  // ggxTableSize in ggx.glsl
+    const bool made = bool(own.last());
+    const gpu::Image table = own.storage(f, VK_FORMAT_R16G16_SFLOAT, uvec2(side));
+    if (!made) {
+        f.compute("ggx_table", "ggx_table.comp").write("table", table).dispatch(uvec2(side));
+    }
+    return table;
+}
+
+gpu::Image directLight(gpu::Recorder& f, gpu::KeptImage& own, const GBuffer& g, const LightVisibility& visibility,
+                       gpu::Image ggxTable, const DirectParams& params, const DirectLights& lights) {
+    const gpu::Image direct = own.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size);
+    // Always bound, but not read if no lamp casts a shadow.
+    const gpu::Image lampVisibility =
+        visibility.lamps ? visibility.lamps : f.placeholder(VK_FORMAT_R8G8B8A8_UNORM, /*array=*/true);
+    const VkSampler linear = f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR});
+    gpu::Pass pass = f.compute("direct", "direct.comp");
+    bindEnvironment(pass, lights.environment);
+    bindSurfaces(f, pass, g);
+    pass.read("depth", g.depth)
+        .read("normal", g.normal)
+        .read("baseColor", g.baseColor)
+        .read("material", g.material)
+        .read("emissive", g.emissive)
+        .read("sunVisibility", visibility.sun)
+        .read("lampVisibility", lampVisibility)
+        .read("ggxTable", ggxTable, linear)
+        .read("lampMasks", visibility.lampMasks)
+        .write("direct", direct)
+        .constant("lambertOnly", lights.lambertOnly ? 1U : 0U)
+        .constant("anyLamps", lights.lamps.count > 0 ? 1U : 0U)
+        .params(params)
+        .params(lights.lamps, "lampBlock")
+        .dispatch(direct.size);
+    return direct;
+}
+
+}  // namespace reflet

@@ -1,0 +1,51 @@
+// Direct light: sun and lamps on the G-buffer, plus emission and background. Shared by C++ and GLSL.
+#ifndef REFLET_EFFECTS_DIRECT_H
+#define REFLET_EFFECTS_DIRECT_H
+
+#include "base/shared.h"
+#include "effects/lamps.h"
+#include "effects/view.h"
+
+SHARED_BEGIN
+
+struct DirectParams {
+    ViewParams view;
+    vec3 toSun;
+    vec3 sunIrradiance;  // on a surface that faces it [W/m²]
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "effects/environment/environment_light.h"
+#include "effects/gbuffer/gbuffer.h"
+#include "gpu/recorder.h"
+
+namespace reflet {
+
+/// The GGX directional albedo table (RG16F, 32x32: A, B; see ggx_table.comp). Computed in the first frame.
+gpu::Image ggxTable(gpu::Recorder& f, gpu::KeptImage& own);
+
+/// Light visibility per pixel.
+struct LightVisibility {
+    gpu::Image sun;
+    gpu::Image lamps;      ///< a layer per four lamps, by LampParams::shadow; none if no lamp casts a shadow
+    gpu::Image lampMasks;  ///< from findLampTiles
+};
+
+/// Light sources other than the sun.
+struct DirectLights {
+    const LampBlock& lamps;
+    const EnvironmentLight& environment;  ///< the background
+    bool lambertOnly = false;             ///< MaterialsSettings
+};
+
+/// RGBA16F: radiance of direct light, emission and background, alpha 1.
+gpu::Image directLight(gpu::Recorder& f, gpu::KeptImage& own, const GBuffer& g, const LightVisibility& visibility,
+                       gpu::Image ggxTable, const DirectParams& params, const DirectLights& lights);
+
+}  // namespace reflet
+#endif
+
+#endif

@@ -1,0 +1,52 @@
+// Tiled light culling: finds the lamps that may light each screen tile, so that direct light evaluates no others.
+// Shared by C++ and GLSL.
+//
+// Tiled deferred lighting (O. Olsson, U. Assarsson, Tiled Shading, 2011), with a bit mask of lamps instead of an index
+// list: lamps keep their order, so that sums round as without tiles, and no list can overflow.
+#ifndef REFLET_EFFECTS_LAMP_TILES_H
+#define REFLET_EFFECTS_LAMP_TILES_H
+
+#include "base/shared.h"
+#include "effects/lamps.h"
+#include "effects/view.h"
+
+SHARED_BEGIN
+
+#define DIRECT_SETTINGS(VALUE, SWITCH, CHOICE)                                                                     \
+    SWITCH(lampTiles, 1,                                                                                           \
+           "Tiled light culling: find the lamps that reach each 16x16 pixel tile and shade with those only. Off: " \
+           "every pixel evaluates every lamp. The image is the same.")
+SETTINGS(DirectSettings, DIRECT_SETTINGS)
+
+struct LampTilesParams {
+    ViewParams view;
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "gpu/recorder.h"
+
+namespace reflet {
+
+/// Images with a texel per screen tile.
+struct LampTiles {
+    gpu::Image masks;  ///< as defined in lamps.h
+    gpu::Image count;  ///< R32F: number of lamps that may light the tile; none without lamps
+};
+
+/// Owns the images of LampTiles.
+struct LampTilesStore {
+    gpu::KeptImage masks{"lamp_tiles"};
+    gpu::KeptImage count{"lamp_count"};
+};
+
+/// Conservative: includes every lamp that lights a surface of the tile. With lampTiles off, every tile gets all lamps.
+LampTiles findLampTiles(gpu::Recorder& f, LampTilesStore& own, gpu::Image depth, const LampBlock& lamps,
+                        const ViewParams& view, const DirectSettings& settings);
+
+}  // namespace reflet
+#endif
+
+#endif

@@ -1,0 +1,52 @@
+// Automatic exposure on the CPU: compiles the shader's metering as C++ and runs it on an image.
+#include "base/error.h"
+#include "effects/exposure/exposure.h"
+#include "effects/tonemap/tonemap.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace reflet {
+namespace {
+
+// GLSL built-ins. All headers that the files include must be included above.
+namespace glsl {
+using namespace glm;
+#include "shaders/luminance.glsl"
+
+struct Meter {
+    std::array<uint32_t, meterSize> numbers{};
+
+    [[nodiscard]] uint32_t meterCount(uint32_t i) const { return numbers[i]; }
+#include "effects/exposure/meter.glsl"
+};
+}  // namespace glsl
+
+}  // namespace
+
+float meteredExposure(const FloatImage& radiance, const FloatImage& depth) {
+    REFLET_CHECK(radiance.channels.size() == 3, "{} channels", radiance.channels.size());
+    const size_t pixels = size_t(radiance.width) * radiance.height;
+    REFLET_CHECK(depth.data.empty() || depth.data.size() == pixels, "{} depths of {} pixels", depth.data.size(),
+                 pixels);
+    const uint32_t step = meterStep({radiance.width, radiance.height});
+    glsl::Meter meter;
+    for (uint32_t y = step / 2; y < radiance.height; y += step) {
+        for (uint32_t x = step / 2; x < radiance.width; x += step) {
+            const size_t pixel = size_t(y) * radiance.width + x;
+            const float* c = &radiance.data[3 * pixel];
+            const int level = meter.meterLevel(glsl::luminance({c[0], c[1], c[2]}));
+            if (level >= 0) {
+                const bool surface = depth.data.empty() || depth.data[pixel] > 0.0F;
+                const uint32_t bin =
+                    (surface ? meterSurfaces : meterBackground) + static_cast<uint32_t>(level) / levelsPerBin;
+                ++meter.numbers[bin];
+                meter.numbers[meterSums + bin] += static_cast<uint32_t>(level) % levelsPerBin;
+            }
+        }
+    }
+    return meter.meteredExposure();
+}
+
+}  // namespace reflet

@@ -1,0 +1,22 @@
+// Records the environment as the last ray source.
+#include "effects/lobe/answer_environment.h"
+
+namespace reflet {
+
+void answerEnvironment(gpu::Recorder& f, Rays& rays, const EnvironmentLight& environment,
+                       const EnvironmentSettings& settings) {
+    gpu::Pass pass = f.compute("answer_environment", "answer_environment.comp");
+    bindEnvironment(pass, environment);
+    bindEnvironmentLobes(pass, f.context(), environment);
+    pass.constant("lobe", rays.lobe)
+        .read("material", rays.from.g.material)
+        .read("direction", rays.direction)
+        .read("waiting", rays.waiting)
+        .write("answer", rays.answer)
+        .write("source", rays.source)
+        .params(AnswerEnvironmentParams{settings})
+        .dispatchIndirect(rays.waiting, 0);
+    rays.waiting = {};
+}
+
+}  // namespace reflet

@@ -1,0 +1,79 @@
+// Records a lobe: picks surfaces, generates rays, asks the sources in turn, resolves and denoises.
+#include "effects/lobe/lobe.h"
+
+#include "effects/lobe/adaptive_rays.h"
+#include "effects/lobe/reuse_rays.h"
+
+#include <algorithm>
+
+namespace reflet {
+
+namespace {
+
+constexpr const char* lobeNames[] = {"diffuse", "specular"};
+
+bool keepsHistory(const DenoiseSettings& denoise) {
+    return denoise.enabled != 0 && denoise.history > 0;
+}
+
+// No motion of reflected images, unless a source overwrites it.
+gpu::Image noImageMotion(gpu::Recorder& f, gpu::KeptImage& own, const RaySurfaces& from) {
+    const gpu::Image motion = own.storage(f, VK_FORMAT_R16G16_SFLOAT, from.g.depth.size);
+    f.clear(motion);
+    return motion;
+}
+
+// Rays per tile. Adaptive sampling needs the denoiser's history. All rays of a mirror's pixel are identical unless
+// their tracing is random; reuse requires a fixed count.
+RayTiles tilesOfLobe(gpu::Recorder& f, gpu::Scratch& scratch, LobeStore& own, const RaySurfaces& from,
+                     const LobeInputs& in) {
+    const LobeSettings& s = in.settings;
+    const RayCounts counts{s.rays, s.reuse > 0 || in.randomTracing ? s.rays : std::min(s.rays, 1U)};
+    const uvec2 size = from.g.depth.size;
+    const bool adaptive = s.adaptive && keepsHistory(in.denoise) && in.lit.next;
+    if (!adaptive || s.rays > raysPerBatch(f, size, maxAdaptiveRays)) {
+        return classifyTiles(f, scratch, own.tiles, from, in.lobe, counts);
+    }
+    const DenoiseHistory past = denoiseHistory(f, own.denoise, in.lobe, size, in.denoise);
+    return shareRays(f, scratch, own.adaptiveTiles, from, in.lobe, counts,
+                     {past.light.previous, past.surface.previous, past.moments.previous, in.lit.previous,
+                      past.valid && in.lit.valid});
+}
+
+}  // namespace
+
+LobeLight traceLobe(gpu::Recorder& f, LobeStore& own, const LobeInputs& in) {
+    const auto scope = f.scope(lobeNames[in.lobe]);
+    const LobeSettings& s = in.settings;
+    if (s.rays == 0) {
+        return blackLobe(f, own.light, {in.g, in.view}, in.countSteps);
+    }
+    const RaySurfaces from = pickSurfaces(f, own.surfaces, in.g, in.view, s.downsample);
+    gpu::Scratch scratch(f);
+    const RayTiles tiles = tilesOfLobe(f, scratch, own, from, in);
+    const bool adaptive = tiles.meanRays > 0;
+    const uint32_t most = adaptive ? adaptiveRayLimit(f, from.g.depth.size, s.rays) : s.rays;
+    const uint32_t batch = adaptive ? most : raysPerBatch(f, from.g.depth.size);
+    const bool reflects = in.lobe == lobeSpecular;
+    const gpu::Image imageMotion =
+        reflects && keepsHistory(in.denoise) ? noImageMotion(f, own.light.imageMotion, from) : gpu::Image{};
+    const bool reused = s.reuse > 0 && !adaptive && batch >= s.rays;
+    LobeLight light;
+    for (uint32_t first = 0; first < most; first += batch) {
+        gpu::Scratch ofBatch(f);
+        Rays rays = generateRays(f, ofBatch, from, {in.ggxTable, in.blueNoise, tiles, s.noise}, in.lobe,
+                                 {{}, in.diffuse, in.specular, first, std::min(most - first, batch), in.coneShare},
+                                 in.countSteps);
+        rays.imageMotion = imageMotion;
+        rays.directional = !reflects && in.denoise.enabled != 0 && in.denoise.directional != 0;
+        for (const RaySource& source : in.sources) {
+            source(f, rays);
+        }
+        answerEnvironment(f, rays, in.environment, in.environmentSettings);
+        light = reused ? reuseRays(f, own.light, rays, in.view, s.reuse) : resolveRays(f, own.light, rays);
+    }
+    light.imageMotion = imageMotion;
+    return in.denoise.enabled != 0 ? denoise(f, own.denoise, light, in.lobe, in.view, in.denoise) : light;
+}
+
+}  // namespace reflet

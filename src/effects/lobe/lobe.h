@@ -1,0 +1,44 @@
+// One lobe of indirect light, diffuse or specular, for any camera's surfaces: rays, the chain of sources, denoising.
+#pragma once
+
+#include "effects/denoise/denoise.h"
+#include "effects/environment/environment_light.h"
+#include "effects/lobe/answer_environment.h"
+#include "effects/lobe/rays.h"
+
+#include <span>
+
+namespace reflet {
+
+struct LobeInputs {
+    uint32_t lobe = lobeDiffuse;
+    const GBuffer& g;        ///< surfaces that rays start from
+    const ViewParams& view;  ///< of `g`
+    LobeSettings settings;
+    DiffuseSettings diffuse;    ///< read for the diffuse lobe
+    SpecularSettings specular;  ///< read for the specular lobe
+    DenoiseSettings denoise;
+    EnvironmentSettings environmentSettings;
+    const EnvironmentLight& environment;
+    gpu::Image ggxTable;                 ///< of ggxTable
+    gpu::BufferView blueNoise;           ///< noise/blue_noise.h
+    std::span<const RaySource> sources;  ///< asked in turn, the most exact first; the environment answers what is left
+    gpu::History lit;                    ///< the view's lit image, for adaptive sampling; may be none
+    bool randomTracing = false;          ///< a source may answer the same ray differently the next time
+    bool countSteps = false;             ///< count the depth samples of each ray
+    float coneShare = 0.0F;              ///< of GenerateRaysParams
+};
+
+/// Owns the images of a lobe in one view.
+struct LobeStore {
+    RaySurfacesStore surfaces;
+    gpu::KeptImage tiles{"tiles"};
+    gpu::HistoryImage adaptiveTiles{"adaptive_tiles"};
+    LobeLightStore light;
+    DenoiseStore denoise;
+};
+
+/// The light of the lobe; black with no rays.
+LobeLight traceLobe(gpu::Recorder& f, LobeStore& own, const LobeInputs& in);
+
+}  // namespace reflet

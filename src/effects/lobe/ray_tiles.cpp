@@ -1,0 +1,33 @@
+// Records the classification of tiles.
+#include "effects/lobe/ray_tiles.h"
+
+#include "effects/lobe/rays.h"
+
+#include <span>
+
+namespace reflet {
+
+gpu::BufferView makeTileList(gpu::Recorder& f, gpu::Scratch& scratch, uvec2 tiles) {
+    const VkDeviceSize items = VkDeviceSize(tiles.x) * tiles.y;
+    const gpu::BufferView list = scratch.buffer(rayListHeader + items * sizeof(uint32_t));
+    constexpr uint32_t empty[] = {tileListRow, 0, 1, 0};
+    f.update(list, std::as_bytes(std::span(empty)));
+    return list;
+}
+
+RayTiles classifyTiles(gpu::Recorder& f, gpu::Scratch& scratch, gpu::KeptImage& own, const RaySurfaces& from,
+                       uint32_t lobe, const RayCounts& counts) {
+    const uvec2 size = (from.g.depth.size + rayTileSide - 1U) / rayTileSide;
+    const RayTiles tiles{own.storage(f, VK_FORMAT_R32G32_SFLOAT, size), makeTileList(f, scratch, size)};
+    f.compute("classify_tiles", "classify_tiles.comp")
+        .constant("lobe", lobe)
+        .read("depth", from.g.depth)
+        .read("material", from.g.material)
+        .write("tiles", tiles.tiles)
+        .write("list", tiles.list)
+        .params(ClassifyTilesParams{from.g.depth.size, counts.rays, counts.mirrorRays})
+        .dispatch(size);
+    return tiles;
+}
+
+}  // namespace reflet

@@ -1,0 +1,66 @@
+// Tiles of 8x8 pixels of the traced grid: material class and rays per pixel of each, and a list of the tiles with rays.
+// Shared by C++ and GLSL.
+#ifndef REFLET_EFFECTS_RAY_TILES_H
+#define REFLET_EFFECTS_RAY_TILES_H
+
+#include "base/shared.h"
+
+SHARED_BEGIN
+
+const uint tileSky = 0;     // no surface
+const uint tileMatt = 1;    // no surface with a specular lobe
+const uint tileGlossy = 2;  // some have one
+const uint tileMirror = 3;  // some have one, and all of these are mirrors
+
+const uint rayTileSide = 8;  // pixels of the grid
+
+// Groups per row of the indirect dispatch over a tile list; 65535 rows suffice for the largest frame.
+const uint tileListRow = 64;
+
+// Up to this perceptual roughness a lobe is treated as a mirror: it is too narrow to be resolved on screen.
+const float mirrorRoughness = 0.01;
+
+// Rays per pixel are multiples of 1 / rayShares. If they are fractional, some pixels of the tile trace one ray more
+// than others, changing from frame to frame.
+const uint rayShares = 64;
+
+struct ClassifyTilesParams {
+    uvec2 size;       // of the grid
+    uint rays;        // per pixel
+    uint mirrorRays;  // specular rays per pixel of tileMirror
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "effects/lobe/ray_surfaces.h"
+#include "gpu/recorder.h"
+
+namespace reflet {
+
+/// The tiles of one lobe.
+struct RayTiles {
+    gpu::Image tiles;       ///< RG32F, a texel per tile: rays per pixel, in multiples of 1 / rayShares; class
+    gpu::BufferView list;   ///< of the tiles with rays; header as in ray lists: groups of an indirect dispatch, count
+    uint32_t meanRays = 0;  ///< mean rays per pixel with adaptive sampling, else 0
+};
+
+/// Rays per pixel.
+struct RayCounts {
+    uint32_t rays = 0;  ///< per pixel
+    uint32_t mirrorRays =
+        0;  ///< per pixel in tiles where all surfaces are mirrors: 1 where a mirror's rays are all identical
+};
+
+/// An empty list with room for all tiles.
+gpu::BufferView makeTileList(gpu::Recorder& f, gpu::Scratch& scratch, uvec2 tiles);
+
+/// The same ray count for all pixels in tiles that have the lobe. The list lives as long as `scratch`.
+RayTiles classifyTiles(gpu::Recorder& f, gpu::Scratch& scratch, gpu::KeptImage& own, const RaySurfaces& from,
+                       uint32_t lobe, const RayCounts& counts);
+
+}  // namespace reflet
+#endif
+
+#endif

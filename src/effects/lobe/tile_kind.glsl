@@ -1,0 +1,33 @@
+// Classifies the surfaces of a tile.
+// The includer first defines float loadDepth(ivec2 pixel); MaterialTexel loadMaterial(ivec2 pixel).
+#ifndef REFLET_TILE_KIND_GLSL
+#define REFLET_TILE_KIND_GLSL
+
+#include "effects/lobe/ray_tiles.glsl"
+
+struct TileContent {
+    uint kind;
+    uint pixels[2];  // number of pixels that have the lobe, by lobe
+};
+
+// Of the pixels from `first` to `end`, exclusive.
+TileContent tileContent(ivec2 first, ivec2 end) {
+    uint surfaces = 0u;
+    uint mirrors = 0u;
+    uint glossy = 0u;
+    for (int y = first.y; y < end.y; ++y) {
+        for (int x = first.x; x < end.x; ++x) {
+            if (loadDepth(ivec2(x, y)) > 0.0) {
+                MaterialTexel m = loadMaterial(ivec2(x, y));
+                bool shines = (m.flags & materialFlagLambert) == 0u;
+                surfaces += 1u;
+                mirrors += shines && m.roughness <= mirrorRoughness ? 1u : 0u;
+                glossy += shines && m.roughness > mirrorRoughness ? 1u : 0u;
+            }
+        }
+    }
+    uint kind = glossy > 0u ? tileGlossy : (mirrors > 0u ? tileMirror : (surfaces > 0u ? tileMatt : tileSky));
+    return TileContent(kind, uint[2](surfaces, glossy + mirrors));
+}
+
+#endif

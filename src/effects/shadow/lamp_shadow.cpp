@@ -1,0 +1,24 @@
+// Records the lookup of the lamps' shadow maps.
+#include "effects/shadow/lamp_shadow.h"
+
+namespace reflet {
+
+gpu::Image lampVisibility(gpu::Recorder& f, gpu::KeptImage& own, const GBuffer& g, const LampShadowInputs& in,
+                          const LampShadows& shadows, const LampVisibilityParams& params) {
+    const uint32_t layers = (shadows.count + 3) / 4;
+    const gpu::Image visibility = own.storage(f, VK_FORMAT_R8G8B8A8_UNORM, g.depth.size, layers, /*array=*/true);
+    f.compute("lamp_visibility", "lamp_visibility.comp")
+        .read("depth", g.depth)
+        .read("geometricNormal", g.geometricNormal)
+        .read("shadowMap", in.map)
+        .read("lampMasks", in.masks)
+        .read("blueNoise", in.blueNoise)
+        .write("visibility", visibility)
+        .params(params)
+        .params(shadows, "shadowBlock")
+        .constant("filterKind", static_cast<uint32_t>(params.settings.filter))
+        .dispatch(visibility.size);
+    return visibility;
+}
+
+}  // namespace reflet

@@ -1,0 +1,73 @@
+// Shadows of point and spot lamps: shadow maps in one atlas, looked up per pixel (hard, PCF, PCSS). Shared by C++ and
+// GLSL.
+//
+// A spot has one tile that covers its cone; a point lamp, or a spot wider than 60 degrees to each side, six: the faces
+// of a cube. Every tile is a perspective view from the lamp. Directional lamps besides the sun cast no shadows.
+#ifndef REFLET_EFFECTS_LAMP_SHADOW_H
+#define REFLET_EFFECTS_LAMP_SHADOW_H
+
+#include "base/shared.h"
+#include "effects/lamps.h"
+#include "effects/shadow/shadow.h"
+#include "effects/view.h"
+
+SHARED_BEGIN
+
+const uint maxShadowedLamps = 16;
+const uint cubeFaces = 6;  // +X -X +Y -Y +Z -Z
+
+// Limit of the blocker search to the side of a receiver and beyond a spot cone's edge, as a tangent seen from the lamp.
+// Blockers at least ten lamp radii from the lamp are always found.
+const float lampSearchTangent = 0.1;
+
+// Tile space: x and y across, z along the tile's axis, from the lamp, in metres. Face 2a or 2a + 1 of a cube has the
+// axes a + 1, a + 2 (modulo 3) for x and y, and plus or minus a for z.
+struct LampShadow {
+    LampParams lamp;
+    uint index;         // of the lamp, among all lamps
+    mat3 worldToTile;   // of directions, for a single tile
+    float halfTangent;  // the tile reaches to ±halfTangent · z along x and y
+    float near;         // geometry closer along z casts no shadow; depth = near / z [m]
+    uint firstTile;     // in the atlas, rows from the top
+    uint tiles;         // 1 or cubeFaces
+};
+
+struct LampShadows {
+    uint count;
+    uint tileSize;  // texels along each side
+    uint columns;   // tiles in a row of the atlas
+    LampShadow lamps[maxShadowedLamps];
+};
+
+struct LampTileParams {
+    mat4 worldToTile[maxShadowedLamps * cubeFaces];  // into clip space
+};
+
+struct LampVisibilityParams {
+    ViewParams view;
+    ShadowSettings settings;
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "effects/gbuffer/gbuffer.h"
+#include "gpu/recorder.h"
+
+namespace reflet {
+
+struct LampShadowInputs {
+    gpu::Image map;    ///< of drawLampShadowMap
+    gpu::Image masks;  ///< lamp bit masks per tile, see lamps.h
+    gpu::BufferView blueNoise;
+};
+
+/// RGBA8, a layer per four lamps, a channel each: 1 lit; 0 in shadow and out of the lamp's range or cone.
+gpu::Image lampVisibility(gpu::Recorder& f, gpu::KeptImage& own, const GBuffer& g, const LampShadowInputs& in,
+                          const LampShadows& shadows, const LampVisibilityParams& params);
+
+}  // namespace reflet
+#endif
+
+#endif

@@ -1,0 +1,37 @@
+// Records the lookup of the sun's shadow maps.
+#include "effects/shadow/shadow.h"
+
+namespace reflet {
+
+SunVisibility sunVisibility(gpu::Recorder& f, SunVisibilityStore& own, const GBuffer& g, const ShadowInputs& in,
+                            const ShadowVisibilityParams& params) {
+    const ShadowFilter filter = params.settings.filter;
+    const bool soft = filter == ShadowFilter::pcf || filter == ShadowFilter::pcss;
+    const bool cascades = params.sun.count > 1;
+    // Always bound, but unused where not needed.
+    const auto imageIf = [&](bool needed, gpu::KeptImage& image, VkFormat format) {
+        return needed ? image.storage(f, format, g.depth.size) : f.placeholder(format);
+    };
+    const gpu::Image map = in.map ? in.map : g.depth;
+    const gpu::Image penumbra = imageIf(soft, own.penumbra, VK_FORMAT_R16G16_SFLOAT);
+    const gpu::Image index = imageIf(cascades, own.cascadeIndex, VK_FORMAT_R8_UNORM);
+    const gpu::Image visibility = own.visibility.storage(f, VK_FORMAT_R8_UNORM, g.depth.size);
+    f.compute("shadow_visibility", "shadow_visibility.comp")
+        .read("depth", g.depth)
+        .read("geometricNormal", g.geometricNormal)
+        .read("shadowMap", map)
+        .read("range", in.range ? in.range : map)
+        .read("blueNoise", in.blueNoise)
+        .write("visibility", visibility)
+        .write("penumbra", penumbra)
+        .write("cascadeIndex", index)
+        .params(params)
+        .constant("filterKind", static_cast<uint32_t>(filter))
+        .constant("hasRanges", in.range ? 1 : 0)
+        .constant("cascades", params.sun.count)
+        .constant("biasKind", static_cast<uint32_t>(params.settings.biasKind))
+        .dispatch(g.depth.size);
+    return {visibility, soft ? penumbra : gpu::Image{}, cascades ? index : gpu::Image{}};
+}
+
+}  // namespace reflet

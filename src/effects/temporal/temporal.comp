@@ -1,0 +1,5 @@
+// Temporal antialiasing of the radiance alone.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#define HAS_COVERAGE 0
+#include "effects/temporal/temporal.glsl"

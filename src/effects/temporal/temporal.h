@@ -1,0 +1,80 @@
+// Temporal antialiasing (TAA): the mean of the last frames, each with its own subpixel jitter, as far as the history is
+// still valid. Shared by C++ and GLSL.
+//
+// Each pixel is reprojected (by the motion of the nearest surface in its neighbourhood, so that edges move with the
+// foreground), reads the history there (Catmull-Rom, to stay sharp), clips it to the local distribution of this frame's
+// pixels (history clip), and blends in this frame with a weight of one over the history length.
+// (Karis, High Quality Temporal Supersampling, SIGGRAPH 2014: jitter, clipping in YCoCg, tone-compressed;
+// Salvi, An Excursion in Temporal Supersampling, GDC 2016: limits from local mean and variance;
+// Jimenez, Filmic SMAA: Sharp Morphological and Temporal Antialiasing, SIGGRAPH 2016: Catmull-Rom without its corners.)
+#ifndef REFLET_EFFECTS_TEMPORAL_H
+#define REFLET_EFFECTS_TEMPORAL_H
+
+#include "base/shared.h"
+#include "effects/view.h"
+
+SHARED_BEGIN
+
+#define TEMPORAL_SETTINGS(VALUE, SWITCH, CHOICE)                                                                       \
+    SWITCH(enabled, 0,                                                                                                 \
+           "Temporal antialiasing (TAA) over frames (--frames), with subpixel jitter. Ignored if accumulate.enabled, " \
+           "which antialiases by itself.")                                                                             \
+    VALUE(uint, frames, 32, 1, 1024,                                                                                   \
+          "Maximum history length where nothing moves, in frames. More: smoother edges, slower reaction to changes.")  \
+    VALUE(uint, framesInMotion, 8, 1, 1024,                                                                            \
+          "Maximum history length where the image moves by a quarter pixel per frame or faster. More: smoother; "      \
+          "fewer: sharper.")                                                                                           \
+    VALUE(float, clip, 1.0, 0.0, 16.0,                                                                                 \
+          "History clip (variance clipping): maximum difference of the history from the pixels around it, in "         \
+          "standard deviations. Lower: less ghosting, more flicker.")
+SETTINGS(TemporalSettings, TEMPORAL_SETTINGS)
+
+// Vertically adjacent pixels per thread, which share their neighbourhood loads.
+const uint temporalColumn = 4;
+
+struct TemporalParams {
+    mat4 skyToPrevious;  // clip space to the last frame's clip space, for points at infinity
+    TemporalSettings settings;
+    uvec2 size;
+    uint frame;        // counts up; decorrelates dithering between frames
+    uint hasPrevious;  // 1: the history holds the last frame
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "effects/gbuffer/gbuffer.h"
+#include "gpu/recorder.h"
+
+namespace reflet {
+
+/// view: of this frame; the sky is reprojected with it. radiance: RGBA16F, rendered with subpixel jitter (jitter.h),
+/// may contain NaN and infinity; g.motion: without jitter. coverage: if given, that of the pixels by surfaces, red, 0
+/// to 1; radiance is premultiplied by it.
+struct TemporalInputs {
+    const GBuffer& g;
+    gpu::Image radiance;
+    gpu::Image coverage;
+    const ViewParams& view;
+};
+
+struct TemporalImages {
+    gpu::Image mean;      ///< RGBA16F: radiance, finite and at least 0, and history length
+    gpu::Image coverage;  ///< R32F, averaged with the same weights as the radiance; none if none was given
+};
+
+/// Owns the histories.
+struct TemporalStore {
+    gpu::HistoryImage mean{"temporal"};
+    gpu::HistoryImage deviations{"temporal_deviations"};
+    gpu::HistoryImage coverage{"temporal_coverage"};
+};
+
+TemporalImages temporal(gpu::Recorder& f, TemporalStore& own, const TemporalInputs& in,
+                        const TemporalSettings& settings);
+
+}  // namespace reflet
+#endif
+
+#endif

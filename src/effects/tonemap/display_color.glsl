@@ -1,0 +1,26 @@
+// Tone mapping of one pixel: exposure, curve, display encoding. Compiled as GLSL by tonemap.comp and as C++ by
+// tone_map_image.cpp, so that CPU and GPU results match.
+#ifndef REFLET_DISPLAY_COLOR_GLSL
+#define REFLET_DISPLAY_COLOR_GLSL
+
+#include "effects/tonemap/tonemap.h"
+#include "shaders/tone_curves.glsl"
+
+// Display encoded, 0..1. `curve` is one of the constants ToneCurve_*, exposure in stops.
+vec3 displayColor(vec3 radiance, uint curve, float exposure) {
+    vec3 c = radiance * exp2(exposure);
+    switch (curve) {
+        case ToneCurve_aces:
+            return encodeSrgb(toneAces(c));
+        case ToneCurve_agx:
+            return encodeSrgb(toneAgx(c));
+        case ToneCurve_neutral:
+            return encodeSrgb(toneNeutral(c));
+        case ToneCurve_gamma22:
+            return pow(clamp(c, 0.0f, 1.0f), vec3(1.0f / 2.2f));
+        default:
+            return encodeSrgb(c);
+    }
+}
+
+#endif

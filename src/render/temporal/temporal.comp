@@ -1,5 +1,0 @@
-// Temporal antialiasing of the radiance alone.
-#version 460
-#extension GL_EXT_scalar_block_layout : require
-#define HAS_COVERAGE 0
-#include "render/temporal/temporal.glsl"

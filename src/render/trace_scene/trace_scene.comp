@@ -1,6 +1,0 @@
-// Ray tracing as a ray source, software BVH traversal (trace_scene.glsl).
-#version 460
-#extension GL_EXT_scalar_block_layout : require
-#include "render/trace_scene/scene_surfaces.glsl"
-#include "render/trace_scene/scene_rays.glsl"
-#include "render/trace_scene/trace_scene.glsl"

@@ -1,0 +1,40 @@
+// Records the compositing of blended surfaces.
+#include "renderer/blend/blend.h"
+
+namespace reflet {
+
+bool showsBlended(const DrawList& list, const ViewParams& view) {
+    return anyDraws(list, {.keep = [](const Draw& draw) { return draw.blended; }, .worldToClip = view.worldToClip});
+}
+
+void blendLayer(gpu::Recorder& f, gpu::Image accumulated, gpu::Image radiance, gpu::Image motion, bool first) {
+    f.compute("blend_layer", "blend_layer.comp")
+        .read("radiance", radiance)
+        .read("motion", motion)
+        .write("accumulated", accumulated)
+        .params(BlendLayerParams{accumulated.size, first ? 1U : 0U})
+        .dispatch(accumulated.size);
+}
+
+namespace {
+
+void compositeOver(gpu::Recorder& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over, uint32_t coverage) {
+    f.compute("blend_over", "blend_over.comp")
+        .read("accumulated", accumulated)
+        .read("behind", behind)
+        .write("over", over)
+        .params(BlendOverParams{over.size, coverage})
+        .dispatch(over.size);
+}
+
+}  // namespace
+
+void blendOver(gpu::Recorder& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over) {
+    compositeOver(f, accumulated, behind, over, 0);
+}
+
+void coverOver(gpu::Recorder& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over) {
+    compositeOver(f, accumulated, behind, over, 1);
+}
+
+}  // namespace reflet

@@ -1,0 +1,61 @@
+// Blended surfaces (alphaMode BLEND): composited over the light of the opaque ones, layer by layer. Shared by C++ and
+// GLSL.
+//
+// Depth peeling (C. Everitt, Interactive Order-Independent Transparency, 2001) finds the nearest blended surface of
+// each pixel, then the next one behind it, and so on. Each layer is a G-buffer of its own, which is lit like that of
+// the opaque surfaces, by the same passes. So blending is exact in any order and through intersections, up to the
+// number of layers. Layers are composited front to back, with the "over" operator (T. Porter, T. Duff, Compositing
+// Digital Images, 1984).
+#ifndef REFLET_RENDERER_BLEND_H
+#define REFLET_RENDERER_BLEND_H
+
+#include "base/shared.h"
+
+SHARED_BEGIN
+
+#define BLEND_SETTINGS(VALUE, SWITCH, CHOICE)                                                                         \
+    VALUE(uint, layers, 4, 0, 8,                                                                                      \
+          "Blended surfaces (alphaMode BLEND) that a pixel shows behind one another, the nearest ones first, in any " \
+          "order of drawing. More: right where more of them overlap, cost grows linearly. 0: drawn opaque where "     \
+          "their alpha is at least 0.5.")
+SETTINGS(BlendSettings, BLEND_SETTINGS)
+
+struct BlendLayerParams {
+    uvec2 size;
+    uint first;  // 1: nothing is in front of the layer
+};
+
+struct BlendOverParams {
+    uvec2 size;
+    uint coverage;  // 1: composites the layers' coverage in place of their light
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "effects/view.h"
+#include "gpu/recorder.h"
+#include "renderer/draw_list.h"
+
+#include <string_view>
+
+namespace reflet {
+
+/// Whether the view may show blended surfaces.
+bool showsBlended(const DrawList& list, const ViewParams& view);
+
+/// Composites a layer under those in front of it. accumulated: RGBA16F, their light and what they let through; written
+/// by the first layer. radiance: of the layer; motion: its G-buffer's, with alpha.
+void blendLayer(gpu::Recorder& f, gpu::Image accumulated, gpu::Image radiance, gpu::Image motion, bool first);
+
+/// over = accumulated layers over the light `behind` them; the alpha of `behind` is kept. RGBA16F, not the same image.
+void blendOver(gpu::Recorder& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over);
+
+/// The same for the share of the pixel that surfaces cover, in red, green and blue.
+void coverOver(gpu::Recorder& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over);
+
+}  // namespace reflet
+#endif
+
+#endif

@@ -1,0 +1,70 @@
+// Sunlight that blended surfaces let through. In: the sun's visibility, and for two layers of blended surfaces their
+// depth from the sun and the share of light that passes. Out: the visibility times that share.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+float loadShadowDepth(ivec2 texel) { return 0.0; }  // of the opaque surfaces, not used
+#include "renderer/blend/blend_shadow.h"
+#include "shaders/cascades.glsl"
+#include "shaders/octahedral.glsl"
+#include "shaders/projection.glsl"
+#include "shaders/shadow_map.glsl"
+
+layout(constant_id = 0) const uint cascades = 1u;
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { BlendShadowParams params; };
+layout(set = 0, binding = 1) uniform sampler2D depth;
+layout(set = 0, binding = 2) uniform usampler2D geometricNormal;
+layout(set = 0, binding = 3) uniform sampler2D sunVisibility;
+layout(set = 0, binding = 4) uniform sampler2D depth0;
+layout(set = 0, binding = 5) uniform sampler2D depth1;
+layout(set = 0, binding = 6) uniform sampler2D transmittance0;
+layout(set = 0, binding = 7) uniform sampler2D transmittance1;
+layout(set = 0, binding = 8, r8) uniform writeonly image2D visibility;
+
+// Share of the light that passes a layer's texel on its way to the receiver, whose plane is at `plane` metres above the
+// receiver there.
+float passes(float d, float share, ShadowReceiver r, float plane) {
+    float clearance = (d - r.s.z) * r.depthRange - plane;
+    return d > 0.0 && clearance > r.bias.most ? share : 1.0;
+}
+
+// Bilinear over four texels.
+float transmittanceIn(uint cascade, vec3 p, vec3 normal) {
+    ShadowTile tile = ShadowTile(cascadeTileOrigin(cascade, params.resolution), ivec2(params.resolution));
+    ShadowReceiver r = slopeReceiver(p, normal, params.sun.maps[cascade], tile, params.bias);
+    ivec2 corner = ivec2(floor(r.at - 0.5));
+    vec2 f = r.at - 0.5 - vec2(corner);
+    float sum = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 offset = ivec2(i & 1, i >> 1);
+        ivec2 texel = clamp(corner + offset, ivec2(0), tile.size - 1);
+        vec2 toCentre = (2.0 * (vec2(texel) + 0.5) / vec2(tile.size) - 1.0) - r.s.xy;
+        float plane = dot(r.slope, toCentre);
+        texel += tile.origin;
+        vec2 weight = mix(1.0 - f, f, vec2(offset));
+        sum += weight.x * weight.y *
+               passes(texelFetch(depth0, texel, 0).r, texelFetch(transmittance0, texel, 0).r, r, plane) *
+               passes(texelFetch(depth1, texel, 0).r, texelFetch(transmittance1, texel, 0).r, r, plane);
+    }
+    return sum;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, ivec2(params.view.size)))) {
+        return;
+    }
+    float d = texelFetch(depth, pixel, 0).r;
+    float visible = texelFetch(sunVisibility, pixel, 0).r;
+    if (d > 0.0 && visible > 0.0) {
+        vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
+        vec3 normal = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
+        Cascade c = Cascade(0u, 0.0);
+        if (cascades > 1u) {
+            c = selectCascade(dot(params.view.viewPlane, vec4(p, 1.0)), params.sun);
+        }
+        visible *= transmittanceIn(c.index, p, normal);
+    }
+    imageStore(visibility, pixel, vec4(visible));
+}

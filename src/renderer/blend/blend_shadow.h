@@ -1,0 +1,60 @@
+// Sunlight through blended surfaces: what they let through, by their own shadow maps. Shared by C++ and GLSL.
+//
+// Opaque surfaces alone are in the sun's shadow map. The two blended surfaces nearest to the sun have a map each, with
+// depth and the share of the light that passes (as in colored stochastic and deep shadow maps, but with two fixed
+// layers; T. Lokovic, E. Veach, Deep Shadow Maps, 2000), found by depth peeling. Edges are as sharp as the map: there
+// is no penumbra.
+#ifndef REFLET_RENDERER_BLEND_SHADOW_H
+#define REFLET_RENDERER_BLEND_SHADOW_H
+
+#include "base/shared.h"
+#include "effects/shadow/shadow.h"
+
+SHARED_BEGIN
+
+const uint blendShadowLayers = 2;
+
+struct BlendShadowParams {
+    ViewParams view;
+    SunShadowParams sun;
+    uint resolution;  // of a cascade's tile
+    float bias;       // ShadowSettings
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "renderer/draw_list.h"
+
+#include <array>
+
+namespace reflet {
+
+/// A layer, as wide as the sun's shadow map.
+struct BlendShadowMap {
+    gpu::Image depth;          ///< D32, reversed; 0: nothing
+    gpu::Image transmittance;  ///< R8: share of the light that passes
+};
+using BlendShadowMaps = std::array<BlendShadowMap, blendShadowLayers>;
+
+/// Owns the images of BlendShadowMaps.
+struct BlendShadowStore {
+    struct Layer {
+        gpu::KeptImage depth{"blend_shadow_map.depth"};
+        gpu::KeptImage transmittance{"blend_shadow_map.transmittance"};
+    };
+    std::array<Layer, blendShadowLayers> layers;
+};
+
+BlendShadowMaps drawBlendShadowMaps(gpu::Recorder& f, BlendShadowStore& own, const DrawList& list,
+                                    const SunShadowParams& sun, const ShadowSettings& settings);
+
+/// The sun's visibility (R8) times what the blended surfaces let through.
+gpu::Image blendShadow(gpu::Recorder& f, gpu::KeptImage& own, const GBuffer& g, const BlendShadowMaps& maps,
+                       gpu::Image sunVisibility, const BlendShadowParams& params);
+
+}  // namespace reflet
+#endif
+
+#endif

@@ -1,0 +1,26 @@
+// A layer of blended surfaces as seen from the sun: the nearest ones, or (peeled) the nearest ones behind those of the
+// first layer. Out: the share of the light that passes.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+const uint usedSlots = 1u;  // the colour, for its alpha
+#include "renderer/material.glsl"
+
+layout(constant_id = 0) const uint peeled = 0u;
+layout(set = 0, binding = 1) uniform sampler2D nearerDepth;
+
+layout(location = 0) in vec4 uv;
+layout(location = 1) in vec4 vertexColor;
+
+layout(location = 0) out float transmittance;
+
+void main() {
+    vec4 color;
+    materialBaseColor(uv.xy, uv.zw, vertexColor, color);
+    if (!isTranslucent(color.a)) {
+        discard;
+    }
+    if (peeled != 0u && gl_FragCoord.z >= texelFetch(nearerDepth, ivec2(gl_FragCoord.xy), 0).r * (1.0 - peelTolerance)) {
+        discard;
+    }
+    transmittance = 1.0 - color.a;
+}

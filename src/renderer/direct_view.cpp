@@ -1,0 +1,126 @@
+// Records one camera's view under direct light.
+#include "renderer/direct_view.h"
+
+#include "effects/contact/contact.h"
+#include "effects/pyramid/pyramid.h"
+#include "renderer/gbuffer/back_depth.h"
+#include "renderer/gbuffer/draw_gbuffer.h"
+#include "renderer/shadow/lamp_shadow_maps.h"
+#include "renderer/shadow/shadow_maps.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reflet {
+
+namespace {
+
+void drawSurfaces(gpu::Recorder& f, DirectViewStore& own, const ViewInputs& in, const Settings& settings,
+                  ViewImages& out) {
+    GBufferContent content{.clipPlane = in.clipPlane};
+    content.blendedFrom = settings.blend.layers > 0 ? opaqueAlpha : blendCutoff;
+    out.g = drawGBuffer(f, own.g, in.draws, in.view, settings.materials, content);
+    if (settings.traceScreen.thicknessMode == ThicknessMode::secondLayer) {
+        const gpu::Image back = drawBackDepth(f, own.backDepth, in.draws, out.g.depth, in.view);
+        out.backDepth = keptDepth(f, own.keptBackDepth, back, in.view, settings.depth);
+    }
+    out.g.depth = keptDepth(f, own.keptDepth, out.g.depth, in.view, settings.depth);
+    if (settings.traceScreen.method == TraceMethod::hiz || settings.contact.distance > 0.0F) {
+        out.pyramid = makePyramid(f, own.pyramid, out.g.depth, out.backDepth);
+    }
+}
+
+// Sun visibility per pixel: shadow map, denoising, contact shadows.
+void renderSunVisibility(gpu::Recorder& f, SurfaceLightStore& own, const ViewInputs& in, const Settings& settings,
+                         ViewImages& out) {
+    ShadowSettings shadow = settings.shadow;
+    if (in.sunIrradiance == vec3(0.0F)) {
+        shadow.filter = ShadowFilter::none;
+    }
+    const float sunSlope = std::tan(0.5F * in.sunAngularDiameter);
+    out.sun = fitSunShadows(in.view, in.draws.boundsW, in.sunDirection, shadow,
+                            filterReach(in.draws.boundsW, shadow, sunSlope));
+    const bool throughBlended = shadow.filter != ShadowFilter::none && settings.blend.layers > 0 &&
+                                std::ranges::any_of(in.draws.draws, &Draw::blended);
+    if (shadow.filter != ShadowFilter::none && !out.shadowMap) {
+        out.shadowMap = drawShadowMap(f, own.shadowMap, in.draws, out.sun, shadow, throughBlended);
+    }
+    ShadowInputs maps{.map = out.shadowMap, .range = {}, .blueNoise = in.blueNoise};
+    if (shadow.filter == ShadowFilter::pcss && shadow.earlyOut != 0) {
+        if (!out.shadowRange) {
+            out.shadowRange =
+                makeShadowRange(f, own.shadowRange, out.shadowMap, in.draws, out.sun, shadow, throughBlended);
+        }
+        maps.range = out.shadowRange;
+    }
+    const SunVisibility seen = sunVisibility(f, own.sun, out.g, maps, {in.view, out.sun, shadow, sunSlope});
+    out.rawSunVisibility = seen.visibility;
+    out.shadowPenumbra = seen.penumbra;
+    out.sunVisibility = shadow.denoise != 0 && seen.penumbra
+                            ? denoiseShadow(f, own.sunDenoise, out.g, seen.visibility, seen.penumbra,
+                                            {in.view, -in.sunDirection, shadow.history, shadow.samples, 0})
+                            : seen.visibility;
+    out.cascadeIndex = seen.cascadeIndex;
+    if (settings.contact.distance > 0.0F && in.sunIrradiance != vec3(0.0F)) {
+        out.sunVisibility = contactShadow(f, own.contactVisibility, out.g, out.pyramid, out.sunVisibility,
+                                          {in.view, settings.contact, -in.sunDirection});
+    }
+    if (throughBlended) {
+        if (!out.blendShadow.front().depth) {
+            out.blendShadow = drawBlendShadowMaps(f, own.blendShadow, in.draws, out.sun, shadow);
+        }
+        out.sunVisibility = blendShadow(f, own.blendVisibility, out.g, out.blendShadow, out.sunVisibility,
+                                        {in.view, out.sun, shadow.resolution, shadow.bias});
+    }
+}
+
+void renderLampVisibility(gpu::Recorder& f, SurfaceLightStore& own, const ViewInputs& in, const Settings& settings,
+                          ViewImages& out) {
+    out.lampTiles = findLampTiles(f, own.lampTiles, out.g.depth, in.lamps, in.view, settings.direct);
+    if (in.lampShadows.count > 0) {
+        if (!out.lampShadowMap) {
+            out.lampShadowMap = drawLampShadowMap(f, own.lampShadowMap, in.draws, in.lampShadows);
+        }
+        out.lampVisibility =
+            lampVisibility(f, own.lampVisibility, out.g, {out.lampShadowMap, out.lampTiles.masks, in.blueNoise},
+                           in.lampShadows, {in.view, settings.shadow});
+    }
+}
+
+}  // namespace
+
+SceneLights sceneLights(const ViewInputs& in, const Settings& settings) {
+    return {.toSun = -in.sunDirection,
+            .sunSine = std::sin(0.5F * in.sunAngularDiameter),
+            .sunIrradiance = in.sunIrradiance,
+            .allLampsCast = settings.shadow.filter == ShadowFilter::traced ? 1U : 0U,
+            .lambertOnly = settings.materials.lambertOnly};
+}
+
+ViewImages directView(gpu::Recorder& f, DirectViewStore& own, const ViewInputs& in, const Settings& settings,
+                      gpu::Image lampShadowMap) {
+    ViewImages out;
+    out.lampShadowMap = lampShadowMap;
+    drawSurfaces(f, own, in, settings, out);
+    lightSurfaces(f, own.light, in, settings, out);
+    return out;
+}
+
+void lightSurfaces(gpu::Recorder& f, SurfaceLightStore& own, const ViewInputs& in, const Settings& settings,
+                   ViewImages& out) {
+    if (settings.shadow.filter == ShadowFilter::traced && in.traced != nullptr) {
+        const DirectRays rays = directByRays(f, own.rays, out.g, {*in.traced, in.ggxTable, in.environment, in.lamps},
+                                             {in.view, sceneLights(in, settings), settings.shadow.rays});
+        out.direct = rays.direct;
+        out.sunVisibility = rays.sunVisibility;
+        out.rawSunVisibility = rays.sunVisibility;
+        return;
+    }
+    renderSunVisibility(f, own, in, settings, out);
+    renderLampVisibility(f, own, in, settings, out);
+    out.direct = directLight(f, own.direct, out.g, {out.sunVisibility, out.lampVisibility, out.lampTiles.masks},
+                             in.ggxTable, {in.view, -in.sunDirection, in.sunIrradiance},
+                             {in.lamps, in.environment, settings.materials.lambertOnly != 0});
+}
+
+}  // namespace reflet

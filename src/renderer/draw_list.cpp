@@ -1,0 +1,101 @@
+// Frustum-culls and records draws.
+#include "renderer/draw_list.h"
+
+#include "gpu/context.h"
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace reflet {
+
+const gpu::VertexLayout& vertexLayout() {
+    static const gpu::VertexLayout layout{
+        {sizeof(vec3), sizeof(VertexAttributes), sizeof(vec3)},
+        {{"position", 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
+         {"normal", 1, VK_FORMAT_R32G32B32_SFLOAT, offsetof(VertexAttributes, normal)},
+         {"tangent", 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(VertexAttributes, tangent)},
+         {"uv0", 1, VK_FORMAT_R32G32_SFLOAT, offsetof(VertexAttributes, uv0)},
+         {"uv1", 1, VK_FORMAT_R32G32_SFLOAT, offsetof(VertexAttributes, uv1)},
+         {"color", 1, VK_FORMAT_R16G16B16A16_UNORM, offsetof(VertexAttributes, color)},
+         {"previousPosition", 2, VK_FORMAT_R32G32B32_SFLOAT, 0}}};
+    return layout;
+}
+
+namespace {
+
+// Conservative: false only if all corners are outside of the same frustum plane. There is no far plane.
+bool intersectsFrustum(const Aabb& box, const mat4& worldToClip) {
+    unsigned outside = 0x1F;
+    for (unsigned i = 0; i < 8; ++i) {
+        const vec4 c = worldToClip * vec4(box.corner(i), 1.0F);
+        unsigned corner = 0;
+        corner |= c.x < -c.w ? 1U : 0U;
+        corner |= c.x > c.w ? 2U : 0U;
+        corner |= c.y < -c.w ? 4U : 0U;
+        corner |= c.y > c.w ? 8U : 0U;
+        corner |= c.z > c.w ? 16U : 0U;
+        outside &= corner;
+    }
+    return outside == 0;
+}
+
+VkCullModeFlags cullMode(Cull cull, const Draw& draw) {
+    if (cull == Cull::front) {
+        return VK_CULL_MODE_FRONT_BIT;
+    }
+    return cull == Cull::back && !draw.doubleSided ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
+}
+
+bool passes(const Draw& draw, const DrawFilter& filter) {
+    return filter.keep(draw) && intersectsFrustum(draw.boundsW, filter.worldToClip);
+}
+
+struct DrawConstants {
+    glm::mat4x3 objectToWorld;
+    glm::mat4x3 previousObjectToWorld;
+};
+
+}  // namespace
+
+bool anyDraws(const DrawList& list, const DrawFilter& filter) {
+    return std::ranges::any_of(list.draws, [&](const Draw& draw) { return passes(draw, filter); });
+}
+
+void drawIntoTile(const gpu::DrawCommands& to, const uvec2& tile, uint32_t side) {
+    const glm::ivec2 corner(tile * side);
+    const auto length = static_cast<float>(side);
+    const VkViewport viewport{static_cast<float>(corner.x), static_cast<float>(corner.y), length, length, 0, 1};
+    const VkRect2D scissor{{corner.x, corner.y}, {side, side}};
+    to.context.vk.vkCmdSetViewport(to.commands, 0, 1, &viewport);
+    to.context.vk.vkCmdSetScissor(to.commands, 0, 1, &scissor);
+}
+
+void recordDraws(const gpu::DrawCommands& to, const DrawList& list, const DrawFilter& filter, bool previousTransform) {
+    const gpu::DeviceFunctions& vk = to.context.vk;
+    const VkBuffer previous = list.previousPositions != VK_NULL_HANDLE ? list.previousPositions : list.positions;
+    const VkBuffer buffers[] = {list.positions, list.attributes, previous};
+    const VkDeviceSize offsets[] = {0, 0, 0};
+    vk.vkCmdBindVertexBuffers(to.commands, 0, 3, buffers, offsets);
+    vk.vkCmdBindIndexBuffer(to.commands, list.indices, 0, VK_INDEX_TYPE_UINT32);
+    VkDescriptorSet boundMaterial = VK_NULL_HANDLE;
+    for (const Draw& draw : list.draws) {
+        if (!passes(draw, filter)) {
+            continue;
+        }
+        if (filter.bindMaterials && draw.material != boundMaterial) {
+            boundMaterial = draw.material;
+            vk.vkCmdBindDescriptorSets(to.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, to.layout, 1, 1, &boundMaterial, 0,
+                                       nullptr);
+        }
+        const bool mirrored = (glm::determinant(mat3(draw.objectToWorld)) < 0.0F) != draw.turnedOver;
+        vk.vkCmdSetFrontFace(to.commands, mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
+        vk.vkCmdSetCullMode(to.commands, cullMode(filter.cull, draw));
+        const DrawConstants constants{glm::mat4x3(draw.objectToWorld), glm::mat4x3(draw.previousObjectToWorld)};
+        vk.vkCmdPushConstants(to.commands, to.layout, VK_SHADER_STAGE_ALL, 0,
+                              previousTransform ? sizeof(constants) : sizeof(constants.objectToWorld), &constants);
+        vk.vkCmdDrawIndexed(to.commands, draw.indexCount, 1, draw.firstIndex, draw.firstVertex, filter.instance);
+    }
+}
+
+}  // namespace reflet

@@ -1,0 +1,351 @@
+// The frame, top to bottom: values in, values out. Start reading here.
+//
+// direct view (G-buffer → depth pyramid → sun and lamp visibility → direct light) → diffuse rays → source chain
+// → layers of blended surfaces → planar views → specular rays → source chain → composite → temporal antialiasing
+// → tone map
+//
+// renderFrame, at the end, does all of it; its parts are above it, those shared with other views in direct_view.cpp,
+// and a lobe's rays in trace_lobe.cpp. There is no render graph: the `if`s in these files are all that culls passes.
+#include "renderer/frame.h"
+
+#include "effects/accumulate/accumulate.h"
+#include "effects/exposure/exposure.h"
+#include "effects/light_mips/light_mips.h"
+#include "effects/lobe/trace_screen.h"
+#include "effects/temporal/temporal.h"
+#include "effects/tonemap/tonemap.h"
+#include "gpu/context.h"
+#include "renderer/blend/blend.h"
+#include "renderer/gbuffer/draw_gbuffer.h"
+#include "renderer/history.h"
+#include "renderer/planar/planar_view.h"
+#include "renderer/trace_lobe.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace reflet {
+
+namespace {
+
+constexpr VkFormat litFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+
+TracedView tracedView(const ViewInputs& in, const ViewImages& images) {
+    const ScreenImages screen{.g = images.g,
+                              .view = in.view,
+                              .backDepth = images.backDepth,
+                              .pyramid = images.pyramid,
+                              .light = images.direct,
+                              .lit = {},
+                              .lightMips = {}};
+    return {images, screen, {}};
+}
+
+// Light of blended surfaces, and in alpha what they let through of the light behind. Layers only if they are kept.
+struct BlendedLight {
+    gpu::Image lit;  // none: the view shows no blended surfaces
+    gpu::Image direct;
+    gpu::Image indirectDiffuse;
+    gpu::Image indirectSpecular;
+};
+
+// Settings for blended surfaces: layers have no history, and no depth pyramid for contact shadows.
+Settings blendedSettings(Settings settings) {
+    settings.contact.distance = 0.0F;
+    settings.shadow.history = 0;
+    settings.denoise.history = 0;
+    settings.traceScreen.countSteps = 0;
+    return settings;
+}
+
+// One layer of blended surfaces, lit like the opaque ones. Its rays are traced in the screen of the opaque surfaces.
+Composite lightLayer(gpu::Recorder& f, BlendStore::Layer& own, const ViewInputs& in, const Settings& settings,
+                     TracedView& layer, bool layers) {
+    lightSurfaces(f, own.light, in, settings, layer.images);
+    const LobeLight diffuse = traceLobe(f, own.diffuse, in, settings, layer, lobeDiffuse);
+    const LobeLight specular = traceLobe(f, own.specular, in, settings, layer, lobeSpecular);
+    const CompositeInputs parts{layer.images.g, layer.images.direct, diffuse,
+                                specular,       in.ggxTable,         settings.materials.lambertOnly != 0,
+                                layers};
+    const gpu::Image lit = own.lit.storage(f, litFormat, layer.images.g.depth.size);
+    return composite(f, own.layers, parts, lit, {in.view, settings.diffuse.gain});
+}
+
+BlendedLight lightBlended(gpu::Recorder& f, BlendStore& own, const ViewInputs& in, const Settings& asked,
+                          const TracedView& seen, bool layers) {
+    BlendedLight out;
+    if (asked.blend.layers == 0 || !showsBlended(in.draws, in.view)) {
+        return out;
+    }
+    const auto scope = f.scope("blend");
+    const Settings settings = blendedSettings(asked);
+    const auto sum = [&](gpu::KeptImage& image) { return image.storage(f, litFormat, seen.images.g.depth.size); };
+    out.lit = sum(own.lit);
+    if (layers) {
+        out = {out.lit, sum(own.direct), sum(own.indirectDiffuse), sum(own.indirectSpecular)};
+    }
+    gpu::Image nearer;
+    for (uint32_t i = 0; i < settings.blend.layers; ++i) {
+        BlendStore::Layer& store = own.layers[i % own.layers.size()];
+        TracedView layer{seen.images, seen.screen, {}};
+        const GBufferContent content{
+            .clipPlane = in.clipPlane, .opaqueDepth = seen.images.g.depth, .nearerDepth = nearer};
+        layer.images.g = drawGBuffer(f, store.g, in.draws, in.view, settings.materials, content);
+        nearer = layer.images.g.depth;
+        const Composite light = lightLayer(f, store, in, settings, layer, layers);
+        const gpu::Image alpha = layer.images.g.motion;
+        blendLayer(f, out.lit, light.lit, alpha, i == 0);
+        if (layers) {
+            blendLayer(f, out.direct, layer.images.direct, alpha, i == 0);
+            blendLayer(f, out.indirectDiffuse, light.indirectDiffuse, alpha, i == 0);
+            blendLayer(f, out.indirectSpecular, light.indirectSpecular, alpha, i == 0);
+        }
+    }
+    return out;
+}
+
+// `behind` with the blended surfaces in front of it, in another image.
+gpu::Image withBlended(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image front, gpu::Image behind) {
+    if (!front) {
+        return behind;
+    }
+    const gpu::Image over = own.storage(f, litFormat, behind.size);
+    blendOver(f, front, behind, over);
+    return over;
+}
+
+// The light that rays from blended surfaces, and then reflections, read at hits: direct light, or all light so far.
+gpu::Image lightSoFar(gpu::Recorder& f, ViewStore& own, const ViewInputs& in, const Settings& settings,
+                      const LobeLight& diffuse, const ScreenImages& screen) {
+    if (settings.traceScreen.light != HitLight::lit || settings.specular.rays == 0 || settings.diffuse.rays == 0) {
+        return screen.light;
+    }
+    const auto scope = f.scope("specular");
+    const LobeLight none = blackLobe(f, own.specular.light, {screen.g, in.view}, settings.traceScreen.countSteps != 0);
+    const gpu::Image soFar = own.litSoFar.storage(f, litFormat, screen.light.size);
+    const CompositeInputs parts{screen.g, screen.light, diffuse, none, in.ggxTable, settings.materials.lambertOnly != 0,
+                                false};
+    return composite(f, own.layers, parts, soFar, {in.view, settings.diffuse.gain}).lit;
+}
+
+// Lights the blended surfaces, and sets the light that reflections read at hits: all light so far, with blended
+// surfaces in front; and its mips for cones. read: any rays read it.
+BlendedLight lightForReflections(gpu::Recorder& f, ViewStore& own, BlendStore& blend, const ViewInputs& in,
+                                 const Settings& settings, const LobeLight& diffuse, TracedView& seen, bool read,
+                                 bool layers) {
+    ScreenImages& screen = seen.screen;
+    const SpecularSettings& s = settings.specular;
+    screen.light = read ? lightSoFar(f, own, in, settings, diffuse, screen) : screen.light;
+    const BlendedLight blended = lightBlended(f, blend, in, settings, seen, layers);
+    if (!read || s.rays == 0) {
+        return blended;
+    }
+    const auto scope = f.scope("specular");
+    screen.light = withBlended(f, own.litSoFarBlended, blended.lit, screen.light);
+    if (s.roughFallback == RoughFallback::mips && s.maxRoughness < 1.0F) {
+        const bool previous = settings.traceScreen.light == HitLight::previous && screen.lit.valid;
+        screen.lightMips = makeLightMips(f, own.lightMips, previous ? screen.lit.previous : screen.light);
+    }
+    return blended;
+}
+
+// Direct light with diffuse light from the probes, if there are any.
+gpu::Image withProbeLight(gpu::Recorder& f, ViewStore& own, const ViewInputs& in, Settings settings,
+                          const TracedView& seen) {
+    if (!in.probes) {
+        return seen.images.direct;
+    }
+    const auto scope = f.scope("ambient");
+    settings.traceScreen.enabled = 0;
+    settings.traceScene.enabled = 0;
+    settings.denoise.enabled = 0;
+    settings.diffuse.rays = 1;
+    settings.diffuse.distribution = RayDistribution::normal;
+    settings.diffuse.adaptive = 0;
+    settings.diffuse.reuse = 0;
+    const LobeLight diffuse = traceLobe(f, own.diffuse, in, settings, seen, lobeDiffuse);
+    const LobeLight none = blackLobe(f, own.specular.light, {seen.images.g, in.view}, false);
+    const gpu::Image sum = own.ambientLit.storage(f, litFormat, seen.images.direct.size);
+    const CompositeInputs parts{
+        seen.images.g, seen.images.direct, diffuse, none, in.ggxTable, settings.materials.lambertOnly != 0, false};
+    return composite(f, own.layers, parts, sum, {in.view, settings.diffuse.gain}).lit;
+}
+
+// Renders a planar view, for use by reflections. It has no last frame: `previous` acts as `lit` there, and probes bring
+// further bounces.
+ScreenImages renderReflectionView(gpu::Recorder& f, FrameStore::Planar& own, const ViewInputs& in, Settings settings,
+                                  gpu::Image lampShadowMap) {
+    const bool lit = settings.traceScreen.light != HitLight::direct;
+    settings.traceScreen.light = lit ? HitLight::lit : HitLight::direct;
+    settings.traceScreen.countSteps = 0;
+    settings.diffuse.rays = lit && settings.planar.diffuse != 0 ? settings.diffuse.rays : 0;
+    settings.shadow.history = 0;  // the crop, and with it the pixels, moves with the camera
+    settings.denoise.history = 0;
+    const ViewImages images = directView(f, own.direct, in, settings, lampShadowMap);
+    TracedView seen = tracedView(in, images);
+    seen.screen.light = lit ? withProbeLight(f, own, in, settings, seen) : images.direct;
+    const LobeLight diffuse = traceLobe(f, own.diffuse, in, settings, seen, lobeDiffuse);
+    // Without diffuse rays, the probes' light remains.
+    const gpu::Image base = settings.diffuse.rays > 0 ? images.direct : seen.screen.light;
+    seen.screen.light = base;
+    const BlendedLight blended = lightForReflections(f, own, own.blend, in, settings, diffuse, seen, true, false);
+    if (lit && settings.planar.specular != 0) {
+        const LobeLight specular = traceLobe(f, own.specular, in, settings, seen, lobeSpecular);
+        const gpu::Image all = own.lit.storage(f, litFormat, images.direct.size);
+        const CompositeInputs parts{images.g, base, diffuse, specular, in.ggxTable, settings.materials.lambertOnly != 0,
+                                    false};
+        const Composite sum = composite(f, own.layers, parts, all, {in.view, settings.diffuse.gain});
+        seen.screen.light = withBlended(f, own.litBlended, blended.lit, sum.lit);
+    }
+    const bool blurred = settings.planar.form == PlanarForm::camera && settings.planar.cameraBlur > 1.0F;
+    if (seen.screen.lightMips || blurred) {
+        seen.screen.lightMips = makeLightMips(f, own.lightMips, seen.screen.light);
+    }
+    return seen.screen;
+}
+
+ScreenImages renderPlanarView(gpu::Recorder& f, FrameStore::Planar& own, const FrameInputs& in,
+                              const Settings& settings, const Mirror& mirror, gpu::Image lampShadowMap) {
+    const PlanarSettings& s = settings.planar;
+    if (s.form == PlanarForm::duplicate) {
+        const uint32_t largestMap = f.context().limits().maxImageDimension2D;
+        const MirroredScene room = mirroredScene(in, mirror, settings.shadow, largestMap);
+        ViewInputs behind = duplicateViewInputs(in, mirror, s, room);
+        behind.traced = nullptr;  // these are not mirrored
+        behind.probes = {};
+        Settings there = settings;
+        if (there.shadow.filter == ShadowFilter::traced) {
+            there.shadow.filter = ShadowFilter::pcss;
+        }
+        return renderReflectionView(f, own, behind, there, {});
+    }
+    return renderReflectionView(f, own, mirrorViewInputs(in, mirror, s), settings, lampShadowMap);
+}
+
+std::vector<PlanarView> renderPlanarViews(gpu::Recorder& f, FrameStore& own, const FrameInputs& in,
+                                          const Settings& settings, gpu::Image lampShadowMap) {
+    std::vector<PlanarView> views;
+    own.planar.resize(std::max(own.planar.size(), in.mirrors.size()));
+    for (const Mirror& mirror : in.mirrors) {
+        const auto scope = f.scope("planar" + std::to_string(views.size()));
+        views.push_back({renderPlanarView(f, own.planar[views.size()], in, settings, mirror, lampShadowMap),
+                         mirrorParams(mirror, settings.planar), settings.planar.form});
+    }
+    return views;
+}
+
+// Renders the live camera images shown by materials. Returns the lamps' shadow map if one was drawn.
+gpu::Image renderLiveCameras(gpu::Recorder& f, std::vector<DirectViewStore>& own, const ViewInputs& in,
+                             const Settings& settings, std::span<const LiveView> pictures) {
+    own.resize(std::max(own.size(), pictures.size()));
+    gpu::Image lampShadowMap;
+    Settings direct = settings;
+    direct.blend.layers = 0;
+    for (size_t i = 0; i < pictures.size(); ++i) {
+        const auto scope = f.scope("live" + std::to_string(i));
+        ViewInputs view = in;
+        view.view = pictures[i].view;
+        const ViewImages seen = directView(f, own[i], view, direct, lampShadowMap);
+        lampShadowMap = seen.lampShadowMap;
+        showLive(f, seen.direct, pictures[i].picture);
+    }
+    return lampShadowMap;
+}
+
+// Puts the background behind the radiance that is shown; coverage is accumulated as the radiance.
+void showBackground(gpu::Recorder& f, FrameStore& own, const FrameInputs& in, const Settings& settings,
+                    const BlendedLight& blended, FrameImages& out) {
+    const BackgroundImages shown =
+        drawBackground(f, own.background, out.g.depth, out.direct, out.light.lit, *in.background.environment, in.view);
+    out.direct = shown.direct;
+    out.light.lit = shown.lit;
+    if (!in.background.shown.needsCoverage()) {
+        return;
+    }
+    const auto scope = f.scope("coverage");
+    out.coverage = shown.coverage;
+    if (blended.lit) {
+        out.coverage = own.coverageBlended.storage(f, litFormat, shown.coverage.size);
+        coverOver(f, blended.lit, shown.coverage, out.coverage);
+    }
+    if (settings.accumulate.enabled != 0) {
+        out.coverage =
+            accumulate(f, own.coverageMean, {out.coverage, {out.coverage, out.coverage, out.coverage}}, in.framesBefore)
+                .direct;
+    }
+}
+
+// Composites blended surfaces over the frame's light and its layers. lit: the image of the sum.
+void addBlended(gpu::Recorder& f, FrameStore& own, const BlendedLight& blended, gpu::Image lit, FrameImages& out) {
+    if (!blended.lit) {
+        return;
+    }
+    blendOver(f, blended.lit, out.light.lit, lit);
+    out.light.lit = lit;
+    out.direct = withBlended(f, own.directBlended, blended.direct, out.direct);
+    out.light.indirectDiffuse = withBlended(f, own.diffuseBlended, blended.indirectDiffuse, out.light.indirectDiffuse);
+    out.light.indirectSpecular =
+        withBlended(f, own.specularBlended, blended.indirectSpecular, out.light.indirectSpecular);
+}
+
+}  // namespace
+
+FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in, const Settings& settings) {
+    const gpu::Image lampShadowMap = renderLiveCameras(f, own.live, in, settings, in.live);
+    TracedView seen = tracedView(in, directView(f, own.direct, in, settings, lampShadowMap));
+    const gpu::History lit = own.history.swap(f, litFormat, seen.images.g.depth.size);
+    seen.screen.lit = lit;
+    FrameImages out{seen.images};
+    out.view = in.view;
+    out.probeAtlas = in.probes.atlas;
+    out.diffuse = traceLobe(f, own.diffuse, in, settings, seen, lobeDiffuse);
+    const bool layers = settings.composite.layers != 0 || settings.accumulate.enabled != 0;
+    const bool reused = settings.traceScene.enabled != 0 && settings.traceScene.reuseScreen != 0;
+    const bool read = settings.traceScreen.enabled != 0 || reused;
+    const BlendedLight blended = lightForReflections(f, own, own.blend, in, settings, out.diffuse, seen, read, layers);
+    seen.mirrors = renderPlanarViews(f, own, in, settings, out.lampShadowMap);
+    out.specular = traceLobe(f, own.specular, in, settings, seen, lobeSpecular);
+
+    const CompositeInputs parts{
+        out.g, out.direct, out.diffuse, out.specular, in.ggxTable, settings.materials.lambertOnly != 0, layers};
+    const auto image = [&](gpu::KeptImage& kept) { return kept.storage(f, litFormat, lit.next.size); };
+    const gpu::Image behind = blended.lit ? image(own.litBehind) : lit.next;
+    out.light = composite(f, own.layers, parts, behind, {in.view, settings.diffuse.gain});
+    gpu::Image sum = lit.next;
+    if (in.background.environment) {
+        if (blended.lit) {
+            blendOver(f, blended.lit, behind, lit.next);  // rays of the next frame see the environment behind
+            sum = image(own.litShown);
+        }
+        showBackground(f, own, in, settings, blended, out);
+    }
+    addBlended(f, own, blended, sum, out);
+    if (settings.accumulate.enabled != 0) {
+        const LightLayers means = accumulate(f, own.accumulated, {out.direct, out.light}, in.framesBefore);
+        out.direct = means.direct;
+        out.light = means.light;
+    }
+    out.unfiltered = out.light.lit;
+    if (historyUse(settings).temporal) {
+        const TemporalImages means =
+            temporal(f, own.temporal, {out.g, out.light.lit, out.coverage, in.view}, settings.temporal);
+        out.temporal = means.mean;
+        out.light.lit = means.mean;
+        out.coverage = means.coverage;
+    }
+    if (in.autoExposure) {
+        out.exposure =
+            measureExposure(f, own.exposure, out.light.lit, out.g.depth, in.elapsed, settings.tonemap.adaptation);
+    }
+    const gpu::Image radiance =
+        out.coverage ? straightRadiance(f, own.straight, out.light.lit, out.coverage) : out.light.lit;
+    out.display = tonemap(f, own.display, radiance, settings.tonemap, out.exposure);
+    if (out.coverage) {
+        out.display = overBackground(f, own.displayOver, out.display, out.coverage, in.background.shown);
+        out.transparent = in.background.shown.mode == Background::Mode::transparent;
+    }
+    return out;
+}
+
+}  // namespace reflet

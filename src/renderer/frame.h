@@ -1,0 +1,105 @@
+// One frame: a lit image from a draw list, a view and lights.
+#pragma once
+
+#include "effects/accumulate/accumulate.h"
+#include "effects/composite/composite.h"
+#include "effects/lobe/rays.h"
+#include "effects/temporal/temporal.h"
+#include "gpu/recorder.h"
+#include "renderer/background/background.h"
+#include "renderer/direct_view.h"
+#include "renderer/gbuffer/draw_gbuffer.h"
+#include "renderer/planar/mirrors.h"
+#include "renderer/settings.h"
+#include "renderer/trace_lobe.h"
+
+#include <array>
+#include <vector>
+
+namespace reflet {
+
+/// Owns the images of a view with indirect light.
+struct ViewStore {
+    DirectViewStore direct;
+    LobeStore diffuse;
+    LobeStore specular;
+    CompositeStore layers;
+    gpu::KeptImage ambientLit{"ambient"};
+    gpu::KeptImage litSoFar{"lit_so_far"};
+    gpu::KeptImage litSoFarBlended{"lit_so_far.blended"};
+    gpu::KeptImage lightMips{"light_mips"};
+    gpu::KeptImage lit{"lit"};
+    gpu::KeptImage litBlended{"lit.blended"};
+};
+
+/// Owns the images of the layers of blended surfaces in front of a view.
+struct BlendStore {
+    struct Layer {
+        GBufferStore g;
+        SurfaceLightStore light;
+        LobeStore diffuse;
+        LobeStore specular;
+        CompositeStore layers;
+        gpu::KeptImage lit{"lit"};
+    };
+    std::array<Layer, 2> layers;  ///< used in turn: a layer is peeled by the depth of the one before
+    gpu::KeptImage lit{"blended"};
+    gpu::KeptImage direct{"blended_direct"};
+    gpu::KeptImage indirectDiffuse{"blended_diffuse"};
+    gpu::KeptImage indirectSpecular{"blended_specular"};
+};
+
+/// Owns all images of a frame; every picture that is rendered over time has its own.
+struct FrameStore : ViewStore {
+    struct Planar : ViewStore {
+        BlendStore blend;
+    };
+    gpu::HistoryImage history{"lit"};
+    BlendStore blend;
+    std::vector<Planar> planar;
+    std::vector<DirectViewStore> live;
+    BackgroundStore background;
+    gpu::KeptImage coverageBlended{"coverage.blended"};
+    AccumulateStore coverageMean;
+    gpu::KeptImage litBehind{"lit_behind"};
+    gpu::KeptImage litShown{"lit_shown"};
+    gpu::KeptImage directBlended{"direct.blended"};
+    gpu::KeptImage diffuseBlended{"indirect_diffuse.blended"};
+    gpu::KeptImage specularBlended{"indirect_specular.blended"};
+    AccumulateStore accumulated;
+    TemporalStore temporal;
+    gpu::HistoryImage exposure{"exposure"};
+    gpu::KeptImage straight{"background.straight"};
+    gpu::KeptImage display{"display"};
+    gpu::KeptImage displayOver{"background.display"};
+};
+
+struct FrameInputs : ViewInputs {
+    std::span<const Mirror> mirrors;  ///< from planMirrors
+    std::span<const LiveView> live;   ///< live camera images shown by materials of `draws`
+    uint32_t framesBefore = 0;        ///< this one with the same view, lights and settings
+    FrameBackground background{};
+    bool autoExposure = false;  ///< measure the exposure
+    float elapsed = 0.0F;       ///< seconds of the scene's time since the last frame, not negative
+};
+
+/// All images of the frame; formats are documented with the effects.
+struct FrameImages : ViewImages {
+    ViewParams view{};      ///< as used for rendering: with subpixel jitter, if any
+    gpu::Image probeAtlas;  ///< of ProbeMaps; none without probes
+    LobeLight diffuse;
+    LobeLight specular;
+    Composite light;
+    gpu::Image unfiltered;  ///< light.lit before temporal antialiasing
+    gpu::Image temporal;    ///< radiance, history length; none without temporal antialiasing
+    gpu::Image coverage;    ///< red: share of the pixel that surfaces cover; light.lit is premultiplied by it. None
+                            ///< unless the background is a colour or transparent
+    gpu::Image exposure;    ///< of measureExposure; none without automatic exposure
+    gpu::Image display;     ///< alpha: straight, 1 unless the background is transparent
+    bool transparent = false;
+};
+
+/// Records all passes of one frame.
+FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in, const Settings& settings);
+
+}  // namespace reflet

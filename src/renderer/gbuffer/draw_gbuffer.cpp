@@ -1,0 +1,71 @@
+// Draws the G-buffer.
+#include "renderer/gbuffer/draw_gbuffer.h"
+
+#include "renderer/material.h"
+
+namespace reflet {
+
+namespace {
+
+bool isInFront(const Aabb& box, const vec4& plane) {
+    const vec3 farthest = glm::mix(box.min, box.max, glm::greaterThan(vec3(plane), vec3(0.0F)));
+    return glm::dot(plane, vec4(farthest, 1.0F)) > 0.0F;
+}
+
+}  // namespace
+
+GBuffer drawGBuffer(gpu::Recorder& f, GBufferStore& own, const DrawList& list, const ViewParams& view,
+                    const MaterialsSettings& settings, const GBufferContent& content) {
+    const vec4& clipPlane = content.clipPlane;
+    const bool blended = bool(content.opaqueDepth);
+    const uint32_t surfaces = !blended ? surfacesOpaque : content.nearerDepth ? surfacesBehind : surfacesNearest;
+    const bool clipped = clipPlane != vec4(0.0F);
+    const bool reflectance = (list.materialFeatures & materialFeatureReflectance) != 0;
+    const uvec2 size(view.size);
+    const GBuffer g{
+        .depth = own.depth.target(f, VK_FORMAT_D32_SFLOAT, size),
+        .normal = own.normal.target(f, VK_FORMAT_R32_UINT, size),
+        .geometricNormal = own.geometricNormal.target(f, VK_FORMAT_R32_UINT, size),
+        .baseColor = own.baseColor.target(f, VK_FORMAT_A2B10G10R10_UNORM_PACK32, size),
+        .material = own.material.target(f, VK_FORMAT_R8G8B8A8_UNORM, size),
+        .emissive = own.emissive.target(f, VK_FORMAT_B10G11R11_UFLOAT_PACK32, size),
+        .motion = own.motion.target(f, VK_FORMAT_R16G16B16A16_SFLOAT, size),
+        .reflectance = reflectance ? own.reflectance.target(f, VK_FORMAT_R16G16B16A16_SFLOAT, size) : gpu::Image{},
+        .features = list.materialFeatures,
+    };
+    const VkClearColorValue zero{};
+    gpu::Pass pass = f.raster("gbuffer", {"gbuffer.vert", reflectance ? "gbuffer_reflectance.frag" : "gbuffer.frag"});
+    for (const gpu::Image picture : list.livePictures) {
+        pass.read(picture);
+    }
+    // Always bound, but not read where not needed.
+    const auto depthOr = [&](gpu::Image given) { return given ? given : f.placeholder(VK_FORMAT_R32_SFLOAT); };
+    pass.read("opaqueDepth", depthOr(content.opaqueDepth)).read("nearerDepth", depthOr(content.nearerDepth));
+    pass.constant("clipped", clipped ? 1U : 0U)
+        .constant("usedSlots", list.textureSlots)
+        .constant("surfaces", surfaces)
+        .constant("materialFeatures", list.materialFeatures)
+        .constant("bent", list.previousPositions != VK_NULL_HANDLE ? 1U : 0U)
+        .color("outBaseColor", g.baseColor, zero)
+        .color("outNormal", g.normal, zero)
+        .color("outGeometricNormal", g.geometricNormal, zero)
+        .color("outMaterial", g.material, zero)
+        .color("outEmissive", g.emissive, zero)
+        .color("outMotion", g.motion, zero)
+        .depth(g.depth, 0.0F)
+        .vertices(vertexLayout(), list.materialLayout)
+        .params(GBufferParams{view, settings, clipPlane, content.blendedFrom});
+    if (reflectance) {
+        pass.color("outReflectance", g.reflectance, zero);
+    }
+    pass.draw([&](const gpu::DrawCommands& to) {
+        const auto keep = [&](const Draw& draw) {
+            const bool drawn = blended ? draw.blended : draw.alpha >= content.blendedFrom;
+            return drawn && (!clipped || isInFront(draw.boundsW, clipPlane));
+        };
+        recordDraws(to, list, {keep, Cull::back, true, view.worldToClip}, true);
+    });
+    return g;
+}
+
+}  // namespace reflet

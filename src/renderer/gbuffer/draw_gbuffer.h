@@ -1,0 +1,77 @@
+// Draws the G-buffer. Shared by C++ and GLSL.
+#ifndef REFLET_RENDERER_DRAW_GBUFFER_H
+#define REFLET_RENDERER_DRAW_GBUFFER_H
+
+#include "base/shared.h"
+#include "effects/gbuffer/gbuffer.h"
+#include "effects/view.h"
+
+SHARED_BEGIN
+
+#define MATERIALS_SETTINGS(VALUE, SWITCH, CHOICE)                                                                     \
+    SWITCH(lambertOnly, 0,                                                                                            \
+           "Shade every material as Lambert diffuse with its base colour: no specular lobe, no metals.")              \
+    SWITCH(                                                                                                           \
+        mips, 1,                                                                                                      \
+        "Use texture mipmaps. Off: always the finest level, as the reference renders; needs many samples per pixel.") \
+    VALUE(                                                                                                            \
+        uint, anisotropy, 8, 1, 16,                                                                                   \
+        "Maximum samples of anisotropic texture filtering. 1: off, blurry at grazing angles. More: sharper, slower.") \
+    VALUE(float, mipBias, 0, -2, 2,                                                                                   \
+          "Added to the texture mip level. Below 0: sharper; -1 to -2 suits temporal antialiasing, which averages "   \
+          "jittered frames; flickers without it. Above 0: blurrier.")
+SETTINGS(MaterialsSettings, MATERIALS_SETTINGS)
+
+// What is drawn, as the specialization constant `surfaces`.
+const uint surfacesOpaque = 0;   // and blended ones from an alpha of blendedFrom on
+const uint surfacesNearest = 1;  // the nearest translucent ones in front of the opaque ones
+const uint surfacesBehind = 2;   // the next ones, behind those of another layer
+
+struct GBufferParams {
+    ViewParams view;
+    MaterialsSettings settings;
+    vec4 clipPlane;     // world space: only geometry in front of it, dot(clipPlane, (p, 1)) > 0, is drawn
+    float blendedFrom;  // alpha from which blended surfaces are drawn with the opaque ones
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "gpu/recorder.h"
+#include "renderer/draw_list.h"
+#include "renderer/material.h"
+
+namespace reflet {
+
+/// Owns the images of a G-buffer.
+struct GBufferStore {
+    gpu::KeptImage depth{"depth"};
+    gpu::KeptImage normal{"normal"};
+    gpu::KeptImage geometricNormal{"geometric_normal"};
+    gpu::KeptImage baseColor{"base_color"};
+    gpu::KeptImage material{"material"};
+    gpu::KeptImage emissive{"emissive"};
+    gpu::KeptImage motion{"motion"};
+    gpu::KeptImage reflectance{"reflectance"};
+};
+
+/// What of the draw list a G-buffer holds.
+struct GBufferContent {
+    vec4 clipPlane{0.0F};             ///< as in GBufferParams; zero: none
+    float blendedFrom = opaqueAlpha;  ///< alpha from which blended surfaces count as opaque
+    gpu::Image opaqueDepth{};         ///< given: translucent surfaces in front of this; none: opaque surfaces
+    gpu::Image nearerDepth{};         ///< given: of those the nearest ones behind this; none: the nearest ones
+};
+
+/// Draws the list for the view: reversed Z, back faces of single-sided draws culled. Layers of blended surfaces are
+/// found by depth peeling (C. Everitt, Interactive Order-Independent Transparency, 2001). Clipping is done per pixel,
+/// because an oblique near plane (Lengyel, Oblique View Frustum Depth Projection and Clipping, 2005) would distort
+/// depth, and ray marching relies on distance = near / depth.
+GBuffer drawGBuffer(gpu::Recorder& f, GBufferStore& own, const DrawList& list, const ViewParams& view,
+                    const MaterialsSettings& settings, const GBufferContent& content = {});
+
+}  // namespace reflet
+#endif
+
+#endif

@@ -1,0 +1,111 @@
+// G-buffer: evaluates the material's textures and factors, and the shading normal. The includer defines
+// REFLET_REFLECTANCE_TARGET if there is a target for the reflectance: a shader must not write to one that is missing.
+#include "effects/gbuffer/gbuffer.glsl"
+#include "renderer/gbuffer/draw_gbuffer.h"
+
+layout(constant_id = 0) const uint clipped = 0u;
+layout(constant_id = 2) const uint usedSlots = 127u;
+layout(constant_id = 3) const uint surfaces = surfacesOpaque;
+#include "renderer/material.glsl"
+
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { GBufferParams params; };
+layout(set = 0, binding = 1) uniform sampler2D opaqueDepth;
+layout(set = 0, binding = 2) uniform sampler2D nearerDepth;
+
+layout(location = 0) in vec3 normalW;
+layout(location = 1) in vec4 tangentW;
+layout(location = 2) in vec4 uv;
+layout(location = 3) in vec4 vertexColor;
+layout(location = 4) in vec3 clipNow;
+layout(location = 5) in vec4 clipBefore;
+layout(location = 6) in vec3 fromEye;
+
+layout(location = 0) out vec4 outBaseColor;
+layout(location = 1) out uint outNormal;
+layout(location = 2) out uint outGeometricNormal;
+layout(location = 3) out vec4 outMaterial;
+layout(location = 4) out vec3 outEmissive;
+layout(location = 5) out vec4 outMotion;
+#ifdef REFLET_REFLECTANCE_TARGET
+layout(location = 6) out vec4 outReflectance;
+#endif
+
+// The triangle's normal, facing the camera; the shading normal if the triangle is seen edge-on.
+vec3 geometricNormal(vec3 shading) {
+    vec3 n = cross(dFdx(fromEye), dFdy(fromEye));
+    float square = dot(n, n);
+    if (!(square > 1e-30)) {
+        return shading;
+    }
+    vec3 toEye = params.view.eye.w > 0.0 ? -fromEye : params.view.eye.xyz;
+    return n * (inversesqrt(square) * (dot(n, toEye) < 0.0 ? -1.0 : 1.0));
+}
+
+vec3 shadingNormal() {
+    vec3 n = normalize(normalW);
+    if (hasTexture(slotNormal)) {
+        vec3 t = normalize(tangentW.xyz - n * dot(n, tangentW.xyz));
+        vec3 b = cross(n, t) * tangentW.w;
+        vec3 m = texture(normalTexture, slotUv(slotNormal, uv.xy, uv.zw)).xyz * 2.0 - 1.0;
+        m.xy *= material.normalScale;
+        n = normalize(mat3(t, b, n) * m);
+    }
+    return gl_FrontFacing ? n : -n;
+}
+
+// Whether a blended surface belongs to what is drawn.
+bool isInLayer(float alpha) {
+    if (surfaces == surfacesOpaque) {
+        return alpha >= params.blendedFrom;
+    }
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    bool seen = gl_FragCoord.z >= texelFetch(opaqueDepth, pixel, 0).r * (1.0 - peelTolerance);
+    if (surfaces == surfacesBehind) {
+        seen = seen && gl_FragCoord.z < texelFetch(nearerDepth, pixel, 0).r * (1.0 - peelTolerance);
+    }
+    return seen && isTranslucent(alpha);
+}
+
+void main() {
+    vec3 n = shadingNormal();
+    uint packedGeometric = packUnitVector(geometricNormal(n));  // derivatives must be taken before any discard
+    vec3 positionW = fromEye + params.view.eye.xyz * params.view.eye.w;
+    if (clipped != 0u && dot(params.clipPlane, vec4(positionW, 1.0)) <= 0.0) {
+        discard;
+    }
+    vec4 baseColor;
+    bool kept = materialBaseColor(uv.xy, uv.zw, vertexColor, baseColor);
+    if (!(material.blended != 0u ? isInLayer(baseColor.a) : kept)) {
+        discard;
+    }
+    vec2 roughnessMetallic = vec2(material.roughness, material.metallic);
+    if (hasTexture(slotMetallicRoughness)) {
+        roughnessMetallic *=
+            texture(metallicRoughnessTexture, slotUv(slotMetallicRoughness, uv.xy, uv.zw)).gb;
+    }
+    float occlusion = 1.0;
+    if (hasTexture(slotOcclusion)) {
+        float o = texture(occlusionTexture, slotUv(slotOcclusion, uv.xy, uv.zw)).r;
+        occlusion = 1.0 + material.occlusionStrength * (o - 1.0);
+    }
+    outEmissive = material.emissive;
+    if (hasTexture(slotEmissive)) {
+        outEmissive *= texture(emissiveTexture, slotUv(slotEmissive, uv.xy, uv.zw)).rgb;
+    }
+    uint flags = params.settings.lambertOnly != 0u ? materialFlagLambert : 0u;
+    if (mayBeUnlit() && material.unlit != 0u) {
+        flags |= materialFlagUnlit;
+        roughnessMetallic = vec2(1.0, 0.0);
+        occlusion = 1.0;
+        outEmissive = vec3(0.0);
+    }
+#ifdef REFLET_REFLECTANCE_TARGET
+    outReflectance = materialReflectance(uv.xy, uv.zw);
+#endif
+    outBaseColor = vec4(packBaseColor(baseColor.rgb), 1.0);
+    outNormal = packUnitVector(n);
+    outGeometricNormal = packedGeometric;
+    outMaterial = vec4(roughnessMetallic, occlusion, float(flags) / 255.0);
+    outMotion = vec4(0.5 * (clipNow.xy / clipNow.z - clipBefore.xy / clipBefore.z), clipBefore.w,
+                     surfaces == surfacesOpaque ? 0.0 : baseColor.a);
+}

@@ -1,0 +1,267 @@
+// Uploads a scene.
+#include "renderer/gpu_scene.h"
+
+#include "base/error.h"
+#include "device/device.h"
+#include "device/upload.h"
+#include "renderer/live/live_picture.h"
+#include "renderer/material.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+#include <span>
+
+namespace reflet {
+
+namespace {
+
+// Binding 0: MaterialParams; the others: the slots' textures.
+VkDescriptorSetLayout makeMaterialLayout(gpu::Device& device) {
+    std::array<VkDescriptorSetLayoutBinding, 1 + slotCount> bindings{};
+    for (uint32_t i = 0; i < bindings.size(); ++i) {
+        bindings[i] = {i, i == 0 ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1,
+                       VK_SHADER_STAGE_ALL, nullptr};
+    }
+    VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+    info.bindingCount = static_cast<uint32_t>(bindings.size());
+    info.pBindings = bindings.data();
+    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+    gpu::vkCheck(device.vk.vkCreateDescriptorSetLayout(device.handle(), &info, nullptr, &layout),
+                 "creating the material layout");
+    return layout;
+}
+
+VkDescriptorPool makeMaterialPool(gpu::Device& device, uint32_t materials) {
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, materials},
+                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, materials * slotCount}};
+    VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+    info.maxSets = materials;
+    info.poolSizeCount = static_cast<uint32_t>(std::size(sizes));
+    info.pPoolSizes = sizes;
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    gpu::vkCheck(device.vk.vkCreateDescriptorPool(device.handle(), &info, nullptr, &pool), "creating material sets");
+    return pool;
+}
+
+VkSamplerAddressMode addressMode(Wrap wrap) {
+    switch (wrap) {
+        case Wrap::mirror:
+            return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+        case Wrap::clamp:
+            return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+        default:
+            return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    }
+}
+
+gpu::SamplerInfo samplerInfo(const Sampler& s) {
+    return {.mag = s.magLinear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST,
+            .min = s.minLinear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST,
+            .mip = s.mipLinear ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST,
+            .u = addressMode(s.wrapU),
+            .v = addressMode(s.wrapV),
+            .maxLod = s.mips ? VK_LOD_CLAMP_NONE : 0.0F};
+}
+
+LampParams lampParams(const Lamp& lamp) {
+    LampParams p{};
+    p.position = lamp.position;
+    p.type = lamp.type == Lamp::Type::point ? lampPoint : lamp.type == Lamp::Type::spot ? lampSpot : lampDirectional;
+    p.toLamp = -lamp.direction;
+    p.inverseRange = lamp.range > 0.0F ? 1.0F / lamp.range : 0.0F;
+    p.intensity = lamp.intensity;
+    const float inner = std::cos(lamp.innerAngle);
+    const float outer = std::cos(lamp.outerAngle);
+    p.spotScale = 1.0F / std::max(inner - outer, 1e-4F);
+    p.spotOffset = -outer * p.spotScale;
+    p.cosOuter = outer;
+    p.radius = lamp.radius;
+    p.shadow = noLampShadow;
+    return p;
+}
+
+}  // namespace
+
+GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn)
+    : device_(device), materialLayout_(makeMaterialLayout(device)) {
+    uploadMeshes(scene);
+    uploadMaterials(scene, warn);
+    addLamps(scene, warn);
+    addDraws(scene);
+}
+
+GpuScene::~GpuScene() {
+    device_.retire([device = &device_, pool = materialPool_, layout = materialLayout_] {
+        device->vk.vkDestroyDescriptorPool(device->handle(), pool, nullptr);
+        device->vk.vkDestroyDescriptorSetLayout(device->handle(), layout, nullptr);
+    });
+}
+
+void GpuScene::uploadMeshes(const Scene& scene) {
+    std::vector<vec3> positions;
+    std::vector<VertexAttributes> attributes;
+    std::vector<uint32_t> indices;
+    for (const Mesh& mesh : scene.meshes) {
+        ranges_.push_back({static_cast<uint32_t>(indices.size()), static_cast<int32_t>(positions.size())});
+        positions.insert(positions.end(), mesh.positions.begin(), mesh.positions.end());
+        attributes.insert(attributes.end(), mesh.attributes.begin(), mesh.attributes.end());
+        indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
+    }
+    addSkinned(scene, positions, attributes);
+    constexpr VkBufferUsageFlags forRays = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    const VkBufferUsageFlags forSkins = skinned_.empty() ? 0U : forRays;
+    positions_ = gpu::uploadVector(device_, positions, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | forSkins, "positions");
+    if (!skinned_.empty()) {
+        previousPositions_ =
+            gpu::uploadVector(device_, positions, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | forSkins, "previous positions");
+    }
+    attributes_ = gpu::uploadVector(device_, attributes, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | forRays, "attributes");
+    indices_ = gpu::uploadVector(device_, indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT | forRays, "indices");
+}
+
+gpu::Image GpuScene::texture(const Scene& scene, int32_t image, bool srgb) {
+    gpu::Texture& texture = textures_[{image, srgb}];
+    if (texture.info().format == VK_FORMAT_UNDEFINED) {
+        if (image < 0) {  // an empty slot binds one white texel that the shader never reads
+            constexpr std::array<uint8_t, 4> white{255, 255, 255, 255};
+            texture = gpu::uploadTexture(device_, uvec2(1), white, srgb, false, "white");
+        } else {
+            const Image& source = scene.images.at(static_cast<size_t>(image));
+            texture = gpu::uploadTexture(device_, {source.width, source.height}, source.rgba, srgb, true, source.name);
+        }
+    }
+    return texture.image();
+}
+
+void GpuScene::bindMaterial(const Scene& scene, const Material& material, MaterialBinding& binding) {
+    const auto slots = textureSlots(material);
+    for (uint32_t i = 0; i < slotCount; ++i) {
+        const TextureSlot& slot = *slots[i];
+        binding.samplers[i] =
+            samplerInfo(slot.sampler < 0 ? Sampler{} : scene.samplers.at(static_cast<size_t>(slot.sampler)));
+        binding.views[i] = texture(scene, slot.image, isSrgb(i)).view;
+    }
+}
+
+void GpuScene::writeMaterialSet(const MaterialBinding& binding) {
+    const VkDescriptorBufferInfo block{materials_.handle(), binding.offset, sizeof(MaterialParams)};
+    std::array<VkDescriptorImageInfo, slotCount> images{};
+    std::array<VkWriteDescriptorSet, 1 + slotCount> writes{};
+    for (uint32_t i = 0; i < writes.size(); ++i) {
+        writes[i] = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+        writes[i].dstSet = binding.set;
+        writes[i].dstBinding = i;
+        writes[i].descriptorCount = 1;
+        writes[i].descriptorType =
+            i == 0 ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        writes[i].pBufferInfo = &block;
+        if (i > 0) {
+            gpu::SamplerInfo info = binding.samplers[i - 1];
+            info.anisotropy = filter_.mips ? static_cast<float>(filter_.anisotropy) : 1.0F;
+            info.lodBias = filter_.mipBias;
+            info.maxLod = filter_.mips ? info.maxLod : 0.0F;
+            images[i - 1] = {device_.sampler(info), binding.views[i - 1],
+                             binding.live && i - 1 == slotEmissive ? VK_IMAGE_LAYOUT_GENERAL
+                                                                   : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+            writes[i].pImageInfo = &images[i - 1];
+        }
+    }
+    device_.vk.vkUpdateDescriptorSets(device_.handle(), static_cast<uint32_t>(writes.size()), writes.data(), 0,
+                                      nullptr);
+}
+
+void GpuScene::setTextureFilter(const TextureFilter& filter) {
+    if (filter != filter_) {
+        filter_ = filter;
+        ++draws_.version;  // alpha cut-outs may have changed
+        for (const MaterialBinding& binding : materialBindings_) {
+            writeMaterialSet(binding);
+        }
+    }
+}
+
+void GpuScene::uploadMaterials(const Scene& scene, const std::function<void(const std::string&)>& warn) {
+    const auto count = static_cast<uint32_t>(scene.materials.size());
+    materialPool_ = makeMaterialPool(device_, std::max(count, 1U));
+    const VkDeviceSize alignment = std::max<VkDeviceSize>(device_.limits().minUniformBufferOffsetAlignment, 4);
+    const VkDeviceSize stride = (sizeof(MaterialParams) + alignment - 1) / alignment * alignment;
+    std::vector<std::optional<size_t>> live(count);
+    std::vector<std::byte> blocks(std::max<size_t>(count, 1) * stride);
+    for (uint32_t i = 0; i < count; ++i) {
+        MaterialParams params = materialParams(scene.materials[i]);
+        live[i] = livePictureOf(scene, scene.materials[i], warn);
+        if (live[i]) {
+            params.emissive = vec3(1.0F);
+            params.textured |= 1U << slotEmissive;
+        }
+        draws_.textureSlots |= params.textured;
+        draws_.materialFeatures |= materialFeatures(scene.materials[i]);
+        std::memcpy(blocks.data() + i * stride, &params, sizeof(params));
+    }
+    materials_ = gpu::uploadBuffer(device_, blocks, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, "materials");
+    if (count == 0) {
+        return;
+    }
+    const std::vector<VkDescriptorSetLayout> layouts(count, materialLayout_);
+    std::vector<VkDescriptorSet> sets(count);
+    VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
+    info.descriptorPool = materialPool_;
+    info.descriptorSetCount = count;
+    info.pSetLayouts = layouts.data();
+    gpu::vkCheck(device_.vk.vkAllocateDescriptorSets(device_.handle(), &info, sets.data()), "allocating material sets");
+    for (uint32_t i = 0; i < count; ++i) {
+        MaterialBinding& binding =
+            materialBindings_.emplace_back(MaterialBinding{sets[i], i * stride, {}, {}, live[i]});
+        bindMaterial(scene, scene.materials[i], binding);
+        writeMaterialSet(binding);
+    }
+    setLiveHeight(LiveSettings{}.height);
+}
+
+void GpuScene::addLamps(const Scene& scene, const std::function<void(const std::string&)>& warn) {
+    lampSources_.resize(scene.lamps.size());
+    std::iota(lampSources_.begin(), lampSources_.end(), size_t(0));
+    if (lampSources_.size() > maxLamps) {
+        warn(fmt::format("the scene has {} lamps, but only the strongest {} are used", lampSources_.size(), maxLamps));
+        const auto strength = [&](size_t i) {
+            const vec3& intensity = scene.lamps[i].intensity;
+            return std::max({intensity.x, intensity.y, intensity.z});
+        };
+        std::ranges::stable_sort(lampSources_, std::greater<>(), strength);
+        lampSources_.resize(maxLamps);
+    }
+    lamps_.count = static_cast<uint32_t>(lampSources_.size());
+    std::ranges::transform(lampSources_, lamps_.lamps, [&](size_t i) { return lampParams(scene.lamps[i]); });
+}
+
+void GpuScene::addDraws(const Scene& scene) {
+    draws_.positions = positions_.handle();
+    draws_.previousPositions = skinned_.empty() ? VK_NULL_HANDLE : previousPositions_.handle();
+    draws_.attributes = attributes_.handle();
+    draws_.indices = indices_.handle();
+    draws_.materialLayout = materialLayout_;
+    draws_.unlit = isUnlit(scene);
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes.at(instance.mesh);
+        const Material& material = scene.materials.at(mesh.material);
+        Draw draw;
+        draw.firstIndex = ranges_[instance.mesh].firstIndex;
+        draw.indexCount = static_cast<uint32_t>(mesh.indices.size());
+        draw.firstVertex = ranges_[instance.mesh].firstVertex;
+        draw.objectToWorld = instance.objectToWorld;
+        draw.previousObjectToWorld = instance.objectToWorld;
+        draw.boundsW = transformed(mesh.bounds, instance.objectToWorld);
+        draw.material = materialBindings_[mesh.material].set;
+        draw.masked = material.alphaCutoff > 0.0F;
+        draw.blended = material.blended;
+        draw.alpha = material.blended ? material.baseColor.a : 1.0F;
+        draw.doubleSided = material.doubleSided;
+        draws_.boundsW.add(draw.boundsW);
+        draws_.draws.push_back(draw);
+    }
+}
+
+}  // namespace reflet

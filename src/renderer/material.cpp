@@ -1,0 +1,56 @@
+// Converts scene materials to shader parameters.
+#include "renderer/material.h"
+
+namespace reflet {
+
+std::array<const TextureSlot*, slotCount> textureSlots(const Material& m) {
+    return {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture,       &m.occlusionTexture,
+            &m.emissiveTexture,  &m.specularTexture,          &m.specularColorTexture};
+}
+
+bool isSrgb(uint slot) {
+    // The specular slots often share one image: sRGB decoding leaves alpha as it is.
+    return slot == slotBaseColor || slot >= slotEmissive;
+}
+
+namespace {
+
+// Fresnel's equations at normal incidence, over dielectricF0 of ggx.glsl, which is that of 1.5: exactly 1 there.
+float dielectricF0Over4Percent(float ior) {
+    const double root = (double(ior) - 1.0) / (double(ior) + 1.0);
+    return static_cast<float>(25.0 * root * root);
+}
+
+}  // namespace
+
+MaterialParams materialParams(const Material& m) {
+    MaterialParams p{};
+    p.baseColor = m.baseColor;
+    p.emissive = m.emissive;
+    p.alphaCutoff = m.alphaCutoff;
+    p.blended = m.blended ? 1U : 0U;
+    p.metallic = m.metallic;
+    p.roughness = m.roughness;
+    p.normalScale = m.normalScale;
+    p.occlusionStrength = m.occlusionStrength;
+    p.unlit = m.unlit ? 1U : 0U;
+    p.f0 = glm::min(dielectricF0Over4Percent(m.ior) * m.specularColor, 1e6F);  // infinity times 0 would be a NaN
+    p.f90 = m.specular;
+    const auto slots = textureSlots(m);
+    for (size_t i = 0; i < slotCount; ++i) {
+        p.textured |= slots[i]->image >= 0 ? 1U << i : 0U;
+        p.secondUv |= slots[i]->uvSet == 1 ? 1U << i : 0U;
+        p.uvRows[2 * i] = slots[i]->uvTransform[0];
+        p.uvRows[2 * i + 1] = slots[i]->uvTransform[1];
+    }
+    return p;
+}
+
+uint materialFeatures(const Material& m) {
+    const MaterialParams p = materialParams(m);
+    const bool textured = (p.textured & (1U << slotSpecular | 1U << slotSpecularColor)) != 0;
+    const bool reflectance = textured || p.f0 != vec3(1.0F) || p.f90 != 1.0F;
+    return (reflectance ? materialFeatureReflectance : 0U) | (m.unlit ? materialFeatureUnlit : 0U);
+}
+
+}  // namespace reflet

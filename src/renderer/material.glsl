@@ -1,0 +1,51 @@
+// Evaluates the material bound by a draw: textures, if any, times the factors.
+// The includer first defines const uint usedSlots, a bit mask of the slots for which any draw has a texture. Unused
+// slots cost nothing; on CPU devices a slot used by one draw costs all draws.
+#ifndef REFLET_MATERIAL_GLSL
+#define REFLET_MATERIAL_GLSL
+
+#include "effects/material_features.glsl"
+#include "renderer/material.h"
+
+layout(set = 1, binding = 0, scalar) uniform MaterialBlock { MaterialParams material; };
+layout(set = 1, binding = 1) uniform sampler2D baseColorTexture;
+layout(set = 1, binding = 2) uniform sampler2D metallicRoughnessTexture;
+layout(set = 1, binding = 3) uniform sampler2D normalTexture;
+layout(set = 1, binding = 4) uniform sampler2D occlusionTexture;
+layout(set = 1, binding = 5) uniform sampler2D emissiveTexture;
+layout(set = 1, binding = 6) uniform sampler2D specularTexture;
+layout(set = 1, binding = 7) uniform sampler2D specularColorTexture;
+
+bool hasTexture(uint slot) { return (usedSlots & (1u << slot)) != 0u && (material.textured & (1u << slot)) != 0u; }
+
+vec2 slotUv(uint slot, vec2 uv0, vec2 uv1) {
+    vec3 uv = vec3((material.secondUv & (1u << slot)) != 0u ? uv1 : uv0, 1.0);
+    return vec2(dot(material.uvRows[2u * slot], uv), dot(material.uvRows[2u * slot + 1u], uv));
+}
+
+// The colour with alpha; false if alpha is below the cutoff.
+bool materialBaseColor(vec2 uv0, vec2 uv1, vec4 vertexColor, out vec4 color) {
+    color = material.baseColor * vertexColor;
+    if (hasTexture(slotBaseColor)) {
+        color *= texture(baseColorTexture, slotUv(slotBaseColor, uv0, uv1));
+    }
+    return color.a >= material.alphaCutoff;
+}
+
+// Whether a blended surface of this alpha is in the layers of blended surfaces.
+bool isTranslucent(float alpha) { return material.blended != 0u && alpha >= invisibleAlpha && alpha < opaqueAlpha; }
+
+// Of the dielectric: texel of the G-buffer's reflectance.
+vec4 materialReflectance(vec2 uv0, vec2 uv1) {
+    vec3 color = material.f0;
+    float weight = material.f90;
+    if (hasTexture(slotSpecular)) {
+        weight *= texture(specularTexture, slotUv(slotSpecular, uv0, uv1)).a;
+    }
+    if (hasTexture(slotSpecularColor)) {
+        color *= texture(specularColorTexture, slotUv(slotSpecularColor, uv0, uv1)).rgb;
+    }
+    return reflectanceTexel(color, weight);
+}
+
+#endif

@@ -1,0 +1,69 @@
+// Material parameters of shaders: raster draws bind them as set 1, ray hits read them from a buffer. Shared by C++ and
+// GLSL.
+#ifndef REFLET_RENDERER_MATERIAL_H
+#define REFLET_RENDERER_MATERIAL_H
+
+#include "base/shared.h"
+#include "effects/gbuffer/gbuffer.h"
+
+SHARED_BEGIN
+
+// Slots of Material, in the order of the bindings 1..7 of set 1; binding 0 is this block.
+const uint slotBaseColor = 0;
+const uint slotMetallicRoughness = 1;
+const uint slotNormal = 2;
+const uint slotOcclusion = 3;
+const uint slotEmissive = 4;
+const uint slotSpecular = 5;
+const uint slotSpecularColor = 6;
+const uint slotCount = 7;
+
+// Alpha from which blended surfaces are opaque, 254.5 / 255, and below which they are not there.
+const float opaqueAlpha = 0.998;
+const float invisibleAlpha = 0.002;
+
+// Relative difference of depths that counts as none in depth peeling.
+const float peelTolerance = 1e-6;
+
+struct MaterialParams {
+    vec4 baseColor;
+    vec3 emissive;
+    float alphaCutoff;
+    float metallic;
+    float roughness;
+    float normalScale;
+    float occlusionStrength;
+    uint textured;    // bit per slot: has a texture
+    uint secondUv;    // bit per slot: uses uv1
+    uint blended;     // 1: alpha is coverage (Material::blended)
+    uint unlit;       // 1: emits its base colour and reflects nothing
+    vec3 f0;          // of the dielectric, over dielectricF0, without the factor that follows
+    float f90;        // of the dielectric, 0..1; a factor of F0, too
+    vec3 uvRows[14];  // two per slot, KHR_texture_transform
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "scene/scene.h"
+
+#include <array>
+
+namespace reflet {
+
+/// The material's textures, in slot order.
+std::array<const TextureSlot*, slotCount> textureSlots(const Material& material);
+
+/// Whether the slot's colours are sRGB.
+bool isSrgb(uint slot);
+
+MaterialParams materialParams(const Material& material);
+
+/// Bit mask of materialFeature….
+uint materialFeatures(const Material& material);
+
+}  // namespace reflet
+#endif
+
+#endif

@@ -1,0 +1,73 @@
+// Gives the remaining rays the radiance of reflection probes. In: the list, ray directions, depth, material, cube maps.
+// Out: results, sources, the list of remaining rays.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "effects/lobe/rays.glsl"
+#include "renderer/probe/answer_probes.h"
+#include "shaders/noise.glsl"
+#include "shaders/projection.glsl"
+
+layout(constant_id = 0) const uint lobe = 0u;
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock {
+    AnswerProbesParams params;
+};
+layout(set = 0, binding = 1) uniform sampler2D depth;
+layout(set = 0, binding = 2) uniform sampler2D material;
+layout(set = 0, binding = 3) uniform samplerCubeArray probeLobes;
+layout(set = 0, binding = 4) uniform samplerCubeArray probeDistance;
+layout(set = 0, binding = 5, rg32ui) uniform readonly uimage2DArray direction;
+layout(set = 0, binding = 6, scalar) readonly buffer WaitingBlock {
+    uint groups[3];
+    uint count;
+    RayItem items[];
+}
+waiting;
+layout(set = 0, binding = 7, rgba16f) uniform image2DArray answer;
+layout(set = 0, binding = 8, rgba8) uniform image2DArray source;
+layout(set = 0, binding = 9, scalar) buffer MissedBlock {
+    uint groups[3];
+    uint count;
+    RayItem items[];
+}
+missed;
+layout(set = 0, binding = 10) uniform sampler2D probeIrradiance;
+#include "effects/lobe/rays_answer.glsl"
+#include "effects/lobe/rays_append.glsl"
+
+uint probeCount() { return params.probes.count; }
+ProbeParams loadProbe(uint index) { return params.probes.probes[index]; }
+#include "renderer/probe/probes.glsl"
+
+RayAnswer answerRay(ivec3 slot, Ray ray) {
+    ivec2 pixel = slot.xy;
+    float d = texelFetch(depth, pixel, 0).r;
+    vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
+    bool hemisphere = lobe == lobeDiffuse && ray.spread > 0.0;
+    // Scattered rays are averaged over frames anyway. A mirror's would show the choice as grain.
+    uint stream = params.firstRay + uint(slot.z) + hashPcg(params.view.seed + 11u);
+    bool one = lobe == lobeDiffuse && !hemisphere;
+    float pick = one ? hashToUnit(hashPixel(uvec2(pixel), stream, params.view.frame)) : -1.0;
+    ProbeQuery q = ProbeQuery(p, ray.direction, hemisphere ? 0.0 : ray.spread, hemisphere, params.settings.parallax,
+                              params.settings.blend, pick);
+    float hitDistance;
+    vec4 seen = sampleProbes(q, hitDistance);
+    // Occlusion maps stand for nearby geometry that the rays could not hit.
+    float occlusion = lobe == lobeDiffuse ? texelFetch(material, pixel, 0).b : 1.0;
+    return RayAnswer(seen.rgb * occlusion / max(seen.a, 1e-4), seen.a, hitDistance);
+}
+
+void main() {
+    uint stride = gl_NumWorkGroups.x * listGroupSize;
+    for (uint i = gl_GlobalInvocationID.x; i < waiting.count; i += stride) {
+        WaitingRay w = unpackWaitingRay(waiting.items[i]);
+        if (!isKnownMiss(w)) {  // else the ray is known to reach the sky, which a probe's box would hide
+            Ray ray = unpackRay(imageLoad(direction, w.slot).xy);
+            w.rest = addAnswer(w.slot, answerRay(w.slot, ray), w.rest, sourceProbe);
+        }
+        if (w.rest > 0.0) {
+            appendRay(w);
+        }
+    }
+}

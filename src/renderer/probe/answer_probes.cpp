@@ -1,0 +1,29 @@
+// Records reflection probes as a ray source.
+#include "renderer/probe/answer_probes.h"
+
+#include "gpu/context.h"
+
+namespace reflet {
+
+void answerProbes(gpu::Recorder& f, Rays& rays, const ProbeMaps& probes, const ProbesSettings& settings) {
+    const gpu::BufferView missed = makeRayList(f, rays);
+    const VkSampler trilinear =
+        f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
+    f.compute("answer_probes", "answer_probes.comp")
+        .constant("lobe", rays.lobe)
+        .read("depth", rays.from.g.depth)
+        .read("material", rays.from.g.material)
+        .read("probeLobes", probes.lobes, trilinear)
+        .read("probeIrradiance", probes.irradiance)
+        .read("probeDistance", probes.distance)
+        .read("direction", rays.direction)
+        .read("waiting", rays.waiting)
+        .write("answer", rays.answer)
+        .write("source", rays.source)
+        .write("missed", missed)
+        .params(AnswerProbesParams{rays.from.view, settings, probes.block, rays.firstRay})
+        .dispatchIndirect(rays.waiting, 0);
+    rays.waiting = missed;
+}
+
+}  // namespace reflet

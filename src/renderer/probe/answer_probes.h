@@ -1,0 +1,34 @@
+// Reflection probes as a ray source: an approximation of what the ray would hit. Shared by C++ and GLSL.
+#ifndef REFLET_RENDERER_ANSWER_PROBES_H
+#define REFLET_RENDERER_ANSWER_PROBES_H
+
+#include "base/shared.h"
+#include "effects/view.h"
+#include "renderer/probe/probes.h"
+
+SHARED_BEGIN
+
+struct AnswerProbesParams {
+    ViewParams view;
+    ProbesSettings settings;
+    ProbeBlock probes;
+    uint firstRay;
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "effects/lobe/rays.h"
+#include "gpu/recorder.h"
+
+namespace reflet {
+
+/// Gives rays that start in a probe's box its radiance, as far as the probe does not see the sky. The others stay in
+/// rays.waiting.
+void answerProbes(gpu::Recorder& f, Rays& rays, const ProbeMaps& probes, const ProbesSettings& settings);
+
+}  // namespace reflet
+#endif
+
+#endif

@@ -1,0 +1,190 @@
+// Captures probes and tracks when captures are out of date.
+#include "renderer/probe/capture_probe.h"
+
+#include "gpu/context.h"
+#include "renderer/view_params.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+namespace reflet {
+
+Camera cubeFaceCamera(const vec3& position, uint32_t face) {
+    static constexpr std::array<vec3, probeFaces> forward{vec3(1, 0, 0),  vec3(-1, 0, 0), vec3(0, 1, 0),
+                                                          vec3(0, -1, 0), vec3(0, 0, 1),  vec3(0, 0, -1)};
+    static constexpr std::array<vec3, probeFaces> up{vec3(0, 1, 0), vec3(0, 1, 0), vec3(0, 0, -1),
+                                                     vec3(0, 0, 1), vec3(0, 1, 0), vec3(0, 1, 0)};
+    Camera camera;
+    camera.position = position;
+    camera.target = position + forward.at(face);
+    camera.up = up.at(face);
+    camera.fovY = glm::half_pi<float>();
+    camera.near = 0.01F;
+    return camera;
+}
+
+namespace {
+
+ProbeBlock blockOf(std::span<const Probe> probes) {
+    ProbeBlock block{};
+    block.count = static_cast<uint32_t>(std::min<size_t>(probes.size(), maxProbes));
+    for (uint32_t i = 0; i < block.count; ++i) {
+        block.probes[i] = {probes[i].position, probes[i].box.min, probes[i].box.max};
+    }
+    return block;
+}
+
+// Settings reduced to what matters in captures.
+Settings captureSettings(const Settings& settings) {
+    Settings s = settings;
+    s.depth = {};
+    s.blend.layers = 0;
+    s.contact.distance = 0.0F;
+    s.traceScreen.method = TraceMethod::linear;  // no pyramid
+    s.traceScreen.thicknessMode = ThicknessMode::constant;
+    if (s.shadow.filter != ShadowFilter::none) {
+        s.shadow.filter = ShadowFilter::hard;
+    }
+    s.shadow.cascades = 1;
+    s.shadow.resolution = std::min(s.shadow.resolution, 1024U);
+    return s;
+}
+
+template <class T>
+void append(std::vector<std::byte>& bytes, const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::ranges::copy(std::as_bytes(std::span(&value, 1)), std::back_inserter(bytes));
+}
+
+VkSampler probeSampler(gpu::Context& context) {
+    return context.sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
+}
+
+// Everything that the maps depend on, except for the scene, whose motion matters only with refresh moving. With refresh
+// face, captures follow the lights by themselves.
+std::vector<std::byte> keyOf(const ProbeBlock& block, const ViewInputs& in, const Settings& settings) {
+    std::vector<std::byte> key;
+    append(key, block);
+    append(key, settings.probes.refresh);
+    append(key, settings.probes.resolution);
+    if (settings.probes.refresh == ProbeRefresh::face) {
+        return key;
+    }
+    append(key, settings.materials);
+    append(key, settings.shadow);
+    append(key, in.sunDirection);
+    append(key, in.sunIrradiance);
+    append(key, in.lamps);
+    append(key, settings.probes.refresh == ProbeRefresh::moving ? in.time : 0.0);
+    append(key, settings.probes.bounces);
+    if (settings.probes.bounces > 0) {
+        append(key, settings.probes.blend);
+        append(key, in.environment.params);
+        append(key, in.environment.texels.state);
+    }
+    return key;
+}
+
+}  // namespace
+
+void Probes::makeMaps(gpu::Context& context, uint32_t resolution) {
+    constexpr VkImageUsageFlags usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                                        VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    const uint32_t side = std::bit_floor(resolution);
+    const uint32_t layers = block_.count * probeFaces;
+    const gpu::ImageInfo distance{VK_FORMAT_R32_SFLOAT, uvec2(side), 1, layers, usage, gpu::ViewKind::cubeArray};
+    if (distance_.info() == distance) {
+        return;
+    }
+    map_ = CubeMap(context, side, block_.count, "probes");
+    distance_ = gpu::Texture(context, distance, "probes.distance");
+    const uvec2 all = side * uvec2(probeFaces, block_.count);
+    atlas_ = gpu::Texture(context, {VK_FORMAT_R16G16B16A16_SFLOAT, all, 1, 1, usage}, "probes.atlas");
+}
+
+gpu::Image Probes::captureFace(gpu::Recorder& f, const Capture& capture, uint32_t face, gpu::Image lampShadowMap) {
+    const auto scope = f.scope("probe");
+    const uvec2 size = distance_.info().size;
+    const vec3& position = block_.probes[face / probeFaces].position;
+    ViewInputs in = capture.in;
+    in.view = makeViewParams(cubeFaceCamera(position, face % probeFaces), size, in.view.frame, in.view.seed);
+    const ViewImages images = directView(f, faces_, in, captureSettings(capture.settings), lampShadowMap);
+    gpu::Pass pass = f.compute("capture_probe", "capture_probe.comp");
+    pass.params(in.environment.params, "environment");  // without its texels, which are not used here
+    bindEnvironmentLobes(pass, f.context(), in.environment);
+    bindSurfaces(f, pass, images.g);
+    pass.constant("furtherLight", capture.furtherLight ? 1U : 0U)
+        .read("depth", images.g.depth)
+        .read("normal", images.g.normal)
+        .read("baseColor", images.g.baseColor)
+        .read("material", images.g.material)
+        .read("ggxTable", in.ggxTable, f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
+        .read("direct", images.direct)
+        .read("probeLobes", map_.lobes.image(), probeSampler(f.context()))
+        .read("probeIrradiance", map_.irradiance.image())
+        .read("probeDistance", map_.lobes.image())  // placeholder: unused here, and the real one is being written
+        .write("sharp", map_.sharp.mip(0))
+        .write("distance", distance_.mip(0))
+        .write("atlas", atlas_.image())
+        .params(CaptureProbeParams{in.view, face, capture.settings.probes.blend, block_})
+        .dispatch(size);
+    return images.lampShadowMap;
+}
+
+void Probes::captureAll(gpu::Recorder& f, const ViewInputs& in, const Settings& settings) {
+    gpu::Image lampShadowMap;
+    for (uint32_t bounce = 0; bounce <= settings.probes.bounces; ++bounce) {
+        for (uint32_t face = 0; face < block_.count * probeFaces; ++face) {
+            lampShadowMap = captureFace(f, {in, settings, bounce > 0}, face, lampShadowMap);
+        }
+        const auto scope = f.scope("probe");
+        filterCubeMap(f, map_, 0, block_.count);
+    }
+}
+
+void Probes::captureNextFace(gpu::Recorder& f, const ViewInputs& in, const Settings& settings) {
+    const uint32_t faces = block_.count * probeFaces;
+    const uint32_t face = facesCaptured_ % faces;
+    captureFace(f, {in, settings, settings.probes.bounces > 0 && facesCaptured_ >= faces}, face);
+    ++facesCaptured_;
+    if (face % probeFaces == probeFaces - 1) {
+        const auto scope = f.scope("probe");
+        filterCubeMap(f, map_, face / probeFaces, 1);
+    }
+}
+
+void Probes::restart(bool sceneMoves) {
+    if (byFace_ || sceneMoves) {
+        key_.clear();
+    }
+}
+
+ProbeMaps Probes::update(gpu::Recorder& f, const ViewInputs& in, std::span<const Probe> probes,
+                         const Settings& settings) {
+    if (settings.probes.enabled == 0 || probes.empty()) {
+        return {};
+    }
+    block_ = blockOf(probes);
+    std::vector<std::byte> key = keyOf(block_, in, settings);
+    const bool changed = key != key_;
+    byFace_ = settings.probes.refresh == ProbeRefresh::face;
+    key_ = std::move(key);
+    if (changed) {
+        makeMaps(f.context(), settings.probes.resolution);
+        facesCaptured_ = 0;
+    }
+    if (byFace_) {
+        if (changed) {  // nothing is captured yet
+            f.clear(map_.lobes.image());
+            f.clear(map_.irradiance.image());
+            f.clear(atlas_.image());
+        }
+        captureNextFace(f, in, settings);
+    } else if (changed) {
+        captureAll(f, in, settings);
+    }
+    return {map_.lobes.image(), map_.irradiance.image(), distance_.image(), atlas_.image(), block_};
+}
+
+}  // namespace reflet

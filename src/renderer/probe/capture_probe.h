@@ -1,0 +1,74 @@
+// Captures probes: a G-buffer and direct light for each face of each cube map. Shared by C++ and GLSL.
+#ifndef REFLET_RENDERER_CAPTURE_PROBE_H
+#define REFLET_RENDERER_CAPTURE_PROBE_H
+
+#include "base/shared.h"
+#include "effects/view.h"
+#include "renderer/probe/probes.h"
+
+SHARED_BEGIN
+
+struct CaptureProbeParams {
+    ViewParams view;
+    uint face;    // 6 · probe + its number
+    float blend;  // ProbesSettings
+    ProbeBlock probes;
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "effects/cube_map/cube_map.h"
+#include "gpu/recorder.h"
+#include "renderer/direct_view.h"
+#include "scene/scene.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace reflet {
+
+/// The camera at `position` for one cube face, 0 to 5: +X -X +Y -Y +Z -Z. Its image is the face mirrored left to right,
+/// because cube maps are left-handed.
+Camera cubeFaceCamera(const vec3& position, uint32_t face);
+
+/// Owns the cube maps and captures them when needed.
+class Probes {
+public:
+    /// Maps of these probes (at most maxProbes) in the lighting of `in`. refresh once and moving: records the capture
+    /// of all of them, unless they are up to date for the same probes, lights and settings. refresh face: records the
+    /// capture of one face; a probe's map is updated after its sixth face.
+    ProbeMaps update(gpu::Recorder& f, const ViewInputs& in, std::span<const Probe> probes, const Settings& settings);
+
+    /// With refresh face, captures start over. Maps captured all at once are kept, because they do not depend on time,
+    /// unless the scene moves.
+    void restart(bool sceneMoves);
+
+private:
+    struct Capture {
+        const ViewInputs& in;
+        const Settings& settings;
+        bool furtherLight;  ///< add indirect light from the existing maps
+    };
+    void makeMaps(gpu::Context& context, uint32_t resolution);
+    void captureAll(gpu::Recorder& f, const ViewInputs& in, const Settings& settings);
+    void captureNextFace(gpu::Recorder& f, const ViewInputs& in, const Settings& settings);
+    /// face: 6 · probe + its number. Returns the lamps' shadow map, to be shared with other faces of the frame.
+    gpu::Image captureFace(gpu::Recorder& f, const Capture& capture, uint32_t face, gpu::Image lampShadowMap = {});
+
+    DirectViewStore faces_;  ///< of the face that is captured
+    CubeMap map_;
+    gpu::Texture distance_;
+    gpu::Texture atlas_;
+    ProbeBlock block_{};
+    std::vector<std::byte> key_;  ///< everything that the captured maps depend on
+    bool byFace_ = false;         ///< the maps were captured with refresh face
+    uint32_t facesCaptured_ = 0;  ///< with refresh face, since its start
+};
+
+}  // namespace reflet
+#endif
+
+#endif

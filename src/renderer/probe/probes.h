@@ -1,0 +1,77 @@
+// Local reflection probes: cube maps captured in the scene from G-buffer and direct light, with parallax correction by
+// box projection (Lagarde and Zanuttini, Local Image-Based Lighting with Parallax-Corrected Cubemaps, SIGGRAPH 2012).
+// Shared by C++ and GLSL.
+#ifndef REFLET_RENDERER_PROBES_H
+#define REFLET_RENDERER_PROBES_H
+
+#include "base/shared.h"
+#include "effects/view.h"
+
+SHARED_BEGIN
+
+#define PROBE_REFRESHES(OPTION)   \
+    OPTION(ProbeRefresh, once, 0) \
+    OPTION(ProbeRefresh, face, 1) \
+    OPTION(ProbeRefresh, moving, 2)
+CHOICES(ProbeRefresh, PROBE_REFRESHES)
+
+#define PROBE_PARALLAXES(OPTION)   \
+    OPTION(ProbeParallax, none, 0) \
+    OPTION(ProbeParallax, box, 1)  \
+    OPTION(ProbeParallax, depth, 2)
+CHOICES(ProbeParallax, PROBE_PARALLAXES)
+
+#define PROBES_SETTINGS(VALUE, SWITCH, CHOICE)                                                                         \
+    SWITCH(enabled, 0,                                                                                                 \
+           "Reflection probes: cube maps captured in the scene, used before the environment for rays without a hit.")  \
+    VALUE(uint, count, 4, 0, 16, "Maximum number of probes placed automatically, if the view file lists none.")        \
+    VALUE(uint, resolution, 128, 16, 512, "Side of a cube map face in texels, rounded down to a power of two.")        \
+    CHOICE(ProbeRefresh, refresh, once,                                                                                \
+           "When probes are captured. once: all of them, and again when lights or probes change. face: one cube face " \
+           "per frame, always with the current lighting. moving: as once, and again whenever something moved.")        \
+    VALUE(uint, bounces, 1, 0, 8,                                                                                      \
+          "Bounces of indirect light in the captures. Each costs one more capture that is lit by the previous one. "   \
+          "With refresh face: 0 is none, otherwise each round over the faces adds one.")                               \
+    CHOICE(ProbeParallax, parallax, depth,                                                                             \
+           "Parallax correction. depth: march rays through the distances that the probe captured; box: intersect "     \
+           "them with the probe's box (box projection), faster; none: the cube map is taken as infinitely far away.")  \
+    VALUE(float, blend, 0.25, 0.0, 100.0, "Distance outside of its box over which a probe fades out, in metres.")
+SETTINGS(ProbesSettings, PROBES_SETTINGS)
+
+const uint maxProbes = 16;
+const uint probeFaces = 6;
+
+struct ProbeParams {
+    vec3 position;  // world space, inside the box
+    vec3 boxMin;
+    vec3 boxMax;
+};
+
+struct ProbeBlock {
+    uint count;
+    ProbeParams probes[maxProbes];
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "gpu/resource.h"
+
+namespace reflet {
+
+/// Cube maps for passes to read.
+struct ProbeMaps {
+    gpu::Image lobes;       ///< of CubeMap (cube_map.h): radiance · alpha; alpha: 1 surface, 0 sky
+    gpu::Image irradiance;  ///< of CubeMap, with alpha as well
+    gpu::Image distance;    ///< R32F cube array: 1 / metres from the probe, 0: sky
+    gpu::Image atlas;       ///< RGBA16F: the captured faces, a row of six per probe
+    ProbeBlock block{};
+
+    explicit operator bool() const { return block.count > 0; }
+};
+
+}  // namespace reflet
+#endif
+
+#endif

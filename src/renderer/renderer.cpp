@@ -1,0 +1,210 @@
+// Renders a scene.
+#include "renderer/renderer.h"
+
+#include "base/error.h"
+#include "base/text.h"
+#include "device/upload.h"
+#include "effects/exposure/exposure.h"
+#include "effects/jitter.h"
+#include "noise/blue_noise.h"
+#include "renderer/exposure/scene_exposure.h"
+#include "renderer/history.h"
+#include "renderer/probe/place_probes.h"
+#include "renderer/shadow/lamp_shadow_maps.h"
+#include "scene/background.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace reflet {
+
+Renderer::Renderer(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn)
+    : frame_(device),
+      source_(scene),
+      scene_(device, scene, warn),
+      flatPieces_(findFlatPieces(scene)),
+      posedPieces_(flatPieces_),
+      blueNoise_(
+          gpu::uploadBuffer(device, std::as_bytes(blueNoise()), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "blue_noise")),
+      warn_(warn) {}
+
+void Renderer::pose(const View& view) {
+    if (source_.nodes.empty()) {
+        return;
+    }
+    ScenePose now = scenePose(source_, view.time);
+    if (!pose_ || pose_->time != now.time) {
+        posedPieces_ = posedFlatPieces(flatPieces_, source_, now);
+    }
+    scene_.pose(source_, now, pose_.value_or(now));
+    pose_ = std::move(now);
+}
+
+LampShadows Renderer::planLamps(LampBlock& lamps, const View& view, const ShadowSettings& settings) {
+    for (uint32_t i = 0; i < lamps.count; ++i) {
+        lamps.lamps[i].radius = view.lampRadius.value_or(lamps.lamps[i].radius);
+        if (std::ranges::binary_search(view.lampsOff, i)) {
+            lamps.lamps[i].intensity = vec3(0.0F);
+        }
+    }
+    // Images larger than that are more memory (1 GiB) than shadows of lamps are worth.
+    const uint32_t largestSide = std::min(frame_.device().limits().maxImageDimension2D, 16384U);
+    return planLampShadows(lamps, settings, largestSide, [&](const std::string& text) { warnOnce(text); });
+}
+
+std::vector<Mirror> Renderer::planMirrors(const View& view, const ViewParams& params, const Settings& settings) {
+    if (settings.planar.enabled == 0 || settings.specular.rays == 0 || settings.materials.lambertOnly != 0) {
+        return {};
+    }
+    for (const std::string& name : view.mirrors) {
+        if (std::ranges::find(posedPieces_, name, &FlatPiece::name) == posedPieces_.end()) {
+            std::vector<std::string> names;
+            std::ranges::transform(posedPieces_, std::back_inserter(names), &FlatPiece::name);
+            warnOnce(fmt::format("mirrors: no flat thing is called '{}'{}", name, suggestion(name, names)));
+        }
+    }
+    return reflet::planMirrors(posedPieces_, params, view.mirrors, settings.planar);
+}
+
+void Renderer::warnOnce(const std::string& text) {
+    if (warned_.insert(text).second) {
+        warn_(text);
+    }
+}
+
+const TracedScene* Renderer::tracedScene(const Settings& settings) {
+    if (!tracesScene(settings)) {
+        return nullptr;
+    }
+    gpu::Device& device = frame_.device();
+    const TraceSceneSettings& s = settings.traceScene;
+    const RayMethod method = s.rayQuery != 0 && device.hasRayQuery() ? RayMethod::query : RayMethod::traversal;
+    if (!traced_ || tracedTextureSize_ != s.textureSize || traced_->rays.method() != method) {
+        tracedTextureSize_ = s.textureSize;
+        traced_.emplace(TracedScene{SceneRays(device, source_, method),
+                                    SceneSurfaces(device, source_, scene_, tracedTextureSize_, warn_)});
+        tracedTime_.reset();
+    }
+    if (pose_ && tracedTime_ != pose_->time) {
+        tracedTime_ = pose_->time;
+        traced_->rays.pose(device, source_, *pose_);
+        traced_->surfaces.pose(device, source_, scene_);
+    }
+    return &*traced_;
+}
+
+const std::vector<Probe>& Renderer::probesOf(const View& view, const ProbesSettings& settings) {
+    if (view.probes) {
+        return *view.probes;
+    }
+    if (settings.enabled != 0 && placedCount_ != settings.count) {
+        placed_ = source_.nodes.empty() ? placeProbes(source_, settings.count)
+                                        : placeProbes(frozen(source_, 0.0), settings.count);
+        placedCount_ = settings.count;
+    }
+    return placed_;
+}
+
+uint32_t Renderer::countFramesBefore(const View& view, const ViewParams& params, const Settings& settings) {
+    const bool same = asked_ && asked_->view == view && asked_->size == params.size && asked_->seed == params.seed &&
+                      sameSettings(asked_->settings, settings);
+    framesBefore_ = same ? framesBefore_ + 1 : 0;
+    asked_ = Asked{view, settings, params.size, params.seed};
+    return framesBefore_;
+}
+
+// New pictures are cleared: what captures probes, or shows itself in its own picture, reads them before they are drawn.
+std::vector<LiveView> Renderer::liveViews(const ViewParams& view) {
+    std::vector<LiveView> live;
+    for (GpuScene::LivePicture& p : scene_.livePictures()) {
+        const gpu::Image picture = p.texture.image();
+        if (p.fresh) {
+            frame_.clear(picture);
+            p.fresh = false;
+        }
+        live.push_back({makeViewParams(p.posed, picture.size, view.frame, view.seed), picture});
+    }
+    return live;
+}
+
+FrameBackground Renderer::backgroundOf(const View& view) {
+    const Background& background = view.background;
+    const bool constant = background.mode == Background::Mode::blur && !view.environment.image;
+    if (background.mode == Background::Mode::environment || constant) {
+        return {};
+    }
+    if (needsBlurredImage(view) && blurredFrom_ != view.environment.image) {
+        blurredFrom_ = view.environment.image;
+        blurred_ = std::make_shared<FloatImage>(blurredImage(*blurredFrom_));
+    }
+    return {background, background_.update(frame_, environmentBehind(view, blurred_))};
+}
+
+void Renderer::restart(uint32_t frameNumber) {
+    frameNumber_ = frameNumber;
+    frame_.forget();
+    previousWorldToClip_.reset();
+    previousPlace_ = vec2(0.0F);
+    previousTime_.reset();
+    asked_.reset();
+    framesBefore_ = 0;
+    pose_.reset();
+    probes_.restart(!source_.nodes.empty());
+    for (GpuScene::LivePicture& picture : scene_.livePictures()) {
+        picture.fresh = true;
+    }
+}
+
+FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const Settings& settings,
+                             const std::function<void(gpu::Frame&, const FrameImages&)>& after) {
+    const View view = posed(asked, source_);
+    pose(view);
+    ViewParams params = makeViewParams(view.camera, size, frameNumber_++, seed);
+    params.previousWorldToClip = previousWorldToClip_.value_or(params.worldToClip);
+    previousWorldToClip_ = params.worldToClip;
+    const uint32_t framesBefore = countFramesBefore(view, params, settings);
+    const std::vector<Mirror> mirrors = planMirrors(view, params, settings);  // their pictures' sizes do not jitter
+    const vec2 place = frameJitter(settings, params.frame, framesBefore);
+    applyJitter(params, place, previousPlace_);
+    previousPlace_ = place;
+    LampBlock lamps = scene_.lamps();
+    const LampShadows lampShadows = planLamps(lamps, view, settings.shadow);
+    scene_.setTextureFilter({settings.materials.anisotropy, settings.materials.mips != 0, settings.materials.mipBias});
+    scene_.setLiveHeight(settings.live.height);
+    const TracedScene* traced = tracedScene(settings);
+    frame_.begin();
+    if (pose_ && scene_.hasSkins()) {
+        scene_.skin(frame_);
+    }
+    const std::vector<LiveView> live = liveViews(params);
+    FrameInputs inputs{{.draws = scene_.draws(),
+                        .view = params,
+                        .sunDirection = view.sun.direction,
+                        .sunIrradiance = view.sun.irradiance,
+                        .sunAngularDiameter = view.sun.angularDiameter,
+                        .environment = environment_.update(frame_, view.environment),
+                        .lamps = lamps,
+                        .lampShadows = lampShadows,
+                        .ggxTable = ggxTable(frame_, ggxTable_),
+                        .blueNoise = blueNoise_.view(),
+                        .traced = traced,
+                        .time = view.time},
+                       mirrors,
+                       live,
+                       framesBefore,
+                       backgroundOf(view),
+                       exposesAutomatically(settings.tonemap, source_),
+                       static_cast<float>(std::abs(asked.time - previousTime_.value_or(asked.time)))};
+    previousTime_ = asked.time;
+    inputs.probes = probes_.update(frame_, inputs, probesOf(view, settings.probes), settings);
+    const FrameImages images = renderFrame(frame_, store_, inputs, settings);
+    if (after) {
+        after(frame_, images);
+    }
+    frame_.submit();
+    frame_.wait();
+    return images;
+}
+
+}  // namespace reflet

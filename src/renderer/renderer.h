@@ -1,0 +1,91 @@
+// Renders a scene: owns everything that outlives a frame, including the last view for motion vectors.
+#pragma once
+
+#include "device/frame.h"
+#include "renderer/environment/environment_maps.h"
+#include "renderer/frame.h"
+#include "renderer/gpu_scene.h"
+#include "renderer/probe/capture_probe.h"
+#include "renderer/view_params.h"
+#include "scene/pose.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace reflet {
+
+class Renderer {
+public:
+    /// The scene must outlive the renderer: what only rays or probes need is made of it when it is first needed.
+    Renderer(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn);
+
+    /// Records one frame; `after` may record more (read-backs). Returns when the device is done. Motion is that since
+    /// the last frame, whatever its view and time were; in the first frame there is none.
+    FrameImages render(const View& asked, uvec2 size, uint32_t seed, const Settings& settings,
+                       const std::function<void(gpu::Frame&, const FrameImages&)>& after = {});
+
+    /// Discards all history: the next frame is rendered like a renderer's first, with the noise of the frame of this
+    /// number.
+    void restart(uint32_t frameNumber);
+
+    [[nodiscard]] const gpu::Frame& frame() const { return frame_; }
+
+private:
+    /// Poses the scene at the time of the view.
+    void pose(const View& view);
+    /// Radii that the view gives; who casts a shadow. Warns, but only once of the same.
+    LampShadows planLamps(LampBlock& lamps, const View& view, const ShadowSettings& settings);
+
+    /// The BVH for ray tracing, if the settings need one.
+    const TracedScene* tracedScene(const Settings& settings);
+    /// The view's probes, or those that are placed where it has none.
+    const std::vector<Probe>& probesOf(const View& view, const ProbesSettings& settings);
+    /// The live camera images for the frame of this view.
+    std::vector<LiveView> liveViews(const ViewParams& view);
+    FrameBackground backgroundOf(const View& view);
+    std::vector<Mirror> planMirrors(const View& view, const ViewParams& params, const Settings& settings);
+    void warnOnce(const std::string& text);
+
+    gpu::Frame frame_;
+    const Scene& source_;
+    GpuScene scene_;
+    std::optional<TracedScene> traced_;
+    uint32_t tracedTextureSize_ = 0;
+    std::vector<FlatPiece> flatPieces_;  ///< at time 0
+    std::vector<FlatPiece> posedPieces_;
+    std::optional<ScenePose> pose_;  ///< of the last frame; none before the first one, and of scenes that stand still
+    std::optional<double> tracedTime_;
+    FrameStore store_;
+    gpu::KeptImage ggxTable_{"ggx_table"};
+    gpu::Buffer blueNoise_;
+    EnvironmentMaps environment_;
+    EnvironmentMaps background_{/*prefilters=*/false};
+    std::shared_ptr<const FloatImage> blurredFrom_;  ///< image of the environment
+    std::shared_ptr<const FloatImage> blurred_;
+    Probes probes_;
+    std::vector<Probe> placed_;
+    std::optional<uint32_t> placedCount_;  ///< that placed_ were asked for
+    std::function<void(const std::string&)> warn_;
+    std::set<std::string> warned_;
+    /// In which the picture has been what it is asked to be now: how many there were.
+    uint32_t countFramesBefore(const View& view, const ViewParams& params, const Settings& settings);
+    struct Asked {
+        View view;
+        Settings settings;
+        vec2 size;
+        uint32_t seed;
+    };
+
+    std::optional<Asked> asked_;  ///< of the last frame
+    uint32_t framesBefore_ = 0;
+    std::optional<mat4> previousWorldToClip_;  ///< without jitter
+    vec2 previousPlace_{0.0F};                 ///< in the pixel, that the last frame looked through
+    std::optional<double> previousTime_;       ///< that the last frame was asked for, not looped [s]
+    uint32_t frameNumber_ = 0;
+};
+
+}  // namespace reflet

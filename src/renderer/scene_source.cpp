@@ -1,0 +1,65 @@
+// Records ray tracing with the frame's parameters.
+#include "renderer/scene_source.h"
+
+#include "renderer/trace_scene/trace_scene.h"
+
+namespace reflet {
+
+namespace {
+
+// Indirect light at hits: number of bounces, and whether only diffuse ones.
+struct Scattering {
+    uint32_t bounces = 0;
+    bool diffuseOnly = false;
+};
+
+Scattering scatteringAtHits(const Settings& settings, uint32_t lobe) {
+    const HitLight screen = settings.traceScreen.light;
+    if (settings.traceScene.light == SceneHitLight::path || screen == HitLight::previous) {
+        return {settings.traceScene.bounces, false};
+    }
+    const bool lit = screen == HitLight::lit && lobe == lobeSpecular && settings.diffuse.rays > 0;
+    return {lit ? 1U : 0U, true};
+}
+
+uint32_t sunShadowsAtHits(const Settings& settings, const ViewImages& seen) {
+    if (settings.shadow.filter == ShadowFilter::none) {
+        return sunShadowNone;
+    }
+    return settings.traceScene.shadows == SceneShadows::map && seen.shadowMap ? sunShadowMap : sunShadowRay;
+}
+
+}  // namespace
+
+void traceSceneFallback(gpu::Recorder& f, Rays& rays, const ViewInputs& in, const Settings& settings,
+                        const ViewImages& seen, const ScreenImages& screen) {
+    if (settings.traceScene.enabled == 0 || in.traced == nullptr) {
+        return;
+    }
+    const Scattering scattering = scatteringAtHits(settings, rays.lobe);
+    const float share =
+        static_cast<float>(rays.count) / static_cast<float>(settings.diffuse.rays + settings.specular.rays);
+    const bool previous = settings.traceScreen.light == HitLight::previous && screen.lit.valid;
+    // Where hits bring all bounces, as the last frame does on screen.
+    const bool all =
+        settings.traceScene.light == SceneHitLight::screen && settings.traceScreen.light != HitLight::direct;
+    const ProbeMaps none;
+    traceScene(f, rays,
+               {*in.traced, screen, seen.shadowMap, in.ggxTable, in.blueNoise, in.environment, in.lamps,
+                all ? in.probes : none},
+               sunShadowsAtHits(settings, seen),
+               {.own = rays.from.view,
+                .view = in.view,
+                .settings = settings.traceScene,
+                .lights = sceneLights(in, settings),
+                .sun = seen.sun,
+                .shadowBias = settings.shadow.bias,
+                .rayLimit = 1000.0F * static_cast<float>(settings.traceScene.maxRays) * share,
+                .bounces = scattering.bounces,
+                .diffuseOnly = scattering.diffuseOnly ? 1U : 0U,
+                .mips = settings.materials.mips,
+                .fromPrevious = previous ? 1U : 0U,
+                .firstRay = rays.firstRay});
+}
+
+}  // namespace reflet

@@ -1,0 +1,82 @@
+// Names the sources of a lobe's rays.
+#include "renderer/trace_lobe.h"
+
+#include "effects/lobe/trace_screen.h"
+#include "renderer/probe/answer_probes.h"
+#include "renderer/scene_source.h"
+
+#include <vector>
+
+namespace reflet {
+
+namespace {
+
+// Cones follow the lobe's centre, but on screen with a small random spread: the centre alone would give hit shapes
+// edges as hard as in a mirror. Prefiltered sources have no such edges.
+constexpr float coneShareOnScreen = 0.1F;
+
+// Whether tracing a mirror's ray again may find something else.
+bool tracesAtRandom(const Settings& settings) {
+    const TraceScreenSettings& s = settings.traceScreen;
+    const bool exact = s.method == TraceMethod::hiz || s.method == TraceMethod::exhaustive;
+    return (s.enabled != 0 && s.jitter != 0 && !exact) || settings.traceScene.enabled != 0;
+}
+
+// In order of accuracy, each for the misses of the previous one. Planar views see more than the screen and need no
+// thickness assumption; which of the two comes first is a setting.
+std::vector<RaySource> sourcesOf(const ViewInputs& in, const Settings& settings, const TracedView& seen,
+                                 uint32_t lobe) {
+    const float longest = lobe == lobeDiffuse ? settings.diffuse.maxDistance : settings.traceScreen.maxDistance;
+    std::vector<RaySource> sources;
+    if (settings.traceScreen.enabled != 0) {
+        sources.emplace_back([&, longest](gpu::Recorder& f, Rays& rays) {
+            traceScreen(f, rays, seen.screen, settings.traceScreen, longest);
+        });
+    }
+    if (lobe == lobeSpecular) {
+        std::vector<RaySource> planar;
+        for (const PlanarView& mirror : seen.mirrors) {
+            planar.emplace_back([&, longest](gpu::Recorder& f, Rays& rays) {
+                traceMirror(f, rays, mirror, settings.traceScreen, longest);
+            });
+        }
+        sources.insert(settings.planar.beforeScreen != 0 ? sources.begin() : sources.end(), planar.begin(),
+                       planar.end());
+    }
+    if (settings.traceScene.enabled != 0 && in.traced != nullptr) {
+        sources.emplace_back(
+            [&](gpu::Recorder& f, Rays& rays) { traceSceneFallback(f, rays, in, settings, seen.images, seen.screen); });
+    }
+    if (in.probes) {
+        sources.emplace_back([&](gpu::Recorder& f, Rays& rays) { answerProbes(f, rays, in.probes, settings.probes); });
+    }
+    return sources;
+}
+
+}  // namespace
+
+LobeLight traceLobe(gpu::Recorder& f, LobeStore& own, const ViewInputs& in, const Settings& settings,
+                    const TracedView& seen, uint32_t lobe) {
+    LobeSettings common = lobe == lobeDiffuse ? lobeSettings(settings.diffuse) : lobeSettings(settings.specular);
+    common.rays = in.draws.unlit ? 0 : common.rays;
+    const std::vector<RaySource> sources = sourcesOf(in, settings, seen, lobe);
+    return traceLobe(f, own,
+                     {.lobe = lobe,
+                      .g = seen.images.g,
+                      .view = in.view,
+                      .settings = common,
+                      .diffuse = settings.diffuse,
+                      .specular = settings.specular,
+                      .denoise = settings.denoise,
+                      .environmentSettings = settings.environment,
+                      .environment = in.environment,
+                      .ggxTable = in.ggxTable,
+                      .blueNoise = in.blueNoise,
+                      .sources = sources,
+                      .lit = seen.screen.lit,
+                      .randomTracing = tracesAtRandom(settings),
+                      .countSteps = settings.traceScreen.countSteps != 0,
+                      .coneShare = settings.traceScreen.enabled != 0 ? coneShareOnScreen : 0.0F});
+}
+
+}  // namespace reflet

@@ -1,0 +1,52 @@
+// Direct light with ray-traced shadows: as direct.h, but without shadow maps and with shadows of all lamps. Shared by
+// C++ and GLSL.
+#ifndef REFLET_RENDERER_DIRECT_RAYS_H
+#define REFLET_RENDERER_DIRECT_RAYS_H
+
+#include "base/shared.h"
+#include "effects/view.h"
+#include "renderer/trace_scene/trace_scene.h"
+
+SHARED_BEGIN
+
+struct DirectRaysParams {
+    ViewParams view;
+    SceneLights lights;
+    uint rays;  // shadow rays to the sun, and as many to lamps
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "effects/gbuffer/gbuffer.h"
+#include "gpu/recorder.h"
+
+namespace reflet {
+
+/// Inputs of shading.
+struct DirectRaysInputs {
+    const TracedScene& scene;
+    gpu::Image ggxTable;
+    const EnvironmentLight& environment;  ///< the background
+    const LampBlock& lamps;
+};
+
+struct DirectRays {
+    gpu::Image direct;         ///< RGBA16F, as by directLight
+    gpu::Image sunVisibility;  ///< R8: unoccluded share of the rays to the sun's disk, 1 for the sky
+};
+
+/// Owns the images of DirectRays.
+struct DirectRaysStore {
+    gpu::KeptImage direct{"direct"};
+    gpu::KeptImage sunVisibility{"sun_visibility"};
+};
+
+DirectRays directByRays(gpu::Recorder& f, DirectRaysStore& own, const GBuffer& g, const DirectRaysInputs& in,
+                        const DirectRaysParams& params);
+
+}  // namespace reflet
+#endif
+
+#endif

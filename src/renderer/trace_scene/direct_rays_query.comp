@@ -1,0 +1,7 @@
+// Direct light with ray-traced shadows, hardware ray query (direct_rays.glsl).
+#version 460
+#extension GL_EXT_ray_query : require
+#extension GL_EXT_scalar_block_layout : require
+#include "renderer/trace_scene/scene_surfaces.glsl"
+#include "renderer/trace_scene/scene_rays_query.glsl"
+#include "renderer/trace_scene/direct_rays.glsl"

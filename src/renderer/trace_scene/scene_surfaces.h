@@ -1,0 +1,43 @@
+// Surface data for ray hits: vertex attributes, instances, materials, textures as layers of two arrays (colours and
+// data). Passes bind it along with SceneRays; scene_surfaces.glsl reads it.
+#pragma once
+
+#include "gpu/resource.h"
+#include "renderer/gpu_scene.h"
+#include "scene/scene.h"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace reflet::gpu {
+class Device;
+class Pass;
+}  // namespace reflet::gpu
+
+namespace reflet {
+
+class SceneSurfaces {
+public:
+    /// textureSize: maximum side of a layer in texels; larger images are downsampled, with a message to `warn`.
+    /// Vertices are those of `onDevice`, which must be of the same scene and outlive this.
+    SceneSurfaces(gpu::Device& device, const Scene& scene, const GpuScene& onDevice, uint32_t textureSize,
+                  const std::function<void(const std::string&)>& warn);
+
+    /// Updates the instances to the transforms of the draws of `onDevice`. No frame that traces may be in flight.
+    void pose(gpu::Device& device, const Scene& scene, const GpuScene& onDevice);
+
+    /// Binds what scene_surfaces.glsl reads.
+    gpu::Pass& bind(gpu::Pass& pass) const;
+
+private:
+    gpu::BufferView attributes_;
+    gpu::BufferView indices_;
+    gpu::Buffer instances_;
+    gpu::Buffer materials_;
+    gpu::Texture colors_;
+    gpu::Texture data_;
+    VkSampler sampler_ = VK_NULL_HANDLE;
+};
+
+}  // namespace reflet

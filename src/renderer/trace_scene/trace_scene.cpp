@@ -1,0 +1,54 @@
+// Records ray tracing as a ray source.
+#include "renderer/trace_scene/trace_scene.h"
+
+#include "gpu/context.h"
+
+namespace reflet {
+
+void traceScene(gpu::Recorder& f, Rays& rays, const TraceSceneInputs& in, uint32_t sunShadows,
+                const TraceSceneParams& params) {
+    const GBuffer& g = in.screen.g;
+    const gpu::BufferView missed = makeRayList(f, rays);
+    const bool reuse = params.settings.reuseScreen != 0 &&
+                       (params.settings.light == SceneHitLight::screen || params.fromPrevious != 0);
+    const bool tellsMotion = rays.imageMotion && rays.firstRay == 0;
+    gpu::Pass pass = f.compute("trace_scene", in.scene.rays.shader("trace_scene"));
+    in.scene.rays.bind(pass);
+    in.scene.surfaces.bind(pass);
+    bindEnvironment(pass, in.environment);
+    bindEnvironmentLobes(pass, f.context(), in.environment);
+    const VkSampler linear = f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
+    pass.constant("lobe", rays.lobe)
+        .constant("materialFeatures", g.features)
+        .constant("sunShadows", sunShadows)
+        .constant("reuseScreen", reuse ? 1U : 0U)
+        .constant("tellsMotion", tellsMotion ? 1U : 0U)
+        .constant("endsInProbes", in.probes ? 1U : 0U)
+        .read("probeLobes", in.probes ? in.probes.lobes : in.environment.lobes, linear)
+        .read("probeIrradiance", in.probes ? in.probes.irradiance : in.environment.irradiance)
+        .read("probeDistance", in.probes ? in.probes.distance : in.environment.lobes)
+        .params(in.probes.block, "probeBlock")
+        .read("ownDepth", rays.from.g.depth)
+        .read("ownGeometricNormal", rays.from.g.geometricNormal)
+        .read("depth", g.depth)
+        .read("geometricNormal", g.geometricNormal)
+        .read("material", rays.from.g.material)
+        .read("motion", g.motion)
+        .read("light", in.screen.light)
+        .read("previousLit", in.screen.lit.previous ? in.screen.lit.previous : in.screen.light)
+        .read("shadowMap", in.shadowMap ? in.shadowMap : g.depth)
+        .read("ggxTable", in.ggxTable, f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
+        .read("blueNoise", in.blueNoise)
+        .read("direction", rays.direction)
+        .read("waiting", rays.waiting)
+        .write("answer", rays.answer)
+        .write("source", rays.source)
+        .write("imageMotion", tellsMotion ? rays.imageMotion : f.placeholder(VK_FORMAT_R16G16_SFLOAT))
+        .write("missed", missed)
+        .params(params)
+        .params(in.lamps, "lampBlock")
+        .dispatchIndirect(rays.waiting, 0);
+    rays.waiting = missed;
+}
+
+}  // namespace reflet

@@ -1,0 +1,323 @@
+// Traces the remaining rays against the scene's BVH and shades their hits. Included by trace_scene.comp and
+// trace_scene_query.comp after their traversal.
+// In: depth, geometric normal and material of the rays' origins; of the screen: depth, geometric normal, motion, light
+// of this and the last frame; the sun's shadow map, GGX table, blue noise, lamps, ray directions, the list. Out:
+// results, sources, motion of reflected images, the list of remaining rays.
+#include "effects/environment/environment_lobes.glsl"
+#include "effects/lobe/ray_tiles.h"
+#include "effects/lobe/rays.glsl"
+#include "effects/gbuffer/gbuffer.glsl"
+#include "effects/lamps.h"
+#include "renderer/probe/probes.h"
+#include "renderer/trace_scene/trace_scene.h"
+#include "shaders/cascades.glsl"
+#include "shaders/projection.glsl"
+
+layout(constant_id = 0) const uint lobe = 0u;
+layout(constant_id = 1) const uint sunShadows = sunShadowRay;
+layout(constant_id = 2) const uint reuseScreen = 0u;
+layout(constant_id = 3) const uint tellsMotion = 0u;
+layout(constant_id = 4) const uint endsInProbes = 0u;
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0, scalar) uniform ParamsBlock { TraceSceneParams params; };
+layout(set = 0, binding = 1, scalar) uniform LampUniforms { LampBlock lampBlock; };
+layout(set = 0, binding = 16) uniform sampler2D ownDepth;
+layout(set = 0, binding = 18, rg16f) uniform writeonly image2D imageMotion;
+layout(set = 0, binding = 17) uniform usampler2D ownGeometricNormal;
+layout(set = 0, binding = 19, scalar) uniform ProbesUniforms { ProbeBlock probeBlock; };
+layout(set = 0, binding = 20) uniform samplerCubeArray probeLobes;
+layout(set = 0, binding = 21) uniform sampler2D probeIrradiance;
+layout(set = 0, binding = 22) uniform samplerCubeArray probeDistance;
+layout(set = 0, binding = 2) uniform sampler2D depth;
+layout(set = 0, binding = 3) uniform usampler2D geometricNormal;
+layout(set = 0, binding = 4) uniform sampler2D material;
+layout(set = 0, binding = 5) uniform sampler2D motion;
+layout(set = 0, binding = 6, rgba16f) uniform readonly image2D light;
+layout(set = 0, binding = 7, rgba16f) uniform readonly image2D previousLit;
+layout(set = 0, binding = 8) uniform sampler2D shadowMap;
+layout(set = 0, binding = 9) uniform sampler2D ggxTable;
+layout(set = 0, binding = 10, scalar) readonly buffer BlueNoiseBlock { uint texels[]; } blueNoise;
+layout(set = 0, binding = 11, rg32ui) uniform readonly uimage2DArray direction;
+layout(set = 0, binding = 12, scalar) readonly buffer WaitingBlock {
+    uint groups[3];
+    uint count;
+    RayItem items[];
+} waiting;
+layout(set = 0, binding = 13, rgba16f) uniform image2DArray answer;
+layout(set = 0, binding = 14, rgba8) uniform image2DArray source;
+layout(set = 0, binding = 15, scalar) buffer MissedBlock {
+    uint groups[3];
+    uint count;
+    RayItem items[];
+} missed;
+#include "effects/lobe/rays_answer.glsl"
+#include "effects/lobe/rays_append.glsl"
+
+uint loadBlueNoise(uint texel) { return blueNoise.texels[texel]; }
+float loadShadowDepth(ivec2 texel) { return texelFetch(shadowMap, texel, 0).r; }
+#include "shaders/blue_noise.glsl"
+#include "shaders/shadow_map.glsl"
+
+SceneLights sceneLights() { return params.lights; }
+LampParams loadLamp(uint index) { return lampBlock.lamps[index]; }
+uint lampCount() { return lampBlock.count; }
+
+// Uses the first cascade that contains the point; they are ordered from fine to coarse.
+float sunMapVisibility(vec3 p, vec3 normal) {
+    if (sunShadows != sunShadowMap) {
+        return sunShadows == sunShadowNone ? 1.0 : -1.0;
+    }
+    ivec2 side = textureSize(shadowMap, 0) / (params.sun.count > 1u ? 2 : 1);
+    for (uint i = 0u; i < params.sun.count; ++i) {
+        ShadowTile tile = ShadowTile(cascadeTileOrigin(i, uint(side.x)), side);
+        ShadowReceiver receiver = slopeReceiver(p, normal, params.sun.maps[i], tile, params.shadowBias);
+        if (all(greaterThan(receiver.at, vec2(1.0))) && all(lessThan(receiver.at, vec2(side) - 1.0))) {
+            return hardVisibility(receiver);
+        }
+    }
+    return -1.0;
+}
+#include "effects/lobe/last_frame.glsl"
+
+uint probeCount() { return probeBlock.count; }
+ProbeParams loadProbe(uint index) { return probeBlock.probes[index]; }
+#include "renderer/probe/probes.glsl"
+#include "renderer/trace_scene/scene_light.glsl"
+
+const uint rouletteStart = 4u;  // bounces before Russian roulette starts
+// Footprint of a scattered ray relative to its lobe's width, small enough for the blur to be invisible.
+const float shareOfLobe = 0.1;
+
+// A ray with its footprint.
+struct SceneRay {
+    vec3 origin;
+    vec3 direction;
+    float width;    // of the footprint at the origin [m]
+    float spread;   // growth of the footprint per metre
+};
+
+// A point's projection on screen and the surface visible there.
+struct OnScreen {
+    bool inside;  // within the screen and in front of the camera
+    ivec2 pixel;
+    vec2 uv;      // of the point
+    float depth;  // of the pixel, 0: sky
+    vec3 shown;   // the point that the pixel shows
+    vec3 normal;  // its geometric one
+};
+
+OnScreen findOnScreen(vec3 position) {
+    OnScreen s;
+    vec4 clip = params.view.worldToClip * vec4(position, 1.0);
+    s.uv = ndcToUv(clip.xy / clip.w);
+    s.inside = clip.w > 0.0 && clip.z <= clip.w && all(greaterThanEqual(s.uv, vec2(0.0))) && all(lessThan(s.uv, vec2(1.0)));
+    s.pixel = s.inside ? ivec2(s.uv * params.view.size) : ivec2(0);
+    s.depth = texelFetch(depth, s.pixel, 0).r;
+    s.shown = uvToWorld(pixelToUv(s.pixel, params.view.pixel), max(s.depth, 1e-12), params.view.clipToWorld);
+    s.normal = unpackUnitVector(texelFetch(geometricNormal, s.pixel, 0).r);
+    return s;
+}
+
+// Whether the point lies on the surface that the pixel shows.
+bool isShown(OnScreen s, vec3 position) {
+    float away = dot(params.view.viewPlane, vec4(position, 1.0));
+    float pixelWidth = params.view.pixelAngle * (params.view.eye.w > 0.0 ? away : 1.0);
+    return s.inside && s.depth > 0.0 && abs(dot(position - s.shown, s.normal)) < 0.1 * pixelWidth &&
+           distance(position, s.shown) < 4.0 * pixelWidth;
+}
+
+// Radiance stored on screen for a hit that is visible to the camera. Depth is sampled at the pixel's centre, so on
+// slanted surfaces it may be off by half a pixel.
+bool screenLight(SceneSurface at, out vec3 radiance) {
+    radiance = vec3(0.0);
+    OnScreen s = findOnScreen(at.position);
+    if (at.hiddenBack || !isShown(s, at.position) || dot(at.geometricNormal, s.normal) <= 0.99) {
+        return false;
+    }
+    if (params.fromPrevious == 0u) {
+        radiance = imageLoad(light, s.pixel).rgb;
+        return true;
+    }
+    vec2 uv = uvInLastFrame(s.pixel, s.uv);
+    bool shown = wasShown(uv, s.pixel, s.shown, s.normal);
+    if (shown) {
+        radiance = imageLoad(previousLit, ivec2(uv * params.view.size)).rgb;
+    }
+    return shown;
+}
+
+Surface surfaceOf(SceneSurface at, vec3 toViewer) {
+    if (at.unlit) {
+        return blackSurface();
+    }
+    bool lambert = params.lights.lambertOnly != 0u;
+    float nv = dot(at.normal, toViewer);
+    vec2 table = lambert ? vec2(0.0) : textureLod(ggxTable, ggxTableUv(nv, at.roughness), 0.0).rg;
+    vec4 dielectric = vec4(dielectricF0 * at.reflectance.rgb, at.reflectance.a);
+    return makeSurface(at.baseColor, at.metallic, at.roughness, dielectric, table, lambert);
+}
+
+// Samples the next ray of a path from one of the two lobes and returns its throughput. 0: it would go below the
+// surface.
+vec3 scatter(LitPoint at, bool diffuseOnly, inout uint random, out SceneRay next) {
+    float specularLight = dot(at.surface.specular, vec3(1.0));
+    float both = specularLight + dot(at.surface.diffuse, vec3(1.0));
+    float chance = both > 0.0 ? specularLight / both : 0.0;
+    chance = diffuseOnly ? 0.0 : chance > 0.0 && chance < 1.0 ? clamp(chance, 0.1, 0.9) : chance;
+    float choice = nextRandom(random);
+    vec2 u = nextRandom2(random);
+    mat3 frame = basisAround(at.normal);
+    vec3 l;
+    vec3 weight;
+    float lobeWidth = 1.0;
+    if (choice < chance) {
+        vec3 eye = at.toViewer * frame;
+        eye = normalize(vec3(eye.xy, max(eye.z, 1e-3)));
+        float alpha = at.surface.roughness * at.surface.roughness;
+        bool mirror = at.surface.roughness <= mirrorRoughness;
+        vec3 h = mirror ? vec3(0.0, 0.0, 1.0) : sampleGgxVisible(u, eye, alpha);
+        l = 2.0 * dot(eye, h) * h - eye;
+        float a2 = alpha * alpha;
+        float unmasked = mirror ? 1.0 : ggxVisibility(max(l.z, 0.0), eye.z, alpha) * 2.0 * max(l.z, 0.0) *
+                                            (eye.z + sqrt(eye.z * eye.z * (1.0 - a2) + a2));
+        weight = fresnelSchlick(at.surface.f0, at.surface.f90, dot(eye, h)) * at.surface.compensation * (unmasked / chance);
+        lobeWidth = ggxConeTangent(alpha);
+    } else {
+        l = sampleCosineHemisphere(u);
+        weight = at.surface.diffuse / (1.0 - chance);
+    }
+    vec3 towards = frame * l;
+    next = SceneRay(at.position + at.geometricNormal * at.clearance, towards, 0.0, shareOfLobe * lobeWidth);
+    return l.z > 0.0 && dot(towards, at.geometricNormal) > 0.0 ? weight : vec3(0.0);
+}
+
+const float roughest = 0.5;  // rougher lobes are taken for hemispheres
+
+vec3 probesOrEnvironment(vec3 position, vec3 direction, float roughness, bool hemisphere) {
+    float unused;
+    ProbeQuery q = ProbeQuery(position, direction, roughness, hemisphere, ProbeParallax_depth, 1e6, -1.0);
+    vec4 seen = sampleProbes(q, unused);
+    if (seen.a >= 1.0) {
+        return seen.rgb;
+    }
+    vec3 behind = hemisphere ? environmentIrradianceOverPi(direction) : environmentLobe(direction, roughness);
+    return seen.rgb + (1.0 - seen.a) * behind;
+}
+
+// What arrives at the point besides light of sun and lamps, as the probes know it, reflected to the viewer.
+vec3 probeLight(LitPoint at) {
+    vec3 from = at.position + at.geometricNormal * at.clearance;
+    vec3 around = probesOrEnvironment(from, at.normal, 0.0, true);
+    vec3 mirrored = around;
+    if (at.surface.roughness < roughest) {
+        mirrored = probesOrEnvironment(from, reflect(-at.toViewer, at.normal), at.surface.roughness, false);
+    }
+    return at.surface.diffuse * around + at.surface.specular * mirrored;
+}
+
+// Radiance along the ray from its hit. hitDistance: metres; negative: miss.
+vec3 radianceAlong(SceneRay ray, inout uint random, out float hitDistance) {
+    vec3 radiance = vec3(0.0);
+    vec3 throughput = vec3(1.0);
+    hitDistance = -1.0;
+    for (uint bounce = 0u;; ++bounce) {
+        SceneHit hit;
+        if (!closestHit(ray.origin, ray.direction, 0.0, sceneFar, hit)) {
+            return radiance + (bounce > 0u ? throughput * environmentRadiance(ray.direction) : vec3(0.0));
+        }
+        hitDistance = bounce == 0u ? hit.distance : hitDistance;
+        float width = params.mips != 0u ? ray.width + ray.spread * hit.distance : 0.0;
+        SceneSurface found = sceneSurface(hit, ray.direction, width);
+        vec3 shown;
+        if (reuseScreen != 0u && (bounce == 0u || params.fromPrevious != 0u) && screenLight(found, shown)) {
+            return radiance + throughput * shown;
+        }
+        LitPoint at = LitPoint(found.position, found.geometricNormal, found.normal, -ray.direction, found.clearance,
+                               surfaceOf(found, -ray.direction));
+        float sunVisible;
+        radiance += throughput * (found.emissive + sunAndLamps(at, random, sunVisible));
+        if (bounce >= params.bounces) {
+            return endsInProbes != 0u ? radiance + throughput * probeLight(at) : radiance;
+        }
+        SceneRay next;
+        throughput *= scatter(at, params.diffuseOnly != 0u, random, next);
+        next.width = width;
+        if (bounce + 1u >= rouletteStart) {
+            float survival = min(max(throughput.x, max(throughput.y, throughput.z)), 0.95);
+            throughput = nextRandom(random) < survival ? throughput / survival : vec3(0.0);
+        }
+        if (throughput == vec3(0.0)) {
+            return radiance;
+        }
+        ray = next;
+    }
+}
+
+// Starts at the surface, not at the end of the screen-space march, which misses geometry thinner than a pixel (in the
+// built-in scene cave that loses a tenth of the light).
+SceneRay rayOfPixel(ivec3 slot, Ray ray) {
+    float d = texelFetch(ownDepth, slot.xy, 0).r;
+    vec3 p = uvToWorld(pixelToUv(slot.xy, params.own.pixel), d, params.own.clipToWorld);
+    vec3 n = unpackUnitVector(texelFetch(ownGeometricNormal, slot.xy, 0).r);
+    float away = depthToViewDistance(d, params.own.depthToDistance);
+    float roughness = unpackMaterial(texelFetch(material, slot.xy, 0)).roughness;
+    float lobeWidth = lobe == 0u ? 1.0 : ggxConeTangent(roughness * roughness);
+    float pixelWidth = params.own.pixelAngle * (params.own.eye.w > 0.0 ? away : 1.0);
+    return SceneRay(p + n * clearanceOfPixel(p, away, params.own.depthToDistance), ray.direction, pixelWidth,
+                    params.own.pixelAngle * params.own.eye.w + shareOfLobe * lobeWidth);
+}
+
+// Whether the ray is within the ray budget, chosen by blue noise.
+bool isChosen(ivec3 slot) {
+    float chance = params.rayLimit / float(waiting.count);
+    uint stream = params.firstRay + uint(slot.z) + 16u * lobe + hashPcg(params.own.seed + 7u);
+    uint mask = loadBlueNoise(blueNoiseTexel(uvec2(slot.xy), stream, params.own.frame));
+    return float(mask & 0xffffu) < 65536.0 * chance;
+}
+
+// Writes the motion of the reflected image caused by the hit object's own motion, if the hit is visible on screen.
+// Otherwise its previous position is unknown.
+void writeReflectionMotion(ivec2 pixel, SceneRay ray, float hitDistance) {
+    vec3 hit = ray.origin + ray.direction * hitDistance;
+    OnScreen s = findOnScreen(hit);
+    vec3 displacement = isShown(s, hit) ? displacementAt(s.pixel, s.shown) : vec3(0.0);
+    if (displacement != vec3(0.0)) {
+        vec2 moved = mirroredMotion(ray.origin, directionToEye(ray.origin, params.own.eye), ray.direction, hitDistance,
+                                    displacement, params.own.previousWorldToClip);
+        imageStore(imageMotion, pixel, vec4(moved, 0.0, 0.0));
+    }
+}
+
+RayAnswer answerRay(inout WaitingRay w, Ray ray) {
+    uint stream = ((params.firstRay + uint(w.slot.z)) * 2u + lobe) * 4u + hashPcg(params.own.seed + 3u);
+    uint random = hashPixel(uvec2(w.slot.xy), stream, params.own.frame);
+    float hitDistance;
+    SceneRay traced = rayOfPixel(w.slot, ray);
+    vec3 radiance = radianceAlong(traced, random, hitDistance);
+    if (hitDistance < 0.0) {
+        w.lost = false;
+        w.clear = largestHalf;  // known to hit nothing
+        return RayAnswer(vec3(0.0), 0.0, 0.0);
+    }
+    if (tellsMotion != 0u && w.slot.z == 0) {
+        writeReflectionMotion(w.slot.xy, traced, hitDistance);
+    }
+    return RayAnswer(radiance, 1.0, hitDistance);
+}
+
+void main() {
+    uint stride = gl_NumWorkGroups.x * listGroupSize;
+    for (uint i = gl_GlobalInvocationID.x; i < waiting.count; i += stride) {
+        WaitingRay w = unpackWaitingRay(waiting.items[i]);
+        Ray ray = unpackRay(imageLoad(direction, w.slot).xy);
+        RayAnswer a = RayAnswer(vec3(0.0), 0.0, 0.0);
+        if (ray.spread == 0.0 && isChosen(w.slot)) {
+            a = answerRay(w, ray);
+        }
+        w.rest = addAnswer(w.slot, a, w.rest, sourceScene);
+        if (w.rest > 0.0) {
+            appendRay(w);
+        }
+    }
+}

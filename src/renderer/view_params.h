@@ -1,0 +1,12 @@
+// Converts a scene camera to the parameters that passes use.
+#pragma once
+
+#include "effects/view.h"
+#include "scene/scene.h"
+
+namespace reflet {
+
+/// previousWorldToClip is set to the camera's own worldToClip.
+ViewParams makeViewParams(const Camera& camera, uvec2 size, uint32_t frame, uint32_t seed);
+
+}  // namespace reflet
