@@ -1,0 +1,294 @@
+// Every effect, recorded by a host that is not the program: its own device and command buffers, three frames in flight,
+// a G-buffer that nobody drew.
+#include "apps/texels.h"
+#include "effects/accumulate/accumulate.h"
+#include "effects/composite/composite.h"
+#include "effects/contact/contact.h"
+#include "effects/direct/direct.h"
+#include "effects/direct/lamp_tiles.h"
+#include "effects/exposure/exposure.h"
+#include "effects/gbuffer/kept_depth.h"
+#include "effects/light_mips/light_mips.h"
+#include "effects/lobe/lobe.h"
+#include "effects/lobe/record_ray.h"
+#include "effects/lobe/trace_screen.h"
+#include "effects/pyramid/pyramid.h"
+#include "effects/shadow/lamp_shadow.h"
+#include "effects/shadow/shadow.h"
+#include "effects/shadow/shadow_clean.h"
+#include "effects/temporal/temporal.h"
+#include "effects/tonemap/tonemap.h"
+#include "noise/blue_noise.h"
+#include "pass/host.h"
+#include "renderer/shaders.h"
+#include "renderer/view_params.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace reflet::test::effects_host_test {
+namespace {
+
+constexpr uvec2 size{48, 32};
+constexpr float wallDistance = 4.0F;
+constexpr VkFormat colorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+
+// What the host owns for its one camera.
+struct Stores {
+    gpu::KeptImage depth{"host.depth"};
+    gpu::KeptImage normal{"host.normal"};
+    gpu::KeptImage color{"host.base_color"};
+    gpu::KeptImage material{"host.material"};
+    gpu::KeptImage emissive{"host.emissive"};
+    gpu::KeptImage motion{"host.motion"};
+    gpu::KeptImage shadowMap{"host.shadow_map"};
+    gpu::KeptImage sky{"host.sky"};
+    gpu::KeptBuffer blueNoise{"host.blue_noise"};
+    gpu::KeptImage ggx{"ggx_table"};
+    CubeMap cube;
+    gpu::KeptImage keptDepth{"kept_depth"};
+    gpu::KeptImage pyramid{"pyramid"};
+    SunVisibilityStore sun;
+    ShadowDenoiseStore sunDenoise;
+    gpu::KeptImage contact{"contact"};
+    LampTilesStore lampTiles;
+    gpu::KeptImage lampVisibility{"lamp_visibility"};
+    gpu::KeptImage direct{"direct"};
+    gpu::KeptImage lightMips{"light_mips"};
+    gpu::HistoryImage lit{"lit"};
+    LobeStore diffuse;
+    LobeStore specular;
+    CompositeStore composite;
+    AccumulateStore accumulate;
+    TemporalStore temporal;
+    gpu::HistoryImage exposure{"exposure"};
+    gpu::KeptImage display{"display"};
+    RecordRayStore recordRay;
+};
+
+struct Results {
+    gpu::Readback lit;
+    gpu::Readback accumulated;
+    gpu::Readback temporal;
+    gpu::Readback display;
+};
+
+// A wall across the view, half of it a mirror, with sky above.
+class HostCamera {
+public:
+    explicit HostCamera(gpu::Context& context) { stores_.cube = CubeMap(context, 64, 1, "host.environment"); }
+
+    void makeInputs(gpu::Recorder& f, const ViewParams& view) {
+        const vec4 onWall = view.worldToClip * vec4(0.0F, 0.0F, -wallDistance, 1.0F);
+        const size_t count = size_t(size.x) * size.y;
+        std::vector<float> depth(count, onWall.z / onWall.w);
+        std::vector<uint32_t> material(count,
+                                       0x00FF0080U);  // roughness, metallic, occlusion, flags from the lowest byte
+        for (size_t i = 0; i < count; ++i) {
+            depth[i] = i < 4 * size.x ? 0.0F : depth[i];
+            material[i] = i % size.x < size.x / 2 ? 0x00FFFF00U : material[i];
+        }
+        upload(f, stores_.depth, VK_FORMAT_R32_SFLOAT, depth);
+        upload(f, stores_.normal, VK_FORMAT_R32_UINT, std::vector<uint32_t>(count, 0));
+        upload(f, stores_.color, VK_FORMAT_R8G8B8A8_UNORM, std::vector<uint32_t>(count, 0xFF80A0C0U));
+        upload(f, stores_.material, VK_FORMAT_R8G8B8A8_UNORM, material);
+        upload(f, stores_.emissive, colorFormat, std::vector<uint64_t>(count, 0));
+        upload(f, stores_.motion, colorFormat, std::vector<uint64_t>(count, 0));
+        upload(f, stores_.shadowMap, VK_FORMAT_R32_SFLOAT, std::vector<float>(count, 0.0F));
+        upload(f, stores_.sky, colorFormat, std::vector<uint64_t>(count, 0x3C003C003C003C00U));  // white
+        f.update(stores_.blueNoise.get(f, blueNoise().size_bytes()), std::as_bytes(blueNoise()));
+        ggxTable(f, stores_.ggx);
+        prefilterEnvironment(f, stores_.cube, stores_.sky.last());
+    }
+
+    Results record(gpu::Recorder& f, const ViewParams& view) {
+        g_ = {.depth = stores_.depth.last(),
+              .normal = stores_.normal.last(),
+              .geometricNormal = stores_.normal.last(),
+              .baseColor = stores_.color.last(),
+              .material = stores_.material.last(),
+              .emissive = stores_.emissive.last(),
+              .motion = stores_.motion.last()};
+        environment_ = {stores_.sky.last(),
+                        stores_.cube.lobes.image(),
+                        stores_.cube.irradiance.image(),
+                        {vec3(1.0F), vec2(1.0F, 0.0F)}};
+        const gpu::Image pyramid = makePyramid(f, stores_.pyramid, g_.depth);
+        keptDepth(f, stores_.keptDepth, g_.depth, view, {.format = DepthBuffer::standard16});
+        const gpu::Image direct = lightDirectly(f, view, pyramid);
+        const gpu::History lit = stores_.lit.swap(f, colorFormat, size);
+        const Composite light = lightIndirectly(f, view, {pyramid, direct, lit});
+        const TemporalImages mean = temporal(f, stores_.temporal, {g_, light.lit, {}, view}, {});
+        const LightLayers means = accumulate(f, stores_.accumulate, {direct, light}, 0);
+        const gpu::Image stops = measureExposure(f, stores_.exposure, mean.mean, g_.depth, 0.0F, 0.5F);
+        const gpu::Image display = tonemap(f, stores_.display, mean.mean, {}, stops);
+        recordRay(f, stores_.recordRay, {g_, {}, pyramid}, view, {}, size / 2U);
+        return {f.readback(light.lit), f.readback(means.light.lit), f.readback(mean.mean), f.readback(display)};
+    }
+
+private:
+    struct Indirect {
+        gpu::Image pyramid;
+        gpu::Image direct;
+        gpu::History lit;
+    };
+
+    template <class T>
+    static void upload(gpu::Recorder& f, gpu::KeptImage& image, VkFormat format, const std::vector<T>& texels) {
+        f.upload(image.storage(f, format, size), std::as_bytes(std::span(texels)));
+    }
+
+    gpu::Image lightDirectly(gpu::Recorder& f, const ViewParams& view, gpu::Image pyramid) {
+        const gpu::BufferView noise = stores_.blueNoise.get(f, blueNoise().size_bytes());
+        const vec3 toSun = glm::normalize(vec3(0.3F, 0.5F, 1.0F));
+        SunShadowParams sun{};
+        sun.count = 1;
+        sun.maps[0] = {glm::scale(mat4(1.0F), vec3(0.05F)), toSun, 0.1F, 40.0F};
+        ShadowSettings shadow;
+        shadow.earlyOut = 0;
+        const SunVisibility seen =
+            sunVisibility(f, stores_.sun, g_, {stores_.shadowMap.last(), {}, noise}, {view, sun, shadow, 0.005F});
+        gpu::Image visible = denoiseShadow(f, stores_.sunDenoise, g_, seen.visibility, seen.penumbra,
+                                           {view, toSun, 8, shadow.samples, 0});
+        visible = contactShadow(f, stores_.contact, g_, pyramid, visible, {view, {.distance = 0.2F}, toSun});
+        LampBlock lamps{};
+        lamps.count = 1;
+        lamps.lamps[0] = {.position = vec3(0.0F, 0.0F, -2.0F),
+                          .type = lampPoint,
+                          .toLamp = vec3(0.0F, 0.0F, 1.0F),
+                          .inverseRange = 0.0F,
+                          .intensity = vec3(5.0F),
+                          .shadow = 0};
+        LampShadows shadows{};
+        shadows.count = 1;
+        shadows.tileSize = size.y;
+        shadows.columns = 1;
+        shadows.lamps[0] = {
+            .lamp = lamps.lamps[0], .worldToTile = mat3(1.0F), .halfTangent = 1.0F, .near = 0.01F, .tiles = 6};
+        const LampTiles tiles = findLampTiles(f, stores_.lampTiles, g_.depth, lamps, view, {});
+        const gpu::Image lampsSeen = lampVisibility(
+            f, stores_.lampVisibility, g_, {stores_.shadowMap.last(), tiles.masks, noise}, shadows, {view, {}});
+        return directLight(f, stores_.direct, g_, {visible, lampsSeen, tiles.masks}, stores_.ggx.last(),
+                           {view, toSun, vec3(3.0F)}, {lamps, environment_});
+    }
+
+    Composite lightIndirectly(gpu::Recorder& f, const ViewParams& view, const Indirect& in) {
+        ScreenImages screen{g_, view, {}, in.pyramid, in.direct, in.lit, {}};
+        screen.lightMips = makeLightMips(f, stores_.lightMips, in.direct);
+        TraceScreenSettings trace;
+        trace.light = HitLight::previous;
+        const std::vector<RaySource> sources{
+            [&](gpu::Recorder& to, Rays& rays) { traceScreen(to, rays, screen, trace, 100.0F); }};
+        const DenoiseSettings denoise{.enabled = 1};
+        LobeInputs lobe{.lobe = lobeDiffuse,
+                        .g = g_,
+                        .view = view,
+                        .settings = {.rays = 1, .downsample = 2},
+                        .diffuse = {},
+                        .specular = {},
+                        .denoise = denoise,
+                        .environmentSettings = {},
+                        .environment = environment_,
+                        .ggxTable = stores_.ggx.last(),
+                        .blueNoise = stores_.blueNoise.get(f, blueNoise().size_bytes()),
+                        .sources = sources,
+                        .lit = in.lit};
+        const LobeLight diffuse = traceLobe(f, stores_.diffuse, lobe);
+        lobe.lobe = lobeSpecular;
+        lobe.settings = {.rays = 2, .adaptive = true};
+        const LobeLight specular = traceLobe(f, stores_.specular, lobe);
+        return composite(f, stores_.composite, {g_, in.direct, diffuse, specular, stores_.ggx.last()}, in.lit.next,
+                         {view, 1.0F});
+    }
+
+    Stores stores_;
+    GBuffer g_;
+    EnvironmentLight environment_;
+};
+
+ViewParams viewOf(uint32_t frame) {
+    Camera camera;
+    camera.position = vec3(0.0F);
+    camera.target = vec3(0.0F, 0.0F, -1.0F);
+    return makeViewParams(camera, size, frame, 1);
+}
+
+void expectLight(const gpu::Recorder& f, gpu::Readback readback, VkFormat format, const char* what) {
+    double sum = 0.0;
+    for (const vec4& texel : decodeTexels(format, f.bytes(readback))) {
+        for (int i = 0; i < 3; ++i) {
+            ASSERT_TRUE(std::isfinite(texel[i])) << what;
+            ASSERT_GE(texel[i], 0.0F) << what;
+            sum += texel[i];
+        }
+    }
+    EXPECT_GT(sum, 0.1 * size.x * size.y) << what;
+}
+
+TEST(EffectsHost, RecordsEveryEffectBetweenItsOwnCommands) {
+    Host host;
+    {
+        gpu::Context context(host.device());
+        context.shaders().add(effectShaders());
+        gpu::Recorder recorder(context, Host::framesInFlight);
+        HostCamera camera(context);
+        Results results;
+        gpu::ObjectCounts made;
+        for (uint32_t frame = 0; frame < 9; ++frame) {
+            host.frame([&](VkCommandBuffer commands) {
+                recorder.begin(commands);
+                if (frame == 0) {
+                    camera.makeInputs(recorder, viewOf(frame));
+                }
+                results = camera.record(recorder, viewOf(frame));
+                recorder.end();
+            });
+            // The first frame of every slot makes what is its own.
+            if (frame == 4) {
+                made = context.counts();
+            }
+        }
+        EXPECT_TRUE(made == context.counts()) << "frames 5 to 8 made something";
+        host.waitForAll();
+        recorder.finish();
+        expectLight(recorder, results.lit, colorFormat, "lit");
+        expectLight(recorder, results.accumulated, VK_FORMAT_R32G32B32A32_SFLOAT, "mean of frames");
+        expectLight(recorder, results.temporal, colorFormat, "temporal antialiasing");
+        expectLight(recorder, results.display, VK_FORMAT_R8G8B8A8_UNORM, "display");
+        std::set<std::string> passes;
+        for (const gpu::PassTime& pass : recorder.passTimes()) {
+            passes.insert(pass.name);
+        }
+        for (const char* pass :
+             {"contact_shadow", "shadow_visibility", "shadow_clean.gather", "lamp_tiles", "lamp_visibility", "direct",
+              "kept_depth", "pyramid.1", "light_mips.1", "diffuse.trace_screen", "diffuse.denoise_gather",
+              "specular.share_rays", "specular.answer_environment", "composite", "accumulate", "temporal",
+              "exposure.meter", "tonemap", "record_ray"}) {
+            EXPECT_TRUE(passes.contains(pass)) << pass;
+        }
+    }
+    for (const std::string& message : host.messages()) {
+        ADD_FAILURE() << message;
+    }
+}
+
+// A new effect is to be recorded above, too.
+TEST(EffectsHost, KnowsEveryEffect) {
+    const std::set<std::string> recorded{"accumulate",  "composite", "contact",  "cube_map",   "denoise", "direct",
+                                         "environment", "exposure",  "gbuffer",  "light_mips", "lobe",    "planar",
+                                         "pyramid",     "shadow",    "temporal", "tonemap"};
+    for (const auto& entry : std::filesystem::directory_iterator(REFLET_EFFECTS)) {
+        if (entry.is_directory()) {
+            EXPECT_TRUE(recorded.contains(entry.path().filename().string())) << entry.path();
+        }
+    }
+}
+
+}  // namespace
+}  // namespace reflet::test::effects_host_test
