@@ -2,7 +2,12 @@
 # defines `std::span<const reflet::gpu::EmbeddedShader> FUNCTION()`. Shaders are registered by file name. The SPIR-V
 # target is Vulkan 1.2, which every 1.3 device accepts: for 1.3 glslc emits work group sizes in a form that the
 # reflection does not support.
-set(glslc_command ${GLSLC} --target-env=vulkan1.2 -Werror)
+# Bindings of set 0 have no numbers in the sources: the host binds by name. Those of vertex shaders start above those of
+# fragment shaders (not the other way: the base would also be added to the explicit numbers of set 1).
+set(glslc_command ${GLSLC} --target-env=vulkan1.2 -Werror -fauto-bind-uniforms)
+foreach(kind ubo ssbo image texture sampler)
+    list(APPEND glslc_command -f${kind}-binding-base vert 32)
+endforeach()
 
 function(reflet_shaders target function)
     set(folder ${CMAKE_CURRENT_BINARY_DIR}/shaders/${target})

@@ -11,7 +11,8 @@ namespace reflet::gpu {
 
 namespace {
 
-// Merges the bindings of all stages; a binding that two stages share must be the same in both.
+// The bindings of all stages. The compiler numbers those of each stage from a base of its own, so that a name which two
+// stages share has two bindings.
 std::vector<ShaderBinding> mergeBindings(const std::vector<Shader>& shaders, uint32_t set) {
     std::vector<ShaderBinding> merged;
     for (const Shader& shader : shaders) {

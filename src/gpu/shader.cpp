@@ -184,11 +184,12 @@ Shader reflected(const EmbeddedShader& source) {
 }
 
 bool haveSameInterface(Shader a, Shader b) {
-    const auto order = [](const ShaderBinding& x, const ShaderBinding& y) {
-        return std::pair(x.set, x.binding) < std::pair(y.set, y.binding);
-    };
-    std::ranges::sort(a.bindings, order);
-    std::ranges::sort(b.bindings, order);
+    for (Shader* shader : {&a, &b}) {
+        std::ranges::sort(shader->bindings, {}, &ShaderBinding::name);
+        for (ShaderBinding& binding : shader->bindings) {
+            binding.binding = 0;  // numbered by the compiler; the host binds by name
+        }
+    }
     const auto namesOf = [](const auto& list) {
         std::vector<std::string> names;
         std::ranges::transform(list, std::back_inserter(names), [](const auto& item) { return item.name; });

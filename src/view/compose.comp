@@ -5,10 +5,10 @@
 #include "view/canvas.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ComposeParams params; };
-layout(set = 0, binding = 1) uniform sampler2D left;
-layout(set = 0, binding = 2) uniform sampler2D right;
-layout(set = 0, binding = 3, rgba8) uniform writeonly image2D window;
+layout(scalar) uniform ParamsBlock { ComposeParams params; };
+uniform sampler2D left;
+uniform sampler2D right;
+layout(rgba8) uniform writeonly image2D window;
 
 const vec3 outside = vec3(0.08);
 

@@ -2,7 +2,7 @@
 // atlas, colour. Out: the window.
 #version 460
 
-layout(set = 0, binding = 1) uniform sampler2D font;
+uniform sampler2D font;
 layout(location = 0) in vec2 fontUv;
 layout(location = 1) in vec4 tint;
 layout(location = 0) out vec4 window;

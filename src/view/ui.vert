@@ -4,7 +4,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "view/canvas.h"
 
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { UiParams params; };
+layout(scalar) uniform ParamsBlock { UiParams params; };
 layout(location = 0) in vec2 position;
 layout(location = 1) in vec2 uv;
 layout(location = 2) in vec4 color;

@@ -3,8 +3,8 @@
 #extension GL_EXT_scalar_block_layout : require
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) readonly buffer InputBlock { vec4 items[]; } inputs;
-layout(set = 0, binding = 1, rgba16f) uniform writeonly image2D image;
+layout(scalar) readonly buffer InputBlock { vec4 items[]; } inputs;
+layout(rgba16f) uniform writeonly image2D image;
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

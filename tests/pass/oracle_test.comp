@@ -13,12 +13,12 @@
 layout(constant_id = 0) const uint secondLayer = 0u;
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { OracleParams params; };
-layout(set = 0, binding = 1) uniform sampler2D depth;
-layout(set = 0, binding = 2) uniform sampler2D backDepth;
-layout(set = 0, binding = 3, rg32f) uniform readonly image2D pyramid;
-layout(set = 0, binding = 4) uniform usampler2D geometricNormal;
-layout(set = 0, binding = 5, scalar) buffer OutputBlock { OracleRay items[]; } outputs;
+layout(scalar) uniform ParamsBlock { OracleParams params; };
+uniform sampler2D depth;
+uniform sampler2D backDepth;
+layout(rg32f) uniform readonly image2D pyramid;
+uniform usampler2D geometricNormal;
+layout(scalar) buffer OutputBlock { OracleRay items[]; } outputs;
 
 float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
 float loadBackDepth(ivec2 pixel) { return texelFetch(backDepth, pixel, 0).r; }

@@ -1,7 +1,7 @@
 // Traces rays: the body of both variants.
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) readonly buffer RayBlock { TestRay items[]; } rays;
-layout(set = 0, binding = 1, scalar) writeonly buffer HitBlock { TestHit items[]; } hits;
+layout(scalar) readonly buffer RayBlock { TestRay items[]; } rays;
+layout(scalar) writeonly buffer HitBlock { TestHit items[]; } hits;
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

@@ -7,10 +7,10 @@
 #include "shaders/projection.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock {
+layout(scalar) uniform ParamsBlock {
     SceneSurfacesTestParams params;
 };
-layout(set = 0, binding = 1, scalar) buffer OutputBlock {
+layout(scalar) buffer OutputBlock {
     SurfaceOfPixel items[];
 }
 outputs;

@@ -4,8 +4,8 @@
 #include "shaders/sampling.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) readonly buffer InputBlock { vec3 items[]; } inputs;
-layout(set = 0, binding = 1, scalar) buffer OutputBlock { mat3 items[]; } outputs;
+layout(scalar) readonly buffer InputBlock { vec3 items[]; } inputs;
+layout(scalar) buffer OutputBlock { mat3 items[]; } outputs;
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

@@ -8,8 +8,8 @@ uint loadBlueNoise(uint texel) { return hashPcg(texel); }
 #include "blue_noise_test.h"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) readonly buffer InputBlock { BlueNoiseCase items[]; } inputs;
-layout(set = 0, binding = 1, scalar) buffer OutputBlock { BlueNoiseSample items[]; } outputs;
+layout(scalar) readonly buffer InputBlock { BlueNoiseCase items[]; } inputs;
+layout(scalar) buffer OutputBlock { BlueNoiseSample items[]; } outputs;
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

@@ -5,11 +5,11 @@
 #include "effects/cube_map/cube_map.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) readonly buffer InputBlock { CubeLookup items[]; } inputs;
-layout(set = 0, binding = 1, scalar) buffer OutputBlock { CubeLight items[]; } outputs;
-layout(set = 0, binding = 2) uniform samplerCubeArray sharp;
-layout(set = 0, binding = 3) uniform samplerCubeArray lobes;
-layout(set = 0, binding = 4) uniform sampler2D irradiance;
+layout(scalar) readonly buffer InputBlock { CubeLookup items[]; } inputs;
+layout(scalar) buffer OutputBlock { CubeLight items[]; } outputs;
+uniform samplerCubeArray sharp;
+uniform samplerCubeArray lobes;
+uniform sampler2D irradiance;
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

@@ -5,9 +5,9 @@
 #include "shaders/projection.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ViewParams params; };
-layout(set = 0, binding = 1, scalar) readonly buffer InputBlock { float items[]; } inputs;
-layout(set = 0, binding = 2, scalar) buffer OutputBlock { float items[]; } outputs;
+layout(scalar) uniform ParamsBlock { ViewParams params; };
+layout(scalar) readonly buffer InputBlock { float items[]; } inputs;
+layout(scalar) buffer OutputBlock { float items[]; } outputs;
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

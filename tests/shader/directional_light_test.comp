@@ -6,15 +6,15 @@
 #include "shaders/sampling.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock {
+layout(scalar) uniform ParamsBlock {
     uint side;  // its square is the number of rays
 }
 params;
-layout(set = 0, binding = 1, scalar) readonly buffer InputBlock {
+layout(scalar) readonly buffer InputBlock {
     LitSurface items[];
 }
 inputs;
-layout(set = 0, binding = 2, scalar) buffer OutputBlock {
+layout(scalar) buffer OutputBlock {
     TurnedLight items[];
 }
 outputs;

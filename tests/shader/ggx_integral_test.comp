@@ -6,9 +6,9 @@
 #include "ggx_test.h"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0) uniform sampler2D ggxTable;
-layout(set = 0, binding = 1, scalar) readonly buffer InputBlock { GgxRing items[]; } inputs;
-layout(set = 0, binding = 2, scalar) buffer OutputBlock { float items[]; } outputs;
+uniform sampler2D ggxTable;
+layout(scalar) readonly buffer InputBlock { GgxRing items[]; } inputs;
+layout(scalar) buffer OutputBlock { float items[]; } outputs;
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

@@ -5,9 +5,9 @@
 #include "ggx_test.h"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0) uniform sampler2D ggxTable;
-layout(set = 0, binding = 1, scalar) readonly buffer InputBlock { GgxCase items[]; } inputs;
-layout(set = 0, binding = 2, scalar) buffer OutputBlock { GgxResult items[]; } outputs;
+uniform sampler2D ggxTable;
+layout(scalar) readonly buffer InputBlock { GgxCase items[]; } inputs;
+layout(scalar) buffer OutputBlock { GgxResult items[]; } outputs;
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

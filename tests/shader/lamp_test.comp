@@ -5,8 +5,8 @@
 #include "lamp_test.h"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) readonly buffer InputBlock { LampCase items[]; } inputs;
-layout(set = 0, binding = 1, scalar) buffer OutputBlock { LampLight items[]; } outputs;
+layout(scalar) readonly buffer InputBlock { LampCase items[]; } inputs;
+layout(scalar) buffer OutputBlock { LampLight items[]; } outputs;
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

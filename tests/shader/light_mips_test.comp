@@ -5,10 +5,10 @@
 #include "effects/levels.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) readonly buffer InputBlock { LightLookup items[]; } inputs;
-layout(set = 0, binding = 1, scalar) buffer OutputBlock { vec3 items[]; } outputs;
-layout(set = 0, binding = 2) uniform sampler2D light;
-layout(set = 0, binding = 3) uniform sampler2D mips;
+layout(scalar) readonly buffer InputBlock { LightLookup items[]; } inputs;
+layout(scalar) buffer OutputBlock { vec3 items[]; } outputs;
+uniform sampler2D light;
+uniform sampler2D mips;
 
 vec3 loadLight(ivec2 cell, int level) {
     return level > 0 ? texelFetch(mips, cell + ivec2(0, levelRow(textureSize(light, 0), level)), 0).rgb

@@ -4,9 +4,9 @@
 #include "march_test.h"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { MarchScene params; };
-layout(set = 0, binding = 1, scalar) readonly buffer InputBlock { MarchInput items[]; } inputs;
-layout(set = 0, binding = 2, scalar) buffer OutputBlock { MarchAnswer items[]; } outputs;
+layout(scalar) uniform ParamsBlock { MarchScene params; };
+layout(scalar) readonly buffer InputBlock { MarchInput items[]; } inputs;
+layout(scalar) buffer OutputBlock { MarchAnswer items[]; } outputs;
 
 layout(constant_id = 1) const uint secondLayer = 0u;
 

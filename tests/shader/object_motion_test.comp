@@ -6,14 +6,14 @@
 #include "shaders/object_motion.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock {
+layout(scalar) uniform ParamsBlock {
     ViewParams params;
 };
-layout(set = 0, binding = 1, scalar) readonly buffer InputBlock {
+layout(scalar) readonly buffer InputBlock {
     MirroredThing items[];
 }
 inputs;
-layout(set = 0, binding = 2, scalar) buffer OutputBlock {
+layout(scalar) buffer OutputBlock {
     ObjectMotion items[];
 }
 outputs;

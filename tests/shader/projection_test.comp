@@ -6,9 +6,9 @@
 #include "projection_test.h"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ViewParams params; };
-layout(set = 0, binding = 1, scalar) readonly buffer InputBlock { vec3 items[]; } inputs;
-layout(set = 0, binding = 2, scalar) buffer OutputBlock { ProjectedPoint items[]; } outputs;
+layout(scalar) uniform ParamsBlock { ViewParams params; };
+layout(scalar) readonly buffer InputBlock { vec3 items[]; } inputs;
+layout(scalar) buffer OutputBlock { ProjectedPoint items[]; } outputs;
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

@@ -5,8 +5,8 @@
 #include "rays_test.h"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) readonly buffer InputBlock { RayTexel items[]; } inputs;
-layout(set = 0, binding = 1, scalar) buffer OutputBlock { RayTexel items[]; } outputs;
+layout(scalar) readonly buffer InputBlock { RayTexel items[]; } inputs;
+layout(scalar) buffer OutputBlock { RayTexel items[]; } outputs;
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

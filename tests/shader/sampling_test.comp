@@ -7,9 +7,9 @@
 layout(constant_id = 0) const uint kind = 0u;
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { SamplingParams params; };
-layout(set = 0, binding = 1, scalar) readonly buffer InputBlock { vec2 items[]; } inputs;
-layout(set = 0, binding = 2, scalar) buffer OutputBlock { vec3 items[]; } outputs;
+layout(scalar) uniform ParamsBlock { SamplingParams params; };
+layout(scalar) readonly buffer InputBlock { vec2 items[]; } inputs;
+layout(scalar) buffer OutputBlock { vec3 items[]; } outputs;
 
 vec3 direction(vec2 u) {
     switch (kind) {

@@ -5,9 +5,9 @@
 #include "shadow_map_test.h"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ShadowScene params; };
-layout(set = 0, binding = 1, scalar) readonly buffer InputBlock { ShadowCase items[]; } inputs;
-layout(set = 0, binding = 2, scalar) buffer OutputBlock { float items[]; } outputs;
+layout(scalar) uniform ParamsBlock { ShadowScene params; };
+layout(scalar) readonly buffer InputBlock { ShadowCase items[]; } inputs;
+layout(scalar) buffer OutputBlock { float items[]; } outputs;
 
 // Depth of a plane along the sun's ray from `low` (depth 0) to `high` (depth 1).
 float depthOf(vec4 plane, vec3 low, vec3 high) {

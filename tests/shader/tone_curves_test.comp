@@ -6,8 +6,8 @@
 layout(constant_id = 0) const uint curve = 0u;
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) readonly buffer InputBlock { vec3 items[]; } inputs;
-layout(set = 0, binding = 1, scalar) buffer OutputBlock { vec3 items[]; } outputs;
+layout(scalar) readonly buffer InputBlock { vec3 items[]; } inputs;
+layout(scalar) buffer OutputBlock { vec3 items[]; } outputs;
 
 vec3 applied(vec3 c) {
     switch (curve) {

@@ -3,8 +3,8 @@
 #extension GL_EXT_scalar_block_layout : require
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) readonly buffer ColorBlock { vec3 items[]; } colors;
-layout(set = 0, binding = 1, rgba16f) uniform writeonly image2D radiance;
+layout(scalar) readonly buffer ColorBlock { vec3 items[]; } colors;
+layout(rgba16f) uniform writeonly image2D radiance;
 
 void main() {
     uvec2 pixel = gl_GlobalInvocationID.xy;

@@ -4,17 +4,17 @@
 #include "effects/accumulate/accumulate.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { AccumulateParams params; };
-layout(set = 0, binding = 1, rgba16f) uniform readonly image2D direct;
-layout(set = 0, binding = 2, rgba16f) uniform readonly image2D indirectDiffuse;
-layout(set = 0, binding = 3, rgba16f) uniform readonly image2D indirectSpecular;
-layout(set = 0, binding = 4, rgba32f) uniform readonly image2D directBefore;
-layout(set = 0, binding = 5, rgba32f) uniform readonly image2D indirectDiffuseBefore;
-layout(set = 0, binding = 6, rgba32f) uniform readonly image2D indirectSpecularBefore;
-layout(set = 0, binding = 7, rgba32f) uniform writeonly image2D directMean;
-layout(set = 0, binding = 8, rgba32f) uniform writeonly image2D indirectDiffuseMean;
-layout(set = 0, binding = 9, rgba32f) uniform writeonly image2D indirectSpecularMean;
-layout(set = 0, binding = 10, rgba32f) uniform writeonly image2D litMean;
+layout(scalar) uniform ParamsBlock { AccumulateParams params; };
+layout(rgba16f) uniform readonly image2D direct;
+layout(rgba16f) uniform readonly image2D indirectDiffuse;
+layout(rgba16f) uniform readonly image2D indirectSpecular;
+layout(rgba32f) uniform readonly image2D directBefore;
+layout(rgba32f) uniform readonly image2D indirectDiffuseBefore;
+layout(rgba32f) uniform readonly image2D indirectSpecularBefore;
+layout(rgba32f) uniform writeonly image2D directMean;
+layout(rgba32f) uniform writeonly image2D indirectDiffuseMean;
+layout(rgba32f) uniform writeonly image2D indirectSpecularMean;
+layout(rgba32f) uniform writeonly image2D litMean;
 
 // In the first frame there is no previous mean; the image's contents, possibly NaN, must be ignored.
 vec3 meanOf(vec3 now, vec3 before) { return params.weight < 1.0 ? mix(before, now, params.weight) : now; }

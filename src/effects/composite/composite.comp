@@ -17,25 +17,25 @@ layout(constant_id = 3) const uint layers = 1u;
 layout(constant_id = 4) const uint hasDirectional = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { CompositeParams params; };
-layout(set = 0, binding = 1) uniform sampler2D depth;
-layout(set = 0, binding = 2) uniform usampler2D normal;
-layout(set = 0, binding = 3) uniform sampler2D baseColor;
-layout(set = 0, binding = 4) uniform sampler2D material;
-layout(set = 0, binding = 5) uniform sampler2D ggxTable;
-layout(set = 0, binding = 6, rgba16f) uniform readonly image2D direct;
-layout(set = 0, binding = 7, rgba16f) uniform readonly image2D diffuse;
-layout(set = 0, binding = 8, rgba16f) uniform readonly image2D specular;
-layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D indirectDiffuse;
-layout(set = 0, binding = 10, rgba16f) uniform writeonly image2D indirectSpecular;
-layout(set = 0, binding = 11, rgba16f) uniform writeonly image2D lit;
+layout(scalar) uniform ParamsBlock { CompositeParams params; };
+uniform sampler2D depth;
+uniform usampler2D normal;
+uniform sampler2D baseColor;
+uniform sampler2D material;
+uniform sampler2D ggxTable;
+layout(rgba16f) uniform readonly image2D direct;
+layout(rgba16f) uniform readonly image2D diffuse;
+layout(rgba16f) uniform readonly image2D specular;
+layout(rgba16f) uniform writeonly image2D indirectDiffuse;
+layout(rgba16f) uniform writeonly image2D indirectSpecular;
+layout(rgba16f) uniform writeonly image2D lit;
 
-layout(set = 0, binding = 12) uniform usampler2D geometricNormal;
-layout(set = 0, binding = 13, r32f) uniform readonly image2D diffuseDepth;
-layout(set = 0, binding = 14, r32ui) uniform readonly uimage2D diffuseNormal;
-layout(set = 0, binding = 15, r32f) uniform readonly image2D specularDepth;
-layout(set = 0, binding = 16, r32ui) uniform readonly uimage2D specularNormal;
-layout(set = 0, binding = 17, rgba16f) uniform readonly image2D diffuseDirectional;
+uniform usampler2D geometricNormal;
+layout(r32f) uniform readonly image2D diffuseDepth;
+layout(r32ui) uniform readonly uimage2D diffuseNormal;
+layout(r32f) uniform readonly image2D specularDepth;
+layout(r32ui) uniform readonly uimage2D specularNormal;
+layout(rgba16f) uniform readonly image2D diffuseDirectional;
 
 // A pixel and its surface.
 struct Shown {

@@ -8,12 +8,12 @@
 #include "shaders/octahedral.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ContactParams params; };
-layout(set = 0, binding = 1) uniform sampler2D depth;
-layout(set = 0, binding = 2) uniform usampler2D geometricNormal;
-layout(set = 0, binding = 3, rg32f) uniform readonly image2D pyramid;
-layout(set = 0, binding = 4) uniform sampler2D sunVisibility;
-layout(set = 0, binding = 5, r8) uniform writeonly image2D visibility;
+layout(scalar) uniform ParamsBlock { ContactParams params; };
+uniform sampler2D depth;
+uniform usampler2D geometricNormal;
+layout(rg32f) uniform readonly image2D pyramid;
+uniform sampler2D sunVisibility;
+layout(r8) uniform writeonly image2D visibility;
 
 float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
 float loadBackDepth(ivec2 pixel) { return 0.0; }  // no second layer: thickness by the setting

@@ -7,9 +7,9 @@
 
 const uint threads = 64u;
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { CubeIrradianceParams params; };
-layout(set = 0, binding = 1) uniform sampler2DArray sharp;
-layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D irradiance;
+layout(scalar) uniform ParamsBlock { CubeIrradianceParams params; };
+uniform sampler2DArray sharp;
+layout(rgba32f) uniform writeonly image2D irradiance;
 
 shared vec4 sums[threads][irradianceCoefficients];
 

@@ -10,9 +10,9 @@
 #include "shaders/half_float.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { CubeLobesParams params; };
-layout(set = 0, binding = 1) uniform samplerCubeArray sharp;
-layout(set = 0, binding = 2, rgba16f) uniform writeonly image2DArray lobes;
+layout(scalar) uniform ParamsBlock { CubeLobesParams params; };
+uniform samplerCubeArray sharp;
+layout(rgba16f) uniform writeonly image2DArray lobes;
 
 // Samples overlap: each covers twice its solid angle.
 const float overlap = 1.0;

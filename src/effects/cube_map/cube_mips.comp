@@ -5,9 +5,9 @@
 #include "shaders/half_float.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { CubeMipParams params; };
-layout(set = 0, binding = 1) uniform sampler2DArray finer;
-layout(set = 0, binding = 2, rgba16f) uniform writeonly image2DArray coarser;
+layout(scalar) uniform ParamsBlock { CubeMipParams params; };
+uniform sampler2DArray finer;
+layout(rgba16f) uniform writeonly image2DArray coarser;
 
 // A texel's solid angle relative to one in the middle of the face.
 float weightOf(ivec2 texel, int side) {

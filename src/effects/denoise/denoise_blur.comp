@@ -13,16 +13,16 @@ layout(constant_id = 1) const uint feedsBack = 0u;
 layout(constant_id = 2) const uint hasDirectional = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { DenoiseBlurParams params; };
-layout(set = 0, binding = 1, rgba16f) uniform readonly image2D from;
-layout(set = 0, binding = 2, rg32ui) uniform readonly uimage2D surface;
-layout(set = 0, binding = 3, rg16f) uniform readonly image2D moments;
-layout(set = 0, binding = 4) uniform usampler2D geometricNormal;
-layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D nextLight;
-layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D blurred;
-layout(set = 0, binding = 7, rgba16f) uniform readonly image2D directional;
-layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D nextDirectional;
-layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D blurredDirectional;
+layout(scalar) uniform ParamsBlock { DenoiseBlurParams params; };
+layout(rgba16f) uniform readonly image2D from;
+layout(rg32ui) uniform readonly uimage2D surface;
+layout(rg16f) uniform readonly image2D moments;
+uniform usampler2D geometricNormal;
+layout(rgba16f) uniform writeonly image2D nextLight;
+layout(rgba16f) uniform writeonly image2D blurred;
+layout(rgba16f) uniform readonly image2D directional;
+layout(rgba16f) uniform writeonly image2D nextDirectional;
+layout(rgba16f) uniform writeonly image2D blurredDirectional;
 
 const int taps = 8;
 const float goldenAngle = 2.39996323;

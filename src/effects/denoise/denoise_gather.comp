@@ -17,27 +17,27 @@ layout(constant_id = 2) const uint meanRays = 0u;
 layout(constant_id = 3) const uint hasDirectional = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { DenoiseGatherParams params; };
-layout(set = 0, binding = 1, rg32f) uniform readonly image2D limits;
-layout(set = 0, binding = 2) uniform sampler2D depth;
-layout(set = 0, binding = 3) uniform usampler2D normal;
-layout(set = 0, binding = 4) uniform usampler2D geometricNormal;
-layout(set = 0, binding = 5) uniform sampler2D material;
-layout(set = 0, binding = 6) uniform sampler2D motion;
-layout(set = 0, binding = 15, rg16f) uniform readonly image2D imageMotion;
-layout(set = 0, binding = 7, rgba16f) uniform readonly image2D radiance;
-layout(set = 0, binding = 8, rgba16f) uniform readonly image2D previousLight;
-layout(set = 0, binding = 9, rg32ui) uniform readonly uimage2D previousSurface;
-layout(set = 0, binding = 10, rg16f) uniform readonly image2D previousMoments;
-layout(set = 0, binding = 11, rgba16f) uniform writeonly image2D nextLight;
-layout(set = 0, binding = 12, rg32ui) uniform writeonly uimage2D surface;
-layout(set = 0, binding = 13, rg16f) uniform writeonly image2D moments;
-layout(set = 0, binding = 14, rgba16f) uniform writeonly image2D gathered;
-layout(set = 0, binding = 16, rg32f) uniform readonly image2D tiles;
-layout(set = 0, binding = 17, rgba16f) uniform readonly image2D directional;
-layout(set = 0, binding = 18, rgba16f) uniform readonly image2D previousDirectional;
-layout(set = 0, binding = 19, rgba16f) uniform writeonly image2D nextDirectional;
-layout(set = 0, binding = 20, rgba16f) uniform writeonly image2D gatheredDirectional;
+layout(scalar) uniform ParamsBlock { DenoiseGatherParams params; };
+layout(rg32f) uniform readonly image2D limits;
+uniform sampler2D depth;
+uniform usampler2D normal;
+uniform usampler2D geometricNormal;
+uniform sampler2D material;
+uniform sampler2D motion;
+layout(rg16f) uniform readonly image2D imageMotion;
+layout(rgba16f) uniform readonly image2D radiance;
+layout(rgba16f) uniform readonly image2D previousLight;
+layout(rg32ui) uniform readonly uimage2D previousSurface;
+layout(rg16f) uniform readonly image2D previousMoments;
+layout(rgba16f) uniform writeonly image2D nextLight;
+layout(rg32ui) uniform writeonly uimage2D surface;
+layout(rg16f) uniform writeonly image2D moments;
+layout(rgba16f) uniform writeonly image2D gathered;
+layout(rg32f) uniform readonly image2D tiles;
+layout(rgba16f) uniform readonly image2D directional;
+layout(rgba16f) uniform readonly image2D previousDirectional;
+layout(rgba16f) uniform writeonly image2D nextDirectional;
+layout(rgba16f) uniform writeonly image2D gatheredDirectional;
 
 const float heightSlack = 4.0;     // tolerance for the height of a history surface off this one, relative to that of neighbours
 const float distanceSlack = 0.02;  // or relative to its distance, for moving objects

@@ -9,11 +9,11 @@ layout(constant_id = 0) const uint lobe = 0u;
 layout(constant_id = 1) const uint meanRays = 0u;  // as in denoise_gather.comp
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { DenoiseTilesParams params; };
-layout(set = 0, binding = 1) uniform sampler2D material;
-layout(set = 0, binding = 2) uniform sampler2D depth;
-layout(set = 0, binding = 3, rgba16f) uniform readonly image2D radiance;
-layout(set = 0, binding = 4, rg32f) uniform writeonly image2D limits;
+layout(scalar) uniform ParamsBlock { DenoiseTilesParams params; };
+uniform sampler2D material;
+uniform sampler2D depth;
+layout(rgba16f) uniform readonly image2D radiance;
+layout(rg32f) uniform writeonly image2D limits;
 
 void main() {
     ivec2 tile = ivec2(gl_GlobalInvocationID.xy);

@@ -14,18 +14,18 @@ layout(constant_id = 0) const uint lambertOnly = 0u;
 layout(constant_id = 1) const uint anyLamps = 1u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { DirectParams params; };
-layout(set = 0, binding = 1, scalar) uniform LampUniforms { LampBlock lampBlock; };
-layout(set = 0, binding = 2) uniform sampler2D depth;
-layout(set = 0, binding = 3) uniform usampler2D normal;
-layout(set = 0, binding = 4) uniform sampler2D baseColor;
-layout(set = 0, binding = 5) uniform sampler2D material;
-layout(set = 0, binding = 6) uniform sampler2D emissive;
-layout(set = 0, binding = 7) uniform sampler2D sunVisibility;
-layout(set = 0, binding = 8) uniform sampler2DArray lampVisibility;
-layout(set = 0, binding = 9) uniform sampler2D ggxTable;
-layout(set = 0, binding = 10) uniform usampler2DArray lampMasks;
-layout(set = 0, binding = 11, rgba16f) uniform writeonly image2D direct;
+layout(scalar) uniform ParamsBlock { DirectParams params; };
+layout(scalar) uniform LampUniforms { LampBlock lampBlock; };
+uniform sampler2D depth;
+uniform usampler2D normal;
+uniform sampler2D baseColor;
+uniform sampler2D material;
+uniform sampler2D emissive;
+uniform sampler2D sunVisibility;
+uniform sampler2DArray lampVisibility;
+uniform sampler2D ggxTable;
+uniform usampler2DArray lampMasks;
+layout(rgba16f) uniform writeonly image2D direct;
 
 uvec4 loadLampMask(ivec3 texel) { return texelFetch(lampMasks, texel, 0); }
 #include "shaders/lamp_mask.glsl"

@@ -5,7 +5,7 @@
 #include "shaders/ggx.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, rg16f) uniform writeonly image2D table;
+layout(rg16f) uniform writeonly image2D table;
 
 const uint sampleCount = 32u;  // per axis
 

@@ -8,11 +8,11 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint all = 0u;  // 1: every tile gets all lamps
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { LampTilesParams params; };
-layout(set = 0, binding = 1, scalar) uniform LampUniforms { LampBlock lampBlock; };
-layout(set = 0, binding = 2) uniform sampler2D depth;
-layout(set = 0, binding = 3, rgba32ui) uniform writeonly uimage2DArray masks;
-layout(set = 0, binding = 4, r32f) uniform writeonly image2D lampCount;
+layout(scalar) uniform ParamsBlock { LampTilesParams params; };
+layout(scalar) uniform LampUniforms { LampBlock lampBlock; };
+uniform sampler2D depth;
+layout(rgba32ui) uniform writeonly uimage2DArray masks;
+layout(r32f) uniform writeonly image2D lampCount;
 
 const int groupSide = 8;
 const uint threads = 64u;

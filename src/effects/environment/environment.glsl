@@ -7,8 +7,8 @@
 #include "effects/environment/equirectangular.glsl"
 
 layout(constant_id = 100) const uint environmentIsOneColor = 0u;  // no image: one texel
-layout(set = 0, binding = 100, scalar) uniform EnvironmentUniforms { EnvironmentParams environment; };
-layout(set = 0, binding = 101) uniform sampler2D environmentTexels;
+layout(scalar) uniform EnvironmentUniforms { EnvironmentParams environment; };
+uniform sampler2D environmentTexels;
 
 // Rotates a world direction to the image's frame.
 vec3 toEnvironment(vec3 direction) {

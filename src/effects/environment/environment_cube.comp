@@ -6,8 +6,8 @@
 #include "shaders/half_float.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0) uniform sampler2D texels;
-layout(set = 0, binding = 1, rgba16f) uniform writeonly image2DArray faces;
+uniform sampler2D texels;
+layout(rgba16f) uniform writeonly image2DArray faces;
 
 // Samples per axis. For a cube of 256 pixels a side they match the columns of an image of width 8192.
 const int places = 8;

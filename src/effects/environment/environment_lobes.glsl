@@ -5,8 +5,8 @@
 #include "effects/cube_map/cube_map.glsl"
 #include "effects/environment/environment.glsl"
 
-layout(set = 0, binding = 102) uniform samplerCubeArray environmentLobes;
-layout(set = 0, binding = 103) uniform sampler2D environmentIrradiance;
+uniform samplerCubeArray environmentLobes;
+uniform sampler2D environmentIrradiance;
 
 // Mean radiance weighted by the GGX lobe of this perceptual roughness around the direction.
 vec3 environmentLobe(vec3 direction, float roughness) {

@@ -5,10 +5,10 @@
 #include "effects/exposure/exposure.h"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ExposureParams params; };
-layout(set = 0, binding = 1, scalar) readonly buffer HistogramBlock { uint numbers[meterSize]; } histogram;
-layout(set = 0, binding = 2, rg32f) uniform readonly image2D previous;
-layout(set = 0, binding = 3, rg32f) uniform writeonly image2D next;
+layout(scalar) uniform ParamsBlock { ExposureParams params; };
+layout(scalar) readonly buffer HistogramBlock { uint numbers[meterSize]; } histogram;
+layout(rg32f) uniform readonly image2D previous;
+layout(rg32f) uniform writeonly image2D next;
 
 shared uint numbers[meterSize];
 

@@ -7,10 +7,10 @@
 #include "shaders/luminance.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { MeterParams params; };
-layout(set = 0, binding = 1) uniform sampler2D radiance;  // RGBA16F, or RGBA32F if accumulated
-layout(set = 0, binding = 2) uniform sampler2D depth;
-layout(set = 0, binding = 3, scalar) buffer HistogramBlock { uint numbers[meterSize]; } histogram;
+layout(scalar) uniform ParamsBlock { MeterParams params; };
+uniform sampler2D radiance;  // RGBA16F, or RGBA32F if accumulated
+uniform sampler2D depth;
+layout(scalar) buffer HistogramBlock { uint numbers[meterSize]; } histogram;
 
 const uint threads = gl_WorkGroupSize.x * gl_WorkGroupSize.y;
 

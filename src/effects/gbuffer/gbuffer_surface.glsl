@@ -5,7 +5,7 @@
 #include "effects/gbuffer/gbuffer.glsl"
 #include "effects/material_features.glsl"
 
-layout(set = 0, binding = 40) uniform sampler2D surfaceReflectance;
+uniform sampler2D surfaceReflectance;
 
 bool isUnlit(MaterialTexel m) { return mayBeUnlit() && (m.flags & materialFlagUnlit) != 0u; }
 

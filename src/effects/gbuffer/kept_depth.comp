@@ -5,9 +5,9 @@
 #include "shaders/fixed_point_depth.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { KeptDepthParams params; };
-layout(set = 0, binding = 1) uniform sampler2D depth;
-layout(set = 0, binding = 2, r32f) uniform writeonly image2D kept;
+layout(scalar) uniform ParamsBlock { KeptDepthParams params; };
+uniform sampler2D depth;
+layout(r32f) uniform writeonly image2D kept;
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

@@ -6,9 +6,9 @@
 #include "effects/light_mips/light_mips.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { LightMipsParams params; };
-layout(set = 0, binding = 1) uniform sampler2D light;
-layout(set = 0, binding = 2, rgba16f) uniform image2D mips;
+layout(scalar) uniform ParamsBlock { LightMipsParams params; };
+uniform sampler2D light;
+layout(rgba16f) uniform image2D mips;
 
 ivec2 pixels = ivec2(params.size);
 int level = int(params.level);

@@ -9,16 +9,12 @@
 layout(constant_id = 0) const uint lobe = 0u;
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { AnswerEnvironmentParams params; };
-layout(set = 0, binding = 1) uniform sampler2D material;
-layout(set = 0, binding = 2, scalar) readonly buffer WaitingBlock {
-    uint groups[3];
-    uint count;
-    RayItem items[];
-} waiting;
-layout(set = 0, binding = 3, rgba16f) uniform image2DArray answer;
-layout(set = 0, binding = 4, rgba8) uniform image2DArray source;
-layout(set = 0, binding = 5, rg32ui) uniform readonly uimage2DArray direction;
+layout(scalar) uniform ParamsBlock { AnswerEnvironmentParams params; };
+uniform sampler2D material;
+#include "effects/lobe/rays_waiting.glsl"
+layout(rgba16f) uniform image2DArray answer;
+layout(rgba8) uniform image2DArray source;
+layout(rg32ui) uniform readonly uimage2DArray direction;
 #include "effects/lobe/rays_answer.glsl"
 
 vec3 radianceFor(Ray ray) {

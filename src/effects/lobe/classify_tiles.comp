@@ -10,11 +10,11 @@
 layout(constant_id = 0) const uint lobe = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ClassifyTilesParams params; };
-layout(set = 0, binding = 1) uniform sampler2D depth;
-layout(set = 0, binding = 2) uniform sampler2D material;
-layout(set = 0, binding = 3, rg32f) uniform writeonly image2D tiles;
-layout(set = 0, binding = 4, scalar) buffer ListBlock {
+layout(scalar) uniform ParamsBlock { ClassifyTilesParams params; };
+uniform sampler2D depth;
+uniform sampler2D material;
+layout(rg32f) uniform writeonly image2D tiles;
+layout(scalar) buffer ListBlock {
     uint groups[3];
     uint count;
     uint items[];

@@ -16,24 +16,19 @@ layout(constant_id = 3) const uint adaptive = 0u;  // 1: rays per pixel change f
 layout(constant_id = 2) const uint distribution = RayDistribution_cosine;
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { GenerateRaysParams params; };
-layout(set = 0, binding = 1) uniform sampler2D depth;
-layout(set = 0, binding = 2) uniform usampler2D normal;
-layout(set = 0, binding = 8) uniform usampler2D geometricNormal;
-layout(set = 0, binding = 3) uniform sampler2D material;
-layout(set = 0, binding = 9) uniform sampler2D baseColor;
-layout(set = 0, binding = 10) uniform sampler2D ggxTable;
-layout(set = 0, binding = 4, rg32ui) uniform writeonly uimage2DArray direction;
-layout(set = 0, binding = 5, rgba16f) uniform writeonly image2DArray answer;
-layout(set = 0, binding = 6, rgba8) uniform writeonly image2DArray source;
-layout(set = 0, binding = 7, scalar) buffer MissedBlock {
-    uint groups[3];
-    uint count;
-    RayItem items[];
-} missed;
-layout(set = 0, binding = 11, scalar) readonly buffer BlueNoiseBlock { uint texels[]; } blueNoise;
-layout(set = 0, binding = 12, rg32f) uniform readonly image2D tiles;
-layout(set = 0, binding = 13, scalar) readonly buffer ListBlock {
+layout(scalar) uniform ParamsBlock { GenerateRaysParams params; };
+uniform sampler2D depth;
+uniform usampler2D normal;
+uniform usampler2D geometricNormal;
+uniform sampler2D material;
+uniform sampler2D baseColor;
+uniform sampler2D ggxTable;
+layout(rg32ui) uniform writeonly uimage2DArray direction;
+layout(rgba16f) uniform writeonly image2DArray answer;
+layout(rgba8) uniform writeonly image2DArray source;
+layout(scalar) readonly buffer BlueNoiseBlock { uint texels[]; } blueNoise;
+layout(rg32f) uniform readonly image2D tiles;
+layout(scalar) readonly buffer ListBlock {
     uint groups[3];
     uint count;
     uint items[];

@@ -13,18 +13,18 @@
 layout(constant_id = 0) const uint lobe = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { MeasureNoiseParams params; };
-layout(set = 0, binding = 1) uniform sampler2D depth;
-layout(set = 0, binding = 2) uniform sampler2D material;
-layout(set = 0, binding = 3) uniform sampler2D baseColor;
-layout(set = 0, binding = 4) uniform sampler2D motion;
-layout(set = 0, binding = 5, rgba16f) uniform readonly image2D previousLight;
-layout(set = 0, binding = 6, rg32ui) uniform readonly uimage2D previousSurface;
-layout(set = 0, binding = 7, rg16f) uniform readonly image2D previousMoments;
-layout(set = 0, binding = 8, rgba16f) uniform readonly image2D previousLit;
-layout(set = 0, binding = 9, rg32f) uniform readonly image2D previousTiles;
-layout(set = 0, binding = 10, rg32f) uniform writeonly image2D noise;
-layout(set = 0, binding = 11, scalar) buffer HistogramBlock { uint pixels[histogramSize]; } histogram;
+layout(scalar) uniform ParamsBlock { MeasureNoiseParams params; };
+uniform sampler2D depth;
+uniform sampler2D material;
+uniform sampler2D baseColor;
+uniform sampler2D motion;
+layout(rgba16f) uniform readonly image2D previousLight;
+layout(rg32ui) uniform readonly uimage2D previousSurface;
+layout(rg16f) uniform readonly image2D previousMoments;
+layout(rgba16f) uniform readonly image2D previousLit;
+layout(rg32f) uniform readonly image2D previousTiles;
+layout(rg32f) uniform writeonly image2D noise;
+layout(scalar) buffer HistogramBlock { uint pixels[histogramSize]; } histogram;
 
 float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
 MaterialTexel loadMaterial(ivec2 pixel) { return unpackMaterial(texelFetch(material, pixel, 0)); }

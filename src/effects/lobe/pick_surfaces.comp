@@ -6,20 +6,20 @@
 #include "effects/gbuffer/gbuffer_surface.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { PickSurfacesParams params; };
-layout(set = 0, binding = 1) uniform sampler2D depth;
-layout(set = 0, binding = 2) uniform usampler2D normal;
-layout(set = 0, binding = 3) uniform usampler2D geometricNormal;
-layout(set = 0, binding = 4) uniform sampler2D baseColor;
-layout(set = 0, binding = 5) uniform sampler2D material;
-layout(set = 0, binding = 6) uniform sampler2D motion;
-layout(set = 0, binding = 7, r32f) uniform writeonly image2D pickedDepth;
-layout(set = 0, binding = 8, r32ui) uniform writeonly uimage2D pickedNormal;
-layout(set = 0, binding = 9, r32ui) uniform writeonly uimage2D pickedGeometricNormal;
-layout(set = 0, binding = 10, rgba8) uniform writeonly image2D pickedBaseColor;
-layout(set = 0, binding = 11, rgba8) uniform writeonly image2D pickedMaterial;
-layout(set = 0, binding = 12, rg16f) uniform writeonly image2D pickedMotion;
-layout(set = 0, binding = 13, rgba16f) uniform writeonly image2D pickedReflectance;
+layout(scalar) uniform ParamsBlock { PickSurfacesParams params; };
+uniform sampler2D depth;
+uniform usampler2D normal;
+uniform usampler2D geometricNormal;
+uniform sampler2D baseColor;
+uniform sampler2D material;
+uniform sampler2D motion;
+layout(r32f) uniform writeonly image2D pickedDepth;
+layout(r32ui) uniform writeonly uimage2D pickedNormal;
+layout(r32ui) uniform writeonly uimage2D pickedGeometricNormal;
+layout(rgba8) uniform writeonly image2D pickedBaseColor;
+layout(rgba8) uniform writeonly image2D pickedMaterial;
+layout(rg16f) uniform writeonly image2D pickedMotion;
+layout(rgba16f) uniform writeonly image2D pickedReflectance;
 
 void main() {
     ivec2 block = ivec2(gl_GlobalInvocationID.xy);

@@ -1,6 +1,12 @@
-// Appends to a ray list. The includer declares the buffer `missed` with these four members.
+// The list of rays that a pass leaves to the next source.
 #ifndef REFLET_RAYS_APPEND_GLSL
 #define REFLET_RAYS_APPEND_GLSL
+
+layout(scalar) buffer MissedBlock {
+    uint groups[3];
+    uint count;
+    RayItem items[];
+} missed;
 
 // The first ray of each group of threads adds that group to the indirect dispatch.
 void appendRay(WaitingRay ray) {

@@ -8,13 +8,13 @@
 #include "effects/levels.glsl"
 
 layout(local_size_x = 1) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { RecordRayParams params; };
-layout(set = 0, binding = 1) uniform sampler2D depth;
-layout(set = 0, binding = 2) uniform usampler2D normal;
-layout(set = 0, binding = 3) uniform usampler2D geometricNormal;
-layout(set = 0, binding = 4) uniform sampler2D backDepth;
-layout(set = 0, binding = 5, rg32f) uniform readonly image2D pyramid;
-layout(set = 0, binding = 6, rgba32f) uniform writeonly image2D record;
+layout(scalar) uniform ParamsBlock { RecordRayParams params; };
+uniform sampler2D depth;
+uniform usampler2D normal;
+uniform usampler2D geometricNormal;
+uniform sampler2D backDepth;
+layout(rg32f) uniform readonly image2D pyramid;
+layout(rgba32f) uniform writeonly image2D record;
 
 uint noted = 0u;
 

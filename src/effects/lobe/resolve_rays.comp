@@ -13,17 +13,17 @@ layout(constant_id = 1) const uint adaptive = 0u;
 layout(constant_id = 2) const uint hasDirectional = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ResolveRaysParams params; };
-layout(set = 0, binding = 1, rg32ui) uniform readonly uimage2DArray direction;
-layout(set = 0, binding = 2, rgba16f) uniform readonly image2DArray answer;
-layout(set = 0, binding = 3, rgba8) uniform readonly image2DArray raySource;
-layout(set = 0, binding = 4, rgba16f) uniform image2D radiance;
-layout(set = 0, binding = 5, rgba16f) uniform image2D source;
-layout(set = 0, binding = 6, r32f) uniform readonly image2DArray raySteps;
-layout(set = 0, binding = 7, r32f) uniform image2D steps;
-layout(set = 0, binding = 8, rg32f) uniform readonly image2D tiles;
-layout(set = 0, binding = 9) uniform usampler2D normal;
-layout(set = 0, binding = 10, rgba16f) uniform image2D directional;
+layout(scalar) uniform ParamsBlock { ResolveRaysParams params; };
+layout(rg32ui) uniform readonly uimage2DArray direction;
+layout(rgba16f) uniform readonly image2DArray answer;
+layout(rgba8) uniform readonly image2DArray raySource;
+layout(rgba16f) uniform image2D radiance;
+layout(rgba16f) uniform image2D source;
+layout(r32f) uniform readonly image2DArray raySteps;
+layout(r32f) uniform image2D steps;
+layout(rg32f) uniform readonly image2D tiles;
+uniform usampler2D normal;
+layout(rgba16f) uniform image2D directional;
 
 void resolveSteps(ivec2 pixel, uint count, float weight) {
     float sum = 0.0;

@@ -19,19 +19,19 @@ layout(constant_id = 1) const uint countSteps = 0u;
 layout(constant_id = 2) const uint hasDirectional = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ReuseRaysParams params; };
-layout(set = 0, binding = 1) uniform sampler2D depth;
-layout(set = 0, binding = 2) uniform usampler2D normal;
-layout(set = 0, binding = 3) uniform usampler2D geometricNormal;
-layout(set = 0, binding = 4) uniform sampler2D material;
-layout(set = 0, binding = 5, rg32ui) uniform readonly uimage2DArray direction;
-layout(set = 0, binding = 6, rgba16f) uniform readonly image2DArray answer;
-layout(set = 0, binding = 7, rgba8) uniform readonly image2DArray raySource;
-layout(set = 0, binding = 8, r32f) uniform readonly image2DArray raySteps;
-layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D radiance;
-layout(set = 0, binding = 10, rgba16f) uniform writeonly image2D source;
-layout(set = 0, binding = 11, r32f) uniform writeonly image2D steps;
-layout(set = 0, binding = 12, rgba16f) uniform writeonly image2D directional;
+layout(scalar) uniform ParamsBlock { ReuseRaysParams params; };
+uniform sampler2D depth;
+uniform usampler2D normal;
+uniform usampler2D geometricNormal;
+uniform sampler2D material;
+layout(rg32ui) uniform readonly uimage2DArray direction;
+layout(rgba16f) uniform readonly image2DArray answer;
+layout(rgba8) uniform readonly image2DArray raySource;
+layout(r32f) uniform readonly image2DArray raySteps;
+layout(rgba16f) uniform writeonly image2D radiance;
+layout(rgba16f) uniform writeonly image2D source;
+layout(r32f) uniform writeonly image2D steps;
+layout(rgba16f) uniform writeonly image2D directional;
 
 const float goldenAngle = 2.39996323;
 const float widest = 12.0;      // pixels to the farthest neighbour

@@ -9,11 +9,11 @@
 layout(constant_id = 0) const uint lobe = 0u;
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ShareRaysParams params; };
-layout(set = 0, binding = 1, scalar) readonly buffer HistogramBlock { uint pixels[histogramSize]; } histogram;
-layout(set = 0, binding = 2, rg32f) uniform readonly image2D noise;
-layout(set = 0, binding = 3, rg32f) uniform writeonly image2D tiles;
-layout(set = 0, binding = 4, scalar) buffer ListBlock {
+layout(scalar) uniform ParamsBlock { ShareRaysParams params; };
+layout(scalar) readonly buffer HistogramBlock { uint pixels[histogramSize]; } histogram;
+layout(rg32f) uniform readonly image2D noise;
+layout(rg32f) uniform writeonly image2D tiles;
+layout(scalar) buffer ListBlock {
     uint groups[3];
     uint count;
     uint items[];

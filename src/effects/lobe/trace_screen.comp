@@ -22,32 +22,23 @@ layout(constant_id = 4) const uint through = 0u;
 layout(constant_id = 5) const uint tellsMotion = 0u;
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { TraceScreenParams params; };
-layout(set = 0, binding = 14) uniform sampler2D ownDepth;
-layout(set = 0, binding = 16) uniform usampler2D ownGeometricNormal;
-layout(set = 0, binding = 1) uniform sampler2D depth;
-layout(set = 0, binding = 2) uniform usampler2D geometricNormal;
-layout(set = 0, binding = 3, rgba16f) uniform readonly image2D light;
-layout(set = 0, binding = 9, rgba16f) uniform readonly image2D previousLit;
-layout(set = 0, binding = 10) uniform sampler2D motion;
-layout(set = 0, binding = 11, rg32f) uniform readonly image2D pyramid;
-layout(set = 0, binding = 12) uniform sampler2D backDepth;
-layout(set = 0, binding = 15) uniform sampler2D lightMips;
-layout(set = 0, binding = 13, r32f) uniform writeonly image2DArray steps;
-layout(set = 0, binding = 17, rg16f) uniform writeonly image2D imageMotion;
-layout(set = 0, binding = 4, rg32ui) uniform readonly uimage2DArray direction;
-layout(set = 0, binding = 5, scalar) readonly buffer WaitingBlock {
-    uint groups[3];
-    uint count;
-    RayItem items[];
-} waiting;
-layout(set = 0, binding = 6, rgba16f) uniform image2DArray answer;
-layout(set = 0, binding = 7, rgba8) uniform image2DArray source;
-layout(set = 0, binding = 8, scalar) buffer MissedBlock {
-    uint groups[3];
-    uint count;
-    RayItem items[];
-} missed;
+layout(scalar) uniform ParamsBlock { TraceScreenParams params; };
+uniform sampler2D ownDepth;
+uniform usampler2D ownGeometricNormal;
+uniform sampler2D depth;
+uniform usampler2D geometricNormal;
+layout(rgba16f) uniform readonly image2D light;
+layout(rgba16f) uniform readonly image2D previousLit;
+uniform sampler2D motion;
+layout(rg32f) uniform readonly image2D pyramid;
+uniform sampler2D backDepth;
+uniform sampler2D lightMips;
+layout(r32f) uniform writeonly image2DArray steps;
+layout(rg16f) uniform writeonly image2D imageMotion;
+layout(rg32ui) uniform readonly uimage2DArray direction;
+#include "effects/lobe/rays_waiting.glsl"
+layout(rgba16f) uniform image2DArray answer;
+layout(rgba8) uniform image2DArray source;
 #include "effects/lobe/rays_append.glsl"
 #include "effects/lobe/rays_answer.glsl"
 

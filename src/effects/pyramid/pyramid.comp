@@ -7,10 +7,10 @@
 #include "effects/pyramid/pyramid.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { PyramidParams params; };
-layout(set = 0, binding = 1) uniform sampler2D depth;
-layout(set = 0, binding = 3) uniform sampler2D backDepth;
-layout(set = 0, binding = 2, rg32f) uniform image2D pyramid;
+layout(scalar) uniform ParamsBlock { PyramidParams params; };
+uniform sampler2D depth;
+uniform sampler2D backDepth;
+layout(rg32f) uniform image2D pyramid;
 
 ivec2 pixels = ivec2(params.size);
 int level = int(params.level);

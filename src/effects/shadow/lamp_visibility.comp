@@ -9,14 +9,14 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint filterKind = ShadowFilter_pcss;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { LampVisibilityParams params; };
-layout(set = 0, binding = 1, scalar) uniform ShadowUniforms { LampShadows shadowBlock; };
-layout(set = 0, binding = 2) uniform sampler2D depth;
-layout(set = 0, binding = 3) uniform usampler2D geometricNormal;
-layout(set = 0, binding = 4) uniform sampler2D shadowMap;
-layout(set = 0, binding = 5, scalar) readonly buffer BlueNoise { uint texels[]; } blueNoise;
-layout(set = 0, binding = 7) uniform usampler2DArray lampMasks;
-layout(set = 0, binding = 6, rgba8) uniform writeonly image2DArray visibility;
+layout(scalar) uniform ParamsBlock { LampVisibilityParams params; };
+layout(scalar) uniform ShadowUniforms { LampShadows shadowBlock; };
+uniform sampler2D depth;
+uniform usampler2D geometricNormal;
+uniform sampler2D shadowMap;
+layout(scalar) readonly buffer BlueNoise { uint texels[]; } blueNoise;
+uniform usampler2DArray lampMasks;
+layout(rgba8) uniform writeonly image2DArray visibility;
 
 uint loadBlueNoise(uint texel) { return blueNoise.texels[texel]; }
 float loadLampDepth(ivec2 texel) { return texelFetch(shadowMap, texel, 0).r; }

@@ -8,14 +8,14 @@
 layout(constant_id = 0) const uint last = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ShadowBlurParams params; };
-layout(set = 0, binding = 1, r32ui) uniform readonly uimage2D from;
-layout(set = 0, binding = 2, rgba32ui) uniform readonly uimage2D kernel;
-layout(set = 0, binding = 3) uniform sampler2D depth;
-layout(set = 0, binding = 4, r8) uniform readonly image2D visibility;
-layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D blurred;
-layout(set = 0, binding = 6, r8) uniform writeonly image2D cleaned;
-layout(set = 0, binding = 7, scalar) readonly buffer TilesBlock {
+layout(scalar) uniform ParamsBlock { ShadowBlurParams params; };
+layout(r32ui) uniform readonly uimage2D from;
+layout(rgba32ui) uniform readonly uimage2D kernel;
+uniform sampler2D depth;
+layout(r8) uniform readonly image2D visibility;
+layout(r32ui) uniform writeonly uimage2D blurred;
+layout(r8) uniform writeonly image2D cleaned;
+layout(scalar) readonly buffer TilesBlock {
     uint groups[3];
     uint count;
     uint items[];

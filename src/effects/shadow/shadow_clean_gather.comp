@@ -9,17 +9,17 @@
 #include "shaders/shadow_kernel.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ShadowDenoiseParams params; };
-layout(set = 0, binding = 1) uniform sampler2D depth;
-layout(set = 0, binding = 2) uniform usampler2D geometricNormal;
-layout(set = 0, binding = 3) uniform sampler2D motion;
-layout(set = 0, binding = 4, r8) uniform readonly image2D visibility;
-layout(set = 0, binding = 5, rg16f) uniform readonly image2D penumbra;
-layout(set = 0, binding = 6, rg32ui) uniform readonly uimage2D previous;  // mean, frames; depth
-layout(set = 0, binding = 7, rg32ui) uniform writeonly uimage2D next;
-layout(set = 0, binding = 8, r32ui) uniform writeonly uimage2D gathered;
-layout(set = 0, binding = 9, rgba32ui) uniform writeonly uimage2D kernel;
-layout(set = 0, binding = 10, scalar) readonly buffer TilesBlock {
+layout(scalar) uniform ParamsBlock { ShadowDenoiseParams params; };
+uniform sampler2D depth;
+uniform usampler2D geometricNormal;
+uniform sampler2D motion;
+layout(r8) uniform readonly image2D visibility;
+layout(rg16f) uniform readonly image2D penumbra;
+layout(rg32ui) uniform readonly uimage2D previous;  // mean, frames; depth
+layout(rg32ui) uniform writeonly uimage2D next;
+layout(r32ui) uniform writeonly uimage2D gathered;
+layout(rgba32ui) uniform writeonly uimage2D kernel;
+layout(scalar) readonly buffer TilesBlock {
     uint groups[3];
     uint count;
     uint items[];

@@ -5,11 +5,11 @@
 #include "effects/shadow/shadow_clean.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ShadowTilesParams params; };
-layout(set = 0, binding = 1, r8) uniform readonly image2D visibility;
-layout(set = 0, binding = 4, rg16f) uniform readonly image2D penumbra;
-layout(set = 0, binding = 2, r8) uniform writeonly image2D cleaned;
-layout(set = 0, binding = 3, scalar) buffer TilesBlock {
+layout(scalar) uniform ParamsBlock { ShadowTilesParams params; };
+layout(r8) uniform readonly image2D visibility;
+layout(rg16f) uniform readonly image2D penumbra;
+layout(r8) uniform writeonly image2D cleaned;
+layout(scalar) buffer TilesBlock {
     uint groups[3];
     uint count;
     uint items[];

@@ -14,15 +14,15 @@ layout(constant_id = 0) const uint filterKind = ShadowFilter_pcss;
 layout(constant_id = 1) const uint hasRanges = 1;
 layout(constant_id = 2) const uint cascades = 1;
 layout(constant_id = 3) const uint biasKind = ShadowBias_slope;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ShadowVisibilityParams params; };
-layout(set = 0, binding = 1) uniform sampler2D depth;
-layout(set = 0, binding = 2) uniform usampler2D geometricNormal;
-layout(set = 0, binding = 3) uniform sampler2D shadowMap;
-layout(set = 0, binding = 4) uniform sampler2D range;
-layout(set = 0, binding = 5, scalar) readonly buffer BlueNoise { uint texels[]; } blueNoise;
-layout(set = 0, binding = 6, r8) uniform writeonly image2D visibility;
-layout(set = 0, binding = 7, rg16f) uniform writeonly image2D penumbra;
-layout(set = 0, binding = 8, r8) uniform writeonly image2D cascadeIndex;
+layout(scalar) uniform ParamsBlock { ShadowVisibilityParams params; };
+uniform sampler2D depth;
+uniform usampler2D geometricNormal;
+uniform sampler2D shadowMap;
+uniform sampler2D range;
+layout(scalar) readonly buffer BlueNoise { uint texels[]; } blueNoise;
+layout(r8) uniform writeonly image2D visibility;
+layout(rg16f) uniform writeonly image2D penumbra;
+layout(r8) uniform writeonly image2D cascadeIndex;
 
 uint loadBlueNoise(uint texel) { return blueNoise.texels[texel]; }
 float loadShadowDepth(ivec2 texel) { return texelFetch(shadowMap, texel, 0).r; }

@@ -9,18 +9,18 @@
 #include "shaders/tone_compressed.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { TemporalParams params; };
-layout(set = 0, binding = 1, rgba16f) uniform readonly image2D radiance;
-layout(set = 0, binding = 2) uniform sampler2D depth;
-layout(set = 0, binding = 3) uniform sampler2D motion;
-layout(set = 0, binding = 4, rgba16f) uniform readonly image2D previousMean;    // radiance, history length
-layout(set = 0, binding = 5, rg16f) uniform readonly image2D previousDeviations;
-layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D mean;
-layout(set = 0, binding = 7, rg16f) uniform writeonly image2D deviations;
+layout(scalar) uniform ParamsBlock { TemporalParams params; };
+layout(rgba16f) uniform readonly image2D radiance;
+uniform sampler2D depth;
+uniform sampler2D motion;
+layout(rgba16f) uniform readonly image2D previousMean;    // radiance, history length
+layout(rg16f) uniform readonly image2D previousDeviations;
+layout(rgba16f) uniform writeonly image2D mean;
+layout(rg16f) uniform writeonly image2D deviations;
 #if HAS_COVERAGE
-layout(set = 0, binding = 8) uniform sampler2D coverage;
-layout(set = 0, binding = 9, r32f) uniform readonly image2D previousCoverage;
-layout(set = 0, binding = 10, r32f) uniform writeonly image2D meanCoverage;
+uniform sampler2D coverage;
+layout(r32f) uniform readonly image2D previousCoverage;
+layout(r32f) uniform writeonly image2D meanCoverage;
 #endif
 
 // Tolerance for rounding, in tone-compressed radiance.

@@ -6,9 +6,9 @@
 layout(constant_id = 0) const uint curve = 0u;  // a constant, because CPU devices would compute all branches
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { TonemapParams params; };
-layout(set = 0, binding = 1) uniform sampler2D radiance;  // RGBA16F, or RGBA32F if accumulated
-layout(set = 0, binding = 2, rgba8) uniform writeonly image2D display;
+layout(scalar) uniform ParamsBlock { TonemapParams params; };
+uniform sampler2D radiance;  // RGBA16F, or RGBA32F if accumulated
+layout(rgba8) uniform writeonly image2D display;
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

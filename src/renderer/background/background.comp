@@ -8,13 +8,13 @@
 #include "shaders/projection.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { BackgroundParams params; };
-layout(set = 0, binding = 1) uniform sampler2D depth;
-layout(set = 0, binding = 2) uniform sampler2D direct;
-layout(set = 0, binding = 3) uniform sampler2D lit;
-layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D directOver;
-layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D litOver;
-layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D coverage;
+layout(scalar) uniform ParamsBlock { BackgroundParams params; };
+uniform sampler2D depth;
+uniform sampler2D direct;
+uniform sampler2D lit;
+layout(rgba16f) uniform writeonly image2D directOver;
+layout(rgba16f) uniform writeonly image2D litOver;
+layout(rgba16f) uniform writeonly image2D coverage;
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

@@ -5,10 +5,10 @@
 #include "shaders/half_float.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { StraightParams params; };
-layout(set = 0, binding = 1) uniform sampler2D premultiplied;
-layout(set = 0, binding = 2) uniform sampler2D coverage;
-layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D radiance;
+layout(scalar) uniform ParamsBlock { StraightParams params; };
+uniform sampler2D premultiplied;
+uniform sampler2D coverage;
+layout(rgba16f) uniform writeonly image2D radiance;
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

@@ -6,10 +6,10 @@
 layout(constant_id = 0) const uint transparent = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { UnderlayParams params; };
-layout(set = 0, binding = 1) uniform sampler2D display;
-layout(set = 0, binding = 2) uniform sampler2D coverage;
-layout(set = 0, binding = 3, rgba8) uniform writeonly image2D displayOver;
+layout(scalar) uniform ParamsBlock { UnderlayParams params; };
+uniform sampler2D display;
+uniform sampler2D coverage;
+layout(rgba8) uniform writeonly image2D displayOver;
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

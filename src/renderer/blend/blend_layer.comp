@@ -6,10 +6,10 @@
 #include "shaders/half_float.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { BlendLayerParams params; };
-layout(set = 0, binding = 1) uniform sampler2D radiance;
-layout(set = 0, binding = 2) uniform sampler2D motion;
-layout(set = 0, binding = 3, rgba16f) uniform image2D accumulated;
+layout(scalar) uniform ParamsBlock { BlendLayerParams params; };
+uniform sampler2D radiance;
+uniform sampler2D motion;
+layout(rgba16f) uniform image2D accumulated;
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

@@ -7,10 +7,10 @@
 #include "shaders/half_float.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { BlendOverParams params; };
-layout(set = 0, binding = 1) uniform sampler2D accumulated;
-layout(set = 0, binding = 2) uniform sampler2D behind;
-layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D over;
+layout(scalar) uniform ParamsBlock { BlendOverParams params; };
+uniform sampler2D accumulated;
+uniform sampler2D behind;
+layout(rgba16f) uniform writeonly image2D over;
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

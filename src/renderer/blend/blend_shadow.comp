@@ -12,15 +12,15 @@ float loadShadowDepth(ivec2 texel) { return 0.0; }  // of the opaque surfaces, n
 layout(constant_id = 0) const uint cascades = 1u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { BlendShadowParams params; };
-layout(set = 0, binding = 1) uniform sampler2D depth;
-layout(set = 0, binding = 2) uniform usampler2D geometricNormal;
-layout(set = 0, binding = 3) uniform sampler2D sunVisibility;
-layout(set = 0, binding = 4) uniform sampler2D depth0;
-layout(set = 0, binding = 5) uniform sampler2D depth1;
-layout(set = 0, binding = 6) uniform sampler2D transmittance0;
-layout(set = 0, binding = 7) uniform sampler2D transmittance1;
-layout(set = 0, binding = 8, r8) uniform writeonly image2D visibility;
+layout(scalar) uniform ParamsBlock { BlendShadowParams params; };
+uniform sampler2D depth;
+uniform usampler2D geometricNormal;
+uniform sampler2D sunVisibility;
+uniform sampler2D depth0;
+uniform sampler2D depth1;
+uniform sampler2D transmittance0;
+uniform sampler2D transmittance1;
+layout(r8) uniform writeonly image2D visibility;
 
 // Share of the light that passes a layer's texel on its way to the receiver, whose plane is at `plane` metres above the
 // receiver there.

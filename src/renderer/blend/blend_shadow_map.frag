@@ -6,7 +6,7 @@ const uint usedSlots = 1u;  // the colour, for its alpha
 #include "renderer/material.glsl"
 
 layout(constant_id = 0) const uint peeled = 0u;
-layout(set = 0, binding = 1) uniform sampler2D nearerDepth;
+uniform sampler2D nearerDepth;
 
 layout(location = 0) in vec4 uv;
 layout(location = 1) in vec4 vertexColor;

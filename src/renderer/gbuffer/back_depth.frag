@@ -7,8 +7,8 @@ const uint usedSlots = 1u;  // base colour, for alpha
 #include "renderer/material.glsl"
 #include "shaders/projection.glsl"
 
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { BackDepthParams params; };
-layout(set = 0, binding = 1) uniform sampler2D firstDepth;
+layout(scalar) uniform ParamsBlock { BackDepthParams params; };
+uniform sampler2D firstDepth;
 
 layout(location = 0) in vec4 uv;
 layout(location = 1) in vec4 vertexColor;

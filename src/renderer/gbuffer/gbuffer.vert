@@ -6,7 +6,7 @@
 
 layout(constant_id = 1) const uint bent = 0u;  // 1: some vertices are skinned or morphed
 
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { GBufferParams params; };
+layout(scalar) uniform ParamsBlock { GBufferParams params; };
 layout(push_constant, scalar) uniform DrawBlock {
     mat4x3 objectToWorld;
     mat4x3 previousObjectToWorld;

@@ -8,9 +8,9 @@ layout(constant_id = 2) const uint usedSlots = 127u;
 layout(constant_id = 3) const uint surfaces = surfacesOpaque;
 #include "renderer/material.glsl"
 
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { GBufferParams params; };
-layout(set = 0, binding = 1) uniform sampler2D opaqueDepth;
-layout(set = 0, binding = 2) uniform sampler2D nearerDepth;
+layout(scalar) uniform ParamsBlock { GBufferParams params; };
+uniform sampler2D opaqueDepth;
+uniform sampler2D nearerDepth;
 
 layout(location = 0) in vec3 normalW;
 layout(location = 1) in vec4 tangentW;

@@ -4,11 +4,11 @@
 #include "renderer/live/live_picture.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock {
+layout(scalar) uniform ParamsBlock {
     LivePictureParams params;
 };
-layout(set = 0, binding = 1, rgba16f) uniform readonly image2D radiance;
-layout(set = 0, binding = 2, rgba16f) uniform writeonly image2D picture;
+layout(rgba16f) uniform readonly image2D radiance;
+layout(rgba16f) uniform writeonly image2D picture;
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

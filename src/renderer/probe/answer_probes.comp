@@ -10,29 +10,18 @@
 layout(constant_id = 0) const uint lobe = 0u;
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock {
+layout(scalar) uniform ParamsBlock {
     AnswerProbesParams params;
 };
-layout(set = 0, binding = 1) uniform sampler2D depth;
-layout(set = 0, binding = 2) uniform sampler2D material;
-layout(set = 0, binding = 3) uniform samplerCubeArray probeLobes;
-layout(set = 0, binding = 4) uniform samplerCubeArray probeDistance;
-layout(set = 0, binding = 5, rg32ui) uniform readonly uimage2DArray direction;
-layout(set = 0, binding = 6, scalar) readonly buffer WaitingBlock {
-    uint groups[3];
-    uint count;
-    RayItem items[];
-}
-waiting;
-layout(set = 0, binding = 7, rgba16f) uniform image2DArray answer;
-layout(set = 0, binding = 8, rgba8) uniform image2DArray source;
-layout(set = 0, binding = 9, scalar) buffer MissedBlock {
-    uint groups[3];
-    uint count;
-    RayItem items[];
-}
-missed;
-layout(set = 0, binding = 10) uniform sampler2D probeIrradiance;
+uniform sampler2D depth;
+uniform sampler2D material;
+uniform samplerCubeArray probeLobes;
+uniform samplerCubeArray probeDistance;
+layout(rg32ui) uniform readonly uimage2DArray direction;
+#include "effects/lobe/rays_waiting.glsl"
+layout(rgba16f) uniform image2DArray answer;
+layout(rgba8) uniform image2DArray source;
+uniform sampler2D probeIrradiance;
 #include "effects/lobe/rays_answer.glsl"
 #include "effects/lobe/rays_append.glsl"
 

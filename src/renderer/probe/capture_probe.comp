@@ -12,19 +12,19 @@
 layout(constant_id = 0) const uint furtherLight = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { CaptureProbeParams params; };
-layout(set = 0, binding = 1) uniform sampler2D depth;
-layout(set = 0, binding = 2) uniform usampler2D normal;
-layout(set = 0, binding = 3) uniform sampler2D baseColor;
-layout(set = 0, binding = 4) uniform sampler2D material;
-layout(set = 0, binding = 5) uniform sampler2D ggxTable;
-layout(set = 0, binding = 6, rgba16f) uniform readonly image2D direct;
-layout(set = 0, binding = 7) uniform samplerCubeArray probeLobes;
-layout(set = 0, binding = 8) uniform sampler2D probeIrradiance;
-layout(set = 0, binding = 9) uniform samplerCubeArray probeDistance;
-layout(set = 0, binding = 10, rgba16f) uniform writeonly image2DArray sharp;
-layout(set = 0, binding = 11, r32f) uniform writeonly image2DArray distance;
-layout(set = 0, binding = 12, rgba16f) uniform writeonly image2D atlas;
+layout(scalar) uniform ParamsBlock { CaptureProbeParams params; };
+uniform sampler2D depth;
+uniform usampler2D normal;
+uniform sampler2D baseColor;
+uniform sampler2D material;
+uniform sampler2D ggxTable;
+layout(rgba16f) uniform readonly image2D direct;
+uniform samplerCubeArray probeLobes;
+uniform sampler2D probeIrradiance;
+uniform samplerCubeArray probeDistance;
+layout(rgba16f) uniform writeonly image2DArray sharp;
+layout(r32f) uniform writeonly image2DArray distance;
+layout(rgba16f) uniform writeonly image2D atlas;
 
 uint probeCount() { return params.probes.count; }
 ProbeParams loadProbe(uint index) { return params.probes.probes[index]; }

@@ -3,7 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/shadow/lamp_shadow.h"
 
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { LampTileParams params; };
+layout(scalar) uniform ParamsBlock { LampTileParams params; };
 layout(push_constant, scalar) uniform DrawBlock { mat4x3 objectToWorld; uint tile; } draw;
 
 layout(location = 0) in vec3 position;

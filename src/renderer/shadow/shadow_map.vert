@@ -3,7 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/shadow/shadow.h"
 
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { SunShadowParams params; };
+layout(scalar) uniform ParamsBlock { SunShadowParams params; };
 layout(push_constant, scalar) uniform DrawBlock { mat4x3 objectToWorld; } draw;
 
 layout(location = 0) in vec3 position;

@@ -6,9 +6,9 @@
 #include "effects/shadow/shadow.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { ShadowRangeParams params; };
-layout(set = 0, binding = 1) uniform sampler2D shadowMap;
-layout(set = 0, binding = 2, rg32f) uniform image2D range;
+layout(scalar) uniform ParamsBlock { ShadowRangeParams params; };
+uniform sampler2D shadowMap;
+layout(rg32f) uniform image2D range;
 
 ivec2 texels = ivec2(params.size);
 ivec2 cells = levelSize(texels, 2);

@@ -24,15 +24,15 @@ struct MorphDelta {
 
 layout(local_size_x = 128) in;
 layout(constant_id = 1) const uint morphed = 0u;  // 1: some vertices have morph targets
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { SkinParams params; };
-layout(set = 0, binding = 1, scalar) readonly buffer VertexBlock { SkinnedVertex items[]; } vertices;
-layout(set = 0, binding = 2, scalar) readonly buffer JointBlock { mat4x3 items[]; } joints;
-layout(set = 0, binding = 3, scalar) buffer PositionBlock { vec3 items[]; } positions;
-layout(set = 0, binding = 4, scalar) writeonly buffer PreviousPositionBlock { vec3 items[]; } previousPositions;
-layout(set = 0, binding = 5, scalar) buffer AttributeBlock { Attributes items[]; } attributes;
-layout(set = 0, binding = 6, scalar) readonly buffer MorphBlock { MorphedVertex items[]; } morphs;
-layout(set = 0, binding = 7, scalar) readonly buffer DeltaBlock { MorphDelta items[]; } deltas;
-layout(set = 0, binding = 8, scalar) readonly buffer WeightBlock { float items[]; } morphWeights;
+layout(scalar) uniform ParamsBlock { SkinParams params; };
+layout(scalar) readonly buffer VertexBlock { SkinnedVertex items[]; } vertices;
+layout(scalar) readonly buffer JointBlock { mat4x3 items[]; } joints;
+layout(scalar) buffer PositionBlock { vec3 items[]; } positions;
+layout(scalar) writeonly buffer PreviousPositionBlock { vec3 items[]; } previousPositions;
+layout(scalar) buffer AttributeBlock { Attributes items[]; } attributes;
+layout(scalar) readonly buffer MorphBlock { MorphedVertex items[]; } morphs;
+layout(scalar) readonly buffer DeltaBlock { MorphDelta items[]; } deltas;
+layout(scalar) readonly buffer WeightBlock { float items[]; } morphWeights;
 
 mat4x3 toWorld(SkinnedVertex v, uint firstJoint) {
     if (morphed != 0u && v.joints[0] == noJoint) {

@@ -9,17 +9,17 @@
 #include "shaders/projection.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { DirectRaysParams params; };
-layout(set = 0, binding = 1, scalar) uniform LampUniforms { LampBlock lampBlock; };
-layout(set = 0, binding = 2) uniform sampler2D depth;
-layout(set = 0, binding = 3) uniform usampler2D normal;
-layout(set = 0, binding = 4) uniform usampler2D geometricNormal;
-layout(set = 0, binding = 5) uniform sampler2D baseColor;
-layout(set = 0, binding = 6) uniform sampler2D material;
-layout(set = 0, binding = 7) uniform sampler2D emissive;
-layout(set = 0, binding = 8) uniform sampler2D ggxTable;
-layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D direct;
-layout(set = 0, binding = 10, r8) uniform writeonly image2D sunVisibility;
+layout(scalar) uniform ParamsBlock { DirectRaysParams params; };
+layout(scalar) uniform LampUniforms { LampBlock lampBlock; };
+uniform sampler2D depth;
+uniform usampler2D normal;
+uniform usampler2D geometricNormal;
+uniform sampler2D baseColor;
+uniform sampler2D material;
+uniform sampler2D emissive;
+uniform sampler2D ggxTable;
+layout(rgba16f) uniform writeonly image2D direct;
+layout(r8) uniform writeonly image2D sunVisibility;
 
 SceneLights sceneLights() { return params.lights; }
 LampParams loadLamp(uint index) { return lampBlock.lamps[index]; }

@@ -5,7 +5,7 @@
 
 #include "renderer/trace_scene/scene_triangles.glsl"
 
-layout(set = 0, binding = 24, scalar) readonly buffer SceneNodeBlock { BvhNode items[]; } sceneNodes;
+layout(scalar) readonly buffer SceneNodeBlock { BvhNode items[]; } sceneNodes;
 
 BvhNode loadBvhNode(uint node) { return sceneNodes.items[node]; }
 

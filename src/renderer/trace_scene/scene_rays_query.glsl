@@ -6,7 +6,7 @@
 
 #include "renderer/trace_scene/scene_triangles.glsl"
 
-layout(set = 0, binding = 24) uniform accelerationStructureEXT sceneHierarchy;
+uniform accelerationStructureEXT sceneHierarchy;
 
 // If some triangles are alpha-tested, the structure reports all triangles as candidates.
 bool acceptCandidate(uint triangle, vec2 barycentrics, vec3 direction) {

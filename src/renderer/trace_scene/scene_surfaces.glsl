@@ -18,12 +18,12 @@ struct SceneVertex {
     uvec2 color;
 };
 
-layout(set = 0, binding = 26, scalar) readonly buffer SceneVertexBlock { SceneVertex items[]; } sceneVertices;
-layout(set = 0, binding = 27, scalar) readonly buffer SceneIndexBlock { uint items[]; } sceneIndices;
-layout(set = 0, binding = 28, scalar) readonly buffer SceneInstanceBlock { SceneInstance items[]; } sceneInstances;
-layout(set = 0, binding = 29, scalar) readonly buffer SceneMaterialBlock { SceneMaterial items[]; } sceneMaterials;
-layout(set = 0, binding = 30) uniform sampler2DArray sceneColors;
-layout(set = 0, binding = 31) uniform sampler2DArray sceneData;
+layout(scalar) readonly buffer SceneVertexBlock { SceneVertex items[]; } sceneVertices;
+layout(scalar) readonly buffer SceneIndexBlock { uint items[]; } sceneIndices;
+layout(scalar) readonly buffer SceneInstanceBlock { SceneInstance items[]; } sceneInstances;
+layout(scalar) readonly buffer SceneMaterialBlock { SceneMaterial items[]; } sceneMaterials;
+uniform sampler2DArray sceneColors;
+uniform sampler2DArray sceneData;
 
 // A point on a triangle with its texture coordinates. World space, metres.
 struct ScenePlace {

@@ -4,7 +4,7 @@
 
 #include "renderer/trace_scene/scene_hit.glsl"
 
-layout(set = 0, binding = 25, scalar) readonly buffer SceneTriangleBlock { SceneTriangle items[]; } sceneTriangles;
+layout(scalar) readonly buffer SceneTriangleBlock { SceneTriangle items[]; } sceneTriangles;
 
 SceneTriangle loadSceneTriangle(uint triangle) { return sceneTriangles.items[triangle]; }
 

@@ -20,37 +20,28 @@ layout(constant_id = 3) const uint tellsMotion = 0u;
 layout(constant_id = 4) const uint endsInProbes = 0u;
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, scalar) uniform ParamsBlock { TraceSceneParams params; };
-layout(set = 0, binding = 1, scalar) uniform LampUniforms { LampBlock lampBlock; };
-layout(set = 0, binding = 16) uniform sampler2D ownDepth;
-layout(set = 0, binding = 18, rg16f) uniform writeonly image2D imageMotion;
-layout(set = 0, binding = 17) uniform usampler2D ownGeometricNormal;
-layout(set = 0, binding = 19, scalar) uniform ProbesUniforms { ProbeBlock probeBlock; };
-layout(set = 0, binding = 20) uniform samplerCubeArray probeLobes;
-layout(set = 0, binding = 21) uniform sampler2D probeIrradiance;
-layout(set = 0, binding = 22) uniform samplerCubeArray probeDistance;
-layout(set = 0, binding = 2) uniform sampler2D depth;
-layout(set = 0, binding = 3) uniform usampler2D geometricNormal;
-layout(set = 0, binding = 4) uniform sampler2D material;
-layout(set = 0, binding = 5) uniform sampler2D motion;
-layout(set = 0, binding = 6, rgba16f) uniform readonly image2D light;
-layout(set = 0, binding = 7, rgba16f) uniform readonly image2D previousLit;
-layout(set = 0, binding = 8) uniform sampler2D shadowMap;
-layout(set = 0, binding = 9) uniform sampler2D ggxTable;
-layout(set = 0, binding = 10, scalar) readonly buffer BlueNoiseBlock { uint texels[]; } blueNoise;
-layout(set = 0, binding = 11, rg32ui) uniform readonly uimage2DArray direction;
-layout(set = 0, binding = 12, scalar) readonly buffer WaitingBlock {
-    uint groups[3];
-    uint count;
-    RayItem items[];
-} waiting;
-layout(set = 0, binding = 13, rgba16f) uniform image2DArray answer;
-layout(set = 0, binding = 14, rgba8) uniform image2DArray source;
-layout(set = 0, binding = 15, scalar) buffer MissedBlock {
-    uint groups[3];
-    uint count;
-    RayItem items[];
-} missed;
+layout(scalar) uniform ParamsBlock { TraceSceneParams params; };
+layout(scalar) uniform LampUniforms { LampBlock lampBlock; };
+uniform sampler2D ownDepth;
+layout(rg16f) uniform writeonly image2D imageMotion;
+uniform usampler2D ownGeometricNormal;
+layout(scalar) uniform ProbesUniforms { ProbeBlock probeBlock; };
+uniform samplerCubeArray probeLobes;
+uniform sampler2D probeIrradiance;
+uniform samplerCubeArray probeDistance;
+uniform sampler2D depth;
+uniform usampler2D geometricNormal;
+uniform sampler2D material;
+uniform sampler2D motion;
+layout(rgba16f) uniform readonly image2D light;
+layout(rgba16f) uniform readonly image2D previousLit;
+uniform sampler2D shadowMap;
+uniform sampler2D ggxTable;
+layout(scalar) readonly buffer BlueNoiseBlock { uint texels[]; } blueNoise;
+layout(rg32ui) uniform readonly uimage2DArray direction;
+#include "effects/lobe/rays_waiting.glsl"
+layout(rgba16f) uniform image2DArray answer;
+layout(rgba8) uniform image2DArray source;
 #include "effects/lobe/rays_answer.glsl"
 #include "effects/lobe/rays_append.glsl"
 
