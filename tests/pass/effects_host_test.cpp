@@ -25,6 +25,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -84,7 +85,8 @@ class HostCamera {
 public:
     explicit HostCamera(gpu::Context& context) { stores_.cube = CubeMap(context, 64, 1, "host.environment"); }
 
-    void makeInputs(gpu::Recorder& f, const ViewParams& view) {
+    /// spoiled: with infinity, NaN, the largest half float and negative values in every image of floats.
+    void makeInputs(gpu::Recorder& f, const ViewParams& view, bool spoiled) {
         const vec4 onWall = view.worldToClip * vec4(0.0F, 0.0F, -wallDistance, 1.0F);
         const size_t count = size_t(size.x) * size.y;
         std::vector<float> depth(count, onWall.z / onWall.w);
@@ -94,14 +96,31 @@ public:
             depth[i] = i < 4 * size.x ? 0.0F : depth[i];
             material[i] = i % size.x < size.x / 2 ? 0x00FFFF00U : material[i];
         }
+        std::vector<float> shadowMap(count, 0.0F);
+        std::vector<uint64_t> emissive(count, 0);
+        std::vector<uint64_t> motion(count, 0);
+        std::vector<uint64_t> sky(count, 0x3C003C003C003C00U);  // white
+        if (spoiled) {
+            constexpr std::array<float, 4> floats{NAN, INFINITY, 65504.0F, -2.0F};
+            constexpr std::array<uint64_t, 4> halves{0x7E00U, 0x7C00U, 0x7BFFU, 0xC000U};
+            for (size_t i = 0; i < count; i += 7) {
+                const size_t which = i / 7 % 4;
+                const uint64_t texel = halves[which] * 0x0001000100010001U;
+                depth[i] = floats[which];
+                shadowMap[count - 1 - i] = floats[which];
+                emissive[(i + 1) % count] = texel;
+                motion[(i + 2) % count] = texel;
+                sky[(i + 3) % count] = texel;
+            }
+        }
         upload(f, stores_.depth, VK_FORMAT_R32_SFLOAT, depth);
         upload(f, stores_.normal, VK_FORMAT_R32_UINT, std::vector<uint32_t>(count, 0));
         upload(f, stores_.color, VK_FORMAT_R8G8B8A8_UNORM, std::vector<uint32_t>(count, 0xFF80A0C0U));
         upload(f, stores_.material, VK_FORMAT_R8G8B8A8_UNORM, material);
-        upload(f, stores_.emissive, colorFormat, std::vector<uint64_t>(count, 0));
-        upload(f, stores_.motion, colorFormat, std::vector<uint64_t>(count, 0));
-        upload(f, stores_.shadowMap, VK_FORMAT_R32_SFLOAT, std::vector<float>(count, 0.0F));
-        upload(f, stores_.sky, colorFormat, std::vector<uint64_t>(count, 0x3C003C003C003C00U));  // white
+        upload(f, stores_.emissive, colorFormat, emissive);
+        upload(f, stores_.motion, colorFormat, motion);
+        upload(f, stores_.shadowMap, VK_FORMAT_R32_SFLOAT, shadowMap);
+        upload(f, stores_.sky, colorFormat, sky);
         f.update(stores_.blueNoise.get(f, blueNoise().size_bytes()), std::as_bytes(blueNoise()));
         ggxTable(f, stores_.ggx);
         prefilterEnvironment(f, stores_.cube, stores_.sky.last());
@@ -244,7 +263,7 @@ TEST(EffectsHost, RecordsEveryEffectBetweenItsOwnCommands) {
             host.frame([&](VkCommandBuffer commands) {
                 recorder.begin(commands);
                 if (frame == 0) {
-                    camera.makeInputs(recorder, viewOf(frame));
+                    camera.makeInputs(recorder, viewOf(frame), false);
                 }
                 results = camera.record(recorder, viewOf(frame));
                 recorder.end();
@@ -276,6 +295,34 @@ TEST(EffectsHost, RecordsEveryEffectBetweenItsOwnCommands) {
     for (const std::string& message : host.messages()) {
         ADD_FAILURE() << message;
     }
+}
+
+TEST(EffectsHost, StaysFiniteWhateverTheInputsHold) {
+    Host host;
+    {
+        gpu::Context context(host.device());
+        context.shaders().add(effectShaders());
+        gpu::Recorder recorder(context, Host::framesInFlight);
+        HostCamera camera(context);
+        Results results;
+        for (uint32_t frame = 0; frame < 4; ++frame) {
+            host.frame([&](VkCommandBuffer commands) {
+                recorder.begin(commands);
+                if (frame == 0) {
+                    camera.makeInputs(recorder, viewOf(frame), true);
+                }
+                results = camera.record(recorder, viewOf(frame));
+                recorder.end();
+            });
+        }
+        host.waitForAll();
+        recorder.finish();
+        expectLight(recorder, results.lit, colorFormat, "lit");
+        expectLight(recorder, results.accumulated, VK_FORMAT_R32G32B32A32_SFLOAT, "mean of frames");
+        expectLight(recorder, results.temporal, colorFormat, "temporal antialiasing");
+        expectLight(recorder, results.display, VK_FORMAT_R8G8B8A8_UNORM, "display");
+    }
+    EXPECT_TRUE(host.messages().empty()) << host.messages().front();
 }
 
 // A new effect is to be recorded above, too.
