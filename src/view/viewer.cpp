@@ -57,13 +57,11 @@ ViewerState initialState(const ViewerOptions& options) {
 }
 
 gpu::DeviceOptions deviceOptions(const ViewerOptions& options) {
-    gpu::DeviceOptions device;
-    device.select = options.device;
-    device.validation = options.validate;
-    device.onMessage = printWarning;
-    device.shaders = {effectShaders(), rendererShaders()};
-    device.windowExtensions = Window::vulkanExtensions();
-    return device;
+    return {.select = options.device,
+            .validation = options.validate,
+            .onMessage = printWarning,
+            .shaders = {effectShaders(), rendererShaders()},
+            .windowExtensions = Window::vulkanExtensions()};
 }
 
 uvec2 parsePixel(const std::string& text) {
