@@ -7,7 +7,7 @@
 #include "device/device.h"
 #include "renderer/presets.h"
 #include "scene/builtin.h"
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>

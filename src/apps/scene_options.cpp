@@ -9,7 +9,7 @@
 #include "scene/builtin.h"
 #include "scene/default_light.h"
 #include "scene/framing.h"
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 #include "scene/view_file.h"
 
 #include <CLI/CLI.hpp>

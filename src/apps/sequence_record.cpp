@@ -6,7 +6,7 @@
 #include "base/file.h"
 #include "base/json.h"
 #include "base/json_text.h"
-#include "scene/gltf_uri.h"
+#include "scene/gltf/uri.h"
 
 #include <algorithm>
 #include <array>

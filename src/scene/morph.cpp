@@ -1,7 +1,7 @@
 // Morph targets at given weights.
 #include "scene/morph.h"
 
-#include "scene/gltf_normals.h"
+#include "scene/gltf/normals.h"
 
 #include <span>
 

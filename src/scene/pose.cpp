@@ -1,7 +1,7 @@
 // Evaluates a scene at a time: keyframes, then nodes, then instances, skins, morph targets, cameras and lights.
 #include "scene/pose.h"
 
-#include "scene/gltf_normals.h"
+#include "scene/gltf/normals.h"
 #include "scene/morph.h"
 #include "scene/sample_channel.h"
 

@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "scene/framing.h"
-#include "scene/gltf_normals.h"
+#include "scene/gltf/normals.h"
 #include "scene/pose.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "pass/scene_rays_harness.h"
 
 #include "scene/builtin.h"
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 
 #include <cstdlib>
 #include <filesystem>

@@ -1,7 +1,7 @@
 // Invalid glTF containers and files: each is reported in one line, as an error or as a warning.
 #include "base/error.h"
 #include "gltf_builder.h"
-#include "scene/gltf_report.h"
+#include "scene/gltf/report.h"
 
 #include <gtest/gtest.h>
 

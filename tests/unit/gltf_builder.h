@@ -1,7 +1,7 @@
 // Builds small glTF files for the tests, valid or invalid.
 #pragma once
 
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 
 #include <array>
 #include <cstdint>

@@ -1,0 +1,176 @@
+// Reads a .gltf or .glb file into its JSON document and its binary chunk.
+// Layout of a .glb: "Binary glTF Layout", Khronos glTF 2.0 specification, 2021.
+#include "scene/gltf/container.h"
+#include "base/json_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <fstream>
+#include <span>
+#include <system_error>
+
+namespace reflet {
+
+namespace {
+
+constexpr uint64_t maxFileBytes = 1ULL << 32U;  // a .glb stores its length in 32 bits
+constexpr uint64_t maxJsonBytes = 1ULL << 29U;
+constexpr int maxJsonDepth = 128;
+constexpr size_t headerBytes = 12;
+constexpr size_t chunkHeaderBytes = 8;
+constexpr uint32_t magicGltf = 0x46546C67;
+constexpr uint32_t chunkJson = 0x4E4F534A;
+constexpr uint32_t chunkBin = 0x004E4942;
+
+using Bytes = std::span<const uint8_t>;
+
+uint32_t readU32(Bytes bytes, size_t at) {
+    return uint32_t(bytes[at]) | uint32_t(bytes[at + 1]) << 8U | uint32_t(bytes[at + 2]) << 16U |
+           uint32_t(bytes[at + 3]) << 24U;
+}
+
+/// Depth of nested brackets outside strings. The JSON library's parser callback could tell, but takes time quadratic in
+/// the length of arrays.
+int nesting(Bytes text) {
+    int depth = 0;
+    int deepest = 0;
+    bool inString = false;
+    for (size_t i = 0; i < text.size(); ++i) {
+        const char c = static_cast<char>(text[i]);
+        if (inString) {
+            i += c == '\\' ? 1 : 0;
+            inString = c != '"';
+        } else if (c == '"') {
+            inString = true;
+        } else if (c == '[' || c == '{') {
+            deepest = std::max(deepest, ++depth);
+        } else if (c == ']' || c == '}') {
+            --depth;
+        }
+    }
+    return deepest;
+}
+
+nlohmann::json parseJson(Bytes text, const GltfReport& report) {
+    if (text.size() > maxJsonBytes) {
+        report.fail("JSON", "has {} bytes, more than the limit of {} MiB", text.size(), maxJsonBytes >> 20U);
+    }
+    if (nesting(text) > maxJsonDepth) {
+        report.fail("JSON", "is nested more than {} levels deep", maxJsonDepth);
+    }
+    try {
+        return reflet::parseJson({reinterpret_cast<const char*>(text.data()), text.size()});
+    } catch (const nlohmann::json::parse_error& error) {
+        const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min<size_t>(error.byte, text.size()));
+        report.fail("JSON", "is not valid JSON at line {}, byte {} of {}", 1 + std::count(text.begin(), end, '\n'),
+                    error.byte, text.size());
+    } catch (const nlohmann::json::exception& error) {  // a number beyond the range of doubles
+        report.fail("JSON", "{}", error.what());
+    }
+}
+
+/// Some writers pad the JSON of a .glb with zeros instead of spaces.
+Bytes withoutZeros(Bytes text, GltfReport& report) {
+    const auto last = std::find_if(text.rbegin(), text.rend(), [](uint8_t c) { return c != 0; });
+    const auto zeros = static_cast<size_t>(last - text.rbegin());
+    report.tolerate("they will be ignored", [&] {
+        if (zeros > 0) {
+            report.fail("JSON", "ends with {} zero bytes", zeros);
+        }
+    });
+    return text.first(text.size() - zeros);
+}
+
+/// The bytes of the chunk that starts at `at`, which is advanced past it.
+Bytes nextChunk(Bytes file, size_t& at, uint32_t& type, GltfReport& report) {
+    if (file.size() - at < chunkHeaderBytes) {
+        report.fail("GLB chunk", "its header at byte {} is truncated", at);
+    }
+    const uint64_t length = readU32(file, at);
+    type = readU32(file, at + 4);
+    at += chunkHeaderBytes;
+    const auto check = [&] {
+        if (length > file.size() - at) {
+            report.fail("GLB chunk", "at byte {} says it has {} bytes, but only {} follow", at - chunkHeaderBytes,
+                        length, file.size() - at);
+        }
+    };
+    if (type != chunkBin) {
+        check();
+    }
+    report.tolerate("what lies beyond the end of the file will be missing", check);
+    const Bytes chunk = file.subspan(at, std::min<uint64_t>(length, file.size() - at));
+    at += chunk.size();
+    return chunk;
+}
+
+GltfContainer splitGlb(Bytes file, GltfReport& report) {
+    if (file.size() < headerBytes) {
+        report.fail("GLB header", "is truncated after {} bytes", file.size());
+    }
+    if (const uint32_t version = readU32(file, 4); version != 2) {
+        report.fail("GLB header",
+                    "says version {}, but only version 2 is supported: convert the file, or export it anew", version);
+    }
+    report.tolerate("what the file has will be read", [&] {
+        if (const uint32_t length = readU32(file, 8); length != file.size()) {
+            report.fail("GLB header", "says the file has {} bytes, but it has {}", length, file.size());
+        }
+    });
+    GltfContainer result;
+    size_t at = headerBytes;
+    uint32_t type = 0;
+    const Bytes json = nextChunk(file, at, type, report);
+    if (type != chunkJson) {
+        report.fail("GLB chunk", "the first one is not JSON");
+    }
+    report.tolerate("what follows the last whole chunk will be missing", [&] {
+        while (at < file.size() && !result.bin) {
+            const Bytes chunk = nextChunk(file, at, type, report);
+            if (type == chunkBin) {
+                result.bin.emplace(chunk.begin(), chunk.end());
+            }
+        }
+    });
+    result.document = parseJson(withoutZeros(json, report), report);
+    return result;
+}
+
+}  // namespace
+
+std::vector<uint8_t> readFileBytes(const std::filesystem::path& path, uint64_t maxBytes, std::string_view part,
+                                   const GltfReport& report) {
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (status.type() == std::filesystem::file_type::not_found) {
+        report.fail(part, "there is no file {}", path.string());
+    }
+    if (!std::filesystem::is_regular_file(status)) {  // reading a pipe or a device might never end
+        report.fail(part, "{} is not a file", path.string());
+    }
+    const uint64_t size = std::filesystem::file_size(path, error);
+    std::ifstream stream(path, std::ios::binary);
+    if (error || !stream) {
+        report.fail(part, "{} cannot be read", path.string());
+    }
+    std::vector<uint8_t> bytes(std::min(size, maxBytes));
+    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (static_cast<uint64_t>(stream.gcount()) != bytes.size()) {
+        report.fail(part, "{} cannot be read to its end", path.string());
+    }
+    return bytes;
+}
+
+GltfContainer readGltfContainer(const std::filesystem::path& path, GltfReport& report) {
+    const std::vector<uint8_t> file = readFileBytes(path, maxFileBytes, "", report);
+    if (file.empty()) {
+        report.fail("", "is empty");
+    }
+    if (file.size() >= 4 && readU32(file, 0) == magicGltf) {
+        return splitGlb(file, report);
+    }
+    return {.document = parseJson(file, report), .bin = std::nullopt};
+}
+
+}  // namespace reflet

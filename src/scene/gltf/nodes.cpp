@@ -1,0 +1,226 @@
+// Places instances, cameras, lamps and the sun by the nodes of a glTF scene.
+#include "scene/gltf/nodes.h"
+
+#include "scene/gltf/instancing.h"
+#include "scene/gltf/morph.h"
+#include "scene/gltf/motion.h"
+#include "scene/morph.h"
+#include "scene/pose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace reflet {
+
+namespace {
+
+constexpr uint64_t posedVertexBytes = 2 * sizeof(vec3) + sizeof(VertexAttributes);
+constexpr float narrowest = 1e-3F;  // of spot lights whose angles are invalid [rad]
+constexpr float sharpEdge = 0.99F;  // of the outer angle
+constexpr float minNear = 1e-3F;    // metres; for orthographic cameras, whose znear may be 0 in glTF
+
+Camera placeCamera(const tinygltf::Camera& source, const mat4& toWorld, const std::string& part,
+                   const GltfReport& report) {
+    Camera camera;
+    camera.name = source.name;
+    setTransform(camera, toWorld);
+    camera.aims = false;
+    if (source.type == "orthographic") {
+        const auto& ortho = source.orthographic;
+        if (!(ortho.zfar > ortho.znear)) {
+            report.fail(part + ".orthographic", "zfar {} is not beyond znear {}", ortho.zfar, ortho.znear);
+        }
+        camera.orthographicHeight = static_cast<float>(2.0 * ortho.ymag);
+        camera.far = static_cast<float>(ortho.zfar);
+        camera.near = std::max(static_cast<float>(ortho.znear), std::min(minNear, 0.5F * camera.far));
+    } else {
+        camera.fovY = static_cast<float>(source.perspective.yfov);
+        camera.near = static_cast<float>(source.perspective.znear);
+    }
+    return camera;
+}
+
+/// Sets the angles. glTF has no spot light with a hard edge.
+void readCone(const tinygltf::SpotLight& source, const std::string& part, Lamp& lamp, GltfReport& report) {
+    lamp.innerAngle = static_cast<float>(source.innerConeAngle);
+    lamp.outerAngle = static_cast<float>(source.outerConeAngle);
+    const bool isCone = report.tolerate("the edge of its cone will be sharp", [&] {
+        if (!(source.innerConeAngle < source.outerConeAngle)) {
+            report.fail(part + ".spot", "innerConeAngle {} is not less than outerConeAngle {}", source.innerConeAngle,
+                        source.outerConeAngle);
+        }
+    });
+    if (!isCone) {
+        lamp.outerAngle = std::max(lamp.outerAngle, narrowest);
+        lamp.innerAngle = sharpEdge * lamp.outerAngle;
+    }
+}
+
+Lamp placeLamp(const tinygltf::Light& source, const mat4& toWorld, const std::string& part, GltfReport& report) {
+    Lamp lamp;
+    lamp.name = source.name;
+    lamp.type = source.type == "spot"          ? Lamp::Type::spot
+                : source.type == "directional" ? Lamp::Type::directional
+                                               : Lamp::Type::point;
+    setTransform(lamp, toWorld);
+    const glm::dvec3 intensity = vectorOr(source.color, glm::dvec3(1.0)) * source.intensity;
+    lamp.intensity = vec3(intensity);
+    if (!std::isfinite(glm::length(glm::dvec3(lamp.intensity)))) {
+        report.fail(part, "color times intensity is not finite");
+    }
+    lamp.range = static_cast<float>(source.range);
+    if (lamp.type == Lamp::Type::spot) {
+        readCone(source.spot, part, lamp, report);
+    }
+    if (source.extras.Has("radius")) {
+        lamp.radius = static_cast<float>(source.extras.Get("radius").GetNumberAsDouble());
+    }
+    return lamp;
+}
+
+class NodePlacer {
+public:
+    NodePlacer(const GltfDocument& document, GltfMeshes& meshes, const GltfMotion& motion, Scene& scene,
+               GltfReport& report)
+        : document_(document), meshes_(meshes), motion_(motion), scene_(scene), report_(report) {}
+
+    /// Returns the node's own object-to-world matrix.
+    glm::dmat4 place(int index, const glm::dmat4& parentToWorld) {
+        const tinygltf::Node& node = document_.model.nodes[static_cast<size_t>(index)];
+        const std::string part = fmt::format("nodes[{}]", index);
+        const glm::dmat4 exact = parentToWorld * localTransform(readGltfNode(node));
+        const mat4 toWorld(exact);
+        if (!isFinite(toWorld)) {
+            report_.fail(part, "its transform to the world is not finite");
+        }
+        if (node.mesh >= 0) {
+            addCopies(index, exact, part);
+        }
+        if (node.camera >= 0) {
+            report_.tolerate("the camera will be missing", [&] { addCamera(node.camera, index, toWorld); });
+        }
+        const auto light = node.extensions.find("KHR_lights_punctual");
+        if (light != node.extensions.end()) {
+            const int which = light->second.Get("light").GetNumberAsInt();
+            report_.tolerate("the lamp will be missing", [&] { addLight(which, index, toWorld); });
+        }
+        return exact;
+    }
+
+private:
+    void addCopies(int index, const glm::dmat4& nodeToWorld, const std::string& part) {
+        const tinygltf::Node& node = document_.model.nodes[static_cast<size_t>(index)];
+        for (const glm::dmat4& toNode : readGltfCopies(document_, node, part, report_)) {
+            const mat4 toWorld(nodeToWorld * toNode);
+            report_.tolerate("the mesh will not be drawn", [&] {
+                if (!isFinite(toWorld)) {
+                    report_.fail(part, "the transform of an instance to the world is not finite");
+                }
+                addInstances(index, toWorld, mat4(toNode), part);
+            });
+            if (node.skin >= 0) {
+                break;  // joints alone place a skinned mesh: all copies would be in the same place
+            }
+        }
+    }
+
+    void addInstances(int index, const mat4& toWorld, const mat4& toNode, const std::string& part) {
+        const tinygltf::Node& node = document_.model.nodes[static_cast<size_t>(index)];
+        const std::vector<float> weights = gltfMorphWeights(document_, node, part, report_);
+        for (const uint32_t primitive : meshes_.use(node.mesh)) {
+            report_.tolerate("the mesh will not be drawn", [&] {
+                Instance instance{.name = node.name, .mesh = primitive, .objectToWorld = toWorld};
+                instance.objectToNode = toNode;
+                addInstance(index, std::move(instance), weights, part);
+            });
+        }
+    }
+
+    void addInstance(int index, Instance instance, const std::vector<float>& weights, const std::string& part) {
+        const tinygltf::Node& node = document_.model.nodes[static_cast<size_t>(index)];
+        const bool animated = !weights.empty() && motion_.animatesWeights(index);
+        instance.mesh = animated ? instance.mesh : shaped(instance.mesh, weights, part);
+        const Mesh& mesh = scene_.meshes[instance.mesh];
+        const Aabb box = transformed(mesh.bounds, instance.objectToWorld);
+        if (!std::isfinite(glm::length(glm::dvec3(box.min) - glm::dvec3(box.max)))) {
+            report_.fail(part, "its mesh extends beyond the range of floats");
+        }
+        if (node.skin >= 0) {
+            report_.tolerate("the mesh will not be deformed",
+                             [&] { instance.skin = motion_.skin(node.skin, instance.mesh, part); });
+        }
+        report_.charge(part,
+                       sizeof(Instance) + node.name.size() + (animated ? posedVertexBytes * mesh.positions.size() : 0));
+        instance.node = motion_.node(index);
+        instance.weights = animated ? weights : std::vector<float>{};
+        scene_.instances.push_back(std::move(instance));
+    }
+
+    /// The mesh with weights that never change: a mesh of its own unless they are 0.
+    uint32_t shaped(uint32_t mesh, const std::vector<float>& weights, const std::string& part) {
+        if (std::ranges::all_of(weights, [](float w) { return w == 0.0F; })) {
+            return mesh;
+        }
+        const auto [found, isNew] = shaped_.try_emplace({mesh, weights}, static_cast<uint32_t>(scene_.meshes.size()));
+        if (isNew) {
+            report_.charge(part, scene_.meshes[mesh].positions.size() * (posedVertexBytes + sizeof(VertexSkin)) +
+                                     scene_.meshes[mesh].indices.size() * sizeof(uint32_t));
+            scene_.meshes.push_back(morphed(scene_.meshes[mesh], weights));
+        }
+        return found->second;
+    }
+
+    void addCamera(int camera, int node, const mat4& toWorld) {
+        const auto& source = document_.model.cameras[static_cast<size_t>(camera)];
+        scene_.cameras.push_back(placeCamera(source, toWorld, fmt::format("cameras[{}]", camera), report_));
+        scene_.cameras.back().node = motion_.node(node);
+    }
+
+    void addLight(int light, int node, const mat4& toWorld) {
+        const std::string part = fmt::format("extensions.KHR_lights_punctual.lights[{}]", light);
+        Lamp lamp = placeLamp(document_.model.lights[static_cast<size_t>(light)], toWorld, part, report_);
+        lamp.node = motion_.node(node);
+        if (lamp.type == Lamp::Type::directional && !scene_.sun) {
+            scene_.sun = Sun{.direction = lamp.direction, .irradiance = lamp.intensity, .node = lamp.node};
+        } else {
+            scene_.lamps.push_back(std::move(lamp));
+        }
+    }
+
+    const GltfDocument& document_;
+    GltfMeshes& meshes_;
+    const GltfMotion& motion_;
+    Scene& scene_;
+    GltfReport& report_;
+    std::map<std::pair<uint32_t, std::vector<float>>, uint32_t> shaped_;  ///< by mesh and weights
+};
+
+}  // namespace
+
+void placeGltfNodes(const GltfDocument& document, const std::vector<int>& roots, GltfMeshes& meshes, Scene& scene,
+                    GltfReport& report) {
+    struct Open {
+        int node;
+        glm::dmat4 parentToWorld;
+    };
+    const GltfMotion motion(document, scene, report);
+    NodePlacer placer(document, meshes, motion, scene, report);
+    std::vector<Open> open;  // an explicit stack: a long chain of nodes would overflow the call stack
+    const auto push = [&](const std::vector<int>& nodes, const glm::dmat4& parentToWorld) {
+        for (size_t i = nodes.size(); i-- > 0;) {  // in reverse, so that the first is popped first
+            open.push_back({nodes[i], parentToWorld});
+        }
+    };
+    push(roots, glm::dmat4(1.0));
+    while (!open.empty()) {
+        const Open next = open.back();
+        open.pop_back();
+        report.tolerate("the node and those below it will not be drawn", [&] {
+            const glm::dmat4 toWorld = placer.place(next.node, next.parentToWorld);
+            push(document.model.nodes[static_cast<size_t>(next.node)].children, toWorld);
+        });
+    }
+}
+
+}  // namespace reflet

@@ -1,0 +1,200 @@
+// Gives access to the attributes and triangles of a glTF primitive, whether from accessors or from Draco.
+#include "scene/gltf/primitive.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+namespace reflet {
+
+namespace {
+
+struct SemanticRule {
+    const char* semantic;
+    int minComponents;
+    int maxComponents;
+    const char* without;  ///< consequence of leaving it out; null: the primitive cannot be drawn without it
+};
+constexpr std::array<SemanticRule, 8> semantics{{{"POSITION", 3, 3, nullptr},
+                                                 {"NORMAL", 3, 3, "the surface will be faceted"},
+                                                 {"TANGENT", 4, 4, "the tangents will be computed"},
+                                                 {"TEXCOORD_0", 2, 2, "textures will have one colour"},
+                                                 {"TEXCOORD_1", 2, 2, "textures will have one colour"},
+                                                 {"COLOR_0", 3, 4, "vertex colours will be missing"},
+                                                 {"JOINTS_0", 4, 4, "the mesh will not be deformed"},
+                                                 {"WEIGHTS_0", 4, 4, "the mesh will not be deformed"}}};
+
+constexpr uint32_t noVertex = 0xFFFFFFFF;  // greater than any index
+
+/// The types of glTF 2.0 and KHR_mesh_quantization: all but 32-bit integers, which floats cannot represent.
+void checkType(const tinygltf::Accessor& accessor, const SemanticRule& rule, int index, const GltfReport& report) {
+    const bool isVector = accessor.type == TINYGLTF_TYPE_VEC2 || accessor.type == TINYGLTF_TYPE_VEC3 ||
+                          accessor.type == TINYGLTF_TYPE_VEC4;
+    const int components = tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor.type));
+    if (!isVector || components < rule.minComponents || components > rule.maxComponents) {
+        report.fail(fmt::format("accessors[{}]", index), "has {} components{}, but a {} has {}", components,
+                    isVector ? "" : " that are not a vector", rule.semantic, rule.minComponents);
+    }
+    const bool isJoint = accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                         accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+    if (accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT ||
+        (std::string_view(rule.semantic) == "JOINTS_0" && !isJoint)) {
+        report.fail(fmt::format("accessors[{}].componentType", index), "is {}, which is not allowed for {}",
+                    accessor.componentType, rule.semantic);
+    }
+}
+
+/// `expected`: the number of vertices.
+AccessorView openAttribute(const GltfDocument& document, const SemanticRule& rule, int accessor,
+                           const DracoPrimitive& draco, std::optional<uint32_t> expected, const std::string& part,
+                           GltfReport& report) {
+    report.use("accessors", static_cast<size_t>(accessor));
+    checkType(document.model.accessors[static_cast<size_t>(accessor)], rule, accessor, report);
+    const auto decoded = draco.attributes.find(rule.semantic);
+    AccessorView view = decoded != draco.attributes.end() ? decoded->second : viewAccessor(document, accessor, report);
+    if (view.count != expected.value_or(view.count)) {
+        report.fail(fmt::format("{}.attributes.{}", part, rule.semantic), "has {} vertices, but POSITION has {}",
+                    view.count, *expected);
+    }
+    return view;
+}
+
+std::map<std::string, AccessorView> openAttributes(const GltfDocument& document, const tinygltf::Primitive& primitive,
+                                                   const DracoPrimitive& draco, const std::string& part,
+                                                   GltfReport& report) {
+    std::map<std::string, AccessorView> result;
+    for (const SemanticRule& rule : semantics) {
+        const auto found = primitive.attributes.find(rule.semantic);
+        if (found == primitive.attributes.end()) {
+            continue;
+        }
+        const auto positions = result.find("POSITION");  // the first of the semantics
+        const auto expected = positions != result.end() ? std::optional(positions->second.count) : std::nullopt;
+        const auto open = [&] {
+            result.insert_or_assign(rule.semantic,
+                                    openAttribute(document, rule, found->second, draco, expected, part, report));
+        };
+        if (rule.without == nullptr) {
+            open();
+        } else {
+            report.tolerate(rule.without, open);
+        }
+    }
+    return result;
+}
+
+/// Indices that are invalid are noVertex.
+std::vector<uint32_t> readIndices(const GltfDocument& document, int index, uint32_t vertices, GltfReport& report) {
+    const auto& accessor = document.model.accessors[static_cast<size_t>(index)];
+    const std::string part = fmt::format("accessors[{}]", index);
+    uint32_t restart = 0xFFFFFFFF;
+    switch (accessor.componentType) {
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            restart = 0xFF;
+            break;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            restart = 0xFFFF;
+            break;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+            break;
+        default:
+            report.fail(part + ".componentType", "is {}, which is not allowed for indices", accessor.componentType);
+    }
+    if (accessor.type != TINYGLTF_TYPE_SCALAR) {
+        report.fail(part + ".type", "is not SCALAR, as indices must be");
+    }
+    const AccessorView view = viewAccessor(document, index, report);
+    report.charge(part, uint64_t(view.count) * sizeof(uint32_t));
+    std::vector<uint32_t> indices(view.count);
+    uint32_t firstInvalid = view.count;
+    for (uint32_t i = 0; i < view.count; ++i) {
+        indices[i] = view.integerAt(i);
+        if (indices[i] == restart || indices[i] >= vertices) {
+            firstInvalid = std::min(firstInvalid, i);
+            indices[i] = noVertex;
+        }
+    }
+    report.tolerate("triangles will be missing", [&] {
+        if (firstInvalid < view.count) {
+            const uint32_t invalid = view.integerAt(firstInvalid);
+            if (invalid == restart) {
+                report.fail(part, "index {} is {}, the primitive restart value, which glTF does not allow",
+                            firstInvalid, invalid);
+            }
+            report.fail(part, "index {} is {}, but there are {} vertices", firstInvalid, invalid, vertices);
+        }
+    });
+    return indices;
+}
+
+/// glTF 2.0, 3.7.2.1: the vertices of a triangle in a list, strip or fan.
+std::array<uint32_t, 3> corners(int mode, uint32_t triangle) {
+    switch (mode) {
+        case TINYGLTF_MODE_TRIANGLE_STRIP:
+            return {triangle, triangle + 1 + triangle % 2, triangle + 2 - triangle % 2};
+        case TINYGLTF_MODE_TRIANGLE_FAN:
+            return {triangle + 1, triangle + 2, 0};
+        default:
+            return {3 * triangle, 3 * triangle + 1, 3 * triangle + 2};
+    }
+}
+
+/// Without `indices`: the vertices in order.
+std::vector<uint32_t> makeTriangles(int mode, const std::vector<uint32_t>* indices, uint32_t vertices,
+                                    const std::string& part, GltfReport& report) {
+    const uint32_t count = indices != nullptr ? static_cast<uint32_t>(indices->size()) : vertices;
+    const bool list = mode == TINYGLTF_MODE_TRIANGLES;
+    const auto check = [&] {
+        if (count < 3 || (list && count % 3 != 0)) {
+            report.fail(part, "{} {} do not make whole triangles", count, indices != nullptr ? "indices" : "vertices");
+        }
+    };
+    if (count < 3) {
+        check();
+    }
+    report.tolerate("the incomplete triangle will be missing", check);
+    const uint32_t triangles = list ? count / 3 : count - 2;
+    report.charge(part, uint64_t(triangles) * 3 * sizeof(uint32_t));
+    std::vector<uint32_t> result;
+    result.reserve(size_t(triangles) * 3);
+    for (uint32_t t = 0; t < triangles; ++t) {
+        std::array<uint32_t, 3> triangle = corners(mode, t);
+        for (uint32_t& corner : triangle) {
+            corner = indices != nullptr ? (*indices)[corner] : corner;
+        }
+        if (std::ranges::find(triangle, noVertex) == triangle.end()) {
+            result.insert(result.end(), triangle.begin(), triangle.end());
+        }
+    }
+    if (result.empty()) {
+        report.fail(part, "has no triangle whose indices are all valid");
+    }
+    return result;
+}
+
+}  // namespace
+
+PrimitiveSource openPrimitive(const GltfDocument& document, const tinygltf::Primitive& primitive,
+                              const std::string& part, GltfReport& report) {
+    PrimitiveSource source;
+    const bool compressed = primitive.extensions.contains("KHR_draco_mesh_compression");
+    if (compressed) {
+        source.draco = decodeDraco(document, primitive, part, report);
+    }
+    source.attributes = openAttributes(document, primitive, source.draco, part, report);
+    const uint32_t vertices = source.attributes.at("POSITION").count;
+    if (compressed) {  // Draco stores triangles, whatever the mode
+        if (source.draco.attributes.empty() || source.draco.indices.empty()) {
+            report.fail(part + ".extensions.KHR_draco_mesh_compression", "holds no triangles");
+        }
+        source.triangles = std::move(source.draco.indices);
+    } else if (primitive.indices >= 0) {
+        const std::vector<uint32_t> indices = readIndices(document, primitive.indices, vertices, report);
+        source.triangles = makeTriangles(primitive.mode, &indices, vertices, part, report);
+    } else {
+        source.triangles = makeTriangles(primitive.mode, nullptr, vertices, part, report);
+    }
+    return source;
+}
+
+}  // namespace reflet

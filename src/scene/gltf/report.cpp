@@ -1,0 +1,82 @@
+// Problems of glTF files as errors or warnings, and a limit on the memory of a scene.
+#include "scene/gltf/report.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace reflet {
+
+namespace {
+constexpr size_t maxLineLength = 200;
+constexpr uint64_t maxSceneBytes = 8ULL << 30U;
+constexpr uint64_t maxProblems = 100000;  // each takes microseconds
+}  // namespace
+
+std::string oneLine(std::string_view text) {
+    std::string result(text.substr(0, maxLineLength));
+    std::replace_if(
+        result.begin(), result.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
+    return text.size() > maxLineLength ? result + "..." : result;
+}
+
+std::string GltfReport::place(std::string_view part) const {
+    return oneLine(file_) + ": " + (part.empty() ? "" : oneLine(part) + ": ");
+}
+
+std::string GltfReport::line(std::string_view part, std::string_view what) const {
+    return place(part) + oneLine(what);
+}
+
+bool GltfReport::countKind(const std::string& kind) {
+    const auto [found, isNew] = kinds_.try_emplace(kind, warnings_.size());
+    if (!isNew) {
+        ++warnings_[found->second].count;
+    }
+    return isNew;
+}
+
+void GltfReport::forgive(const GltfProblem::Detail& problem, std::string_view consequence) {
+    if (++problems_ > maxProblems) {
+        refuse("", "has more than {} problems", maxProblems);
+    }
+    told_.insert(line(problem.part, problem.text));
+    if (firstProblem_.empty()) {
+        firstProblem_ = problem.part.empty() ? problem.text : problem.part + ": " + problem.text;
+    }
+    if (countKind(fmt::format("{}: {}", consequence, problem.kind))) {
+        warnings_.push_back({fmt::format("{}{}: {}", place(problem.part), consequence, oneLine(problem.text)), 1});
+    }
+}
+
+void GltfReport::throwIfInvalid(std::string_view array, size_t index) const {
+    const auto found = invalid_.find({std::string(array), index});
+    if (found != invalid_.end()) {
+        throw GltfProblem(found->second);
+    }
+}
+
+void GltfReport::printWarnings() {
+    for (const auto& [element, problem] : invalid_) {
+        if (!told_.contains(problem.what())) {
+            forgive(problem.detail, "nothing is missing, because nothing uses it");
+        }
+    }
+    invalid_.clear();
+    for (const Warning& warning : warnings_) {
+        const std::string more = warning.count > 1 ? fmt::format(" (and {} more)", warning.count - 1) : "";
+        if (warn_) {
+            warn_(warning.text + more);
+        }
+    }
+    warnings_.clear();
+    kinds_.clear();
+}
+
+void GltfReport::charge(std::string_view part, uint64_t bytes) {
+    if (bytes > maxSceneBytes - charged_) {
+        refuse(part, "takes the scene past the limit of {} GiB of memory", maxSceneBytes >> 30U);
+    }
+    charged_ += bytes;
+}
+
+}  // namespace reflet

@@ -1,0 +1,18 @@
+// Checks a glTF document against the part of the specification that the loader reads.
+#pragma once
+
+#include "scene/gltf/report.h"
+
+#include <nlohmann/json.hpp>
+
+namespace reflet {
+
+/// Returns a copy that holds only what the loader reads, with all types, ranges and indices checked and whole numbers
+/// as integers. Throws Error with the JSON path of the first invalid value; unless the report is strict, only if
+/// nothing can be read without it. Elements that are tolerated until used are stand-ins, to which nothing refers.
+nlohmann::json checkedGltfDocument(const nlohmann::json& document, GltfReport& report);
+
+/// Whether the loader supports the extension.
+bool knownGltfExtension(const std::string& name);
+
+}  // namespace reflet

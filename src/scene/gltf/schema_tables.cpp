@@ -1,0 +1,394 @@
+// The properties of a glTF document that the loader reads, as tables: JSON schemas of the Khronos glTF 2.0
+// specification, 2021, and of the extensions in knownExtensions.
+#include "scene/gltf/schema_tables.h"
+
+#include <algorithm>
+
+namespace reflet::gltf_schema {
+
+namespace {
+
+constexpr double maxInt = 2147483647.0;  // for values that tinygltf stores in an int
+constexpr double halfPi = 1.5707963705;  // rounded up to float
+
+constexpr std::array<uint64_t, 6> componentTypes{5120, 5121, 5122, 5123, 5125, 5126};
+constexpr std::array<uint64_t, 3> indexTypes{5121, 5123, 5125};
+constexpr std::array<uint64_t, 2> magFilters{9728, 9729};
+constexpr std::array<uint64_t, 6> minFilters{9728, 9729, 9984, 9985, 9986, 9987};
+constexpr std::array<uint64_t, 3> wraps{33071, 33648, 10497};
+constexpr std::array<std::string_view, 7> accessorTypes{"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
+constexpr std::array<std::string_view, 3> alphaModes{"OPAQUE", "MASK", "BLEND"};
+constexpr std::array<std::string_view, 2> cameraTypes{"perspective", "orthographic"};
+constexpr std::array<std::string_view, 3> lightTypes{"directional", "point", "spot"};
+constexpr std::array<std::string_view, 12> attributes{"POSITION",   "NORMAL",      "TANGENT",  "TEXCOORD_0",
+                                                      "TEXCOORD_1", "COLOR_0",     "JOINTS_0", "WEIGHTS_0",
+                                                      "JOINTS_1",   "TRANSLATION", "ROTATION", "SCALE"};
+constexpr std::array<std::string_view, 3> meshoptModes{"ATTRIBUTES", "TRIANGLES", "INDICES"};
+constexpr std::array<std::string_view, 4> meshoptFilters{"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"};
+constexpr std::array<std::string_view, 3> interpolations{"STEP", "LINEAR", "CUBICSPLINE"};
+
+// Consequences of leaving out invalid values.
+constexpr const char* noTexture = "the texture will be left out";
+constexpr const char* noAttribute = "the attribute will be missing";
+constexpr const char* noTargets = "the mesh will keep its base shape";
+constexpr const char* noPrimitive = "the primitive will not be drawn";
+constexpr const char* noMesh = "the mesh will not be drawn";
+constexpr const char* noSkin = "the mesh will not be deformed";
+constexpr const char* noNode = "the node will not be drawn";
+constexpr const char* noScene = "the scene will be empty";
+constexpr const char* noCamera = "the camera will be missing";
+constexpr const char* noLamp = "the lamp will be missing";
+constexpr const char* noAnimation = "the animation will be missing";
+constexpr const char* noChannel = "the channel will be ignored";
+constexpr const char* noExtension = "the extension will be ignored";
+
+// Replace invalid elements. Nothing refers to them, and the loader skips primitives, channels and samplers like these.
+constexpr const char* bufferStandIn = R"({"byteLength": 1})";
+constexpr const char* viewStandIn = R"({"buffer": 0, "byteLength": 1})";
+constexpr const char* accessorStandIn = R"({"componentType": 5126, "count": 1, "type": "SCALAR"})";
+constexpr const char* primitiveStandIn = R"({"attributes": {}, "mode": -1})";
+constexpr const char* meshStandIn = R"({"primitives": []})";
+constexpr const char* cameraStandIn = R"({"type": "perspective", "perspective": {"yfov": 1, "znear": 1}})";
+constexpr const char* lightStandIn = R"({"type": "point"})";
+constexpr const char* skinStandIn = R"({"joints": []})";
+constexpr const char* channelStandIn = R"({"sampler": 0, "target": {"path": ""}})";
+constexpr const char* samplerStandIn = R"({"input": -1, "output": -1})";
+constexpr const char* animationStandIn = R"({"channels": [], "samplers": []})";
+
+constexpr std::array asset{
+    Field{.name = "version", .type = Type::text, .required = true},
+    Field{.name = "minVersion", .type = Type::text},
+};
+
+// Buffers, views and accessors.
+constexpr std::array meshoptBuffer{
+    Field{.name = "fallback", .type = Type::boolean},
+};
+constexpr std::array bufferExtensions{
+    Field{.name = "EXT_meshopt_compression", .type = Type::object, .fields = meshoptBuffer},
+};
+constexpr std::array buffer{
+    Field{.name = "uri", .type = Type::text, .vital = true},
+    Field{.name = "byteLength", .type = Type::integer, .required = true, .min = 1},
+    Field{.name = "extensions", .type = Type::object, .fields = bufferExtensions},
+};
+constexpr std::array meshopt{
+    Field{.name = "buffer", .type = Type::index, .required = true, .refersTo = "buffers"},
+    Field{.name = "byteOffset", .type = Type::integer},
+    Field{.name = "byteLength", .type = Type::integer, .required = true, .min = 1},
+    Field{.name = "byteStride", .type = Type::integer, .required = true, .min = 1, .max = 256},
+    Field{.name = "count", .type = Type::integer, .required = true, .min = 1},
+    Field{.name = "mode", .type = Type::text, .required = true, .words = meshoptModes},
+    Field{.name = "filter", .type = Type::text, .words = meshoptFilters},
+};
+constexpr std::array viewExtensions{
+    Field{.name = "EXT_meshopt_compression", .type = Type::object, .fields = meshopt},
+};
+constexpr std::array bufferView{
+    Field{.name = "buffer", .type = Type::index, .required = true, .refersTo = "buffers"},
+    Field{.name = "byteOffset", .type = Type::integer, .vital = true},
+    Field{.name = "byteLength", .type = Type::integer, .required = true, .min = 1},
+    Field{.name = "byteStride", .type = Type::integer, .min = 4, .max = 252, .multipleOf = 4, .vital = true},
+    Field{.name = "extensions", .type = Type::object, .fields = viewExtensions},
+};
+constexpr std::array sparseIndices{
+    Field{.name = "bufferView", .type = Type::index, .required = true, .refersTo = "bufferViews"},
+    Field{.name = "byteOffset", .type = Type::integer, .max = maxInt, .vital = true},
+    Field{.name = "componentType", .type = Type::integer, .required = true, .numbers = indexTypes},
+};
+constexpr std::array sparseValues{
+    Field{.name = "bufferView", .type = Type::index, .required = true, .refersTo = "bufferViews"},
+    Field{.name = "byteOffset", .type = Type::integer, .max = maxInt, .vital = true},
+};
+constexpr std::array sparse{
+    Field{.name = "count", .type = Type::integer, .required = true, .min = 1, .max = maxInt},
+    Field{.name = "indices", .type = Type::object, .required = true, .fields = sparseIndices},
+    Field{.name = "values", .type = Type::object, .required = true, .fields = sparseValues},
+};
+constexpr std::array accessor{
+    Field{.name = "bufferView", .type = Type::index, .refersTo = "bufferViews", .vital = true},
+    Field{.name = "byteOffset", .type = Type::integer, .vital = true},
+    Field{.name = "componentType", .type = Type::integer, .required = true, .numbers = componentTypes},
+    Field{.name = "normalized", .type = Type::boolean, .vital = true},
+    Field{.name = "count", .type = Type::integer, .required = true, .min = 1, .max = 4294967294.0},
+    Field{.name = "type", .type = Type::text, .required = true, .words = accessorTypes},
+    Field{.name = "sparse", .type = Type::object, .fields = sparse, .vital = true},
+};
+
+// Images and textures.
+constexpr std::array image{
+    Field{.name = "name", .type = Type::text},
+    Field{.name = "uri", .type = Type::text, .vital = true},
+    Field{.name = "mimeType", .type = Type::text},
+    Field{.name = "bufferView", .type = Type::index, .refersTo = "bufferViews", .vital = true},
+};
+constexpr std::array sampler{
+    Field{.name = "magFilter", .type = Type::integer, .numbers = magFilters},
+    Field{.name = "minFilter", .type = Type::integer, .numbers = minFilters},
+    Field{.name = "wrapS", .type = Type::integer, .numbers = wraps},
+    Field{.name = "wrapT", .type = Type::integer, .numbers = wraps},
+};
+constexpr std::array textureFormat{
+    Field{.name = "source", .type = Type::index, .refersTo = "images", .vital = true},
+};
+constexpr std::array textureFormats{
+    Field{.name = "EXT_texture_webp", .type = Type::object, .fields = textureFormat},
+    Field{.name = "KHR_texture_basisu", .type = Type::object, .fields = textureFormat},
+};
+constexpr std::array texture{
+    Field{.name = "sampler", .type = Type::index, .refersTo = "samplers"},
+    Field{.name = "source", .type = Type::index, .refersTo = "images", .vital = true},
+    Field{.name = "extensions", .type = Type::object, .fields = textureFormats},
+};
+
+// Materials.
+constexpr std::array textureTransform{
+    Field{.name = "offset", .array = true, .items = 2},
+    Field{.name = "rotation"},
+    Field{.name = "scale", .array = true, .items = 2},
+    Field{.name = "texCoord", .type = Type::integer, .max = maxInt},
+};
+constexpr std::array textureExtensions{
+    Field{.name = "KHR_texture_transform", .type = Type::object, .fields = textureTransform},
+};
+constexpr std::array textureInfo{
+    Field{.name = "index", .type = Type::index, .required = true, .refersTo = "textures"},
+    Field{.name = "texCoord", .type = Type::integer, .max = maxInt},
+    Field{.name = "scale"},
+    Field{.name = "strength", .min = 0, .max = 1},
+    Field{.name = "extensions", .type = Type::object, .fields = textureExtensions},
+};
+constexpr std::array metallicRoughness{
+    Field{.name = "baseColorFactor", .array = true, .items = 4, .min = 0, .max = 1},
+    Field{.name = "baseColorTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
+    Field{.name = "metallicFactor", .min = 0, .max = 1},
+    Field{.name = "roughnessFactor", .min = 0, .max = 1},
+    Field{.name = "metallicRoughnessTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
+};
+constexpr std::array emissiveStrength{Field{.name = "emissiveStrength", .min = 0}};
+constexpr std::array ior{Field{.name = "ior", .min = 0}};
+constexpr std::array specular{
+    Field{.name = "specularFactor", .min = 0, .max = 1},
+    Field{.name = "specularTexture", .type = Type::object, .fields = textureInfo},
+    Field{.name = "specularColorFactor", .array = true, .items = 3, .min = 0},
+    Field{.name = "specularColorTexture", .type = Type::object, .fields = textureInfo},
+};
+constexpr std::array<Field, 0> unlit{};
+constexpr std::array materialExtensions{
+    Field{.name = "KHR_materials_emissive_strength", .type = Type::object, .fields = emissiveStrength},
+    Field{.name = "KHR_materials_ior", .type = Type::object, .fields = ior},
+    Field{.name = "KHR_materials_specular", .type = Type::object, .fields = specular},
+    Field{.name = "KHR_materials_unlit", .type = Type::object, .fields = unlit},
+};
+constexpr std::array materialExtras{
+    Field{.name = "camera", .type = Type::text},  // Reflet's own: Material::camera
+};
+constexpr std::array material{
+    Field{.name = "name", .type = Type::text},
+    Field{.name = "pbrMetallicRoughness", .type = Type::object, .fields = metallicRoughness},
+    Field{.name = "normalTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
+    Field{.name = "occlusionTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
+    Field{.name = "emissiveTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
+    Field{.name = "emissiveFactor", .array = true, .items = 3, .min = 0, .max = 1},
+    Field{.name = "alphaMode", .type = Type::text, .words = alphaModes},
+    Field{.name = "alphaCutoff", .min = 0},
+    Field{.name = "doubleSided", .type = Type::boolean},
+    Field{.name = "extensions", .type = Type::object, .fields = materialExtensions},
+    Field{.name = "extras", .type = Type::object, .fields = materialExtras, .anyType = true},
+};
+
+// Meshes.
+constexpr std::array draco{
+    Field{.name = "bufferView", .type = Type::index, .required = true, .refersTo = "bufferViews"},
+    Field{.name = "attributes", .type = Type::indexMap, .required = true},
+};
+constexpr std::array variantMapping{
+    Field{.name = "variants", .type = Type::index, .required = true, .array = true, .refersTo = "variants"},
+    Field{.name = "material", .type = Type::index, .required = true, .refersTo = "materials"},
+};
+constexpr std::array variantMappings{
+    Field{.name = "mappings", .type = Type::object, .required = true, .array = true, .fields = variantMapping},
+};
+constexpr std::array primitiveExtensions{
+    Field{.name = "KHR_materials_variants", .type = Type::object, .fields = variantMappings},
+    Field{.name = "KHR_draco_mesh_compression", .type = Type::object, .fields = draco, .vital = true},
+};
+constexpr std::array primitive{
+    Field{.name = "attributes",
+          .type = Type::indexMap,
+          .required = true,
+          .refersTo = "accessors",
+          .without = noAttribute},
+    Field{.name = "indices", .type = Type::index, .refersTo = "accessors", .vital = true},
+    Field{.name = "material", .type = Type::index, .refersTo = "materials"},
+    Field{.name = "mode", .type = Type::integer, .max = 6, .vital = true},
+    Field{.name = "targets", .type = Type::indexMap, .array = true, .refersTo = "accessors", .without = noTargets},
+    Field{.name = "extensions", .type = Type::object, .fields = primitiveExtensions, .vital = true},
+};
+constexpr std::array mesh{
+    Field{.name = "name", .type = Type::text},
+    Field{.name = "primitives",
+          .type = Type::object,
+          .required = true,
+          .array = true,
+          .fields = primitive,
+          .without = noPrimitive,
+          .standIn = primitiveStandIn},
+    Field{.name = "weights", .array = true},
+};
+
+// Nodes, cameras, lights, skins and animations.
+constexpr std::array nodeLight{
+    Field{.name = "light", .type = Type::index, .required = true, .refersTo = "lights"},
+};
+constexpr std::array instancing{
+    Field{.name = "attributes", .type = Type::indexMap, .required = true, .refersTo = "accessors"},
+};
+constexpr std::array nodeExtensions{
+    Field{.name = "EXT_mesh_gpu_instancing", .type = Type::object, .fields = instancing},
+    Field{.name = "KHR_lights_punctual", .type = Type::object, .fields = nodeLight, .without = noLamp},
+};
+constexpr std::array node{
+    Field{.name = "name", .type = Type::text},
+    Field{.name = "camera", .type = Type::index, .refersTo = "cameras", .without = noCamera},
+    Field{
+        .name = "children", .type = Type::index, .array = true, .refersTo = "nodes", .without = noNode, .standIn = ""},
+    Field{.name = "skin", .type = Type::index, .refersTo = "skins", .without = noSkin},
+    Field{.name = "mesh", .type = Type::index, .refersTo = "meshes", .without = noMesh},
+    Field{.name = "matrix", .array = true, .items = 16},
+    Field{.name = "translation", .array = true, .items = 3},
+    Field{.name = "rotation", .array = true, .items = 4},
+    Field{.name = "scale", .array = true, .items = 3},
+    Field{.name = "weights", .array = true},
+    Field{.name = "extensions", .type = Type::object, .fields = nodeExtensions},
+};
+constexpr std::array skin{
+    Field{.name = "name", .type = Type::text},
+    Field{.name = "inverseBindMatrices", .type = Type::index, .refersTo = "accessors", .vital = true},
+    Field{.name = "joints", .type = Type::index, .required = true, .array = true, .refersTo = "nodes"},
+};
+constexpr std::array animationSampler{
+    Field{.name = "input", .type = Type::index, .required = true, .refersTo = "accessors"},
+    Field{.name = "output", .type = Type::index, .required = true, .refersTo = "accessors"},
+    Field{.name = "interpolation", .type = Type::text, .words = interpolations},
+};
+constexpr std::array channelTarget{
+    Field{.name = "node", .type = Type::index, .refersTo = "nodes", .without = noChannel},
+    Field{.name = "path", .type = Type::text, .required = true},
+};
+constexpr std::array channel{
+    Field{.name = "sampler", .type = Type::integer, .required = true, .max = maxInt},
+    Field{.name = "target", .type = Type::object, .required = true, .fields = channelTarget},
+};
+constexpr std::array animation{
+    Field{.name = "name", .type = Type::text},
+    Field{.name = "channels",
+          .type = Type::object,
+          .required = true,
+          .array = true,
+          .fields = channel,
+          .without = noChannel,
+          .standIn = channelStandIn},
+    Field{.name = "samplers",
+          .type = Type::object,
+          .required = true,
+          .array = true,
+          .fields = animationSampler,
+          .without = noChannel,
+          .standIn = samplerStandIn},
+};
+constexpr std::array scene{
+    Field{.name = "name", .type = Type::text},
+    Field{.name = "nodes", .type = Type::index, .array = true, .refersTo = "nodes", .without = noNode, .standIn = ""},
+};
+constexpr std::array perspective{
+    Field{.name = "aspectRatio", .min = 1e-6},
+    Field{.name = "yfov", .required = true, .min = 1e-4, .max = 3.1415, .clamps = false},
+    Field{.name = "znear", .required = true, .min = 1e-6},
+    Field{.name = "zfar", .min = 1e-6},
+};
+constexpr std::array orthographic{
+    Field{.name = "xmag", .required = true},
+    Field{.name = "ymag", .required = true, .min = 1e-6, .clamps = false},
+    Field{.name = "znear", .required = true, .min = 0},
+    Field{.name = "zfar", .required = true, .min = 1e-6, .clamps = false},
+};
+constexpr std::array camera{
+    Field{.name = "name", .type = Type::text},
+    Field{.name = "type", .type = Type::text, .required = true, .words = cameraTypes},
+    Field{.name = "perspective", .type = Type::object, .fields = perspective, .vital = true},
+    Field{.name = "orthographic", .type = Type::object, .fields = orthographic, .vital = true},
+};
+constexpr std::array spot{
+    Field{.name = "innerConeAngle", .min = 0, .max = halfPi},
+    Field{.name = "outerConeAngle", .min = 0, .max = halfPi},
+};
+constexpr std::array lightExtras{
+    Field{.name = "radius", .min = 0},  // Reflet's own: Lamp::radius
+};
+constexpr std::array light{
+    Field{.name = "name", .type = Type::text},
+    Field{.name = "color", .array = true, .items = 3, .min = 0},
+    Field{.name = "intensity", .min = 0},
+    Field{.name = "type", .type = Type::text, .required = true, .words = lightTypes},
+    Field{.name = "range", .min = 1e-6, .clamps = false},
+    Field{.name = "spot", .type = Type::object, .fields = spot, .vital = true},
+    Field{.name = "extras", .type = Type::object, .fields = lightExtras, .anyType = true},
+};
+constexpr std::array lights{
+    Field{.name = "lights",
+          .type = Type::object,
+          .required = true,
+          .array = true,
+          .fields = light,
+          .standIn = lightStandIn},
+};
+constexpr std::array variant{
+    Field{.name = "name", .type = Type::text, .required = true},
+};
+constexpr std::array variants{
+    Field{.name = "variants", .type = Type::object, .required = true, .array = true, .fields = variant},
+};
+constexpr std::array documentExtensions{
+    Field{.name = "KHR_materials_variants", .type = Type::object, .fields = variants},
+    Field{.name = "KHR_lights_punctual", .type = Type::object, .fields = lights},
+};
+
+// What is referred to comes first, so that references to invalid elements are found.
+constexpr std::array root{
+    Field{.name = "asset", .type = Type::object, .required = true, .fields = asset},
+    Field{.name = "extensionsUsed", .type = Type::text, .array = true, .without = noExtension, .standIn = ""},
+    Field{.name = "extensionsRequired", .type = Type::text, .array = true, .without = noExtension, .standIn = ""},
+    Field{.name = "buffers", .type = Type::object, .array = true, .fields = buffer, .standIn = bufferStandIn},
+    Field{.name = "bufferViews", .type = Type::object, .array = true, .fields = bufferView, .standIn = viewStandIn},
+    Field{.name = "accessors", .type = Type::object, .array = true, .fields = accessor, .standIn = accessorStandIn},
+    Field{.name = "images", .type = Type::object, .array = true, .fields = image, .standIn = "{}"},
+    Field{.name = "samplers", .type = Type::object, .array = true, .fields = sampler, .standIn = "{}"},
+    Field{.name = "textures", .type = Type::object, .array = true, .fields = texture, .standIn = "{}"},
+    Field{.name = "materials", .type = Type::object, .array = true, .fields = material, .standIn = "{}"},
+    Field{.name = "extensions", .type = Type::object, .fields = documentExtensions},
+    Field{.name = "meshes", .type = Type::object, .array = true, .fields = mesh, .standIn = meshStandIn},
+    Field{.name = "cameras", .type = Type::object, .array = true, .fields = camera, .standIn = cameraStandIn},
+    Field{.name = "skins", .type = Type::object, .array = true, .fields = skin, .standIn = skinStandIn},
+    Field{.name = "nodes", .type = Type::object, .array = true, .fields = node, .without = noNode, .standIn = "{}"},
+    Field{.name = "animations",
+          .type = Type::object,
+          .array = true,
+          .fields = animation,
+          .without = noAnimation,
+          .standIn = animationStandIn},
+    Field{.name = "scenes", .type = Type::object, .array = true, .fields = scene, .without = noScene, .standIn = "{}"},
+    Field{.name = "scene", .type = Type::index, .refersTo = "scenes"},
+};
+
+}  // namespace
+
+std::span<const Field> document() {
+    return root;
+}
+
+bool knownAttribute(std::string_view name) {
+    return std::find(attributes.begin(), attributes.end(), name) != attributes.end();
+}
+
+}  // namespace reflet::gltf_schema
