@@ -20,7 +20,7 @@ if [[ ! -f build/build.ninja ]]; then
     mkdir -p build
     cmake --preset release -DREFLET_TESTS=OFF >build/configure.log 2>&1 || { cat build/configure.log >&2; exit 1; }
 fi
-cmake --build --preset release --parallel "$cores" --target reflet
+cmake --build --preset release --parallel "$cores" --target reflet_program
 
 step "3 of 3: pictures (about a minute on two cores and no GPU)"
 reflet=build/bin/reflet

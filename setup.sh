@@ -26,7 +26,6 @@ needed=(
     "libtbb-dev: threads"
     "libcli11-dev: command line"
     "nlohmann-json3-dev: JSON"
-    "libspdlog-dev: log"
     "libfmt-dev: text"
     "libglfw3-dev: windows"
     "libimgui-dev: the user interface in them"

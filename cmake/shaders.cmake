@@ -1,5 +1,5 @@
 # Compiles GLSL to SPIR-V and embeds it in the target: reflet_shaders(TARGET FUNCTION FILE...) adds a source that
-# defines `std::span<const reflet::gpu::EmbeddedShader> FUNCTION()`. Shaders are registered by file name. The SPIR-V
+# defines `std::span<const reflet::gpu::Shader> FUNCTION()`: words and interfaces, by file name. The SPIR-V
 # target is Vulkan 1.2, which every 1.3 device accepts: for 1.3 glslc emits work group sizes in a form that the
 # reflection does not support.
 # Bindings of set 0 have no numbers in the sources: the host binds by name. Those of vertex shaders start above those of
@@ -21,25 +21,26 @@ function(reflet_shaders target function)
         set(output ${folder}/${name}.inc)
         add_custom_command(
             OUTPUT ${output}
-            COMMAND ${glslc_command} -I ${CMAKE_SOURCE_DIR}/src -mfmt=num -MD -MF ${output}.d
-                -o ${output} ${CMAKE_CURRENT_SOURCE_DIR}/${shader}
-            DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${shader}
+            COMMAND ${glslc_command} -I ${PROJECT_SOURCE_DIR}/src -MD -MF ${output}.d -MT ${output}
+                -o ${folder}/${name}.spv ${CMAKE_CURRENT_SOURCE_DIR}/${shader}
+            COMMAND embed_shader ${name} ${folder}/${name}.spv ${output}
+            DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${shader} embed_shader
             DEPFILE ${output}.d
             COMMENT "Shader ${name}"
             VERBATIM)
         list(APPEND outputs ${output})
-        string(APPEND arrays "constexpr uint32_t ${symbol}[] = {\n#include \"${output}\"\n};\n")
-        string(APPEND table "    {\"${name}\", ${symbol}},\n")
+        string(APPEND arrays "namespace ${symbol} {\n#include \"${output}\"\n}\n")
+        string(APPEND table "    ${symbol}::shader,\n")
     endforeach()
     set(source ${folder}/embedded.cpp)
     file(GENERATE OUTPUT ${source} CONTENT "// Generated: shaders of ${target}.
 #include \"gpu/shader.h\"
 namespace {
-${arrays}constexpr reflet::gpu::EmbeddedShader ${function}Table[] = {
+${arrays}constexpr reflet::gpu::Shader ${function}Table[] = {
 ${table}};
 }  // namespace
-std::span<const reflet::gpu::EmbeddedShader> ${function}();
-std::span<const reflet::gpu::EmbeddedShader> ${function}() { return ${function}Table; }
+std::span<const reflet::gpu::Shader> ${function}();
+std::span<const reflet::gpu::Shader> ${function}() { return ${function}Table; }
 ")
     set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${outputs}" SKIP_PRECOMPILE_HEADERS ON)
     target_sources(${target} PRIVATE ${source})

@@ -23,8 +23,8 @@ function(reflet_version target)
     set(folder ${CMAKE_CURRENT_BINARY_DIR}/version)
     set(output ${folder}/version.h)
     add_custom_target(reflet_version BYPRODUCTS ${output}
-        COMMAND ${CMAKE_COMMAND} -Dsource=${CMAKE_SOURCE_DIR} -Dversion=${PROJECT_VERSION} -Doutput=${output}
-            -P ${CMAKE_SOURCE_DIR}/cmake/version.cmake
+        COMMAND ${CMAKE_COMMAND} -Dsource=${PROJECT_SOURCE_DIR} -Dversion=${PROJECT_VERSION} -Doutput=${output}
+            -P ${PROJECT_SOURCE_DIR}/cmake/version.cmake
         COMMENT "Version" VERBATIM)
     add_dependencies(${target} reflet_version)
     target_include_directories(${target} PUBLIC ${folder})

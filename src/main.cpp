@@ -1,11 +1,17 @@
 // Entry point: names the subcommands.
-#include "apps/commands.h"
-#include "apps/program.h"
+#include "cli/commands.h"
+#include "cli/program.h"
+#ifdef REFLET_WINDOW
 #include "view/view_command.h"
+#endif
 
 int main(int argc, char** argv) {
-    constexpr reflet::AddCommand commands[] = {
-        reflet::addRenderCommand, reflet::addViewCommand,   reflet::addReferenceCommand, reflet::addCompareCommand,
-        reflet::addBenchCommand,  reflet::addReportCommand, reflet::addListCommand};
+    constexpr reflet::AddCommand commands[] = {reflet::addRenderCommand,
+#ifdef REFLET_WINDOW
+                                               reflet::addViewCommand,
+#endif
+                                               reflet::addReferenceCommand, reflet::addCompareCommand,
+                                               reflet::addBenchCommand,     reflet::addReportCommand,
+                                               reflet::addListCommand};
     return reflet::runProgram(argc, argv, commands);
 }

@@ -2,7 +2,7 @@
 // argument): an exception whose message says what, where and what to do. Absence: std::optional.
 #pragma once
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 #include <stdexcept>
 #include <string>

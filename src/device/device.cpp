@@ -117,7 +117,7 @@ void DeviceHandles::createDevice(bool fillsWindows) {
 }
 
 Device::Device(const DeviceOptions& options) : DeviceHandles(options), Context(opened()) {
-    for (const std::span<const EmbeddedShader> list : options.shaders) {
+    for (const std::span<const Shader> list : options.shaders) {
         shaders().add(list);
     }
     VkSemaphoreTypeCreateInfo type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};

@@ -31,7 +31,7 @@ struct DeviceOptions {
     bool validation = false;
     std::function<void(const std::string&)> onMessage;
     /// That passes on this device use.
-    std::vector<std::span<const EmbeddedShader>> shaders;
+    std::vector<std::span<const Shader>> shaders;
     /// Instance extensions that the window system needs; if there are any, the device can present to windows.
     std::vector<const char*> windowExtensions;
 };

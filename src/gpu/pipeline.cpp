@@ -238,7 +238,7 @@ const Pipeline& PipelineCache::get(const PipelineInfo& info) {
     }
     std::vector<Shader> shaders;
     std::ranges::transform(info.shaders, std::back_inserter(shaders),
-                           [&](const std::string& name) { return context_.shaders().reflect(name); });
+                           [&](const std::string& name) { return context_.shaders().find(name); });
     checkConstants(shaders, info);
     auto pipeline = std::make_unique<Pipeline>();
     pipeline->bindings = mergeBindings(shaders, 0);
@@ -247,7 +247,7 @@ const Pipeline& PipelineCache::get(const PipelineInfo& info) {
         pipeline->stages |= shader.stage;
         pipeline->pushConstantSize = std::max(pipeline->pushConstantSize, shader.pushConstantSize);
         if (shader.stage == VK_SHADER_STAGE_FRAGMENT_BIT) {
-            pipeline->colorOutputs = shader.outputs;
+            pipeline->colorOutputs.assign(shader.outputs.begin(), shader.outputs.end());
         }
     }
     pipeline->set = makeSetLayout(context_, pipeline->bindings);

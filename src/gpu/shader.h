@@ -1,4 +1,4 @@
-// Shaders: SPIR-V embedded at build time and found by file name, and the reflection of their bindings.
+// Shaders: SPIR-V and its interface, embedded at build time (reflection/) and found by file name.
 #pragma once
 
 #include "gpu/vulkan.h"
@@ -6,21 +6,17 @@
 #include "base/math.h"
 
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <memory>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
 namespace reflet::gpu {
 
-struct EmbeddedShader {
-    std::string_view name;  ///< "trace_screen.comp"
-    std::span<const uint32_t> words;
-};
-
 struct ShaderBinding {
-    std::string name;
+    std::string_view name;
     uint32_t set = 0;
     uint32_t binding = 0;
     uint32_t count = 1;
@@ -34,47 +30,51 @@ struct ShaderBinding {
 
 /// An input or output of a stage.
 struct ShaderLocation {
-    std::string name;
+    std::string_view name;
     uint32_t location = 0;
 };
 
 struct SpecializationConstant {
-    std::string name;
+    std::string_view name;
     uint32_t id = 0;
 };
 
-/// A shader and its interface, reflected from SPIR-V with spirv-cross.
+/// A shader and its interface. Views point to what is embedded in the program or library, or kept by an owner.
 struct Shader {
-    std::string name;
+    std::string_view name;  ///< "trace_screen.comp"
     std::span<const uint32_t> words;
     VkShaderStageFlagBits stage = VK_SHADER_STAGE_COMPUTE_BIT;
-    std::vector<ShaderBinding> bindings;  ///< those that the code uses
-    std::vector<SpecializationConstant> constants;
-    std::vector<ShaderLocation> inputs;
-    std::vector<ShaderLocation> outputs;
+    std::span<const ShaderBinding> bindings;  ///< those that the code uses
+    std::span<const SpecializationConstant> constants;
+    std::span<const ShaderLocation> inputs;
+    std::span<const ShaderLocation> outputs;
     uint32_t pushConstantSize = 0;
     glm::uvec3 localSize{1};
+};
+
+/// A shader that is not embedded, and what its views point into.
+struct ReflectedShader {
+    Shader shader;
+    std::shared_ptr<const void> owner;
 };
 
 /// The shaders of a context, by name.
 class ShaderLibrary {
 public:
     /// Adds shaders that are embedded in a program or library. A name that is there already keeps its shader.
-    void add(std::span<const EmbeddedShader> shaders);
+    void add(std::span<const Shader> shaders);
 
-    /// Replaces the SPIR-V of a shader. Throws Error, and keeps the old one, if the interface (bindings, constants,
-    /// inputs, outputs) differs, because the host code knows only that. Existing pipelines are unchanged (see
-    /// PipelineCache::clear). Throws std::logic_error if there is no shader of that name.
-    void replace(std::string_view name, std::vector<uint32_t> words);
+    /// Replaces a shader by one of the same name. Throws Error, and keeps the old one, if the interface (bindings,
+    /// constants, inputs, outputs) differs, because the host code knows only that. Existing pipelines are unchanged
+    /// (see PipelineCache::clear). Throws std::logic_error if there is no shader of that name.
+    void replace(const ReflectedShader& replacement);
 
     /// Throws std::logic_error if there is no shader of that name.
-    [[nodiscard]] Shader reflect(std::string_view name) const;
+    [[nodiscard]] const Shader& find(std::string_view name) const;
 
 private:
-    [[nodiscard]] const EmbeddedShader& find(std::string_view name) const;
-
-    std::map<std::string_view, EmbeddedShader> shaders_;  ///< names are those of the embedded tables
-    std::map<std::string_view, std::vector<uint32_t>> replaced_;
+    std::map<std::string_view, Shader, std::less<>> shaders_;  ///< names are those of the embedded tables
+    std::vector<std::shared_ptr<const void>> owners_;          ///< of all replacements, as pipelines keep their names
 };
 
 }  // namespace reflet::gpu

@@ -1,7 +1,7 @@
 // Live camera images: textures rendered every frame and shown by materials.
 #include "renderer/gpu_scene.h"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>

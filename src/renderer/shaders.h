@@ -3,5 +3,5 @@
 
 #include "gpu/shader.h"
 
-std::span<const reflet::gpu::EmbeddedShader> effectShaders();
-std::span<const reflet::gpu::EmbeddedShader> rendererShaders();
+std::span<const reflet::gpu::Shader> effectShaders();
+std::span<const reflet::gpu::Shader> rendererShaders();

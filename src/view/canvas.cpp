@@ -1,7 +1,7 @@
 // Draws the window.
 #include "view/canvas.h"
 
-#include "apps/show.h"
+#include "capture/show.h"
 #include "device/device.h"
 #include "device/upload.h"
 
@@ -12,7 +12,7 @@
 #include <cmath>
 #include <cstring>
 
-std::span<const reflet::gpu::EmbeddedShader> refletViewShaders();
+std::span<const reflet::gpu::Shader> refletViewShaders();
 
 namespace reflet {
 

@@ -1,11 +1,11 @@
 // Saves and restores the viewer's state.
 #include "view/saved_state.h"
 
-#include "apps/bench/fingerprint.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json.h"
 #include "base/json_text.h"
+#include "capture/fingerprint.h"
 #include "renderer/presets.h"
 #include "scene/view_file.h"
 

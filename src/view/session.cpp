@@ -1,8 +1,8 @@
 // Renders an open scene.
 #include "view/session.h"
 
-#include "apps/pictures.h"
 #include "base/error.h"
+#include "capture/pictures.h"
 #include "compare/heat_map.h"
 #include "device/upload.h"
 #include "effects/exposure/exposure.h"

@@ -1,7 +1,7 @@
 // One open scene: renders it according to the state, and tracks when the image has converged.
 #pragma once
 
-#include "apps/show.h"
+#include "capture/show.h"
 #include "effects/lobe/record_ray.h"
 #include "renderer/renderer.h"
 #include "view/viewer_state.h"

@@ -1,10 +1,11 @@
 // Watches the modification times of shader files, and compiles them with glslc.
 #include "view/shader_watch.h"
 
-#include "apps/command_line.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "cli/command_line.h"
 #include "gpu/shader.h"
+#include "reflection/reflect_shader.h"
 
 #include <array>
 #include <cstdio>
@@ -105,7 +106,7 @@ bool ShaderWatch::compile(const std::string& name) {
     std::vector<uint32_t> words(bytes.size() / sizeof(uint32_t));
     std::memcpy(words.data(), bytes.data(), words.size() * sizeof(uint32_t));
     try {
-        library_.replace(fs::path(name).filename().string(), std::move(words));
+        library_.replace(reflection::reflectShader(fs::path(name).filename().string(), std::move(words)));
     } catch (const Error& error) {
         problem_ = error.what();
         return false;

@@ -1,7 +1,8 @@
 // `reflet view`: the same frame as `render`, in a window.
 #include "view/view_command.h"
 
-#include "apps/device_options.h"
+#include "cli/device_options.h"
+#include "cli/scene_arguments.h"
 #include "view/viewer.h"
 
 #include <CLI/CLI.hpp>

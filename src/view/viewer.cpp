@@ -1,11 +1,11 @@
 // The viewer's main loop: events, user interface, frame, window; idle while nothing changes.
 #include "view/viewer.h"
 
-#include "apps/device_options.h"
-#include "apps/interrupt.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/interrupt.h"
 #include "base/json.h"
+#include "cli/device_options.h"
 #include "gpu/pipeline.h"
 #include "renderer/presets.h"
 #include "renderer/shaders.h"

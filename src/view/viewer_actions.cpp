@@ -1,10 +1,10 @@
 // The viewer's actions, and its status file for scripts.
 #include "view/viewer.h"
 
-#include "apps/command_line.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json_text.h"
+#include "cli/command_line.h"
 #include "renderer/presets.h"
 #include "scene/default_light.h"
 #include "scene/view_file.h"

@@ -2,7 +2,7 @@
 #include "base/json_text.h"
 #include "cli/program.h"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>

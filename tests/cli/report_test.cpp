@@ -3,7 +3,7 @@
 #include "cli/program.h"
 #include "support/html.h"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>

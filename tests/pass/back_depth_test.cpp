@@ -1,7 +1,7 @@
 // The second depth layer: the far side of visible objects, found from geometry alone.
 #include "renderer/gbuffer/back_depth.h"
 
-#include "apps/texels.h"
+#include "capture/texels.h"
 #include "device/frame.h"
 #include "pass/harness.h"
 #include "renderer/gbuffer/draw_gbuffer.h"

@@ -1,6 +1,6 @@
 // Backgrounds: they show what they should, change no light, and cover pixels as the reference's do. The sky as light.
 #include "scene/background.h"
-#include "apps/show.h"
+#include "capture/show.h"
 #include "effects/tonemap/tone_map_image.h"
 #include "pass/harness.h"
 #include "reference/reference.h"

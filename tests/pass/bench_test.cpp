@@ -1,10 +1,10 @@
-// apps/bench: statistics of times, the inputs of a reference's cache key, and the byte counts of passes.
-#include "apps/bench/motion.h"
-#include "apps/bench/output.h"
-#include "apps/bench/samples.h"
-#include "apps/bench/truth.h"
-#include "apps/spread.h"
+// measure/bench: statistics of times, the inputs of a reference's cache key, and the byte counts of passes.
 #include "base/error.h"
+#include "capture/spread.h"
+#include "measure/bench/motion.h"
+#include "measure/bench/output.h"
+#include "measure/bench/samples.h"
+#include "measure/bench/truth.h"
 #include "renderer/live/live_picture.h"
 #include "scene/builtin.h"
 #include "support/device_fixture.h"

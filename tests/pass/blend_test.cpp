@@ -5,7 +5,7 @@
 #include "reference/reference.h"
 #include "support/device_fixture.h"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 

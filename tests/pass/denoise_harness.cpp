@@ -1,7 +1,7 @@
 // Runs the denoiser on synthetic light on a wall that faces the camera.
 #include "pass/denoise_harness.h"
 
-#include "apps/texels.h"
+#include "capture/texels.h"
 #include "device/device.h"
 #include "device/upload.h"
 #include "pass/test_shaders.h"

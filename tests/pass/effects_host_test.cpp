@@ -1,6 +1,6 @@
 // Every effect, recorded by a host that is not the program: its own device and command buffers, three frames in flight,
 // a G-buffer that nobody drew.
-#include "apps/texels.h"
+#include "capture/texels.h"
 #include "effects/accumulate/accumulate.h"
 #include "effects/composite/composite.h"
 #include "effects/contact/contact.h"

@@ -1,7 +1,7 @@
 // Automatic exposure of frames.
 #include "effects/exposure/exposure.h"
 
-#include "apps/show.h"
+#include "capture/show.h"
 #include "pass/harness.h"
 #include "renderer/exposure/scene_exposure.h"
 #include "renderer/history.h"
@@ -9,7 +9,7 @@
 #include "scene/builtin/shapes.h"
 #include "support/device_fixture.h"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>

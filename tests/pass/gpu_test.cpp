@@ -5,6 +5,7 @@
 #include "gpu/pipeline.h"
 #include "gpu/shader.h"
 #include "pass/harness.h"
+#include "reflection/reflect_shader.h"
 #include "support/device_fixture.h"
 
 #include <functional>
@@ -153,13 +154,16 @@ TEST_F(Gpu, TimesAreThereForEveryPassByItsScopedName) {
 }
 
 TEST_F(Gpu, AShaderIsReplacedOnlyByOneThatBindsTheSame) {
-    const gpu::Shader known = device().shaders().reflect("tonemap.comp");
+    const gpu::Shader known = device().shaders().find("tonemap.comp");
     const std::vector<uint32_t> same(known.words.begin(), known.words.end());
-    const gpu::Shader other = device().shaders().reflect("composite.comp");
-    EXPECT_THROW(device().shaders().replace("tonemap.comp", {other.words.begin(), other.words.end()}), Error);
-    EXPECT_EQ(device().shaders().reflect("tonemap.comp").words.data(), known.words.data()) << "the old one is kept";
-    device().shaders().replace("tonemap.comp", same);
-    EXPECT_NE(device().shaders().reflect("tonemap.comp").words.data(), known.words.data());
+    const gpu::Shader other = device().shaders().find("composite.comp");
+    const auto replace = [&](std::string_view name, std::vector<uint32_t> words) {
+        device().shaders().replace(reflection::reflectShader(name, std::move(words)));
+    };
+    EXPECT_THROW(replace("tonemap.comp", {other.words.begin(), other.words.end()}), Error);
+    EXPECT_EQ(device().shaders().find("tonemap.comp").words.data(), known.words.data()) << "the old one is kept";
+    replace("tonemap.comp", same);
+    EXPECT_NE(device().shaders().find("tonemap.comp").words.data(), known.words.data());
     device().pipelines().clear();
     EXPECT_EQ(complaint([&](gpu::Frame& f) { recordTonemap(f); }), "");
 }

@@ -1,7 +1,7 @@
 // Renders small scenes for tests.
 #include "pass/harness.h"
 
-#include "apps/show.h"
+#include "capture/show.h"
 #include "support/device_fixture.h"
 
 #include <algorithm>

@@ -1,13 +1,13 @@
 // What historyUse says of settings is what frames do.
 #include "renderer/history.h"
 
-#include "apps/show.h"
+#include "capture/show.h"
 #include "pass/harness.h"
 #include "renderer/presets.h"
 #include "scene/builtin.h"
 #include "support/device_fixture.h"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 namespace reflet::test::history_test {
 namespace {

@@ -3,7 +3,7 @@
 #include "pass/mirror_room.h"
 #include "reference/reference.h"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <numeric>

@@ -1,9 +1,9 @@
-// apps/report: the scatter plot, its axes and its labels. No device is needed.
-#include "apps/report/plot.h"
+// measure/report: the scatter plot, its axes and its labels. No device is needed.
+#include "measure/report/plot.h"
 
-#include "apps/report/plot_axis.h"
-#include "apps/report/plot_labels.h"
-#include "apps/report/xml_text.h"
+#include "measure/report/plot_axis.h"
+#include "measure/report/plot_labels.h"
+#include "measure/report/xml_text.h"
 
 #include <gtest/gtest.h>
 

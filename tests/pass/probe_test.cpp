@@ -6,7 +6,7 @@
 #include "renderer/probe/capture_probe.h"
 #include "scene/builtin.h"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>

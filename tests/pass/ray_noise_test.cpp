@@ -4,7 +4,7 @@
 #include "pass/harness.h"
 #include "scene/builtin.h"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 

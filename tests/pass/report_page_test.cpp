@@ -1,6 +1,6 @@
 // The report: its page, its table and its JSON, from synthetic numbers.
-#include "apps/report/page.h"
 #include "base/json_text.h"
+#include "measure/report/page.h"
 #include "support/html.h"
 #include "support/sample_report.h"
 

@@ -1,5 +1,5 @@
 // A restarted renderer gives the same frames as a new one, whatever it rendered before.
-#include "apps/show.h"
+#include "capture/show.h"
 #include "pass/harness.h"
 #include "renderer/presets.h"
 #include "scene/builtin.h"

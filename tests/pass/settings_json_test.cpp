@@ -2,7 +2,7 @@
 #include "base/json_text.h"
 #include "pass/harness.h"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace reflet::test::settings_json_test {

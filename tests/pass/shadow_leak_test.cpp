@@ -3,7 +3,7 @@
 #include "scene/builtin/noise.h"
 #include "scene/builtin/surface_nets.h"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 #include <array>
 

@@ -8,7 +8,7 @@
 #include "reference/reference.h"
 #include "scene/builtin.h"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 #include <cmath>
 #include <map>

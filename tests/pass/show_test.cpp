@@ -1,5 +1,5 @@
 // Images of values that were not rendered by a device: the layers of the reference.
-#include "apps/show.h"
+#include "capture/show.h"
 
 #include <gtest/gtest.h>
 

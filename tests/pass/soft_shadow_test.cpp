@@ -3,7 +3,7 @@
 #include "renderer/shadow/shadow_maps.h"
 #include "scene/builtin.h"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,12 +2,12 @@
 // layers silent. Every setting changes something. And the same input gives the same bytes.
 #include "pass/harness.h"
 
-#include "apps/show.h"
+#include "capture/show.h"
 #include "renderer/presets.h"
 #include "scene/builtin.h"
 #include "support/device_fixture.h"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>

@@ -1,7 +1,7 @@
 // Runs the temporal antialiasing pass on synthetic images.
 #include "pass/temporal_harness.h"
 
-#include "apps/texels.h"
+#include "capture/texels.h"
 #include "device/device.h"
 #include "device/upload.h"
 #include "pass/test_shaders.h"

@@ -3,7 +3,7 @@
 
 #include "gpu/context.h"
 
-std::span<const reflet::gpu::EmbeddedShader> passTestShaders();
+std::span<const reflet::gpu::Shader> passTestShaders();
 
 namespace reflet::test {
 

@@ -6,7 +6,7 @@
 
 #include <cstring>
 
-std::span<const reflet::gpu::EmbeddedShader> shaderTestShaders();
+std::span<const reflet::gpu::Shader> shaderTestShaders();
 
 namespace reflet::test {
 

@@ -1,7 +1,7 @@
 // A fictitious report: two scenes, three variants, and names that need escaping.
 #pragma once
 
-#include "apps/report/page.h"
+#include "measure/report/page.h"
 
 #include <string>
 #include <vector>

@@ -3,7 +3,7 @@
 
 #include "gpu/context.h"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>

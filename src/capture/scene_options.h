@@ -1,0 +1,51 @@
+// What to render, as a user names it: the scene, the view, size, seed and settings.
+#pragma once
+
+#include "renderer/settings.h"
+#include "scene/scene.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace reflet {
+
+struct SceneOptions {
+    std::string scene;
+    std::optional<int> sceneIndex;
+    std::string variant;  ///< of the glTF file's materials; empty: its default
+    std::string camera;
+    std::string viewFile;
+    std::string environment;  ///< "sky", "studio", "none" or a file; empty: the view file's, the scene's or a default
+    std::string background;   ///< as parseBackground takes it; empty: the view file's or a default
+    std::optional<double> time;  ///< seconds, overrides the view file
+    std::string size = "1280x720";
+    std::string preset;
+    std::vector<std::string> settingsFiles;
+    std::vector<std::string> set;
+    uint32_t seed = 0;
+    bool strict = false;  ///< invalid parts of a file are errors
+};
+
+/// One line on standard error.
+void printWarning(const std::string& message);
+/// The same for what is no problem, but good to know.
+void printNote(const std::string& message);
+
+/// A file, or `builtin:NAME`. Warnings are printed.
+Scene loadScene(const SceneOptions& options);
+
+/// The scene's view, changed by --camera, --view-file, --environment, --background and --time. A file without enough
+/// light, with which none of these says what lights it, gets a default (scene/default_light.h), and a note says so.
+View loadView(const SceneOptions& options, const Scene& scene);
+
+/// "1280x720". Throws UsageError.
+uvec2 parseSize(const std::string& text);
+
+/// Applies settings files, then --set, on top of `settings`.
+void changeSettings(Settings& settings, const SceneOptions& options);
+
+/// Preset, then settings files, then --set, each overriding the ones before.
+Settings loadSettings(const SceneOptions& options);
+
+}  // namespace reflet

@@ -1,0 +1,176 @@
+// Writes and compares the records of sequences.
+#include "capture/sequence_record.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/json.h"
+#include "base/json_text.h"
+#include "capture/fingerprint.h"
+#include "scene/gltf/uri.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+namespace reflet {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+// The JSON of a .gltf file, or of a .glb file's first chunk.
+nlohmann::json gltfJson(const std::string& content) {
+    constexpr size_t header = 20;
+    const bool binary = content.starts_with("glTF") && content.size() > header;
+    return parseJsonIfValid(binary ? content.substr(header, content.find('\0', header)) : content);
+}
+
+std::vector<std::string> namedFiles(const std::string& content) {
+    std::vector<std::string> uris;
+    const nlohmann::json json = gltfJson(content);
+    for (const char* key : {"buffers", "images"}) {
+        if (json.is_object() && json.contains(key)) {
+            for (const nlohmann::json& entry : json.at(key)) {
+                if (const std::string uri = entry.value("uri", ""); !uri.empty() && !uri.starts_with("data:")) {
+                    uris.push_back(percentDecoded(uri));
+                }
+            }
+        }
+    }
+    return uris;
+}
+
+ordered_json numbers(const vec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+ordered_json recordOf(const Camera& c) {
+    return {{"position", numbers(c.position)},
+            {"target", numbers(c.target)},
+            {"up", numbers(c.up)},
+            {"fov_y", c.fovY},
+            {"near", c.near},
+            {"orthographic_height", c.orthographicHeight},
+            {"far", c.far}};
+}
+
+ordered_json recordOf(const Environment& e) {
+    if (!e.image) {
+        return {{"radiance", numbers(e.radiance)}};
+    }
+    Fingerprint texels;
+    texels.add(std::as_bytes(std::span(e.image->data)));
+    return {{"image", texels.text()}, {"intensity", e.intensity}, {"rotation", e.rotation}};
+}
+
+// "settings.diffuse.rays was 4, is 8"
+std::vector<std::string> differences(const nlohmann::json& old, const nlohmann::json& now) {
+    const nlohmann::json before = old.flatten();
+    const nlohmann::json after = now.flatten();
+    std::vector<std::string> found;
+    const auto text = [](const nlohmann::json& all, const std::string& key) {
+        return all.contains(key) ? jsonText(all.at(key)) : "missing";
+    };
+    nlohmann::json keys = before;
+    keys.update(after);
+    for (const auto& [key, ignored] : keys.items()) {
+        const std::string was = text(before, key);
+        const std::string is = text(after, key);
+        if (was != is) {
+            std::string name = key.substr(1);
+            std::ranges::replace(name, '/', '.');
+            found.push_back(fmt::format("{} was {}, is {}", name, was, is));
+        }
+    }
+    return found;
+}
+
+void compareRecords(const FrameNames& names, const ordered_json& record,
+                    const std::function<void(const std::string&)>& warn) {
+    nlohmann::json old = parseJsonFile(names.record());
+    if (!old.is_object()) {
+        fail("{}: not a record of a sequence: replace it with --overwrite", names.record().string());
+    }
+    nlohmann::json now = parseJson(jsonText(record));  // as it reads back from a file
+    if (old.value("device", now.at("device")) != now.at("device")) {
+        warn(fmt::format("{}: begun on {}; frames of this device may differ in the last bits", names.pattern(),
+                         jsonText(old.at("device"))));
+    }
+    old.erase("device");
+    now.erase("device");
+    if (const std::vector<std::string> found = differences(old, now); !found.empty()) {
+        constexpr size_t most = 3;
+        const auto shown = std::span(found).first(std::min(most, found.size()));
+        fail("{}: its frames belong to another sequence: {}{}; remove them with --overwrite, or choose another name",
+             names.pattern(), fmt::join(shown, "; "),
+             found.size() > most ? fmt::format(" and {} more", found.size() - most) : "");
+    }
+}
+
+}  // namespace
+
+std::string sceneFingerprint(const std::string& scene) {
+    if (scene.starts_with("builtin:")) {
+        return "";
+    }
+    Fingerprint sum;
+    const std::string content = readFile(scene);
+    sum.add(std::as_bytes(std::span(content)));
+    for (const std::string& file : namedFiles(content)) {
+        const std::string named = readFile(fs::path(scene).parent_path() / file);
+        sum.add(std::as_bytes(std::span(named)));
+    }
+    return sum.text();
+}
+
+ordered_json recordOf(const View& view) {
+    ordered_json json{{"camera", recordOf(view.camera)},
+                      {"sun",
+                       {{"direction", numbers(view.sun.direction)},
+                        {"irradiance", numbers(view.sun.irradiance)},
+                        {"angular_diameter", view.sun.angularDiameter}}},
+                      {"environment", recordOf(view.environment)},
+                      {"time", view.time},
+                      {"mirrors", view.mirrors}};
+    if (view.lampRadius) {
+        json["lamp_radius"] = *view.lampRadius;
+    }
+    if (!view.lampsOff.empty()) {
+        json["lamps_off"] = view.lampsOff;
+    }
+    if (view.probes) {
+        json["probes"] = ordered_json::array();
+        for (const Probe& probe : *view.probes) {
+            json["probes"].push_back({numbers(probe.position), numbers(probe.box.min), numbers(probe.box.max)});
+        }
+    }
+    return json;
+}
+
+void beginSequence(const FrameNames& names, const ordered_json& record, bool overwrite,
+                   const std::function<void(const std::string&)>& warn) {
+    const std::string text = jsonText(record, 2) + "\n";
+    const std::vector<fs::path> pictures = names.existing();  // before looking for the record, which is written first
+    if (overwrite) {
+        for (const fs::path& picture : pictures) {
+            fs::remove(picture);
+        }
+        writeFileAtomically(names.record(), text);
+        return;
+    }
+    if (!fs::exists(names.record())) {
+        if (!pictures.empty()) {
+            fail(
+                "{} exists, but its record {} is missing: remove all files of that name with --overwrite, or choose "
+                "another name",
+                pictures.front().string(), names.record().string());
+        }
+        if (writeNewFile(names.record(), text)) {
+            return;
+        }
+    }
+    compareRecords(names, record, warn);
+}
+
+}  // namespace reflet

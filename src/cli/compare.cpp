@@ -1,0 +1,196 @@
+// `reflet compare`: measures the error of an image against a reference.
+#include "compare/compare.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/json_text.h"
+#include "base/text.h"
+#include "cli/commands.h"
+#include "compare/heat_map.h"
+#include "compare/picture_input.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <memory>
+
+namespace reflet {
+
+namespace {
+
+struct CompareCommand {
+    std::string picture;
+    std::string truth;
+    std::string mask;
+    std::string heatMap;
+    std::vector<std::string> failAbove;
+    float pixelsPerDegree = CompareOptions().pixelsPerDegree;
+    bool json = false;
+};
+
+/// METRIC=X of --fail-above.
+struct Limit {
+    const Metric* metric = nullptr;
+    double value = 0.0;
+};
+
+Limit parseLimit(const std::string& text) {
+    const size_t equals = text.find('=');
+    const std::string name = text.substr(0, equals);
+    const auto metric = std::ranges::find(metrics(), name, &Metric::name);
+    if (metric == metrics().end()) {
+        std::vector<std::string> names;
+        std::ranges::transform(metrics(), std::back_inserter(names),
+                               [](const Metric& m) { return std::string(m.name); });
+        failUsage("--fail-above {}: there is no metric '{}'; available: {}{}", text, name, fmt::join(names, ", "),
+                  suggestion(name, names));
+    }
+    double value = 0.0;
+    const char* end = text.data() + text.size();
+    const char* begin = equals == std::string::npos ? end : text.data() + equals + 1;
+    const auto [rest, error] = std::from_chars(begin, end, value);
+    if (error != std::errc() || rest != end || !std::isfinite(value)) {
+        failUsage("--fail-above {}: expected METRIC=NUMBER, such as {}=0.1", text, name);
+    }
+    return {&*metric, value};
+}
+
+void checkHeatMapFile(const std::string& file) {
+    if (file.empty()) {
+        return;
+    }
+    if (!file.ends_with(".png")) {
+        failUsage("--heatmap {}: the name must end in .png", file);
+    }
+    const AtomicFile trial(file);  // fails before the work, not after it
+}
+
+std::vector<bool> loadMask(const std::string& mask, const std::array<PictureName, 2>& names,
+                           const FloatImage& picture) {
+    if (mask.empty()) {
+        return {};
+    }
+    return mask == "hits" ? readHitMask(names, picture) : readMask(parsePictureName(mask), picture);
+}
+
+std::string valueText(const Metric& metric, const Difference& difference) {
+    return fmt::format("{:.6g}{}{}", metric.value(difference), metric.unit.empty() ? "" : " ", metric.unit);
+}
+
+void printTable(const Difference& difference, uint64_t pixels) {
+    for (const Metric& metric : metrics()) {
+        fmt::print("{:<13} {}\n", metric.name, valueText(metric, difference));
+    }
+    fmt::print("{:<13} {} of {}\n", "pixels", difference.pixels, pixels);
+}
+
+// JSON has no infinity: it becomes null.
+void printJson(const CompareCommand& command, const FloatImage& flip, const CompareOptions& options,
+               const Difference& difference) {
+    nlohmann::ordered_json json{{"picture", command.picture},
+                                {"truth", command.truth},
+                                {"kind", options.kind == ImageKind::linear ? "linear" : "display"},
+                                {"size", {flip.width, flip.height}},
+                                {"pixels_per_degree", options.pixelsPerDegree}};
+    for (const Metric& metric : metrics()) {
+        json[std::string(metric.name)] = metric.value(difference);
+    }
+    json["pixels"] = difference.pixels;
+    fmt::print("{}\n", jsonText(json, 2));
+}
+
+void checkLimits(const std::vector<Limit>& limits, const Difference& difference) {
+    std::vector<std::string> broken;
+    for (const Limit& limit : limits) {
+        const double value = limit.metric->value(difference);
+        if (limit.metric->largeIsGood ? value < limit.value : value > limit.value) {
+            broken.push_back(fmt::format("{} is {}, {} the limit {}", limit.metric->name,
+                                         valueText(*limit.metric, difference),
+                                         limit.metric->largeIsGood ? "below" : "above", limit.value));
+        }
+    }
+    if (!broken.empty()) {
+        fail("{}", fmt::join(broken, "; "));
+    }
+}
+
+void compare(const CompareCommand& command) {
+    std::vector<Limit> limits;
+    std::ranges::transform(command.failAbove, std::back_inserter(limits), parseLimit);
+    const std::array names{parsePictureName(command.picture), parsePictureName(command.truth)};
+    if (names[0].kind != names[1].kind) {
+        failUsage("{} and {}: one is linear, the other display-encoded; compare two images of the same kind",
+                  command.picture, command.truth);
+    }
+    checkHeatMapFile(command.heatMap);
+    const FloatImage picture = readPicture(names[0]);
+    const FloatImage truth = readPicture(names[1]);
+    CompareOptions options{names[0].kind, command.pixelsPerDegree, {}, command.picture, command.truth};
+    checkComparable(picture, truth, options);
+    options.mask = loadMask(command.mask, names, picture);
+    const Comparison result = compareImages(picture, truth, options);
+    if (!command.heatMap.empty()) {
+        writePng(command.heatMap, heatMap(result.flip));
+    }
+    if (command.json) {
+        printJson(command, result.flip, options, result.difference);
+    } else {
+        printTable(result.difference, result.flip.data.size());
+    }
+    checkLimits(limits, result.difference);
+}
+
+std::string compareFooter() {
+    std::string text = "Metrics (a: a value of A, b: the same value of B):\n";
+    for (const Metric& metric : metrics()) {
+        text += fmt::format("  {:<13} {}{}\n", metric.name, metric.definition,
+                            metric.unit.empty() ? "" : fmt::format(" [{}]", metric.unit));
+    }
+    return text +
+           "  pixels        number of pixels compared\n"
+           ".png and .jpg files are display-encoded, and compared as stored (0..1); .exr and .hdr files are linear.\n"
+           "Both images must have the same kind, size and number of channels (1 or 3); alpha is ignored. HDR-FLIP\n"
+           "derives its exposures from all of B, and a pixel's FLIP depends on its neighbours, masked or not.\n"
+           "--mask hits keeps the pixels where both EXR files have data: layer confidence above 0 in any channel,\n"
+           "or, in a file without that layer, depth above 0 (reflet render --aov depth).\n"
+           "--json prints { picture, truth, kind, size, pixels_per_degree, METRIC..., pixels }; infinity is null.\n"
+           "Example: reflet compare image.exr reference.exr:final --mask hits --heatmap error.png --fail-above "
+           "flip=0.1";
+}
+
+}  // namespace
+
+void addCompareCommand(CLI::App& app) {
+    auto options = std::make_shared<CompareCommand>();
+    CLI::App* command = app.add_subcommand("compare", "Measure the error of an image against a reference");
+    command->add_option("A", options->picture, "Image: .png, .jpg, .hdr or .exr; select a layer as FILE.exr:LAYER")
+        ->required();
+    command
+        ->add_option("B", options->truth,
+                     "Reference image, in the same formats; without a layer, the unnamed one (final)")
+        ->required();
+    command
+        ->add_option("--mask", options->mask,
+                     "Pixels to compare: those above 0.5 in an image, or 'hits': those where both files have data")
+        ->type_name("FILE|hits");
+    command->add_option("--heatmap", options->heatMap, "Write per-pixel FLIP as an image, dark 0 to light 1")
+        ->type_name("F.png");
+    command->add_flag("--json", options->json, "Print JSON instead of a table");
+    command
+        ->add_option("--fail-above", options->failAbove,
+                     "Exit with status 1 if the metric is above X (psnr: below X); may be repeated")
+        ->type_name("METRIC=X")
+        ->allow_extra_args(false);
+    command
+        ->add_option("--pixels-per-degree", options->pixelsPerDegree,
+                     "Viewing condition for FLIP; 67: 0.7 m from a screen 0.7 m wide with 3840 pixels")
+        ->check(CLI::Range(1.0F, 1000.0F))
+        ->capture_default_str();
+    command->footer(compareFooter());
+    command->callback([options] { compare(*options); });
+}
+
+}  // namespace reflet

@@ -1,0 +1,114 @@
+#include "cli/program.h"
+
+#include "base/error.h"
+#include "base/text.h"
+#include "cli/manual.h"
+#include "version.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+
+namespace reflet {
+
+namespace {
+
+constexpr int exitFailed = 1;
+constexpr int exitUsage = 2;
+
+// Prints one line: control characters in names from outside become spaces.
+int reportError(std::string message, int status) {
+    std::ranges::replace_if(
+        message, [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+    fmt::print(stderr, "reflet: {}\n", message);
+    return status;
+}
+
+// "reflet list scenes"
+std::string fullName(const CLI::App& command) {
+    const CLI::App* parent = command.get_parent();
+    return parent == nullptr ? command.get_name() : fullName(*parent) + " " + command.get_name();
+}
+
+// Runs before CLI11 parses, whose error would only say that a subcommand is missing.
+void checkSubcommand(CLI::App& app, std::span<char* const> arguments) {
+    if (app.get_require_subcommand_min() == 0) {
+        return;
+    }
+    std::vector<std::string> names;
+    std::ranges::transform(app.get_subcommands({}), std::back_inserter(names), &CLI::App::get_name);
+    if (arguments.empty()) {
+        failUsage("'{}' needs a subcommand: {} (see {} --help)", fullName(app), fmt::join(names, ", "), fullName(app));
+    }
+    const std::string name = arguments[0];
+    if (app.get_option_no_throw(name) != nullptr) {
+        return;
+    }
+    if (std::ranges::find(names, name) == names.end()) {
+        failUsage("'{}' has no {} '{}'; its subcommands: {}{}", fullName(app),
+                  name.starts_with('-') ? "option" : "subcommand", name, fmt::join(names, ", "),
+                  suggestion(name, names));
+    }
+    checkSubcommand(*app.get_subcommand(name), arguments.subspan(1));
+}
+
+// The error for the first argument that no option consumed, with the option it was probably meant to be.
+std::string unexpectedArgument(const CLI::App& app) {
+    const CLI::App* command = &app;
+    while (!command->get_subcommands().empty()) {
+        command = command->get_subcommands().front();
+    }
+    const std::vector<std::string> rest = command->remaining();
+    if (rest.empty()) {
+        return fmt::format("unexpected argument (see {} --help)", fullName(*command));
+    }
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command->get_options()) {
+        std::ranges::transform(option->get_lnames(), std::back_inserter(names),
+                               [](const std::string& name) { return "--" + name; });
+    }
+    return fmt::format("unexpected argument '{}' (see {} --help){}", rest.front(), fullName(*command),
+                       rest.front().starts_with('-') ? suggestion(rest.front(), names) : "");
+}
+
+int parseAndRun(int argc, char** argv, std::span<const AddCommand> commands) {
+    CLI::App app("Reflet: screen-space reflections (SSR), indirect light (SSGI) and soft shadows on any Vulkan device.",
+                 "reflet");
+    app.set_version_flag("--version", std::string("reflet ") + versionText);
+    app.require_subcommand(1);
+    app.footer("Try: reflet render builtin:cubes -o cubes.png\nEach subcommand has its own --help.");
+    for (const AddCommand add : commands) {
+        add(app);
+    }
+    addManualCommands(app, versionText);
+    checkSubcommand(app, std::span(argv, static_cast<size_t>(argc)).subspan(1));
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& success) {  // --help, --version
+        app.exit(success);
+    } catch (const CLI::ExtrasError&) {
+        return reportError(unexpectedArgument(app), exitUsage);
+    } catch (const CLI::ParseError& error) {
+        return reportError(fmt::format("{} (see reflet --help)", error.what()), exitUsage);
+    }
+    if (std::fflush(stdout) != 0) {
+        return reportError("cannot write to standard output", exitFailed);
+    }
+    return 0;
+}
+
+}  // namespace
+
+int runProgram(int argc, char** argv, std::span<const AddCommand> commands) {
+    try {
+        return parseAndRun(argc, argv, commands);
+    } catch (const UsageError& error) {
+        return reportError(error.what(), exitUsage);
+    } catch (const std::exception& error) {
+        return reportError(error.what(), exitFailed);
+    }
+}
+
+}  // namespace reflet

@@ -1,0 +1,191 @@
+// `reflet reference`: path traces a reference image on the CPU.
+#include "reference/reference.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/interrupt.h"
+#include "capture/pictures.h"
+#include "cli/commands.h"
+#include "cli/scene_arguments.h"
+#include "effects/exposure/exposure.h"
+#include "reference/sample_progress.h"
+#include "renderer/background/background.h"
+#include "renderer/exposure/scene_exposure.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <new>
+
+namespace reflet {
+
+namespace {
+
+struct ReferenceCommand {
+    SceneOptions scene;
+    std::vector<std::string> outputs;
+    std::optional<uint32_t> bounces;
+    std::optional<uint32_t> samples;
+    float noise = 0.0F;
+    std::string filter = "box";
+    std::string sampling = "cosine";
+    bool visibleOnly = false;
+    unsigned threads = 0;
+};
+
+constexpr uint32_t standardSamples = 64;
+constexpr uint32_t largestSide = 65536;  // pixels; EXR files that are larger cannot be read
+
+void checkOutputs(const std::vector<std::string>& outputs) {
+    if (outputs.empty()) {
+        failUsage("nothing to write: add -o FILE.exr or -o FILE.png (see reflet reference --help)");
+    }
+    for (const std::string& file : outputs) {
+        if (!isExr(file) && std::filesystem::path(file).extension() != ".png") {
+            failUsage("-o {}: the name must end in .exr or .png", file);
+        }
+        const AtomicFile trial(file);  // fails now, not after minutes of work
+    }
+}
+
+void checkNumbers(const ReferenceCommand& command, uvec2 size) {
+    if (size.x > largestSide || size.y > largestSide) {
+        failUsage("--size {}: the image can have up to {} pixels a side", command.scene.size, largestSide);
+    }
+    if (std::isnan(command.noise)) {
+        failUsage("--noise must be a number, is '{}'", command.noise);
+    }
+}
+
+ReferenceOptions referenceOptions(const ReferenceCommand& command, const Settings& settings) {
+    ReferenceOptions options;
+    options.bounces = command.bounces.value_or(ReferenceOptions::unlimited);
+    options.samples = command.samples.value_or(command.noise > 0.0F ? largestSamples : standardSamples);
+    options.noise = command.noise;
+    options.filter = command.filter == "box" ? PixelFilter::box : PixelFilter::center;
+    options.diffuse = command.sampling == "cosine" ? DiffuseSampling::cosine : DiffuseSampling::uniform;
+    options.visibleOnly = command.visibleOnly;
+    options.lambertOnly = settings.materials.lambertOnly != 0;
+    options.seed = command.scene.seed;
+    options.threads = command.threads;
+    return options;
+}
+
+ReferencePicture tracePicture(const Scene& scene, const View& view, uvec2 size, const ReferenceOptions& options) {
+    SampleProgress progress("tracing", options, size);
+    try {
+        return traceReference(scene, view, size, options, [&](const ReferenceProgress& now) {
+            progress.set(now);
+            return !InterruptNote::arrived();
+        });
+    } catch (const std::bad_alloc&) {
+        fail("not enough memory for an image of {}x{} pixels: choose a smaller --size", size.x, size.y);
+    }
+}
+
+std::vector<ImageLayer> layersOf(const ReferencePicture& picture, const Background& background) {
+    std::vector<ImageLayer> layers = picture.layers();
+    for (ImageLayer& layer : layers) {
+        if (background.needsCoverage() && (layer.name.empty() || layer.name == "final")) {
+            layer.image = withAlpha(layer.image, picture.coverage);
+        }
+    }
+    return layers;
+}
+
+std::string summary(const ReferencePicture& picture) {
+    constexpr double million = 1e6;
+    const double rays = static_cast<double>(picture.rays) / million;
+    return fmt::format(
+        "{}, noise {}; {:.2f} million rays in {:.2f} s: {:.2f} million rays per second",
+        picture.samples == 1 ? "1 sample per pixel" : fmt::format("{} samples per pixel", picture.samples),
+        picture.samples == 1 ? "unknown" : fmt::format("{:.3g}", picture.noise), rays, picture.seconds,
+        rays / std::max(picture.seconds, 1.0 / million));
+}
+
+void trace(const ReferenceCommand& command) {
+    const uvec2 size = parseSize(command.scene.size);
+    checkNumbers(command, size);
+    const Settings settings = loadSettings(command.scene);
+    const ReferenceOptions options = referenceOptions(command, settings);
+    checkOutputs(command.outputs);
+    const Scene scene = loadScene(command.scene);
+    const View view = loadView(command.scene, scene);
+
+    const InterruptNote note;
+    const ReferencePicture picture = tracePicture(scene, view, size, options);
+    const TonemapSettings tonemap = exposedAs(settings.tonemap, scene, picture.final, picture.depth);
+    for (const std::string& file : command.outputs) {
+        if (isExr(file)) {
+            writeExr(file, layersOf(picture, view.background));
+        } else {
+            writePng(file, displayedOver(picture.final, picture.coverage, view.background, tonemap));
+        }
+    }
+    if (!picture.complete && picture.samples < options.samples) {
+        fail("interrupted after {} of {} samples per pixel; {} {} the samples so far", picture.samples, options.samples,
+             fmt::join(command.outputs, ", "), command.outputs.size() == 1 ? "holds" : "hold");
+    }
+    fmt::print(
+        "{}{}\n", summary(picture),
+        exposesAutomatically(settings.tonemap, scene) ? fmt::format("; exposure {:+.2f} stops", tonemap.exposure) : "");
+}
+
+constexpr const char* referenceFooter =
+    "The EXR has the layers final (also without a name, for viewers), direct, indirect_diffuse, indirect_specular,\n"
+    "albedo, normal, depth and sun_visibility, named as in `reflet render --aov`. Direct light is what reaches a\n"
+    "surface straight from the sun and lamps, plus emission and background. Light from emissive surfaces and from the\n"
+    "environment is indirect and arrives through scattered rays, as in the renderer. Rays do not see the sun and "
+    "lamps.\n"
+    "Depth and normal are those of the pixel's centre.\n"
+    "With both --spp and --noise, rendering stops at whichever is reached first.\n"
+    "Noise is the square root of the mean over the pixels of (variance of the mean) / (luminance² + 0.01). Its square\n"
+    "estimates the image's own relative MSE.\n"
+    "Of the settings, only materials.lambert_only and (for PNG) tonemap.* apply.\n"
+    "An interrupt (Ctrl-C) writes the samples so far, at least one per pixel, and exits with status 1; a second one\n"
+    "exits at once.\n"
+    "Example: reflet reference builtin:cubes --size 640x360 --spp 256 -o reference.exr";
+
+}  // namespace
+
+void addReferenceCommand(CLI::App& app) {
+    auto options = std::make_shared<ReferenceCommand>();
+    CLI::App* command = app.add_subcommand("reference", "Path trace a scene on the CPU: the ground truth");
+    addSceneOptions(*command, options->scene);
+    command->add_option("-o,--output", options->outputs, "Output image, .exr or .png; may be repeated")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    command->add_option("--bounces", options->bounces, "Scattered rays per path; 0: only direct light [unlimited]")
+        ->type_name("N");
+    command
+        ->add_option("--spp", options->samples,
+                     fmt::format("Maximum samples per pixel [{}; with --noise {}]", standardSamples, largestSamples))
+        ->type_name("N")
+        ->check(CLI::Range(1U, largestSamples));
+    command->add_option("--noise", options->noise, "Stop when the noise falls below this (0.01: 1 %)")
+        ->type_name("X")
+        ->check(CLI::Range(0.0F, 10.0F));
+    command
+        ->add_option("--filter", options->filter,
+                     "Pixel filter. box: samples spread over the pixel; center: at its centre only, with aliased edges "
+                     "as in a rasterizer")
+        ->check(CLI::IsMember({"box", "center"}))
+        ->capture_default_str();
+    command
+        ->add_option("--sampling", options->sampling,
+                     "Distribution of diffuse rays: changes the noise, not the expected image")
+        ->check(CLI::IsMember({"cosine", "uniform"}))
+        ->capture_default_str();
+    command->add_flag("--visible-only", options->visibleOnly,
+                      "Scattered rays return light only from points that the camera sees and from the environment: "
+                      "the best that any screen-space method can reach");
+    command->add_option("--threads", options->threads, "CPU threads, 0: one per core; the result does not depend on it")
+        ->check(CLI::Range(0U, 4096U))
+        ->capture_default_str();
+    command->footer(referenceFooter);
+    command->callback([options] { trace(*options); });
+}
+
+}  // namespace reflet

@@ -1,0 +1,211 @@
+// `reflet render`: renders a scene to image files.
+#include "base/error.h"
+#include "base/file.h"
+#include "base/json_text.h"
+#include "base/progress.h"
+#include "capture/sequence.h"
+#include "cli/commands.h"
+#include "cli/device_options.h"
+#include "cli/scene_arguments.h"
+#include "device/device.h"
+#include "renderer/history.h"
+#include "renderer/renderer.h"
+#include "renderer/shaders.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+
+namespace reflet {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void checkOutputs(const RenderOptions& options) {
+    if (options.outputs.empty() && options.timings.empty() && !options.validate) {
+        failUsage("nothing to write: add -o FILE.png or -o FILE.exr (see reflet render --help)");
+    }
+    for (const std::string& file : options.outputs) {
+        if (const auto extension = fs::path(file).extension(); extension != ".png" && extension != ".exr") {
+            failUsage("-o {}: the name must end in .png or .exr", file);
+        }
+    }
+    if (!options.aovs.empty() && std::ranges::none_of(options.outputs, isExr)) {
+        failUsage("--aov needs an EXR output: add -o FILE.exr");
+    }
+    std::vector<fs::path> all(options.outputs.begin(), options.outputs.end());
+    if (!options.timings.empty()) {
+        all.emplace_back(options.timings);
+    }
+    for (const fs::path& path : all) {  // fails now, not after minutes of work
+        const AtomicFile trial(path);
+    }
+}
+
+// Renders the frames of one view and writes the last one.
+void renderOne(const RenderJob& job) {
+    const RenderOptions& options = job.options;
+    Progress progress("rendering", options.frames);
+    for (uint32_t i = 0; i < options.frames; ++i) {
+        const bool last = i + 1 == options.frames;
+        job.renderer.render(job.view, job.size, options.scene.seed, job.settings,
+                            [&](gpu::Frame& f, const FrameImages& images) {
+                                if (last) {
+                                    job.pictures.request(f, images, job.settings.traceScreen.countSteps != 0);
+                                }
+                            });
+        job.timings.add(job.renderer.frame().passTimes());
+        progress.advance();
+    }
+    const ViewParams params = makeViewParams(job.view.camera, job.size, 0, options.scene.seed);
+    for (const std::string& file : options.outputs) {
+        job.pictures.write(file, job.renderer.frame(), params);
+    }
+}
+
+void writeTimings(const RenderJob& job) {
+    nlohmann::ordered_json json = job.timings.json(job.device.description().name, job.size);
+    if (job.settings.traceScreen.countSteps != 0) {
+        const ViewParams params = makeViewParams(job.view.camera, job.size, 0, job.options.scene.seed);
+        json["rays"] = job.pictures.rayStatistics(job.renderer.frame(), params);
+    }
+    if (const auto stops = job.pictures.autoExposure(job.renderer.frame())) {
+        json["exposure"] = *stops + job.settings.tonemap.exposure;
+    }
+    writeFileAtomically(job.options.timings, jsonText(json, 2) + "\n");
+}
+
+uint32_t framesFor(const RenderOptions& options, const Settings& settings, const Scene& scene) {
+    if (options.frames > 0) {
+        return options.frames;
+    }
+    return isSequence(options) ? 1 : framesToSettle(historyUse(settings, scene), settings);
+}
+
+void render(const RenderOptions& asked) {
+    const uvec2 size = parseSize(asked.scene.size);
+    Settings settings = loadSettings(asked.scene);
+    RenderOptions options = asked;
+    Pictures pictures(options.show, options.aovs);
+    pictures.prepare(settings);
+    checkOutputs(options);
+    const bool sequence = isSequence(options);
+    const Scene scene = loadScene(options.scene);
+    options.frames = framesFor(asked, settings, scene);
+    const View view = loadView(options.scene, scene);
+
+    gpu::Device device({.select = options.device,
+                        .validation = options.validate,
+                        .onMessage = printWarning,
+                        .shaders = {effectShaders(), rendererShaders()}});
+    requireSize(device, size);
+    Renderer renderer(device, scene, printWarning);
+    Timings timings(!sequence);
+    const RenderJob job{options, scene, view, settings, size, device, renderer, pictures, timings};
+    bool rendered = true;
+    if (sequence) {
+        rendered = renderSequence(job);
+    } else {
+        renderOne(job);
+    }
+    if (!options.timings.empty() && rendered) {
+        writeTimings(job);
+    } else if (!options.timings.empty()) {
+        printWarning(fmt::format("{}: not written: all frames exist already, so none was rendered", options.timings));
+    }
+    for (const std::string& file : options.outputs) {
+        tellWritten(sequence ? fmt::format("{} ({} frames)", file, options.frames) : file);
+    }
+    if (options.validate && !device.validationMessages().empty()) {
+        fail("the validation layers reported {} messages", device.validationMessages().size());
+    }
+}
+
+// Adds the options that apply only to sequences, and returns them.
+std::vector<const CLI::Option*> addSequenceOptions(CLI::App& command, SequenceOptions& o) {
+    std::vector<const CLI::Option*> all;
+    all.push_back(command.add_option("--first-frame", o.firstFrame, "Sequences: frame number in the first file's name")
+                      ->capture_default_str());
+    all.push_back(command.add_option("--fps", o.fps, "Sequences: frames per second; the first frame is at --time")
+                      ->type_name("F")
+                      ->capture_default_str());
+    all.push_back(command
+                      .add_option("--path", o.path,
+                                  "Sequences: camera path; orbit: once around its target; or a file of keyframes "
+                                  "(docs/view-files.md)")
+                      ->type_name("orbit|FILE.json"));
+    all.push_back(command
+                      .add_option("--segment", o.segment,
+                                  "Sequences: frames rendered consecutively, starting from an empty history; 0: all. "
+                                  "Always 1 if the settings keep no history")
+                      ->type_name("FRAMES")
+                      ->capture_default_str());
+    all.push_back(command
+                      .add_option("--warmup", o.warmUp,
+                                  "Sequences: frames rendered before each segment to fill the history, but not written")
+                      ->check(CLI::Range(0U, 10000U))
+                      ->type_name("FRAMES")
+                      ->capture_default_str());
+    all.push_back(
+        command.add_option("--share", o.share, "Sequences: render only every Nth segment, for N processes, as in 3/16")
+            ->type_name("K/N"));
+    all.push_back(command.add_flag("--overwrite", o.overwrite,
+                                   "Sequences: remove existing frames first, also those of other settings"));
+    return all;
+}
+
+}  // namespace
+
+void addRenderCommand(CLI::App& app) {
+    auto options = std::make_shared<RenderOptions>();
+    CLI::App* command = app.add_subcommand("render", "Render a scene to PNG or EXR");
+    addSceneOptions(*command, options->scene);
+    command
+        ->add_option("-o,--output", options->outputs,
+                     "Output image, .png or .exr; may be repeated. With a run of #, as in picture_####.png, every "
+                     "frame is written to the file of its number, and existing files are kept")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    command
+        ->add_option("--frames", options->frames,
+                     "Frames to render; the last one is written, or, with # in the name, all of them [1; for a single "
+                     "image as many as its histories need to settle]")
+        ->check(CLI::Range(1U, 1000000U));
+    const auto sequenceOptions = addSequenceOptions(*command, options->sequence);
+    command->add_option("--show", options->show, "Render target to write (see reflet list shows)")
+        ->type_name("NAME")
+        ->capture_default_str();
+    command->add_option("--aov", options->aovs, "Additional render targets, as named layers of the EXR files")
+        ->type_name("A,B,...")
+        ->allow_extra_args(false)
+        ->delimiter(',');
+    addDeviceOption(*command, options->device);
+    command
+        ->add_option(
+            "--timings", options->timings,
+            "Device time of every pass: medians over the frames after the first, or over all written frames of "
+            "a sequence; with trace_screen.count_steps also mean steps and hit rate of the last frame's rays")
+        ->type_name("F.json");
+    command->add_flag("--validate", options->validate, "Enable the Vulkan validation layers; any message is a failure");
+    command->footer(
+        "Example: reflet render scene.glb --size 640x360 --set diffuse.rays=16 -o picture.png -o values.exr --aov "
+        "direct,normal\nreflet render scene.glb --frames 96 --path orbit -o round_####.png");
+    command->callback([options, sequenceOptions] {
+        if (!isSequence(*options)) {
+            for (const CLI::Option* option : sequenceOptions) {
+                if (option->count() > 0) {
+                    failUsage("{} is only for sequences: name the output with a run of #, as in -o picture_####.png",
+                              option->get_name());
+                }
+            }
+        }
+        render(*options);
+    });
+}
+
+}  // namespace reflet

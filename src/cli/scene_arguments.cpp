@@ -1,0 +1,52 @@
+// The command line's options for scene, view, size and settings.
+#include "cli/scene_arguments.h"
+
+#include <CLI/CLI.hpp>
+
+namespace reflet {
+
+void addSceneOptions(CLI::App& command, SceneOptions& options) {
+    command.add_option("SCENE", options.scene, "A .gltf or .glb file, or builtin:NAME (see reflet list scenes)")
+        ->required();
+    command.add_option("--preset", options.preset, "Preset of settings (see reflet list presets) [balanced]")
+        ->type_name("P");
+    command.add_option("--variant", options.variant, "Material variant of the glTF file (see reflet list variants)")
+        ->type_name("NAME");
+    addViewOptions(command, options);
+}
+
+void addViewOptions(CLI::App& command, SceneOptions& options) {
+    command.add_option("--scene", options.sceneIndex, "Scene in the glTF file, by number from 0");
+    command.add_flag("--strict", options.strict,
+                     "Refuse a glTF file with any invalid part; otherwise warn, and draw the rest");
+    command.add_option("--camera", options.camera, "Camera of the scene, by number from 0 or by name");
+    command.add_option("--view-file", options.viewFile, "Camera, sun and environment from a JSON file")
+        ->type_name("V.json");
+    command
+        .add_option(
+            "--environment", options.environment,
+            "Light from all around: a clear sky (with a sun, unless there is one), a studio of soft boxes, none, "
+            "or an equirectangular image [the view file's or the scene's; for files without light: sky]")
+        ->type_name("sky|studio|none|FILE");
+    command
+        .add_option("--background", options.background,
+                    "What is seen where there is no surface; lighting and reflections do not change: environment, its "
+                    "blur, transparent (PNG and EXR with alpha), a name or display values of 0 to 1 "
+                    "[environment; for sky and studio: blur]")
+        ->type_name("environment|blur|transparent|COLOR|R,G,B");
+    command.add_option("--time", options.time, "Time of the scene's animations, in seconds; they loop")
+        ->type_name("SECONDS");
+    command.add_option("--size", options.size, "Width and height in pixels")->type_name("WxH")->capture_default_str();
+    // One value per occurrence: the next argument may be the scene.
+    command.add_option("--settings", options.settingsFiles, "Settings from a JSON file, overriding the preset")
+        ->type_name("F.json")
+        ->allow_extra_args(false);
+    command
+        .add_option("--set", options.set,
+                    "One setting, overriding all others (see reflet list settings); may be repeated")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    command.add_option("--seed", options.seed, "Seed of the random numbers")->capture_default_str();
+}
+
+}  // namespace reflet
