@@ -46,6 +46,9 @@ public:
     /// Bytes in use by resources of this kind; retired resources count until they are destroyed.
     [[nodiscard]] VkDeviceSize used(MemoryUse use) const { return used_[static_cast<size_t>(use)]; }
 
+    /// Bytes of all blocks, as allocated from the device.
+    [[nodiscard]] VkDeviceSize reserved() const { return reserved_; }
+
 private:
     uint32_t chooseType(uint32_t allowed, MemoryUse use) const;
     MemoryBlock& addBlock(uint32_t type, bool linear, VkDeviceSize size);

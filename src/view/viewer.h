@@ -87,6 +87,7 @@ private:
 
     // viewer_input.cpp
     void handleKeys();
+    void handleControlKey(const KeyPress& press);
     void handleKey(const KeyPress& press);
     void handlePointer();
     void flyByKeys();
@@ -98,6 +99,7 @@ private:
     void drawPanel();
     void runPanel();
     void settingsPanel();
+    void lampsPanel();
     void lightPanel();
     void environmentPanel();
     void skyFollowsSun(bool moved);

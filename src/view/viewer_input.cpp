@@ -35,25 +35,29 @@ void Viewer::handleKeys() {
     }
 }
 
+void Viewer::handleControlKey(const KeyPress& press) {
+    switch (press.key) {
+        case GLFW_KEY_C:
+            attempt([&] {
+                const std::string line = commandLine();
+                window_.copyText(line);
+                tell(fmt::format("Copied: {}", line));
+            });
+            break;
+        case GLFW_KEY_S:
+            attempt([&] { takeScreenshot(""); });
+            break;
+        case GLFW_KEY_Q:
+            window_.close();
+            break;
+        default:
+            break;
+    }
+}
+
 void Viewer::handleKey(const KeyPress& press) {
     if (press.control) {
-        switch (press.key) {
-            case GLFW_KEY_C:
-                attempt([&] {
-                    const std::string line = commandLine();
-                    window_.copyText(line);
-                    tell(fmt::format("Copied: {}", line));
-                });
-                break;
-            case GLFW_KEY_S:
-                attempt([&] { takeScreenshot(""); });
-                break;
-            case GLFW_KEY_Q:
-                window_.close();
-                break;
-            default:
-                break;
-        }
+        handleControlKey(press);
         return;
     }
     switch (press.key) {

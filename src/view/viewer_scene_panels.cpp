@@ -57,6 +57,28 @@ void Viewer::environmentPanel() {
     }
 }
 
+void Viewer::lampsPanel() {
+    View& view = state_.view;
+    const std::vector<Lamp>& lamps = session_->scene().lamps;
+    if (!lamps.empty() && ImGui::TreeNode("lamps", "Lamps (%zu)", lamps.size())) {
+        for (uint32_t i = 0; i < lamps.size(); ++i) {
+            const auto place = std::ranges::lower_bound(view.lampsOff, i);
+            bool on = place == view.lampsOff.end() || *place != i;
+            ImGui::PushID(static_cast<int>(i));
+            if (ImGui::Checkbox(fmt::format("{} {}", i, lamps[i].name).c_str(), &on)) {
+                if (on) {
+                    view.lampsOff.erase(place);
+                } else {
+                    view.lampsOff.insert(place, i);
+                }
+            }
+            places_.note(fmt::format("lamp {}", i));
+            ImGui::PopID();
+        }
+        ImGui::TreePop();
+    }
+}
+
 void Viewer::lightPanel() {
     View& view = state_.view;
     ImGui::TextUnformatted("Sun");
@@ -90,25 +112,7 @@ void Viewer::lightPanel() {
     tooltip("Angular diameter; the real sun has 0.53°. Larger: softer shadows, with shadow.filter=pcss.");
     ImGui::PopItemWidth();
     ImGui::EndGroup();
-
-    const std::vector<Lamp>& lamps = session_->scene().lamps;
-    if (!lamps.empty() && ImGui::TreeNode("lamps", "Lamps (%zu)", lamps.size())) {
-        for (uint32_t i = 0; i < lamps.size(); ++i) {
-            const auto place = std::ranges::lower_bound(view.lampsOff, i);
-            bool on = place == view.lampsOff.end() || *place != i;
-            ImGui::PushID(static_cast<int>(i));
-            if (ImGui::Checkbox(fmt::format("{} {}", i, lamps[i].name).c_str(), &on)) {
-                if (on) {
-                    view.lampsOff.erase(place);
-                } else {
-                    view.lampsOff.insert(place, i);
-                }
-            }
-            places_.note(fmt::format("lamp {}", i));
-            ImGui::PopID();
-        }
-        ImGui::TreePop();
-    }
+    lampsPanel();
     environmentPanel();
     if (ImGui::Button("reset light")) {
         view.sun = session_->firstView().sun;

@@ -28,9 +28,12 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <numeric>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace reflet::test::effects_host_test {
@@ -323,6 +326,62 @@ TEST(EffectsHost, StaysFiniteWhateverTheInputsHold) {
         expectLight(recorder, results.display, VK_FORMAT_R8G8B8A8_UNORM, "display");
     }
     EXPECT_TRUE(host.messages().empty()) << host.messages().front();
+}
+
+// Stands between a context and the device, and adds up what it allocates.
+struct DeviceMemory {
+    static inline PFN_vkAllocateMemory allocate = nullptr;
+    static inline PFN_vkFreeMemory release = nullptr;
+    static inline std::map<VkDeviceMemory, VkDeviceSize> live;
+
+    static VKAPI_ATTR VkResult VKAPI_CALL noteAllocate(VkDevice device, const VkMemoryAllocateInfo* info,
+                                                       const VkAllocationCallbacks* host, VkDeviceMemory* memory) {
+        const VkResult result = allocate(device, info, host, memory);
+        live[*memory] = info->allocationSize;
+        return result;
+    }
+    static VKAPI_ATTR void VKAPI_CALL noteFree(VkDevice device, VkDeviceMemory memory,
+                                               const VkAllocationCallbacks* host) {
+        live.erase(memory);
+        release(device, memory, host);
+    }
+    static void listen(gpu::Context& context) {
+        live.clear();
+        allocate = std::exchange(context.vk.vkAllocateMemory, noteAllocate);
+        release = std::exchange(context.vk.vkFreeMemory, noteFree);
+    }
+    static VkDeviceSize bytes() {
+        return std::accumulate(live.begin(), live.end(), VkDeviceSize(0),
+                               [](VkDeviceSize sum, const auto& block) { return sum + block.second; });
+    }
+};
+
+TEST(EffectsHost, TellsTheMemoryThatItAllocates) {
+    Host host;
+    {
+        gpu::Context context(host.device());
+        DeviceMemory::listen(context);
+        context.shaders().add(effectShaders());
+        gpu::Recorder recorder(context, Host::framesInFlight);
+        HostCamera camera(context);
+        for (uint32_t frame = 0; frame < 4; ++frame) {
+            host.frame([&](VkCommandBuffer commands) {
+                recorder.begin(commands);
+                if (frame == 0) {
+                    camera.makeInputs(recorder, viewOf(frame), false);
+                }
+                camera.record(recorder, viewOf(frame));
+                recorder.end();
+            });
+            EXPECT_EQ(context.memory().reserved(), DeviceMemory::bytes());
+            EXPECT_GT(context.memory().used(gpu::MemoryUse::device), 0U);
+        }
+        EXPECT_LE(context.memory().used(gpu::MemoryUse::device), DeviceMemory::bytes());
+        EXPECT_EQ(context.counts().memoryBlocks, DeviceMemory::live.size()) << "none was freed";
+        host.waitForAll();
+        recorder.finish();
+    }
+    EXPECT_EQ(DeviceMemory::bytes(), 0U) << "left behind";
 }
 
 // A new effect is to be recorded above, too.
