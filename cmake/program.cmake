@@ -1,6 +1,5 @@
 # The program `reflet`: scenes, renderer, reference, comparison, window. Its libraries are Debian packages, see setup.sh.
 find_package(CLI11 REQUIRED)
-find_package(nlohmann_json REQUIRED)
 pkg_check_modules(TINYGLTF REQUIRED IMPORTED_TARGET tinygltf)
 find_package(Draco REQUIRED)
 pkg_check_modules(OPENEXR REQUIRED IMPORTED_TARGET OpenEXR)
@@ -35,7 +34,6 @@ reflet_library(reflet_renderer renderer reflet_effects reflet_device reflet_scen
 file(GLOB_RECURSE renderer_shaders CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} src/renderer/*.vert
     src/renderer/*.frag src/renderer/*.comp)
 reflet_shaders(reflet_renderer rendererShaders ${renderer_shaders})
-include(cmake/embed.cmake)
 file(GLOB presets CONFIGURE_DEPENDS src/renderer/presets/*.json)
 reflet_embed(reflet_renderer embeddedPresets ${presets})
 

@@ -38,7 +38,7 @@ void BarrierBatch::use(AccessState& state, const Access& access) {
 }
 
 void BarrierBatch::use(ImageState& image, VkImageAspectFlags aspect, const Access& access) {
-    if (image.layout == VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL) {
+    if (image.external || image.layout == VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL) {
         return;  // uploaded once, read-only from then on
     }
     if (image.layout == VK_IMAGE_LAYOUT_UNDEFINED) {

@@ -21,8 +21,19 @@ F instanceFunction(const OpenDevice& open, const char* name) {
 }  // namespace
 
 Context::Context(const OpenDevice& open)
-    : device_(open.device), anisotropic_(open.samplerAnisotropy), rayQuery_(open.rayQuery) {
-    vk = loadFunctions(instanceFunction<PFN_vkGetDeviceProcAddr>(open, "vkGetDeviceProcAddr"), open.device, rayQuery_);
+    : device_(open.device),
+      allocateMemory_(open.allocateMemory),
+      freeMemory_(open.freeMemory),
+      anisotropic_(open.samplerAnisotropy),
+      rayQuery_(open.rayQuery) {
+    const auto lookUp = instanceFunction<PFN_vkGetDeviceProcAddr>(open, "vkGetDeviceProcAddr");
+    vk = loadFunctions(lookUp, open.device, rayQuery_);
+    if (open.debugUtils) {
+        setName_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(lookUp(device_, "vkSetDebugUtilsObjectNameEXT"));
+        beginLabel_ =
+            reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(lookUp(device_, "vkCmdBeginDebugUtilsLabelEXT"));
+        endLabel_ = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(lookUp(device_, "vkCmdEndDebugUtilsLabelEXT"));
+    }
     VkPhysicalDeviceAccelerationStructurePropertiesKHR structures{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
@@ -71,6 +82,42 @@ VkSampler Context::sampler(const SamplerInfo& info) {
     samplers_.emplace_back(info, sampler);
     ++counts_.samplers;
     return sampler;
+}
+
+VkResult Context::allocateMemory(const VkMemoryAllocateInfo& info, VkDeviceMemory* memory) {
+    return allocateMemory_ ? allocateMemory_(info, memory) : vk.vkAllocateMemory(device_, &info, nullptr, memory);
+}
+
+void Context::freeMemory(VkDeviceMemory memory) {
+    if (freeMemory_) {
+        freeMemory_(memory);
+    } else {
+        vk.vkFreeMemory(device_, memory, nullptr);
+    }
+}
+
+void Context::nameImage(VkImage image, const std::string& name) const {
+    if (setName_ != nullptr) {
+        VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
+        info.objectType = VK_OBJECT_TYPE_IMAGE;
+        info.objectHandle = reinterpret_cast<uint64_t>(image);
+        info.pObjectName = name.c_str();
+        setName_(device_, &info);
+    }
+}
+
+void Context::beginLabel(VkCommandBuffer commands, const std::string& name) const {
+    if (beginLabel_ != nullptr) {
+        VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
+        label.pLabelName = name.c_str();
+        beginLabel_(commands, &label);
+    }
+}
+
+void Context::endLabel(VkCommandBuffer commands) const {
+    if (endLabel_ != nullptr) {
+        endLabel_(commands);
+    }
 }
 
 uint64_t Context::beginWork() {

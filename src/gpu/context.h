@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -26,6 +27,11 @@ struct OpenDevice {
     bool samplerAnisotropy = false;
     /// VK_KHR_acceleration_structure, VK_KHR_ray_query and buffer device addresses.
     bool rayQuery = false;
+    /// VK_EXT_debug_utils: names images and labels passes.
+    bool debugUtils = false;
+    /// Device memory, if the host hands it out itself; both or none.
+    std::function<VkResult(const VkMemoryAllocateInfo&, VkDeviceMemory*)> allocateMemory;
+    std::function<void(VkDeviceMemory)> freeMemory;
 };
 
 /// Parameters of a sampler.
@@ -85,6 +91,13 @@ public:
     /// Deferred destruction: runs `destroy` once all work that has begun is finished; at once if there is none.
     void retire(std::function<void()> destroy);
 
+    VkResult allocateMemory(const VkMemoryAllocateInfo& info, VkDeviceMemory* memory);
+    void freeMemory(VkDeviceMemory memory);
+    /// For debuggers; do nothing without VK_EXT_debug_utils.
+    void nameImage(VkImage image, const std::string& name) const;
+    void beginLabel(VkCommandBuffer commands, const std::string& name) const;
+    void endLabel(VkCommandBuffer commands) const;
+
     /// Device-level functions.
     DeviceFunctions vk{};
 
@@ -97,6 +110,11 @@ private:
     void collectRetired();
 
     VkDevice device_ = VK_NULL_HANDLE;
+    std::function<VkResult(const VkMemoryAllocateInfo&, VkDeviceMemory*)> allocateMemory_;
+    std::function<void(VkDeviceMemory)> freeMemory_;
+    PFN_vkSetDebugUtilsObjectNameEXT setName_ = nullptr;
+    PFN_vkCmdBeginDebugUtilsLabelEXT beginLabel_ = nullptr;
+    PFN_vkCmdEndDebugUtilsLabelEXT endLabel_ = nullptr;
     VkPhysicalDeviceLimits limits_{};
     VkDeviceSize scratchAlignment_ = 0;
     bool anisotropic_ = false;

@@ -47,6 +47,9 @@ Image KeptImage::target(Recorder& f, VkFormat format, uvec2 size) {
 }
 
 bool KeptImage::holds(const Recorder& f, std::span<const std::byte> key) {
+    if (f.isCollecting()) {
+        return false;  // and nothing will be written
+    }
     if (generation_ == f.generation() && std::ranges::equal(contents_, key)) {
         return true;
     }

@@ -68,7 +68,7 @@ Memory::Memory(Context& context, const VkPhysicalDeviceMemoryProperties& propert
 
 Memory::~Memory() {
     for (const auto& block : blocks_) {
-        context_.vk.vkFreeMemory(context_.handle(), block->memory, nullptr);
+        context_.freeMemory(block->memory);
     }
 }
 
@@ -97,10 +97,11 @@ MemoryBlock& Memory::addBlock(uint32_t type, bool linear, VkDeviceSize size) {
     VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
     flags.flags = context_.hasRayQuery() && linear ? VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT : 0;
     const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &flags, size, type};
-    const VkResult result = context_.vk.vkAllocateMemory(context_.handle(), &info, nullptr, &block->memory);
+    const VkResult result = context_.allocateMemory(info, &block->memory);
     if (result != VK_SUCCESS) {
-        fail("out of device memory: {} MiB needed in addition to {} MiB in use ({}); render at a smaller --size",
-             size >> 20U, reserved_ >> 20U, resultName(result));
+        throw OutOfMemory(fmt::format(
+            "out of device memory: {} MiB needed in addition to {} MiB in use ({}); render at a smaller size",
+            size >> 20U, reserved_ >> 20U, resultName(result)));
     }
     block->type = type;
     block->linear = linear;
@@ -122,7 +123,10 @@ Allocation Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, bo
     const auto placed = [&](MemoryBlock& block, VkDeviceSize offset) {
         std::byte* mapped = block.mapped != nullptr ? block.mapped + offset : nullptr;
         used_[static_cast<size_t>(use)] += needs.size;
-        return Allocation{&block, block.memory, offset, needs.size, mapped, use};
+        if (account_) {
+            *account_ += needs.size;
+        }
+        return Allocation{&block, block.memory, offset, needs.size, mapped, use, account_};
     };
     for (const auto& block : blocks_) {
         if (block->type == type && block->linear == linear) {
@@ -141,9 +145,12 @@ void Memory::release(const Allocation& allocation) {
     }
     MemoryBlock& block = *allocation.block;
     used_[static_cast<size_t>(allocation.use)] -= allocation.size;
+    if (allocation.account) {
+        *allocation.account -= allocation.size;
+    }
     block.giveBack(allocation.offset, allocation.size);
     if (block.holes.size() == 1 && block.holes.begin()->second == block.size) {
-        context_.vk.vkFreeMemory(context_.handle(), block.memory, nullptr);
+        context_.freeMemory(block.memory);
         reserved_ -= block.size;
         std::erase_if(blocks_, [&](const auto& b) { return b.get() == &block; });
     }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace reflet::gpu {
@@ -29,6 +30,7 @@ struct Allocation {
     VkDeviceSize size = 0;
     std::byte* mapped = nullptr;  ///< persistently mapped if host-visible
     MemoryUse use = MemoryUse::device;
+    std::shared_ptr<VkDeviceSize> account;  ///< that the bytes are added to
 };
 
 class Memory {
@@ -46,6 +48,9 @@ public:
     /// Bytes in use by resources of this kind; retired resources count until they are destroyed.
     [[nodiscard]] VkDeviceSize used(MemoryUse use) const { return used_[static_cast<size_t>(use)]; }
 
+    /// Where the bytes of allocations are added up from now on, until they are released; none: nowhere.
+    void setAccount(std::shared_ptr<VkDeviceSize> account) { account_ = std::move(account); }
+
     /// Bytes of all blocks, as allocated from the device.
     [[nodiscard]] VkDeviceSize reserved() const { return reserved_; }
 
@@ -56,6 +61,7 @@ private:
     Context& context_;
     VkPhysicalDeviceMemoryProperties properties_;
     std::vector<std::unique_ptr<MemoryBlock>> blocks_;
+    std::shared_ptr<VkDeviceSize> account_;
     VkDeviceSize reserved_ = 0;  ///< bytes allocated from the device
     std::array<VkDeviceSize, 3> used_{};
 };

@@ -197,10 +197,13 @@ void Pass::emitBarriers() {
     batch.record(recorder_.context_.vk, recorder_.commands_);
 }
 
-// Written resources count once: passes that also read them move more. Clears are not counted.
+// Written resources count once: passes that also read them move more. Clears and images of a host are not counted.
 uint64_t Pass::boundBytes() const {
     uint64_t bytes = 0;
     for (const Bound& bound : bound_) {
+        if (bound.image && bound.image.state->external) {
+            continue;  // of any format
+        }
         bytes += bound.image ? bytesOf(bound.image) : bound.buffer.size;
     }
     for (const Attachment& color : colors_) {
@@ -232,10 +235,7 @@ VkDescriptorSet Pass::writeSet(const Pipeline& pipeline) {
         } else if (const auto bound = std::ranges::find(bound_, binding.name, &Bound::name); bound->image) {
             const VkSampler sampler =
                 bound->sampler != VK_NULL_HANDLE ? bound->sampler : recorder_.context_.sampler({});
-            const VkImageLayout layout = bound->image.state->layout == VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
-                                             ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
-                                             : VK_IMAGE_LAYOUT_GENERAL;
-            images[i] = {sampler, bound->image.view, layout};
+            images[i] = {sampler, bound->image.view, bound->image.state->layout};
         } else if (bound->structure) {
             structures[i] = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR, nullptr, 1,
                              &bound->structure.structure};
@@ -271,6 +271,9 @@ const Pipeline& Pass::startCompute() {
 }
 
 void Pass::dispatch(uint32_t x, uint32_t y, uint32_t z) {
+    if (recorder_.collects(info_)) {
+        return;
+    }
     const Pipeline& pipeline = startCompute();
     const glm::uvec3 groups = (glm::uvec3(x, y, z) + pipeline.localSize - 1U) / pipeline.localSize;
     recorder_.context_.vk.vkCmdDispatch(recorder_.commands_, groups.x, groups.y, groups.z);
@@ -278,6 +281,9 @@ void Pass::dispatch(uint32_t x, uint32_t y, uint32_t z) {
 }
 
 void Pass::dispatchIndirect(BufferView arguments, VkDeviceSize offset) {
+    if (recorder_.collects(info_)) {
+        return;
+    }
     use(arguments, {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, false});
     startCompute();
     recorder_.context_.vk.vkCmdDispatchIndirect(recorder_.commands_, arguments.state->buffer, offset);
@@ -299,6 +305,9 @@ void Pass::orderAttachments(const Pipeline& pipeline) {
 void Pass::draw(const std::function<void(const DrawCommands&)>& record) {
     for (const Attachment& color : colors_) {
         info_.colorFormats.push_back(color.image.format);
+    }
+    if (recorder_.collects(info_)) {
+        return;
     }
     const Pipeline& pipeline = recorder_.context_.pipelines().get(info_);
     orderAttachments(pipeline);

@@ -61,6 +61,8 @@ public:
     /// Throws std::logic_error: an unknown shader or constant, or stages with conflicting bindings.
     const Pipeline& get(const PipelineInfo& info);
 
+    [[nodiscard]] bool has(const PipelineInfo& info) const { return pipelines_.contains(info); }
+
     /// Forgets all pipelines, because shaders have changed.
     void clear();
 

@@ -95,8 +95,25 @@ void Recorder::begin(VkCommandBuffer commands) {
 }
 
 void Recorder::end() {
-    dropUnused();
+    if (!isCollecting()) {
+        dropUnused();
+    }
     commands_ = VK_NULL_HANDLE;
+    missing_ = nullptr;
+}
+
+void Recorder::collect(std::vector<PipelineInfo>& missing) {
+    missing_ = &missing;
+}
+
+bool Recorder::collects(const PipelineInfo& info) {
+    if (!isCollecting()) {
+        return false;
+    }
+    if (!context_.pipelines().has(info) && std::ranges::find(*missing_, info) == missing_->end()) {
+        missing_->push_back(info);
+    }
+    return true;
 }
 
 void Recorder::finish() {
@@ -126,6 +143,7 @@ std::pair<VkQueryPool, uint32_t> Recorder::timestamp(uint32_t which) {
 }
 
 void Recorder::beginTimer(const PassTime& pass) {
+    context_.beginLabel(commands_, pass.name);
     slot().timed.push_back(pass);
     // The second timestamp is never read. llvmpipe takes a timestamp only when the next one flushes it, which otherwise
     // would be after the pass.
@@ -138,6 +156,7 @@ void Recorder::beginTimer(const PassTime& pass) {
 void Recorder::endTimer() {
     const auto [pool, query] = timestamp(2);
     context_.vk.vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, query);
+    context_.endLabel(commands_);
 }
 
 void Recorder::readTimers(Slot& slot) {
@@ -181,6 +200,9 @@ Pass Recorder::raster(std::string_view name, std::vector<std::string> shaders) {
 }
 
 void Recorder::update(BufferView buffer, std::span<const std::byte> bytes) {
+    if (isCollecting()) {
+        return;
+    }
     REFLET_CHECK(bytes.size() <= buffer.size && bytes.size() % 4 == 0, "{} bytes", bytes.size());
     BarrierBatch batch;
     batch.use(buffer.state->access, {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, true});
@@ -192,24 +214,32 @@ void Recorder::update(BufferView buffer, std::span<const std::byte> bytes) {
 }
 
 void Recorder::readByDraws(BufferView buffer) {
+    if (isCollecting()) {
+        return;
+    }
     BarrierBatch batch;
     batch.use(buffer.state->access,
               {VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT, false});
     batch.record(context_.vk, commands_);
 }
 
-void Recorder::clear(Image image) {
+void Recorder::clear(Image image, const VkClearColorValue& value) {
+    if (isCollecting()) {
+        return;
+    }
     BarrierBatch batch;
     batch.use(*image.state, aspectOf(image.format),
               {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, true});
     batch.record(context_.vk, commands_);
-    const VkClearColorValue zero{};
     const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS, 0,
                                       VK_REMAINING_ARRAY_LAYERS};
-    context_.vk.vkCmdClearColorImage(commands_, image.state->image, VK_IMAGE_LAYOUT_GENERAL, &zero, 1, &all);
+    context_.vk.vkCmdClearColorImage(commands_, image.state->image, VK_IMAGE_LAYOUT_GENERAL, &value, 1, &all);
 }
 
 void Recorder::upload(Image image, std::span<const std::byte> texels) {
+    if (isCollecting()) {
+        return;
+    }
     REFLET_CHECK(texels.size() == size_t(image.size.x) * image.size.y * bytesPerTexel(image.format),
                  "{} bytes for {}x{}", texels.size(), image.size.x, image.size.y);
     const Buffer staging(context_, texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::upload, "staging");
@@ -290,6 +320,7 @@ void Recorder::dropUnused() {
 }
 
 Readback Recorder::readback(Image image) {
+    REFLET_CHECK(!isCollecting(), "nothing is recorded to read back");
     const VkDeviceSize size = VkDeviceSize(image.size.x) * image.size.y * bytesPerTexel(image.format);
     std::vector<Buffer>& readbacks = slot().readbacks;
     const size_t index = slot().readbacksUsed++;

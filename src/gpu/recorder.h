@@ -57,6 +57,11 @@ public:
     /// are available.
     void finish();
 
+    /// Until end(), instead of begin(): nothing is recorded, and the pipelines that the passes need and the context
+    /// does not have yet are added to `missing`. Images and buffers are made as in a frame; histories stay as they are.
+    void collect(std::vector<PipelineInfo>& missing);
+    [[nodiscard]] bool isCollecting() const { return missing_ != nullptr; }
+
     Pass compute(std::string_view name, std::string_view shader);
     Pass raster(std::string_view name, std::vector<std::string> shaders);
     /// Overwrites the start of a buffer (a multiple of 4 bytes).
@@ -65,8 +70,8 @@ public:
     /// Makes writes to the buffer visible to later draws that bind it as a vertex buffer.
     void readByDraws(BufferView buffer);
 
-    /// Fills a colour image with zeros.
-    void clear(Image image);
+    /// Fills a colour image with a value, zeros by default.
+    void clear(Image image, const VkClearColorValue& value = {});
 
     /// Overwrites all of a single-layer image's first level. texels: rows from the top, tightly packed.
     void upload(Image image, std::span<const std::byte> texels);
@@ -130,6 +135,8 @@ private:
         std::vector<PassTime> timed;  ///< times not yet read
     };
 
+    /// Whether no passes are recorded now; notes the pipeline if it is missing.
+    bool collects(const PipelineInfo& info);
     /// `pass`: everything but the time.
     void beginTimer(const PassTime& pass);
     void endTimer();
@@ -161,8 +168,9 @@ private:
     Context& context_;
     std::vector<Slot> slots_;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;  ///< null between frames
-    uint64_t number_ = 0;                        ///< of the frame, counts from 1
-    size_t finished_ = 0;                        ///< slot of the last frame that the device has finished
+    std::vector<PipelineInfo>* missing_ = nullptr;
+    uint64_t number_ = 0;  ///< of the frame, counts from 1
+    size_t finished_ = 0;  ///< slot of the last frame that the device has finished
     uint64_t generation_ = 0;
     std::string prefix_;
     std::vector<PooledImage> pooledImages_;

@@ -101,7 +101,13 @@ Texture::Texture(Context& context, const ImageInfo& info, const std::string& nam
     vkCheck(context.vk.vkCreateImage(context.handle(), &create, nullptr, &state_->image), "creating an image");
     VkMemoryRequirements needs{};
     context.vk.vkGetImageMemoryRequirements(context.handle(), state_->image, &needs);
-    allocation_ = context.memory().allocate(needs, MemoryUse::device, false);
+    try {
+        allocation_ = context.memory().allocate(needs, MemoryUse::device, false);
+    } catch (...) {
+        context.vk.vkDestroyImage(context.handle(), state_->image, nullptr);
+        throw;
+    }
+    context.nameImage(state_->image, name);
     vkCheck(context.vk.vkBindImageMemory(context.handle(), state_->image, allocation_.memory, allocation_.offset),
             "binding image memory");
     const VkImageAspectFlags aspect = aspectOf(info.format);
@@ -161,7 +167,12 @@ Buffer::Buffer(Context& context, VkDeviceSize size, VkBufferUsageFlags usage, Me
     vkCheck(context.vk.vkCreateBuffer(context.handle(), &create, nullptr, &state_->buffer), "creating a buffer");
     VkMemoryRequirements needs{};
     context.vk.vkGetBufferMemoryRequirements(context.handle(), state_->buffer, &needs);
-    allocation_ = context.memory().allocate(needs, use, true);
+    try {
+        allocation_ = context.memory().allocate(needs, use, true);
+    } catch (...) {
+        context.vk.vkDestroyBuffer(context.handle(), state_->buffer, nullptr);
+        throw;
+    }
     vkCheck(context.vk.vkBindBufferMemory(context.handle(), state_->buffer, allocation_.memory, allocation_.offset),
             "binding buffer memory");
 }

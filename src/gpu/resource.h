@@ -29,6 +29,7 @@ struct ImageState {
     VkImage image = VK_NULL_HANDLE;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
     AccessState access;
+    bool external = false;  ///< its owner records the barriers; passes only sample it, in `layout`
 };
 
 struct BufferState {

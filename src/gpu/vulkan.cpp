@@ -1,11 +1,12 @@
 // Names of results.
 #include "gpu/vulkan.h"
 
-#include "base/error.h"
-
 namespace reflet::gpu {
 
 void vkCheck(VkResult result, const char* what) {
+    if (result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY) {
+        throw OutOfMemory(fmt::format("{} failed: {}", what, resultName(result)));
+    }
     if (result < 0) {
         fail("{} failed: {}", what, resultName(result));
     }

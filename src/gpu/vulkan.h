@@ -6,11 +6,25 @@
 #endif
 #include <vulkan/vulkan_core.h>
 
+#include "base/error.h"
+
 #include <string>
 
 namespace reflet::gpu {
 
-/// Throws Error "WHAT failed: RESULT".
+/// Memory of the device or the host is exhausted.
+class OutOfMemory : public Error {
+public:
+    using Error::Error;
+};
+
+/// The device, or what was enabled on it, lacks something.
+class Unsupported : public Error {
+public:
+    using Error::Error;
+};
+
+/// Throws Error "WHAT failed: RESULT", or OutOfMemory.
 void vkCheck(VkResult result, const char* what);
 
 std::string resultName(VkResult result);

@@ -43,6 +43,8 @@ VkFormat formatOf(SpvImageFormat format, std::string_view shader) {
             return VK_FORMAT_R8_UNORM;
         case SpvImageFormatRgba8:
             return VK_FORMAT_R8G8B8A8_UNORM;
+        case SpvImageFormatRgb10A2:
+            return VK_FORMAT_A2B10G10R10_UNORM_PACK32;
         case SpvImageFormatRg16f:
             return VK_FORMAT_R16G16_SFLOAT;
         case SpvImageFormatRgba16f:

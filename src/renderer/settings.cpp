@@ -9,46 +9,11 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <cstring>
-#include <optional>
+#include <utility>
 
 namespace reflet {
 
 namespace {
-
-template <class Effect>
-void addEffect(std::vector<SettingEntry>& entries, const std::string& effect, size_t offset) {
-    for (SettingInfo info : settingInfos(static_cast<const Effect*>(nullptr))) {
-        info.offset += offset;
-        entries.push_back({effect + "." + info.name, std::move(info)});
-    }
-}
-
-std::vector<SettingEntry> makeEntries() {
-    std::vector<SettingEntry> entries;
-    addEffect<MaterialsSettings>(entries, "materials", offsetof(Settings, materials));
-    addEffect<DepthSettings>(entries, "depth", offsetof(Settings, depth));
-    addEffect<ShadowSettings>(entries, "shadow", offsetof(Settings, shadow));
-    addEffect<ContactSettings>(entries, "contact", offsetof(Settings, contact));
-    addEffect<DirectSettings>(entries, "direct", offsetof(Settings, direct));
-    addEffect<TraceScreenSettings>(entries, "trace_screen", offsetof(Settings, traceScreen));
-    addEffect<TraceSceneSettings>(entries, "trace_scene", offsetof(Settings, traceScene));
-    addEffect<ProbesSettings>(entries, "probes", offsetof(Settings, probes));
-    addEffect<PlanarSettings>(entries, "planar", offsetof(Settings, planar));
-    addEffect<LiveSettings>(entries, "live", offsetof(Settings, live));
-    addEffect<EnvironmentSettings>(entries, "environment", offsetof(Settings, environment));
-    addEffect<DiffuseSettings>(entries, "diffuse", offsetof(Settings, diffuse));
-    addEffect<SpecularSettings>(entries, "specular", offsetof(Settings, specular));
-    addEffect<DenoiseSettings>(entries, "denoise", offsetof(Settings, denoise));
-    addEffect<CompositeSettings>(entries, "composite", offsetof(Settings, composite));
-    addEffect<BlendSettings>(entries, "blend", offsetof(Settings, blend));
-    addEffect<AccumulateSettings>(entries, "accumulate", offsetof(Settings, accumulate));
-    addEffect<TemporalSettings>(entries, "temporal", offsetof(Settings, temporal));
-    addEffect<TonemapSettings>(entries, "tonemap", offsetof(Settings, tonemap));
-    return entries;
-}
 
 // Settings that had another name in version 0.1, in snake_case. Those that were only in camelCase need no line.
 constexpr std::pair<std::string_view, std::string_view> renamedSettings[] = {
@@ -67,63 +32,29 @@ constexpr std::pair<std::string_view, std::string_view> renamedSettings[] = {
     {"trace_screen.thickness_from", "trace_screen.thickness_mode"},
 };
 
-// What a name of version 0.1 is called now.
-std::optional<std::string> newName(std::string_view old) {
-    const std::string snake = snakeCase(old);
-    const auto* renamed =
-        std::ranges::find(renamedSettings, snake, &std::pair<std::string_view, std::string_view>::first);
-    const std::string name = renamed == std::end(renamedSettings) ? snake : std::string(renamed->second);
-    const bool known = std::ranges::find(settingEntries(), name, &SettingEntry::name) != settingEntries().end();
-    return known ? std::optional(name) : std::nullopt;
-}
-
-std::optional<double> parseNumber(const std::string& text) {
-    double value = 0.0;
-    const char* end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data(), end, value);
-    return error == std::errc() && rest == end && std::isfinite(value) ? std::optional(value) : std::nullopt;
-}
-
-std::optional<double> parseValue(const SettingInfo& info, const std::string& text) {
-    if (info.type == SettingType::choice) {
-        const auto option = std::ranges::find(info.options, text, &SettingOption::name);
-        return option == info.options.end() ? std::nullopt : std::optional<double>(option->value);
-    }
-    if (info.type == SettingType::toggle) {
-        if (text == "true" || text == "on" || text == "1") {
-            return 1.0;
-        }
-        return text == "false" || text == "off" || text == "0" ? std::optional(0.0) : std::nullopt;
-    }
-    const auto value = parseNumber(text);
-    const bool whole = info.type == SettingType::real || (value && std::floor(*value) == *value);
-    // As floats, which is what limits of real settings are: 0.001 as a double is less than as a float.
-    const bool real = info.type == SettingType::real;
-    const double compared = value && real ? double(static_cast<float>(*value)) : value.value_or(0.0);
-    return value && whole && compared >= info.lowest && compared <= info.highest ? value : std::nullopt;
-}
-
-void store(Settings& settings, const SettingInfo& info, double value) {
-    auto* at = reinterpret_cast<std::byte*>(&settings) + info.offset;
-    if (info.type == SettingType::real) {
-        const auto real = static_cast<float>(value);
-        std::memcpy(at, &real, sizeof(real));
-    } else {
-        const auto integer = static_cast<uint32_t>(value);
-        std::memcpy(at, &integer, sizeof(integer));
-    }
-}
-
-double load(const Settings& settings, const SettingInfo& info) {
-    const auto* at = reinterpret_cast<const std::byte*>(&settings) + info.offset;
-    if (info.type == SettingType::real) {
-        float real = 0.0F;
-        std::memcpy(&real, at, sizeof(real));
-        return real;
-    }
-    uint32_t integer = 0;
-    std::memcpy(&integer, at, sizeof(integer));
-    return integer;
+SettingTable makeTable() {
+    SettingTable table("reflet list settings");
+    table.add<MaterialsSettings>("materials", offsetof(Settings, materials));
+    table.add<DepthSettings>("depth", offsetof(Settings, depth));
+    table.add<ShadowSettings>("shadow", offsetof(Settings, shadow));
+    table.add<ContactSettings>("contact", offsetof(Settings, contact));
+    table.add<DirectSettings>("direct", offsetof(Settings, direct));
+    table.add<TraceScreenSettings>("trace_screen", offsetof(Settings, traceScreen));
+    table.add<TraceSceneSettings>("trace_scene", offsetof(Settings, traceScene));
+    table.add<ProbesSettings>("probes", offsetof(Settings, probes));
+    table.add<PlanarSettings>("planar", offsetof(Settings, planar));
+    table.add<LiveSettings>("live", offsetof(Settings, live));
+    table.add<EnvironmentSettings>("environment", offsetof(Settings, environment));
+    table.add<DiffuseSettings>("diffuse", offsetof(Settings, diffuse));
+    table.add<SpecularSettings>("specular", offsetof(Settings, specular));
+    table.add<DenoiseSettings>("denoise", offsetof(Settings, denoise));
+    table.add<CompositeSettings>("composite", offsetof(Settings, composite));
+    table.add<BlendSettings>("blend", offsetof(Settings, blend));
+    table.add<AccumulateSettings>("accumulate", offsetof(Settings, accumulate));
+    table.add<TemporalSettings>("temporal", offsetof(Settings, temporal));
+    table.add<TonemapSettings>("tonemap", offsetof(Settings, tonemap));
+    table.rename(renamedSettings);
+    return table;
 }
 
 // A text names a choice; a number or a switch in quotation marks keeps them, and is refused.
@@ -163,34 +94,29 @@ bool tracesScene(const Settings& settings) {
     return settings.traceScene.enabled != 0 || settings.shadow.filter == ShadowFilter::traced;
 }
 
+const SettingTable& settingTable() {
+    static const SettingTable table = makeTable();
+    return table;
+}
+
 const std::vector<SettingEntry>& settingEntries() {
-    static const std::vector<SettingEntry> entries = makeEntries();
-    return entries;
+    return settingTable().entries();
 }
 
 const SettingEntry& findSetting(std::string_view name) {
-    const auto& entries = settingEntries();
-    const auto found = std::ranges::find(entries, name, &SettingEntry::name);
-    if (found == entries.end()) {
-        if (const auto renamed = newName(name)) {
-            failUsage("setting '{}' is called '{}' now", name, *renamed);
-        }
-        std::vector<std::string> names;
-        std::ranges::transform(entries, std::back_inserter(names), &SettingEntry::name);
-        failUsage("unknown setting '{}' (all of them: reflet list settings){}", name, suggestion(name, names));
-    }
-    return *found;
+    return settingTable().find(name);
 }
 
 bool sameSettings(const Settings& a, const Settings& b) {
-    return std::ranges::all_of(settingEntries(),
-                               [&](const SettingEntry& entry) { return load(a, entry.info) == load(b, entry.info); });
+    return std::ranges::all_of(settingEntries(), [&](const SettingEntry& entry) {
+        return loadSetting(&a, entry.info) == loadSetting(&b, entry.info);
+    });
 }
 
 nlohmann::ordered_json settingsJson(const Settings& settings, const Settings& from) {
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
     for (const SettingEntry& entry : settingEntries()) {
-        if (load(settings, entry.info) == load(from, entry.info)) {
+        if (loadSetting(&settings, entry.info) == loadSetting(&from, entry.info)) {
             continue;
         }
         const std::string text = settingText(settings, entry);
@@ -201,34 +127,8 @@ nlohmann::ordered_json settingsJson(const Settings& settings, const Settings& fr
     return json;
 }
 
-std::string rangeText(const SettingInfo& info) {
-    switch (info.type) {
-        case SettingType::toggle:
-            return "true or false";
-        case SettingType::choice: {
-            std::vector<std::string> names;
-            std::ranges::transform(info.options, std::back_inserter(names), &SettingOption::name);
-            return fmt::format("{}", fmt::join(names, ", "));
-        }
-        default:
-            return fmt::format("{:g} to {:g}", info.lowest, info.highest);
-    }
-}
-
 void setSetting(Settings& settings, std::string_view name, const std::string& value) {
-    const SettingEntry& entry = findSetting(name);
-    const auto parsed = parseValue(entry.info, value);
-    if (!parsed) {
-        const char* kind = entry.info.type == SettingType::choice    ? "one of "
-                           : entry.info.type == SettingType::integer ? "a whole number from "
-                           : entry.info.type == SettingType::real    ? "a number from "
-                                                                     : "";
-        if (const std::string renamed = snakeCase(value); renamed != value && parseValue(entry.info, renamed)) {
-            failUsage("{}: '{}' is called '{}' now", entry.name, value, renamed);
-        }
-        failUsage("{} must be {}{}, is '{}'", entry.name, kind, rangeText(entry.info), value);
-    }
-    store(settings, entry.info, *parsed);
+    settingTable().set(&settings, name, value);
 }
 
 void setSetting(Settings& settings, std::string_view assignment) {
@@ -240,15 +140,7 @@ void setSetting(Settings& settings, std::string_view assignment) {
 }
 
 std::string settingText(const Settings& settings, const SettingEntry& entry) {
-    const double value = load(settings, entry.info);
-    if (entry.info.type == SettingType::choice) {
-        return std::ranges::find(entry.info.options, static_cast<uint32_t>(value), &SettingOption::value)->name;
-    }
-    if (entry.info.type == SettingType::toggle) {
-        return value != 0.0 ? "true" : "false";
-    }
-    return entry.info.type == SettingType::real ? fmt::format("{}", static_cast<float>(value))
-                                                : fmt::format("{}", static_cast<uint32_t>(value));
+    return settingText(static_cast<const void*>(&settings), entry.info);
 }
 
 void applySettingsJson(Settings& settings, const nlohmann::json& json, const std::string& where) {

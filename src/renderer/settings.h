@@ -1,7 +1,7 @@
 // All settings of the frame: one table per effect, here gathered under the names that users type (`effect.name`).
 #pragma once
 
-#include "base/setting_info.h"
+#include "base/setting_table.h"
 #include "effects/accumulate/accumulate.h"
 #include "effects/composite/composite.h"
 #include "effects/contact/contact.h"
@@ -55,11 +55,7 @@ struct Settings {
 /// Whether a frame with these settings traces rays against the scene's BVH.
 bool tracesScene(const Settings& settings);
 
-/// A setting with its full name and its place in Settings.
-struct SettingEntry {
-    std::string name;  ///< "trace_screen.max_steps"
-    SettingInfo info;  ///< offset counts from the start of Settings
-};
+const SettingTable& settingTable();
 
 /// All of them, in the order of the tables.
 const std::vector<SettingEntry>& settingEntries();
@@ -85,8 +81,5 @@ void applySettingsJson(Settings& settings, const nlohmann::json& json, const std
 
 /// The differences from `from`, as JSON for applySettingsJson; an empty object if there are none.
 nlohmann::ordered_json settingsJson(const Settings& settings, const Settings& from);
-
-/// The allowed values of a setting: "0.001 to 100", "true or false", "gamma22, srgb, …".
-std::string rangeText(const SettingInfo& info);
 
 }  // namespace reflet

@@ -1,0 +1,55 @@
+# libreflet: the effects behind the C API of include/reflet/reflet.h. One library of all objects that it needs, shared
+# (BUILD_SHARED_LIBS) or static; what it exports begins with `reflet`.
+include(cmake/embed.cmake)
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+file(GLOB api CONFIGURE_DEPENDS src/api/*.cpp src/api/*.h)
+set(library_parts reflet_core reflet_gpu reflet_noise reflet_effects)
+add_library(reflet ${api})
+foreach(part IN LISTS library_parts)
+    target_sources(reflet PRIVATE $<TARGET_OBJECTS:${part}>)
+    add_dependencies(reflet ${part})
+endforeach()
+add_library(reflet::reflet ALIAS reflet)
+set_target_properties(reflet PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+    POSITION_INDEPENDENT_CODE ON)
+target_include_directories(reflet PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+target_include_directories(reflet PRIVATE src)
+target_compile_definitions(reflet PRIVATE REFLET_BUILD)
+if(NOT BUILD_SHARED_LIBS)
+    target_compile_definitions(reflet PUBLIC REFLET_STATIC)
+endif()
+target_link_libraries(reflet PUBLIC Vulkan::Headers)
+target_link_libraries(reflet PRIVATE $<BUILD_INTERFACE:reflet_options> $<BUILD_INTERFACE:glm::glm>
+    $<BUILD_INTERFACE:fmt::fmt-header-only> $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>)
+set(library_presets src/renderer/presets/fast.json src/renderer/presets/balanced.json src/renderer/presets/quality.json)
+reflet_embed(reflet libraryPresets ${library_presets})
+# Templates of the C++ library are weak and visible whatever the flags say; the list of exports is what counts.
+if(BUILD_SHARED_LIBS AND UNIX AND NOT APPLE)
+    set(exports ${PROJECT_SOURCE_DIR}/cmake/exports.map)
+    target_link_options(reflet PRIVATE -Wl,--version-script=${exports})
+    set_target_properties(reflet PROPERTIES LINK_DEPENDS ${exports})
+endif()
+
+if(REFLET_INSTALL)
+    install(TARGETS reflet EXPORT refletTargets
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    install(DIRECTORY include/reflet DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+    set(package ${CMAKE_INSTALL_LIBDIR}/cmake/reflet)
+    install(EXPORT refletTargets NAMESPACE reflet:: DESTINATION ${package})
+    configure_package_config_file(cmake/refletConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/refletConfig.cmake
+        INSTALL_DESTINATION ${package})
+    write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/refletConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+    install(FILES ${CMAKE_CURRENT_BINARY_DIR}/refletConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/refletConfigVersion.cmake
+        DESTINATION ${package})
+    set(pc_static_define "")
+    if(NOT BUILD_SHARED_LIBS)
+        set(pc_static_define " -DREFLET_STATIC")
+    endif()
+    configure_file(cmake/reflet.pc.in ${CMAKE_CURRENT_BINARY_DIR}/reflet.pc @ONLY)
+    install(FILES ${CMAKE_CURRENT_BINARY_DIR}/reflet.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endif()

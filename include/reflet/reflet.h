@@ -1,0 +1,490 @@
+/*
+ * Reflet: screen-space reflections (SSR), screen-space diffuse global illumination (SSGI), sun shadows from shadow maps
+ * (hard, PCF, PCSS), contact shadows, denoising, temporal antialiasing (TAA) and tone mapping, recorded into the host's
+ * own Vulkan command buffer, from the host's G-buffer.
+ *
+ * C11 and C++. docs/library.md is the guide; examples/ has complete hosts.
+ *
+ * The library records. It never submits, waits, or touches a queue; nothing is written to standard output or error. A
+ * function that returns RefletResult reports failures by it, and refletLastError() says what, where and what to do. No
+ * exception leaves the library.
+ *
+ * Structs that are passed in begin with `structSize`, which the host sets to sizeof the struct as it knows it: newer
+ * libraries then take older structs, and what these lack is zero. Zero is the default of every field, unless its
+ * comment says "required".
+ *
+ * Threads: calls on one context and its views are serialized by a mutex of the context, so they may come from any
+ * thread; a command buffer belongs to the thread that records it, as always in Vulkan.
+ *
+ * Units: metres, W/(m² sr) for radiance (any other linear unit works as well), pixels, seconds. Matrices are
+ * column-major, multiply column vectors, and are in this order in memory: element (row r, column c) is m[4 * c + r].
+ */
+#ifndef REFLET_REFLET_H
+#define REFLET_REFLET_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <vulkan/vulkan_core.h>
+
+#if defined(REFLET_STATIC)
+#define REFLET_API
+#elif defined(_WIN32)
+#if defined(REFLET_BUILD)
+#define REFLET_API __declspec(dllexport)
+#else
+#define REFLET_API __declspec(dllimport)
+#endif
+#else
+#define REFLET_API __attribute__((visibility("default")))
+#endif
+
+#define REFLET_VERSION_MAJOR 0
+#define REFLET_VERSION_MINOR 1
+#define REFLET_VERSION_PATCH 0
+#define REFLET_MAKE_VERSION(major, minor, patch) (((uint32_t)(major) << 20) | ((uint32_t)(minor) << 10) | (uint32_t)(patch))
+/** The version of this header; pass it to refletCreateContext. */
+#define REFLET_VERSION REFLET_MAKE_VERSION(REFLET_VERSION_MAJOR, REFLET_VERSION_MINOR, REFLET_VERSION_PATCH)
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** One VkDevice: functions, pipelines, samplers, memory. Shared by all views on that device. */
+typedef struct RefletContext_T* RefletContext;
+/** One camera: the images and histories of its effects, at its size. */
+typedef struct RefletView_T* RefletView;
+/** Values of all settings. Belongs to no context: plain data behind a handle. */
+typedef struct RefletSettings_T* RefletSettings;
+
+typedef enum RefletResult {
+    REFLET_SUCCESS = 0,
+    /** A parameter is NULL, out of range, of an unknown value or does not fit the others. Nothing was recorded. */
+    REFLET_ERROR_INVALID_ARGUMENT = -1,
+    /** The header's version is newer than the library, or of another major version. */
+    REFLET_ERROR_INCOMPATIBLE_VERSION = -2,
+    /** The device, or what the host enabled on it, lacks a function, feature or format; the text names it. */
+    REFLET_ERROR_MISSING_FEATURE = -3,
+    /** Device or host memory is exhausted. */
+    REFLET_ERROR_OUT_OF_MEMORY = -4,
+    /** A Vulkan call failed. */
+    REFLET_ERROR_VULKAN = -5,
+    /** A mistake in Reflet; please report the text. */
+    REFLET_ERROR_INTERNAL = -6
+} RefletResult;
+
+/** REFLET_VERSION of the library that is linked. */
+REFLET_API uint32_t refletVersion(void);
+/** "REFLET_ERROR_VULKAN"; "unknown" for other values. */
+REFLET_API const char* refletResultName(RefletResult result);
+/**
+ * What went wrong in the last failed call of this thread: one line that names the field and what to do. "" before the
+ * first failure. Valid until the thread's next failed call.
+ */
+REFLET_API const char* refletLastError(void);
+
+/* ---------------------------------------------------------------------------------------------------- context --- */
+
+/** Device memory from the host's allocator; all NULL: the library allocates blocks of 64 MiB itself. */
+typedef struct RefletMemoryCallbacks {
+    void* user; /**< passed on */
+    /** Allocates as vkAllocateMemory would; must be thread-safe if contexts are used by several threads. */
+    VkResult (*allocate)(void* user, const VkMemoryAllocateInfo* info, VkDeviceMemory* memory);
+    void (*free)(void* user, VkDeviceMemory memory);
+} RefletMemoryCallbacks;
+
+typedef struct RefletContextInfo {
+    size_t structSize; /**< required: sizeof(RefletContextInfo) */
+    uint32_t version;  /**< required: REFLET_VERSION */
+    VkInstance instance;             /**< required; Vulkan 1.3 */
+    VkPhysicalDevice physicalDevice; /**< required */
+    VkDevice device;                 /**< required; must outlive the context */
+    /** Required. All other functions are looked up through it, into tables of the context's own. */
+    PFN_vkGetInstanceProcAddr getInstanceProcAddr;
+    /**
+     * Required: what the device was created with, as a device cannot be asked. The chain may hold
+     * VkPhysicalDeviceVulkan12Features and VkPhysicalDeviceVulkan13Features, or the structs of single features.
+     * Needed: shaderStorageImageExtendedFormats, imageCubeArray, scalarBlockLayout, synchronization2.
+     * Used if enabled: samplerAnisotropy.
+     */
+    const VkPhysicalDeviceFeatures2* enabledFeatures;
+    /** Extensions that were enabled, of instance and device. Used: VK_EXT_debug_utils, for names and labels. */
+    const char* const* enabledExtensions;
+    uint32_t enabledExtensionCount;
+    const RefletMemoryCallbacks* memory; /**< copied; NULL: none */
+    /** Called with the text of every error; NULL: none. */
+    void (*log)(void* user, RefletResult result, const char* text);
+    void* logUser;
+} RefletContextInfo;
+
+/** Makes a context. On failure *context is NULL. Records nothing, makes no pipelines. */
+REFLET_API RefletResult refletCreateContext(const RefletContextInfo* info, RefletContext* context);
+/** The device must have finished all recorded work, and all views must have been destroyed. NULL: does nothing. */
+REFLET_API void refletDestroyContext(RefletContext context);
+/** Bytes of device memory that the context has allocated: whole blocks, for all its views. */
+REFLET_API RefletResult refletContextMemory(RefletContext context, uint64_t* bytes);
+
+/* --------------------------------------------------------------------------------------------------- settings --- */
+
+typedef enum RefletSettingType {
+    REFLET_SETTING_REAL = 0,
+    REFLET_SETTING_INTEGER = 1,
+    REFLET_SETTING_SWITCH = 2, /**< true or false */
+    REFLET_SETTING_CHOICE = 3  /**< one of a list of names */
+} RefletSettingType;
+
+/** A setting, for a host's user interface. The texts belong to the library and are valid for ever. */
+typedef struct RefletSettingInfo {
+    size_t structSize; /**< required */
+    const char* name;  /**< "trace_screen.max_steps", as `reflet list settings` prints it */
+    const char* help;  /**< what it does, and its effect on quality and cost */
+    RefletSettingType type;
+    double lowest; /**< of numbers */
+    double highest;
+    const char* range;    /**< as text: "1 to 4096", "true or false", "linear, halving, …" */
+    const char* standard; /**< the default, as text */
+} RefletSettingInfo;
+
+/** preset: NULL or "" for the defaults, else as refletApplyPreset. */
+REFLET_API RefletResult refletCreateSettings(const char* preset, RefletSettings* settings);
+REFLET_API void refletDestroySettings(RefletSettings settings);
+/**
+ * Sets what a preset of the program differs in from the defaults: "fast", "balanced" or "quality". Settings of effects
+ * that the library does not have (probes, planar reflections) are left out.
+ */
+REFLET_API RefletResult refletApplyPreset(RefletSettings settings, const char* preset);
+/** Sets one from text: ("trace_screen.max_steps", "64"). The error suggests the nearest name, or says the range. */
+REFLET_API RefletResult refletSetSetting(RefletSettings settings, const char* name, const char* value);
+/** The value as text; valid until the thread's next call of this function. NULL for an unknown name. */
+REFLET_API const char* refletGetSetting(RefletSettings settings, const char* name);
+REFLET_API uint32_t refletSettingCount(void);
+/** index: 0 to refletSettingCount() - 1. */
+REFLET_API RefletResult refletSettingInfo(uint32_t index, RefletSettingInfo* info);
+
+/* ------------------------------------------------------------------------------------------------------- view --- */
+
+#define REFLET_MAX_FRAMES_IN_FLIGHT 4
+
+typedef struct RefletViewInfo {
+    size_t structSize; /**< required */
+    uint32_t width;    /**< required: pixels, 1 to 16384 */
+    uint32_t height;   /**< required */
+    /**
+     * Required: 1 to 4. When refletBeginFrame is called, the device must have finished the frame of this view that was
+     * begun this many frames before.
+     */
+    uint32_t framesInFlight;
+} RefletViewInfo;
+
+REFLET_API RefletResult refletCreateView(RefletContext context, const RefletViewInfo* info, RefletView* view);
+/** The device must have finished all frames of the view. NULL: does nothing. */
+REFLET_API void refletDestroyView(RefletView view);
+/** From the next frame on. Images are made anew when that frame needs them; histories start again. */
+REFLET_API RefletResult refletResizeView(RefletView view, uint32_t width, uint32_t height);
+/** Forgets all histories: after a cut of the camera, or when something other than motion changed the picture. */
+REFLET_API RefletResult refletResetView(RefletView view);
+/**
+ * The device has finished all frames that were begun so far: frees what only they used. Needed only by a view that
+ * pauses; one that goes on finds out by itself.
+ */
+REFLET_API RefletResult refletFinishView(RefletView view);
+/** Bytes of device memory in use by the view's images and buffers. */
+REFLET_API RefletResult refletViewMemory(RefletView view, uint64_t* bytes);
+
+/* ----------------------------------------------------------------------------------------------------- images --- */
+
+/**
+ * An image of the host that the library samples, or a result. Samples: the view must be 2D with one level, of a float,
+ * unorm or snorm format; the image needs VK_IMAGE_USAGE_SAMPLED_BIT; depth formats need a view of the depth aspect.
+ * Absent: image VK_NULL_HANDLE.
+ */
+typedef struct RefletImage {
+    VkImage image;
+    VkImageView view;
+    VkFormat format;
+    uint32_t width; /**< pixels */
+    uint32_t height;
+    /** Now. A layout that cannot be sampled is left for the time of the call, and restored. */
+    VkImageLayout layout;
+    VkPipelineStageFlags2 stages; /**< that wrote it last; 0: a barrier has already made it visible to compute */
+    VkAccessFlags2 access;        /**< with which they wrote it */
+} RefletImage;
+
+typedef enum RefletDepthKind {
+    REFLET_DEPTH_REVERSED = 0, /**< 1 at the near plane, falling; infinite or finite far plane */
+    REFLET_DEPTH_STANDARD = 1  /**< 0 at the near plane, rising */
+} RefletDepthKind;
+
+typedef enum RefletNormalKind {
+    REFLET_NORMAL_OCTAHEDRAL_SNORM = 0, /**< two channels, -1 to 1 (Cigolle et al., 2014), +Z at the centre */
+    REFLET_NORMAL_OCTAHEDRAL_UNORM = 1, /**< the same as 0 to 1 */
+    REFLET_NORMAL_VECTOR_SNORM = 2,     /**< three channels, -1 to 1, of any length but 0 */
+    REFLET_NORMAL_VECTOR_UNORM = 3      /**< three channels, 0 to 1 */
+} RefletNormalKind;
+
+typedef enum RefletRoughnessKind {
+    REFLET_ROUGHNESS_PERCEPTUAL = 0, /**< as in glTF: alpha of GGX is its square */
+    REFLET_ROUGHNESS_ALPHA = 1       /**< alpha of GGX */
+} RefletRoughnessKind;
+
+typedef enum RefletColorKind {
+    REFLET_COLOR_LINEAR = 0, /**< linear when sampled: also every _SRGB format */
+    REFLET_COLOR_SRGB = 1    /**< sRGB-encoded values in a format that does not decode them */
+} RefletColorKind;
+
+typedef enum RefletMotionKind {
+    REFLET_MOTION_UV = 0,    /**< 1: the picture's width or height; y down */
+    REFLET_MOTION_NDC = 1,   /**< 2: the picture's width or height, as in clip space */
+    REFLET_MOTION_PIXELS = 2 /**< y down */
+} RefletMotionKind;
+
+/** All images have the view's size. */
+typedef struct RefletGBuffer {
+    RefletImage depth; /**< required: D16, D24S8, D32, D32S8, or R32F in red */
+    RefletDepthKind depthKind;
+    RefletImage normal; /**< required: shading normals */
+    RefletNormalKind normalKind;
+    /** 0: normals are in world space; 1: in view space. */
+    uint32_t normalsInViewSpace;
+    /** Of the triangles, in the kind and space of `normal`; absent: from depth, which is wrong at edges of one pixel. */
+    RefletImage geometricNormal;
+    RefletImage roughness; /**< absent: 1 */
+    uint32_t roughnessChannel; /**< 0 to 3 */
+    RefletRoughnessKind roughnessKind;
+    RefletImage metallic; /**< absent: 0 */
+    uint32_t metallicChannel;
+    RefletImage baseColor; /**< of glTF's metallic-roughness model, or the albedo if `f0` is given; absent: 0.5 */
+    RefletColorKind baseColorKind;
+    /** Linear specular reflectance at normal incidence; given: `metallic` is not read. */
+    RefletImage f0;
+    RefletImage motion; /**< red and green; absent: computed from the matrices, which is right for what does not move */
+    RefletMotionKind motionKind;
+    uint32_t motionIsBeforeMinusNow;  /**< 0: position now minus position in the last frame; 1: the negative of it */
+    uint32_t motionIncludesJitter;    /**< 1: computed from jittered positions */
+    /**
+     * Depth of the nearest back faces, in the kind of `depth`: with it `trace_screen.thickness_mode=second_layer` knows
+     * how thick things are. Absent: that choice acts as `constant`.
+     */
+    RefletImage backDepth;
+} RefletGBuffer;
+
+typedef struct RefletFrameInfo {
+    size_t structSize; /**< required */
+    /** Required: recording, outside of a render pass, for a queue with compute. */
+    VkCommandBuffer commandBuffer;
+    uint32_t frameIndex; /**< counts up; decorrelates the noise of successive frames */
+    /** Required: world to view (camera) space; left- or right-handed. No scale. */
+    float worldToView[16];
+    /** Required: projection without jitter; perspective or orthographic; near plane above 0. */
+    float viewToClip[16];
+    /** Of the last frame. Both zero: as in this one. */
+    float previousWorldToView[16];
+    float previousViewToClip[16];
+    /**
+     * Subpixel jitter in pixels, right and down, -0.5 to 0.5: pixel centres show what is this far from them; the host's
+     * projection was moved by -2 * jitter / size in normalized device coordinates (y down).
+     */
+    float jitter[2];
+    float previousJitter[2];
+    /** 0: y is down in clip space, as in Vulkan; 1: up, drawn with a viewport of negative height. */
+    uint32_t clipYUp;
+    RefletGBuffer gbuffer; /**< required */
+    /** Seconds since the last frame, for automatic exposure. */
+    float elapsed;
+} RefletFrameInfo;
+
+/**
+ * Jitter for a frame, as RefletFrameInfo::jitter wants it: a low-discrepancy sequence (R2; M. Roberts, The Unreasonable
+ * Effectiveness of Quasirandom Sequences, 2018).
+ */
+REFLET_API void refletJitter(uint32_t frameIndex, float jitter[2]);
+
+/**
+ * Starts a frame, and records the import of the G-buffer into the view's own images; the host's images are free to be
+ * overwritten by later commands. Between this call and refletEndFrame the host may record other commands.
+ *
+ * After a failure that is not REFLET_ERROR_INVALID_ARGUMENT or REFLET_ERROR_INCOMPATIBLE_VERSION (memory, for example)
+ * the frame counts as begun and ended for framesInFlight.
+ *
+ * Commands that the library records leave no state behind that a host may rely on: pipelines, descriptor sets and push
+ * constants of the compute bind point are to be bound anew; graphics state is not touched.
+ */
+REFLET_API RefletResult refletBeginFrame(RefletView view, const RefletFrameInfo* info);
+REFLET_API RefletResult refletEndFrame(RefletView view);
+
+/* ---------------------------------------------------------------------------------------------------- effects --- */
+/*
+ * Each is recorded where it is called, between refletBeginFrame and refletEndFrame. A result is a RefletImage in
+ * VK_IMAGE_LAYOUT_GENERAL, with the stage and access that wrote it; it belongs to the view and holds its content until
+ * the view's next refletBeginFrame. To read it, the host records a barrier from these to its own use. The next frame
+ * waits for what the queue did before, so no barrier back is needed.
+ */
+
+typedef struct RefletSunShadow {
+    size_t structSize; /**< required */
+    /**
+     * Required: depth of an orthographic map from the sun, or a 2D array with a layer per cascade. Width and height are
+     * of one layer.
+     */
+    RefletImage map;
+    RefletDepthKind depthKind;
+    uint32_t clipYUp; /**< as in RefletFrameInfo, of the maps */
+    /** Required: 1: `map` is a 2D image; 2 to 4: a 2D array view of as many layers, from near to far. */
+    uint32_t cascades;
+    float worldToClip[4][16]; /**< required: of each cascade */
+    /** Far end of each cascade: metres in front of the camera. With one map: not read. */
+    float ends[4];
+    float toSun[3]; /**< required: world space; need not have length 1 */
+    /** The sun's, in radians; 0: 0.0093 (0.53 degrees). Penumbras of PCSS follow from it. */
+    float angularDiameter;
+    /** 1: contact shadows by screen-space rays of `contact.distance`, too, which close the gap that the bias leaves. */
+    uint32_t contactShadows;
+} RefletSunShadow;
+
+/**
+ * Visibility of the sun, R8, 1: lit. By `shadow.filter`: hard, pcf or pcss; noise of soft filters is denoised with
+ * `shadow.denoise`, over frames with `shadow.history`.
+ */
+REFLET_API RefletResult refletSunShadow(RefletView view, RefletSettings settings, const RefletSunShadow* sun,
+                                        RefletImage* visibility);
+
+/** Light from beyond the screen. */
+typedef struct RefletEnvironment {
+    /**
+     * Radiance, equirectangular: +Y up; the centre is -Z, u grows toward +X. Absent: `factor` is the radiance from
+     * everywhere.
+     */
+    RefletImage image;
+    float factor[3]; /**< times the image; all 0 and no image: black. With an image, all 0 stands for 1 */
+    float rotation;  /**< around +Y, in radians */
+    /** Counts changes of the image's content: the maps made from it are made anew in the frame in which it changes. */
+    uint64_t revision;
+} RefletEnvironment;
+
+typedef struct RefletIndirectLight {
+    size_t structSize; /**< required */
+    /**
+     * Required: linear radiance of the surfaces that is known so far: direct light, emission, sky. Of the view's size.
+     * With `trace_screen.light=previous`, rays read the light that refletComposite made in the last frame, which brings
+     * further bounces; if it did not run, this image.
+     */
+    RefletImage light;
+    RefletEnvironment environment;
+} RefletIndirectLight;
+
+/** One lobe of indirect light. */
+typedef struct RefletLobe {
+    /**
+     * RGBA16F: incoming radiance, weighted by the lobe (diffuse: irradiance / pi), without the surface's reflectance;
+     * alpha: mean distance of what was hit, in metres. At traced resolution: (size + downsample - 1) / downsample.
+     */
+    RefletImage radiance;
+    /** RGBA16F: alpha: confidence, the share of rays that a source answered with certainty, 0 to 1. */
+    RefletImage confidence;
+    uint32_t downsample; /**< `diffuse.downsample` or `specular.downsample` */
+} RefletLobe;
+
+/** Screen-space diffuse global illumination (SSGI): `diffuse.rays` rays per traced pixel, denoised if the settings say so. */
+REFLET_API RefletResult refletDiffuseGi(RefletView view, RefletSettings settings, const RefletIndirectLight* light,
+                                        RefletLobe* lobe);
+/**
+ * Screen-space reflections (SSR), mirror and glossy: rays of the GGX lobe (visible normals: Heitz, 2018). If
+ * refletDiffuseGi ran in this frame, its light is added to what rays read (`trace_screen.light=lit`).
+ */
+REFLET_API RefletResult refletReflections(RefletView view, RefletSettings settings, const RefletIndirectLight* light,
+                                          RefletLobe* lobe);
+
+typedef enum RefletLobeKind { REFLET_LOBE_DIFFUSE = 0, REFLET_LOBE_SPECULAR = 1 } RefletLobeKind;
+
+/**
+ * Denoises a lobe that the host traced itself, by ray tracing for instance: of the view's size, RGB radiance without the
+ * surface's reflectance, as in RefletLobe, alpha: hit distance in metres. Stands in for refletDiffuseGi or
+ * refletReflections in this frame: refletComposite takes its result.
+ */
+REFLET_API RefletResult refletDenoise(RefletView view, RefletSettings settings, RefletLobeKind kind,
+                                      const RefletImage* noisy, RefletLobe* lobe);
+
+typedef struct RefletComposite {
+    size_t structSize; /**< set by the host, too */
+    RefletImage lit;   /**< RGBA16F: light + both below; alpha: distance in front of the camera in metres, 0: sky */
+    RefletImage indirectDiffuse;  /**< RGBA16F: what refletDiffuseGi adds to each pixel, upsampled and reflected */
+    RefletImage indirectSpecular; /**< RGBA16F: the same of refletReflections */
+} RefletComposite;
+
+/**
+ * Multiplies the lobes of this frame by the surface's reflectance, upsampled, and adds them to the light that these were
+ * given. A lobe that was not traced in this frame adds nothing.
+ */
+REFLET_API RefletResult refletComposite(RefletView view, RefletSettings settings, RefletComposite* composite);
+
+/**
+ * Temporal antialiasing, RGBA16F: radiance. color: of the view's size, drawn with the frame's jitter; NULL: what
+ * refletComposite made.
+ */
+REFLET_API RefletResult refletTemporal(RefletView view, RefletSettings settings, const RefletImage* color,
+                                       RefletImage* antialiased);
+
+/**
+ * Tone map, RGBA8, display-encoded: `tonemap.curve`, `tonemap.exposure`. autoExposure 1: surfaces become middle grey on
+ * average (histogram; Reinhard et al., 2002). color: linear radiance; NULL: the last of refletTemporal and
+ * refletComposite that ran.
+ */
+REFLET_API RefletResult refletToneMap(RefletView view, RefletSettings settings, const RefletImage* color,
+                                      uint32_t autoExposure, RefletImage* display);
+
+/* -------------------------------------------------------------------------------------------------- pipelines --- */
+
+typedef enum RefletEffect {
+    REFLET_EFFECT_SUN_SHADOW = 1 << 0,
+    REFLET_EFFECT_CONTACT_SHADOWS = 1 << 1,
+    REFLET_EFFECT_DIFFUSE_GI = 1 << 2,
+    REFLET_EFFECT_REFLECTIONS = 1 << 3,
+    REFLET_EFFECT_DENOISE = 1 << 4,
+    REFLET_EFFECT_COMPOSITE = 1 << 5,
+    REFLET_EFFECT_TEMPORAL = 1 << 6,
+    REFLET_EFFECT_TONE_MAP = 1 << 7
+} RefletEffect;
+
+typedef struct RefletPrepareInfo {
+    size_t structSize;  /**< required */
+    uint32_t effects;   /**< required: a combination of RefletEffect */
+    /** Required: as in the frames to come; of its images only whether they are given matters, any handle will do. */
+    const RefletGBuffer* gbuffer;
+    uint32_t hasEnvironmentImage; /**< 1: RefletEnvironment::image will be given */
+    uint32_t cascades;            /**< of RefletSunShadow; 0 stands for 1 */
+    RefletDepthKind shadowDepthKind;
+    uint32_t shadowMapSide; /**< texels; 0: 2048 */
+    uint32_t autoExposure;  /**< of refletToneMap */
+} RefletPrepareInfo;
+
+/**
+ * Makes up to `most` of the pipelines that frames with these effects and settings need, and their images; *left: how
+ * many pipelines are still to be made. Call it until that is 0, to show progress while loading, and after settings have
+ * changed. Without it, the first frame makes them. Not between refletBeginFrame and refletEndFrame.
+ */
+REFLET_API RefletResult refletPrepare(RefletView view, RefletSettings settings, const RefletPrepareInfo* info,
+                                      uint32_t most, uint32_t* left);
+
+/* --------------------------------------------------------------------------------------------------- debugging --- */
+
+typedef struct RefletPassTime {
+    const char* name;    /**< "diffuse.trace_screen"; valid until the view's next refletBeginFrame */
+    double milliseconds; /**< device time; of passes of the same name the sum */
+} RefletPassTime;
+
+/**
+ * Device times of the last frame that the device is known to have finished; the first entry, "frame", is from start to
+ * end, with the host's commands in between. *count in: room in `times`; out: how many there are. times NULL: only that.
+ */
+REFLET_API RefletResult refletPassTimes(RefletView view, uint32_t* count, RefletPassTime* times);
+
+/**
+ * An intermediate image of the current frame: depth, normal, geometric_normal, base_color, material, motion, pyramid,
+ * light, sun_visibility, diffuse, specular, diffuse_confidence, specular_confidence. The error lists what there is.
+ */
+REFLET_API RefletResult refletFindImage(RefletView view, const char* name, RefletImage* image);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

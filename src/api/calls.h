@@ -1,0 +1,71 @@
+// What every function of the C API does: checks its arguments, keeps exceptions inside, says what went wrong.
+#pragma once
+
+#include "base/error.h"
+
+#include "reflet/reflet.h"
+
+#include <cstring>
+#include <new>
+#include <string>
+
+namespace reflet::api {
+
+/// A failure with the result that the host gets.
+class Failure : public Error {
+public:
+    Failure(RefletResult result, const std::string& text) : Error(text), result_(result) {}
+    [[nodiscard]] RefletResult result() const { return result_; }
+
+private:
+    RefletResult result_;
+};
+
+template <class... Args>
+[[noreturn]] void failWith(RefletResult result, fmt::format_string<Args...> format, Args&&... args) {
+    throw Failure(result, fmt::format(format, std::forward<Args>(args)...));
+}
+
+template <class... Args>
+[[noreturn]] void failArgument(fmt::format_string<Args...> format, Args&&... args) {
+    throw Failure(REFLET_ERROR_INVALID_ARGUMENT, fmt::format(format, std::forward<Args>(args)...));
+}
+
+/// Of this thread's last failed call.
+std::string& lastError();
+
+/// Notes the exception that is being handled, and returns its result. To be called in a catch block.
+RefletResult handleException();
+
+/// Runs the body of a function of the API.
+template <class F>
+RefletResult guarded(const F& body) {
+    try {
+        body();
+        return REFLET_SUCCESS;
+    } catch (...) {
+        return handleException();
+    }
+}
+
+/// A struct of the host's in the size that this library knows: what an older host does not have is zero. Throws Failure
+/// for NULL and for a size that cannot be.
+template <class T>
+T adopted(const T* given, const char* name) {
+    if (given == nullptr) {
+        failArgument("{}: is NULL", name);
+    }
+    T result{};
+    if (given->structSize < sizeof(size_t) * 2) {
+        failArgument("{}.structSize: is {}; set it to sizeof the struct, here {}", name, given->structSize, sizeof(T));
+    }
+    if (given->structSize > sizeof(T)) {
+        failWith(REFLET_ERROR_INCOMPATIBLE_VERSION,
+                 "{}.structSize: is {}, and this library knows {} bytes: the header is newer than the library", name,
+                 given->structSize, sizeof(T));
+    }
+    std::memcpy(&result, given, given->structSize);
+    return result;
+}
+
+}  // namespace reflet::api

@@ -1,0 +1,22 @@
+// A host's matrices and conventions as Reflet's.
+#pragma once
+
+#include "effects/import/import.h"
+#include "effects/view.h"
+
+#include "reflet/reflet.h"
+
+#include <functional>
+
+namespace reflet::api {
+
+/// Throws Failure for matrices that are no camera.
+ViewParams viewParams(const RefletFrameInfo& info, uvec2 size);
+
+/// view: of viewParams.
+ImportParams importParams(const RefletFrameInfo& info, const ViewParams& view);
+
+/// adopt: makes an image of the host known to the recorder.
+HostSurfaces hostSurfaces(const RefletGBuffer& g, const std::function<gpu::Image(const RefletImage&)>& adopt);
+
+}  // namespace reflet::api

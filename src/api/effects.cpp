@@ -1,0 +1,238 @@
+// The effects of the C API: checks, and what it hands out.
+#include "api/calls.h"
+#include "api/frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reflet::api {
+
+namespace {
+
+constexpr float realSun = 0.0093F;  // radians
+
+template <class T>
+void checkOut(T* out, const char* name) {
+    if (out == nullptr) {
+        failArgument("{}: is NULL", name);
+    }
+}
+
+mat4 cascadeMatrix(const RefletSunShadow& sun, uint32_t i) {
+    mat4 m;
+    for (int k = 0; k < 16; ++k) {
+        const float value = sun.worldToClip[i][k];
+        if (!std::isfinite(value)) {
+            failArgument("RefletSunShadow.worldToClip[{}][{}]: is not finite", i, k);
+        }
+        m[k / 4][k % 4] = value;
+    }
+    if (m[0][3] != 0.0F || m[1][3] != 0.0F || m[2][3] != 0.0F || m[3][3] != 1.0F) {
+        failArgument("RefletSunShadow.worldToClip[{}]: is not orthographic; its last row must be (0, 0, 0, 1)", i);
+    }
+    for (int column = 0; column < 4; ++column) {
+        vec4& c = m[column];
+        c.y = sun.clipYUp != 0 ? -c.y : c.y;
+        c.z = sun.depthKind == REFLET_DEPTH_STANDARD ? c.w - c.z : c.z;
+    }
+    return m;
+}
+
+// One cascade's map. side: texels.
+ShadowMapParams mapParams(const mat4& worldToShadow, const vec3& toSun, float side, uint32_t i) {
+    const mat4 rows = glm::transpose(worldToShadow);
+    const float across = std::min(glm::length(vec3(rows[0])), glm::length(vec3(rows[1])));
+    const float along = glm::length(vec3(rows[2]));
+    if (!(across > 0.0F && along > 0.0F)) {
+        failArgument("RefletSunShadow.worldToClip[{}]: has a row of zeros; matrices are column-major", i);
+    }
+    return {worldToShadow, toSun, 2.0F / (across * side), 1.0F / along};
+}
+
+SunInputs sunInputs(const RefletSunShadow& sun, const Settings& settings) {
+    SunInputs in;
+    if (sun.cascades < 1 || sun.cascades > maxCascades) {
+        failArgument("RefletSunShadow.cascades: is {}; must be 1 to {}", sun.cascades, maxCascades);
+    }
+    const vec3 toSun(sun.toSun[0], sun.toSun[1], sun.toSun[2]);
+    if (!(glm::length(toSun) > 0.0F) || !std::isfinite(glm::length(toSun))) {
+        failArgument("RefletSunShadow.toSun: is ({}, {}, {}); must be a direction", toSun.x, toSun.y, toSun.z);
+    }
+    if (sun.map.width != sun.map.height) {
+        failArgument("RefletSunShadow.map: is {}x{}; must be square", sun.map.width, sun.map.height);
+    }
+    if (!(sun.angularDiameter >= 0.0F && sun.angularDiameter < 3.0F)) {
+        failArgument("RefletSunShadow.angularDiameter: is {}; must be 0 to 3 radians", sun.angularDiameter);
+    }
+    in.toSun = glm::normalize(toSun);
+    in.reversed = sun.depthKind == REFLET_DEPTH_REVERSED;
+    in.contact = sun.contactShadows != 0;
+    in.slope = std::tan(0.5F * (sun.angularDiameter > 0.0F ? sun.angularDiameter : realSun));
+    in.sun.count = sun.cascades;
+    float start = 0.0F;
+    for (uint32_t i = 0; i < sun.cascades; ++i) {
+        in.sun.maps[i] = mapParams(cascadeMatrix(sun, i), in.toSun, static_cast<float>(sun.map.width), i);
+        const bool last = i + 1 == sun.cascades;
+        if (!last && !(sun.ends[i] > start)) {
+            failArgument("RefletSunShadow.ends[{}]: is {}; ends must rise from above 0", i, sun.ends[i]);
+        }
+        const float end = last && !(sun.ends[i] > start) ? std::numeric_limits<float>::max() : sun.ends[i];
+        in.sun.ends[i] = end;
+        in.sun.blends[i] = end - settings.shadow.cascadeBlend * (end - start);
+        start = end;
+    }
+    return in;
+}
+
+EnvironmentInputs environmentInputs(const RefletEnvironment& environment, HostImages& host) {
+    EnvironmentInputs in;
+    in.image = host.add(environment.image);
+    in.from = environment.image.view;
+    in.revision = environment.revision;
+    vec3 factor(environment.factor[0], environment.factor[1], environment.factor[2]);
+    if (in.image && factor == vec3(0.0F)) {
+        factor = vec3(1.0F);
+    }
+    in.params = {factor, {std::cos(environment.rotation), std::sin(environment.rotation)}};
+    return in;
+}
+
+void checkEnvironment(const RefletEnvironment& environment) {
+    for (int i = 0; i < 3; ++i) {
+        if (!(environment.factor[i] >= 0.0F && std::isfinite(environment.factor[i]))) {
+            failArgument("RefletEnvironment.factor[{}]: is {}; must be 0 or more", i, environment.factor[i]);
+        }
+    }
+    if (!std::isfinite(environment.rotation)) {
+        failArgument("RefletEnvironment.rotation: is not finite");
+    }
+    if (environment.image.image != VK_NULL_HANDLE) {
+        checkImage(environment.image, "RefletEnvironment.image", uvec2(0));
+    }
+}
+
+RefletLobe lobeOf(const LobeLight& light) {
+    RefletLobe out{};
+    out.radiance = resultOf(light.radiance);
+    out.confidence = resultOf(light.source);
+    out.downsample = light.from.scale;
+    return out;
+}
+
+RefletResult traceLobeOf(RefletView view, RefletSettings settings, const RefletIndirectLight* light, RefletLobe* lobe,
+                         uint32_t kind) {
+    return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
+        checkOut(lobe, "lobe");
+        const RefletIndirectLight given = adopted(light, "RefletIndirectLight");
+        if (given.light.image == VK_NULL_HANDLE) {
+            failArgument("RefletIndirectLight.light.image: is VK_NULL_HANDLE, and is required");
+        }
+        checkImage(given.light, "RefletIndirectLight.light", view->size);
+        checkEnvironment(given.environment);
+        HostImages host(*view);
+        const gpu::Image lit = host.add(given.light);
+        const EnvironmentInputs environment = environmentInputs(given.environment, host);
+        host.acquire();
+        *lobe = lobeOf(recordLobe(*view, frame, values, kind, lit, environment));
+    });
+}
+
+// The image of a colour argument that may be NULL.
+gpu::Image colorOf(const RefletImage* color, HostImages& host, RefletView_T& view) {
+    if (color == nullptr) {
+        return {};
+    }
+    if (color->image == VK_NULL_HANDLE) {
+        failArgument("color.image: is VK_NULL_HANDLE; pass NULL for the result of the effect before");
+    }
+    checkImage(*color, "color", view.size);
+    const gpu::Image image = host.add(*color);
+    host.acquire();
+    return image;
+}
+
+}  // namespace
+
+}  // namespace reflet::api
+
+using namespace reflet;
+using namespace reflet::api;
+
+RefletResult refletSunShadow(RefletView view, RefletSettings settings, const RefletSunShadow* sun,
+                             RefletImage* visibility) {
+    return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
+        checkOut(visibility, "visibility");
+        const RefletSunShadow given = adopted(sun, "RefletSunShadow");
+        if (given.map.image == VK_NULL_HANDLE) {
+            failArgument("RefletSunShadow.map.image: is VK_NULL_HANDLE, and is required");
+        }
+        checkImage(given.map, "RefletSunShadow.map", uvec2(0));
+        SunInputs in = sunInputs(given, values);
+        HostImages host(*view);
+        in.map = host.add(given.map);
+        host.acquire();
+        *visibility = resultOf(recordSunShadow(*view, frame, values, in));
+    });
+}
+
+RefletResult refletDiffuseGi(RefletView view, RefletSettings settings, const RefletIndirectLight* light,
+                             RefletLobe* lobe) {
+    return traceLobeOf(view, settings, light, lobe, lobeDiffuse);
+}
+
+RefletResult refletReflections(RefletView view, RefletSettings settings, const RefletIndirectLight* light,
+                               RefletLobe* lobe) {
+    return traceLobeOf(view, settings, light, lobe, lobeSpecular);
+}
+
+RefletResult refletDenoise(RefletView view, RefletSettings settings, RefletLobeKind kind, const RefletImage* noisy,
+                           RefletLobe* lobe) {
+    return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
+        checkOut(lobe, "lobe");
+        if (kind != REFLET_LOBE_DIFFUSE && kind != REFLET_LOBE_SPECULAR) {
+            failArgument("kind: is {}; must be REFLET_LOBE_DIFFUSE or REFLET_LOBE_SPECULAR", static_cast<int>(kind));
+        }
+        if (noisy == nullptr || noisy->image == VK_NULL_HANDLE) {
+            failArgument("noisy: is NULL");
+        }
+        checkImage(*noisy, "noisy", view->size);
+        HostImages host(*view);
+        const gpu::Image image = host.add(*noisy);
+        host.acquire();
+        const uint32_t which = kind == REFLET_LOBE_DIFFUSE ? lobeDiffuse : lobeSpecular;
+        RefletLobe out = lobeOf(recordDenoise(*view, frame, values, which, image));
+        out.confidence = {};
+        *lobe = out;
+    });
+}
+
+RefletResult refletComposite(RefletView view, RefletSettings settings, RefletComposite* out) {
+    return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
+        const RefletComposite given = adopted(out, "RefletComposite");
+        const Composite sum = recordComposite(*view, frame, values);
+        RefletComposite result{};
+        result.structSize = given.structSize;
+        result.lit = resultOf(sum.lit);
+        result.indirectDiffuse = resultOf(sum.indirectDiffuse);
+        result.indirectSpecular = resultOf(sum.indirectSpecular);
+        std::memcpy(out, &result, given.structSize);
+    });
+}
+
+RefletResult refletTemporal(RefletView view, RefletSettings settings, const RefletImage* color,
+                            RefletImage* antialiased) {
+    return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
+        checkOut(antialiased, "antialiased");
+        HostImages host(*view);
+        *antialiased = resultOf(recordTemporal(*view, frame, values, colorOf(color, host, *view)));
+    });
+}
+
+RefletResult refletToneMap(RefletView view, RefletSettings settings, const RefletImage* color, uint32_t autoExposure,
+                           RefletImage* display) {
+    return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
+        checkOut(display, "display");
+        HostImages host(*view);
+        *display = resultOf(recordToneMap(*view, frame, values, colorOf(color, host, *view), autoExposure != 0));
+    });
+}

@@ -1,0 +1,238 @@
+// Records the effects of a view's frame.
+#include "api/frame.h"
+
+#include "api/calls.h"
+#include "effects/light_mips/light_mips.h"
+#include "effects/lobe/trace_screen.h"
+#include "effects/pyramid/pyramid.h"
+#include "noise/blue_noise.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace reflet::api {
+
+namespace {
+
+constexpr VkFormat lightFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+
+gpu::BufferView blueNoiseOf(RefletView_T& view) {
+    ViewImages& own = *view.images;
+    const gpu::BufferView buffer = own.blueNoise.get(view.recorder, blueNoise().size_bytes());
+    if (!own.hasBlueNoise && !view.recorder.isCollecting()) {
+        view.recorder.update(buffer, std::as_bytes(blueNoise()));
+        own.hasBlueNoise = true;
+    }
+    return buffer;
+}
+
+gpu::Image pyramidOf(RefletView_T& view, Frame& frame) {
+    if (!frame.pyramid) {
+        frame.pyramid = makePyramid(view.recorder, view.images->pyramid, frame.g.depth, frame.backDepth);
+    }
+    return frame.pyramid;
+}
+
+// This frame's and the last frame's picture. The first effect of a frame that reads or writes it swaps them.
+gpu::History litOf(RefletView_T& view, Frame& frame) {
+    if (!frame.lit.next) {
+        frame.lit = view.images->lit.swap(view.recorder, lightFormat, view.size);
+        frame.lit.valid = frame.lit.valid && view.composedLast;
+    }
+    return frame.lit;
+}
+
+uint32_t cubeSideFor(uvec2 size) {
+    return std::clamp(std::bit_ceil(size.x / 4), 64U, 256U);
+}
+
+EnvironmentLight environmentLight(RefletView_T& view, const EnvironmentInputs& in) {
+    gpu::Recorder& f = view.recorder;
+    EnvironmentImages& own = view.images->environment;
+    const bool changed = own.generation != f.generation() || own.revision != in.revision || own.from != in.from;
+    if (changed || f.isCollecting()) {
+        const auto scope = f.scope("environment");
+        gpu::Image texels;
+        if (in.image) {
+            texels = importLight(f, own.texels, in.image);
+        } else {  // the factor is its radiance
+            texels = own.texels.storage(f, lightFormat, uvec2(1));
+            f.clear(texels, {{1.0F, 1.0F, 1.0F, 1.0F}});
+        }
+        const uint32_t side = in.image ? cubeSideFor(in.image.size) : 1;
+        if (own.cube.sharp.info().size.x != side) {
+            own.cube = CubeMap(f.context(), side, 1, "environment");
+        }
+        prefilterEnvironment(f, own.cube, texels);
+        if (!f.isCollecting()) {
+            own.generation = f.generation();
+            own.revision = in.revision;
+            own.from = in.from;
+        }
+    }
+    return {own.texels.last(), own.cube.lobes.image(), own.cube.irradiance.image(), in.params};
+}
+
+TraceScreenSettings traceSettings(const Settings& settings, const Frame& frame) {
+    TraceScreenSettings trace = settings.traceScreen;
+    if (!frame.backDepth && trace.thicknessMode == ThicknessMode::secondLayer) {
+        trace.thicknessMode = ThicknessMode::constant;
+    }
+    trace.countSteps = 0;
+    return trace;
+}
+
+// The light that rays of a lobe read at hits: what the host gave, for reflections with the diffuse lobe's, if that ran.
+gpu::Image lightAtHits(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe) {
+    if (lobe == lobeDiffuse || settings.traceScreen.light != HitLight::lit || !frame.diffuse || frame.diffuse->dark) {
+        return frame.light;
+    }
+    gpu::Recorder& f = view.recorder;
+    LobeImages& own = view.images->specular;
+    const auto scope = f.scope("specular");
+    const LobeLight none = blackLobe(f, own.own.light, {frame.g, frame.view}, false);
+    const gpu::Image sum = own.litSoFar.storage(f, lightFormat, view.size);
+    const CompositeInputs parts{frame.g, frame.light, *frame.diffuse, none, ggxTable(f, view.images->ggxTable),
+                                false,   false};
+    return composite(f, view.images->layers, parts, sum, {frame.view, settings.diffuse.gain}).lit;
+}
+
+}  // namespace
+
+void recordImport(RefletView_T& view, Frame& frame, const HostSurfaces& host, const ImportParams& params) {
+    const ImportedSurfaces surfaces = importSurfaces(view.recorder, view.images->import, host, params);
+    frame.g = surfaces.g;
+    frame.backDepth = surfaces.backDepth;
+}
+
+gpu::Image recordSunShadow(RefletView_T& view, Frame& frame, const Settings& settings, const SunInputs& in) {
+    gpu::Recorder& f = view.recorder;
+    ViewImages& own = *view.images;
+    ShadowSettings shadow = settings.shadow;
+    shadow.resolution = in.map.size.x;
+    shadow.earlyOut = 0;
+    if (shadow.filter == ShadowFilter::traced) {
+        failArgument("shadow.filter: the library does not trace shadow rays; set hard, pcf or pcss");
+    }
+    const gpu::Image map = importShadowMap(f, own.shadowMap, in.map, in.sun.count, in.reversed);
+    const SunVisibility seen =
+        sunVisibility(f, own.sun, frame.g, {map, {}, blueNoiseOf(view)}, {frame.view, in.sun, shadow, in.slope});
+    gpu::Image visible = seen.visibility;
+    if (shadow.denoise != 0 && seen.penumbra) {
+        visible = denoiseShadow(f, own.sunDenoise, frame.g, visible, seen.penumbra,
+                                {frame.view, in.toSun, shadow.history, shadow.samples, 0});
+    }
+    if (in.contact && settings.contact.distance > 0.0F) {
+        visible = contactShadow(f, own.contact, frame.g, pyramidOf(view, frame), visible,
+                                {frame.view, settings.contact, in.toSun});
+    }
+    frame.sunVisibility = visible;
+    return visible;
+}
+
+LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image light,
+                     const EnvironmentInputs& environment) {
+    gpu::Recorder& f = view.recorder;
+    const bool diffuse = lobe == lobeDiffuse;
+    LobeImages& own = diffuse ? view.images->diffuse : view.images->specular;
+    frame.light = importLight(f, own.light, light);
+    const TraceScreenSettings trace = traceSettings(settings, frame);
+    ScreenImages screen{
+        frame.g, frame.view, frame.backDepth, {}, lightAtHits(view, frame, settings, lobe), litOf(view, frame), {}};
+    const bool hiz = trace.method == TraceMethod::hiz;
+    screen.pyramid = trace.enabled != 0 && hiz ? pyramidOf(view, frame) : gpu::Image{};
+    const SpecularSettings& s = settings.specular;
+    if (!diffuse && s.roughFallback == RoughFallback::mips && s.maxRoughness < 1.0F) {
+        const bool previous = trace.light == HitLight::previous && screen.lit.valid;
+        screen.lightMips = makeLightMips(f, own.lightMips, previous ? screen.lit.previous : screen.light);
+    }
+    const float longest = diffuse ? settings.diffuse.maxDistance : trace.maxDistance;
+    std::vector<RaySource> sources;
+    if (trace.enabled != 0) {
+        sources.emplace_back([&](gpu::Recorder& to, Rays& rays) { traceScreen(to, rays, screen, trace, longest); });
+    }
+    const bool exact = hiz || trace.method == TraceMethod::exhaustive;
+    const EnvironmentLight around = environmentLight(view, environment);
+    const LobeLight traced =
+        traceLobe(f, own.own,
+                  {.lobe = lobe,
+                   .g = frame.g,
+                   .view = frame.view,
+                   .settings = diffuse ? lobeSettings(settings.diffuse) : lobeSettings(settings.specular),
+                   .diffuse = settings.diffuse,
+                   .specular = settings.specular,
+                   .denoise = settings.denoise,
+                   .environmentSettings = settings.environment,
+                   .environment = around,
+                   .ggxTable = ggxTable(f, view.images->ggxTable),
+                   .blueNoise = blueNoiseOf(view),
+                   .sources = sources,
+                   .lit = screen.lit,
+                   .randomTracing = trace.enabled != 0 && trace.jitter != 0 && !exact,
+                   .coneShare = trace.enabled != 0 ? 0.1F : 0.0F});
+    (diffuse ? frame.diffuse : frame.specular) = traced;
+    return traced;
+}
+
+LobeLight recordDenoise(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image noisy) {
+    gpu::Recorder& f = view.recorder;
+    const bool diffuse = lobe == lobeDiffuse;
+    const auto scope = f.scope(diffuse ? "diffuse" : "specular");
+    LobeImages& own = diffuse ? view.images->diffuse : view.images->specular;
+    LobeLight light;
+    light.from = {frame.g, frame.view, 1};
+    light.radiance = importLight(f, diffuse ? view.images->noisyDiffuse : view.images->noisySpecular, noisy, true);
+    light.source = light.radiance;
+    const LobeLight clean = denoise(f, own.own.denoise, light, lobe, frame.view, settings.denoise);
+    (diffuse ? frame.diffuse : frame.specular) = clean;
+    return clean;
+}
+
+Composite recordComposite(RefletView_T& view, Frame& frame, const Settings& settings) {
+    gpu::Recorder& f = view.recorder;
+    ViewImages& own = *view.images;
+    if (!frame.light) {
+        failArgument(
+            "refletComposite: neither refletDiffuseGi nor refletReflections has been given light in this frame");
+    }
+    const auto lobeOr = [&](const std::optional<LobeLight>& lobe, LobeImages& images, const char* name) {
+        if (lobe) {
+            return *lobe;
+        }
+        const auto scope = f.scope(name);
+        return blackLobe(f, images.own.light, {frame.g, frame.view}, false);
+    };
+    const LobeLight diffuse = lobeOr(frame.diffuse, own.diffuse, "diffuse");
+    const LobeLight specular = lobeOr(frame.specular, own.specular, "specular");
+    const CompositeInputs parts{frame.g, frame.light, diffuse, specular, ggxTable(f, own.ggxTable), false, true};
+    const Composite sum = composite(f, own.layers, parts, litOf(view, frame).next, {frame.view, settings.diffuse.gain});
+    frame.composed = sum.lit;
+    return sum;
+}
+
+gpu::Image recordTemporal(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image color) {
+    gpu::Recorder& f = view.recorder;
+    const gpu::Image radiance = color ? importLight(f, view.images->temporalInput, color) : frame.composed;
+    if (!radiance) {
+        failArgument("color: is NULL, and refletComposite has not run in this frame");
+    }
+    frame.antialiased = temporal(f, view.images->temporal, {frame.g, radiance, {}, frame.view}, settings.temporal).mean;
+    return frame.antialiased;
+}
+
+gpu::Image recordToneMap(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image color, bool automatic) {
+    gpu::Recorder& f = view.recorder;
+    gpu::Image radiance = color ? importLight(f, view.images->toneMapInput, color) : frame.antialiased;
+    radiance = radiance ? radiance : frame.composed;
+    if (!radiance) {
+        failArgument("color: is NULL, and neither refletTemporal nor refletComposite has run in this frame");
+    }
+    gpu::Image exposure;
+    if (automatic) {
+        exposure = measureExposure(f, view.images->exposure, radiance, frame.g.depth, frame.elapsed,
+                                   settings.tonemap.adaptation);
+    }
+    return tonemap(f, view.images->display, radiance, settings.tonemap, exposure);
+}
+
+}  // namespace reflet::api

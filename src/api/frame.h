@@ -1,0 +1,68 @@
+// A frame of a view, as the C API and refletPrepare record it, on values that are checked already.
+#pragma once
+
+#include "api/handles.h"
+
+#include <functional>
+
+namespace reflet::api {
+
+/// Runs the body of a function on a view: under its context's lock, with its memory account, telling failures.
+RefletResult onView(RefletView view, const std::function<void()>& body);
+/// The same between refletBeginFrame and refletEndFrame, and with settings.
+RefletResult inFrame(RefletView view, RefletSettings settings,
+                     const std::function<void(Frame&, const Settings&)>& body);
+
+/// Throws Failure if an image cannot be sampled, or has not this size (0: any). name: of the field.
+void checkImage(const RefletImage& image, const char* name, uvec2 size);
+
+/// Makes the host's images readable by compute passes while it lives, and leaves them as they were.
+class HostImages {
+public:
+    explicit HostImages(RefletView_T& view) : view_(view) {}
+    ~HostImages();
+    HostImages(const HostImages&) = delete;
+    HostImages& operator=(const HostImages&) = delete;
+
+    /// None for an absent one.
+    gpu::Image add(const RefletImage& image);
+    /// Records the barriers of all images added so far.
+    void acquire();
+
+private:
+    RefletView_T& view_;
+    std::vector<RefletImage> images_;
+    std::vector<gpu::ImageState*> states_;
+    bool acquired_ = false;
+};
+
+/// A result for the host.
+RefletImage resultOf(const gpu::Image& image);
+
+struct SunInputs {
+    gpu::Image map;
+    bool reversed = true;
+    SunShadowParams sun{};
+    vec3 toSun{0.0F};
+    float slope = 0.0F;  ///< tangent of half the angular diameter
+    bool contact = false;
+};
+
+struct EnvironmentInputs {
+    gpu::Image image;
+    VkImageView from = VK_NULL_HANDLE;
+    uint64_t revision = 0;
+    EnvironmentParams params{};
+};
+
+void recordImport(RefletView_T& view, Frame& frame, const HostSurfaces& host, const ImportParams& params);
+gpu::Image recordSunShadow(RefletView_T& view, Frame& frame, const Settings& settings, const SunInputs& in);
+LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image light,
+                     const EnvironmentInputs& environment);
+LobeLight recordDenoise(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image noisy);
+Composite recordComposite(RefletView_T& view, Frame& frame, const Settings& settings);
+/// color: none: what was composited.
+gpu::Image recordTemporal(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image color);
+gpu::Image recordToneMap(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image color, bool automatic);
+
+}  // namespace reflet::api

@@ -1,0 +1,116 @@
+// What the handles of the C API stand for.
+#pragma once
+
+#include "api/settings.h"
+#include "effects/composite/composite.h"
+#include "effects/contact/contact.h"
+#include "effects/cube_map/cube_map.h"
+#include "effects/direct/direct.h"
+#include "effects/exposure/exposure.h"
+#include "effects/import/import.h"
+#include "effects/lobe/lobe.h"
+#include "effects/shadow/shadow_clean.h"
+#include "gpu/context.h"
+#include "gpu/recorder.h"
+
+#include "reflet/reflet.h"
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+struct RefletContext_T {
+    std::mutex mutex;
+    std::unique_ptr<reflet::gpu::Context> gpu;
+    uint32_t views = 0;  ///< that exist
+    void (*log)(void* user, RefletResult result, const char* text) = nullptr;
+    void* logUser = nullptr;
+};
+
+struct RefletSettings_T {
+    reflet::api::Settings values;
+};
+
+namespace reflet::api {
+
+/// Images of one lobe, and the light that its rays read.
+struct LobeImages {
+    LobeStore own;
+    gpu::KeptImage light{"light"};
+    gpu::KeptImage litSoFar{"lit_so_far"};
+    gpu::KeptImage lightMips{"light_mips"};
+};
+
+/// The environment's image and the maps made from it.
+struct EnvironmentImages {
+    gpu::KeptImage texels{"environment"};
+    CubeMap cube;
+    uint64_t revision = 0;
+    VkImageView from = VK_NULL_HANDLE;
+    uint64_t generation = UINT64_MAX;  ///< of the recorder when they were made
+};
+
+/// All that a view keeps from frame to frame.
+struct ViewImages {
+    ImportStore import;
+    gpu::KeptImage pyramid{"pyramid"};
+    gpu::KeptBuffer blueNoise{"blue_noise"};
+    bool hasBlueNoise = false;
+    gpu::KeptImage ggxTable{"ggx_table"};
+    EnvironmentImages environment;
+    gpu::KeptImage shadowMap{"shadow_map"};
+    SunVisibilityStore sun;
+    ShadowDenoiseStore sunDenoise;
+    gpu::KeptImage contact{"contact_shadow"};
+    LobeImages diffuse;
+    LobeImages specular;
+    gpu::KeptImage noisyDiffuse{"noisy_diffuse"};
+    gpu::KeptImage noisySpecular{"noisy_specular"};
+    CompositeStore layers;
+    gpu::KeptImage lightAlone{"light_alone"};
+    gpu::HistoryImage lit{"lit"};
+    gpu::KeptImage temporalInput{"temporal_input"};
+    TemporalStore temporal;
+    gpu::KeptImage toneMapInput{"tone_map_input"};
+    gpu::HistoryImage exposure{"exposure"};
+    gpu::KeptImage display{"display"};
+};
+
+/// What has been recorded of the current frame.
+struct Frame {
+    ViewParams view{};
+    GBuffer g;
+    gpu::Image backDepth;
+    gpu::Image pyramid;
+    gpu::Image light;  ///< given to the lobes
+    gpu::History lit;  ///< swapped by the first effect that reads or writes it
+    gpu::Image composed;
+    gpu::Image antialiased;
+    gpu::Image sunVisibility;
+    std::optional<LobeLight> diffuse;
+    std::optional<LobeLight> specular;
+    float elapsed = 0.0F;
+};
+
+}  // namespace reflet::api
+
+struct RefletView_T {
+    RefletView_T(RefletContext_T& context, uint32_t framesInFlight)
+        : owner(context), memory(std::make_shared<VkDeviceSize>(0)), recorder(*context.gpu, framesInFlight) {}
+
+    RefletContext_T& owner;
+    std::shared_ptr<VkDeviceSize> memory;  ///< bytes in use
+    reflet::gpu::Recorder recorder;
+    reflet::uvec2 size{0};
+    VkCommandBuffer commands = VK_NULL_HANDLE;  ///< of the current frame
+    std::unique_ptr<reflet::api::ViewImages> images;
+    std::optional<reflet::api::Frame> frame;         ///< between begin and end
+    std::optional<reflet::api::Frame> last;          ///< that has ended, for refletFindImage
+    std::deque<reflet::gpu::ImageState> hostImages;  ///< of the current frame; elements stay where they are
+    bool composedLast = false;                       ///< whether the last frame wrote ViewImages::lit
+};

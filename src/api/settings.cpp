@@ -1,0 +1,69 @@
+// Settings of the library, and the presets of the program as far as they concern them.
+#include "api/settings.h"
+
+#include "base/embedded.h"
+#include "base/error.h"
+#include "base/text.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace reflet {
+std::span<const EmbeddedFile> libraryPresets();
+}  // namespace reflet
+
+namespace reflet::api {
+
+namespace {
+
+SettingTable makeTable() {
+    SettingTable table("refletSettingInfo");
+    table.add<ShadowSettings>("shadow", offsetof(Settings, shadow));
+    table.add<ContactSettings>("contact", offsetof(Settings, contact));
+    table.add<TraceScreenSettings>("trace_screen", offsetof(Settings, traceScreen));
+    table.add<EnvironmentSettings>("environment", offsetof(Settings, environment));
+    table.add<DiffuseSettings>("diffuse", offsetof(Settings, diffuse));
+    table.add<SpecularSettings>("specular", offsetof(Settings, specular));
+    table.add<DenoiseSettings>("denoise", offsetof(Settings, denoise));
+    table.add<TemporalSettings>("temporal", offsetof(Settings, temporal));
+    table.add<TonemapSettings>("tonemap", offsetof(Settings, tonemap));
+    return table;
+}
+
+std::string_view presetName(const EmbeddedFile& file) {
+    return file.name.substr(0, file.name.find('.'));
+}
+
+}  // namespace
+
+const SettingTable& settingTable() {
+    static const SettingTable table = makeTable();
+    return table;
+}
+
+void applyPreset(Settings& settings, std::string_view name) {
+    const auto files = libraryPresets();
+    const auto found = std::ranges::find(files, name, presetName);
+    if (found == files.end()) {
+        std::vector<std::string> names;
+        std::ranges::transform(files, std::back_inserter(names),
+                               [](const auto& f) { return std::string(presetName(f)); });
+        failUsage("no preset is called '{}'{}; there are: {}", name, suggestion(name, names), fmt::join(names, ", "));
+    }
+    const nlohmann::json preset = nlohmann::json::parse(found->text);
+    for (const auto& [effect, values] : preset.items()) {
+        if (!values.is_object()) {
+            continue;  // the description
+        }
+        for (const auto& [setting, value] : values.items()) {
+            const std::string full = fmt::format("{}.{}", effect, setting);
+            const auto& entries = settingTable().entries();
+            if (std::ranges::find(entries, full, &SettingEntry::name) != entries.end()) {
+                settingTable().set(&settings, full, value.is_string() ? value.get<std::string>() : value.dump());
+            }
+        }
+    }
+}
+
+}  // namespace reflet::api

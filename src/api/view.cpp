@@ -1,0 +1,263 @@
+// Views of the C API: their life, and the start and end of a frame.
+#include "api/calls.h"
+#include "api/camera.h"
+#include "api/frame.h"
+#include "effects/jitter.h"
+
+#include <algorithm>
+
+namespace reflet::api {
+
+namespace {
+
+constexpr uint32_t largestSide = maxFrameSize;
+
+void checkSize(uint32_t width, uint32_t height) {
+    if (width < 1 || height < 1 || width > largestSide || height > largestSide) {
+        failArgument("width, height: are {}x{}; both must be 1 to {}", width, height, largestSide);
+    }
+}
+
+// The next frame's writes wait for whatever the host's commands read of the last one's results.
+void waitForReaders(RefletView_T& view) {
+    VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    barrier.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+    VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    info.memoryBarrierCount = 1;
+    info.pMemoryBarriers = &barrier;
+    view.owner.gpu->vk.vkCmdPipelineBarrier2(view.commands, &info);
+}
+
+void checkKinds(const RefletGBuffer& g) {
+    const auto check = [](const char* name, auto value, auto last) {
+        if (value < 0 || value > last) {
+            failArgument("gbuffer.{}: is {}; known values are 0 to {}", name, static_cast<int>(value),
+                         static_cast<int>(last));
+        }
+    };
+    check("depthKind", static_cast<int>(g.depthKind), static_cast<int>(REFLET_DEPTH_STANDARD));
+    check("normalKind", static_cast<int>(g.normalKind), static_cast<int>(REFLET_NORMAL_VECTOR_UNORM));
+    check("roughnessKind", static_cast<int>(g.roughnessKind), static_cast<int>(REFLET_ROUGHNESS_ALPHA));
+    check("baseColorKind", static_cast<int>(g.baseColorKind), static_cast<int>(REFLET_COLOR_SRGB));
+    check("motionKind", static_cast<int>(g.motionKind), static_cast<int>(REFLET_MOTION_PIXELS));
+    check("roughnessChannel", static_cast<int64_t>(g.roughnessChannel), int64_t(3));
+    check("metallicChannel", static_cast<int64_t>(g.metallicChannel), int64_t(3));
+}
+
+void checkGBuffer(const RefletGBuffer& g, uvec2 size) {
+    const std::pair<const char*, const RefletImage*> images[] = {{"gbuffer.depth", &g.depth},
+                                                                 {"gbuffer.normal", &g.normal},
+                                                                 {"gbuffer.roughness", &g.roughness},
+                                                                 {"gbuffer.geometricNormal", &g.geometricNormal},
+                                                                 {"gbuffer.metallic", &g.metallic},
+                                                                 {"gbuffer.baseColor", &g.baseColor},
+                                                                 {"gbuffer.f0", &g.f0},
+                                                                 {"gbuffer.motion", &g.motion},
+                                                                 {"gbuffer.backDepth", &g.backDepth}};
+    for (const auto& [name, image] : images) {
+        const bool required = image == &g.depth || image == &g.normal;
+        if (required && image->image == VK_NULL_HANDLE) {
+            failArgument("{}.image: is VK_NULL_HANDLE, and is required", name);
+        }
+        if (image->image != VK_NULL_HANDLE) {
+            checkImage(*image, name, size);
+        }
+    }
+    checkKinds(g);
+}
+
+}  // namespace
+
+HostSurfaces hostSurfaces(const RefletGBuffer& g, const std::function<gpu::Image(const RefletImage&)>& adopt) {
+    HostSurfaces host;
+    host.depth = adopt(g.depth);
+    host.reversed = g.depthKind == REFLET_DEPTH_REVERSED;
+    host.normal = adopt(g.normal);
+    host.normalKind = static_cast<uint32_t>(g.normalKind);
+    host.geometricNormal = adopt(g.geometricNormal);
+    host.roughness = adopt(g.roughness);
+    host.roughnessChannel = g.roughnessChannel;
+    host.roughnessIsAlpha = g.roughnessKind == REFLET_ROUGHNESS_ALPHA;
+    host.metallic = adopt(g.metallic);
+    host.metallicChannel = g.metallicChannel;
+    host.baseColor = adopt(g.baseColor);
+    host.baseColorIsSrgb = g.baseColorKind == REFLET_COLOR_SRGB;
+    host.f0 = adopt(g.f0);
+    host.motion = adopt(g.motion);
+    host.backDepth = adopt(g.backDepth);
+    return host;
+}
+
+RefletResult onView(RefletView view, const std::function<void()>& body) {
+    const RefletResult result = guarded([&] {
+        if (view == nullptr) {
+            failArgument("view: is NULL");
+        }
+        const std::scoped_lock lock(view->owner.mutex);
+        gpu::Memory& memory = view->owner.gpu->memory();
+        memory.setAccount(view->memory);
+        try {
+            body();
+        } catch (...) {
+            memory.setAccount(nullptr);
+            throw;
+        }
+        memory.setAccount(nullptr);
+    });
+    if (result != REFLET_SUCCESS && view != nullptr && view->owner.log != nullptr) {
+        view->owner.log(view->owner.logUser, result, lastError().c_str());
+    }
+    return result;
+}
+
+RefletResult inFrame(RefletView view, RefletSettings settings,
+                     const std::function<void(Frame&, const Settings&)>& body) {
+    return onView(view, [&] {
+        if (settings == nullptr) {
+            failArgument("settings: is NULL");
+        }
+        if (!view->frame) {
+            failArgument("view: no frame has begun; call refletBeginFrame first");
+        }
+        body(*view->frame, settings->values);
+    });
+}
+
+}  // namespace reflet::api
+
+using namespace reflet;
+using namespace reflet::api;
+
+RefletResult refletCreateView(RefletContext context, const RefletViewInfo* info, RefletView* view) {
+    if (view != nullptr) {
+        *view = nullptr;
+    }
+    return guarded([&] {
+        if (context == nullptr || view == nullptr) {
+            failArgument("{}: is NULL", context == nullptr ? "context" : "view");
+        }
+        const RefletViewInfo given = adopted(info, "RefletViewInfo");
+        checkSize(given.width, given.height);
+        if (given.framesInFlight < 1 || given.framesInFlight > REFLET_MAX_FRAMES_IN_FLIGHT) {
+            failArgument("RefletViewInfo.framesInFlight: is {}; must be 1 to {}", given.framesInFlight,
+                         REFLET_MAX_FRAMES_IN_FLIGHT);
+        }
+        const std::scoped_lock lock(context->mutex);
+        auto made = std::make_unique<RefletView_T>(*context, given.framesInFlight);
+        made->size = {given.width, given.height};
+        made->images = std::make_unique<ViewImages>();
+        ++context->views;
+        *view = made.release();
+    });
+}
+
+void refletDestroyView(RefletView view) {
+    if (view == nullptr) {
+        return;
+    }
+    RefletContext_T& context = view->owner;
+    const std::scoped_lock lock(context.mutex);
+    view->recorder.finish();
+    --context.views;
+    delete view;
+}
+
+RefletResult refletResizeView(RefletView view, uint32_t width, uint32_t height) {
+    return onView(view, [&] {
+        if (view->frame) {
+            failArgument("view: a frame has begun; resize before refletBeginFrame or after refletEndFrame");
+        }
+        checkSize(width, height);
+        if (view->size != uvec2(width, height)) {
+            view->size = {width, height};
+            view->last.reset();
+            const bool noise = view->images->hasBlueNoise;  // the rest is of the old size
+            auto fresh = std::make_unique<ViewImages>();
+            std::swap(fresh->blueNoise, view->images->blueNoise);
+            std::swap(fresh->ggxTable, view->images->ggxTable);
+            std::swap(fresh->environment, view->images->environment);
+            fresh->hasBlueNoise = noise;
+            view->images = std::move(fresh);
+        }
+    });
+}
+
+RefletResult refletResetView(RefletView view) {
+    return onView(view, [&] {
+        view->images->environment.generation += view->recorder.generation() == view->images->environment.generation;
+        view->recorder.forget();
+        view->composedLast = false;
+    });
+}
+
+RefletResult refletFinishView(RefletView view) {
+    return onView(view, [&] {
+        if (view->frame) {
+            failArgument("view: a frame has begun and not ended, so the device cannot have finished it");
+        }
+        view->recorder.finish();
+    });
+}
+
+RefletResult refletViewMemory(RefletView view, uint64_t* bytes) {
+    return onView(view, [&] {
+        if (bytes == nullptr) {
+            failArgument("bytes: is NULL");
+        }
+        *bytes = *view->memory;
+    });
+}
+
+void refletJitter(uint32_t frameIndex, float jitter[2]) {
+    if (jitter != nullptr) {
+        const vec2 at = subpixelJitter(frameIndex);
+        jitter[0] = at.x;
+        jitter[1] = at.y;
+    }
+}
+
+RefletResult refletBeginFrame(RefletView view, const RefletFrameInfo* info) {
+    return onView(view, [&] {
+        const RefletFrameInfo given = adopted(info, "RefletFrameInfo");
+        if (view->frame) {
+            failArgument("view: a frame has begun already; call refletEndFrame first");
+        }
+        if (given.commandBuffer == VK_NULL_HANDLE) {
+            failArgument("RefletFrameInfo.commandBuffer: is VK_NULL_HANDLE");
+        }
+        checkGBuffer(given.gbuffer, view->size);
+        Frame frame;
+        frame.view = viewParams(given, view->size);
+        frame.elapsed = std::clamp(given.elapsed, 0.0F, 3600.0F);
+        const ImportParams params = importParams(given, frame.view);
+        view->commands = given.commandBuffer;
+        view->hostImages.clear();
+        view->recorder.begin(given.commandBuffer);
+        try {
+            waitForReaders(*view);
+            HostImages host(*view);
+            const HostSurfaces surfaces =
+                hostSurfaces(given.gbuffer, [&](const RefletImage& image) { return host.add(image); });
+            host.acquire();
+            recordImport(*view, frame, surfaces, params);
+        } catch (...) {
+            view->recorder.end();
+            throw;
+        }
+        view->frame = frame;
+        view->last.reset();
+    });
+}
+
+RefletResult refletEndFrame(RefletView view) {
+    return onView(view, [&] {
+        if (!view->frame) {
+            failArgument("view: no frame has begun; call refletBeginFrame first");
+        }
+        view->recorder.end();
+        view->composedLast = static_cast<bool>(view->frame->composed);
+        view->last = std::move(view->frame);
+        view->frame.reset();
+    });
+}

@@ -1,0 +1,85 @@
+// Records the import of a host's images.
+#include "effects/import/import.h"
+
+namespace reflet {
+
+ImportedSurfaces importSurfaces(gpu::Recorder& f, ImportStore& own, const HostSurfaces& host, ImportParams params) {
+    const uvec2 size = host.depth.size;
+    ImportedSurfaces out;
+    const gpu::Image placeholder = f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT);
+    const auto given = [&](gpu::Image image) { return image ? image : placeholder; };
+    const auto has = [](gpu::Image image) { return image ? 1U : 0U; };
+    GBuffer& g = out.g;
+    g.depth = own.depth.storage(f, VK_FORMAT_R32_SFLOAT, size);
+    g.normal = own.normal.storage(f, VK_FORMAT_R32_UINT, size);
+    g.geometricNormal = own.geometricNormal.storage(f, VK_FORMAT_R32_UINT, size);
+    g.baseColor = own.baseColor.storage(f, VK_FORMAT_A2B10G10R10_UNORM_PACK32, size);
+    g.material = own.material.storage(f, VK_FORMAT_R8G8B8A8_UNORM, size);
+    g.motion = own.motion.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, size);
+    if (host.f0) {
+        g.reflectance = own.reflectance.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, size);
+        g.features = materialFeatureReflectance;
+    }
+    if (host.backDepth) {
+        out.backDepth = own.backDepth.storage(f, VK_FORMAT_R32_SFLOAT, size);
+    }
+    params.roughnessChannel = host.roughnessChannel;
+    params.metallicChannel = host.metallicChannel;
+    f.compute("import.surfaces", "import_surfaces.comp")
+        .constant("reversed", host.reversed ? 1 : 0)
+        .constant("normalKind", host.normalKind)
+        .constant("hasGeometricNormal", has(host.geometricNormal))
+        .constant("hasRoughness", has(host.roughness))
+        .constant("roughnessIsAlpha", host.roughnessIsAlpha ? 1 : 0)
+        .constant("hasMetallic", has(host.metallic))
+        .constant("hasBaseColor", has(host.baseColor))
+        .constant("baseColorIsSrgb", host.baseColorIsSrgb ? 1 : 0)
+        .constant("hasF0", has(host.f0))
+        .constant("hasMotion", has(host.motion))
+        .constant("hasBackDepth", has(host.backDepth))
+        .read("hostDepth", host.depth)
+        .read("hostNormal", host.normal)
+        .read("hostGeometricNormal", given(host.geometricNormal))
+        .read("hostRoughness", given(host.roughness))
+        .read("hostMetallic", given(host.metallic))
+        .read("hostBaseColor", given(host.baseColor))
+        .read("hostF0", given(host.f0))
+        .read("hostMotion", given(host.motion))
+        .read("hostBackDepth", given(host.backDepth))
+        .write("depth", g.depth)
+        .write("normal", g.normal)
+        .write("geometricNormal", g.geometricNormal)
+        .write("baseColor", g.baseColor)
+        .write("material", g.material)
+        .write("motion", g.motion)
+        .write("reflectance", g.reflectance ? g.reflectance : placeholder)
+        .write("backDepth", out.backDepth ? out.backDepth : f.placeholder(VK_FORMAT_R32_SFLOAT))
+        .params(params)
+        .dispatch(size);
+    return out;
+}
+
+gpu::Image importLight(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image light, bool keepAlpha) {
+    const gpu::Image out = own.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, light.size);
+    f.compute("import.light", "import_light.comp")
+        .constant("keepAlpha", keepAlpha ? 1 : 0)
+        .read("hostLight", light)
+        .write("light", out)
+        .params(ImportLightParams{light.size})
+        .dispatch(light.size);
+    return out;
+}
+
+gpu::Image importShadowMap(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image map, uint32_t cascades, bool reversed) {
+    const uvec2 tiles(cascades > 1 ? 2 : 1, cascades > 2 ? 2 : 1);
+    const gpu::Image out = own.storage(f, VK_FORMAT_R32_SFLOAT, map.size * tiles);
+    f.compute("import.shadow", cascades > 1 ? "import_shadow_array.comp" : "import_shadow.comp")
+        .constant("reversed", reversed ? 1 : 0)
+        .read("hostMap", map)
+        .write("map", out)
+        .params(ImportShadowParams{map.size, cascades})
+        .dispatch(out.size);
+    return out;
+}
+
+}  // namespace reflet

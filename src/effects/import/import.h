@@ -1,0 +1,91 @@
+// Import: turns a host's G-buffer, light and shadow maps, whatever their conventions, into the images that effects
+// read. Values that are not finite become 0, so that nothing that a host draws can spread. Shared by C++ and GLSL.
+#ifndef REFLET_EFFECTS_IMPORT_H
+#define REFLET_EFFECTS_IMPORT_H
+
+#include "base/shared.h"
+#include "effects/view.h"
+
+SHARED_BEGIN
+
+const uint normalOctahedralSnorm = 0;
+const uint normalOctahedralUnorm = 1;
+const uint normalVectorSnorm = 2;
+const uint normalVectorUnorm = 3;
+
+struct ImportParams {
+    ViewParams view;
+    mat4 normalToWorld;  // rotation
+    vec2 motionToUv;     // factor; 0: there is no motion image
+    vec2 motionOffset;   // uv, added
+    uint roughnessChannel;
+    uint metallicChannel;
+};
+
+struct ImportLightParams {
+    uvec2 size;
+};
+
+struct ImportShadowParams {
+    uvec2 size;  // of a map
+    uint cascades;
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "effects/gbuffer/gbuffer.h"
+#include "gpu/recorder.h"
+
+namespace reflet {
+
+/// What a host has, and how it means it. Images that are none have the defaults of reflet.h.
+struct HostSurfaces {
+    gpu::Image depth;
+    bool reversed = true;
+    gpu::Image normal;
+    gpu::Image geometricNormal;  ///< none: from depth
+    uint32_t normalKind = normalOctahedralSnorm;
+    gpu::Image roughness;
+    uint32_t roughnessChannel = 0;
+    bool roughnessIsAlpha = false;
+    gpu::Image metallic;
+    uint32_t metallicChannel = 0;
+    gpu::Image baseColor;
+    bool baseColorIsSrgb = false;
+    gpu::Image f0;
+    gpu::Image motion;
+    gpu::Image backDepth;
+};
+
+/// Owns the imported images.
+struct ImportStore {
+    gpu::KeptImage depth{"depth"};
+    gpu::KeptImage normal{"normal"};
+    gpu::KeptImage geometricNormal{"geometric_normal"};
+    gpu::KeptImage baseColor{"base_color"};
+    gpu::KeptImage material{"material"};
+    gpu::KeptImage motion{"motion"};
+    gpu::KeptImage reflectance{"reflectance"};
+    gpu::KeptImage backDepth{"back_depth"};
+};
+
+struct ImportedSurfaces {
+    GBuffer g;             ///< without emissive; depth is R32F
+    gpu::Image backDepth;  ///< R32F, reversed; none if the host has none
+};
+
+/// params: without the channels, which are set.
+ImportedSurfaces importSurfaces(gpu::Recorder& f, ImportStore& own, const HostSurfaces& host, ImportParams params);
+
+/// RGBA16F of the same size: finite, 0 to 65504. alpha: as given, or 1.
+gpu::Image importLight(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image light, bool keepAlpha = false);
+
+/// R32F: the cascades' maps as tiles, depth reversed (SunShadowParams). map: a 2D array view if there are several.
+gpu::Image importShadowMap(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image map, uint32_t cascades, bool reversed);
+
+}  // namespace reflet
+#endif
+
+#endif

@@ -1,0 +1,166 @@
+// Turns a host's G-buffer into Reflet's. In: the host's images, placeholders where it has none. Out: the images of
+// GBuffer (effects/gbuffer/gbuffer.h).
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "effects/gbuffer/gbuffer.glsl"
+#include "effects/import/import.h"
+#include "effects/material_features.glsl"
+#include "shaders/projection.glsl"
+
+layout(constant_id = 0) const uint reversed = 1u;
+layout(constant_id = 1) const uint normalKind = normalOctahedralSnorm;
+layout(constant_id = 2) const uint hasGeometricNormal = 0u;
+layout(constant_id = 3) const uint hasRoughness = 0u;
+layout(constant_id = 4) const uint roughnessIsAlpha = 0u;
+layout(constant_id = 5) const uint hasMetallic = 0u;
+layout(constant_id = 6) const uint hasBaseColor = 0u;
+layout(constant_id = 7) const uint baseColorIsSrgb = 0u;
+layout(constant_id = 8) const uint hasF0 = 0u;
+layout(constant_id = 9) const uint hasMotion = 0u;
+layout(constant_id = 10) const uint hasBackDepth = 0u;
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(scalar) uniform ParamsBlock { ImportParams params; };
+uniform sampler2D hostDepth;
+uniform sampler2D hostNormal;
+uniform sampler2D hostGeometricNormal;
+uniform sampler2D hostRoughness;
+uniform sampler2D hostMetallic;
+uniform sampler2D hostBaseColor;
+uniform sampler2D hostF0;
+uniform sampler2D hostMotion;
+uniform sampler2D hostBackDepth;
+layout(r32f) uniform writeonly image2D depth;
+layout(r32ui) uniform writeonly uimage2D normal;
+layout(r32ui) uniform writeonly uimage2D geometricNormal;
+layout(rgb10_a2) uniform writeonly image2D baseColor;
+layout(rgba8) uniform writeonly image2D material;
+layout(rgba16f) uniform writeonly image2D motion;
+layout(rgba16f) uniform writeonly image2D reflectance;
+layout(r32f) uniform writeonly image2D backDepth;
+
+bool finite(float x) { return !isnan(x) && !isinf(x); }
+bool finite(vec3 v) { return finite(v.x) && finite(v.y) && finite(v.z); }
+float orZero(float x) { return finite(x) ? x : 0.0; }
+
+// Reversed; 0 for the sky, and for what is no depth.
+float reversedDepth(float stored) {
+    float d = reversed != 0u ? stored : 1.0 - stored;
+    return finite(d) ? clamp(d, 0.0, 1.0) : 0.0;
+}
+
+float depthAt(ivec2 pixel) {
+    ivec2 inside = clamp(pixel, ivec2(0), ivec2(params.view.size) - 1);
+    return reversedDepth(texelFetch(hostDepth, inside, 0).r);
+}
+
+// Unit, in world space; toward the camera if it is no direction.
+vec3 decodedNormal(vec4 texel, vec3 toEye) {
+    vec3 n = texel.xyz;
+    if (normalKind == normalOctahedralUnorm || normalKind == normalVectorUnorm) {
+        n = 2.0 * n - 1.0;
+    }
+    if (normalKind == normalOctahedralSnorm || normalKind == normalOctahedralUnorm) {
+        n.z = 1.0 - abs(n.x) - abs(n.y);
+        float fold = max(-n.z, 0.0);
+        n.xy += vec2(n.x >= 0.0 ? -fold : fold, n.y >= 0.0 ? -fold : fold);
+    }
+    float length2 = dot(n, n);
+    return finite(n) && length2 > 1e-8 ? mat3(params.normalToWorld) * (n * inversesqrt(length2)) : toEye;
+}
+
+vec3 positionAt(ivec2 pixel, float d) {
+    return uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
+}
+
+// The vector along the surface to the neighbour, before or after, whose distance fits a plane better: its second
+// difference with the neighbour behind it is smaller (after Wicked Engine's and others' common reconstruction; J. Hughes
+// calls it "accurate normal reconstruction"). Depth is linear in screen space on a plane.
+vec3 along(ivec2 pixel, ivec2 step, float d, vec3 p) {
+    float before = depthAt(pixel - step);
+    float after = depthAt(pixel + step);
+    float beforeFits = abs(2.0 * before - depthAt(pixel - 2 * step) - d);
+    float afterFits = abs(2.0 * after - depthAt(pixel + 2 * step) - d);
+    bool useBefore = after <= 0.0 || (before > 0.0 && beforeFits < afterFits);
+    if (useBefore) {
+        return before > 0.0 ? p - positionAt(pixel - step, before) : vec3(0.0);
+    }
+    return positionAt(pixel + step, after) - p;
+}
+
+vec3 normalFromDepth(ivec2 pixel, float d, vec3 p, vec3 otherwise) {
+    vec3 n = cross(along(pixel, ivec2(1, 0), d, p), along(pixel, ivec2(0, 1), d, p));
+    float length2 = dot(n, n);
+    return finite(n) && length2 > 0.0 ? n * inversesqrt(length2) : otherwise;
+}
+
+float channelOf(vec4 texel, uint channel) { return clamp(orZero(texel[min(channel, 3u)]), 0.0, 1.0); }
+
+float roughnessAt(ivec2 pixel) {
+    if (hasRoughness == 0u) {
+        return 1.0;
+    }
+    float value = channelOf(texelFetch(hostRoughness, pixel, 0), params.roughnessChannel);
+    return roughnessIsAlpha != 0u ? sqrt(value) : value;
+}
+
+vec3 linearColor(vec3 encoded) {
+    return mix(encoded / 12.92, pow((encoded + 0.055) / 1.055, vec3(2.4)), greaterThan(encoded, vec3(0.04045)));
+}
+
+vec3 baseColorAt(ivec2 pixel) {
+    if (hasBaseColor == 0u) {
+        return vec3(0.5);
+    }
+    vec3 color = texelFetch(hostBaseColor, pixel, 0).rgb;
+    color = finite(color) ? clamp(color, 0.0, 1.0) : vec3(0.0);
+    return baseColorIsSrgb != 0u ? linearColor(color) : color;
+}
+
+// uv now minus uv in the last frame, without jitter.
+vec2 motionAt(ivec2 pixel, vec2 uv, vec3 p) {
+    if (hasMotion != 0u) {
+        vec2 texel = texelFetch(hostMotion, pixel, 0).rg;
+        return vec2(orZero(texel.x), orZero(texel.y)) * params.motionToUv + params.motionOffset;
+    }
+    vec4 before = params.view.previousWorldToClip * vec4(p, 1.0);
+    vec2 was = before.w > 0.0 ? ndcToUv(before.xy / before.w) : uv;
+    return uv - was;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, ivec2(params.view.size)))) {
+        return;
+    }
+    float d = depthAt(pixel);
+    imageStore(depth, pixel, vec4(d));
+    if (hasBackDepth != 0u) {
+        imageStore(backDepth, pixel, vec4(reversedDepth(texelFetch(hostBackDepth, pixel, 0).r)));
+    }
+    vec2 uv = pixelToUv(pixel, params.view.pixel);
+    vec3 p = uvToWorld(uv, max(d, 1e-9), params.view.clipToWorld);
+    vec3 toEye = directionToEye(p, params.view.eye);
+    vec3 n = d > 0.0 ? decodedNormal(texelFetch(hostNormal, pixel, 0), toEye) : toEye;
+    vec3 flat_ = toEye;
+    if (d > 0.0) {
+        flat_ = hasGeometricNormal != 0u ? decodedNormal(texelFetch(hostGeometricNormal, pixel, 0), toEye)
+                                         : normalFromDepth(pixel, d, p, n);
+    }
+    flat_ = dot(flat_, toEye) < 0.0 ? -flat_ : flat_;
+    imageStore(normal, pixel, uvec4(packUnitVector(n)));
+    imageStore(geometricNormal, pixel, uvec4(packUnitVector(flat_)));
+    imageStore(baseColor, pixel, vec4(packBaseColor(baseColorAt(pixel)), 1.0));
+    float metal = 0.0;
+    if (hasMetallic != 0u && hasF0 == 0u) {
+        metal = channelOf(texelFetch(hostMetallic, pixel, 0), params.metallicChannel);
+    }
+    imageStore(material, pixel, vec4(roughnessAt(pixel), metal, 1.0, 0.0));
+    if (hasF0 != 0u) {
+        vec3 f0 = texelFetch(hostF0, pixel, 0).rgb;
+        f0 = finite(f0) ? clamp(f0, 0.0, 1.0) : vec3(dielectricF0);
+        imageStore(reflectance, pixel, vec4(f0 / dielectricF0, 1.0));
+    }
+    vec2 moved = d > 0.0 ? motionAt(pixel, uv, p) : vec2(0.0);
+    imageStore(motion, pixel, vec4(clamp(moved, -4.0, 4.0), 0.0, 0.0));
+}
