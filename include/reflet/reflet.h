@@ -223,7 +223,8 @@ typedef enum RefletNormalKind {
 
 typedef enum RefletRoughnessKind {
     REFLET_ROUGHNESS_PERCEPTUAL = 0, /**< as in glTF: alpha of GGX is its square */
-    REFLET_ROUGHNESS_ALPHA = 1       /**< alpha of GGX */
+    REFLET_ROUGHNESS_ALPHA = 1,      /**< alpha of GGX */
+    REFLET_ROUGHNESS_SMOOTHNESS = 2  /**< 1 minus perceptual roughness */
 } RefletRoughnessKind;
 
 typedef enum RefletColorKind {

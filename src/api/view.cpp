@@ -38,7 +38,7 @@ void checkKinds(const RefletGBuffer& g) {
     };
     check("depthKind", static_cast<int>(g.depthKind), static_cast<int>(REFLET_DEPTH_STANDARD));
     check("normalKind", static_cast<int>(g.normalKind), static_cast<int>(REFLET_NORMAL_VECTOR_UNORM));
-    check("roughnessKind", static_cast<int>(g.roughnessKind), static_cast<int>(REFLET_ROUGHNESS_ALPHA));
+    check("roughnessKind", static_cast<int>(g.roughnessKind), static_cast<int>(REFLET_ROUGHNESS_SMOOTHNESS));
     check("baseColorKind", static_cast<int>(g.baseColorKind), static_cast<int>(REFLET_COLOR_SRGB));
     check("motionKind", static_cast<int>(g.motionKind), static_cast<int>(REFLET_MOTION_PIXELS));
     check("roughnessChannel", static_cast<int64_t>(g.roughnessChannel), int64_t(3));
@@ -78,7 +78,7 @@ HostSurfaces hostSurfaces(const RefletGBuffer& g, const std::function<gpu::Image
     host.geometricNormal = adopt(g.geometricNormal);
     host.roughness = adopt(g.roughness);
     host.roughnessChannel = g.roughnessChannel;
-    host.roughnessIsAlpha = g.roughnessKind == REFLET_ROUGHNESS_ALPHA;
+    host.roughnessKind = static_cast<uint32_t>(g.roughnessKind);
     host.metallic = adopt(g.metallic);
     host.metallicChannel = g.metallicChannel;
     host.baseColor = adopt(g.baseColor);

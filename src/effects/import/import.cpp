@@ -30,7 +30,7 @@ ImportedSurfaces importSurfaces(gpu::Recorder& f, ImportStore& own, const HostSu
         .constant("normalKind", host.normalKind)
         .constant("hasGeometricNormal", has(host.geometricNormal))
         .constant("hasRoughness", has(host.roughness))
-        .constant("roughnessIsAlpha", host.roughnessIsAlpha ? 1 : 0)
+        .constant("roughnessKind", host.roughnessKind)
         .constant("hasMetallic", has(host.metallic))
         .constant("hasBaseColor", has(host.baseColor))
         .constant("baseColorIsSrgb", host.baseColorIsSrgb ? 1 : 0)

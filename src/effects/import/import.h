@@ -13,6 +13,10 @@ const uint normalOctahedralUnorm = 1;
 const uint normalVectorSnorm = 2;
 const uint normalVectorUnorm = 3;
 
+const uint roughnessPerceptual = 0;
+const uint roughnessAlpha = 1;
+const uint roughnessSmoothness = 2;
+
 struct ImportParams {
     ViewParams view;
     mat4 normalToWorld;  // rotation
@@ -49,7 +53,7 @@ struct HostSurfaces {
     uint32_t normalKind = normalOctahedralSnorm;
     gpu::Image roughness;
     uint32_t roughnessChannel = 0;
-    bool roughnessIsAlpha = false;
+    uint32_t roughnessKind = roughnessPerceptual;
     gpu::Image metallic;
     uint32_t metallicChannel = 0;
     gpu::Image baseColor;

@@ -11,7 +11,7 @@ layout(constant_id = 0) const uint reversed = 1u;
 layout(constant_id = 1) const uint normalKind = normalOctahedralSnorm;
 layout(constant_id = 2) const uint hasGeometricNormal = 0u;
 layout(constant_id = 3) const uint hasRoughness = 0u;
-layout(constant_id = 4) const uint roughnessIsAlpha = 0u;
+layout(constant_id = 4) const uint roughnessKind = roughnessPerceptual;
 layout(constant_id = 5) const uint hasMetallic = 0u;
 layout(constant_id = 6) const uint hasBaseColor = 0u;
 layout(constant_id = 7) const uint baseColorIsSrgb = 0u;
@@ -101,7 +101,8 @@ float roughnessAt(ivec2 pixel) {
         return 1.0;
     }
     float value = channelOf(texelFetch(hostRoughness, pixel, 0), params.roughnessChannel);
-    return roughnessIsAlpha != 0u ? sqrt(value) : value;
+    value = roughnessKind == roughnessSmoothness ? 1.0 - value : value;
+    return roughnessKind == roughnessAlpha ? sqrt(value) : value;
 }
 
 vec3 linearColor(vec3 encoded) {
