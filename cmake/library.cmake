@@ -33,6 +33,21 @@ if(BUILD_SHARED_LIBS AND UNIX AND NOT APPLE)
     set_target_properties(reflet PROPERTIES LINK_DEPENDS ${exports})
 endif()
 
+if(REFLET_TESTS AND NOT BUILD_SHARED_LIBS AND UNIX AND NOT APPLE) # the shared library, for the test of its exports
+    add_library(reflet_exports SHARED ${api})
+    target_include_directories(reflet_exports PRIVATE include src)
+    reflet_embed(reflet_exports libraryPresets ${library_presets})
+    foreach(part IN LISTS library_parts)
+        target_sources(reflet_exports PRIVATE $<TARGET_OBJECTS:${part}>)
+    endforeach()
+    target_compile_definitions(reflet_exports PRIVATE REFLET_BUILD)
+    target_link_options(reflet_exports PRIVATE -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/exports.map)
+    target_link_libraries(reflet_exports PRIVATE reflet_options Vulkan::Headers glm::glm fmt::fmt-header-only
+        nlohmann_json::nlohmann_json)
+elseif(REFLET_TESTS)
+    add_library(reflet_exports ALIAS reflet)
+endif()
+
 if(REFLET_INSTALL)
     install(TARGETS reflet EXPORT refletTargets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
@@ -46,6 +61,7 @@ if(REFLET_INSTALL)
     write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/refletConfigVersion.cmake COMPATIBILITY SameMinorVersion)
     install(FILES ${CMAKE_CURRENT_BINARY_DIR}/refletConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/refletConfigVersion.cmake
         DESTINATION ${package})
+    file(RELATIVE_PATH pc_up "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
     set(pc_static_define "")
     if(NOT BUILD_SHARED_LIBS)
         set(pc_static_define " -DREFLET_STATIC")

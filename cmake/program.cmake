@@ -49,6 +49,9 @@ reflet_library(reflet_cli cli reflet_measure PUBLIC CLI11::CLI11)
 add_executable(reflet_program src/main.cpp)
 set_target_properties(reflet_program PROPERTIES OUTPUT_NAME reflet)
 target_link_libraries(reflet_program PRIVATE reflet_cli)
+if(REFLET_INSTALL)
+    install(TARGETS reflet_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
 
 # The window, where its libraries are.
 if(TARGET PkgConfig::IMGUI AND TARGET PkgConfig::GLFW)

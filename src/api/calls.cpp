@@ -27,6 +27,8 @@ RefletResult handleException() {
         return note(REFLET_ERROR_INVALID_ARGUMENT, error.what());
     } catch (const gpu::OutOfMemory& error) {
         return note(REFLET_ERROR_OUT_OF_MEMORY, error.what());
+    } catch (const gpu::Unsupported& error) {
+        return note(REFLET_ERROR_MISSING_FEATURE, error.what());
     } catch (const Error& error) {
         return note(REFLET_ERROR_VULKAN, error.what());
     } catch (const std::bad_alloc&) {

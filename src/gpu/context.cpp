@@ -13,7 +13,7 @@ template <class F>
 F instanceFunction(const OpenDevice& open, const char* name) {
     const PFN_vkVoidFunction found = open.lookUp(open.instance, name);
     if (found == nullptr) {
-        fail("the Vulkan instance has no {}: Vulkan 1.3 is needed", name);
+        throw Unsupported(fmt::format("the Vulkan instance has no {}: Vulkan 1.3 is needed", name));
     }
     return reinterpret_cast<F>(found);
 }

@@ -17,7 +17,7 @@ PFN_vkVoidFunction find(PFN_vkGetDeviceProcAddr lookUp, VkDevice device, const c
     if (const PFN_vkVoidFunction found = lookUp(device, (std::string(name) + "KHR").c_str())) {
         return found;
     }
-    fail("this device has no {}: Vulkan 1.3 is needed", name);
+    throw Unsupported(fmt::format("this device has no {}: Vulkan 1.3 is needed", name));
 }
 
 }  // namespace

@@ -1,0 +1,277 @@
+// Every argument of the C API wrong in turn: the right error, whose text names the field; nothing recorded, nothing
+// leaked.
+#include "library/library_host.h"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace reflet::test {
+namespace {
+
+class Arguments : public ::testing::Test {
+protected:
+    Arguments() : room_(host_, {}) {
+        context_ = host_.makeContext();
+        const RefletViewInfo info{sizeof info, Room::width, Room::height, 3};
+        EXPECT_REFLET(refletCreateView(context_, &info, &view_));
+        EXPECT_REFLET(refletCreateSettings("fast", &settings_));
+    }
+    ~Arguments() override {
+        host_.host.waitForAll();
+        refletDestroySettings(settings_);
+        refletDestroyView(view_);
+        refletDestroyContext(context_);
+        for (const std::string& message : host_.host.messages()) {
+            ADD_FAILURE() << message;
+        }
+    }
+
+    static void expectError(RefletResult result, const std::string& field,
+                            RefletResult wanted = REFLET_ERROR_INVALID_ARGUMENT) {
+        EXPECT_EQ(result, wanted) << field << ": " << refletLastError();
+        EXPECT_NE(std::string(refletLastError()).find(field), std::string::npos) << field << ": " << refletLastError();
+    }
+
+    void expectFrameError(const std::string& field, const std::function<void(RefletFrameInfo&)>& spoil,
+                          RefletResult wanted = REFLET_ERROR_INVALID_ARGUMENT) {
+        host_.host.frame([&](VkCommandBuffer commands) {
+            RefletFrameInfo info = room_.frame(commands, 0);
+            spoil(info);
+            expectError(refletBeginFrame(view_, &info), field, wanted);
+        });
+    }
+
+    LibraryHost host_;
+    Room room_;
+    RefletContext context_ = nullptr;
+    RefletView view_ = nullptr;
+    RefletSettings settings_ = nullptr;
+};
+
+TEST_F(Arguments, OfAContext) {
+    const auto expect = [&](const std::string& field, const std::function<void(RefletContextInfo&)>& spoil,
+                            RefletResult wanted = REFLET_ERROR_INVALID_ARGUMENT) {
+        RefletContextInfo info = host_.contextInfo();
+        spoil(info);
+        RefletContext context = reinterpret_cast<RefletContext>(1);
+        expectError(refletCreateContext(&info, &context), field, wanted);
+        EXPECT_EQ(context, nullptr);
+    };
+    expect("structSize", [](auto& i) { i.structSize = 0; });
+    expect(
+        "structSize", [](auto& i) { i.structSize = sizeof i + 8; }, REFLET_ERROR_INCOMPATIBLE_VERSION);
+    expect("version", [](auto& i) { i.version = 0; });
+    expect(
+        "version", [](auto& i) { i.version = REFLET_VERSION + 1; }, REFLET_ERROR_INCOMPATIBLE_VERSION);
+    expect(
+        "version", [](auto& i) { i.version = REFLET_MAKE_VERSION(9, 0, 0); }, REFLET_ERROR_INCOMPATIBLE_VERSION);
+    expect("instance", [](auto& i) { i.instance = nullptr; });
+    expect("physicalDevice", [](auto& i) { i.physicalDevice = nullptr; });
+    expect("device", [](auto& i) { i.device = nullptr; });
+    expect("getInstanceProcAddr", [](auto& i) { i.getInstanceProcAddr = nullptr; });
+    expect("enabledFeatures", [](auto& i) { i.enabledFeatures = nullptr; });
+    expect("enabledExtensions", [](auto& i) { i.enabledExtensionCount = 1; });
+    static RefletMemoryCallbacks none{};
+    expect("memory", [](auto& i) { i.memory = &none; });
+    static VkPhysicalDeviceFeatures2 features{};
+    for (const char* field :
+         {"shaderStorageImageExtendedFormats", "imageCubeArray", "scalarBlockLayout", "synchronization2"}) {
+        VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+        VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, &v13};
+        features = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v12};
+        const auto on = [&](const char* name) { return std::string(name) != field ? VK_TRUE : VK_FALSE; };
+        v13.synchronization2 = on("synchronization2");
+        v12.scalarBlockLayout = on("scalarBlockLayout");
+        features.features.shaderStorageImageExtendedFormats = on("shaderStorageImageExtendedFormats");
+        features.features.imageCubeArray = on("imageCubeArray");
+        expect(
+            field, [](auto& i) { i.enabledFeatures = &features; }, REFLET_ERROR_MISSING_FEATURE);
+    }
+    RefletContextInfo info = host_.contextInfo();
+    expectError(refletCreateContext(&info, nullptr), "context");
+    RefletContext context = nullptr;
+    expectError(refletCreateContext(nullptr, &context), "RefletContextInfo");
+    // A device without a function that is needed.
+    static PFN_vkGetInstanceProcAddr real = nullptr;
+    real = info.getInstanceProcAddr;
+    static PFN_vkGetDeviceProcAddr realDevice = nullptr;
+    info.getInstanceProcAddr = [](VkInstance instance, const char* name) -> PFN_vkVoidFunction {
+        const PFN_vkVoidFunction found = real(instance, name);
+        if (std::string_view(name) != "vkGetDeviceProcAddr") {
+            return found;
+        }
+        realDevice = reinterpret_cast<PFN_vkGetDeviceProcAddr>(found);
+        const PFN_vkGetDeviceProcAddr without = [](VkDevice device, const char* wanted) -> PFN_vkVoidFunction {
+            return std::string_view(wanted).starts_with("vkCmdDispatchIndirect") ? nullptr : realDevice(device, wanted);
+        };
+        return reinterpret_cast<PFN_vkVoidFunction>(without);
+    };
+    expectError(refletCreateContext(&info, &context), "vkCmdDispatchIndirect", REFLET_ERROR_MISSING_FEATURE);
+}
+
+TEST_F(Arguments, OfAView) {
+    const auto expect = [&](const std::string& field, const RefletViewInfo& info) {
+        RefletView view = reinterpret_cast<RefletView>(1);
+        expectError(refletCreateView(context_, &info, &view), field);
+        EXPECT_EQ(view, nullptr);
+    };
+    expect("structSize", {0, 8, 8, 1});
+    expect("width", {sizeof(RefletViewInfo), 0, 8, 1});
+    expect("height", {sizeof(RefletViewInfo), 8, 20000, 1});
+    expect("framesInFlight", {sizeof(RefletViewInfo), 8, 8, 0});
+    expect("framesInFlight", {sizeof(RefletViewInfo), 8, 8, 5});
+    const RefletViewInfo info{sizeof info, 8, 8, 1};
+    RefletView view = nullptr;
+    expectError(refletCreateView(nullptr, &info, &view), "context");
+    expectError(refletCreateView(context_, &info, nullptr), "view");
+    expectError(refletResizeView(view_, 0, 4), "width");
+    expectError(refletResizeView(nullptr, 4, 4), "view");
+    expectError(refletViewMemory(view_, nullptr), "bytes");
+    expectError(refletFindImage(view_, "depth", nullptr), "image");
+    RefletImage image{};
+    expectError(refletFindImage(view_, "depth", &image), "no frame");
+    expectError(refletEndFrame(view_), "no frame has begun");
+    refletDestroyView(nullptr);
+    refletDestroyContext(nullptr);
+    refletDestroySettings(nullptr);
+}
+
+TEST_F(Arguments, OfAFrame) {
+    expectFrameError("structSize", [](auto& i) { i.structSize = 1; });
+    expectFrameError(
+        "structSize", [](auto& i) { i.structSize += 8; }, REFLET_ERROR_INCOMPATIBLE_VERSION);
+    expectFrameError("commandBuffer", [](auto& i) { i.commandBuffer = nullptr; });
+    expectFrameError("worldToView", [](auto& i) { i.worldToView[3] = NAN; });
+    expectFrameError("worldToView", [](auto& i) { i.worldToView[0] = 3.0F; });
+    expectFrameError("viewToClip", [](auto& i) { i.viewToClip[0] = 0.0F; });
+    expectFrameError("viewToClip", [](auto& i) { i.viewToClip[5] = INFINITY; });
+    expectFrameError("jitter", [](auto& i) { i.jitter[1] = 3.0F; });
+    expectFrameError("previousJitter", [](auto& i) { i.previousJitter[0] = NAN; });
+    using G = RefletGBuffer;
+    const std::pair<const char*, RefletImage G::*> images[] = {{"gbuffer.depth", &G::depth},
+                                                               {"gbuffer.normal", &G::normal},
+                                                               {"gbuffer.roughness", &G::roughness},
+                                                               {"gbuffer.metallic", &G::metallic},
+                                                               {"gbuffer.baseColor", &G::baseColor},
+                                                               {"gbuffer.motion", &G::motion},
+                                                               {"gbuffer.geometricNormal", &G::geometricNormal},
+                                                               {"gbuffer.f0", &G::f0},
+                                                               {"gbuffer.backDepth", &G::backDepth}};
+    for (const auto& [name, member] : images) {
+        const std::string field = name;
+        const auto spoil = [&, at = member](const std::function<void(RefletImage&)>& change) {
+            return [=](RefletFrameInfo& i) {
+                if ((i.gbuffer.*at).image == VK_NULL_HANDLE) {
+                    i.gbuffer.*at = i.gbuffer.normal;
+                }
+                change(i.gbuffer.*at);
+            };
+        };
+        expectFrameError(field + ".view", spoil([](RefletImage& i) { i.view = VK_NULL_HANDLE; }));
+        expectFrameError(field + ".format", spoil([](RefletImage& i) { i.format = VK_FORMAT_R32_UINT; }));
+        expectFrameError(field + ".width", spoil([](RefletImage& i) { i.width += 1; }));
+        expectFrameError(field + ".width", spoil([](RefletImage& i) { i.height = 0; }));
+        expectFrameError(field + ".layout", spoil([](RefletImage& i) { i.layout = VK_IMAGE_LAYOUT_UNDEFINED; }));
+    }
+    expectFrameError("gbuffer.depth", [](auto& i) { i.gbuffer.depth.image = VK_NULL_HANDLE; });
+    expectFrameError("gbuffer.normal", [](auto& i) { i.gbuffer.normal.image = VK_NULL_HANDLE; });
+    expectFrameError("depthKind", [](auto& i) { i.gbuffer.depthKind = RefletDepthKind(7); });
+    expectFrameError("normalKind", [](auto& i) { i.gbuffer.normalKind = RefletNormalKind(4); });
+    expectFrameError("roughnessKind", [](auto& i) { i.gbuffer.roughnessKind = RefletRoughnessKind(9); });
+    expectFrameError("baseColorKind", [](auto& i) { i.gbuffer.baseColorKind = RefletColorKind(2); });
+    expectFrameError("motionKind", [](auto& i) { i.gbuffer.motionKind = RefletMotionKind(3); });
+    expectFrameError("roughnessChannel", [](auto& i) { i.gbuffer.roughnessChannel = 4; });
+    expectFrameError("metallicChannel", [](auto& i) { i.gbuffer.metallicChannel = 99; });
+    EXPECT_EQ(LibraryHost::made().images, 0U) << "nothing was recorded";
+}
+
+TEST_F(Arguments, OfEffects) {
+    RefletLobe lobe{};
+    RefletImage image{};
+    RefletComposite sum{sizeof sum, {}, {}, {}};
+    const RefletIndirectLight light = room_.light();
+    expectError(refletDiffuseGi(view_, settings_, &light, &lobe), "no frame has begun");
+    host_.host.frame([&](VkCommandBuffer commands) {
+        const RefletFrameInfo info = room_.frame(commands, 0);
+        EXPECT_REFLET(refletBeginFrame(view_, &info));
+        expectError(refletBeginFrame(view_, &info), "begun already");
+        expectError(refletResizeView(view_, 4, 4), "begun");
+        expectError(refletFinishView(view_), "begun");
+        const auto lit = [&](const std::string& field, const std::function<void(RefletIndirectLight&)>& spoil) {
+            RefletIndirectLight given = room_.light();
+            spoil(given);
+            expectError(refletDiffuseGi(view_, settings_, &given, &lobe), field);
+            expectError(refletReflections(view_, settings_, &given, &lobe), field);
+        };
+        lit("structSize", [](auto& l) { l.structSize = 3; });
+        lit("light.image", [](auto& l) { l.light.image = VK_NULL_HANDLE; });
+        lit("light.format", [](auto& l) { l.light.format = VK_FORMAT_R8G8B8A8_UINT; });
+        lit("factor", [](auto& l) { l.environment.factor[1] = -1.0F; });
+        lit("factor", [](auto& l) { l.environment.factor[2] = INFINITY; });
+        lit("rotation", [](auto& l) { l.environment.rotation = NAN; });
+        lit("Environment.image", [](auto& l) {
+            l.environment.image = l.light;
+            l.environment.image.view = VK_NULL_HANDLE;
+        });
+        expectError(refletDiffuseGi(view_, settings_, nullptr, &lobe), "RefletIndirectLight");
+        expectError(refletDiffuseGi(view_, settings_, &light, nullptr), "lobe");
+        expectError(refletReflections(view_, nullptr, &light, &lobe), "settings");
+        const auto sun = [&](const std::string& field, const std::function<void(RefletSunShadow&)>& spoil) {
+            RefletSunShadow given = room_.sun();
+            spoil(given);
+            expectError(refletSunShadow(view_, settings_, &given, &image), field);
+        };
+        sun("map.image", [](auto& s) { s.map.image = VK_NULL_HANDLE; });
+        sun("map", [](auto& s) { s.map.width = 32; });
+        sun("cascades", [](auto& s) { s.cascades = 0; });
+        sun("cascades", [](auto& s) { s.cascades = 5; });
+        sun("ends", [](auto& s) { s.cascades = 2; });
+        sun("worldToClip", [](auto& s) { s.worldToClip[0][2] = NAN; });
+        sun("worldToClip", [](auto& s) { s.worldToClip[0][15] = 0.0F; });
+        sun("toSun", [](auto& s) { s.toSun[1] = 0.0F; });
+        sun("angularDiameter", [](auto& s) { s.angularDiameter = -1.0F; });
+        const RefletSunShadow right = room_.sun();
+        expectError(refletSunShadow(view_, settings_, &right, nullptr), "visibility");
+        expectError(refletComposite(view_, settings_, &sum), "has been given light");
+        expectError(refletTemporal(view_, settings_, nullptr, &image), "color");
+        expectError(refletToneMap(view_, settings_, nullptr, 0, &image), "color");
+        expectError(refletToneMap(view_, settings_, &image, 0, &image), "color.image");
+        expectError(refletDenoise(view_, settings_, RefletLobeKind(2), &light.light, &lobe), "kind");
+        expectError(refletDenoise(view_, settings_, REFLET_LOBE_DIFFUSE, nullptr, &lobe), "noisy");
+        EXPECT_REFLET(refletSetSetting(settings_, "shadow.filter", "traced"));
+        expectError(refletSunShadow(view_, settings_, &right, &image), "shadow.filter");
+        EXPECT_REFLET(refletEndFrame(view_));
+    });
+    expectError(refletFindImage(view_, "dept", &image), "depth");
+    RefletPrepareInfo prepare{};
+    uint32_t left = 0;
+    expectError(refletPrepare(view_, settings_, &prepare, 1, &left), "structSize");
+    prepare.structSize = sizeof prepare;
+    expectError(refletPrepare(view_, settings_, &prepare, 1, &left), "gbuffer");
+    const RefletFrameInfo info = room_.frame(nullptr, 0);
+    prepare.gbuffer = &info.gbuffer;
+    expectError(refletPrepare(view_, settings_, &prepare, 1, &left), "effects");
+    prepare.effects = 1U << 20U;
+    expectError(refletPrepare(view_, settings_, &prepare, 1, &left), "effects");
+    expectError(refletPassTimes(view_, nullptr, nullptr), "count");
+}
+
+TEST_F(Arguments, AnErrorIsLogged) {
+    RefletContextInfo info = host_.contextInfo();
+    std::string logged;
+    info.logUser = &logged;
+    info.log = [](void* user, RefletResult, const char* text) { *static_cast<std::string*>(user) = text; };
+    RefletContext context = nullptr;
+    EXPECT_REFLET(refletCreateContext(&info, &context));
+    const RefletViewInfo size{sizeof size, 8, 8, 1};
+    RefletView view = nullptr;
+    EXPECT_REFLET(refletCreateView(context, &size, &view));
+    EXPECT_EQ(refletEndFrame(view), REFLET_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(logged, refletLastError());
+    refletDestroyView(view);
+    refletDestroyContext(context);
+}
+
+}  // namespace
+}  // namespace reflet::test

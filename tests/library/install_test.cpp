@@ -1,0 +1,164 @@
+// The library as others get it: installed, moved elsewhere, found by CMake and pkg-config, or as a part of their
+// project.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace reflet::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Ran {
+    int status = 0;
+    std::string said;
+};
+
+Ran run(const std::string& command) {
+    Ran ran;
+    FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+    std::array<char, 4096> buffer{};
+    while (const size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe)) {
+        ran.said.append(buffer.data(), count);
+    }
+    ran.status = WEXITSTATUS(pclose(pipe));
+    return ran;
+}
+
+void expectRuns(const std::string& command) {
+    const Ran ran = run(command);
+    ASSERT_EQ(ran.status, 0) << command << '\n' << ran.said;
+}
+
+class Install : public ::testing::Test {
+protected:
+    Install() : folder_(fs::temp_directory_path() / ("reflet-install-" + std::to_string(::getpid()))) {
+        fs::create_directories(folder_);
+    }
+    ~Install() override { fs::remove_all(folder_); }
+
+    [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
+    void write(const std::string& name, const std::string& text) const {
+        fs::create_directories((folder_ / name).parent_path());
+        std::ofstream(folder_ / name) << text;
+    }
+    // To one place, and then moved to another.
+    void install() const {
+        expectRuns(std::string("cmake --install " REFLET_BUILD " --prefix ") + at("first"));
+        fs::rename(at("first"), at("prefix"));
+    }
+    [[nodiscard]] std::string configure(const std::string& source, const std::string& build) const {
+        return "cmake -S " + source + " -B " + at(build) +
+               " -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH=" + at("prefix") +
+               " -DCMAKE_C_FLAGS='-Wall -Wextra -Wpedantic -Werror'";
+    }
+
+    fs::path folder_;
+};
+
+// Over 5 s: builds a program and runs it under validation.
+TEST_F(Install, TheExampleInCFindsItAndRendersThePicture) {
+    install();
+    expectRuns(configure(REFLET_SOURCE "/examples/c", "c"));
+    expectRuns("cmake --build " + at("c"));
+    const std::string validation =
+        "VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_"
+        "VALIDATION_EXT,VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT ";
+    const Ran ran = run(validation + at("c/reflet_c_example") + " " + at("room.ppm") + " 128 72 4");
+    ASSERT_EQ(ran.status, 0) << ran.said;
+    EXPECT_EQ(ran.said.find("alidation"), std::string::npos) << ran.said;
+    EXPECT_EQ(ran.said.find("VUID"), std::string::npos) << ran.said;
+    EXPECT_NE(ran.said.find("written: "), std::string::npos) << ran.said;
+    std::ifstream file(at("room.ppm"), std::ios::binary);
+    const std::string picture((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    ASSERT_GT(picture.size(), 128U * 72U * 3U);
+    const auto pixel = [&](size_t x, size_t y) {
+        const size_t i = picture.size() - 3 * (128 * 72 - (128 * y + x));
+        return std::array{uint8_t(picture[i]), uint8_t(picture[i + 1]), uint8_t(picture[i + 2])};
+    };
+    const auto wall = pixel(10, 30);
+    EXPECT_GT(wall[0], 2 * wall[1]) << "the left wall is red";
+    const auto mirror = pixel(80, 22);
+    EXPECT_GT(int(mirror[2]), 80) << "the mirror reflects the sky";
+    const auto shadow = pixel(97, 60);  // lit by the sky and the walls alone
+    EXPECT_GT(int(shadow[2]), 30);
+    const auto floor = pixel(50, 60);
+    EXPECT_GT(int(floor[0]), int(shadow[0]) + 30) << "in the sun";
+}
+
+TEST_F(Install, PkgConfigKnowsIt) {
+    install();
+    write("use.c",
+          "#include <reflet/reflet.h>\nint main(void) { return refletVersion() == REFLET_VERSION ? 0 : 1; }\n");
+    const std::string path = "PKG_CONFIG_PATH=$(dirname $(find " + at("prefix") + " -name reflet.pc)) ";
+    expectRuns("cd " + folder_.string() + " && cc use.c -std=c11 -Wall -Werror $(" + path +
+               "pkg-config --static --cflags --libs reflet) -o use && LD_LIBRARY_PATH=$(dirname $(find " +
+               at("prefix") + " -name 'libreflet.*' | head -1)) ./use");
+    const Ran version = run(path + "pkg-config --modversion reflet");
+    EXPECT_EQ(version.said, "0.1.0\n");
+}
+
+TEST_F(Install, AnotherMinorVersionIsRefused) {
+    install();
+    write("use/CMakeLists.txt",
+          "cmake_minimum_required(VERSION 3.22)\nproject(use C CXX)\nfind_package(reflet 0.9 CONFIG REQUIRED)\n");
+    const Ran ran = run(configure(at("use"), "used"));
+    EXPECT_NE(ran.status, 0);
+    EXPECT_NE(ran.said.find("0.1.0"), std::string::npos) << ran.said;
+}
+
+// Over 5 s: CMake looks at compilers and libraries.
+TEST_F(Install, IsAPartOfAnotherProject) {
+    write("host/CMakeLists.txt", R"(cmake_minimum_required(VERSION 3.22)
+project(host C CXX)
+add_subdirectory()" REFLET_SOURCE R"( reflet)
+foreach(property INTERFACE_COMPILE_OPTIONS INTERFACE_LINK_OPTIONS)
+    get_target_property(value reflet::reflet ${property})
+    if(value)
+        message(FATAL_ERROR "${property}: ${value}")
+    endif()
+endforeach()
+foreach(target reflet_program reflet_scene unit_tests)
+    if(TARGET ${target})
+        message(FATAL_ERROR "${target}")
+    endif()
+endforeach()
+if(CMAKE_BUILD_TYPE)
+    message(FATAL_ERROR "${CMAKE_BUILD_TYPE}")
+endif()
+add_executable(host main.c)
+target_link_libraries(host PRIVATE reflet::reflet)
+)");
+    write("host/main.c", "#include <reflet/reflet.h>\nint main(void) { return 0; }\n");
+    expectRuns("cmake -S " + at("host") + " -B " + at("built") + " -G Ninja");
+}
+
+TEST(Exports, AreThoseOfTheHeader) {
+    const Ran symbols = run("nm -D --defined-only " REFLET_EXPORTS " | awk '{print $NF}'");
+    const Ran declared = run("grep -oE 'reflet[A-Za-z]+\\(' " REFLET_SOURCE "/include/reflet/reflet.h | tr -d '('");
+    const auto lines = [](const std::string& text) {
+        std::set<std::string> all;
+        for (size_t start = 0, end = 0; (end = text.find('\n', start)) != std::string::npos; start = end + 1) {
+            all.insert(text.substr(start, text.find_first_of("@\n", start) - start));
+        }
+        return all;
+    };
+    EXPECT_GT(lines(declared.said).size(), 20U);
+    EXPECT_EQ(lines(symbols.said), lines(declared.said));
+    const Ran needed = run("objdump -p " REFLET_EXPORTS " | grep NEEDED");
+    EXPECT_EQ(needed.said.find("fmt"), std::string::npos) << needed.said;
+    EXPECT_EQ(needed.said.find("spirv"), std::string::npos) << needed.said;
+    EXPECT_EQ(needed.said.find("vulkan"), std::string::npos) << needed.said;
+}
+
+}  // namespace
+}  // namespace reflet::test

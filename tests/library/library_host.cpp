@@ -1,0 +1,393 @@
+// Host of the library's tests.
+#include "library/library_host.h"
+
+#include "base/math.h"
+
+#include <volk.h>
+
+#include <cmath>
+#include <cstring>
+
+namespace reflet::test {
+
+namespace {
+
+// ---- what the library makes on the device --------------------------------------------------------------------------
+
+PFN_vkCreateComputePipelines realPipelines = nullptr;
+PFN_vkAllocateMemory realAllocate = nullptr;
+PFN_vkCreateImage realImage = nullptr;
+PFN_vkCreateDescriptorPool realPool = nullptr;
+PFN_vkGetDeviceProcAddr realLookUp = nullptr;
+
+VKAPI_ATTR VkResult VKAPI_CALL notePipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
+                                             const VkComputePipelineCreateInfo* infos,
+                                             const VkAllocationCallbacks* host, VkPipeline* pipelines) {
+    LibraryHost::made().pipelines += count;
+    return realPipelines(device, cache, count, infos, host, pipelines);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL noteAllocate(VkDevice device, const VkMemoryAllocateInfo* info,
+                                            const VkAllocationCallbacks* host, VkDeviceMemory* memory) {
+    ++LibraryHost::made().allocations;
+    return realAllocate(device, info, host, memory);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL noteImage(VkDevice device, const VkImageCreateInfo* info,
+                                         const VkAllocationCallbacks* host, VkImage* image) {
+    ++LibraryHost::made().images;
+    return realImage(device, info, host, image);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL notePool(VkDevice device, const VkDescriptorPoolCreateInfo* info,
+                                        const VkAllocationCallbacks* host, VkDescriptorPool* pool) {
+    ++LibraryHost::made().pools;
+    return realPool(device, info, host, pool);
+}
+
+template <class F>
+PFN_vkVoidFunction wrap(F& real, F wrapper, PFN_vkVoidFunction found) {
+    real = reinterpret_cast<F>(found);
+    return reinterpret_cast<PFN_vkVoidFunction>(wrapper);
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL lookUpOnDevice(VkDevice device, const char* name) {
+    const PFN_vkVoidFunction found = realLookUp(device, name);
+    const std::string_view wanted(name);
+    if (wanted == "vkCreateComputePipelines") {
+        return wrap<PFN_vkCreateComputePipelines>(realPipelines, notePipelines, found);
+    }
+    if (wanted == "vkAllocateMemory") {
+        return wrap<PFN_vkAllocateMemory>(realAllocate, noteAllocate, found);
+    }
+    if (wanted == "vkCreateImage") {
+        return wrap<PFN_vkCreateImage>(realImage, noteImage, found);
+    }
+    if (wanted == "vkCreateDescriptorPool") {
+        return wrap<PFN_vkCreateDescriptorPool>(realPool, notePool, found);
+    }
+    return found;
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL lookUp(VkInstance instance, const char* name) {
+    const PFN_vkVoidFunction found = vkGetInstanceProcAddr(instance, name);
+    if (std::string_view(name) == "vkGetDeviceProcAddr") {
+        return wrap<PFN_vkGetDeviceProcAddr>(realLookUp, lookUpOnDevice, found);
+    }
+    return found;
+}
+
+// ---- the host's own images
+// -------------------------------------------------------------------------------------------
+
+uint32_t memoryType(VkPhysicalDevice physical, uint32_t allowed, VkMemoryPropertyFlags wanted) {
+    VkPhysicalDeviceMemoryProperties known;
+    vkGetPhysicalDeviceMemoryProperties(physical, &known);
+    uint32_t i = 0;
+    while (i + 1 < known.memoryTypeCount &&
+           ((allowed >> i & 1U) == 0 || (known.memoryTypes[i].propertyFlags & wanted) != wanted)) {
+        ++i;
+    }
+    return i;
+}
+
+struct Staging {
+    VkDevice device = VK_NULL_HANDLE;
+    VkBuffer buffer = VK_NULL_HANDLE;
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    void* mapped = nullptr;
+
+    Staging(const gpu::OpenDevice& open, size_t bytes, VkBufferUsageFlags usage) : device(open.device) {
+        VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
+        info.size = bytes;
+        info.usage = usage;
+        vkCreateBuffer(device, &info, nullptr, &buffer);
+        VkMemoryRequirements needs;
+        vkGetBufferMemoryRequirements(device, buffer, &needs);
+        const VkMemoryAllocateInfo allocate{
+            VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, needs.size,
+            memoryType(open.physical, needs.memoryTypeBits,
+                       VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT)};
+        vkAllocateMemory(device, &allocate, nullptr, &memory);
+        vkBindBufferMemory(device, buffer, memory, 0);
+        vkMapMemory(device, memory, 0, VK_WHOLE_SIZE, 0, &mapped);
+    }
+    ~Staging() {
+        vkDestroyBuffer(device, buffer, nullptr);
+        vkFreeMemory(device, memory, nullptr);
+    }
+    Staging(const Staging&) = delete;
+    Staging& operator=(const Staging&) = delete;
+};
+
+void move(VkCommandBuffer commands, const RefletImage& image, VkImageLayout from, VkImageLayout to,
+          VkPipelineStageFlags2 stages, VkAccessFlags2 access, VkPipelineStageFlags2 next, VkAccessFlags2 nextAccess) {
+    VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+    barrier.srcStageMask = stages;
+    barrier.srcAccessMask = access;
+    barrier.dstStageMask = next;
+    barrier.dstAccessMask = nextAccess;
+    barrier.oldLayout = from;
+    barrier.newLayout = to;
+    barrier.image = image.image;
+    barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, VK_REMAINING_ARRAY_LAYERS};
+    VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    info.imageMemoryBarrierCount = 1;
+    info.pImageMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands, &info);
+}
+
+void store(float (&to)[16], const mat4& m) {
+    std::memcpy(to, &m[0][0], sizeof to);
+}
+
+vec2 octahedral(vec3 n) {
+    n /= std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+    if (n.z >= 0.0F) {
+        return {n.x, n.y};
+    }
+    return {(1.0F - std::abs(n.y)) * (n.x >= 0.0F ? 1.0F : -1.0F),
+            (1.0F - std::abs(n.x)) * (n.y >= 0.0F ? 1.0F : -1.0F)};
+}
+
+float srgb(float linear) {
+    return linear <= 0.0031308F ? 12.92F * linear : 1.055F * std::pow(linear, 1.0F / 2.4F) - 0.055F;
+}
+
+}  // namespace
+
+LibraryHost::Made& LibraryHost::made() {
+    static Made all;
+    return all;
+}
+
+LibraryHost::LibraryHost() {
+    v13_ = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    v13_.synchronization2 = VK_TRUE;
+    v12_ = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, &v13_};
+    v12_.scalarBlockLayout = VK_TRUE;
+    features_ = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v12_};
+    features_.features.shaderStorageImageExtendedFormats = VK_TRUE;
+    features_.features.imageCubeArray = VK_TRUE;
+    volkLoadInstance(host.device().instance);
+    volkLoadDevice(host.device().device);
+    made() = {};
+}
+
+LibraryHost::~LibraryHost() {
+    host.waitForAll();
+    for (const HostImage& image : images_) {
+        vkDestroyImageView(host.device().device, image.view, nullptr);
+        vkDestroyImage(host.device().device, image.image, nullptr);
+        vkFreeMemory(host.device().device, image.memory, nullptr);
+    }
+}
+
+RefletContextInfo LibraryHost::contextInfo() const {
+    const gpu::OpenDevice open = host.device();
+    RefletContextInfo info{};
+    info.structSize = sizeof info;
+    info.version = REFLET_VERSION;
+    info.instance = open.instance;
+    info.physicalDevice = open.physical;
+    info.device = open.device;
+    info.getInstanceProcAddr = lookUp;
+    info.enabledFeatures = &features_;
+    return info;
+}
+
+RefletContext LibraryHost::makeContext() const {
+    const RefletContextInfo info = contextInfo();
+    RefletContext context = nullptr;
+    EXPECT_REFLET(refletCreateContext(&info, &context));
+    return context;
+}
+
+RefletImage LibraryHost::makeImage(VkFormat format, uint32_t width, uint32_t height, const void* texels, size_t bytes,
+                                   uint32_t layers) {
+    const gpu::OpenDevice open = host.device();
+    HostImage made;
+    VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
+    info.imageType = VK_IMAGE_TYPE_2D;
+    info.format = format;
+    info.extent = {width, height, 1};
+    info.mipLevels = 1;
+    info.arrayLayers = layers;
+    info.samples = VK_SAMPLE_COUNT_1_BIT;
+    info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    vkCreateImage(open.device, &info, nullptr, &made.image);
+    VkMemoryRequirements needs;
+    vkGetImageMemoryRequirements(open.device, made.image, &needs);
+    const VkMemoryAllocateInfo allocate{
+        VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, needs.size,
+        memoryType(open.physical, needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)};
+    vkAllocateMemory(open.device, &allocate, nullptr, &made.memory);
+    vkBindImageMemory(open.device, made.image, made.memory, 0);
+    VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+    view.image = made.image;
+    view.viewType = layers > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
+    view.format = format;
+    view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, layers};
+    vkCreateImageView(open.device, &view, nullptr, &made.view);
+    made.told = {made.image, made.view, format, width, height, VK_IMAGE_LAYOUT_GENERAL, 0, 0};
+    const Staging staging(open, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    std::memcpy(staging.mapped, texels, bytes);
+    host.frame([&](VkCommandBuffer commands) {
+        move(commands, made.told, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL, 0, 0,
+             VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+        VkBufferImageCopy copy{};
+        copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, layers};
+        copy.imageExtent = {width, height, 1};
+        vkCmdCopyBufferToImage(commands, staging.buffer, made.image, VK_IMAGE_LAYOUT_GENERAL, 1, &copy);
+        move(commands, made.told, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COPY_BIT,
+             VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+             VK_ACCESS_2_SHADER_SAMPLED_READ_BIT);
+    });
+    host.waitForAll();
+    images_.push_back(made);
+    return made.told;
+}
+
+std::vector<std::byte> LibraryHost::read(const RefletImage& image, size_t bytesPerTexel) {
+    const size_t bytes = bytesPerTexel * image.width * image.height;
+    const Staging staging(host.device(), bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    host.frame([&](VkCommandBuffer commands) {
+        move(commands, image, image.layout, VK_IMAGE_LAYOUT_GENERAL, image.stages, image.access,
+             VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
+        VkBufferImageCopy copy{};
+        copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+        copy.imageExtent = {image.width, image.height, 1};
+        vkCmdCopyImageToBuffer(commands, image.image, VK_IMAGE_LAYOUT_GENERAL, staging.buffer, 1, &copy);
+        VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+        barrier.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
+        barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+        barrier.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
+        barrier.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
+        VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+        info.memoryBarrierCount = 1;
+        info.pMemoryBarriers = &barrier;
+        vkCmdPipelineBarrier2(commands, &info);
+    });
+    host.waitForAll();
+    const auto* from = static_cast<const std::byte*>(staging.mapped);
+    return {from, from + bytes};
+}
+
+// Camera at (0, 1, 3), a little downward; floor y = 0 in front of a wall at z = -3, 2 m high.
+Room::Room(LibraryHost& host, RoomConventions conventions) {
+    const bool odd = conventions.unusual;
+    const float near = 0.1F;
+    const float far = 100.0F;
+    const float tangent = 0.5F;
+    const vec3 eye(0.0F, 1.0F, 3.0F);
+    const mat4 toView = glm::lookAt(eye, vec3(0.0F, 0.6F, 0.0F), vec3(0.0F, 1.0F, 0.0F));
+    mat4 toClip(0.0F);
+    toClip[0][0] = 1.0F / (tangent * float(width) / float(height));
+    toClip[1][1] = odd ? 1.0F / tangent : -1.0F / tangent;
+    toClip[2][3] = -1.0F;
+    toClip[2][2] = odd ? far / (near - far) : 0.0F;
+    toClip[3][2] = odd ? near * far / (near - far) : near;
+    const size_t count = size_t(width) * height;
+    std::vector<float> depth(count);
+    std::vector<vec4> normal(count);
+    std::vector<vec4> color(count);
+    std::vector<vec4> material(count);
+    std::vector<vec4> motion(count);
+    std::vector<vec4> lit(count);
+    const mat4 toWorld = glm::inverse(toView);
+    const vec2 moved(0.01F, -0.02F);  // uv
+    for (uint32_t i = 0; i < count; ++i) {
+        const vec2 uv((float(i % width) + 0.5F) / float(width), (float(i / width) + 0.5F) / float(height));
+        const vec2 ndc = 2.0F * uv - 1.0F;
+        const vec3 ray(toWorld * vec4(ndc.x / toClip[0][0], -ndc.y * tangent, -1.0F, 0.0F));  // 1 m ahead
+        const float toFloor = ray.y < 0.0F ? -eye.y / ray.y : INFINITY;
+        const float toWall = (-3.0F - eye.z) / ray.z;
+        const float distance = std::min(toFloor, toWall);
+        const bool sky = toWall <= toFloor && (eye + toWall * ray).y > 2.0F;
+        const bool floor = toFloor < toWall;
+        depth[i] = odd ? (far - near * far / distance) / (far - near) : near / distance;
+        depth[i] = sky ? (odd ? 1.0F : 0.0F) : depth[i];
+        const vec3 n = floor ? vec3(0.0F, 1.0F, 0.0F) : vec3(0.0F, 0.0F, 1.0F);
+        const vec2 octa = octahedral(n);
+        normal[i] = odd ? vec4(0.5F * (glm::mat3(toView) * n) + 0.5F, 0.0F) : vec4(octa, 0.0F, 0.0F);
+        const vec3 albedo = floor ? vec3(0.8F, 0.4F, 0.2F) : vec3(0.2F, 0.5F, 0.7F);
+        color[i] = odd ? vec4(srgb(albedo.x), srgb(albedo.y), srgb(albedo.z), 1.0F) : vec4(albedo, 1.0F);
+        const float roughness = floor ? 0.25F : 0.8F;
+        const float metallic = floor ? 1.0F : 0.0F;
+        material[i] = odd ? vec4(0.0F, metallic, 0.0F, roughness * roughness) : vec4(roughness, metallic, 0.0F, 0.0F);
+        motion[i] = odd ? vec4(-moved.x * float(width), -moved.y * float(height), 0.0F, 0.0F) : vec4(moved, 0.0F, 0.0F);
+        const float spot = i % width / 8 % 2 == 0 ? 1.0F : 0.3F;
+        lit[i] = sky ? vec4(0.5F, 0.6F, 0.8F, 1.0F) : vec4(spot * albedo, 1.0F);
+    }
+    constexpr VkFormat four = VK_FORMAT_R32G32B32A32_SFLOAT;
+    info_.structSize = sizeof info_;
+    store(info_.worldToView, toView);
+    store(info_.viewToClip, toClip);
+    info_.clipYUp = odd ? 1 : 0;
+    RefletGBuffer& g = info_.gbuffer;
+    g.depth = host.makeImage(VK_FORMAT_R32_SFLOAT, width, height, depth);
+    g.depthKind = odd ? REFLET_DEPTH_STANDARD : REFLET_DEPTH_REVERSED;
+    g.normal = host.makeImage(four, width, height, normal);
+    g.normalKind = odd ? REFLET_NORMAL_VECTOR_UNORM : REFLET_NORMAL_OCTAHEDRAL_SNORM;
+    g.normalsInViewSpace = odd ? 1 : 0;
+    g.roughness = host.makeImage(four, width, height, material);
+    g.roughnessChannel = odd ? 3 : 0;
+    g.roughnessKind = odd ? REFLET_ROUGHNESS_ALPHA : REFLET_ROUGHNESS_PERCEPTUAL;
+    g.metallic = g.roughness;
+    g.metallicChannel = 1;
+    g.baseColor = host.makeImage(four, width, height, color);
+    g.baseColorKind = odd ? REFLET_COLOR_SRGB : REFLET_COLOR_LINEAR;
+    g.motion = host.makeImage(four, width, height, motion);
+    g.motionKind = odd ? REFLET_MOTION_PIXELS : REFLET_MOTION_UV;
+    g.motionIsBeforeMinusNow = odd ? 1 : 0;
+    lit_ = host.makeImage(four, width, height, lit);
+    shadowMap_ = host.makeImage(VK_FORMAT_R32_SFLOAT, 64, 64, std::vector<float>(size_t(64) * 64, 0.0F));
+}
+
+RefletFrameInfo Room::frame(VkCommandBuffer commands, uint32_t index) const {
+    RefletFrameInfo info = info_;
+    info.commandBuffer = commands;
+    info.frameIndex = index;
+    info.elapsed = 0.04F;
+    return info;
+}
+
+RefletIndirectLight Room::light() const {
+    RefletIndirectLight light{};
+    light.structSize = sizeof light;
+    light.light = lit_;
+    light.environment.factor[0] = 0.5F;
+    light.environment.factor[1] = 0.6F;
+    light.environment.factor[2] = 0.8F;
+    return light;
+}
+
+RefletSunShadow Room::sun() const {
+    RefletSunShadow sun{};
+    sun.structSize = sizeof sun;
+    sun.map = shadowMap_;
+    sun.cascades = 1;
+    store(sun.worldToClip[0], glm::scale(mat4(1.0F), vec3(0.1F, 0.1F, 0.05F)));
+    sun.toSun[1] = 1.0F;
+    return sun;
+}
+
+RoomResults recordRoom(const Room& room, RefletView view, RefletSettings settings, VkCommandBuffer commands,
+                       uint32_t index) {
+    RoomResults out;
+    const RefletFrameInfo frame = room.frame(commands, index);
+    const RefletSunShadow sun = room.sun();
+    const RefletIndirectLight light = room.light();
+    out.sum.structSize = sizeof out.sum;
+    EXPECT_REFLET(refletBeginFrame(view, &frame));
+    EXPECT_REFLET(refletSunShadow(view, settings, &sun, &out.visibility));
+    EXPECT_REFLET(refletDiffuseGi(view, settings, &light, &out.diffuse));
+    EXPECT_REFLET(refletReflections(view, settings, &light, &out.specular));
+    EXPECT_REFLET(refletComposite(view, settings, &out.sum));
+    EXPECT_REFLET(refletTemporal(view, settings, nullptr, &out.antialiased));
+    EXPECT_REFLET(refletToneMap(view, settings, nullptr, 1, &out.display));
+    EXPECT_REFLET(refletEndFrame(view));
+    return out;
+}
+
+}  // namespace reflet::test

@@ -1,0 +1,108 @@
+// A host of the C API: a device, images with content, and frames of a room that nobody drew.
+#pragma once
+
+#include "pass/host.h"
+
+#include "reflet/reflet.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace reflet::test {
+
+/// An image of the host.
+struct HostImage {
+    VkImage image = VK_NULL_HANDLE;
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    VkImageView view = VK_NULL_HANDLE;
+    RefletImage told{};  ///< as the library is told
+};
+
+/// Opens a device with the features that the library needs, and counts what is made on it through `lookUp`.
+class LibraryHost {
+public:
+    LibraryHost();
+    ~LibraryHost();
+    LibraryHost(const LibraryHost&) = delete;
+    LibraryHost& operator=(const LibraryHost&) = delete;
+
+    /// Complete and right; tests spoil it.
+    [[nodiscard]] RefletContextInfo contextInfo() const;
+    /// Fails the test on an error.
+    [[nodiscard]] RefletContext makeContext() const;
+
+    /// texels: rows from the top, tightly packed; layers one after the other. Layout GENERAL.
+    RefletImage makeImage(VkFormat format, uint32_t width, uint32_t height, const void* texels, size_t bytes,
+                          uint32_t layers = 1);
+    template <class T>
+    RefletImage makeImage(VkFormat format, uint32_t width, uint32_t height, const std::vector<T>& texels) {
+        return makeImage(format, width, height, texels.data(), texels.size() * sizeof(T));
+    }
+    /// Of a result, after all frames are done.
+    std::vector<std::byte> read(const RefletImage& image, size_t bytesPerTexel);
+
+    /// What the library has made so far on this device.
+    struct Made {
+        uint64_t pipelines = 0;
+        uint64_t allocations = 0;
+        uint64_t images = 0;
+        uint64_t pools = 0;
+
+        bool operator==(const Made&) const = default;
+    };
+    static Made& made();
+
+    Host host;
+
+private:
+    VkPhysicalDeviceFeatures2 features_{};
+    VkPhysicalDeviceVulkan12Features v12_{};
+    VkPhysicalDeviceVulkan13Features v13_{};
+    std::vector<HostImage> images_;
+};
+
+/// How a host means its G-buffer.
+struct RoomConventions {
+    bool unusual = false;  ///< standard depth, y up, view-space unorm normals, sRGB, alpha, pixels before minus now
+};
+
+/// A floor, a wall and sky, from analytic rays.
+class Room {
+public:
+    static constexpr uint32_t width = 64;
+    static constexpr uint32_t height = 40;
+
+    Room(LibraryHost& host, RoomConventions conventions);
+
+    [[nodiscard]] RefletFrameInfo frame(VkCommandBuffer commands, uint32_t index) const;
+    [[nodiscard]] RefletIndirectLight light() const;
+    [[nodiscard]] RefletSunShadow sun() const;
+
+private:
+    RefletFrameInfo info_{};
+    RefletImage lit_{};
+    RefletImage shadowMap_{};
+};
+
+/// Results of all effects in one frame.
+struct RoomResults {
+    RefletImage visibility{};
+    RefletLobe diffuse{};
+    RefletLobe specular{};
+    RefletComposite sum{};
+    RefletImage antialiased{};
+    RefletImage display{};
+};
+
+/// Records all effects. Fails the test on an error.
+RoomResults recordRoom(const Room& room, RefletView view, RefletSettings settings, VkCommandBuffer commands,
+                       uint32_t index);
+
+/// Asserts success, and prints the library's text otherwise.
+#define EXPECT_REFLET(call) EXPECT_EQ(call, REFLET_SUCCESS) << refletLastError()
+
+}  // namespace reflet::test

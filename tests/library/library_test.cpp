@@ -1,0 +1,424 @@
+// The C API on a host's device: results, conventions, frames in flight, memory, views and threads.
+#include "library/library_host.h"
+
+#include "base/math.h"
+
+#include <glm/gtc/packing.hpp>
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <thread>
+
+namespace reflet::test {
+namespace {
+
+using Made = LibraryHost::Made;
+
+template <class T>
+std::vector<T> texelsOf(LibraryHost& host, const RefletImage& image) {
+    const std::vector<std::byte> bytes = host.read(image, sizeof(T));
+    std::vector<T> texels(bytes.size() / sizeof(T));
+    std::memcpy(texels.data(), bytes.data(), bytes.size());
+    return texels;
+}
+
+std::vector<vec4> halvesOf(LibraryHost& host, const RefletImage& image) {
+    std::vector<vec4> values;
+    for (const uint64_t texel : texelsOf<uint64_t>(host, image)) {
+        values.push_back(glm::unpackHalf4x16(texel));
+    }
+    return values;
+}
+
+vec3 meanOf(const std::vector<vec4>& texels) {
+    vec3 sum(0.0F);
+    for (const vec4& texel : texels) {
+        sum += vec3(texel);
+    }
+    return sum / float(texels.size());
+}
+
+class Library : public ::testing::Test {
+protected:
+    void TearDown() override {
+        for (const std::string& message : host_.host.messages()) {
+            ADD_FAILURE() << message;
+        }
+    }
+
+    RefletView makeView(RefletContext context, uint32_t framesInFlight, uint32_t width = Room::width,
+                        uint32_t height = Room::height) {
+        RefletViewInfo info{sizeof info, width, height, framesInFlight};
+        RefletView view = nullptr;
+        EXPECT_REFLET(refletCreateView(context, &info, &view));
+        return view;
+    }
+    static RefletSettings makeSettings(const char* preset) {
+        RefletSettings settings = nullptr;
+        EXPECT_REFLET(refletCreateSettings(preset, &settings));
+        return settings;
+    }
+    RoomResults renderFrames(const Room& room, RefletView view, RefletSettings settings, uint32_t count,
+                             bool wait = false) {
+        RoomResults results;
+        for (uint32_t i = 0; i < count; ++i) {
+            host_.host.frame(
+                [&](VkCommandBuffer commands) { results = recordRoom(room, view, settings, commands, i); });
+            if (wait) {
+                host_.host.waitForAll();
+            }
+        }
+        host_.host.waitForAll();
+        return results;
+    }
+
+    LibraryHost host_;
+};
+
+TEST_F(Library, LightsARoom) {
+    RefletContext context = host_.makeContext();
+    RefletSettings settings = makeSettings("balanced");
+    RefletView view = makeView(context, 3);
+    const Room room(host_, {});
+    const RoomResults results = renderFrames(room, view, settings, 8);
+    EXPECT_EQ(results.sum.lit.format, VK_FORMAT_R16G16B16A16_SFLOAT);
+    EXPECT_EQ(results.diffuse.downsample, 2U);
+    EXPECT_EQ(results.diffuse.radiance.width, Room::width / 2);
+    EXPECT_EQ(results.visibility.width, Room::width);
+    const std::vector<vec4> diffuse = halvesOf(host_, results.sum.indirectDiffuse);
+    const std::vector<vec4> specular = halvesOf(host_, results.sum.indirectSpecular);
+    const std::vector<vec4> lit = halvesOf(host_, results.sum.lit);
+    // The wall is not metallic, the floor is: the one has diffuse light, the other only reflections.
+    const uint32_t wall = Room::width / 2 + Room::width * (Room::height / 3);
+    const uint32_t floor = Room::width / 2 + Room::width * (Room::height - 4);
+    EXPECT_GT(diffuse[wall].y, 0.02F);
+    EXPECT_LT(diffuse[floor].y, 1e-3F);
+    EXPECT_GT(specular[floor].x, 0.05F);
+    EXPECT_GT(specular[floor].x, 1.5F * specular[floor].z) << "reflections of a metal have its colour";
+    EXPECT_NEAR(lit[0].w, 0.0F, 1e-6F) << "the sky has no distance";
+    const std::vector<uint32_t> display = texelsOf<uint32_t>(host_, results.display);
+    EXPECT_GT(display[wall] & 0xFFU, 20U);
+    for (const vec4& texel : halvesOf(host_, results.antialiased)) {
+        ASSERT_TRUE(std::isfinite(texel.x) && texel.x >= 0.0F);
+    }
+    refletDestroyView(view);
+    refletDestroySettings(settings);
+    refletDestroyContext(context);
+}
+
+// Standard depth, y up, view space, sRGB, alpha and pixels give what reversed depth, y down, world space, linear
+// colours, perceptual roughness and uv give.
+TEST_F(Library, ConventionsDoNotMatter) {
+    RefletContext context = host_.makeContext();
+    RefletSettings settings = makeSettings("fast");
+    struct Imported {
+        std::vector<float> depth;
+        std::vector<uint32_t> normal;
+        std::vector<uint32_t> color;
+        std::vector<uint32_t> material;
+        std::vector<vec4> motion;
+        std::vector<vec4> lit;
+    };
+    Imported both[2];
+    for (int i = 0; i < 2; ++i) {
+        RefletView view = makeView(context, 3);
+        const Room room(host_, {.unusual = i == 1});
+        const RoomResults results = renderFrames(room, view, settings, 1);
+        const auto find = [&](const char* name) {
+            RefletImage image{};
+            EXPECT_REFLET(refletFindImage(view, name, &image));
+            return image;
+        };
+        both[i] = {texelsOf<float>(host_, find("depth")),
+                   texelsOf<uint32_t>(host_, find("normal")),
+                   texelsOf<uint32_t>(host_, find("base_color")),
+                   texelsOf<uint32_t>(host_, find("material")),
+                   halvesOf(host_, find("motion")),
+                   halvesOf(host_, results.sum.lit)};
+        refletDestroyView(view);
+    }
+    // depth: near / distance against near · (far / distance - 1) / (far - near)
+    size_t surfaces = 0;
+    for (size_t i = 0; i < both[0].depth.size(); ++i) {
+        const float infinite = both[0].depth[i];
+        ASSERT_NEAR(both[1].depth[i], infinite == 0.0F ? 0.0F : (100.0F * infinite - 0.1F) / 99.9F, 2e-5F) << i;
+        ASSERT_EQ(infinite == 0.0F, both[1].depth[i] == 0.0F) << i;
+        if (infinite == 0.0F) {
+            continue;
+        }
+        ++surfaces;
+        const vec2 a = glm::unpackSnorm2x16(both[0].normal[i]);
+        const vec2 b = glm::unpackSnorm2x16(both[1].normal[i]);
+        ASSERT_LT(glm::distance(a, b), 2e-3F) << i;
+        for (int channel = 0; channel < 3; ++channel) {
+            const auto color = [&](const Imported& from) { return int(from.color[i] >> (10 * channel) & 1023U); };
+            const auto material = [&](const Imported& from) { return int(from.material[i] >> (8 * channel) & 255U); };
+            ASSERT_LE(std::abs(color(both[0]) - color(both[1])), 1) << i;
+            ASSERT_LE(std::abs(material(both[0]) - material(both[1])), 1) << i;
+        }
+        ASSERT_LT(glm::distance(vec2(both[0].motion[i]), vec2(both[1].motion[i])), 2e-5F) << i;
+        ASSERT_NEAR(both[0].motion[i].x, 0.01F, 2e-5F);
+        ASSERT_NEAR(both[0].motion[i].y, -0.02F, 2e-5F);
+    }
+    EXPECT_GT(surfaces, both[0].depth.size() / 2);
+    const vec3 ratio = meanOf(both[1].lit) / meanOf(both[0].lit);
+    EXPECT_LT(glm::distance(ratio, vec3(1.0F)), 0.01F) << ratio.x << ' ' << ratio.y << ' ' << ratio.z;
+    refletDestroySettings(settings);
+    refletDestroyContext(context);
+}
+
+TEST_F(Library, AnyNumberOfFramesInFlightGivesTheSame) {
+    RefletContext context = host_.makeContext();
+    RefletSettings settings = makeSettings("fast");
+    const Room room(host_, {});
+    std::vector<uint32_t> first;
+    for (uint32_t framesInFlight = 1; framesInFlight <= REFLET_MAX_FRAMES_IN_FLIGHT; ++framesInFlight) {
+        RefletView view = makeView(context, framesInFlight);
+        const RoomResults results = renderFrames(room, view, settings, 6, framesInFlight < Host::framesInFlight);
+        const std::vector<uint32_t> display = texelsOf<uint32_t>(host_, results.display);
+        first = first.empty() ? display : first;
+        EXPECT_EQ(display, first) << framesInFlight;
+        refletDestroyView(view);
+    }
+    refletDestroySettings(settings);
+    refletDestroyContext(context);
+}
+
+TEST_F(Library, PreparesAllPipelinesAndMakesNothingInLaterFrames) {
+    RefletContext context = host_.makeContext();
+    RefletSettings settings = makeSettings("balanced");
+    RefletView view = makeView(context, 3);
+    const Room room(host_, {});
+    const RefletFrameInfo frame = room.frame(VK_NULL_HANDLE, 0);
+    RefletPrepareInfo info{};
+    info.structSize = sizeof info;
+    info.effects = REFLET_EFFECT_SUN_SHADOW | REFLET_EFFECT_DIFFUSE_GI | REFLET_EFFECT_REFLECTIONS |
+                   REFLET_EFFECT_COMPOSITE | REFLET_EFFECT_TEMPORAL | REFLET_EFFECT_TONE_MAP;
+    info.gbuffer = &frame.gbuffer;
+    info.shadowMapSide = 64;
+    info.autoExposure = 1;
+    uint32_t left = 0;
+    EXPECT_REFLET(refletPrepare(view, settings, &info, 0, &left));
+    EXPECT_GT(left, 10U);
+    const uint32_t all = left;
+    for (uint32_t calls = 1; left > 0; ++calls) {
+        ASSERT_LE(calls, all);
+        EXPECT_REFLET(refletPrepare(view, settings, &info, 4, &left));
+        EXPECT_EQ(left, all - std::min(all, 4 * calls));
+    }
+    EXPECT_EQ(LibraryHost::made().pipelines, all);
+    renderFrames(room, view, settings, 1);
+    EXPECT_EQ(LibraryHost::made().pipelines, all) << "the first frame made pipelines";
+    renderFrames(room, view, settings, 3);
+    const Made made = LibraryHost::made();
+    renderFrames(room, view, settings, 5);
+    EXPECT_TRUE(LibraryHost::made() == made) << "a later frame made something";
+    refletDestroyView(view);
+    refletDestroySettings(settings);
+    refletDestroyContext(context);
+}
+
+TEST_F(Library, TellsItsMemoryAndGivesAllBack) {
+    struct Blocks {
+        std::vector<std::pair<VkDeviceMemory, VkDeviceSize>> live;
+    } blocks;
+    RefletMemoryCallbacks calls{};
+    calls.user = &blocks;
+    static VkDevice device = VK_NULL_HANDLE;
+    device = host_.host.device().device;
+    static PFN_vkAllocateMemory allocate = nullptr;
+    static PFN_vkFreeMemory release = nullptr;
+    const auto find = reinterpret_cast<PFN_vkGetDeviceProcAddr>(
+        host_.host.device().lookUp(host_.host.device().instance, "vkGetDeviceProcAddr"));
+    allocate = reinterpret_cast<PFN_vkAllocateMemory>(find(device, "vkAllocateMemory"));
+    release = reinterpret_cast<PFN_vkFreeMemory>(find(device, "vkFreeMemory"));
+    calls.allocate = [](void* user, const VkMemoryAllocateInfo* info, VkDeviceMemory* memory) {
+        const VkResult result = allocate(device, info, nullptr, memory);
+        static_cast<Blocks*>(user)->live.emplace_back(*memory, info->allocationSize);
+        return result;
+    };
+    calls.free = [](void* user, VkDeviceMemory memory) {
+        std::erase_if(static_cast<Blocks*>(user)->live, [&](const auto& block) { return block.first == memory; });
+        release(device, memory, nullptr);
+    };
+    RefletContextInfo info = host_.contextInfo();
+    info.memory = &calls;
+    RefletContext context = nullptr;
+    EXPECT_REFLET(refletCreateContext(&info, &context));
+    RefletSettings settings = makeSettings("fast");
+    const Room room(host_, {});
+    RefletView one = makeView(context, 3);
+    RefletView other = makeView(context, 3);
+    renderFrames(room, one, settings, 4);
+    const auto memoryOf = [](RefletView view) {
+        uint64_t bytes = 0;
+        EXPECT_REFLET(refletViewMemory(view, &bytes));
+        return bytes;
+    };
+    const uint64_t first = memoryOf(one);
+    EXPECT_GT(first, uint64_t(Room::width) * Room::height * 100);
+    renderFrames(room, other, settings, 4);
+    EXPECT_EQ(memoryOf(one), first);
+    EXPECT_EQ(memoryOf(other), first) << "the same work takes the same memory";
+    uint64_t reserved = 0;
+    EXPECT_REFLET(refletContextMemory(context, &reserved));
+    uint64_t live = 0;
+    for (const auto& [memory, bytes] : blocks.live) {
+        live += bytes;
+    }
+    EXPECT_EQ(reserved, live);
+    EXPECT_GE(reserved, 2 * first);
+    EXPECT_EQ(LibraryHost::made().allocations, 0U) << "past the callbacks";
+    refletDestroyView(one);
+    refletDestroyView(other);
+    refletDestroySettings(settings);
+    refletDestroyContext(context);
+    EXPECT_TRUE(blocks.live.empty());
+}
+
+TEST_F(Library, ManySizesLeaveNoMemoryBehind) {
+    RefletContext context = host_.makeContext();
+    RefletSettings settings = makeSettings("fast");
+    RefletView view = makeView(context, 3);
+    const Room room(host_, {});
+    renderFrames(room, view, settings, 4);
+    uint64_t before = 0;
+    EXPECT_REFLET(refletViewMemory(view, &before));
+    for (uint32_t i = 0; i < 6; ++i) {
+        EXPECT_REFLET(refletResizeView(view, 100 + i, 50 + 3 * i));
+        EXPECT_REFLET(refletResizeView(view, Room::width, Room::height));
+        renderFrames(room, view, settings, 1);
+    }
+    renderFrames(room, view, settings, 4);
+    EXPECT_REFLET(refletFinishView(view));
+    uint64_t after = 0;
+    EXPECT_REFLET(refletViewMemory(view, &after));
+    EXPECT_EQ(after, before);
+    refletDestroyView(view);
+    refletDestroySettings(settings);
+    refletDestroyContext(context);
+}
+
+// After a reset the view does what it did in its first frame.
+TEST_F(Library, AResetForgetsTheHistory) {
+    RefletContext context = host_.makeContext();
+    RefletSettings settings = makeSettings("fast");
+    RefletView view = makeView(context, 3);
+    const Room room(host_, {});
+    const std::vector<uint32_t> first = texelsOf<uint32_t>(host_, renderFrames(room, view, settings, 1).display);
+    const std::vector<uint32_t> later = texelsOf<uint32_t>(host_, renderFrames(room, view, settings, 4).display);
+    EXPECT_NE(first, later);
+    EXPECT_REFLET(refletResetView(view));
+    EXPECT_EQ(texelsOf<uint32_t>(host_, renderFrames(room, view, settings, 1).display), first);
+    refletDestroyView(view);
+    refletDestroySettings(settings);
+    refletDestroyContext(context);
+}
+
+// Two devices, with a thread each; and two views of one context that record at the same time.
+TEST_F(Library, WorksOnTwoDevicesAndTwoThreads) {
+    LibraryHost second;
+    RefletContext contexts[2] = {host_.makeContext(), second.makeContext()};
+    refletDestroyContext(contexts[1]);
+    RefletContext context = contexts[0];
+    const Room room(host_, {});
+    RefletSettings settings = makeSettings("fast");
+    RefletView views[2] = {makeView(context, 3), makeView(context, 3)};
+    std::vector<uint32_t> pictures[2];
+    for (uint32_t i = 0; i < 4; ++i) {
+        RoomResults results[2];
+        host_.host.frame([&](VkCommandBuffer one) {
+            host_.host.frame([&](VkCommandBuffer other) {
+                std::thread thread([&] { results[0] = recordRoom(room, views[0], settings, one, i); });
+                results[1] = recordRoom(room, views[1], settings, other, i);
+                thread.join();
+            });
+        });
+        host_.host.waitForAll();
+        for (int k = 0; k < 2; ++k) {
+            pictures[k] = texelsOf<uint32_t>(host_, results[k].display);
+        }
+        EXPECT_EQ(pictures[0], pictures[1]) << i;
+    }
+    for (RefletView view : views) {
+        refletDestroyView(view);
+    }
+    refletDestroySettings(settings);
+    refletDestroyContext(context);
+}
+
+TEST_F(Library, DenoisesALobeOfTheHost) {
+    RefletContext context = host_.makeContext();
+    RefletSettings settings = makeSettings("fast");
+    RefletView view = makeView(context, 3);
+    const Room room(host_, {});
+    // Half of the samples are 2, half 0: the mean is 1.
+    std::vector<std::vector<float>> noisy(16, std::vector<float>(size_t(4) * Room::width * Room::height));
+    std::vector<RefletImage> images;
+    uint32_t state = 1;
+    for (std::vector<float>& texels : noisy) {
+        for (size_t i = 0; i < texels.size(); i += 4) {
+            state = state * 1664525U + 1013904223U;
+            const float value = (state >> 31U) != 0 ? 2.0F : 0.0F;
+            texels[i] = texels[i + 1] = texels[i + 2] = value;
+            texels[i + 3] = 2.0F;
+        }
+        images.push_back(host_.makeImage(VK_FORMAT_R32G32B32A32_SFLOAT, Room::width, Room::height, texels));
+    }
+    RefletLobe clean{};
+    for (uint32_t i = 0; i < images.size(); ++i) {
+        host_.host.frame([&](VkCommandBuffer commands) {
+            const RefletFrameInfo frame = room.frame(commands, i);
+            EXPECT_REFLET(refletBeginFrame(view, &frame));
+            EXPECT_REFLET(refletDenoise(view, settings, REFLET_LOBE_DIFFUSE, &images[i], &clean));
+            EXPECT_REFLET(refletEndFrame(view));
+        });
+    }
+    host_.host.waitForAll();
+    const std::vector<vec4> texels = halvesOf(host_, clean.radiance);
+    double sum = 0.0;
+    double square = 0.0;
+    size_t count = 0;
+    for (uint32_t y = Room::height / 4; y < Room::height / 3; ++y) {  // on the wall, which has diffuse light
+        for (uint32_t x = 8; x < Room::width - 8; ++x) {
+            const double value = texels[size_t(y) * Room::width + x].x;
+            sum += value;
+            square += value * value;
+            ++count;
+        }
+    }
+    const double mean = sum / double(count);
+    EXPECT_NEAR(mean, 1.0, 0.1);
+    EXPECT_LT(square / double(count) - mean * mean, 0.05) << "the noise had a variance of 1";
+    refletDestroyView(view);
+    refletDestroySettings(settings);
+    refletDestroyContext(context);
+}
+
+TEST(LibrarySettings, AreListedSetAndRead) {
+    RefletSettings settings = nullptr;
+    EXPECT_REFLET(refletCreateSettings(nullptr, &settings));
+    const uint32_t count = refletSettingCount();
+    EXPECT_GT(count, 40U);
+    for (uint32_t i = 0; i < count; ++i) {
+        RefletSettingInfo info{};
+        info.structSize = sizeof info;
+        EXPECT_REFLET(refletSettingInfo(i, &info));
+        EXPECT_STREQ(refletGetSetting(settings, info.name), info.standard) << info.name;
+        EXPECT_REFLET(refletSetSetting(settings, info.name, info.standard));
+        EXPECT_GT(std::strlen(info.help), 10U);
+    }
+    EXPECT_REFLET(refletApplyPreset(settings, "balanced"));
+    EXPECT_STREQ(refletGetSetting(settings, "diffuse.downsample"), "2");
+    EXPECT_EQ(refletSetSetting(settings, "diffuse.ray", "2"), REFLET_ERROR_INVALID_ARGUMENT);
+    EXPECT_NE(std::string(refletLastError()).find("diffuse.rays"), std::string::npos) << refletLastError();
+    EXPECT_EQ(refletSetSetting(settings, "diffuse.rays", "many"), REFLET_ERROR_INVALID_ARGUMENT);
+    EXPECT_NE(std::string(refletLastError()).find("0 to 256"), std::string::npos) << refletLastError();
+    EXPECT_EQ(refletApplyPreset(settings, "hybrid"), REFLET_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(refletGetSetting(settings, "nothing"), nullptr);
+    refletDestroySettings(settings);
+}
+
+}  // namespace
+}  // namespace reflet::test
