@@ -167,6 +167,25 @@ static void write_ppm(const char* path, const uint8_t* rgba, uint32_t width, uin
     fclose(file);
 }
 
+/* [times] */
+/* Device times of the last frame; the device has finished all frames. */
+static void print_times(RefletView view) {
+    RefletPassTime times[128];
+    uint32_t count = 128;
+    reflet_check(refletFinishView(view));
+    reflet_check(refletPassTimes(view, &count, times));
+    const char* groups[] = {"import", "shadow", "diffuse", "specular", "composite", "temporal", "tonemap"};
+    for (size_t g = 0; g < sizeof groups / sizeof *groups; ++g) {
+        double sum = 0.0;
+        for (uint32_t i = 0; i < count && i < 128; ++i) {
+            if (strncmp(times[i].name, groups[g], strlen(groups[g])) == 0) sum += times[i].milliseconds;
+        }
+        fprintf(stderr, "%s %.2f ms, ", groups[g], sum);
+    }
+    fprintf(stderr, "frame %.2f ms\n", count > 0 ? times[0].milliseconds : 0.0);
+}
+/* [times] */
+
 int main(int count, char** arguments) {
     const char* path = count > 1 ? arguments[1] : "room.ppm";
     const uint32_t width = count > 3 ? (uint32_t)atoi(arguments[2]) : 640;
@@ -213,6 +232,7 @@ int main(int count, char** arguments) {
     void* pixels;
     check(vkMapMemory(h.device, memory, 0, VK_WHOLE_SIZE, 0, &pixels), "vkMapMemory");
     write_ppm(path, pixels, width, height);
+    print_times(view);
     uint64_t bytes;
     reflet_check(refletViewMemory(view, &bytes));
     fprintf(stderr, "written: %s (Reflet's images take %.1f MB)\n", path, (double)bytes * 1e-6);

@@ -142,6 +142,30 @@ target_link_libraries(host PRIVATE reflet::reflet)
     expectRuns("cmake -S " + at("host") + " -B " + at("built") + " -G Ninja");
 }
 
+// Without the indentation, which differs inside of functions.
+std::string withoutIndentation(const std::string& path) {
+    std::ifstream file(path);
+    std::string text;
+    for (std::string line; std::getline(file, line);) {
+        const size_t start = line.find_first_not_of(' ');
+        text += (start == std::string::npos ? "" : line.substr(start)) + '\n';
+    }
+    return text;
+}
+
+TEST(LibraryGuide, ShowsCodeOfTheExample) {
+    const std::string guide = withoutIndentation(REFLET_SOURCE "/docs/library.md");
+    const std::string example = withoutIndentation(REFLET_SOURCE "/examples/c/main.c");
+    size_t blocks = 0;
+    const std::string open = "```c\n";
+    for (size_t at = guide.find(open); at != std::string::npos; at = guide.find(open, at + 1), ++blocks) {
+        const size_t start = at + open.size();
+        const std::string code = guide.substr(start, guide.find("```", start) - start);
+        EXPECT_NE(example.find(code), std::string::npos) << code;
+    }
+    EXPECT_GE(blocks, 7U);
+}
+
 TEST(Exports, AreThoseOfTheHeader) {
     const Ran symbols = run("nm -D --defined-only " REFLET_EXPORTS " | awk '{print $NF}'");
     const Ran declared = run("grep -oE 'reflet[A-Za-z]+\\(' " REFLET_SOURCE "/include/reflet/reflet.h | tr -d '('");

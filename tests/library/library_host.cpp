@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <iterator>
 
 namespace reflet::test {
 
@@ -318,6 +319,16 @@ Room::Room(LibraryHost& host, RoomConventions conventions) {
         motion[i] = odd ? vec4(-moved.x * float(width), -moved.y * float(height), 0.0F, 0.0F) : vec4(moved, 0.0F, 0.0F);
         const float spot = i % width / 8 % 2 == 0 ? 1.0F : 0.3F;
         lit[i] = sky ? vec4(0.5F, 0.6F, 0.8F, 1.0F) : vec4(spot * albedo, 1.0F);
+    }
+    constexpr float wrong[] = {NAN, INFINITY, -INFINITY, 65504.0F, 1e30F, -2.0F};
+    for (size_t i = 0; conventions.spoiled && i < count; i += 5) {
+        const float value = wrong[i / 5 % std::size(wrong)];
+        depth[i] = value;
+        normal[(i + 1) % count] = vec4(value);
+        color[(i + 2) % count] = vec4(value);
+        material[(i + 3) % count] = vec4(value);
+        motion[(i + 4) % count] = vec4(value);
+        lit[(i + 2) % count] = vec4(value);
     }
     constexpr VkFormat four = VK_FORMAT_R32G32B32A32_SFLOAT;
     info_.structSize = sizeof info_;

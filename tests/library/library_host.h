@@ -67,6 +67,7 @@ private:
 
 /// How a host means its G-buffer.
 struct RoomConventions {
+    bool spoiled = false;  ///< infinity, NaN, 65504 and negative values in every image
     bool unusual = false;  ///< standard depth, y up, view-space unorm normals, sRGB, alpha, pixels before minus now
 };
 

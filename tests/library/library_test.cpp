@@ -3,7 +3,9 @@
 
 #include "base/math.h"
 
+#define GLM_ENABLE_EXPERIMENTAL
 #include <glm/gtc/packing.hpp>
+#include <glm/gtx/component_wise.hpp>
 
 #include <cmath>
 #include <cstring>
@@ -164,6 +166,25 @@ TEST_F(Library, ConventionsDoNotMatter) {
     EXPECT_GT(surfaces, both[0].depth.size() / 2);
     const vec3 ratio = meanOf(both[1].lit) / meanOf(both[0].lit);
     EXPECT_LT(glm::distance(ratio, vec3(1.0F)), 0.01F) << ratio.x << ' ' << ratio.y << ' ' << ratio.z;
+    refletDestroySettings(settings);
+    refletDestroyContext(context);
+}
+
+TEST_F(Library, StaysFiniteWhateverTheHostDraws) {
+    RefletContext context = host_.makeContext();
+    RefletSettings settings = makeSettings("balanced");
+    for (const bool unusual : {false, true}) {
+        RefletView view = makeView(context, 3);
+        const Room room(host_, {.spoiled = true, .unusual = unusual});
+        const RoomResults results = renderFrames(room, view, settings, 4);
+        for (const RefletImage& image :
+             {results.sum.lit, results.sum.indirectDiffuse, results.sum.indirectSpecular, results.antialiased}) {
+            for (const vec4& texel : halvesOf(host_, image)) {
+                ASSERT_TRUE(std::isfinite(texel.x + texel.y + texel.z) && glm::compMin(vec3(texel)) >= 0.0F);
+            }
+        }
+        refletDestroyView(view);
+    }
     refletDestroySettings(settings);
     refletDestroyContext(context);
 }
