@@ -117,7 +117,7 @@ static RefletImage record_effects(Host* h, Slot* slot, RefletView view, RefletSe
     light.light.stages = 0; /* no longer new */
     reflet_check(refletReflections(view, settings, &light, &specular));
     RefletComposite sum = {.structSize = sizeof sum};
-    reflet_check(refletComposite(view, settings, &sum));
+    reflet_check(refletComposite(view, settings, NULL, &sum));
     RefletImage mean, display;
     reflet_check(refletTemporal(view, settings, NULL, &mean));
     reflet_check(refletToneMap(view, settings, NULL, 0, &display));
@@ -140,32 +140,6 @@ static void prepare(RefletView view, RefletSettings settings, const RefletGBuffe
     fprintf(stderr, "\n");
 }
 /* [prepare] */
-
-/* Records the copy of a picture into a buffer that the CPU reads. */
-static void copy_out(VkCommandBuffer commands, const RefletImage* picture, VkBuffer buffer) {
-    barrier(commands, picture->image, VK_IMAGE_ASPECT_COLOR_BIT, picture->layout, VK_IMAGE_LAYOUT_GENERAL, picture->stages,
-            picture->access, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
-    const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                    .imageExtent = {picture->width, picture->height, 1}};
-    vkCmdCopyImageToBuffer(commands, picture->image, VK_IMAGE_LAYOUT_GENERAL, buffer, 1, &copy);
-    const VkMemoryBarrier2 for_host = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
-        .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT, .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
-        .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
-    const VkDependencyInfo info = {.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1,
-        .pMemoryBarriers = &for_host};
-    vkCmdPipelineBarrier2(commands, &info);
-}
-
-static void write_ppm(const char* path, const uint8_t* rgba, uint32_t width, uint32_t height) {
-    FILE* file = fopen(path, "wb");
-    if (file == NULL) {
-        fprintf(stderr, "%s: cannot be written\n", path);
-        exit(1);
-    }
-    fprintf(file, "P6\n%u %u\n255\n", width, height);
-    for (uint32_t i = 0; i < width * height; ++i) fwrite(rgba + 4 * (size_t)i, 1, 3, file);
-    fclose(file);
-}
 
 /* [times] */
 /* Device times of the last frame; the device has finished all frames. */
@@ -194,11 +168,7 @@ int main(int count, char** arguments) {
     Host h = {0};
     host_open(&h, NULL, 0, NULL, 0);
     host_make_targets(&h, width, height);
-    const VkBufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = 4 * (VkDeviceSize)width * height,
-        .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT};
-    VkBuffer buffer;
-    check(vkCreateBuffer(h.device, &info, NULL, &buffer), "vkCreateBuffer");
-    VkDeviceMemory memory = bind_buffer(&h, buffer, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+    Download download = make_download(&h, width, height);
 
     /* [view] */
     RefletContext context = make_context(&h);
@@ -222,26 +192,19 @@ int main(int count, char** arguments) {
         host_camera(&h, now, i > 0 ? before : NULL, jitters[i % 2], 0.35F);
         host_draw(&h, slot, now);
         const RefletImage picture = record_effects(&h, slot, view, settings, now, before, jitters[i % 2], jitters[(i + (i > 0)) % 2]);
-        if (i + 1 == frames) copy_out(slot->commands, &picture, buffer);
-        check(vkEndCommandBuffer(slot->commands), "vkEndCommandBuffer");
-        const VkSubmitInfo submit = {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1,
-            .pCommandBuffers = &slot->commands};
-        check(vkQueueSubmit(h.queue, 1, &submit, slot->fence), "vkQueueSubmit");
+        if (i + 1 == frames) record_download(&download, slot->commands, picture.image, picture.stages, picture.access);
+        host_submit(&h, slot);
     }
     check(vkDeviceWaitIdle(h.device), "vkDeviceWaitIdle");
-    void* pixels;
-    check(vkMapMemory(h.device, memory, 0, VK_WHOLE_SIZE, 0, &pixels), "vkMapMemory");
-    write_ppm(path, pixels, width, height);
+    write_download(&h, &download, path);
     print_times(view);
     uint64_t bytes;
     reflet_check(refletViewMemory(view, &bytes));
-    fprintf(stderr, "written: %s (Reflet's images take %.1f MB)\n", path, (double)bytes * 1e-6);
+    fprintf(stderr, "Reflet's images take %.1f MB\n", (double)bytes * 1e-6);
 
     refletDestroySettings(settings);
     refletDestroyView(view);
     refletDestroyContext(context);
-    vkDestroyBuffer(h.device, buffer, NULL);
-    vkFreeMemory(h.device, memory, NULL);
     host_free_targets(&h);
     host_close(&h);
     return 0;

@@ -435,3 +435,47 @@ void host_light(Host* h, Slot* slot, VkImageView visibility) {
     vkCmdBindDescriptorSets(slot->commands, VK_PIPELINE_BIND_POINT_COMPUTE, h->light_layout, 0, 1, &slot->light_set, 0, NULL);
     vkCmdDispatch(slot->commands, (h->width + 7) / 8, (h->height + 7) / 8, 1);
 }
+
+void host_submit(Host* h, Slot* slot) {
+    check(vkEndCommandBuffer(slot->commands), "vkEndCommandBuffer");
+    const VkSubmitInfo submit = {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1,
+        .pCommandBuffers = &slot->commands};
+    check(vkQueueSubmit(h->queue, 1, &submit, slot->fence), "vkQueueSubmit");
+}
+
+Download make_download(Host* h, uint32_t width, uint32_t height) {
+    Download d = {.width = width, .height = height};
+    const VkBufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = 4 * (VkDeviceSize)width * height,
+        .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT};
+    check(vkCreateBuffer(h->device, &info, NULL, &d.buffer), "vkCreateBuffer");
+    d.memory = bind_buffer(h, d.buffer, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+    return d;
+}
+
+void record_download(const Download* d, VkCommandBuffer commands, VkImage image, VkPipelineStageFlags2 stages, VkAccessFlags2 access) {
+    barrier(commands, image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_GENERAL, stages, access,
+            VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
+    const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, .imageExtent = {d->width, d->height, 1}};
+    vkCmdCopyImageToBuffer(commands, image, VK_IMAGE_LAYOUT_GENERAL, d->buffer, 1, &copy);
+    const VkMemoryBarrier2 for_host = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
+        .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT, .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
+        .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
+    const VkDependencyInfo info = {.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &for_host};
+    vkCmdPipelineBarrier2(commands, &info);
+}
+
+void write_download(Host* h, Download* d, const char* path) {
+    void* pixels;
+    check(vkMapMemory(h->device, d->memory, 0, VK_WHOLE_SIZE, 0, &pixels), "vkMapMemory");
+    FILE* file = fopen(path, "wb");
+    if (file == NULL) {
+        fprintf(stderr, "%s: cannot be written\n", path);
+        exit(1);
+    }
+    fprintf(file, "P6\n%u %u\n255\n", d->width, d->height);
+    for (uint32_t i = 0; i < d->width * d->height; ++i) fwrite((const uint8_t*)pixels + 4 * (size_t)i, 1, 3, file);
+    fclose(file);
+    vkDestroyBuffer(h->device, d->buffer, NULL);
+    vkFreeMemory(h->device, d->memory, NULL);
+    fprintf(stderr, "written: %s\n", path);
+}

@@ -19,7 +19,7 @@ typedef struct Picture {
 
 /* As std140 in room.glsl. */
 typedef struct Camera {
-    float world_to_view[16], world_to_clip[16], world_to_clip_plain[16], previous_world_to_clip[16], clip_to_world[16],
+    float world_to_view[16], world_to_clip[16], world_to_clip_plain[16], previous_world_to_clip[16],
         world_to_sun[16], to_sun[4], sky[4];
 } Camera;
 
@@ -72,6 +72,20 @@ void host_camera(Host* h, Camera* c, const Camera* before, const float jitter[2]
 void host_draw(Host* h, Slot* slot, const Camera* c);
 /* Lights the G-buffer into `lit`, in the layout GENERAL. visibility: of the sun, in the layout GENERAL. */
 void host_light(Host* h, Slot* slot, VkImageView visibility);
+
+/* Ends the command buffer and submits it. */
+void host_submit(Host* h, Slot* slot);
+/* The way of an RGBA8 picture to a file. */
+typedef struct Download {
+    VkBuffer buffer;
+    VkDeviceMemory memory;
+    uint32_t width, height;
+} Download;
+Download make_download(Host* h, uint32_t width, uint32_t height);
+/* Records the copy; the image is in the layout GENERAL, and these wrote it last. */
+void record_download(const Download* d, VkCommandBuffer commands, VkImage image, VkPipelineStageFlags2 stages, VkAccessFlags2 access);
+/* After the device has finished: writes a PPM file, and frees the buffer. */
+void write_download(Host* h, Download* d, const char* path);
 
 void barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, VkImageLayout from, VkImageLayout to,
              VkPipelineStageFlags2 source, VkAccessFlags2 written, VkPipelineStageFlags2 target, VkAccessFlags2 access);

@@ -23,7 +23,6 @@ layout(set = 0, binding = 0, std140) uniform Camera {
     mat4 world_to_clip;           // standard depth, jittered
     mat4 world_to_clip_plain;     // without jitter
     mat4 previous_world_to_clip;  // of the last frame, without jitter
-    mat4 clip_to_world;
     mat4 world_to_sun;
     vec4 to_sun;
     vec4 sky;

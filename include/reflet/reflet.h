@@ -412,10 +412,11 @@ typedef struct RefletComposite {
 } RefletComposite;
 
 /**
- * Multiplies the lobes of this frame by the surface's reflectance, upsampled, and adds them to the light that these were
- * given. A lobe that was not traced in this frame adds nothing.
+ * Multiplies the lobes of this frame by the surface's reflectance, upsampled, and adds them to `light`; NULL: the light
+ * that refletDiffuseGi or refletReflections was given last. A lobe that was not traced in this frame adds nothing.
  */
-REFLET_API RefletResult refletComposite(RefletView view, RefletSettings settings, RefletComposite* composite);
+REFLET_API RefletResult refletComposite(RefletView view, RefletSettings settings, const RefletImage* light,
+                                        RefletComposite* composite);
 
 /**
  * Temporal antialiasing, RGBA16F: radiance. color: of the view's size, drawn with the frame's jitter; NULL: what

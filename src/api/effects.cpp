@@ -137,18 +137,23 @@ RefletResult traceLobeOf(RefletView view, RefletSettings settings, const RefletI
     });
 }
 
-// The image of a colour argument that may be NULL.
-gpu::Image colorOf(const RefletImage* color, HostImages& host, RefletView_T& view) {
-    if (color == nullptr) {
+// The image of an argument that may be NULL, which stands for `otherwise`.
+gpu::Image hostImageOf(const RefletImage* given, const char* name, const char* otherwise, HostImages& host,
+                       RefletView_T& view) {
+    if (given == nullptr) {
         return {};
     }
-    if (color->image == VK_NULL_HANDLE) {
-        failArgument("color.image: is VK_NULL_HANDLE; pass NULL for the result of the effect before");
+    if (given->image == VK_NULL_HANDLE) {
+        failArgument("{}.image: is VK_NULL_HANDLE; pass NULL for {}", name, otherwise);
     }
-    checkImage(*color, "color", view.size);
-    const gpu::Image image = host.add(*color);
+    checkImage(*given, name, view.size);
+    const gpu::Image image = host.add(*given);
     host.acquire();
     return image;
+}
+
+gpu::Image colorOf(const RefletImage* color, HostImages& host, RefletView_T& view) {
+    return hostImageOf(color, "color", "the result of the effect before", host, view);
 }
 
 }  // namespace
@@ -206,10 +211,13 @@ RefletResult refletDenoise(RefletView view, RefletSettings settings, RefletLobeK
     });
 }
 
-RefletResult refletComposite(RefletView view, RefletSettings settings, RefletComposite* out) {
+RefletResult refletComposite(RefletView view, RefletSettings settings, const RefletImage* light,
+                             RefletComposite* out) {
     return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
         const RefletComposite given = adopted(out, "RefletComposite");
-        const Composite sum = recordComposite(*view, frame, values);
+        HostImages host(*view);
+        const gpu::Image image = hostImageOf(light, "light", "the light that the lobes were given", host, *view);
+        const Composite sum = recordComposite(*view, frame, values, image);
         RefletComposite result{};
         result.structSize = given.structSize;
         result.lit = resultOf(sum.lit);

@@ -188,12 +188,14 @@ LobeLight recordDenoise(RefletView_T& view, Frame& frame, const Settings& settin
     return clean;
 }
 
-Composite recordComposite(RefletView_T& view, Frame& frame, const Settings& settings) {
+Composite recordComposite(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image light) {
     gpu::Recorder& f = view.recorder;
     ViewImages& own = *view.images;
+    if (light) {
+        frame.light = importLight(f, own.lightAlone, light);
+    }
     if (!frame.light) {
-        failArgument(
-            "refletComposite: neither refletDiffuseGi nor refletReflections has been given light in this frame");
+        failArgument("light: is NULL, and neither refletDiffuseGi nor refletReflections has been given any in this frame");
     }
     const auto lobeOr = [&](const std::optional<LobeLight>& lobe, LobeImages& images, const char* name) {
         if (lobe) {

@@ -60,7 +60,8 @@ gpu::Image recordSunShadow(RefletView_T& view, Frame& frame, const Settings& set
 LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image light,
                      const EnvironmentInputs& environment);
 LobeLight recordDenoise(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image noisy);
-Composite recordComposite(RefletView_T& view, Frame& frame, const Settings& settings);
+/// light: none: what the lobes were given.
+Composite recordComposite(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image light);
 /// color: none: what was composited.
 gpu::Image recordTemporal(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image color);
 gpu::Image recordToneMap(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image color, bool automatic);

@@ -63,8 +63,7 @@ void collectFrame(RefletView_T& view, const Settings& settings, const RefletPrep
         recordDenoise(view, denoised, settings, lobeSpecular, color);
     }
     if (asked(REFLET_EFFECT_COMPOSITE)) {
-        frame.light = frame.light ? frame.light : color;
-        recordComposite(view, frame, settings);
+        recordComposite(view, frame, settings, frame.light ? gpu::Image{} : color);
     }
     if (asked(REFLET_EFFECT_TEMPORAL)) {
         recordTemporal(view, frame, settings, color);

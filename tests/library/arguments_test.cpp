@@ -233,7 +233,8 @@ TEST_F(Arguments, OfEffects) {
         sun("angularDiameter", [](auto& s) { s.angularDiameter = -1.0F; });
         const RefletSunShadow right = room_.sun();
         expectError(refletSunShadow(view_, settings_, &right, nullptr), "visibility");
-        expectError(refletComposite(view_, settings_, &sum), "has been given light");
+        expectError(refletComposite(view_, settings_, nullptr, &sum), "light");
+        expectError(refletComposite(view_, settings_, &light.light, nullptr), "RefletComposite");
         expectError(refletTemporal(view_, settings_, nullptr, &image), "color");
         expectError(refletToneMap(view_, settings_, nullptr, 0, &image), "color");
         expectError(refletToneMap(view_, settings_, &image, 0, &image), "color.image");

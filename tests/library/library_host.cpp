@@ -394,7 +394,7 @@ RoomResults recordRoom(const Room& room, RefletView view, RefletSettings setting
     EXPECT_REFLET(refletSunShadow(view, settings, &sun, &out.visibility));
     EXPECT_REFLET(refletDiffuseGi(view, settings, &light, &out.diffuse));
     EXPECT_REFLET(refletReflections(view, settings, &light, &out.specular));
-    EXPECT_REFLET(refletComposite(view, settings, &out.sum));
+    EXPECT_REFLET(refletComposite(view, settings, nullptr, &out.sum));
     EXPECT_REFLET(refletTemporal(view, settings, nullptr, &out.antialiased));
     EXPECT_REFLET(refletToneMap(view, settings, nullptr, 1, &out.display));
     EXPECT_REFLET(refletEndFrame(view));

@@ -170,6 +170,34 @@ TEST_F(Library, ConventionsDoNotMatter) {
     refletDestroyContext(context);
 }
 
+// Floor and wall are planes, so the normals that come from depth are exact, up to the picture's edges.
+TEST_F(Library, NormalsFromDepthAreThoseOfThePlanes) {
+    RefletContext context = host_.makeContext();
+    RefletSettings settings = makeSettings("fast");
+    for (const bool unusual : {false, true}) {
+        RefletView view = makeView(context, 3);
+        const Room room(host_, {.unusual = unusual});
+        renderFrames(room, view, settings, 1);
+        RefletImage images[3];
+        for (int i = 0; i < 3; ++i) {
+            const char* names[] = {"depth", "normal", "geometric_normal"};
+            EXPECT_REFLET(refletFindImage(view, names[i], &images[i]));
+        }
+        const auto depth = texelsOf<float>(host_, images[0]);
+        const auto normal = texelsOf<uint32_t>(host_, images[1]);
+        const auto fromDepth = texelsOf<uint32_t>(host_, images[2]);
+        for (size_t i = 0; i < depth.size(); ++i) {
+            const vec2 wanted = glm::unpackSnorm2x16(normal[i]);
+            const vec2 found = glm::unpackSnorm2x16(fromDepth[i]);
+            ASSERT_TRUE(depth[i] == 0.0F || glm::distance(wanted, found) < 0.02F)
+                << i % Room::width << ' ' << i / Room::width << ": " << found.x << ' ' << found.y;
+        }
+        refletDestroyView(view);
+    }
+    refletDestroySettings(settings);
+    refletDestroyContext(context);
+}
+
 TEST_F(Library, StaysFiniteWhateverTheHostDraws) {
     RefletContext context = host_.makeContext();
     RefletSettings settings = makeSettings("balanced");

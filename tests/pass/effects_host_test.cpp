@@ -8,6 +8,7 @@
 #include "effects/direct/lamp_tiles.h"
 #include "effects/exposure/exposure.h"
 #include "effects/gbuffer/kept_depth.h"
+#include "effects/import/import.h"
 #include "effects/light_mips/light_mips.h"
 #include "effects/lobe/lobe.h"
 #include "effects/lobe/record_ray.h"
@@ -74,6 +75,9 @@ struct Stores {
     gpu::HistoryImage exposure{"exposure"};
     gpu::KeptImage display{"display"};
     RecordRayStore recordRay;
+    ImportStore import;
+    gpu::KeptImage importedLight{"imported_light"};
+    gpu::KeptImage importedMap{"imported_map"};
 };
 
 struct Results {
@@ -141,6 +145,9 @@ public:
                         stores_.cube.lobes.image(),
                         stores_.cube.irradiance.image(),
                         {vec3(1.0F), vec2(1.0F, 0.0F)}};
+        importSurfaces(f, stores_.import, {.depth = g_.depth, .normal = stores_.color.last()}, {view, mat4(1.0F)});
+        importLight(f, stores_.importedLight, stores_.sky.last());
+        importShadowMap(f, stores_.importedMap, stores_.shadowMap.last(), 1, true);
         const gpu::Image pyramid = makePyramid(f, stores_.pyramid, g_.depth);
         keptDepth(f, stores_.keptDepth, g_.depth, view, {.format = DepthBuffer::standard16});
         const gpu::Image direct = lightDirectly(f, view, pyramid);
@@ -287,11 +294,28 @@ TEST(EffectsHost, RecordsEveryEffectBetweenItsOwnCommands) {
         for (const gpu::PassTime& pass : recorder.passTimes()) {
             passes.insert(pass.name);
         }
-        for (const char* pass :
-             {"contact_shadow", "shadow_visibility", "shadow_clean.gather", "lamp_tiles", "lamp_visibility", "direct",
-              "kept_depth", "pyramid.1", "light_mips.1", "diffuse.trace_screen", "diffuse.denoise_gather",
-              "specular.share_rays", "specular.answer_environment", "composite", "accumulate", "temporal",
-              "exposure.meter", "tonemap", "record_ray"}) {
+        for (const char* pass : {"contact_shadow",
+                                 "shadow_visibility",
+                                 "shadow_clean.gather",
+                                 "lamp_tiles",
+                                 "lamp_visibility",
+                                 "direct",
+                                 "kept_depth",
+                                 "pyramid.1",
+                                 "light_mips.1",
+                                 "diffuse.trace_screen",
+                                 "diffuse.denoise_gather",
+                                 "specular.share_rays",
+                                 "specular.answer_environment",
+                                 "composite",
+                                 "accumulate",
+                                 "temporal",
+                                 "exposure.meter",
+                                 "tonemap",
+                                 "record_ray",
+                                 "import.surfaces",
+                                 "import.light",
+                                 "import.shadow"}) {
             EXPECT_TRUE(passes.contains(pass)) << pass;
         }
     }
@@ -386,9 +410,9 @@ TEST(EffectsHost, TellsTheMemoryThatItAllocates) {
 
 // A new effect is to be recorded above, too.
 TEST(EffectsHost, KnowsEveryEffect) {
-    const std::set<std::string> recorded{"accumulate",  "composite", "contact",  "cube_map",   "denoise", "direct",
-                                         "environment", "exposure",  "gbuffer",  "light_mips", "lobe",    "planar",
-                                         "pyramid",     "shadow",    "temporal", "tonemap"};
+    const std::set<std::string> recorded{"accumulate",  "composite", "contact", "cube_map",   "denoise", "direct",
+                                         "environment", "exposure",  "gbuffer", "light_mips", "lobe",    "planar",
+                                         "import",      "pyramid",   "shadow",  "temporal",   "tonemap"};
     for (const auto& entry : std::filesystem::directory_iterator(REFLET_EFFECTS)) {
         if (entry.is_directory()) {
             EXPECT_TRUE(recorded.contains(entry.path().filename().string())) << entry.path();

@@ -49,9 +49,12 @@ float reversedDepth(float stored) {
     return finite(d) ? clamp(d, 0.0, 1.0) : 0.0;
 }
 
+// 0 outside of the picture.
 float depthAt(ivec2 pixel) {
-    ivec2 inside = clamp(pixel, ivec2(0), ivec2(params.view.size) - 1);
-    return reversedDepth(texelFetch(hostDepth, inside, 0).r);
+    if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, ivec2(params.view.size)))) {
+        return 0.0;
+    }
+    return reversedDepth(texelFetch(hostDepth, pixel, 0).r);
 }
 
 // Unit, in world space; toward the camera if it is no direction.
@@ -74,8 +77,7 @@ vec3 positionAt(ivec2 pixel, float d) {
 }
 
 // The vector along the surface to the neighbour, before or after, whose distance fits a plane better: its second
-// difference with the neighbour behind it is smaller (after Wicked Engine's and others' common reconstruction; J. Hughes
-// calls it "accurate normal reconstruction"). Depth is linear in screen space on a plane.
+// difference with the neighbour behind it is smaller, as depth is linear in screen space on a plane.
 vec3 along(ivec2 pixel, ivec2 step, float d, vec3 p) {
     float before = depthAt(pixel - step);
     float after = depthAt(pixel + step);
