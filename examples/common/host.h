@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <vulkan/vulkan.h>
 
-enum { FRAMES_IN_FLIGHT = 2, SUN_MAP_SIDE = 1024 };
+enum { FRAMES_IN_FLIGHT = 3, SUN_MAP_SIDE = 1024 };
 
 typedef struct Picture {
     VkImage image;

@@ -95,6 +95,14 @@ TEST_F(Install, TheExampleInCFindsItAndRendersThePicture) {
     EXPECT_GT(int(floor[0]), int(shadow[0]) + 30) << "in the sun";
 }
 
+TEST_F(Install, TheOtherExamplesBuild) {
+    install();
+    for (const char* name : {"denoise", "window"}) {
+        expectRuns(configure(REFLET_SOURCE "/examples/" + std::string(name), name));
+        expectRuns("cmake --build " + at(name));
+    }
+}
+
 TEST_F(Install, PkgConfigKnowsIt) {
     install();
     write("use.c",
