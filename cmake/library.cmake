@@ -48,6 +48,19 @@ elseif(REFLET_TESTS)
     add_library(reflet_exports ALIAS reflet)
 endif()
 
+# The API reference: cmake --build build --target docs writes html/ in the build folder.
+find_package(Doxygen QUIET)
+if(Doxygen_FOUND AND PROJECT_IS_TOP_LEVEL)
+    set(DOXYGEN_OPTIMIZE_OUTPUT_FOR_C YES)
+    set(DOXYGEN_JAVADOC_AUTOBRIEF YES)
+    set(DOXYGEN_EXTRACT_ALL NO)
+    set(DOXYGEN_WARN_AS_ERROR YES)
+    set(DOXYGEN_MACRO_EXPANSION YES)
+    set(DOXYGEN_EXPAND_ONLY_PREDEF YES)
+    set(DOXYGEN_PREDEFINED REFLET_API=)
+    doxygen_add_docs(docs include/reflet COMMENT "API reference")
+endif()
+
 if(REFLET_INSTALL)
     install(TARGETS reflet EXPORT refletTargets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}

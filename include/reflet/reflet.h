@@ -41,7 +41,8 @@
 #define REFLET_VERSION_MAJOR 0
 #define REFLET_VERSION_MINOR 1
 #define REFLET_VERSION_PATCH 0
-#define REFLET_MAKE_VERSION(major, minor, patch) (((uint32_t)(major) << 20) | ((uint32_t)(minor) << 10) | (uint32_t)(patch))
+#define REFLET_MAKE_VERSION(major, minor, patch) \
+    (((uint32_t)(major) << 20) | ((uint32_t)(minor) << 10) | (uint32_t)(patch))
 /** The version of this header; pass it to refletCreateContext. */
 #define REFLET_VERSION REFLET_MAKE_VERSION(REFLET_VERSION_MAJOR, REFLET_VERSION_MINOR, REFLET_VERSION_PATCH)
 
@@ -89,12 +90,13 @@ typedef struct RefletMemoryCallbacks {
     void* user; /**< passed on */
     /** Allocates as vkAllocateMemory would; must be thread-safe if contexts are used by several threads. */
     VkResult (*allocate)(void* user, const VkMemoryAllocateInfo* info, VkDeviceMemory* memory);
-    void (*free)(void* user, VkDeviceMemory memory);
+    void (*free)(void* user, VkDeviceMemory memory); /**< what `allocate` gave */
 } RefletMemoryCallbacks;
 
+/** The host's device, as a context needs to know it. */
 typedef struct RefletContextInfo {
-    size_t structSize; /**< required: sizeof(RefletContextInfo) */
-    uint32_t version;  /**< required: REFLET_VERSION */
+    size_t structSize;               /**< required: sizeof(RefletContextInfo) */
+    uint32_t version;                /**< required: REFLET_VERSION */
     VkInstance instance;             /**< required; Vulkan 1.3 */
     VkPhysicalDevice physicalDevice; /**< required */
     VkDevice device;                 /**< required; must outlive the context */
@@ -109,11 +111,11 @@ typedef struct RefletContextInfo {
     const VkPhysicalDeviceFeatures2* enabledFeatures;
     /** Extensions that were enabled, of instance and device. Used: VK_EXT_debug_utils, for names and labels. */
     const char* const* enabledExtensions;
-    uint32_t enabledExtensionCount;
+    uint32_t enabledExtensionCount;      /**< of enabledExtensions */
     const RefletMemoryCallbacks* memory; /**< copied; NULL: none */
     /** Called with the text of every error; NULL: none. */
     void (*log)(void* user, RefletResult result, const char* text);
-    void* logUser;
+    void* logUser; /**< passed to log */
 } RefletContextInfo;
 
 /** Makes a context. On failure *context is NULL. Records nothing, makes no pipelines. */
@@ -134,14 +136,14 @@ typedef enum RefletSettingType {
 
 /** A setting, for a host's user interface. The texts belong to the library and are valid for ever. */
 typedef struct RefletSettingInfo {
-    size_t structSize; /**< required */
-    const char* name;  /**< "trace_screen.max_steps", as `reflet list settings` prints it */
-    const char* help;  /**< what it does, and its effect on quality and cost */
-    RefletSettingType type;
-    double lowest; /**< of numbers */
-    double highest;
-    const char* range;    /**< as text: "1 to 4096", "true or false", "linear, halving, …" */
-    const char* standard; /**< the default, as text */
+    size_t structSize;      /**< required */
+    const char* name;       /**< "trace_screen.max_steps", as `reflet list settings` prints it */
+    const char* help;       /**< what it does, and its effect on quality and cost */
+    RefletSettingType type; /**< of its value */
+    double lowest;          /**< of numbers */
+    double highest;         /**< of numbers */
+    const char* range;      /**< as text: "1 to 4096", "true or false", "linear, halving, …" */
+    const char* standard;   /**< the default, as text */
 } RefletSettingInfo;
 
 /** preset: NULL or "" for the defaults, else as refletApplyPreset. */
@@ -164,6 +166,7 @@ REFLET_API RefletResult refletSettingInfo(uint32_t index, RefletSettingInfo* inf
 
 #define REFLET_MAX_FRAMES_IN_FLIGHT 4
 
+/** A view at its creation. */
 typedef struct RefletViewInfo {
     size_t structSize; /**< required */
     uint32_t width;    /**< required: pixels, 1 to 16384 */
@@ -198,11 +201,11 @@ REFLET_API RefletResult refletViewMemory(RefletView view, uint64_t* bytes);
  * Absent: image VK_NULL_HANDLE.
  */
 typedef struct RefletImage {
-    VkImage image;
-    VkImageView view;
-    VkFormat format;
-    uint32_t width; /**< pixels */
-    uint32_t height;
+    VkImage image;    /**< VK_NULL_HANDLE: absent */
+    VkImageView view; /**< of it, all of its size */
+    VkFormat format;  /**< of the view */
+    uint32_t width;   /**< pixels */
+    uint32_t height;  /**< pixels */
     /** Now. A layout that cannot be sampled is left for the time of the call, and restored. */
     VkImageLayout layout;
     VkPipelineStageFlags2 stages; /**< that wrote it last; 0: a barrier has already made it visible to compute */
@@ -240,27 +243,28 @@ typedef enum RefletMotionKind {
 
 /** All images have the view's size. */
 typedef struct RefletGBuffer {
-    RefletImage depth; /**< required: D16, D24S8, D32, D32S8, or R32F in red */
-    RefletDepthKind depthKind;
-    RefletImage normal; /**< required: shading normals */
-    RefletNormalKind normalKind;
+    RefletImage depth;           /**< required: D16, D24S8, D32, D32S8, or R32F in red */
+    RefletDepthKind depthKind;   /**< of `depth` and `backDepth` */
+    RefletImage normal;          /**< required: shading normals */
+    RefletNormalKind normalKind; /**< of `normal` and `geometricNormal` */
     /** 0: normals are in world space; 1: in view space. */
     uint32_t normalsInViewSpace;
-    /** Of the triangles, in the kind and space of `normal`; absent: from depth, which is wrong at edges of one pixel. */
+    /** Of the triangles, in the kind and space of `normal`; absent: from depth, which is wrong at edges of one pixel.
+     */
     RefletImage geometricNormal;
-    RefletImage roughness; /**< absent: 1 */
-    uint32_t roughnessChannel; /**< 0 to 3 */
-    RefletRoughnessKind roughnessKind;
-    RefletImage metallic; /**< absent: 0 */
-    uint32_t metallicChannel;
+    RefletImage roughness;             /**< absent: 1 */
+    uint32_t roughnessChannel;         /**< 0 to 3 */
+    RefletRoughnessKind roughnessKind; /**< of `roughness` */
+    RefletImage metallic;              /**< absent: 0 */
+    uint32_t metallicChannel;          /**< 0 to 3 */
     RefletImage baseColor; /**< of glTF's metallic-roughness model, or the albedo if `f0` is given; absent: 0.5 */
-    RefletColorKind baseColorKind;
+    RefletColorKind baseColorKind; /**< of `baseColor` */
     /** Linear specular reflectance at normal incidence; given: `metallic` is not read. */
     RefletImage f0;
     RefletImage motion; /**< red and green; absent: computed from the matrices, which is right for what does not move */
-    RefletMotionKind motionKind;
-    uint32_t motionIsBeforeMinusNow;  /**< 0: position now minus position in the last frame; 1: the negative of it */
-    uint32_t motionIncludesJitter;    /**< 1: computed from jittered positions */
+    RefletMotionKind motionKind;     /**< of `motion` */
+    uint32_t motionIsBeforeMinusNow; /**< 0: position now minus position in the last frame; 1: the negative of it */
+    uint32_t motionIncludesJitter;   /**< 1: computed from jittered positions */
     /**
      * Depth of the nearest back faces, in the kind of `depth`: with it `trace_screen.thickness_mode=second_layer` knows
      * how thick things are. Absent: that choice acts as `constant`.
@@ -268,6 +272,7 @@ typedef struct RefletGBuffer {
     RefletImage backDepth;
 } RefletGBuffer;
 
+/** A frame of a view: where it is recorded, its camera, and what the host has drawn. */
 typedef struct RefletFrameInfo {
     size_t structSize; /**< required */
     /** Required: recording, outside of a render pass, for a queue with compute. */
@@ -279,13 +284,13 @@ typedef struct RefletFrameInfo {
     float viewToClip[16];
     /** Of the last frame. Both zero: as in this one. */
     float previousWorldToView[16];
-    float previousViewToClip[16];
+    float previousViewToClip[16]; /**< without jitter */
     /**
      * Subpixel jitter in pixels, right and down, -0.5 to 0.5: pixel centres show what is this far from them; the host's
      * projection was moved by -2 * jitter / size in normalized device coordinates (y down).
      */
     float jitter[2];
-    float previousJitter[2];
+    float previousJitter[2]; /**< of the last frame */
     /** 0: y is down in clip space, as in Vulkan; 1: up, drawn with a viewport of negative height. */
     uint32_t clipYUp;
     RefletGBuffer gbuffer; /**< required */
@@ -320,6 +325,7 @@ REFLET_API RefletResult refletEndFrame(RefletView view);
  * waits for what the queue did before, so no barrier back is needed.
  */
 
+/** The sun, and the shadow maps that the host has drawn from it. */
 typedef struct RefletSunShadow {
     size_t structSize; /**< required */
     /**
@@ -327,8 +333,8 @@ typedef struct RefletSunShadow {
      * of one layer.
      */
     RefletImage map;
-    RefletDepthKind depthKind;
-    uint32_t clipYUp; /**< as in RefletFrameInfo, of the maps */
+    RefletDepthKind depthKind; /**< of `map` */
+    uint32_t clipYUp;          /**< as in RefletFrameInfo, of the maps */
     /** Required: 1: `map` is a 2D image; 2 to 4: a 2D array view of as many layers, from near to far. */
     uint32_t cascades;
     float worldToClip[4][16]; /**< required: of each cascade */
@@ -361,6 +367,7 @@ typedef struct RefletEnvironment {
     uint64_t revision;
 } RefletEnvironment;
 
+/** What rays find: the light of the picture, and that from beyond it. */
 typedef struct RefletIndirectLight {
     size_t structSize; /**< required */
     /**
@@ -369,7 +376,7 @@ typedef struct RefletIndirectLight {
      * further bounces; if it did not run, this image.
      */
     RefletImage light;
-    RefletEnvironment environment;
+    RefletEnvironment environment; /**< what rays find that hit nothing */
 } RefletIndirectLight;
 
 /** One lobe of indirect light. */
@@ -384,7 +391,8 @@ typedef struct RefletLobe {
     uint32_t downsample; /**< `diffuse.downsample` or `specular.downsample` */
 } RefletLobe;
 
-/** Screen-space diffuse global illumination (SSGI): `diffuse.rays` rays per traced pixel, denoised if the settings say so. */
+/** Screen-space diffuse global illumination (SSGI): `diffuse.rays` rays per traced pixel, denoised if the settings say
+ * so. */
 REFLET_API RefletResult refletDiffuseGi(RefletView view, RefletSettings settings, const RefletIndirectLight* light,
                                         RefletLobe* lobe);
 /**
@@ -397,13 +405,14 @@ REFLET_API RefletResult refletReflections(RefletView view, RefletSettings settin
 typedef enum RefletLobeKind { REFLET_LOBE_DIFFUSE = 0, REFLET_LOBE_SPECULAR = 1 } RefletLobeKind;
 
 /**
- * Denoises a lobe that the host traced itself, by ray tracing for instance: of the view's size, RGB radiance without the
- * surface's reflectance, as in RefletLobe, alpha: hit distance in metres. Stands in for refletDiffuseGi or
+ * Denoises a lobe that the host traced itself, by ray tracing for instance: of the view's size, RGB radiance without
+ * the surface's reflectance, as in RefletLobe, alpha: hit distance in metres. Stands in for refletDiffuseGi or
  * refletReflections in this frame: refletComposite takes its result.
  */
 REFLET_API RefletResult refletDenoise(RefletView view, RefletSettings settings, RefletLobeKind kind,
                                       const RefletImage* noisy, RefletLobe* lobe);
 
+/** Results of refletComposite, at full resolution. */
 typedef struct RefletComposite {
     size_t structSize; /**< set by the host, too */
     RefletImage lit;   /**< RGBA16F: light + both below; alpha: distance in front of the camera in metres, 0: sky */
@@ -446,16 +455,17 @@ typedef enum RefletEffect {
     REFLET_EFFECT_TONE_MAP = 1 << 7
 } RefletEffect;
 
+/** What the frames to come will be. */
 typedef struct RefletPrepareInfo {
-    size_t structSize;  /**< required */
-    uint32_t effects;   /**< required: a combination of RefletEffect */
+    size_t structSize; /**< required */
+    uint32_t effects;  /**< required: a combination of RefletEffect */
     /** Required: as in the frames to come; of its images only whether they are given matters, any handle will do. */
     const RefletGBuffer* gbuffer;
-    uint32_t hasEnvironmentImage; /**< 1: RefletEnvironment::image will be given */
-    uint32_t cascades;            /**< of RefletSunShadow; 0 stands for 1 */
-    RefletDepthKind shadowDepthKind;
-    uint32_t shadowMapSide; /**< texels; 0: 2048 */
-    uint32_t autoExposure;  /**< of refletToneMap */
+    uint32_t hasEnvironmentImage;    /**< 1: RefletEnvironment::image will be given */
+    uint32_t cascades;               /**< of RefletSunShadow; 0 stands for 1 */
+    RefletDepthKind shadowDepthKind; /**< of RefletSunShadow::map */
+    uint32_t shadowMapSide;          /**< texels; 0: 2048 */
+    uint32_t autoExposure;           /**< of refletToneMap */
 } RefletPrepareInfo;
 
 /**
@@ -468,6 +478,7 @@ REFLET_API RefletResult refletPrepare(RefletView view, RefletSettings settings, 
 
 /* --------------------------------------------------------------------------------------------------- debugging --- */
 
+/** Device time of one pass. */
 typedef struct RefletPassTime {
     const char* name;    /**< "diffuse.trace_screen"; valid until the view's next refletBeginFrame */
     double milliseconds; /**< device time; of passes of the same name the sum */

@@ -13,7 +13,7 @@ class Arguments : public ::testing::Test {
 protected:
     Arguments() : room_(host_, {}) {
         context_ = host_.makeContext();
-        const RefletViewInfo info{sizeof info, Room::width, Room::height, 3};
+        const RefletViewInfo info{sizeof info, HostRoom::width, HostRoom::height, 3};
         EXPECT_REFLET(refletCreateView(context_, &info, &view_));
         EXPECT_REFLET(refletCreateSettings("fast", &settings_));
     }
@@ -43,7 +43,7 @@ protected:
     }
 
     LibraryHost host_;
-    Room room_;
+    HostRoom room_;
     RefletContext context_ = nullptr;
     RefletView view_ = nullptr;
     RefletSettings settings_ = nullptr;

@@ -275,7 +275,7 @@ std::vector<std::byte> LibraryHost::read(const RefletImage& image, size_t bytesP
 }
 
 // Camera at (0, 1, 3), a little downward; floor y = 0 in front of a wall at z = -3, 2 m high.
-Room::Room(LibraryHost& host, RoomConventions conventions) {
+HostRoom::HostRoom(LibraryHost& host, RoomConventions conventions) {
     const bool odd = conventions.unusual;
     const float near = 0.1F;
     const float far = 100.0F;
@@ -355,7 +355,7 @@ Room::Room(LibraryHost& host, RoomConventions conventions) {
     shadowMap_ = host.makeImage(VK_FORMAT_R32_SFLOAT, 64, 64, std::vector<float>(size_t(64) * 64, 0.0F));
 }
 
-RefletFrameInfo Room::frame(VkCommandBuffer commands, uint32_t index) const {
+RefletFrameInfo HostRoom::frame(VkCommandBuffer commands, uint32_t index) const {
     RefletFrameInfo info = info_;
     info.commandBuffer = commands;
     info.frameIndex = index;
@@ -363,7 +363,7 @@ RefletFrameInfo Room::frame(VkCommandBuffer commands, uint32_t index) const {
     return info;
 }
 
-RefletIndirectLight Room::light() const {
+RefletIndirectLight HostRoom::light() const {
     RefletIndirectLight light{};
     light.structSize = sizeof light;
     light.light = lit_;
@@ -373,7 +373,7 @@ RefletIndirectLight Room::light() const {
     return light;
 }
 
-RefletSunShadow Room::sun() const {
+RefletSunShadow HostRoom::sun() const {
     RefletSunShadow sun{};
     sun.structSize = sizeof sun;
     sun.map = shadowMap_;
@@ -383,7 +383,7 @@ RefletSunShadow Room::sun() const {
     return sun;
 }
 
-RoomResults recordRoom(const Room& room, RefletView view, RefletSettings settings, VkCommandBuffer commands,
+RoomResults recordRoom(const HostRoom& room, RefletView view, RefletSettings settings, VkCommandBuffer commands,
                        uint32_t index) {
     RoomResults out;
     const RefletFrameInfo frame = room.frame(commands, index);

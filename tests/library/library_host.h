@@ -72,12 +72,12 @@ struct RoomConventions {
 };
 
 /// A floor, a wall and sky, from analytic rays.
-class Room {
+class HostRoom {
 public:
     static constexpr uint32_t width = 64;
     static constexpr uint32_t height = 40;
 
-    Room(LibraryHost& host, RoomConventions conventions);
+    HostRoom(LibraryHost& host, RoomConventions conventions);
 
     [[nodiscard]] RefletFrameInfo frame(VkCommandBuffer commands, uint32_t index) const;
     [[nodiscard]] RefletIndirectLight light() const;
@@ -100,7 +100,7 @@ struct RoomResults {
 };
 
 /// Records all effects. Fails the test on an error.
-RoomResults recordRoom(const Room& room, RefletView view, RefletSettings settings, VkCommandBuffer commands,
+RoomResults recordRoom(const HostRoom& room, RefletView view, RefletSettings settings, VkCommandBuffer commands,
                        uint32_t index);
 
 /// Asserts success, and prints the library's text otherwise.

@@ -49,8 +49,8 @@ protected:
         }
     }
 
-    RefletView makeView(RefletContext context, uint32_t framesInFlight, uint32_t width = Room::width,
-                        uint32_t height = Room::height) {
+    RefletView makeView(RefletContext context, uint32_t framesInFlight, uint32_t width = HostRoom::width,
+                        uint32_t height = HostRoom::height) {
         RefletViewInfo info{sizeof info, width, height, framesInFlight};
         RefletView view = nullptr;
         EXPECT_REFLET(refletCreateView(context, &info, &view));
@@ -61,7 +61,7 @@ protected:
         EXPECT_REFLET(refletCreateSettings(preset, &settings));
         return settings;
     }
-    RoomResults renderFrames(const Room& room, RefletView view, RefletSettings settings, uint32_t count,
+    RoomResults renderFrames(const HostRoom& room, RefletView view, RefletSettings settings, uint32_t count,
                              bool wait = false) {
         RoomResults results;
         for (uint32_t i = 0; i < count; ++i) {
@@ -82,18 +82,18 @@ TEST_F(Library, LightsARoom) {
     RefletContext context = host_.makeContext();
     RefletSettings settings = makeSettings("balanced");
     RefletView view = makeView(context, 3);
-    const Room room(host_, {});
+    const HostRoom room(host_, {});
     const RoomResults results = renderFrames(room, view, settings, 8);
     EXPECT_EQ(results.sum.lit.format, VK_FORMAT_R16G16B16A16_SFLOAT);
     EXPECT_EQ(results.diffuse.downsample, 2U);
-    EXPECT_EQ(results.diffuse.radiance.width, Room::width / 2);
-    EXPECT_EQ(results.visibility.width, Room::width);
+    EXPECT_EQ(results.diffuse.radiance.width, HostRoom::width / 2);
+    EXPECT_EQ(results.visibility.width, HostRoom::width);
     const std::vector<vec4> diffuse = halvesOf(host_, results.sum.indirectDiffuse);
     const std::vector<vec4> specular = halvesOf(host_, results.sum.indirectSpecular);
     const std::vector<vec4> lit = halvesOf(host_, results.sum.lit);
     // The wall is not metallic, the floor is: the one has diffuse light, the other only reflections.
-    const uint32_t wall = Room::width / 2 + Room::width * (Room::height / 3);
-    const uint32_t floor = Room::width / 2 + Room::width * (Room::height - 4);
+    const uint32_t wall = HostRoom::width / 2 + HostRoom::width * (HostRoom::height / 3);
+    const uint32_t floor = HostRoom::width / 2 + HostRoom::width * (HostRoom::height - 4);
     EXPECT_GT(diffuse[wall].y, 0.02F);
     EXPECT_LT(diffuse[floor].y, 1e-3F);
     EXPECT_GT(specular[floor].x, 0.05F);
@@ -125,7 +125,7 @@ TEST_F(Library, ConventionsDoNotMatter) {
     Imported both[2];
     for (int i = 0; i < 2; ++i) {
         RefletView view = makeView(context, 3);
-        const Room room(host_, {.unusual = i == 1});
+        const HostRoom room(host_, {.unusual = i == 1});
         const RoomResults results = renderFrames(room, view, settings, 1);
         const auto find = [&](const char* name) {
             RefletImage image{};
@@ -176,7 +176,7 @@ TEST_F(Library, NormalsFromDepthAreThoseOfThePlanes) {
     RefletSettings settings = makeSettings("fast");
     for (const bool unusual : {false, true}) {
         RefletView view = makeView(context, 3);
-        const Room room(host_, {.unusual = unusual});
+        const HostRoom room(host_, {.unusual = unusual});
         renderFrames(room, view, settings, 1);
         RefletImage images[3];
         for (int i = 0; i < 3; ++i) {
@@ -190,7 +190,7 @@ TEST_F(Library, NormalsFromDepthAreThoseOfThePlanes) {
             const vec2 wanted = glm::unpackSnorm2x16(normal[i]);
             const vec2 found = glm::unpackSnorm2x16(fromDepth[i]);
             ASSERT_TRUE(depth[i] == 0.0F || glm::distance(wanted, found) < 0.02F)
-                << i % Room::width << ' ' << i / Room::width << ": " << found.x << ' ' << found.y;
+                << i % HostRoom::width << ' ' << i / HostRoom::width << ": " << found.x << ' ' << found.y;
         }
         refletDestroyView(view);
     }
@@ -203,7 +203,7 @@ TEST_F(Library, StaysFiniteWhateverTheHostDraws) {
     RefletSettings settings = makeSettings("balanced");
     for (const bool unusual : {false, true}) {
         RefletView view = makeView(context, 3);
-        const Room room(host_, {.spoiled = true, .unusual = unusual});
+        const HostRoom room(host_, {.spoiled = true, .unusual = unusual});
         const RoomResults results = renderFrames(room, view, settings, 4);
         for (const RefletImage& image :
              {results.sum.lit, results.sum.indirectDiffuse, results.sum.indirectSpecular, results.antialiased}) {
@@ -220,7 +220,7 @@ TEST_F(Library, StaysFiniteWhateverTheHostDraws) {
 TEST_F(Library, AnyNumberOfFramesInFlightGivesTheSame) {
     RefletContext context = host_.makeContext();
     RefletSettings settings = makeSettings("fast");
-    const Room room(host_, {});
+    const HostRoom room(host_, {});
     std::vector<uint32_t> first;
     for (uint32_t framesInFlight = 1; framesInFlight <= REFLET_MAX_FRAMES_IN_FLIGHT; ++framesInFlight) {
         RefletView view = makeView(context, framesInFlight);
@@ -238,7 +238,7 @@ TEST_F(Library, PreparesAllPipelinesAndMakesNothingInLaterFrames) {
     RefletContext context = host_.makeContext();
     RefletSettings settings = makeSettings("balanced");
     RefletView view = makeView(context, 3);
-    const Room room(host_, {});
+    const HostRoom room(host_, {});
     const RefletFrameInfo frame = room.frame(VK_NULL_HANDLE, 0);
     RefletPrepareInfo info{};
     info.structSize = sizeof info;
@@ -296,7 +296,7 @@ TEST_F(Library, TellsItsMemoryAndGivesAllBack) {
     RefletContext context = nullptr;
     EXPECT_REFLET(refletCreateContext(&info, &context));
     RefletSettings settings = makeSettings("fast");
-    const Room room(host_, {});
+    const HostRoom room(host_, {});
     RefletView one = makeView(context, 3);
     RefletView other = makeView(context, 3);
     renderFrames(room, one, settings, 4);
@@ -306,7 +306,7 @@ TEST_F(Library, TellsItsMemoryAndGivesAllBack) {
         return bytes;
     };
     const uint64_t first = memoryOf(one);
-    EXPECT_GT(first, uint64_t(Room::width) * Room::height * 100);
+    EXPECT_GT(first, uint64_t(HostRoom::width) * HostRoom::height * 100);
     renderFrames(room, other, settings, 4);
     EXPECT_EQ(memoryOf(one), first);
     EXPECT_EQ(memoryOf(other), first) << "the same work takes the same memory";
@@ -330,13 +330,13 @@ TEST_F(Library, ManySizesLeaveNoMemoryBehind) {
     RefletContext context = host_.makeContext();
     RefletSettings settings = makeSettings("fast");
     RefletView view = makeView(context, 3);
-    const Room room(host_, {});
+    const HostRoom room(host_, {});
     renderFrames(room, view, settings, 4);
     uint64_t before = 0;
     EXPECT_REFLET(refletViewMemory(view, &before));
     for (uint32_t i = 0; i < 6; ++i) {
         EXPECT_REFLET(refletResizeView(view, 100 + i, 50 + 3 * i));
-        EXPECT_REFLET(refletResizeView(view, Room::width, Room::height));
+        EXPECT_REFLET(refletResizeView(view, HostRoom::width, HostRoom::height));
         renderFrames(room, view, settings, 1);
     }
     renderFrames(room, view, settings, 4);
@@ -354,7 +354,7 @@ TEST_F(Library, AResetForgetsTheHistory) {
     RefletContext context = host_.makeContext();
     RefletSettings settings = makeSettings("fast");
     RefletView view = makeView(context, 3);
-    const Room room(host_, {});
+    const HostRoom room(host_, {});
     const std::vector<uint32_t> first = texelsOf<uint32_t>(host_, renderFrames(room, view, settings, 1).display);
     const std::vector<uint32_t> later = texelsOf<uint32_t>(host_, renderFrames(room, view, settings, 4).display);
     EXPECT_NE(first, later);
@@ -371,7 +371,7 @@ TEST_F(Library, WorksOnTwoDevicesAndTwoThreads) {
     RefletContext contexts[2] = {host_.makeContext(), second.makeContext()};
     refletDestroyContext(contexts[1]);
     RefletContext context = contexts[0];
-    const Room room(host_, {});
+    const HostRoom room(host_, {});
     RefletSettings settings = makeSettings("fast");
     RefletView views[2] = {makeView(context, 3), makeView(context, 3)};
     std::vector<uint32_t> pictures[2];
@@ -401,9 +401,9 @@ TEST_F(Library, DenoisesALobeOfTheHost) {
     RefletContext context = host_.makeContext();
     RefletSettings settings = makeSettings("fast");
     RefletView view = makeView(context, 3);
-    const Room room(host_, {});
+    const HostRoom room(host_, {});
     // Half of the samples are 2, half 0: the mean is 1.
-    std::vector<std::vector<float>> noisy(16, std::vector<float>(size_t(4) * Room::width * Room::height));
+    std::vector<std::vector<float>> noisy(16, std::vector<float>(size_t(4) * HostRoom::width * HostRoom::height));
     std::vector<RefletImage> images;
     uint32_t state = 1;
     for (std::vector<float>& texels : noisy) {
@@ -413,7 +413,7 @@ TEST_F(Library, DenoisesALobeOfTheHost) {
             texels[i] = texels[i + 1] = texels[i + 2] = value;
             texels[i + 3] = 2.0F;
         }
-        images.push_back(host_.makeImage(VK_FORMAT_R32G32B32A32_SFLOAT, Room::width, Room::height, texels));
+        images.push_back(host_.makeImage(VK_FORMAT_R32G32B32A32_SFLOAT, HostRoom::width, HostRoom::height, texels));
     }
     RefletLobe clean{};
     for (uint32_t i = 0; i < images.size(); ++i) {
@@ -429,9 +429,9 @@ TEST_F(Library, DenoisesALobeOfTheHost) {
     double sum = 0.0;
     double square = 0.0;
     size_t count = 0;
-    for (uint32_t y = Room::height / 4; y < Room::height / 3; ++y) {  // on the wall, which has diffuse light
-        for (uint32_t x = 8; x < Room::width - 8; ++x) {
-            const double value = texels[size_t(y) * Room::width + x].x;
+    for (uint32_t y = HostRoom::height / 4; y < HostRoom::height / 3; ++y) {  // on the wall, which has diffuse light
+        for (uint32_t x = 8; x < HostRoom::width - 8; ++x) {
+            const double value = texels[size_t(y) * HostRoom::width + x].x;
             sum += value;
             square += value * value;
             ++count;

@@ -34,7 +34,7 @@ double megabytes(RefletContext context, const char* preset, uint32_t effects, ui
 int main() {
     LibraryHost host;
     RefletContext context = host.makeContext();
-    const Room room(host, {});
+    const HostRoom room(host, {});
     const RefletGBuffer gbuffer = room.frame(nullptr, 0).gbuffer;
     struct Row {
         const char* name;
