@@ -293,9 +293,9 @@ typedef struct RefletFrameInfo {
     float previousJitter[2]; /**< of the last frame */
     /** 0: y is down in clip space, as in Vulkan; 1: up, drawn with a viewport of negative height. */
     uint32_t clipYUp;
-    RefletGBuffer gbuffer; /**< required */
     /** Seconds since the last frame, for automatic exposure. */
     float elapsed;
+    RefletGBuffer gbuffer; /**< required; the last field, so that it can grow */
 } RefletFrameInfo;
 
 /**

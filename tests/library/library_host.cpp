@@ -171,7 +171,6 @@ LibraryHost::LibraryHost() {
     features_.features.shaderStorageImageExtendedFormats = VK_TRUE;
     features_.features.imageCubeArray = VK_TRUE;
     volkLoadInstance(host.device().instance);
-    volkLoadDevice(host.device().device);
     made() = {};
 }
 
