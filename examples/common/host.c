@@ -262,7 +262,9 @@ static void open_device(Host* h, const char* const* extensions, uint32_t count) 
     vkEnumeratePhysicalDevices(h->instance, &one, &h->physical);
     if (one == 0) check(VK_ERROR_INITIALIZATION_FAILED, "finding a device");
     VkQueueFamilyProperties families[16];
-    uint32_t known = 16;
+    uint32_t known = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(h->physical, &known, NULL);
+    known = known < 16 ? known : 16;
     vkGetPhysicalDeviceQueueFamilyProperties(h->physical, &known, families);
     while ((families[h->family].queueFlags & VK_QUEUE_GRAPHICS_BIT) == 0 && h->family + 1 < known) ++h->family;
     h->features13 = (VkPhysicalDeviceVulkan13Features){.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
