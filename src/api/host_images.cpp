@@ -100,6 +100,19 @@ VkImageLayout sampledLayout(const RefletImage& image) {
     return isSampledIn(image.layout) ? image.layout : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 }
 
+// What a host may do with an image in a layout.
+VkAccessFlags2 accessIn(VkImageLayout layout) {
+    switch (layout) {
+        case VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL:
+            return VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
+        case VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL:
+        case VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL:
+            return VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
+        default:
+            return VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+    }
+}
+
 }  // namespace
 
 void checkImage(const RefletImage& image, const char* name, uvec2 size) {
@@ -169,7 +182,7 @@ HostImages::~HostImages() {
         VkImageMemoryBarrier2 barrier = barrierOf(image);
         barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
         barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-        barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+        barrier.dstAccessMask = accessIn(image.layout);
         barrier.oldLayout = sampledLayout(image);
         barrier.newLayout = image.layout;
         barriers.push_back(barrier);

@@ -156,7 +156,8 @@ add_executable(host main.c)
 target_link_libraries(host PRIVATE reflet::reflet)
 )");
     write("host/main.c", "#include <reflet/reflet.h>\nint main(void) { return 0; }\n");
-    expectRuns("cmake -S " + at("host") + " -B " + at("built") + " -G Ninja");
+    expectRuns("cmake -S " + at("host") + " -B " + at("built") + " -G Ninja -DREFLET_EXAMPLES=ON");
+    EXPECT_NE(run("ninja -C " + at("built") + " -t targets all").said.find("reflet_window_example: phony"), std::string::npos);
 }
 
 // Without the indentation, which differs inside of functions.
