@@ -218,7 +218,7 @@ gpu::Image recordTemporal(RefletView_T& view, Frame& frame, const Settings& sett
     if (!radiance) {
         failArgument("color: is NULL, and refletComposite has not run in this frame");
     }
-    frame.antialiased = temporal(f, view.images->temporal, {frame.g, radiance, {}, frame.view}, settings.temporal).mean;
+    frame.antialiased = temporal(f, view.images->temporal, {frame.g, radiance, {}, frame.view, radiance.size, {}}, settings.temporal).mean;
     return frame.antialiased;
 }
 

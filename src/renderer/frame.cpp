@@ -329,14 +329,16 @@ FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in
     out.unfiltered = out.light.lit;
     if (historyUse(settings).temporal) {
         const TemporalImages means =
-            temporal(f, own.temporal, {out.g, out.light.lit, out.coverage, in.view}, settings.temporal);
+            temporal(f, own.temporal, {out.g, out.light.lit, out.coverage, in.view, in.outputSize, in.jitter},
+                     settings.temporal);
         out.temporal = means.mean;
         out.light.lit = means.mean;
         out.coverage = means.coverage;
     }
     if (in.autoExposure) {
+        const gpu::Image metered = out.light.lit.size == out.g.depth.size ? out.light.lit : out.unfiltered;
         out.exposure =
-            measureExposure(f, own.exposure, out.light.lit, out.g.depth, in.elapsed, settings.tonemap.adaptation);
+            measureExposure(f, own.exposure, metered, out.g.depth, in.elapsed, settings.tonemap.adaptation);
     }
     const gpu::Image radiance =
         out.coverage ? straightRadiance(f, own.straight, out.light.lit, out.coverage) : out.light.lit;

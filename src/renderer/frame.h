@@ -81,6 +81,8 @@ struct FrameInputs : ViewInputs {
     FrameBackground background{};
     bool autoExposure = false;  ///< measure the exposure
     float elapsed = 0.0F;       ///< seconds of the scene's time since the last frame, not negative
+    uvec2 outputSize{};         ///< of the picture; larger than the view's size with temporal upscaling
+    vec2 jitter{};              ///< of `view`, in its pixels
 };
 
 /// All images of the frame; formats are documented with the effects.
@@ -91,7 +93,7 @@ struct FrameImages : ViewImages {
     LobeLight specular;
     Composite light;
     gpu::Image unfiltered;  ///< light.lit before temporal antialiasing
-    gpu::Image temporal;    ///< radiance, history length; none without temporal antialiasing
+    gpu::Image temporal;    ///< of FrameInputs.outputSize, as light.lit then is: radiance, history length; none without temporal antialiasing
     gpu::Image coverage;    ///< red: share of the pixel that surfaces cover; light.lit is premultiplied by it. None
                             ///< unless the background is a colour or transparent
     gpu::Image exposure;    ///< of measureExposure; none without automatic exposure

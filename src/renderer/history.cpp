@@ -8,6 +8,7 @@
 #include "scene/scene.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace reflet {
 
@@ -52,9 +53,16 @@ uint32_t framesToSettle(HistoryUse use, const Settings& settings) {
         return 1;
     }
     // Each round of all faces carries light one bounce further.
+    const float upscaling = use.temporal ? settings.temporal.scale * settings.temporal.scale : 1.0F;
+    const auto settled = static_cast<uint32_t>(std::ceil(static_cast<float>(settlingFrames) / upscaling));
     constexpr uint32_t facesOfAProbe = 6;
     const uint32_t captures = settings.probes.count * facesOfAProbe * (1 + settings.probes.bounces);
-    return std::max(settlingFrames, use.probes ? captures : 0U);
+    return std::max(settled, use.probes ? captures : 0U);
+}
+
+uvec2 renderSize(const Settings& settings, uvec2 size) {
+    const float scale = historyUse(settings).temporal ? settings.temporal.scale : 1.0F;
+    return glm::max(uvec2(glm::round(vec2(size) * scale)), uvec2(1));
 }
 
 vec2 frameJitter(const Settings& settings, uint32_t frame, uint32_t framesBefore) {

@@ -34,6 +34,9 @@ HistoryUse historyUse(const Settings& settings, const Scene& scene);
 /// there is no history. A mean (accumulate) never settles; it counts as the reference's default, 64 samples per pixel.
 uint32_t framesToSettle(HistoryUse use, const Settings& settings);
 
+/// The size at which a picture of `size` is rendered: temporal upscaling brings it to full size.
+uvec2 renderSize(const Settings& settings, uvec2 size);
+
 /// Subpixel jitter of a frame, in pixels off the pixel's centre; 0 where nothing averages over frames. `frame` counts
 /// from the renderer's start, `framesBefore` those with the same view and settings.
 vec2 frameJitter(const Settings& settings, uint32_t frame, uint32_t framesBefore);

@@ -160,7 +160,7 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
                              const std::function<void(gpu::Frame&, const FrameImages&)>& after) {
     const View view = posed(asked, source_);
     pose(view);
-    ViewParams params = makeViewParams(view.camera, size, frameNumber_++, seed);
+    ViewParams params = resized(makeViewParams(view.camera, size, frameNumber_++, seed), renderSize(settings, size));
     params.previousWorldToClip = previousWorldToClip_.value_or(params.worldToClip);
     previousWorldToClip_ = params.worldToClip;
     const uint32_t framesBefore = countFramesBefore(view, params, settings);
@@ -170,7 +170,8 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
     previousPlace_ = place;
     LampBlock lamps = scene_.lamps();
     const LampShadows lampShadows = planLamps(lamps, view, settings.shadow);
-    scene_.setTextureFilter({settings.materials.anisotropy, settings.materials.mips != 0, settings.materials.mipBias});
+    scene_.setTextureFilter({settings.materials.anisotropy, settings.materials.mips != 0,
+                             settings.materials.mipBias + std::log2(params.size.y / static_cast<float>(size.y))});
     scene_.setLiveHeight(settings.live.height);
     const TracedScene* traced = tracedScene(settings);
     frame_.begin();
@@ -195,7 +196,9 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
                        framesBefore,
                        backgroundOf(view),
                        exposesAutomatically(settings.tonemap, source_),
-                       static_cast<float>(std::abs(asked.time - previousTime_.value_or(asked.time)))};
+                       static_cast<float>(std::abs(asked.time - previousTime_.value_or(asked.time))),
+                       size,
+                       place};
     previousTime_ = asked.time;
     inputs.probes = probes_.update(frame_, inputs, probesOf(view, settings.probes), settings);
     const FrameImages images = renderFrame(frame_, store_, inputs, settings);

@@ -30,4 +30,11 @@ ViewParams makeViewParams(const Camera& camera, uvec2 size, uint32_t frame, uint
     return v;
 }
 
+ViewParams resized(ViewParams view, uvec2 size) {
+    view.pixelAngle *= view.size.y / static_cast<float>(size.y);
+    view.size = vec2(size);
+    view.pixel = 1.0F / view.size;
+    return view;
+}
+
 }  // namespace reflet

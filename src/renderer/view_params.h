@@ -9,4 +9,7 @@ namespace reflet {
 /// previousWorldToClip is set to the camera's own worldToClip.
 ViewParams makeViewParams(const Camera& camera, uvec2 size, uint32_t frame, uint32_t seed);
 
+/// The same view in another number of pixels: its sides need not have exactly the same ratio.
+ViewParams resized(ViewParams view, uvec2 size);
+
 }  // namespace reflet

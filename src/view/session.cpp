@@ -191,7 +191,7 @@ Picked Session::pick(const ViewerState& state, uvec2 size, uvec2 pixel) {
                 }
             }
             ray = recordRay(f, recordRay_, {made.g, made.backDepth, made.pyramid}, made.view, settings.traceScreen,
-                            pixel);
+                            pixel * made.g.depth.size / size);
         });
     Picked picked{pixel, {}, recordedRay(frame(), ray), params_, changes_};
     for (const ShowReadback& readback : readbacks) {

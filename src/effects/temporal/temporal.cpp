@@ -1,4 +1,4 @@
-// Records temporal antialiasing.
+// Records temporal antialiasing and upscaling.
 #include "effects/temporal/temporal.h"
 
 namespace reflet {
@@ -11,35 +11,84 @@ mat4 skyToPrevious(const ViewParams& view) {
     return moves ? mat4(glm::dmat4(view.previousWorldToClip) * glm::dmat4(view.clipToWorld)) : mat4(1.0F);
 }
 
+// The histories of this frame.
+struct Histories {
+    gpu::History mean;
+    gpu::History deviations;
+    gpu::History coverage;
+    bool valid = false;
+};
+
+Histories swapHistories(gpu::Recorder& f, TemporalStore& own, uvec2 size, bool covers) {
+    // Of frames at rest, deviation of the tone-compressed luma from the history: variance, and mean over the last few
+    // frames.
+    Histories h{own.mean.swap(f, VK_FORMAT_R16G16B16A16_SFLOAT, size),
+                own.deviations.swap(f, VK_FORMAT_R16G16_SFLOAT, size), {}, false};
+    h.valid = h.mean.valid;
+    if (covers) {
+        h.coverage = own.coverage.swap(f, VK_FORMAT_R32_SFLOAT, size);
+        h.valid = h.valid && h.coverage.valid;
+    }
+    return h;
+}
+
+void bindHistories(gpu::Pass& pass, const Histories& h, const TemporalInputs& in) {
+    pass.read("radiance", in.radiance)
+        .read("previousMean", h.mean.previous)
+        .read("previousDeviations", h.deviations.previous)
+        .write("mean", h.mean.next)
+        .write("deviations", h.deviations.next);
+    if (in.coverage) {
+        pass.read("coverage", in.coverage).read("previousCoverage", h.coverage.previous);
+        pass.write("meanCoverage", h.coverage.next);
+    }
+}
+
+uvec2 columns(uvec2 size) {
+    return {size.x, (size.y + temporalColumn - 1) / temporalColumn};
+}
+
+void upscale(gpu::Recorder& f, const Histories& h, const TemporalInputs& in, const TemporalParams& params) {
+    gpu::Scratch scratch(f);
+    const gpu::Image around = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, params.size);
+    const gpu::Image spread = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, params.size);
+    gpu::Pass near = f.compute("temporal.around", in.coverage ? "temporal_around_coverage.comp" : "temporal_around.comp");
+    gpu::Pass add = f.compute("temporal.upscale", in.coverage ? "temporal_upscale_coverage.comp" : "temporal_upscale.comp");
+    if (in.coverage) {
+        const gpu::Image covered = scratch.storage(VK_FORMAT_R16G16_SFLOAT, params.size);
+        near.read("coverage", in.coverage).write("coveredAround", covered);
+        add.read("coveredAround", covered);
+    }
+    near.read("radiance", in.radiance)
+        .read("depth", in.g.depth)
+        .read("motion", in.g.motion)
+        .write("around", around)
+        .write("spread", spread)
+        .params(params)
+        .dispatch(columns(params.size));
+    bindHistories(add, h, in);
+    add.read("around", around)
+        .read("spread", spread)
+        .params(TemporalUpscaleParams{params.settings, params.size, vec2(params.size) / vec2(in.outputSize), in.jitter,
+                                      params.frame, params.hasPrevious})
+        .dispatch(in.outputSize);
+}
+
 }  // namespace
 
 TemporalImages temporal(gpu::Recorder& f, TemporalStore& own, const TemporalInputs& in,
                         const TemporalSettings& settings) {
     const uvec2 size = in.radiance.size;
-    const gpu::History mean = own.mean.swap(f, VK_FORMAT_R16G16B16A16_SFLOAT, size);
-    // Of frames at rest, deviation of the tone-compressed luma from the history: variance, and mean over the last few
-    // frames.
-    const gpu::History deviations = own.deviations.swap(f, VK_FORMAT_R16G16_SFLOAT, size);
-    bool valid = mean.valid;
-    TemporalImages out{mean.next, {}};
-    gpu::Pass pass = f.compute("temporal", in.coverage ? "temporal_coverage.comp" : "temporal.comp");
-    if (in.coverage) {
-        const gpu::History coverage = own.coverage.swap(f, VK_FORMAT_R32_SFLOAT, size);
-        pass.read("coverage", in.coverage).read("previousCoverage", coverage.previous);
-        pass.write("meanCoverage", coverage.next);
-        valid = valid && coverage.valid;
-        out.coverage = coverage.next;
+    const Histories h = swapHistories(f, own, in.outputSize, static_cast<bool>(in.coverage));
+    const TemporalParams params{skyToPrevious(in.view), settings, size, in.view.frame, h.valid ? 1U : 0U};
+    if (size != in.outputSize) {
+        upscale(f, h, in, params);
+    } else {
+        gpu::Pass pass = f.compute("temporal", in.coverage ? "temporal_coverage.comp" : "temporal.comp");
+        bindHistories(pass, h, in);
+        pass.read("depth", in.g.depth).read("motion", in.g.motion).params(params).dispatch(columns(size));
     }
-    pass.read("radiance", in.radiance)
-        .read("depth", in.g.depth)
-        .read("motion", in.g.motion)
-        .read("previousMean", mean.previous)
-        .read("previousDeviations", deviations.previous)
-        .write("mean", mean.next)
-        .write("deviations", deviations.next)
-        .params(TemporalParams{skyToPrevious(in.view), settings, size, in.view.frame, valid ? 1U : 0U})
-        .dispatch(size.x, (size.y + temporalColumn - 1) / temporalColumn);
-    return out;
+    return {h.mean.next, h.coverage.next};
 }
 
 }  // namespace reflet

@@ -4,9 +4,14 @@
 // Each pixel is reprojected (by the motion of the nearest surface in its neighbourhood, so that edges move with the
 // foreground), reads the history there (Catmull-Rom, to stay sharp), clips it to the local distribution of this frame's
 // pixels (history clip), and blends in this frame with a weight of one over the history length.
+// Frames may be smaller than the output (temporal upscaling): the jitter then brings samples to all of the output's
+// pixels in turn. At rest, a pixel's mean takes only samples that lie in its own area, so that it converges to what a
+// frame of the output's size converges to; until it has one, and in motion, it takes those around it, weighted by a
+// Gaussian of their distance, which also is their weight in the mean.
 // (Karis, High Quality Temporal Supersampling, SIGGRAPH 2014: jitter, clipping in YCoCg, tone-compressed;
 // Salvi, An Excursion in Temporal Supersampling, GDC 2016: limits from local mean and variance;
-// Jimenez, Filmic SMAA: Sharp Morphological and Temporal Antialiasing, SIGGRAPH 2016: Catmull-Rom without its corners.)
+// Jimenez, Filmic SMAA: Sharp Morphological and Temporal Antialiasing, SIGGRAPH 2016: Catmull-Rom without its corners;
+// Yang, Liu and Salvi, A Survey of Temporal Antialiasing Techniques, Eurographics 2020: upsampling by sample distance.)
 #ifndef REFLET_EFFECTS_TEMPORAL_H
 #define REFLET_EFFECTS_TEMPORAL_H
 
@@ -26,7 +31,10 @@ SHARED_BEGIN
           "fewer: sharper.")                                                                                           \
     VALUE(float, clip, 1.0, 0.0, 16.0,                                                                                 \
           "History clip (variance clipping): maximum difference of the history from the pixels around it, in "         \
-          "standard deviations. Lower: less ghosting, more flicker.")
+          "standard deviations. Lower: less ghosting, more flicker.")                                                  \
+    VALUE(float, scale, 1.0, 0.25, 1.0,                                                                                \
+          "Temporal upscaling: the share of the picture's width and height at which frames are rendered; their mean "  \
+          "has full size. 0.5: a quarter of the time; full sharpness after about 4 times as many frames at rest.")
 SETTINGS(TemporalSettings, TEMPORAL_SETTINGS)
 
 // Vertically adjacent pixels per thread, which share their neighbourhood loads.
@@ -40,6 +48,15 @@ struct TemporalParams {
     uint hasPrevious;  // 1: the history holds the last frame
 };
 
+struct TemporalUpscaleParams {
+    TemporalSettings settings;
+    uvec2 size;        // of this frame
+    vec2 ratio;        // of this frame's size to the output's
+    vec2 jitter;       // of this frame, in its pixels
+    uint frame;        // as in TemporalParams
+    uint hasPrevious;
+};
+
 SHARED_END
 
 #ifdef __cplusplus
@@ -51,16 +68,19 @@ namespace reflet {
 
 /// view: of this frame; the sky is reprojected with it. radiance: RGBA16F, rendered with subpixel jitter (jitter.h),
 /// may contain NaN and infinity; g.motion: without jitter. coverage: if given, that of the pixels by surfaces, red, 0
-/// to 1; radiance is premultiplied by it.
+/// to 1; radiance is premultiplied by it. outputSize: at least that of radiance. jitter: of this frame, in its pixels.
 struct TemporalInputs {
     const GBuffer& g;
     gpu::Image radiance;
     gpu::Image coverage;
     const ViewParams& view;
+    uvec2 outputSize;
+    vec2 jitter;
 };
 
 struct TemporalImages {
-    gpu::Image mean;      ///< RGBA16F: radiance, finite and at least 0, and history length
+    gpu::Image mean;      ///< RGBA16F: radiance, finite and at least 0, and history length;
+                          ///< of the output's size
     gpu::Image coverage;  ///< R32F, averaged with the same weights as the radiance; none if none was given
 };
 

@@ -1,0 +1,32 @@
+// The 3x3 neighbourhoods of a frame that is smaller than the output: mean and variance, and the motion of the nearest
+// surface. In: this frame's radiance, depth, motion. Out: around, spread.
+#include "effects/temporal/temporal.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(scalar) uniform ParamsBlock { TemporalParams params; };
+layout(rgba16f) uniform readonly image2D radiance;
+uniform sampler2D depth;
+uniform sampler2D motion;
+layout(rgba16f) uniform writeonly image2D around;  // mean, tone-compressed; motion in x
+layout(rgba16f) uniform writeonly image2D spread;  // standard deviation; motion in y
+#if HAS_COVERAGE
+uniform sampler2D coverage;
+layout(rg16f) uniform writeonly image2D coveredAround;  // mean, standard deviation
+#endif
+#include "effects/temporal/temporal_rows.glsl"
+
+void resolve(ivec2 pixel, Row above, Row row, Row below) {
+    float nearest = max(max(above.nearest, below.nearest), row.nearest);
+    vec2 moved = motionAt(nearest > 0.0 ? nearestAround(above, row, below) : pixel, nearest);
+    vec3 middle = (above.sum + row.sum + below.sum) / 9.0;
+    vec3 variance = max((above.squares + row.squares + below.squares) / 9.0 - middle * middle, 0.0);
+    imageStore(around, pixel, roundToHalf(vec4(middle, moved.x)));
+    imageStore(spread, pixel, roundToHalf(vec4(sqrt(variance), moved.y)));
+#if HAS_COVERAGE
+    float covered = (above.coveredSum + row.coveredSum + below.coveredSum) / 9.0;
+    float squares = (above.coveredSquares + row.coveredSquares + below.coveredSquares) / 9.0;
+    imageStore(coveredAround, pixel, roundToHalf(vec4(covered, sqrt(max(squares - covered * covered, 0.0)), 0.0, 0.0)));
+#endif
+}
+
+#include "effects/temporal/temporal_columns.glsl"

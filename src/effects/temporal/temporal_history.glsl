@@ -1,0 +1,122 @@
+// The history of temporal antialiasing: reprojection, clipping, and the mean with what a frame shows.
+// The includer declares params.settings, frame and hasPrevious, and of the output's size the images previousMean,
+// previousDeviations, mean and deviations, with HAS_COVERAGE also previousCoverage and meanCoverage.
+#ifndef REFLET_TEMPORAL_HISTORY_GLSL
+#define REFLET_TEMPORAL_HISTORY_GLSL
+
+#include "shaders/catmull_rom.glsl"
+#include "shaders/half_float.glsl"
+#include "shaders/noise.glsl"
+#include "shaders/tone_compressed.glsl"
+
+// Tolerance for rounding, in tone-compressed radiance.
+const float slack = 0.002;
+const float stillest = 0.25;     // pixels per frame; faster motion counts as not at rest
+const float restAllowance = 1.25;  // factor on the clip limits at rest
+// At rest, jitter makes an edge or a thin bar appear in some of a pixel's frames only, so limits are widened by the
+// variance of past frames around their mean. If the differences keep the same sign, the history is stale. The measure
+// is the squared recent mean difference over the variance, between these two bounds.
+const vec2 staleness = vec2(0.25, 0.5);
+const float recent = 0.25;  // weight of a frame in the recent mean difference
+
+struct HistorySample {
+    vec4 mean;  // radiance, length
+    float covered;
+};
+
+// The history at a position in texels from the first texel's centre.
+HistorySample reprojectedHistory(vec2 at) {
+    ivec2 last = imageSize(previousMean) - 1;
+    CatmullRom taps = catmullRom(at);
+    vec4 sum = vec4(0.0);
+    float covered = 0.0;
+    float total = 0.0;
+    for (int y = taps.first.y; y <= taps.last.y; ++y) {
+        bool outer = y == -1 || y == 2;
+        int end = outer ? min(taps.last.x, 1) : taps.last.x;
+        for (int x = outer ? max(taps.first.x, 0) : taps.first.x; x <= end; ++x) {
+            float weight = taps.x[x + 1] * taps.y[y + 1];
+            ivec2 tap = clamp(taps.corner + ivec2(x, y), ivec2(0), last);
+            sum += weight * imageLoad(previousMean, tap);
+#if HAS_COVERAGE
+            covered += weight * imageLoad(previousCoverage, tap).r;
+#endif
+            total += weight;
+        }
+    }
+    return HistorySample(max(sum / total, vec4(0.0)), clamp(covered / total, 0.0, 1.0));
+}
+
+// The fraction of the way from a box's centre to c at which its side lies, at most 1.
+float insideShare(vec3 c, vec3 middle, vec3 halfSize) {
+    vec3 out3 = abs(c - middle) / halfSize;
+    return 1.0 / max(max(out3.x, out3.y), max(out3.z, 1.0));
+}
+
+// What this frame shows at a pixel of the output.
+struct Shown {
+    vec3 own;       // radiance at the pixel
+    float inside;   // weight of that as one of the pixel's samples: 1, or 0 if the sample is off the pixel's area
+    float near;     // its weight where samples of other places have to do
+    vec3 middle;    // of the 3x3 neighbourhood: mean, tone-compressed
+    vec3 variance;
+    vec2 moved;     // pixels of the output
+#if HAS_COVERAGE
+    float covered;
+    float coveredMiddle;
+    float coveredVariance;
+#endif
+};
+
+// Adds it to the history.
+void accumulate(ivec2 pixel, Shown now) {
+    vec2 size = vec2(imageSize(mean));
+    vec2 at = vec2(pixel) - now.moved;
+    bool known = params.hasPrevious != 0u && all(greaterThan(at, vec2(-0.5))) && all(lessThan(at, size - 0.5));
+    float still = known ? max(1.0 - length(now.moved) / stillest, 0.0) : 0.0;
+    HistorySample history = HistorySample(vec4(0.0), 0.0);
+    if (known) {
+        history = reprojectedHistory(at);
+    }
+    vec4 before = history.mean;
+    vec2 differed = still > 0.0 ? imageLoad(previousDeviations, ivec2(at + 0.5)).rg : vec2(0.0);
+    float stale = differed.y * differed.y / (differed.x + 1e-5);
+    float trust = still * clamp((staleness.y - stale) / (staleness.y - staleness.x), 0.0, 1.0);
+    float variance = trust * differed.x;
+
+    vec3 held = toneCompress(before.rgb);
+    float allowed = params.settings.clip * mix(1.0, restAllowance, still);
+    // This frame's own value is always within the box: it may be a one-pixel feature.
+    vec3 own = toneCompress(now.own);
+    vec3 halfSize = max(allowed * sqrt(now.variance + variance) + slack, abs(own - now.middle));
+    float share = insideShare(held, now.middle, halfSize);
+#if HAS_COVERAGE
+    float coveredOverTime = trust * history.covered * (1.0 - history.covered);
+    float halfCovered =
+        max(allowed * sqrt(now.coveredVariance + coveredOverTime) + slack, abs(now.covered - now.coveredMiddle));
+    share = min(share, halfCovered / max(abs(history.covered - now.coveredMiddle), halfCovered));
+    float keptCovered = mix(now.coveredMiddle, history.covered, share);
+#endif
+    vec3 clipped = mix(now.middle, held, share);
+    vec3 kept = share < 1.0 ? toneExpand(clipped) : before.rgb;
+
+    float most = mix(float(params.settings.framesInMotion), float(params.settings.frames), still);
+    float fresh = still > 0.0 ? trust / still : 1.0;
+    float lasting = before.a * share * fresh;
+    float weight = now.near + (now.inside - now.near) * still * min(lasting, 1.0);
+    float frames = min(lasting, most - weight) + weight;
+    float part = weight / frames;
+    bool first = frames <= weight;
+    vec3 sum = first ? now.own : mix(kept, now.own, part);
+    uint random = hashPixel(uvec2(pixel), 0u, params.frame);
+    imageStore(mean, pixel, vec4(ditherToHalf(clampToHalf(sum), random), frames));
+#if HAS_COVERAGE
+    imageStore(meanCoverage, pixel, vec4(first ? now.covered : mix(keptCovered, now.covered, part)));
+#endif
+    float off = own.x - clipped.x;
+    vec2 differs =
+        vec2(still * mix(variance, off * off, part), trust * mix(differed.y, off, max(part, recent * now.inside)));
+    imageStore(deviations, pixel, vec4(differs, 0.0, 0.0));
+}
+
+#endif
