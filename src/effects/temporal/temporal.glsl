@@ -17,6 +17,7 @@ uniform sampler2D coverage;
 layout(r32f) uniform readonly image2D previousCoverage;
 layout(r32f) uniform writeonly image2D meanCoverage;
 #endif
+const float restAllowance = 1.25;
 #include "effects/temporal/temporal_history.glsl"
 #include "effects/temporal/temporal_rows.glsl"
 

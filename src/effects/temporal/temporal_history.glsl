@@ -1,5 +1,6 @@
 // The history of temporal antialiasing: reprojection, clipping, and the mean with what a frame shows.
-// The includer declares params.settings, frame and hasPrevious, and of the output's size the images previousMean,
+// The includer declares params.settings, frame and hasPrevious, restAllowance (factor on the
+// clip limits at rest), and of the output's size the images previousMean,
 // previousDeviations, mean and deviations, with HAS_COVERAGE also previousCoverage and meanCoverage.
 #ifndef REFLET_TEMPORAL_HISTORY_GLSL
 #define REFLET_TEMPORAL_HISTORY_GLSL
@@ -12,7 +13,6 @@
 // Tolerance for rounding, in tone-compressed radiance.
 const float slack = 0.002;
 const float stillest = 0.25;     // pixels per frame; faster motion counts as not at rest
-const float restAllowance = 1.25;  // factor on the clip limits at rest
 // At rest, jitter makes an edge or a thin bar appear in some of a pixel's frames only, so limits are widened by the
 // variance of past frames around their mean. If the differences keep the same sign, the history is stale. The measure
 // is the squared recent mean difference over the variance, between these two bounds.
@@ -95,10 +95,14 @@ void accumulate(ivec2 pixel, Shown now) {
     float halfCovered =
         max(allowed * sqrt(now.coveredVariance + coveredOverTime) + slack, abs(now.covered - now.coveredMiddle));
     share = min(share, halfCovered / max(abs(history.covered - now.coveredMiddle), halfCovered));
-    float keptCovered = mix(now.coveredMiddle, history.covered, share);
 #endif
+    // At rest, only a sample of the pixel's own area can tell that it changed: neighbours may have missed a thin bar.
+    share = mix(share, 1.0, still * (1.0 - now.inside));
     vec3 clipped = mix(now.middle, held, share);
     vec3 kept = share < 1.0 ? toneExpand(clipped) : before.rgb;
+#if HAS_COVERAGE
+    float keptCovered = mix(now.coveredMiddle, history.covered, share);
+#endif
 
     float most = mix(float(params.settings.framesInMotion), float(params.settings.frames), still);
     float fresh = still > 0.0 ? trust / still : 1.0;

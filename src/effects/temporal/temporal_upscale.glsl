@@ -18,6 +18,7 @@ layout(rg16f) uniform readonly image2D coveredAround;
 layout(r32f) uniform readonly image2D previousCoverage;
 layout(r32f) uniform writeonly image2D meanCoverage;
 #endif
+const float restAllowance = 2.0;  // neighbourhoods are wider than the output's
 #include "effects/temporal/temporal_history.glsl"
 
 // Of the Gaussian, by the square of the distance in pixels of the output: 0.4 half a pixel off to both sides.
