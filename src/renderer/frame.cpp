@@ -291,7 +291,9 @@ void addBlended(gpu::Recorder& f, FrameStore& own, const BlendedLight& blended, 
 
 }  // namespace
 
-FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in, const Settings& settings) {
+FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in, const Settings& asked) {
+    Settings settings = asked;
+    settings.denoise.radius *= in.view.size.y / static_cast<float>(in.outputSize.y);  // in pixels of the picture
     const gpu::Image lampShadowMap = renderLiveCameras(f, own.live, in, settings, in.live);
     TracedView seen = tracedView(in, directView(f, own.direct, in, settings, lampShadowMap));
     const gpu::History lit = own.history.swap(f, litFormat, seen.images.g.depth.size);

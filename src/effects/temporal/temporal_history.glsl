@@ -1,6 +1,6 @@
 // The history of temporal antialiasing: reprojection, clipping, and the mean with what a frame shows.
-// The includer declares params.settings, frame and hasPrevious, restAllowance (factor on the
-// clip limits at rest), and of the output's size the images previousMean,
+// The includer declares params.settings, frame and hasPrevious, the constants restAllowance
+// (factor on the clip limits at rest) and staleness, and of the output's size the images previousMean,
 // previousDeviations, mean and deviations, with HAS_COVERAGE also previousCoverage and meanCoverage.
 #ifndef REFLET_TEMPORAL_HISTORY_GLSL
 #define REFLET_TEMPORAL_HISTORY_GLSL
@@ -15,8 +15,7 @@ const float slack = 0.002;
 const float stillest = 0.25;     // pixels per frame; faster motion counts as not at rest
 // At rest, jitter makes an edge or a thin bar appear in some of a pixel's frames only, so limits are widened by the
 // variance of past frames around their mean. If the differences keep the same sign, the history is stale. The measure
-// is the squared recent mean difference over the variance, between these two bounds.
-const vec2 staleness = vec2(0.25, 0.5);
+// is the squared recent mean difference over the variance, between the includer's bounds `staleness`.
 const float recent = 0.25;  // weight of a frame in the recent mean difference
 
 struct HistorySample {

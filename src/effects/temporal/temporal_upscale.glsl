@@ -18,7 +18,9 @@ layout(rg16f) uniform readonly image2D coveredAround;
 layout(r32f) uniform readonly image2D previousCoverage;
 layout(r32f) uniform writeonly image2D meanCoverage;
 #endif
-const float restAllowance = 2.0;  // neighbourhoods are wider than the output's
+// Neighbourhoods are wider than the output's, and samples of a pixel's own area are rarer and less evenly spread.
+const float restAllowance = 2.0;
+const vec2 staleness = vec2(0.4, 0.8);
 #include "effects/temporal/temporal_history.glsl"
 
 // Of the Gaussian, by the square of the distance in pixels of the output: 0.4 half a pixel off to both sides.
