@@ -27,6 +27,7 @@ void resolve(ivec2 pixel, Row above, Row row, Row below) {
     Shown now;
     now.own = row.middle;
     now.inside = 1.0;
+    now.blurred = row.middle;
     now.near = 1.0;
     now.middle = (above.sum + row.sum + below.sum) / 9.0;
     now.variance = max((above.squares + row.squares + below.squares) / 9.0 - now.middle * now.middle, 0.0);

@@ -54,9 +54,10 @@ float insideShare(vec3 c, vec3 middle, vec3 halfSize) {
 
 // What this frame shows at a pixel of the output.
 struct Shown {
-    vec3 own;       // radiance at the pixel
-    float inside;   // weight of that as one of the pixel's samples: 1, or 0 if the sample is off the pixel's area
-    float near;     // its weight where samples of other places have to do
+    vec3 own;       // the nearest sample's radiance
+    float inside;   // 1 if that sample lies in the pixel's area, else 0
+    vec3 blurred;   // mean of the samples around, weighted by distance
+    float near;     // 0..1: how near the nearest sample is
     vec3 middle;    // of the 3x3 neighbourhood: mean, tone-compressed
     vec3 variance;
     vec2 moved;     // pixels of the output
@@ -85,8 +86,11 @@ void accumulate(ivec2 pixel, Shown now) {
 
     vec3 held = toneCompress(before.rgb);
     float allowed = params.settings.clip * mix(1.0, restAllowance, still);
+    // With a history at rest, a pixel takes only samples of its own area.
+    float exact = still * min(before.a, 1.0);
+    vec3 shown = now.blurred + (now.own - now.blurred) * exact;
     // This frame's own value is always within the box: it may be a one-pixel feature.
-    vec3 own = toneCompress(now.own);
+    vec3 own = toneCompress(shown);
     vec3 halfSize = max(allowed * sqrt(now.variance + variance) + slack, abs(own - now.middle));
     float share = insideShare(held, now.middle, halfSize);
 #if HAS_COVERAGE
@@ -110,7 +114,7 @@ void accumulate(ivec2 pixel, Shown now) {
     float frames = min(lasting, most - weight) + weight;
     float part = weight / frames;
     bool first = frames <= weight;
-    vec3 sum = first ? now.own : mix(kept, now.own, part);
+    vec3 sum = first ? shown : mix(kept, shown, part);
     uint random = hashPixel(uvec2(pixel), 0u, params.frame);
     imageStore(mean, pixel, vec4(ditherToHalf(clampToHalf(sum), random), frames));
 #if HAS_COVERAGE

@@ -55,9 +55,10 @@ void main() {
         total += weight;
     }
     Shown now;
-    now.own = sum / total;
+    now.own = clampToHalf(imageLoad(radiance, nearest).rgb);
+    now.blurred = sum / total;
     now.inside = all(lessThanEqual(away, vec2(0.5))) ? 1.0 : 0.0;
-    now.near = nearness(away);
+    now.near = nearness(away) + 1e-3;
     now.middle = middle.rgb;
     now.variance = deviation.rgb * deviation.rgb;
     now.moved = vec2(middle.a, deviation.a) / params.ratio * vec2(params.size);
