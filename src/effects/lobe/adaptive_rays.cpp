@@ -57,7 +57,7 @@ RayTiles shareRays(gpu::Recorder& f, gpu::Scratch& scratch, gpu::HistoryImage& o
         .write("list", list)
         .params(ShareRaysParams{size, counts.rays, counts.mirrorRays, leastShare * mean, static_cast<float>(most)})
         .dispatch(size.x * size.y);
-    return {tiles.next, list, counts.rays};
+    return {tiles.next, list, counts.rays, most};
 }
 
 }  // namespace reflet

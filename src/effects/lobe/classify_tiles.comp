@@ -33,9 +33,10 @@ void main() {
     }
     TileContent content = tileContent(ivec2(first), ivec2(min(first + rayTileSide, params.size)));
     bool allMirrors = lobe == lobeSpecular && content.kind == tileMirror;
-    uint rays = content.pixels[lobe] == 0u ? 0u : (allMirrors ? params.mirrorRays : params.rays);
+    float rays = float(content.pixels[lobe] == 0u ? 0u : (allMirrors ? params.mirrorRays : params.rays));
+    rays *= lobe == lobeSpecular && content.smoothest > roughFrom ? params.roughRays : 1.0;
     imageStore(tiles, ivec2(tile), vec4(rays, content.kind, 0.0, 0.0));
-    if (rays > 0u) {
+    if (rays > 0.0) {
         appendTile(tile);
     }
 }

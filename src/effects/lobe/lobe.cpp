@@ -28,7 +28,8 @@ gpu::Image noImageMotion(gpu::Recorder& f, gpu::KeptImage& own, const RaySurface
 RayTiles tilesOfLobe(gpu::Recorder& f, gpu::Scratch& scratch, LobeStore& own, const RaySurfaces& from,
                      const LobeInputs& in) {
     const LobeSettings& s = in.settings;
-    const RayCounts counts{s.rays, s.reuse > 0 || in.randomTracing ? s.rays : std::min(s.rays, 1U)};
+    const RayCounts counts{s.rays, s.reuse > 0 || in.randomTracing ? s.rays : std::min(s.rays, 1U),
+                           keepsHistory(in.denoise) && s.reuse == 0 ? in.specular.roughRays : 1.0F};
     const uvec2 size = from.g.depth.size;
     const bool adaptive = s.adaptive && keepsHistory(in.denoise) && in.lit.next;
     if (!adaptive || s.rays > raysPerBatch(f, size, maxAdaptiveRays)) {
@@ -51,13 +52,13 @@ LobeLight traceLobe(gpu::Recorder& f, LobeStore& own, const LobeInputs& in) {
     const RaySurfaces from = pickSurfaces(f, own.surfaces, in.g, in.view, s.downsample);
     gpu::Scratch scratch(f);
     const RayTiles tiles = tilesOfLobe(f, scratch, own, from, in);
-    const bool adaptive = tiles.meanRays > 0;
-    const uint32_t most = adaptive ? adaptiveRayLimit(f, from.g.depth.size, s.rays) : s.rays;
-    const uint32_t batch = adaptive ? most : raysPerBatch(f, from.g.depth.size);
+    const bool varies = tiles.meanRays > 0;
+    const uint32_t most = tiles.mostRays;
+    const uint32_t batch = varies ? most : raysPerBatch(f, from.g.depth.size);
     const bool reflects = in.lobe == lobeSpecular;
     const gpu::Image imageMotion =
         reflects && keepsHistory(in.denoise) ? noImageMotion(f, own.light.imageMotion, from) : gpu::Image{};
-    const bool reused = s.reuse > 0 && !adaptive && batch >= s.rays;
+    const bool reused = s.reuse > 0 && !varies && batch >= s.rays;
     LobeLight light;
     for (uint32_t first = 0; first < most; first += batch) {
         gpu::Scratch ofBatch(f);

@@ -18,14 +18,16 @@ gpu::BufferView makeTileList(gpu::Recorder& f, gpu::Scratch& scratch, uvec2 tile
 RayTiles classifyTiles(gpu::Recorder& f, gpu::Scratch& scratch, gpu::KeptImage& own, const RaySurfaces& from,
                        uint32_t lobe, const RayCounts& counts) {
     const uvec2 size = (from.g.depth.size + rayTileSide - 1U) / rayTileSide;
-    const RayTiles tiles{own.storage(f, VK_FORMAT_R32G32_SFLOAT, size), makeTileList(f, scratch, size)};
+    const bool varies = lobe == lobeSpecular && counts.roughRays < 1.0F;
+    const RayTiles tiles{own.storage(f, VK_FORMAT_R32G32_SFLOAT, size), makeTileList(f, scratch, size),
+                         varies ? counts.rays : 0, counts.rays};
     f.compute("classify_tiles", "classify_tiles.comp")
         .constant("lobe", lobe)
         .read("depth", from.g.depth)
         .read("material", from.g.material)
         .write("tiles", tiles.tiles)
         .write("list", tiles.list)
-        .params(ClassifyTilesParams{from.g.depth.size, counts.rays, counts.mirrorRays})
+        .params(ClassifyTilesParams{from.g.depth.size, counts.rays, counts.mirrorRays, counts.roughRays})
         .dispatch(size);
     return tiles;
 }

@@ -28,7 +28,11 @@ struct ClassifyTilesParams {
     uvec2 size;       // of the grid
     uint rays;        // per pixel
     uint mirrorRays;  // specular rays per pixel of tileMirror
+    float roughRays;  // factor on specular rays of rough tiles
 };
+
+// Perceptual roughness from which a tile is rough. Smoother reflections show detail that every pixel must trace.
+const float roughFrom = 0.3;
 
 SHARED_END
 
@@ -43,20 +47,21 @@ namespace reflet {
 struct RayTiles {
     gpu::Image tiles;       ///< RG32F, a texel per tile: rays per pixel, in multiples of 1 / rayShares; class
     gpu::BufferView list;   ///< of the tiles with rays; header as in ray lists: groups of an indirect dispatch, count
-    uint32_t meanRays = 0;  ///< mean rays per pixel with adaptive sampling, else 0
+    uint32_t meanRays = 0;  ///< if the number of rays changes from frame to frame: its mean where all trace, else 0
+    uint32_t mostRays = 0;  ///< largest number of rays per pixel
 };
 
 /// Rays per pixel.
 struct RayCounts {
     uint32_t rays = 0;  ///< per pixel
-    uint32_t mirrorRays =
-        0;  ///< per pixel in tiles where all surfaces are mirrors: 1 where a mirror's rays are all identical
+    uint32_t mirrorRays = 0;  ///< where all surfaces of a tile are mirrors: 1 if a mirror's rays are all identical
+    float roughRays = 1.0F;   ///< factor on specular rays in rough tiles
 };
 
 /// An empty list with room for all tiles.
 gpu::BufferView makeTileList(gpu::Recorder& f, gpu::Scratch& scratch, uvec2 tiles);
 
-/// The same ray count for all pixels in tiles that have the lobe. The list lives as long as `scratch`.
+/// The same ray count for all pixels in tiles that have the lobe, but for rough tiles. The list lives as long as `scratch`.
 RayTiles classifyTiles(gpu::Recorder& f, gpu::Scratch& scratch, gpu::KeptImage& own, const RaySurfaces& from,
                        uint32_t lobe, const RayCounts& counts);
 

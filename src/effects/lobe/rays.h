@@ -67,7 +67,10 @@ CHOICES(RoughFallback, ROUGH_FALLBACKS)
           "cost, less exact. 1: all surfaces trace.")                                                               \
     CHOICE(RoughFallback, roughFallback, next,                                                                      \
            "Reflections on surfaces above `max_roughness`. next: skip the screen, use the next source. mips: cone " \
-           "tracing, a ray near the lobe's centre with screen light prefiltered by roughness around its hit.")
+           "tracing, a ray near the lobe's centre with screen light prefiltered by roughness around its hit.")         \
+    VALUE(float, roughRays, 1.0, 0.0625, 1.0,                                                                          \
+          "Share of the pixels that trace in a frame, in turn, where all surfaces of a tile (8x8 pixels) are rougher " \
+          "than 0.3: the denoiser's history fills in. Lower: less cost, slower reaction. Needs denoise.history.")
 SETTINGS(SpecularSettings, SPECULAR_SETTINGS)
 
 // Lobes, as the specialization constant `lobe`.

@@ -8,6 +8,7 @@
 struct TileContent {
     uint kind;
     uint pixels[2];  // number of pixels that have the lobe, by lobe
+    float smoothest;  // lowest roughness of those with a specular lobe; 1 without
 };
 
 // Of the pixels from `first` to `end`, exclusive.
@@ -15,19 +16,21 @@ TileContent tileContent(ivec2 first, ivec2 end) {
     uint surfaces = 0u;
     uint mirrors = 0u;
     uint glossy = 0u;
+    float smoothest = 1.0;
     for (int y = first.y; y < end.y; ++y) {
         for (int x = first.x; x < end.x; ++x) {
             if (loadDepth(ivec2(x, y)) > 0.0) {
                 MaterialTexel m = loadMaterial(ivec2(x, y));
                 bool shines = (m.flags & materialFlagLambert) == 0u;
                 surfaces += 1u;
+                smoothest = shines ? min(smoothest, m.roughness) : smoothest;
                 mirrors += shines && m.roughness <= mirrorRoughness ? 1u : 0u;
                 glossy += shines && m.roughness > mirrorRoughness ? 1u : 0u;
             }
         }
     }
     uint kind = glossy > 0u ? tileGlossy : (mirrors > 0u ? tileMirror : (surfaces > 0u ? tileMatt : tileSky));
-    return TileContent(kind, uint[2](surfaces, glossy + mirrors));
+    return TileContent(kind, uint[2](surfaces, glossy + mirrors), smoothest);
 }
 
 #endif
