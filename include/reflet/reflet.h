@@ -183,6 +183,13 @@ REFLET_API RefletResult refletCreateView(RefletContext context, const RefletView
 REFLET_API void refletDestroyView(RefletView view);
 /** From the next frame on. Images are made anew when that frame needs them; histories start again. */
 REFLET_API RefletResult refletResizeView(RefletView view, uint32_t width, uint32_t height);
+/**
+ * Temporal upscaling: from the next frame on, refletTemporal makes pictures of this size, at least the view's to each
+ * side, from frames of the view's size. The host draws with mip bias log2(view's height / output's height) and the jitter
+ * of refletJitter, in pixels of the view; what follows refletTemporal has the output's size. A half to each side is the
+ * useful limit. 0, 0: the view's size.
+ */
+REFLET_API RefletResult refletSetOutputSize(RefletView view, uint32_t width, uint32_t height);
 /** Forgets all histories: after a cut of the camera, or when something other than motion changed the picture. */
 REFLET_API RefletResult refletResetView(RefletView view);
 /**
@@ -428,15 +435,15 @@ REFLET_API RefletResult refletComposite(RefletView view, RefletSettings settings
                                         RefletComposite* composite);
 
 /**
- * Temporal antialiasing, RGBA16F: radiance. color: of the view's size, drawn with the frame's jitter; NULL: what
- * refletComposite made.
+ * Temporal antialiasing, RGBA16F of the output's size (refletSetOutputSize): radiance. color: of the view's size, drawn
+ * with the frame's jitter; NULL: what refletComposite made.
  */
 REFLET_API RefletResult refletTemporal(RefletView view, RefletSettings settings, const RefletImage* color,
                                        RefletImage* antialiased);
 
 /**
  * Tone map, RGBA8, display-encoded: `tonemap.curve`, `tonemap.exposure`. autoExposure 1: surfaces become middle grey on
- * average (histogram; Reinhard et al., 2002). color: linear radiance; NULL: the last of refletTemporal and
+ * average (histogram; Reinhard et al., 2002). color: linear radiance, of the output's size; NULL: the last of refletTemporal and
  * refletComposite that ran.
  */
 REFLET_API RefletResult refletToneMap(RefletView view, RefletSettings settings, const RefletImage* color,

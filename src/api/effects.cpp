@@ -139,21 +139,21 @@ RefletResult traceLobeOf(RefletView view, RefletSettings settings, const RefletI
 
 // The image of an argument that may be NULL, which stands for `otherwise`.
 gpu::Image hostImageOf(const RefletImage* given, const char* name, const char* otherwise, HostImages& host,
-                       RefletView_T& view) {
+                       uvec2 size) {
     if (given == nullptr) {
         return {};
     }
     if (given->image == VK_NULL_HANDLE) {
         failArgument("{}.image: is VK_NULL_HANDLE; pass NULL for {}", name, otherwise);
     }
-    checkImage(*given, name, view.size);
+    checkImage(*given, name, size);
     const gpu::Image image = host.add(*given);
     host.acquire();
     return image;
 }
 
-gpu::Image colorOf(const RefletImage* color, HostImages& host, RefletView_T& view) {
-    return hostImageOf(color, "color", "the result of the effect before", host, view);
+gpu::Image colorOf(const RefletImage* color, HostImages& host, uvec2 size) {
+    return hostImageOf(color, "color", "the result of the effect before", host, size);
 }
 
 }  // namespace
@@ -216,7 +216,7 @@ RefletResult refletComposite(RefletView view, RefletSettings settings, const Ref
     return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
         const RefletComposite given = adopted(out, "RefletComposite");
         HostImages host(*view);
-        const gpu::Image image = hostImageOf(light, "light", "the light that the lobes were given", host, *view);
+        const gpu::Image image = hostImageOf(light, "light", "the light that the lobes were given", host, view->size);
         const Composite sum = recordComposite(*view, frame, values, image);
         RefletComposite result{};
         result.structSize = given.structSize;
@@ -232,7 +232,7 @@ RefletResult refletTemporal(RefletView view, RefletSettings settings, const Refl
     return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
         checkOut(antialiased, "antialiased");
         HostImages host(*view);
-        *antialiased = resultOf(recordTemporal(*view, frame, values, colorOf(color, host, *view)));
+        *antialiased = resultOf(recordTemporal(*view, frame, values, colorOf(color, host, view->size)));
     });
 }
 
@@ -241,6 +241,6 @@ RefletResult refletToneMap(RefletView view, RefletSettings settings, const Refle
     return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
         checkOut(display, "display");
         HostImages host(*view);
-        *display = resultOf(recordToneMap(*view, frame, values, colorOf(color, host, *view), autoExposure != 0));
+        *display = resultOf(recordToneMap(*view, frame, values, colorOf(color, host, outputSizeOf(*view)), autoExposure != 0));
     });
 }

@@ -14,6 +14,13 @@ namespace reflet::api {
 
 namespace {
 
+// Settings count pixels of the output.
+DenoiseSettings denoiseSettings(const RefletView_T& view, const Settings& settings) {
+    DenoiseSettings denoise = settings.denoise;
+    denoise.radius *= static_cast<float>(view.size.y) / static_cast<float>(outputSizeOf(view).y);
+    return denoise;
+}
+
 constexpr VkFormat lightFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 
 gpu::BufferView blueNoiseOf(RefletView_T& view) {
@@ -161,7 +168,7 @@ LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings,
                    .settings = diffuse ? lobeSettings(settings.diffuse) : lobeSettings(settings.specular),
                    .diffuse = settings.diffuse,
                    .specular = settings.specular,
-                   .denoise = settings.denoise,
+                   .denoise = denoiseSettings(view, settings),
                    .environmentSettings = settings.environment,
                    .environment = around,
                    .ggxTable = ggxTable(f, view.images->ggxTable),
@@ -183,7 +190,7 @@ LobeLight recordDenoise(RefletView_T& view, Frame& frame, const Settings& settin
     light.from = {frame.g, frame.view, 1};
     light.radiance = importLight(f, diffuse ? view.images->noisyDiffuse : view.images->noisySpecular, noisy, true);
     light.source = light.radiance;
-    const LobeLight clean = denoise(f, own.own.denoise, light, lobe, frame.view, settings.denoise);
+    const LobeLight clean = denoise(f, own.own.denoise, light, lobe, frame.view, denoiseSettings(view, settings));
     (diffuse ? frame.diffuse : frame.specular) = clean;
     return clean;
 }
@@ -218,7 +225,13 @@ gpu::Image recordTemporal(RefletView_T& view, Frame& frame, const Settings& sett
     if (!radiance) {
         failArgument("color: is NULL, and refletComposite has not run in this frame");
     }
-    frame.antialiased = temporal(f, view.images->temporal, {frame.g, radiance, {}, frame.view, radiance.size, {}}, settings.temporal).mean;
+    const uvec2 size = outputSizeOf(view);
+    if (glm::any(glm::lessThan(size, view.size))) {
+        failArgument("view: its output size, {}x{}, is smaller than its size, {}x{} (refletSetOutputSize)", size.x, size.y,
+                     view.size.x, view.size.y);
+    }
+    const TemporalInputs in{frame.g, radiance, {}, frame.view, size, frame.jitter};
+    frame.antialiased = temporal(f, view.images->temporal, in, settings.temporal).mean;
     return frame.antialiased;
 }
 
@@ -231,7 +244,11 @@ gpu::Image recordToneMap(RefletView_T& view, Frame& frame, const Settings& setti
     }
     gpu::Image exposure;
     if (automatic) {
-        exposure = measureExposure(f, view.images->exposure, radiance, frame.g.depth, frame.elapsed,
+        const gpu::Image metered = radiance.size == frame.g.depth.size ? radiance : frame.composed;
+        if (!metered) {
+            failArgument("autoExposure: needs a picture of the view's size; color is larger, and refletComposite has not run");
+        }
+        exposure = measureExposure(f, view.images->exposure, metered, frame.g.depth, frame.elapsed,
                                    settings.tonemap.adaptation);
     }
     return tonemap(f, view.images->display, radiance, settings.tonemap, exposure);

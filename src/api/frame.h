@@ -13,6 +13,11 @@ RefletResult onView(RefletView view, const std::function<void()>& body);
 RefletResult inFrame(RefletView view, RefletSettings settings,
                      const std::function<void(Frame&, const Settings&)>& body);
 
+/// The size of refletTemporal's pictures.
+inline uvec2 outputSizeOf(const RefletView_T& view) {
+    return view.outputSize.x > 0 ? view.outputSize : view.size;
+}
+
 /// Throws Failure if an image cannot be sampled, or has not this size (0: any). name: of the field.
 void checkImage(const RefletImage& image, const char* name, uvec2 size);
 

@@ -69,7 +69,7 @@ void collectFrame(RefletView_T& view, const Settings& settings, const RefletPrep
         recordTemporal(view, frame, settings, color);
     }
     if (asked(REFLET_EFFECT_TONE_MAP)) {
-        recordToneMap(view, frame, settings, color, info.autoExposure != 0);
+        recordToneMap(view, frame, settings, standIns.make(outputSizeOf(view)), info.autoExposure != 0);
     }
 }
 

@@ -183,6 +183,18 @@ RefletResult refletResizeView(RefletView view, uint32_t width, uint32_t height) 
     });
 }
 
+RefletResult refletSetOutputSize(RefletView view, uint32_t width, uint32_t height) {
+    return onView(view, [&] {
+        if (view->frame) {
+            failArgument("view: a frame has begun; set its output size before refletBeginFrame or after refletEndFrame");
+        }
+        if (width != 0 || height != 0) {
+            checkSize(width, height);
+        }
+        view->outputSize = {width, height};
+    });
+}
+
 RefletResult refletResetView(RefletView view) {
     return onView(view, [&] {
         view->images->environment.generation += view->recorder.generation() == view->images->environment.generation;
@@ -229,6 +241,7 @@ RefletResult refletBeginFrame(RefletView view, const RefletFrameInfo* info) {
         checkGBuffer(given.gbuffer, view->size);
         Frame frame;
         frame.view = viewParams(given, view->size);
+        frame.jitter = {given.jitter[0], given.jitter[1]};
         frame.elapsed = std::clamp(given.elapsed, 0.0F, 3600.0F);
         const ImportParams params = importParams(given, frame.view);
         view->commands = given.commandBuffer;

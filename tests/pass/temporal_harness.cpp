@@ -4,12 +4,16 @@
 #include "capture/texels.h"
 #include "device/device.h"
 #include "device/upload.h"
+#include "effects/jitter.h"
 #include "pass/test_shaders.h"
 
 namespace reflet::test {
 
 TemporalRun::TemporalRun(gpu::Device& device, uvec2 size, const TemporalSettings& settings)
-    : frame_(device), size_(size), settings_(settings) {
+    : TemporalRun(device, size, size, settings) {}
+
+TemporalRun::TemporalRun(gpu::Device& device, uvec2 size, uvec2 output, const TemporalSettings& settings)
+    : frame_(device), size_(size), output_(output), settings_(settings) {
     addPassTestShaders(device);
 }
 
@@ -41,8 +45,10 @@ std::vector<vec4> TemporalRun::add(const MadeUpFrame& picture) {
     g.motion = fill("motion", motion);
     g.depth = fill("depth", depth);
     ViewParams view{};
+    const vec2 jitter = subpixelJitter(count_);
     view.frame = count_++;
-    const gpu::Readback copy = frame_.readback(temporal(frame_, store_, {g, shown, {}, view}, settings_).mean);
+    const TemporalInputs in{g, shown, {}, view, output_, jitter};
+    const gpu::Readback copy = frame_.readback(temporal(frame_, store_, in, settings_).mean);
     frame_.submit();
     frame_.wait();
     return decodeTexels(VK_FORMAT_R16G16B16A16_SFLOAT, frame_.bytes(copy));

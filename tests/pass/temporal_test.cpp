@@ -1,4 +1,5 @@
-// Temporal antialiasing of synthetic images: what is preserved exactly, convergence at rest, and ghosting in motion.
+// Temporal antialiasing and upscaling of synthetic images: what is preserved exactly, convergence at rest, and ghosting
+// in motion.
 #include "pass/temporal_harness.h"
 
 #include "effects/jitter.h"
@@ -257,6 +258,117 @@ TEST_F(Temporal, LightThatChangesAtRestIsTakenOverInAFewFrames) {
         }
     }
     EXPECT_NEAR(sum, expected, 0.05 * expected);
+}
+
+// Frames at a share of the picture's size.
+class Upscaling : public DeviceTest {
+protected:
+    static uvec2 sizeOf(float scale) { return uvec2(glm::round(vec2(size) * scale)); }
+    // What frame i shows at a pixel of the frame: the picture's place of its sample.
+    static vec2 placeOf(uvec2 p, uint32_t i, float scale) { return (vec2(p) + 0.5F + subpixelJitter(i)) / scale; }
+};
+
+constexpr float scales[] = {0.5F, 2.0F / 3.0F};
+
+TEST_F(Upscaling, AConstantStaysExactlyWhatItIsAtRestAndInMotion) {
+    for (const float scale : scales) {
+        for (const vec2 motion : {vec2(0.0F), vec2(0.37F, -1.6F)}) {
+            const vec3 c(777.0F, 0.3F, 1e-3F);
+            TemporalRun run(device(), sizeOf(scale), size);
+            std::vector<vec4> last;
+            for (int i = 0; i < 40; ++i) {
+                last = run.add([&](uvec2) { return MadeUpPixel{c, motion, 0.5F}; });
+            }
+            for (const vec4& v : last) {
+                for (int channel = 0; channel < 3; ++channel) {
+                    ASSERT_NEAR(v[channel], asHalf(c[channel]), c[channel] / 500.0F);
+                }
+            }
+        }
+    }
+}
+
+TEST_F(Upscaling, WhateverComesInFiniteRadianceOfAtLeastZeroComesOut) {
+    constexpr float inf = std::numeric_limits<float>::infinity();
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    const std::vector<float> values{0.0F, 0.5F, -1.0F, 65504.0F, inf, -inf, nan, 1e-7F};
+    std::mt19937 random(5);
+    const auto any = [&] { return values[random() % values.size()]; };
+    TemporalRun run(device(), sizeOf(0.5F), size);
+    for (int i = 0; i < 160; ++i) {
+        const std::vector<vec4> now = run.add([&](uvec2) {
+            if (i >= 12) {
+                return MadeUpPixel{vec3(0.5F)};
+            }
+            const vec2 motion = i < 6 ? vec2(0.3F * float(i)) : vec2(any(), any());
+            return MadeUpPixel{{any(), any(), any()}, motion, any()};
+        });
+        for (const vec4& v : now) {
+            for (int channel = 0; channel < 4; ++channel) {
+                ASSERT_TRUE(std::isfinite(v[channel]) && v[channel] >= 0.0F) << i;
+            }
+            ASSERT_TRUE(i < 159 || std::abs(v.x - 0.5F) < 0.05F);  // and none of it stays
+        }
+    }
+}
+
+// As near to the mean over pixels' areas as frames of full size come, bars thinner than a pixel included.
+TEST_F(Upscaling, AtRestItConvergesToTheMeanOverThePicturesPixels) {
+    for (const float scale : scales) {
+        TemporalRun run(device(), sizeOf(scale), size);
+        const auto samples = static_cast<uint32_t>(32.0F / (scale * scale));
+        double first = 0.0;
+        std::vector<vec4> last;
+        for (uint32_t i = 0; i < samples; ++i) {
+            last = run.add([&](uvec2 p) { return MadeUpPixel{patternAt(placeOf(p, i, scale))}; });
+            first = i == 0 ? errorOf(last, vec2(0.0F)) : first;
+        }
+        const double rested = errorOf(last, vec2(0.0F));
+        RecordProperty("rested_" + std::to_string(scale), std::to_string(rested / first));
+        EXPECT_LT(rested, 0.07 * first) << scale << ": " << rested << " of " << first;
+    }
+}
+
+TEST_F(Upscaling, APictureThatGlidesIsNearerToTheTruthThanTheFirstFrame) {
+    for (const float scale : scales) {
+        for (const vec2 motion : {vec2(0.3F, 0.1F), vec2(1.5F, 0.5F)}) {  // pixels of the picture
+            TemporalRun run(device(), sizeOf(scale), size);
+            double first = 0.0;
+            std::vector<vec4> last;
+            vec2 moved(0.0F);
+            for (uint32_t i = 0; i < 24; ++i) {
+                moved = float(i) * motion;
+                last = run.add([&](uvec2 p) {
+                    return MadeUpPixel{patternAt(placeOf(p, i, scale) - moved), motion * scale, 0.5F};
+                });
+                first = i == 0 ? errorOf(last, moved, 4) : first;
+            }
+            const double with = errorOf(last, moved, 4);
+            RecordProperty("glides_" + std::to_string(scale) + "_" + std::to_string(motion.x), std::to_string(with / first));
+            EXPECT_LT(with, 0.6 * first) << scale << ", " << motion.x << ": " << with << " of " << first;
+        }
+    }
+}
+
+TEST_F(Upscaling, LightThatChangesAtRestIsTakenOverInAFewSamplesOfEachPixel) {
+    for (const float scale : scales) {
+        TemporalRun run(device(), sizeOf(scale), size);
+        std::vector<vec4> last;
+        const auto samples = static_cast<uint32_t>(10.0F / (scale * scale));
+        for (uint32_t i = 0; i < 60 + samples; ++i) {
+            const float light = i < 60 ? 1.0F : 0.25F;
+            last = run.add([&](uvec2 p) { return MadeUpPixel{light * patternAt(placeOf(p, i, scale))}; });
+        }
+        double sum = 0.0;
+        double expected = 0.0;
+        for (uint32_t y = 0; y < size.y; ++y) {
+            for (uint32_t x = 0; x < size.x; ++x) {
+                sum += last[y * size.x + x].g;
+                expected += 0.25F * truthAt({x, y}, vec2(0.0F)).g;
+            }
+        }
+        EXPECT_NEAR(sum, expected, 0.05 * expected) << scale;
+    }
 }
 
 }  // namespace

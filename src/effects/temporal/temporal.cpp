@@ -48,7 +48,11 @@ uvec2 columns(uvec2 size) {
     return {size.x, (size.y + temporalColumn - 1) / temporalColumn};
 }
 
-void upscale(gpu::Recorder& f, const Histories& h, const TemporalInputs& in, const TemporalParams& params) {
+void upscale(gpu::Recorder& f, TemporalStore& own, const Histories& h, const TemporalInputs& in, const TemporalParams& params) {
+    const uvec2 output = h.mean.next.size;
+    const gpu::History changes = own.changes.swap(f, VK_FORMAT_R16G16B16A16_SFLOAT, params.size);
+    TemporalParams aroundParams = params;
+    aroundParams.hasPrevious = changes.valid ? params.hasPrevious : 0U;
     gpu::Scratch scratch(f);
     const gpu::Image around = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, params.size);
     const gpu::Image spread = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, params.size);
@@ -64,14 +68,17 @@ void upscale(gpu::Recorder& f, const Histories& h, const TemporalInputs& in, con
         .read("motion", in.g.motion)
         .write("around", around)
         .write("spread", spread)
-        .params(params)
+        .read("previousChanges", changes.previous)
+        .write("changes", changes.next)
+        .params(aroundParams)
         .dispatch(columns(params.size));
     bindHistories(add, h, in);
     add.read("around", around)
         .read("spread", spread)
-        .params(TemporalUpscaleParams{params.settings, params.size, vec2(params.size) / vec2(in.outputSize), in.jitter,
+        .read("changes", changes.next)
+        .params(TemporalUpscaleParams{params.settings, params.size, vec2(params.size) / vec2(output), in.jitter,
                                       params.frame, params.hasPrevious})
-        .dispatch(in.outputSize);
+        .dispatch(output);
 }
 
 }  // namespace
@@ -79,10 +86,11 @@ void upscale(gpu::Recorder& f, const Histories& h, const TemporalInputs& in, con
 TemporalImages temporal(gpu::Recorder& f, TemporalStore& own, const TemporalInputs& in,
                         const TemporalSettings& settings) {
     const uvec2 size = in.radiance.size;
-    const Histories h = swapHistories(f, own, in.outputSize, static_cast<bool>(in.coverage));
+    const uvec2 output = in.outputSize.x > 0 ? in.outputSize : size;
+    const Histories h = swapHistories(f, own, output, static_cast<bool>(in.coverage));
     const TemporalParams params{skyToPrevious(in.view), settings, size, in.view.frame, h.valid ? 1U : 0U};
-    if (size != in.outputSize) {
-        upscale(f, h, in, params);
+    if (size != output) {
+        upscale(f, own, h, in, params);
     } else {
         gpu::Pass pass = f.compute("temporal", in.coverage ? "temporal_coverage.comp" : "temporal.comp");
         bindHistories(pass, h, in);

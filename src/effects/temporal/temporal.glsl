@@ -26,6 +26,7 @@ void resolve(ivec2 pixel, Row above, Row row, Row below) {
     float nearest = max(max(above.nearest, below.nearest), row.nearest);
     Shown now;
     now.own = row.middle;
+    now.changed = 0.0;
     now.inside = 1.0;
     now.blurred = row.middle;
     now.near = 1.0;

@@ -68,14 +68,15 @@ namespace reflet {
 
 /// view: of this frame; the sky is reprojected with it. radiance: RGBA16F, rendered with subpixel jitter (jitter.h),
 /// may contain NaN and infinity; g.motion: without jitter. coverage: if given, that of the pixels by surfaces, red, 0
-/// to 1; radiance is premultiplied by it. outputSize: at least that of radiance. jitter: of this frame, in its pixels.
+/// to 1; radiance is premultiplied by it. outputSize: at least that of radiance; 0: the
+/// same. jitter: of this frame, in its pixels; needed if the sizes differ.
 struct TemporalInputs {
     const GBuffer& g;
     gpu::Image radiance;
     gpu::Image coverage;
     const ViewParams& view;
-    uvec2 outputSize;
-    vec2 jitter;
+    uvec2 outputSize{};
+    vec2 jitter{};
 };
 
 struct TemporalImages {
@@ -89,6 +90,7 @@ struct TemporalStore {
     gpu::HistoryImage mean{"temporal"};
     gpu::HistoryImage deviations{"temporal_deviations"};
     gpu::HistoryImage coverage{"temporal_coverage"};
+    gpu::HistoryImage changes{"temporal_changes"};
 };
 
 TemporalImages temporal(gpu::Recorder& f, TemporalStore& own, const TemporalInputs& in,

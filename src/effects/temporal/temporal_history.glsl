@@ -61,6 +61,7 @@ struct Shown {
     vec3 middle;    // of the 3x3 neighbourhood: mean, tone-compressed
     vec3 variance;
     vec2 moved;     // pixels of the output
+    float changed;  // of the neighbourhood: as `stale` below
 #if HAS_COVERAGE
     float covered;
     float coveredMiddle;
@@ -80,7 +81,7 @@ void accumulate(ivec2 pixel, Shown now) {
     }
     vec4 before = history.mean;
     vec2 differed = still > 0.0 ? imageLoad(previousDeviations, ivec2(at + 0.5)).rg : vec2(0.0);
-    float stale = differed.y * differed.y / (differed.x + 1e-5);
+    float stale = max(differed.y * differed.y / (differed.x + 1e-5), now.changed);
     float trust = still * clamp((staleness.y - stale) / (staleness.y - staleness.x), 0.0, 1.0);
     float variance = trust * differed.x;
 
@@ -100,7 +101,7 @@ void accumulate(ivec2 pixel, Shown now) {
     share = min(share, halfCovered / max(abs(history.covered - now.coveredMiddle), halfCovered));
 #endif
     // At rest, only a sample of the pixel's own area can tell that it changed: neighbours may have missed a thin bar.
-    share = mix(share, 1.0, still * (1.0 - now.inside));
+    share = mix(share, 1.0, trust * (1.0 - now.inside));
     vec3 clipped = mix(now.middle, held, share);
     vec3 kept = share < 1.0 ? toneExpand(clipped) : before.rgb;
 #if HAS_COVERAGE

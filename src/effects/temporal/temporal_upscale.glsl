@@ -8,6 +8,7 @@ layout(scalar) uniform ParamsBlock { TemporalUpscaleParams params; };
 layout(rgba16f) uniform readonly image2D radiance;
 layout(rgba16f) uniform readonly image2D around;
 layout(rgba16f) uniform readonly image2D spread;
+layout(rgba16f) uniform readonly image2D changes;
 layout(rgba16f) uniform readonly image2D previousMean;  // radiance, history length
 layout(rg16f) uniform readonly image2D previousDeviations;
 layout(rgba16f) uniform writeonly image2D mean;
@@ -57,6 +58,8 @@ void main() {
     Shown now;
     now.own = clampToHalf(imageLoad(radiance, nearest).rgb);
     now.blurred = sum / total;
+    vec4 changed = imageLoad(changes, nearest);
+    now.changed = changed.z * changed.z / (changed.y + 1e-5);
     now.inside = all(lessThanEqual(away, vec2(0.5))) ? 1.0 : 0.0;
     now.near = nearness(away) + 1e-3;
     now.middle = middle.rgb;
