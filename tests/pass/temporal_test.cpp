@@ -295,7 +295,7 @@ TEST_F(Upscaling, WhateverComesInFiniteRadianceOfAtLeastZeroComesOut) {
     std::mt19937 random(5);
     const auto any = [&] { return values[random() % values.size()]; };
     TemporalRun run(device(), sizeOf(0.5F), size);
-    for (int i = 0; i < 160; ++i) {
+    for (int i = 0; i < 412; ++i) {  // a hundred samples for each of the picture's pixels
         const std::vector<vec4> now = run.add([&](uvec2) {
             if (i >= 12) {
                 return MadeUpPixel{vec3(0.5F)};
@@ -307,7 +307,7 @@ TEST_F(Upscaling, WhateverComesInFiniteRadianceOfAtLeastZeroComesOut) {
             for (int channel = 0; channel < 4; ++channel) {
                 ASSERT_TRUE(std::isfinite(v[channel]) && v[channel] >= 0.0F) << i;
             }
-            ASSERT_TRUE(i < 159 || std::abs(v.x - 0.5F) < 0.05F);  // and none of it stays
+            ASSERT_TRUE(i < 411 || std::abs(v.x - 0.5F) < 0.02F) << v.x;  // and none of it stays
         }
     }
 }

@@ -1,6 +1,6 @@
 // The history of temporal antialiasing: reprojection, clipping, and the mean with what a frame shows.
-// The includer declares params.settings, frame and hasPrevious, the constants restAllowance
-// (factor on the clip limits at rest) and staleness, and of the output's size the images previousMean,
+// The includer declares params.settings, frame and hasPrevious, the constants allowance
+// (factors on the clip limits in motion and at rest) and staleness, and of the output's size the images previousMean,
 // previousDeviations, mean and deviations, with HAS_COVERAGE also previousCoverage and meanCoverage.
 #ifndef REFLET_TEMPORAL_HISTORY_GLSL
 #define REFLET_TEMPORAL_HISTORY_GLSL
@@ -86,7 +86,7 @@ void accumulate(ivec2 pixel, Shown now) {
     float variance = trust * differed.x;
 
     vec3 held = toneCompress(before.rgb);
-    float allowed = params.settings.clip * mix(1.0, restAllowance, still);
+    float allowed = params.settings.clip * mix(allowance.x, allowance.y, still);
     // With a history at rest, a pixel takes only samples of its own area.
     float exact = still * min(before.a, 1.0);
     vec3 shown = now.blurred + (now.own - now.blurred) * exact;

@@ -20,7 +20,7 @@ layout(r32f) uniform readonly image2D previousCoverage;
 layout(r32f) uniform writeonly image2D meanCoverage;
 #endif
 // Neighbourhoods are wider than the output's, and samples of a pixel's own area are rarer and less evenly spread.
-const float restAllowance = 2.0;
+const vec2 allowance = vec2(1.0, 2.0);
 const vec2 staleness = vec2(0.4, 0.8);
 #include "effects/temporal/temporal_history.glsl"
 
