@@ -25,7 +25,8 @@ void drawSurfaces(gpu::Recorder& f, DirectViewStore& own, const ViewInputs& in, 
         out.backDepth = keptDepth(f, own.keptBackDepth, back, in.view, settings.depth);
     }
     out.g.depth = keptDepth(f, own.keptDepth, out.g.depth, in.view, settings.depth);
-    if (settings.traceScreen.method == TraceMethod::hiz || settings.contact.distance > 0.0F) {
+    const bool traced = settings.traceScreen.enabled != 0 && (settings.diffuse.rays > 0 || settings.specular.rays > 0);
+    if ((traced && settings.traceScreen.method == TraceMethod::hiz) || settings.contact.distance > 0.0F) {
         out.pyramid = makePyramid(f, own.pyramid, out.g.depth, out.backDepth);
     }
 }

@@ -313,7 +313,10 @@ FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in
         out.g, out.direct, out.diffuse, out.specular, in.ggxTable, settings.materials.lambertOnly != 0, layers};
     const auto image = [&](gpu::KeptImage& kept) { return kept.storage(f, litFormat, lit.next.size); };
     const gpu::Image behind = blended.lit ? image(own.litBehind) : lit.next;
-    out.light = composite(f, own.layers, parts, behind, {in.view, settings.diffuse.gain});
+    // Without rays, no frame reads the last one's light.
+    const bool directAlone = out.diffuse.dark && out.specular.dark && !layers && !blended.lit && !in.background.environment;
+    out.light = directAlone ? Composite{{}, {}, out.direct}
+                            : composite(f, own.layers, parts, behind, {in.view, settings.diffuse.gain});
     gpu::Image sum = lit.next;
     if (in.background.environment) {
         if (blended.lit) {
