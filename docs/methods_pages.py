@@ -1,8 +1,10 @@
 """The images and tables of each page of docs/methods/: one function per page, called by methods.py. Settings are written
 as on the command line; a leading @ abbreviates `trace_screen.`. The prose of a page explains its images and figures."""
+import json
+
 import methods_reflections
 import methods_shadows
-from methods import Render, Truth
+from methods import Frame, Render, Truth, cached, options
 
 VISIBLE = "--bounces 1 --visible-only"
 ALL = "--bounces 1"
@@ -285,8 +287,35 @@ def games202(page):
                rows)
 
 
+class After(Frame):
+    """The image after a number of frames at rest, and the time of the last ones."""
+
+    def __init__(self, scene, settings, frames, size):
+        self.arguments = options(scene, settings, None, size, "balanced") + ["--frames", str(frames)]
+        self.png, self.exr, timings = cached("render", self.arguments, [".png", ".exr", ".json"])
+        self.ms = json.load(open(timings))["frame_ms"]
+
+
+def temporal_upscaling(page):
+    scene, size, rods = "colonnade", "640x360", (300, 96, 107, 60)
+    truth = Truth(scene, "", size=size)
+    rows = []
+    for scale in ("1", "0.667", "0.5", "0.333"):
+        row = ["`temporal.scale=%s`" % scale]
+        for frames in (1, 8, 32, 128):
+            frame = After(scene, "temporal.scale=" + scale, frames, size)
+            figures = frame.against(truth)
+            row.append("%.4f / %.3f" % (figures["relative_mse"], figures["flip"]))
+            if scale in ("1", "0.5") and frames in (1, 32):
+                page.picture("scale%s-frame%d" % (scale.replace(".", "_"), frames), frame, rods)
+        rows.append(row + ["%.0f" % frame.ms])
+    page.picture("truth", truth, rods)
+    page.table("scales", ["setting"] + ["frame %d" % n for n in (1, 8, 32, 128)] + ["ms"], rows)
+
+
 PAGES = {"steps-too-large": steps_too_large, "jitter": jitter, "refinement": refinement, "thickness": thickness,
          "leaking": leaking, "adaptive-steps": adaptive_steps, "hierarchical-depth": hierarchical_depth,
          "uniform-and-cosine": uniform_and_cosine, "mirror-to-matt": mirror_to_matt, "unknown": unknown,
          "second-layer": second_layer, "depth-precision": depth_precision, "noise": noise, "games202": games202,
+         "temporal-upscaling": temporal_upscaling,
          **methods_shadows.PAGES, **methods_reflections.PAGES}

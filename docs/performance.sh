@@ -17,7 +17,6 @@ reflet=${REFLET:-build/bin/reflet}
 out=out/performance
 mkdir -p "$out"
 preset=${PRESET:-balanced}
-lambert=(--set materials.lambert_only=true)
 all_scenes=$("$reflet" list scenes | cut -d ' ' -f 1)
 wanted=("$@")
 
@@ -49,9 +48,9 @@ if [[ ${1:-} != page ]]; then
     measure presets builtin:cave --preset direct,games202,plain,fast,balanced,quality,hybrid \
         --variant games202-32=games202,diffuse.rays=32 --size 640x360 --truth-spp 256 --first 1 --warmup 31 --frames 3 \
         --plot "$out/presets.svg"
-    # A whole frame against the GAMES202 method.
-    against=(--compare "preset:$preset" preset:games202,diffuse.rays=32 --size 640x360 "${lambert[@]}"
-        --set specular.rays=0 --truth-spp 256 --first 2 --warmup 31 --frames 3)
+    # A whole frame, with reflections and all, against the GAMES202 method.
+    against=(--compare "preset:$preset" preset:games202,diffuse.rays=32 --compare preset:fast preset:games202,diffuse.rays=32
+        --size 640x360 --truth-spp 256 --first 2 --warmup 31 --frames 3)
     measure games202 builtin:cave "${against[@]}"
     if [[ -n ${CUBE1:-} ]]; then
         measure games202-cube1 "$CUBE1" --view-file "${CUBE1%.gltf}.view.json" "${against[@]}"

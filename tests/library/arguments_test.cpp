@@ -127,6 +127,9 @@ TEST_F(Arguments, OfAView) {
     expectError(refletCreateView(context_, &info, nullptr), "view");
     expectError(refletResizeView(view_, 0, 4), "width");
     expectError(refletResizeView(nullptr, 4, 4), "view");
+    expectError(refletSetOutputSize(view_, 0, 4), "width");
+    expectError(refletSetOutputSize(view_, 4, 20000), "height");
+    expectError(refletSetOutputSize(nullptr, 4, 4), "view");
     expectError(refletViewMemory(view_, nullptr), "bytes");
     expectError(refletFindImage(view_, "depth", nullptr), "image");
     RefletImage image{};
@@ -197,6 +200,7 @@ TEST_F(Arguments, OfEffects) {
         EXPECT_REFLET(refletBeginFrame(view_, &info));
         expectError(refletBeginFrame(view_, &info), "begun already");
         expectError(refletResizeView(view_, 4, 4), "begun");
+        expectError(refletSetOutputSize(view_, 4, 4), "begun");
         expectError(refletFinishView(view_), "begun");
         const auto lit = [&](const std::string& field, const std::function<void(RefletIndirectLight&)>& spoil) {
             RefletIndirectLight given = room_.light();

@@ -349,6 +349,52 @@ TEST_F(Library, ManySizesLeaveNoMemoryBehind) {
     refletDestroyContext(context);
 }
 
+TEST_F(Library, MakesLargerPicturesOfSmallerFrames) {
+    RefletContext context = host_.makeContext();
+    RefletSettings settings = makeSettings("balanced");
+    RefletView view = makeView(context, 3);
+    const HostRoom room(host_, {});
+    EXPECT_REFLET(refletSetOutputSize(view, 2 * HostRoom::width, 2 * HostRoom::height));
+    const RoomResults large = renderFrames(room, view, settings, 8);
+    EXPECT_EQ(large.antialiased.width, 2 * HostRoom::width);
+    EXPECT_EQ(large.display.height, 2 * HostRoom::height);
+    EXPECT_EQ(large.sum.lit.width, HostRoom::width);
+    const auto meanOf = [&](const RefletImage& image) {
+        vec4 sum(0.0F);
+        const std::vector<vec4> texels = halvesOf(host_, image);
+        for (const vec4& texel : texels) {
+            sum += texel;
+        }
+        return sum / static_cast<float>(texels.size());
+    };
+    const vec4 mean = meanOf(large.antialiased);
+    EXPECT_GT(mean.w, 1.5F) << "samples in the history: one in four frames lies in a pixel";
+    const vec4 lit = meanOf(large.sum.lit);
+    EXPECT_NEAR(mean.y, lit.y, 0.05F * lit.y);
+    // Smaller than the frames: the frame goes on without it.
+    EXPECT_REFLET(refletSetOutputSize(view, HostRoom::width - 1, HostRoom::height));
+    host_.host.frame([&](VkCommandBuffer commands) {
+        const RefletFrameInfo frame = room.frame(commands, 8);
+        const RefletIndirectLight light = room.light();
+        RefletLobe lobe{};
+        RefletComposite sum{};
+        sum.structSize = sizeof sum;
+        RefletImage image{};
+        EXPECT_REFLET(refletBeginFrame(view, &frame));
+        EXPECT_REFLET(refletDiffuseGi(view, settings, &light, &lobe));
+        EXPECT_REFLET(refletComposite(view, settings, nullptr, &sum));
+        EXPECT_EQ(refletTemporal(view, settings, nullptr, &image), REFLET_ERROR_INVALID_ARGUMENT);
+        EXPECT_NE(std::string(refletLastError()).find("refletSetOutputSize"), std::string::npos) << refletLastError();
+        EXPECT_REFLET(refletEndFrame(view));
+    });
+    host_.host.waitForAll();
+    EXPECT_REFLET(refletSetOutputSize(view, 0, 0));
+    EXPECT_EQ(renderFrames(room, view, settings, 1).display.width, HostRoom::width);
+    refletDestroyView(view);
+    refletDestroySettings(settings);
+    refletDestroyContext(context);
+}
+
 // After a reset the view does what it did in its first frame.
 TEST_F(Library, AResetForgetsTheHistory) {
     RefletContext context = host_.makeContext();

@@ -72,6 +72,7 @@ struct Stores {
     CompositeStore composite;
     AccumulateStore accumulate;
     TemporalStore temporal;
+    TemporalStore upscaling;
     gpu::HistoryImage exposure{"exposure"};
     gpu::KeptImage display{"display"};
     RecordRayStore recordRay;
@@ -84,6 +85,7 @@ struct Results {
     gpu::Readback lit;
     gpu::Readback accumulated;
     gpu::Readback temporal;
+    gpu::Readback upscaled;
     gpu::Readback display;
 };
 
@@ -154,11 +156,14 @@ public:
         const gpu::History lit = stores_.lit.swap(f, colorFormat, size);
         const Composite light = lightIndirectly(f, view, {pyramid, direct, lit});
         const TemporalImages mean = temporal(f, stores_.temporal, {g_, light.lit, {}, view}, {});
+        const TemporalInputs smaller{g_, light.lit, {}, view, 2U * size, vec2(0.1F, -0.2F)};
+        const TemporalImages upscaled = temporal(f, stores_.upscaling, smaller, {});
         const LightLayers means = accumulate(f, stores_.accumulate, {direct, light}, 0);
         const gpu::Image stops = measureExposure(f, stores_.exposure, mean.mean, g_.depth, 0.0F, 0.5F);
         const gpu::Image display = tonemap(f, stores_.display, mean.mean, {}, stops);
         recordRay(f, stores_.recordRay, {g_, {}, pyramid}, view, {}, size / 2U);
-        return {f.readback(light.lit), f.readback(means.light.lit), f.readback(mean.mean), f.readback(display)};
+        return {f.readback(light.lit), f.readback(means.light.lit), f.readback(mean.mean), f.readback(upscaled.mean),
+                f.readback(display)};
     }
 
 private:
@@ -289,6 +294,7 @@ TEST(EffectsHost, RecordsEveryEffectBetweenItsOwnCommands) {
         expectLight(recorder, results.lit, colorFormat, "lit");
         expectLight(recorder, results.accumulated, VK_FORMAT_R32G32B32A32_SFLOAT, "mean of frames");
         expectLight(recorder, results.temporal, colorFormat, "temporal antialiasing");
+        expectLight(recorder, results.upscaled, colorFormat, "temporal upscaling");
         expectLight(recorder, results.display, VK_FORMAT_R8G8B8A8_UNORM, "display");
         std::set<std::string> passes;
         for (const gpu::PassTime& pass : recorder.passTimes()) {
@@ -347,6 +353,7 @@ TEST(EffectsHost, StaysFiniteWhateverTheInputsHold) {
         expectLight(recorder, results.lit, colorFormat, "lit");
         expectLight(recorder, results.accumulated, VK_FORMAT_R32G32B32A32_SFLOAT, "mean of frames");
         expectLight(recorder, results.temporal, colorFormat, "temporal antialiasing");
+        expectLight(recorder, results.upscaled, colorFormat, "temporal upscaling");
         expectLight(recorder, results.display, VK_FORMAT_R8G8B8A8_UNORM, "display");
     }
     EXPECT_TRUE(host.messages().empty()) << host.messages().front();

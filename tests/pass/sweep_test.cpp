@@ -182,6 +182,7 @@ const std::vector<Context>& contexts() {
         {"diffuse.adaptive", {"denoise.enabled=true"}, "cave", 3},
         {"diffuse.reuse", {"diffuse.rays=1"}},
         {"specular.adaptive", {"denoise.enabled=true"}, "gloss", 3},
+        {"specular.rough_rays", {"denoise.enabled=true"}, "cave"},
         {"specular.rough_fallback", {"specular.max_roughness=0.2"}},
         {"specular.max_roughness", {"specular.rough_fallback=mips"}},
         {"denoise.", {"denoise.enabled=true"}, "gloss", 3},

@@ -46,6 +46,27 @@ TEST(TemporalFrame, AtRestItConvergesToTheMeanOverThePixelsArea) {
     expectSilentValidation("temporal antialiasing");
 }
 
+// Over 5 s: as above.
+TEST(TemporalFrame, SmallerFramesConvergeToTheSamePictureOfFullSize) {
+    for (const char* name : {"cubes", "colonnade"}) {
+        const Scene scene = findBuiltinScene(name)->make();
+        const View view = defaultView(scene);
+        const FloatImage truth =
+            render(scene, view, size, settingsWith({"accumulate.enabled=on"}), {"final"}, 128).images.at("final");
+        const double without =
+            relativeMse(render(scene, view, size, settingsWith({}), {"final"}).images.at("final"), truth);
+        for (const char* scale : {"temporal.scale=0.5", "temporal.scale=0.6667"}) {
+            const Pictures p = render(scene, view, size, settingsWith({"temporal.enabled=on", scale}), {"final"}, 96);
+            ASSERT_EQ(p.images.at("final").width, size.x);
+            const double with = relativeMse(p.images.at("final"), truth);
+            RecordProperty(std::string(name) + scale, std::to_string(with / without));
+            // Letters of two pixels, in cubes, are half a small frame's neighbourhood: their history is clipped more.
+            EXPECT_LT(with, 0.35 * without) << name << ", " << scale << ": " << with << " of " << without;
+        }
+    }
+    expectSilentValidation("temporal upscaling");
+}
+
 TEST(TemporalFrame, MotionIsZeroAtRestWhateverTheJitterAndWithoutItWhenTheCameraMoves) {
     const Scene scene = findBuiltinScene("cubes")->make();
     const View view = defaultView(scene);

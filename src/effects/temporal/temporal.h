@@ -34,7 +34,7 @@ SHARED_BEGIN
           "standard deviations. Lower: less ghosting, more flicker.")                                                  \
     VALUE(float, scale, 1.0, 0.25, 1.0,                                                                                \
           "Temporal upscaling: the share of the picture's width and height at which frames are rendered; their mean "  \
-          "has full size. 0.5: a quarter of the time; full sharpness after about 4 times as many frames at rest.")
+          "has full size. 0.5: a quarter of the cost of a frame, and twice as many frames until all is sharp.")
 SETTINGS(TemporalSettings, TEMPORAL_SETTINGS)
 
 // Vertically adjacent pixels per thread, which share their neighbourhood loads.
