@@ -297,7 +297,7 @@ class After(Frame):
 
 
 def temporal_upscaling(page):
-    scene, size, rods = "colonnade", "640x360", (300, 96, 107, 60)
+    scene, size, rods = "colonnade", "640x360", (150, 160, 107, 60)
     truth = Truth(scene, "", size=size)
     rows = []
     for scale in ("1", "0.667", "0.5", "0.333"):

@@ -1,7 +1,9 @@
-// Prints docs/library.md's table of memory: what each effect adds to a view at 1920x1080 and 3840x2160.
+// Prints docs/library.md's table of memory: what each effect adds to a view with an output of 1920x1080
+// and 3840x2160. `fast` and `balanced` have frames of half of that to each side (temporal upscaling).
 #include "library/library_host.h"
 
 #include <cstdio>
+#include <string_view>
 
 using namespace reflet::test;
 
@@ -9,10 +11,12 @@ namespace {
 
 double megabytes(RefletContext context, const char* preset, uint32_t effects, uint32_t width, uint32_t height,
                  const RefletGBuffer& gbuffer) {
-    const RefletViewInfo info{sizeof info, width, height, 1};
+    const uint32_t share = std::string_view(preset) == "quality" ? 1 : 2;
+    const RefletViewInfo info{sizeof info, width / share, height / share, 1};
     RefletView view = nullptr;
     RefletSettings settings = nullptr;
     refletCreateView(context, &info, &view);
+    refletSetOutputSize(view, width, height);
     refletCreateSettings(preset, &settings);
     RefletPrepareInfo prepare{};
     prepare.structSize = sizeof prepare;
