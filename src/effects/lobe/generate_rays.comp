@@ -1,7 +1,6 @@
 // Generates the rays of a lobe: directions, weights, and the list of rays to trace.
 // In: depth, both normals, material, base colour, GGX table, blue noise, tiles and the list of tiles with rays.
-// Out: direction of the rays, the list of rays; answer and source only of those that are not needed: of the others, the
-// first answer writes them, and the environment answers all that is left.
+// Out: direction, answer and source (cleared) of the rays, the list of rays.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/lobe/adaptive_rays.h"
@@ -128,6 +127,8 @@ void generate(ivec2 pixel, uint rays) {
     uint end = min(params.firstRay + params.rayCount, rays);
     for (uint i = params.firstRay; i < end; ++i) {
         ivec3 slot = ivec3(pixel, i - params.firstRay);
+        imageStore(answer, slot, vec4(0.0));
+        imageStore(source, slot, vec4(0.0));
         Ray ray = Ray(vec3(0.0, 0.0, 1.0), 0.0, 0.0, 0.0);
         if (needed) {
             RayNumber number = RayNumber(pixel, i, rays);
@@ -135,9 +136,6 @@ void generate(ivec2 pixel, uint rays) {
                                       : specularRay(number, n, directionToEye(p, params.view.eye), m);
             ray.direction = raiseAbove(ray.direction, unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r));
             appendRay(WaitingRay(slot, 1.0, 0.0, false));
-        } else {
-            imageStore(answer, slot, vec4(0.0));
-            imageStore(source, slot, vec4(0.0));
         }
         imageStore(direction, slot, uvec4(packRay(ray), 0u, 0u));
     }

@@ -6,13 +6,9 @@
 float addAnswer(ivec3 slot, RayAnswer a, float rest, vec4 color) {
     float weight = rest * clamp(a.confidence, 0.0, 1.0);
     if (weight > 0.0) {
-        vec4 sum = weight * vec4(clampToHalf(a.radiance), a.hitDistance);
-        vec4 sources = weight * color;
-        if (rest < 1.0) {  // else it is the ray's first answer: what the images hold is of another frame
-            sum += imageLoad(answer, slot);
-            sources += imageLoad(source, slot);
-        }
+        vec4 sum = imageLoad(answer, slot) + weight * vec4(clampToHalf(a.radiance), a.hitDistance);
         imageStore(answer, slot, min(sum, vec4(largestHalf)));
+        vec4 sources = imageLoad(source, slot) + weight * color;
         imageStore(source, slot, sources);
     }
     return rest - weight;
