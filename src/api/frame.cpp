@@ -154,10 +154,6 @@ LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings,
         screen.lightMips = makeLightMips(f, own.lightMips, previous ? screen.lit.previous : screen.light);
     }
     const float longest = diffuse ? settings.diffuse.maxDistance : trace.maxDistance;
-    std::vector<RaySource> sources;
-    if (trace.enabled != 0) {
-        sources.emplace_back([&](gpu::Recorder& to, Rays& rays) { traceScreen(to, rays, screen, trace, longest); });
-    }
     const bool exact = hiz || trace.method == TraceMethod::exhaustive;
     const EnvironmentLight around = environmentLight(view, environment);
     const LobeLight traced =
@@ -173,7 +169,8 @@ LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings,
                    .environment = around,
                    .ggxTable = ggxTable(f, view.images->ggxTable),
                    .blueNoise = blueNoiseOf(view),
-                   .sources = sources,
+                   .screen = {trace.enabled != 0 ? &screen : nullptr, trace, longest},
+                   .sources = {},
                    .lit = screen.lit,
                    .randomTracing = trace.enabled != 0 && trace.jitter != 0 && !exact,
                    .coneShare = trace.enabled != 0 ? 0.1F : 0.0F});

@@ -22,26 +22,27 @@ bool tracesAtRandom(const Settings& settings) {
     return (s.enabled != 0 && s.jitter != 0 && !exact) || settings.traceScene.enabled != 0;
 }
 
+// Whether planar views are asked before the screen.
+bool startsWithMirrors(const Settings& settings, const TracedView& seen, uint32_t lobe) {
+    return lobe == lobeSpecular && settings.planar.beforeScreen != 0 && !seen.mirrors.empty();
+}
+
 // In order of accuracy, each for the misses of the previous one. Planar views see more than the screen and need no
-// thickness assumption; which of the two comes first is a setting.
-std::vector<RaySource> sourcesOf(const ViewInputs& in, const Settings& settings, const TracedView& seen,
-                                 uint32_t lobe) {
-    const float longest = lobe == lobeDiffuse ? settings.diffuse.maxDistance : settings.traceScreen.maxDistance;
+// thickness assumption; which of the two comes first is a setting. The screen is here only if it is not the first.
+std::vector<RaySource> sourcesOf(const ViewInputs& in, const Settings& settings, const TracedView& seen, uint32_t lobe,
+                                 float longest) {
     std::vector<RaySource> sources;
-    if (settings.traceScreen.enabled != 0) {
-        sources.emplace_back([&, longest](gpu::Recorder& f, Rays& rays) {
-            traceScreen(f, rays, seen.screen, settings.traceScreen, longest);
-        });
-    }
     if (lobe == lobeSpecular) {
-        std::vector<RaySource> planar;
         for (const PlanarView& mirror : seen.mirrors) {
-            planar.emplace_back([&, longest](gpu::Recorder& f, Rays& rays) {
+            sources.emplace_back([&, longest](gpu::Recorder& f, Rays& rays) {
                 traceMirror(f, rays, mirror, settings.traceScreen, longest);
             });
         }
-        sources.insert(settings.planar.beforeScreen != 0 ? sources.begin() : sources.end(), planar.begin(),
-                       planar.end());
+    }
+    if (settings.traceScreen.enabled != 0 && startsWithMirrors(settings, seen, lobe)) {
+        sources.emplace_back([&, longest](gpu::Recorder& f, Rays& rays) {
+            traceScreen(f, rays, seen.screen, settings.traceScreen, longest);
+        });
     }
     if (settings.traceScene.enabled != 0 && in.traced != nullptr) {
         sources.emplace_back(
@@ -59,7 +60,9 @@ LobeLight traceLobe(gpu::Recorder& f, LobeStore& own, const ViewInputs& in, cons
                     const TracedView& seen, uint32_t lobe) {
     LobeSettings common = lobe == lobeDiffuse ? lobeSettings(settings.diffuse) : lobeSettings(settings.specular);
     common.rays = in.draws.unlit ? 0 : common.rays;
-    const std::vector<RaySource> sources = sourcesOf(in, settings, seen, lobe);
+    const float longest = lobe == lobeDiffuse ? settings.diffuse.maxDistance : settings.traceScreen.maxDistance;
+    const std::vector<RaySource> sources = sourcesOf(in, settings, seen, lobe, longest);
+    const bool first = settings.traceScreen.enabled != 0 && !startsWithMirrors(settings, seen, lobe);
     return traceLobe(f, own,
                      {.lobe = lobe,
                       .g = seen.images.g,
@@ -72,6 +75,7 @@ LobeLight traceLobe(gpu::Recorder& f, LobeStore& own, const ViewInputs& in, cons
                       .environment = in.environment,
                       .ggxTable = in.ggxTable,
                       .blueNoise = in.blueNoise,
+                      .screen = {first ? &seen.screen : nullptr, settings.traceScreen, longest},
                       .sources = sources,
                       .lit = seen.screen.lit,
                       .randomTracing = tracesAtRandom(settings),

@@ -104,19 +104,18 @@ float thicknessAt(ivec2 pixel, float front, MarchOptions o, MarchView view) {
     return o.thickness;
 }
 
+// Without branches: on CPUs each would write all that it changes to memory.
 MarchSample sampleAt(MarchRay ray, float t, MarchOptions o, MarchView view) {
     vec4 clip = ray.clipStart + t * ray.clipStep;
-    vec2 uv = ndcToUv(clip.xy / clip.w);
-    MarchSample s = MarchSample(false, ivec2(0), 0.0, 0.0, 0.0, false);
-    s.onScreen = clip.w > 0.0 && clip.z <= clip.w && all(greaterThanEqual(uv, vec2(0.0))) && all(lessThan(uv, vec2(1.0)));
-    if (s.onScreen) {
-        s.pixel = ivec2(uv * view.size);
-        s.depth = loadDepth(s.pixel);
-        float front = depthToViewDistance(s.depth, view.depthToDistance);
-        s.behind = ray.viewDistanceStart + t * ray.viewDistanceStep - front;
-        s.thickness = thicknessAt(s.pixel, front, o, view);
-        s.hittable = isHittable(ray, s.pixel, s.depth, view);
-    }
+    vec2 at = (clip.xy * (1.0 / clip.w)) * (0.5 * view.size) + 0.5 * view.size;
+    MarchSample s;
+    s.onScreen = clip.w > 0.0 && clip.z <= clip.w && all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, view.size));
+    s.pixel = clamp(ivec2(at), ivec2(0), ivec2(view.size) - 1);
+    s.depth = loadDepth(s.pixel);
+    float front = depthToViewDistance(s.depth, view.depthToDistance);
+    s.behind = ray.viewDistanceStart + t * ray.viewDistanceStep - front;
+    s.thickness = thicknessAt(s.pixel, front, o, view);
+    s.hittable = isHittable(ray, s.pixel, s.depth, view);
     return s;
 }
 

@@ -45,34 +45,36 @@ MarchResult marchLinear(MarchRay ray, MarchOptions o, MarchView view) {
 // Adaptive steps: a step that would end behind a surface is halved, until it is shorter than o.minStep; then the ray
 // hits if it is behind the surface by less than the thickness. The first and longest step is jitter times o.stepLength.
 MarchResult marchHalving(MarchRay ray, MarchOptions o, MarchView view) {
-    MarchResult result = emptyMarchResult();
+    // Few variables change in the loop: on CPUs each is memory.
+    float clear = 0.0;
     float behindBefore = 0.0;
     float stride = o.stepLength * o.jitter;
-    for (uint i = 0u; i < o.maxSteps && result.clear + stride <= o.maxDistance; ++i) {
-        float t = result.clear + stride;
-        MarchSample s = sampleAt(ray, t, o, view);
-        if (!s.onScreen) {
-            result.outcome = marchLeftScreen;
-            break;
+    uint steps = 0u;
+    uint outcome = marchLimitReached;
+    while (outcome == marchLimitReached && steps < o.maxSteps && clear + stride <= o.maxDistance) {
+        MarchSample s = sampleAt(ray, clear + stride, o, view);
+        bool behind = s.behind > 0.0 && s.hittable;
+        bool ends = behind && stride < o.minStep;
+        outcome = !s.onScreen ? marchLeftScreen : (ends ? marchHit : marchLimitReached);
+        bool steps_on = s.onScreen && !behind;
+        clear = steps_on ? clear + stride : clear;
+        behindBefore = steps_on ? (s.hittable ? s.behind : 0.0) : behindBefore;
+        stride = behind && !ends ? 0.5 * stride : stride;
+        steps += s.onScreen ? 1u : 0u;
+    }
+    MarchResult result = emptyMarchResult();
+    result.outcome = outcome;
+    result.clear = clear;
+    result.steps = steps;
+    result.distance = outcome == marchHit ? clear + stride : clear;
+    MarchSample s = sampleAt(ray, result.distance, o, view);
+    result.pixel = s.pixel;
+    if (outcome == marchHit) {
+        if (s.behind < s.thickness + stepThickness(ray, stride, o)) {
+            return refineHit(result, clear, behindBefore, s.behind, ray, o, view);
         }
-        result.pixel = s.pixel;
-        result.distance = t;
-        result.steps = i + 1u;
-        if (s.behind <= 0.0 || !s.hittable) {
-            result.clear = t;
-            behindBefore = s.hittable ? s.behind : 0.0;
-            continue;
-        }
-        if (stride < o.minStep) {
-            if (s.behind < s.thickness + stepThickness(ray, stride, o)) {
-                result.outcome = marchHit;
-                return refineHit(result, result.clear, behindBefore, s.behind, ray, o, view);
-            }
-            result.outcome = marchOccluded;
-            result.occluded = true;
-            break;
-        }
-        stride *= 0.5;
+        result.outcome = marchOccluded;
+        result.occluded = true;
     }
     return result;
 }

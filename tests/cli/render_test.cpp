@@ -157,7 +157,7 @@ TEST_F(Render, TimingsTellEveryPassOfTheFrame) {
     EXPECT_EQ(timings.at("frames"), 3);
     EXPECT_GT(timings.at("frame_ms"), 0.0);
     const auto& passes = timings.at("passes");
-    for (const char* pass : {"gbuffer", "shadow_visibility", "direct", "diffuse.generate_rays", "diffuse.trace_screen",
+    for (const char* pass : {"gbuffer", "shadow_visibility", "direct", "diffuse.classify_tiles", "diffuse.trace_screen",
                              "specular.trace_screen", "composite", "tonemap"}) {
         EXPECT_TRUE(passes.contains(pass)) << pass;
     }

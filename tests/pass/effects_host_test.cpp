@@ -217,8 +217,6 @@ private:
         screen.lightMips = makeLightMips(f, stores_.lightMips, in.direct);
         TraceScreenSettings trace;
         trace.light = HitLight::previous;
-        const std::vector<RaySource> sources{
-            [&](gpu::Recorder& to, Rays& rays) { traceScreen(to, rays, screen, trace, 100.0F); }};
         const DenoiseSettings denoise{.enabled = 1};
         LobeInputs lobe{.lobe = lobeDiffuse,
                         .g = g_,
@@ -231,7 +229,8 @@ private:
                         .environment = environment_,
                         .ggxTable = stores_.ggx.last(),
                         .blueNoise = stores_.blueNoise.get(f, blueNoise().size_bytes()),
-                        .sources = sources,
+                        .screen = {&screen, trace, 100.0F},
+                        .sources = {},
                         .lit = in.lit};
         const LobeLight diffuse = traceLobe(f, stores_.diffuse, lobe);
         lobe.lobe = lobeSpecular;
@@ -312,7 +311,7 @@ TEST(EffectsHost, RecordsEveryEffectBetweenItsOwnCommands) {
                                  "diffuse.trace_screen",
                                  "diffuse.denoise_gather",
                                  "specular.share_rays",
-                                 "specular.answer_environment",
+                                 "specular.trace_screen",
                                  "composite",
                                  "accumulate",
                                  "temporal",

@@ -9,12 +9,14 @@ void answerEnvironment(gpu::Recorder& f, Rays& rays, const EnvironmentLight& env
     bindEnvironment(pass, environment);
     bindEnvironmentLobes(pass, f.context(), environment);
     pass.constant("lobe", rays.lobe)
+        .constant("environmentLights", settings.enabled)
+        .constant("spreads", rays.spreads ? 1U : 0U)
         .read("material", rays.from.g.material)
         .read("direction", rays.direction)
         .read("waiting", rays.waiting)
         .write("answer", rays.answer)
         .write("source", rays.source)
-        .params(AnswerEnvironmentParams{settings})
+        .params(AnswerEnvironmentParams{settings}, "environmentAnswer")
         .dispatchIndirect(rays.waiting, 0);
     rays.waiting = {};
 }

@@ -1,31 +1,39 @@
-// Generates the rays of a lobe: directions, weights, and the list of rays to trace.
-// In: depth, both normals, material, base colour, GGX table, blue noise, tiles and the list of tiles with rays.
-// Out: direction, answer and source (cleared) of the rays, the list of rays.
+// Generates the rays of a lobe: directions, weights, and the list of rays to trace. In the same pass, if requested, traces
+// them on the screen (`screen`), so that the list has only its misses; and if no other source follows (`last`), adds the
+// environment and averages the pixel's rays, so that no ray is written to memory.
+// In: depth, both normals, material, base colour, GGX table, blue noise, tiles, the list of tiles with rays; what
+// screen_hit.glsl reads; the environment.
+// Out: direction, answer, source and steps of the rays, the list of waiting rays; or radiance with mean hit distance, source
+// colours with confidence, steps, and variation of the light with the normal; motion of reflected images.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
-#include "effects/lobe/adaptive_rays.h"
+#include "effects/lobe/answer_environment.h"
 #include "effects/lobe/ray_tiles.glsl"
 #include "effects/lobe/rays.glsl"
-#include "effects/gbuffer/gbuffer_surface.glsl"
-#include "shaders/projection.glsl"
-#include "shaders/sampling.glsl"
+#include "effects/lobe/trace_screen.h"
 
 layout(constant_id = 0) const uint lobe = 0u;
+layout(constant_id = 8) const uint adds = 0u;
+layout(constant_id = 10) const uint spreads = 0u;
+layout(constant_id = 11) const uint environmentLights = 0u;
 layout(constant_id = 1) const uint noise = RayNoise_blue;
-layout(constant_id = 3) const uint adaptive = 0u;  // 1: rays per pixel change from frame to frame
 layout(constant_id = 2) const uint distribution = RayDistribution_cosine;
+layout(constant_id = 3) const uint adaptive = 0u;  // 1: rays per pixel change from frame to frame
+layout(constant_id = 4) const uint screen = 0u;
+layout(constant_id = 5) const uint last = 0u;
+layout(constant_id = 6) const uint countSteps = 0u;
+layout(constant_id = 7) const uint hasDirectional = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(scalar) uniform ParamsBlock { GenerateRaysParams params; };
-uniform sampler2D depth;
-uniform usampler2D normal;
-uniform usampler2D geometricNormal;
-uniform sampler2D material;
-uniform sampler2D baseColor;
+#include "effects/lobe/screen_hit.glsl"
+layout(scalar) uniform RayBlock { GenerateRaysParams rayParams; };
+layout(scalar) uniform EnvironmentAnswerBlock { AnswerEnvironmentParams environmentAnswer; };
+uniform sampler2D ownDepth;
+uniform usampler2D ownNormal;
+uniform usampler2D ownGeometricNormal;
+uniform sampler2D ownMaterial;
+uniform sampler2D ownBaseColor;
 uniform sampler2D ggxTable;
-layout(rg32ui) uniform writeonly uimage2DArray direction;
-layout(rgba16f) uniform writeonly image2DArray answer;
-layout(rgba8) uniform writeonly image2DArray source;
 layout(scalar) readonly buffer BlueNoiseBlock { uint texels[]; } blueNoise;
 layout(rg32f) uniform readonly image2D tiles;
 layout(scalar) readonly buffer ListBlock {
@@ -33,123 +41,111 @@ layout(scalar) readonly buffer ListBlock {
     uint count;
     uint items[];
 } list;
+layout(rg32ui) uniform writeonly uimage2DArray direction;
+layout(rgba16f) uniform writeonly image2DArray answer;
+layout(rgba8) uniform writeonly image2DArray source;
+layout(r32f) uniform writeonly image2DArray steps;
+layout(rgba16f) uniform image2D radiance;
+layout(rgba16f) uniform image2D meanSource;
+layout(r32f) uniform image2D meanSteps;
+layout(rgba16f) uniform image2D directional;
+#include "effects/lobe/environment_answer.glsl"
+#include "effects/lobe/make_ray.glsl"
 #include "effects/lobe/rays_append.glsl"
+#include "effects/lobe/resolve_ray.glsl"
 
-uint loadBlueNoise(uint texel) { return blueNoise.texels[texel]; }
-#include "shaders/blue_noise.glsl"
-
-const float lowestRay = 1e-3;  // smallest sine of the angle between a ray and its surface
-
-// The index of a ray among a pixel's rays.
-struct RayNumber {
+// What all rays of a pixel start from.
+struct RayOrigin {
     ivec2 pixel;
-    uint index;
-    uint count;
+    vec3 point;
+    vec3 normal;     // of shading
+    vec3 geometric;  // normal
+    vec4 plane;      // on screen
+    MaterialTexel material;
 };
 
-// Two random numbers in [0, 1) for a ray.
-vec2 randomPair(RayNumber ray) {
-    uint seed = params.view.seed + lobe;
-    if (noise == RayNoise_blue) {
-        uint stride = adaptive != 0u ? maxAdaptiveRays : ray.count;
-        return blueNoisePoint(uvec2(ray.pixel), seed, params.view.frame, ray.index, ray.count, stride);
+// Traces a ray on the screen. number: of the ray in its pixel. Returns its steps.
+float traceOnScreen(RayOrigin from, uint number, Ray ray, inout WaitingRay w, inout AnswerSum sum) {
+    if (ray.trust == 0.0) {
+        return 0.0;
     }
-    return hashToUnit2(hashPixel(uvec2(ray.pixel), ray.index * 2u + hashPcg(seed), params.view.frame));
-}
-
-Ray diffuseRay(RayNumber number, vec3 n) {
-    vec2 u = randomPair(number);
-    if (distribution == RayDistribution_uniform) {
-        vec3 local = sampleUniformHemisphere(u);
-        return Ray(basisAround(n) * local, 2.0 * local.z, 1.0, 0.0);  // cos / pi over 1 / (2 pi)
-    }
-    if (distribution == RayDistribution_normal) {
-        return Ray(n, 1.0, 0.0, 1.0);
-    }
-    return Ray(basisAround(n) * sampleCosineHemisphere(u), 1.0, 1.0, 0.0);
-}
-
-// Normal maps and smooth normals send some rays below the surface; these are bent to just above it.
-vec3 raiseAbove(vec3 direction, vec3 geometric) {
-    float height = dot(direction, geometric);
-    return height < lowestRay ? normalize(direction + geometric * (lowestRay - height)) : direction;
-}
-
-// F0 by its luminance over F90, by which the weight of a ray does not change; of a surface that reflects nothing: any.
-float relativeF0(ivec2 pixel, MaterialTexel m) {
-    vec4 dielectric = dielectricAt(pixel);
-    vec3 f0 = mix(dielectric.rgb, unpackBaseColor(texelFetch(baseColor, pixel, 0).rgb), m.metallic);
-    float f90 = dielectric.a + m.metallic * (1.0 - dielectric.a);
-    return f90 > 0.0 ? dot(f0, vec3(0.2126, 0.7152, 0.0722)) / f90 : dielectricF0;
-}
-
-// Reflection at a sampled visible GGX normal. The weight is BRDF · cos / pdf divided by the directional albedo, which
-// the composite multiplies in. One weight for all three channels: F0 is taken by its luminance.
-Ray specularRay(RayNumber number, vec3 n, vec3 v, MaterialTexel m) {
-    mat3 frame = basisAround(n);
-    vec3 eye = v * frame;
-    eye = normalize(vec3(eye.xy, max(eye.z, 1e-3)));  // normal maps may face away from the eye
-    float alpha = m.roughness * m.roughness;
-    bool cone = m.roughness > params.specular.maxRoughness && params.specular.roughFallback == RoughFallback_mips;
-    vec3 h = vec3(0.0, 0.0, 1.0);
-    float share = 1.0;  // masking: the share of light along the ray that reaches the eye
-    if (cone && params.coneShare == 0.0) {
-        return Ray(frame * ggxMeanDirection(eye, alpha), 1.0, 1.0, m.roughness);
-    }
-    if (m.roughness > mirrorRoughness) {
-        vec2 u = randomPair(number);
-        h = sampleGgxVisible(cone ? u * vec2(params.coneShare, 1.0) : u, eye, alpha);
-    }
-    vec3 l = 2.0 * dot(eye, h) * h - eye;
-    if (cone) {
-        return Ray(frame * l, 1.0, 1.0, m.roughness);
-    }
-    if (m.roughness > mirrorRoughness) {
-        float a2 = alpha * alpha;
-        share = ggxVisibility(max(l.z, 0.0), eye.z, alpha) * 2.0 * max(l.z, 0.0) *
-                (eye.z + sqrt(eye.z * eye.z * (1.0 - a2) + a2));
-    }
-    float y = relativeF0(number.pixel, m);
-    vec2 table = textureLod(ggxTable, ggxTableUv(eye.z, m.roughness), 0.0).rg;
-    float weight = share * fresnelSchlick(vec3(y), dot(eye, h)).x / max(y * table.x + table.y, 1e-3);
-    float fade = params.specular.maxRoughness < 1.0 && params.specular.roughFallback == RoughFallback_next
-                     ? smoothstep(params.specular.maxRoughness - 0.1, params.specular.maxRoughness, m.roughness)
-                     : 0.0;
-    return Ray(frame * l, weight, 1.0 - fade, 0.0);
-}
-
-void generate(ivec2 pixel, uint rays) {
-    float d = texelFetch(depth, pixel, 0).r;
-    MaterialTexel m = unpackMaterial(texelFetch(material, pixel, 0));
-    bool needed = d > 0.0 && (lobe == lobeDiffuse || (m.flags & materialFlagLambert) == 0u);
-    vec3 n = unpackUnitVector(texelFetch(normal, pixel, 0).r);
-    vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), max(d, 1e-12), params.view.clipToWorld);
-    uint end = min(params.firstRay + params.rayCount, rays);
-    for (uint i = params.firstRay; i < end; ++i) {
-        ivec3 slot = ivec3(pixel, i - params.firstRay);
-        imageStore(answer, slot, vec4(0.0));
-        imageStore(source, slot, vec4(0.0));
-        Ray ray = Ray(vec3(0.0, 0.0, 1.0), 0.0, 0.0, 0.0);
-        if (needed) {
-            RayNumber number = RayNumber(pixel, i, rays);
-            ray = lobe == lobeDiffuse ? diffuseRay(number, n)
-                                      : specularRay(number, n, directionToEye(p, params.view.eye), m);
-            ray.direction = raiseAbove(ray.direction, unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r));
-            appendRay(WaitingRay(slot, 1.0, 0.0, false));
+    MarchView view = marchView(params.view);
+    MarchOptions options = screenOptions(from.pixel, number);
+    MarchResult hit = marchBy(method, makeMarchRay(from.point, ray.direction, from.plane, view), options, view);
+    bool facesAway = hitsBackOf(hit, ray);
+    updateClearDistance(hit, facesAway, w);
+    if (hit.outcome == marchHit && !facesAway) {
+        if (tellsMotion != 0u && number == 0u) {
+            writeReflectionMotion(from.pixel, ray, from.point, hit);
         }
-        imageStore(direction, slot, uvec4(packRay(ray), 0u, 0u));
+        w.rest = addAnswer(sum, answerOfHit(hit, from.point, ray), w.rest, sourceScreen);
     }
+    return float(hit.steps);
 }
 
-// One group per tile of the list.
-void main() {
-    uint item = gl_WorkGroupID.y * tileListRow + gl_WorkGroupID.x;
-    if (item >= list.count) {
+// Traces, or leaves to the next source, one ray.
+void processRay(RayOrigin from, RayNumber number, bool needed, inout RaySum mean) {
+    ivec3 slot = ivec3(from.pixel, number.index - rayParams.firstRay);
+    Ray ray = Ray(vec3(0.0, 0.0, 1.0), 0.0, 0.0, 0.0);
+    WaitingRay w = WaitingRay(slot, 1.0, 0.0, false);
+    AnswerSum sum = AnswerSum(vec4(0.0), vec4(0.0));
+    float looked = 0.0;
+    if (needed) {
+        ray = makeRay(number, from.point, from.normal, from.material, from.geometric);
+        if (screen != 0u) {
+            looked = traceOnScreen(from, number.index, ray, w, sum);
+        }
+    }
+    if (last != 0u) {
+        if (needed && w.rest > 0.0) {
+            float occlusion = lobe == lobeDiffuse ? from.material.occlusion : 1.0;
+            addAnswer(sum, answerOfEnvironment(ray, occlusion, w.lost), w.rest, sourceEnvironment);
+        }
+        addRay(mean, ray, sum, from.normal, looked);
         return;
     }
-    ivec2 tile = ivec2(unpackTilePlace(list.items[item]));
+    imageStore(direction, slot, uvec4(packRay(ray), 0u, 0u));
+    imageStore(answer, slot, sum.light);
+    imageStore(source, slot, sum.colors);
+    if (countSteps != 0u) {
+        imageStore(steps, slot, vec4(looked));
+    }
+    if (needed && w.rest > 0.0) {
+        appendRay(w);
+    }
+}
+
+void processPixel(ivec2 pixel, uint rays, float share) {
+    float d = texelFetch(ownDepth, pixel, 0).r;
+    MaterialTexel m = unpackMaterial(texelFetch(ownMaterial, pixel, 0));
+    bool needed = d > 0.0 && (lobe == lobeDiffuse || (m.flags & materialFlagLambert) == 0u);
+    vec3 p = uvToWorld(pixelToUv(pixel, rayParams.view.pixel), max(d, 1e-12), rayParams.view.clipToWorld);
+    vec3 geometric = unpackUnitVector(texelFetch(ownGeometricNormal, pixel, 0).r);
+    RayOrigin from = RayOrigin(pixel, p, unpackUnitVector(texelFetch(ownNormal, pixel, 0).r), geometric,
+                               planeOnScreen(p, geometric, params.view.clipToWorld), m);
+    RaySum mean = noRays();
+    uint end = min(rayParams.firstRay + rayParams.rayCount, rays);
+    for (uint i = rayParams.firstRay; i < end; ++i) {
+        processRay(from, RayNumber(pixel, i, rays), needed, mean);
+    }
+    if (last != 0u) {
+        storeMean(pixel, mean, rays, share);
+    }
+}
+
+// One group per tile: of the list; or of all, if every pixel of the means must be written.
+void main() {
+    ivec2 tile = ivec2(gl_WorkGroupID.xy);
+    if (last == 0u) {
+        uint item = gl_WorkGroupID.y * tileListRow + gl_WorkGroupID.x;
+        if (item >= list.count) {
+            return;
+        }
+        tile = ivec2(unpackTilePlace(list.items[item]));
+    }
     ivec2 pixel = tile * int(rayTileSide) + ivec2(gl_LocalInvocationID.xy);
-    if (all(lessThan(pixel, ivec2(params.view.size)))) {
-        generate(pixel, pixelRays(imageLoad(tiles, tile).r, uvec2(pixel), params.view.frame));
+    if (all(lessThan(pixel, ivec2(rayParams.view.size)))) {
+        float share = imageLoad(tiles, tile).r;
+        processPixel(pixel, pixelRays(share, uvec2(pixel), rayParams.view.frame), share);
     }
 }

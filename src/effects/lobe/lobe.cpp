@@ -10,6 +10,9 @@ namespace reflet {
 
 namespace {
 
+// Bounds the time of one dispatch: devices end those that take seconds.
+constexpr uint32_t maxRaysAtOnce = 32;
+
 constexpr const char* lobeNames[] = {"diffuse", "specular"};
 
 bool keepsHistory(const DenoiseSettings& denoise) {
@@ -54,19 +57,35 @@ LobeLight traceLobe(gpu::Recorder& f, LobeStore& own, const LobeInputs& in) {
     const RayTiles tiles = tilesOfLobe(f, scratch, own, from, in);
     const bool varies = tiles.meanRays > 0;
     const uint32_t most = tiles.mostRays;
-    const uint32_t batch = varies ? most : raysPerBatch(f, from.g.depth.size);
     const bool reflects = in.lobe == lobeSpecular;
     const gpu::Image imageMotion =
         reflects && keepsHistory(in.denoise) ? noImageMotion(f, own.light.imageMotion, from) : gpu::Image{};
+    // Rays that nothing reads between the passes need not be written.
+    const bool atOnce = in.sources.empty() && s.reuse == 0;
+    const uint32_t fit = atOnce ? maxRaysAtOnce : raysPerBatch(f, from.g.depth.size);
+    const uint32_t batch = varies ? most : fit;
     const bool reused = s.reuse > 0 && !varies && batch >= s.rays;
     LobeLight light;
     for (uint32_t first = 0; first < most; first += batch) {
         gpu::Scratch ofBatch(f);
-        Rays rays = generateRays(f, ofBatch, from, {in.ggxTable, in.blueNoise, tiles, s.noise}, in.lobe,
-                                 {{}, in.diffuse, in.specular, first, std::min(most - first, batch), in.coneShare},
-                                 in.countSteps);
-        rays.imageMotion = imageMotion;
-        rays.directional = !reflects && in.denoise.enabled != 0 && in.denoise.directional != 0;
+        const RayGeneration generation{
+            .from = from,
+            .tiles = tiles,
+            .ggxTable = in.ggxTable,
+            .blueNoise = in.blueNoise,
+            .noise = s.noise,
+            .lobe = in.lobe,
+            .params = {{}, in.diffuse, in.specular, first, std::min(most - first, batch), in.coneShare},
+            .imageMotion = imageMotion,
+            .countSteps = in.countSteps,
+            .directional = !reflects && in.denoise.enabled != 0 && in.denoise.directional != 0,
+            .screen = in.screen,
+            .environment = {in.environment, in.environmentSettings}};
+        if (atOnce) {
+            light = traceAtOnce(f, own.light, generation);
+            continue;
+        }
+        Rays rays = generateRays(f, ofBatch, generation);
         for (const RaySource& source : in.sources) {
             source(f, rays);
         }

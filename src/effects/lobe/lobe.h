@@ -2,8 +2,7 @@
 #pragma once
 
 #include "effects/denoise/denoise.h"
-#include "effects/environment/environment_light.h"
-#include "effects/lobe/answer_environment.h"
+#include "effects/lobe/generate_rays.h"
 #include "effects/lobe/rays.h"
 
 #include <span>
@@ -22,6 +21,7 @@ struct LobeInputs {
     const EnvironmentLight& environment;
     gpu::Image ggxTable;                 ///< of ggxTable
     gpu::BufferView blueNoise;           ///< noise/blue_noise.h
+    ScreenSource screen;                 ///< asked first; may be none
     std::span<const RaySource> sources;  ///< asked in turn, the most exact first; the environment answers what is left
     gpu::History lit;                    ///< the view's lit image, for adaptive sampling; may be none
     bool randomTracing = false;          ///< a source may answer the same ray differently the next time

@@ -55,6 +55,22 @@ struct RayAnswer {
     float hitDistance;  // metres
 };
 
+// Weighted results of a ray so far, as the images `answer` and `source` keep them.
+struct AnswerSum {
+    vec4 light;   // radiance, hit distance [m]
+    vec4 colors;  // of the sources; alpha: confidence
+};
+
+// rest: the ray's weight left by the previous sources. Returns the weight left after this one.
+float addAnswer(inout AnswerSum sum, RayAnswer a, float rest, vec4 color) {
+    float weight = rest * clamp(a.confidence, 0.0, 1.0);
+    if (weight > 0.0) {
+        sum.light = min(sum.light + weight * vec4(clampToHalf(a.radiance), a.hitDistance), vec4(largestHalf));
+        sum.colors += weight * color;
+    }
+    return rest - weight;
+}
+
 // The image `source` (AOV): a colour per source; alpha: confidence, 1 for sources that find the actual hit. Probes and
 // the environment are approximations.
 const vec4 sourceScreen = vec4(0.2, 0.8, 0.3, 1.0);        // green

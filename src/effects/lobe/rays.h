@@ -149,6 +149,7 @@ struct Rays {
     uint32_t firstRay = 0;
     uint32_t count = 0;  ///< per pixel, in this batch, at most
     uint32_t lobe = 0;
+    bool spreads = false;  ///< whether some Ray.spread may be above 0
     bool countSteps = false;
     bool directional = false;  ///< whether to compute LobeLight.directional; diffuse only
 };
@@ -179,14 +180,6 @@ struct LobeLightStore {
     gpu::KeptImage imageMotion{"image_motion"};
 };
 
-/// Lookup tables of the ray generator.
-struct RayTables {
-    gpu::Image ggx;             ///< of ggxTable
-    gpu::BufferView blueNoise;  ///< noise/blue_noise.h
-    RayTiles tiles;             ///< of classifyTiles
-    RayNoise noise = RayNoise::blue;
-};
-
 /// Rays per pixel of one batch, 1 to `most`: as many as the device's buffers can hold at this size. Throws Error if not
 /// even one fits.
 uint32_t raysPerBatch(gpu::Recorder& f, uvec2 size, uint32_t most = maxRaysPerBatch);
@@ -195,10 +188,8 @@ uint32_t raysPerBatch(gpu::Recorder& f, uvec2 size, uint32_t most = maxRaysPerBa
 /// and rays.source, and takes the list of its misses from makeRayList.
 using RaySource = std::function<void(gpu::Recorder&, Rays&)>;
 
-/// Generates rays firstRay .. firstRay + count for every pixel of `from` with a surface (and the lobe), up to its
-/// tile's rays per pixel. Sets params.view. countSteps: count the depth samples of each ray.
-Rays generateRays(gpu::Recorder& f, gpu::Scratch& scratch, const RaySurfaces& from, const RayTables& tables,
-                  uint32_t lobe, GenerateRaysParams params, bool countSteps);
+/// Whether some rays of the lobe may have a spread.
+bool raysSpread(uint32_t lobe, const DiffuseSettings& diffuse, const SpecularSettings& specular);
 
 /// An empty list with room for all rays, for a source's misses.
 gpu::BufferView makeRayList(gpu::Recorder& f, const Rays& rays);
@@ -211,6 +202,9 @@ LobeLight blackLobe(gpu::Recorder& f, LobeLightStore& own, const RaySurfaces& fr
 
 /// LobeLight.directional if the rays request it, or none.
 gpu::Image directionalImage(gpu::Recorder& f, LobeLightStore& own, const Rays& rays);
+
+/// Binds a lobe's images as outputs of a pass that includes resolve_ray.glsl; what is missing, by placeholders.
+gpu::Pass& bindMeans(gpu::Recorder& f, gpu::Pass& pass, const LobeLight& light, uint32_t firstRay);
 
 /// Adds the batch to the lobe's images, weighted by 1 over the pixel's ray count.
 LobeLight resolveRays(gpu::Recorder& f, LobeLightStore& own, const Rays& rays);

@@ -1,17 +1,17 @@
-// Adds a source's result to a ray. The includer declares the images `answer` and `source`.
+// Adds a source's result to a ray of a list. The includer declares the images `answer` and `source`.
 #ifndef REFLET_RAYS_ANSWER_GLSL
 #define REFLET_RAYS_ANSWER_GLSL
 
 // rest: the ray's weight left by the previous sources. Returns the weight left after this one.
 float addAnswer(ivec3 slot, RayAnswer a, float rest, vec4 color) {
-    float weight = rest * clamp(a.confidence, 0.0, 1.0);
-    if (weight > 0.0) {
-        vec4 sum = imageLoad(answer, slot) + weight * vec4(clampToHalf(a.radiance), a.hitDistance);
-        imageStore(answer, slot, min(sum, vec4(largestHalf)));
-        vec4 sources = imageLoad(source, slot) + weight * color;
-        imageStore(source, slot, sources);
+    if (rest * a.confidence <= 0.0) {
+        return rest;
     }
-    return rest - weight;
+    AnswerSum sum = AnswerSum(imageLoad(answer, slot), imageLoad(source, slot));
+    float left = addAnswer(sum, a, rest, color);
+    imageStore(answer, slot, sum.light);
+    imageStore(source, slot, sum.colors);
+    return left;
 }
 
 #endif

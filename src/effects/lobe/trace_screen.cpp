@@ -16,36 +16,29 @@ struct Trace {
 // The pass as shared by both sources. rays.waiting: in: rays to trace; out: misses.
 void record(gpu::Recorder& f, gpu::Pass pass, Rays& rays, const Trace& trace, const TraceScreenSettings& settings,
             float longest) {
-    const ScreenImages& seen = trace.seen;
     const bool countSteps = rays.countSteps && trace.through == throughScreen;
-    const bool tellsMotion = rays.imageMotion && rays.firstRay == 0;
-    const bool previous = trace.through == throughScreen && seen.lit.valid;
     const gpu::BufferView missed = makeRayList(f, rays);
-    pass.constant("method", static_cast<uint32_t>(settings.method))
-        .constant("secondLayer", seen.backDepth ? 1U : 0U)
-        .constant("cones", seen.lightMips ? 1U : 0U)
+    ScreenImages seen = trace.seen;
+    if (trace.through != throughScreen) {
+        seen.lit = {};
+    }
+    bindScreen(f, pass, seen,
+               {.own = rays.from.view,
+                .mirror = trace.mirror,
+                .settings = settings,
+                .longest = longest,
+                .firstRay = rays.firstRay},
+               rays.imageMotion)
         .constant("countSteps", countSteps ? 1U : 0U)
         .constant("through", trace.through)
-        .constant("tellsMotion", tellsMotion ? 1U : 0U)
         .read("ownDepth", rays.from.g.depth)
         .read("ownGeometricNormal", rays.from.g.geometricNormal)
-        .read("depth", seen.g.depth)
-        .read("backDepth", seen.backDepth ? seen.backDepth : seen.g.depth)
-        .read("pyramid", seen.pyramid ? seen.pyramid : f.placeholder(VK_FORMAT_R32G32_SFLOAT))
-        .read("geometricNormal", seen.g.geometricNormal)
-        .read("motion", seen.g.motion)
-        .read("light", seen.light)
-        .read("previousLit", previous ? seen.lit.previous : seen.light)
-        .read("lightMips", seen.lightMips ? seen.lightMips : seen.light)
         .read("direction", rays.direction)
         .read("waiting", rays.waiting)
         .write("answer", rays.answer)
         .write("source", rays.source)
         .write("steps", rays.steps)
-        .write("imageMotion", tellsMotion ? rays.imageMotion : f.placeholder(VK_FORMAT_R16G16_SFLOAT))
         .write("missed", missed)
-        .params(TraceScreenParams{rays.from.view, seen.view, trace.mirror, settings,
-                                  std::min(longest, settings.maxDistance), rays.firstRay, previous ? 1U : 0U})
         .dispatchIndirect(rays.waiting, 0);
     rays.waiting = missed;
 }
@@ -62,6 +55,38 @@ uint32_t throughOf(PlanarForm form) {
 }
 
 }  // namespace
+
+gpu::Pass& bindScreen(gpu::Recorder& f, gpu::Pass& pass, const ScreenImages& seen, TraceScreenParams params,
+                      gpu::Image imageMotion) {
+    const bool tellsMotion = imageMotion && params.firstRay == 0;
+    const bool previous = seen.lit.valid;
+    const gpu::Image light = seen.light ? seen.light : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT);
+    params.view = seen.view;
+    params.previousValid = previous ? 1U : 0U;
+    params.longest = std::min(params.longest, params.settings.maxDistance);
+    const TraceScreenSettings& s = params.settings;
+    const bool fades = s.edgeFade > 0 || s.distanceFade > 0 || s.cameraFade > 0;
+    return pass.constant("method", static_cast<uint32_t>(s.method))
+        .constant("bisects", s.binarySteps > 0 ? 1U : 0U)
+        .constant("interpolates", s.interpolate)
+        .constant("jitters", s.jitter)
+        .constant("rejectsBackfaces", s.rejectBackfaces)
+        .constant("fades", fades ? 1U : 0U)
+        .constant("readsPrevious", s.light == HitLight::previous ? 1U : 0U)
+        .constant("secondLayer", seen.backDepth ? 1U : 0U)
+        .constant("cones", seen.lightMips ? 1U : 0U)
+        .constant("tellsMotion", tellsMotion ? 1U : 0U)
+        .read("depth", seen.g.depth)
+        .read("backDepth", seen.backDepth ? seen.backDepth : seen.g.depth)
+        .read("pyramid", seen.pyramid ? seen.pyramid : f.placeholder(VK_FORMAT_R32G32_SFLOAT))
+        .read("geometricNormal", seen.g.geometricNormal)
+        .read("motion", seen.g.motion)
+        .read("light", light)
+        .read("previousLit", previous ? seen.lit.previous : light)
+        .read("lightMips", seen.lightMips ? seen.lightMips : light)
+        .write("imageMotion", tellsMotion ? imageMotion : f.placeholder(VK_FORMAT_R16G16_SFLOAT))
+        .params(params);
+}
 
 void traceScreen(gpu::Recorder& f, Rays& rays, const ScreenImages& screen, const TraceScreenSettings& settings,
                  float longest) {
