@@ -25,8 +25,9 @@ float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
 MaterialTexel loadMaterial(ivec2 pixel) { return unpackMaterial(texelFetch(material, pixel, 0)); }
 #include "effects/lobe/tile_kind.glsl"
 
+// The groups go down columns of the image, and so does the list (see tileColumn).
 void main() {
-    uvec2 tile = gl_GlobalInvocationID.xy;
+    uvec2 tile = gl_WorkGroupID.yx * gl_WorkGroupSize.xy + gl_LocalInvocationID.xy;
     uvec2 first = tile * rayTileSide;
     if (any(greaterThanEqual(first, params.size))) {
         return;

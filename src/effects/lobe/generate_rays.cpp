@@ -7,38 +7,16 @@ namespace reflet {
 
 namespace {
 
-constexpr VkFormat lightFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
-
-// The pass; `rays`: its outputs, or none if `light` is what it writes.
-gpu::Pass passOf(gpu::Recorder& f, const RayGeneration& in, const Rays* rays, const LobeLight& light) {
+// What make_ray.glsl reads.
+gpu::Pass& bindGeneration(gpu::Recorder& f, gpu::Pass& pass, const RayGeneration& in) {
     const GBuffer& g = in.from.g;
-    const bool screen = in.screen.images != nullptr;
-    const ScreenImages nothing{.g = g, .view = in.from.view};
-    gpu::Pass pass = f.compute(screen ? "trace_screen" : "generate_rays", "generate_rays.comp");
-    bindSurfaces(f, pass, g);
-    bindScreen(f, pass, screen ? *in.screen.images : nothing,
-               {.own = in.from.view,
-                .settings = in.screen.settings,
-                .longest = in.screen.longest,
-                .firstRay = in.params.firstRay},
-               screen ? in.imageMotion : gpu::Image{});
-    bindEnvironment(pass, in.environment.light);
-    bindEnvironmentLobes(pass, f.context(), in.environment.light);
-    bindMeans(f, pass, light, in.params.firstRay);
     GenerateRaysParams params = in.params;
     params.view = in.from.view;
-    const auto array = [&](gpu::Image Rays::* image, VkFormat format) {
-        return rays != nullptr ? rays->*image : f.placeholder(format, /*array=*/true);
-    };
-    pass.constant("lobe", in.lobe)
-        .constant("environmentLights", in.environment.settings.enabled)
-        .constant("spreads", raysSpread(in.lobe, params.diffuse, params.specular) ? 1U : 0U)
+    return bindSurfaces(f, pass, g)
+        .constant("lobe", in.lobe)
         .constant("noise", static_cast<uint32_t>(in.noise))
         .constant("distribution", static_cast<uint32_t>(params.diffuse.distribution))
-        .constant("adaptive", in.tiles.meanRays > 0 ? 1U : 0U)
-        .constant("screen", screen ? 1U : 0U)
-        .constant("last", rays == nullptr ? 1U : 0U)
-        .constant("countSteps", in.countSteps ? 1U : 0U)
+        .constant("spreads", raysSpread(in.lobe, params.diffuse, params.specular) ? 1U : 0U)
         .read("ownDepth", g.depth)
         .read("ownNormal", g.normal)
         .read("ownGeometricNormal", g.geometricNormal)
@@ -47,14 +25,7 @@ gpu::Pass passOf(gpu::Recorder& f, const RayGeneration& in, const Rays* rays, co
         .read("ggxTable", in.ggxTable, f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
         .read("blueNoise", in.blueNoise)
         .read("tiles", in.tiles.tiles)
-        .read("list", in.tiles.list)
-        .write("direction", array(&Rays::direction, VK_FORMAT_R32G32_UINT))
-        .write("answer", array(&Rays::answer, lightFormat))
-        .write("source", array(&Rays::source, VK_FORMAT_R8G8B8A8_UNORM))
-        .write("steps", array(&Rays::steps, VK_FORMAT_R32_SFLOAT))
-        .params(params, "rayParams")
-        .params(AnswerEnvironmentParams{in.environment.settings}, "environmentAnswer");
-    return pass;
+        .params(params, "rayParams");
 }
 
 }  // namespace
@@ -65,7 +36,7 @@ Rays generateRays(gpu::Recorder& f, gpu::Scratch& scratch, const RayGeneration& 
     Rays rays{.from = in.from,
               .tiles = in.tiles,
               .direction = scratch.storage(VK_FORMAT_R32G32_UINT, size, layers, true),
-              .answer = scratch.storage(lightFormat, size, layers, true),
+              .answer = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, size, layers, true),
               .source = scratch.storage(VK_FORMAT_R8G8B8A8_UNORM, size, layers, true),
               .steps = in.countSteps ? scratch.storage(VK_FORMAT_R32_SFLOAT, size, layers, true)
                                      : f.placeholder(VK_FORMAT_R32_SFLOAT, /*array=*/true),
@@ -78,20 +49,48 @@ Rays generateRays(gpu::Recorder& f, gpu::Scratch& scratch, const RayGeneration& 
               .spreads = raysSpread(in.lobe, in.params.diffuse, in.params.specular),
               .countSteps = in.countSteps,
               .directional = in.directional};
+    if (in.countSteps) {
+        f.clear(rays.steps);  // pixels without rays have 0 steps
+    }
     rays.waiting = makeRayList(f, rays);
-    passOf(f, in, &rays, {}).write("missed", rays.waiting).dispatchIndirect(in.tiles.list, 0);
+    gpu::Pass pass = f.compute("generate_rays", "generate_rays.comp");
+    bindGeneration(f, pass, in)
+        .constant("adaptive", in.tiles.meanRays > 0 ? 1U : 0U)
+        .read("list", in.tiles.list)
+        .write("direction", rays.direction)
+        .write("answer", rays.answer)
+        .write("source", rays.source)
+        .write("missed", rays.waiting)
+        .dispatchIndirect(in.tiles.list, 0);
     return rays;
 }
 
-LobeLight traceAtOnce(gpu::Recorder& f, LobeLightStore& own, const RayGeneration& in) {
+LobeLight traceAtOnce(gpu::Recorder& f, LobeLightStore& own, const RayGeneration& in, const ScreenSource& screen,
+                      const EnvironmentSource& environment) {
+    const uvec2 size = in.from.g.depth.size;
     LobeLight light = lobeImages(f, own, in.from, in.countSteps);
     light.tiles = in.tiles;
     light.directional =
-        in.directional ? own.directional.storage(f, lightFormat, in.from.g.depth.size) : gpu::Image{};
-    gpu::Scratch scratch(f);
-    passOf(f, in, nullptr, light)
-        .write("missed", scratch.buffer(rayListHeader + sizeof(RayItem)))
-        .dispatch(in.from.g.depth.size);
+        in.directional ? own.directional.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, size) : gpu::Image{};
+    const bool traced = screen.images != nullptr;
+    const ScreenImages nothing{.g = in.from.g, .view = in.from.view};
+    gpu::Pass pass = f.compute("trace_at_once", "trace_at_once.comp");
+    bindGeneration(f, pass, in);
+    bindScreen(f, pass, traced ? *screen.images : nothing,
+               {.own = in.from.view,
+                .settings = screen.settings,
+                .longest = screen.longest,
+                .firstRay = in.params.firstRay},
+               in.imageMotion);
+    bindEnvironment(pass, environment.light);
+    bindEnvironmentLobes(pass, f.context(), environment.light);
+    constexpr uint32_t column = tileColumn * rayTileSide;
+    bindMeans(f, pass, light, in.params.firstRay)
+        .constant("screen", traced ? 1U : 0U)
+        .constant("countSteps", in.countSteps ? 1U : 0U)
+        .constant("environmentLights", environment.settings.enabled)
+        .params(AnswerEnvironmentParams{environment.settings}, "environmentAnswer")
+        .dispatch(column, size.y, (size.x + column - 1) / column);
     return light;
 }
 

@@ -1,4 +1,4 @@
-// Ray generation, which may also trace the screen in the same pass.
+// Ray generation: for lists of rays that sources answer in turn, or with tracing and averaging in the same pass.
 #pragma once
 
 #include "effects/environment/environment_light.h"
@@ -32,17 +32,16 @@ struct RayGeneration {
     gpu::Image imageMotion;     ///< of Rays
     bool countSteps = false;    ///< count the depth samples of each ray
     bool directional = false;   ///< of Rays
-    ScreenSource screen;
-    EnvironmentSource environment;
 };
 
 /// Generates rays firstRay .. firstRay + rayCount for every pixel of `from` with a surface (and the lobe), up to its
-/// tile's rays per pixel. With a screen, these have its answers, and only its misses wait. The images live as long as
-/// `scratch`.
+/// tile's rays per pixel. The images live as long as `scratch`.
 Rays generateRays(gpu::Recorder& f, gpu::Scratch& scratch, const RayGeneration& in);
 
-/// The same for rays that only screen and environment answer, averaged into the lobe's images as resolveRays does: no ray
-/// is written to memory. The mean is that of the separate passes up to their rounding to half floats and of directions.
-LobeLight traceAtOnce(gpu::Recorder& f, LobeLightStore& own, const RayGeneration& in);
+/// Generates the same rays, has only screen and environment answer them, and averages them as resolveRays does, all in one
+/// pass that writes no ray to memory. The result is that of the separate passes, up to their rounding of directions and
+/// radiance. Not for tiles whose rays per pixel change from frame to frame (RayTiles::meanRays).
+LobeLight traceAtOnce(gpu::Recorder& f, LobeLightStore& own, const RayGeneration& in, const ScreenSource& screen,
+                      const EnvironmentSource& environment);
 
 }  // namespace reflet

@@ -61,7 +61,7 @@ LobeLight traceLobe(gpu::Recorder& f, LobeStore& own, const LobeInputs& in) {
     const gpu::Image imageMotion =
         reflects && keepsHistory(in.denoise) ? noImageMotion(f, own.light.imageMotion, from) : gpu::Image{};
     // Rays that nothing reads between the passes need not be written.
-    const bool atOnce = in.sources.empty() && s.reuse == 0;
+    const bool atOnce = in.sources.empty() && s.reuse == 0 && !varies;
     const uint32_t fit = atOnce ? maxRaysAtOnce : raysPerBatch(f, from.g.depth.size);
     const uint32_t batch = varies ? most : fit;
     const bool reused = s.reuse > 0 && !varies && batch >= s.rays;
@@ -78,14 +78,15 @@ LobeLight traceLobe(gpu::Recorder& f, LobeStore& own, const LobeInputs& in) {
             .params = {{}, in.diffuse, in.specular, first, std::min(most - first, batch), in.coneShare},
             .imageMotion = imageMotion,
             .countSteps = in.countSteps,
-            .directional = !reflects && in.denoise.enabled != 0 && in.denoise.directional != 0,
-            .screen = in.screen,
-            .environment = {in.environment, in.environmentSettings}};
+            .directional = !reflects && in.denoise.enabled != 0 && in.denoise.directional != 0};
         if (atOnce) {
-            light = traceAtOnce(f, own.light, generation);
+            light = traceAtOnce(f, own.light, generation, in.screen, {in.environment, in.environmentSettings});
             continue;
         }
         Rays rays = generateRays(f, ofBatch, generation);
+        if (in.screen.images != nullptr) {
+            traceScreen(f, rays, *in.screen.images, in.screen.settings, in.screen.longest);
+        }
         for (const RaySource& source : in.sources) {
             source(f, rays);
         }

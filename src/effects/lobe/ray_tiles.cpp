@@ -28,7 +28,7 @@ RayTiles classifyTiles(gpu::Recorder& f, gpu::Scratch& scratch, gpu::KeptImage& 
         .write("tiles", tiles.tiles)
         .write("list", tiles.list)
         .params(ClassifyTilesParams{from.g.depth.size, counts.rays, counts.mirrorRays, counts.roughRays})
-        .dispatch(size);
+        .dispatch(uvec2(size.y, size.x));
     return tiles;
 }
 

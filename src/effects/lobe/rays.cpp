@@ -65,8 +65,8 @@ gpu::Image directionalImage(gpu::Recorder& f, LobeLightStore& own, const Rays& r
 gpu::Pass& bindMeans(gpu::Recorder& f, gpu::Pass& pass, const LobeLight& light, uint32_t firstRay) {
     return pass.constant("hasDirectional", light.directional ? 1U : 0U)
         .constant("adds", firstRay > 0 ? 1U : 0U)
-        .write("radiance", light.radiance ? light.radiance : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT))
-        .write("meanSource", light.source ? light.source : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT))
+        .write("radiance", light.radiance)
+        .write("meanSource", light.source)
         .write("meanSteps", light.steps ? light.steps : f.placeholder(VK_FORMAT_R32_SFLOAT))
         .write("directional", light.directional ? light.directional : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT));
 }

@@ -203,7 +203,7 @@ LobeLight blackLobe(gpu::Recorder& f, LobeLightStore& own, const RaySurfaces& fr
 /// LobeLight.directional if the rays request it, or none.
 gpu::Image directionalImage(gpu::Recorder& f, LobeLightStore& own, const Rays& rays);
 
-/// Binds a lobe's images as outputs of a pass that includes resolve_ray.glsl; what is missing, by placeholders.
+/// Binds a lobe's images as outputs of a pass that includes resolve_ray.glsl. firstRay: of its batch.
 gpu::Pass& bindMeans(gpu::Recorder& f, gpu::Pass& pass, const LobeLight& light, uint32_t firstRay);
 
 /// Adds the batch to the lobe's images, weighted by 1 over the pixel's ray count.
