@@ -8,6 +8,9 @@
 #include "shaders/projection.glsl"
 
 layout(constant_id = 0) const uint lobe = 0u;
+// Constants, because CPU devices execute the code of all branches.
+layout(constant_id = 1) const uint spreads = 0u;
+layout(constant_id = 2) const uint parallax = 0u;
 
 layout(local_size_x = 64) in;
 layout(scalar) uniform ParamsBlock {
@@ -33,12 +36,12 @@ RayAnswer answerRay(ivec3 slot, Ray ray) {
     ivec2 pixel = slot.xy;
     float d = texelFetch(depth, pixel, 0).r;
     vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
-    bool hemisphere = lobe == lobeDiffuse && ray.spread > 0.0;
+    bool hemisphere = spreads != 0u && lobe == lobeDiffuse && ray.spread > 0.0;
     // Scattered rays are averaged over frames anyway. A mirror's would show the choice as grain.
     uint stream = params.firstRay + uint(slot.z) + hashPcg(params.view.seed + 11u);
     bool one = lobe == lobeDiffuse && !hemisphere;
     float pick = one ? hashToUnit(hashPixel(uvec2(pixel), stream, params.view.frame)) : -1.0;
-    ProbeQuery q = ProbeQuery(p, ray.direction, hemisphere ? 0.0 : ray.spread, hemisphere, params.settings.parallax,
+    ProbeQuery q = ProbeQuery(p, ray.direction, hemisphere ? 0.0 : ray.spread, hemisphere, parallax,
                               params.settings.blend, pick);
     float hitDistance;
     vec4 seen = sampleProbes(q, hitDistance);

@@ -11,6 +11,8 @@ void answerProbes(gpu::Recorder& f, Rays& rays, const ProbeMaps& probes, const P
         f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
     f.compute("answer_probes", "answer_probes.comp")
         .constant("lobe", rays.lobe)
+        .constant("spreads", rays.spreads ? 1U : 0U)
+        .constant("parallax", static_cast<uint32_t>(settings.parallax))
         .read("depth", rays.from.g.depth)
         .read("material", rays.from.g.material)
         .read("probeLobes", probes.lobes, trilinear)

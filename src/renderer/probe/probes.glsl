@@ -87,31 +87,31 @@ bool marchProbe(uint probe, vec3 start, vec3 direction, out ProbePoint point) {
     float nearness = 1.0 / from;
     bool inSight = false;
     float near = 0.0;
+    float far = 1.0;
+    float seenFar = 0.0;
+    uint stepped = 0u;
+    uint refining = 0u;  // bisections left between near and far; one loop for both, because each lane has its own turn
     vec3 at;
-    for (uint i = 1u; i <= probeSteps; ++i) {
-        float part = float(i) / float(probeSteps);
+    while (stepped < probeSteps || refining > 0u) {
+        bool bisects = refining > 0u;
+        float part = bisects ? 0.5 * (near + far) : float(stepped + 1u) / float(probeSteps);
         float mine = alongRay(first, direction, nearness, part, at);
         float seen = textureLod(probeDistance, vec4(at, float(probe)), 0.0).r;
-        if (inSight && seen > 0.0 && mine <= seen) {
-            float far = part;
-            for (uint k = 0u; k < probeRefinements; ++k) {
-                float middle = 0.5 * (near + far);
-                float mineThere = alongRay(first, direction, nearness, middle, at);
-                float seenThere = textureLod(probeDistance, vec4(at, float(probe)), 0.0).r;
-                bool behind = mineThere <= seenThere;
-                near = behind ? near : middle;
-                far = behind ? middle : far;
-                seen = behind ? seenThere : seen;
-            }
-            mine = alongRay(first, direction, nearness, far, at);
-            if (seen <= sameSurface * mine) {
+        bool behind = mine <= seen && (bisects || (inSight && seen > 0.0));
+        far = behind ? part : far;
+        seenFar = behind ? seen : seenFar;
+        near = behind ? near : part;
+        refining = bisects ? refining - 1u : (behind ? probeRefinements : 0u);
+        if (bisects && refining == 0u) {
+            if (seenFar <= sameSurface * alongRay(first, direction, nearness, far, at)) {
                 point = ProbePoint(at, from * far / max(1.0 - far, 1e-6), 1.0);
                 return true;
             }
-            inSight = false;
+            inSight = false;  // it passed behind an edge
+            near = float(stepped) / float(probeSteps);
         }
-        inSight = inSight || mine > inFront * seen;
-        near = part;
+        stepped += bisects ? 0u : 1u;
+        inSight = inSight || (!bisects && mine > inFront * seen);
     }
     point = ProbePoint(direction, 0.0, 1.0);
     return inSight;
@@ -174,25 +174,27 @@ vec4 sampleProbes(ProbeQuery q, out float hitDistance) {
     float weights = 0.0;
     float before = 0.0;  // the weight of the probes before this one
     hitDistance = 0.0;
-    // If the chosen one does not see the ray, the next may.
     bool one = q.pick >= 0.0;
     float chosen = one ? q.pick * total : 0.0;
-    for (uint k = 0u; k < 2u * count && inside > 0.0; ++k) {
-        uint i = k < count ? k : k - count;
-        ProbeParams probe = loadProbe(i);
-        float weight = shareOfProbe(probe, q, largest);
-        before += weight;
-        bool asked = before > chosen && weight > 0.0;
-        if (asked) {
-            float share = weight;
-            sampleProbe(i, probe, q, share, sum, hitDistance);
-            weights += share;
-            if (one && share > enough * weight) {
-                break;
-            }
+    // If the chosen one does not see the ray, the next may. In turn around the probes; !one: once.
+    uint turns = inside > 0.0 ? (one ? 2u : 1u) * count : 0u;
+    uint k = 0u;
+    while (k < turns) {
+        // First finds the next probe to ask, which costs little, so that neighbouring rays ask theirs together.
+        uint i = 0u;
+        float weight = 0.0;
+        while (k < turns && weight == 0.0) {
+            i = k < count ? k : k - count;
+            float share = shareOfProbe(loadProbe(i), q, largest);
+            before += share;
+            weight = before > chosen ? share : 0.0;
+            k = before >= chosen + total ? turns : k + 1u;  // then all were asked
         }
-        if (before >= chosen + total || (!one && k + 1u == count)) {
-            break;  // all were asked
+        if (weight > 0.0) {
+            float share = weight;
+            sampleProbe(i, loadProbe(i), q, share, sum, hitDistance);
+            weights += share;
+            k = one && share > enough * weight ? turns : k;
         }
     }
     hitDistance /= max(sum.a, 1e-6);
