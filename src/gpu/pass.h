@@ -9,6 +9,7 @@
 // std::logic_error that names the pass and the binding, in every build.
 #pragma once
 
+#include "base/strips.h"
 #include "gpu/pipeline.h"
 #include "gpu/resource.h"
 
@@ -68,6 +69,8 @@ public:
     /// Dispatches x · y · z threads, rounded up to whole groups.
     void dispatch(uint32_t x, uint32_t y = 1, uint32_t z = 1);
     void dispatch(uvec2 threads) { dispatch(threads.x, threads.y); }
+    /// A thread per pixel, with groups in the order of base/strips.h, for shaders that call pixelInStrips().
+    void dispatchStrips(uvec2 pixels) { dispatch(stripWidth, pixels.y, (pixels.x + stripWidth - 1) / stripWidth); }
     /// Group counts from a VkDispatchIndirectCommand at the start of the buffer plus `offset`.
     void dispatchIndirect(BufferView arguments, VkDeviceSize offset);
 

@@ -25,7 +25,7 @@ float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
 MaterialTexel loadMaterial(ivec2 pixel) { return unpackMaterial(texelFetch(material, pixel, 0)); }
 #include "effects/lobe/tile_kind.glsl"
 
-// The groups go down columns of the image, and so does the list (see tileColumn).
+// The groups go down strips of the image, and so does the list: see base/strips.h.
 void main() {
     uvec2 tile = gl_WorkGroupID.yx * gl_WorkGroupSize.xy + gl_LocalInvocationID.xy;
     uvec2 first = tile * rayTileSide;

@@ -84,13 +84,12 @@ LobeLight traceAtOnce(gpu::Recorder& f, LobeLightStore& own, const RayGeneration
                in.imageMotion);
     bindEnvironment(pass, environment.light);
     bindEnvironmentLobes(pass, f.context(), environment.light);
-    constexpr uint32_t column = tileColumn * rayTileSide;
     bindMeans(f, pass, light, in.params.firstRay)
         .constant("screen", traced ? 1U : 0U)
         .constant("countSteps", in.countSteps ? 1U : 0U)
         .constant("environmentLights", environment.settings.enabled)
         .params(AnswerEnvironmentParams{environment.settings}, "environmentAnswer")
-        .dispatch(column, size.y, (size.x + column - 1) / column);
+        .dispatchStrips(size);
     return light;
 }
 

@@ -17,9 +17,6 @@ const uint rayTileSide = 8;  // pixels of the grid
 // Groups per row of the indirect dispatch over a tile list; 65535 rows suffice for the largest frame.
 const uint tileListRow = 64;
 
-// Tiles side by side in a column of traceAtOnce.
-const uint tileColumn = 8;
-
 // Up to this perceptual roughness a lobe is treated as a mirror: it is too narrow to be resolved on screen.
 const float mirrorRoughness = 0.01;
 

@@ -5,6 +5,7 @@
 // normal, motion of reflected images; added to earlier batches.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
+#include "base/strips.h"
 #include "effects/lobe/answer_environment.h"
 #include "effects/lobe/ray_tiles.glsl"
 #include "effects/lobe/rays.glsl"
@@ -102,13 +103,10 @@ void tracePixel(ivec2 pixel, uint rays, float share) {
     storeMean(pixel, mean, rays, share);
 }
 
-// One group per tile, in columns of tiles, top to bottom: the depth that the rays of neighbouring groups read stays in the
-// cache.
 void main() {
-    ivec2 tile = ivec2(gl_WorkGroupID.xy) + ivec2(gl_WorkGroupID.z * tileColumn, 0);
-    ivec2 pixel = tile * int(rayTileSide) + ivec2(gl_LocalInvocationID.xy);
+    ivec2 pixel = pixelInStrips();
     if (all(lessThan(pixel, ivec2(rayParams.view.size)))) {
-        float share = imageLoad(tiles, tile).r;
+        float share = imageLoad(tiles, pixel / int(rayTileSide)).r;
         tracePixel(pixel, pixelRays(share, uvec2(pixel), rayParams.view.frame), share);
     }
 }
