@@ -33,40 +33,40 @@ MarchResult marchHiz(MarchRay ray, MarchOptions o, MarchView view) {
     ivec2 lastPixel = ivec2(view.size) - 1;
     ivec2 pixel = clamp(ivec2(floor(r.start.xy)), ivec2(0), lastPixel);
     ivec2 direction = ivec2(sign(r.delta.xy));
-    MarchResult result = emptyMarchResult();
-    float first = 0.0;
+    // Few variables change in the loop, and only by selection: on CPUs each is memory.
+    uint outcome = marchLimitReached;
+    uint steps = 0u;
     int level = 0;
-    for (uint i = 0u; i < o.maxSteps; ++i) {
+    float first = 0.0;
+    float last = 0.0;
+    float clear = 0.0;
+    bool occluded = false;
+    bool ended = false;
+    while (!ended && steps < o.maxSteps) {
         // The corner where the ray leaves the cell.
         ivec2 cell = pixel >> level;
+        ivec2 low = cell << level;
         ivec2 corner = (cell + max(direction, ivec2(0))) << level;
         vec2 s = borderCrossings(r, corner);
         float sLast = min(min(s.x, s.y), 1.0);
-        float last = distanceAlong(r, sLast);
-        result.pixel = pixel;
-        result.steps = i + 1u;
-        if (level > 0 && mustDescend(loadCell(cell, level), ray, first, last, o, view, result.occluded)) {
-            --level;
-            continue;
-        }
-        result.distance = last;
-        if (level == 0 && hitsPixel(ray, pixel, first, last, o, view, result.occluded)) {
-            result.outcome = marchHit;
-            break;
-        }
-        result.clear = result.occluded ? result.clear : last;
+        float there = distanceAlong(r, sLast);
+        ++steps;
+        bool descends = level > 0 && mustDescend(loadCell(cell, level), ray, first, there, o, view, occluded);
+        bool hit = level == 0 && hitsPixel(ray, pixel, first, there, o, view, occluded);
+        last = descends ? last : there;
+        clear = descends || hit || occluded ? clear : there;
         // Exactly across one border; along the other axis to the ray's position, clamped to the cell.
-        ivec2 there = clamp(ivec2(floor(r.start.xy + sLast * r.delta.xy)), cell << level, ((cell + 1) << level) - 1);
-        bool acrossX = s.x <= s.y;
-        pixel.x = acrossX ? corner.x + min(direction.x, 0) : there.x;
-        pixel.y = acrossX ? there.y : corner.y + min(direction.y, 0);
-        if (sLast >= 1.0 || any(lessThan(pixel, ivec2(0))) || any(greaterThan(pixel, lastPixel))) {
-            result.outcome = r.leavesScreen ? marchLeftScreen : marchLimitReached;
-            break;
-        }
-        first = last;
-        level = i + 1u < o.firstSteps ? 0 : min(level + 1, o.levels - 1);
+        ivec2 across = clamp(ivec2(floor(r.start.xy + sLast * r.delta.xy)), low, low + (1 << level) - 1);
+        ivec2 next = s.x <= s.y ? ivec2(corner.x + min(direction.x, 0), across.y)
+                                : ivec2(across.x, corner.y + min(direction.y, 0));
+        bool leaves = sLast >= 1.0 || any(lessThan(next, ivec2(0))) || any(greaterThan(next, lastPixel));
+        ended = hit || (leaves && !descends);
+        outcome = hit ? marchHit : (ended ? (r.leavesScreen ? marchLeftScreen : marchLimitReached) : outcome);
+        pixel = ended || descends ? pixel : next;
+        first = ended || descends ? first : there;
+        level = descends ? level - 1 : (steps < o.firstSteps ? 0 : min(level + 1, o.levels - 1));
     }
+    MarchResult result = MarchResult(outcome, pixel, last, clear, occluded, steps);
     return withHitDistance(result, first, ray, o, view);
 }
 

@@ -64,8 +64,8 @@ bool hitsPixel(MarchRay ray, ivec2 pixel, float first, float last, MarchOptions 
     occluded = true;
     float nearest = min(viewDistanceFirst, viewDistanceLast);
     if (o.secondLayer) {
-        return nearest < depthToViewDistance(depth, view.depthToDistance) +
-                             thicknessAt(pixel, depthToViewDistance(depth, view.depthToDistance), o, view);
+        float back = loadBackDepth(pixel);
+        return isInFrontOf(back > 0.0 ? nearest : nearest - o.thickness, back > 0.0 ? back : depth, view);
     }
     return isInFrontOf(nearest - o.thickness, depth, view);
 }
