@@ -34,20 +34,23 @@ const uint sunStream = 0x5ad0u;        // of the noise
 
 ShadowReceiver receiver;
 ShadowTexel shadowTexel(vec2 offset) { return texelAt(receiver, offset); }
-float hardShadow() { return hardVisibility(receiver); }
+// Once for all that may ask for it: CPU devices execute the code of all branches.
+float hardLight;
+float hardShadow() { return hardLight; }
 #include "shaders/soft_shadow.glsl"
 
 // Bilinear filter over four texels: the sharpest edge that the map's resolution allows.
-float sharpVisibility() {
+float sharpVisibility(bool needed) {
+    int taps = needed ? 4 : 0;  // dynamic on purpose: see hardVisibility (shadow_map.glsl)
     vec2 f = fract(receiver.at - 0.5);
     vec2 low = -f / receiver.texelsPerMetre;
     vec2 high = (1.0 - f) / receiver.texelsPerMetre;
-    vec2 offsets[4] = vec2[](low, vec2(high.x, low.y), vec2(low.x, high.y), high);
-    vec4 weights = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
     LitSum sum = LitSum(0.0, 0.0, 0u, false);
-    for (int i = 0; i < 4; ++i) {
-        ShadowTexel texel = shadowTexel(offsets[i]);
-        addTexel(sum, texel, receiver.bias, !blocks(texel, receiver.bias), weights[i]);
+    for (int i = 0; i < taps; ++i) {
+        vec2 offset = mix(low, high, bvec2((i & 1) != 0, i > 1));
+        vec2 share = mix(1.0 - f, f, bvec2((i & 1) != 0, i > 1));
+        ShadowTexel texel = shadowTexel(offset);
+        addTexel(sum, texel, receiver.bias, !blocks(texel, receiver.bias), share.x * share.y);
     }
     return litFraction(sum, false);
 }
@@ -85,8 +88,9 @@ Result pcss(ShadowCone cone, float texelSize, vec4 noise) {
     if (hasRanges != 0u && shrinkSearch(cone, least, radius)) {
         return Result(0.0, 0.0, 0.0);
     }
+    float sharp = sharpVisibility(radius <= least);
     if (radius <= least) {
-        return Result(sharpVisibility(), 0.0, 0.0);
+        return Result(sharp, 0.0, 0.0);
     }
     float height = meanBlockerHeight(cone, radius, least, receiver.bias,
                                      shadowPattern(s, s.blockerSamples, noise.zw), s.blockerSamples);
@@ -124,8 +128,9 @@ Result resultIn(uint cascade, vec3 p, vec3 normal, vec4 noise) {
     ShadowTile tile = ShadowTile(cascadeTileOrigin(cascade, s.resolution), ivec2(s.resolution));
     receiver = biasKind == ShadowBias_constant ? constantReceiver(p, map, tile, s.constantBias)
                                                  : slopeReceiver(p, normal, map, tile, s.bias);
+    hardLight = hardVisibility(receiver);
     if (filterKind == ShadowFilter_hard) {
-        return Result(hardVisibility(receiver), 0.0, 0.0);
+        return Result(hardLight, 0.0, 0.0);
     }
     return filterKind == ShadowFilter_pcss ? pcss(ShadowCone(params.sunSlope, 0.0), map.texelSize, noise)
                                            : pcf(map.texelSize, noise);
