@@ -73,13 +73,6 @@ void main() {
     KeptSurface own = unpackSurface(imageLoad(surface, pixel).xy);
     vec2 m = imageLoad(moments, pixel).xy;
     float radius = own.depth > 0.0 ? radiusAt(own.depth, own.roughness, middle.a, noiseAt(pixel, size, m.x)) : 0.0;
-    if (radius < 0.5) {
-        imageStore(blurred, pixel, middle);
-        if (hasDirectional != 0u) {
-            imageStore(blurredDirectional, pixel, imageLoad(directional, pixel));
-        }
-        return;
-    }
     vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), own.depth, params.view.clipToWorld);
     vec3 geometric = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
     ScreenPlane plane = screenPlane(p, geometric, params.view.clipToWorld, params.view.pixel, params.view.pixelAngle);
@@ -89,7 +82,9 @@ void main() {
     float weights = 1.0;
     vec4 turning = hasDirectional != 0u ? imageLoad(directional, pixel) : vec4(0.0);
     vec3 normals = own.normal;
-    for (int i = 0; i < taps; ++i) {
+    // Below half a pixel nothing changes. The trip count is dynamic on purpose: see hardVisibility (shadow_map.glsl).
+    int count = radius < 0.5 ? 0 : taps;
+    for (int i = 0; i < count; ++i) {
         float reach = sqrt((float(i) + 0.5) / float(taps));
         ivec2 at = pixel + ivec2(round(reach * spoke));
         spoke = vec2(spoke.x * goldenTurn.x - spoke.y * goldenTurn.y, spoke.x * goldenTurn.y + spoke.y * goldenTurn.x);
