@@ -199,7 +199,8 @@ Composite recordComposite(RefletView_T& view, Frame& frame, const Settings& sett
         frame.light = importLight(f, own.lightAlone, light);
     }
     if (!frame.light) {
-        failArgument("light: is NULL, and neither refletDiffuseGi nor refletReflections has been given any in this frame");
+        failArgument(
+            "light: is NULL, and neither refletDiffuseGi nor refletReflections has been given any in this frame");
     }
     const auto lobeOr = [&](const std::optional<LobeLight>& lobe, LobeImages& images, const char* name) {
         if (lobe) {
@@ -224,8 +225,8 @@ gpu::Image recordTemporal(RefletView_T& view, Frame& frame, const Settings& sett
     }
     const uvec2 size = outputSizeOf(view);
     if (glm::any(glm::lessThan(size, view.size))) {
-        failArgument("view: its output size, {}x{}, is smaller than its size, {}x{} (refletSetOutputSize)", size.x, size.y,
-                     view.size.x, view.size.y);
+        failArgument("view: its output size, {}x{}, is smaller than its size, {}x{} (refletSetOutputSize)", size.x,
+                     size.y, view.size.x, view.size.y);
     }
     const TemporalInputs in{frame.g, radiance, {}, frame.view, size, frame.jitter};
     frame.antialiased = temporal(f, view.images->temporal, in, settings.temporal).mean;
@@ -243,7 +244,8 @@ gpu::Image recordToneMap(RefletView_T& view, Frame& frame, const Settings& setti
     if (automatic) {
         const gpu::Image metered = radiance.size == frame.g.depth.size ? radiance : frame.composed;
         if (!metered) {
-            failArgument("autoExposure: needs a picture of the view's size; color is larger, and refletComposite has not run");
+            failArgument(
+                "autoExposure: needs a picture of the view's size; color is larger, and refletComposite has not run");
         }
         exposure = measureExposure(f, view.images->exposure, metered, frame.g.depth, frame.elapsed,
                                    settings.tonemap.adaptation);

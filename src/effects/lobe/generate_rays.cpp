@@ -70,18 +70,15 @@ LobeLight traceAtOnce(gpu::Recorder& f, LobeLightStore& own, const RayGeneration
     const uvec2 size = in.from.g.depth.size;
     LobeLight light = lobeImages(f, own, in.from, in.countSteps);
     light.tiles = in.tiles;
-    light.directional =
-        in.directional ? own.directional.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, size) : gpu::Image{};
+    light.directional = in.directional ? own.directional.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, size) : gpu::Image{};
     const bool traced = screen.images != nullptr;
     const ScreenImages nothing{.g = in.from.g, .view = in.from.view};
     gpu::Pass pass = f.compute("trace_at_once", "trace_at_once.comp");
     bindGeneration(f, pass, in);
-    bindScreen(f, pass, traced ? *screen.images : nothing,
-               {.own = in.from.view,
-                .settings = screen.settings,
-                .longest = screen.longest,
-                .firstRay = in.params.firstRay},
-               in.imageMotion);
+    bindScreen(
+        f, pass, traced ? *screen.images : nothing,
+        {.own = in.from.view, .settings = screen.settings, .longest = screen.longest, .firstRay = in.params.firstRay},
+        in.imageMotion);
     bindEnvironment(pass, environment.light);
     bindEnvironmentLobes(pass, f.context(), environment.light);
     bindMeans(f, pass, light, in.params.firstRay)

@@ -38,9 +38,9 @@ struct RayGeneration {
 /// tile's rays per pixel. The images live as long as `scratch`.
 Rays generateRays(gpu::Recorder& f, gpu::Scratch& scratch, const RayGeneration& in);
 
-/// Generates the same rays, has only screen and environment answer them, and averages them as resolveRays does, all in one
-/// pass that writes no ray to memory. The result is that of the separate passes, up to their rounding of directions and
-/// radiance. Not for tiles whose rays per pixel change from frame to frame (RayTiles::meanRays).
+/// Generates the same rays, has only screen and environment answer them, and averages them as resolveRays does, all in
+/// one pass that writes no ray to memory. The result is that of the separate passes, up to their rounding of directions
+/// and radiance. Not for tiles whose rays per pixel change from frame to frame (RayTiles::meanRays).
 LobeLight traceAtOnce(gpu::Recorder& f, LobeLightStore& own, const RayGeneration& in, const ScreenSource& screen,
                       const EnvironmentSource& environment);
 

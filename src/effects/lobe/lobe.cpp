@@ -11,7 +11,7 @@ namespace reflet {
 namespace {
 
 // Bounds the time of one dispatch: devices end those that take seconds.
-constexpr uint32_t maxRaysAtOnce = 32;
+constexpr uint32_t maxRaysAtOnce = 8;
 
 constexpr const char* lobeNames[] = {"diffuse", "specular"};
 

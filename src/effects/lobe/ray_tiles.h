@@ -53,7 +53,7 @@ struct RayTiles {
 
 /// Rays per pixel.
 struct RayCounts {
-    uint32_t rays = 0;  ///< per pixel
+    uint32_t rays = 0;        ///< per pixel
     uint32_t mirrorRays = 0;  ///< where all surfaces of a tile are mirrors: 1 if a mirror's rays are all identical
     float roughRays = 1.0F;   ///< factor on specular rays in rough tiles
 };
@@ -61,7 +61,8 @@ struct RayCounts {
 /// An empty list with room for all tiles.
 gpu::BufferView makeTileList(gpu::Recorder& f, gpu::Scratch& scratch, uvec2 tiles);
 
-/// The same ray count for all pixels in tiles that have the lobe, but for rough tiles. The list lives as long as `scratch`.
+/// The same ray count for all pixels in tiles that have the lobe, but for rough tiles. The list lives as long as
+/// `scratch`.
 RayTiles classifyTiles(gpu::Recorder& f, gpu::Scratch& scratch, gpu::KeptImage& own, const RaySurfaces& from,
                        uint32_t lobe, const RayCounts& counts);
 

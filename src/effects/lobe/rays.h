@@ -58,15 +58,15 @@ SETTINGS(DiffuseSettings, DIFFUSE_SETTINGS)
     OPTION(RoughFallback, mips, 1)
 CHOICES(RoughFallback, ROUGH_FALLBACKS)
 
-#define SPECULAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                                    \
-    LOBE_SETTINGS(VALUE, SWITCH, CHOICE, 1,                                                                         \
-                  "Samples per pixel for reflections (indirect specular light), drawn from the GGX lobe by "        \
-                  "roughness.")                                                                                     \
-    VALUE(float, maxRoughness, 1.0, 0.0, 1.0,                                                                       \
-          "Highest roughness with stochastic rays; rougher surfaces use `rough_fallback`. Lower: less noise and "   \
-          "cost, less exact. 1: all surfaces trace.")                                                               \
-    CHOICE(RoughFallback, roughFallback, next,                                                                      \
-           "Reflections on surfaces above `max_roughness`. next: skip the screen, use the next source. mips: cone " \
+#define SPECULAR_SETTINGS(VALUE, SWITCH, CHOICE)                                                                       \
+    LOBE_SETTINGS(VALUE, SWITCH, CHOICE, 1,                                                                            \
+                  "Samples per pixel for reflections (indirect specular light), drawn from the GGX lobe by "           \
+                  "roughness.")                                                                                        \
+    VALUE(float, maxRoughness, 1.0, 0.0, 1.0,                                                                          \
+          "Highest roughness with stochastic rays; rougher surfaces use `rough_fallback`. Lower: less noise and "      \
+          "cost, less exact. 1: all surfaces trace.")                                                                  \
+    CHOICE(RoughFallback, roughFallback, next,                                                                         \
+           "Reflections on surfaces above `max_roughness`. next: skip the screen, use the next source. mips: cone "    \
            "tracing, a ray near the lobe's centre with screen light prefiltered by roughness around its hit.")         \
     VALUE(float, roughRays, 1.0, 0.0625, 1.0,                                                                          \
           "Share of the pixels that trace in a frame, in turn, where all surfaces of a tile (8x8 pixels) are rougher " \

@@ -121,8 +121,8 @@ struct ScreenImages {
         lightMips;  ///< from makeLightMips, of the image that hits read; blurs the light at hits of cones (Ray.spread)
 };
 
-/// Binds what screen_hit.glsl reads, and sets its constants. params: `view` and `previousValid` are set here, `longest` is
-/// bounded by the settings. imageMotion: of Rays; may be none.
+/// Binds what screen_hit.glsl reads, and sets its constants. params: `view` and `previousValid` are set here, `longest`
+/// is bounded by the settings. imageMotion: of Rays; may be none.
 gpu::Pass& bindScreen(gpu::Recorder& f, gpu::Pass& pass, const ScreenImages& seen, TraceScreenParams params,
                       gpu::Image imageMotion);
 
