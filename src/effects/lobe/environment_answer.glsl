@@ -1,6 +1,6 @@
-// The environment's answer to a ray. Bound by bindEnvironment and bindEnvironmentLobes; the includer declares
-// environmentAnswer (AnswerEnvironmentParams) and the constants lobe, environmentLights: its switch, and spreads: whether any Ray.spread is above
-// 0 (CPU devices execute the code of all branches).
+// The environment's answer to a ray. Bound by bindEnvironment and bindEnvironmentLobes. The includer declares
+// environmentAnswer (AnswerEnvironmentParams) and the constants lobe, environmentLights (the settings' switch) and
+// spreads: whether any Ray.spread is above 0.
 #ifndef REFLET_ENVIRONMENT_ANSWER_GLSL
 #define REFLET_ENVIRONMENT_ANSWER_GLSL
 
@@ -18,8 +18,8 @@ vec3 radianceFor(Ray ray) {
     return lobe == lobeDiffuse ? environmentIrradianceOverPi(ray.direction) : environmentLobe(ray.direction, ray.spread);
 }
 
-// occlusion: of the surface's occlusion map, which stands for nearby geometry; ignored for rays that ray tracing has found
-// to be unoccluded. lost: the ray passed behind a visible surface.
+// occlusion: of the surface's occlusion map, which stands for nearby geometry; 1 for rays that ray tracing has found to be
+// unoccluded. lost: the ray passed behind a visible surface.
 RayAnswer answerOfEnvironment(Ray ray, float occlusion, bool lost) {
     float share = occlusion * (lost ? environmentAnswer.settings.occludedWeight : 1.0);
     return RayAnswer(radianceFor(ray) * share, 1.0, environmentDistance);
