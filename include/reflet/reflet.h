@@ -185,9 +185,9 @@ REFLET_API void refletDestroyView(RefletView view);
 REFLET_API RefletResult refletResizeView(RefletView view, uint32_t width, uint32_t height);
 /**
  * Temporal upscaling: from the next frame on, refletTemporal makes pictures of this size, at least the view's to each
- * side, from frames of the view's size. The host draws with mip bias log2(view's height / output's height) and the jitter
- * of refletJitter, in pixels of the view; what follows refletTemporal has the output's size. A half to each side is the
- * useful limit. 0, 0: the view's size.
+ * side, from frames of the view's size. The host draws with mip bias log2(view's height / output's height) and the
+ * jitter of refletJitter, in pixels of the view; what follows refletTemporal has the output's size. A half to each side
+ * is the useful limit. 0, 0: the view's size.
  */
 REFLET_API RefletResult refletSetOutputSize(RefletView view, uint32_t width, uint32_t height);
 /** Forgets all histories: after a cut of the camera, or when something other than motion changed the picture. */
@@ -220,32 +220,37 @@ typedef struct RefletImage {
 } RefletImage;
 
 typedef enum RefletDepthKind {
-    REFLET_DEPTH_REVERSED = 0, /**< 1 at the near plane, falling; infinite or finite far plane */
-    REFLET_DEPTH_STANDARD = 1  /**< 0 at the near plane, rising */
+    REFLET_DEPTH_REVERSED = 0,              /**< 1 at the near plane, falling; infinite or finite far plane */
+    REFLET_DEPTH_STANDARD = 1,              /**< 0 at the near plane, rising */
+    REFLET_DEPTH_KIND_MAX_ENUM = 0x7FFFFFFF /**< no value: lets any int be refused */
 } RefletDepthKind;
 
 typedef enum RefletNormalKind {
-    REFLET_NORMAL_OCTAHEDRAL_SNORM = 0, /**< two channels, -1 to 1 (Cigolle et al., 2014), +Z at the centre */
-    REFLET_NORMAL_OCTAHEDRAL_UNORM = 1, /**< the same as 0 to 1 */
-    REFLET_NORMAL_VECTOR_SNORM = 2,     /**< three channels, -1 to 1, of any length but 0 */
-    REFLET_NORMAL_VECTOR_UNORM = 3      /**< three channels, 0 to 1 */
+    REFLET_NORMAL_OCTAHEDRAL_SNORM = 0,      /**< two channels, -1 to 1 (Cigolle et al., 2014), +Z at the centre */
+    REFLET_NORMAL_OCTAHEDRAL_UNORM = 1,      /**< the same as 0 to 1 */
+    REFLET_NORMAL_VECTOR_SNORM = 2,          /**< three channels, -1 to 1, of any length but 0 */
+    REFLET_NORMAL_VECTOR_UNORM = 3,          /**< three channels, 0 to 1 */
+    REFLET_NORMAL_KIND_MAX_ENUM = 0x7FFFFFFF /**< no value: lets any int be refused */
 } RefletNormalKind;
 
 typedef enum RefletRoughnessKind {
-    REFLET_ROUGHNESS_PERCEPTUAL = 0, /**< as in glTF: alpha of GGX is its square */
-    REFLET_ROUGHNESS_ALPHA = 1,      /**< alpha of GGX */
-    REFLET_ROUGHNESS_SMOOTHNESS = 2  /**< 1 minus perceptual roughness */
+    REFLET_ROUGHNESS_PERCEPTUAL = 0,            /**< as in glTF: alpha of GGX is its square */
+    REFLET_ROUGHNESS_ALPHA = 1,                 /**< alpha of GGX */
+    REFLET_ROUGHNESS_SMOOTHNESS = 2,            /**< 1 minus perceptual roughness */
+    REFLET_ROUGHNESS_KIND_MAX_ENUM = 0x7FFFFFFF /**< no value: lets any int be refused */
 } RefletRoughnessKind;
 
 typedef enum RefletColorKind {
-    REFLET_COLOR_LINEAR = 0, /**< linear when sampled: also every _SRGB format */
-    REFLET_COLOR_SRGB = 1    /**< sRGB-encoded values in a format that does not decode them */
+    REFLET_COLOR_LINEAR = 0,                /**< linear when sampled: also every _SRGB format */
+    REFLET_COLOR_SRGB = 1,                  /**< sRGB-encoded values in a format that does not decode them */
+    REFLET_COLOR_KIND_MAX_ENUM = 0x7FFFFFFF /**< no value: lets any int be refused */
 } RefletColorKind;
 
 typedef enum RefletMotionKind {
-    REFLET_MOTION_UV = 0,    /**< 1: the picture's width or height; y down */
-    REFLET_MOTION_NDC = 1,   /**< 2: the picture's width or height, as in clip space */
-    REFLET_MOTION_PIXELS = 2 /**< y down */
+    REFLET_MOTION_UV = 0,                    /**< 1: the picture's width or height; y down */
+    REFLET_MOTION_NDC = 1,                   /**< 2: the picture's width or height, as in clip space */
+    REFLET_MOTION_PIXELS = 2,                /**< y down */
+    REFLET_MOTION_KIND_MAX_ENUM = 0x7FFFFFFF /**< no value: lets any int be refused */
 } RefletMotionKind;
 
 /** All images have the view's size. */
@@ -409,7 +414,11 @@ REFLET_API RefletResult refletDiffuseGi(RefletView view, RefletSettings settings
 REFLET_API RefletResult refletReflections(RefletView view, RefletSettings settings, const RefletIndirectLight* light,
                                           RefletLobe* lobe);
 
-typedef enum RefletLobeKind { REFLET_LOBE_DIFFUSE = 0, REFLET_LOBE_SPECULAR = 1 } RefletLobeKind;
+typedef enum RefletLobeKind {
+    REFLET_LOBE_DIFFUSE = 0,
+    REFLET_LOBE_SPECULAR = 1,
+    REFLET_LOBE_KIND_MAX_ENUM = 0x7FFFFFFF /**< no value: lets any int be refused */
+} RefletLobeKind;
 
 /**
  * Denoises a lobe that the host traced itself, by ray tracing for instance: of the view's size, RGB radiance without
@@ -443,8 +452,8 @@ REFLET_API RefletResult refletTemporal(RefletView view, RefletSettings settings,
 
 /**
  * Tone map, RGBA8, display-encoded: `tonemap.curve`, `tonemap.exposure`. autoExposure 1: surfaces become middle grey on
- * average (histogram; Reinhard et al., 2002). color: linear radiance, of the output's size; NULL: the last of refletTemporal and
- * refletComposite that ran.
+ * average (histogram; Reinhard et al., 2002). color: linear radiance, of the output's size; NULL: the last of
+ * refletTemporal and refletComposite that ran.
  */
 REFLET_API RefletResult refletToneMap(RefletView view, RefletSettings settings, const RefletImage* color,
                                       uint32_t autoExposure, RefletImage* display);

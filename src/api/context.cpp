@@ -246,6 +246,7 @@ const char* refletGetSetting(RefletSettings settings, const char* name) {
         }
         text = settingText(&settings->values, settingTable().find(name).info);
     });
+    // NOLINTNEXTLINE(clang-analyzer-cplusplus.InnerPointer): valid until the thread's next call, as the header says
     return result == REFLET_SUCCESS ? text.c_str() : nullptr;
 }
 

@@ -212,9 +212,9 @@ RefletResult refletDenoise(RefletView view, RefletSettings settings, RefletLobeK
 }
 
 RefletResult refletComposite(RefletView view, RefletSettings settings, const RefletImage* light,
-                             RefletComposite* out) {
+                             RefletComposite* composite) {
     return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
-        const RefletComposite given = adopted(out, "RefletComposite");
+        const RefletComposite given = adopted(composite, "RefletComposite");
         HostImages host(*view);
         const gpu::Image image = hostImageOf(light, "light", "the light that the lobes were given", host, view->size);
         const Composite sum = recordComposite(*view, frame, values, image);
@@ -223,7 +223,7 @@ RefletResult refletComposite(RefletView view, RefletSettings settings, const Ref
         result.lit = resultOf(sum.lit);
         result.indirectDiffuse = resultOf(sum.indirectDiffuse);
         result.indirectSpecular = resultOf(sum.indirectSpecular);
-        std::memcpy(out, &result, given.structSize);
+        std::memcpy(composite, &result, given.structSize);
     });
 }
 
@@ -241,6 +241,7 @@ RefletResult refletToneMap(RefletView view, RefletSettings settings, const Refle
     return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
         checkOut(display, "display");
         HostImages host(*view);
-        *display = resultOf(recordToneMap(*view, frame, values, colorOf(color, host, outputSizeOf(*view)), autoExposure != 0));
+        *display =
+            resultOf(recordToneMap(*view, frame, values, colorOf(color, host, outputSizeOf(*view)), autoExposure != 0));
     });
 }

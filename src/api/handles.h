@@ -108,7 +108,7 @@ struct RefletView_T {
     std::shared_ptr<VkDeviceSize> memory;  ///< bytes in use
     reflet::gpu::Recorder recorder;
     reflet::uvec2 size{0};
-    reflet::uvec2 outputSize{0};  ///< of refletTemporal's pictures; 0: as size
+    reflet::uvec2 outputSize{0};                ///< of refletTemporal's pictures; 0: as size
     VkCommandBuffer commands = VK_NULL_HANDLE;  ///< of the current frame
     std::unique_ptr<reflet::api::ViewImages> images;
     std::optional<reflet::api::Frame> frame;         ///< between begin and end

@@ -186,7 +186,8 @@ RefletResult refletResizeView(RefletView view, uint32_t width, uint32_t height) 
 RefletResult refletSetOutputSize(RefletView view, uint32_t width, uint32_t height) {
     return onView(view, [&] {
         if (view->frame) {
-            failArgument("view: a frame has begun; set its output size before refletBeginFrame or after refletEndFrame");
+            failArgument(
+                "view: a frame has begun; set its output size before refletBeginFrame or after refletEndFrame");
         }
         if (width != 0 || height != 0) {
             checkSize(width, height);
@@ -270,7 +271,7 @@ RefletResult refletEndFrame(RefletView view) {
         }
         view->recorder.end();
         view->composedLast = static_cast<bool>(view->frame->composed);
-        view->last = std::move(view->frame);
+        view->last = view->frame;
         view->frame.reset();
     });
 }

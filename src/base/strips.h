@@ -14,7 +14,9 @@ SHARED_END
 
 #ifndef __cplusplus
 // The pixel of a thread of a pass that is recorded by Pass::dispatchStrips.
-ivec2 pixelInStrips() { return ivec2(gl_GlobalInvocationID.xy) + ivec2(gl_WorkGroupID.z * stripWidth, 0); }
+ivec2 pixelInStrips() {
+    return ivec2(gl_GlobalInvocationID.xy) + ivec2(gl_WorkGroupID.z * stripWidth, 0);
+}
 #endif
 
 #endif

@@ -314,7 +314,8 @@ FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in
     const auto image = [&](gpu::KeptImage& kept) { return kept.storage(f, litFormat, lit.next.size); };
     const gpu::Image behind = blended.lit ? image(own.litBehind) : lit.next;
     // Without rays, no frame reads the last one's light.
-    const bool directAlone = out.diffuse.dark && out.specular.dark && !layers && !blended.lit && !in.background.environment;
+    const bool directAlone =
+        out.diffuse.dark && out.specular.dark && !layers && !blended.lit && !in.background.environment;
     out.light = directAlone ? Composite{{}, {}, out.direct}
                             : composite(f, own.layers, parts, behind, {in.view, settings.diffuse.gain});
     gpu::Image sum = lit.next;
@@ -342,8 +343,7 @@ FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in
     }
     if (in.autoExposure) {
         const gpu::Image metered = out.light.lit.size == out.g.depth.size ? out.light.lit : out.unfiltered;
-        out.exposure =
-            measureExposure(f, own.exposure, metered, out.g.depth, in.elapsed, settings.tonemap.adaptation);
+        out.exposure = measureExposure(f, own.exposure, metered, out.g.depth, in.elapsed, settings.tonemap.adaptation);
     }
     const gpu::Image radiance =
         out.coverage ? straightRadiance(f, own.straight, out.light.lit, out.coverage) : out.light.lit;

@@ -93,7 +93,8 @@ struct FrameImages : ViewImages {
     LobeLight specular;
     Composite light;
     gpu::Image unfiltered;  ///< light.lit before temporal antialiasing
-    gpu::Image temporal;    ///< of FrameInputs.outputSize, as light.lit then is: radiance, history length; none without temporal antialiasing
+    gpu::Image temporal;    ///< of FrameInputs.outputSize, as light.lit then is: radiance, history length; none without
+                            ///< temporal antialiasing
     gpu::Image coverage;    ///< red: share of the pixel that surfaces cover; light.lit is premultiplied by it. None
                             ///< unless the background is a colour or transparent
     gpu::Image exposure;    ///< of measureExposure; none without automatic exposure

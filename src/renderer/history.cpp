@@ -53,7 +53,8 @@ uint32_t framesToSettle(HistoryUse use, const Settings& settings) {
         return 1;
     }
     // Each round of all faces carries light one bounce further.
-    // With upscaling a pixel has a sample of its own in scale² of the frames; twice as many at 0.5 leave little to gain.
+    // With upscaling a pixel has a sample of its own in scale² of the frames; twice as many at 0.5 leave little to
+    // gain.
     const float upscaling = use.temporal ? settings.temporal.scale : 1.0F;
     const auto settled = static_cast<uint32_t>(std::ceil(static_cast<float>(settlingFrames) / upscaling));
     constexpr uint32_t facesOfAProbe = 6;

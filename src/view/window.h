@@ -5,8 +5,8 @@
 
 #include <filesystem>
 #include <functional>
-#include <span>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 

@@ -157,8 +157,8 @@ TEST_F(Render, TimingsTellEveryPassOfTheFrame) {
     EXPECT_EQ(timings.at("frames"), 3);
     EXPECT_GT(timings.at("frame_ms"), 0.0);
     const auto& passes = timings.at("passes");
-    for (const char* pass : {"gbuffer", "shadow_visibility", "direct", "diffuse.classify_tiles", "diffuse.trace_at_once",
-                             "specular.trace_at_once", "composite", "tonemap"}) {
+    for (const char* pass : {"gbuffer", "shadow_visibility", "direct", "diffuse.classify_tiles",
+                             "diffuse.trace_at_once", "specular.trace_at_once", "composite", "tonemap"}) {
         EXPECT_TRUE(passes.contains(pass)) << pass;
     }
     EXPECT_FALSE(passes.contains("shadow_map")) << "drawn in the first frame, whose times are left out, and kept";

@@ -344,7 +344,8 @@ TEST_F(Upscaling, APictureThatGlidesIsNearerToTheTruthThanTheFirstFrame) {
                 first = i == 0 ? errorOf(last, moved, 4) : first;
             }
             const double with = errorOf(last, moved, 4);
-            RecordProperty("glides_" + std::to_string(scale) + "_" + std::to_string(motion.x), std::to_string(with / first));
+            RecordProperty("glides_" + std::to_string(scale) + "_" + std::to_string(motion.x),
+                           std::to_string(with / first));
             EXPECT_LT(with, 0.6 * first) << scale << ", " << motion.x << ": " << with << " of " << first;
         }
     }

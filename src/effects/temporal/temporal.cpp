@@ -23,7 +23,9 @@ Histories swapHistories(gpu::Recorder& f, TemporalStore& own, uvec2 size, bool c
     // Of frames at rest, deviation of the tone-compressed luma from the history: variance, and mean over the last few
     // frames.
     Histories h{own.mean.swap(f, VK_FORMAT_R16G16B16A16_SFLOAT, size),
-                own.deviations.swap(f, VK_FORMAT_R16G16_SFLOAT, size), {}, false};
+                own.deviations.swap(f, VK_FORMAT_R16G16_SFLOAT, size),
+                {},
+                false};
     h.valid = h.mean.valid;
     if (covers) {
         h.coverage = own.coverage.swap(f, VK_FORMAT_R32_SFLOAT, size);
@@ -48,7 +50,8 @@ uvec2 columns(uvec2 size) {
     return {size.x, (size.y + temporalColumn - 1) / temporalColumn};
 }
 
-void upscale(gpu::Recorder& f, TemporalStore& own, const Histories& h, const TemporalInputs& in, const TemporalParams& params) {
+void upscale(gpu::Recorder& f, TemporalStore& own, const Histories& h, const TemporalInputs& in,
+             const TemporalParams& params) {
     const uvec2 output = h.mean.next.size;
     const gpu::History changes = own.changes.swap(f, VK_FORMAT_R16G16B16A16_SFLOAT, params.size);
     TemporalParams aroundParams = params;
@@ -56,8 +59,10 @@ void upscale(gpu::Recorder& f, TemporalStore& own, const Histories& h, const Tem
     gpu::Scratch scratch(f);
     const gpu::Image around = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, params.size);
     const gpu::Image spread = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, params.size);
-    gpu::Pass near = f.compute("temporal.around", in.coverage ? "temporal_around_coverage.comp" : "temporal_around.comp");
-    gpu::Pass add = f.compute("temporal.upscale", in.coverage ? "temporal_upscale_coverage.comp" : "temporal_upscale.comp");
+    gpu::Pass near =
+        f.compute("temporal.around", in.coverage ? "temporal_around_coverage.comp" : "temporal_around.comp");
+    gpu::Pass add =
+        f.compute("temporal.upscale", in.coverage ? "temporal_upscale_coverage.comp" : "temporal_upscale.comp");
     if (in.coverage) {
         const gpu::Image covered = scratch.storage(VK_FORMAT_R16G16_SFLOAT, params.size);
         near.read("coverage", in.coverage).write("coveredAround", covered);

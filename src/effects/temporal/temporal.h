@@ -50,10 +50,10 @@ struct TemporalParams {
 
 struct TemporalUpscaleParams {
     TemporalSettings settings;
-    uvec2 size;        // of this frame
-    vec2 ratio;        // of this frame's size to the output's
-    vec2 jitter;       // of this frame, in its pixels
-    uint frame;        // as in TemporalParams
+    uvec2 size;   // of this frame
+    vec2 ratio;   // of this frame's size to the output's
+    vec2 jitter;  // of this frame, in its pixels
+    uint frame;   // as in TemporalParams
     uint hasPrevious;
 };
 
