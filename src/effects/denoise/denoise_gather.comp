@@ -169,7 +169,9 @@ HistorySample historyAt(HistoryLookup w, KeptSurface own, ScreenPlane plane) {
         float height = heightAbove(plane, away, there.depth - w.expected) / max(length(away), 1.0);
         vec4 light = imageLoad(previousLight, texel);
         bool same = w.away < 0.0 || isSameReflectedObject(w.away, light.a, own.roughness);
-        if (same && there.depth > 0.0 && abs(height) <= allowed && surfaceSimilarity(own, there, lobe) > 0.3) {
+        // Directional light fits other normals, too.
+        float alike = hasDirectional != 0u ? normalSimilarity(own, there) : surfaceSimilarity(own, there, lobe);
+        if (same && there.depth > 0.0 && abs(height) <= allowed && alike > 0.3) {
             float weight = share.x * share.y;
             vec2 m = imageLoad(previousMoments, texel).xy;
             sum.light += weight * light;
