@@ -115,7 +115,7 @@ MarchSample sampleAt(MarchRay ray, float t, MarchOptions o, MarchView view) {
     float front = depthToViewDistance(s.depth, view.depthToDistance);
     s.behind = ray.viewDistanceStart + t * ray.viewDistanceStep - front;
     s.thickness = thicknessAt(s.pixel, front, o, view);
-    s.hittable = isHittable(ray, s.pixel, s.depth, view);
+    s.hittable = s.onScreen && isHittable(ray, s.pixel, s.depth, view);
     return s;
 }
 

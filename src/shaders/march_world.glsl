@@ -56,9 +56,9 @@ MarchResult marchHalving(MarchRay ray, MarchOptions o, MarchView view) {
         bool behind = s.behind > 0.0 && s.hittable;
         bool ends = behind && stride < o.minStep;
         outcome = !s.onScreen ? marchLeftScreen : (ends ? marchHit : marchLimitReached);
-        bool steps_on = s.onScreen && !behind;
-        clear = steps_on ? clear + stride : clear;
-        behindBefore = steps_on ? (s.hittable ? s.behind : 0.0) : behindBefore;
+        bool advances = s.onScreen && !behind;
+        clear = advances ? clear + stride : clear;
+        behindBefore = advances ? (s.hittable ? s.behind : 0.0) : behindBefore;
         stride = behind && !ends ? 0.5 * stride : stride;
         steps += s.onScreen ? 1u : 0u;
     }

@@ -325,6 +325,14 @@ void expectLight(const gpu::Recorder& f, gpu::Readback readback, VkFormat format
     EXPECT_GT(sum, 0.1 * size.x * size.y) << what;
 }
 
+std::set<std::string> passesOf(const gpu::Recorder& f) {
+    std::set<std::string> names;
+    for (const gpu::PassTime& pass : f.passTimes()) {
+        names.insert(pass.name);
+    }
+    return names;
+}
+
 TEST(EffectsHost, RecordsEveryEffectBetweenItsOwnCommands) {
     Host host;
     {
@@ -356,10 +364,7 @@ TEST(EffectsHost, RecordsEveryEffectBetweenItsOwnCommands) {
         expectLight(recorder, results.temporal, colorFormat, "temporal antialiasing");
         expectLight(recorder, results.upscaled, colorFormat, "temporal upscaling");
         expectLight(recorder, results.display, VK_FORMAT_R8G8B8A8_UNORM, "display");
-        std::set<std::string> passes;
-        for (const gpu::PassTime& pass : recorder.passTimes()) {
-            passes.insert(pass.name);
-        }
+        const std::set<std::string> passes = passesOf(recorder);
         for (const char* pass : {"contact_shadow",
                                  "shadow_visibility",
                                  "shadow_clean.gather",
@@ -410,10 +415,7 @@ TEST(EffectsHost, TracingAtOnceGivesTheLightOfLists) {
         });
         host.waitForAll();
         recorder.finish();
-        std::set<std::string> passes;
-        for (const gpu::PassTime& pass : recorder.passTimes()) {
-            passes.insert(pass.name);
-        }
+        const std::set<std::string> passes = passesOf(recorder);
         EXPECT_TRUE(passes.contains("diffuse.trace_at_once") && passes.contains("specular.trace_at_once"));
         EXPECT_TRUE(passes.contains("diffuse.resolve_rays") && passes.contains("specular.resolve_rays"));
         for (const auto& [atOnce, byLists] : read) {
