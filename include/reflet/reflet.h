@@ -1,7 +1,7 @@
 /*
  * Reflet: screen-space reflections (SSR), screen-space diffuse global illumination (SSGI), sun shadows from shadow maps
- * (hard, PCF, PCSS), contact shadows, denoising, temporal antialiasing (TAA) and tone mapping, recorded into the host's
- * own Vulkan command buffer, from the host's G-buffer.
+ * (hard, PCF, PCSS), contact shadows, ambient occlusion (AO), denoising, temporal antialiasing (TAA) and tone mapping,
+ * recorded into the host's own Vulkan command buffer, from the host's G-buffer.
  *
  * C11 and C++. docs/library.md is the guide; examples/ has complete hosts.
  *
@@ -403,8 +403,22 @@ typedef struct RefletLobe {
     uint32_t downsample; /**< `diffuse.downsample` or `specular.downsample` */
 } RefletLobe;
 
-/** Screen-space diffuse global illumination (SSGI): `diffuse.rays` rays per traced pixel, denoised if the settings say
- * so. */
+/**
+ * Ambient occlusion (AO) by `ao.method`: horizon (GTAO; Jimenez et al., 2016) or bitmask (visibility bitmask; Therrien,
+ * Levesque and Gilet, 2023), within `ao.radius`. RGBA16F of the view's size; alpha: the cosine-weighted share of
+ * directions in which nothing is near, 0 to 1; RGB: the bent normal, their mean direction, world space, unit length.
+ * (0, 0, 0, 1) in the background. Denoised if the settings say so.
+ *
+ * The host multiplies its own ambient light by alpha, never direct light. If this ran before refletDiffuseGi or
+ * refletReflections in this frame, these dim by it what they take from the prefiltered environment
+ * (`diffuse.distribution=normal`, `specular.rough_fallback=mips`): traced rays find what is near by themselves.
+ */
+REFLET_API RefletResult refletAmbientOcclusion(RefletView view, RefletSettings settings, RefletImage* occlusion);
+
+/**
+ * Screen-space diffuse global illumination (SSGI), denoised if the settings say so. `diffuse.method`: rays or slices,
+ * `diffuse.rays` of them per traced pixel.
+ */
 REFLET_API RefletResult refletDiffuseGi(RefletView view, RefletSettings settings, const RefletIndirectLight* light,
                                         RefletLobe* lobe);
 /**
@@ -468,7 +482,8 @@ typedef enum RefletEffect {
     REFLET_EFFECT_DENOISE = 1 << 4,
     REFLET_EFFECT_COMPOSITE = 1 << 5,
     REFLET_EFFECT_TEMPORAL = 1 << 6,
-    REFLET_EFFECT_TONE_MAP = 1 << 7
+    REFLET_EFFECT_TONE_MAP = 1 << 7,
+    REFLET_EFFECT_AMBIENT_OCCLUSION = 1 << 8
 } RefletEffect;
 
 /** What the frames to come will be. */
@@ -508,7 +523,8 @@ REFLET_API RefletResult refletPassTimes(RefletView view, uint32_t* count, Reflet
 
 /**
  * An intermediate image of the current frame: depth, normal, geometric_normal, base_color, material, motion, pyramid,
- * light, sun_visibility, diffuse, specular, diffuse_confidence, specular_confidence. The error lists what there is.
+ * light, sun_visibility, ambient_occlusion, diffuse, specular, diffuse_confidence, specular_confidence. The error lists
+ * what there is.
  */
 REFLET_API RefletResult refletFindImage(RefletView view, const char* name, RefletImage* image);
 

@@ -180,6 +180,13 @@ RefletResult refletSunShadow(RefletView view, RefletSettings settings, const Ref
     });
 }
 
+RefletResult refletAmbientOcclusion(RefletView view, RefletSettings settings, RefletImage* occlusion) {
+    return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
+        checkOut(occlusion, "occlusion");
+        *occlusion = resultOf(recordAmbientOcclusion(*view, frame, values));
+    });
+}
+
 RefletResult refletDiffuseGi(RefletView view, RefletSettings settings, const RefletIndirectLight* light,
                              RefletLobe* lobe) {
     return traceLobeOf(view, settings, light, lobe, lobeDiffuse);

@@ -137,6 +137,22 @@ gpu::Image recordSunShadow(RefletView_T& view, Frame& frame, const Settings& set
     return visible;
 }
 
+gpu::Image recordAmbientOcclusion(RefletView_T& view, Frame& frame, const Settings& settings) {
+    gpu::Recorder& f = view.recorder;
+    if (settings.ao.method == AoMethod::none) {
+        failArgument("ao.method: is none, its default; set horizon or bitmask");
+    }
+    frame.ambientOcclusion = ambientOcclusion(f, view.images->ao,
+                                              {.g = frame.g,
+                                               .view = frame.view,
+                                               .backDepth = frame.backDepth,
+                                               .settings = settings.ao,
+                                               .denoise = denoiseSettings(view, settings),
+                                               .ggxTable = ggxTable(f, view.images->ggxTable),
+                                               .blueNoise = blueNoiseOf(view)});
+    return frame.ambientOcclusion;
+}
+
 LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image light,
                      const EnvironmentInputs& environment) {
     gpu::Recorder& f = view.recorder;
@@ -171,6 +187,7 @@ LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings,
                    .blueNoise = blueNoiseOf(view),
                    .screen = {trace.enabled != 0 ? &screen : nullptr, trace, longest},
                    .sources = {},
+                   .ambientOcclusion = frame.ambientOcclusion,
                    .lit = screen.lit,
                    .randomTracing = trace.enabled != 0 && trace.jitter != 0 && !exact,
                    .coneShare = trace.enabled != 0 ? 0.1F : 0.0F});

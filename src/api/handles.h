@@ -67,6 +67,7 @@ struct ViewImages {
     SunVisibilityStore sun;
     ShadowDenoiseStore sunDenoise;
     gpu::KeptImage contact{"contact_shadow"};
+    AoStore ao;
     LobeImages diffuse;
     LobeImages specular;
     gpu::KeptImage noisyDiffuse{"noisy_diffuse"};
@@ -92,6 +93,7 @@ struct Frame {
     gpu::Image composed;
     gpu::Image antialiased;
     gpu::Image sunVisibility;
+    gpu::Image ambientOcclusion;
     std::optional<LobeLight> diffuse;
     std::optional<LobeLight> specular;
     float elapsed = 0.0F;

@@ -10,7 +10,7 @@ namespace reflet::api {
 
 namespace {
 
-constexpr uint32_t allEffects = 2 * REFLET_EFFECT_TONE_MAP - 1;
+constexpr uint32_t allEffects = 2 * REFLET_EFFECT_AMBIENT_OCCLUSION - 1;
 
 // Stand-ins for the host's images: passes that are only collected never read them.
 class StandIns {
@@ -47,6 +47,9 @@ void collectFrame(RefletView_T& view, const Settings& settings, const RefletPrep
         sun.sun.count = std::clamp(info.cascades, 1U, maxCascades);
         sun.contact = asked(REFLET_EFFECT_CONTACT_SHADOWS);
         recordSunShadow(view, frame, settings, sun);
+    }
+    if (asked(REFLET_EFFECT_AMBIENT_OCCLUSION)) {
+        recordAmbientOcclusion(view, frame, settings);
     }
     EnvironmentInputs environment;
     environment.image = info.hasEnvironmentImage != 0 ? standIns.make(uvec2(256)) : gpu::Image{};
@@ -90,6 +93,7 @@ std::vector<Named> imagesOf(const Frame& frame) {
             {"pyramid", frame.pyramid},
             {"light", frame.light},
             {"sun_visibility", frame.sunVisibility},
+            {"ambient_occlusion", frame.ambientOcclusion},
             {"diffuse", radiance(frame.diffuse)},
             {"specular", radiance(frame.specular)},
             {"diffuse_confidence", source(frame.diffuse)},

@@ -25,6 +25,7 @@ SettingTable makeTable() {
     table.add<EnvironmentSettings>("environment", offsetof(Settings, environment));
     table.add<DiffuseSettings>("diffuse", offsetof(Settings, diffuse));
     table.add<SpecularSettings>("specular", offsetof(Settings, specular));
+    table.add<AoSettings>("ao", offsetof(Settings, ao));
     table.add<DenoiseSettings>("denoise", offsetof(Settings, denoise));
     table.add<TemporalSettings>("temporal", offsetof(Settings, temporal));
     table.add<TonemapSettings>("tonemap", offsetof(Settings, tonemap));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/setting_table.h"
+#include "effects/ambient_occlusion/ambient_occlusion.h"
 #include "effects/contact/contact.h"
 #include "effects/denoise/denoise.h"
 #include "effects/lobe/answer_environment.h"
@@ -22,6 +23,7 @@ struct Settings {
     EnvironmentSettings environment;
     DiffuseSettings diffuse;
     SpecularSettings specular;
+    AoSettings ao;
     DenoiseSettings denoise;
     TemporalSettings temporal;
     TonemapSettings tonemap;

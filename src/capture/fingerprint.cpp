@@ -199,10 +199,13 @@ void addTo(Fingerprint& print, const View& view) {
 }
 
 void addTo(Fingerprint& print, const ReferenceOptions& options) {
-    const auto& [bounces, samples, noise, filter, diffuse, visibleOnly, lambertOnly, lampShadows, seed, threads] =
-        options;
+    const auto& [bounces, samples, noise, filter, diffuse, visibleOnly, lambertOnly, lampShadows, ambientOcclusion,
+                 aoRadius, aoFalloff, seed, threads] = options;
     (void)threads;
     Adder(print).all(bounces, samples, noise, filter, diffuse, visibleOnly, lambertOnly, lampShadows, seed);
+    if (ambientOcclusion) {  // others keep the print that they had before there was ambient occlusion
+        Adder(print).all(aoRadius, aoFalloff);
+    }
 }
 
 }  // namespace reflet

@@ -3,7 +3,9 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/interrupt.h"
+#include "base/text.h"
 #include "capture/pictures.h"
+#include "capture/show.h"
 #include "cli/commands.h"
 #include "cli/scene_arguments.h"
 #include "effects/exposure/exposure.h"
@@ -14,6 +16,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -32,6 +35,9 @@ struct ReferenceCommand {
     std::string filter = "box";
     std::string sampling = "cosine";
     bool visibleOnly = false;
+    std::vector<std::string> layers;
+    std::optional<float> aoRadius;
+    std::optional<float> aoFalloff;
     unsigned threads = 0;
 };
 
@@ -59,6 +65,32 @@ void checkNumbers(const ReferenceCommand& command, uvec2 size) {
     }
 }
 
+bool asksFor(const ReferenceCommand& command, std::string_view layer) {
+    return std::ranges::find(command.layers, layer) != command.layers.end();
+}
+
+// Whether the layer needs more than the first surface.
+bool carriesBounces(std::string_view layer) {
+    return layer == "final" || layer == "indirect_diffuse" || layer == "indirect_specular";
+}
+
+constexpr std::array<std::string_view, 9> layerNames{
+    "final",  "direct", "indirect_diffuse", "indirect_specular", "albedo",
+    "normal", "depth",  "sun_visibility",   "ambient_occlusion"};
+
+void checkLayers(const ReferenceCommand& command) {
+    for (const std::string& layer : command.layers) {
+        if (std::ranges::find(layerNames, layer) == layerNames.end()) {
+            const std::vector<std::string> names(layerNames.begin(), layerNames.end());
+            failUsage("--layers: there is no layer '{}'{}; there are: {}", layer, suggestion(layer, names),
+                      fmt::join(names, ", "));
+        }
+    }
+    if ((command.aoRadius || command.aoFalloff) && !asksFor(command, "ambient_occlusion")) {
+        failUsage("--ao-radius and --ao-falloff are for the layer ambient_occlusion: add --layers ambient_occlusion");
+    }
+}
+
 ReferenceOptions referenceOptions(const ReferenceCommand& command, const Settings& settings) {
     ReferenceOptions options;
     options.bounces = command.bounces.value_or(ReferenceOptions::unlimited);
@@ -68,6 +100,12 @@ ReferenceOptions referenceOptions(const ReferenceCommand& command, const Setting
     options.diffuse = command.sampling == "cosine" ? DiffuseSampling::cosine : DiffuseSampling::uniform;
     options.visibleOnly = command.visibleOnly;
     options.lambertOnly = settings.materials.lambertOnly != 0;
+    options.ambientOcclusion = asksFor(command, "ambient_occlusion");
+    options.aoRadius = command.aoRadius.value_or(options.aoRadius);
+    options.aoFalloff = command.aoFalloff.value_or(options.aoFalloff);
+    if (!command.layers.empty() && std::ranges::none_of(command.layers, carriesBounces)) {
+        options.bounces = 0;
+    }
     options.seed = command.scene.seed;
     options.threads = command.threads;
     return options;
@@ -85,10 +123,29 @@ ReferencePicture tracePicture(const Scene& scene, const View& view, uvec2 size, 
     }
 }
 
-std::vector<ImageLayer> layersOf(const ReferencePicture& picture, const Background& background) {
-    std::vector<ImageLayer> layers = picture.layers();
+// Those that are asked for, in that order, and first an unnamed copy of the first, which every viewer shows.
+std::vector<ImageLayer> chosenLayers(const ReferencePicture& picture, const ReferenceCommand& command) {
+    std::vector<ImageLayer> all = picture.layers();
+    if (command.layers.empty()) {
+        return all;
+    }
+    std::vector<ImageLayer> chosen;
+    for (const std::string& name : command.layers) {
+        const auto found = std::ranges::find(all, name, &ImageLayer::name);
+        if (chosen.empty()) {
+            chosen.push_back({"", found->image});
+        }
+        chosen.push_back(*found);
+    }
+    return chosen;
+}
+
+std::vector<ImageLayer> layersOf(const ReferencePicture& picture, const ReferenceCommand& command,
+                                 const Background& background) {
+    std::vector<ImageLayer> layers = chosenLayers(picture, command);
+    const bool showsFinal = command.layers.empty() || command.layers.front() == "final";
     for (ImageLayer& layer : layers) {
-        if (background.needsCoverage() && (layer.name.empty() || layer.name == "final")) {
+        if (background.needsCoverage() && ((layer.name.empty() && showsFinal) || layer.name == "final")) {
             layer.image = withAlpha(layer.image, picture.coverage);
         }
     }
@@ -108,6 +165,7 @@ std::string summary(const ReferencePicture& picture) {
 void trace(const ReferenceCommand& command) {
     const uvec2 size = parseSize(command.scene.size);
     checkNumbers(command, size);
+    checkLayers(command);
     const Settings settings = loadSettings(command.scene);
     const ReferenceOptions options = referenceOptions(command, settings);
     checkOutputs(command.outputs);
@@ -119,9 +177,12 @@ void trace(const ReferenceCommand& command) {
     const TonemapSettings tonemap = exposedAs(settings.tonemap, scene, picture.final, picture.depth);
     for (const std::string& file : command.outputs) {
         if (isExr(file)) {
-            writeExr(file, layersOf(picture, view.background));
+            writeExr(file, layersOf(picture, command, view.background));
         } else {
-            writePng(file, displayedOver(picture.final, picture.coverage, view.background, tonemap));
+            const bool other = !command.layers.empty() && command.layers.front() != "final";
+            writePng(file,
+                     other ? makePicture(findShow(command.layers.front()), chosenLayers(picture, command).front().image)
+                           : displayedOver(picture.final, picture.coverage, view.background, tonemap));
         }
     }
     if (!picture.complete && picture.samples < options.samples) {
@@ -181,6 +242,25 @@ void addReferenceCommand(CLI::App& app) {
     command->add_flag("--visible-only", options->visibleOnly,
                       "Scattered rays return light only from points that the camera sees and from the environment: "
                       "the best that any screen-space method can reach");
+    command
+        ->add_option(
+            "--layers", options->layers,
+            fmt::format("Layers to write, of {} [all but ambient_occlusion]; PNG: the first one. Without final "
+                        "and indirect light, paths end at the first surface",
+                        fmt::join(layerNames, ", ")))
+        ->type_name("A,B,...")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command
+        ->add_option("--ao-radius", options->aoRadius,
+                     "Metres within which surfaces count in the layer ambient_occlusion [1], as ao.radius")
+        ->type_name("R")
+        ->check(CLI::Range(1e-6F, 1e9F));
+    command
+        ->add_option("--ao-falloff", options->aoFalloff,
+                     "Share of that radius, at its end, over which they fade out [0], as ao.falloff")
+        ->type_name("X")
+        ->check(CLI::Range(0.0F, 1.0F));
     command->add_option("--threads", options->threads, "CPU threads, 0: one per core; the result does not depend on it")
         ->check(CLI::Range(0U, 4096U))
         ->capture_default_str();

@@ -255,11 +255,12 @@ void Recorder::upload(Image image, std::span<const std::byte> texels) {
                                        &copy);
 }
 
-Image Recorder::placeholder(VkFormat format, bool array) {
-    Texture& texture = placeholders_[{format, array}];
+Image Recorder::placeholder(VkFormat format, ViewKind view) {
+    Texture& texture = placeholders_[{format, view}];
     if (texture.info().size.x == 0) {
         const VkImageUsageFlags usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-        const ImageInfo info{format, uvec2(1), 1, 1, usage, array ? ViewKind::array : ViewKind::byLayers};
+        const uint32_t layers = view == ViewKind::cube || view == ViewKind::cubeArray ? 6 : 1;
+        const ImageInfo info{format, uvec2(1), 1, layers, usage, view};
         texture = Texture(context_, info, "placeholder");
     }
     return texture.image();

@@ -77,7 +77,7 @@ public:
     void upload(Image image, std::span<const std::byte> texels);
 
     /// An image of one texel, to bind where a shader does not use what it declares; `array`: an array view.
-    Image placeholder(VkFormat format, bool array = false);
+    Image placeholder(VkFormat format, ViewKind view = ViewKind::byLayers);
 
     /// Counts frames from 1.
     [[nodiscard]] uint64_t number() const { return number_; }
@@ -175,7 +175,7 @@ private:
     std::string prefix_;
     std::vector<PooledImage> pooledImages_;
     std::vector<PooledBuffer> pooledBuffers_;
-    std::map<std::pair<VkFormat, bool>, Texture> placeholders_;
+    std::map<std::pair<VkFormat, ViewKind>, Texture> placeholders_;
     std::vector<PassTime> times_;
 };
 

@@ -1,10 +1,12 @@
 // Traces one path.
 #include "reference/path_tracer.h"
 
+#include "reference/bsdf.h"
 #include "scene/background.h"
 #include "scene/environment.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace reflet {
 
@@ -14,6 +16,8 @@ constexpr uint32_t rouletteStart = 4;  // bounces before Russian roulette
 
 // Dimensions of the sampler: one pair for the position in the pixel, then these for each vertex of the path.
 enum Purpose : uint32_t { forSun, forLampAndLobe, forEmitter, forEmitterChoice, forScattering, forLampDisk, purposes };
+
+constexpr uint32_t pairForAmbient = 0xA0000000;  // beyond those of any path
 
 uint32_t pairFor(uint32_t vertex, Purpose purpose) {
     return 1 + vertex * purposes + purpose;
@@ -80,6 +84,9 @@ PathSample PathTracer::trace(const vec2& place, const PixelSampler& random) cons
     walk.point = *first;
     walk.out.albedo = first->baseColor;
     walk.out.direct = first->emission;
+    if (options_.ambientOcclusion) {
+        walk.out.ambientVisibility = ambientVisibility(walk);
+    }
     for (;; ++walk.vertex) {
         const Bsdf bsdf(walk.point, options_);
         addLamps(walk, bsdf);
@@ -199,6 +206,27 @@ bool PathTracer::step(Walk& walk, const Bsdf& bsdf) const {
         walk.addIndirect(walk.point.emission * weight(lights_.emitterPdf(from, walk.point)));
     }
     return true;
+}
+
+// How open a random direction is, cosine-distributed around the shading normal, as the renderer's rays.
+float PathTracer::ambientVisibility(Walk& walk) const {
+    const SurfacePoint& point = walk.point;
+    const vec2 u = walk.random.pair(pairForAmbient);
+    const float radius = std::sqrt(u.x);
+    const float turn = 2.0F * pi * u.y;
+    const vec3 direction =
+        frameAround(point.normal) * vec3(radius * std::cos(turn), radius * std::sin(turn), std::sqrt(1.0F - u.x));
+    if (glm::dot(direction, point.geometricNormal) <= 0.0F) {
+        return 1.0F;  // below the surface, which a smooth or mapped normal does not know: as open as right above it
+    }
+    Ray ray = walk.counted({point.rayOrigin(direction), direction});
+    ray.far = options_.aoRadius;
+    const auto hit = rays_.intersect(ray, RayKind::light);
+    if (!hit || (options_.visibleOnly && !cameraSees(walk, surfaceAt(rays_, *hit, direction)))) {
+        return 1.0F;
+    }
+    const float fade = options_.aoFalloff * options_.aoRadius;
+    return fade > 0.0F ? 1.0F - std::min((options_.aoRadius - hit->distance) / fade, 1.0F) : 0.0F;
 }
 
 bool PathTracer::cameraSees(Walk& walk, const SurfacePoint& point) const {

@@ -17,8 +17,9 @@ struct PathSample {
     vec3 indirectSpecular{0.0F};
     vec3 albedo{0.0F};
     float sunVisibility = 1.0F;
-    bool background = false;  ///< the camera sees no surface
-    uint32_t rays = 0;        ///< rays traced
+    float ambientVisibility = 1.0F;  ///< of one cosine-distributed ray; 1 unless it is traced
+    bool background = false;         ///< the camera sees no surface
+    uint32_t rays = 0;               ///< rays traced
 };
 
 class PathTracer {
@@ -39,6 +40,7 @@ private:
     void addEmitters(Walk& walk, const Bsdf& bsdf) const;
     /// False if the path ends here.
     [[nodiscard]] bool step(Walk& walk, const Bsdf& bsdf) const;
+    [[nodiscard]] float ambientVisibility(Walk& walk) const;
     [[nodiscard]] bool cameraSees(Walk& walk, const SurfacePoint& point) const;
     [[nodiscard]] bool lit(Walk& walk, const LightSample& light) const;
 

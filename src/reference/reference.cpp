@@ -32,6 +32,7 @@ struct PixelSum {
     vec3 indirectSpecular{0.0F};
     vec3 albedo{0.0F};
     float sunVisibility = 0.0F;
+    float ambientVisibility = 0.0F;
     uint32_t covered = 0;
     uint32_t count = 0;
     double luminance = 0.0;
@@ -43,6 +44,7 @@ struct PixelSum {
         indirectSpecular += s.indirectSpecular;
         albedo += s.albedo;
         sunVisibility += s.sunVisibility;
+        ambientVisibility += s.ambientVisibility;
         covered += s.background ? 0 : 1;
         ++count;
         const double l = reflet::luminance(s.direct + s.indirectDiffuse + s.indirectSpecular);
@@ -163,7 +165,7 @@ FloatImage meanColor(uvec2 size, const std::vector<PixelSum>& sums, vec3 PixelSu
     return image;
 }
 
-void gatherMeans(ReferencePicture& picture, uvec2 size, const std::vector<PixelSum>& sums) {
+void gatherMeans(ReferencePicture& picture, uvec2 size, const std::vector<PixelSum>& sums, bool ambient) {
     picture.direct = meanColor(size, sums, &PixelSum::direct);
     picture.indirectDiffuse = meanColor(size, sums, &PixelSum::indirectDiffuse);
     picture.indirectSpecular = meanColor(size, sums, &PixelSum::indirectSpecular);
@@ -178,6 +180,11 @@ void gatherMeans(ReferencePicture& picture, uvec2 size, const std::vector<PixelS
     for (size_t i = 0; i < sums.size(); ++i) {
         picture.coverage.data[i] = static_cast<float>(sums[i].covered) / static_cast<float>(sums[i].count);
         picture.sunVisibility.data[i] = sums[i].sunVisibility / static_cast<float>(sums[i].count);
+    }
+    if (ambient) {
+        picture.ambientOcclusion = makeImage(size, grey);
+        std::ranges::transform(sums, picture.ambientOcclusion.data.begin(),
+                               [](const PixelSum& s) { return s.ambientVisibility / static_cast<float>(s.count); });
     }
     picture.samples = std::ranges::min(sums, {}, &PixelSum::count).count;
 }
@@ -200,15 +207,19 @@ void traceCenters(ReferencePicture& picture, uvec2 size, const PathTracer& trace
 }  // namespace
 
 std::vector<ImageLayer> ReferencePicture::layers() const {
-    return {{"", final},
-            {"final", final},
-            {"direct", direct},
-            {"indirect_diffuse", indirectDiffuse},
-            {"indirect_specular", indirectSpecular},
-            {"albedo", albedo},
-            {"normal", normal},
-            {"depth", depth},
-            {"sun_visibility", sunVisibility}};
+    std::vector<ImageLayer> all{{"", final},
+                                {"final", final},
+                                {"direct", direct},
+                                {"indirect_diffuse", indirectDiffuse},
+                                {"indirect_specular", indirectSpecular},
+                                {"albedo", albedo},
+                                {"normal", normal},
+                                {"depth", depth},
+                                {"sun_visibility", sunVisibility}};
+    if (!ambientOcclusion.data.empty()) {
+        all.push_back({"ambient_occlusion", ambientOcclusion});
+    }
+    return all;
 }
 
 ReferencePicture traceReference(const Scene& scene, const View& view, uvec2 size, const ReferenceOptions& options,
@@ -232,7 +243,7 @@ ReferencePicture traceReference(const Scene& scene, const View& view, uvec2 size
         Tracing tracing(tracer, size, options, proceed);
         tracing.run();
         picture.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        gatherMeans(picture, size, tracing.sums());
+        gatherMeans(picture, size, tracing.sums(), options.ambientOcclusion);
         traceCenters(picture, size, tracer);
         picture.noise = tracing.noise();
         picture.rays = tracing.rays();

@@ -34,9 +34,12 @@ struct ReferenceOptions {
     float noise = 0.0F;            ///< stops early once the noise (see ReferencePicture) is below this; 0: never
     PixelFilter filter = PixelFilter::box;
     DiffuseSampling diffuse = DiffuseSampling::cosine;
-    bool visibleOnly = false;  ///< scattered rays carry light only from points that the camera sees
-    bool lambertOnly = false;  ///< replaces every material by Lambert of its base colour
-    bool lampShadows = true;   ///< false: lamps are not occluded
+    bool visibleOnly = false;       ///< scattered rays carry light only from points that the camera sees
+    bool lambertOnly = false;       ///< replaces every material by Lambert of its base colour
+    bool lampShadows = true;        ///< false: lamps are not occluded
+    bool ambientOcclusion = false;  ///< traces a ray per sample for ReferencePicture::ambientOcclusion
+    float aoRadius = 1.0F;          ///< metres; occluders farther away do not count
+    float aoFalloff = 0.0F;         ///< share of the radius, at its end, over which occluders fade out, 0 to 1
     uint32_t seed = 0;
     unsigned threads = 0;  ///< 0: one per core; does not affect the result
 };
@@ -57,14 +60,17 @@ struct ReferencePicture {
     FloatImage normal;            ///< XYZ: world-space shading normal at the pixel's centre, 0 in the background
     FloatImage depth;             ///< Y: metres in front of the camera at the pixel's centre, 0 in the background
     FloatImage sunVisibility;     ///< Y: visible fraction of the sun's disk, 1 in the background
-    FloatImage coverage;          ///< Y: share of the pixel's samples that see a surface; no layer of its own
-    uint32_t samples = 0;         ///< per pixel (the minimum)
-    double noise = 0.0;           ///< root of the mean over pixels of variance of the mean / (luminance² + 0.01): its
-                                  ///< square estimates the relative MSE of this image against a converged one. 0 with
-                                  ///< less than two samples
-    uint64_t rays = 0;            ///< traced, including shadow rays
-    double seconds = 0.0;         ///< of tracing, without building the BVH
-    bool complete = true;         ///< false: `proceed` ended it
+    FloatImage
+        ambientOcclusion;  ///< Y: cosine-weighted share of the directions in which nothing is near; with
+                           ///< visibleOnly only what the camera sees is; 1 in the background; empty unless traced
+    FloatImage coverage;   ///< Y: share of the pixel's samples that see a surface; no layer of its own
+    uint32_t samples = 0;  ///< per pixel (the minimum)
+    double noise = 0.0;    ///< root of the mean over pixels of variance of the mean / (luminance² + 0.01): its
+                           ///< square estimates the relative MSE of this image against a converged one. 0 with
+                           ///< less than two samples
+    uint64_t rays = 0;     ///< traced, including shadow rays
+    double seconds = 0.0;  ///< of tracing, without building the BVH
+    bool complete = true;  ///< false: `proceed` ended it
 
     /// Named as by `reflet render --aov`; preceded by an unnamed copy of `final`, which every viewer shows.
     [[nodiscard]] std::vector<ImageLayer> layers() const;

@@ -20,7 +20,9 @@ void drawSurfaces(gpu::Recorder& f, DirectViewStore& own, const ViewInputs& in, 
     GBufferContent content{.clipPlane = in.clipPlane};
     content.blendedFrom = settings.blend.layers > 0 ? opaqueAlpha : blendCutoff;
     out.g = drawGBuffer(f, own.g, in.draws, in.view, settings.materials, content);
-    if (settings.traceScreen.thicknessMode == ThicknessMode::secondLayer) {
+    const bool aoReads =
+        settings.ao.method == AoMethod::bitmask && settings.ao.thicknessMode == AoThickness::secondLayer;
+    if (settings.traceScreen.thicknessMode == ThicknessMode::secondLayer || aoReads) {
         const gpu::Image back = drawBackDepth(f, own.backDepth, in.draws, out.g.depth, in.view);
         out.backDepth = keptDepth(f, own.keptBackDepth, back, in.view, settings.depth);
     }
@@ -104,6 +106,8 @@ ViewImages directView(gpu::Recorder& f, DirectViewStore& own, const ViewInputs& 
     out.lampShadowMap = lampShadowMap;
     drawSurfaces(f, own, in, settings, out);
     lightSurfaces(f, own.light, in, settings, out);
+    out.ambientOcclusion = ambientOcclusion(
+        f, own.ao, {out.g, in.view, out.backDepth, settings.ao, settings.denoise, in.ggxTable, in.blueNoise});
     return out;
 }
 

@@ -2,6 +2,7 @@
 // also used for planar views and probe faces.
 #pragma once
 
+#include "effects/ambient_occlusion/ambient_occlusion.h"
 #include "effects/direct/direct.h"
 #include "effects/direct/lamp_tiles.h"
 #include "effects/environment/environment_light.h"
@@ -54,6 +55,7 @@ struct ViewImages {
     LampTiles lampTiles;          ///< of all lamps
     gpu::Image lampVisibility;    ///< none if no lamp casts a shadow
     gpu::Image direct;
+    gpu::Image ambientOcclusion;  ///< none without AO
 };
 
 /// Lights for shading at hits of traced rays.
@@ -77,6 +79,7 @@ struct SurfaceLightStore {
 
 /// Owns the images of one view.
 struct DirectViewStore {
+    AoStore ao;
     GBufferStore g;
     gpu::KeptImage backDepth{"back_depth"};
     gpu::KeptImage keptDepth{"kept_depth"};

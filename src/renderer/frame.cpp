@@ -53,6 +53,7 @@ struct BlendedLight {
 // Settings for blended surfaces: layers have no history, and no depth pyramid for contact shadows.
 Settings blendedSettings(Settings settings) {
     settings.contact.distance = 0.0F;
+    settings.diffuse.method = DiffuseMethod::rays;  // slices start in the view that they walk through
     settings.shadow.history = 0;
     settings.denoise.history = 0;
     settings.traceScreen.countSteps = 0;
@@ -89,6 +90,7 @@ BlendedLight lightBlended(gpu::Recorder& f, BlendStore& own, const ViewInputs& i
     for (uint32_t i = 0; i < settings.blend.layers; ++i) {
         BlendStore::Layer& store = own.layers[i % own.layers.size()];
         TracedView layer{seen.images, seen.screen, {}};
+        layer.images.ambientOcclusion = {};
         const GBufferContent content{
             .clipPlane = in.clipPlane, .opaqueDepth = seen.images.g.depth, .nearerDepth = nearer};
         layer.images.g = drawGBuffer(f, store.g, in.draws, in.view, settings.materials, content);

@@ -45,6 +45,7 @@ SettingTable makeTable() {
     table.add<PlanarSettings>("planar", offsetof(Settings, planar));
     table.add<LiveSettings>("live", offsetof(Settings, live));
     table.add<EnvironmentSettings>("environment", offsetof(Settings, environment));
+    table.add<AoSettings>("ao", offsetof(Settings, ao));
     table.add<DiffuseSettings>("diffuse", offsetof(Settings, diffuse));
     table.add<SpecularSettings>("specular", offsetof(Settings, specular));
     table.add<DenoiseSettings>("denoise", offsetof(Settings, denoise));

@@ -3,6 +3,7 @@
 
 #include "base/setting_table.h"
 #include "effects/accumulate/accumulate.h"
+#include "effects/ambient_occlusion/ambient_occlusion.h"
 #include "effects/composite/composite.h"
 #include "effects/contact/contact.h"
 #include "effects/denoise/denoise.h"
@@ -42,6 +43,7 @@ struct Settings {
     PlanarSettings planar;
     LiveSettings live;
     EnvironmentSettings environment;
+    AoSettings ao;
     DiffuseSettings diffuse;
     SpecularSettings specular;
     DenoiseSettings denoise;

@@ -77,6 +77,7 @@ LobeLight traceLobe(gpu::Recorder& f, LobeStore& own, const ViewInputs& in, cons
                       .blueNoise = in.blueNoise,
                       .screen = {first ? &seen.screen : nullptr, settings.traceScreen, longest},
                       .sources = sources,
+                      .ambientOcclusion = seen.images.ambientOcclusion,
                       .lit = seen.screen.lit,
                       .randomTracing = tracesAtRandom(settings),
                       .countSteps = settings.traceScreen.countSteps != 0,

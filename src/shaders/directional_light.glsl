@@ -15,6 +15,9 @@ vec4 directionalFromRay(float light, vec3 direction, vec3 normal) {
     return light / max(dot(direction, normal), grazingCosine) * vec4(0.5 * direction, 0.25);
 }
 
+// The mean of that for rays with the same light from all directions.
+vec4 directionalFromHemisphere(float light, vec3 normal) { return light * vec4(0.498 * normal, 0.475); }
+
 // The same for light that is equal from all directions.
 vec4 directionalFromAmbient(float light) { return vec4(vec3(0.0), light); }
 

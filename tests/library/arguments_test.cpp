@@ -237,6 +237,8 @@ TEST_F(Arguments, OfEffects) {
         sun("angularDiameter", [](auto& s) { s.angularDiameter = -1.0F; });
         const RefletSunShadow right = room_.sun();
         expectError(refletSunShadow(view_, settings_, &right, nullptr), "visibility");
+        expectError(refletAmbientOcclusion(view_, settings_, &image), "ao.method");
+        expectError(refletAmbientOcclusion(view_, settings_, nullptr), "occlusion");
         expectError(refletComposite(view_, settings_, nullptr, &sum), "light");
         expectError(refletComposite(view_, settings_, &light.light, nullptr), "RefletComposite");
         expectError(refletTemporal(view_, settings_, nullptr, &image), "color");

@@ -391,6 +391,9 @@ RoomResults recordRoom(const HostRoom& room, RefletView view, RefletSettings set
     out.sum.structSize = sizeof out.sum;
     EXPECT_REFLET(refletBeginFrame(view, &frame));
     EXPECT_REFLET(refletSunShadow(view, settings, &sun, &out.visibility));
+    if (std::strcmp(refletGetSetting(settings, "ao.method"), "none") != 0) {
+        EXPECT_REFLET(refletAmbientOcclusion(view, settings, &out.occlusion));
+    }
     EXPECT_REFLET(refletDiffuseGi(view, settings, &light, &out.diffuse));
     EXPECT_REFLET(refletReflections(view, settings, &light, &out.specular));
     EXPECT_REFLET(refletComposite(view, settings, nullptr, &out.sum));

@@ -92,6 +92,7 @@ private:
 /// Results of all effects in one frame.
 struct RoomResults {
     RefletImage visibility{};
+    RefletImage occlusion{};  ///< none with ao.method=none
     RefletLobe diffuse{};
     RefletLobe specular{};
     RefletComposite sum{};

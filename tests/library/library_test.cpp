@@ -109,6 +109,71 @@ TEST_F(Library, LightsARoom) {
     refletDestroyContext(context);
 }
 
+// The floor before a wall, 2 m high and 4.8 m to each side in the picture: covered as its form factor says.
+TEST_F(Library, KnowsHowMuchAWallCovers) {
+    RefletContext context = host_.makeContext();
+    RefletSettings settings = makeSettings(nullptr);
+    for (const auto& [name, value] : {std::pair{"ao.method", "bitmask"},
+                                      {"ao.radius", "100"},
+                                      {"ao.thickness", "10"},
+                                      {"ao.slices", "16"},
+                                      {"ao.steps", "16"},
+                                      {"denoise.enabled", "false"}}) {
+        EXPECT_REFLET(refletSetSetting(settings, name, value));
+    }
+    RefletView view = makeView(context, 3);
+    const HostRoom room(host_, {});
+    const RefletImage occlusion = renderFrames(room, view, settings, 8).occlusion;
+    EXPECT_EQ(occlusion.format, VK_FORMAT_R16G16B16A16_SFLOAT);
+    ASSERT_EQ(occlusion.width, HostRoom::width);
+    const std::vector<vec4> texels = halvesOf(host_, occlusion);
+    EXPECT_EQ(texels[0], vec4(0, 0, 0, 1)) << "the sky";
+    unsigned count = 0;
+    for (uint32_t y = HostRoom::height / 2; y < HostRoom::height; ++y) {
+        const float down = (2.0F * float(y) + 1.0F) / HostRoom::height - 1.0F;
+        const vec3 ray = vec3(0.0F, -0.4F, -3.0F) + 0.5F * down * vec3(0.0F, -3.0F, 0.4F);  // of the room's camera
+        const float d = 6.0F + ray.z / -ray.y;
+        if (d < 0.5F || d > 2.0F) {
+            continue;
+        }
+        vec4 seen(0.0F);
+        for (uint32_t x = 24; x < 40; ++x) {
+            const vec4 texel = texels[x + size_t(HostRoom::width) * y];
+            EXPECT_NEAR(glm::length(vec3(texel)), 1.0F, 0.02F);
+            seen += texel / 16.0F;
+        }
+        const float away = std::hypot(d, 2.0F);
+        const float covered = (std::atan(4.8F / d) - d / away * std::atan(4.8F / away)) / 3.14159265F;
+        EXPECT_NEAR(seen.w, 1.0F - covered, 0.03F) << "d " << d;
+        EXPECT_GT(seen.z, 0.05F) << "the bent normal turns away from the wall";
+        EXPECT_GT(seen.y, 0.5F);
+        ++count;
+    }
+    EXPECT_GE(count, 3U);
+    refletDestroyView(view);
+    refletDestroySettings(settings);
+    refletDestroyContext(context);
+}
+
+TEST_F(Library, SlicesGatherTheDiffuseLightThatRaysDo) {
+    RefletContext context = host_.makeContext();
+    RefletView view = makeView(context, 3);
+    const HostRoom room(host_, {});
+    vec3 mean[2];
+    for (const char* method : {"rays", "slices"}) {
+        RefletSettings settings = makeSettings(nullptr);
+        EXPECT_REFLET(refletSetSetting(settings, "diffuse.method", method));
+        EXPECT_REFLET(refletResetView(view));
+        mean[method[0] == 's'] = meanOf(halvesOf(host_, renderFrames(room, view, settings, 8).sum.indirectDiffuse));
+        refletDestroySettings(settings);
+    }
+    EXPECT_GT(mean[0].y, 0.01F);
+    EXPECT_NEAR(mean[1].y, mean[0].y, 0.05F * mean[0].y);
+    EXPECT_NE(mean[1].y, mean[0].y);
+    refletDestroyView(view);
+    refletDestroyContext(context);
+}
+
 // Standard depth, y up, view space, sRGB, alpha and pixels give what reversed depth, y down, world space, linear
 // colours, perceptual roughness and uv give.
 TEST_F(Library, ConventionsDoNotMatter) {
@@ -201,9 +266,11 @@ TEST_F(Library, NormalsFromDepthAreThoseOfThePlanes) {
 TEST_F(Library, StaysFiniteWhateverTheHostDraws) {
     RefletContext context = host_.makeContext();
     RefletSettings settings = makeSettings("balanced");
+    EXPECT_REFLET(refletSetSetting(settings, "ao.method", "horizon"));
     for (const bool unusual : {false, true}) {
         RefletView view = makeView(context, 3);
         const HostRoom room(host_, {.spoiled = true, .unusual = unusual});
+        EXPECT_REFLET(refletSetSetting(settings, "diffuse.method", unusual ? "slices" : "rays"));
         const RoomResults results = renderFrames(room, view, settings, 4);
         for (const RefletImage& image :
              {results.sum.lit, results.sum.indirectDiffuse, results.sum.indirectSpecular, results.antialiased}) {
@@ -243,11 +310,13 @@ TEST_F(Library, PreparesAllPipelinesAndMakesNothingInLaterFrames) {
     RefletPrepareInfo info{};
     info.structSize = sizeof info;
     info.effects = REFLET_EFFECT_SUN_SHADOW | REFLET_EFFECT_DIFFUSE_GI | REFLET_EFFECT_REFLECTIONS |
-                   REFLET_EFFECT_COMPOSITE | REFLET_EFFECT_TEMPORAL | REFLET_EFFECT_TONE_MAP;
+                   REFLET_EFFECT_COMPOSITE | REFLET_EFFECT_TEMPORAL | REFLET_EFFECT_TONE_MAP |
+                   REFLET_EFFECT_AMBIENT_OCCLUSION;
     info.gbuffer = &frame.gbuffer;
     info.shadowMapSide = 64;
     info.autoExposure = 1;
     uint32_t left = 0;
+    EXPECT_REFLET(refletSetSetting(settings, "ao.method", "bitmask"));
     EXPECT_REFLET(refletPrepare(view, settings, &info, 0, &left));
     EXPECT_GT(left, 10U);
     const uint32_t all = left;

@@ -153,6 +153,29 @@ TEST_P(Denoise, DisoccludedPixelsStartAnew) {
     EXPECT_EQ(second[10 * size.x + 60].x, 5.0F);
 }
 
+// With jitter, a traced pixel at an edge shows another surface in some frames; its neighbours know both.
+TEST_P(Denoise, APixelThatShowedAnotherSurfaceTakesTheHistoryOfItsNeighbours) {
+    DenoiseRun run(device(), size, GetParam(), pastAlone());
+    const WallFrame rough{.roughness = 1.0F};
+    run.add([](uvec2 p) { return LitPixel{vec3(8.0F), 100.0F, p == uvec2(20, 10)}; }, rough);
+    const std::vector<vec4> second = run.add([](uvec2) { return LitPixel{vec3(2.0F)}; }, rough);
+    EXPECT_EQ(second[10 * size.x + 20].x, 5.0F);
+}
+
+TEST_P(Denoise, PixelsWeighByTheirHistoryInTheBlur) {
+    DenoiseSettings settings = pastAlone();
+    settings.passes = 1;
+    DenoiseRun run(device(), size, GetParam(), settings);
+    const WallFrame rough{.roughness = 1.0F};
+    const auto late = [](uvec2 p) { return p.x >= 18 && p.x <= 22 && p.y >= 8 && p.y <= 12; };
+    for (int frame = 0; frame < 8; ++frame) {
+        run.add([&](uvec2 p) { return LitPixel{vec3(1.0F), 100.0F, late(p)}; }, rough);
+    }
+    const std::vector<vec4> now = run.add([&](uvec2 p) { return LitPixel{vec3(late(p) ? 0.0F : 1.0F)}; }, rough);
+    // Its eight taps weigh about half by distance: with equal weights the pixel itself has a fifth.
+    EXPECT_GT(now[10 * size.x + 20].x, 0.85F);
+}
+
 using DenoisePlain = DeviceTest;
 
 TEST_F(DenoisePlain, AMirrorImageMovesAsWhatItShowsAndNotAsTheMirror) {

@@ -2,6 +2,7 @@
 // a G-buffer that nobody drew.
 #include "capture/texels.h"
 #include "effects/accumulate/accumulate.h"
+#include "effects/ambient_occlusion/ambient_occlusion.h"
 #include "effects/composite/composite.h"
 #include "effects/contact/contact.h"
 #include "effects/direct/direct.h"
@@ -68,6 +69,7 @@ struct Stores {
     gpu::KeptImage direct{"direct"};
     gpu::KeptImage lightMips{"light_mips"};
     gpu::HistoryImage lit{"lit"};
+    AoStore ao;
     LobeStore diffuse;
     LobeStore specular;
     CompositeStore composite;
@@ -279,6 +281,10 @@ private:
         TraceScreenSettings trace;
         trace.light = HitLight::previous;
         const DenoiseSettings denoise{.enabled = 1};
+        const gpu::BufferView noise = stores_.blueNoise.get(f, blueNoise().size_bytes());
+        const AoSettings ao{.method = AoMethod::bitmask, .downsample = 2};
+        const gpu::Image occlusion =
+            ambientOcclusion(f, stores_.ao, {g_, view, {}, ao, denoise, stores_.ggx.last(), noise});
         LobeInputs lobe{.lobe = lobeDiffuse,
                         .g = g_,
                         .view = view,
@@ -289,9 +295,10 @@ private:
                         .environmentSettings = {},
                         .environment = environment_,
                         .ggxTable = stores_.ggx.last(),
-                        .blueNoise = stores_.blueNoise.get(f, blueNoise().size_bytes()),
+                        .blueNoise = noise,
                         .screen = {&screen, trace, 100.0F},
                         .sources = {},
+                        .ambientOcclusion = occlusion,
                         .lit = in.lit};
         const LobeLight diffuse = traceLobe(f, stores_.diffuse, lobe);
         lobe.lobe = lobeSpecular;
@@ -374,6 +381,8 @@ TEST(EffectsHost, RecordsEveryEffectBetweenItsOwnCommands) {
                                  "kept_depth",
                                  "pyramid.1",
                                  "light_mips.1",
+                                 "ao.slices_at_once",
+                                 "ao.finish_ao",
                                  "diffuse.trace_at_once",
                                  "diffuse.denoise_gather",
                                  "specular.share_rays",
@@ -535,9 +544,15 @@ TEST(EffectsHost, TellsTheMemoryThatItAllocates) {
 
 // A new effect is to be recorded above, too.
 TEST(EffectsHost, KnowsEveryEffect) {
-    const std::set<std::string> recorded{"accumulate",  "composite", "contact", "cube_map",   "denoise", "direct",
-                                         "environment", "exposure",  "gbuffer", "light_mips", "lobe",    "planar",
-                                         "import",      "pyramid",   "shadow",  "temporal",   "tonemap"};
+    const std::set<std::string> recorded{"accumulate", "ambient_occlusion",
+                                         "composite",  "contact",
+                                         "cube_map",   "denoise",
+                                         "direct",     "environment",
+                                         "exposure",   "gbuffer",
+                                         "light_mips", "lobe",
+                                         "planar",     "import",
+                                         "pyramid",    "shadow",
+                                         "temporal",   "tonemap"};
     for (const auto& entry : std::filesystem::directory_iterator(REFLET_EFFECTS)) {
         if (entry.is_directory()) {
             EXPECT_TRUE(recorded.contains(entry.path().filename().string())) << entry.path();

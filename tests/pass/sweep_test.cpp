@@ -20,7 +20,7 @@ constexpr uvec2 size(64, 36);
 using Images = std::map<std::string, FloatImage>;
 
 bool maySignify(std::string_view show) {  // images whose values may be negative
-    return show == "normal" || show == "geometric_normal" || show == "motion";
+    return show == "normal" || show == "geometric_normal" || show == "bent_normal" || show == "motion";
 }
 
 void expectSound(const Images& images, const std::string& during) {
@@ -179,6 +179,10 @@ const std::vector<Context>& contexts() {
         {"planar.camera_", {"planar.enabled=true", "planar.form=camera"}, "mirror-hall"},
         {"live.", {"shadow.filter=none", "materials.anisotropy=1"}, "monitor"},
         {"environment.", {}, "mirror-hall"},
+        {"ao.", {"ao.method=bitmask"}},
+        {"ao.method", {}},
+        {"ao.thickness", {"ao.method=bitmask", "ao.radius=10"}, "colonnade"},
+        {"diffuse.slice_steps", {"diffuse.method=slices"}},
         {"diffuse.adaptive", {"denoise.enabled=true"}, "cave", 3},
         {"diffuse.reuse", {"diffuse.rays=1"}},
         {"specular.adaptive", {"denoise.enabled=true"}, "gloss", 3},
@@ -275,9 +279,10 @@ class SweepOfScene : public Sweep, public testing::WithParamInterface<std::strin
 // Over 5 s: a frame with each preset, with pipelines of their own.
 TEST_P(SweepOfScene, IsSoundInEveryShowAndWithEveryPreset) {
     Subject& scene = subject(GetParam());
-    const Settings all = settingsOf({"trace_screen.thickness_mode=second_layer", "trace_screen.count_steps=true",
-                                     "shadow.cascades=2", "probes.enabled=true", "probes.count=2",
-                                     "probes.resolution=16", "temporal.enabled=true", "materials.anisotropy=1"});
+    const Settings all =
+        settingsOf({"trace_screen.thickness_mode=second_layer", "trace_screen.count_steps=true", "shadow.cascades=2",
+                    "probes.enabled=true", "probes.count=2", "probes.resolution=16", "temporal.enabled=true",
+                    "materials.anisotropy=1", "ao.method=bitmask"});
     const Images images = scene.images(all);
     expectSound(images, GetParam());
     EXPECT_GT(rangeOf(images.at("final")).max, 0.05F) << "dark";

@@ -145,9 +145,35 @@ struct HistoryLookup {
     float most;      // maximum history length if interpolated between pixels
 };
 
-// Bilinear history lookup, restricted to similar surfaces.
-HistorySample historyAt(HistoryLookup w, KeptSurface own, ScreenPlane plane) {
+// Adds the weight of a pixel of the history and its light to the sums, if it shows a similar surface.
+void addHistory(HistoryLookup w, KeptSurface own, ScreenPlane plane, ivec2 texel, float weight, inout HistorySample sum,
+                inout float weights) {
+    KeptSurface there = unpackSurface(imageLoad(previousSurface, texel).xy);
+    vec2 away = vec2(texel) - w.home;
+    float height = heightAbove(plane, away, there.depth - w.expected) / max(length(away), 1.0);
+    vec4 light = imageLoad(previousLight, texel);
+    bool same = w.away < 0.0 || isSameReflectedObject(w.away, light.a, own.roughness);
+    // Directional light fits other normals, too.
+    float alike = hasDirectional != 0u ? normalSimilarity(own, there) : surfaceSimilarity(own, there, lobe);
     float allowed = heightSlack + distanceSlack / params.view.pixelAngle;
+    if (!same || there.depth <= 0.0 || abs(height) > allowed || alike <= 0.3) {
+        return;
+    }
+    vec2 m = imageLoad(previousMoments, texel).xy;
+    sum.light += weight * light;
+    sum.frames += weight * m.x;
+    sum.square += weight * m.y;
+    if (hasDirectional != 0u) {
+        sum.directional += weight * imageLoad(previousDirectional, texel);
+    }
+    weights += weight;
+}
+
+// Bilinear history lookup, restricted to similar surfaces. Where it finds none, the mean of the similar ones among
+// 3 x 3 pixels (Schied et al. 2017): with jitter, a pixel at an edge shows one surface in some frames and another in
+// others, and its neighbours know both.
+HistorySample historyAt(HistoryLookup w, KeptSurface own, ScreenPlane plane) {
+    ivec2 size = ivec2(params.view.size);
     vec2 nearest = round(w.at);
     // Without motion the lookup is exact.
     vec2 at = all(lessThan(abs(w.at - nearest), vec2(1.0 / 64.0))) ? nearest : w.at;
@@ -155,32 +181,22 @@ HistorySample historyAt(HistoryLookup w, KeptSurface own, ScreenPlane plane) {
     vec2 f = at - vec2(corner);
     HistorySample sum = noHistory;
     float weights = 0.0;
-    // The trip count is dynamic on purpose: see hardVisibility (shadow_map.glsl).
+    // The trip counts are dynamic on purpose: see hardVisibility (shadow_map.glsl).
     int taps = f == vec2(0.0) ? 1 : 4;
     for (int i = 0; i < taps; ++i) {
         ivec2 o = ivec2(i & 1, i >> 1);
         ivec2 texel = corner + o;
         vec2 share = mix(1.0 - f, f, vec2(o));
-        if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(params.view.size))) || share.x * share.y == 0.0) {
-            continue;
+        if (all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, size)) && share.x * share.y > 0.0) {
+            addHistory(w, own, plane, texel, share.x * share.y, sum, weights);
         }
-        KeptSurface there = unpackSurface(imageLoad(previousSurface, texel).xy);
-        vec2 away = vec2(texel) - w.home;
-        float height = heightAbove(plane, away, there.depth - w.expected) / max(length(away), 1.0);
-        vec4 light = imageLoad(previousLight, texel);
-        bool same = w.away < 0.0 || isSameReflectedObject(w.away, light.a, own.roughness);
-        // Directional light fits other normals, too.
-        float alike = hasDirectional != 0u ? normalSimilarity(own, there) : surfaceSimilarity(own, there, lobe);
-        if (same && there.depth > 0.0 && abs(height) <= allowed && alike > 0.3) {
-            float weight = share.x * share.y;
-            vec2 m = imageLoad(previousMoments, texel).xy;
-            sum.light += weight * light;
-            sum.frames += weight * m.x;
-            sum.square += weight * m.y;
-            if (hasDirectional != 0u) {
-                sum.directional += weight * imageLoad(previousDirectional, texel);
-            }
-            weights += weight;
+    }
+    // A mirror's history has no noise, so its neighbours would only blur it.
+    int around = weights < 0.01 && w.away < 0.0 ? 9 : 0;
+    for (int i = 0; i < around; ++i) {
+        ivec2 texel = ivec2(nearest) + ivec2(i % 3, i / 3) - 1;
+        if (all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, size))) {
+            addHistory(w, own, plane, texel, 1.0, sum, weights);
         }
     }
     if (weights < 0.01) {

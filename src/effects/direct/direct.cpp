@@ -19,7 +19,7 @@ gpu::Image directLight(gpu::Recorder& f, gpu::KeptImage& own, const GBuffer& g, 
     const gpu::Image direct = own.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size);
     // Always bound, but not read if no lamp casts a shadow.
     const gpu::Image lampVisibility =
-        visibility.lamps ? visibility.lamps : f.placeholder(VK_FORMAT_R8G8B8A8_UNORM, /*array=*/true);
+        visibility.lamps ? visibility.lamps : f.placeholder(VK_FORMAT_R8G8B8A8_UNORM, gpu::ViewKind::array);
     const VkSampler linear = f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR});
     gpu::Pass pass = f.compute("direct", "direct.comp");
     bindEnvironment(pass, lights.environment);

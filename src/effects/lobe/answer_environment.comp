@@ -16,6 +16,7 @@ uniform sampler2D material;
 layout(rgba16f) uniform image2DArray answer;
 layout(rgba8) uniform image2DArray source;
 layout(rg32ui) uniform readonly uimage2DArray direction;
+#include "effects/ambient_occlusion/ambient_visibility.glsl"
 #include "effects/lobe/environment_answer.glsl"
 #include "effects/lobe/rays_answer.glsl"
 
@@ -24,7 +25,9 @@ void main() {
     for (uint i = gl_GlobalInvocationID.x; i < waiting.count; i += stride) {
         WaitingRay w = unpackWaitingRay(waiting.items[i]);
         float occlusion = lobe == lobeDiffuse && !isKnownMiss(w) ? texelFetch(material, w.slot.xy, 0).b : 1.0;
-        RayAnswer a = answerOfEnvironment(unpackRay(imageLoad(direction, w.slot).xy), occlusion, w.lost);
+        Ray ray = unpackRay(imageLoad(direction, w.slot).xy);
+        occlusion = min(occlusion, ambientVisibility(w.slot.xy, ray));
+        RayAnswer a = answerOfEnvironment(ray, occlusion, w.lost);
         addAnswer(w.slot, a, w.rest, sourceEnvironment);
     }
 }

@@ -1,6 +1,8 @@
 // Records the environment as the last ray source.
 #include "effects/lobe/answer_environment.h"
 
+#include "effects/ambient_occlusion/ambient_occlusion.h"
+
 namespace reflet {
 
 void answerEnvironment(gpu::Recorder& f, Rays& rays, const EnvironmentLight& environment,
@@ -8,7 +10,8 @@ void answerEnvironment(gpu::Recorder& f, Rays& rays, const EnvironmentLight& env
     gpu::Pass pass = f.compute("answer_environment", "answer_environment.comp");
     bindEnvironment(pass, environment);
     bindEnvironmentLobes(pass, f.context(), environment);
-    pass.constant("lobe", rays.lobe)
+    bindAmbientOcclusion(f, pass, rays.from.ambientOcclusion, rays.from.scale)
+        .constant("lobe", rays.lobe)
         .constant("environmentLights", settings.enabled)
         .constant("spreads", rays.spreads ? 1U : 0U)
         .read("material", rays.from.g.material)

@@ -1,6 +1,7 @@
 // Records ray generation.
 #include "effects/lobe/generate_rays.h"
 
+#include "effects/ambient_occlusion/ambient_occlusion.h"
 #include "gpu/context.h"
 
 namespace reflet {
@@ -10,27 +11,31 @@ namespace {
 // What make_ray.glsl reads.
 gpu::Pass& bindGeneration(gpu::Recorder& f, gpu::Pass& pass, const RayGeneration& in) {
     const GBuffer& g = in.from.g;
-    GenerateRaysParams params = in.params;
-    params.view = in.from.view;
+    bindDiffuseRays(pass, in);
     return bindSurfaces(f, pass, g)
-        .constant("lobe", in.lobe)
-        .constant("noise", static_cast<uint32_t>(in.noise))
-        .constant("distribution", static_cast<uint32_t>(params.diffuse.distribution))
-        .constant("spreads", raysSpread(in.lobe, params.diffuse, params.specular) ? 1U : 0U)
-        .read("ownDepth", g.depth)
-        .read("ownNormal", g.normal)
-        .read("ownGeometricNormal", g.geometricNormal)
+        .constant("spreads", raysSpread(in.lobe, in.params.diffuse, in.params.specular) ? 1U : 0U)
         .read("ownMaterial", g.material)
         .read("ownBaseColor", g.baseColor)
-        .read("ggxTable", in.ggxTable, f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
+        .read("ggxTable", in.ggxTable, f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}));
+}
+
+}  // namespace
+
+gpu::Pass& bindDiffuseRays(gpu::Pass& pass, const RayGeneration& in) {
+    GenerateRaysParams params = in.params;
+    params.view = in.from.view;
+    return pass.constant("lobe", in.lobe)
+        .constant("noise", static_cast<uint32_t>(in.noise))
+        .constant("distribution", static_cast<uint32_t>(params.diffuse.distribution))
+        .read("ownDepth", in.from.g.depth)
+        .read("ownNormal", in.from.g.normal)
+        .read("ownGeometricNormal", in.from.g.geometricNormal)
         .read("blueNoise", in.blueNoise)
         .read("tiles", in.tiles.tiles)
         .params(params, "rayParams");
 }
 
-}  // namespace
-
-Rays generateRays(gpu::Recorder& f, gpu::Scratch& scratch, const RayGeneration& in) {
+Rays raysOf(gpu::Recorder& f, gpu::Scratch& scratch, const RayGeneration& in) {
     const uvec2 size = in.from.g.depth.size;
     const uint32_t layers = in.params.rayCount;
     Rays rays{.from = in.from,
@@ -39,7 +44,7 @@ Rays generateRays(gpu::Recorder& f, gpu::Scratch& scratch, const RayGeneration& 
               .answer = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, size, layers, true),
               .source = scratch.storage(VK_FORMAT_R8G8B8A8_UNORM, size, layers, true),
               .steps = in.countSteps ? scratch.storage(VK_FORMAT_R32_SFLOAT, size, layers, true)
-                                     : f.placeholder(VK_FORMAT_R32_SFLOAT, /*array=*/true),
+                                     : f.placeholder(VK_FORMAT_R32_SFLOAT, gpu::ViewKind::array),
               .imageMotion = in.imageMotion,
               .waiting = {},
               .scratch = &scratch,
@@ -53,6 +58,11 @@ Rays generateRays(gpu::Recorder& f, gpu::Scratch& scratch, const RayGeneration& 
         f.clear(rays.steps);  // pixels without rays have 0 steps
     }
     rays.waiting = makeRayList(f, rays);
+    return rays;
+}
+
+Rays generateRays(gpu::Recorder& f, gpu::Scratch& scratch, const RayGeneration& in) {
+    Rays rays = raysOf(f, scratch, in);
     gpu::Pass pass = f.compute("generate_rays", "generate_rays.comp");
     bindGeneration(f, pass, in)
         .constant("adaptive", in.tiles.meanRays > 0 ? 1U : 0U)
@@ -79,6 +89,7 @@ LobeLight traceAtOnce(gpu::Recorder& f, LobeLightStore& own, const RayGeneration
         f, pass, traced ? *screen.images : nothing,
         {.own = in.from.view, .settings = screen.settings, .longest = screen.longest, .firstRay = in.params.firstRay},
         in.imageMotion);
+    bindAmbientOcclusion(f, pass, in.from.ambientOcclusion, in.from.scale);
     bindEnvironment(pass, environment.light);
     bindEnvironmentLobes(pass, f.context(), environment.light);
     bindMeans(f, pass, light, in.params.firstRay)

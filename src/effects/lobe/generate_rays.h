@@ -34,6 +34,12 @@ struct RayGeneration {
     bool directional = false;   ///< of Rays
 };
 
+/// Binds what passes that include diffuse_ray.glsl read: noise, tiles, depth and normals of the surfaces.
+gpu::Pass& bindDiffuseRays(gpu::Pass& pass, const RayGeneration& in);
+
+/// The images and the empty list of the rays, not yet generated. They live as long as `scratch`.
+Rays raysOf(gpu::Recorder& f, gpu::Scratch& scratch, const RayGeneration& in);
+
 /// Generates rays firstRay .. firstRay + rayCount for every pixel of `from` with a surface (and the lobe), up to its
 /// tile's rays per pixel. The images live as long as `scratch`.
 Rays generateRays(gpu::Recorder& f, gpu::Scratch& scratch, const RayGeneration& in);

@@ -3,6 +3,7 @@
 
 #include "effects/lobe/adaptive_rays.h"
 #include "effects/lobe/reuse_rays.h"
+#include "effects/lobe/trace_slices.h"
 
 #include <algorithm>
 
@@ -52,7 +53,8 @@ LobeLight traceLobe(gpu::Recorder& f, LobeStore& own, const LobeInputs& in) {
     if (s.rays == 0) {
         return blackLobe(f, own.light, {in.g, in.view}, in.countSteps);
     }
-    const RaySurfaces from = pickSurfaces(f, own.surfaces, in.g, in.view, s.downsample);
+    RaySurfaces from = pickSurfaces(f, own.surfaces, in.g, in.view, s.downsample);
+    from.ambientOcclusion = in.ambientOcclusion;
     gpu::Scratch scratch(f);
     const RayTiles tiles = tilesOfLobe(f, scratch, own, from, in);
     const bool varies = tiles.meanRays > 0;
@@ -62,6 +64,8 @@ LobeLight traceLobe(gpu::Recorder& f, LobeStore& own, const LobeInputs& in) {
         reflects && keepsHistory(in.denoise) ? noImageMotion(f, own.light.imageMotion, from) : gpu::Image{};
     // Rays that nothing reads between the passes need not be written.
     const bool atOnce = in.sources.empty() && s.reuse == 0 && !varies;
+    const bool sliced = !reflects && in.diffuse.method == DiffuseMethod::slices && in.screen.images != nullptr &&
+                        in.diffuse.distribution == RayDistribution::cosine && !varies;
     const uint32_t fit = atOnce ? maxRaysAtOnce : raysPerBatch(f, from.g.depth.size);
     const uint32_t batch = varies ? most : fit;
     const bool reused = s.reuse > 0 && !varies && batch >= s.rays;
@@ -79,12 +83,18 @@ LobeLight traceLobe(gpu::Recorder& f, LobeStore& own, const LobeInputs& in) {
             .imageMotion = imageMotion,
             .countSteps = in.countSteps,
             .directional = !reflects && in.denoise.enabled != 0 && in.denoise.directional != 0};
+        if (atOnce && sliced) {
+            light = slicesAtOnce(f, own.light, generation, in.screen, in.diffuse.sliceSteps,
+                                 {in.environment, in.environmentSettings});
+            continue;
+        }
         if (atOnce) {
             light = traceAtOnce(f, own.light, generation, in.screen, {in.environment, in.environmentSettings});
             continue;
         }
-        Rays rays = generateRays(f, ofBatch, generation);
-        if (in.screen.images != nullptr) {
+        Rays rays = sliced ? startSlices(f, ofBatch, generation, in.screen, in.diffuse.sliceSteps)
+                           : generateRays(f, ofBatch, generation);
+        if (in.screen.images != nullptr && !sliced) {
             traceScreen(f, rays, *in.screen.images, in.screen.settings, in.screen.longest);
         }
         for (const RaySource& source : in.sources) {

@@ -23,6 +23,7 @@ struct LobeInputs {
     gpu::BufferView blueNoise;           ///< noise/blue_noise.h
     ScreenSource screen;                 ///< asked first; may be none
     std::span<const RaySource> sources;  ///< asked in turn, the most exact first; the environment answers what is left
+    gpu::Image ambientOcclusion;         ///< of ambientOcclusion(); may be none
     gpu::History lit;                    ///< the view's lit image, for adaptive sampling; may be none
     bool randomTracing = false;          ///< a source may answer the same ray differently the next time
     bool countSteps = false;             ///< count the depth samples of each ray

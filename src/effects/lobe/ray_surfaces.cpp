@@ -30,7 +30,7 @@ ViewParams viewOfBlocks(const ViewParams& view, uint32_t scale) {
 RaySurfaces pickSurfaces(gpu::Recorder& f, RaySurfacesStore& own, const GBuffer& g, const ViewParams& view,
                          uint32_t scale) {
     if (scale == 1) {
-        return {g, view, scale};
+        return {.g = g, .view = view, .scale = scale};
     }
     const ViewParams blocks = viewOfBlocks(view, scale);
     const uvec2 size(blocks.size);
@@ -62,7 +62,7 @@ RaySurfaces pickSurfaces(gpu::Recorder& f, RaySurfacesStore& own, const GBuffer&
                picked.reflectance ? picked.reflectance : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT))
         .params(PickSurfacesParams{uvec2(view.size), size, scale, blockPixelOffset(scale)})
         .dispatch(size);
-    return {picked, blocks, scale};
+    return {.g = picked, .view = blocks, .scale = scale};
 }
 
 }  // namespace reflet

@@ -33,6 +33,7 @@ struct RaySurfaces {
     ViewParams view;     ///< its clip space maps the picked pixels' centres to the coarse pixels' centres. pixelAngle
                          ///< stays that of full resolution, the resolution of depth
     uint32_t scale = 1;  ///< side of a block in full-resolution pixels
+    gpu::Image ambientOcclusion{};  ///< of ambientOcclusion(), at full resolution: dims prefiltered light; may be none
 };
 
 /// The picked pixel of a block, along each side.

@@ -80,11 +80,14 @@ LobeLight resolveRays(gpu::Recorder& f, LobeLightStore& own, const Rays& rays) {
     bindMeans(f, pass, light, rays.firstRay)
         .constant("countSteps", rays.countSteps ? 1U : 0U)
         .constant("adaptive", rays.tiles.meanRays > 0 ? 1U : 0U)
+        .constant("hasTurning", rays.turning ? 1U : 0U)
         .read("tiles", rays.tiles.tiles)
         .read("direction", rays.direction)
         .read("answer", rays.answer)
         .read("source", rays.source)
         .read("steps", rays.steps)
+        .read("turning",
+              rays.turning ? rays.turning : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT, gpu::ViewKind::array))
         .read("normal", rays.from.g.normal)
         .params(ResolveRaysParams{rays.firstRay, rays.count, rays.from.view.frame, size})
         .dispatch(size);

@@ -39,12 +39,26 @@ CHOICES(RayNoise, RAY_NOISES)
           "Neighbouring pixels whose rays are reused (ratio estimator). More: less noise, slightly blurred light. " \
           "Needs at most 4 samples per pixel, and not with `adaptive`.")
 
+#define DIFFUSE_METHODS(OPTION)    \
+    OPTION(DiffuseMethod, rays, 0) \
+    OPTION(DiffuseMethod, slices, 1)
+CHOICES(DiffuseMethod, DIFFUSE_METHODS)
+
 #define DIFFUSE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                        \
     LOBE_SETTINGS(VALUE, SWITCH, CHOICE, 4, "Samples per pixel for diffuse GI (global illumination, indirect light).") \
     CHOICE(RayDistribution, distribution, cosine,                                                                      \
            "Sampling of ray directions over the hemisphere. cosine: importance-sampled, least noise. uniform: all "    \
            "directions alike. normal: one lookup along the normal instead of rays; only irradiance sources (probes, "  \
            "environment) respond.")                                                                                    \
+    CHOICE(                                                                                                            \
+        DiffuseMethod, method, rays,                                                                                   \
+        "How the screen is searched for diffuse light. rays: each sample marches a ray (trace_screen). slices: each "  \
+        "sample walks both ways through a slice of the hemisphere in a fixed number of steps (visibility bitmask), "   \
+        "and "                                                                                                         \
+        "takes the light of everything that covers it; open directions go to the next source. Less time per sample, "  \
+        "distant and thin objects are sampled more coarsely.")                                                         \
+    VALUE(uint, sliceSteps, 8, 1, 64,                                                                                  \
+          "Steps to each side of a slice (method=slices). More: less noise and leaking, cost grows linearly.")         \
     VALUE(float, maxDistance, 100000.0, 0.01, 100000.0,                                                                \
           "Maximum length of diffuse rays on screen in metres (trace_screen.max_distance applies too); beyond it the " \
           "next source is used.")                                                                                      \
@@ -139,12 +153,14 @@ LobeSettings lobeSettings(const Table& s) {
 struct Rays {
     RaySurfaces from;  ///< that rays start from
     RayTiles tiles;  ///< with the rays per pixel; in the images below, layers beyond a pixel's ray count are undefined
-    gpu::Image direction;     ///< RG32_UINT array: direction (packUnitVector, world), packRay: weight, trust, spread
-    gpu::Image answer;        ///< RGBA16F array: radiance · weights so far, hit distance · weights [m]
-    gpu::Image source;        ///< RGBA8 array: colours of the sources · weights; alpha: confidence
-    gpu::Image steps;         ///< R32F array: depth samples of the screen-space march; 1x1 unless counted
-    gpu::Image imageMotion;   ///< of LobeLight, or none; sources write it for each pixel's first ray
-    gpu::BufferView waiting;  ///< rays with remaining weight
+    gpu::Image direction;  ///< RG32_UINT array: direction (packUnitVector, world), packRay: weight, trust, spread
+    gpu::Image answer;     ///< RGBA16F array: radiance · weights so far, hit distance · weights [m]
+    gpu::Image source;     ///< RGBA8 array: colours of the sources · weights; alpha: confidence
+    gpu::Image turning;  ///< RGBA16F array: what LobeLight.directional gets besides that of `direction`, for rays that
+                         ///< stand for light from several directions (startSlices); none for others
+    gpu::Image steps;    ///< R32F array: depth samples of the screen-space march; 1x1 unless counted
+    gpu::Image imageMotion;           ///< of LobeLight, or none; sources write it for each pixel's first ray
+    gpu::BufferView waiting;          ///< rays with remaining weight
     gpu::Scratch* scratch = nullptr;  ///< owns the images and lists above; sources take their lists from it
     uint32_t firstRay = 0;
     uint32_t count = 0;  ///< per pixel, in this batch, at most

@@ -10,12 +10,14 @@ layout(constant_id = 0) const uint countSteps = 0u;
 layout(constant_id = 1) const uint adaptive = 0u;
 layout(constant_id = 2) const uint hasDirectional = 0u;
 layout(constant_id = 3) const uint adds = 0u;
+layout(constant_id = 4) const uint hasTurning = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { ResolveRaysParams params; };
 layout(rg32ui) uniform readonly uimage2DArray direction;
 layout(rgba16f) uniform readonly image2DArray answer;
 layout(rgba8) uniform readonly image2DArray source;
+layout(rgba16f) uniform readonly image2DArray turning;
 layout(r32f) uniform readonly image2DArray steps;
 layout(rg32f) uniform readonly image2D tiles;
 uniform usampler2D normal;
@@ -40,6 +42,9 @@ void main() {
         AnswerSum a = AnswerSum(imageLoad(answer, slot), imageLoad(source, slot));
         addRay(sum, unpackRay(imageLoad(direction, slot).xy), a, n,
                countSteps != 0u ? imageLoad(steps, slot).r : 0.0);
+        if (hasTurning != 0u && hasDirectional != 0u) {
+            sum.turning += imageLoad(turning, slot);
+        }
     }
     storeMean(pixel, sum, rays, share);
 }

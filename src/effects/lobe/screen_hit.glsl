@@ -3,17 +3,13 @@
 #ifndef REFLET_SCREEN_HIT_GLSL
 #define REFLET_SCREEN_HIT_GLSL
 
-#include "effects/gbuffer/gbuffer.glsl"
-#include "effects/levels.glsl"
 #include "effects/lobe/rays.glsl"
-#include "effects/lobe/trace_screen.h"
+#include "effects/lobe/screen_light.glsl"
 #include "effects/pyramid/pyramid.h"
 #include "shaders/noise.glsl"
-#include "shaders/projection.glsl"
 
 layout(constant_id = 20) const uint method = 0u;
 layout(constant_id = 21) const uint secondLayer = 0u;
-layout(constant_id = 22) const uint cones = 0u;
 layout(constant_id = 23) const uint tellsMotion = 0u;
 // What settings switch off is left out, because CPU devices execute the code of all branches.
 layout(constant_id = 24) const uint bisects = 0u;
@@ -21,20 +17,11 @@ layout(constant_id = 25) const uint interpolates = 0u;
 layout(constant_id = 26) const uint jitters = 0u;
 layout(constant_id = 27) const uint rejectsBackfaces = 0u;
 layout(constant_id = 28) const uint fades = 0u;
-layout(constant_id = 29) const uint readsPrevious = 0u;
 
-layout(scalar) uniform ParamsBlock { TraceScreenParams params; };
-uniform sampler2D depth;
-uniform usampler2D geometricNormal;
-layout(rgba16f) uniform readonly image2D light;
-layout(rgba16f) uniform readonly image2D previousLit;
-uniform sampler2D motion;
 layout(rg32f) uniform readonly image2D pyramid;
 uniform sampler2D backDepth;
-uniform sampler2D lightMips;
 layout(rg16f) uniform writeonly image2D imageMotion;
 
-float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
 float loadBackDepth(ivec2 pixel) { return texelFetch(backDepth, pixel, 0).r; }
 vec2 loadCell(ivec2 cell, int level) {
     return imageLoad(pyramid, cell + ivec2(0, levelRow(ivec2(params.view.size), level))).rg;
@@ -45,35 +32,6 @@ vec2 loadCell(ivec2 cell, int level) {
 // Gaussian. Of 1.2, 2.4, 3.4 and 4.8, 3.4 is closest to 64 stochastic rays on gloss (max_roughness 0.2, 1 and 4 rays);
 // on colonnade (max_roughness 0.5) narrower is better, 2.4 by 5 % of the relative MSE.
 const float coneWidth = 3.4;
-
-bool fromPrevious() { return readsPrevious != 0u && params.previousValid != 0u; }
-
-vec3 loadLight(ivec2 cell, int level) {
-    if (level > 0) {
-        return texelFetch(lightMips, cell + ivec2(0, levelRow(ivec2(params.view.size), level)), 0).rgb;
-    }
-    return fromPrevious() ? imageLoad(previousLit, cell).rgb : imageLoad(light, cell).rgb;
-}
-#include "effects/lobe/last_frame.glsl"
-#include "effects/light_mips/light_mips.glsl"
-
-// Radiance at the pixel, blurred over `width` pixels. If the last frame is used but did not show the point
-// (disocclusion), this frame's light, unblurred.
-vec3 lightAt(ivec2 pixel, float width) {
-    vec2 uv = pixelToUv(pixel, params.view.pixel);
-    if (fromPrevious()) {
-        vec3 p = uvToWorld(uv, loadDepth(pixel), params.view.clipToWorld);
-        vec3 n = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
-        uv = uvInLastFrame(pixel, uv);
-        if (!wasShown(uv, pixel, p, n)) {
-            return imageLoad(light, pixel).rgb;
-        }
-    }
-    if (cones != 0u && width > 1.0) {
-        return blurredLight(uv * params.view.size, width, ivec2(params.view.size));
-    }
-    return loadLight(ivec2(uv * params.view.size), 0);
-}
 
 // Width in pixels of a cone's footprint at its hit.
 float widthOfHit(float roughness, MarchResult hit) {

@@ -39,6 +39,7 @@ layout(rgba16f) uniform image2D radiance;
 layout(rgba16f) uniform image2D meanSource;
 layout(r32f) uniform image2D meanSteps;
 layout(rgba16f) uniform image2D directional;
+#include "effects/ambient_occlusion/ambient_visibility.glsl"
 #include "effects/lobe/environment_answer.glsl"
 #include "effects/lobe/make_ray.glsl"
 #include "effects/lobe/resolve_ray.glsl"
@@ -82,6 +83,7 @@ void traceRay(RayOrigin from, RayNumber number, inout RaySum mean) {
     }
     if (w.rest > 0.0) {
         float occlusion = lobe == lobeDiffuse ? from.material.occlusion : 1.0;
+        occlusion = min(occlusion, ambientVisibility(from.pixel, ray));
         addAnswer(sum, answerOfEnvironment(ray, occlusion, w.lost), w.rest, sourceEnvironment);
     }
     addRay(mean, ray, sum, from.normal, looked);

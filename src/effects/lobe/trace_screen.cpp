@@ -56,36 +56,40 @@ uint32_t throughOf(PlanarForm form) {
 
 }  // namespace
 
-gpu::Pass& bindScreen(gpu::Recorder& f, gpu::Pass& pass, const ScreenImages& seen, TraceScreenParams params,
-                      gpu::Image imageMotion) {
-    const bool tellsMotion = imageMotion && params.firstRay == 0;
+gpu::Pass& bindScreenLight(gpu::Recorder& f, gpu::Pass& pass, const ScreenImages& seen, TraceScreenParams params) {
     const bool previous = seen.lit.valid;
     const gpu::Image light = seen.light ? seen.light : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT);
     params.view = seen.view;
     params.previousValid = previous ? 1U : 0U;
     params.longest = std::min(params.longest, params.settings.maxDistance);
-    const TraceScreenSettings& s = params.settings;
-    const bool fades = s.edgeFade > 0 || s.distanceFade > 0 || s.cameraFade > 0;
-    return pass.constant("method", static_cast<uint32_t>(s.method))
-        .constant("bisects", s.binarySteps > 0 ? 1U : 0U)
-        .constant("interpolates", s.interpolate)
-        .constant("jitters", s.jitter)
-        .constant("rejectsBackfaces", s.rejectBackfaces)
-        .constant("fades", fades ? 1U : 0U)
-        .constant("readsPrevious", s.light == HitLight::previous ? 1U : 0U)
+    return pass.constant("readsPrevious", params.settings.light == HitLight::previous ? 1U : 0U)
         .constant("secondLayer", seen.backDepth ? 1U : 0U)
         .constant("cones", seen.lightMips ? 1U : 0U)
-        .constant("tellsMotion", tellsMotion ? 1U : 0U)
         .read("depth", seen.g.depth)
         .read("backDepth", seen.backDepth ? seen.backDepth : seen.g.depth)
-        .read("pyramid", seen.pyramid ? seen.pyramid : f.placeholder(VK_FORMAT_R32G32_SFLOAT))
         .read("geometricNormal", seen.g.geometricNormal)
         .read("motion", seen.g.motion)
         .read("light", light)
         .read("previousLit", previous ? seen.lit.previous : light)
         .read("lightMips", seen.lightMips ? seen.lightMips : light)
-        .write("imageMotion", tellsMotion ? imageMotion : f.placeholder(VK_FORMAT_R16G16_SFLOAT))
         .params(params);
+}
+
+gpu::Pass& bindScreen(gpu::Recorder& f, gpu::Pass& pass, const ScreenImages& seen, const TraceScreenParams& params,
+                      gpu::Image imageMotion) {
+    const bool tellsMotion = imageMotion && params.firstRay == 0;
+    const TraceScreenSettings& s = params.settings;
+    const bool fades = s.edgeFade > 0 || s.distanceFade > 0 || s.cameraFade > 0;
+    return bindScreenLight(f, pass, seen, params)
+        .constant("method", static_cast<uint32_t>(s.method))
+        .constant("bisects", s.binarySteps > 0 ? 1U : 0U)
+        .constant("interpolates", s.interpolate)
+        .constant("jitters", s.jitter)
+        .constant("rejectsBackfaces", s.rejectBackfaces)
+        .constant("fades", fades ? 1U : 0U)
+        .constant("tellsMotion", tellsMotion ? 1U : 0U)
+        .read("pyramid", seen.pyramid ? seen.pyramid : f.placeholder(VK_FORMAT_R32G32_SFLOAT))
+        .write("imageMotion", tellsMotion ? imageMotion : f.placeholder(VK_FORMAT_R16G16_SFLOAT));
 }
 
 void traceScreen(gpu::Recorder& f, Rays& rays, const ScreenImages& screen, const TraceScreenSettings& settings,

@@ -121,9 +121,12 @@ struct ScreenImages {
         lightMips;  ///< from makeLightMips, of the image that hits read; blurs the light at hits of cones (Ray.spread)
 };
 
-/// Binds what screen_hit.glsl reads, and sets its constants. params: `view` and `previousValid` are set here, `longest`
-/// is bounded by the settings. imageMotion: of Rays; may be none.
-gpu::Pass& bindScreen(gpu::Recorder& f, gpu::Pass& pass, const ScreenImages& seen, TraceScreenParams params,
+/// Binds what screen_light.glsl reads and the back depth, and sets its constants. params: `view` and `previousValid`
+/// are set here, `longest` is bounded by the settings.
+gpu::Pass& bindScreenLight(gpu::Recorder& f, gpu::Pass& pass, const ScreenImages& seen, TraceScreenParams params);
+
+/// The same for screen_hit.glsl. imageMotion: of Rays; may be none.
+gpu::Pass& bindScreen(gpu::Recorder& f, gpu::Pass& pass, const ScreenImages& seen, const TraceScreenParams& params,
                       gpu::Image imageMotion);
 
 /// Gives rays that hit a visible surface the light there; the others stay in rays.waiting. longest: maximum length of

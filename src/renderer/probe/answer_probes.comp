@@ -27,6 +27,7 @@ layout(rgba8) uniform image2DArray source;
 uniform sampler2D probeIrradiance;
 #include "effects/lobe/rays_answer.glsl"
 #include "effects/lobe/rays_append.glsl"
+#include "effects/ambient_occlusion/ambient_visibility.glsl"
 
 uint probeCount() { return params.probes.count; }
 ProbeParams loadProbe(uint index) { return params.probes.probes[index]; }
@@ -47,6 +48,7 @@ RayAnswer answerRay(ivec3 slot, Ray ray) {
     vec4 seen = sampleProbes(q, hitDistance);
     // Occlusion maps stand for nearby geometry that the rays could not hit.
     float occlusion = lobe == lobeDiffuse ? texelFetch(material, pixel, 0).b : 1.0;
+    occlusion = min(occlusion, ambientVisibility(pixel, ray));
     return RayAnswer(seen.rgb * occlusion / max(seen.a, 1e-4), seen.a, hitDistance);
 }
 

@@ -1,6 +1,7 @@
 // Records reflection probes as a ray source.
 #include "renderer/probe/answer_probes.h"
 
+#include "effects/ambient_occlusion/ambient_occlusion.h"
 #include "gpu/context.h"
 
 namespace reflet {
@@ -9,7 +10,8 @@ void answerProbes(gpu::Recorder& f, Rays& rays, const ProbeMaps& probes, const P
     const gpu::BufferView missed = makeRayList(f, rays);
     const VkSampler trilinear =
         f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
-    f.compute("answer_probes", "answer_probes.comp")
+    gpu::Pass pass = f.compute("answer_probes", "answer_probes.comp");
+    bindAmbientOcclusion(f, pass, rays.from.ambientOcclusion, rays.from.scale)
         .constant("lobe", rays.lobe)
         .constant("spreads", rays.spreads ? 1U : 0U)
         .constant("parallax", static_cast<uint32_t>(settings.parallax))
