@@ -250,7 +250,9 @@ TEST(DiffuseSlices, AGlowingWallLightsTheGroundByItsFormFactor) {
     glow.emissive = vec3(1.0F);
     scene.materials.push_back(glow);
     builtin::place(scene, "wall", 1, builtin::box({40, 0.5F, 0.5F}), builtin::at({0, 0.5F, -0.5F}));
-    for (const char* probes : {"probes.enabled=false", "probes.enabled=true"}) {  // at once, and by lists
+    // At once, and by lists. The picture shows the wall to 3.3 m at each side: 3 % less, unless probes answer there.
+    for (const auto& [probes, share] :
+         {std::pair("probes.enabled=false", 0.97), std::pair("probes.enabled=true", 1.0)}) {
         View view = viewFrom({0, 2.5F, 3}, {0, 0, 0.5F});
         view.environment.radiance = vec3(0.0F);
         const Pictures p = renderMean(scene, view, size,
@@ -272,8 +274,7 @@ TEST(DiffuseSlices, AGlowingWallLightsTheGroundByItsFormFactor) {
                 }
             }
             ASSERT_GT(count, 20U);
-            // The picture shows the wall to 3.3 m at each side: 3 % less.
-            EXPECT_NEAR(seen / expected, 0.97, 0.06) << z << " m from the wall, " << probes;
+            EXPECT_NEAR(seen / expected, share, 0.06) << z << " m from the wall, " << probes;
         }
     }
 }
