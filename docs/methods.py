@@ -2,7 +2,7 @@
 """Makes the images, tables and commands of docs/methods/: docs/methods.py [PAGE...]; without arguments, all pages.
 
 Needs a built program (./demo.sh) and Python's standard library. The contents of each page are defined in
-methods_pages.py, methods_shadows.py and methods_reflections.py. Tables and commands are written into the pages between
+the other methods_*.py files. Tables and commands are written into the pages between
 <!-- table:NAME --> or <!-- commands --> and <!-- end -->; the prose around them is written by hand. References and
 renders are cached in out/methods/; delete that folder after the program has changed.
 """

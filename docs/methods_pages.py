@@ -4,6 +4,7 @@ import json
 
 import methods_reflections
 import methods_shadows
+import methods_slices
 from methods import Frame, Render, Truth, cached, options
 
 VISIBLE = "--bounces 1 --visible-only"
@@ -318,4 +319,4 @@ PAGES = {"steps-too-large": steps_too_large, "jitter": jitter, "refinement": ref
          "uniform-and-cosine": uniform_and_cosine, "mirror-to-matt": mirror_to_matt, "unknown": unknown,
          "second-layer": second_layer, "depth-precision": depth_precision, "noise": noise, "games202": games202,
          "temporal-upscaling": temporal_upscaling,
-         **methods_shadows.PAGES, **methods_reflections.PAGES}
+         **methods_shadows.PAGES, **methods_reflections.PAGES, **methods_slices.PAGES}

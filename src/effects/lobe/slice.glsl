@@ -103,9 +103,27 @@ float pixelsToEdge(vec2 from, vec2 step) {
     return min(pixels.x, pixels.y);
 }
 
-// Share of a side's directions above that to a point. whole: arcShare of the edge.
-float shareAbove(vec2 q, float edge, float normal, float whole) {
-    return clamp(arcShare(min(atan(q.x, q.y), edge), normal) / whole, 0.0, 1.0);
+// The directions of a side, for shareAbove.
+struct Arc {
+    vec2 normal;  // in the slice, unit
+    float scale;  // 1 / (2 arcShare of the edge)
+};
+
+// Arc cosine, with an error of 7e-5 (Abramowitz and Stegun, Handbook of Mathematical Functions, 1964, 4.4.45).
+float fastAcos(float c) {
+    float a = min(abs(c), 1.0);
+    float angle = sqrt(1.0 - a) * (1.5707288 + a * (-0.2121144 + a * (0.0742610 - 0.0187293 * a)));
+    return c < 0.0 ? 2.0 * quarterTurn - angle : angle;
+}
+
+// Share of a side's directions above that to a point: arcShare of its angle, over that of the edge. With the sine and cosine of
+// the angle at hand, only its own value costs more than a few multiplications.
+float shareAbove(vec2 q, Arc arc) {
+    float r2 = max(dot(q, q), 1e-18);
+    float bent = q.x * (q.x * arc.normal.y - q.y * arc.normal.x) / r2;
+    float share = arc.scale * (bent + fastAcos(q.y * inversesqrt(r2)) * arc.normal.x);
+    float beforeEye = q.x > 0.0 ? clamp(share, 0.0, 1.0) : 0.0;
+    return q.x > 0.0 && dot(q, arc.normal) <= 0.0 ? 1.0 : beforeEye;
 }
 
 // Where the view ray at `pixels` along the slice meets the line through q with this normal.
@@ -164,11 +182,17 @@ vec2 meetingOf(Met a, Met b) {
     return vec2(k.x * b.normal.y - k.y * a.normal.y, a.normal.x * k.y - b.normal.x * k.x) / det;
 }
 
-// Covers what lies between two samples, one after the other along the walk. The surface goes on from one to the other if their
-// tangent planes meet in between, which is then its edge, or are about the same. Else there is a gap, and each surface
-// ends halfway (in the logarithm) on average.
-void coverGap(inout SliceSide found, Slice s, float side, vec3 n, Met before, Met now, float root, SliceParams o, float edge,
-              float normal, float whole, float dither) {
+// Where a surface starts in the directions of a side.
+struct SliceStart {
+    float above;  // share of the side's directions above it
+    vec2 place;
+};
+
+// Covers what the first of two samples, one after the other along the walk, has of what lies between them, and returns where the
+// second's surface starts. The surface goes on from one to the other if their tangent planes meet in between, which is
+// then its edge, or are about the same. Else there is a gap, and each surface ends halfway (in the logarithm) on average.
+SliceStart coverGap(inout SliceSide found, Slice s, float side, vec3 n, Met before, Met now, float root, SliceParams o,
+                    Arc arc, float dither) {
     float atBefore = before.place.y - onTangent(s, side, before.pixels, now.place, now.normal).y;
     float here = onTangent(s, side, now.pixels, before.place, before.normal).y - now.place.y;
     float turn = before.normal.x * now.normal.y - before.normal.y * now.normal.x;
@@ -182,22 +206,22 @@ void coverGap(inout SliceSide found, Slice s, float side, vec3 n, Met before, Me
     // All of it belongs to the surface whose plane passes nearer to the other's sample.
     bool byBefore = abs(here) < abs(atBefore);
     float joint = byBefore ? now.above : before.above;
-    float end = goesOn ? joint : shareAbove(endBefore, edge, normal, whole);
-    float start = goesOn ? joint : shareAbove(startNow, edge, normal, whole);
+    float end = goesOn ? joint : shareAbove(endBefore, arc);
+    float start = goesOn ? joint : shareAbove(startNow, arc);
     vec2 jointPlace = byBefore ? now.place : before.place;
     coverBetween(found, s, side, n, before, before.above, before.place, end, goesOn ? jointPlace : endBefore, dither);
-    coverBetween(found, s, side, n, now, start, goesOn ? jointPlace : startNow, now.above, now.place, dither);
+    return SliceStart(start, goesOn ? jointPlace : startNow);
 }
 
 // side: 1 or -1. shift: of the samples, in steps; dither: of the sectors' limits; both in [0, 1). n: shading normal.
 SliceSide walkSide(Slice s, float side, ivec2 pixel, float depth, vec3 n, SliceParams o, float shift, float dither) {
     float normal = side * s.normalAngle;
-    float edge = normal + quarterTurn;
-    float whole = arcShare(edge, normal);
+    float whole = arcShare(normal + quarterTurn, normal);
+    Arc arc = Arc(vec2(sin(normal), cos(normal)), 0.5 / whole);
     SliceSide found;
     found.covered = 0u;
     found.behind = 0u;
-    found.share = whole / (cos(normal) + normal * sin(normal));
+    found.share = whole / (arc.normal.y + normal * arc.normal.x);
     found.light = vec4(0.0);
     found.turning = vec4(0.0);
     vec2 origin = vec2(pixel) + 0.5;
@@ -225,7 +249,7 @@ SliceSide walkSide(Slice s, float side, ivec2 pixel, float depth, vec3 n, SliceP
         now.radius = length(now.place);
         now.normal = vec2(side * dot(texel.normal, s.aside), max(dot(texel.normal, s.toEye), leastFacing));
         now.light = texel.light;
-        now.above = shareAbove(now.place, edge, normal, whole);
+        now.above = shareAbove(now.place, arc);
         float faded = clamp((o.radius - now.radius) / max(o.falloff * o.radius, 1e-6), 0.0, 1.0);
         bool other = now.pixels > 0.4;
         bool solid = !now.sky && other;
@@ -236,14 +260,23 @@ SliceSide walkSide(Slice s, float side, ivec2 pixel, float depth, vec3 n, SliceP
         if (s.eyeDistance > 0.0) {
             below = normalize(now.place - vec2(0.0, s.eyeDistance));
         }
+        SliceStart start = SliceStart(now.above, now.place);
         // Between samples on the own plane there is nothing but its unevenness.
         if (other && (before.above < nearHorizon || solid && now.above < nearHorizon)) {
-            coverGap(found, s, side, n, before, now, root, o, edge, normal, whole, dither);
+            start = coverGap(found, s, side, n, before, now, root, o, arc, dither);
         }
-        vec2 back = sliceHorizon != 0u ? vec2(sin(edge), cos(edge)) : now.place + thickness * below;
-        float under = sliceHorizon != 0u ? 1.0 : shareAbove(back, edge, normal, whole);
+        vec2 back = sliceHorizon != 0u ? vec2(arc.normal.y, -arc.normal.x) : now.place + thickness * below;
+        float under = sliceHorizon != 0u ? 1.0 : shareAbove(back, arc);
         found.behind |= now.covers ? ~sectorsBelow(uint(now.above * float(sectors) + dither)) : 0u;
-        coverBetween(found, s, side, n, now, now.above, now.place, max(under, now.above), back, dither);
+        SliceStart top = SliceStart(now.above, now.place);
+        SliceStart bottom = SliceStart(under, back);
+        if (start.above < top.above) {
+            top = start;
+        }
+        if (start.above > bottom.above) {
+            bottom = start;
+        }
+        coverBetween(found, s, side, n, now, top.above, top.place, max(bottom.above, now.above), bottom.place, dither);
         if (solid) {
             before = now;
         }
@@ -252,7 +285,7 @@ SliceSide walkSide(Slice s, float side, ivec2 pixel, float depth, vec3 n, SliceP
     // Nothing is known from the last sample to the end: its surface goes on.
     if (!endsInSky && before.above < nearHorizon) {
         vec2 beyond = onTangent(s, side, max(last, before.pixels), before.place, before.normal);
-        coverBetween(found, s, side, n, before, before.above, before.place, shareAbove(beyond, edge, normal, whole), beyond,
+        coverBetween(found, s, side, n, before, before.above, before.place, shareAbove(beyond, arc), beyond,
                      dither);
     }
     return found;
