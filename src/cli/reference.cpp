@@ -85,6 +85,9 @@ void checkLayers(const ReferenceCommand& command) {
             failUsage("--layers: there is no layer '{}'{}; there are: {}", layer, suggestion(layer, names),
                       fmt::join(names, ", "));
         }
+        if (std::ranges::count(command.layers, layer) > 1) {
+            failUsage("--layers: '{}' is named twice", layer);
+        }
     }
     if ((command.aoRadius || command.aoFalloff) && !asksFor(command, "ambient_occlusion")) {
         failUsage("--ao-radius and --ao-falloff are for the layer ambient_occlusion: add --layers ambient_occlusion");
@@ -201,6 +204,10 @@ constexpr const char* referenceFooter =
     "environment is indirect and arrives through scattered rays, as in the renderer. Rays do not see the sun and "
     "lamps.\n"
     "Depth and normal are those of the pixel's centre.\n"
+    "ambient_occlusion is the cosine-weighted share of directions without a surface within --ao-radius, as `--show\n"
+    "ambient_occlusion` of the renderer estimates it; with --visible-only, surfaces that the camera does not see do "
+    "not\n"
+    "count.\n"
     "With both --spp and --noise, rendering stops at whichever is reached first.\n"
     "Noise is the square root of the mean over the pixels of (variance of the mean) / (luminance² + 0.01). Its square\n"
     "estimates the image's own relative MSE.\n"

@@ -58,6 +58,32 @@ TEST_F(ReferenceOptions, WhatTheCameraSeesNeverBringsMoreLightThanEverything) {
     }
 }
 
+TEST_F(ReferenceOptions, TheLayersThatAreNamedAreWrittenInThatOrder) {
+    ASSERT_TRUE(
+        quietSuccess(reference(cubes, {"--spp", "2", "--layers", "normal,depth", "-o", "some.exr", "-o", "some.png"})));
+    Names names;
+    std::ranges::transform(layers("some.exr"), std::back_inserter(names), &ImageLayer::name);
+    EXPECT_EQ(names, (Names{"", "normal", "depth"}));
+    Images all = traced(cubes, {"--spp", "2"});
+    Images some = images("some.exr");
+    EXPECT_EQ(some["depth"].data, all["depth"].data);
+    EXPECT_EQ(some[""].data, all["normal"].data);
+}
+
+TEST_F(ReferenceOptions, AmbientOcclusionHasARadiusAndAFalloff) {
+    const auto visibility = [&](Arguments more) {
+        more.insert(more.end(), {"--spp", "16", "--layers", "ambient_occlusion"});
+        return mean(traced(cubes, more)["ambient_occlusion"]);
+    };
+    const float near = visibility({"--ao-radius", "0.3"});
+    const float usual = visibility({});
+    EXPECT_EQ(usual, visibility({"--ao-radius", "1", "--ao-falloff", "0"}));
+    EXPECT_LT(near, 1.0F);
+    EXPECT_LT(usual, near);
+    EXPECT_GT(visibility({"--ao-falloff", "1"}), usual);
+    EXPECT_GT(visibility({"--visible-only"}), usual);
+}
+
 TEST_F(ReferenceOptions, ANoiseThatIsReachedEndsEarlier) {
     const Outcome early = reference(cubes, {"--noise", "0.2", "--spp", "1000", "-o", "a.exr"});
     ASSERT_TRUE(quietSuccess(early));

@@ -55,6 +55,18 @@ TEST_F(WrongReference, ChoicesAreChecked) {
     EXPECT_TRUE(refused(wrong({"--set", "materials.lambert=1"}), usage, {"did you mean 'materials.lambert_only'"}));
 }
 
+TEST_F(WrongReference, LayersAndTheOptionsOfOneAreChecked) {
+    EXPECT_TRUE(
+        refused(wrong({"--layers", "normals"}), usage, {"'normals'", "did you mean 'normal'", "sun_visibility"}));
+    EXPECT_TRUE(refused(wrong({"--layers", "depth,depth"}), usage, {"--layers", "'depth'", "twice"}));
+    EXPECT_TRUE(refused(wrong({"--ao-radius", "2"}), usage, {"--ao-radius", "--layers ambient_occlusion"}));
+    for (const Names& option : {Names{"--ao-radius", "0"}, Names{"--ao-radius", "nan"}, Names{"--ao-falloff", "1.5"}}) {
+        EXPECT_TRUE(
+            refused(wrong({"--layers", "ambient_occlusion", option[0], option[1]}), usage, {option[0], option[1]}));
+    }
+    EXPECT_EQ(files(), Names{});
+}
+
 TEST_F(WrongReference, AnUnknownOptionIsNamedWithTheNearest) {
     EXPECT_TRUE(refused(wrong({"--bounce", "3"}), usage, {"'--bounce'", "did you mean '--bounces'"}));
     EXPECT_TRUE(refused(wrong({"--frobnicate"}), usage, {"'--frobnicate'", "reflet reference --help"}));
