@@ -464,10 +464,27 @@ REFLET_API RefletResult refletComposite(RefletView view, RefletSettings settings
 REFLET_API RefletResult refletTemporal(RefletView view, RefletSettings settings, const RefletImage* color,
                                        RefletImage* antialiased);
 
+/** A thin lens, of the camera of this frame. */
+typedef struct RefletLens {
+    size_t structSize;    /**< required */
+    float apertureRadius; /**< metres, at least 0; f-number N: focal length / (2 N). 0: everything is sharp */
+    float focusDistance;  /**< required: metres along the view axis, above 0 */
+    uint32_t blades;      /**< corners of the aperture, 3 to 16, on the circle of apertureRadius; 0: round */
+    float bladeRotation;  /**< radians, counter-clockwise as disks of what is far are seen; 0: a corner at the right */
+} RefletLens;
+
+/**
+ * Depth of field, RGBA16F of the output's size: near and far blur at half resolution by the settings `dof` (Jimenez, 2014; Abadie,
+ * 2018), before the tone map. What is in focus does not change. color: linear radiance, of the output's size; NULL: the
+ * last of refletTemporal and refletComposite that ran. Without an aperture, or with `dof.enabled` 0: that picture.
+ */
+REFLET_API RefletResult refletDepthOfField(RefletView view, RefletSettings settings, const RefletLens* lens,
+                                           const RefletImage* color, RefletImage* blurred);
+
 /**
  * Tone map, RGBA8, display-encoded: `tonemap.curve`, `tonemap.exposure`. autoExposure 1: surfaces become middle grey on
  * average (histogram; Reinhard et al., 2002). color: linear radiance, of the output's size; NULL: the last of
- * refletTemporal and refletComposite that ran.
+ * refletDepthOfField, refletTemporal and refletComposite that ran.
  */
 REFLET_API RefletResult refletToneMap(RefletView view, RefletSettings settings, const RefletImage* color,
                                       uint32_t autoExposure, RefletImage* display);
@@ -483,7 +500,8 @@ typedef enum RefletEffect {
     REFLET_EFFECT_COMPOSITE = 1 << 5,
     REFLET_EFFECT_TEMPORAL = 1 << 6,
     REFLET_EFFECT_TONE_MAP = 1 << 7,
-    REFLET_EFFECT_AMBIENT_OCCLUSION = 1 << 8
+    REFLET_EFFECT_AMBIENT_OCCLUSION = 1 << 8,
+    REFLET_EFFECT_DEPTH_OF_FIELD = 1 << 9
 } RefletEffect;
 
 /** What the frames to come will be. */

@@ -152,6 +152,22 @@ gpu::Image hostImageOf(const RefletImage* given, const char* name, const char* o
     return image;
 }
 
+Lens lensOf(const RefletLens& lens) {
+    if (!(lens.apertureRadius >= 0.0F) || !std::isfinite(lens.apertureRadius)) {
+        failArgument("RefletLens.apertureRadius: is {}; must be finite and at least 0", lens.apertureRadius);
+    }
+    if (!(lens.focusDistance > 0.0F) || !std::isfinite(lens.focusDistance)) {
+        failArgument("RefletLens.focusDistance: is {}; must be finite and above 0", lens.focusDistance);
+    }
+    if (lens.blades != 0 && (lens.blades < 3 || lens.blades > 16)) {
+        failArgument("RefletLens.blades: is {}; must be 0, or 3 to 16", lens.blades);
+    }
+    if (!std::isfinite(lens.bladeRotation)) {
+        failArgument("RefletLens.bladeRotation: is {}; must be finite", lens.bladeRotation);
+    }
+    return {lens.apertureRadius, lens.focusDistance, lens.blades, lens.bladeRotation};
+}
+
 gpu::Image colorOf(const RefletImage* color, HostImages& host, uvec2 size) {
     return hostImageOf(color, "color", "the result of the effect before", host, size);
 }
@@ -240,6 +256,17 @@ RefletResult refletTemporal(RefletView view, RefletSettings settings, const Refl
         checkOut(antialiased, "antialiased");
         HostImages host(*view);
         *antialiased = resultOf(recordTemporal(*view, frame, values, colorOf(color, host, view->size)));
+    });
+}
+
+RefletResult refletDepthOfField(RefletView view, RefletSettings settings, const RefletLens* lens,
+                                const RefletImage* color, RefletImage* blurred) {
+    return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
+        checkOut(blurred, "blurred");
+        const Lens thin = lensOf(adopted(lens, "RefletLens"));
+        HostImages host(*view);
+        *blurred =
+            resultOf(recordDepthOfField(*view, frame, values, thin, colorOf(color, host, outputSizeOf(*view))));
     });
 }
 

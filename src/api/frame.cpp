@@ -104,6 +104,15 @@ gpu::Image lightAtHits(RefletView_T& view, Frame& frame, const Settings& setting
     return composite(f, view.images->layers, parts, sum, {frame.view, settings.diffuse.gain}).lit;
 }
 
+// The last picture of this frame before depth of field.
+gpu::Image pictureSoFar(const Frame& frame) {
+    const gpu::Image radiance = frame.antialiased ? frame.antialiased : frame.composed;
+    if (!radiance) {
+        failArgument("color: is NULL, and neither refletTemporal nor refletComposite has run in this frame");
+    }
+    return radiance;
+}
+
 }  // namespace
 
 void recordImport(RefletView_T& view, Frame& frame, const HostSurfaces& host, const ImportParams& params) {
@@ -250,13 +259,21 @@ gpu::Image recordTemporal(RefletView_T& view, Frame& frame, const Settings& sett
     return frame.antialiased;
 }
 
+gpu::Image recordDepthOfField(RefletView_T& view, Frame& frame, const Settings& settings, const Lens& lens,
+                              gpu::Image color) {
+    gpu::Recorder& f = view.recorder;
+    const gpu::Image radiance = color ? importLight(f, view.images->dofInput, color) : pictureSoFar(frame);
+    const DofImages blurred =
+        depthOfField(f, view.images->dof, {radiance, frame.g.depth, frame.view, lens, settings.dof});
+    frame.defocused = blurred.radiance;
+    frame.circleOfConfusion = blurred.coc;
+    return blurred.radiance;
+}
+
 gpu::Image recordToneMap(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image color, bool automatic) {
     gpu::Recorder& f = view.recorder;
-    gpu::Image radiance = color ? importLight(f, view.images->toneMapInput, color) : frame.antialiased;
-    radiance = radiance ? radiance : frame.composed;
-    if (!radiance) {
-        failArgument("color: is NULL, and neither refletTemporal nor refletComposite has run in this frame");
-    }
+    const gpu::Image given = color ? importLight(f, view.images->toneMapInput, color) : frame.defocused;
+    const gpu::Image radiance = given ? given : pictureSoFar(frame);
     gpu::Image exposure;
     if (automatic) {
         const gpu::Image metered = radiance.size == frame.g.depth.size ? radiance : frame.composed;

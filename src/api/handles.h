@@ -77,6 +77,8 @@ struct ViewImages {
     gpu::HistoryImage lit{"lit"};
     gpu::KeptImage temporalInput{"temporal_input"};
     TemporalStore temporal;
+    gpu::KeptImage dofInput{"depth_of_field_input"};
+    DofStore dof;
     gpu::KeptImage toneMapInput{"tone_map_input"};
     gpu::HistoryImage exposure{"exposure"};
     gpu::KeptImage display{"display"};
@@ -92,6 +94,8 @@ struct Frame {
     gpu::History lit;  ///< swapped by the first effect that reads or writes it
     gpu::Image composed;
     gpu::Image antialiased;
+    gpu::Image defocused;
+    gpu::Image circleOfConfusion;
     gpu::Image sunVisibility;
     gpu::Image ambientOcclusion;
     std::optional<LobeLight> diffuse;

@@ -10,7 +10,7 @@ namespace reflet::api {
 
 namespace {
 
-constexpr uint32_t allEffects = 2 * REFLET_EFFECT_AMBIENT_OCCLUSION - 1;
+constexpr uint32_t allEffects = 2 * REFLET_EFFECT_DEPTH_OF_FIELD - 1;
 
 // Stand-ins for the host's images: passes that are only collected never read them.
 class StandIns {
@@ -71,6 +71,9 @@ void collectFrame(RefletView_T& view, const Settings& settings, const RefletPrep
     if (asked(REFLET_EFFECT_TEMPORAL)) {
         recordTemporal(view, frame, settings, color);
     }
+    if (asked(REFLET_EFFECT_DEPTH_OF_FIELD)) {
+        recordDepthOfField(view, frame, settings, {.apertureRadius = 1.0F}, standIns.make(outputSizeOf(view)));
+    }
     if (asked(REFLET_EFFECT_TONE_MAP)) {
         recordToneMap(view, frame, settings, standIns.make(outputSizeOf(view)), info.autoExposure != 0);
     }
@@ -94,6 +97,7 @@ std::vector<Named> imagesOf(const Frame& frame) {
             {"light", frame.light},
             {"sun_visibility", frame.sunVisibility},
             {"ambient_occlusion", frame.ambientOcclusion},
+            {"circle_of_confusion", frame.circleOfConfusion},
             {"diffuse", radiance(frame.diffuse)},
             {"specular", radiance(frame.specular)},
             {"diffuse_confidence", source(frame.diffuse)},

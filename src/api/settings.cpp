@@ -28,6 +28,7 @@ SettingTable makeTable() {
     table.add<AoSettings>("ao", offsetof(Settings, ao));
     table.add<DenoiseSettings>("denoise", offsetof(Settings, denoise));
     table.add<TemporalSettings>("temporal", offsetof(Settings, temporal));
+    table.add<DofSettings>("dof", offsetof(Settings, dof));
     table.add<TonemapSettings>("tonemap", offsetof(Settings, tonemap));
     return table;
 }

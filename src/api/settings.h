@@ -5,6 +5,7 @@
 #include "effects/ambient_occlusion/ambient_occlusion.h"
 #include "effects/contact/contact.h"
 #include "effects/denoise/denoise.h"
+#include "effects/depth_of_field/depth_of_field.h"
 #include "effects/lobe/answer_environment.h"
 #include "effects/lobe/rays.h"
 #include "effects/lobe/trace_screen.h"
@@ -26,6 +27,7 @@ struct Settings {
     AoSettings ao;
     DenoiseSettings denoise;
     TemporalSettings temporal;
+    DofSettings dof;
     TonemapSettings tonemap;
 };
 

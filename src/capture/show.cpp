@@ -99,6 +99,10 @@ vec3 near(const float* v) {
 vec3 nearRedGreen(const float* v) {
     return {nearness(v[0]), nearness(v[1]), 0.0F};
 }
+vec3 farAndNear(const float* v) {
+    const float radius = v[0] / 16.0F;
+    return glm::clamp(vec3(radius, 0.0F, -radius), 0.0F, 1.0F);
+}
 constexpr float manySteps = 128.0F;
 vec3 count(const float* v) {
     return vec3(std::clamp(v[0] / manySteps, 0.0F, 1.0F));
@@ -149,6 +153,10 @@ const std::vector<Show>& table() {
         {"temporal_frames",
          "number of frames accumulated in the pixel's history; PNG 1 is 32 frames; only with temporal.enabled",
          [](const FrameImages& i) { return Images{i.temporal}; }, alpha, y, framesCounted},
+        {"circle_of_confusion",
+         "signed radius of the circle of confusion in pixels, negative in front of the plane of focus; PNG red far, blue "
+         "near, 1 is 16 pixels; only with a camera that has an aperture",
+         [](const FrameImages& i) { return Images{i.circleOfConfusion}; }, first, y, farAndNear},
         {"direct", "direct light of sun and lamps, emission and background: radiance",
          [](const FrameImages& i) { return Images{i.direct}; }, color, rgb, encoded},
         {"indirect_diffuse", "indirect diffuse light: radiance",

@@ -2,7 +2,7 @@
 //
 // direct view (G-buffer → depth pyramid → sun and lamp visibility → direct light) → diffuse rays → source chain
 // → layers of blended surfaces → planar views → specular rays → source chain → composite → temporal antialiasing
-// → tone map
+// → depth of field → tone map
 //
 // renderFrame, at the end, does all of it; its parts are above it, those shared with other views in direct_view.cpp,
 // and a lobe's rays in trace_lobe.cpp. There is no render graph: the `if`s in these files are all that culls passes.
@@ -291,6 +291,21 @@ void addBlended(gpu::Recorder& f, FrameStore& own, const BlendedLight& blended, 
         withBlended(f, own.specularBlended, blended.indirectSpecular, out.light.indirectSpecular);
 }
 
+// Depth of field, of the radiance and of what surfaces cover of the picture.
+void defocus(gpu::Recorder& f, FrameStore& own, const FrameInputs& in, const Settings& settings, FrameImages& out) {
+    if (!blurs(in.lens, settings.dof)) {
+        return;
+    }
+    const DofImages blurred = depthOfField(f, own.dof, {out.light.lit, out.g.depth, in.view, in.lens, settings.dof});
+    out.light.lit = blurred.radiance;
+    out.circleOfConfusion = blurred.coc;
+    if (out.coverage) {
+        const auto scope = f.scope("coverage");
+        out.coverage =
+            depthOfField(f, own.dofCoverage, {out.coverage, out.g.depth, in.view, in.lens, settings.dof}).radiance;
+    }
+}
+
 }  // namespace
 
 FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in, const Settings& asked) {
@@ -347,6 +362,7 @@ FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in
         const gpu::Image metered = out.light.lit.size == out.g.depth.size ? out.light.lit : out.unfiltered;
         out.exposure = measureExposure(f, own.exposure, metered, out.g.depth, in.elapsed, settings.tonemap.adaptation);
     }
+    defocus(f, own, in, settings, out);
     const gpu::Image radiance =
         out.coverage ? straightRadiance(f, own.straight, out.light.lit, out.coverage) : out.light.lit;
     out.display = tonemap(f, own.display, radiance, settings.tonemap, out.exposure);

@@ -3,6 +3,7 @@
 
 #include "effects/accumulate/accumulate.h"
 #include "effects/composite/composite.h"
+#include "effects/depth_of_field/depth_of_field.h"
 #include "effects/lobe/rays.h"
 #include "effects/temporal/temporal.h"
 #include "gpu/recorder.h"
@@ -69,6 +70,8 @@ struct FrameStore : ViewStore {
     AccumulateStore accumulated;
     TemporalStore temporal;
     gpu::HistoryImage exposure{"exposure"};
+    DofStore dof;
+    DofStore dofCoverage;
     gpu::KeptImage straight{"background.straight"};
     gpu::KeptImage display{"display"};
     gpu::KeptImage displayOver{"background.display"};
@@ -83,6 +86,7 @@ struct FrameInputs : ViewInputs {
     float elapsed = 0.0F;       ///< seconds of the scene's time since the last frame, not negative
     uvec2 outputSize{};         ///< of the picture; larger than the view's size with temporal upscaling
     vec2 jitter{};              ///< of `view`, in its pixels
+    Lens lens;                  ///< of the camera
 };
 
 /// All images of the frame; formats are documented with the effects.
@@ -97,6 +101,7 @@ struct FrameImages : ViewImages {
                             ///< temporal antialiasing
     gpu::Image coverage;    ///< red: share of the pixel that surfaces cover; light.lit is premultiplied by it. None
                             ///< unless the background is a colour or transparent
+    gpu::Image circleOfConfusion;  ///< of DofImages; none without depth of field
     gpu::Image exposure;    ///< of measureExposure; none without automatic exposure
     gpu::Image display;     ///< alpha: straight, 1 unless the background is transparent
     bool transparent = false;

@@ -198,7 +198,9 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
                        exposesAutomatically(settings.tonemap, source_),
                        static_cast<float>(std::abs(asked.time - previousTime_.value_or(asked.time))),
                        size,
-                       place};
+                       place,
+                       Lens{view.camera.apertureRadius, view.camera.focusDistance, view.camera.blades,
+                            view.camera.bladeRotation}};
     previousTime_ = asked.time;
     inputs.probes = probes_.update(frame_, inputs, probesOf(view, settings.probes), settings);
     const FrameImages images = renderFrame(frame_, store_, inputs, settings);

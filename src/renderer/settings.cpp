@@ -53,6 +53,7 @@ SettingTable makeTable() {
     table.add<BlendSettings>("blend", offsetof(Settings, blend));
     table.add<AccumulateSettings>("accumulate", offsetof(Settings, accumulate));
     table.add<TemporalSettings>("temporal", offsetof(Settings, temporal));
+    table.add<DofSettings>("dof", offsetof(Settings, dof));
     table.add<TonemapSettings>("tonemap", offsetof(Settings, tonemap));
     table.rename(renamedSettings);
     return table;

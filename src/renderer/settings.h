@@ -6,6 +6,7 @@
 #include "effects/ambient_occlusion/ambient_occlusion.h"
 #include "effects/composite/composite.h"
 #include "effects/contact/contact.h"
+#include "effects/depth_of_field/depth_of_field.h"
 #include "effects/denoise/denoise.h"
 #include "effects/direct/lamp_tiles.h"
 #include "effects/gbuffer/gbuffer.h"
@@ -51,6 +52,7 @@ struct Settings {
     BlendSettings blend;
     AccumulateSettings accumulate;
     TemporalSettings temporal;
+    DofSettings dof;
     TonemapSettings tonemap;
 };
 

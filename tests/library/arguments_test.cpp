@@ -243,6 +243,23 @@ TEST_F(Arguments, OfEffects) {
         expectError(refletComposite(view_, settings_, &light.light, nullptr), "RefletComposite");
         expectError(refletTemporal(view_, settings_, nullptr, &image), "color");
         expectError(refletToneMap(view_, settings_, nullptr, 0, &image), "color");
+        const auto lens = [&](const char* field, auto&& spoil) {
+            RefletLens given{sizeof given, 0.1F, 2.0F, 6, 0.0F};
+            spoil(given);
+            expectError(refletDepthOfField(view_, settings_, &given, &light.light, &image), field);
+        };
+        lens("apertureRadius", [](auto& l) { l.apertureRadius = -1.0F; });
+        lens("apertureRadius", [](auto& l) { l.apertureRadius = NAN; });
+        lens("focusDistance", [](auto& l) { l.focusDistance = 0.0F; });
+        lens("focusDistance", [](auto& l) { l.focusDistance = INFINITY; });
+        lens("blades", [](auto& l) { l.blades = 2; });
+        lens("blades", [](auto& l) { l.blades = 17; });
+        lens("bladeRotation", [](auto& l) { l.bladeRotation = NAN; });
+        lens("structSize", [](auto& l) { l.structSize = 0; });
+        const RefletLens thin{sizeof thin, 0.1F, 2.0F, 0, 0.0F};
+        expectError(refletDepthOfField(view_, settings_, &thin, nullptr, &image), "color");
+        expectError(refletDepthOfField(view_, settings_, &thin, &light.light, nullptr), "blurred");
+        expectError(refletDepthOfField(view_, settings_, nullptr, &light.light, &image), "RefletLens");
         expectError(refletToneMap(view_, settings_, &image, 0, &image), "color.image");
         expectError(refletDenoise(view_, settings_, RefletLobeKind(2), &light.light, &lobe), "kind");
         expectError(refletDenoise(view_, settings_, REFLET_LOBE_DIFFUSE, nullptr, &lobe), "noisy");

@@ -398,6 +398,8 @@ RoomResults recordRoom(const HostRoom& room, RefletView view, RefletSettings set
     EXPECT_REFLET(refletReflections(view, settings, &light, &out.specular));
     EXPECT_REFLET(refletComposite(view, settings, nullptr, &out.sum));
     EXPECT_REFLET(refletTemporal(view, settings, nullptr, &out.antialiased));
+    const RefletLens lens{sizeof lens, 0.2F, 3.0F, 6, 0.1F};
+    EXPECT_REFLET(refletDepthOfField(view, settings, &lens, nullptr, &out.defocused));
     EXPECT_REFLET(refletToneMap(view, settings, nullptr, 1, &out.display));
     EXPECT_REFLET(refletEndFrame(view));
     return out;

@@ -97,6 +97,7 @@ struct RoomResults {
     RefletLobe specular{};
     RefletComposite sum{};
     RefletImage antialiased{};
+    RefletImage defocused{};  ///< focused 3 m away
     RefletImage display{};
 };
 

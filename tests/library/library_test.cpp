@@ -155,6 +155,36 @@ TEST_F(Library, KnowsHowMuchAWallCovers) {
     refletDestroyContext(context);
 }
 
+// Focused 3 m away: the floor there stays as it is, the wall 6 m away does not.
+TEST_F(Library, DepthOfFieldBlursWhatIsOutOfFocus) {
+    RefletContext context = host_.makeContext();
+    RefletSettings settings = makeSettings(nullptr);
+    RefletView view = makeView(context, 3);
+    const HostRoom room(host_, {});
+    const RoomResults results = renderFrames(room, view, settings, 4);
+    const std::vector<vec4> sharp = halvesOf(host_, results.antialiased);
+    const std::vector<vec4> blurred = halvesOf(host_, results.defocused);
+    RefletImage coc{};
+    EXPECT_REFLET(refletFindImage(view, "circle_of_confusion", &coc));
+    EXPECT_EQ(coc.format, VK_FORMAT_R32_SFLOAT);
+    const std::vector<float> radii = texelsOf<float>(host_, coc);
+    unsigned kept = 0;
+    unsigned changed = 0;
+    for (size_t i = 0; i < sharp.size(); ++i) {
+        const float radius = radii[i];
+        const bool same = vec3(sharp[i]) == vec3(blurred[i]);
+        kept += std::abs(radius) < 0.5F && same ? 1 : 0;
+        changed += same ? 0 : 1;
+        ASSERT_TRUE(std::isfinite(blurred[i].x) && blurred[i].x >= 0.0F) << i;
+    }
+    EXPECT_GT(kept, 20U);
+    EXPECT_GT(changed, 200U);
+    EXPECT_GT(radii[HostRoom::width / 2], 0.5F) << "the sky";
+    refletDestroyView(view);
+    refletDestroySettings(settings);
+    refletDestroyContext(context);
+}
+
 TEST_F(Library, SlicesGatherTheDiffuseLightThatRaysDo) {
     RefletContext context = host_.makeContext();
     RefletView view = makeView(context, 3);

@@ -1,0 +1,103 @@
+// Depth of field: the blur of a lens with an aperture, from a sharp picture and its depth. Shared by C++ and GLSL.
+//
+// The signed circle of confusion (its radius in pixels, positive behind the plane of focus) follows from depth by the
+// thin-lens formula. The picture is split, at half resolution, into what is in front of the plane of focus (near) and
+// the rest (background), each with the share of the pixel that it covers and with mips. Both are gathered apart: a sample
+// counts where its own disk reaches the pixel, with a weight of one over its disk's area, so that light is kept. The
+// background is composited by distance, so that nothing sharp leaks into what is blurred behind it; where the near layer
+// hides it, it is filled from around. The near layer goes on top, with its coverage. What is in focus keeps its full
+// resolution.
+// (J. Jimenez, Next Generation Post Processing in Call of Duty: Advanced Warfare, SIGGRAPH 2014; G. Abadie, A Life of a
+// Bokeh, SIGGRAPH 2018; S. Gortler et al., The Lumigraph, 1996: pull-push; M. Potmesil, I. Chakravarty, A Lens and Aperture
+// Camera Model for Synthetic Image Generation, 1981)
+#ifndef REFLET_EFFECTS_DEPTH_OF_FIELD_H
+#define REFLET_EFFECTS_DEPTH_OF_FIELD_H
+
+#include "base/shared.h"
+#include "effects/view.h"
+
+SHARED_BEGIN
+
+#define DOF_SETTINGS(VALUE, SWITCH, CHOICE)                                                                           \
+    SWITCH(enabled, 1,                                                                                                \
+           "Depth of field (DoF, bokeh) of cameras with an aperture (view files: aperture_radius or f_number). Cost " \
+           "only with such a camera.")                                                                                \
+    VALUE(uint, samples, 32, 8, 128,                                                                                  \
+          "Samples of the largest disks of depth of field. More: smoother and more exact, cost grows linearly.")      \
+    VALUE(float, maxRadius, 0.05, 0.001, 0.25,                                                                        \
+          "Largest circle of confusion: its radius as a share of the picture's height. Larger blur is cut to it. "    \
+          "Larger: right for wide apertures, coarser disks with the same samples.")
+SETTINGS(DofSettings, DOF_SETTINGS)
+
+// Side of a tile, in half-resolution pixels; tiles tell how far the layers reach.
+const uint dofTile = 8;
+// Levels of the half-resolution layers, with level 0.
+const uint dofLevels = 5;
+const uint dofMostSamples = 128;
+const uint dofFewestSamples = 8;
+
+struct DofCocParams {
+    vec4 depthToDistance;  // of the view
+    vec4 lens;  // radius in pixels of the picture at infinity, 1 / focus distance, 1 if orthographic, largest radius
+    uvec2 size;
+};
+
+struct DofSizes {
+    uvec2 size;    // of the picture
+    uvec2 half2;   // half of it, rounded up
+    vec2 toDepth;  // pixels of the depth buffer per pixel of the picture
+    uint level;    // of mips: to make
+};
+
+struct DofGatherParams {
+    uvec2 half2;
+    uint samples;   // of the largest disks
+    float largest;  // radius that they are for, in pixels of half resolution
+    float disk;     // area of the circle that samples fill over that of the aperture
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "gpu/recorder.h"
+
+namespace reflet {
+
+/// A thin lens. Blades: corners of the aperture, a regular polygon inside the circle of apertureRadius; below 3: round.
+struct Lens {
+    float apertureRadius = 0.0F;  ///< metres; 0: a pinhole, no blur
+    float focusDistance = 1.0F;   ///< metres along the view axis, > 0
+    uint32_t blades = 0;
+    float bladeRotation = 0.0F;  ///< radians, counter-clockwise as the camera sees the disks of what is far
+};
+
+struct DofInputs {
+    gpu::Image radiance;     ///< RGBA16F or RGBA32F, of the picture's size; alpha is kept
+    gpu::Image depth;        ///< reversed, of this size or smaller (temporal upscaling)
+    const ViewParams& view;  ///< of `depth`
+    Lens lens;
+    DofSettings settings;
+};
+
+/// Owns the images of depth of field.
+struct DofStore {
+    gpu::KeptImage coc{"circle_of_confusion"};
+    gpu::KeptImage result{"depth_of_field"};
+};
+
+struct DofImages {
+    gpu::Image radiance;  ///< RGBA16F of the picture's size; the input without an effect
+    gpu::Image coc;  ///< R32F of the depth's size: signed radius in pixels of the picture, negative in front of the plane
+                     ///< of focus; none without an effect
+};
+
+/// Whether the picture is blurred at all.
+bool blurs(const Lens& lens, const DofSettings& settings);
+
+DofImages depthOfField(gpu::Recorder& f, DofStore& own, const DofInputs& in);
+
+}  // namespace reflet
+#endif
+
+#endif

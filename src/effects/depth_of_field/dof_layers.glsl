@@ -1,0 +1,69 @@
+// The two layers of depth of field: what is in front of the plane of focus, and the rest.
+#ifndef REFLET_DOF_LAYERS_GLSL
+#define REFLET_DOF_LAYERS_GLSL
+
+#include "effects/depth_of_field/depth_of_field.h"
+#include "effects/levels.glsl"
+
+// Share of a pixel with this circle of confusion that belongs to the near layer.
+float nearShare(float coc) { return clamp(-coc - 0.5, 0.0, 1.0); }
+
+// Share that is blurred, of what is in the background.
+float farShare(float coc) { return clamp(coc - 0.5, 0.0, 1.0); }
+
+// Sharp content has this weight against blurred content of the same cell.
+const float sharpWeight = 0.001;
+
+// A cell of the background.
+struct Ground {
+    vec3 light;      // radiance
+    float presence;  // share of the cell that the background covers
+    float coc;       // radius [pixels of half resolution], not negative
+    float far;       // share of what is present that is blurred
+};
+
+// A cell of the near layer.
+struct Front {
+    vec4 light;  // radiance · coverage, coverage
+    float coc;   // radius [pixels of half resolution], positive
+};
+
+// Sums up cells.
+struct GroundSum {
+    vec4 light;  // radiance · weight, weight
+    vec3 rest;   // coc · its weight, that weight; far · presence
+    float presence;
+};
+
+struct FrontSum {
+    vec4 light;
+    vec2 coc;  // · weight, weight
+};
+
+// The radius of a mixed cell is that of its bright content, which is seen to be blurred.
+float brightness(vec3 light) { return 1e-3 + max(light.r, max(light.g, light.b)); }
+
+void add(inout GroundSum sum, Ground g) {
+    float weight = g.presence * (sharpWeight + (1.0 - sharpWeight) * g.far);
+    float bright = weight * brightness(g.light);
+    sum.light += weight * vec4(g.light, 1.0);
+    sum.rest += vec3(bright * g.coc, bright, g.presence * g.far);
+    sum.presence += g.presence;
+}
+
+void add(inout FrontSum sum, Front n) {
+    float bright = brightness(n.light.rgb) * n.light.a;
+    sum.light += n.light;
+    sum.coc += bright * vec2(n.coc, 1.0);
+}
+
+// cells: that a mean is taken over, with those that are empty.
+Ground meanOf(GroundSum sum, float cells) {
+    float some = max(sum.presence, 1e-12);
+    return Ground(sum.light.rgb / max(sum.light.a, 1e-12), sum.presence / cells, sum.rest.x / max(sum.rest.y, 1e-12),
+                  sum.rest.z / some);
+}
+
+Front meanOf(FrontSum sum, float cells) { return Front(sum.light / cells, sum.coc.x / max(sum.coc.y, 1e-20)); }
+
+#endif
