@@ -2,6 +2,8 @@
 // here does not compile.
 #include "capture/fingerprint.h"
 
+#include "scene/camera_fields.h"
+
 #include <fmt/format.h>
 
 #include <memory>
@@ -148,10 +150,28 @@ private:
         all(name, mesh, objectToWorld, node, skin, weights, objectToNode);
     }
 
+    // `aims` says what others may do with the target. Pinholes keep the print that they had before there were lenses.
     void add(const Camera& camera) {
-        const auto& [name, position, target, up, fovY, near, orthographicHeight, far, aims, node] = camera;
-        (void)aims;  // says what others may do with the target
-        all(name, position, target, up, fovY, near, orthographicHeight, far, node);
+        add(camera.name);
+        addFields(camera, false);
+        add(camera.node);
+        if (camera.apertureRadius > 0.0F) {
+            addFields(camera, true);
+            add(camera.focus);
+        }
+    }
+
+    void addFields(const Camera& camera, bool lens) {
+        for (const CameraField& field : cameraFields()) {
+            if ((field.part == CameraField::Part::lens) == lens) {
+                std::visit([&](const auto member) { add(camera.*member); }, field.member);
+            }
+        }
+    }
+
+    void add(const FocusTarget& target) {
+        const auto& [kind, distance, point, node, weight] = target;
+        all(kind, distance, point, node, weight);
     }
 
     void add(const Sun& sun) {
@@ -200,11 +220,14 @@ void addTo(Fingerprint& print, const View& view) {
 
 void addTo(Fingerprint& print, const ReferenceOptions& options) {
     const auto& [bounces, samples, noise, filter, diffuse, visibleOnly, lambertOnly, lampShadows, ambientOcclusion,
-                 aoRadius, aoFalloff, seed, threads] = options;
+                 aoRadius, aoFalloff, pinhole, seed, threads] = options;
     (void)threads;
     Adder(print).all(bounces, samples, noise, filter, diffuse, visibleOnly, lambertOnly, lampShadows, seed);
     if (ambientOcclusion) {  // others keep the print that they had before there was ambient occlusion
         Adder(print).all(aoRadius, aoFalloff);
+    }
+    if (pinhole) {
+        Adder(print).all(pinhole);
     }
 }
 

@@ -8,6 +8,7 @@
 #include "scene/background.h"
 #include "scene/builtin.h"
 #include "scene/default_light.h"
+#include "scene/focus.h"
 #include "scene/framing.h"
 #include "scene/gltf/gltf.h"
 #include "scene/view_file.h"
@@ -111,6 +112,7 @@ View loadView(const SceneOptions& options, const Scene& scene) {
     if (!options.viewFile.empty()) {
         stated = parseJsonFile(options.viewFile);
         applyViewJson(stated, options.viewFile, view);
+        checkFocus(view.camera, scene, options.viewFile + ": camera.focus");
     }
     if (options.time) {
         if (!(*options.time >= 0.0 && *options.time <= View::largestTime)) {

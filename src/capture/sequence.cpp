@@ -47,6 +47,7 @@ public:
                                              : orbitPivot(first_.camera, frozen(job.scene, first_.time));
         } else if (!options_.sequence.path.empty()) {
             path_ = loadCameraPath(options_.sequence.path, first_.camera);
+            path_->checkFocus(job.scene, options_.sequence.path);
         }
         const double last = first_.time + (options_.frames - 1) / options_.sequence.fps;
         if (last > View::largestTime) {

@@ -6,6 +6,7 @@
 #include "base/json.h"
 #include "base/json_text.h"
 #include "capture/fingerprint.h"
+#include "scene/camera_json.h"
 #include "scene/gltf/uri.h"
 
 #include <algorithm>
@@ -43,16 +44,6 @@ std::vector<std::string> namedFiles(const std::string& content) {
 
 ordered_json numbers(const vec3& v) {
     return {v.x, v.y, v.z};
-}
-
-ordered_json recordOf(const Camera& c) {
-    return {{"position", numbers(c.position)},
-            {"target", numbers(c.target)},
-            {"up", numbers(c.up)},
-            {"fov_y", c.fovY},
-            {"near", c.near},
-            {"orthographic_height", c.orthographicHeight},
-            {"far", c.far}};
 }
 
 ordered_json recordOf(const Environment& e) {
@@ -125,7 +116,7 @@ std::string sceneFingerprint(const std::string& scene) {
 }
 
 ordered_json recordOf(const View& view) {
-    ordered_json json{{"camera", recordOf(view.camera)},
+    ordered_json json{{"camera", cameraRecord(view.camera)},
                       {"sun",
                        {{"direction", numbers(view.sun.direction)},
                         {"irradiance", numbers(view.sun.irradiance)},

@@ -35,6 +35,7 @@ struct ReferenceCommand {
     std::string filter = "box";
     std::string sampling = "cosine";
     bool visibleOnly = false;
+    bool pinhole = false;
     std::vector<std::string> layers;
     std::optional<float> aoRadius;
     std::optional<float> aoFalloff;
@@ -102,6 +103,7 @@ ReferenceOptions referenceOptions(const ReferenceCommand& command, const Setting
     options.filter = command.filter == "box" ? PixelFilter::box : PixelFilter::center;
     options.diffuse = command.sampling == "cosine" ? DiffuseSampling::cosine : DiffuseSampling::uniform;
     options.visibleOnly = command.visibleOnly;
+    options.pinhole = command.pinhole;
     options.lambertOnly = settings.materials.lambertOnly != 0;
     options.ambientOcclusion = asksFor(command, "ambient_occlusion");
     options.aoRadius = command.aoRadius.value_or(options.aoRadius);
@@ -203,7 +205,8 @@ constexpr const char* referenceFooter =
     "surface straight from the sun and lamps, plus emission and background. Light from emissive surfaces and from the\n"
     "environment is indirect and arrives through scattered rays, as in the renderer. Rays do not see the sun and "
     "lamps.\n"
-    "Depth and normal are those of the pixel's centre.\n"
+    "Depth and normal are those of the pixel's centre, through a pinhole.\n"
+    "A camera with an aperture is a thin lens; --visible-only tests what its centre sees.\n"
     "ambient_occlusion is the cosine-weighted share of directions without a surface within --ao-radius, as `--show\n"
     "ambient_occlusion` of the renderer estimates it; with --visible-only, surfaces that the camera does not see do "
     "not\n"
@@ -249,6 +252,8 @@ void addReferenceCommand(CLI::App& app) {
     command->add_flag("--visible-only", options->visibleOnly,
                       "Scattered rays return light only from points that the camera sees and from the environment: "
                       "the best that any screen-space method can reach");
+    command->add_flag("--pinhole", options->pinhole,
+                      "Ignore the camera's lens (aperture_radius or f_number of a view file): everything is sharp");
     command
         ->add_option(
             "--layers", options->layers,

@@ -18,6 +18,7 @@ constexpr uint32_t rouletteStart = 4;  // bounces before Russian roulette
 enum Purpose : uint32_t { forSun, forLampAndLobe, forEmitter, forEmitterChoice, forScattering, forLampDisk, purposes };
 
 constexpr uint32_t pairForAmbient = 0xA0000000;  // beyond those of any path
+constexpr uint32_t pairForLens = 0xA0000001;
 
 uint32_t pairFor(uint32_t vertex, Purpose purpose) {
     return 1 + vertex * purposes + purpose;
@@ -66,18 +67,22 @@ PathTracer::PathTracer(const RayScene& rays, const View& view, uvec2 size, const
     behind_ = environmentBehind(view, blurred);
 }
 
-std::optional<SurfacePoint> PathTracer::firstSurface(const vec2& place, uint32_t random) const {
-    Ray ray = camera_.through(place);
-    ray.random = random;
+std::optional<SurfacePoint> PathTracer::firstSurface(const vec2& place) const {
+    return firstSurface(camera_.through(place));
+}
+
+std::optional<SurfacePoint> PathTracer::firstSurface(const Ray& ray) const {
     const auto hit = rays_.intersect(ray, RayKind::camera);
     return hit ? std::optional(surfaceAt(rays_, *hit, ray.direction)) : std::nullopt;
 }
 
 PathSample PathTracer::trace(const vec2& place, const PixelSampler& random) const {
     Walk walk{{}, 0, {}, random, {}};
-    const auto first = firstSurface(place, random.bits(walk.out.rays++));
+    const bool lens = camera_.hasLens() && !options_.pinhole;
+    const Ray ray = walk.counted(lens ? camera_.throughLens(place, random.pair(pairForLens)) : camera_.through(place));
+    const auto first = firstSurface(ray);
     if (!first) {
-        walk.out.direct = radianceFrom(behind_, camera_.through(place).direction);
+        walk.out.direct = radianceFrom(behind_, ray.direction);
         walk.out.background = true;
         return walk.out;
     }

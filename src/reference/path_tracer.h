@@ -29,13 +29,14 @@ public:
     /// place: position in the image, in pixels.
     [[nodiscard]] PathSample trace(const vec2& place, const PixelSampler& random) const;
 
-    /// The surface that the camera sees there; nullopt: the background. random: as Ray::random.
-    [[nodiscard]] std::optional<SurfacePoint> firstSurface(const vec2& place, uint32_t random = 0) const;
+    /// The surface that the camera sees there through a pinhole; nullopt: the background.
+    [[nodiscard]] std::optional<SurfacePoint> firstSurface(const vec2& place) const;
     [[nodiscard]] float depth(const SurfacePoint& point) const { return camera_.depth(point.position); }
 
 private:
     struct Walk;
 
+    [[nodiscard]] std::optional<SurfacePoint> firstSurface(const Ray& ray) const;
     void addLamps(Walk& walk, const Bsdf& bsdf) const;
     void addEmitters(Walk& walk, const Bsdf& bsdf) const;
     /// False if the path ends here.

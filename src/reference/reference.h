@@ -40,6 +40,7 @@ struct ReferenceOptions {
     bool ambientOcclusion = false;  ///< traces a ray per sample for ReferencePicture::ambientOcclusion
     float aoRadius = 1.0F;          ///< metres; occluders farther away do not count
     float aoFalloff = 0.0F;         ///< share of the radius, at its end, over which occluders fade out, 0 to 1
+    bool pinhole = false;           ///< ignores the camera's lens
     uint32_t seed = 0;
     unsigned threads = 0;  ///< 0: one per core; does not affect the result
 };

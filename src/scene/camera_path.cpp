@@ -3,9 +3,13 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "scene/camera_fields.h"
+#include "scene/camera_json.h"
+#include "scene/focus.h"
 #include "scene/json_values.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -66,27 +70,39 @@ Easing readEasing(const JsonNode& node) {
 }
 
 CameraPath::Keyframe readKeyframe(const JsonNode& node, const Camera& camera) {
-    static const std::array<std::string, 6> keys{"time", "position", "target", "up", "fov_y", "easing"};
+    std::vector<std::string> keys = cameraKeys(true);
+    keys.insert(keys.end(), {"time", "easing"});
     node.requireKeys(keys);
     CameraPath::Keyframe keyframe{0.0, camera, Easing::linear};
     keyframe.camera.node = -1;  // the path moves it
     keyframe.time = required(node, "time").number(0.0, View::largestTime, "seconds");
-    keyframe.camera.position = readPosition(required(node, "position"));
-    keyframe.camera.target = readPosition(required(node, "target"));
+    (void)required(node, "position");
+    (void)required(node, "target");
+    readCameraFields(node, keyframe.camera);
     if (keyframe.camera.position == keyframe.camera.target) {
         node.complain("position and target must not be the same point");
-    }
-    if (const auto up = node.find("up")) {
-        keyframe.camera.up = readDirection(*up);
-    }
-    if (const auto fovY = node.find("fov_y")) {
-        keyframe.camera.fovY = readFovY(*fovY);
-        keyframe.camera.orthographicHeight = 0.0F;
     }
     if (const auto easing = node.find("easing")) {
         keyframe.easing = readEasing(*easing);
     }
     return keyframe;
+}
+
+bool hasFixedFocus(const Camera& camera) {
+    return camera.focus.empty() && camera.focusDistance > 0.0F;
+}
+
+std::vector<FocusTarget> focusOf(const Camera& camera) {
+    if (hasFixedFocus(camera)) {
+        return {{.kind = FocusTarget::Kind::distance, .distance = camera.focusDistance, .node = {}}};
+    }
+    return camera.focus.empty() ? std::vector<FocusTarget>(1) : camera.focus;
+}
+
+void weigh(std::vector<FocusTarget>& focus, double weight) {
+    for (FocusTarget& target : focus) {
+        target.weight *= static_cast<float>(weight);
+    }
 }
 
 /// Distance along the ray to the first triangle, in lengths of `direction` (T. Möller and B. Trumbore, "Fast, Minimum
@@ -121,14 +137,15 @@ std::optional<double> firstHit(const Scene& scene, const vec3& origin, const vec
 CameraPath::CameraPath(std::vector<Keyframe> keyframes, bool loop) : keyframes_(std::move(keyframes)), loop_(loop) {
     REFLET_CHECK(!keyframes_.empty() && (!loop_ || keyframes_.size() > 1), "{} keyframes", keyframes_.size());
     std::ranges::transform(keyframes_, std::back_inserter(values_),
-                           [](const Keyframe& keyframe) { return valuesOf(keyframe.camera); });
+                           [](const Keyframe& keyframe) { return followedValues(keyframe.camera); });
     makeTangents();
 }
 
 void CameraPath::makeTangents() {
     const size_t last = keyframes_.size() - 1;
     const auto width = [&](size_t i) { return keyframes_[i + 1].time - keyframes_[i].time; };
-    tangents_.resize(keyframes_.size(), Values{});
+    const size_t valueCount = values_.front().size();
+    tangents_.resize(keyframes_.size(), Values(valueCount));
     for (size_t k = 0; k < valueCount && last > 0; ++k) {
         const auto slope = [&](size_t i) { return (values_[i + 1][k] - values_[i][k]) / width(i); };
         for (size_t i = 1; i < last; ++i) {
@@ -144,18 +161,29 @@ void CameraPath::makeTangents() {
     }
 }
 
-CameraPath::Values CameraPath::valuesOf(const Camera& c) {
-    return {c.position.x, c.position.y, c.position.z, c.target.x, c.target.y,
-            c.target.z,   c.up.x,       c.up.y,       c.up.z,     c.fovY};
+Camera CameraPath::cameraOf(const Values& values, size_t from, size_t to, double x) const {
+    Camera camera = withFollowedValues(keyframes_.front().camera, values);
+    const Camera& before = keyframes_[from].camera;
+    const Camera& after = keyframes_[to].camera;
+    std::vector<FocusTarget> first = focusOf(before);
+    std::vector<FocusTarget> second = focusOf(after);
+    if (hasFixedFocus(before) && hasFixedFocus(after)) {
+        camera.focus.clear();  // the focus distance is one of the values
+    } else if (first == second) {
+        camera.focus = before.focus;
+    } else {
+        weigh(first, 1.0 - x);
+        weigh(second, x);
+        camera.focus = std::move(first);
+        camera.focus.insert(camera.focus.end(), second.begin(), second.end());
+    }
+    return camera;
 }
 
-Camera CameraPath::cameraOf(const Values& v) const {
-    Camera camera = keyframes_.front().camera;
-    camera.position = glm::dvec3(v[0], v[1], v[2]);
-    camera.target = glm::dvec3(v[3], v[4], v[5]);
-    camera.up = glm::dvec3(v[6], v[7], v[8]);
-    camera.fovY = static_cast<float>(v[9]);
-    return camera;
+void CameraPath::checkFocus(const Scene& scene, const std::string& file) const {
+    for (size_t i = 0; i < keyframes_.size(); ++i) {
+        reflet::checkFocus(keyframes_[i].camera, scene, fmt::format("{}: keyframes[{}].focus", file, i));
+    }
 }
 
 Camera CameraPath::at(double time) const {
@@ -166,25 +194,25 @@ Camera CameraPath::at(double time) const {
         time += first + (time < 0.0 ? length : 0.0);
     }
     if (time <= first) {
-        return cameraOf(values_.front());
+        return cameraOf(values_.front(), 0, 0, 0.0);
     }
     const auto next = std::ranges::upper_bound(keyframes_, time, {}, &Keyframe::time);
     if (next == keyframes_.end()) {
-        return cameraOf(values_.back());
+        return cameraOf(values_.back(), keyframes_.size() - 1, keyframes_.size() - 1, 0.0);
     }
     const auto to = static_cast<size_t>(next - keyframes_.begin());
     const size_t from = to - 1;
     const double width = keyframes_[to].time - keyframes_[from].time;
     const double x = eased((time - keyframes_[from].time) / width, keyframes_[from].easing);
-    Values now{};
-    for (size_t k = 0; k < valueCount; ++k) {  // cubic Hermite, as a change from the first value
+    Values now(values_[from].size());
+    for (size_t k = 0; k < now.size(); ++k) {  // cubic Hermite, as a change from the first value
         const double change = values_[to][k] - values_[from][k];
         const double start = tangents_[from][k] * width;
         const double end = tangents_[to][k] * width;
         now.at(k) =
             values_[from][k] + x * (start + x * (3.0 * change - 2.0 * start - end + x * (start + end - 2.0 * change)));
     }
-    return cameraOf(now);
+    return cameraOf(now, from, to, x);
 }
 
 CameraPath loadCameraPath(const std::filesystem::path& path, const Camera& camera) {

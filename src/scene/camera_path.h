@@ -3,9 +3,9 @@
 
 #include "scene/scene.h"
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace reflet {
@@ -14,7 +14,7 @@ namespace reflet {
 /// jumps; easeIn: zero speed at the start; easeOut: zero speed at the end.
 enum class Easing : uint8_t { linear, smooth, step, easeIn, easeOut };
 
-/// Camera keyframes. Position, target, up and field of view follow monotone cubics over time (F. N. Fritsch and
+/// Camera keyframes. Position, target, up, field of view and lens follow monotone cubics over time (F. N. Fritsch and
 /// J. Butland, "A Method for Constructing Local Monotone Piecewise Cubic Interpolants", 1984): smooth through keyframes
 /// with linear easing, without overshoot, and constant between two equal keyframes.
 class CameraPath {
@@ -29,15 +29,18 @@ public:
     CameraPath(std::vector<Keyframe> keyframes, bool loop);
 
     /// Clamped to the first and the last keyframe, or repeated if it loops. What is not interpolated (near, the
-    /// orthographic height) is taken from the first keyframe.
+    /// orthographic height, the number of blades) is taken from the first keyframe. Between keyframes that focus on
+    /// different things the camera has both as targets, by their shares.
     [[nodiscard]] Camera at(double time) const;
 
-private:
-    static constexpr size_t valueCount = 10;
-    using Values = std::array<double, valueCount>;  ///< position, target, up, fovY
+    /// Throws Error if a keyframe focuses on a node that the scene does not have. file: for the message.
+    void checkFocus(const Scene& scene, const std::string& file) const;
 
-    static Values valuesOf(const Camera& camera);
-    [[nodiscard]] Camera cameraOf(const Values& values) const;
+private:
+    using Values = std::vector<double>;  ///< those of camera_fields.h that are followed
+
+    /// x: share of the way from one keyframe to the next.
+    [[nodiscard]] Camera cameraOf(const Values& values, size_t from, size_t to, double x) const;
     void makeTangents();
 
     std::vector<Keyframe> keyframes_;
@@ -48,9 +51,8 @@ private:
 
 /// { "keyframes": [{ "time": 0, "position": [6,1,0], "target": [0,0,0], "up": [0,1,0], "fov_y": 75,
 ///                   "easing": "smooth" }], "loop": false }
-/// Time, position and target are required; up and fov_y default to those of `camera`. Angles are in degrees; times are
-/// on
-/// the scale of View::time. Throws Error as applyViewFile does.
+/// Time, position and target are required; up, fov_y and the lens default to those of `camera`. Angles are in degrees;
+/// times are on the scale of View::time. Throws Error as applyViewFile does.
 CameraPath loadCameraPath(const std::filesystem::path& path, const Camera& camera);
 
 /// Centre of an orbit: the camera's target or, if the target only gives a direction, the first surface along it, else

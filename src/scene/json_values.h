@@ -33,11 +33,6 @@ inline vec3 readDirection(const JsonNode& node) {
     return direction / length;
 }
 
-/// Degrees in the file, radians here.
-inline float readFovY(const JsonNode& node) {
-    return static_cast<float>(node.number(1.0, 179.0, "degrees") * radiansPerDegree);
-}
-
 /// The value of a required key.
 inline JsonNode required(const JsonNode& node, const std::string& key) {
     const auto value = node.find(key);

@@ -1,6 +1,7 @@
 // Evaluates a scene at a time: keyframes, then nodes, then instances, skins, morph targets, cameras and lights.
 #include "scene/pose.h"
 
+#include "scene/focus.h"
 #include "scene/gltf/normals.h"
 #include "scene/morph.h"
 #include "scene/sample_channel.h"
@@ -50,6 +51,13 @@ const mat4& placeOf(int32_t node, const ScenePose& pose) {
 
 mat4 placeOf(const Instance& instance, const ScenePose& pose) {
     return finiteOr(glm::dmat4(placeOf(instance.node, pose)) * glm::dmat4(instance.objectToNode), mat4(1.0F));
+}
+
+// Automatic focus stays automatic when the view is posed again, at another time.
+void keepAutomatic(Camera& camera) {
+    if (camera.focus.empty()) {
+        camera.focus.push_back({});
+    }
 }
 
 /// The mesh deformed by its skin, in world space.
@@ -233,10 +241,15 @@ Sun posed(Sun sun, const ScenePose& pose) {
 
 View posed(View view, const Scene& scene) {
     view.time = loopedTime(scene, view.time);
-    if (view.camera.node >= 0 || view.sun.node >= 0) {
+    const bool focuses = hasFocusToFind(view.camera);
+    if (view.camera.node >= 0 || view.sun.node >= 0 || focuses) {
         const ScenePose pose = scenePose(scene, view.time);
         view.camera = posed(view.camera, pose);
         view.sun = posed(view.sun, pose);
+        if (focuses) {
+            keepAutomatic(view.camera);
+            view.camera.focusDistance = foundFocus(view.camera, scene, pose);
+        }
     }
     return view;
 }

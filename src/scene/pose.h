@@ -59,7 +59,8 @@ Camera posed(Camera camera, const ScenePose& pose);
 Lamp posed(Lamp lamp, const ScenePose& pose);
 Sun posed(Sun sun, const ScenePose& pose);
 
-/// Camera and sun at the view's time, which is replaced by loopedTime.
+/// Camera and sun at the view's time, which is replaced by loopedTime. Finds the distance of what a lens focuses on
+/// (scene/focus.h), so focusDistance > 0 unless the camera is a pinhole.
 View posed(View view, const Scene& scene);
 
 /// The scene baked at that time, without animation: deformed instances get meshes of their own.

@@ -6,6 +6,7 @@
 #include "base/image_file.h"
 #include "base/math.h"
 #include "scene/animation.h"
+#include "scene/camera.h"
 
 #include <array>
 #include <cstdint>
@@ -110,22 +111,6 @@ struct Instance {
     /// Empty: the mesh keeps its shape.
     std::vector<float> weights;
     mat4 objectToNode{1.0F};  ///< an animated node places the mesh by its transform times this
-};
-
-/// Perspective where orthographicHeight is 0, with reversed depth and an infinite far plane.
-struct Camera {
-    std::string name;
-    vec3 position{0, 0, 5};
-    vec3 target{0.0F};  ///< any point on the view axis ahead of the position
-    vec3 up{0, 1, 0};   ///< not parallel to the view
-    float fovY = glm::radians(60.0F);
-    float near = 0.05F;               ///< metres, > 0
-    float orthographicHeight = 0.0F;  ///< metres from the lower to the upper edge; > 0: orthographic
-    float far = 1000.0F;              ///< metres; orthographic only
-    bool aims = true;                 ///< the target is a point of interest; false: only its direction counts
-    int32_t node = -1;                ///< index into Scene::nodes that it moves with; < 0: none
-
-    bool operator==(const Camera&) const = default;
 };
 
 /// Directional light. `irradiance` is what a surface that faces it receives [W/m²].

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/json.h"
 #include "scene/background.h"
+#include "scene/camera_json.h"
 #include "scene/default_light.h"
 #include "scene/environment.h"
 #include "scene/json_values.h"
@@ -37,36 +38,15 @@ void checkOrientation(const JsonNode& node, Camera& camera) {
 }
 
 Camera readCamera(const JsonNode& node, Camera camera) {
-    static const std::array<std::string, 6> keys{"position", "target", "up", "fov_y", "near", "orthographic_height"};
-    node.requireKeys(keys);
+    node.requireKeys(cameraKeys(false));
     if (node.find("position") || node.find("target") || node.find("up")) {
         camera.node = -1;  // the file places it
     }
-    if (const auto position = node.find("position")) {
-        camera.position = readPosition(*position);
-    }
-    if (const auto target = node.find("target")) {
-        camera.target = readPosition(*target);
-        camera.aims = true;
-    }
-    if (const auto up = node.find("up")) {
-        camera.up = readDirection(*up);
-    }
-    if (const auto fovY = node.find("fov_y")) {
-        camera.fovY = readFovY(*fovY);
-        camera.orthographicHeight = 0.0F;  // a field of view implies perspective
-    }
-    if (const auto height = node.find("orthographic_height")) {
-        if (node.find("fov_y")) {
-            height->complain("cannot be given together with fov_y: a camera is orthographic or perspective");
-        }
-        camera.orthographicHeight = static_cast<float>(height->number(1e-6, largestInView, "metres"));
-    }
-    if (const auto near = node.find("near")) {
-        camera.near = static_cast<float>(near->number(1e-6, 1000.0, "metres"));
-        if (camera.orthographicHeight > 0.0F && camera.near >= camera.far) {
-            near->complainMustBe(fmt::format("less than {:g} metres, the camera's far plane", camera.far));
-        }
+    camera.aims = camera.aims || node.find("target");
+    readCameraFields(node, camera);
+    const auto near = node.find("near");
+    if (near && camera.orthographicHeight > 0.0F && camera.near >= camera.far) {
+        near->complainMustBe(fmt::format("less than {:g} metres, the camera's far plane", camera.far));
     }
     checkOrientation(node, camera);
     return camera;
@@ -237,18 +217,7 @@ nlohmann::ordered_json viewJson(const View& view) {
     // As doubles, which convert back to the same floats.
     const auto list = [](const vec3& v) { return ordered_json{double(v.x), double(v.y), double(v.z)}; };
     const auto degrees = [](float radians) { return double(radians) / radiansPerDegree; };
-    const Camera& camera = view.camera;
-    ordered_json json;
-    if (camera.node < 0) {
-        json["camera"] = {
-            {"position", list(camera.position)}, {"target", list(camera.target)}, {"up", list(camera.up)}};
-    }
-    if (camera.orthographicHeight > 0.0F) {
-        json["camera"]["orthographic_height"] = double(camera.orthographicHeight);
-    } else {
-        json["camera"]["fov_y"] = degrees(camera.fovY);
-    }
-    json["camera"]["near"] = double(camera.near);
+    ordered_json json{{"camera", cameraJson(view.camera)}};
     if (view.sun.node < 0) {
         json["sun"]["direction"] = list(view.sun.direction);
     }

@@ -13,6 +13,8 @@ namespace reflet {
 /// Applies the file to `view`; what the file does not mention is unchanged.
 ///   { "camera": { "position": [6,1,0], "target": [0,0,0], "up": [0,1,0], "fov_y": 75, "near": 0.05 },
 ///        instead of "fov_y": "orthographic_height": 4, metres from the lower to the upper edge
+///        and a lens: "aperture_radius": 0.02 or "f_number": 2.8, "sensor_height": 24, "focus_distance": 3 or "focus":
+///        a node's name or a point, "blades": 6, "blade_rotation": 10
 ///     "sun": { "direction": [0.4,-0.9,-0.2], "irradiance": [3.14,3.14,3.14], "angular_diameter": 0.53 },
 ///     "lamps": { "radius": 0.05, "off": [0, 2] },
 ///     "environment": { "radiance": [0,0,0] },       or { "image": "sky.hdr", "intensity": 1, "rotation": 0 }
