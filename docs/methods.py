@@ -186,8 +186,8 @@ class Render(Frame):
 class Truth(Frame):
     """A path-traced reference frame."""
 
-    def __init__(self, scene, kind="--bounces 1", settings="", view=None, size="320x180"):
-        self.arguments = options(scene, settings, view, size, None) + kind.split() + ["--spp", str(SPP)]
+    def __init__(self, scene, kind="--bounces 1", settings="", view=None, size="320x180", spp=SPP):
+        self.arguments = options(scene, settings, view, size, None) + kind.split() + ["--spp", str(spp)]
         self.png, self.exr = cached("reference", self.arguments, [".png", ".exr"])
 
 

@@ -4,14 +4,14 @@ import json
 from methods import Frame, Truth, cached, options
 
 SCENES = ("cubes", "tilted-cube", "cornell", "cave", "gloss", "colonnade", "mirror-hall", "lamps", "moving")
-ROUNDS = 3
+ROUNDS = 2
 
 
 class Rest(Frame):
-    """The last of some frames at rest with the preset balanced at full resolution, and its passes' times [ms]."""
+    """The last of some frames at rest, with the denoiser of the preset balanced, and its passes' times [ms]."""
 
     def __init__(self, scene, settings, frames=32, size="320x180", aov="", show=None, view=None):
-        self.arguments = options(scene, "temporal.scale=1 " + settings, view, size, "balanced") + ["--frames", str(frames)]
+        self.arguments = options(scene, "temporal.enabled=false " + settings, view, size, "balanced") + ["--frames", str(frames)]
         self.arguments += ["--show", show] if show else []
         more = ["--aov", aov] if aov else []
         self.png, self.exr, timings = cached("render", self.arguments + more, [".png", ".exr", ".json"])
@@ -19,7 +19,8 @@ class Rest(Frame):
 
 
 AO = "diffuse.rays=0 specular.rays=0 ao.slices=3 "
-RODS = (80, 60, 107, 60)
+BARS = ((240, 60, 80, 60), 4)
+BOARDS = ((50, 10, 160, 90), 2)
 
 
 def ao(scene, settings):
@@ -28,7 +29,7 @@ def ao(scene, settings):
 
 def ao_truth(scene, visible):
     kind = "--layers ambient_occlusion --ao-radius 1 --filter center" + (" --visible-only" if visible else "")
-    return Truth(scene, kind)
+    return Truth(scene, kind, spp=1024)
 
 
 def mse(frame, truth, layer="ambient_occlusion"):
@@ -51,18 +52,20 @@ def ambient_occlusion(page):
     page.table("scenes", ["scene", "horizon, to visible-only", "bitmask", "horizon, to the reference", "bitmask",
                           "horizon, bias", "bitmask, bias"], rows)
 
-    truth, visible = ao_truth("colonnade", False), ao_truth("colonnade", True)
     rows = []
-    for name, setting in (("horizon", "ao.method=horizon"), (None, "ao.method=bitmask ao.thickness=0.05"),
-                          ("bitmask", "ao.method=bitmask"), (None, "ao.method=bitmask ao.thickness=1"),
-                          (None, "ao.method=bitmask ao.thickness_mode=growing"),
-                          ("second", "ao.method=bitmask ao.thickness_mode=second_layer")):
-        frame = ao("colonnade", setting)
-        if name:
-            page.picture("rods-" + name, frame, RODS)
-        rows.append(["`%s`" % setting, mse(frame, visible), mse(frame, truth), bias(frame, truth)])
-    page.picture("rods-truth", truth, RODS)
-    page.table("thickness", ["setting", "relative MSE to visible-only", "to the reference", "bias"], rows)
+    for scene, window in (("colonnade", BARS), ("gloss", BOARDS)):
+        truth, visible = ao_truth(scene, False), ao_truth(scene, True)
+        for name, setting in (("horizon", "ao.method=horizon"), (None, "ao.method=bitmask ao.thickness=0.05"),
+                              ("bitmask", "ao.method=bitmask"), (None, "ao.method=bitmask ao.thickness=1"),
+                              ("growing", "ao.method=bitmask ao.thickness_mode=growing"),
+                              (None, "ao.method=bitmask ao.thickness_mode=second_layer")):
+            frame = ao(scene, setting)
+            if name == "horizon" or name == ("growing" if scene == "colonnade" else "bitmask"):
+                page.picture("%s-%s" % (scene, name), frame, *window)
+            rows.append([scene, "`%s`" % setting.replace("ao.", ""), mse(frame, visible), mse(frame, truth), bias(frame, truth)])
+        page.picture("%s-detail-visible" % scene, visible, *window)
+        page.picture("%s-detail-truth" % scene, truth, *window)
+    page.table("thickness", ["scene", "setting", "relative MSE to visible-only", "to the reference", "bias"], rows)
 
     rows = []
     for slices in (1, 2, 3):
@@ -82,14 +85,20 @@ def milliseconds(scene, settings, prefix, only=None):
     best = []
     for turn in range(ROUNDS):
         passes = Rest(scene, settings, frames=6 + turn, size="1280x720").passes
-        best.append(sum(ms for name, ms in passes.items() if name.startswith(prefix) and (not only or name.split(".")[1] in only)))
+        best.append(sum(ms for name, ms in passes.items()
+                        if name.startswith(prefix) and (not only or name.split(".")[1] in only)))
     return min(best)
 
 
 GI = ("specular.rays=0 trace_screen.light=direct probes.enabled=false planar.enabled=false "
       "environment.occluded_weight=0 ")
+WINDOW = ((40, 22, 240, 135), 1)
 # What differs between the methods; denoising and upsampling are the same.
 TRACE = ("generate_rays", "trace_screen", "trace_at_once", "pack_slices", "start_slices", "slices_at_once", "trace_slices")
+
+
+def gi_truth(scene):
+    return Truth(scene, "--bounces 1 --visible-only --filter center", spp=1024)
 
 
 def gi(scene, settings):
@@ -100,12 +109,12 @@ def slices(page):
     names = {"rays": "diffuse.method=rays diffuse.rays=2", "slices": "diffuse.method=slices diffuse.rays=2"}
     for scene in ("cornell", "cave"):
         for name, setting in names.items():
-            page.picture("%s-%s" % (scene, name), gi(scene, setting))
-        page.picture("%s-truth" % scene, Truth(scene, "--bounces 1 --visible-only"))
+            page.picture("%s-%s" % (scene, name), gi(scene, setting), *WINDOW)
+        page.picture("%s-truth" % scene, gi_truth(scene), *WINDOW)
 
     rows = []
     for scene in ("cornell", "cave", "cubes", "gloss"):
-        visible = Truth(scene, "--bounces 1 --visible-only")
+        visible = gi_truth(scene)
         for method, counts in (("rays", (1, 2, 4)), ("slices", (1, 2, 3))):
             for count in counts:
                 setting = "diffuse.method=%s diffuse.rays=%d " % (method, count)
@@ -118,7 +127,7 @@ def slices(page):
 
     rows = []
     for scene in ("cornell", "cave"):
-        visible = Truth(scene, "--bounces 1 --visible-only")
+        visible = gi_truth(scene)
         for thickness in ("0.05", "0.3", "1", "1000"):
             setting = "diffuse.method=%s diffuse.rays=2 diffuse.downsample=1 trace_screen.thickness=%s"
             row = [scene, "`thickness=%s`" % thickness]
@@ -133,7 +142,7 @@ def slices(page):
         row = ["`diffuse.slice_steps=%d`" % steps]
         for scene in ("cornell", "cave", "cubes", "gloss"):
             frame = gi(scene, "diffuse.method=slices diffuse.rays=2 diffuse.downsample=1 diffuse.slice_steps=%d" % steps)
-            row.append(mse(frame, Truth(scene, "--bounces 1 --visible-only"), "indirect_diffuse"))
+            row.append(mse(frame, gi_truth(scene), "indirect_diffuse"))
         setting = "diffuse.method=slices diffuse.rays=2 diffuse.downsample=2 diffuse.slice_steps=%d" % steps
         rows.append(row + ["%.0f" % milliseconds("cave", GI + setting, "diffuse.", TRACE)])
     page.table("steps", ["setting", "cornell", "cave", "cubes", "gloss", "ms, cave"], rows)
