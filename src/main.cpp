@@ -10,8 +10,8 @@ int main(int argc, char** argv) {
 #ifdef REFLET_WINDOW
                                                reflet::addViewCommand,
 #endif
-                                               reflet::addReferenceCommand, reflet::addCompareCommand,
-                                               reflet::addBenchCommand,     reflet::addReportCommand,
-                                               reflet::addListCommand};
+                                               reflet::addReferenceCommand, reflet::addDefocusCommand,
+                                               reflet::addCompareCommand,   reflet::addBenchCommand,
+                                               reflet::addReportCommand,    reflet::addListCommand};
     return reflet::runProgram(argc, argv, commands);
 }

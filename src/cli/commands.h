@@ -10,6 +10,7 @@ namespace reflet {
 void addRenderCommand(CLI::App& app);
 void addReferenceCommand(CLI::App& app);
 void addCompareCommand(CLI::App& app);
+void addDefocusCommand(CLI::App& app);
 void addReportCommand(CLI::App& app);
 void addBenchCommand(CLI::App& app);
 void addListCommand(CLI::App& app);

@@ -1,7 +1,6 @@
 // `reflet reference`: path traces a reference image on the CPU.
 #include "reference/reference.h"
 #include "base/error.h"
-#include "base/file.h"
 #include "base/interrupt.h"
 #include "base/text.h"
 #include "capture/pictures.h"
@@ -18,7 +17,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <new>
 
@@ -44,18 +42,6 @@ struct ReferenceCommand {
 
 constexpr uint32_t standardSamples = 64;
 constexpr uint32_t largestSide = 65536;  // pixels; EXR files that are larger cannot be read
-
-void checkOutputs(const std::vector<std::string>& outputs) {
-    if (outputs.empty()) {
-        failUsage("nothing to write: add -o FILE.exr or -o FILE.png (see reflet reference --help)");
-    }
-    for (const std::string& file : outputs) {
-        if (!isExr(file) && std::filesystem::path(file).extension() != ".png") {
-            failUsage("-o {}: the name must end in .exr or .png", file);
-        }
-        const AtomicFile trial(file);  // fails now, not after minutes of work
-    }
-}
 
 void checkNumbers(const ReferenceCommand& command, uvec2 size) {
     if (size.x > largestSide || size.y > largestSide) {
@@ -173,7 +159,7 @@ void trace(const ReferenceCommand& command) {
     checkLayers(command);
     const Settings settings = loadSettings(command.scene);
     const ReferenceOptions options = referenceOptions(command, settings);
-    checkOutputs(command.outputs);
+    checkOutputs(command.outputs, "reference");
     const Scene scene = loadScene(command.scene);
     const View view = loadView(command.scene, scene);
 

@@ -1,7 +1,13 @@
 // The command line's options for scene, view, size and settings.
 #include "cli/scene_arguments.h"
 
+#include "base/error.h"
+#include "base/file.h"
+#include "capture/pictures.h"
+
 #include <CLI/CLI.hpp>
+
+#include <filesystem>
 
 namespace reflet {
 
@@ -47,6 +53,18 @@ void addViewOptions(CLI::App& command, SceneOptions& options) {
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
     command.add_option("--seed", options.seed, "Seed of the random numbers")->capture_default_str();
+}
+
+void checkOutputs(const std::vector<std::string>& outputs, std::string_view command) {
+    if (outputs.empty()) {
+        failUsage("nothing to write: add -o FILE.exr or -o FILE.png (see reflet {} --help)", command);
+    }
+    for (const std::string& file : outputs) {
+        if (!isExr(file) && std::filesystem::path(file).extension() != ".png") {
+            failUsage("-o {}: the name must end in .exr or .png", file);
+        }
+        const AtomicFile trial(file);  // fails now, not after minutes of work
+    }
 }
 
 }  // namespace reflet

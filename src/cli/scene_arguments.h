@@ -3,6 +3,10 @@
 
 #include "capture/scene_options.h"
 
+#include <string>
+#include <string_view>
+#include <vector>
+
 namespace CLI {
 class App;
 }  // namespace CLI
@@ -13,5 +17,9 @@ namespace reflet {
 void addSceneOptions(CLI::App& command, SceneOptions& options);
 /// Adds the options other than SCENE, --preset and --variant, for a subcommand that takes several of these.
 void addViewOptions(CLI::App& command, SceneOptions& options);
+
+/// Throws UsageError unless there are names, all end in .exr or .png, and the files can be written. command: for its
+/// help.
+void checkOutputs(const std::vector<std::string>& outputs, std::string_view command);
 
 }  // namespace reflet

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
+#include <vector>
 
 namespace reflet {
 
@@ -25,43 +27,26 @@ Layers makeLayers(gpu::Scratch& scratch, uvec2 size) {
             scratch.storage(layerFormats[2], size), scratch.storage(layerFormats[3], size)};
 }
 
-// Distance from the centre to the edge of a regular polygon inside the unit circle, with a corner at the angle 0.
-float edgeOf(uint32_t corners, float angle) {
-    if (corners < 3) {
-        return 1.0F;
+// Steps of a square grid, the shortest first; the last one is longer than any disk.
+std::array<vec4, dofMostSamples> gridSteps() {
+    std::vector<vec4> steps;
+    constexpr int side = 8;
+    for (int y = -side; y <= side; ++y) {
+        for (int x = -side; x <= side; ++x) {
+            steps.emplace_back(x, y, glm::length(vec2(x, y)), 0.0F);
+        }
     }
-    const float side = 2.0F * glm::pi<float>() / static_cast<float>(corners);
-    const float within = angle - side * std::floor(angle / side);
-    return std::cos(0.5F * side) / std::cos(within - 0.5F * side);
+    std::ranges::stable_sort(steps, {}, &vec4::z);
+    std::array<vec4, dofMostSamples> first{};
+    std::copy_n(steps.begin(), first.size(), first.begin());
+    first.back().z = std::numeric_limits<float>::max();
+    return first;
 }
 
-// A spiral with the golden angle: the first ones of any number of samples have equal areas (H. Vogel, A Better Way to
-// Construct the Sunflower Head, 1979). In the aperture's shape, or in the circle around it where that is not the same
-// turned by half a turn, as disks in front of the plane of focus are.
-std::array<vec4, dofMostSamples> samplesOf(const Lens& lens) {
-    const float golden = glm::pi<float>() * (3.0F - std::sqrt(5.0F));
-    const bool symmetric = lens.blades < 3 || lens.blades % 2 == 0;
-    std::array<vec4, dofMostSamples> samples{};
-    for (size_t i = 0; i < samples.size(); ++i) {
-        const float angle = golden * static_cast<float>(i);
-        const vec2 direction(std::cos(angle), std::sin(angle));
-        // Rows of pixels go down; a sample at `direction` has the pixel on its other side.
-        const float turn = std::atan2(-direction.y, direction.x) - lens.bladeRotation;
-        const float nearEdge = edgeOf(lens.blades, turn);
-        const float farEdge = edgeOf(lens.blades, turn + glm::pi<float>());
-        const float radius = std::sqrt(static_cast<float>(i) + 0.5F) * (symmetric ? nearEdge : 1.0F);
-        samples.at(i) = vec4(radius * direction, radius / nearEdge, radius / farEdge);
-    }
-    return samples;
-}
-
-// Area of the circle over that of the aperture, as far as samples fill the circle.
-float unusedArea(const Lens& lens) {
-    if (lens.blades < 3 || lens.blades % 2 == 0) {
-        return 1.0F;
-    }
-    const auto n = static_cast<float>(lens.blades);
-    return 2.0F * glm::pi<float>() / (n * std::sin(2.0F * glm::pi<float>() / n));
+// Area of a regular polygon inside the unit circle, or of that circle.
+float shapeArea(uint32_t corners) {
+    const auto n = static_cast<float>(corners);
+    return corners < 3 ? glm::pi<float>() : 0.5F * n * std::sin(2.0F * glm::pi<float>() / n);
 }
 
 gpu::Image circleOfConfusion(gpu::Recorder& f, gpu::KeptImage& own, const DofInputs& in, float height) {
@@ -161,8 +146,10 @@ DofImages depthOfField(gpu::Recorder& f, DofStore& own, const DofInputs& in) {
         .read("reach", reach)
         .write("groundOut", groundOut)
         .write("frontOut", frontOut)
-        .params(samplesOf(in.lens), "taps")
-        .params(DofGatherParams{sizes.half2, in.settings.samples, largest, unusedArea(in.lens)})
+        .constant("blades", in.lens.blades < 3 ? 0U : in.lens.blades)
+        .params(gridSteps(), "steps")
+        .params(DofGatherParams{sizes.half2, in.settings.samples, 1.0F / shapeArea(in.lens.blades),
+                                in.lens.bladeRotation})
         .dispatch(sizes.half2);
     const gpu::Image result = own.result.storage(f, layerFormats[0], size);
     f.compute("composite", "dof_composite.comp")

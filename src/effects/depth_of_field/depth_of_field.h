@@ -22,8 +22,9 @@ SHARED_BEGIN
     SWITCH(enabled, 1,                                                                                                \
            "Depth of field (DoF, bokeh) of cameras with an aperture (view files: aperture_radius or f_number). Cost " \
            "only with such a camera.")                                                                                \
-    VALUE(uint, samples, 32, 8, 128,                                                                                  \
-          "Samples of the largest disks of depth of field. More: smoother and more exact, cost grows linearly.")      \
+    VALUE(uint, samples, 48, 12, 120,                                                                                 \
+          "Samples per pixel and layer of depth of field, at half resolution. More: sharper edges of large disks, "   \
+          "cost grows linearly.")                                                                                     \
     VALUE(float, maxRadius, 0.05, 0.001, 0.25,                                                                        \
           "Largest circle of confusion: its radius as a share of the picture's height. Larger blur is cut to it. "    \
           "Larger: right for wide apertures, coarser disks with the same samples.")
@@ -33,8 +34,7 @@ SETTINGS(DofSettings, DOF_SETTINGS)
 const uint dofTile = 8;
 // Levels of the half-resolution layers, with level 0.
 const uint dofLevels = 5;
-const uint dofMostSamples = 128;
-const uint dofFewestSamples = 8;
+const uint dofMostSamples = 160;
 
 struct DofCocParams {
     vec4 depthToDistance;  // of the view
@@ -51,9 +51,9 @@ struct DofSizes {
 
 struct DofGatherParams {
     uvec2 half2;
-    uint samples;   // of the largest disks
-    float largest;  // radius that they are for, in pixels of half resolution
-    float disk;     // area of the circle that samples fill over that of the aperture
+    uint samples;  // of a disk, at most
+    float disk;    // 1 over the area of the aperture's shape with radius 1
+    float turn;    // of the aperture [rad]
 };
 
 SHARED_END

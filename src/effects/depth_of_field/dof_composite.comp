@@ -20,7 +20,7 @@ void main() {
     float c = imageLoad(coc, min(ivec2((vec2(pixel) + 0.5) * params.toDepth), imageSize(coc) - 1)).r;
     // Bilinear; blurred cells before sharp ones, whose light must not leak.
     ivec2 corner = (pixel - 1) >> 1;
-    vec2 part = mix(vec2(0.25), vec2(0.75), equal(pixel & 1, ivec2(0)));
+    vec2 part = 0.75 - 0.5 * vec2(pixel & 1);
     ivec2 last = ivec2(params.half2) - 1;
     vec4 behind = vec4(0.0);
     vec4 before = vec4(0.0);
@@ -33,7 +33,7 @@ void main() {
         behind += weight * (sharpWeight + g.a) * vec4(g.rgb, 1.0);
         before += weight * imageLoad(frontOut, cell);
     }
-    float blurred = max(farShare(c), nearShare(c));
+    float blurred = blurredShare(c);
     vec3 light = blurred > 0.0 ? mix(sharp.rgb, behind.rgb / behind.a, blurred) : sharp.rgb;
     imageStore(result, pixel, vec4(light * (1.0 - before.a) + before.rgb, sharp.a));
 }

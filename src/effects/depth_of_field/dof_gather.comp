@@ -1,15 +1,16 @@
-// Gathers both layers. In: the layers with their mips, reach of the tiles, positions of samples. Out: the blurred background,
+// Gathers both layers. In: the layers with their mips, reach of the tiles. Out: the blurred background,
 // and the near layer with its coverage.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/depth_of_field/dof_layers.glsl"
 #include "shaders/half_float.glsl"
 
+layout(constant_id = 0) const uint blades = 0u;  // of the aperture; 0: round
+
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { DofGatherParams params; };
-// Position of a sample in a disk of area pi · number of samples; its distance in the shape of the near disks, and of those behind the
-// plane of focus.
-layout(scalar) uniform SamplesBlock { vec4 at[dofMostSamples]; } taps;
+// Steps of a square grid, the shortest first: x, y, length.
+layout(scalar) uniform StepsBlock { vec4 at[dofMostSamples]; } steps;
 layout(rgba16f) uniform readonly image2D ground;
 layout(rg16f) uniform readonly image2D groundBlur;
 layout(rgba16f) uniform readonly image2D front;
@@ -76,79 +77,97 @@ Ground filledGround(ivec2 cell) {
                   mix(own.far, blur.y, hole));
 }
 
-// The samples of disks up to a radius.
+// The cells of mips that are looked up for disks up to a radius. All that a disk may cover are, each once: so disks are even, and
+// keep their light.
 struct Disk {
-    uint count;
-    float scale;    // pixels per unit of the samples' positions
-    float soft;     // half the width of a disk's edge: half a sample's own width
-    int level;      // of the mips to look up
-    float area;     // a sample's area over that of the aperture's shape with radius 1
-    float blur;     // squared radius by which edges and cells widen a disk's second moment
+    int level;     // of the mips
+    float side;    // of a cell, in pixels of half resolution
+    float limit;   // of the steps
+    ivec2 first;   // cell that steps start from
+    vec2 toFirst;  // its centre, from the pixel's
+    float area;    // of a cell over that of the aperture's shape with radius 1
+    float blur;    // squared radius by which cells and upsampling widen a disk's second moment
 };
 
-Disk diskOf(float radius) {
+// From the pixel to its cell's centre, at most, and half a disk's edge, in cells.
+const float margin = 0.7072 + 0.5;
+
+Disk diskOf(ivec2 pixel, float radius) {
     Disk d;
-    float area = 3.14159265 * radius * radius;
-    d.count = radius < leastRadius ? 0u : uint(clamp(area, float(dofFewestSamples), float(params.samples)));
-    float n = float(max(d.count, 1u));
-    // The outermost samples lie beyond the edge, by half of what they stand for.
-    float all = radius / (1.0 - 0.5 * sqrt(3.14159265 / n));
-    d.scale = all * inversesqrt(n);
-    float apart = 1.7724539 * d.scale;
-    d.soft = 0.5 * max(apart, 1.0);
-    d.level = int(clamp(log2(max(apart, 1.0)) + 0.3, 0.0, float(dofLevels - 1u)));
-    d.area = params.disk * d.scale * d.scale;
-    float side = float(1 << d.level);
-    d.blur = 1.6667 * d.soft * d.soft + 0.3333 * side * side + 0.6667;  // the last: upsampling
+    float most = sqrt(float(params.samples) * 0.31831) - margin;
+    d.level = int(clamp(ceil(log2(max(radius, 0.01) / most)), 0.0, float(dofLevels - 1u)));
+    d.side = float(1 << d.level);
+    d.limit = radius < leastRadius ? -1.0 : radius / d.side + margin;
+    d.first = pixel >> d.level;
+    d.toFirst = (vec2(d.first) + 0.5) * d.side - vec2(pixel) - 0.5;
+    d.area = params.disk * d.side * d.side;
+    d.blur = 0.75 * d.side * d.side + 0.6667;  // the last: upsampling
     return d;
 }
 
-// How much of a sample's light reaches the pixel: its area over its disk's, if it is within it. Disks are made smaller by as
-// much as they are blurred.
-float reaches(Disk d, float away, float radius) {
-    float r2 = max(radius * radius - d.blur, d.soft * d.soft);
-    return d.area / (r2 + 0.3333 * d.soft * d.soft) * clamp((sqrt(r2) - away) / (2.0 * d.soft) + 0.5, 0.0, 1.0);
+// Length of a way as a share of what the aperture's shape has in that direction.
+float shapeLength(vec2 way) {
+    if (blades == 0u) {
+        return length(way);
+    }
+    float side = 6.28318531 / float(blades);
+    float within = atan(-way.y, way.x) - params.turn;
+    within -= side * (floor(within / side) + 0.5);
+    return length(way) * cos(within) / cos(0.5 * side);
 }
 
-ivec2 cellAt(ivec2 from, vec2 offset, int level) {
-    ivec2 at = clamp(ivec2(vec2(from) + 0.5 + offset), ivec2(0), cells - 1);
-    return at >> level;
+// How much of a cell's light reaches the pixel: its area over its disk's, if it is within it. Disks are made smaller by as
+// much as they are blurred.
+float reaches(Disk d, float away, float radius) {
+    float edge = 0.5 * d.side;
+    float r2 = max(radius * radius - d.blur, 0.25 * edge * edge);
+    return d.area / (r2 + 0.3333 * edge * edge) * clamp((sqrt(r2) - away) / d.side + 0.5, 0.0, 1.0);
 }
+
+ivec2 cellAfter(Disk d, vec4 go) { return clamp(d.first + ivec2(go.xy), ivec2(0), levelSize(cells, d.level) - 1); }
+
+vec2 wayAfter(Disk d, vec4 go) { return d.toFirst + d.side * go.xy; }
 
 // The background, composited by distance: what is not farther than the point has the coverage of its disks, and what is farther
 // shows through the rest. What is sharp, or hidden, counts as unknown.
 vec3 blurredGround(ivec2 cell, Ground own, float most) {
     float radius = own.far > 0.0 ? min(max(own.coc, most), 2.0 * own.coc) : 0.0;
-    Disk d = diskOf(radius);
+    Disk d = diskOf(cell, radius);
     vec4 here = vec4(0.0);
     vec4 behind = vec4(0.0);
-    float known = 1e-6;
-    for (uint i = 0u; i < d.count; ++i) {
-        vec4 tap = taps.at[i];
-        float away = tap.w * d.scale;
-        Ground g = loadGround(cellAt(cell, tap.xy * d.scale, d.level), d.level);
+    float known = 0.0;
+    float whole = 1e-6;
+    for (uint i = 0u; steps.at[i].z <= d.limit; ++i) {
+        vec4 go = steps.at[i];
+        // The pixel is on the other side of the cell's disk.
+        float away = shapeLength(-wayAfter(d, go));
+        Ground g = loadGround(cellAfter(d, go), d.level);
         float seen = g.presence * g.far;
         float weight = seen * reaches(d, away, g.coc);
         float isBehind = clamp((g.coc - 1.1 * own.coc - 0.25) / (0.2 * own.coc + 0.5), 0.0, 1.0);
         here += (1.0 - isBehind) * weight * vec4(g.light, 1.0);
         behind += isBehind * weight * vec4(g.light, 1.0);
-        known += seen * reaches(d, away, own.coc);
+        float inside = reaches(d, away, own.coc);
+        known += seen * inside;
+        whole += inside;
     }
-    here /= known;
+    here /= max(known, 0.25 * whole);
+    here *= min(1.25 / max(here.a, 1e-6), 1.0);
     float open = max(1.0 - here.a, 0.0);
     vec3 blurred = behind.a > 1e-4 ? here.rgb + open * behind.rgb / behind.a : here.rgb / clamp(here.a, 1e-4, 1.0);
     return here.a + behind.a > 1e-3 ? blurred : own.light;
 }
 
 vec4 blurredFront(ivec2 cell, float most) {
-    Disk d = diskOf(most);
+    Disk d = diskOf(cell, most);
     vec4 sum = vec4(0.0);
     float whole = 1e-6;
-    for (uint i = 0u; i < d.count; ++i) {
-        vec4 tap = taps.at[i];
-        Front n = loadFront(cellAt(cell, tap.xy * d.scale, d.level), d.level);
-        sum += n.light * reaches(d, tap.z * d.scale, n.coc);
-        whole += reaches(d, tap.z * d.scale, most);
+    for (uint i = 0u; steps.at[i].z <= d.limit; ++i) {
+        vec4 go = steps.at[i];
+        float away = shapeLength(wayAfter(d, go));  // disks in front of the plane of focus are turned by half a turn
+        Front n = loadFront(cellAfter(d, go), d.level);
+        sum += n.light * reaches(d, away, n.coc);
+        whole += reaches(d, away, most);
     }
     sum /= whole;
     return sum / max(sum.a, 1.0);

@@ -5,11 +5,16 @@
 #include "effects/depth_of_field/depth_of_field.h"
 #include "effects/levels.glsl"
 
-// Share of a pixel with this circle of confusion that belongs to the near layer.
-float nearShare(float coc) { return clamp(-coc - 0.5, 0.0, 1.0); }
+// Squared radius, in pixels of half resolution, of the smallest disk that the passes can make.
+const float leastDisk = 1.42;
 
-// Share that is blurred, of what is in the background.
-float farShare(float coc) { return clamp(coc - 0.5, 0.0, 1.0); }
+// Share of the blurred layers in a pixel with a circle of confusion of this radius. A smaller disk than the smallest is mixed of
+// that and the sharp pixel, with the same second moment.
+float blurredShare(float coc) { return clamp((coc * coc - 0.25) / (4.0 * leastDisk - 0.25), 0.0, 1.0); }
+
+// Share of a pixel that belongs to the near layer, and share that is blurred of what is in the background.
+float nearShare(float coc) { return coc < 0.0 ? blurredShare(coc) : 0.0; }
+float farShare(float coc) { return coc > 0.0 ? blurredShare(coc) : 0.0; }
 
 // Sharp content has this weight against blurred content of the same cell.
 const float sharpWeight = 0.001;
