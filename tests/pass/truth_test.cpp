@@ -120,7 +120,10 @@ TEST_P(Energy, IsAtMostTwoPercentAboveTheTruthWithOneBounceAndWithAll) {
     view.camera.apertureRadius = 0.0F;  // it is about light, not about blur
     for (const bool one : {true, false}) {
         const ReferencePicture truth =
-            traceReference(scene, view, size, {.bounces = one ? 1U : ReferenceOptions::unlimited, .samples = 64});
+            traceReference(scene, view, size,
+                           {.bounces = one ? 1U : ReferenceOptions::unlimited,
+                            .samples = 64,
+                            .filter = PixelFilter::center});  // as the frame: lamps may be smaller than a pixel
         const Pictures p = render(scene, view, size,
                                   settingsOf({"diffuse.rays=16", "specular.rays=16",
                                               std::string("trace_screen.light=") + (one ? "direct" : "previous")}),

@@ -27,13 +27,13 @@ uint32_t stripes(Scene& scene, const std::string& name, Hex light, Hex dark, con
 void addRoom(Scene& scene) {
     static constexpr std::array<Hex, 4> colors{0x8E8778, 0x6F6A60, 0x4F6A70, 0x7D5A3C};
     const LabelledTiles style{
-        .size = 1024, .tiles = 12, .colors = colors, .joint = 0x2A2826, .letters = 0xC8C0B0, .seed = 27};
+        .size = 1024, .tiles = 8, .colors = colors, .joint = 0x2A2826, .letters = 0xC8C0B0, .grain = 2.0F, .seed = 27};
     const uint32_t tiles =
         addMaterial(scene, textured("tiles", addTexture(scene, labelledTiles("tiles", style)), 0.85F));
-    place(scene, "ground", tiles, ground({7.0F, 7.5F}, {6, 6}, {1.55F, 1.67F}), at({0, 0, -1.8F}));
+    place(scene, "ground", tiles, ground({7.0F, 7.35F}, {6, 6}, {1.4F, 1.47F}), at({0, 0, -1.65F}));
     const uint32_t rock =
-        addMaterial(scene, textured("rock", addTexture(scene, rockColors("rock", 512, 0x22252E, 0x565A66)), 0.9F));
-    place(scene, "wall", rock, box({7.0F, 2.2F, 0.15F}, 0.4F), at({0, 2.2F, -wallDepth - 0.15F}));
+        addMaterial(scene, textured("rock", addTexture(scene, rockColors("rock", 512, 0x30333B, 0x3E424C)), 0.9F));
+    place(scene, "wall", rock, box({7.0F, 2.2F, 0.15F}, 0.2F), at({0, 2.2F, -wallDepth - 0.15F}));
 }
 
 // In the plane of focus, about five metres from the camera.

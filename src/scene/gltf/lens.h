@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/gltf/document.h"
+#include "scene/gltf/report.h"
 #include "scene/scene.h"
 
 #include <string>
