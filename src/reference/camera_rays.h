@@ -3,6 +3,9 @@
 
 #include "reference/ray_scene.h"
 
+#include <cstdint>
+#include <optional>
+
 namespace reflet {
 
 class CameraRays {

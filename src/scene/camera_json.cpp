@@ -1,6 +1,7 @@
 // Reads and writes cameras as JSON, from the table of their fields.
 #include "scene/camera_json.h"
 
+#include "base/error.h"
 #include "scene/camera_fields.h"
 #include "scene/json_values.h"
 

@@ -6,6 +6,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <string>
+#include <vector>
+
 namespace reflet {
 
 /// All keys that a view file's camera (or a keyframe) may have.

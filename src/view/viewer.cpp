@@ -9,6 +9,7 @@
 #include "gpu/pipeline.h"
 #include "renderer/presets.h"
 #include "renderer/shaders.h"
+#include "scene/focus.h"
 #include "scene/view_file.h"
 #include "view/saved_state.h"
 
@@ -113,7 +114,10 @@ void Viewer::open(const SceneOptions& source, bool restores) {
     auto session = std::make_unique<Session>(device_, next);
     if (restores) {
         try {
-            restoreState(next, {.view = !givesView(source), .settings = !givesSettings(source)});
+            ViewerState restored = next;
+            restoreState(restored, {.view = !givesView(source), .settings = !givesSettings(source)});
+            checkFocus(restored.view.camera, session->scene(), "camera.focus of the saved state");
+            next = restored;
         } catch (const Error& error) {
             printWarning(fmt::format("{}; the scene opens without its saved state", error.what()));
         }
@@ -147,7 +151,10 @@ void Viewer::openFile(const std::string& file) {
                              (json["environment"].is_string() || json["environment"].contains("radiance") ||
                               json["environment"].contains("image")));
         if (isView) {
-            applyViewJson(json, path, state_.view);
+            View changed = state_.view;
+            applyViewJson(json, path, changed);
+            checkFocus(changed.camera, session_->scene(), path.string() + ": camera.focus");
+            state_.view = changed;
         } else {
             Settings changed = state_.settings;
             applySettingsJson(changed, json, path.string());

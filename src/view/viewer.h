@@ -81,6 +81,8 @@ private:
     [[nodiscard]] std::string commandLine();
     void takeScreenshot(const std::string& file);
     void pickPixel(uvec2 pixel);
+    void focusAt(float distance);
+    void focusOnPicked();
     [[nodiscard]] bool isPickedView() const;
     void chooseFalseColorRange();
     void writeStatus();
@@ -103,6 +105,7 @@ private:
     void lightPanel();
     void environmentPanel();
     void skyFollowsSun(bool moved);
+    void lensPanel();
     void cameraPanel();
     void showPanel();
     void comparePanel();

@@ -135,6 +135,24 @@ void Viewer::pickPixel(uvec2 pixel) {
     picked_ = session_->pick(state_, renderSize(), pixel);
 }
 
+void Viewer::focusAt(float distance) {
+    state_.view.camera.focus.clear();
+    state_.view.camera.focusDistance = distance;
+}
+
+// Focuses on the plane through the surface of the picked pixel.
+void Viewer::focusOnPicked() {
+    const auto depth = std::ranges::find(picked_->values, "depth", &PickedValues::name);
+    if (depth == picked_->values.end() || !(depth->values.front() > 0.0F)) {
+        fail("pixel {}, {} shows no surface to focus on: click on one", picked_->pixel.x, picked_->pixel.y);
+    }
+    focusAt(depth->values.front());
+    tell(state_.view.camera.apertureRadius > 0.0F
+             ? fmt::format("Focus at {:.3f} m", depth->values.front())
+             : fmt::format("Focus at {:.3f} m; the camera is a pinhole until it has an aperture",
+                           depth->values.front()));
+}
+
 // Whether the picked pixel still belongs to the recorded ray: false once the camera or the size has changed.
 bool Viewer::isPickedView() const {
     return picked_->view.worldToClip == session_->view().worldToClip && picked_->view.size == session_->view().size;
@@ -178,6 +196,9 @@ void Viewer::writeStatus() {
         {"settings", settingsJson(state_.settings, state_.ofPreset)},
         {"preset", state_.preset},
         {"camera", {state_.view.camera.position.x, state_.view.camera.position.y, state_.view.camera.position.z}},
+        {"lens",
+         {{"aperture_radius", state_.view.camera.apertureRadius},
+          {"focus_distance", state_.view.camera.focusDistance}}},
         {"compare", {{"message", compare_.message()}, {"samples", compare_.samples()}}}};
     if (session_->exposure()) {
         json["exposure"] = *session_->exposure();

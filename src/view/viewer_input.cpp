@@ -156,7 +156,12 @@ void Viewer::handlePointer() {
     }
     if (ImGui::IsMouseReleased(0) && !dragsDivider_ && glm::distance(mouse, pressedAt_) < clickSlack && inside) {
         opensPixel_ = true;
-        attempt([&] { pickPixel(pixelAt(mouse)); });
+        attempt([&] {
+            pickPixel(pixelAt(mouse));
+            if (io.KeyAlt) {
+                focusOnPicked();
+            }
+        });
     }
     if (!ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2)) {
         pressedInPicture_ = false;

@@ -157,6 +157,12 @@ void Viewer::pixelPanel() {
     tooltip(
         "Picks this pixel again in the current image. Changes of settings and light do so automatically; a moved "
         "camera shows the recorded ray from its new position.");
+    ImGui::SameLine();
+    if (ImGui::Button("focus here")) {
+        attempt([&] { focusOnPicked(); });
+    }
+    places_.note("focus here");
+    tooltip("Puts the plane of focus of the camera's lens at this pixel's depth.");
     if (picked_->ray) {
         ImGui::PushTextWrapPos(0.0F);
         ImGui::Text("Mirror ray, %u depth samples", picked_->ray->samples);
@@ -179,12 +185,13 @@ void Viewer::pixelPanel() {
 }
 
 void Viewer::helpOverlay() {
-    constexpr std::array<std::array<const char*, 2>, 20> keys{{{"left drag", "orbit"},
+    constexpr std::array<std::array<const char*, 2>, 21> keys{{{"left drag", "orbit"},
                                                                {"middle drag, Shift+left drag", "pan"},
                                                                {"wheel", "move closer, farther"},
                                                                {"right drag", "look around"},
                                                                {"W A S D, Q E", "fly; Shift: faster"},
                                                                {"click", "pick the pixel: values and mirror ray"},
+                                                               {"Alt+click", "focus the lens there"},
                                                                {"F", "frame all"},
                                                                {"R", "reset the camera"},
                                                                {"space", "pause"},

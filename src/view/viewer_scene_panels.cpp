@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "scene/default_light.h"
+#include "scene/pose.h"
 
 #include <imgui.h>
 
@@ -124,6 +125,33 @@ void Viewer::lightPanel() {
     places_.note("own light");
 }
 
+void Viewer::lensPanel() {
+    Camera& camera = state_.view.camera;
+    constexpr auto flags = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic;
+    ImGui::SliderFloat("aperture", &camera.apertureRadius, 0.0F, 1.0F, "%.4f m", flags);
+    places_.note("aperture");
+    tooltip("Radius of the lens. 0: a pinhole, everything is sharp. Larger: less depth of field.");
+    if (camera.apertureRadius <= 0.0F) {
+        return;
+    }
+    float distance = posed(state_.view, session_->scene()).camera.focusDistance;
+    if (ImGui::SliderFloat("focus", &distance, 0.01F, 1000.0F, "%.3f m", flags)) {
+        focusAt(distance);
+    }
+    places_.note("focus");
+    tooltip("Distance of the plane of focus along the view axis. Alt+click on the image focuses there.");
+    int blades = static_cast<int>(camera.blades);
+    if (ImGui::SliderInt("blades", &blades, 0, Camera::mostBlades, "%d", ImGuiSliderFlags_AlwaysClamp)) {
+        const bool round = blades < static_cast<int>(Camera::fewestBlades) && blades < static_cast<int>(camera.blades);
+        camera.blades = blades == 0 || round ? 0 : std::max(static_cast<uint32_t>(blades), Camera::fewestBlades);
+    }
+    places_.note("blades");
+    tooltip("Of the aperture, 3 or more: blurred lights are polygons. 0: disks.");
+    if (camera.blades > 0) {
+        ImGui::SliderAngle("blade rotation", &camera.bladeRotation, -180.0F, 180.0F);
+    }
+}
+
 void Viewer::cameraPanel() {
     Camera& camera = state_.view.camera;
     if (ImGui::Button("frame all (F)")) {
@@ -156,6 +184,7 @@ void Viewer::cameraPanel() {
         }
         tooltip("Vertical, from the lower to the upper edge.");
     }
+    lensPanel();
     ImGui::PopItemWidth();
 }
 

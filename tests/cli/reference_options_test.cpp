@@ -45,6 +45,17 @@ TEST_F(ReferenceOptions, EachBounceBringsMoreLight) {
     EXPECT_GE(mean(traced("builtin:cornell", {"--spp", "8"})[""]), before);  // with no limit
 }
 
+TEST_F(ReferenceOptions, APinholeIgnoresTheLensAndAnUnknownFocusIsRefused) {
+    const auto picture = [&](const Arguments& more) { return traced(cubes, more).at("").data; };
+    const std::vector<float> sharp = picture({"--spp", "1"});
+    write("lens.json", R"({"camera": {"f_number": 0.1, "focus_distance": 2, "blades": 5}})");
+    EXPECT_NE(picture({"--spp", "1", "--view-file", "lens.json"}), sharp);
+    EXPECT_EQ(picture({"--spp", "1", "--view-file", "lens.json", "--pinhole"}), sharp);
+    write("lost.json", R"({"camera": {"f_number": 2, "focus": "bocks"}})");
+    EXPECT_TRUE(refused(run({"reference", cubes, "--view-file", "lost.json", "-o", "a.exr"}), 1,
+                        {"lost.json: camera.focus: no node with a mesh is called 'bocks'"}));
+}
+
 TEST_F(ReferenceOptions, WhatTheCameraSeesNeverBringsMoreLightThanEverything) {
     Images all = traced(cubes, {"--spp", "8"});
     Images visible = traced(cubes, {"--spp", "8", "--visible-only"});

@@ -88,6 +88,8 @@ TEST_F(View, AUserWalksThroughItUnderTheValidationLayers) {
     click("diffuse.adaptive");  // the pixel is read again with the new setting
     EXPECT_TRUE(shows([&](const json& now) { return now["picked"]["change"] > picked["change"]; }));
     EXPECT_EQ(status()["picked"]["pixel"], picked["pixel"]);
+    click("focus here");
+    EXPECT_TRUE(shows([&](const json& now) { return now["lens"]["focus_distance"] == picked["values"]["depth"][0]; }));
 
     // The window's size.
     resize(760, 300);

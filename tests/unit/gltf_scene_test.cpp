@@ -152,6 +152,36 @@ TEST(GltfScene, ALampsRadiusIsReadFromItsExtrasAndMustBeZeroOrMore) {
     }
 }
 
+TEST(GltfScene, ACamerasLensIsReadFromItsExtras) {
+    const auto withExtras = [](const json& extras) {
+        GltfBuilder b = withNodes(json::array({{{"camera", 0}}, {{"mesh", 0}, {"name", "statue"}}}));
+        b.document["scenes"][0]["nodes"] = {0, 1};
+        b.document["cameras"] = json::array(
+            {{{"type", "perspective"}, {"perspective", {{"yfov", 2.0 * std::atan(0.24)}, {"znear", 0.1}}}}});
+        b.document["cameras"][0]["extras"] = extras;
+        return b;
+    };
+    const auto cameraOf = [&](const json& extras) { return load(withExtras(extras)).scene.cameras.at(0); };
+    const Camera camera = cameraOf({{"f_number", 2}, {"focus", "statue"}, {"blades", 6}, {"blade_rotation", 90}});
+    EXPECT_NEAR(camera.apertureRadius, 0.0125F, 1e-6F) << "50 mm at f/2";
+    ASSERT_EQ(camera.focus.size(), 1U);
+    EXPECT_EQ(camera.focus[0].node, "statue");
+    EXPECT_EQ(camera.blades, 6U);
+    EXPECT_FLOAT_EQ(camera.bladeRotation, glm::radians(90.0F));
+    EXPECT_EQ(cameraOf({{"aperture_radius", 0.1}, {"focus_distance", 3}}).focusDistance, 3.0F);
+    EXPECT_EQ(cameraOf("no object").apertureRadius, 0.0F);
+    const auto file = testFolder() / "scene.gltf";
+    expectProblem(withExtras({{"aperture_radius", 0.1}, {"f_number", 2}}).writeGltf(file),
+                  "cameras[0].extras: f_number: cannot be given together with aperture_radius",
+                  "the camera will be a pinhole");
+    expectProblem(withExtras({{"aperture_radius", -1}}).writeGltf(file), "cameras[0].extras.aperture_radius: is -1",
+                  "0 will be used");
+    expectProblem(withExtras({{"f_number", 2}, {"focus", "statua"}}).writeGltf(file),
+                  "camera ''.extras.focus: no node with a mesh is called 'statua'; did you mean 'statue'?",
+                  "the camera will focus automatically");
+    EXPECT_TRUE(cameraOf({{"f_number", 2}, {"focus", "statua"}}).focus.empty());
+}
+
 TEST(GltfScene, CamerasStandAtTheirNodesAndLookAlongMinusZ) {
     const double s = std::sqrt(0.5);
     GltfBuilder b = withNodes(json::array({{{"children", {1}}, {"translation", {0, 0, 10}}},

@@ -27,13 +27,13 @@ uint32_t stripes(Scene& scene, const std::string& name, Hex light, Hex dark, con
 void addRoom(Scene& scene) {
     static constexpr std::array<Hex, 4> colors{0x8E8778, 0x6F6A60, 0x4F6A70, 0x7D5A3C};
     const LabelledTiles style{
-        .size = 1024, .tiles = 12, .colors = colors, .joint = 0x2A2826, .letters = 0xC8C0B0, .seed = 27};
+        .size = 1024, .tiles = 8, .colors = colors, .joint = 0x2A2826, .letters = 0xC8C0B0, .grain = 2.0F, .seed = 27};
     const uint32_t tiles =
-        addMaterial(scene, textured("tiles", addTexture(scene, labelledTiles("tiles", style)), 0.5F));
-    place(scene, "ground", tiles, ground({4.5F, 7.5F}, {4, 6}, {1.0F, 1.67F}), at({0, 0, -1.8F}));
+        addMaterial(scene, textured("tiles", addTexture(scene, labelledTiles("tiles", style)), 0.85F));
+    place(scene, "ground", tiles, ground({7.0F, 7.35F}, {6, 6}, {1.4F, 1.47F}), at({0, 0, -1.65F}));
     const uint32_t rock =
-        addMaterial(scene, textured("rock", addTexture(scene, rockColors("rock", 512, 0x17191F, 0x3A3C44)), 0.9F));
-    place(scene, "wall", rock, box({4.5F, 2.2F, 0.15F}, 0.4F), at({0, 2.2F, -wallDepth - 0.15F}));
+        addMaterial(scene, textured("rock", addTexture(scene, rockColors("rock", 512, 0x30333B, 0x3E424C)), 0.9F));
+    place(scene, "wall", rock, box({7.0F, 2.2F, 0.15F}, 0.2F), at({0, 2.2F, -wallDepth - 0.15F}));
 }
 
 // In the plane of focus, about five metres from the camera.
@@ -90,11 +90,11 @@ void addLamps(Scene& scene) {
         const uint32_t material = addMaterial(scene, glow);
         meshes[i] = addMesh(scene, glow.name, material, sphere(i % 3 == 0 ? 0.035F : 0.025F, 10));
     }
-    for (int i = 0; i < 44; ++i) {
+    for (int i = 0; i < 64; ++i) {
         const float n = static_cast<float>(i) + 0.5F;
         const vec3 share = glm::fract(n * vec3(0.6180340F, 0.7548777F, 0.5698403F));
         const float depth = 4.0F + 4.0F * share.z;
-        const float width = 1.9F + 0.15F * depth;
+        const float width = 2.2F + 0.4F * depth;
         const vec3 position((2.0F * share.x - 1.0F) * width, 0.25F + 2.5F * share.y, -depth);
         const auto mesh = static_cast<size_t>(i * 7) % meshes.size();
         place(scene, "lamp " + std::to_string(i), meshes.at(mesh), at(position));
@@ -115,8 +115,8 @@ Scene makeLens() {
     main.apertureRadius = 0.08F;
     main.focusDistance = glm::distance(eye, subject);
     scene.cameras.push_back(main);
-    scene.sun = sun({-0.55F, -0.65F, -0.45F}, {1.5F, 1.4F, 1.25F});
-    scene.environment.radiance = {0.03F, 0.036F, 0.05F};
+    scene.sun = sun({-0.55F, -0.65F, -0.45F}, {2.6F, 2.4F, 2.1F});
+    scene.environment.radiance = {0.05F, 0.06F, 0.085F};
     return scene;
 }
 

@@ -1,6 +1,7 @@
 // Loads glTF 2.0 files (.gltf, .glb) into a Scene: read and check the document, choose the scene, place its nodes.
 #include "scene/gltf/gltf.h"
 
+#include "scene/gltf/lens.h"
 #include "scene/gltf/nodes.h"
 #include "scene/opacity.h"
 
@@ -70,6 +71,7 @@ Scene readScene(const std::filesystem::path& path, const GltfOptions& options, G
     scene.variants = variantNames(document.model);
     GltfMeshes meshes(document, materials, scene, report, chooseVariant(scene.variants, options.variant, report));
     placeGltfNodes(document, roots, meshes, scene, report);
+    checkGltfFocus(scene, report);
     makeOpaqueWhereAlphaIsOne(scene);
     if (scene.instances.empty() && !report.firstProblem().empty()) {
         report.fail("", "nothing is left to draw: {}", report.firstProblem());

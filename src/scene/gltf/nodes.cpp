@@ -2,6 +2,7 @@
 #include "scene/gltf/nodes.h"
 
 #include "scene/gltf/instancing.h"
+#include "scene/gltf/lens.h"
 #include "scene/gltf/morph.h"
 #include "scene/gltf/motion.h"
 #include "scene/morph.h"
@@ -20,8 +21,7 @@ constexpr float narrowest = 1e-3F;  // of spot lights whose angles are invalid [
 constexpr float sharpEdge = 0.99F;  // of the outer angle
 constexpr float minNear = 1e-3F;    // metres; for orthographic cameras, whose znear may be 0 in glTF
 
-Camera placeCamera(const tinygltf::Camera& source, const mat4& toWorld, const std::string& part,
-                   const GltfReport& report) {
+Camera placeCamera(const tinygltf::Camera& source, const mat4& toWorld, const std::string& part, GltfReport& report) {
     Camera camera;
     camera.name = source.name;
     setTransform(camera, toWorld);
@@ -38,6 +38,7 @@ Camera placeCamera(const tinygltf::Camera& source, const mat4& toWorld, const st
         camera.fovY = static_cast<float>(source.perspective.yfov);
         camera.near = static_cast<float>(source.perspective.znear);
     }
+    report.tolerate("the camera will be a pinhole", [&] { readGltfLens(source.extras, part, camera, report); });
     return camera;
 }
 

@@ -313,11 +313,22 @@ constexpr std::array orthographic{
     Field{.name = "znear", .required = true, .min = 0},
     Field{.name = "zfar", .required = true, .min = 1e-6, .clamps = false},
 };
+// Reflet's own: the lens, with the keys of view files (scene/camera_json.h).
+constexpr std::array cameraExtras{
+    Field{.name = "aperture_radius", .min = 0, .max = 1000},
+    Field{.name = "f_number", .min = 0.01, .max = 1e6},
+    Field{.name = "sensor_height", .min = 0.01, .max = 1e6},
+    Field{.name = "focus_distance", .min = 0, .max = 1e12},
+    Field{.name = "focus", .type = Type::text},
+    Field{.name = "blades", .type = Type::integer, .max = 16},
+    Field{.name = "blade_rotation", .min = -360, .max = 360},
+};
 constexpr std::array camera{
     Field{.name = "name", .type = Type::text},
     Field{.name = "type", .type = Type::text, .required = true, .words = cameraTypes},
     Field{.name = "perspective", .type = Type::object, .fields = perspective, .vital = true},
     Field{.name = "orthographic", .type = Type::object, .fields = orthographic, .vital = true},
+    Field{.name = "extras", .type = Type::object, .fields = cameraExtras, .anyType = true},
 };
 constexpr std::array spot{
     Field{.name = "innerConeAngle", .min = 0, .max = halfPi},
