@@ -45,7 +45,7 @@ public:
     explicit DofRun(gpu::Device& device) : frame_(device) { addPassTestShaders(device); }
 
     std::vector<vec4> operator()(const Picture& picture, const Lens& lens, DofSettings settings = {}) {
-        settings.maxRadius = 0.25F;
+        settings.maxRadius = 0.25F;  // of such a small picture
         std::vector<vec4> radiance;
         std::vector<vec4> depth;
         for (uint32_t i = 0; i < size.x * size.y; ++i) {
@@ -187,7 +187,7 @@ TEST_F(DepthOfField, AnEdgeBehindIsBlurredByItsOwnDisks) {
         const double expected = 1.0 - diskBeyond((x + 0.5 - 80.0) / radius);
         worst = std::max(worst, std::abs(at(out, x, 60) - expected));
     }
-    EXPECT_LT(worst, 0.08);
+    EXPECT_LT(worst, 0.1);
 }
 
 TEST_F(DepthOfField, DisksHaveTheAperturesShape) {
@@ -196,15 +196,15 @@ TEST_F(DepthOfField, DisksHaveTheAperturesShape) {
         Lens lens = lensOf(24, blades);
         const std::vector<vec4> out = run(
             [&](const uvec2& p) {
-                return Point{vec3(p.x / 2 == 40 && p.y / 2 == 30 ? 1000.0F : 0.0F), z};
+                return Point{vec3(p.x / 2 == 41 && p.y / 2 == 29 ? 1000.0F : 0.0F), z};
             },
             lens);
         // Brightest value: energy over area. Reach to the right, where a corner of far disks is.
         int reach = 0;
-        while (reach < 70 && at(out, 80 + direction * reach, 60) > 0.3F * at(out, 80, 60)) {
+        while (reach < 70 && at(out, 82 + direction * reach, 59) > 0.3F * at(out, 82, 59)) {
             ++reach;
         }
-        return std::pair(spotOf(out, {81, 61}).energy / at(out, 80, 60), reach);
+        return std::pair(spotOf(out, {83, 59}).energy / at(out, 82, 59), reach);
     };
     const double circle = area(0, infinitelyFar, 1).first;
     EXPECT_NEAR(area(6, infinitelyFar, 1).first / circle, 0.827, 0.04);

@@ -19,8 +19,8 @@ struct Layers {
     gpu::Image ground, groundBlur, front, frontBlur;
 };
 
-constexpr std::array layerFormats{VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R16G16_SFLOAT,
-                                  VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R32_SFLOAT};
+constexpr std::array layerFormats{VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R16G16_SFLOAT, VK_FORMAT_R16G16B16A16_SFLOAT,
+                                  VK_FORMAT_R32_SFLOAT};
 
 Layers makeLayers(gpu::Scratch& scratch, uvec2 size) {
     return {scratch.storage(layerFormats[0], size), scratch.storage(layerFormats[1], size),
@@ -105,6 +105,37 @@ gpu::Image makeReach(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& laye
     return reach;
 }
 
+// Both layers, blurred.
+struct Blurred {
+    gpu::Image ground, front;
+};
+
+// large: the result for large disks, at half of `size`; none: makes it.
+Blurred gather(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& layers, const Layers& mips, gpu::Image reach,
+               const DofInputs& in, uvec2 size, const Blurred& large) {
+    const Blurred out{scratch.storage(layerFormats[0], size), scratch.storage(layerFormats[2], size)};
+    const bool coarse = !large.ground;
+    const gpu::Image none = f.placeholder(layerFormats[0]);
+    gpu::Pass pass = f.compute(coarse ? "gather_large" : "gather", "dof_gather.comp");
+    readLayers(pass, layers)
+        .constant("blades", in.lens.blades < 3 ? 0U : in.lens.blades)
+        .constant("coarse", coarse ? 1U : 0U)
+        .read("groundMips", mips.ground)
+        .read("groundBlurMips", mips.groundBlur)
+        .read("frontMips", mips.front)
+        .read("frontBlurMips", mips.frontBlur)
+        .read("reach", reach)
+        .read("groundCoarse", coarse ? none : large.ground)
+        .read("frontCoarse", coarse ? none : large.front)
+        .write("groundOut", out.ground)
+        .write("frontOut", out.front)
+        .params(gridSteps(), "steps")
+        .params(DofGatherParams{layers.ground.size, in.settings.samples, 1.0F / shapeArea(in.lens.blades),
+                                in.lens.bladeRotation})
+        .dispatch(size);
+    return out;
+}
+
 }  // namespace
 
 bool blurs(const Lens& lens, const DofSettings& settings) {
@@ -135,28 +166,14 @@ DofImages depthOfField(gpu::Recorder& f, DofStore& own, const DofInputs& in) {
     makeMips(f, layers, mips, sizes);
     const float largest = std::max(0.5F * in.settings.maxRadius * height, 1.0F);
     const gpu::Image reach = makeReach(f, scratch, layers, sizes, largest);
-    const gpu::Image groundOut = scratch.storage(layerFormats[0], sizes.half2);
-    const gpu::Image frontOut = scratch.storage(layerFormats[2], sizes.half2);
-    gpu::Pass gather = f.compute("gather", "dof_gather.comp");
-    readLayers(gather, layers)
-        .read("groundMips", mips.ground)
-        .read("groundBlurMips", mips.groundBlur)
-        .read("frontMips", mips.front)
-        .read("frontBlurMips", mips.frontBlur)
-        .read("reach", reach)
-        .write("groundOut", groundOut)
-        .write("frontOut", frontOut)
-        .constant("blades", in.lens.blades < 3 ? 0U : in.lens.blades)
-        .params(gridSteps(), "steps")
-        .params(DofGatherParams{sizes.half2, in.settings.samples, 1.0F / shapeArea(in.lens.blades),
-                                in.lens.bladeRotation})
-        .dispatch(sizes.half2);
+    const Blurred large = gather(f, scratch, layers, mips, reach, in, levelSize(sizes.half2, 1), {});
+    const Blurred all = gather(f, scratch, layers, mips, reach, in, sizes.half2, large);
     const gpu::Image result = own.result.storage(f, layerFormats[0], size);
     f.compute("composite", "dof_composite.comp")
         .read("radiance", in.radiance)
         .read("coc", coc)
-        .read("groundOut", groundOut)
-        .read("frontOut", frontOut)
+        .read("groundOut", all.ground)
+        .read("frontOut", all.front)
         .write("result", result)
         .params(sizes)
         .dispatch(size);

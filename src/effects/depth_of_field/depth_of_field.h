@@ -2,14 +2,13 @@
 //
 // The signed circle of confusion (its radius in pixels, positive behind the plane of focus) follows from depth by the
 // thin-lens formula. The picture is split, at half resolution, into what is in front of the plane of focus (near) and
-// the rest (background), each with the share of the pixel that it covers and with mips. Both are gathered apart: a sample
-// counts where its own disk reaches the pixel, with a weight of one over its disk's area, so that light is kept. The
-// background is composited by distance, so that nothing sharp leaks into what is blurred behind it; where the near layer
-// hides it, it is filled from around. The near layer goes on top, with its coverage. What is in focus keeps its full
-// resolution.
-// (J. Jimenez, Next Generation Post Processing in Call of Duty: Advanced Warfare, SIGGRAPH 2014; G. Abadie, A Life of a
-// Bokeh, SIGGRAPH 2018; S. Gortler et al., The Lumigraph, 1996: pull-push; M. Potmesil, I. Chakravarty, A Lens and Aperture
-// Camera Model for Synthetic Image Generation, 1981)
+// the rest (background), each with the share of the pixel that it covers and with mips. Both are gathered apart: a
+// sample counts where its own disk reaches the pixel, with a weight of one over its disk's area, so that light is kept.
+// The background is composited by distance, so that nothing sharp leaks into what is blurred behind it; where the near
+// layer hides it, it is filled from around. The near layer goes on top, with its coverage. What is in focus keeps its
+// full resolution. (J. Jimenez, Next Generation Post Processing in Call of Duty: Advanced Warfare, SIGGRAPH 2014; G.
+// Abadie, A Life of a Bokeh, SIGGRAPH 2018; S. Gortler et al., The Lumigraph, 1996: pull-push; M. Potmesil, I.
+// Chakravarty, A Lens and Aperture Camera Model for Synthetic Image Generation, 1981)
 #ifndef REFLET_EFFECTS_DEPTH_OF_FIELD_H
 #define REFLET_EFFECTS_DEPTH_OF_FIELD_H
 
@@ -22,9 +21,9 @@ SHARED_BEGIN
     SWITCH(enabled, 1,                                                                                                \
            "Depth of field (DoF, bokeh) of cameras with an aperture (view files: aperture_radius or f_number). Cost " \
            "only with such a camera.")                                                                                \
-    VALUE(uint, samples, 48, 12, 120,                                                                                 \
-          "Samples per pixel and layer of depth of field, at half resolution. More: sharper edges of large disks, "   \
-          "cost grows linearly.")                                                                                     \
+    VALUE(uint, samples, 96, 24, 150,                                                                                 \
+          "Samples per pixel and layer of depth of field: large disks, at a quarter of the picture's size; half as "  \
+          "many for small disks, at half its size. More: sharper edges of disks, cost grows linearly.")               \
     VALUE(float, maxRadius, 0.05, 0.001, 0.25,                                                                        \
           "Largest circle of confusion: its radius as a share of the picture's height. Larger blur is cut to it. "    \
           "Larger: right for wide apertures, coarser disks with the same samples.")
@@ -88,8 +87,8 @@ struct DofStore {
 
 struct DofImages {
     gpu::Image radiance;  ///< RGBA16F of the picture's size; the input without an effect
-    gpu::Image coc;  ///< R32F of the depth's size: signed radius in pixels of the picture, negative in front of the plane
-                     ///< of focus; none without an effect
+    gpu::Image coc;  ///< R32F of the depth's size: signed radius in pixels of the picture, negative in front of the
+                     ///< plane of focus; none without an effect
 };
 
 /// Whether the picture is blurred at all.

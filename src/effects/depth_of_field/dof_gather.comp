@@ -6,6 +6,7 @@
 #include "shaders/half_float.glsl"
 
 layout(constant_id = 0) const uint blades = 0u;  // of the aperture; 0: round
+layout(constant_id = 1) const uint coarse = 0u;  // 1: large disks, at a quarter of the picture's size; 0: the rest, and both together
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { DofGatherParams params; };
@@ -20,11 +21,17 @@ layout(rg16f) uniform readonly image2D groundBlurMips;
 layout(rgba16f) uniform readonly image2D frontMips;
 layout(r32f) uniform readonly image2D frontBlurMips;
 layout(rg16f) uniform readonly image2D reach;
+layout(rgba16f) uniform readonly image2D groundCoarse;  // of the pass with coarse = 1
+layout(rgba16f) uniform readonly image2D frontCoarse;
 layout(rgba16f) uniform writeonly image2D groundOut;  // radiance, blurred share
 layout(rgba16f) uniform writeonly image2D frontOut;   // radiance · coverage, coverage
 
 ivec2 cells = ivec2(params.half2);
 const float leastRadius = 0.25;  // smaller disks are points
+// Radii [pixels of half resolution] from which on disks are large: those of the background change from fine to coarse between
+// these two.
+const vec2 large = vec2(4.0, 5.5);
+float pixelSide = float(1u + coarse);  // in pixels of half resolution
 
 Ground loadGround(ivec2 cell, int level) {
     vec4 light;
@@ -48,15 +55,16 @@ Front loadFront(ivec2 cell, int level) {
     return Front(imageLoad(frontMips, cell), imageLoad(frontBlurMips, cell).r);
 }
 
-// The background here; where the near layer hides it, that of coarser levels.
-Ground filledGround(ivec2 cell) {
-    Ground own = loadGround(cell, 0);
+// The background of a cell of a level; where the near layer hides it, that of coarser levels.
+Ground filledGround(ivec2 cell, int ownLevel) {
+    Ground own = loadGround(cell, ownLevel);
     // Levels are looked up only in a hole.
-    int from = own.presence < 0.999 ? int(dofLevels) - 1 : 0;
+    int from = own.presence < 0.999 ? int(dofLevels) - 1 : ownLevel;
+    vec2 at = (vec2(cell) + 0.5) * float(1 << ownLevel);
     vec4 light = vec4(0.0);  // radiance, how much of it is known
     vec2 blur = vec2(0.0);
-    for (int level = from; level > 0; --level) {
-        vec2 place = (vec2(cell) + 0.5) / float(1 << level) - 0.5;
+    for (int level = from; level > ownLevel; --level) {
+        vec2 place = at / float(1 << level) - 0.5;
         vec2 part = fract(place);
         ivec2 last = levelSize(cells, level) - 1;
         GroundSum sum = GroundSum(vec4(0.0), vec3(0.0), 0.0);
@@ -92,16 +100,17 @@ struct Disk {
 // From the pixel to its cell's centre, at most, and half a disk's edge, in cells.
 const float margin = 0.7072 + 0.5;
 
-Disk diskOf(ivec2 pixel, float radius) {
+// at: in pixels of half resolution.
+Disk diskOf(vec2 at, float radius) {
     Disk d;
     float most = sqrt(float(params.samples) * 0.31831) - margin;
     d.level = int(clamp(ceil(log2(max(radius, 0.01) / most)), 0.0, float(dofLevels - 1u)));
     d.side = float(1 << d.level);
     d.limit = radius < leastRadius ? -1.0 : radius / d.side + margin;
-    d.first = pixel >> d.level;
-    d.toFirst = (vec2(d.first) + 0.5) * d.side - vec2(pixel) - 0.5;
+    d.first = ivec2(at) >> d.level;
+    d.toFirst = (vec2(d.first) + 0.5) * d.side - at;
     d.area = params.disk * d.side * d.side;
-    d.blur = 0.75 * d.side * d.side + 0.6667;  // the last: upsampling
+    d.blur = 0.75 * d.side * d.side + 0.6667 * pixelSide * pixelSide;  // the last: upsampling
     return d;
 }
 
@@ -130,9 +139,10 @@ vec2 wayAfter(Disk d, vec4 go) { return d.toFirst + d.side * go.xy; }
 
 // The background, composited by distance: what is not farther than the point has the coverage of its disks, and what is farther
 // shows through the rest. What is sharp, or hidden, counts as unknown.
-vec3 blurredGround(ivec2 cell, Ground own, float most) {
-    float radius = own.far > 0.0 ? min(max(own.coc, most), 2.0 * own.coc) : 0.0;
-    Disk d = diskOf(cell, radius);
+vec3 blurredGround(vec2 at, Ground own, float most) {
+    bool inRange = coarse != 0u ? own.coc > large.x : own.coc < large.y;
+    float radius = own.far > 0.0 && inRange ? min(max(own.coc, most), 2.0 * own.coc) : 0.0;
+    Disk d = diskOf(at, radius);
     vec4 here = vec4(0.0);
     vec4 behind = vec4(0.0);
     float known = 0.0;
@@ -152,14 +162,14 @@ vec3 blurredGround(ivec2 cell, Ground own, float most) {
         whole += inside;
     }
     here /= max(known, 0.25 * whole);
-    here *= min(1.25 / max(here.a, 1e-6), 1.0);
+    here *= min(2.0 / max(here.a, 1e-6), 1.0);
     float open = max(1.0 - here.a, 0.0);
     vec3 blurred = behind.a > 1e-4 ? here.rgb + open * behind.rgb / behind.a : here.rgb / clamp(here.a, 1e-4, 1.0);
     return here.a + behind.a > 1e-3 ? blurred : own.light;
 }
 
-vec4 blurredFront(ivec2 cell, float most) {
-    Disk d = diskOf(cell, most);
+vec4 blurredFront(vec2 at, float most) {
+    Disk d = diskOf(at, (most > large.x) == (coarse != 0u) ? most : 0.0);
     vec4 sum = vec4(0.0);
     float whole = 1e-6;
     for (uint i = 0u; steps.at[i].z <= d.limit; ++i) {
@@ -173,14 +183,41 @@ vec4 blurredFront(ivec2 cell, float most) {
     return sum / max(sum.a, 1.0);
 }
 
+// Adds what the pass of large disks has found, upsampled.
+void addCoarse(ivec2 pixel, float coc, float mostNear, inout vec3 light, inout vec4 front) {
+    ivec2 last = levelSize(cells, 1) - 1;
+    ivec2 corner = (pixel - 1) >> 1;
+    vec2 part = 0.75 - 0.5 * vec2(pixel & 1);
+    vec4 behind = vec4(0.0);
+    vec4 before = vec4(0.0);
+    int end = max(coc - large.x, mostNear - large.x) > 0.0 ? 4 : 0;
+    for (int i = 0; i < end; ++i) {
+        ivec2 side = ivec2(i & 1, i >> 1);
+        ivec2 from = clamp(corner + side, ivec2(0), last);
+        vec2 w = mix(1.0 - part, part, vec2(side));
+        vec4 g = imageLoad(groundCoarse, from);
+        behind += w.x * w.y * (sharpWeight + g.a) * vec4(g.rgb, 1.0);
+        before += w.x * w.y * imageLoad(frontCoarse, from);
+    }
+    light = coc > large.x ? mix(light, behind.rgb / max(behind.a, 1e-9), clamp((coc - large.x) / (large.y - large.x), 0.0, 1.0)) : light;
+    front = mostNear > large.x ? before : front;
+}
+
 void main() {
-    ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(cell, cells))) {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, levelSize(cells, int(coarse))))) {
         return;
     }
-    vec2 radii = imageLoad(reach, cell / int(dofTile)).rg;
-    Ground own = filledGround(cell);
-    vec3 light = blurredGround(cell, own, radii.y);
-    imageStore(groundOut, cell, vec4(light, own.far));
-    imageStore(frontOut, cell, blurredFront(cell, radii.x));
+    vec2 at = (vec2(pixel) + 0.5) * pixelSide;
+    vec2 radii = imageLoad(reach, min(ivec2(at), cells - 1) / int(dofTile)).rg;
+    Ground own = filledGround(pixel, int(coarse));
+    vec3 light = blurredGround(at, own, radii.y);
+    vec4 front = blurredFront(at, radii.x);
+    if (coarse == 0u) {
+        addCoarse(pixel, own.coc, radii.x, light, front);
+    }
+    // Of large disks, only where they are the ones that count.
+    float far = coarse != 0u && own.coc <= large.x ? 0.0 : own.far;
+    imageStore(groundOut, pixel, vec4(light, far));
+    imageStore(frontOut, pixel, front);
 }

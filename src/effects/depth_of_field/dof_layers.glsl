@@ -17,7 +17,7 @@ float nearShare(float coc) { return coc < 0.0 ? blurredShare(coc) : 0.0; }
 float farShare(float coc) { return coc > 0.0 ? blurredShare(coc) : 0.0; }
 
 // Sharp content has this weight against blurred content of the same cell.
-const float sharpWeight = 0.001;
+const float sharpWeight = 1e-4;
 
 // A cell of the background.
 struct Ground {
