@@ -22,9 +22,19 @@ struct Layers {
 constexpr std::array layerFormats{VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R16G16_SFLOAT, VK_FORMAT_R16G16B16A16_SFLOAT,
                                   VK_FORMAT_R32_SFLOAT};
 
-Layers makeLayers(gpu::Scratch& scratch, uvec2 size) {
+// cells: of level 0, with the other levels at its right (dof_layers.glsl).
+Layers makeLayers(gpu::Scratch& scratch, uvec2 cells) {
+    const uvec2 levels = levelsImageSize(cells, dofLevels);
+    const uvec2 size(cells.x + levels.x, std::max(cells.y, levels.y));
     return {scratch.storage(layerFormats[0], size), scratch.storage(layerFormats[1], size),
             scratch.storage(layerFormats[2], size), scratch.storage(layerFormats[3], size)};
+}
+
+gpu::Pass& writeLayers(gpu::Pass& pass, const Layers& layers) {
+    return pass.write("ground", layers.ground)
+        .write("groundBlur", layers.groundBlur)
+        .write("front", layers.front)
+        .write("frontBlur", layers.frontBlur);
 }
 
 // Steps of a square grid, the shortest first; the last one is longer than any disk.
@@ -65,23 +75,10 @@ gpu::Image circleOfConfusion(gpu::Recorder& f, gpu::KeptImage& own, const DofInp
     return coc;
 }
 
-gpu::Pass& readLayers(gpu::Pass& pass, const Layers& layers) {
-    return pass.read("ground", layers.ground)
-        .read("groundBlur", layers.groundBlur)
-        .read("front", layers.front)
-        .read("frontBlur", layers.frontBlur);
-}
-
-void makeMips(gpu::Recorder& f, const Layers& layers, const Layers& mips, DofSizes sizes) {
+void makeMips(gpu::Recorder& f, const Layers& layers, DofSizes sizes) {
     for (sizes.level = 1; sizes.level < dofLevels; ++sizes.level) {
         gpu::Pass pass = f.compute("mips." + std::to_string(sizes.level), "dof_mips.comp");
-        readLayers(pass, layers)
-            .write("groundMips", mips.ground)
-            .write("groundBlurMips", mips.groundBlur)
-            .write("frontMips", mips.front)
-            .write("frontBlurMips", mips.frontBlur)
-            .params(sizes)
-            .dispatch(levelSize(sizes.half2, sizes.level));
+        writeLayers(pass, layers).params(sizes).dispatch(levelSize(sizes.half2, sizes.level));
     }
 }
 
@@ -111,27 +108,27 @@ struct Blurred {
 };
 
 // large: the result for large disks, at half of `size`; none: makes it.
-Blurred gather(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& layers, const Layers& mips, gpu::Image reach,
-               const DofInputs& in, uvec2 size, const Blurred& large) {
-    const Blurred out{scratch.storage(layerFormats[0], size), scratch.storage(layerFormats[2], size)};
+Blurred gather(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& layers, gpu::Image reach, const DofInputs& in,
+               const DofSizes& sizes, const Blurred& large) {
     const bool coarse = !large.ground;
+    const uvec2 size = levelSize(sizes.half2, coarse ? 1 : 0);
+    const Blurred out{scratch.storage(layerFormats[0], size), scratch.storage(layerFormats[2], size)};
     const gpu::Image none = f.placeholder(layerFormats[0]);
-    gpu::Pass pass = f.compute(coarse ? "gather_large" : "gather", "dof_gather.comp");
-    readLayers(pass, layers)
+    f.compute(coarse ? "gather_large" : "gather", "dof_gather.comp")
         .constant("blades", in.lens.blades < 3 ? 0U : in.lens.blades)
         .constant("coarse", coarse ? 1U : 0U)
-        .read("groundMips", mips.ground)
-        .read("groundBlurMips", mips.groundBlur)
-        .read("frontMips", mips.front)
-        .read("frontBlurMips", mips.frontBlur)
+        .read("ground", layers.ground)
+        .read("groundBlur", layers.groundBlur)
+        .read("front", layers.front)
+        .read("frontBlur", layers.frontBlur)
         .read("reach", reach)
         .read("groundCoarse", coarse ? none : large.ground)
         .read("frontCoarse", coarse ? none : large.front)
         .write("groundOut", out.ground)
         .write("frontOut", out.front)
         .params(gridSteps(), "steps")
-        .params(DofGatherParams{layers.ground.size, in.settings.samples, 1.0F / shapeArea(in.lens.blades),
-                                in.lens.bladeRotation})
+        .params(
+            DofGatherParams{sizes.half2, in.settings.samples, 1.0F / shapeArea(in.lens.blades), in.lens.bladeRotation})
         .dispatch(size);
     return out;
 }
@@ -153,21 +150,14 @@ DofImages depthOfField(gpu::Recorder& f, DofStore& own, const DofInputs& in) {
     const DofSizes sizes{size, (size + 1U) / 2U, vec2(coc.size) / vec2(size), 0};
     gpu::Scratch scratch(f);
     const Layers layers = makeLayers(scratch, sizes.half2);
-    f.compute("split", "dof_split.comp")
-        .read("radiance", in.radiance)
-        .read("coc", coc)
-        .write("ground", layers.ground)
-        .write("groundBlur", layers.groundBlur)
-        .write("front", layers.front)
-        .write("frontBlur", layers.frontBlur)
-        .params(sizes)
-        .dispatch(sizes.half2);
-    const Layers mips = makeLayers(scratch, levelsImageSize(sizes.half2, dofLevels));
-    makeMips(f, layers, mips, sizes);
+    gpu::Pass split = f.compute("split", "dof_split.comp");
+    split.read("radiance", in.radiance).read("coc", coc);
+    writeLayers(split, layers).params(sizes).dispatch(sizes.half2);
+    makeMips(f, layers, sizes);
     const float largest = std::max(0.5F * in.settings.maxRadius * height, 1.0F);
     const gpu::Image reach = makeReach(f, scratch, layers, sizes, largest);
-    const Blurred large = gather(f, scratch, layers, mips, reach, in, levelSize(sizes.half2, 1), {});
-    const Blurred all = gather(f, scratch, layers, mips, reach, in, sizes.half2, large);
+    const Blurred large = gather(f, scratch, layers, reach, in, sizes, {});
+    const Blurred all = gather(f, scratch, layers, reach, in, sizes, large);
     const gpu::Image result = own.result.storage(f, layerFormats[0], size);
     f.compute("composite", "dof_composite.comp")
         .read("radiance", in.radiance)

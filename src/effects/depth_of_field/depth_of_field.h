@@ -21,7 +21,7 @@ SHARED_BEGIN
     SWITCH(enabled, 1,                                                                                                \
            "Depth of field (DoF, bokeh) of cameras with an aperture (view files: aperture_radius or f_number). Cost " \
            "only with such a camera.")                                                                                \
-    VALUE(uint, samples, 96, 24, 150,                                                                                 \
+    VALUE(uint, samples, 72, 24, 150,                                                                                 \
           "Samples per pixel and layer of depth of field: large disks, at a quarter of the picture's size; half as "  \
           "many for small disks, at half its size. More: sharper edges of disks, cost grows linearly.")               \
     VALUE(float, maxRadius, 0.05, 0.001, 0.25,                                                                        \

@@ -16,10 +16,6 @@ layout(rgba16f) uniform readonly image2D ground;
 layout(rg16f) uniform readonly image2D groundBlur;
 layout(rgba16f) uniform readonly image2D front;
 layout(r32f) uniform readonly image2D frontBlur;
-layout(rgba16f) uniform readonly image2D groundMips;
-layout(rg16f) uniform readonly image2D groundBlurMips;
-layout(rgba16f) uniform readonly image2D frontMips;
-layout(r32f) uniform readonly image2D frontBlurMips;
 layout(rg16f) uniform readonly image2D reach;
 layout(rgba16f) uniform readonly image2D groundCoarse;  // of the pass with coarse = 1
 layout(rgba16f) uniform readonly image2D frontCoarse;
@@ -34,25 +30,15 @@ const vec2 large = vec2(4.0, 5.5);
 float pixelSide = float(1u + coarse);  // in pixels of half resolution
 
 Ground loadGround(ivec2 cell, int level) {
-    vec4 light;
-    vec2 blur;
-    if (level == 0) {
-        light = imageLoad(ground, cell);
-        blur = imageLoad(groundBlur, cell).rg;
-    } else {
-        cell.y += levelRow(cells, level);
-        light = imageLoad(groundMips, cell);
-        blur = imageLoad(groundBlurMips, cell).rg;
-    }
+    ivec2 at = placeOf(cell, level, cells);
+    vec4 light = imageLoad(ground, at);
+    vec2 blur = imageLoad(groundBlur, at).rg;
     return Ground(light.rgb, light.a, blur.x, blur.y);
 }
 
 Front loadFront(ivec2 cell, int level) {
-    if (level == 0) {
-        return Front(imageLoad(front, cell), imageLoad(frontBlur, cell).r);
-    }
-    cell.y += levelRow(cells, level);
-    return Front(imageLoad(frontMips, cell), imageLoad(frontBlurMips, cell).r);
+    ivec2 at = placeOf(cell, level, cells);
+    return Front(imageLoad(front, at), imageLoad(frontBlur, at).r);
 }
 
 // The background of a cell of a level; where the near layer hides it, that of coarser levels.
@@ -125,13 +111,20 @@ float shapeLength(vec2 way) {
     return length(way) * cos(within) / cos(0.5 * side);
 }
 
-// How much of a cell's light reaches the pixel: its area over its disk's, if it is within it. Disks are made smaller by as
-// much as they are blurred.
-float reaches(Disk d, float away, float radius) {
+// A disk that a cell's light is spread over, made smaller by as much as it is blurred. `weight`: the cell's area over its own.
+struct Spread {
+    float radius;
+    float weight;
+};
+
+Spread spreadOf(Disk d, float radius) {
     float edge = 0.5 * d.side;
     float r2 = max(radius * radius - d.blur, 0.25 * edge * edge);
-    return d.area / (r2 + 0.3333 * edge * edge) * clamp((sqrt(r2) - away) / d.side + 0.5, 0.0, 1.0);
+    return Spread(sqrt(r2), d.area / (r2 + 0.3333 * edge * edge));
 }
+
+// How much of a cell's light reaches a point that is so far away.
+float reaches(Spread s, float away, float perSide) { return s.weight * clamp((s.radius - away) * perSide + 0.5, 0.0, 1.0); }
 
 ivec2 cellAfter(Disk d, vec4 go) { return clamp(d.first + ivec2(go.xy), ivec2(0), levelSize(cells, d.level) - 1); }
 
@@ -143,6 +136,9 @@ vec3 blurredGround(vec2 at, Ground own, float most) {
     bool inRange = coarse != 0u ? own.coc > large.x : own.coc < large.y;
     float radius = own.far > 0.0 && inRange ? min(max(own.coc, most), 2.0 * own.coc) : 0.0;
     Disk d = diskOf(at, radius);
+    Spread ownSpread = spreadOf(d, own.coc);
+    float perSide = 1.0 / d.side;
+    vec2 isBehind = vec2(1.0, -1.1 * own.coc - 0.25) / (0.2 * own.coc + 0.5);
     vec4 here = vec4(0.0);
     vec4 behind = vec4(0.0);
     float known = 0.0;
@@ -153,11 +149,12 @@ vec3 blurredGround(vec2 at, Ground own, float most) {
         float away = shapeLength(-wayAfter(d, go));
         Ground g = loadGround(cellAfter(d, go), d.level);
         float seen = g.presence * g.far;
-        float weight = seen * reaches(d, away, g.coc);
-        float isBehind = clamp((g.coc - 1.1 * own.coc - 0.25) / (0.2 * own.coc + 0.5), 0.0, 1.0);
-        here += (1.0 - isBehind) * weight * vec4(g.light, 1.0);
-        behind += isBehind * weight * vec4(g.light, 1.0);
-        float inside = reaches(d, away, own.coc);
+        float weight = seen * reaches(spreadOf(d, g.coc), away, perSide);
+        vec4 light = weight * vec4(g.light, 1.0);
+        vec4 farther = clamp(g.coc * isBehind.x + isBehind.y, 0.0, 1.0) * light;
+        here += light - farther;
+        behind += farther;
+        float inside = reaches(ownSpread, away, perSide);
         known += seen * inside;
         whole += inside;
     }
@@ -170,14 +167,16 @@ vec3 blurredGround(vec2 at, Ground own, float most) {
 
 vec4 blurredFront(vec2 at, float most) {
     Disk d = diskOf(at, (most > large.x) == (coarse != 0u) ? most : 0.0);
+    Spread largest = spreadOf(d, most);
+    float perSide = 1.0 / d.side;
     vec4 sum = vec4(0.0);
     float whole = 1e-6;
     for (uint i = 0u; steps.at[i].z <= d.limit; ++i) {
         vec4 go = steps.at[i];
         float away = shapeLength(wayAfter(d, go));  // disks in front of the plane of focus are turned by half a turn
         Front n = loadFront(cellAfter(d, go), d.level);
-        sum += n.light * reaches(d, away, n.coc);
-        whole += reaches(d, away, most);
+        sum += n.light * reaches(spreadOf(d, n.coc), away, perSide);
+        whole += reaches(largest, away, perSide);
     }
     sum /= whole;
     return sum / max(sum.a, 1.0);
