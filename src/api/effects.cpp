@@ -265,8 +265,7 @@ RefletResult refletDepthOfField(RefletView view, RefletSettings settings, const 
         checkOut(blurred, "blurred");
         const Lens thin = lensOf(adopted(lens, "RefletLens"));
         HostImages host(*view);
-        *blurred =
-            resultOf(recordDepthOfField(*view, frame, values, thin, colorOf(color, host, outputSizeOf(*view))));
+        *blurred = resultOf(recordDepthOfField(*view, frame, values, thin, colorOf(color, host, outputSizeOf(*view))));
     });
 }
 

@@ -263,8 +263,9 @@ gpu::Image recordDepthOfField(RefletView_T& view, Frame& frame, const Settings& 
                               gpu::Image color) {
     gpu::Recorder& f = view.recorder;
     const gpu::Image radiance = color ? importLight(f, view.images->dofInput, color) : pictureSoFar(frame);
-    const DofImages blurred =
-        depthOfField(f, view.images->dof, {radiance, frame.g.depth, frame.view, lens, settings.dof});
+    const DofImages blurred = depthOfField(
+        f, view.images->dof,
+        {radiance, frame.g.depth, frame.antialiased ? frame.g.motion : gpu::Image{}, frame.view, lens, settings.dof});
     frame.defocused = blurred.radiance;
     frame.circleOfConfusion = blurred.coc;
     return blurred.radiance;

@@ -71,7 +71,8 @@ Composite recordComposite(RefletView_T& view, Frame& frame, const Settings& sett
 /// color: none: what was composited.
 gpu::Image recordTemporal(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image color);
 /// color: none: what was antialiased, or composited.
-gpu::Image recordDepthOfField(RefletView_T& view, Frame& frame, const Settings& settings, const Lens& lens, gpu::Image color);
+gpu::Image recordDepthOfField(RefletView_T& view, Frame& frame, const Settings& settings, const Lens& lens,
+                              gpu::Image color);
 gpu::Image recordToneMap(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image color, bool automatic);
 
 }  // namespace reflet::api

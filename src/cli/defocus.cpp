@@ -84,7 +84,7 @@ FloatImage blurred(gpu::Device& device, const SharpPicture& sharp, const Camera&
     f.upload(light, std::as_bytes(std::span(radiance)));
     f.upload(depths, std::as_bytes(std::span(depth)));
     const Lens lens{camera.apertureRadius, camera.focusDistance, camera.blades, camera.bladeRotation};
-    const gpu::Image out = depthOfField(f, store, {light, depths, view, lens, settings}).radiance;
+    const gpu::Image out = depthOfField(f, store, {light, depths, {}, view, lens, settings}).radiance;
     const gpu::Readback copy = f.readback(out);
     f.submit();
     f.wait();

@@ -296,13 +296,16 @@ void defocus(gpu::Recorder& f, FrameStore& own, const FrameInputs& in, const Set
     if (!blurs(in.lens, settings.dof)) {
         return;
     }
-    const DofImages blurred = depthOfField(f, own.dof, {out.light.lit, out.g.depth, in.view, in.lens, settings.dof});
-    out.light.lit = blurred.radiance;
-    out.circleOfConfusion = blurred.coc;
+    const gpu::Image motion = historyUse(settings).temporal ? out.g.motion : gpu::Image{};
+    const auto blurred = [&](DofStore& store, gpu::Image picture) {
+        return depthOfField(f, store, {picture, out.g.depth, motion, in.view, in.lens, settings.dof});
+    };
+    const DofImages light = blurred(own.dof, out.light.lit);
+    out.light.lit = light.radiance;
+    out.circleOfConfusion = light.coc;
     if (out.coverage) {
         const auto scope = f.scope("coverage");
-        out.coverage =
-            depthOfField(f, own.dofCoverage, {out.coverage, out.g.depth, in.view, in.lens, settings.dof}).radiance;
+        out.coverage = blurred(own.dofCoverage, out.coverage).radiance;
     }
 }
 

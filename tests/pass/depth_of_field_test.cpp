@@ -72,7 +72,7 @@ public:
         view.size = vec2(size);
         view.pixelAngle = 1.0F / static_cast<float>(size.y);
         const gpu::Image shown = fill("radiance", radiance);
-        const DofInputs in{shown, fill("depth", depth), view, lens, settings};
+        const DofInputs in{shown, fill("depth", depth), {}, view, lens, settings};
         const gpu::Readback copy = frame_.readback(depthOfField(frame_, store_, in).radiance);
         frame_.submit();
         frame_.wait();

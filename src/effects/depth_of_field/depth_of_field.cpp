@@ -59,20 +59,24 @@ float shapeArea(uint32_t corners) {
     return corners < 3 ? glm::pi<float>() : 0.5F * n * std::sin(2.0F * glm::pi<float>() / n);
 }
 
-gpu::Image circleOfConfusion(gpu::Recorder& f, gpu::KeptImage& own, const DofInputs& in, float height) {
+gpu::Image circleOfConfusion(gpu::Recorder& f, gpu::HistoryImage& own, const DofInputs& in, float height) {
     const uvec2 size = in.depth.size;
-    const gpu::Image coc = own.storage(f, VK_FORMAT_R32_SFLOAT, size);
+    const gpu::History coc = own.swap(f, VK_FORMAT_R32_SFLOAT, size);
+    const bool steady = in.motion && coc.valid;
     const bool orthographic = in.view.eye.w == 0.0F;
     const float pixelAngle = in.view.pixelAngle * in.view.size.y / height;  // of the picture
     const float atInfinity = in.lens.apertureRadius / (pixelAngle * (orthographic ? 1.0F : in.lens.focusDistance));
     const vec4 lens(atInfinity, 1.0F / in.lens.focusDistance, orthographic ? 1.0F : 0.0F,
                     in.settings.maxRadius * height);
     f.compute("coc", "dof_coc.comp")
+        .constant("hasPrevious", steady ? 1U : 0U)
         .read("depth", in.depth)
-        .write("coc", coc)
+        .read("motion", steady ? in.motion : f.placeholder(VK_FORMAT_R16G16_SFLOAT))
+        .read("previous", coc.previous)
+        .write("coc", coc.next)
         .params(DofCocParams{in.view.depthToDistance, lens, size})
         .dispatch(size);
-    return coc;
+    return coc.next;
 }
 
 void makeMips(gpu::Recorder& f, const Layers& layers, DofSizes sizes) {

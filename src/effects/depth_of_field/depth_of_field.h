@@ -74,6 +74,7 @@ struct Lens {
 struct DofInputs {
     gpu::Image radiance;     ///< RGBA16F or RGBA32F, of the picture's size; alpha is kept
     gpu::Image depth;        ///< reversed, of this size or smaller (temporal upscaling)
+    gpu::Image motion;       ///< of the depth's size, in uv, without jitter; none: depth has no jitter
     const ViewParams& view;  ///< of `depth`
     Lens lens;
     DofSettings settings;
@@ -81,7 +82,7 @@ struct DofInputs {
 
 /// Owns the images of depth of field.
 struct DofStore {
-    gpu::KeptImage coc{"circle_of_confusion"};
+    gpu::HistoryImage coc{"circle_of_confusion"};
     gpu::KeptImage result{"depth_of_field"};
 };
 
