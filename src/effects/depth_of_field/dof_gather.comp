@@ -24,9 +24,9 @@ layout(rgba16f) uniform writeonly image2D frontOut;   // radiance · coverage, c
 
 ivec2 cells = ivec2(params.half2);
 const float leastRadius = 0.25;  // smaller disks are points
-// Radii [pixels of half resolution] from which on disks are large: those of the background change from fine to coarse between
-// these two.
+// Between these radii [pixels of half resolution] disks change from small to large.
 const vec2 large = vec2(4.0, 5.5);
+float largeShare(float radius) { return clamp((radius - large.x) / (large.y - large.x), 0.0, 1.0); }
 float pixelSide = float(1u + coarse);  // in pixels of half resolution
 
 Ground loadGround(ivec2 cell, int level) {
@@ -119,7 +119,7 @@ struct Spread {
 
 Spread spreadOf(Disk d, float radius) {
     float edge = 0.5 * d.side;
-    float r2 = max(radius * radius - d.blur, 0.25 * edge * edge);
+    float r2 = max(radius * radius - d.blur, 0.5 * d.side * d.side);  // smaller ones would show the cells
     return Spread(sqrt(r2), d.area / (r2 + 0.3333 * edge * edge));
 }
 
@@ -166,8 +166,9 @@ vec3 blurredGround(vec2 at, Ground own, float most) {
 }
 
 vec4 blurredFront(vec2 at, float most) {
-    Disk d = diskOf(at, (most > large.x) == (coarse != 0u) ? most : 0.0);
-    Spread largest = spreadOf(d, most);
+    float radius = coarse == 0u ? min(most, large.y) : most > large.x ? most : 0.0;
+    Disk d = diskOf(at, radius);
+    Spread largest = spreadOf(d, radius);
     float perSide = 1.0 / d.side;
     vec4 sum = vec4(0.0);
     float whole = 1e-6;
@@ -175,7 +176,8 @@ vec4 blurredFront(vec2 at, float most) {
         vec4 go = steps.at[i];
         float away = shapeLength(wayAfter(d, go));  // disks in front of the plane of focus are turned by half a turn
         Front n = loadFront(cellAfter(d, go), d.level);
-        sum += n.light * reaches(spreadOf(d, n.coc), away, perSide);
+        float isLarge = largeShare(n.coc);
+        sum += (coarse != 0u ? isLarge : 1.0 - isLarge) * reaches(spreadOf(d, n.coc), away, perSide) * n.light;
         whole += reaches(largest, away, perSide);
     }
     sum /= whole;
@@ -198,8 +200,8 @@ void addCoarse(ivec2 pixel, float coc, float mostNear, inout vec3 light, inout v
         behind += w.x * w.y * (sharpWeight + g.a) * vec4(g.rgb, 1.0);
         before += w.x * w.y * imageLoad(frontCoarse, from);
     }
-    light = coc > large.x ? mix(light, behind.rgb / max(behind.a, 1e-9), clamp((coc - large.x) / (large.y - large.x), 0.0, 1.0)) : light;
-    front = mostNear > large.x ? before : front;
+    light = coc > large.x ? mix(light, behind.rgb / max(behind.a, 1e-9), largeShare(coc)) : light;
+    front = mostNear > large.x ? before + (1.0 - before.a) * front : front;  // larger disks are nearer
 }
 
 void main() {
