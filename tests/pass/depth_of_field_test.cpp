@@ -147,7 +147,9 @@ TEST_F(DepthOfField, EvenSurfacesStayEven) {
 TEST_F(DepthOfField, ASharpEdgeDoesNotLeakIntoWhatIsBlurredBehindIt) {
     DofRun run(device());
     const std::vector<vec4> out = run(
-        [](const uvec2& p) { return p.x < 80 ? Point{vec3(100.0F), 4.0F} : Point{vec3(1.0F), infinitelyFar}; },
+        [](const uvec2& p) {
+            return p.x < 80 ? Point{vec3(100.0F), 4.0F} : Point{vec3(1.0F), infinitelyFar};
+        },
         lensOf(20));
     for (int y = 4; y < 116; ++y) {
         for (int x = 0; x < 160; ++x) {
@@ -167,7 +169,10 @@ TEST_F(DepthOfField, AnEdgeInFrontCoversByTheShareOfTheLensThatItHides) {
     const Lens lens = lensOf(20);
     const double radius = std::abs(radiusAt(lens, 2.0F));
     const std::vector<vec4> out = run(
-        [](const uvec2& p) { return p.x < 80 ? Point{vec3(0.0F), 2.0F} : Point{vec3(1.0F), 4.0F}; }, lens);
+        [](const uvec2& p) {
+            return p.x < 80 ? Point{vec3(0.0F), 2.0F} : Point{vec3(1.0F), 4.0F};
+        },
+        lens);
     double worst = 0.0;
     for (int x = 50; x < 110; ++x) {
         const double expected = 1.0 - diskBeyond((x + 0.5 - 80.0) / radius);
@@ -181,13 +186,31 @@ TEST_F(DepthOfField, AnEdgeBehindIsBlurredByItsOwnDisks) {
     const Lens lens = lensOf(20);
     const double radius = radiusAt(lens, 8.0F);
     const std::vector<vec4> out = run(
-        [](const uvec2& p) { return p.x < 80 ? Point{vec3(0.0F), 8.0F} : Point{vec3(1.0F), infinitelyFar}; }, lens);
+        [](const uvec2& p) {
+            return p.x < 80 ? Point{vec3(0.0F), 8.0F} : Point{vec3(1.0F), infinitelyFar};
+        },
+        lens);
     double worst = 0.0;
     for (int x = 50; x < 110; ++x) {
         const double expected = 1.0 - diskBeyond((x + 0.5 - 80.0) / radius);
         worst = std::max(worst, std::abs(at(out, x, 60) - expected));
     }
     EXPECT_LT(worst, 0.1);
+}
+
+TEST_F(DepthOfField, StaysFinite) {
+    DofRun run(device());
+    const float bad[] = {NAN, INFINITY, -INFINITY, -5.0F, 65504.0F};
+    for (const float z : {infinitelyFar, 4.0F, 2.0F}) {
+        const std::vector<vec4> out = run(
+            [&](const uvec2& p) {
+                return Point{vec3(p.x % 7 == 0 && p.y % 5 == 0 ? bad[(p.x / 7 + p.y) % 5] : 1.0F), z};
+            },
+            lensOf(20));
+        for (const vec4& texel : out) {
+            ASSERT_TRUE(texel.x >= 0.0F && texel.x <= 65504.0F) << z;
+        }
+    }
 }
 
 TEST_F(DepthOfField, DisksHaveTheAperturesShape) {

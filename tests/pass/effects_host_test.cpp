@@ -5,6 +5,7 @@
 #include "effects/ambient_occlusion/ambient_occlusion.h"
 #include "effects/composite/composite.h"
 #include "effects/contact/contact.h"
+#include "effects/depth_of_field/depth_of_field.h"
 #include "effects/direct/direct.h"
 #include "effects/direct/lamp_tiles.h"
 #include "effects/exposure/exposure.h"
@@ -70,6 +71,7 @@ struct Stores {
     gpu::KeptImage lightMips{"light_mips"};
     gpu::HistoryImage lit{"lit"};
     AoStore ao;
+    DofStore dof;
     LobeStore diffuse;
     LobeStore specular;
     CompositeStore composite;
@@ -171,6 +173,8 @@ public:
         const Composite light = lightIndirectly(f, view, {pyramid, direct, lit});
         const TemporalImages mean = temporal(f, stores_.temporal, {g_, light.lit, {}, view}, {});
         const TemporalInputs smaller{g_, light.lit, {}, view, 2U * size, vec2(0.1F, -0.2F)};
+        const Lens lens{.apertureRadius = 0.05F, .focusDistance = 2.0F};
+        depthOfField(f, stores_.dof, {mean.mean, g_.depth, g_.motion, view, lens, {}});
         const TemporalImages upscaled = temporal(f, stores_.upscaling, smaller, {});
         const LightLayers means = accumulate(f, stores_.accumulate, {direct, light}, 0);
         const gpu::Image stops = measureExposure(f, stores_.exposure, mean.mean, g_.depth, 0.0F, 0.5F);
@@ -381,6 +385,7 @@ TEST(EffectsHost, RecordsEveryEffectBetweenItsOwnCommands) {
                                  "kept_depth",
                                  "pyramid.1",
                                  "light_mips.1",
+                                 "dof.gather",
                                  "ao.slices_at_once",
                                  "ao.finish_ao",
                                  "diffuse.trace_at_once",
@@ -544,15 +549,10 @@ TEST(EffectsHost, TellsTheMemoryThatItAllocates) {
 
 // A new effect is to be recorded above, too.
 TEST(EffectsHost, KnowsEveryEffect) {
-    const std::set<std::string> recorded{"accumulate", "ambient_occlusion",
-                                         "composite",  "contact",
-                                         "cube_map",   "denoise",
-                                         "direct",     "environment",
-                                         "exposure",   "gbuffer",
-                                         "light_mips", "lobe",
-                                         "planar",     "import",
-                                         "pyramid",    "shadow",
-                                         "temporal",   "tonemap"};
+    const std::set<std::string> recorded{
+        "accumulate", "ambient_occlusion", "composite", "contact",  "cube_map",   "denoise", "depth_of_field",
+        "direct",     "environment",       "exposure",  "gbuffer",  "light_mips", "lobe",    "planar",
+        "import",     "pyramid",           "shadow",    "temporal", "tonemap"};
     for (const auto& entry : std::filesystem::directory_iterator(REFLET_EFFECTS)) {
         if (entry.is_directory()) {
             EXPECT_TRUE(recorded.contains(entry.path().filename().string())) << entry.path();

@@ -20,7 +20,8 @@ constexpr uvec2 size(64, 36);
 using Images = std::map<std::string, FloatImage>;
 
 bool maySignify(std::string_view show) {  // images whose values may be negative
-    return show == "normal" || show == "geometric_normal" || show == "bent_normal" || show == "motion";
+    return show == "normal" || show == "geometric_normal" || show == "bent_normal" || show == "motion" ||
+           show == "circle_of_confusion";
 }
 
 void expectSound(const Images& images, const std::string& during) {
@@ -91,7 +92,10 @@ protected:
     static Subject& subject(const std::string& name) {
         auto& subjects = all();
         if (!subjects.contains(name)) {
-            Scene scene = name == "monitor" ? monitor() : name == "glass" ? glass() : findBuiltinScene(name)->make();
+            Scene scene = name == "monitor"     ? monitor()
+                          : name == "glass"     ? glass()
+                          : name == "wide lens" ? wideLens()
+                                                : findBuiltinScene(name)->make();
             subjects[name] = std::make_unique<Subject>(device(), std::move(scene));
         }
         return *subjects.at(name);
@@ -111,6 +115,12 @@ private:
             scene.materials[i].alphaCutoff = blendCutoff;
             scene.materials[i].blended = true;
         }
+        return scene;
+    }
+    // Disks of several pixels, in pictures as small as these.
+    static Scene wideLens() {
+        Scene scene = findBuiltinScene("lens")->make();
+        scene.cameras.front().apertureRadius = 1.0F;
         return scene;
     }
     // A surface that shows what a camera of the scene sees.
@@ -179,6 +189,7 @@ const std::vector<Context>& contexts() {
         {"planar.camera_", {"planar.enabled=true", "planar.form=camera"}, "mirror-hall"},
         {"live.", {"shadow.filter=none", "materials.anisotropy=1"}, "monitor"},
         {"environment.", {}, "mirror-hall"},
+        {"dof.", {"dof.max_radius=0.25"}, "wide lens"},
         {"ao.", {"ao.method=bitmask"}},
         {"ao.method", {}},
         {"ao.thickness", {"ao.method=bitmask", "ao.radius=10"}, "colonnade"},

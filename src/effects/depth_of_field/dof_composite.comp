@@ -2,6 +2,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/depth_of_field/dof_layers.glsl"
+#include "shaders/half_float.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { DofSizes params; };
@@ -17,6 +18,7 @@ void main() {
         return;
     }
     vec4 sharp = texelFetch(radiance, pixel, 0);
+    sharp.rgb = clampToHalf(sharp.rgb);
     float c = imageLoad(coc, min(ivec2((vec2(pixel) + 0.5) * params.toDepth), imageSize(coc) - 1)).r;
     // Bilinear; blurred cells before sharp ones, whose light must not leak.
     ivec2 corner = (pixel - 1) >> 1;
