@@ -1,7 +1,9 @@
 // Traces one path.
 #include "reference/path_tracer.h"
 
+#include "base/color.h"
 #include "reference/bsdf.h"
+#include "reference/through_glass.h"
 #include "scene/background.h"
 #include "scene/environment.h"
 
@@ -43,6 +45,7 @@ Ray rayToLamp(const vec3& origin, const vec3& center, const LightSample& lamp) {
 struct PathTracer::Walk {
     SurfacePoint point;
     uint32_t vertex = 0;  ///< number of surfaces before this one
+    Media media;          ///< on the side of the vertex that the ray comes from
     Reflection throughput;
     const PixelSampler& random;
     PathSample out;
@@ -50,6 +53,10 @@ struct PathTracer::Walk {
     void addIndirect(const vec3& radiance) {
         out.indirectDiffuse += throughput.diffuse * radiance;
         out.indirectSpecular += throughput.specular * radiance;
+    }
+    void attenuate(const vec3& share) {
+        throughput.diffuse *= share;
+        throughput.specular *= share;
     }
     [[nodiscard]] vec2 pair(Purpose purpose) const { return random.pair(pairFor(vertex, purpose)); }
     // Counts the ray.
@@ -60,7 +67,13 @@ struct PathTracer::Walk {
 };
 
 PathTracer::PathTracer(const RayScene& rays, const View& view, uvec2 size, const ReferenceOptions& options)
-    : rays_(rays), camera_(view.camera, size), lights_(rays, view), options_(options) {
+    : rays_(rays),
+      camera_(view.camera, size),
+      lights_(rays, view),
+      options_(options),
+      glass_(!options.lambertOnly && std::ranges::any_of(rays.scene().materials, [](const Material& m) {
+          return m.transmission.factor > 0.0F;
+      })) {
     const auto blurred =
         needsBlurredImage(view) ? std::make_shared<FloatImage>(blurredImage(*view.environment.image)) : nullptr;
     behind_ = environmentBehind(view, blurred);
@@ -74,7 +87,7 @@ std::optional<SurfacePoint> PathTracer::firstSurface(const vec2& place, uint32_t
 }
 
 PathSample PathTracer::trace(const vec2& place, const PixelSampler& random) const {
-    Walk walk{{}, 0, {}, random, {}};
+    Walk walk{{}, 0, {}, {}, random, {}};
     const auto first = firstSurface(place, random.bits(walk.out.rays++));
     if (!first) {
         walk.out.direct = radianceFrom(behind_, camera_.through(place).direction);
@@ -88,7 +101,8 @@ PathSample PathTracer::trace(const vec2& place, const PixelSampler& random) cons
         walk.out.ambientVisibility = ambientVisibility(walk);
     }
     for (;; ++walk.vertex) {
-        const Bsdf bsdf(walk.point, options_);
+        const Boundary boundary = walk.point.transmission > 0.0F ? boundaryAt(walk.point, walk.media) : Boundary{};
+        const Bsdf bsdf(walk.point, options_, boundary);
         addLamps(walk, bsdf);
         if (walk.vertex >= options_.bounces) {
             break;
@@ -101,7 +115,7 @@ PathSample PathTracer::trace(const vec2& place, const PixelSampler& random) cons
     return walk.out;
 }
 
-bool PathTracer::lit(Walk& walk, const LightSample& light) const {
+vec3 PathTracer::lit(Walk& walk, const LightSample& light) const {
     const SurfacePoint& point = walk.point;
     const vec3 origin = point.rayOrigin(light.toLight);
     Ray ray = walk.counted({origin, light.toLight});
@@ -114,7 +128,14 @@ bool PathTracer::lit(Walk& walk, const LightSample& light) const {
         ray = rayToLamp(origin, point.position + light.toLight * light.distance, light);
         ray.random = random;
     }
-    return ray.far <= 0.0F || !rays_.occluded(ray, RayKind::light);
+    if (ray.far <= 0.0F) {
+        return vec3(1.0F);
+    }
+    // Scattered rays find the light of emissive surfaces and of the environment behind glass.
+    if (glass_ && light.pdf == 0.0F) {
+        return straightTransmittance(rays_, ray, RayKind::light, walk.media);
+    }
+    return rays_.occluded(ray, RayKind::light) ? vec3(0.0F) : vec3(1.0F);
 }
 
 // Next-event estimation of sun and lamps, which scattered rays cannot hit.
@@ -126,17 +147,17 @@ void PathTracer::addLamps(Walk& walk, const Bsdf& bsdf) const {
         const vec3 reflected = bsdf.reflectLamp(sun.toLight).sum() * sun.light;
         const bool faces = glm::dot(sun.toLight, walk.point.geometricNormal) > 0.0F;
         const bool needed = faces && (first || reflected != vec3(0.0F));
-        const bool visible = needed && lit(walk, sun);
-        sum += visible ? reflected : vec3(0.0F);
+        const vec3 visible = needed ? lit(walk, sun) : vec3(0.0F);
+        sum += reflected * visible;
         if (first) {
-            walk.out.sunVisibility = visible ? 1.0F : 0.0F;
+            walk.out.sunVisibility = luminance(visible);
         }
     }
     if (lights_.hasLamps()) {
         const LightSample lamp = lights_.drawLamp(walk.point, walk.pair(forLampAndLobe).x, walk.pair(forLampDisk));
         const vec3 reflected = bsdf.reflectLamp(lamp.toLight).sum() * lamp.light;
-        if (reflected != vec3(0.0F) && (!options_.lampShadows || lit(walk, lamp))) {
-            sum += reflected;
+        if (reflected != vec3(0.0F)) {
+            sum += options_.lampShadows ? reflected * lit(walk, lamp) : reflected;
         }
     }
     if (first) {
@@ -156,7 +177,7 @@ void PathTracer::addEmitters(Walk& walk, const Bsdf& bsdf) const {
         return;
     }
     Reflection r = bsdf.reflect(s.toLight);
-    if (r.sum() == vec3(0.0F) || !lit(walk, s)) {
+    if (r.sum() == vec3(0.0F) || lit(walk, s) == vec3(0.0F)) {
         return;
     }
     if (options_.visibleOnly && s.onSurface && !cameraSees(walk, surfaceAt(rays_, s.hit, s.toLight))) {
@@ -176,8 +197,7 @@ bool PathTracer::step(Walk& walk, const Bsdf& bsdf) const {
     if (walk.vertex == 0) {
         walk.throughput = s.weight;
     } else {
-        walk.throughput.diffuse *= s.weight.sum();
-        walk.throughput.specular *= s.weight.sum();
+        walk.attenuate(s.weight.sum());
     }
     if (walk.vertex >= rouletteStart) {
         const vec3 share = walk.throughput.sum();
@@ -185,11 +205,13 @@ bool PathTracer::step(Walk& walk, const Bsdf& bsdf) const {
         if (walk.pair(forEmitterChoice).y >= survival) {
             return false;
         }
-        walk.throughput.diffuse /= survival;
-        walk.throughput.specular /= survival;
+        walk.attenuate(vec3(1.0F / survival));
     }
     if (walk.throughput.sum() == vec3(0.0F)) {
         return false;
+    }
+    if (s.crosses) {
+        cross(walk.media, walk.point);
     }
     const vec3 from = walk.point.position;
     const auto hit = rays_.intersect(walk.counted({walk.point.rayOrigin(s.direction), s.direction}), RayKind::light);
@@ -198,8 +220,10 @@ bool PathTracer::step(Walk& walk, const Bsdf& bsdf) const {
         walk.addIndirect(lights_.environment(s.direction) * weight(lights_.environmentPdf(s.direction)));
         return false;
     }
+    walk.attenuate(walk.media.transmittance(hit->distance));
     walk.point = surfaceAt(rays_, *hit, s.direction);
-    if (options_.visibleOnly && !cameraSees(walk, walk.point)) {
+    const bool onGlass = glass_ && walk.point.transmission > 0.0F;  // its back faces lead on to what is seen
+    if (options_.visibleOnly && !onGlass && !cameraSees(walk, walk.point)) {
         return false;
     }
     if (walk.point.emission != vec3(0.0F)) {
@@ -238,7 +262,9 @@ bool PathTracer::cameraSees(Walk& walk, const SurfacePoint& point) const {
         return false;
     }
     back->origin = point.rayOrigin(back->direction);
-    return !rays_.occluded(walk.counted(*back), RayKind::camera);
+    const Ray ray = walk.counted(*back);
+    return glass_ ? straightTransmittance(rays_, ray, RayKind::camera, {}) != vec3(0.0F)
+                  : !rays_.occluded(ray, RayKind::camera);
 }
 
 }  // namespace reflet

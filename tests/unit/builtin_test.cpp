@@ -143,9 +143,9 @@ INSTANTIATE_TEST_SUITE_P(Builtin, EveryBuiltinScene, testing::ValuesIn(builtinSc
                              return name;
                          });
 
-TEST(BuiltinScenes, TheNineAreListedAndFoundByName) {
-    const std::array<std::string_view, 9> names{"cubes",     "tilted-cube", "cornell", "cave",  "gloss",
-                                                "colonnade", "mirror-hall", "lamps",   "moving"};
+TEST(BuiltinScenes, TheTenAreListedAndFoundByName) {
+    const std::array<std::string_view, 10> names{"cubes",     "tilted-cube", "cornell", "cave",   "gloss",
+                                                 "colonnade", "mirror-hall", "lamps",   "moving", "glass"};
     ASSERT_EQ(builtinScenes().size(), names.size());
     for (size_t i = 0; i < names.size(); ++i) {
         EXPECT_EQ(builtinScenes()[i].name, names[i]);

@@ -9,7 +9,7 @@
 namespace reflet {
 namespace {
 
-constexpr std::array<BuiltinScene, 9> scenes{{
+constexpr std::array<BuiltinScene, 10> scenes{{
     {"cubes", "a polished box and painted cubes on labelled tiles: reflections, contact shadows, first steps",
      builtin::makeCubes},
     {"tilted-cube",
@@ -26,6 +26,8 @@ constexpr std::array<BuiltinScene, 9> scenes{{
     {"moving",
      "a box that slides and stops at 1 s, a rotating cube and a bending tube on glossy and mirror floors: motion",
      builtin::makeMoving},
+    {"glass", "clear, frosted and tinted glass, panes and a bottle with liquid before labelled tiles: refraction",
+     builtin::makeGlass},
 }};
 
 }  // namespace

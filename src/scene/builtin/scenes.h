@@ -18,6 +18,7 @@ Scene makeColonnade();
 Scene makeMirrorHall();
 Scene makeLamps();
 Scene makeMoving();
+Scene makeGlass();
 
 /// The number in "tessellated-N", if it is valid for makeTessellated.
 std::optional<uint32_t> tessellatedTriangles(std::string_view name);
