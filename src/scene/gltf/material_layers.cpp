@@ -21,9 +21,10 @@ Transmission GltfMaterials::transmissionOf(const tinygltf::ExtensionMap& extensi
     const auto& [name, transmission] = *found;
     result.factor = floatOr(transmission, "transmissionFactor", 0.0);
     result.texture = slotOf(transmission, "transmissionTexture", part + name);
-    if (result.factor > 0.0F) {
-        report_.warn("glass", part + name,
-                     "the renderer will draw the glass opaque: only \"reflet reference\" refracts");
+    if (result.factor > 0.0F && result.texture.image >= 0) {
+        report_.warn(
+            "transmission texture", part + name + ".transmissionTexture",
+            "the renderer will draw glass where it should be opaque: only \"reflet reference\" reads the texture");
     }
     const auto inside = extensions.find("KHR_materials_volume");
     if (inside == extensions.end()) {
