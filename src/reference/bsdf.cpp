@@ -163,6 +163,7 @@ Scattered Bsdf::scatterGlass(float choice, const vec2& u) const {
     const GlassLobe::Sample sample = glass_.sample(choice, u);
     Scattered s;
     s.direction = frame_ * sample.direction;
+    s.throughGlass = true;
     s.crosses = sample.direction.z < 0.0F;
     if (above(s.direction) == s.crosses) {
         s.direction -= 2.0F * glm::dot(s.direction, geometricNormal_) * geometricNormal_;

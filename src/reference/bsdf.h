@@ -24,8 +24,9 @@ struct Reflection {
 struct Scattered {
     vec3 direction{0.0F};
     Reflection weight;
-    float pdf = 0.0F;      ///< per solid angle; 0: a perfectly smooth surface, a delta lobe
-    bool crosses = false;  ///< to the other side of the surface
+    float pdf = 0.0F;           ///< per solid angle; 0: a perfectly smooth surface, a delta lobe
+    bool throughGlass = false;  ///< transmitted, or reflected inside
+    bool crosses = false;       ///< to the other side of the surface
 };
 
 /// Scattering at a surface point toward the ray's origin.

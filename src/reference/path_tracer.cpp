@@ -44,8 +44,9 @@ Ray rayToLamp(const vec3& origin, const vec3& center, const LightSample& lamp) {
 // surface.
 struct PathTracer::Walk {
     SurfacePoint point;
-    uint32_t vertex = 0;  ///< number of surfaces before this one
-    Media media;          ///< on the side of the vertex that the ray comes from
+    uint32_t vertex = 0;   ///< number of surfaces before this one
+    uint32_t bounces = 0;  ///< of these, those that are no boundary of glass which the path went through
+    Media media;           ///< on the side of the vertex that the ray comes from
     Reflection throughput;
     const PixelSampler& random;
     PathSample out;
@@ -87,7 +88,7 @@ std::optional<SurfacePoint> PathTracer::firstSurface(const vec2& place, uint32_t
 }
 
 PathSample PathTracer::trace(const vec2& place, const PixelSampler& random) const {
-    Walk walk{{}, 0, {}, {}, random, {}};
+    Walk walk{{}, 0, 0, {}, {}, random, {}};
     const auto first = firstSurface(place, random.bits(walk.out.rays++));
     if (!first) {
         walk.out.direct = radianceFrom(behind_, camera_.through(place).direction);
@@ -104,11 +105,14 @@ PathSample PathTracer::trace(const vec2& place, const PixelSampler& random) cons
         const Boundary boundary = walk.point.transmission > 0.0F ? boundaryAt(walk.point, walk.media) : Boundary{};
         const Bsdf bsdf(walk.point, options_, boundary);
         addLamps(walk, bsdf);
-        if (walk.vertex >= options_.bounces) {
+        const bool spent = walk.bounces >= options_.bounces;
+        if (spent && !(walk.point.transmission > 0.0F)) {
             break;
         }
-        addEmitters(walk, bsdf);
-        if (!step(walk, bsdf)) {
+        if (!spent) {
+            addEmitters(walk, bsdf);
+        }
+        if (!step(walk, bsdf, spent)) {
             break;
         }
     }
@@ -192,8 +196,15 @@ void PathTracer::addEmitters(Walk& walk, const Bsdf& bsdf) const {
     }
 }
 
-bool PathTracer::step(Walk& walk, const Bsdf& bsdf) const {
-    const Scattered s = bsdf.scatter(walk.pair(forLampAndLobe).y, walk.pair(forScattering));
+bool PathTracer::step(Walk& walk, const Bsdf& bsdf, bool spent) const {
+    Scattered s = bsdf.scatter(walk.pair(forLampAndLobe).y, walk.pair(forScattering));
+    if (spent) {
+        if (!s.throughGlass) {
+            return false;
+        }
+        s.pdf = 0.0F;  // no light was sampled that would share the weight
+    }
+    walk.bounces += s.throughGlass ? 0 : 1;
     if (walk.vertex == 0) {
         walk.throughput = s.weight;
     } else {

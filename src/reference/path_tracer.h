@@ -38,8 +38,8 @@ private:
 
     void addLamps(Walk& walk, const Bsdf& bsdf) const;
     void addEmitters(Walk& walk, const Bsdf& bsdf) const;
-    /// False if the path ends here.
-    [[nodiscard]] bool step(Walk& walk, const Bsdf& bsdf) const;
+    /// False if the path ends here. spent: it may only go on through glass.
+    [[nodiscard]] bool step(Walk& walk, const Bsdf& bsdf, bool spent) const;
     [[nodiscard]] float ambientVisibility(Walk& walk) const;
     [[nodiscard]] bool cameraSees(Walk& walk, const SurfacePoint& point) const;
     /// Share of the sample's light that arrives; only light of the sun and lamps passes through glass.

@@ -242,6 +242,30 @@ TEST(Glass, SunlightPassesStraightAndIsAttenuated) {
     EXPECT_EQ(floorUnder(lambertMaterial(vec3(1.0F))).first, vec3(0.0F));
 }
 
+// Going through glass is no bounce: with none, a wall behind a pane is seen in direct light.
+TEST(Glass, APaneDoesNotUseUpBounces) {
+    for (const float roughness : {0.0F, 0.2F}) {
+        const auto wall = [&](bool pane, uint32_t bounces) {
+            Scene scene;
+            add(scene, lambertMaterial(vec3(0.5F)), square({0, 0, 0}, {0, 0, 1}, 9.0F));
+            if (pane) {
+                Material m = glass(roughness, 0.0F, 1.0F);
+                m.doubleSided = true;
+                add(scene, m, square({0, 0, 1}, {0, 0, 1}, 9.0F));
+            }
+            View view = whiteView({0, 0, 4}, {0, 0, 0}, 5.0F);
+            view.sun.direction = vec3(0, 0, -1);
+            view.sun.irradiance = vec3(2.0F);
+            return mean(traceReference(scene, view, {4, 4}, {.bounces = bounces, .samples = 256}).final).x;
+        };
+        for (const uint32_t bounces : {0U, 1U}) {
+            const float open = wall(false, bounces);
+            EXPECT_GT(open, 0.3F);
+            EXPECT_NEAR(wall(true, bounces), open, 0.02F * open) << roughness << ", " << bounces;
+        }
+    }
+}
+
 // Emitters behind a pane are found by scattered rays alone, so none of their light is counted twice.
 TEST(Glass, ALampUnderClearGlassOfIndexOneShinesAsWithoutIt) {
     const auto under = [](bool pane) {
