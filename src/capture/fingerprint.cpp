@@ -93,10 +93,19 @@ private:
         const auto& [name, baseColor, metallic, roughness, emissive, normalScale, occlusionStrength, alphaCutoff,
                      blended, doubleSided, unlit, ior, specular, specularColor, camera, baseColorTexture,
                      metallicRoughnessTexture, normalTexture, occlusionTexture, emissiveTexture, specularTexture,
-                     specularColorTexture] = material;
+                     specularColorTexture, transmission, clearcoat] = material;
         all(name, baseColor, metallic, roughness, emissive, normalScale, occlusionStrength, alphaCutoff, blended,
             doubleSided, unlit, ior, specular, specularColor, camera, baseColorTexture, metallicRoughnessTexture,
             normalTexture, occlusionTexture, emissiveTexture, specularTexture, specularColorTexture);
+        if (transmission.factor > 0.0F) {  // others keep the print that they had before there was glass
+            const auto& [factor, thickness, attenuationColor, attenuationDistance, texture, thicknessTexture] =
+                transmission;
+            all(factor, thickness, attenuationColor, attenuationDistance, texture, thicknessTexture);
+        }
+        if (clearcoat.factor > 0.0F) {
+            const auto& [factor, coatRoughness, coatScale, texture, roughnessTexture, coatNormal] = clearcoat;
+            all(factor, coatRoughness, coatScale, texture, roughnessTexture, coatNormal);
+        }
     }
 
     void add(const VertexAttributes& vertex) {

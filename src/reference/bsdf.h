@@ -1,77 +1,78 @@
-// The surface model: Lambert under GGX with height-correlated Smith masking-shadowing (Walter et al. 2007; Heitz 2014).
-// The energy lost by single scattering is compensated by its directional albedo (Turquin 2019); the diffuse base
-// receives
-// what the specular layer does not reflect. Specified in docs/conventions.md; shares no code with src/shaders/ggx.glsl.
+// The surface model: Lambert under GGX. The diffuse base receives what the specular layer does not reflect; a share of
+// it may be transmitted instead (glass.h), and a clear coat may lie over everything. Specified in docs/conventions.md;
+// shares no code with src/shaders/ggx.glsl.
 #pragma once
 
+#include "reference/glass.h"
 #include "reference/reference.h"
+#include "reference/specular_lobe.h"
 #include "reference/surface.h"
+
+#include <array>
 
 namespace reflet {
 
-/// Directional albedo of the single-scattering GGX lobe as scale · F0 + bias; F0 is the reflectance at normal incidence
-/// (Schlick's Fresnel). Interpolated in a table that is computed on first use.
-/// cosine: of the angle between normal and viewer, 0..1; roughness: perceptual, 0..1.
-struct LobeAlbedo {
-    float scale = 0.0F;
-    float bias = 0.0F;
-};
-LobeAlbedo ggxAlbedo(float cosine, float roughness);
-
-/// Reflected radiance is incident radiance · (diffuse + specular).
+/// Reflected and transmitted radiance is incident radiance · (diffuse + specular).
 struct Reflection {
     vec3 diffuse{0.0F};
-    vec3 specular{0.0F};
+    vec3 specular{0.0F};  ///< with transmitted light
 
     [[nodiscard]] vec3 sum() const { return diffuse + specular; }
 };
 
-/// A sampled direction. `weight` is BRDF · cosine / pdf.
+/// A sampled direction. `weight` is BSDF · cosine / pdf.
 struct Scattered {
     vec3 direction{0.0F};
     Reflection weight;
-    float pdf = 0.0F;  ///< per solid angle; 0: a perfect mirror, a delta lobe
+    float pdf = 0.0F;           ///< per solid angle; 0: a perfectly smooth surface, a delta lobe
+    bool throughGlass = false;  ///< transmitted, or reflected inside
+    bool crosses = false;       ///< to the other side of the surface
 };
 
-/// Reflection of a surface point toward the ray's origin.
+/// Scattering at a surface point toward the ray's origin.
 class Bsdf {
 public:
-    Bsdf(const SurfacePoint& point, const ReferenceOptions& options);
+    /// boundary: what the ray crosses there, if the point is transmissive.
+    Bsdf(const SurfacePoint& point, const ReferenceOptions& options, const Boundary& boundary = {});
 
-    /// BRDF · cosine for light from that direction, without delta lobes; 0 from below the surface.
-    [[nodiscard]] Reflection reflect(const vec3& toLight) const { return evaluate(toLight, alpha_, !mirror_); }
-    /// The same for the sun and lamps. As in the renderer, roughness is at least 0.045, so that punctual lights have a
-    /// highlight even in mirrors.
+    /// BSDF · cosine for light from that direction, without delta lobes.
+    [[nodiscard]] Reflection reflect(const vec3& toLight) const;
+    /// The same for the sun and lamps, which are not seen through glass. As in the renderer, roughness is at least
+    /// 0.045, so that punctual lights have a highlight even in mirrors.
     [[nodiscard]] Reflection reflectLamp(const vec3& toLight) const;
 
-    /// Samples a direction: `lobe` selects the lobe, u the direction in it; both in [0, 1). The weight is 0 if the
-    /// direction
-    /// is below the surface.
+    /// Samples a direction: `lobe` selects the lobe, u the direction in it; both in [0, 1). The weight is 0 if light
+    /// from there does not arrive.
     [[nodiscard]] Scattered scatter(float lobe, const vec2& u) const;
     /// Pdf of scatter() for that direction.
     [[nodiscard]] float pdf(const vec3& direction) const;
 
 private:
-    [[nodiscard]] Reflection evaluate(const vec3& toLight, float alpha, bool withSpecular) const;
-    [[nodiscard]] vec3 specularLobe(const vec3& l, float alpha) const;
-    [[nodiscard]] float visibleNormalPdf(const vec3& l) const;
-    [[nodiscard]] vec3 local(const vec3& world) const { return world * frame_; }  // the frame's transpose
-    [[nodiscard]] bool above(const vec3& world) const;
+    enum Lobe : uint8_t { specular, diffuse, glass, coat, lobes };
+
+    void setLayers(const SurfacePoint& point, const Boundary& boundary);
+    void setCoat(const SurfacePoint& point);
+    void setChances();
+    [[nodiscard]] Reflection evaluate(const vec3& toLight, float leastAlpha) const;
+    [[nodiscard]] vec3 sampleDiffuse(const vec2& u) const;
+    [[nodiscard]] Scattered scatterMirror(const SpecularLobe& lobe, const vec3& share, float chance) const;
+    [[nodiscard]] Scattered scatterGlass(float choice, const vec2& u) const;
+    [[nodiscard]] bool above(const vec3& world) const { return glm::dot(world, geometricNormal_) > 0.0F; }
 
     mat3 frame_;  ///< tangent, bitangent, shading normal
     vec3 geometricNormal_;
     vec3 view_;     ///< local, z > 0
     vec3 diffuse_;  ///< albedo of the diffuse base, attenuated by the specular layer
-    vec3 f0_{0.0F};
-    float f90_ = 1.0F;
-    vec3 compensation_{0.0F};
-    float alpha_ = 1.0F;
-    bool mirror_ = false;
     bool uniform_;
-    float specularChance_ = 0.0F;
+    SpecularLobe specular_;
+    vec3 specularAlbedo_{0.0F};
+    GlassLobe glass_;
+    vec3 transmitted_{0.0F};        ///< weight of the glass lobe's transmitted light
+    float reflectedInside_ = 0.0F;  ///< of the light that an inner boundary reflects
+    SpecularLobe coat_;
+    float coatAlbedo_ = 0.0F;
+    float coatFactor_ = 0.0F;
+    std::array<float, lobes> chances_{0.0F, 1.0F, 0.0F, 0.0F};
 };
-
-/// Right-handed orthonormal frame around n, as columns; n is the last.
-mat3 frameAround(const vec3& n);
 
 }  // namespace reflet

@@ -1,7 +1,9 @@
 // Traces one path.
 #include "reference/path_tracer.h"
 
+#include "base/color.h"
 #include "reference/bsdf.h"
+#include "reference/through_glass.h"
 #include "scene/background.h"
 #include "scene/environment.h"
 
@@ -43,7 +45,9 @@ Ray rayToLamp(const vec3& origin, const vec3& center, const LightSample& lamp) {
 // surface.
 struct PathTracer::Walk {
     SurfacePoint point;
-    uint32_t vertex = 0;  ///< number of surfaces before this one
+    uint32_t vertex = 0;   ///< number of surfaces before this one
+    uint32_t bounces = 0;  ///< of these, those that are no boundary of glass which the path went through
+    Media media;           ///< on the side of the vertex that the ray comes from
     Reflection throughput;
     const PixelSampler& random;
     PathSample out;
@@ -51,6 +55,10 @@ struct PathTracer::Walk {
     void addIndirect(const vec3& radiance) {
         out.indirectDiffuse += throughput.diffuse * radiance;
         out.indirectSpecular += throughput.specular * radiance;
+    }
+    void attenuate(const vec3& share) {
+        throughput.diffuse *= share;
+        throughput.specular *= share;
     }
     [[nodiscard]] vec2 pair(Purpose purpose) const { return random.pair(pairFor(vertex, purpose)); }
     // Counts the ray.
@@ -61,7 +69,13 @@ struct PathTracer::Walk {
 };
 
 PathTracer::PathTracer(const RayScene& rays, const View& view, uvec2 size, const ReferenceOptions& options)
-    : rays_(rays), camera_(view.camera, size), lights_(rays, view), options_(options) {
+    : rays_(rays),
+      camera_(view.camera, size),
+      lights_(rays, view),
+      options_(options),
+      glass_(!options.lambertOnly && std::ranges::any_of(rays.scene().materials, [](const Material& m) {
+          return m.transmission.factor > 0.0F;
+      })) {
     const auto blurred =
         needsBlurredImage(view) ? std::make_shared<FloatImage>(blurredImage(*view.environment.image)) : nullptr;
     behind_ = environmentBehind(view, blurred);
@@ -77,7 +91,7 @@ std::optional<SurfacePoint> PathTracer::firstSurface(const Ray& ray) const {
 }
 
 PathSample PathTracer::trace(const vec2& place, const PixelSampler& random) const {
-    Walk walk{{}, 0, {}, random, {}};
+    Walk walk{{}, 0, 0, {}, {}, random, {}};
     const bool lens = camera_.hasLens() && !options_.pinhole;
     const Ray ray = walk.counted(lens ? camera_.throughLens(place, random.pair(pairForLens)) : camera_.through(place));
     const auto first = firstSurface(ray);
@@ -93,20 +107,24 @@ PathSample PathTracer::trace(const vec2& place, const PixelSampler& random) cons
         walk.out.ambientVisibility = ambientVisibility(walk);
     }
     for (;; ++walk.vertex) {
-        const Bsdf bsdf(walk.point, options_);
+        const Boundary boundary = walk.point.transmission > 0.0F ? boundaryAt(walk.point, walk.media) : Boundary{};
+        const Bsdf bsdf(walk.point, options_, boundary);
         addLamps(walk, bsdf);
-        if (walk.vertex >= options_.bounces) {
+        const bool spent = walk.bounces >= options_.bounces;
+        if (spent && !(walk.point.transmission > 0.0F)) {
             break;
         }
-        addEmitters(walk, bsdf);
-        if (!step(walk, bsdf)) {
+        if (!spent) {
+            addEmitters(walk, bsdf);
+        }
+        if (!step(walk, bsdf, spent)) {
             break;
         }
     }
     return walk.out;
 }
 
-bool PathTracer::lit(Walk& walk, const LightSample& light) const {
+vec3 PathTracer::lit(Walk& walk, const LightSample& light) const {
     const SurfacePoint& point = walk.point;
     const vec3 origin = point.rayOrigin(light.toLight);
     Ray ray = walk.counted({origin, light.toLight});
@@ -119,7 +137,14 @@ bool PathTracer::lit(Walk& walk, const LightSample& light) const {
         ray = rayToLamp(origin, point.position + light.toLight * light.distance, light);
         ray.random = random;
     }
-    return ray.far <= 0.0F || !rays_.occluded(ray, RayKind::light);
+    if (ray.far <= 0.0F) {
+        return vec3(1.0F);
+    }
+    // Scattered rays find the light of emissive surfaces and of the environment behind glass.
+    if (glass_ && light.pdf == 0.0F) {
+        return straightTransmittance(rays_, ray, RayKind::light, walk.media);
+    }
+    return rays_.occluded(ray, RayKind::light) ? vec3(0.0F) : vec3(1.0F);
 }
 
 // Next-event estimation of sun and lamps, which scattered rays cannot hit.
@@ -131,17 +156,17 @@ void PathTracer::addLamps(Walk& walk, const Bsdf& bsdf) const {
         const vec3 reflected = bsdf.reflectLamp(sun.toLight).sum() * sun.light;
         const bool faces = glm::dot(sun.toLight, walk.point.geometricNormal) > 0.0F;
         const bool needed = faces && (first || reflected != vec3(0.0F));
-        const bool visible = needed && lit(walk, sun);
-        sum += visible ? reflected : vec3(0.0F);
+        const vec3 visible = needed ? lit(walk, sun) : vec3(0.0F);
+        sum += reflected * visible;
         if (first) {
-            walk.out.sunVisibility = visible ? 1.0F : 0.0F;
+            walk.out.sunVisibility = luminance(visible);
         }
     }
     if (lights_.hasLamps()) {
         const LightSample lamp = lights_.drawLamp(walk.point, walk.pair(forLampAndLobe).x, walk.pair(forLampDisk));
         const vec3 reflected = bsdf.reflectLamp(lamp.toLight).sum() * lamp.light;
-        if (reflected != vec3(0.0F) && (!options_.lampShadows || lit(walk, lamp))) {
-            sum += reflected;
+        if (reflected != vec3(0.0F)) {
+            sum += options_.lampShadows ? reflected * lit(walk, lamp) : reflected;
         }
     }
     if (first) {
@@ -161,7 +186,7 @@ void PathTracer::addEmitters(Walk& walk, const Bsdf& bsdf) const {
         return;
     }
     Reflection r = bsdf.reflect(s.toLight);
-    if (r.sum() == vec3(0.0F) || !lit(walk, s)) {
+    if (r.sum() == vec3(0.0F) || lit(walk, s) == vec3(0.0F)) {
         return;
     }
     if (options_.visibleOnly && s.onSurface && !cameraSees(walk, surfaceAt(rays_, s.hit, s.toLight))) {
@@ -176,13 +201,19 @@ void PathTracer::addEmitters(Walk& walk, const Bsdf& bsdf) const {
     }
 }
 
-bool PathTracer::step(Walk& walk, const Bsdf& bsdf) const {
-    const Scattered s = bsdf.scatter(walk.pair(forLampAndLobe).y, walk.pair(forScattering));
+bool PathTracer::step(Walk& walk, const Bsdf& bsdf, bool spent) const {
+    Scattered s = bsdf.scatter(walk.pair(forLampAndLobe).y, walk.pair(forScattering));
+    if (spent) {
+        if (!s.throughGlass) {
+            return false;
+        }
+        s.pdf = 0.0F;  // no light was sampled that would share the weight
+    }
+    walk.bounces += s.throughGlass ? 0 : 1;
     if (walk.vertex == 0) {
         walk.throughput = s.weight;
     } else {
-        walk.throughput.diffuse *= s.weight.sum();
-        walk.throughput.specular *= s.weight.sum();
+        walk.attenuate(s.weight.sum());
     }
     if (walk.vertex >= rouletteStart) {
         const vec3 share = walk.throughput.sum();
@@ -190,11 +221,13 @@ bool PathTracer::step(Walk& walk, const Bsdf& bsdf) const {
         if (walk.pair(forEmitterChoice).y >= survival) {
             return false;
         }
-        walk.throughput.diffuse /= survival;
-        walk.throughput.specular /= survival;
+        walk.attenuate(vec3(1.0F / survival));
     }
     if (walk.throughput.sum() == vec3(0.0F)) {
         return false;
+    }
+    if (s.crosses) {
+        cross(walk.media, walk.point);
     }
     const vec3 from = walk.point.position;
     const auto hit = rays_.intersect(walk.counted({walk.point.rayOrigin(s.direction), s.direction}), RayKind::light);
@@ -203,8 +236,10 @@ bool PathTracer::step(Walk& walk, const Bsdf& bsdf) const {
         walk.addIndirect(lights_.environment(s.direction) * weight(lights_.environmentPdf(s.direction)));
         return false;
     }
+    walk.attenuate(walk.media.transmittance(hit->distance));
     walk.point = surfaceAt(rays_, *hit, s.direction);
-    if (options_.visibleOnly && !cameraSees(walk, walk.point)) {
+    const bool onGlass = glass_ && walk.point.transmission > 0.0F;  // its back faces lead on to what is seen
+    if (options_.visibleOnly && !onGlass && !cameraSees(walk, walk.point)) {
         return false;
     }
     if (walk.point.emission != vec3(0.0F)) {
@@ -243,7 +278,9 @@ bool PathTracer::cameraSees(Walk& walk, const SurfacePoint& point) const {
         return false;
     }
     back->origin = point.rayOrigin(back->direction);
-    return !rays_.occluded(walk.counted(*back), RayKind::camera);
+    const Ray ray = walk.counted(*back);
+    return glass_ ? straightTransmittance(rays_, ray, RayKind::camera, {}) != vec3(0.0F)
+                  : !rays_.occluded(ray, RayKind::camera);
 }
 
 }  // namespace reflet

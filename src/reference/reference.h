@@ -29,7 +29,7 @@ enum class DiffuseSampling : uint8_t { cosine, uniform };
 struct ReferenceOptions {
     static constexpr uint32_t unlimited = 0xFFFFFFFF;
 
-    uint32_t bounces = unlimited;  ///< scattered rays of a path; 0: direct light only
+    uint32_t bounces = unlimited;  ///< scattered rays of a path, but those through glass; 0: direct light only
     uint32_t samples = 64;         ///< per pixel, at least 1
     float noise = 0.0F;            ///< stops early once the noise (see ReferencePicture) is below this; 0: never
     PixelFilter filter = PixelFilter::box;

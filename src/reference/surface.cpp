@@ -57,29 +57,38 @@ vec3 emissionOf(const Scene& scene, const Material& material, const Corners& cor
     return material.emissive * vec3(readTexture(scene, material.emissiveTexture, corners.uv0(), corners.uv1(), true));
 }
 
-// KHR_materials_ior and KHR_materials_specular. Fresnel's reflectance at normal incidence, tinted and at most 1, and
-// Schlick's 1 at grazing incidence are both scaled by the strength.
-void setDielectric(SurfacePoint& s, const Scene& scene, const Material& material, const Corners& corners) {
-    const double root = (double(material.ior) - 1.0) / (double(material.ior) + 1.0);
-    vec3 tint = material.specularColor;
-    if (material.specularColorTexture.image >= 0) {
-        tint *= vec3(readTexture(scene, material.specularColorTexture, corners.uv0(), corners.uv1(), true));
-    }
-    s.dielectricF90 = material.specular;
-    if (material.specularTexture.image >= 0) {
-        s.dielectricF90 *= readTexture(scene, material.specularTexture, corners.uv0(), corners.uv1(), false).w;
-    }
-    s.dielectricF0 = glm::min(static_cast<float>(root * root) * tint, 1.0F) * s.dielectricF90;
+// A factor times a channel of its texture, if there is one.
+float factorAt(const Scene& scene, float factor, const TextureSlot& slot, const Corners& corners, int channel) {
+    return slot.image < 0 ? factor : factor * readTexture(scene, slot, corners.uv0(), corners.uv1(), false)[channel];
 }
 
-// The interpolated and normal-mapped normal; it points outwards, whichever side the ray came from.
-vec3 outerNormal(const RayScene& rays, const Hit& hit, const Corners& corners, const vec3& fallback) {
+// KHR_materials_ior and KHR_materials_specular.
+void setDielectric(SurfacePoint& s, const Scene& scene, const Material& material, const Corners& corners) {
+    s.specularTint = material.specularColor;
+    if (material.specularColorTexture.image >= 0) {
+        s.specularTint *= vec3(readTexture(scene, material.specularColorTexture, corners.uv0(), corners.uv1(), true));
+    }
+    s.specularStrength = factorAt(scene, material.specular, material.specularTexture, corners, 3);
+    s.dielectric = s.dielectricBetween(1.0F, material.ior);
+}
+
+// KHR_materials_transmission and KHR_materials_volume.
+void setGlass(SurfacePoint& s, const Scene& scene, const Material& material, const Corners& corners) {
+    const Transmission& t = material.transmission;
+    s.transmission = factorAt(scene, t.factor, t.texture, corners, 0);
+    s.bounded = t.thickness > 0.0F;
+    s.medium = {s.hit.instance, material.ior,
+                -glm::log(glm::max(t.attenuationColor, 1e-6F)) / std::max(t.attenuationDistance, 1e-6F)};
+}
+
+// The interpolated normal with that normal map; it points outwards, whichever side the ray came from.
+vec3 outerNormal(const RayScene& rays, const Hit& hit, const Corners& corners, const vec3& fallback,
+                 const TextureSlot& map, float scale) {
     const Scene& scene = rays.scene();
-    const Material& material = rays.material(hit.instance);
     const vec3 sum = rays.normalToWorld(hit.instance) * corners.mix([](const VertexAttributes& v) { return v.normal; });
     const float length = glm::length(sum);
     const vec3 n = length > 0.0F ? sum / length : fallback;
-    if (material.normalTexture.image < 0) {
+    if (map.image < 0) {
         return n;
     }
     const vec4 tangent = corners.mix([](const VertexAttributes& v) { return v.tangent; });
@@ -90,10 +99,26 @@ vec3 outerNormal(const RayScene& rays, const Hit& hit, const Corners& corners, c
     }
     const float handedness = (tangent.w < 0.0F) != rays.mirrored(hit.instance) ? -1.0F : 1.0F;
     const vec3 tUnit = glm::normalize(t);
-    vec3 m = vec3(readTexture(scene, material.normalTexture, corners.uv0(), corners.uv1(), false)) * 2.0F - 1.0F;
-    m.x *= material.normalScale;
-    m.y *= material.normalScale;
+    vec3 m = vec3(readTexture(scene, map, corners.uv0(), corners.uv1(), false)) * 2.0F - 1.0F;
+    m.x *= scale;
+    m.y *= scale;
     return glm::normalize(tUnit * m.x + glm::cross(n, tUnit) * (handedness * m.y) + n * m.z);
+}
+
+// KHR_materials_clearcoat. It covers the surface's emission, too.
+void setCoat(SurfacePoint& s, const RayScene& rays, const Material& material, const Corners& corners,
+             const vec3& outer) {
+    const Clearcoat& c = material.clearcoat;
+    if (!(c.factor > 0.0F) || (s.bounded && !s.front)) {  // none on the inside of glass
+        return;
+    }
+    const Scene& scene = rays.scene();
+    s.coat.factor = factorAt(scene, c.factor, c.texture, corners, 0);
+    s.coat.roughness = factorAt(scene, c.roughness, c.roughnessTexture, corners, 1);
+    const vec3 normal = outerNormal(rays, s.hit, corners, outer, c.normalTexture, c.normalScale);
+    s.coat.normal = s.front ? normal : -normal;
+    const float cosine = glm::dot(s.coat.normal, s.toOrigin);
+    s.emission *= 1.0F - s.coat.factor * (0.04F + 0.96F * schlick(cosine));
 }
 
 float largest(const vec3& v) {
@@ -118,7 +143,7 @@ SurfacePoint surfaceAt(const RayScene& rays, const Hit& hit, const vec3& directi
     const vec3 outer = glm::normalize(glm::cross(t.b - t.a, t.c - t.a)) * (rays.mirrored(hit.instance) ? -1.0F : 1.0F);
     s.front = glm::dot(outer, s.toOrigin) >= 0.0F;
     s.geometricNormal = s.front ? outer : -outer;
-    const vec3 shading = outerNormal(rays, hit, corners, outer);
+    const vec3 shading = outerNormal(rays, hit, corners, outer, material.normalTexture, material.normalScale);
     s.normal = s.front ? shading : -shading;
 
     s.baseColor = glm::clamp(vec3(baseColorAt(scene, material, corners)), 0.0F, 1.0F);
@@ -129,12 +154,23 @@ SurfacePoint surfaceAt(const RayScene& rays, const Hit& hit, const vec3& directi
         s.roughness *= texel.y;
         s.metallic *= texel.z;
     }
+    setGlass(s, scene, material, corners);
     setDielectric(s, scene, material, corners);
     s.unlit = material.unlit;
     if (s.front || material.doubleSided) {
         s.emission = emissionOf(scene, material, corners);
     }
+    setCoat(s, rays, material, corners, outer);
     return s;
+}
+
+// Fresnel's reflectance at normal incidence, tinted and at most 1, and Schlick's 1 at grazing incidence are both scaled
+// by the strength.
+Reflectance SurfacePoint::dielectricBetween(float near, float far) const {
+    const double root = (double(far) - near) / (double(far) + near);
+    const auto plain = static_cast<float>(root * root);
+    const float f90 = transmission > 0.0F ? std::min(50.0F * plain, 1.0F) : 1.0F;
+    return {glm::min(plain * specularTint, 1.0F) * specularStrength, f90 * specularStrength};
 }
 
 bool isCutOut(const RayScene& rays, const Hit& hit, float blendedCutoff) {

@@ -1,9 +1,18 @@
 // The surface at a hit: position, normals and material.
 #pragma once
 
+#include "reference/glass.h"
 #include "reference/ray_scene.h"
+#include "reference/specular_lobe.h"
 
 namespace reflet {
+
+/// KHR_materials_clearcoat at a point.
+struct CoatPoint {
+    float factor = 0.0F;
+    float roughness = 0.0F;
+    vec3 normal{0.0F};  ///< unit, on the side of the ray's origin
+};
 
 struct SurfacePoint {
     vec3 position{0.0F};
@@ -13,13 +22,22 @@ struct SurfacePoint {
     vec3 baseColor{0.0F};
     float roughness = 1.0F;  ///< perceptual
     float metallic = 0.0F;
-    vec3 dielectricF0{0.04F};    ///< reflectance at normal incidence, as far as the material is not metallic
-    float dielectricF90 = 1.0F;  ///< at grazing incidence
-    bool unlit = false;          ///< reflects nothing
-    vec3 emission{0.0F};         ///< radiance toward the ray's origin; 0 from the back of single-sided surfaces
-    float clearance = 0.0F;      ///< offset of new rays from the surface, to avoid self-intersection [m]
-    bool front = true;           ///< the ray hit the front face
+    Reflectance dielectric{vec3(0.04F), 1.0F};  ///< in air, as far as the material is not metallic
+    vec3 specularTint{1.0F};                    ///< of its reflectance at normal incidence
+    float specularStrength = 1.0F;
+    float transmission = 0.0F;  ///< share of the light in the base that passes the surface; 0: opaque
+    bool bounded = false;       ///< the surface bounds a volume
+    Medium medium;              ///< of that volume
+    CoatPoint coat;
+    bool unlit = false;      ///< reflects nothing
+    vec3 emission{0.0F};     ///< radiance toward the ray's origin; 0 from the back of single-sided surfaces
+    float clearance = 0.0F;  ///< offset of new rays from the surface, to avoid self-intersection [m]
+    bool front = true;       ///< the ray hit the front face
     Hit hit;
+
+    /// Reflectance between media of these indices of refraction. Of glass, that at grazing incidence vanishes with the
+    /// difference of the indices: two that are equal do not reflect at all.
+    [[nodiscard]] Reflectance dielectricBetween(float near, float far) const;
 
     /// Origin of a ray to `direction`.
     [[nodiscard]] vec3 rayOrigin(const vec3& direction) const {

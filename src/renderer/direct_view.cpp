@@ -5,6 +5,7 @@
 #include "effects/pyramid/pyramid.h"
 #include "renderer/gbuffer/back_depth.h"
 #include "renderer/gbuffer/draw_gbuffer.h"
+#include "renderer/glass/glass.h"
 #include "renderer/shadow/lamp_shadow_maps.h"
 #include "renderer/shadow/shadow_maps.h"
 
@@ -18,12 +19,13 @@ namespace {
 void drawSurfaces(gpu::Recorder& f, DirectViewStore& own, const ViewInputs& in, const Settings& settings,
                   ViewImages& out) {
     GBufferContent content{.clipPlane = in.clipPlane};
+    content.withoutGlass = drawsGlass(in.draws, settings.transmission, settings.materials);
     content.blendedFrom = settings.blend.layers > 0 ? opaqueAlpha : blendCutoff;
     out.g = drawGBuffer(f, own.g, in.draws, in.view, settings.materials, content);
     const bool aoReads =
         settings.ao.method == AoMethod::bitmask && settings.ao.thicknessMode == AoThickness::secondLayer;
     if (settings.traceScreen.thicknessMode == ThicknessMode::secondLayer || aoReads) {
-        const gpu::Image back = drawBackDepth(f, own.backDepth, in.draws, out.g.depth, in.view);
+        const gpu::Image back = drawBackDepth(f, own.backDepth, in.draws, out.g.depth, in.view, content.withoutGlass);
         out.backDepth = keptDepth(f, own.keptBackDepth, back, in.view, settings.depth);
     }
     out.g.depth = keptDepth(f, own.keptDepth, out.g.depth, in.view, settings.depth);
@@ -43,8 +45,9 @@ void renderSunVisibility(gpu::Recorder& f, SurfaceLightStore& own, const ViewInp
     const float sunSlope = std::tan(0.5F * in.sunAngularDiameter);
     out.sun = fitSunShadows(in.view, in.draws.boundsW, in.sunDirection, shadow,
                             filterReach(in.draws.boundsW, shadow, sunSlope));
-    const bool throughBlended = shadow.filter != ShadowFilter::none && settings.blend.layers > 0 &&
-                                std::ranges::any_of(in.draws.draws, &Draw::blended);
+    const bool glass = drawsGlass(in.draws, settings.transmission, settings.materials);
+    const bool blended = settings.blend.layers > 0 && std::ranges::any_of(in.draws.draws, &Draw::blended);
+    const bool throughBlended = shadow.filter != ShadowFilter::none && (blended || glass);
     if (shadow.filter != ShadowFilter::none && !out.shadowMap) {
         out.shadowMap = drawShadowMap(f, own.shadowMap, in.draws, out.sun, shadow, throughBlended);
     }

@@ -21,6 +21,7 @@ struct Draw {
     VkDescriptorSet material = VK_NULL_HANDLE;
     bool masked = false;   ///< has an alpha cutoff
     bool blended = false;  ///< alpha is coverage; masked, too
+    bool glass = false;    ///< transmissive
     float alpha = 1.0F;    ///< of blended draws: the largest that occurs, or more
     bool doubleSided = false;
     bool turnedOver = false;  ///< its triangles have clockwise winding in object space
@@ -37,6 +38,9 @@ struct DrawList {
     uint32_t textureSlots = 0;             ///< bit mask of the slots for which any material has a texture (material.h)
     uint32_t materialFeatures = 0;         ///< bit mask of materialFeature… that any material has (material.h)
     bool unlit = false;                    ///< nothing reflects light
+    bool glass = false;                    ///< some draws are transmissive
+    bool frosted = false;                  ///< some of these are rough
+    bool murky = false;                    ///< some of these are opaque in part
     std::vector<gpu::Image> livePictures;  ///< camera images shown by materials, written by passes
     /// Changes whenever the draws' geometry or transforms change. 0: treat as always changed.
     uint64_t version = 0;

@@ -1,8 +1,8 @@
 // The frame, top to bottom: values in, values out. Start reading here.
 //
 // direct view (G-buffer → depth pyramid → sun and lamp visibility → direct light) → diffuse rays → source chain
-// → layers of blended surfaces → planar views → specular rays → source chain → composite → temporal antialiasing
-// → depth of field → tone map
+// → layers of blended surfaces → planar views → specular rays → source chain → composite → layers of glass → temporal
+// antialiasing → depth of field → tone map
 //
 // renderFrame, at the end, does all of it; its parts are above it, those shared with other views in direct_view.cpp,
 // and a lobe's rays in trace_lobe.cpp. There is no render graph: the `if`s in these files are all that culls passes.
@@ -50,29 +50,6 @@ struct BlendedLight {
     gpu::Image indirectSpecular;
 };
 
-// Settings for blended surfaces: layers have no history, and no depth pyramid for contact shadows.
-Settings blendedSettings(Settings settings) {
-    settings.contact.distance = 0.0F;
-    settings.diffuse.method = DiffuseMethod::rays;  // slices start in the view that they walk through
-    settings.shadow.history = 0;
-    settings.denoise.history = 0;
-    settings.traceScreen.countSteps = 0;
-    return settings;
-}
-
-// One layer of blended surfaces, lit like the opaque ones. Its rays are traced in the screen of the opaque surfaces.
-Composite lightLayer(gpu::Recorder& f, BlendStore::Layer& own, const ViewInputs& in, const Settings& settings,
-                     TracedView& layer, bool layers) {
-    lightSurfaces(f, own.light, in, settings, layer.images);
-    const LobeLight diffuse = traceLobe(f, own.diffuse, in, settings, layer, lobeDiffuse);
-    const LobeLight specular = traceLobe(f, own.specular, in, settings, layer, lobeSpecular);
-    const CompositeInputs parts{layer.images.g, layer.images.direct, diffuse,
-                                specular,       in.ggxTable,         settings.materials.lambertOnly != 0,
-                                layers};
-    const gpu::Image lit = own.lit.storage(f, litFormat, layer.images.g.depth.size);
-    return composite(f, own.layers, parts, lit, {in.view, settings.diffuse.gain});
-}
-
 BlendedLight lightBlended(gpu::Recorder& f, BlendStore& own, const ViewInputs& in, const Settings& asked,
                           const TracedView& seen, bool layers) {
     BlendedLight out;
@@ -80,7 +57,7 @@ BlendedLight lightBlended(gpu::Recorder& f, BlendStore& own, const ViewInputs& i
         return out;
     }
     const auto scope = f.scope("blend");
-    const Settings settings = blendedSettings(asked);
+    const Settings settings = layerSettings(asked);
     const auto sum = [&](gpu::KeptImage& image) { return image.storage(f, litFormat, seen.images.g.depth.size); };
     out.lit = sum(own.lit);
     if (layers) {
@@ -152,6 +129,16 @@ BlendedLight lightForReflections(gpu::Recorder& f, ViewStore& own, BlendStore& b
     return blended;
 }
 
+// The light that reflections read at hits, with the glass in front of these: as the last frame has it, but of this one.
+gpu::Image lightWithGlass(gpu::Recorder& f, FrameStore& own, const ViewInputs& in, const Settings& settings,
+                          const TracedView& seen) {
+    const auto scope = f.scope("specular");
+    const gpu::Image light = seen.screen.light;
+    return throughGlass(f, own.glass, in, settings, seen, {light, {{}, {}, light}},
+                        own.litSoFarGlass.storage(f, litFormat, light.size), false)
+        .light.lit;
+}
+
 // Direct light with diffuse light from the probes, if there are any.
 gpu::Image withProbeLight(gpu::Recorder& f, ViewStore& own, const ViewInputs& in, Settings settings,
                           const TracedView& seen) {
@@ -192,14 +179,21 @@ ScreenImages renderReflectionView(gpu::Recorder& f, FrameStore::Planar& own, con
     const gpu::Image base = settings.diffuse.rays > 0 ? images.direct : seen.screen.light;
     seen.screen.light = base;
     const BlendedLight blended = lightForReflections(f, own, own.blend, in, settings, diffuse, seen, true, false);
-    if (lit && settings.planar.specular != 0) {
+    gpu::Image light = seen.screen.light;
+    const bool reflects = lit && settings.planar.specular != 0;
+    if (reflects) {
         const LobeLight specular = traceLobe(f, own.specular, in, settings, seen, lobeSpecular);
         const gpu::Image all = own.lit.storage(f, litFormat, images.direct.size);
         const CompositeInputs parts{images.g, base, diffuse, specular, in.ggxTable, settings.materials.lambertOnly != 0,
                                     false};
-        const Composite sum = composite(f, own.layers, parts, all, {in.view, settings.diffuse.gain});
-        seen.screen.light = withBlended(f, own.litBlended, blended.lit, sum.lit);
+        light = composite(f, own.layers, parts, all, {in.view, settings.diffuse.gain}).lit;
     }
+    if (showsGlass(in, settings)) {
+        light = throughGlass(f, own.glass, in, settings, seen, {images.direct, {{}, {}, light}},
+                             own.litGlass.storage(f, litFormat, light.size), false)
+                    .light.lit;
+    }
+    seen.screen.light = reflects ? withBlended(f, own.litBlended, blended.lit, light) : light;
     const bool blurred = settings.planar.form == PlanarForm::camera && settings.planar.cameraBlur > 1.0F;
     if (seen.screen.lightMips || blurred) {
         seen.screen.lightMips = makeLightMips(f, own.lightMips, seen.screen.light);
@@ -244,6 +238,7 @@ gpu::Image renderLiveCameras(gpu::Recorder& f, std::vector<DirectViewStore>& own
     gpu::Image lampShadowMap;
     Settings direct = settings;
     direct.blend.layers = 0;
+    direct.transmission.layers = 0;
     for (size_t i = 0; i < pictures.size(); ++i) {
         const auto scope = f.scope("live" + std::to_string(i));
         ViewInputs view = in;
@@ -258,8 +253,9 @@ gpu::Image renderLiveCameras(gpu::Recorder& f, std::vector<DirectViewStore>& own
 // Puts the background behind the radiance that is shown; coverage is accumulated as the radiance.
 void showBackground(gpu::Recorder& f, FrameStore& own, const FrameInputs& in, const Settings& settings,
                     const BlendedLight& blended, FrameImages& out) {
+    const gpu::Image depth = showsGlass(in, settings) ? depthWithGlass(f, own.glass, out.g.depth) : out.g.depth;
     const BackgroundImages shown =
-        drawBackground(f, own.background, out.g.depth, out.direct, out.light.lit, *in.background.environment, in.view);
+        drawBackground(f, own.background, depth, out.direct, out.light.lit, *in.background.environment, in.view);
     out.direct = shown.direct;
     out.light.lit = shown.lit;
     if (!in.background.shown.needsCoverage()) {
@@ -326,6 +322,10 @@ FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in
     const bool reused = settings.traceScene.enabled != 0 && settings.traceScene.reuseScreen != 0;
     const bool read = settings.traceScreen.enabled != 0 || reused;
     const BlendedLight blended = lightForReflections(f, own, own.blend, in, settings, out.diffuse, seen, read, layers);
+    const bool glass = showsGlass(in, settings);
+    if (glass && read && settings.specular.rays > 0 && settings.traceScreen.light != HitLight::previous) {
+        seen.screen.light = lightWithGlass(f, own, in, settings, seen);
+    }
     seen.mirrors = renderPlanarViews(f, own, in, settings, out.lampShadowMap);
     out.specular = traceLobe(f, own.specular, in, settings, seen, lobeSpecular);
 
@@ -335,9 +335,15 @@ FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in
     const gpu::Image behind = blended.lit ? image(own.litBehind) : lit.next;
     // Without rays, no frame reads the last one's light.
     const bool directAlone =
-        out.diffuse.dark && out.specular.dark && !layers && !blended.lit && !in.background.environment;
+        out.diffuse.dark && out.specular.dark && !layers && !blended.lit && !in.background.environment && !glass;
+    const gpu::Image withoutGlass = glass ? image(own.litWithoutGlass) : behind;
     out.light = directAlone ? Composite{{}, {}, out.direct}
-                            : composite(f, own.layers, parts, behind, {in.view, settings.diffuse.gain});
+                            : composite(f, own.layers, parts, withoutGlass, {in.view, settings.diffuse.gain});
+    if (glass) {
+        const LightLayers all = throughGlass(f, own.glass, in, settings, seen, {out.direct, out.light}, behind, layers);
+        out.direct = all.direct;
+        out.light = all.light;
+    }
     gpu::Image sum = lit.next;
     if (in.background.environment) {
         if (blended.lit) {

@@ -10,6 +10,8 @@
 #include "renderer/background/background.h"
 #include "renderer/direct_view.h"
 #include "renderer/gbuffer/draw_gbuffer.h"
+#include "renderer/glass/glass_layers.h"
+#include "renderer/lit_layer.h"
 #include "renderer/planar/mirrors.h"
 #include "renderer/settings.h"
 #include "renderer/trace_lobe.h"
@@ -31,17 +33,13 @@ struct ViewStore {
     gpu::KeptImage lightMips{"light_mips"};
     gpu::KeptImage lit{"lit"};
     gpu::KeptImage litBlended{"lit.blended"};
+    GlassStore glass;
 };
 
 /// Owns the images of the layers of blended surfaces in front of a view.
 struct BlendStore {
-    struct Layer {
+    struct Layer : LitLayerStore {
         GBufferStore g;
-        SurfaceLightStore light;
-        LobeStore diffuse;
-        LobeStore specular;
-        CompositeStore layers;
-        gpu::KeptImage lit{"lit"};
     };
     std::array<Layer, 2> layers;  ///< used in turn: a layer is peeled by the depth of the one before
     gpu::KeptImage lit{"blended"};
@@ -54,6 +52,7 @@ struct BlendStore {
 struct FrameStore : ViewStore {
     struct Planar : ViewStore {
         BlendStore blend;
+        gpu::KeptImage litGlass{"lit.glass"};
     };
     gpu::HistoryImage history{"lit"};
     BlendStore blend;
@@ -63,6 +62,8 @@ struct FrameStore : ViewStore {
     gpu::KeptImage coverageBlended{"coverage.blended"};
     AccumulateStore coverageMean;
     gpu::KeptImage litBehind{"lit_behind"};
+    gpu::KeptImage litWithoutGlass{"lit_without_glass"};
+    gpu::KeptImage litSoFarGlass{"lit_so_far.glass"};
     gpu::KeptImage litShown{"lit_shown"};
     gpu::KeptImage directBlended{"direct.blended"};
     gpu::KeptImage diffuseBlended{"indirect_diffuse.blended"};

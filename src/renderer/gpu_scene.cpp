@@ -192,6 +192,7 @@ void GpuScene::uploadMaterials(const Scene& scene, const std::function<void(cons
     std::vector<std::byte> blocks(std::max<size_t>(count, 1) * stride);
     for (uint32_t i = 0; i < count; ++i) {
         MaterialParams params = materialParams(scene.materials[i]);
+        params.glass = params.transmission > 0.0F ? i + 1 : 0;
         live[i] = livePictureOf(scene, scene.materials[i], warn);
         if (live[i]) {
             params.emissive = vec3(1.0F);
@@ -256,8 +257,12 @@ void GpuScene::addDraws(const Scene& scene) {
         draw.boundsW = transformed(mesh.bounds, instance.objectToWorld);
         draw.material = materialBindings_[mesh.material].set;
         draw.masked = material.alphaCutoff > 0.0F;
-        draw.blended = material.blended;
-        draw.alpha = material.blended ? material.baseColor.a : 1.0F;
+        draw.glass = material.transmission.factor > 0.0F;
+        draw.blended = material.blended && !draw.glass;
+        draws_.glass = draws_.glass || draw.glass;
+        draws_.frosted = draws_.frosted || (draw.glass && material.roughness > 0.0F);
+        draws_.murky = draws_.murky || (draw.glass && material.transmission.factor < 1.0F);
+        draw.alpha = draw.blended ? material.baseColor.a : 1.0F;
         draw.doubleSided = material.doubleSided;
         draws_.boundsW.add(draw.boundsW);
         draws_.draws.push_back(draw);

@@ -1,6 +1,8 @@
 // Converts scene materials to shader parameters.
 #include "renderer/material.h"
 
+#include <algorithm>
+
 namespace reflet {
 
 std::array<const TextureSlot*, slotCount> textureSlots(const Material& m) {
@@ -34,8 +36,16 @@ MaterialParams materialParams(const Material& m) {
     p.normalScale = m.normalScale;
     p.occlusionStrength = m.occlusionStrength;
     p.unlit = m.unlit ? 1U : 0U;
-    p.f0 = glm::min(dielectricF0Over4Percent(m.ior) * m.specularColor, 1e6F);  // infinity times 0 would be a NaN
-    p.f90 = m.specular;
+    // The reflectance of glass at grazing incidence vanishes with the difference of the indices of refraction.
+    const float f0 = dielectricF0Over4Percent(m.ior);
+    const float most = m.transmission.factor > 0.0F ? std::clamp(2.0F * f0, 1e-3F, 1.0F) : 1.0F;
+    p.f0 = glm::min(f0 / most * m.specularColor, 1e6F);  // infinity times 0 would be a NaN
+    p.f90 = m.specular * most;
+    p.transmission = m.transmission.factor;
+    p.ior = m.ior;
+    p.extinction = -glm::log(glm::max(m.transmission.attenuationColor, 1e-6F)) /
+                   std::max(m.transmission.attenuationDistance, 1e-6F);
+    p.thickness = m.transmission.thickness;
     const auto slots = textureSlots(m);
     for (size_t i = 0; i < slotCount; ++i) {
         p.textured |= slots[i]->image >= 0 ? 1U << i : 0U;

@@ -33,13 +33,18 @@ struct MaterialParams {
     float roughness;
     float normalScale;
     float occlusionStrength;
-    uint textured;    // bit per slot: has a texture
-    uint secondUv;    // bit per slot: uses uv1
-    uint blended;     // 1: alpha is coverage (Material::blended)
-    uint unlit;       // 1: emits its base colour and reflects nothing
-    vec3 f0;          // of the dielectric, over dielectricF0, without the factor that follows
-    float f90;        // of the dielectric, 0..1; a factor of F0, too
-    vec3 uvRows[14];  // two per slot, KHR_texture_transform
+    uint textured;       // bit per slot: has a texture
+    uint secondUv;       // bit per slot: uses uv1
+    uint blended;        // 1: alpha is coverage (Material::blended)
+    uint unlit;          // 1: emits its base colour and reflects nothing
+    vec3 f0;             // of the dielectric, over dielectricF0, without the factor that follows
+    float f90;           // of the dielectric, 0..1; a factor of F0, too
+    vec3 uvRows[14];     // two per slot, KHR_texture_transform
+    float transmission;  // share of the light in the dielectric's base that passes the surface, 0: opaque
+    float ior;
+    vec3 extinction;  // of the volume beneath [1/m]
+    float thickness;  // of that volume [m in object space]; 0: none, a sheet
+    uint glass;       // a number of its own for each transmissive material, from 1
 };
 
 SHARED_END

@@ -51,6 +51,7 @@ SettingTable makeTable() {
     table.add<DenoiseSettings>("denoise", offsetof(Settings, denoise));
     table.add<CompositeSettings>("composite", offsetof(Settings, composite));
     table.add<BlendSettings>("blend", offsetof(Settings, blend));
+    table.add<TransmissionSettings>("transmission", offsetof(Settings, transmission));
     table.add<AccumulateSettings>("accumulate", offsetof(Settings, accumulate));
     table.add<TemporalSettings>("temporal", offsetof(Settings, temporal));
     table.add<DofSettings>("dof", offsetof(Settings, dof));

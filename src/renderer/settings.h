@@ -20,6 +20,7 @@
 #include "effects/tonemap/tonemap.h"
 #include "renderer/blend/blend.h"
 #include "renderer/gbuffer/draw_gbuffer.h"
+#include "renderer/glass/glass.h"
 #include "renderer/live/live_picture.h"
 #include "renderer/probe/probes.h"
 #include "renderer/trace_scene/trace_scene.h"
@@ -50,6 +51,7 @@ struct Settings {
     DenoiseSettings denoise;
     CompositeSettings composite;
     BlendSettings blend;
+    TransmissionSettings transmission;
     AccumulateSettings accumulate;
     TemporalSettings temporal;
     DofSettings dof;

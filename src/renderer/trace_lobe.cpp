@@ -84,4 +84,15 @@ LobeLight traceLobe(gpu::Recorder& f, LobeStore& own, const ViewInputs& in, cons
                       .coneShare = settings.traceScreen.enabled != 0 ? coneShareOnScreen : 0.0F});
 }
 
+void answerRays(gpu::Recorder& f, Rays& rays, const ViewInputs& in, const Settings& settings, const TracedView& seen) {
+    const float longest = settings.traceScreen.maxDistance;
+    if (settings.traceScreen.enabled != 0) {
+        traceScreen(f, rays, seen.screen, settings.traceScreen, longest);
+    }
+    for (const RaySource& source : sourcesOf(in, settings, seen, rays.lobe, longest)) {
+        source(f, rays);
+    }
+    answerEnvironment(f, rays, in.environment, settings.environment);
+}
+
 }  // namespace reflet

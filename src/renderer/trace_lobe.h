@@ -22,4 +22,7 @@ struct TracedView {
 LobeLight traceLobe(gpu::Recorder& f, LobeStore& own, const ViewInputs& in, const Settings& settings,
                     const TracedView& seen, uint32_t lobe);
 
+/// Has the same sources answer other rays that start in front of the screen: the screen first, no planar views.
+void answerRays(gpu::Recorder& f, Rays& rays, const ViewInputs& in, const Settings& settings, const TracedView& seen);
+
 }  // namespace reflet

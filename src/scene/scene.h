@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -51,6 +52,27 @@ struct TextureSlot {
     std::array<vec3, 2> uvTransform{vec3(1, 0, 0), vec3(0, 1, 0)};
 };
 
+/// KHR_materials_transmission and KHR_materials_volume. With a thickness the surface bounds a volume of the material, a
+/// closed mesh whose front faces look outwards; without, it is a sheet that is thinner than a pixel.
+struct Transmission {
+    float factor = 0.0F;       ///< share of the light in the dielectric's base that passes the surface, 0..1
+    float thickness = 0.0F;    ///< of the volume beneath the surface [m in object space]; 0: none
+    vec3 attenuationColor{1};  ///< that white light has after `attenuationDistance` in the volume
+    float attenuationDistance = std::numeric_limits<float>::infinity();  ///< metres in the world, > 0
+    TextureSlot texture;                                                 ///< red
+    TextureSlot thicknessTexture;                                        ///< green
+};
+
+/// KHR_materials_clearcoat: a second layer of reflectance 0.04 over everything else.
+struct Clearcoat {
+    float factor = 0.0F;     ///< 0..1
+    float roughness = 0.0F;  ///< perceptual, 0..1
+    float normalScale = 1.0F;
+    TextureSlot texture;           ///< red
+    TextureSlot roughnessTexture;  ///< green
+    TextureSlot normalTexture;     ///< none: the normal of the vertices
+};
+
 /// glTF metallic-roughness. Colours are linear.
 struct Material {
     std::string name;
@@ -77,6 +99,8 @@ struct Material {
     TextureSlot emissiveTexture;       ///< sRGB
     TextureSlot specularTexture;       ///< alpha
     TextureSlot specularColorTexture;  ///< sRGB
+    Transmission transmission;
+    Clearcoat clearcoat;
 };
 
 /// Vertex attributes besides the position. Unit normal; unit tangent, w = ±1 (bitangent = w · cross(n, t)).

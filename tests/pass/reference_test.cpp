@@ -97,7 +97,8 @@ void expectTheDirectLightOfTheReference(const Scene& scene) {
     leaveOutLampShadowEdges(truth.direct, traceReference(scene, view, size, options).direct, mask);
     const Difference d = compareImages(p.images.at("direct"), truth.direct, {.mask = mask}).difference;
     EXPECT_LT(d.relativeMse, 1e-3);
-    EXPECT_GT(d.pixels, size.x * size.y / 4);
+    // What glass covers is not compared: its albedo is that of what is behind.
+    EXPECT_GT(d.pixels, size.x * size.y / (scene.name == "glass" ? 6 : 4));
     testing::Test::RecordProperty("relativeMse", std::to_string(d.relativeMse));
     expectSilentValidation("the reference's comparison");
 }

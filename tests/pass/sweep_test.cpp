@@ -93,7 +93,7 @@ protected:
         auto& subjects = all();
         if (!subjects.contains(name)) {
             Scene scene = name == "monitor"     ? monitor()
-                          : name == "glass"     ? glass()
+                          : name == "panes"     ? panes()
                           : name == "wide lens" ? wideLens()
                                                 : findBuiltinScene(name)->make();
             subjects[name] = std::make_unique<Subject>(device(), std::move(scene));
@@ -108,7 +108,7 @@ private:
         return subjects;
     }
     // Half of the materials are blended.
-    static Scene glass() {
+    static Scene panes() {
         Scene scene = findBuiltinScene("gloss")->make();
         for (size_t i = 1; i < scene.materials.size(); i += 2) {
             scene.materials[i].baseColor.a = 0.5F;
@@ -204,7 +204,8 @@ const std::vector<Context>& contexts() {
         {"denoise.enabled", {}},
         {"denoise.clip", {"denoise.enabled=true"}, "gloss", 4, true},
         {"denoise.fireflies", {"denoise.enabled=true", "diffuse.rays=1"}, "mirror-hall"},
-        {"blend.", {}, "glass"},
+        {"blend.", {}, "panes"},
+        {"transmission.", {}, "glass"},
         {"accumulate.", {"accumulate.enabled=true"}, "gloss", 2},
         {"accumulate.enabled", {}, "gloss", 2},
         {"temporal.", {"temporal.enabled=true"}, "gloss", 4},

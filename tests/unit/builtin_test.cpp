@@ -144,8 +144,8 @@ INSTANTIATE_TEST_SUITE_P(Builtin, EveryBuiltinScene, testing::ValuesIn(builtinSc
                          });
 
 TEST(BuiltinScenes, AllAreListedAndFoundByName) {
-    const std::array<std::string_view, 10> names{"cubes",     "tilted-cube", "cornell", "cave",   "gloss",
-                                                 "colonnade", "mirror-hall", "lamps",   "moving", "lens"};
+    const std::array<std::string_view, 11> names{"cubes",       "tilted-cube", "cornell", "cave", "gloss", "colonnade",
+                                                 "mirror-hall", "lamps",       "moving",  "lens", "glass"};
     ASSERT_EQ(builtinScenes().size(), names.size());
     for (size_t i = 0; i < names.size(); ++i) {
         EXPECT_EQ(builtinScenes()[i].name, names[i]);

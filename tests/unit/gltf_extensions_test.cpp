@@ -95,6 +95,86 @@ TEST(GltfExtensions, SpecularHasItsFactorsAndTexturesWithTheirTransformAndUvSet)
     EXPECT_EQ(m.specularColorTexture.uvTransform[1], vec3(0, 3, 0));
 }
 
+// The texture of a slot has this red value.
+void expectTexture(const Scene& scene, const TextureSlot& slot, uint8_t red) {
+    ASSERT_GE(slot.image, 0);
+    EXPECT_EQ(scene.images.at(static_cast<size_t>(slot.image)).rgba.at(0), red);
+}
+
+TEST(GltfExtensions, TransmissionAndVolumeAreRead) {
+    GltfBuilder b = withExtension("KHR_materials_transmission", json::object());
+    json& extensions = b.document["materials"][0]["extensions"];
+    extensions["KHR_materials_transmission"] = {{"transmissionFactor", 0.75},
+                                                {"transmissionTexture", {{"index", b.addTexture({1, 0, 0, 255})}}}};
+    b.document["extensionsUsed"].push_back("KHR_materials_volume");
+    extensions["KHR_materials_volume"] = {{"thicknessFactor", 0.5},
+                                          {"thicknessTexture", {{"index", b.addTexture({2, 0, 0, 255})}}},
+                                          {"attenuationDistance", 2},
+                                          {"attenuationColor", {0.5, 0.25, 1}}};
+    const Scene scene = load(b).scene;
+    const Transmission& t = scene.materials.at(0).transmission;
+    EXPECT_EQ(t.factor, 0.75F);
+    EXPECT_EQ(t.thickness, 0.5F);
+    EXPECT_EQ(t.attenuationDistance, 2.0F);
+    EXPECT_EQ(t.attenuationColor, vec3(0.5F, 0.25F, 1.0F));
+    expectTexture(scene, t.texture, 1);
+    expectTexture(scene, t.thicknessTexture, 2);
+}
+
+TEST(GltfExtensions, GlassIsClearAndThinUnlessTheFileSaysElse) {
+    const Transmission opaque = materialOf(withExtension("KHR_materials_transmission", json::object())).transmission;
+    EXPECT_EQ(opaque.factor, 0.0F);
+    const Transmission pane = load(withExtension("KHR_materials_transmission", {{"transmissionFactor", 1}}))
+                                  .scene.materials.at(0)
+                                  .transmission;
+    EXPECT_EQ(pane.factor, 1.0F);
+    EXPECT_EQ(pane.thickness, 0.0F);
+    EXPECT_EQ(pane.attenuationColor, vec3(1.0F));
+    EXPECT_EQ(pane.attenuationDistance, std::numeric_limits<float>::infinity());
+    const Transmission volume =
+        materialOf(withExtension("KHR_materials_volume", {{"thicknessFactor", 1}})).transmission;
+    EXPECT_EQ(volume.factor, 0.0F) << "a volume without transmission is opaque";
+    EXPECT_EQ(volume.thickness, 0.0F);
+}
+
+TEST(GltfExtensions, AnAttenuationDistanceOf0IsNone) {
+    GltfBuilder b = withExtension("KHR_materials_transmission", {{"transmissionFactor", 1}});
+    b.document["materials"][0]["extensions"]["KHR_materials_volume"] = {{"attenuationDistance", 0}};
+    const Loaded loaded = load(b);
+    EXPECT_EQ(loaded.scene.materials.at(0).transmission.attenuationDistance, std::numeric_limits<float>::infinity());
+    ASSERT_FALSE(loaded.warnings.empty());
+    EXPECT_NE(loaded.warnings.back().find("KHR_materials_volume.attenuationDistance: the glass will be clear"),
+              std::string::npos)
+        << loaded.warnings.back();
+}
+
+TEST(GltfExtensions, ClearcoatHasItsFactorsAndTextures) {
+    GltfBuilder b = withExtension("KHR_materials_clearcoat", json::object());
+    json& coat = b.document["materials"][0]["extensions"]["KHR_materials_clearcoat"];
+    coat = {{"clearcoatFactor", 0.5},
+            {"clearcoatRoughnessFactor", 0.25},
+            {"clearcoatTexture", {{"index", b.addTexture({1, 0, 0, 255})}}},
+            {"clearcoatRoughnessTexture", {{"index", b.addTexture({2, 0, 0, 255})}}},
+            {"clearcoatNormalTexture", {{"index", b.addTexture({3, 0, 0, 255})}, {"scale", 0.75}}}};
+    const Scene scene = load(b).scene;
+    const Clearcoat& c = scene.materials.at(0).clearcoat;
+    EXPECT_EQ(c.factor, 0.5F);
+    EXPECT_EQ(c.roughness, 0.25F);
+    EXPECT_EQ(c.normalScale, 0.75F);
+    expectTexture(scene, c.texture, 1);
+    expectTexture(scene, c.roughnessTexture, 2);
+    expectTexture(scene, c.normalTexture, 3);
+}
+
+TEST(GltfExtensions, UnlitSurfacesHaveNeitherGlassNorCoat) {
+    GltfBuilder b = withExtension("KHR_materials_unlit", json::object());
+    b.document["materials"][0]["extensions"]["KHR_materials_transmission"] = {{"transmissionFactor", 1}};
+    b.document["materials"][0]["extensions"]["KHR_materials_clearcoat"] = {{"clearcoatFactor", 1}};
+    const Material m = load(b).scene.materials.at(0);
+    EXPECT_EQ(m.transmission.factor, 0.0F);
+    EXPECT_EQ(m.clearcoat.factor, 0.0F);
+}
+
 std::string complaintAbout(GltfBuilder b) {
     return complaint(b.writeGltf(testFolder() / "scene.gltf"));
 }
@@ -110,6 +190,12 @@ TEST(GltfExtensions, ValuesOutOfRangeAreErrors) {
     EXPECT_EQ(specular({{"specularTexture", {{"index", 3}}}}),
               part + "specularTexture.index: is 3, but there are 0 textures");
     EXPECT_EQ(specular({{"specularColorTexture", json::object()}}), part + "specularColorTexture.index: is missing");
+    EXPECT_EQ(complaintAbout(withExtension("KHR_materials_transmission", {{"transmissionFactor", 2}})),
+              "materials[0].extensions.KHR_materials_transmission.transmissionFactor: is 2, not between 0 and 1");
+    EXPECT_EQ(complaintAbout(withExtension("KHR_materials_clearcoat", {{"clearcoatRoughnessFactor", -1}})),
+              "materials[0].extensions.KHR_materials_clearcoat.clearcoatRoughnessFactor: is -1, not between 0 and 1");
+    EXPECT_TRUE(complaintAbout(withExtension("KHR_materials_volume", {{"thicknessFactor", -1}}))
+                    .starts_with("materials[0].extensions.KHR_materials_volume.thicknessFactor: is -1"));
     EXPECT_TRUE(complaintAbout(withExtension("KHR_materials_ior", {{"ior", -1}}))
                     .starts_with("materials[0].extensions.KHR_materials_ior.ior: is -1"));
     EXPECT_EQ(complaintAbout(withExtension("KHR_materials_unlit", 7)),

@@ -29,10 +29,11 @@ namespace reflet {
 
 /// Surfaces that rays start from, one per pixel of `view`.
 struct RaySurfaces {
-    GBuffer g;           ///< as at full resolution, but a coarse grid's depth is R32F and has no emissive
-    ViewParams view;     ///< its clip space maps the picked pixels' centres to the coarse pixels' centres. pixelAngle
-                         ///< stays that of full resolution, the resolution of depth
-    uint32_t scale = 1;  ///< side of a block in full-resolution pixels
+    GBuffer g;             ///< as at full resolution, but a coarse grid's depth is R32F and has no emissive
+    ViewParams view;       ///< its clip space maps the picked pixels' centres to the coarse pixels' centres. pixelAngle
+                           ///< stays that of full resolution, the resolution of depth
+    uint32_t scale = 1;    ///< side of a block in full-resolution pixels
+    gpu::Image origins{};  ///< RGBA32F: points in world space where rays start, if not at the surfaces; none
     gpu::Image ambientOcclusion{};  ///< of ambientOcclusion(), at full resolution: dims prefiltered light; may be none
 };
 

@@ -15,6 +15,7 @@ layout(constant_id = 1) const uint through = 0u;
 layout(local_size_x = 64) in;
 uniform sampler2D ownDepth;
 uniform usampler2D ownGeometricNormal;
+#include "effects/lobe/ray_origin.glsl"
 layout(r32f) uniform writeonly image2DArray steps;
 layout(rg32ui) uniform readonly uimage2DArray direction;
 #include "effects/lobe/rays_waiting.glsl"
@@ -59,7 +60,7 @@ RayAnswer answerRay(ivec3 slot, Ray ray, inout WaitingRay w) {
         return noAnswer;
     }
     float d = texelFetch(ownDepth, slot.xy, 0).r;
-    vec3 p = uvToWorld(pixelToUv(slot.xy, params.own.pixel), d, params.own.clipToWorld);
+    vec3 p = rayOrigin(slot.xy, d, params.own);
     vec3 n = unpackUnitVector(texelFetch(ownGeometricNormal, slot.xy, 0).r);
     if (through != throughScreen && !liesOnMirror(p, n)) {
         return noAnswer;

@@ -28,7 +28,7 @@ BlendShadowMaps drawBlendShadowMaps(gpu::Recorder& f, BlendShadowStore& own, con
             .vertices(vertexLayout(), list.materialLayout)
             .params(sun)
             .draw([&](const gpu::DrawCommands& to) {
-                recordSunMap(to, list, sun, settings, [](const Draw& d) { return d.blended; });
+                recordSunMap(to, list, sun, settings, [](const Draw& d) { return d.blended || d.glass; });
             });
     }
     return maps;

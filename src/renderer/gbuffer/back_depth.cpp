@@ -4,7 +4,7 @@
 namespace reflet {
 
 gpu::Image drawBackDepth(gpu::Recorder& f, gpu::KeptImage& own, const DrawList& list, gpu::Image depth,
-                         const ViewParams& view) {
+                         const ViewParams& view, bool withoutGlass) {
     const gpu::Image back = own.target(f, VK_FORMAT_D32_SFLOAT, depth.size);
     f.raster("back_depth", {"back_depth.vert", "back_depth.frag"})
         .read("firstDepth", depth)
@@ -12,8 +12,8 @@ gpu::Image drawBackDepth(gpu::Recorder& f, gpu::KeptImage& own, const DrawList& 
         .vertices(vertexLayout(), list.materialLayout)
         .params(BackDepthParams{view.worldToClip, view.depthToDistance})
         .draw([&](const gpu::DrawCommands& to) {
-            recordDraws(to, list, {[](const Draw& d) { return !d.blended; }, Cull::front, true, view.worldToClip},
-                        false);
+            const auto keep = [&](const Draw& d) { return !d.blended && !(withoutGlass && d.glass); };
+            recordDraws(to, list, {keep, Cull::front, true, view.worldToClip}, false);
         });
     return back;
 }

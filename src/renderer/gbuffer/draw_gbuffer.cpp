@@ -44,6 +44,7 @@ GBuffer drawGBuffer(gpu::Recorder& f, GBufferStore& own, const DrawList& list, c
     pass.constant("clipped", clipped ? 1U : 0U)
         .constant("usedSlots", list.textureSlots)
         .constant("surfaces", surfaces)
+        .constant("translucent", content.glass ? translucentGlass : translucentBlended)
         .constant("materialFeatures", list.materialFeatures)
         .constant("bent", list.previousPositions != VK_NULL_HANDLE ? 1U : 0U)
         .color("outBaseColor", g.baseColor, zero)
@@ -60,7 +61,9 @@ GBuffer drawGBuffer(gpu::Recorder& f, GBufferStore& own, const DrawList& list, c
     }
     pass.draw([&](const gpu::DrawCommands& to) {
         const auto keep = [&](const Draw& draw) {
-            const bool drawn = blended ? draw.blended : draw.alpha >= content.blendedFrom;
+            const bool layer = content.glass ? draw.glass : draw.blended;
+            const bool opaque = draw.alpha >= content.blendedFrom && !(content.withoutGlass && draw.glass);
+            const bool drawn = blended ? layer : opaque;
             return drawn && (!clipped || isInFront(draw.boundsW, clipPlane));
         };
         recordDraws(to, list, {keep, Cull::back, true, view.worldToClip}, true);

@@ -27,6 +27,10 @@ const uint surfacesOpaque = 0;   // and blended ones from an alpha of blendedFro
 const uint surfacesNearest = 1;  // the nearest translucent ones in front of the opaque ones
 const uint surfacesBehind = 2;   // the next ones, behind those of another layer
 
+// What those translucent surfaces are, as the specialization constant `translucent`.
+const uint translucentBlended = 0;
+const uint translucentGlass = 1;
+
 struct GBufferParams {
     ViewParams view;
     MaterialsSettings settings;
@@ -62,6 +66,8 @@ struct GBufferContent {
     float blendedFrom = opaqueAlpha;  ///< alpha from which blended surfaces count as opaque
     gpu::Image opaqueDepth{};         ///< given: translucent surfaces in front of this; none: opaque surfaces
     gpu::Image nearerDepth{};         ///< given: of those the nearest ones behind this; none: the nearest ones
+    bool glass = false;               ///< translucent surfaces are transmissive ones, not blended ones
+    bool withoutGlass = false;        ///< transmissive surfaces do not count as opaque
 };
 
 /// Draws the list for the view: reversed Z, back faces of single-sided draws culled. Layers of blended surfaces are

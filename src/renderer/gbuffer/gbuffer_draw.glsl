@@ -6,6 +6,7 @@
 layout(constant_id = 0) const uint clipped = 0u;
 layout(constant_id = 2) const uint usedSlots = 127u;
 layout(constant_id = 3) const uint surfaces = surfacesOpaque;
+layout(constant_id = 4) const uint translucent = translucentBlended;
 #include "renderer/material.glsl"
 
 layout(scalar) uniform ParamsBlock { GBufferParams params; };
@@ -53,17 +54,22 @@ vec3 shadingNormal() {
     return gl_FrontFacing ? n : -n;
 }
 
-// Whether a blended surface belongs to what is drawn.
-bool isInLayer(float alpha) {
-    if (surfaces == surfacesOpaque) {
-        return alpha >= params.blendedFrom;
-    }
+// Whether a translucent surface is in the layer, by its depth.
+bool isPeeled() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     bool seen = gl_FragCoord.z >= texelFetch(opaqueDepth, pixel, 0).r * (1.0 - peelTolerance);
     if (surfaces == surfacesBehind) {
         seen = seen && gl_FragCoord.z < texelFetch(nearerDepth, pixel, 0).r * (1.0 - peelTolerance);
     }
-    return seen && isTranslucent(alpha);
+    return seen;
+}
+
+// kept: by the alpha test.
+bool isDrawn(float alpha, bool kept) {
+    if (surfaces == surfacesOpaque) {
+        return material.blended != 0u ? alpha >= params.blendedFrom : kept;
+    }
+    return isPeeled() && (translucent == translucentGlass ? kept : isTranslucent(alpha));
 }
 
 void main() {
@@ -75,8 +81,11 @@ void main() {
     }
     vec4 baseColor;
     bool kept = materialBaseColor(uv.xy, uv.zw, vertexColor, baseColor);
-    if (!(material.blended != 0u ? isInLayer(baseColor.a) : kept)) {
+    if (!isDrawn(baseColor.a, kept)) {
         discard;
+    }
+    if (translucent == translucentGlass) {  // what is left of the diffuse base; metals stay as they are
+        baseColor.rgb *= 1.0 - material.transmission * (1.0 - material.metallic);
     }
     vec2 roughnessMetallic = vec2(material.roughness, material.metallic);
     if (hasTexture(slotMetallicRoughness)) {

@@ -21,6 +21,7 @@ uniform sampler2D material;
 uniform samplerCubeArray probeLobes;
 uniform samplerCubeArray probeDistance;
 layout(rg32ui) uniform readonly uimage2DArray direction;
+#include "effects/lobe/ray_origin.glsl"
 #include "effects/lobe/rays_waiting.glsl"
 layout(rgba16f) uniform image2DArray answer;
 layout(rgba8) uniform image2DArray source;
@@ -36,7 +37,7 @@ ProbeParams loadProbe(uint index) { return params.probes.probes[index]; }
 RayAnswer answerRay(ivec3 slot, Ray ray) {
     ivec2 pixel = slot.xy;
     float d = texelFetch(depth, pixel, 0).r;
-    vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
+    vec3 p = rayOrigin(pixel, d, params.view);
     bool hemisphere = spreads != 0u && lobe == lobeDiffuse && ray.spread > 0.0;
     // Scattered rays are averaged over frames anyway. A mirror's would show the choice as grain.
     uint stream = params.firstRay + uint(slot.z) + hashPcg(params.view.seed + 11u);

@@ -15,6 +15,8 @@ void answerProbes(gpu::Recorder& f, Rays& rays, const ProbeMaps& probes, const P
         .constant("lobe", rays.lobe)
         .constant("spreads", rays.spreads ? 1U : 0U)
         .constant("parallax", static_cast<uint32_t>(settings.parallax))
+        .constant("startsElsewhere", rays.from.origins ? 1U : 0U)
+        .read("origins", rays.from.origins ? rays.from.origins : rays.from.g.depth)
         .read("depth", rays.from.g.depth)
         .read("material", rays.from.g.material)
         .read("probeLobes", probes.lobes, trilinear)

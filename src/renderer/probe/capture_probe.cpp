@@ -40,6 +40,7 @@ Settings captureSettings(const Settings& settings) {
     Settings s = settings;
     s.depth = {};
     s.blend.layers = 0;
+    s.transmission.layers = 0;
     s.contact.distance = 0.0F;
     s.traceScreen.method = TraceMethod::linear;  // no pyramid
     s.traceScreen.thicknessMode = ThicknessMode::constant;

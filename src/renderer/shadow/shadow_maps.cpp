@@ -53,7 +53,7 @@ gpu::Image drawShadowMap(gpu::Recorder& f, gpu::KeptImage& own, const DrawList& 
         return depth;
     }
     const auto record = [&](const gpu::DrawCommands& to, bool masked) {
-        const auto keep = [masked](const Draw& d) { return d.masked == masked; };
+        const auto keep = [&](const Draw& d) { return d.masked == masked && !(opaqueOnly && d.glass); };
         recordSunMap(to, list, sun, settings, keep, masked);
     };
     // Opaque draws need no fragment shader; cut-out draws test alpha.

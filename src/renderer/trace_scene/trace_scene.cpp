@@ -28,6 +28,8 @@ void traceScene(gpu::Recorder& f, Rays& rays, const TraceSceneInputs& in, uint32
         .read("probeIrradiance", in.probes ? in.probes.irradiance : in.environment.irradiance)
         .read("probeDistance", in.probes ? in.probes.distance : in.environment.lobes)
         .params(in.probes.block, "probeBlock")
+        .constant("startsElsewhere", rays.from.origins ? 1U : 0U)
+        .read("origins", rays.from.origins ? rays.from.origins : rays.from.g.depth)
         .read("ownDepth", rays.from.g.depth)
         .read("ownGeometricNormal", rays.from.g.geometricNormal)
         .read("depth", g.depth)

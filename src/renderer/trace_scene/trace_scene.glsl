@@ -25,6 +25,7 @@ layout(scalar) uniform LampUniforms { LampBlock lampBlock; };
 uniform sampler2D ownDepth;
 layout(rg16f) uniform writeonly image2D imageMotion;
 uniform usampler2D ownGeometricNormal;
+#include "effects/lobe/ray_origin.glsl"
 layout(scalar) uniform ProbesUniforms { ProbeBlock probeBlock; };
 uniform samplerCubeArray probeLobes;
 uniform sampler2D probeIrradiance;
@@ -249,7 +250,7 @@ vec3 radianceAlong(SceneRay ray, inout uint random, out float hitDistance) {
 // built-in scene cave that loses a tenth of the light).
 SceneRay rayOfPixel(ivec3 slot, Ray ray) {
     float d = texelFetch(ownDepth, slot.xy, 0).r;
-    vec3 p = uvToWorld(pixelToUv(slot.xy, params.own.pixel), d, params.own.clipToWorld);
+    vec3 p = rayOrigin(slot.xy, d, params.own);
     vec3 n = unpackUnitVector(texelFetch(ownGeometricNormal, slot.xy, 0).r);
     float away = depthToViewDistance(d, params.own.depthToDistance);
     float roughness = unpackMaterial(texelFetch(material, slot.xy, 0)).roughness;

@@ -9,7 +9,7 @@
 namespace reflet {
 namespace {
 
-constexpr std::array<BuiltinScene, 10> scenes{{
+constexpr std::array<BuiltinScene, 11> scenes{{
     {"cubes", "a polished box and painted cubes on labelled tiles: reflections, contact shadows, first steps",
      builtin::makeCubes},
     {"tilted-cube",
@@ -28,6 +28,8 @@ constexpr std::array<BuiltinScene, 10> scenes{{
      builtin::makeMoving},
     {"lens", "near rods, figures in focus, far lamps before a wall, a wide aperture: depth of field",
      builtin::makeLens},
+    {"glass", "clear, frosted and tinted glass, panes and a bottle with liquid before labelled tiles: refraction",
+     builtin::makeGlass},
 }};
 
 }  // namespace

@@ -19,6 +19,7 @@ Scene makeMirrorHall();
 Scene makeLamps();
 Scene makeMoving();
 Scene makeLens();
+Scene makeGlass();
 
 /// The number in "tessellated-N", if it is valid for makeTessellated.
 std::optional<uint32_t> tessellatedTriangles(std::string_view name);

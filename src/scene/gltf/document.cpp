@@ -48,10 +48,9 @@ struct UnsupportedExtension {
     std::string_view name;
     std::string_view consequence;
 };
-constexpr std::array<UnsupportedExtension, 9> unsupportedExtensions{
-    {{"KHR_materials_transmission", "glass will be drawn opaque"},
-     {"KHR_materials_diffuse_transmission", "translucent surfaces will be drawn opaque"},
-     {"KHR_materials_clearcoat", "clear coats will be missing"},
+constexpr std::array<UnsupportedExtension, 8> unsupportedExtensions{
+    {{"KHR_materials_diffuse_transmission", "translucent surfaces will be drawn opaque"},
+     {"KHR_materials_dispersion", "glass will not split light into colours"},
      {"KHR_materials_sheen", "sheen will be missing"},
      {"KHR_materials_iridescence", "iridescence will be missing"},
      {"KHR_materials_anisotropy", "anisotropic highlights will be drawn isotropic"},

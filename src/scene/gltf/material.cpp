@@ -112,7 +112,13 @@ Material GltfMaterials::convert(int material) {
     result.occlusionTexture = slotOf(source.occlusionTexture, "occlusionTexture");
     result.emissiveTexture = slotOf(source.emissiveTexture, "emissiveTexture");
     readSpecular(result, source.extensions, part + ".extensions.");
+    result.transmission = transmissionOf(source.extensions, part + ".extensions.");
+    result.clearcoat = clearcoatOf(source.extensions, part + ".extensions.");
     result.unlit = source.extensions.contains("KHR_materials_unlit");
+    if (result.unlit) {
+        result.transmission = {};
+        result.clearcoat = {};
+    }
     if (source.extras.Has("camera")) {
         result.unlit = false;
         result.camera = source.extras.Get("camera").Get<std::string>();

@@ -22,6 +22,8 @@ private:
     TextureSlot slot(int texture, int uvSet, const tinygltf::ExtensionMap& extensions, const std::string& part);
     TextureSlot slotOf(const tinygltf::Value& object, const std::string& name, const std::string& part);
     void readSpecular(Material& material, const tinygltf::ExtensionMap& extensions, const std::string& part);
+    Transmission transmissionOf(const tinygltf::ExtensionMap& extensions, const std::string& part);
+    Clearcoat clearcoatOf(const tinygltf::ExtensionMap& extensions, const std::string& part);
     void transformUv(TextureSlot& slot, const tinygltf::Value& transform, const std::string& part);
     int32_t useImage(int image);
     /// Index of the file's image that the texture shows; < 0, with a warning: none that can be decoded.

@@ -173,12 +173,32 @@ constexpr std::array specular{
     Field{.name = "specularColorFactor", .array = true, .items = 3, .min = 0},
     Field{.name = "specularColorTexture", .type = Type::object, .fields = textureInfo},
 };
+constexpr std::array transmission{
+    Field{.name = "transmissionFactor", .min = 0, .max = 1},
+    Field{.name = "transmissionTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
+};
+constexpr std::array volume{
+    Field{.name = "thicknessFactor", .min = 0},
+    Field{.name = "thicknessTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
+    Field{.name = "attenuationDistance", .min = 0},
+    Field{.name = "attenuationColor", .array = true, .items = 3, .min = 0, .max = 1},
+};
+constexpr std::array clearcoat{
+    Field{.name = "clearcoatFactor", .min = 0, .max = 1},
+    Field{.name = "clearcoatTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
+    Field{.name = "clearcoatRoughnessFactor", .min = 0, .max = 1},
+    Field{.name = "clearcoatRoughnessTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
+    Field{.name = "clearcoatNormalTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
+};
 constexpr std::array<Field, 0> unlit{};
 constexpr std::array materialExtensions{
+    Field{.name = "KHR_materials_clearcoat", .type = Type::object, .fields = clearcoat},
     Field{.name = "KHR_materials_emissive_strength", .type = Type::object, .fields = emissiveStrength},
     Field{.name = "KHR_materials_ior", .type = Type::object, .fields = ior},
     Field{.name = "KHR_materials_specular", .type = Type::object, .fields = specular},
+    Field{.name = "KHR_materials_transmission", .type = Type::object, .fields = transmission},
     Field{.name = "KHR_materials_unlit", .type = Type::object, .fields = unlit},
+    Field{.name = "KHR_materials_volume", .type = Type::object, .fields = volume},
 };
 constexpr std::array materialExtras{
     Field{.name = "camera", .type = Type::text},  // Reflet's own: Material::camera

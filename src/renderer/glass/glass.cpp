@@ -1,0 +1,95 @@
+// Records the passes of a layer of glass.
+#include "renderer/glass/glass.h"
+
+#include "effects/lobe/generate_rays.h"
+#include "gpu/context.h"
+
+namespace reflet {
+
+bool drawsGlass(const DrawList& list, const TransmissionSettings& settings, const MaterialsSettings& materials) {
+    return list.glass && settings.layers > 0 && materials.lambertOnly == 0;
+}
+
+GlassSurfaces glassSurfaces(gpu::Recorder& f, GlassSurfacesStore& own, const DrawList& list, const ViewParams& view,
+                            const GBuffer& g) {
+    const uvec2 size = g.depth.size;
+    const VkClearColorValue zero{};
+    const GlassSurfaces out{
+        own.tint.target(f, VK_FORMAT_R16G16B16A16_SFLOAT, size),
+        own.volume.target(f, VK_FORMAT_R16G16B16A16_SFLOAT, size), own.kind.target(f, VK_FORMAT_R32_UINT, size),
+        own.exitDepth.target(f, VK_FORMAT_D32_SFLOAT, size), own.exitNormal.target(f, VK_FORMAT_R32_UINT, size)};
+    const auto record = [&](Cull cull) {
+        return [&list, &view, cull](const gpu::DrawCommands& to) {
+            recordDraws(to, list, {[](const Draw& d) { return d.glass; }, cull, true, view.worldToClip}, false);
+        };
+    };
+    f.raster("glass_front", {"glass.vert", "glass_front.frag"})
+        .read("layerDepth", g.depth)
+        .color("outTint", out.tint, zero)
+        .color("outVolume", out.volume, zero)
+        .color("outKind", out.kind, zero)
+        .vertices(vertexLayout(), list.materialLayout)
+        .params(GlassDrawParams{view})
+        .draw(record(Cull::back));
+    f.raster("glass_exit", {"glass.vert", "glass_exit.frag"})
+        .read("layerDepth", g.depth)
+        .read("kind", out.kind)
+        .color("outNormal", out.exitNormal, zero)
+        .depth(out.exitDepth, 0.0F)
+        .vertices(vertexLayout(), list.materialLayout)
+        .params(GlassDrawParams{view})
+        .draw(record(Cull::front));
+    return out;
+}
+
+RefractedRays refractRays(gpu::Recorder& f, gpu::Scratch& scratch, GlassSurfacesStore& own, const GBuffer& g,
+                          const GlassSurfaces& glass, gpu::Image ggxTable, const RefractParams& params) {
+    const uvec2 size = g.depth.size;
+    RaySurfaces from{.g = g, .view = params.view};
+    from.origins = own.origins.storage(f, VK_FORMAT_R32G32B32A32_SFLOAT, size);
+    from.g.geometricNormal = own.leavingNormal.storage(f, VK_FORMAT_R32_UINT, size);
+    RayGeneration generation{.from = from, .tiles = {}, .ggxTable = ggxTable};
+    generation.lobe = lobeSpecular;
+    generation.params.rayCount = 1;
+    RefractedRays out{raysOf(f, scratch, generation), own.share.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, size)};
+    out.rays.spreads = params.frosted != 0;
+    gpu::Pass pass = f.compute("refract_rays", "refract_rays.comp");
+    bindSurfaces(f, pass, g)
+        .read("depth", g.depth)
+        .read("normal", g.normal)
+        .read("geometricNormal", g.geometricNormal)
+        .read("material", g.material)
+        .read("tint", glass.tint)
+        .read("volume", glass.volume)
+        .read("kind", glass.kind)
+        .read("exitDepth", glass.exitDepth)
+        .read("exitNormal", glass.exitNormal)
+        .read("ggxTable", ggxTable, f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
+        .write("origins", from.origins)
+        .write("leavingNormal", from.g.geometricNormal)
+        .write("share", out.share)
+        .write("direction", out.rays.direction)
+        .write("answer", out.rays.answer)
+        .write("source", out.rays.source)
+        .write("missed", out.rays.waiting)
+        .params(params)
+        .dispatch(size);
+    return out;
+}
+
+void glassOver(gpu::Recorder& f, const GBuffer& g, gpu::Image layer, const RefractedRays* transmitted,
+               gpu::Image behind, gpu::Image over) {
+    f.compute("glass_over", "glass_over.comp")
+        .constant("transmits", transmitted != nullptr ? 1U : 0U)
+        .read("depth", g.depth)
+        .read("layer", layer)
+        .read("behind", behind)
+        .read("share", transmitted != nullptr ? transmitted->share : behind)
+        .read("answer", transmitted != nullptr ? transmitted->rays.answer
+                                               : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT, gpu::ViewKind::array))
+        .write("over", over)
+        .params(GlassOverParams{over.size})
+        .dispatch(over.size);
+}
+
+}  // namespace reflet

@@ -1,0 +1,98 @@
+// Transmissive surfaces (KHR_materials_transmission): where their light leaves them, and what is behind them there.
+// Shared by C++ and GLSL.
+//
+// Layers of transmissive surfaces are peeled like blended ones and composited back to front. A view ray is refracted at
+// the layer's front face, and again at the nearest back face of the same material behind it, which is found in an image
+// of these (C. Wyman, An Approximate Image-Space Approach for Interactive Refraction, SIGGRAPH 2005). From there it is
+// traced like a reflection ray: on the screen, then by the sources that the settings ask for.
+#ifndef REFLET_RENDERER_GLASS_H
+#define REFLET_RENDERER_GLASS_H
+
+#include "base/shared.h"
+#include "effects/view.h"
+
+SHARED_BEGIN
+
+const uint mostGlassLayers = 8;
+
+#define TRANSMISSION_SETTINGS(VALUE, SWITCH, CHOICE)                                                                \
+    VALUE(uint, layers, 3, 0, 8,                                                                                    \
+          "Glass surfaces (KHR_materials_transmission) that a pixel shows behind one another, the nearest ones "    \
+          "first. More: right where more of them overlap, cost grows linearly. 0: drawn opaque.")                   \
+    VALUE(uint, exitSteps, 4, 0, 16,                                                                                \
+          "Steps that search the back face at which a refracted ray leaves a volume (KHR_materials_volume). More: " \
+          "more exact for curved shapes. 0: a slab of the material's thickness.")
+SETTINGS(TransmissionSettings, TRANSMISSION_SETTINGS)
+
+struct GlassDrawParams {
+    ViewParams view;
+};
+
+struct RefractParams {
+    ViewParams view;
+    uint exitSteps;
+    uint frosted;  // 0: no surface is rough
+};
+
+struct GlassOverParams {
+    uvec2 size;
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "effects/lobe/rays.h"
+#include "gpu/recorder.h"
+#include "renderer/draw_list.h"
+#include "renderer/gbuffer/draw_gbuffer.h"
+
+namespace reflet {
+
+/// Whether transmissive surfaces of the list are drawn as glass, apart from the opaque ones.
+bool drawsGlass(const DrawList& list, const TransmissionSettings& settings, const MaterialsSettings& materials);
+
+/// Owns the images of glassSurfaces and refractRays.
+struct GlassSurfacesStore {
+    gpu::KeptImage tint{"glass.tint"};
+    gpu::KeptImage volume{"glass.volume"};
+    gpu::KeptImage kind{"glass.kind"};
+    gpu::KeptImage exitDepth{"glass.exit_depth"};
+    gpu::KeptImage exitNormal{"glass.exit_normal"};
+    gpu::KeptImage origins{"glass.origins"};
+    gpu::KeptImage leavingNormal{"glass.leaving_normal"};
+    gpu::KeptImage share{"glass.share"};
+};
+
+/// What a layer of transmissive surfaces is made of, and its back faces.
+struct GlassSurfaces {
+    gpu::Image tint;        ///< RGBA16F: share of light that passes the surface, without reflection; thickness [m]
+    gpu::Image volume;      ///< RGBA16F: extinction [1/m]; index of refraction
+    gpu::Image kind;        ///< R32_UINT: MaterialParams::glass, 0: none
+    gpu::Image exitDepth;   ///< D32, reversed: of the nearest back face of that material behind the surface, 0: none
+    gpu::Image exitNormal;  ///< R32_UINT: its normal, outward (packUnitVector)
+};
+
+/// g: of the layer, drawn with the same list and view.
+GlassSurfaces glassSurfaces(gpu::Recorder& f, GlassSurfacesStore& own, const DrawList& list, const ViewParams& view,
+                            const GBuffer& g);
+
+/// A ray for each pixel of the layer, from where it leaves the glass.
+struct RefractedRays {
+    Rays rays;
+    gpu::Image share;  ///< RGBA16F: share of the ray's radiance that reaches the viewer
+};
+
+/// The rays' images live as long as `scratch`.
+RefractedRays refractRays(gpu::Recorder& f, gpu::Scratch& scratch, GlassSurfacesStore& own, const GBuffer& g,
+                          const GlassSurfaces& glass, gpu::Image ggxTable, const RefractParams& params);
+
+/// over = what the layer itself sends, where there is one, plus what it transmits (none: nothing); `behind` elsewhere.
+/// All RGBA16F. The alpha of `behind` is kept.
+void glassOver(gpu::Recorder& f, const GBuffer& g, gpu::Image layer, const RefractedRays* transmitted,
+               gpu::Image behind, gpu::Image over);
+
+}  // namespace reflet
+#endif
+
+#endif

@@ -1,0 +1,36 @@
+// What the surfaces of a layer of glass are made of. In: the layer's depth, materials. Out: share of the light that
+// passes the surface and thickness [m]; extinction [1/m] and index of refraction; the material's number.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "renderer/glass/glass.h"
+const uint usedSlots = 3u;  // base colour, metallic
+#include "renderer/material.glsl"
+#include "shaders/half_float.glsl"
+
+uniform sampler2D layerDepth;
+
+layout(location = 0) in vec3 normalW;
+layout(location = 1) in vec4 uv;
+layout(location = 2) in vec4 vertexColor;
+layout(location = 3) in float scale;
+
+layout(location = 0) out vec4 outTint;
+layout(location = 1) out vec4 outVolume;
+layout(location = 2) out uint outKind;
+
+void main() {
+    vec4 color;
+    bool kept = materialBaseColor(uv.xy, uv.zw, vertexColor, color);
+    float metallic = material.metallic;
+    if (hasTexture(slotMetallicRoughness)) {
+        metallic *= texture(metallicRoughnessTexture, slotUv(slotMetallicRoughness, uv.xy, uv.zw)).b;
+    }
+    float shown = texelFetch(layerDepth, ivec2(gl_FragCoord.xy), 0).r;
+    if (!kept || abs(gl_FragCoord.z - shown) > 4.0 * peelTolerance * shown) {
+        discard;
+    }
+    float thickness = min(material.thickness * scale, largestHalf);
+    outTint = vec4(clamp(color.rgb, 0.0, 1.0) * (material.transmission * (1.0 - metallic)), thickness);
+    outVolume = vec4(min(material.extinction, vec3(largestHalf)), material.ior);
+    outKind = material.glass;
+}

@@ -1,0 +1,108 @@
+// Records the layers of glass of a view.
+#include "renderer/glass/glass_layers.h"
+
+#include "effects/light_mips/light_mips.h"
+
+#include <string>
+#include <vector>
+
+namespace reflet {
+
+namespace {
+
+Settings glassSettings(const Settings& asked, const DrawList& draws) {
+    Settings settings = layerSettings(asked);
+    settings.traceScreen.light = HitLight::lit;  // that of this frame, with the glass behind
+    if (!draws.murky) {
+        settings.diffuse.rays = 0;  // nothing reflects diffusely
+    }
+    return settings;
+}
+
+// The nearest layers, the nearest first.
+std::vector<GBuffer> peelGlass(gpu::Recorder& f, GlassStore& own, const ViewInputs& in, const Settings& settings,
+                               gpu::Image opaqueDepth) {
+    std::vector<GBuffer> peeled;
+    for (uint32_t i = 0; i < settings.transmission.layers; ++i) {
+        const GBufferContent content{.clipPlane = in.clipPlane,
+                                     .opaqueDepth = opaqueDepth,
+                                     .nearerDepth = i > 0 ? peeled.back().depth : gpu::Image{},
+                                     .glass = true};
+        peeled.push_back(drawGBuffer(f, own.g.at(i), in.draws, in.view, settings.materials, content));
+    }
+    return peeled;
+}
+
+// seen: with the layer's G-buffer, and the light behind it on screen. last: gets the sum, if given.
+LightLayers addLayer(gpu::Recorder& f, GlassStore& own, const ViewInputs& in, const Settings& settings, TracedView seen,
+                     const LightLayers& behind, GlassStore::Sum& to, gpu::Image last) {
+    const bool layers = bool(behind.light.indirectDiffuse);
+    const GBuffer& g = seen.images.g;
+    const Composite lit = lightLayer(f, own.light, in, settings, seen, layers);
+    if (in.draws.frosted) {
+        seen.screen.lightMips = makeLightMips(f, own.lightMips, behind.light.lit);
+    }
+    const GlassSurfaces made = glassSurfaces(f, own.surfaces, in.draws, in.view, g);
+    gpu::Scratch scratch(f);
+    RefractedRays refracted = refractRays(f, scratch, own.surfaces, g, made, in.ggxTable,
+                                          {in.view, settings.transmission.exitSteps, in.draws.frosted ? 1U : 0U});
+    answerRays(f, refracted.rays, in, settings, seen);
+    const auto over = [&](gpu::KeptImage& kept, gpu::Image layer, const RefractedRays* rays, gpu::Image under,
+                          gpu::Image given = {}) {
+        const gpu::Image sum = given ? given : kept.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size);
+        glassOver(f, g, layer, rays, under, sum);
+        return sum;
+    };
+    LightLayers out = behind;
+    out.light.lit = over(to.lit, lit.lit, &refracted, behind.light.lit, last);
+    if (layers) {
+        out.direct = over(to.direct, seen.images.direct, nullptr, behind.direct);
+        out.light.indirectDiffuse = over(to.diffuse, lit.indirectDiffuse, nullptr, behind.light.indirectDiffuse);
+        out.light.indirectSpecular = over(to.specular, lit.indirectSpecular, &refracted, behind.light.indirectSpecular);
+    }
+    return out;
+}
+
+}  // namespace
+
+bool showsGlass(const ViewInputs& in, const Settings& settings) {
+    return drawsGlass(in.draws, settings.transmission, settings.materials) &&
+           anyDraws(in.draws,
+                    {.keep = [](const Draw& draw) { return draw.glass; }, .worldToClip = in.view.worldToClip});
+}
+
+LightLayers throughGlass(gpu::Recorder& f, GlassStore& own, const ViewInputs& in, const Settings& asked,
+                         const TracedView& seen, const LightLayers& behind, gpu::Image lit, bool layers) {
+    const auto scope = f.scope("glass");
+    const Settings settings = glassSettings(asked, in.draws);
+    const std::vector<GBuffer> peeled = peelGlass(f, own, in, settings, seen.images.g.depth);
+    LightLayers sum = behind;
+    if (!layers) {
+        sum.light.indirectDiffuse = {};
+        sum.light.indirectSpecular = {};
+    }
+    for (size_t i = peeled.size(); i-- > 0;) {
+        const auto layerScope = f.scope(std::to_string(i));
+        TracedView layer{seen.images, seen.screen, {}};
+        layer.images.g = peeled[i];
+        layer.images.ambientOcclusion = {};
+        layer.screen.light = sum.light.lit;
+        layer.screen.lit = {};
+        layer.screen.lightMips = {};
+        sum = addLayer(f, own, in, settings, layer, sum, own.sums.at(i % 2), i == 0 ? lit : gpu::Image{});
+    }
+    return sum;
+}
+
+gpu::Image depthWithGlass(gpu::Recorder& f, GlassStore& own, gpu::Image opaqueDepth) {
+    const gpu::Image nearest = own.depth.storage(f, VK_FORMAT_R32_SFLOAT, opaqueDepth.size);
+    f.compute("glass_depth", "glass_depth.comp")
+        .read("opaque", opaqueDepth)
+        .read("layer", own.g.front().depth.last())
+        .write("nearest", nearest)
+        .params(GlassOverParams{nearest.size})
+        .dispatch(nearest.size);
+    return nearest;
+}
+
+}  // namespace reflet

@@ -1,0 +1,32 @@
+// Composites a layer of glass over the light behind it. In: the layer's depth and its own light; the light at the ends of
+// its refracted rays and their shares; the light behind. Out: the sum; its alpha is that of the light behind.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "renderer/glass/glass.h"
+#include "shaders/half_float.glsl"
+
+layout(constant_id = 0) const uint transmits = 1u;
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(scalar) uniform ParamsBlock { GlassOverParams params; };
+uniform sampler2D depth;
+uniform sampler2D layer;
+uniform sampler2D behind;
+uniform sampler2D share;
+layout(rgba16f) uniform readonly image2DArray answer;
+layout(rgba16f) uniform writeonly image2D over;
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(uvec2(pixel), params.size))) {
+        return;
+    }
+    vec4 light = texelFetch(behind, pixel, 0);
+    if (texelFetch(depth, pixel, 0).r > 0.0) {
+        light.rgb = texelFetch(layer, pixel, 0).rgb;
+        if (transmits != 0u) {
+            light.rgb += texelFetch(share, pixel, 0).rgb * imageLoad(answer, ivec3(pixel, 0)).rgb;
+        }
+    }
+    imageStore(over, pixel, roundToHalf(vec4(clampToHalf(light.rgb), light.a)));
+}

@@ -1,0 +1,136 @@
+// Follows the view rays through a layer of glass. In: the layer's depth, normals, material; what it is made of; depth and
+// normals of its back faces. Out: where each ray leaves the glass, the normal and the direction there, the list of these
+// rays, and the share of their light that reaches the viewer.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "effects/gbuffer/gbuffer_surface.glsl"
+#include "effects/lobe/rays.glsl"
+#include "renderer/glass/glass.h"
+#include "shaders/projection.glsl"
+#include "shaders/refraction.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(scalar) uniform ParamsBlock { RefractParams params; };
+uniform sampler2D depth;
+uniform usampler2D normal;
+uniform usampler2D geometricNormal;
+uniform sampler2D material;
+uniform sampler2D tint;
+uniform sampler2D volume;
+uniform usampler2D kind;
+uniform sampler2D exitDepth;
+uniform usampler2D exitNormal;
+uniform sampler2D ggxTable;
+layout(rgba32f) uniform writeonly image2D origins;
+layout(r32ui) uniform writeonly uimage2D leavingNormal;
+layout(rgba16f) uniform writeonly image2D share;
+layout(rg32ui) uniform writeonly uimage2DArray direction;
+layout(rgba16f) uniform writeonly image2DArray answer;
+layout(rgba8) uniform writeonly image2DArray source;
+#include "effects/lobe/rays_append.glsl"
+
+// A ray at a boundary of the glass.
+struct Crossing {
+    vec3 point;
+    vec3 normal;     // outward
+    vec3 direction;  // of the ray inside
+    float path;      // metres inside
+};
+
+struct BackFace {
+    bool found;
+    vec3 point;
+    vec3 normal;
+};
+
+BackFace backFaceAt(ivec2 pixel, uint same) {
+    BackFace b;
+    float d = texelFetch(exitDepth, pixel, 0).r;
+    b.found = d > 0.0 && texelFetch(kind, pixel, 0).r == same;
+    b.point = uvToWorld(pixelToUv(pixel, params.view.pixel), max(d, 1e-12), params.view.clipToWorld);
+    b.normal = unpackUnitVector(texelFetch(exitNormal, pixel, 0).r);
+    return b;
+}
+
+// Where a ray inside leaves: the back face is taken for its tangent plane at the pixel of the last estimate, again and
+// again. Without a back face: a slab.
+Crossing findExit(ivec2 pixel, vec3 p, vec3 n, vec3 inside, float thickness) {
+    Crossing c = Crossing(p + inside * thickness, -n, inside, thickness);
+    if (params.exitSteps == 0u) {
+        return c;
+    }
+    uint same = texelFetch(kind, pixel, 0).r;
+    BackFace back = backFaceAt(pixel, same);
+    float longest = back.found ? 4.0 * distance(back.point, p) : 0.0;
+    for (uint i = 0u; i < params.exitSteps && back.found; ++i) {
+        float slope = dot(inside, back.normal);
+        float path = slope > 0.02 ? dot(back.point - p, back.normal) / slope : distance(back.point, p);
+        path = clamp(path, 0.0, longest);
+        c = Crossing(p + inside * path, back.normal, inside, path);
+        vec4 clip = params.view.worldToClip * vec4(c.point, 1.0);
+        vec2 uv = ndcToUv(clip.xy / clip.w);
+        bool onScreen = clip.w > 0.0 && all(greaterThanEqual(uv, vec2(0.0))) && all(lessThan(uv, vec2(1.0)));
+        back = onScreen ? backFaceAt(ivec2(uv * params.view.size), same) : BackFace(false, vec3(0.0), vec3(0.0));
+    }
+    return c;
+}
+
+// A ray that total reflection keeps inside is taken to leave through a face opposite to the front.
+vec3 leave(inout Crossing c, vec3 n, float ior, vec4 dielectric, inout vec3 light) {
+    vec3 outside;
+    if (!refractAt(c.direction, c.normal, ior, outside)) {
+        c.direction = reflect(c.direction, c.normal);
+        c.normal = -n;
+        if (!refractAt(c.direction, c.normal, ior, outside)) {
+            outside = c.direction;
+        }
+        c.normal = outside;
+        return outside;
+    }
+    light *= 1.0 - fresnelSchlick(dielectric.rgb, dielectric.a, dot(outside, c.normal));
+    return outside;
+}
+
+void refractPixel(ivec2 pixel, float d) {
+    vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
+    vec3 n = unpackUnitVector(texelFetch(normal, pixel, 0).r);
+    vec3 geometric = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
+    vec3 v = directionToEye(p, params.view.eye);
+    vec4 passes = texelFetch(tint, pixel, 0);
+    vec4 inside = texelFetch(volume, pixel, 0);
+    MaterialTexel m = unpackMaterial(texelFetch(material, pixel, 0));
+    m.metallic = 0.0;
+    vec4 dielectric = dielectricAt(pixel);
+    vec3 light = passes.rgb * surfaceAt(pixel, vec3(1.0), m, max(dot(n, v), 1e-3), ggxTable, false).diffuse;
+    Crossing c = Crossing(p, -geometric, -v, 0.0);
+    vec3 outside = -v;
+    float spread = m.roughness;
+    if (passes.a > 0.0) {
+        float ior = max(inside.a, 1.0);
+        vec3 refracted;
+        refractAt(-v, -n, 1.0 / ior, refracted);
+        c = findExit(pixel, p, n, refracted, passes.a);
+        light *= passes.rgb * exp(-inside.rgb * c.path);
+        outside = leave(c, n, ior, dielectric, light);
+        spread = refractedRoughness(m.roughness, ior);
+    }
+    imageStore(origins, pixel, vec4(c.point, c.path));
+    imageStore(leavingNormal, pixel, uvec4(packUnitVector(c.normal), 0u, 0u, 0u));
+    imageStore(share, pixel, vec4(light, 1.0));
+    Ray ray = Ray(outside, 1.0, 1.0, params.frosted != 0u && spread > 0.05 ? spread : 0.0);
+    imageStore(direction, ivec3(pixel, 0), uvec4(packRay(ray), 0u, 0u));
+    appendRay(WaitingRay(ivec3(pixel, 0), 1.0, 0.0, false));
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, ivec2(params.view.size)))) {
+        return;
+    }
+    imageStore(answer, ivec3(pixel, 0), vec4(0.0));
+    imageStore(source, ivec3(pixel, 0), vec4(0.0));
+    float d = texelFetch(depth, pixel, 0).r;
+    if (d > 0.0) {
+        refractPixel(pixel, d);
+    }
+}

@@ -1,0 +1,27 @@
+// Records the light of a layer.
+#include "renderer/lit_layer.h"
+
+namespace reflet {
+
+Settings layerSettings(Settings settings) {
+    settings.contact.distance = 0.0F;
+    settings.diffuse.method = DiffuseMethod::rays;  // slices start in the view that they walk through
+    settings.shadow.history = 0;
+    settings.denoise.history = 0;
+    settings.traceScreen.countSteps = 0;
+    return settings;
+}
+
+Composite lightLayer(gpu::Recorder& f, LitLayerStore& own, const ViewInputs& in, const Settings& settings,
+                     TracedView& layer, bool layers) {
+    lightSurfaces(f, own.light, in, settings, layer.images);
+    const LobeLight diffuse = traceLobe(f, own.diffuse, in, settings, layer, lobeDiffuse);
+    const LobeLight specular = traceLobe(f, own.specular, in, settings, layer, lobeSpecular);
+    const CompositeInputs parts{layer.images.g, layer.images.direct, diffuse,
+                                specular,       in.ggxTable,         settings.materials.lambertOnly != 0,
+                                layers};
+    const gpu::Image lit = own.lit.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, layer.images.g.depth.size);
+    return composite(f, own.layers, parts, lit, {in.view, settings.diffuse.gain});
+}
+
+}  // namespace reflet
