@@ -72,7 +72,10 @@ void collectFrame(RefletView_T& view, const Settings& settings, const RefletPrep
         recordTemporal(view, frame, settings, color);
     }
     if (asked(REFLET_EFFECT_DEPTH_OF_FIELD)) {
-        recordDepthOfField(view, frame, settings, {.apertureRadius = 1.0F}, standIns.make(outputSizeOf(view)));
+        for (const uint32_t blades : {0U, 6U}) {  // round apertures, and polygons
+            recordDepthOfField(view, frame, settings, {.apertureRadius = 1.0F, .blades = blades},
+                               standIns.make(outputSizeOf(view)));
+        }
     }
     if (asked(REFLET_EFFECT_TONE_MAP)) {
         recordToneMap(view, frame, settings, standIns.make(outputSizeOf(view)), info.autoExposure != 0);

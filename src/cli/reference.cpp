@@ -47,6 +47,10 @@ void checkNumbers(const ReferenceCommand& command, uvec2 size) {
     if (size.x > largestSide || size.y > largestSide) {
         failUsage("--size {}: the image can have up to {} pixels a side", command.scene.size, largestSide);
     }
+    const auto isNan = [](const std::optional<float>& number) { return number && std::isnan(*number); };
+    if (isNan(command.aoRadius) || isNan(command.aoFalloff)) {  // which no range refuses
+        failUsage("{} must be a number, is 'nan'", isNan(command.aoRadius) ? "--ao-radius" : "--ao-falloff");
+    }
     if (std::isnan(command.noise)) {
         failUsage("--noise must be a number, is '{}'", command.noise);
     }

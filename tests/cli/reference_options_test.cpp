@@ -69,12 +69,12 @@ TEST_F(ReferenceOptions, WhatTheCameraSeesNeverBringsMoreLightThanEverything) {
     }
 }
 
-TEST_F(ReferenceOptions, TheLayersThatAreNamedAreWrittenInThatOrder) {
+TEST_F(ReferenceOptions, OnlyTheLayersThatAreNamedAreWrittenTheFirstAlsoWithoutAName) {
     ASSERT_TRUE(
         quietSuccess(reference(cubes, {"--spp", "2", "--layers", "normal,depth", "-o", "some.exr", "-o", "some.png"})));
     Names names;
     std::ranges::transform(layers("some.exr"), std::back_inserter(names), &ImageLayer::name);
-    EXPECT_EQ(names, (Names{"", "normal", "depth"}));
+    EXPECT_EQ(names, (Names{"", "depth", "normal"}));  // as they are read: by name
     Images all = traced(cubes, {"--spp", "2"});
     Images some = images("some.exr");
     EXPECT_EQ(some["depth"].data, all["depth"].data);

@@ -120,9 +120,11 @@ TEST_F(Render, AllListedShowsOfTheFramesSizeFitIntoOneFile) {
     for (const std::string& show : shows) {
         aovs += (aovs.empty() ? "" : ",") + show;
     }
-    ASSERT_TRUE(quietSuccess(
-        render("builtin:cornell", {"-o", "a.exr", "--aov", aovs, "--set", secondLayer, "--set", cascades, "--set",
-                                   "ao.method=bitmask", "--set", "temporal.enabled=true", "--frames", "1"})));
+    write("lens.json", R"({"camera": {"aperture_radius": 0.01}})");
+    ASSERT_TRUE(
+        quietSuccess(render("builtin:cornell", {"-o", "a.exr", "--view-file", "lens.json", "--aov", aovs, "--set",
+                                                secondLayer, "--set", cascades, "--set", "ao.method=bitmask", "--set",
+                                                "temporal.enabled=true", "--frames", "1"})));
     EXPECT_EQ(layers("a.exr").size(), shows.size() + 1);
 }
 

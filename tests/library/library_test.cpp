@@ -341,7 +341,7 @@ TEST_F(Library, PreparesAllPipelinesAndMakesNothingInLaterFrames) {
     info.structSize = sizeof info;
     info.effects = REFLET_EFFECT_SUN_SHADOW | REFLET_EFFECT_DIFFUSE_GI | REFLET_EFFECT_REFLECTIONS |
                    REFLET_EFFECT_COMPOSITE | REFLET_EFFECT_TEMPORAL | REFLET_EFFECT_TONE_MAP |
-                   REFLET_EFFECT_AMBIENT_OCCLUSION;
+                   REFLET_EFFECT_AMBIENT_OCCLUSION | REFLET_EFFECT_DEPTH_OF_FIELD;
     info.gbuffer = &frame.gbuffer;
     info.shadowMapSide = 64;
     info.autoExposure = 1;

@@ -69,12 +69,11 @@ gpu::Image circleOfConfusion(gpu::Recorder& f, gpu::HistoryImage& own, const Dof
     const vec4 lens(atInfinity, 1.0F / in.lens.focusDistance, orthographic ? 1.0F : 0.0F,
                     in.settings.maxRadius * height);
     f.compute("coc", "dof_coc.comp")
-        .constant("hasPrevious", steady ? 1U : 0U)
         .read("depth", in.depth)
         .read("motion", steady ? in.motion : f.placeholder(VK_FORMAT_R16G16_SFLOAT))
         .read("previous", coc.previous)
         .write("coc", coc.next)
-        .params(DofCocParams{in.view.depthToDistance, lens, size})
+        .params(DofCocParams{in.view.depthToDistance, lens, size, steady ? 1U : 0U})
         .dispatch(size);
     return coc.next;
 }
@@ -119,7 +118,7 @@ Blurred gather(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& layers, gp
     const Blurred out{scratch.storage(layerFormats[0], size), scratch.storage(layerFormats[2], size)};
     const gpu::Image none = f.placeholder(layerFormats[0]);
     f.compute(coarse ? "gather_large" : "gather", "dof_gather.comp")
-        .constant("blades", in.lens.blades < 3 ? 0U : in.lens.blades)
+        .constant("polygon", in.lens.blades < 3 ? 0U : 1U)
         .constant("coarse", coarse ? 1U : 0U)
         .read("ground", layers.ground)
         .read("groundBlur", layers.groundBlur)

@@ -22,8 +22,8 @@ SHARED_BEGIN
            "Depth of field (DoF, bokeh) of cameras with an aperture (view files: aperture_radius or f_number). Cost " \
            "only with such a camera.")                                                                                \
     VALUE(uint, samples, 72, 24, 150,                                                                                 \
-          "Samples per pixel and layer of depth of field: large disks, at a quarter of the picture's size; half as "  \
-          "many for small disks, at half its size. More: sharper edges of disks, cost grows linearly.")               \
+          "Samples per pixel and layer of depth of field, at half the picture's size; at a quarter for large disks. " \
+          "More: sharper edges of disks, cost grows linearly.")                                                       \
     VALUE(float, maxRadius, 0.05, 0.001, 0.25,                                                                        \
           "Largest circle of confusion: its radius as a share of the picture's height. Larger blur is cut to it. "    \
           "Larger: right for wide apertures, coarser disks with the same samples.")
@@ -39,6 +39,7 @@ struct DofCocParams {
     vec4 depthToDistance;  // of the view
     vec4 lens;  // radius in pixels of the picture at infinity, 1 / focus distance, 1 if orthographic, largest radius
     uvec2 size;
+    uint hasPrevious;  // 1: the history holds the last frame
 };
 
 struct DofSizes {
@@ -53,6 +54,7 @@ struct DofGatherParams {
     uint samples;  // of a disk, at most
     float disk;    // 1 over the area of the aperture's shape with radius 1
     float turn;    // of the aperture [rad]
+    uint blades;   // of the aperture, if it is a polygon
 };
 
 SHARED_END

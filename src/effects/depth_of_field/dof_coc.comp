@@ -7,8 +7,6 @@
 #include "effects/depth_of_field/depth_of_field.h"
 #include "shaders/projection.glsl"
 
-layout(constant_id = 0) const uint hasPrevious = 0u;
-
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { DofCocParams params; };
 uniform sampler2D depth;
@@ -32,10 +30,11 @@ void main() {
     }
     float d = texelFetch(depth, pixel, 0).r;
     float radius = radiusOf(d);
-    if (hasPrevious != 0u) {
+    if (params.hasPrevious != 0u) {
         float nearest = d;
         float farthest = d;
-        for (int i = 0; i < 9; ++i) {
+        int end = params.hasPrevious != 0u ? 9 : 0;  // CPU devices run both sides of a branch
+        for (int i = 0; i < end; ++i) {
             float other = texelFetch(depth, clamp(pixel + ivec2(i % 3, i / 3) - 1, ivec2(0), last), 0).r;
             nearest = max(nearest, other);
             farthest = min(farthest, other);

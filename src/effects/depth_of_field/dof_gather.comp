@@ -5,7 +5,7 @@
 #include "effects/depth_of_field/dof_layers.glsl"
 #include "shaders/half_float.glsl"
 
-layout(constant_id = 0) const uint blades = 0u;  // of the aperture; 0: round
+layout(constant_id = 0) const uint polygon = 0u;  // shape of the aperture; 0: round
 layout(constant_id = 1) const uint coarse = 0u;  // 1: large disks, at a quarter of the picture's size; 0: the rest, and both together
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -102,10 +102,10 @@ Disk diskOf(vec2 at, float radius) {
 
 // Length of a way as a share of what the aperture's shape has in that direction.
 float shapeLength(vec2 way) {
-    if (blades == 0u) {
+    if (polygon == 0u) {
         return length(way);
     }
-    float side = 6.28318531 / float(blades);
+    float side = 6.28318531 / float(params.blades);
     float within = atan(-way.y, way.x) - params.turn;
     within -= side * (floor(within / side) + 0.5);
     return length(way) * cos(within) / cos(0.5 * side);
