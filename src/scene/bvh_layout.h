@@ -41,7 +41,7 @@ struct SceneTriangle {
     uint flags;  // the triangle... bits below
 };
 
-const uint triangleCutOut = 1;       // the material has an alpha cutoff
+const uint triangleCutOut = 1;       // rays may pass: the material has an alpha cutoff or is transmissive
 const uint triangleDoubleSided = 2;  // the material is double-sided
 const uint triangleMirrored = 4;     // the instance mirrors: front faces are clockwise
 

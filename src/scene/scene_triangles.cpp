@@ -23,8 +23,8 @@ uint32_t flagsOf(const Scene& scene, const ScenePose& pose, size_t instance) {
     const Material& material = scene.materials.at(scene.meshes.at(placed.mesh).material);
     const bool mirrored = placed.skin >= 0 ? flipsWinding(pose.skins[static_cast<size_t>(placed.skin)])
                                            : glm::determinant(mat3(pose.objectToWorld[instance])) < 0.0F;
-    return (material.alphaCutoff > 0.0F ? triangleCutOut : 0U) | (material.doubleSided ? triangleDoubleSided : 0U) |
-           (mirrored ? triangleMirrored : 0U);
+    return (material.alphaCutoff > 0.0F || material.transmission.factor > 0.0F ? triangleCutOut : 0U) |
+           (material.doubleSided ? triangleDoubleSided : 0U) | (mirrored ? triangleMirrored : 0U);
 }
 
 }  // namespace

@@ -185,6 +185,25 @@ TEST(Glass, ItTakesItsShareOfTheSun) {
     add(scene, glass(0.0F, 1.0F, vec3(0.5F)), wall({3, 3}), at({0, 3, 0}) * turned(-90, {1, 0, 0}));
     EXPECT_NEAR(seen(scene, view).value("direct", 32, 24), 0.5F * open, 0.01F * open);
     EXPECT_NEAR(seen(scene, view, {"transmission.layers=0"}).value("direct", 32, 24), 0.0F, 0.01F * open);
+    EXPECT_NEAR(seen(scene, view, {"shadow.filter=traced", "shadow.rays=64"}).value("direct", 32, 24), 0.5F * open,
+                0.12F * open);
+}
+
+TEST(Glass, AVolumeAbsorbsSunlightByBeersLaw) {
+    Scene scene;
+    add(scene, lambertMaterial(vec3(0.5F)), builtin::ground({6, 6}, {1, 1}, {1, 1}), at({0, -1, 0}));
+    View view = darkView();
+    view.camera.position = {0, 0, 2};
+    view.camera.target = {0, -1, 0};
+    view.sun.direction = {0, -1, 0};
+    view.sun.irradiance = vec3(3);
+    const float open = seen(scene, view).value("direct", 32, 24);
+    Material block = glass(1.0F, 1.0F);
+    block.transmission.attenuationColor = vec3(0.5F);
+    add(scene, block, builtin::box({3, 1, 3}), at({0, 4, 0}));
+    EXPECT_NEAR(seen(scene, view).value("direct", 32, 24), open, 0.01F * open) << "without a distance: clear";
+    scene.materials.back().transmission.attenuationDistance = 1.0F;
+    EXPECT_NEAR(seen(scene, view).value("direct", 32, 24), 0.25F * open, 0.01F * open) << "two metres of it";
 }
 
 TEST(Glass, LayersOfTheFrameAddUp) {

@@ -1,5 +1,5 @@
 // Sunlight that blended surfaces let through. In: the sun's visibility, and for two layers of blended surfaces their
-// depth from the sun and the share of light that passes. Out: the visibility times that share.
+// depth from the sun, the share of light that passes and the extinction behind. Out: the visibility times that share.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 float loadShadowDepth(ivec2 texel) { return 0.0; }  // of the opaque surfaces, not used
@@ -22,11 +22,21 @@ uniform sampler2D transmittance0;
 uniform sampler2D transmittance1;
 layout(r8) uniform writeonly image2D visibility;
 
-// Share of the light that passes a layer's texel on its way to the receiver, whose plane is at `plane` metres above the
-// receiver there.
-float passes(float d, float share, ShadowReceiver r, float plane) {
+// Metres from a layer's texel to the receiver, whose plane is at `plane` metres above the receiver there; 0: the layer is
+// not in the light's way.
+float inFront(float d, ShadowReceiver r, float plane) {
     float clearance = (d - r.s.z) * r.depthRange - plane;
-    return d > 0.0 && clearance > r.bias.most ? share : 1.0;
+    return d > 0.0 && clearance > r.bias.most ? clearance : 0.0;
+}
+
+// Share of the light that passes both layers' texels. Between them is the volume that the light enters at the first one.
+float passes(ivec2 texel, ShadowReceiver r, float plane) {
+    float first = inFront(texelFetch(depth0, texel, 0).r, r, plane);
+    float second = inFront(texelFetch(depth1, texel, 0).r, r, plane);
+    vec2 of0 = texelFetch(transmittance0, texel, 0).rg;
+    float of1 = texelFetch(transmittance1, texel, 0).r;
+    float share = (first > 0.0 ? of0.r : 1.0) * (second > 0.0 ? of1 : 1.0);
+    return share * (first > 0.0 && second > 0.0 ? exp(-of0.g * (first - second)) : 1.0);
 }
 
 // Bilinear over four texels.
@@ -43,9 +53,7 @@ float transmittanceIn(uint cascade, vec3 p, vec3 normal) {
         float plane = dot(r.slope, toCentre);
         texel += tile.origin;
         vec2 weight = mix(1.0 - f, f, vec2(offset));
-        sum += weight.x * weight.y *
-               passes(texelFetch(depth0, texel, 0).r, texelFetch(transmittance0, texel, 0).r, r, plane) *
-               passes(texelFetch(depth1, texel, 0).r, texelFetch(transmittance1, texel, 0).r, r, plane);
+        sum += weight.x * weight.y * passes(texel, r, plane);
     }
     return sum;
 }

@@ -16,7 +16,7 @@ BlendShadowMaps drawBlendShadowMaps(gpu::Recorder& f, BlendShadowStore& own, con
         BlendShadowMap& map = maps.at(layer);
         BlendShadowStore::Layer& store = own.layers.at(layer);
         map = {store.depth.target(f, VK_FORMAT_D32_SFLOAT, size),
-               store.transmittance.target(f, VK_FORMAT_R8_UNORM, size)};
+               store.transmittance.target(f, VK_FORMAT_R16G16_SFLOAT, size)};
         if (holdsSunMap(f, store.depth, list, sun, settings)) {
             continue;
         }

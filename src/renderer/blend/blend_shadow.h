@@ -34,7 +34,7 @@ namespace reflet {
 /// A layer, as wide as the sun's shadow map.
 struct BlendShadowMap {
     gpu::Image depth;          ///< D32, reversed; 0: nothing
-    gpu::Image transmittance;  ///< R8: share of the light that passes
+    gpu::Image transmittance;  ///< RG16F: share of the light that passes; extinction behind it [1/m]
 };
 using BlendShadowMaps = std::array<BlendShadowMap, blendShadowLayers>;
 

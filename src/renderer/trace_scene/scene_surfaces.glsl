@@ -5,6 +5,7 @@
 #define REFLET_SCENE_SURFACES_GLSL
 
 #include "effects/material_features.glsl"
+#include "renderer/glass/glass_share.glsl"
 #include "renderer/trace_scene/scene_materials.h"
 #include "renderer/trace_scene/scene_triangles.glsl"
 #include "shaders/noise.glsl"
@@ -103,15 +104,25 @@ vec4 sceneBaseColor(ScenePlace place) {
     return hasSceneTexture(place, slotBaseColor) ? color * readSceneTexture(place, slotBaseColor) : color;
 }
 
-// Alpha test for the traversal.
+// From 0 to 1, differs for every ray and triangle.
+float chanceOfHit(uint triangle, vec2 barycentrics, vec3 direction) {
+    uvec3 bits = floatBitsToUint(vec3(barycentrics, direction.x));
+    return hashToUnit(hashPcg(bits.x + hashPcg(bits.y + hashPcg(bits.z + hashPcg(triangle)))));
+}
+
+// Alpha test for the traversal. Rays pass glass straight, with the probability of what it lets through.
 const bool testEveryHit = false;
 bool acceptHit(uint triangle, vec2 barycentrics, vec3 direction) {
     ScenePlace place = scenePlace(loadSceneTriangle(triangle), barycentrics);
-    float alpha = sceneBaseColor(place).a;
+    vec4 color = sceneBaseColor(place);
+    float alpha = color.a;
+    if (sceneMaterials.items[place.material].params.transmission > 0.0) {
+        float share = glassShare(sceneMaterials.items[place.material].params, color.rgb);
+        return chanceOfHit(triangle, barycentrics, direction) >= share;
+    }
     if (sceneMaterials.items[place.material].params.blended != 0u) {
         // Stochastic transparency (E. Enderton et al., 2010): the mean over many rays is the light through the surface.
-        uvec3 bits = floatBitsToUint(vec3(barycentrics, direction.x));
-        return hashToUnit(hashPcg(bits.x + hashPcg(bits.y + hashPcg(bits.z + hashPcg(triangle))))) < alpha;
+        return chanceOfHit(triangle, barycentrics, direction) < alpha;
     }
     return alpha >= sceneMaterials.items[place.material].params.alphaCutoff;
 }
@@ -210,6 +221,7 @@ SceneSurface sceneSurface(SceneHit hit, vec3 direction, float width) {
         s.roughness *= texel.x;
         s.metallic *= texel.y;
     }
+    s.baseColor *= 1.0 - material.transmission * (1.0 - s.metallic);
     s.occlusion = 1.0;
     if (hasSceneTexture(place, slotOcclusion)) {
         s.occlusion += material.occlusionStrength * (readSceneTexture(place, slotOcclusion).r - 1.0);
