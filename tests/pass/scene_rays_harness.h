@@ -42,7 +42,7 @@ std::ostream& operator<<(std::ostream& out, const HitDifference& difference);
 HitDifference difference(const Scene& scene, const std::vector<TestRay>& rays, const std::vector<TestHit>& one,
                          const std::vector<TestHit>& another);
 
-/// The scene with all materials whole.
+/// The scene with all materials whole and opaque.
 Scene withoutCutOuts(Scene scene);
 
 }  // namespace reflet::test
