@@ -130,8 +130,8 @@ Blurred gather(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& layers, gp
         .write("groundOut", out.ground)
         .write("frontOut", out.front)
         .params(gridSteps(), "steps")
-        .params(
-            DofGatherParams{sizes.half2, in.settings.samples, 1.0F / shapeArea(in.lens.blades), in.lens.bladeRotation})
+        .params(DofGatherParams{sizes.half2, in.settings.samples, 1.0F / shapeArea(in.lens.blades),
+                                in.lens.bladeRotation, in.lens.blades})
         .dispatch(size);
     return out;
 }
