@@ -207,7 +207,7 @@ class Page:
         write_png(path, crop(whole, *window, zoom) if window else whole)
         if os.path.getsize(path) > 100 * 1024:
             sys.exit("%s has over 100 KiB" % path)
-        kind = "reference" if isinstance(frame, Truth) else "render"
+        kind = getattr(frame, "kind", "reference" if isinstance(frame, Truth) else "render")
         parts = (["layer " + layer] if layer else []) + (["%dx%d from (%d, %d)" % (window[2:] + window[:2])] if window else [])
         aov = " --aov " + layer if layer and kind == "render" else ""
         note = " # then " + ", ".join(parts) if parts else ""

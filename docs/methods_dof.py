@@ -6,18 +6,20 @@ from methods import Frame, Truth, cached, options, read_png, run, write_png
 SIZE = "640x360"
 SCENE = "builtin:lens"
 MASKS = "out/methods/dof-%s.png"
-WINDOW = ((150, 100, 320, 180), 1)
+WINDOW = ((170, 110, 280, 158), 1)
 LAMPS = ((230, 0, 160, 90), 3)
 
 
 class Defocus(Frame):
     """The effect on a picture of the reference."""
+    kind = "defocus"
 
     def __init__(self, truth, settings=""):
         self.arguments = [SCENE, "--picture", truth.exr]
         for setting in settings.split():
             self.arguments += ["--set", setting]
         self.png, self.exr = cached("defocus", self.arguments, [".png", ".exr"])
+        self.arguments[2] = "pinhole.exr"  # as the page's commands call it
 
 
 def error(frame, truth, mask):
@@ -45,7 +47,7 @@ def dilated(rows, reach):
 def make_masks(truth):
     """Far: blurred, behind the plane of focus. Near: within reach of what is in front of it. Lamps: within a disk of bright pixels
     of the reference; the other two are told with and without them."""
-    view = options(SCENE, "", None, SIZE, "plain")
+    view = options("lens", "", None, SIZE, "plain")
     coc, = cached("render", view + ["--show", "circle_of_confusion"], [".png"])
     width, height, rows = read_png(coc)
     red = [[line[3 * x] > 15 for x in range(width)] for line in rows]  # over 1 pixel
@@ -67,7 +69,7 @@ def make_masks(truth):
 
 
 def milliseconds(settings):
-    arguments = options(SCENE, settings, None, "1280x720", "balanced") + ["--frames", "8"]
+    arguments = options("lens", settings, None, "1280x720", "balanced") + ["--frames", "8"]
     _, timings = cached("render", arguments, [".png", ".json"])
     return json.load(open(timings))["passes"]
 
