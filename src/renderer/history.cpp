@@ -30,7 +30,8 @@ HistoryUse historyUse(const Settings& settings) {
             .hitLight = traced && settings.traceScreen.light == HitLight::previous &&
                         (settings.traceScreen.enabled != 0 || reused),
             .probes = settings.probes.enabled != 0 && settings.probes.refresh == ProbeRefresh::face,
-            .denoise = traced && settings.denoise.enabled != 0 && settings.denoise.history > 0,
+            .denoise = (traced || settings.ao.method != AoMethod::none) && settings.denoise.enabled != 0 &&
+                       settings.denoise.history > 0,
             .temporal = settings.temporal.enabled != 0 && !mean,
             .accumulate = mean,
             .cameraTextures = false,
