@@ -89,8 +89,8 @@ void makeMips(gpu::Recorder& f, const Layers& layers, DofSizes sizes) {
 gpu::Image makeReach(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& layers, const DofSizes& sizes,
                      float largest) {
     const uvec2 tileCount = (sizes.half2 + dofTile - 1U) / dofTile;
-    const gpu::Image tiles = scratch.storage(VK_FORMAT_R16G16_SFLOAT, tileCount);
-    const gpu::Image reach = scratch.storage(VK_FORMAT_R16G16_SFLOAT, tileCount);
+    const gpu::Image tiles = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, tileCount);
+    const gpu::Image reach = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, tileCount);
     f.compute("tiles", "dof_tiles.comp")
         .read("groundBlur", layers.groundBlur)
         .read("frontBlur", layers.frontBlur)

@@ -16,7 +16,7 @@ layout(rgba16f) uniform readonly image2D ground;
 layout(rg16f) uniform readonly image2D groundBlur;
 layout(rgba16f) uniform readonly image2D front;
 layout(r32f) uniform readonly image2D frontBlur;
-layout(rg16f) uniform readonly image2D reach;
+layout(rgba16f) uniform readonly image2D reach;
 layout(rgba16f) uniform readonly image2D groundCoarse;  // of the pass with coarse = 1
 layout(rgba16f) uniform readonly image2D frontCoarse;
 layout(rgba16f) uniform writeonly image2D groundOut;  // radiance, blurred share
@@ -24,9 +24,6 @@ layout(rgba16f) uniform writeonly image2D frontOut;   // radiance · coverage, c
 
 ivec2 cells = ivec2(params.half2);
 const float leastRadius = 0.25;  // smaller disks are points
-// Between these radii [pixels of half resolution] disks change from small to large.
-const vec2 large = vec2(4.0, 5.5);
-float largeShare(float radius) { return clamp((radius - large.x) / (large.y - large.x), 0.0, 1.0); }
 float pixelSide = float(1u + coarse);  // in pixels of half resolution
 
 Ground loadGround(ivec2 cell, int level) {
@@ -165,8 +162,9 @@ vec3 blurredGround(vec2 at, Ground own, float most) {
     return here.a + behind.a > 1e-3 ? blurred : own.light;
 }
 
-vec4 blurredFront(vec2 at, float most) {
-    float radius = coarse == 0u ? min(most, large.y) : most > large.x ? most : 0.0;
+// most: largest radius of the disks that reach the tile; mostSmall: the same of small ones.
+vec4 blurredFront(vec2 at, float most, float mostSmall) {
+    float radius = coarse == 0u ? mostSmall : most > large.x ? most : 0.0;
     Disk d = diskOf(at, radius);
     Spread largest = spreadOf(d, radius);
     float perSide = 1.0 / d.side;
@@ -210,10 +208,10 @@ void main() {
         return;
     }
     vec2 at = (vec2(pixel) + 0.5) * pixelSide;
-    vec2 radii = imageLoad(reach, min(ivec2(at), cells - 1) / int(dofTile)).rg;
+    vec3 radii = imageLoad(reach, min(ivec2(at), cells - 1) / int(dofTile)).rgb;
     Ground own = filledGround(pixel, int(coarse));
     vec3 light = blurredGround(at, own, radii.y);
-    vec4 front = blurredFront(at, radii.x);
+    vec4 front = blurredFront(at, radii.x, radii.z);
     if (coarse == 0u) {
         addCoarse(pixel, own.coc, radii.x, light, front);
     }

@@ -19,6 +19,10 @@ float farShare(float coc) { return coc > 0.0 ? blurredShare(coc) : 0.0; }
 // Sharp content has this weight against blurred content of the same cell.
 const float sharpWeight = 1e-4;
 
+// Between these radii [pixels of half resolution] disks change from small to large.
+const vec2 large = vec2(4.0, 5.5);
+float largeShare(float radius) { return clamp((radius - large.x) / (large.y - large.x), 0.0, 1.0); }
+
 // Where a cell of a level is in the layers' images: level 0 at the left, the others (effects/levels.h) at its right. cells: of level 0.
 ivec2 placeOf(ivec2 cell, int level, ivec2 cells) {
     return level == 0 ? cell : cell + ivec2(cells.x, levelRow(cells, level));

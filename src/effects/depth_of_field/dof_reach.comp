@@ -1,13 +1,13 @@
-// Which disks reach a tile. In: radii in tiles. Out: near, the largest radius of the tiles whose disks may reach this one;
-// background: the largest radius of this tile and those beside it.
+// Which disks reach a tile. In: radii in tiles. Out: near, and small near disks: the largest radius of the tiles whose disks may
+// reach this one; background: the largest radius of this tile and those beside it.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/depth_of_field/depth_of_field.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint around = 1u;  // tiles that the largest disk reaches
-layout(rg16f) uniform readonly image2D tiles;
-layout(rg16f) uniform writeonly image2D reach;
+layout(rgba16f) uniform readonly image2D tiles;
+layout(rgba16f) uniform writeonly image2D reach;
 
 void main() {
     ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
@@ -15,15 +15,15 @@ void main() {
     if (any(greaterThan(tile, last))) {
         return;
     }
-    vec2 largest = vec2(0.0);
+    vec3 largest = vec3(0.0);
     int n = int(around);
     for (int y = -n; y <= n; ++y) {
         for (int x = -n; x <= n; ++x) {
-            vec2 radii = imageLoad(tiles, clamp(tile + ivec2(x, y), ivec2(0), last)).rg;
+            vec3 radii = imageLoad(tiles, clamp(tile + ivec2(x, y), ivec2(0), last)).rgb;
             vec2 apart = max(abs(vec2(x, y)) - 1.0, 0.0) * float(dofTile);
-            largest.x = max(largest.x, radii.x > length(apart) ? radii.x : 0.0);
+            largest.xz = max(largest.xz, mix(vec2(0.0), radii.xz, greaterThan(radii.xz, vec2(length(apart)))));
             largest.y = max(largest.y, max(abs(x), abs(y)) <= 1 ? radii.y : 0.0);
         }
     }
-    imageStore(reach, tile, vec4(largest, 0.0, 0.0));
+    imageStore(reach, tile, vec4(largest, 0.0));
 }
