@@ -474,9 +474,10 @@ typedef struct RefletLens {
 } RefletLens;
 
 /**
- * Depth of field, RGBA16F of the output's size: near and far blur at half resolution by the settings `dof` (Jimenez, 2014; Abadie,
- * 2018), before the tone map. What is in focus does not change. color: linear radiance, of the output's size; NULL: the
- * last of refletTemporal and refletComposite that ran. Without an aperture, or with `dof.enabled` 0: that picture.
+ * Depth of field, RGBA16F of the output's size: near and far blur at half resolution by the settings `dof` (Jimenez,
+ * 2014; Abadie, 2018), before the tone map. What is in focus does not change. color: linear radiance, of the output's
+ * size; NULL: the last of refletTemporal and refletComposite that ran. Without an aperture, or with `dof.enabled` 0:
+ * that picture.
  */
 REFLET_API RefletResult refletDepthOfField(RefletView view, RefletSettings settings, const RefletLens* lens,
                                            const RefletImage* color, RefletImage* blurred);

@@ -154,7 +154,8 @@ const std::vector<Show>& table() {
          "number of frames accumulated in the pixel's history; PNG 1 is 32 frames; only with temporal.enabled",
          [](const FrameImages& i) { return Images{i.temporal}; }, alpha, y, framesCounted},
         {"circle_of_confusion",
-         "signed radius of the circle of confusion in pixels, negative in front of the plane of focus; PNG red far, blue "
+         "signed radius of the circle of confusion in pixels, negative in front of the plane of focus; PNG red far, "
+         "blue "
          "near, 1 is 16 pixels; only with a camera that has an aperture",
          [](const FrameImages& i) { return Images{i.circleOfConfusion}; }, first, y, farAndNear},
         {"direct", "direct light of sun and lamps, emission and background: radiance",

@@ -103,8 +103,8 @@ struct FrameImages : ViewImages {
     gpu::Image coverage;    ///< red: share of the pixel that surfaces cover; light.lit is premultiplied by it. None
                             ///< unless the background is a colour or transparent
     gpu::Image circleOfConfusion;  ///< of DofImages; none without depth of field
-    gpu::Image exposure;    ///< of measureExposure; none without automatic exposure
-    gpu::Image display;     ///< alpha: straight, 1 unless the background is transparent
+    gpu::Image exposure;           ///< of measureExposure; none without automatic exposure
+    gpu::Image display;            ///< alpha: straight, 1 unless the background is transparent
     bool transparent = false;
 };
 

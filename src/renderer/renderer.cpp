@@ -179,28 +179,28 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
         scene_.skin(frame_);
     }
     const std::vector<LiveView> live = liveViews(params);
-    FrameInputs inputs{{.draws = scene_.draws(),
-                        .view = params,
-                        .sunDirection = view.sun.direction,
-                        .sunIrradiance = view.sun.irradiance,
-                        .sunAngularDiameter = view.sun.angularDiameter,
-                        .environment = environment_.update(frame_, view.environment),
-                        .lamps = lamps,
-                        .lampShadows = lampShadows,
-                        .ggxTable = ggxTable(frame_, ggxTable_),
-                        .blueNoise = blueNoise_.view(),
-                        .traced = traced,
-                        .time = view.time},
-                       mirrors,
-                       live,
-                       framesBefore,
-                       backgroundOf(view),
-                       exposesAutomatically(settings.tonemap, source_),
-                       static_cast<float>(std::abs(asked.time - previousTime_.value_or(asked.time))),
-                       size,
-                       place,
-                       Lens{view.camera.apertureRadius, view.camera.focusDistance, view.camera.blades,
-                            view.camera.bladeRotation}};
+    FrameInputs inputs{
+        {.draws = scene_.draws(),
+         .view = params,
+         .sunDirection = view.sun.direction,
+         .sunIrradiance = view.sun.irradiance,
+         .sunAngularDiameter = view.sun.angularDiameter,
+         .environment = environment_.update(frame_, view.environment),
+         .lamps = lamps,
+         .lampShadows = lampShadows,
+         .ggxTable = ggxTable(frame_, ggxTable_),
+         .blueNoise = blueNoise_.view(),
+         .traced = traced,
+         .time = view.time},
+        mirrors,
+        live,
+        framesBefore,
+        backgroundOf(view),
+        exposesAutomatically(settings.tonemap, source_),
+        static_cast<float>(std::abs(asked.time - previousTime_.value_or(asked.time))),
+        size,
+        place,
+        Lens{view.camera.apertureRadius, view.camera.focusDistance, view.camera.blades, view.camera.bladeRotation}};
     previousTime_ = asked.time;
     inputs.probes = probes_.update(frame_, inputs, probesOf(view, settings.probes), settings);
     const FrameImages images = renderFrame(frame_, store_, inputs, settings);
