@@ -4,6 +4,8 @@
 #include "base/error.h"
 #include "device/device.h"
 
+#include <utility>
+
 namespace reflet::gpu {
 
 Frame::Frame(Device& device) : Recorder(device), device_(device) {
@@ -22,20 +24,47 @@ Frame::~Frame() {
     device_.functions().vkDestroyCommandPool(device_.handle(), commandPool_, nullptr);
 }
 
-void Frame::begin() {
+void Frame::beginCommands() {
     const VolkDeviceTable& vk = device_.functions();
-    device_.wait(serial_);
     vkCheck(vk.vkResetCommandPool(device_.handle(), commandPool_, 0), "resetting commands");
     VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     vkCheck(vk.vkBeginCommandBuffer(commands_, &info), "beginning commands");
+}
+
+void Frame::begin() {
+    device_.wait(serial_);
+    betweenPasses({});  // of a frame that was stopped
+    submittedPasses_ = false;
+    beginCommands();
     Recorder::begin(commands_);
 }
 
+void Frame::runPassByPass(std::function<bool()> stop) {
+    betweenPasses([this, stop = std::move(stop)] { runCommands(stop); });
+}
+
+void Frame::runCommands(const std::function<bool()>& stop) {
+    vkCheck(device_.functions().vkEndCommandBuffer(commands_), "ending commands");
+    if (!submittedPasses_) {
+        submitted_ = std::chrono::steady_clock::now();
+        submittedPasses_ = true;
+    }
+    serial_ = device_.submit(commands_);
+    device_.wait(serial_);
+    beginCommands();
+    if (stop()) {
+        throw FrameStopped();
+    }
+}
+
 void Frame::submit() {
+    betweenPasses({});
     end();
     vkCheck(device_.functions().vkEndCommandBuffer(commands_), "ending commands");
-    submitted_ = std::chrono::steady_clock::now();
+    if (!submittedPasses_) {
+        submitted_ = std::chrono::steady_clock::now();
+    }
     serial_ = device_.submit(commands_);
 }
 

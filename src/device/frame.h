@@ -5,10 +5,14 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 
 namespace reflet::gpu {
 
 class Device;
+
+/// Thrown by a frame that runs pass by pass and was told to stop.
+struct FrameStopped {};
 
 class Frame : public Recorder {
 public:
@@ -17,6 +21,10 @@ public:
 
     /// Starts recording. Requires that `wait` was called for the last frame.
     void begin();
+    /// Until submit(), finishes each pass on the device before the next one is recorded, and calls `stop` in between. If
+    /// that returns true, FrameStopped is thrown from the recording of a pass: the passes so far have run, and the frame
+    /// is abandoned; call forget() before the next one. For devices on which a pass takes much longer than a submission.
+    void runPassByPass(std::function<bool()> stop);
     /// Submits the recorded commands.
     void submit();
     /// Blocks until the device is done; pass times and read-backs are available then.
@@ -28,11 +36,15 @@ public:
     [[nodiscard]] Device& device() { return device_; }
 
 private:
+    void beginCommands();
+    void runCommands(const std::function<bool()>& stop);
+
     Device& device_;
     VkCommandPool commandPool_ = VK_NULL_HANDLE;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
     uint64_t serial_ = 0;
     std::chrono::steady_clock::time_point submitted_;
+    bool submittedPasses_ = false;  ///< the frame's first passes were submitted by themselves
     double submittedMs_ = 0.0;
 };
 

@@ -157,6 +157,9 @@ void Recorder::endTimer() {
     const auto [pool, query] = timestamp(2);
     context_.vk.vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, query);
     context_.endLabel(commands_);
+    if (betweenPasses_) {
+        betweenPasses_();
+    }
 }
 
 void Recorder::readTimers(Slot& slot) {

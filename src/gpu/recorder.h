@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -113,6 +114,11 @@ public:
 
     [[nodiscard]] Context& context() { return context_; }
 
+protected:
+    /// Called after each recorded pass; the command buffer must be in the recording state when it returns. If it throws,
+    /// the frame is abandoned as after any exception. Empty: nothing is called.
+    void betweenPasses(std::function<void()> call) { betweenPasses_ = std::move(call); }
+
 private:
     friend class Pass;
     friend class Scratch;
@@ -166,6 +172,7 @@ private:
     [[nodiscard]] Slot& slot() { return slots_[number_ % slots_.size()]; }
 
     Context& context_;
+    std::function<void()> betweenPasses_;
     std::vector<Slot> slots_;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;  ///< null between frames
     std::vector<PipelineInfo>* missing_ = nullptr;

@@ -203,6 +203,9 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
         Lens{view.camera.apertureRadius, view.camera.focusDistance, view.camera.blades, view.camera.bladeRotation}};
     previousTime_ = asked.time;
     inputs.probes = probes_.update(frame_, inputs, probesOf(view, settings.probes), settings);
+    if (stop_) {
+        frame_.runPassByPass(stop_);
+    }
     const FrameImages images = renderFrame(frame_, store_, inputs, settings);
     if (after) {
         after(frame_, images);

@@ -28,6 +28,11 @@ public:
     FrameImages render(const View& asked, uvec2 size, uint32_t seed, const Settings& settings,
                        const std::function<void(gpu::Frame&, const FrameImages&)>& after = {});
 
+    /// From the next frame on, asks `stop` between passes while a frame is computed. If it returns true, render() throws
+    /// gpu::FrameStopped; restart() must be called then. Empty: frames are not stopped. Captures of probes and other
+    /// preparations are always completed.
+    void stopBetweenPasses(std::function<bool()> stop) { stop_ = std::move(stop); }
+
     /// Discards all history: the next frame is rendered like a renderer's first, with the noise of the frame of this
     /// number.
     void restart(uint32_t frameNumber);
@@ -51,6 +56,7 @@ private:
     void warnOnce(const std::string& text);
 
     gpu::Frame frame_;
+    std::function<bool()> stop_;
     const Scene& source_;
     GpuScene scene_;
     std::optional<TracedScene> traced_;
