@@ -3,6 +3,8 @@
 
 #include "view/window.h"
 
+#include <sys/resource.h>
+
 #include <atomic>
 #include <chrono>
 #include <functional>
@@ -11,6 +13,16 @@
 #include <utility>
 
 namespace reflet {
+
+/// Lets the window go first: the calling thread, and those that it starts from now on, such as the ones of a CPU's
+/// Vulkan driver, get what it leaves of the machine. Elsewhere than on Linux a niceness belongs to the whole process,
+/// and nothing happens.
+inline void stepBack() {
+#ifdef __linux__
+    constexpr int niceness = 10;
+    ::setpriority(PRIO_PROCESS, 0, niceness);
+#endif
+}
 
 /// Runs one task at a time, on a separate thread.
 template <class T>
@@ -30,6 +42,7 @@ public:
             struct Waker {
                 ~Waker() { Window::wake(); }
             } const waker;  // also wakes the window after an exception
+            stepBack();
             return work(cancelled_);
         });
     }
@@ -40,6 +53,17 @@ public:
             return std::nullopt;
         }
         return future_.get();
+    }
+
+    /// Waits for the result and drops it, or what the work threw.
+    void discard() {
+        stop();
+        if (busy()) {
+            try {
+                future_.get();
+            } catch (const std::exception&) {  // nobody wants it any more
+            }
+        }
     }
 
     /// Asks the work to end; that may take a while.

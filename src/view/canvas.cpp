@@ -89,7 +89,31 @@ void Canvas::recordUi(const gpu::DrawCommands& to, const ImDrawData& ui, uvec2 w
     }
 }
 
-gpu::Image Canvas::draw(gpu::Image left, gpu::Image right, const Layout& layout, const ImDrawData& ui) {
+gpu::Image Canvas::upload(const Picture& picture, Side& side) {
+    if (!picture) {
+        side = {};
+        return none_.image();
+    }
+    if (side.of == picture) {
+        return side.texture.image();
+    }
+    const uvec2 size(picture->width, picture->height);
+    if (side.texture.info().size != size) {
+        side.texture = gpu::Texture(
+            device_,
+            {VK_FORMAT_R8G8B8A8_UNORM, size, 1, 1, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
+            "picture");
+    }
+    std::vector<uint8_t> texels(size_t(4) * size.x * size.y, 255);
+    for (size_t i = 0, from = 0; i < texels.size(); i += 4, from += picture->channels) {
+        std::copy_n(picture->data.data() + from, 3, texels.data() + i);
+    }
+    side.of = picture;
+    frame_.upload(side.texture.image(), std::as_bytes(std::span(texels)));
+    return side.texture.image();
+}
+
+gpu::Image Canvas::draw(const Picture& left, const Picture& right, const Layout& layout, const ImDrawData& ui) {
     if (window_.info().size != layout.window) {
         window_ = gpu::Texture(device_,
                                {VK_FORMAT_R8G8B8A8_UNORM, layout.window, 1, 1,
@@ -99,19 +123,19 @@ gpu::Image Canvas::draw(gpu::Image left, gpu::Image right, const Layout& layout,
     }
     upload(ui);
     const gpu::Image window = window_.image();
-    const gpu::Image a = left ? left : none_.image();
-    const gpu::Image b = right ? right : a;
     frame_.begin();
+    const gpu::Image a = upload(left, left_);
+    const gpu::Image b = right ? upload(right, right_) : a;
+    const VkSampler linear = device_.sampler({.mag = VK_FILTER_LINEAR, .min = VK_FILTER_LINEAR});
     frame_.compute("compose", "compose.comp")
-        .read("left", a)
-        .read("right", b)
+        .read("left", a, linear)
+        .read("right", b, linear)
         .write("window", window)
         .params(ComposeParams{layout.window, layout.corner, left ? layout.extent : vec2(0.0F), vec2(a.size),
-                              vec2(b.size), layout.divider})
+                              vec2(b.size), layout.divider, layout.linear ? 1U : 0U})
         .dispatch(layout.window);
     const vec2 display(std::max(ui.DisplaySize.x, 1.0F), std::max(ui.DisplaySize.y, 1.0F));
     const vec2 scale = 2.0F / display;
-    const VkSampler linear = device_.sampler({.mag = VK_FILTER_LINEAR, .min = VK_FILTER_LINEAR});
     frame_.raster("ui", {"ui.vert", "ui.frag"})
         .read("font", font_.image(), linear)
         .params(UiParams{scale, -1.0F - vec2(ui.DisplayPos.x, ui.DisplayPos.y) * scale})

@@ -14,6 +14,7 @@ struct ComposeParams {
     vec2 sizeA;     // of the left image, pixels
     vec2 sizeB;     // of the right image
     float divider;  // x in pixels of the window: the right image starts here
+    uint linear;    // 1: interpolates the images; 0: the nearest texel
 };
 
 struct UiParams {
@@ -28,6 +29,8 @@ SHARED_END
 #include "base/image_file.h"
 #include "device/frame.h"
 
+#include <memory>
+
 struct ImDrawData;
 
 namespace reflet {
@@ -38,6 +41,7 @@ struct Layout {
     vec2 corner{0.0F};
     vec2 extent{0.0F};
     float divider = 1e9F;
+    bool linear = false;  ///< interpolates images that are not of the rectangle's size
 };
 
 class Canvas {
@@ -45,21 +49,31 @@ public:
     /// font: RGBA8.
     Canvas(gpu::Device& device, uvec2 fontSize, std::span<const uint8_t> font);
 
-    /// Draws, and waits until it is done. Images may be missing; without a right one, the left one fills the rectangle.
-    /// The result is valid until the next call.
-    gpu::Image draw(gpu::Image left, gpu::Image right, const Layout& layout, const ImDrawData& ui);
+    using Picture = std::shared_ptr<const Bitmap>;
+
+    /// Draws, and waits until it is done. Images (RGB or RGBA) may be null; without a right one, the left one fills the
+    /// rectangle. The result is valid until the next call.
+    gpu::Image draw(const Picture& left, const Picture& right, const Layout& layout, const ImDrawData& ui);
 
     /// Reads the last drawn window back, as RGB.
     Bitmap picture();
 
 private:
+    struct Side {
+        Picture of;
+        gpu::Texture texture;
+    };
+
     void upload(const ImDrawData& ui);
+    gpu::Image upload(const Picture& picture, Side& side);
     void recordUi(const gpu::DrawCommands& to, const ImDrawData& ui, uvec2 window) const;
 
     gpu::Device& device_;
     gpu::Frame frame_;
     gpu::Texture font_;
     gpu::Texture none_;
+    Side left_;
+    Side right_;
     gpu::Texture window_;
     gpu::Buffer vertices_;
     gpu::Buffer indices_;

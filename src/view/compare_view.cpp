@@ -17,7 +17,7 @@ bool sameTone(const TonemapSettings& a, const TonemapSettings& b) {
     return a.exposure == b.exposure && a.curve == b.curve;
 }
 
-ViewerState ofPreset(const ViewerState& state) {
+ViewerState withPreset(const ViewerState& state) {
     ViewerState other = state;
     other.settings = Settings{};
     applyPreset(other.settings, state.compare.preset);
@@ -30,16 +30,17 @@ ViewerState ofPreset(const ViewerState& state) {
 void CompareView::forget() {
     truth_.stop();
     errorWork_.stop();
-    truth_.take();
-    errorWork_.take();
-    other_.reset();
+    fileWork_.stop();
+    truth_.discard();
+    errorWork_.discard();
+    fileWork_.discard();
     file_.clear();
     layers_.clear();
     asked_.reset();
     samples_ = 0;
     values_ = nullptr;
     pictureOf_ = nullptr;
-    picture_ = {};
+    picture_ = nullptr;
     error_.reset();
     errorLeft_ = nullptr;
     errorRight_ = nullptr;
@@ -53,39 +54,45 @@ void CompareView::setProblem(const std::string& text) {
     failed_ = true;
 }
 
-bool CompareView::wantsFrame(const ViewerState& state, uvec2 size) const {
-    return state.compare.with == CompareWith::preset && !failed_ &&
-           (with_ != CompareWith::preset || !other_ || other_->wantsFrame(ofPreset(state), size));
+std::optional<ViewerState> CompareView::rendered(const ViewerState& state) {
+    return state.compare.with == CompareWith::preset ? std::optional(withPreset(state)) : std::nullopt;
 }
 
-void CompareView::updatePreset(const ViewerState& state, const Session& live, uvec2 size) {
-    if (!other_) {
-        other_ = std::make_unique<Session>(device_, live);
-    }
-    const ViewerState its = ofPreset(state);
-    if (other_->wantsFrame(its, size)) {
-        other_->render(its, size, true);
-    }
-    if (!other_->showProblem().empty()) {
-        setProblem(other_->showProblem());
+void CompareView::updatePreset(const Inputs& in) {
+    if (in.right == nullptr) {
+        message_ = fmt::format("rendering {}", in.state.compare.preset);
         values_ = nullptr;
         return;
     }
-    values_ = other_->shownValues();
-    message_ = fmt::format("{} after {} frames", state.compare.preset, other_->frames());
+    values_ = in.right->values;
+    if (!in.right->problem.empty()) {
+        setProblem(in.right->problem);
+        return;
+    }
+    message_ = fmt::format("{} after {} frames", in.state.compare.preset, in.right->frames);
 }
 
 void CompareView::updateFile(const ViewerState& state) {
-    if (state.compare.file != file_) {
+    if (state.compare.file != file_ && !fileWork_.busy()) {
         file_ = state.compare.file;
         layers_.clear();
         layerShow_.clear();
         fileProblem_.clear();
-        try {
-            layers_ = file_.empty() ? std::vector<ImageLayer>{} : readExr(file_);
-        } catch (const Error& error) {
-            fileProblem_ = error.what();
+        values_ = nullptr;
+        if (!file_.empty()) {
+            fileWork_.start([file = file_](const std::atomic<bool>&) { return readExr(file); });
         }
+    }
+    try {
+        if (auto layers = fileWork_.take()) {
+            layers_ = std::move(*layers);
+        }
+    } catch (const Error& error) {
+        fileProblem_ = error.what();
+    }
+    if (fileWork_.busy()) {
+        message_ = fmt::format("reading {}", file_);
+        return;
     }
     if (!fileProblem_.empty()) {
         setProblem(fileProblem_);
@@ -93,7 +100,7 @@ void CompareView::updateFile(const ViewerState& state) {
         return;
     }
     if (file_.empty()) {
-        message_ = "Type the name of an EXR file, or drag one onto the window.";
+        message_ = "Choose an EXR file below Files, type its name, or drag one onto the window.";
         values_ = nullptr;
         return;
     }
@@ -130,7 +137,8 @@ void CompareView::chooseLayer(const ViewerState& state) {
     message_.clear();
 }
 
-void CompareView::startTruth(const ViewerState& state, const Session& live) {
+void CompareView::startTruth(const Inputs& in) {
+    const ViewerState& state = in.state;
     ReferenceOptions options;
     options.samples = std::min(samples_ == 0 ? 1 : samples_ * 4, state.compare.samples);
     options.filter = asked_->filter;
@@ -138,7 +146,7 @@ void CompareView::startTruth(const ViewerState& state, const Session& live) {
     options.seed = state.source.seed;
     options.threads = std::max(1U, std::thread::hardware_concurrency() - 1U);  // one core is left for the window
     progress_ = 0.0F;
-    truth_.start([this, scene = live.sharedScene(), asked = *asked_, options](const std::atomic<bool>& cancelled) {
+    truth_.start([this, scene = in.opened.scene, asked = *asked_, options](const std::atomic<bool>& cancelled) {
         return traceReference(*scene, asked.view, asked.size, options, [&](const ReferenceProgress& now) {
             const float done = static_cast<float>(double(now.done) / double(std::max<uint64_t>(now.total, 1)));
             if (done > progress_ + 0.02F) {
@@ -150,8 +158,9 @@ void CompareView::startTruth(const ViewerState& state, const Session& live) {
     });
 }
 
-void CompareView::updateTruth(const ViewerState& state, const Session& live, uvec2 size, bool mayRender) {
-    const Asked asked{state.view, size, state.settings.materials.lambertOnly != 0,
+void CompareView::updateTruth(const Inputs& in) {
+    const ViewerState& state = in.state;
+    const Asked asked{state.view, in.size, state.settings.materials.lambertOnly != 0,
                       state.settings.temporal.enabled != 0 ? PixelFilter::box : PixelFilter::center};
     if (!asked_ || !(*asked_ == asked)) {
         asked_ = asked;
@@ -161,7 +170,7 @@ void CompareView::updateTruth(const ViewerState& state, const Session& live, uve
         values_ = nullptr;
         error_.reset();
     }
-    if (!mayRender) {
+    if (!in.mayTrace) {
         truth_.cancel();
     }
     const bool unwanted = truth_.cancelled();
@@ -171,8 +180,8 @@ void CompareView::updateTruth(const ViewerState& state, const Session& live, uve
         coverage_ = std::move(picture->coverage);
         layerShow_.clear();
     }
-    if (mayRender && !truth_.busy() && samples_ < state.compare.samples) {
-        startTruth(state, live);
+    if (in.mayTrace && !truth_.busy() && samples_ < state.compare.samples) {
+        startTruth(in);
     }
     if (samples_ == 0) {
         message_ = "path tracing";
@@ -184,12 +193,12 @@ void CompareView::updateTruth(const ViewerState& state, const Session& live, uve
     }
 }
 
-void CompareView::updateError(const Session& live) {
+void CompareView::updateError(const Shown& live) {
     if (const auto comparison = errorWork_.take()) {
         error_ = comparison->difference;
         errorMap_ = std::make_shared<const FloatImage>(comparison->flip);
     }
-    const std::shared_ptr<const FloatImage>& left = live.shownValues();
+    const std::shared_ptr<const FloatImage>& left = live.values;
     if (!left || !values_ || errorWork_.busy() || (left == errorLeft_ && values_ == errorRight_)) {
         return;
     }
@@ -211,7 +220,7 @@ void CompareView::updatePicture(const ViewerState& state, const TonemapSettings&
     const std::shared_ptr<const FloatImage>& of = asError ? errorMap_ : values_;
     const vec2 range(state.low, state.high);
     if (!of) {
-        picture_ = {};
+        picture_ = nullptr;
         pictureOf_ = nullptr;
         return;
     }
@@ -225,15 +234,14 @@ void CompareView::updatePicture(const ViewerState& state, const TonemapSettings&
     pictureFalse_ = state.falseColor;
     pictureRange_ = range;
     const bool overBackground = with_ == CompareWith::truth && state.show == "final" && !state.falseColor;
-    texture_ = uploadPicture(device_,
-                             asError          ? heatMap(*of)
-                             : overBackground ? displayedOver(*of, coverage_, asked_->view.background, tonemap)
-                                              : shownPicture(state, tonemap, *of),
-                             "right side");
-    picture_ = texture_.image();
+    picture_ = std::make_shared<const Bitmap>(asError ? heatMap(*of)
+                                              : overBackground
+                                                  ? displayedOver(*of, coverage_, asked_->view.background, tonemap)
+                                                  : shownPicture(state, tonemap, *of));
 }
 
-void CompareView::update(const ViewerState& state, const Session& live, uvec2 size, bool mayRender) {
+void CompareView::update(const Inputs& in) {
+    const ViewerState& state = in.state;
     if (state.compare.with != with_) {
         forget();
         with_ = state.compare.with;
@@ -243,19 +251,19 @@ void CompareView::update(const ViewerState& state, const Session& live, uvec2 si
     }
     failed_ = false;
     try {
-        if (with_ == CompareWith::preset && mayRender) {
-            updatePreset(state, live, size);
+        if (with_ == CompareWith::preset) {
+            updatePreset(in);
         } else if (with_ == CompareWith::file) {
             updateFile(state);
-        } else if (with_ == CompareWith::truth) {
-            updateTruth(state, live, size, mayRender);
+        } else {
+            updateTruth(in);
         }
-        updateError(live);
-        updatePicture(state, live.shownTonemap(state));
+        updateError(in.live);
+        updatePicture(state, in.live.tonemap);
     } catch (const Error& error) {
         setProblem(error.what());
         values_ = nullptr;
-        picture_ = {};
+        picture_ = nullptr;
     }
 }
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "compare/compare.h"
-#include "gpu/resource.h"
 #include "reference/reference.h"
 #include "view/background.h"
 #include "view/session.h"
@@ -18,23 +17,35 @@ namespace reflet {
 
 class CompareView {
 public:
-    explicit CompareView(gpu::Device& device) : device_(device) {}
-
     /// Drops everything, for another scene.
     void forget();
 
-    /// Whether update() would render a frame.
-    [[nodiscard]] bool wantsFrame(const ViewerState& state, uvec2 size) const;
-    /// Brings the right side up to date with the state, the last frame of the live side and the background work.
-    /// mayRender: false while paused.
-    void update(const ViewerState& state, const Session& live, uvec2 size, bool mayRender);
+    /// What update() is told.
+    struct Inputs {
+        const ViewerState& state;
+        const OpenScene& opened;
+        const Shown& live;     ///< the left side
+        const Shown* right;    ///< the right side, if it is rendered; null before its first frame
+        uvec2 size{0};         ///< of the image at rest
+        bool mayTrace = true;  ///< false while paused and while the view moves
+    };
+    /// Brings the right side up to date with the state, the last frames of both sides and the background work.
+    void update(const Inputs& in);
+    /// The state that is rendered for the right side, if it is rendered.
+    [[nodiscard]] static std::optional<ViewerState> rendered(const ViewerState& state);
 
     /// Whether the error needs the live side's values.
     [[nodiscard]] static bool wantsValues(const ViewerState& state) {
         return state.compare.with != CompareWith::nothing;
     }
 
-    [[nodiscard]] gpu::Image picture() const { return picture_; }
+    /// Null: none.
+    [[nodiscard]] const std::shared_ptr<const Bitmap>& picture() const { return picture_; }
+    /// Values of the right side's image; null: none.
+    [[nodiscard]] const std::shared_ptr<const FloatImage>& values() const { return values_; }
+    /// HDR-FLIP of each pixel; null: not computed yet.
+    [[nodiscard]] const std::shared_ptr<const FloatImage>& errorMap() const { return errorMap_; }
+    [[nodiscard]] bool busy() const { return errorWork_.busy() || fileWork_.busy(); }
     /// Error of the left side against the right one.
     [[nodiscard]] const std::optional<Difference>& error() const { return error_; }
     /// Progress, or the reason why nothing is shown.
@@ -54,21 +65,20 @@ private:
         bool operator==(const Asked&) const = default;
     };
 
-    void updatePreset(const ViewerState& state, const Session& live, uvec2 size);
+    void updatePreset(const Inputs& in);
     void updateFile(const ViewerState& state);
-    void updateTruth(const ViewerState& state, const Session& live, uvec2 size, bool mayRender);
-    void startTruth(const ViewerState& state, const Session& live);
+    void updateTruth(const Inputs& in);
+    void startTruth(const Inputs& in);
     void chooseLayer(const ViewerState& state);
-    void updateError(const Session& live);
+    void updateError(const Shown& live);
     /// tonemap: of the left side, whose exposure both have.
     void updatePicture(const ViewerState& state, const TonemapSettings& tonemap);
     void setProblem(const std::string& text);
 
-    gpu::Device& device_;
     CompareWith with_ = CompareWith::nothing;
-    std::unique_ptr<Session> other_;
     std::string file_;
     std::string fileProblem_;
+    BackgroundTask<std::vector<ImageLayer>> fileWork_;
     std::vector<ImageLayer> layers_;
     std::optional<Asked> asked_;
     BackgroundTask<ReferencePicture> truth_;
@@ -81,8 +91,7 @@ private:
     std::optional<TonemapSettings> pictureTone_;
     bool pictureFalse_ = false;
     vec2 pictureRange_{0.0F};
-    gpu::Texture texture_;
-    gpu::Image picture_;
+    std::shared_ptr<const Bitmap> picture_;
     BackgroundTask<Comparison> errorWork_;
     std::shared_ptr<const FloatImage> errorLeft_;  ///< inputs of the last or current error computation
     std::shared_ptr<const FloatImage> errorRight_;

@@ -1,4 +1,4 @@
-// Draws the window below its user interface: copies the left and the right image into their rectangle (nearest texel).
+// Draws the window below its user interface: copies the left and the right image into their rectangle.
 // In: both images, display-encoded. Out: the window.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -20,11 +20,11 @@ void main() {
     vec2 uv = (vec2(pixel) + 0.5 - params.corner) / max(params.extent, vec2(1e-6));
     vec3 color = outside;
     if (all(greaterThanEqual(uv, vec2(0.0))) && all(lessThan(uv, vec2(1.0)))) {
-        if (float(pixel.x) < params.divider) {
-            color = texelFetch(left, ivec2(uv * params.sizeA), 0).rgb;
-        } else {
-            color = texelFetch(right, ivec2(uv * params.sizeB), 0).rgb;
-        }
+        // The centre of a texel, unless they are interpolated.
+        bool isLeft = float(pixel.x) < params.divider;
+        vec2 size = isLeft ? params.sizeA : params.sizeB;
+        vec2 at = params.linear != 0u ? uv : (floor(uv * size) + 0.5) / size;
+        color = isLeft ? textureLod(left, at, 0.0).rgb : textureLod(right, at, 0.0).rgb;
     }
     imageStore(window, ivec2(pixel), vec4(color, 1.0));
 }

@@ -4,7 +4,6 @@
 #include "base/error.h"
 #include "capture/pictures.h"
 #include "compare/heat_map.h"
-#include "device/upload.h"
 #include "effects/exposure/exposure.h"
 #include "effects/tonemap/tone_map_image.h"
 #include "renderer/history.h"
@@ -57,112 +56,113 @@ Bitmap shownPicture(const ViewerState& state, const TonemapSettings& tonemap, co
     return show.picture == nullptr ? toneMapped(values, tonemap) : makePicture(show, values);
 }
 
-gpu::Texture uploadPicture(gpu::Device& device, const Bitmap& bitmap, const std::string& name) {
-    std::vector<uint8_t> rgba;
-    rgba.reserve(size_t(bitmap.width) * bitmap.height * 4);
-    for (size_t i = 0; i < bitmap.data.size(); i += bitmap.channels) {
-        rgba.insert(rgba.end(), {bitmap.data[i], bitmap.data[i + 1], bitmap.data[i + 2], 255});
-    }
-    return gpu::uploadTexture(device, {bitmap.width, bitmap.height}, rgba, false, false, name);
+bool OpenScene::isDefaultView(const ViewerState& state, uvec2 size) const {
+    return state.view == firstView && (!scene->cameras.empty() || size == parseSize(state.source.size));
 }
 
-Session::Session(gpu::Device& device, ViewerState& state)
+Session::Session(gpu::Device& device, const SceneOptions& source)
     : device_(device),
-      scene_(std::make_shared<const Scene>(loadScene(state.source))),
-      firstView_(loadView(state.source, *scene_)),
-      renderer_(device, *scene_, printWarning) {
-    state.view = firstView_;
+      opened_{std::make_shared<const Scene>(loadScene(source)), {}},
+      renderer_(device, *opened_.scene, printWarning) {
+    opened_.firstView = loadView(source, *opened_.scene);
 }
 
 Session::Session(gpu::Device& device, const Session& other)
-    : device_(device), scene_(other.scene_), firstView_(other.firstView_), renderer_(device, *scene_, printWarning) {}
-
-uint32_t Session::framesToConverge(const ViewerState& state) const {
-    return framesFor(renderedSettings(state), *scene_);
-}
+    : device_(device), opened_(other.opened_), renderer_(device, *opened_.scene, printWarning) {}
 
 bool Session::wantsFrame(const ViewerState& state, uvec2 size) const {
-    if (!asked_ || state.plays) {
+    if (!asked_ || state.plays || asked_->show != state.show) {
         return true;
     }
     const Settings settings = renderedSettings(state);
     return !(asked_->view == state.view) || asked_->size != size || !sameSettings(asked_->settings, settings) ||
-           frames_ < framesFor(settings, *scene_);
+           shown_.frames < framesFor(settings, *opened_.scene);
 }
 
 FrameImages Session::renderFrame(const ViewerState& state, const View& view, uvec2 size, const Settings& settings,
                                  const std::function<void(gpu::Frame&, const FrameImages&)>& after) {
-    params_ = makeViewParams(posed(view, *scene_).camera, size, 0, state.source.seed);
-    size_ = size;
+    shown_.view = makeViewParams(posed(view, *opened_.scene).camera, size, 0, state.source.seed);
+    shown_.size = size;
     return renderer_.render(view, size, state.source.seed, settings, after);
 }
 
-void Session::render(const ViewerState& state, uvec2 size, bool keepValues) {
+bool Session::render(const ViewerState& state, uvec2 size, bool keepValues, const std::function<bool()>& stop) {
     const Settings settings = renderedSettings(state);
     if (!asked_ || !(asked_->view == state.view) || asked_->size != size || !sameSettings(asked_->settings, settings)) {
-        asked_ = Asked{state.view, settings, size};
-        ++changes_;
-        frames_ = 0;
+        ++shown_.changes;
+        shown_.frames = 0;
     }
+    asked_ = Asked{state.view, settings, size, state.show};
     const Show& show = findShow(state.show);
-    const bool values = keepValues || needsValues(state);
+    const bool fromValues = needsValues(state);
     std::optional<ShowReadback> readback;
     std::optional<gpu::Readback> exposure;
-    problem_.clear();
-    const FrameImages images =
-        renderFrame(state, state.view, size, settings, [&](gpu::Frame& f, const FrameImages& made) {
+    std::optional<gpu::Readback> display;
+    std::string problem;
+    // The device of a GPU takes less time for a frame than for stopping one.
+    renderer_.stopBetweenPasses(device_.description().kind == "CPU" ? stop : std::function<bool()>());
+    FrameImages images;
+    try {
+        images = renderFrame(state, state.view, size, settings, [&](gpu::Frame& f, const FrameImages& made) {
             if (!isMade(show, made)) {
-                problem_ = fmt::format("Image '{}' is not available with this scene and these settings: {}.", show.name,
-                                       show.description);
-            } else if (values) {
+                problem = fmt::format("Image '{}' is not available with this scene and these settings: {}.", show.name,
+                                      show.description);
+            } else if (keepValues || fromValues) {
                 readback = requestShow(f, made, show);
+            }
+            if (problem.empty() && !fromValues) {
+                display = f.readback(made.display);
             }
             exposure = made.exposure ? std::optional(f.readback(made.exposure)) : std::nullopt;
         });
-    exposure_ = exposure ? std::optional(exposureOf(frame(), *exposure)) : std::nullopt;
-    ++frames_;
-    values_ = readback ? std::make_shared<const FloatImage>(fetchValues(frame(), *readback, params_)) : nullptr;
-    picture_ = problem_.empty() ? images.display : gpu::Image{};
-    if (needsValues(state)) {
+    } catch (const gpu::FrameStopped&) {
+        resetHistory();
+        return false;
+    }
+    const gpu::Frame& frame = renderer_.frame();
+    shown_.problem = problem;
+    shown_.exposure = exposure ? std::optional(exposureOf(frame, *exposure)) : std::nullopt;
+    shown_.tonemap = settings.tonemap;
+    shown_.tonemap.autoExposure = AutoExposure::off;
+    shown_.tonemap.exposure += shown_.exposure.value_or(0.0F);
+    ++shown_.frames;
+    ++shown_.rendered;
+    shown_.framesToConverge = framesFor(settings, *opened_.scene);
+    shown_.values = readback ? std::make_shared<const FloatImage>(fetchValues(frame, *readback, shown_.view)) : nullptr;
+    shown_.picture =
+        display ? std::make_shared<const Bitmap>(fetchDisplay(frame, *display, images.display.size)) : nullptr;
+    shown_.passes = frame.passTimes();
+    shown_.milliseconds = frame.submittedMs();
+    if (fromValues) {
         refreshPicture(state);
     }
-}
-
-TonemapSettings Session::shownTonemap(const ViewerState& state) const {
-    TonemapSettings tonemap = state.settings.tonemap;
-    tonemap.autoExposure = AutoExposure::off;
-    tonemap.exposure += exposure_.value_or(0.0F);
-    return tonemap;
+    return true;
 }
 
 void Session::refreshPicture(const ViewerState& state) {
-    if (values_) {
-        uploaded_ = uploadPicture(device_, shownPicture(state, shownTonemap(state), *values_), "shown");
-        picture_ = uploaded_.image();
+    if (shown_.values) {
+        shown_.picture = std::make_shared<const Bitmap>(shownPicture(state, shown_.tonemap, *shown_.values));
     }
 }
 
 void Session::resetHistory() {
     renderer_.restart(0);
     asked_.reset();
-    frames_ = 0;
-}
-
-bool Session::isDefaultView(const ViewerState& state, uvec2 size) const {
-    return state.view == firstView_ && (!scene_->cameras.empty() || size == parseSize(state.source.size));
+    shown_.frames = 0;
 }
 
 // Uses a separate renderer without history, as `reflet render` does; the live image is unaffected.
 void Session::screenshot(const ViewerState& state, uvec2 size, const std::string& file) {
     Pictures pictures(state.show, {});
     const Settings settings = renderedSettings(state);
-    const uint32_t frames = framesToSettle(historyUse(settings, *scene_), settings);
+    const Scene& scene = *opened_.scene;
+    const uint32_t frames = framesToSettle(historyUse(settings, scene), settings);
     // A changed view goes through its JSON form, as in the copied command line: directions may differ in the last bit.
-    View view = firstView_;
-    if (!isDefaultView(state, size)) {
+    View view = opened_.firstView;
+    if (!opened_.isDefaultView(state, size)) {
         applyViewJson(nlohmann::json(viewJson(state.view)), "view", view);
     }
-    Renderer renderer(device_, *scene_, printWarning);
+    Renderer renderer(device_, scene, printWarning);
     bool made = true;
     for (uint32_t i = 0; i < frames; ++i) {
         renderer.render(view, size, state.source.seed, settings, [&](gpu::Frame& f, const FrameImages& images) {
@@ -183,23 +183,21 @@ Picked Session::pick(const ViewerState& state, uvec2 size, uvec2 pixel) {
     settings.composite.layers = 1;
     std::vector<ShowReadback> readbacks;
     gpu::Readback ray;
-    const FrameImages images =
-        renderFrame(state, state.view, size, settings, [&](gpu::Frame& f, const FrameImages& made) {
-            for (const Show& show : shows()) {
-                if (isMade(show, made) && !hasOwnSize(show)) {
-                    readbacks.push_back(requestShow(f, made, show));
-                }
+    renderer_.stopBetweenPasses({});
+    renderFrame(state, state.view, size, settings, [&](gpu::Frame& f, const FrameImages& made) {
+        for (const Show& show : shows()) {
+            if (isMade(show, made) && !hasOwnSize(show)) {
+                readbacks.push_back(requestShow(f, made, show));
             }
-            ray = recordRay(f, recordRay_, {made.g, made.backDepth, made.pyramid}, made.view, settings.traceScreen,
-                            pixel * made.g.depth.size / size);
-        });
-    Picked picked{pixel, {}, recordedRay(frame(), ray), params_, changes_};
+        }
+        ray = recordRay(f, recordRay_, {made.g, made.backDepth, made.pyramid}, made.view, settings.traceScreen,
+                        pixel * made.g.depth.size / size);
+    });
+    const gpu::Frame& frame = renderer_.frame();
+    Picked picked{pixel, {}, recordedRay(frame, ray), shown_.view, shown_.changes};
     for (const ShowReadback& readback : readbacks) {
-        picked.values.push_back(
-            {std::string(readback.show->name), readback.show->channels, fetchValue(frame(), readback, params_, pixel)});
-    }
-    if (!needsValues(state)) {
-        picture_ = images.display;
+        picked.values.push_back({std::string(readback.show->name), readback.show->channels,
+                                 fetchValue(frame, readback, shown_.view, pixel)});
     }
     return picked;
 }

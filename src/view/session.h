@@ -1,4 +1,5 @@
-// One open scene: renders it according to the state, and tracks when the image has converged.
+// One open scene: renders it according to the state, and tracks when the image has converged. Belongs to the thread
+// that renders; the window has copies of what it shows.
 #pragma once
 
 #include "capture/show.h"
@@ -6,6 +7,7 @@
 #include "renderer/renderer.h"
 #include "view/viewer_state.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,55 +27,58 @@ struct Picked {
     std::vector<PickedValues> values;
     std::optional<RecordedRay> ray;  ///< none where the pixel shows no surface
     ViewParams view{};               ///< at the time of the pick
-    uint64_t change = 0;             ///< Session::changes() at the time of the pick
+    uint64_t change = 0;             ///< Shown::changes at the time of the pick
 };
 
 /// The display image of a show's values: tone mapped, as by --show, or in false colours.
 Bitmap shownPicture(const ViewerState& state, const TonemapSettings& tonemap, const FloatImage& values);
 
-class Session {
-public:
-    /// Opens the scene of state.source and sets the state's view from it. Throws Error or UsageError; the state is
-    /// unchanged then.
-    Session(gpu::Device& device, ViewerState& state);
-    /// Another session of the same scene.
-    Session(gpu::Device& device, const Session& other);
+/// Copies of what a session's last frame left, for the window's thread.
+struct Shown {
+    std::shared_ptr<const Bitmap> picture;     ///< null before the first frame, or if `problem` says why
+    std::shared_ptr<const FloatImage> values;  ///< of the show; null if they were not kept
+    std::string problem;                       ///< why the show is not available
+    TonemapSettings tonemap;  ///< that shows other pictures with this frame's exposure, the automatic one included
+    std::optional<float> exposure;  ///< automatic [stops]
+    ViewParams view{};              ///< of the frame
+    uvec2 size{0};                  ///< that was rendered
+    uint32_t frames = 0;            ///< since the last change
+    uint32_t framesToConverge = 0;  ///< after which the image has converged
+    uint64_t changes = 0;           ///< of view, settings or size so far
+    uint64_t rendered = 0;          ///< frames in total
+    std::vector<gpu::PassTime> passes;
+    double milliseconds = 0.0;  ///< from the frame's submission to its completion
+};
 
-    /// Frames after which the image has converged.
-    [[nodiscard]] uint32_t framesToConverge(const ViewerState& state) const;
-    /// Whether another frame would change the image at this size.
-    [[nodiscard]] bool wantsFrame(const ViewerState& state, uvec2 size) const;
-    /// Renders one frame and its display image. keepValues: shownValues() will be needed.
-    void render(const ViewerState& state, uvec2 size, bool keepValues);
-    /// Resets the history: something outside the state changed, such as a shader.
-    void resetHistory();
-
-    /// The display image of the last frame; none before the first frame, or if showProblem() gives a reason.
-    [[nodiscard]] gpu::Image picture() const { return picture_; }
-    [[nodiscard]] const std::string& showProblem() const { return problem_; }
-    /// The values of the show; null if they were not kept.
-    [[nodiscard]] const std::shared_ptr<const FloatImage>& shownValues() const { return values_; }
-    /// Settings that show other pictures with the exposure of the last frame, the automatic one included.
-    [[nodiscard]] TonemapSettings shownTonemap(const ViewerState& state) const;
-    /// Redraws the display image of the same frame, with other false colours.
-    void refreshPicture(const ViewerState& state);
-
-    [[nodiscard]] const gpu::Frame& frame() const { return renderer_.frame(); }
-    [[nodiscard]] uvec2 size() const { return size_; }
-    [[nodiscard]] uint32_t frames() const { return frames_; }
-    /// Number of changes of view, settings or size so far.
-    [[nodiscard]] uint64_t changes() const { return changes_; }
-    /// The view parameters of the last frame.
-    [[nodiscard]] const ViewParams& view() const { return params_; }
-    /// Automatic exposure of the last frame [stops], if it has one.
-    [[nodiscard]] std::optional<float> exposure() const { return exposure_; }
-    [[nodiscard]] const Scene& scene() const { return *scene_; }
-    [[nodiscard]] const std::shared_ptr<const Scene>& sharedScene() const { return scene_; }
-    [[nodiscard]] const View& firstView() const { return firstView_; }
+/// A scene that was opened.
+struct OpenScene {
+    std::shared_ptr<const Scene> scene;
+    View firstView;  ///< given by the scene and the command line
 
     /// Whether `reflet render` at this size has the state's view without a view file: nothing was changed, and no
     /// camera was framed for another size.
     [[nodiscard]] bool isDefaultView(const ViewerState& state, uvec2 size) const;
+};
+
+class Session {
+public:
+    /// Opens the scene of the options. Throws Error or UsageError.
+    Session(gpu::Device& device, const SceneOptions& source);
+    /// Another session of the same scene.
+    Session(gpu::Device& device, const Session& other);
+
+    /// Whether another frame would change the image at this size.
+    [[nodiscard]] bool wantsFrame(const ViewerState& state, uvec2 size) const;
+    /// Renders one frame and its display image. keepValues: shown().values will be needed. stop: asked during the frame
+    /// if the device is slow; if it returns true, the frame and all history are dropped, and the call returns false.
+    bool render(const ViewerState& state, uvec2 size, bool keepValues, const std::function<bool()>& stop);
+    /// Resets the history: something outside the state changed, such as a shader.
+    void resetHistory();
+    /// Redraws the display image of the same frame, with other false colours.
+    void refreshPicture(const ViewerState& state);
+
+    [[nodiscard]] const Shown& shown() const { return shown_; }
+    [[nodiscard]] const OpenScene& opened() const { return opened_; }
 
     /// Writes the same file as `reflet render` for this state, with its number of frames. Throws Error.
     void screenshot(const ViewerState& state, uvec2 size, const std::string& file);
@@ -87,32 +92,21 @@ private:
         View view;
         Settings settings;
         uvec2 size;
+        std::string show;
     };
 
     FrameImages renderFrame(const ViewerState& state, const View& view, uvec2 size, const Settings& settings,
                             const std::function<void(gpu::Frame&, const FrameImages&)>& after);
 
     gpu::Device& device_;
-    std::shared_ptr<const Scene> scene_;
-    View firstView_;
+    OpenScene opened_;
     Renderer renderer_;
     RecordRayStore recordRay_;
-    gpu::Image picture_;
-    gpu::Texture uploaded_;
-    std::string problem_;
-    std::shared_ptr<const FloatImage> values_;
-    std::optional<float> exposure_;  ///< automatic, of the last frame [stops]
-    ViewParams params_{};
-    uvec2 size_{0};
+    Shown shown_;
     std::optional<Asked> asked_;
-    uint64_t changes_ = 0;
-    uint32_t frames_ = 0;  ///< since the last change
 };
 
 /// The settings of a frame: those of the state, plus what its show needs.
 Settings renderedSettings(const ViewerState& state);
-
-/// RGBA8 texture of an image with 3 or 4 channels.
-gpu::Texture uploadPicture(gpu::Device& device, const Bitmap& bitmap, const std::string& name);
 
 }  // namespace reflet

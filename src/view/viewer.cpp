@@ -20,23 +20,22 @@
 #include <array>
 #include <charconv>
 #include <filesystem>
+#include <thread>
+#include <tuple>
 
 namespace reflet {
 
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
-
-constexpr double idleWait = 0.25;   // seconds between checks of the shader files
-constexpr double watchEvery = 0.5;  // seconds
-constexpr double saveEvery = 2.0;   // seconds
+// Seconds.
+constexpr double idleWait = 0.25;
+constexpr double movesFor = 0.3;     // after the last change
+constexpr double playsEvery = 0.04;  // redraws while animations play
+constexpr double drawEvery = 0.025;  // on a CPU, which also renders
+constexpr double saveEvery = 2.0;
 constexpr int settlingRedraws = 3;
 constexpr size_t keptFrameTimes = 160;
-
-double secondsSince(Clock::time_point then) {
-    return std::chrono::duration<double>(Clock::now() - then).count();
-}
 
 // The state given by the command line, with the window's last size.
 ViewerState initialState(const ViewerOptions& options) {
@@ -93,10 +92,10 @@ Viewer::Viewer(const ViewerOptions& options)
     : options_(options),
       state_(initialState(options)),
       window_("Reflet", state_.window),
+      render_(deviceOptions(options), options.shaders.empty() ? REFLET_SHADER_SOURCES : options.shaders),
       device_(deviceOptions(options)),
-      presenter_(device_, window_.surface(device_.instance())),
-      compare_(device_),
-      shaders_(device_.shaders(), options.shaders.empty() ? REFLET_SHADER_SOURCES : options.shaders) {
+      presenter_(device_, window_.surface(device_.instance())) {
+    now_.live = std::make_shared<const Shown>();
     if (!options.pick.empty()) {
         toPick_ = parsePixel(options.pick);
     }
@@ -108,27 +107,41 @@ Viewer::Viewer(const ViewerOptions& options)
 
 Viewer::~Viewer() = default;
 
+// The open scene stays until the other one is there.
 void Viewer::open(const SceneOptions& source, bool restores) {
+    render_.post(fmt::format("opening {}", source.scene), [this, source, restores](RenderThread::Work& work) {
+        auto session = std::make_unique<Session>(work.device, source);
+        const OpenScene opened = session->opened();
+        const uint64_t number = work.replace(std::move(session));
+        return [this, opened, number, source, restores] { showScene(opened, number, source, restores); };
+    });
+}
+
+void Viewer::showScene(const OpenScene& opened, uint64_t number, const SceneOptions& source, bool restores) {
     ViewerState next = state_;
     next.source = source;
-    auto session = std::make_unique<Session>(device_, next);
+    next.view = opened.firstView;
     if (restores) {
         try {
             ViewerState restored = next;
             restoreState(restored, {.view = !givesView(source), .settings = !givesSettings(source)});
-            checkFocus(restored.view.camera, session->scene(), "camera.focus of the saved state");
+            checkFocus(restored.view.camera, *opened.scene, "camera.focus of the saved state");
             next = restored;
         } catch (const Error& error) {
             printWarning(fmt::format("{}; the scene opens without its saved state", error.what()));
         }
     }
-    if (session_) {
+    if (opened_.scene) {
         save();
+        tell(fmt::format("{}: opened", source.scene));
     }
     next.window = state_.window;
     state_ = next;
-    session_ = std::move(session);
     compare_.forget();
+    opened_ = opened;
+    scene_ = number;
+    now_.right = nullptr;
+    seen_.reset();
     picked_.reset();
     window_.setTitle(fmt::format("Reflet: {}", source.scene));
 }
@@ -153,7 +166,7 @@ void Viewer::openFile(const std::string& file) {
         if (isView) {
             View changed = state_.view;
             applyViewJson(json, path, changed);
-            checkFocus(changed.camera, session_->scene(), path.string() + ": camera.focus");
+            checkFocus(changed.camera, scene(), path.string() + ": camera.focus");
             state_.view = changed;
         } else {
             Settings changed = state_.settings;
@@ -167,7 +180,6 @@ void Viewer::openFile(const std::string& file) {
         source.size = state_.source.size;
         source.strict = state_.source.strict;
         open(source, true);
-        tell(fmt::format("{}: opened", source.scene));
     }
 }
 
@@ -183,42 +195,20 @@ uvec2 Viewer::renderSize() const {
     return glm::clamp(uvec2(glm::round(size)), uvec2(16), uvec2(device_.limits().maxImageDimension2D));
 }
 
-// Also true if the values of the converged image are needed but were not kept.
-bool Viewer::wantsLiveFrame() const {
-    const bool lacksValues =
-        CompareView::wantsValues(state_) && !session_->shownValues() && session_->showProblem().empty();
-    return stepsOnce_ || lacksValues || session_->wantsFrame(state_, renderSize());
-}
-
-bool Viewer::wantsFrame() const {
-    switch (state_.running) {
-        case Running::paused:
-            return stepsOnce_;
-        case Running::continuous:
-            return true;
-        default:
-            return wantsLiveFrame() || compare_.wantsFrame(state_, renderSize());
-    }
-}
-
-// Seconds until the frame rate limit allows another frame.
-double Viewer::timeToFrame() const {
-    return state_.mostFrames > 0.0F ? std::max(1.0 / double(state_.mostFrames) - secondsSince(lastFrame_), 0.0) : 0.0;
-}
-
 double Viewer::timeToWait() const {
     if (redraws_ > 0) {
         return 0.0;
     }
-    if (window_.pixels().x == 0 || !wantsFrame()) {
-        return idleWait;
+    if (state_.plays && state_.running != Running::paused) {
+        return playsEvery;
     }
-    return timeToFrame();
+    return moving_ ? movesFor : idleWait;
 }
 
 bool Viewer::atRest() const {
-    return session_->frames() >= session_->framesToConverge(state_) && redraws_ == 0 &&
-           !session_->wantsFrame(state_, renderSize()) && !compare_.wantsFrame(state_, renderSize());
+    const Shown& shown = *now_.live;
+    return opened_.scene && render_.rests() && published_ == render_.published() && !moving_ && redraws_ == 0 &&
+           shown.frames >= shown.framesToConverge;
 }
 
 // Carries out --pick and --window-picture once the image has converged.
@@ -230,43 +220,89 @@ void Viewer::finishPicture() {
         const uvec2 pixel = glm::min(*toPick_, renderSize() - 1U);
         toPick_.reset();
         opensPixel_ = true;
-        attempt([&] { pickPixel(pixel); });
-    } else if (picked_ && picked_->change != session_->changes() && isPickedView()) {
-        attempt([&] { pickPixel(picked_->pixel); });
+        pickPixel(pixel, false);
+    } else if (picked_ && picked_->change != now_.live->changes && isPickedView()) {
+        pickPixel(picked_->pixel, false);
     } else if (!options_.windowPicture.empty()) {
+        if (now_.live->rendered == 0) {
+            fail("{}", now_.live->problem);
+        }
         writePng(options_.windowPicture, canvas_->picture());
         window_.close();
     }
 }
 
-void Viewer::renderScene() {
-    const uvec2 size = renderSize();
-    if (state_.plays) {
-        state_.view.time = std::min(state_.view.time + elapsed_, View::largestTime);
+// What the thread has published since the last call.
+void Viewer::takeFrames() {
+    const uint64_t published = render_.published();
+    if (published == published_) {
+        return;
     }
-    if (state_.running == Running::continuous || wantsLiveFrame()) {
-        session_->render(state_, size, CompareView::wantsValues(state_));
+    published_ = published;
+    const std::shared_ptr<const Shown> before = now_.live;
+    const uint32_t reloads = now_.reloads;
+    const std::string shaderProblem = now_.shaderProblem;
+    now_ = render_.state();
+    if (!now_.live || now_.scene != scene_) {
+        now_.live = before;
+        now_.right = nullptr;
+    }
+    if (now_.live->rendered != before->rendered) {
         noteTimes();
-        ++rendered_;
     }
-    lastFrame_ = Clock::now();
-    stepsOnce_ = false;
+    if (now_.reloads != reloads) {
+        compare_.forget();
+        tell(fmt::format("Recompiled: {}", fmt::join(now_.reloaded, ", ")));
+    }
+    redraws_ = std::max(redraws_, now_.shaderProblem == shaderProblem ? 1 : settlingRedraws);
+}
+
+void Viewer::takeFinished() {
+    for (const RenderThread::Finish& finish : render_.takeFinished()) {
+        if (opened_.scene) {
+            attempt(finish);
+        } else {
+            finish();  // without a scene there is nothing to go on with
+        }
+    }
+}
+
+// Tells the thread what is to be rendered.
+void Viewer::want() {
+    const uvec2 size = renderSize();
+    const bool changed = seen_ && (!(seen_->view == state_.view) || seen_->size != size ||
+                                   !sameSettings(seen_->settings, state_.settings));
+    if (changed) {
+        lastChange_ = Clock::now();
+    }
+    if (changed || !seen_) {
+        seen_ = Seen{state_.view, state_.settings, size};
+    }
+    moving_ = secondsSince(lastChange_) < movesFor || (state_.plays && state_.running != Running::paused);
+    render_.want({.scene = scene_,
+                  .state = state_,
+                  .size = window_.pixels().x == 0 ? uvec2(0) : size,
+                  .moving = moving_,
+                  .values = CompareView::wantsValues(state_),
+                  .steps = steps_,
+                  .right = CompareView::rendered(state_)});
 }
 
 void Viewer::noteTimes() {
     constexpr float weight = 0.1F;
-    for (const gpu::PassTime& pass : session_->frame().passTimes()) {
+    const uint64_t rendered = now_.live->rendered;
+    for (const gpu::PassTime& pass : now_.live->passes) {
         const auto known = std::ranges::find(passes_, pass.name, &PassHistory::name);
         const auto ms = static_cast<float>(pass.ms);
         if (known == passes_.end()) {
-            passes_.push_back({pass.name, ms, rendered_});
+            passes_.push_back({pass.name, ms, rendered});
         } else {
-            known->mean = known->lastFrame + 1 == rendered_ ? glm::mix(known->mean, ms, weight) : ms;
-            known->lastFrame = rendered_;
+            known->mean = known->lastFrame + 1 == rendered ? glm::mix(known->mean, ms, weight) : ms;
+            known->lastFrame = rendered;
         }
     }
-    std::erase_if(passes_, [&](const PassHistory& pass) { return pass.lastFrame != rendered_; });
-    frameTimes_.push_back(static_cast<float>(session_->frame().submittedMs()));
+    std::erase_if(passes_, [&](const PassHistory& pass) { return pass.lastFrame != rendered; });
+    frameTimes_.push_back(static_cast<float>(now_.live->milliseconds));
     if (frameTimes_.size() > keptFrameTimes) {
         frameTimes_.pop_front();
     }
@@ -281,30 +317,13 @@ void Viewer::present() {
     if (compares) {
         layout.divider = layout.corner.x + state_.compare.divider * layout.extent.x;
     }
+    layout.linear = now_.effort.isReduced();
     const gpu::Image window =
-        canvas_->draw(session_->picture(), compares ? compare_.picture() : gpu::Image{}, layout, window_.endUi());
+        canvas_->draw(now_.live->picture, compares ? compare_.picture() : nullptr, layout, window_.endUi());
     if (!presenter_.present(window, pixels)) {
         redraws_ = settlingRedraws;
     }
     ++drawn_;
-}
-
-void Viewer::watchShaders() {
-    if (!shaders_.watches() || secondsSince(lastWatch_) < watchEvery) {
-        return;
-    }
-    lastWatch_ = Clock::now();
-    const std::string before = shaders_.problem();
-    if (shaders_.update()) {
-        device_.pipelines().clear();
-        session_->resetHistory();
-        compare_.forget();
-        tell(fmt::format("Recompiled: {}", fmt::join(shaders_.replaced(), ", ")));
-        redraws_ = settlingRedraws;
-    }
-    if (shaders_.problem() != before) {
-        redraws_ = settlingRedraws;
-    }
 }
 
 void Viewer::attempt(const std::function<void()>& work) {
@@ -343,47 +362,83 @@ void Viewer::save() {
     }
 }
 
+// Draws only that the scene is being opened: everything else needs it.
+void Viewer::waitForScene() {
+    window_.takeKeys();
+    window_.beginUi();
+    ImGui::SetNextWindowPos({0.0F, 0.0F});
+    ImGui::Begin("Opening", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize);
+    ImGui::TextUnformatted(render_.busyWith().c_str());
+    ImGui::End();
+    present();
+}
+
+void Viewer::drawWindow() {
+    redraws_ = std::max(redraws_ - 1, 0);
+    window_.beginUi();
+    handlePointer();
+    handleKeys();  // after the pointer, so that a screenshot has the current view
+    flyByKeys();
+    if (state_.plays && state_.running != Running::paused) {
+        state_.view.time = std::min(state_.view.time + elapsed_, View::largestTime);
+    }
+    drawUi();
+    want();
+    present();
+    writeStatus();
+    finishPicture();
+}
+
 void Viewer::loop() {
     const InterruptNote note;
+    const bool sharesCpu = device_.description().kind == "CPU";
     lastLoop_ = Clock::now();
     while (!window_.closing() && !InterruptNote::arrived()) {
         Window::waitForEvents(timeToWait());
+        if (const double early = drawEvery - secondsSince(lastDraw_); sharesCpu && early > 0.0) {
+            std::this_thread::sleep_for(std::chrono::duration<double>(early));
+            Window::waitForEvents(0.0);
+        }
         elapsed_ = secondsSince(lastLoop_);
         lastLoop_ = Clock::now();
         if (window_.takeEvents()) {
             redraws_ = settlingRedraws;
         }
+        takeFinished();
+        if (window_.pixels().x == 0 || window_.pixels().y == 0) {  // minimised
+            redraws_ = 0;
+            want();
+            continue;
+        }
+        if (!opened_.scene) {
+            waitForScene();
+            continue;
+        }
         for (const std::string& file : window_.takeDroppedFiles()) {
             attempt([&] { openFile(file); });
         }
-        watchShaders();
-        if (window_.pixels().x == 0 || window_.pixels().y == 0) {  // minimised
-            redraws_ = 0;
-            continue;
-        }
+        takeFrames();
         const auto shown = [&] {
             return std::tuple(compare_.message(), compare_.samples(), compare_.progress(),
-                              compare_.error() ? compare_.error()->flip : -1.0, compare_.picture().view);
+                              compare_.error() ? compare_.error()->flip : -1.0, compare_.picture());
         };
         const auto before = shown();
-        const bool mayRender = state_.running != Running::paused || stepsOnce_;
-        compare_.update(state_, *session_, renderSize(), mayRender);
-        const bool renders = wantsFrame() && timeToFrame() <= 0.0;
-        if (!renders && redraws_ == 0 && shown() == before) {
+        compare_.update({.state = state_,
+                         .opened = opened_,
+                         .live = *now_.live,
+                         .right = now_.right.get(),
+                         .size = renderSize(),
+                         .mayTrace = state_.running != Running::paused && !moving_});
+        const bool plays = state_.plays && state_.running != Running::paused;
+        if (moving_ && secondsSince(lastChange_) >= movesFor) {
+            redraws_ = std::max(redraws_, 1);  // it comes to rest
+        }
+        if (redraws_ == 0 && !plays && shown() == before && !wasBusy_) {
             continue;
         }
-        redraws_ = std::max(redraws_ - 1, 0);
-        window_.beginUi();
-        handlePointer();
-        handleKeys();  // after the pointer, so that a screenshot has the current view
-        flyByKeys();
-        drawUi();
-        if (wantsFrame() && timeToFrame() <= 0.0) {
-            renderScene();
-        }
-        present();
-        writeStatus();
-        finishPicture();
+        drawWindow();
+        wasBusy_ = !render_.busyWith().empty();
+        lastDraw_ = Clock::now();
         if (secondsSince(lastSave_) > saveEvery) {  // so that little is lost if the display goes away
             save();
         }
@@ -398,8 +453,9 @@ void Viewer::run() {
         throw;
     }
     save();
-    if (options_.validate && !device_.validationMessages().empty()) {
-        fail("the validation layers reported {} messages", device_.validationMessages().size());
+    const size_t messages = device_.validationMessages().size() + render_.state().validationMessages.size();
+    if (options_.validate && messages > 0) {
+        fail("the validation layers reported {} messages", messages);
     }
 }
 

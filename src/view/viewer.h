@@ -4,13 +4,12 @@
 #include "device/device.h"
 #include "device/presenter.h"
 #include "view/canvas.h"
+#include "view/clock.h"
 #include "view/compare_view.h"
 #include "view/controls.h"
-#include "view/session.h"
-#include "view/shader_watch.h"
+#include "view/render_thread.h"
 #include "view/window.h"
 
-#include <chrono>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -48,8 +47,6 @@ public:
     /// Runs until the window is closed. Throws Error if the device or the surface is lost, after saving the state.
     void run();
 
-    [[nodiscard]] const gpu::Device& device() const { return device_; }
-
 private:
     struct PictureRect {  // in window units
         vec2 min{0.0F};
@@ -59,18 +56,19 @@ private:
     // viewer.cpp
     void loop();
     void open(const SceneOptions& source, bool restores);
+    void showScene(const OpenScene& opened, uint64_t number, const SceneOptions& source, bool restores);
     void openFile(const std::string& file);
     [[nodiscard]] PictureRect pictureRect() const;
     [[nodiscard]] uvec2 renderSize() const;
-    [[nodiscard]] bool wantsLiveFrame() const;
-    [[nodiscard]] bool wantsFrame() const;
-    [[nodiscard]] double timeToFrame() const;
     [[nodiscard]] double timeToWait() const;
     [[nodiscard]] bool atRest() const;
+    void takeFrames();
+    void takeFinished();
+    void want();
+    void waitForScene();
+    void drawWindow();
     void finishPicture();
-    void renderScene();
     void present();
-    void watchShaders();
     void noteTimes();
     void tell(const std::string& text) { notice_ = text; }
     void attempt(const std::function<void()>& work);
@@ -80,7 +78,8 @@ private:
     void applyPresetNamed(const std::string& name);
     [[nodiscard]] std::string commandLine();
     void takeScreenshot(const std::string& file);
-    void pickPixel(uvec2 pixel);
+    [[nodiscard]] const Scene& scene() const { return *opened_.scene; }
+    void pickPixel(uvec2 pixel, bool focuses);
     void focusAt(float distance);
     void focusOnPicked();
     [[nodiscard]] bool isPickedView() const;
@@ -99,6 +98,7 @@ private:
     // viewer_panels.cpp
     void drawUi();
     void drawPanel();
+    [[nodiscard]] std::string progressText() const;
     void runPanel();
     void settingsPanel();
     void lampsPanel();
@@ -123,12 +123,15 @@ private:
     ViewerOptions options_;
     ViewerState state_;
     Window window_;
-    gpu::Device device_;
+    RenderThread render_;
+    gpu::Device device_;  ///< of the window alone
     gpu::Presenter presenter_;
     std::unique_ptr<Canvas> canvas_;
-    std::unique_ptr<Session> session_;
+    OpenScene opened_;         ///< no scene while the first one is opened
+    uint64_t scene_ = 0;       ///< its number
+    RenderThread::State now_;  ///< what the thread published last; `live` is never null
+    uint64_t published_ = 0;
     CompareView compare_;
-    ShaderWatch shaders_;
     ControlPlaces places_;
     bool sunMoved_ = false;  ///< since the sky was made
 
@@ -138,7 +141,7 @@ private:
     std::string filter_;
     std::string openName_;
     std::optional<Picked> picked_;
-    bool stepsOnce_ = false;
+    uint32_t steps_ = 0;       ///< single frames that were asked for
     bool opensPixel_ = false;  ///< opens the pixel panel in the next frame
     std::optional<uvec2> toPick_;
     int redraws_ = 3;  ///< redraws until the user interface has settled
@@ -146,15 +149,22 @@ private:
     vec2 pressedAt_{0.0F};
     vec2 pointerBefore_{0.0F};
     bool pressedInPicture_ = false;
-    std::chrono::steady_clock::time_point lastFrame_;
-    std::chrono::steady_clock::time_point lastLoop_;
+    struct Seen {
+        View view;
+        Settings settings;
+        uvec2 size{0};
+    };
+    std::optional<Seen> seen_;  ///< at the last change
+    Clock::time_point lastChange_;
+    bool moving_ = false;
+    Clock::time_point lastDraw_;
+    Clock::time_point lastLoop_;
     double elapsed_ = 0.0;  ///< seconds since the loop's last iteration
     std::deque<float> frameTimes_;
     std::vector<PassHistory> passes_;
-    uint64_t rendered_ = 0;  ///< frames in total
-    uint64_t drawn_ = 0;     ///< window redraws in total
-    std::chrono::steady_clock::time_point lastWatch_;
-    std::chrono::steady_clock::time_point lastSave_ = std::chrono::steady_clock::now();
+    bool wasBusy_ = false;  ///< with a job, whose name was drawn
+    uint64_t drawn_ = 0;    ///< window redraws in total
+    Clock::time_point lastSave_ = Clock::now();
     std::string saved_;  ///< content of the state file
     bool warnedOfSaving_ = false;
 };

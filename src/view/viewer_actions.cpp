@@ -90,7 +90,7 @@ std::string Viewer::commandLine() {
     if (!source.camera.empty()) {
         line += " --camera " + shellWord(source.camera);
     }
-    if (!session_->isDefaultView(state_, size)) {
+    if (!opened_.isDefaultView(state_, size)) {
         line += " --view-file " + shellWord(keptViewFile(source.scene, state_.view));
     } else {
         if (!source.viewFile.empty()) {
@@ -118,21 +118,33 @@ std::string Viewer::commandLine() {
 }
 
 void Viewer::takeScreenshot(const std::string& file) {
-    std::string name = file;
-    for (int i = 1; name.empty(); ++i) {
-        const std::string next = fmt::format("{}-{}.png", sceneStem(state_.source.scene), i);
-        name = fs::exists(next) ? "" : next;
+    const std::string extension = fs::path(file).extension().string();
+    if (!file.empty() && extension != ".png" && extension != ".exr") {
+        fail("{}: the name must end in .png or .exr", file);
     }
-    const std::string extension = fs::path(name).extension().string();
-    if (extension != ".png" && extension != ".exr") {
-        fail("{}: the name must end in .png or .exr", name);
-    }
-    session_->screenshot(state_, renderSize(), name);
-    tell(fmt::format("Written: {}", fs::absolute(name).string()));
+    render_.post("writing a screenshot", [this, file, state = state_, size = renderSize()](RenderThread::Work& work) {
+        std::string name = file;
+        for (int i = 1; name.empty(); ++i) {
+            const std::string next = fmt::format("{}-{}.png", sceneStem(state.source.scene), i);
+            name = fs::exists(next) ? "" : next;
+        }
+        work.live->screenshot(state, size, name);
+        return [this, name] { tell(fmt::format("Written: {}", fs::absolute(name).string())); };
+    });
 }
 
-void Viewer::pickPixel(uvec2 pixel) {
-    picked_ = session_->pick(state_, renderSize(), pixel);
+void Viewer::pickPixel(uvec2 pixel, bool focuses) {
+    render_.post(
+        "reading a pixel",
+        [this, pixel, focuses, state = state_, size = renderSize()](RenderThread::Work& work) -> RenderThread::Finish {
+            const Picked picked = work.live->pick(state, size, pixel);
+            return [this, picked, focuses] {
+                picked_ = picked;
+                if (focuses) {
+                    focusOnPicked();
+                }
+            };
+        });
 }
 
 void Viewer::focusAt(float distance) {
@@ -155,11 +167,11 @@ void Viewer::focusOnPicked() {
 
 // Whether the picked pixel still belongs to the recorded ray: false once the camera or the size has changed.
 bool Viewer::isPickedView() const {
-    return picked_->view.worldToClip == session_->view().worldToClip && picked_->view.size == session_->view().size;
+    return picked_->view.worldToClip == now_.live->view.worldToClip && picked_->view.size == now_.live->view.size;
 }
 
 void Viewer::chooseFalseColorRange() {
-    const auto& values = session_->shownValues();
+    const auto& values = now_.live->values;
     if (!values || values->data.empty()) {
         return;
     }
@@ -171,7 +183,6 @@ void Viewer::chooseFalseColorRange() {
     }
     state_.low = low;
     state_.high = std::max(high, low + 1e-6F);
-    session_->refreshPicture(state_);
 }
 
 void Viewer::writeStatus() {
@@ -182,9 +193,11 @@ void Viewer::writeStatus() {
     const uvec2 size = renderSize();
     ordered_json json{
         {"drawn", drawn_},
-        {"rendered", rendered_},
-        {"frames", session_->frames()},
+        {"rendered", now_.live->rendered},
+        {"frames", now_.live->frames},
         {"at_rest", atRest()},
+        {"answered", redraws_ == 0},
+        {"busy", render_.busyWith()},
         {"scene", state_.source.scene},
         {"paused", state_.running == Running::paused},
         {"window", {window_.size().x, window_.size().y}},
@@ -192,7 +205,7 @@ void Viewer::writeStatus() {
         {"size", {size.x, size.y}},
         {"notice", notice_},
         {"problem", problem_},
-        {"shader_problem", shaders_.problem()},
+        {"shader_problem", now_.shaderProblem},
         {"settings", settingsJson(state_.settings, state_.ofPreset)},
         {"preset", state_.preset},
         {"camera", {state_.view.camera.position.x, state_.view.camera.position.y, state_.view.camera.position.z}},
@@ -200,8 +213,8 @@ void Viewer::writeStatus() {
          {{"aperture_radius", state_.view.camera.apertureRadius},
           {"focus_distance", state_.view.camera.focusDistance}}},
         {"compare", {{"message", compare_.message()}, {"samples", compare_.samples()}}}};
-    if (session_->exposure()) {
-        json["exposure"] = *session_->exposure();
+    if (now_.live->exposure) {
+        json["exposure"] = *now_.live->exposure;
     }
     if (compare_.error()) {
         json["compare"]["relative_mse"] = compare_.error()->relativeMse;

@@ -79,17 +79,16 @@ void Viewer::handleKey(const KeyPress& press) {
             state_.running = state_.running == Running::paused ? Running::onDemand : Running::paused;
             break;
         case GLFW_KEY_PERIOD:
-            stepsOnce_ = true;
+            ++steps_;
             break;
         case GLFW_KEY_C:
             state_.running = state_.running == Running::continuous ? Running::onDemand : Running::continuous;
             break;
         case GLFW_KEY_F:
-            frameScene(detachedCamera(), session_->scene(), float(renderSize().x) / float(renderSize().y),
-                       state_.view.time);
+            frameScene(detachedCamera(), scene(), float(renderSize().x) / float(renderSize().y), state_.view.time);
             break;
         case GLFW_KEY_R:
-            state_.view.camera = session_->firstView().camera;
+            state_.view.camera = opened_.firstView.camera;
             break;
         case GLFW_KEY_P:
             state_.plays = !state_.plays;
@@ -104,7 +103,7 @@ void Viewer::handleKey(const KeyPress& press) {
 
 // The camera for moving it by hand: detached from its node, if any, at the node's current pose.
 Camera& Viewer::detachedCamera() {
-    state_.view.camera = posed(state_.view, session_->scene()).camera;
+    state_.view.camera = posed(state_.view, scene()).camera;
     return state_.view.camera;
 }
 
@@ -156,12 +155,7 @@ void Viewer::handlePointer() {
     }
     if (ImGui::IsMouseReleased(0) && !dragsDivider_ && glm::distance(mouse, pressedAt_) < clickSlack && inside) {
         opensPixel_ = true;
-        attempt([&] {
-            pickPixel(pixelAt(mouse));
-            if (io.KeyAlt) {
-                focusOnPicked();
-            }
-        });
+        pickPixel(pixelAt(mouse), io.KeyAlt);
     }
     if (!ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2)) {
         pressedInPicture_ = false;
@@ -182,7 +176,7 @@ void Viewer::flyByKeys() {
     }
     constexpr double longestStep = 0.1;  // seconds, so that the first step after an idle period is not a jump
     const float fast = window_.isHeld(GLFW_KEY_LEFT_SHIFT) ? 4.0F : 1.0F;
-    const float metres = fast * flightSpeed(session_->scene().bounds()) * float(std::min(elapsed_, longestStep));
+    const float metres = fast * flightSpeed(scene().bounds()) * float(std::min(elapsed_, longestStep));
     fly(detachedCamera(), metres * way);
     redraws_ = std::max(redraws_, 2);
 }

@@ -77,7 +77,7 @@ std::optional<std::pair<vec4, vec4>> inFront(vec4 a, vec4 b) {
 
 vec2 Viewer::onWindow(const vec2& pixel) const {
     const PictureRect rect = pictureRect();
-    return rect.min + pixel / vec2(session_->size()) * rect.size;
+    return rect.min + pixel / vec2(now_.live->size) * rect.size;
 }
 
 void Viewer::drawDivider() {
@@ -97,13 +97,13 @@ void Viewer::drawDivider() {
 // The steps and the pixel are valid only for the view at the time of the pick. The ray is in world space and is also
 // drawn from other views.
 void Viewer::drawRay() {
-    if (!picked_ || session_->frames() == 0) {
+    if (!picked_ || now_.live->frames == 0) {
         return;
     }
     const PictureRect rect = pictureRect();
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     draw.PushClipRect({rect.min.x, rect.min.y}, {rect.min.x + rect.size.x, rect.min.y + rect.size.y});
-    const vec2 perPixel = rect.size / vec2(session_->size());
+    const vec2 perPixel = rect.size / vec2(now_.live->size);
     const auto at = [](const vec2& v) { return ImVec2(v.x, v.y); };
     const bool asPicked = isPickedView();
     if (picked_->ray) {
@@ -117,11 +117,11 @@ void Viewer::drawRay() {
                 draw.AddCircleFilled(at(low + 0.5F * perPixel), 1.8F, IM_COL32(120, 200, 255, 220), 6);
             }
         }
-        const mat4& toClip = session_->view().worldToClip;
+        const mat4& toClip = now_.live->view.worldToClip;
         if (const auto line = inFront(toClip * vec4(ray.start, 1.0F),
                                       toClip * vec4(ray.start + ray.distance * ray.direction, 1.0F))) {
             const auto onPicture = [&](const vec4& clip) {
-                return onWindow((0.5F + 0.5F * vec2(clip) / clip.w) * vec2(session_->size()));
+                return onWindow((0.5F + 0.5F * vec2(clip) / clip.w) * vec2(now_.live->size));
             };
             const vec2 start = onPicture(line->first);
             const vec2 end = onPicture(line->second);
@@ -151,7 +151,7 @@ void Viewer::pixelPanel() {
     ImGui::Text("pixel %u, %u", picked_->pixel.x, picked_->pixel.y);
     ImGui::SameLine();
     if (ImGui::Button("again")) {
-        attempt([&] { pickPixel(glm::min(picked_->pixel, renderSize() - 1U)); });
+        pickPixel(glm::min(picked_->pixel, renderSize() - 1U), false);
     }
     places_.note("pick again");
     tooltip(

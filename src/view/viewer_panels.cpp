@@ -48,6 +48,22 @@ bool section(const char* title, bool open = false) {
 
 }  // namespace
 
+// How far the image is.
+std::string Viewer::progressText() const {
+    const Shown& shown = *now_.live;
+    if (const std::string job = render_.busyWith(); !job.empty()) {
+        return job;
+    }
+    if (state_.running == Running::paused) {
+        return fmt::format("frame {}, paused", shown.frames);
+    }
+    if (now_.effort.isReduced()) {
+        return fmt::format("moving: resolution x {:.2f}{}", now_.effort.scale, now_.effort.fewRays ? ", 1 ray" : "");
+    }
+    return shown.frames >= shown.framesToConverge ? fmt::format("frame {}, converged", shown.frames)
+                                                  : fmt::format("refining {}/{}", shown.frames, shown.framesToConverge);
+}
+
 void Viewer::runPanel() {
     int running = static_cast<int>(state_.running);
     ImGui::RadioButton("on demand", &running, int(Running::onDemand));
@@ -64,21 +80,16 @@ void Viewer::runPanel() {
     state_.running = static_cast<Running>(running);
     ImGui::SameLine();
     if (ImGui::Button("step")) {
-        stepsOnce_ = true;
+        ++steps_;
     }
     places_.note("step");
     tooltip("Renders one frame (.).");
     const uvec2 size = renderSize();
-    const uint32_t rest = session_->framesToConverge(state_);
-    const bool settled = session_->frames() >= rest;
-    ImGui::TextColored(quietColor, "%ux%u, frame %u%s", size.x, size.y, session_->frames(),
-                       state_.running == Running::paused ? ", paused"
-                       : settled                         ? ", converged"
-                                                         : fmt::format(" of {} until converged", rest).c_str());
-    if (const std::optional<float> stops = session_->exposure()) {
+    ImGui::TextColored(quietColor, "%ux%u, %s", size.x, size.y, progressText().c_str());
+    if (const std::optional<float> stops = now_.live->exposure) {
         ImGui::TextColored(quietColor, "automatic exposure: %+.2f stops", double(*stops));
     }
-    if (!session_->scene().animations.empty()) {
+    if (!scene().animations.empty()) {
         ImGui::Checkbox("play animations", &state_.plays);
         places_.note("play");
         auto time = static_cast<float>(state_.view.time);
@@ -123,11 +134,9 @@ void Viewer::showPanel() {
     }
     places_.note("image");
     tooltip(std::string(findShow(state_.show).description));
-    const bool before = state_.falseColor;
     ImGui::Checkbox("false colours", &state_.falseColor);
     places_.note("false colours");
     tooltip("Colour map of the first channel: black, violet, red, orange to pale yellow.");
-    bool changed = before != state_.falseColor;
     if (state_.falseColor) {
         ImGui::SameLine();
         if (ImGui::Button("fit")) {
@@ -135,15 +144,10 @@ void Viewer::showPanel() {
         }
         tooltip("Sets the range to the smallest and largest value of this frame.");
         const float step = std::max((state_.high - state_.low) * 0.01F, 1e-5F);
-        changed = ImGui::DragFloatRange2("range", &state_.low, &state_.high, step, 0.0F, 0.0F, "%.4g") || changed;
+        ImGui::DragFloatRange2("range", &state_.low, &state_.high, step, 0.0F, 0.0F, "%.4g");
     }
-    if (changed && session_->shownValues()) {
-        session_->refreshPicture(state_);
-    } else if (changed) {
-        stepsOnce_ = true;  // its values have to be read back
-    }
-    if (!session_->showProblem().empty()) {
-        wrapped(problemColor, session_->showProblem());
+    if (!now_.live->problem.empty()) {
+        wrapped(problemColor, now_.live->problem);
     }
 }
 
@@ -204,7 +208,7 @@ void Viewer::timesPanel() {
                          0.0F, most * 1.1F, {ImGui::GetContentRegionAvail().x, 60.0F});
         tooltip("Time of each frame, from submission to completion.");
     }
-    ImGui::Text("device memory: %s", megabytes(device_.memory().used(gpu::MemoryUse::device)).c_str());
+    ImGui::Text("device memory: %s", megabytes(now_.deviceMemory).c_str());
     ImGui::SliderFloat("resolution", &state_.scale, 0.1F, 2.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp);
     places_.note("resolution");
     tooltip("Resolution scale: rendered pixels per window pixel, along each side. Lower: faster, blurrier.");
@@ -278,9 +282,9 @@ void Viewer::filesPanel() {
 }
 
 void Viewer::messages() {
-    if (!shaders_.problem().empty()) {
+    if (!now_.shaderProblem.empty()) {
         wrapped(problemColor, "A shader does not compile; its last working version is still in use.");
-        wrapped(problemColor, shaders_.problem());
+        wrapped(problemColor, now_.shaderProblem);
     }
     if (!problem_.empty()) {
         wrapped(problemColor, problem_);

@@ -60,7 +60,7 @@ void Viewer::environmentPanel() {
 
 void Viewer::lampsPanel() {
     View& view = state_.view;
-    const std::vector<Lamp>& lamps = session_->scene().lamps;
+    const std::vector<Lamp>& lamps = scene().lamps;
     if (!lamps.empty() && ImGui::TreeNode("lamps", "Lamps (%zu)", lamps.size())) {
         for (uint32_t i = 0; i < lamps.size(); ++i) {
             const auto place = std::ranges::lower_bound(view.lampsOff, i);
@@ -116,11 +116,11 @@ void Viewer::lightPanel() {
     lampsPanel();
     environmentPanel();
     if (ImGui::Button("reset light")) {
-        view.sun = session_->firstView().sun;
-        view.environment = session_->firstView().environment;
-        view.background = session_->firstView().background;
-        view.lampsOff = session_->firstView().lampsOff;
-        view.lampRadius = session_->firstView().lampRadius;
+        view.sun = opened_.firstView.sun;
+        view.environment = opened_.firstView.environment;
+        view.background = opened_.firstView.background;
+        view.lampsOff = opened_.firstView.lampsOff;
+        view.lampRadius = opened_.firstView.lampRadius;
     }
     places_.note("own light");
 }
@@ -134,7 +134,7 @@ void Viewer::lensPanel() {
     if (camera.apertureRadius <= 0.0F) {
         return;
     }
-    float distance = posed(state_.view, session_->scene()).camera.focusDistance;
+    float distance = posed(state_.view, scene()).camera.focusDistance;
     if (ImGui::SliderFloat("focus", &distance, 0.01F, 1000.0F, "%.3f m", flags)) {
         focusAt(distance);
     }
@@ -163,7 +163,7 @@ void Viewer::cameraPanel() {
         handleKey({'R'});
     }
     places_.note("reset camera");
-    const std::vector<Camera>& cameras = session_->scene().cameras;
+    const std::vector<Camera>& cameras = scene().cameras;
     for (size_t i = 0; i < cameras.size(); ++i) {
         const std::string name = cameras[i].name.empty() ? fmt::format("camera {}", i) : cameras[i].name;
         if (ImGui::Button(fmt::format("{}##{}", name, i).c_str())) {
