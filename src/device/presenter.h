@@ -17,8 +17,12 @@ public:
     Presenter(const Presenter&) = delete;
     Presenter& operator=(const Presenter&) = delete;
 
-    /// Shows a finished image, stretched over the window of this size in pixels (not 0). Returns false if the window
-    /// has just changed and nothing was shown: draw again. Throws Error if the surface or the device is lost.
+    /// Whether the window's pixels have blue where RGBA8 has red.
+    [[nodiscard]] bool isSwapped() const { return format_.format == VK_FORMAT_B8G8R8A8_UNORM; }
+
+    /// Shows a finished RGBA8 image (with red and blue exchanged, if isSwapped()) in the upper left of the window of
+    /// this size in pixels (not 0). Returns false if the window has just changed and nothing was shown: draw again.
+    /// Throws Error if the surface or the device is lost.
     bool present(const Image& image, uvec2 window);
 
     /// Whether presentation waits for the vertical blank; off only where the device supports it.
@@ -32,6 +36,7 @@ private:
     Device& device_;
     VkSurfaceKHR surface_;
     VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
+    VkSurfaceFormatKHR format_{};
     VkFence acquired_ = VK_NULL_HANDLE;
     std::vector<VkImage> images_;
     uvec2 windowSize_{0};  ///< size of the window for which the swapchain was created

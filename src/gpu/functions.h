@@ -21,6 +21,7 @@ namespace reflet::gpu {
     F(vkCmdClearColorImage)          \
     F(vkCmdCopyBuffer)               \
     F(vkCmdCopyBufferToImage)        \
+    F(vkCmdCopyImage)                \
     F(vkCmdCopyImageToBuffer)        \
     F(vkCmdDispatch)                 \
     F(vkCmdDispatchIndirect)         \

@@ -258,6 +258,25 @@ void Recorder::upload(Image image, std::span<const std::byte> texels) {
                                        &copy);
 }
 
+void Recorder::copy(Image from, Image to) {
+    if (isCollecting()) {
+        return;
+    }
+    REFLET_CHECK(from.format == to.format && from.size == to.size, "a copy between images of different kinds");
+    BarrierBatch batch;
+    batch.use(*from.state, aspectOf(from.format),
+              {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, false});
+    batch.use(*to.state, aspectOf(to.format),
+              {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, true});
+    batch.record(context_.vk, commands_);
+    VkImageCopy copy{};
+    copy.srcSubresource = {aspectOf(from.format), 0, 0, 1};
+    copy.dstSubresource = copy.srcSubresource;
+    copy.extent = {from.size.x, from.size.y, 1};
+    context_.vk.vkCmdCopyImage(commands_, from.state->image, VK_IMAGE_LAYOUT_GENERAL, to.state->image,
+                               VK_IMAGE_LAYOUT_GENERAL, 1, &copy);
+}
+
 Image Recorder::placeholder(VkFormat format, ViewKind view) {
     Texture& texture = placeholders_[{format, view}];
     if (texture.info().size.x == 0) {

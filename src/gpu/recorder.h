@@ -77,6 +77,9 @@ public:
     /// Overwrites all of a single-layer image's first level. texels: rows from the top, tightly packed.
     void upload(Image image, std::span<const std::byte> texels);
 
+    /// Copies the first level of a single-layer image to one of the same format and size.
+    void copy(Image from, Image to);
+
     /// An image of one texel, to bind where a shader does not use what it declares; `array`: an array view.
     Image placeholder(VkFormat format, ViewKind view = ViewKind::byLayers);
 
@@ -115,8 +118,8 @@ public:
     [[nodiscard]] Context& context() { return context_; }
 
 protected:
-    /// Called after each recorded pass; the command buffer must be in the recording state when it returns. If it throws,
-    /// the frame is abandoned as after any exception. Empty: nothing is called.
+    /// Called after each recorded pass; the command buffer must be in the recording state when it returns. If it
+    /// throws, the frame is abandoned as after any exception. Empty: nothing is called.
     void betweenPasses(std::function<void()> call) { betweenPasses_ = std::move(call); }
 
 private:

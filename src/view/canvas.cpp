@@ -32,9 +32,10 @@ void makeRoom(gpu::Device& device, gpu::Buffer& buffer, size_t bytes, VkBufferUs
 
 }  // namespace
 
-Canvas::Canvas(gpu::Device& device, uvec2 fontSize, std::span<const uint8_t> font)
+Canvas::Canvas(gpu::Device& device, uvec2 fontSize, std::span<const uint8_t> font, bool swapped)
     : device_(device),
       frame_(device),
+      swapped_(swapped),
       font_(gpu::uploadTexture(device, fontSize, font, false, false, "ui font")),
       none_(gpu::uploadTexture(device, uvec2(1), std::array<uint8_t, 4>{0, 0, 0, 255}, false, false, "no picture")),
       vertices_(device, 1 << 16, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, gpu::MemoryUse::upload, "ui vertices"),
@@ -113,32 +114,46 @@ gpu::Image Canvas::upload(const Picture& picture, Side& side) {
     return side.texture.image();
 }
 
+void Canvas::compose(const Picture& left, const Picture& right, const Layout& layout) {
+    const gpu::Image a = upload(left, left_);
+    const gpu::Image b = upload(right, right_);
+    const VkSampler linear = device_.sampler({.mag = VK_FILTER_LINEAR, .min = VK_FILTER_LINEAR});
+    Layout shown = layout;
+    shown.divider = right ? layout.divider : float(layout.window.x);
+    frame_.compute("compose", "compose.comp")
+        .read("left", a, linear)
+        .read("right", b, linear)
+        .write("window", base_.image())
+        .params(ComposeParams{shown.window, shown.corner, left ? shown.extent : vec2(0.0F), vec2(a.size), vec2(b.size),
+                              shown.divider, shown.linear ? 1U : 0U, swapped_ ? 1U : 0U})
+        .dispatch(shown.window);
+    baseLayout_ = layout;
+}
+
 gpu::Image Canvas::draw(const Picture& left, const Picture& right, const Layout& layout, const ImDrawData& ui) {
+    bool composes = left_.of != left || right_.of != right || !(baseLayout_ == layout);
     if (window_.info().size != layout.window) {
-        window_ = gpu::Texture(device_,
-                               {VK_FORMAT_R8G8B8A8_UNORM, layout.window, 1, 1,
-                                VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
-                                    VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT},
-                               "window");
+        const gpu::ImageInfo info{VK_FORMAT_R8G8B8A8_UNORM, layout.window, 1, 1,
+                                  VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
+                                      VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                                      VK_IMAGE_USAGE_TRANSFER_DST_BIT};
+        base_ = gpu::Texture(device_, info, "window without panels");
+        window_ = gpu::Texture(device_, info, "window");
+        composes = true;
     }
     upload(ui);
     const gpu::Image window = window_.image();
     frame_.begin();
-    const gpu::Image a = upload(left, left_);
-    const gpu::Image b = right ? upload(right, right_) : a;
+    if (composes) {
+        compose(left, right, layout);
+    }
+    frame_.copy(base_.image(), window);
     const VkSampler linear = device_.sampler({.mag = VK_FILTER_LINEAR, .min = VK_FILTER_LINEAR});
-    frame_.compute("compose", "compose.comp")
-        .read("left", a, linear)
-        .read("right", b, linear)
-        .write("window", window)
-        .params(ComposeParams{layout.window, layout.corner, left ? layout.extent : vec2(0.0F), vec2(a.size),
-                              vec2(b.size), layout.divider, layout.linear ? 1U : 0U})
-        .dispatch(layout.window);
     const vec2 display(std::max(ui.DisplaySize.x, 1.0F), std::max(ui.DisplaySize.y, 1.0F));
     const vec2 scale = 2.0F / display;
     frame_.raster("ui", {"ui.vert", "ui.frag"})
         .read("font", font_.image(), linear)
-        .params(UiParams{scale, -1.0F - vec2(ui.DisplayPos.x, ui.DisplayPos.y) * scale})
+        .params(UiParams{scale, -1.0F - vec2(ui.DisplayPos.x, ui.DisplayPos.y) * scale, swapped_ ? 1U : 0U})
         .color("window", window, std::nullopt)
         .blend()
         .vertices(uiLayout)
@@ -153,7 +168,11 @@ Bitmap Canvas::picture() {
     const gpu::Readback copy = frame_.readback(window_.image());
     frame_.submit();
     frame_.wait();
-    return fetchDisplay(frame_, copy, window_.info().size);
+    Bitmap bitmap = fetchDisplay(frame_, copy, window_.info().size);
+    for (size_t i = 0; swapped_ && i < bitmap.data.size(); i += bitmap.channels) {
+        std::swap(bitmap.data[i], bitmap.data[i + 2]);
+    }
+    return bitmap;
 }
 
 }  // namespace reflet

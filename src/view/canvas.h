@@ -15,11 +15,13 @@ struct ComposeParams {
     vec2 sizeB;     // of the right image
     float divider;  // x in pixels of the window: the right image starts here
     uint linear;    // 1: interpolates the images; 0: the nearest texel
+    uint swapped;   // 1: writes blue, green, red
 };
 
 struct UiParams {
     vec2 scale;  // from ImGui's coordinates to clip space
     vec2 shift;
+    uint swapped;
 };
 
 SHARED_END
@@ -42,12 +44,14 @@ struct Layout {
     vec2 extent{0.0F};
     float divider = 1e9F;
     bool linear = false;  ///< interpolates images that are not of the rectangle's size
+
+    bool operator==(const Layout&) const = default;
 };
 
 class Canvas {
 public:
-    /// font: RGBA8.
-    Canvas(gpu::Device& device, uvec2 fontSize, std::span<const uint8_t> font);
+    /// font: RGBA8. swapped: draws with red and blue exchanged, as windows mostly have them.
+    Canvas(gpu::Device& device, uvec2 fontSize, std::span<const uint8_t> font, bool swapped);
 
     using Picture = std::shared_ptr<const Bitmap>;
 
@@ -66,14 +70,18 @@ private:
 
     void upload(const ImDrawData& ui);
     gpu::Image upload(const Picture& picture, Side& side);
+    void compose(const Picture& left, const Picture& right, const Layout& layout);
     void recordUi(const gpu::DrawCommands& to, const ImDrawData& ui, uvec2 window) const;
 
     gpu::Device& device_;
     gpu::Frame frame_;
+    bool swapped_;
     gpu::Texture font_;
     gpu::Texture none_;
     Side left_;
-    Side right_;
+    Side right_;  ///< null where there is no right image
+    gpu::Texture base_;  ///< the images without the user interface, kept while they stay the same
+    Layout baseLayout_;
     gpu::Texture window_;
     gpu::Buffer vertices_;
     gpu::Buffer indices_;

@@ -26,5 +26,5 @@ void main() {
         vec2 at = params.linear != 0u ? uv : (floor(uv * size) + 0.5) / size;
         color = isLeft ? textureLod(left, at, 0.0).rgb : textureLod(right, at, 0.0).rgb;
     }
-    imageStore(window, ivec2(pixel), vec4(color, 1.0));
+    imageStore(window, ivec2(pixel), vec4(params.swapped != 0u ? color.bgr : color, 1.0));
 }

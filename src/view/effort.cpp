@@ -26,11 +26,7 @@ void reduce(const Effort& effort, uvec2& size, Settings& settings) {
     if (!effort.isReduced()) {
         return;
     }
-    if (settings.temporal.enabled != 0) {
-        settings.temporal.scale = std::max(settings.temporal.scale * effort.scale, smallestScale);
-    } else {
-        size = glm::max(uvec2(glm::round(vec2(size) * effort.scale)), uvec2(16));
-    }
+    size = glm::max(uvec2(glm::round(vec2(size) * effort.scale)), uvec2(16));
     if (effort.fewRays) {
         settings.diffuse.rays = std::min(settings.diffuse.rays, 1U);
         settings.specular.rays = std::min(settings.specular.rays, 1U);

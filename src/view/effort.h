@@ -17,8 +17,8 @@ struct Effort {
     bool operator==(const Effort&) const = default;
 };
 
-/// Applies the effort to the size and the settings of an image: by temporal upscaling where the settings have temporal
-/// antialiasing, else by a smaller image.
+/// Applies the effort to the size and the settings of an image. Temporal upscaling, where the settings have it, stays
+/// as it is: most of what it costs depends on the size that it scales to.
 void reduce(const Effort& effort, uvec2& size, Settings& settings);
 
 /// Chooses the effort from the times of earlier frames.

@@ -101,7 +101,7 @@ Viewer::Viewer(const ViewerOptions& options)
     }
     uvec2 fontSize(0);
     const std::span<const uint8_t> font = Window::font(fontSize);
-    canvas_ = std::make_unique<Canvas>(device_, fontSize, font);
+    canvas_ = std::make_unique<Canvas>(device_, fontSize, font, presenter_.isSwapped());
     open(options.scene, !options.fresh);
 }
 
@@ -382,10 +382,18 @@ void Viewer::drawWindow() {
     if (state_.plays && state_.running != Running::paused) {
         state_.view.time = std::min(state_.view.time + elapsed_, View::largestTime);
     }
+    const auto t0 = Clock::now();
     drawUi();
+    const double t1 = secondsSince(t0);
     want();
+    const double t2 = secondsSince(t0);
     present();
+    const double t3 = secondsSince(t0);
     writeStatus();
+    if (getenv("DBG"))
+        fmt::print(stderr, "ui {:.1f} want {:.1f} present {:.1f} status {:.1f} live {:.0f} scale {:.2f}\n", 1e3 * t1,
+                   1e3 * (t2 - t1), 1e3 * (t3 - t2), 1e3 * (secondsSince(t0) - t3), now_.live->milliseconds,
+                   now_.effort.scale);
     finishPicture();
 }
 
