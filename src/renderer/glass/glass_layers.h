@@ -2,6 +2,7 @@
 #pragma once
 
 #include "effects/accumulate/accumulate.h"
+#include "renderer/coat/coat.h"
 #include "renderer/glass/glass.h"
 #include "renderer/lit_layer.h"
 
@@ -19,6 +20,7 @@ struct GlassStore {
     };
     std::array<GBufferStore, mostGlassLayers> g;
     LitLayerStore light;
+    CoatStore coat;
     GlassSurfacesStore surfaces;
     gpu::KeptImage lightMips{"glass.light_mips"};
     std::array<Sum, 2> sums;  ///< used in turn: a layer is composited over the sum before
