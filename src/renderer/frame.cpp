@@ -373,8 +373,9 @@ FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in
     }
     out.unfiltered = out.light.lit;
     if (historyUse(settings).temporal) {
+        const GBuffer followed = glass ? motionWithGlass(f, own.glass, out.g) : out.g;
         const TemporalImages means =
-            temporal(f, own.temporal, {out.g, out.light.lit, out.coverage, in.view, in.outputSize, in.jitter},
+            temporal(f, own.temporal, {followed, out.light.lit, out.coverage, in.view, in.outputSize, in.jitter},
                      settings.temporal);
         out.temporal = means.mean;
         out.light.lit = means.mean;

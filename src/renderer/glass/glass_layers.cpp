@@ -108,4 +108,22 @@ gpu::Image depthWithGlass(gpu::Recorder& f, GlassStore& own, gpu::Image opaqueDe
     return nearest;
 }
 
+GBuffer motionWithGlass(gpu::Recorder& f, GlassStore& own, GBuffer g) {
+    const gpu::Image depth = own.followedDepth.storage(f, VK_FORMAT_R32_SFLOAT, g.depth.size);
+    const gpu::Image motion = own.followedMotion.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size);
+    f.compute("glass_motion", "glass_motion.comp")
+        .read("depth", g.depth)
+        .read("motion", g.motion)
+        .read("layerDepth", own.g.front().depth.last())
+        .read("layerMotion", own.g.front().motion.last())
+        .read("tint", own.surfaces.tint.last())  // of the nearest layer, which is drawn last
+        .write("followedDepth", depth)
+        .write("followedMotion", motion)
+        .params(GlassOverParams{depth.size})
+        .dispatch(depth.size);
+    g.depth = depth;
+    g.motion = motion;
+    return g;
+}
+
 }  // namespace reflet
