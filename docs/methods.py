@@ -98,8 +98,8 @@ def unzip_exr(block, size):
     return together
 
 
-def read_exr(path, channel):
-    """One channel, clamped to 0 to 1, as a grey image."""
+def read_values(path, channel):
+    """One channel: its width, height and rows of numbers."""
     data = open(path, "rb").read()
     at, attributes = 8, {}
     while data[at]:
@@ -116,9 +116,14 @@ def read_exr(path, channel):
         y, size = struct.unpack_from("<ii", data, offset)
         block = unzip_exr(data[offset + 8:offset + 8 + size], row * min(16, height - y))
         for start in range(4 * width * first, len(block), row):
-            values = struct.unpack_from("<%df" % width, block, start)
-            rows.append(b"".join(bytes([round(255 * min(max(v, 0.0), 1.0))] * 3) for v in values))
+            rows.append(struct.unpack_from("<%df" % width, block, start))
     return width, height, rows
+
+
+def read_exr(path, channel):
+    """One channel, clamped to 0 to 1, as a grey image."""
+    width, height, rows = read_values(path, channel)
+    return width, height, [b"".join(bytes([round(255 * min(max(v, 0.0), 1.0))] * 3) for v in row) for row in rows]
 
 
 def crop(picture, x, y, width, height, zoom):
@@ -166,10 +171,11 @@ def options(scene, settings, view, size, preset):
 class Frame:
     """An image with layers: self.png and self.exr, made with self.arguments."""
 
-    def against(self, truth, layer="final"):
-        """Metrics of `reflet compare`."""
+    def against(self, truth, layer="final", mask=None):
+        """Metrics of `reflet compare`; mask: an image of the pixels to compare."""
         mine = "" if layer == "final" else ":" + layer
-        return json.loads(run(["compare", self.exr + mine, truth.exr + ":" + layer, "--json"]))
+        return json.loads(run(["compare", self.exr + mine, truth.exr + ":" + layer, "--json"]
+                              + (["--mask", mask] if mask else [])))
 
 
 class Render(Frame):

@@ -1,8 +1,8 @@
 // The frame, top to bottom: values in, values out. Start reading here.
 //
 // direct view (G-buffer → depth pyramid → sun and lamp visibility → direct light) → diffuse rays → source chain
-// → layers of blended surfaces → planar views → specular rays → source chain → composite → layers of glass → temporal
-// antialiasing → depth of field → tone map
+// → layers of blended surfaces → planar views → specular rays → source chain → composite → clear coats → layers of
+// glass → temporal antialiasing → depth of field → tone map
 //
 // renderFrame, at the end, does all of it; its parts are above it, those shared with other views in direct_view.cpp,
 // and a lobe's rays in trace_lobe.cpp. There is no render graph: the `if`s in these files are all that culls passes.
@@ -187,6 +187,11 @@ ScreenImages renderReflectionView(gpu::Recorder& f, FrameStore::Planar& own, con
         const CompositeInputs parts{images.g, base, diffuse, specular, in.ggxTable, settings.materials.lambertOnly != 0,
                                     false};
         light = composite(f, own.layers, parts, all, {in.view, settings.diffuse.gain}).lit;
+        if (showsCoats(in, settings)) {
+            light = addCoats(f, own.coat, in, settings, seen, {own.direct.g.depth.last()},
+                             {images.direct, {{}, {}, light}}, {}, false)
+                        .light.lit;
+        }
     }
     if (showsGlass(in, settings)) {
         light = throughGlass(f, own.glass, in, settings, seen, {images.direct, {{}, {}, light}},
@@ -333,12 +338,20 @@ FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in
         out.g, out.direct, out.diffuse, out.specular, in.ggxTable, settings.materials.lambertOnly != 0, layers};
     const auto image = [&](gpu::KeptImage& kept) { return kept.storage(f, litFormat, lit.next.size); };
     const gpu::Image behind = blended.lit ? image(own.litBehind) : lit.next;
+    const bool coats = showsCoats(in, settings);
     // Without rays, no frame reads the last one's light.
-    const bool directAlone =
-        out.diffuse.dark && out.specular.dark && !layers && !blended.lit && !in.background.environment && !glass;
+    const bool directAlone = out.diffuse.dark && out.specular.dark && !layers && !blended.lit &&
+                             !in.background.environment && !glass && !coats;
     const gpu::Image withoutGlass = glass ? image(own.litWithoutGlass) : behind;
+    const gpu::Image withoutCoats = coats ? image(own.litWithoutCoats) : withoutGlass;
     out.light = directAlone ? Composite{{}, {}, out.direct}
-                            : composite(f, own.layers, parts, withoutGlass, {in.view, settings.diffuse.gain});
+                            : composite(f, own.layers, parts, withoutCoats, {in.view, settings.diffuse.gain});
+    if (coats) {
+        const LightLayers all = addCoats(f, own.coat, in, settings, seen, {own.direct.g.depth.last()},
+                                         {out.direct, out.light}, withoutGlass, layers);
+        out.direct = all.direct;
+        out.light = all.light;
+    }
     if (glass) {
         const LightLayers all = throughGlass(f, own.glass, in, settings, seen, {out.direct, out.light}, behind, layers);
         out.direct = all.direct;
@@ -360,8 +373,9 @@ FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in
     }
     out.unfiltered = out.light.lit;
     if (historyUse(settings).temporal) {
+        const GBuffer followed = glass ? motionWithGlass(f, own.glass, out.g) : out.g;
         const TemporalImages means =
-            temporal(f, own.temporal, {out.g, out.light.lit, out.coverage, in.view, in.outputSize, in.jitter},
+            temporal(f, own.temporal, {followed, out.light.lit, out.coverage, in.view, in.outputSize, in.jitter},
                      settings.temporal);
         out.temporal = means.mean;
         out.light.lit = means.mean;

@@ -8,6 +8,7 @@
 #include "effects/temporal/temporal.h"
 #include "gpu/recorder.h"
 #include "renderer/background/background.h"
+#include "renderer/coat/coat.h"
 #include "renderer/direct_view.h"
 #include "renderer/gbuffer/draw_gbuffer.h"
 #include "renderer/glass/glass_layers.h"
@@ -34,6 +35,7 @@ struct ViewStore {
     gpu::KeptImage lit{"lit"};
     gpu::KeptImage litBlended{"lit.blended"};
     GlassStore glass;
+    CoatStore coat;
 };
 
 /// Owns the images of the layers of blended surfaces in front of a view.
@@ -62,6 +64,7 @@ struct FrameStore : ViewStore {
     gpu::KeptImage coverageBlended{"coverage.blended"};
     AccumulateStore coverageMean;
     gpu::KeptImage litBehind{"lit_behind"};
+    gpu::KeptImage litWithoutCoats{"lit_without_coats"};
     gpu::KeptImage litWithoutGlass{"lit_without_glass"};
     gpu::KeptImage litSoFarGlass{"lit_so_far.glass"};
     gpu::KeptImage litShown{"lit_shown"};

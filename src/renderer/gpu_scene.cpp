@@ -261,7 +261,11 @@ void GpuScene::addDraws(const Scene& scene) {
         draw.blended = material.blended && !draw.glass;
         draws_.glass = draws_.glass || draw.glass;
         draws_.frosted = draws_.frosted || (draw.glass && material.roughness > 0.0F);
-        draws_.murky = draws_.murky || (draw.glass && material.transmission.factor < 1.0F);
+        const bool murky = material.transmission.factor < 1.0F || material.transmission.texture.image >= 0;
+        draws_.murky = draws_.murky || (draw.glass && murky);
+        draw.coated = material.clearcoat.factor > 0.0F && !draw.blended;
+        draws_.coated = draws_.coated || draw.coated;
+        draws_.coatedGlass = draws_.coatedGlass || (draw.coated && draw.glass);
         draw.alpha = draw.blended ? material.baseColor.a : 1.0F;
         draw.doubleSided = material.doubleSided;
         draws_.boundsW.add(draw.boundsW);

@@ -15,6 +15,11 @@ Settings layerSettings(Settings settings) {
 Composite lightLayer(gpu::Recorder& f, LitLayerStore& own, const ViewInputs& in, const Settings& settings,
                      TracedView& layer, bool layers) {
     lightSurfaces(f, own.light, in, settings, layer.images);
+    return reflectedLight(f, own, in, settings, layer, layers);
+}
+
+Composite reflectedLight(gpu::Recorder& f, LitLayerStore& own, const ViewInputs& in, const Settings& settings,
+                         const TracedView& layer, bool layers) {
     const LobeLight diffuse = traceLobe(f, own.diffuse, in, settings, layer, lobeDiffuse);
     const LobeLight specular = traceLobe(f, own.specular, in, settings, layer, lobeSpecular);
     const CompositeInputs parts{layer.images.g, layer.images.direct, diffuse,

@@ -23,4 +23,8 @@ Settings layerSettings(Settings settings);
 Composite lightLayer(gpu::Recorder& f, LitLayerStore& own, const ViewInputs& in, const Settings& settings,
                      TracedView& layer, bool layers);
 
+/// The same, with the direct light that the layer has.
+Composite reflectedLight(gpu::Recorder& f, LitLayerStore& own, const ViewInputs& in, const Settings& settings,
+                         const TracedView& layer, bool layers);
+
 }  // namespace reflet

@@ -6,13 +6,23 @@
 namespace reflet {
 
 std::array<const TextureSlot*, slotCount> textureSlots(const Material& m) {
-    return {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture,       &m.occlusionTexture,
-            &m.emissiveTexture,  &m.specularTexture,          &m.specularColorTexture};
+    return {&m.baseColorTexture,
+            &m.metallicRoughnessTexture,
+            &m.normalTexture,
+            &m.occlusionTexture,
+            &m.emissiveTexture,
+            &m.specularTexture,
+            &m.specularColorTexture,
+            &m.transmission.texture,
+            &m.transmission.thicknessTexture,
+            &m.clearcoat.texture,
+            &m.clearcoat.roughnessTexture,
+            &m.clearcoat.normalTexture};
 }
 
 bool isSrgb(uint slot) {
     // The specular slots often share one image: sRGB decoding leaves alpha as it is.
-    return slot == slotBaseColor || slot >= slotEmissive;
+    return slot == slotBaseColor || (slot >= slotEmissive && slot <= slotSpecularColor);
 }
 
 namespace {
@@ -46,6 +56,9 @@ MaterialParams materialParams(const Material& m) {
     p.extinction = -glm::log(glm::max(m.transmission.attenuationColor, 1e-6F)) /
                    std::max(m.transmission.attenuationDistance, 1e-6F);
     p.thickness = m.transmission.thickness;
+    p.coat = m.clearcoat.factor;
+    p.coatRoughness = m.clearcoat.roughness;
+    p.coatNormalScale = m.clearcoat.normalScale;
     const auto slots = textureSlots(m);
     for (size_t i = 0; i < slotCount; ++i) {
         p.textured |= slots[i]->image >= 0 ? 1U << i : 0U;

@@ -15,6 +15,11 @@ layout(set = 1, binding = 4) uniform sampler2D occlusionTexture;
 layout(set = 1, binding = 5) uniform sampler2D emissiveTexture;
 layout(set = 1, binding = 6) uniform sampler2D specularTexture;
 layout(set = 1, binding = 7) uniform sampler2D specularColorTexture;
+layout(set = 1, binding = 8) uniform sampler2D transmissionTexture;
+layout(set = 1, binding = 9) uniform sampler2D thicknessTexture;
+layout(set = 1, binding = 10) uniform sampler2D coatTexture;
+layout(set = 1, binding = 11) uniform sampler2D coatRoughnessTexture;
+layout(set = 1, binding = 12) uniform sampler2D coatNormalTexture;
 
 bool hasTexture(uint slot) { return (usedSlots & (1u << slot)) != 0u && (material.textured & (1u << slot)) != 0u; }
 
@@ -34,6 +39,15 @@ bool materialBaseColor(vec2 uv0, vec2 uv1, vec4 vertexColor, out vec4 color) {
 
 // Whether a blended surface of this alpha is in the layers of blended surfaces.
 bool isTranslucent(float alpha) { return material.blended != 0u && alpha >= invisibleAlpha && alpha < opaqueAlpha; }
+
+// Share of the light in the dielectric's base that passes the surface.
+float materialTransmission(vec2 uv0, vec2 uv1) {
+    float share = material.transmission;
+    if (hasTexture(slotTransmission)) {
+        share *= texture(transmissionTexture, slotUv(slotTransmission, uv0, uv1)).r;
+    }
+    return share;
+}
 
 // Of the dielectric: texel of the G-buffer's reflectance.
 vec4 materialReflectance(vec2 uv0, vec2 uv1) {

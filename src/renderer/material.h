@@ -8,7 +8,7 @@
 
 SHARED_BEGIN
 
-// Slots of Material, in the order of the bindings 1..7 of set 1; binding 0 is this block.
+// Slots of Material, in the order of the bindings 1..12 of set 1; binding 0 is this block.
 const uint slotBaseColor = 0;
 const uint slotMetallicRoughness = 1;
 const uint slotNormal = 2;
@@ -16,7 +16,13 @@ const uint slotOcclusion = 3;
 const uint slotEmissive = 4;
 const uint slotSpecular = 5;
 const uint slotSpecularColor = 6;
-const uint slotCount = 7;
+const uint slotTransmission = 7;
+const uint slotThickness = 8;
+const uint slotCoat = 9;
+const uint slotCoatRoughness = 10;
+const uint slotCoatNormal = 11;
+const uint slotCount = 12;
+const uint sceneSlotCount = 8;  // the first ones, which ray hits read
 
 // Alpha from which blended surfaces are opaque, 254.5 / 255, and below which they are not there.
 const float opaqueAlpha = 0.998;
@@ -39,12 +45,15 @@ struct MaterialParams {
     uint unlit;          // 1: emits its base colour and reflects nothing
     vec3 f0;             // of the dielectric, over dielectricF0, without the factor that follows
     float f90;           // of the dielectric, 0..1; a factor of F0, too
-    vec3 uvRows[14];     // two per slot, KHR_texture_transform
+    vec3 uvRows[24];     // two per slot, KHR_texture_transform
     float transmission;  // share of the light in the dielectric's base that passes the surface, 0: opaque
     float ior;
-    vec3 extinction;  // of the volume beneath [1/m]
-    float thickness;  // of that volume [m in object space]; 0: none, a sheet
-    uint glass;       // a number of its own for each transmissive material, from 1
+    vec3 extinction;      // of the volume beneath [1/m]
+    float thickness;      // of that volume [m in object space]; 0: none, a sheet
+    uint glass;           // a number of its own for each transmissive material, from 1
+    float coat;           // share of the surface beneath a clear coat, 0: none
+    float coatRoughness;  // perceptual
+    float coatNormalScale;
 };
 
 SHARED_END

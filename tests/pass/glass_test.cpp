@@ -173,37 +173,76 @@ TEST(Glass, MirrorsShowIt) {
     EXPECT_LT(glm::distance(shown(down, "planar.enabled=true", 24), tinted), 0.02F) << "planar";
 }
 
-TEST(Glass, ItTakesItsShareOfTheSun) {
+// Sunlight at the middle of a floor beneath a surface.
+float sunBeneath(const Material* material, const Mesh& mesh, const mat4& place, std::vector<std::string> more = {}) {
     Scene scene;
     add(scene, lambertMaterial(vec3(0.5F)), builtin::ground({6, 6}, {1, 1}, {1, 1}), at({0, -1, 0}));
+    if (material != nullptr) {
+        add(scene, *material, mesh, place);
+    }
     View view = darkView();
     view.camera.position = {0, 0, 2};
     view.camera.target = {0, -1, 0};
     view.sun.direction = {0, -1, 0};
     view.sun.irradiance = vec3(3);
-    const float open = seen(scene, view).value("direct", 32, 24);
-    add(scene, glass(0.0F, 1.0F, vec3(0.5F)), wall({3, 3}), at({0, 3, 0}) * turned(-90, {1, 0, 0}));
-    EXPECT_NEAR(seen(scene, view).value("direct", 32, 24), 0.5F * open, 0.01F * open);
-    EXPECT_NEAR(seen(scene, view, {"transmission.layers=0"}).value("direct", 32, 24), 0.0F, 0.01F * open);
-    EXPECT_NEAR(seen(scene, view, {"shadow.filter=traced", "shadow.rays=64"}).value("direct", 32, 24), 0.5F * open,
-                0.12F * open);
+    return seen(scene, view, std::move(more)).value("direct", 32, 24);
 }
 
-TEST(Glass, AVolumeAbsorbsSunlightByBeersLaw) {
+TEST(Glass, ItTakesItsShareOfTheSun) {
+    const float open = sunBeneath(nullptr, {}, {});
+    const Mesh roof = wall({3, 3});
+    const mat4 above = at({0, 3, 0}) * turned(-90, {1, 0, 0});
+    const Material pane = glass(0.0F, 1.0F, vec3(0.5F));
+    EXPECT_NEAR(sunBeneath(&pane, roof, above), 0.5F * open, 0.01F * open);
+    EXPECT_NEAR(sunBeneath(&pane, roof, above, {"transmission.layers=0"}), 0.0F, 0.01F * open);
+    EXPECT_NEAR(sunBeneath(&pane, roof, above, {"shadow.filter=traced", "shadow.rays=64"}), 0.5F * open, 0.12F * open);
+    Material block = glass(1.0F, 1.0F);
+    block.transmission.attenuationColor = vec3(0.5F);
+    const mat4 higher = at({0, 4, 0});
+    EXPECT_NEAR(sunBeneath(&block, builtin::box({3, 1, 3}), higher), open, 0.01F * open) << "no distance: clear";
+    block.transmission.attenuationDistance = 1.0F;
+    EXPECT_NEAR(sunBeneath(&block, builtin::box({3, 1, 3}), higher), 0.25F * open, 0.01F * open) << "two metres of it";
+}
+
+// The left half of a texture is 1, the right half 0.
+TextureSlot leftHalf(Scene& scene) {
+    const std::vector<uint8_t> texels{255, 255, 0, 255, 0, 0, 255, 255};
+    return builtin::addTexture(scene, {"halves", 2, 1, texels},
+                               {.magLinear = false, .minLinear = false, .mips = false});
+}
+
+TEST(Glass, TexturesSayWhereItTransmitsAndHowThickItIs) {
     Scene scene;
-    add(scene, lambertMaterial(vec3(0.5F)), builtin::ground({6, 6}, {1, 1}, {1, 1}), at({0, -1, 0}));
+    add(scene, glow(vec3(1)), wall({9, 9}), at({0, 0, -3}));
+    add(scene, glass(0.0F, 1.0F), wall({9, 9}));
+    scene.materials.back().transmission.texture = leftHalf(scene);
+    const Pictures pane = seen(scene, darkView());
+    EXPECT_NEAR(pane.value("final", 20, 24), 1.0F, 0.01F);
+    EXPECT_NEAR(pane.value("final", 44, 24), 0.0F, 0.01F) << "opaque";
+
+    Scene shadowed;
+    add(shadowed, lambertMaterial(vec3(0.5F)), builtin::ground({6, 6}, {1, 1}, {1, 1}), at({0, -1, 0}));
+    add(shadowed, glass(0.0F, 1.0F), wall({6, 6}), at({0, 3, 0}) * turned(-90, {1, 0, 0}));
+    shadowed.materials.back().transmission.texture = leftHalf(shadowed);
     View view = darkView();
     view.camera.position = {0, 0, 2};
     view.camera.target = {0, -1, 0};
     view.sun.direction = {0, -1, 0};
     view.sun.irradiance = vec3(3);
-    const float open = seen(scene, view).value("direct", 32, 24);
-    Material block = glass(1.0F, 1.0F);
-    block.transmission.attenuationColor = vec3(0.5F);
-    add(scene, block, builtin::box({3, 1, 3}), at({0, 4, 0}));
-    EXPECT_NEAR(seen(scene, view).value("direct", 32, 24), open, 0.01F * open) << "without a distance: clear";
-    scene.materials.back().transmission.attenuationDistance = 1.0F;
-    EXPECT_NEAR(seen(scene, view).value("direct", 32, 24), 0.25F * open, 0.01F * open) << "two metres of it";
+    for (const char* filter : {"shadow.filter=pcss", "shadow.filter=traced"}) {
+        const Pictures floor = seen(shadowed, view, {filter});
+        EXPECT_GT(floor.value("direct", 20, 24), 0.3F) << filter;
+        EXPECT_NEAR(floor.value("direct", 44, 24), 0.0F, 0.01F) << filter;
+    }
+
+    Material slab = glass(2.0F, 1.0F);
+    slab.transmission.attenuationColor = vec3(0.5F);
+    slab.transmission.attenuationDistance = 2.0F;
+    scene.materials.back() = slab;
+    scene.materials.back().transmission.thicknessTexture = leftHalf(scene);
+    const Pictures thick = seen(scene, darkView(), {"transmission.exit_steps=0"});
+    EXPECT_NEAR(thick.value("final", 31, 24), 0.5F, 0.01F) << "two metres";
+    EXPECT_NEAR(thick.value("final", 44, 24), 1.0F, 0.01F) << "none";
 }
 
 TEST(Glass, LayersOfTheFrameAddUp) {

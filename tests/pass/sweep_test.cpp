@@ -150,6 +150,7 @@ const std::vector<Context>& contexts() {
         {"", {}},
         {"materials.mip", {}, "cubes"},
         {"materials.anisotropy", {}, "cubes"},
+        {"materials.coats", {}, "glass"},
         {"shadow.", {}, "colonnade"},
         {"shadow.rays", {"shadow.filter=traced"}},
         {"shadow.constant_bias", {"shadow.bias_kind=constant"}},

@@ -23,6 +23,7 @@ BlendShadowMaps drawBlendShadowMaps(gpu::Recorder& f, BlendShadowStore& own, con
         f.raster(name, {"shadow_map_masked.vert", "blend_shadow_map.frag"})
             .read("nearerDepth", layer > 0 ? maps.front().depth : f.placeholder(VK_FORMAT_R32_SFLOAT))
             .constant("peeled", layer)
+            .constant("usedSlots", list.textureSlots)
             .color("transmittance", map.transmittance, all)
             .depth(map.depth, 0.0F)
             .vertices(vertexLayout(), list.materialLayout)

@@ -2,7 +2,7 @@
 // first layer. Out: the share of the light that passes, and extinction behind it [1/m].
 #version 460
 #extension GL_EXT_scalar_block_layout : require
-const uint usedSlots = 1u;  // the colour, for its alpha
+layout(constant_id = 1) const uint usedSlots = 4095u;
 #include "renderer/glass/glass_share.glsl"
 #include "renderer/material.glsl"
 
@@ -25,6 +25,6 @@ void main() {
         discard;
     }
     // Only the first layer's extinction is read, where light enters the volume.
-    transmittance = vec2(glass ? glassShare(material, color.rgb) : 1.0 - color.a,
+    transmittance = vec2(glass ? glassShare(material, materialTransmission(uv.xy, uv.zw), color.rgb) : 1.0 - color.a,
                          glass ? glassExtinction(material, material.thickness) : 0.0);
 }

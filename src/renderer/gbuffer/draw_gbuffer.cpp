@@ -20,7 +20,7 @@ GBuffer drawGBuffer(gpu::Recorder& f, GBufferStore& own, const DrawList& list, c
     const bool blended = bool(content.opaqueDepth);
     const uint32_t surfaces = !blended ? surfacesOpaque : content.nearerDepth ? surfacesBehind : surfacesNearest;
     const bool clipped = clipPlane != vec4(0.0F);
-    const bool reflectance = (list.materialFeatures & materialFeatureReflectance) != 0;
+    const bool reflectance = !content.coat && (list.materialFeatures & materialFeatureReflectance) != 0;
     const uvec2 size(view.size);
     const GBuffer g{
         .depth = own.depth.target(f, VK_FORMAT_D32_SFLOAT, size),
@@ -31,7 +31,7 @@ GBuffer drawGBuffer(gpu::Recorder& f, GBufferStore& own, const DrawList& list, c
         .emissive = own.emissive.target(f, VK_FORMAT_B10G11R11_UFLOAT_PACK32, size),
         .motion = own.motion.target(f, VK_FORMAT_R16G16B16A16_SFLOAT, size),
         .reflectance = reflectance ? own.reflectance.target(f, VK_FORMAT_R16G16B16A16_SFLOAT, size) : gpu::Image{},
-        .features = list.materialFeatures,
+        .features = content.coat ? 0 : list.materialFeatures,
     };
     const VkClearColorValue zero{};
     gpu::Pass pass = f.raster("gbuffer", {"gbuffer.vert", reflectance ? "gbuffer_reflectance.frag" : "gbuffer.frag"});
@@ -44,7 +44,9 @@ GBuffer drawGBuffer(gpu::Recorder& f, GBufferStore& own, const DrawList& list, c
     pass.constant("clipped", clipped ? 1U : 0U)
         .constant("usedSlots", list.textureSlots)
         .constant("surfaces", surfaces)
-        .constant("translucent", content.glass ? translucentGlass : translucentBlended)
+        .constant("translucent", content.coat    ? translucentCoat
+                                 : content.glass ? translucentGlass
+                                                 : translucentBlended)
         .constant("materialFeatures", list.materialFeatures)
         .constant("bent", list.previousPositions != VK_NULL_HANDLE ? 1U : 0U)
         .color("outBaseColor", g.baseColor, zero)
@@ -61,9 +63,9 @@ GBuffer drawGBuffer(gpu::Recorder& f, GBufferStore& own, const DrawList& list, c
     }
     pass.draw([&](const gpu::DrawCommands& to) {
         const auto keep = [&](const Draw& draw) {
-            const bool layer = content.glass ? draw.glass : draw.blended;
             const bool opaque = draw.alpha >= content.blendedFrom && !(content.withoutGlass && draw.glass);
-            const bool drawn = blended ? layer : opaque;
+            const bool layer = content.glass ? draw.glass : content.coat ? opaque : draw.blended;
+            const bool drawn = (blended ? layer : opaque) && (draw.coated || !content.coat);
             return drawn && (!clipped || isInFront(draw.boundsW, clipPlane));
         };
         recordDraws(to, list, {keep, Cull::back, true, view.worldToClip}, true);

@@ -11,6 +11,9 @@ SHARED_BEGIN
 #define MATERIALS_SETTINGS(VALUE, SWITCH, CHOICE)                                                                     \
     SWITCH(lambertOnly, 0,                                                                                            \
            "Shade every material as Lambert diffuse with its base colour: no specular lobe, no metals.")              \
+    SWITCH(coats, 1,                                                                                                  \
+           "Draw clear coats (KHR_materials_clearcoat): highlights, a reflection ray per coated pixel and what the "  \
+           "coat takes from the surface beneath. Off: without coats, faster where any is seen.")                      \
     SWITCH(                                                                                                           \
         mips, 1,                                                                                                      \
         "Use texture mipmaps. Off: always the finest level, as the reference renders; needs many samples per pixel.") \
@@ -30,6 +33,7 @@ const uint surfacesBehind = 2;   // the next ones, behind those of another layer
 // What those translucent surfaces are, as the specialization constant `translucent`.
 const uint translucentBlended = 0;
 const uint translucentGlass = 1;
+const uint translucentCoat = 2;  // the clear coats of what is seen
 
 struct GBufferParams {
     ViewParams view;
@@ -67,7 +71,10 @@ struct GBufferContent {
     gpu::Image opaqueDepth{};         ///< given: translucent surfaces in front of this; none: opaque surfaces
     gpu::Image nearerDepth{};         ///< given: of those the nearest ones behind this; none: the nearest ones
     bool glass = false;               ///< translucent surfaces are transmissive ones, not blended ones
-    bool withoutGlass = false;        ///< transmissive surfaces do not count as opaque
+    /// The clear coats of those surfaces, or of the opaque ones: black dielectrics of the standard reflectance, whose
+    /// share is in the motion's alpha. opaqueDepth: of the surfaces themselves.
+    bool coat = false;
+    bool withoutGlass = false;  ///< transmissive surfaces do not count as opaque
 };
 
 /// Draws the list for the view: reversed Z, back faces of single-sided draws culled. Layers of blended surfaces are

@@ -4,7 +4,7 @@
 #include "renderer/gbuffer/draw_gbuffer.h"
 
 layout(constant_id = 0) const uint clipped = 0u;
-layout(constant_id = 2) const uint usedSlots = 127u;
+layout(constant_id = 2) const uint usedSlots = 4095u;
 layout(constant_id = 3) const uint surfaces = surfacesOpaque;
 layout(constant_id = 4) const uint translucent = translucentBlended;
 #include "renderer/material.glsl"
@@ -42,16 +42,37 @@ vec3 geometricNormal(vec3 shading) {
     return n * (inversesqrt(square) * (dot(n, toEye) < 0.0 ? -1.0 : 1.0));
 }
 
+vec3 mappedNormal(vec3 n, vec3 texel, float scale) {
+    vec3 t = normalize(tangentW.xyz - n * dot(n, tangentW.xyz));
+    vec3 b = cross(n, t) * tangentW.w;
+    vec3 m = texel * 2.0 - 1.0;
+    m.xy *= scale;
+    return normalize(mat3(t, b, n) * m);
+}
+
 vec3 shadingNormal() {
     vec3 n = normalize(normalW);
-    if (hasTexture(slotNormal)) {
-        vec3 t = normalize(tangentW.xyz - n * dot(n, tangentW.xyz));
-        vec3 b = cross(n, t) * tangentW.w;
-        vec3 m = texture(normalTexture, slotUv(slotNormal, uv.xy, uv.zw)).xyz * 2.0 - 1.0;
-        m.xy *= material.normalScale;
-        n = normalize(mat3(t, b, n) * m);
+    if (translucent == translucentCoat) {
+        if (hasTexture(slotCoatNormal)) {
+            n = mappedNormal(n, texture(coatNormalTexture, slotUv(slotCoatNormal, uv.xy, uv.zw)).xyz,
+                             material.coatNormalScale);
+        }
+    } else if (hasTexture(slotNormal)) {
+        n = mappedNormal(n, texture(normalTexture, slotUv(slotNormal, uv.xy, uv.zw)).xyz, material.normalScale);
     }
     return gl_FrontFacing ? n : -n;
+}
+
+// Share of the surface that is coated, and the coat's roughness.
+vec2 clearCoat() {
+    vec2 coat = vec2(material.coat, material.coatRoughness);
+    if (hasTexture(slotCoat)) {
+        coat.x *= texture(coatTexture, slotUv(slotCoat, uv.xy, uv.zw)).r;
+    }
+    if (hasTexture(slotCoatRoughness)) {
+        coat.y *= texture(coatRoughnessTexture, slotUv(slotCoatRoughness, uv.xy, uv.zw)).g;
+    }
+    return coat;
 }
 
 // Whether a translucent surface is in the layer, by its depth.
@@ -69,7 +90,7 @@ bool isDrawn(float alpha, bool kept) {
     if (surfaces == surfacesOpaque) {
         return material.blended != 0u ? alpha >= params.blendedFrom : kept;
     }
-    return isPeeled() && (translucent == translucentGlass ? kept : isTranslucent(alpha));
+    return isPeeled() && (translucent == translucentBlended ? isTranslucent(alpha) : kept);
 }
 
 void main() {
@@ -85,7 +106,7 @@ void main() {
         discard;
     }
     if (translucent == translucentGlass) {  // what is left of the diffuse base; metals stay as they are
-        baseColor.rgb *= 1.0 - material.transmission * (1.0 - material.metallic);
+        baseColor.rgb *= 1.0 - materialTransmission(uv.xy, uv.zw) * (1.0 - material.metallic);
     }
     vec2 roughnessMetallic = vec2(material.roughness, material.metallic);
     if (hasTexture(slotMetallicRoughness)) {
@@ -105,6 +126,13 @@ void main() {
     if (mayBeUnlit() && material.unlit != 0u) {
         flags |= materialFlagUnlit;
         roughnessMetallic = vec2(1.0, 0.0);
+        occlusion = 1.0;
+        outEmissive = vec3(0.0);
+    }
+    if (translucent == translucentCoat) {
+        vec2 coat = clearCoat();
+        baseColor = vec4(vec3(0.0), coat.x);
+        roughnessMetallic = vec2(coat.y, 0.0);
         occlusion = 1.0;
         outEmissive = vec3(0.0);
     }

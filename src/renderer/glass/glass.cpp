@@ -24,6 +24,7 @@ GlassSurfaces glassSurfaces(gpu::Recorder& f, GlassSurfacesStore& own, const Dra
         };
     };
     f.raster("glass_front", {"glass.vert", "glass_front.frag"})
+        .constant("usedSlots", list.textureSlots)
         .read("layerDepth", g.depth)
         .color("outTint", out.tint, zero)
         .color("outVolume", out.volume, zero)

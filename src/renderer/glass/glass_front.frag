@@ -3,9 +3,11 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "renderer/glass/glass.h"
-const uint usedSlots = 3u;  // base colour, metallic
+layout(constant_id = 0) const uint usedSlots = 4095u;
 #include "renderer/material.glsl"
 #include "shaders/half_float.glsl"
+
+const float leastThickness = 1e-4;  // metres
 
 uniform sampler2D layerDepth;
 
@@ -29,8 +31,13 @@ void main() {
     if (!kept || abs(gl_FragCoord.z - shown) > 4.0 * peelTolerance * shown) {
         discard;
     }
-    float thickness = min(material.thickness * scale, largestHalf);
-    outTint = vec4(clamp(color.rgb, 0.0, 1.0) * (material.transmission * (1.0 - metallic)), thickness);
+    float thickness = material.thickness * scale;
+    if (hasTexture(slotThickness)) {
+        thickness *= texture(thicknessTexture, slotUv(slotThickness, uv.xy, uv.zw)).g;
+    }
+    // 0 is a sheet, which a volume is nowhere.
+    thickness = material.thickness > 0.0 ? clamp(thickness, leastThickness, largestHalf) : 0.0;
+    outTint = vec4(clamp(color.rgb, 0.0, 1.0) * (materialTransmission(uv.xy, uv.zw) * (1.0 - metallic)), thickness);
     outVolume = vec4(min(material.extinction, vec3(largestHalf)), material.ior);
     outKind = material.glass;
 }

@@ -33,9 +33,10 @@ std::vector<GBuffer> peelGlass(gpu::Recorder& f, GlassStore& own, const ViewInpu
     return peeled;
 }
 
-// seen: with the layer's G-buffer, and the light behind it on screen. last: gets the sum, if given.
+// seen: with the layer's G-buffer, and the light behind it on screen. nearerDepth: of the layer in front, if any. last:
+// gets the sum, if given.
 LightLayers addLayer(gpu::Recorder& f, GlassStore& own, const ViewInputs& in, const Settings& settings, TracedView seen,
-                     const LightLayers& behind, GlassStore::Sum& to, gpu::Image last) {
+                     gpu::Image nearerDepth, const LightLayers& behind, GlassStore::Sum& to, gpu::Image last) {
     const bool layers = bool(behind.light.indirectDiffuse);
     const GBuffer& g = seen.images.g;
     const Composite lit = lightLayer(f, own.light, in, settings, seen, layers);
@@ -53,14 +54,15 @@ LightLayers addLayer(gpu::Recorder& f, GlassStore& own, const ViewInputs& in, co
         glassOver(f, g, layer, rays, under, sum);
         return sum;
     };
+    const bool coats = coatsGlass(in.draws, settings);
     LightLayers out = behind;
-    out.light.lit = over(to.lit, lit.lit, &refracted, behind.light.lit, last);
+    out.light.lit = over(to.lit, lit.lit, &refracted, behind.light.lit, coats ? gpu::Image{} : last);
     if (layers) {
         out.direct = over(to.direct, seen.images.direct, nullptr, behind.direct);
         out.light.indirectDiffuse = over(to.diffuse, lit.indirectDiffuse, nullptr, behind.light.indirectDiffuse);
         out.light.indirectSpecular = over(to.specular, lit.indirectSpecular, &refracted, behind.light.indirectSpecular);
     }
-    return out;
+    return coats ? addCoats(f, own.coat, in, settings, seen, {g.depth, nearerDepth, true}, out, last, layers) : out;
 }
 
 }  // namespace
@@ -89,7 +91,8 @@ LightLayers throughGlass(gpu::Recorder& f, GlassStore& own, const ViewInputs& in
         layer.screen.light = sum.light.lit;
         layer.screen.lit = {};
         layer.screen.lightMips = {};
-        sum = addLayer(f, own, in, settings, layer, sum, own.sums.at(i % 2), i == 0 ? lit : gpu::Image{});
+        sum = addLayer(f, own, in, settings, layer, i > 0 ? peeled[i - 1].depth : gpu::Image{}, sum, own.sums.at(i % 2),
+                       i == 0 ? lit : gpu::Image{});
     }
     return sum;
 }
@@ -103,6 +106,24 @@ gpu::Image depthWithGlass(gpu::Recorder& f, GlassStore& own, gpu::Image opaqueDe
         .params(GlassOverParams{nearest.size})
         .dispatch(nearest.size);
     return nearest;
+}
+
+GBuffer motionWithGlass(gpu::Recorder& f, GlassStore& own, GBuffer g) {
+    const gpu::Image depth = own.followedDepth.storage(f, VK_FORMAT_R32_SFLOAT, g.depth.size);
+    const gpu::Image motion = own.followedMotion.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size);
+    f.compute("glass_motion", "glass_motion.comp")
+        .read("depth", g.depth)
+        .read("motion", g.motion)
+        .read("layerDepth", own.g.front().depth.last())
+        .read("layerMotion", own.g.front().motion.last())
+        .read("tint", own.surfaces.tint.last())  // of the nearest layer, which is drawn last
+        .write("followedDepth", depth)
+        .write("followedMotion", motion)
+        .params(GlassOverParams{depth.size})
+        .dispatch(depth.size);
+    g.depth = depth;
+    g.motion = motion;
+    return g;
 }
 
 }  // namespace reflet

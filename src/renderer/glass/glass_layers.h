@@ -2,6 +2,7 @@
 #pragma once
 
 #include "effects/accumulate/accumulate.h"
+#include "renderer/coat/coat.h"
 #include "renderer/glass/glass.h"
 #include "renderer/lit_layer.h"
 
@@ -19,10 +20,13 @@ struct GlassStore {
     };
     std::array<GBufferStore, mostGlassLayers> g;
     LitLayerStore light;
+    CoatStore coat;
     GlassSurfacesStore surfaces;
     gpu::KeptImage lightMips{"glass.light_mips"};
     std::array<Sum, 2> sums;  ///< used in turn: a layer is composited over the sum before
     gpu::KeptImage depth{"glass.depth"};
+    gpu::KeptImage followedDepth{"glass.followed_depth"};
+    gpu::KeptImage followedMotion{"glass.followed_motion"};
 };
 
 /// Whether the view may show glass.
@@ -36,5 +40,9 @@ LightLayers throughGlass(gpu::Recorder& f, GlassStore& own, const ViewInputs& in
 
 /// Depth of the opaque surfaces, or of the glass of the last throughGlass where that is nearer: R32F.
 gpu::Image depthWithGlass(gpu::Recorder& f, GlassStore& own, gpu::Image opaqueDepth);
+
+/// g, of the opaque surfaces, with the depth (R32F) and motion of the volumes of glass in front, of the last
+/// throughGlass.
+GBuffer motionWithGlass(gpu::Recorder& f, GlassStore& own, GBuffer g);
 
 }  // namespace reflet

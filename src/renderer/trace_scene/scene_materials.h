@@ -24,7 +24,7 @@ struct SceneTexture {
 
 struct SceneMaterial {
     MaterialParams params;
-    SceneTexture textures[slotCount];
+    SceneTexture textures[sceneSlotCount];
 };
 
 // An instance of a mesh: its first vertex, and the columns of its 3x3 object-to-world matrix.

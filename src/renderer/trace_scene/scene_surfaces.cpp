@@ -26,7 +26,7 @@ public:
     Layers(const Scene& scene, bool srgb) : srgb_(srgb) {
         for (const Material& material : scene.materials) {
             const auto slots = textureSlots(material);
-            for (uint32_t i = 0; i < slotCount; ++i) {
+            for (uint32_t i = 0; i < sceneSlotCount; ++i) {
                 if (slots[i]->image >= 0 && isSrgb(i) == srgb) {
                     layers_.try_emplace(slots[i]->image, static_cast<uint32_t>(layers_.size()));
                 }
@@ -120,7 +120,7 @@ SceneSurfaces::SceneSurfaces(gpu::Device& device, const Scene& scene, const GpuS
     for (const Material& material : scene.materials) {
         SceneMaterial m{materialParams(material), {}};
         const auto slots = textureSlots(material);
-        for (uint32_t i = 0; i < slotCount; ++i) {
+        for (uint32_t i = 0; i < sceneSlotCount; ++i) {
             if (!(isSrgb(i) ? colors : data).find(scene, *slots[i], m.textures[i])) {
                 m.params.textured &= ~(1U << i);
             }

@@ -82,7 +82,7 @@ vec4 readSceneTexture(ScenePlace place, uint slot) {
     vec3 rowV = sceneMaterials.items[m].params.uvRows[2u * slot + 1u];
     vec3 at = vec3(second ? place.uv1 : place.uv0, 1.0);
     vec2 uv = vec2(dot(rowU, at), dot(rowV, at));
-    bool color = slot == slotBaseColor || slot >= slotEmissive;  // as isSrgb
+    bool color = slot == slotBaseColor || (slot >= slotEmissive && slot <= slotSpecularColor);  // as isSrgb
     vec2 size = vec2(color ? textureSize(sceneColors, 0).xy : textureSize(sceneData, 0).xy);
     // Width of the isotropic footprint in texels of the finest level, from the texel density by area.
     float density = (second ? place.density.y : place.density.x) * sqrt(abs(determinant(mat2(rowU.xy, rowV.xy))));
@@ -104,6 +104,11 @@ vec4 sceneBaseColor(ScenePlace place) {
     return hasSceneTexture(place, slotBaseColor) ? color * readSceneTexture(place, slotBaseColor) : color;
 }
 
+float sceneTransmission(ScenePlace place) {
+    float share = sceneMaterials.items[place.material].params.transmission;
+    return hasSceneTexture(place, slotTransmission) ? share * readSceneTexture(place, slotTransmission).r : share;
+}
+
 // From 0 to 1, differs for every ray and triangle.
 float chanceOfHit(uint triangle, vec2 barycentrics, vec3 direction) {
     uvec3 bits = floatBitsToUint(vec3(barycentrics, direction.x));
@@ -117,7 +122,8 @@ bool acceptHit(uint triangle, vec2 barycentrics, vec3 direction) {
     vec4 color = sceneBaseColor(place);
     float alpha = color.a;
     if (sceneMaterials.items[place.material].params.transmission > 0.0) {
-        float share = glassShare(sceneMaterials.items[place.material].params, color.rgb);
+        float share =
+            glassShare(sceneMaterials.items[place.material].params, sceneTransmission(place), color.rgb);
         return chanceOfHit(triangle, barycentrics, direction) >= share;
     }
     if (sceneMaterials.items[place.material].params.blended != 0u) {
@@ -221,7 +227,7 @@ SceneSurface sceneSurface(SceneHit hit, vec3 direction, float width) {
         s.roughness *= texel.x;
         s.metallic *= texel.y;
     }
-    s.baseColor *= 1.0 - material.transmission * (1.0 - s.metallic);
+    s.baseColor *= 1.0 - sceneTransmission(place) * (1.0 - s.metallic);
     s.occlusion = 1.0;
     if (hasSceneTexture(place, slotOcclusion)) {
         s.occlusion += material.occlusionStrength * (readSceneTexture(place, slotOcclusion).r - 1.0);

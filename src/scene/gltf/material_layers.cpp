@@ -21,11 +21,6 @@ Transmission GltfMaterials::transmissionOf(const tinygltf::ExtensionMap& extensi
     const auto& [name, transmission] = *found;
     result.factor = floatOr(transmission, "transmissionFactor", 0.0);
     result.texture = slotOf(transmission, "transmissionTexture", part + name);
-    if (result.factor > 0.0F && result.texture.image >= 0) {
-        report_.warn(
-            "transmission texture", part + name + ".transmissionTexture",
-            "the renderer will draw glass where it should be opaque: only \"reflet reference\" reads the texture");
-    }
     const auto inside = extensions.find("KHR_materials_volume");
     if (inside == extensions.end()) {
         return result;
@@ -56,10 +51,6 @@ Clearcoat GltfMaterials::clearcoatOf(const tinygltf::ExtensionMap& extensions, c
     result.factor = floatOr(coat, "clearcoatFactor", 0.0);
     result.roughness = floatOr(coat, "clearcoatRoughnessFactor", 0.0);
     result.texture = slotOf(coat, "clearcoatTexture", part + name);
-    if (result.factor > 0.0F) {
-        report_.warn("clear coat", part + name,
-                     "the clear coat will be missing from the renderer's picture: only \"reflet reference\" draws it");
-    }
     result.roughnessTexture = slotOf(coat, "clearcoatRoughnessTexture", part + name);
     result.normalTexture = slotOf(coat, "clearcoatNormalTexture", part + name);
     if (coat.Has("clearcoatNormalTexture")) {
