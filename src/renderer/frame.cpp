@@ -371,6 +371,9 @@ FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in
         out.direct = means.direct;
         out.light = means.light;
     }
+    if (settings.composite.direct == 0) {
+        out.light.lit = withoutDirect(f, own.indirectAlone, out.light.lit, out.direct);
+    }
     out.unfiltered = out.light.lit;
     if (historyUse(settings).temporal) {
         const GBuffer followed = glass ? motionWithGlass(f, own.glass, out.g) : out.g;

@@ -66,6 +66,7 @@ struct FrameStore : ViewStore {
     gpu::KeptImage litBehind{"lit_behind"};
     gpu::KeptImage litWithoutCoats{"lit_without_coats"};
     gpu::KeptImage litWithoutGlass{"lit_without_glass"};
+    gpu::KeptImage indirectAlone{"indirect_alone"};
     gpu::KeptImage litSoFarGlass{"lit_so_far.glass"};
     gpu::KeptImage litShown{"lit_shown"};
     gpu::KeptImage directBlended{"direct.blended"};

@@ -79,7 +79,7 @@ private:
     gpu::Texture font_;
     gpu::Texture none_;
     Side left_;
-    Side right_;  ///< null where there is no right image
+    Side right_;         ///< null where there is no right image
     gpu::Texture base_;  ///< the images without the user interface, kept while they stay the same
     Layout baseLayout_;
     gpu::Texture window_;

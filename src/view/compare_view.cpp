@@ -140,7 +140,7 @@ void CompareView::chooseLayer(const ViewerState& state) {
 void CompareView::startTruth(const Inputs& in) {
     const ViewerState& state = in.state;
     ReferenceOptions options;
-    options.samples = std::min(samples_ == 0 ? 1 : samples_ * 4, state.compare.samples);
+    options.samples = nextSamples(samples_, state.compare.samples);
     options.filter = asked_->filter;
     options.lambertOnly = asked_->lambertOnly;
     options.seed = state.source.seed;
@@ -190,6 +190,7 @@ void CompareView::updateTruth(const Inputs& in) {
     chooseLayer(state);
     if (values_) {
         message_ = fmt::format("path traced, {} of {} samples per pixel", samples_, state.compare.samples);
+        name_ = fmt::format("path traced, {} samples", samples_);
     }
 }
 

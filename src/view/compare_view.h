@@ -8,6 +8,8 @@
 #include "view/session.h"
 #include "view/viewer_state.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -50,7 +52,19 @@ public:
     [[nodiscard]] const std::optional<Difference>& error() const { return error_; }
     /// Progress, or the reason why nothing is shown.
     [[nodiscard]] const std::string& message() const { return message_; }
+    /// What the right side is.
+    [[nodiscard]] std::string name(const ViewerState& state) const {
+        return state.compare.with == CompareWith::preset ? state.compare.preset
+               : state.compare.errorImage && errorMap_   ? "error"
+               : state.compare.with == CompareWith::file ? std::filesystem::path(file_).filename().string()
+               : samples_ > 0                            ? name_
+                                                         : "path tracing";
+    }
     [[nodiscard]] bool failed() const { return failed_; }
+    /// Samples per pixel of the picture that follows one of so many, 0: none; all of them are traced anew.
+    [[nodiscard]] static uint32_t nextSamples(uint32_t samples, uint32_t most) {
+        return std::min(samples == 0 ? 1 : samples * 4, most);
+    }
     /// Samples per pixel of the displayed ground truth, and progress of the next, better one (0 to 1).
     [[nodiscard]] uint32_t samples() const { return samples_; }
     [[nodiscard]] float progress() const { return progress_; }
@@ -99,6 +113,7 @@ private:
     std::shared_ptr<const FloatImage> errorMap_;
     bool pictureIsError_ = false;
     std::string message_;
+    std::string name_;
     bool failed_ = false;
 };
 

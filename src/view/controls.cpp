@@ -115,6 +115,16 @@ void ControlPlaces::note(const std::string& name) {
 
 void tooltip(const std::string& text) {
     if (ImGui::IsItemHovered()) {
+        // Beside the row, which it would hide; below it where there is no room.
+        const float width = ImGui::GetFontSize() * 28.0F;
+        const float beside = ImGui::GetWindowPos().x + ImGui::GetWindowWidth() + ImGui::GetStyle().ItemSpacing.x;
+        const ImVec2 screen = ImGui::GetIO().DisplaySize;
+        const bool fits = beside + width < screen.x;
+        const ImVec2 low = ImGui::GetItemRectMin();
+        const ImVec2 high = ImGui::GetItemRectMax();
+        const bool hangs = high.y < 0.6F * screen.y;  // from there on it stands
+        const ImVec2 at = fits ? ImVec2(beside, hangs ? low.y : high.y) : ImVec2(low.x, hangs ? high.y : low.y);
+        ImGui::SetNextWindowPos(at, ImGuiCond_Always, {0.0F, hangs ? 0.0F : 1.0F});
         ImGui::BeginTooltip();
         ImGui::PushTextWrapPos(ImGui::GetFontSize() * 28.0F);
         ImGui::TextUnformatted(text.c_str());

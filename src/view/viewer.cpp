@@ -157,29 +157,48 @@ void Viewer::openFile(const std::string& file) {
         applyViewJson({{"environment", {{"image", path.string()}}}}, path, state_.view);
         tell(fmt::format("{}: used as environment", path.filename().string()));
     } else if (extension == ".json") {
-        const nlohmann::json json = parseJsonFile(path);
-        const std::array<const char*, 6> viewKeys{"camera", "sun", "lamps", "time", "probes", "background"};
-        const bool isView = std::ranges::any_of(viewKeys, [&](const char* key) { return json.contains(key); }) ||
-                            (json.contains("environment") &&
-                             (json["environment"].is_string() || json["environment"].contains("radiance") ||
-                              json["environment"].contains("image")));
-        if (isView) {
-            View changed = state_.view;
-            applyViewJson(json, path, changed);
-            checkFocus(changed.camera, scene(), path.string() + ": camera.focus");
-            state_.view = changed;
-        } else {
-            Settings changed = state_.settings;
-            applySettingsJson(changed, json, path.string());
-            state_.settings = changed;
-        }
-        tell(fmt::format("{}: {} loaded", path.filename().string(), isView ? "view" : "settings"));
+        openJson(path);
     } else {
         SceneOptions source;
         source.scene = file.starts_with("builtin:") ? file : path.string();
         source.size = state_.source.size;
         source.strict = state_.source.strict;
         open(source, true);
+    }
+}
+
+// Settings and views have names in common, such as probes: the file is what it is valid as. If it is neither, the error
+// is that of the kind which more of its names belong to.
+void Viewer::openJson(const fs::path& path) {
+    const nlohmann::json json = parseJsonFile(path);
+    Settings settings = state_.settings;
+    std::string notSettings;
+    try {
+        applySettingsJson(settings, json, path.string());
+    } catch (const Error& error) {
+        notSettings = error.what();
+    }
+    if (notSettings.empty()) {
+        state_.settings = settings;
+        tell(fmt::format("{}: settings loaded", path.filename().string()));
+        return;
+    }
+    try {
+        View view = state_.view;
+        applyViewJson(json, path, view);
+        checkFocus(view.camera, scene(), path.string() + ": camera.focus");
+        state_.view = view;
+        tell(fmt::format("{}: view loaded", path.filename().string()));
+    } catch (const Error& error) {
+        const auto isGroup = [](const std::string& name) {
+            return std::ranges::any_of(settingEntries(),
+                                       [&](const SettingEntry& e) { return e.name.starts_with(name + "."); });
+        };
+        size_t groups = 0;
+        for (const auto& [name, value] : json.items()) {
+            groups += json.is_object() && (isGroup(name) || name.find('.') != std::string::npos) ? 1 : 0;
+        }
+        fail("{}", 2 * groups > json.size() ? notSettings : error.what());
     }
 }
 
@@ -382,18 +401,10 @@ void Viewer::drawWindow() {
     if (state_.plays && state_.running != Running::paused) {
         state_.view.time = std::min(state_.view.time + elapsed_, View::largestTime);
     }
-    const auto t0 = Clock::now();
     drawUi();
-    const double t1 = secondsSince(t0);
     want();
-    const double t2 = secondsSince(t0);
     present();
-    const double t3 = secondsSince(t0);
     writeStatus();
-    if (getenv("DBG"))
-        fmt::print(stderr, "ui {:.1f} want {:.1f} present {:.1f} status {:.1f} live {:.0f} scale {:.2f}\n", 1e3 * t1,
-                   1e3 * (t2 - t1), 1e3 * (t3 - t2), 1e3 * (secondsSince(t0) - t3), now_.live->milliseconds,
-                   now_.effort.scale);
     finishPicture();
 }
 

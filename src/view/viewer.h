@@ -7,6 +7,7 @@
 #include "view/clock.h"
 #include "view/compare_view.h"
 #include "view/controls.h"
+#include "view/file_browser.h"
 #include "view/render_thread.h"
 #include "view/window.h"
 
@@ -58,6 +59,7 @@ private:
     void open(const SceneOptions& source, bool restores);
     void showScene(const OpenScene& opened, uint64_t number, const SceneOptions& source, bool restores);
     void openFile(const std::string& file);
+    void openJson(const std::filesystem::path& path);
     [[nodiscard]] PictureRect pictureRect() const;
     [[nodiscard]] uvec2 renderSize() const;
     [[nodiscard]] double timeToWait() const;
@@ -100,6 +102,7 @@ private:
     void drawPanel();
     [[nodiscard]] std::string progressText() const;
     void runPanel();
+    void switchesPanel();
     void settingsPanel();
     void lampsPanel();
     void lightPanel();
@@ -109,6 +112,7 @@ private:
     void cameraPanel();
     void showPanel();
     void comparePanel();
+    void offerSources();
     void pixelPanel();
     void timesPanel();
     void filesPanel();
@@ -117,6 +121,8 @@ private:
 
     // viewer_overlay.cpp
     void drawDivider();
+    void drawLegends();
+    void drawErrorAt(const vec2& mouse);
     void drawRay();
     [[nodiscard]] vec2 onWindow(const vec2& pixel) const;
 
@@ -133,6 +139,7 @@ private:
     uint64_t published_ = 0;
     CompareView compare_;
     ControlPlaces places_;
+    FileBrowser browser_;
     bool sunMoved_ = false;  ///< since the sky was made
 
     std::string notice_;   ///< the last completed action

@@ -3,6 +3,7 @@
 #include "scene/camera_control.h"
 #include "scene/framing.h"
 #include "scene/pose.h"
+#include "view/switches.h"
 #include "view/viewer.h"
 
 #define GLFW_INCLUDE_NONE
@@ -59,6 +60,11 @@ void Viewer::handleKey(const KeyPress& press) {
     if (press.control) {
         handleControlKey(press);
         return;
+    }
+    for (const Switch& part : switches()) {
+        if (press.key == part.key) {
+            part.set(state_.settings, !part.isOn(state_.settings), state_.ofPreset);
+        }
     }
     switch (press.key) {
         case GLFW_KEY_F1:

@@ -2,6 +2,8 @@
 #include "view/viewer.h"
 
 #include "base/error.h"
+#include "compare/heat_map.h"
+#include "view/switches.h"
 
 #include <imgui.h>
 
@@ -23,13 +25,45 @@ std::string text(const std::vector<float>& values) {
     return all;
 }
 
+// Distances of rays that hit nothing are the largest of the format.
+std::string pickedText(const PickedValues& picked) {
+    if (!picked.name.ends_with("hit_distance")) {
+        return text(picked.values);
+    }
+    constexpr float miss = 65000.0F;
+    std::string all;
+    for (const float value : picked.values) {
+        all += fmt::format("{}{}", all.empty() ? "" : "  ", value < miss ? fmt::format("{:.4g}", value) : "miss");
+    }
+    return all;
+}
+
 // Whether these settings count the hit: back faces may be rejected.
 bool isHit(const RecordedRay& ray, const TraceScreenSettings& settings) {
     return ray.outcome == RayOutcome::hit && !(ray.facesAway && settings.rejectBackfaces != 0);
 }
 
+// The sources that are on, in the order in which a ray that misses the screen asks them.
+std::string nextSources(const Settings& settings) {
+    std::vector<std::string> names;
+    if (settings.planar.enabled != 0 && settings.planar.beforeScreen == 0) {
+        names.emplace_back("planar reflections");
+    }
+    if (settings.traceScene.enabled != 0) {
+        names.emplace_back("ray tracing (trace_scene)");
+    }
+    if (settings.probes.enabled != 0) {
+        names.emplace_back("probes");
+    }
+    if (settings.environment.enabled != 0) {
+        names.emplace_back("the environment");
+    }
+    return fmt::format("{}", fmt::join(names, ", then "));
+}
+
 // Explains the outcome of the mirror ray.
-std::string explanation(const RecordedRay& ray, const TraceScreenSettings& settings) {
+std::string explanation(const RecordedRay& ray, const Settings& all) {
+    const TraceScreenSettings& settings = all.traceScreen;
     const std::string at = fmt::format("pixel {}, {}", ray.pixel.x, ray.pixel.y);
     std::string why;
     if (isHit(ray, settings)) {
@@ -43,10 +77,7 @@ std::string explanation(const RecordedRay& ray, const TraceScreenSettings& setti
             "(trace_screen.reject_backfaces).",
             ray.distance, at);
     } else if (ray.outcome == RayOutcome::leftScreen) {
-        why = fmt::format(
-            "Miss: it leaves the screen after {:.3g} m. The fallbacks are trace_scene, probes and the "
-            "environment.",
-            ray.distance);
+        why = fmt::format("Miss: it leaves the screen after {:.3g} m.", ray.distance);
     } else if (ray.outcome == RayOutcome::hidden) {
         why = fmt::format("Miss: it passes behind a surface by more than trace_screen.thickness ({:g} m).",
                           settings.thickness);
@@ -59,6 +90,10 @@ std::string explanation(const RecordedRay& ray, const TraceScreenSettings& setti
             " From {:.3g} m on it was occluded: behind a visible surface by more than trace_screen.thickness "
             "({:g} m).",
             ray.clear, settings.thickness);
+    }
+    if (!isHit(ray, settings)) {
+        const std::string next = nextSources(all);
+        why += next.empty() ? " Nothing else is on: its light is black." : fmt::format(" Next: {}.", next);
     }
     return why;
 }
@@ -90,8 +125,103 @@ void Viewer::drawDivider() {
     draw.AddLine({x, rect.min.y}, {x, rect.min.y + rect.size.y}, IM_COL32(255, 255, 255, 200), 1.5F);
     const float y = rect.min.y + 0.5F * rect.size.y;
     draw.AddCircleFilled({x, y}, 7.0F, IM_COL32(255, 255, 255, 220));
-    draw.AddText({x - ImGui::CalcTextSize("A").x - 8.0F, rect.min.y + 6.0F}, IM_COL32_WHITE, "A");
-    draw.AddText({x + 8.0F, rect.min.y + 6.0F}, IM_COL32_WHITE, "B");
+    const auto label = [&](const std::string& text, bool left) {
+        const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+        const ImVec2 at(left ? x - size.x - 10.0F : x + 10.0F, rect.min.y + 6.0F);
+        draw.AddRectFilled({at.x - 4.0F, at.y - 2.0F}, {at.x + size.x + 4.0F, at.y + size.y + 2.0F},
+                           IM_COL32(0, 0, 0, 150), 3.0F);
+        draw.AddText(at, IM_COL32_WHITE, text.c_str());
+    };
+    label(fmt::format("A: {}{}", state_.preset, sameSettings(state_.settings, state_.ofPreset) ? "" : ", changed"),
+          true);
+    label(fmt::format("B: {}", compare_.name(state_)), false);
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    if (!ImGui::GetIO().WantCaptureMouse && mouse.x >= rect.min.x) {
+        drawErrorAt({mouse.x, mouse.y});
+    }
+}
+
+// Both sides' values and their error at the pointer.
+void Viewer::drawErrorAt(const vec2& mouse) {
+    const PictureRect rect = pictureRect();
+    const vec2 at = (mouse - rect.min) / rect.size;
+    const auto valueAt = [&](const std::shared_ptr<const FloatImage>& image) -> std::optional<std::string> {
+        if (!image || at.x < 0.0F || at.y < 0.0F || at.x >= 1.0F || at.y >= 1.0F) {
+            return std::nullopt;
+        }
+        const uvec2 pixel(at * vec2(image->width, image->height));
+        const size_t channels = image->channels.size();
+        const auto first =
+            image->data.begin() + static_cast<std::ptrdiff_t>((size_t(pixel.y) * image->width + pixel.x) * channels);
+        return text(std::vector<float>(first, first + static_cast<std::ptrdiff_t>(channels)));
+    };
+    std::string lines;
+    for (const auto& [name, image] : {std::pair("A", now_.live->values), std::pair("B", compare_.values()),
+                                      std::pair("HDR-FLIP", compare_.errorMap())}) {
+        if (const auto value = valueAt(image)) {
+            lines += fmt::format("{}{}  {}", lines.empty() ? "" : "\n", name, *value);
+        }
+    }
+    if (!lines.empty()) {
+        ImGui::SetNextWindowPos({mouse.x + 16.0F, mouse.y + 16.0F});
+        ImGui::BeginTooltip();
+        ImGui::TextUnformatted(lines.c_str());
+        ImGui::EndTooltip();
+    }
+}
+
+// What the colours mean: sources of light, errors; and what is switched off, if no panel says it.
+void Viewer::drawLegends() {
+    struct Line {
+        ImU32 color;
+        const char* text;
+    };
+    static constexpr std::array<Line, 5> sources{{{IM_COL32(0, 255, 255, 255), "planar reflection"},
+                                                  {IM_COL32(0, 255, 0, 255), "screen"},
+                                                  {IM_COL32(255, 255, 0, 255), "ray tracing"},
+                                                  {IM_COL32(255, 0, 255, 255), "probes"},
+                                                  {IM_COL32(0, 0, 255, 255), "environment"}}};
+    const PictureRect rect = pictureRect();
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    const float line = ImGui::GetTextLineHeightWithSpacing();
+    const float side = ImGui::GetFontSize();
+    if (state_.show.ends_with("source")) {
+        const ImVec2 corner(rect.min.x + 10.0F, rect.min.y + rect.size.y - line * float(sources.size()) - 14.0F);
+        draw.AddRectFilled({corner.x - 6.0F, corner.y - 6.0F},
+                           {corner.x + 12.0F * side, corner.y + line * float(sources.size()) + 4.0F},
+                           IM_COL32(0, 0, 0, 170), 3.0F);
+        for (size_t i = 0; i < sources.size(); ++i) {
+            const float y = corner.y + float(i) * line;
+            draw.AddRectFilled({corner.x, y}, {corner.x + side, y + side}, sources[i].color);
+            draw.AddText({corner.x + 1.6F * side, y}, IM_COL32_WHITE, sources[i].text);
+        }
+    }
+    if (state_.compare.with != CompareWith::nothing && state_.compare.errorImage && compare_.errorMap()) {
+        constexpr uint32_t steps = 64;
+        static const Bitmap colors = [] {
+            FloatImage ramp{steps, 1, {"Y"}, {}};
+            for (uint32_t i = 0; i < steps; ++i) {
+                ramp.data.push_back((float(i) + 0.5F) / float(steps));
+            }
+            return heatMap(ramp);
+        }();
+        const float width = 12.0F * side / float(steps);
+        const ImVec2 corner(rect.min.x + rect.size.x - 12.0F * side - 20.0F, rect.min.y + rect.size.y - 3.2F * side);
+        draw.AddRectFilled({corner.x - 8.0F, corner.y - 6.0F}, {corner.x + 12.0F * side + 8.0F, corner.y + 2.8F * side},
+                           IM_COL32(0, 0, 0, 170), 3.0F);
+        for (uint32_t i = 0; i < steps; ++i) {
+            const uint8_t* c = colors.data.data() + size_t(i) * colors.channels;
+            draw.AddRectFilled({corner.x + float(i) * width, corner.y},
+                               {corner.x + float(i + 1) * width, corner.y + side}, IM_COL32(c[0], c[1], c[2], 255));
+        }
+        const float below = corner.y + 1.3F * side;
+        draw.AddText({corner.x, below}, IM_COL32_WHITE, "0");
+        draw.AddText({corner.x + 4.0F * side, below}, IM_COL32_WHITE, "HDR-FLIP");
+        draw.AddText({corner.x + 11.4F * side, below}, IM_COL32_WHITE, "1");
+    }
+    if (const std::string off = switchedOff(state_.settings, state_.ofPreset); !off.empty() && !state_.panels) {
+        draw.AddText({rect.min.x + 10.0F, rect.min.y + 8.0F}, IM_COL32(255, 200, 90, 255), ("off: " + off).c_str());
+    }
 }
 
 // The steps and the pixel are valid only for the view at the time of the pick. The ray is in world space and is also
@@ -143,6 +273,30 @@ void Viewer::drawRay() {
     draw.PopClipRect();
 }
 
+// Sources that are off and could answer a miss.
+void Viewer::offerSources() {
+    if (isHit(*picked_->ray, state_.settings.traceScreen)) {
+        return;
+    }
+    Settings& s = state_.settings;
+    bool first = true;
+    for (const auto& [name, on] :
+         {std::pair("ray tracing", &s.traceScene.enabled), std::pair("probes", &s.probes.enabled),
+          std::pair("environment", &s.environment.enabled)}) {
+        if (*on != 0) {
+            continue;
+        }
+        if (!first) {
+            ImGui::SameLine();
+        }
+        first = false;
+        if (ImGui::Button(fmt::format("switch on {}", name).c_str())) {
+            *on = 1;
+        }
+        places_.note(fmt::format("switch on {}", name));
+    }
+}
+
 void Viewer::pixelPanel() {
     if (!picked_) {
         ImGui::TextDisabled("Click on the image to pick a pixel.");
@@ -166,8 +320,9 @@ void Viewer::pixelPanel() {
     if (picked_->ray) {
         ImGui::PushTextWrapPos(0.0F);
         ImGui::Text("Mirror ray, %u depth samples", picked_->ray->samples);
-        ImGui::TextUnformatted(explanation(*picked_->ray, state_.settings.traceScreen).c_str());
+        ImGui::TextUnformatted(explanation(*picked_->ray, state_.settings).c_str());
         ImGui::PopTextWrapPos();
+        offerSources();
     } else {
         ImGui::TextUnformatted("No surface here.");
     }
@@ -178,34 +333,36 @@ void Viewer::pixelPanel() {
             ImGui::TextUnformatted(values.name.c_str());
             tooltip(std::string(findShow(values.name).description));
             ImGui::TableNextColumn();
-            ImGui::TextUnformatted(text(values.values).c_str());
+            ImGui::TextUnformatted(pickedText(values).c_str());
         }
         ImGui::EndTable();
     }
 }
 
 void Viewer::helpOverlay() {
-    constexpr std::array<std::array<const char*, 2>, 21> keys{{{"left drag", "orbit"},
-                                                               {"middle drag, Shift+left drag", "pan"},
-                                                               {"wheel", "move closer, farther"},
-                                                               {"right drag", "look around"},
-                                                               {"W A S D, Q E", "fly; Shift: faster"},
-                                                               {"click", "pick the pixel: values and mirror ray"},
-                                                               {"Alt+click", "focus the lens there"},
-                                                               {"F", "frame all"},
-                                                               {"R", "reset the camera"},
-                                                               {"space", "pause"},
-                                                               {".", "render one frame"},
-                                                               {"C", "continuous rendering"},
-                                                               {"P", "play animations"},
-                                                               {"X", "only A, only B"},
-                                                               {"Tab", "panels"},
-                                                               {"Ctrl+S", "screenshot"},
-                                                               {"Ctrl+C", "copy the command line"},
-                                                               {"Esc", "clear the picked pixel"},
-                                                               {"Ctrl+click on a slider", "type a value"},
-                                                               {"F1, H", "this list"},
-                                                               {"Ctrl+Q", "quit; the state is saved"}}};
+    constexpr std::array<std::array<const char*, 2>, 22> keys{
+        {{"1 2 3 4 5", "direct light, SSGI, SSR, AO, shadows on and off"},
+         {"left drag", "orbit"},
+         {"middle drag, Shift+left drag", "pan"},
+         {"wheel", "move closer, farther"},
+         {"right drag", "look around"},
+         {"W A S D, Q E", "fly; Shift: faster"},
+         {"click", "pick the pixel: values and mirror ray"},
+         {"Alt+click", "focus the lens there"},
+         {"F", "frame all"},
+         {"R", "reset the camera"},
+         {"space", "pause"},
+         {".", "render one frame"},
+         {"C", "continuous rendering"},
+         {"P", "play animations"},
+         {"X", "only A, only B"},
+         {"Tab", "panels"},
+         {"Ctrl+S", "screenshot"},
+         {"Ctrl+C", "copy the command line"},
+         {"Esc", "clear the picked pixel"},
+         {"Ctrl+click on a slider", "type a value"},
+         {"F1, H", "this list"},
+         {"Ctrl+Q", "quit; the state is saved"}}};
     const uvec2 window = window_.size();
     ImGui::SetNextWindowPos({0.5F * float(window.x), 0.5F * float(window.y)}, ImGuiCond_Always, {0.5F, 0.5F});
     ImGui::Begin("Keys", &state_.help,

@@ -4,6 +4,7 @@
 #include "scene/builtin.h"
 #include "scene/view_file.h"
 #include "view/saved_state.h"
+#include "view/switches.h"
 #include "view/viewer.h"
 
 #include "base/error.h"
@@ -22,6 +23,7 @@ namespace reflet {
 namespace {
 
 const ImVec4 problemColor(1.0F, 0.45F, 0.4F, 1.0F);
+const ImVec4 changedColor(1.0F, 0.78F, 0.35F, 1.0F);
 const ImVec4 quietColor(0.65F, 0.68F, 0.72F, 1.0F);
 
 std::vector<std::string> presetNames() {
@@ -96,6 +98,23 @@ void Viewer::runPanel() {
         if (ImGui::DragFloat("time [s]", &time, 0.02F, 0.0F, 1e6F, "%.2f", ImGuiSliderFlags_AlwaysClamp)) {
             state_.view.time = double(time);
         }
+    }
+}
+
+void Viewer::switchesPanel() {
+    for (const Switch& part : switches()) {
+        bool on = part.isOn(state_.settings);
+        if (ImGui::Checkbox(part.name, &on)) {
+            part.set(state_.settings, on, state_.ofPreset);
+        }
+        places_.note(fmt::format("switch {}", part.name));
+        tooltip(fmt::format("{} Key {}.", part.help, static_cast<char>(part.key)));
+        if (&part != &switches().back()) {
+            ImGui::SameLine();
+        }
+    }
+    if (const std::string off = switchedOff(state_.settings, state_.ofPreset); !off.empty()) {
+        ImGui::TextColored(changedColor, "off: %s", off.c_str());
     }
 }
 
@@ -185,7 +204,9 @@ void Viewer::comparePanel() {
         ImGui::SliderScalar("samples", ImGuiDataType_U32, &c.samples, &one, &most, "%u", ImGuiSliderFlags_Logarithmic);
         tooltip("Maximum samples per pixel.");
         if (compare_.samples() < c.samples) {
-            ImGui::ProgressBar(compare_.progress(), {-1.0F, 0.0F});
+            const uint32_t next = CompareView::nextSamples(compare_.samples(), c.samples);
+            ImGui::ProgressBar(compare_.progress(), {-1.0F, 0.0F},
+                               fmt::format("{} samples: {:.0f} %", next, 100.0 * double(compare_.progress())).c_str());
         }
     }
     wrapped(compare_.failed() ? problemColor : quietColor, compare_.message());
@@ -237,6 +258,13 @@ void Viewer::filesPanel() {
     tooltip(
         "Copies a command that renders this image to the clipboard (Ctrl+C). Its view file is kept in the "
         "configuration folder.");
+    ImGui::SameLine();
+    if (ImGui::Button("browse", {button, 0.0F})) {
+        const std::filesystem::path scene = state_.source.scene;
+        browser_.open(scene.has_parent_path() ? scene.parent_path() : std::filesystem::current_path());
+    }
+    places_.note("browse");
+    tooltip("Lists the files that can be opened: scenes, environments, images to compare with, settings, views.");
     ImGui::InputTextWithHint("file##save", "name.png, .exr, .json", &openName_);
     places_.note("file name");
     const auto labelled = [&](const char* label, const char* help, const std::function<void()>& work) {
@@ -303,6 +331,7 @@ void Viewer::drawPanel() {
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse);
     state_.panelWidth = ImGui::GetWindowWidth() / window_.scale();
     runPanel();
+    switchesPanel();
     messages();
     const std::array<std::pair<const char*, void (Viewer::*)()>, 8> sections{{{"Settings", &Viewer::settingsPanel},
                                                                               {"Light", &Viewer::lightPanel},
@@ -339,8 +368,12 @@ void Viewer::drawUi() {
     if (state_.panels) {
         drawPanel();
     }
+    if (const std::optional<std::string> chosen = browser_.draw(places_)) {
+        attempt([&] { openFile(*chosen); });
+    }
     drawDivider();
     drawRay();
+    drawLegends();
     if (state_.help) {
         helpOverlay();
     }

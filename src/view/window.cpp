@@ -47,6 +47,21 @@ void addFont(float pixels) {
     fonts.AddFontDefault(&plain);
 }
 
+// The size, or what of it the screen has room for.
+uvec2 withinScreen(uvec2 size) {
+    GLFWmonitor* screen = glfwGetPrimaryMonitor();
+    if (screen == nullptr) {
+        return size;
+    }
+    std::array<int, 4> free{};  // without bars and docks
+    glfwGetMonitorWorkarea(screen, &free[0], &free[1], &free[2], &free[3]);
+    vec2 scale(1.0F);
+    glfwGetMonitorContentScale(screen, &scale.x, &scale.y);
+    constexpr float titleBar = 40.0F;  // desktop units, for what the desktop draws around the window
+    const vec2 room = vec2(free[2], free[3]) / glm::max(scale, vec2(1.0F)) - vec2(0.0F, titleBar);
+    return room.x < 1.0F || room.y < 1.0F ? size : glm::min(size, uvec2(room));
+}
+
 // From ImGui 1.87 on a frame may take only a few of the waiting key presses and clicks: the others need more frames.
 bool hasQueuedInput() {
 #if IMGUI_VERSION_NUM >= 18700
@@ -69,6 +84,7 @@ Window::Window(const std::string& title, uvec2 size) {
     }
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    size = withinScreen(size);
     window_ = glfwCreateWindow(static_cast<int>(size.x), static_cast<int>(size.y), title.c_str(), nullptr, nullptr);
     if (window_ == nullptr) {
         glfwTerminate();

@@ -58,4 +58,14 @@ Composite composite(gpu::Recorder& f, CompositeStore& own, const CompositeInputs
     return result;
 }
 
+gpu::Image withoutDirect(gpu::Recorder& f, gpu::KeptImage& kept, gpu::Image lit, gpu::Image direct) {
+    const gpu::Image remaining = kept.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, lit.size);
+    f.compute("without_direct", "without_direct.comp")
+        .read("lit", lit)
+        .read("direct", direct)
+        .write("remaining", remaining)
+        .dispatch(lit.size);
+    return remaining;
+}
+
 }  // namespace reflet

@@ -9,6 +9,9 @@
 SHARED_BEGIN
 
 #define COMPOSITE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                     \
+    SWITCH(direct, 1,                                                                                                 \
+           "Include direct light and emission in the image. Off: only indirect light is shown; it is computed as "    \
+           "before.")                                                                                                 \
     SWITCH(layers, 1,                                                                                                 \
            "Keep diffuse GI and reflections as separate layers (AOVs). `render` and `bench` set this by themselves, " \
            "only if the layers are asked for.")
@@ -57,6 +60,9 @@ struct CompositeStore {
 /// Sets the block offsets of params. lit: written.
 Composite composite(gpu::Recorder& f, CompositeStore& own, const CompositeInputs& in, gpu::Image lit,
                     CompositeParams params);
+
+/// lit - direct, of the same size, at least 0. kept: written.
+gpu::Image withoutDirect(gpu::Recorder& f, gpu::KeptImage& kept, gpu::Image lit, gpu::Image direct);
 
 }  // namespace reflet
 #endif
