@@ -6,7 +6,6 @@ set(REFLET_PACKAGE_REVISION 1)
 set(CPACK_PACKAGE_NAME reflet)
 set(CPACK_PACKAGE_VENDOR "The Reflet authors")
 set(CPACK_PACKAGE_CONTACT "${REFLET_MAINTAINER}")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "screen-space reflections, indirect light and soft shadows")
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_GENERATOR TGZ)
@@ -26,8 +25,9 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE ${REFLET_PACKAGE_REVISION})
 set(CPACK_DEBIAN_PACKAGE_SOURCE reflet)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
-set(renderer "Reflet computes screen-space reflections, screen-space global illumination, ambient
- occlusion, soft shadows and depth of field with Vulkan.")
+# Descriptions: the first line is the summary; an empty line divides paragraphs.
+set(effects "Reflet computes screen-space reflections, screen-space global
+illumination, ambient occlusion, soft shadows and depth of field with Vulkan.")
 
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME reflet)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION graphics)
@@ -35,30 +35,30 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libvulkan1, mesa-vulkan-drivers | vulkan-icd")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "fonts-dejavu-core")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "renderer for screen-space lighting, with a path tracer
- ${renderer}
- .
- This package has the program: it renders glTF scenes to pictures or in a window,
- path traces references on the CPU, and measures errors and times.")
+${effects}
+
+This package has the program: it renders glTF scenes to pictures or in a
+window, path traces references on the CPU, and measures errors and times.")
 
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME ${library_package})
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/packaging/triggers)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "screen-space lighting for Vulkan renderers
- ${renderer}
- .
- This package has the library, which records the effects into a host's own Vulkan
- command buffer.")
+${effects}
+
+This package has the library, which records the effects into a host's own
+Vulkan command buffer.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libreflet-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "${library_package} (= ${PROJECT_VERSION}-${REFLET_PACKAGE_REVISION}), libvulkan-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "screen-space lighting for Vulkan renderers - development files
- ${renderer}
- .
- This package has the C header and what CMake and pkg-config need.")
+${effects}
+
+This package has the C header and what CMake and pkg-config need.")
 
 # Every Debian package has these under its own name; the tarball has them once for each, too.
 set(doc ${CMAKE_CURRENT_BINARY_DIR}/package)

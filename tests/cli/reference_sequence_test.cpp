@@ -114,8 +114,8 @@ TEST_F(ReferenceSequence, FramesOfOtherOptionsAreRefused) {
 }
 
 TEST_F(ReferenceSequence, AnInterruptKeepsWholeFramesAlone) {
-    Arguments all = arguments(cubes, {"--spp", "4", "--frames", "3000", "-o", "a_#.exr"});
-    EXPECT_TRUE(refused(interrupt(all, {SIGINT}, 0.5), 1, {"interrupted after", "run the same command again"}));
+    Arguments all = arguments(cubes, {"--spp", "4", "--frames", "30000", "-o", "a_#.exr"});
+    EXPECT_TRUE(refused(interrupt(all, {SIGINT}, 1.2), 1, {"interrupted after", "run the same command again"}));
     ASSERT_TRUE(quietSuccess(reference(cubes, {"--spp", "4", "--frames", "1", "-o", "whole_#.exr"})));
     EXPECT_EQ(read("a_0.exr"), read("whole_0.exr"));
     for (const std::string& name : files()) {
