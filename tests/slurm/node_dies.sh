@@ -2,7 +2,7 @@
 # Renders 240 frames as an array of 4 tasks on two nodes of a Slurm of its own, kills one node in the middle, and checks
 # that Slurm requeues its tasks and that the frames are whole and equal to those of one process.
 #   node_dies.sh REFLET FOLDER     REFLET: the program; FOLDER: empty, for everything that is written
-# Needs slurmctld, slurmd, munged, and no root. Takes about 30 s, nearly all of it Slurm's: a dead node is noticed after
+# Needs slurmctld, slurmd, munged, and no root. Takes about 30 s, most of it Slurm's: a dead node is noticed after
 # SlurmdTimeout, and a requeued task waits for cred_expire.
 set -euo pipefail
 reflet=$(realpath "$1")
