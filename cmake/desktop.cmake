@@ -2,12 +2,13 @@
 set(printed ${CMAKE_CURRENT_BINARY_DIR}/printed)
 file(MAKE_DIRECTORY ${printed})
 find_program(GZIP gzip REQUIRED)
+set(run ${CMAKE_COMMAND} -E env ASAN_OPTIONS=detect_leaks=0 $<TARGET_FILE:reflet_program>)
 add_custom_command(OUTPUT ${printed}/reflet.1.gz ${printed}/reflet.bash ${printed}/_reflet ${printed}/reflet.fish
-    COMMAND reflet_program man > ${printed}/reflet.1
+    COMMAND ${run} man > ${printed}/reflet.1
     COMMAND ${GZIP} -9nf ${printed}/reflet.1
-    COMMAND reflet_program completion bash > ${printed}/reflet.bash
-    COMMAND reflet_program completion zsh > ${printed}/_reflet
-    COMMAND reflet_program completion fish > ${printed}/reflet.fish
+    COMMAND ${run} completion bash > ${printed}/reflet.bash
+    COMMAND ${run} completion zsh > ${printed}/_reflet
+    COMMAND ${run} completion fish > ${printed}/reflet.fish
     DEPENDS reflet_program COMMENT "Manual page and completion" VERBATIM)
 add_custom_target(reflet_printed ALL DEPENDS ${printed}/reflet.1.gz)
 
