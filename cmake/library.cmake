@@ -12,7 +12,9 @@ foreach(part IN LISTS library_parts)
     add_dependencies(reflet ${part})
 endforeach()
 add_library(reflet::reflet ALIAS reflet)
-set_target_properties(reflet PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+# The soname is libreflet.so.0. The number is that of the ABI, not of the version: see CONTRIBUTING.md.
+set(REFLET_ABI 0)
+set_target_properties(reflet PROPERTIES VERSION ${REFLET_ABI}.${PROJECT_VERSION} SOVERSION ${REFLET_ABI}
     POSITION_INDEPENDENT_CODE ON)
 target_include_directories(reflet PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
@@ -40,6 +42,7 @@ if(REFLET_TESTS AND NOT BUILD_SHARED_LIBS AND UNIX AND NOT APPLE) # the shared l
     foreach(part IN LISTS library_parts)
         target_sources(reflet_exports PRIVATE $<TARGET_OBJECTS:${part}>)
     endforeach()
+    set_target_properties(reflet_exports PROPERTIES SOVERSION ${REFLET_ABI})
     target_compile_definitions(reflet_exports PRIVATE REFLET_BUILD)
     target_link_options(reflet_exports PRIVATE -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/exports.map)
     target_link_libraries(reflet_exports PRIVATE reflet_options Vulkan::Headers glm::glm fmt::fmt-header-only
@@ -63,22 +66,22 @@ endif()
 
 if(REFLET_INSTALL)
     install(TARGETS reflet EXPORT refletTargets
-        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-        RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-    install(DIRECTORY include/reflet DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
+        RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT library)
+    install(DIRECTORY include/reflet DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
     set(package ${CMAKE_INSTALL_LIBDIR}/cmake/reflet)
-    install(EXPORT refletTargets NAMESPACE reflet:: DESTINATION ${package})
+    install(EXPORT refletTargets NAMESPACE reflet:: DESTINATION ${package} COMPONENT development)
     configure_package_config_file(cmake/refletConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/refletConfig.cmake
         INSTALL_DESTINATION ${package})
     write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/refletConfigVersion.cmake COMPATIBILITY SameMinorVersion)
     install(FILES ${CMAKE_CURRENT_BINARY_DIR}/refletConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/refletConfigVersion.cmake
-        DESTINATION ${package})
+        DESTINATION ${package} COMPONENT development)
     file(RELATIVE_PATH pc_up "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
     set(pc_static_define "")
     if(NOT BUILD_SHARED_LIBS)
         set(pc_static_define " -DREFLET_STATIC")
     endif()
     configure_file(cmake/reflet.pc.in ${CMAKE_CURRENT_BINARY_DIR}/reflet.pc @ONLY)
-    install(FILES ${CMAKE_CURRENT_BINARY_DIR}/reflet.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+    install(FILES ${CMAKE_CURRENT_BINARY_DIR}/reflet.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 endif()

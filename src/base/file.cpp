@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <random>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -54,12 +55,24 @@ private:
     fail("{}: cannot be written: {}{}", path.string(), reason(errorNumber), advice);
 }
 
-/// A name in the same folder that is unique across processes and threads.
+/// A name in the same folder that is unique across processes and threads, also of several machines that share the
+/// folder, where process ids are not unique: hence a random number for each process.
 fs::path temporaryName(const fs::path& target) {
+    static const unsigned process = std::random_device()();
     static std::atomic<unsigned> counter = 0;
     fs::path result = target;
-    result.replace_filename(fmt::format(".{}.{}-{}.tmp", target.filename().string(), ::getpid(), counter++));
+    result.replace_filename(
+        fmt::format(".{}.{}-{:08x}-{}.tmp", target.filename().string(), ::getpid(), process, counter++));
     return result;
+}
+
+/// Brings a file's content to the disk. Without that, a machine that loses power may keep the name, but not the
+/// content.
+void flush(const fs::path& path, const fs::path& name) {
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    if (!file.valid() || (::fsync(file.get()) != 0 && errno != EINVAL)) {  // EINVAL: a file system that cannot
+        failWrite(name, errno);
+    }
 }
 
 void writeAll(int descriptor, std::string_view content, const fs::path& name) {
@@ -162,6 +175,7 @@ void AtomicFile::commit() {
     if (!pending_) {
         return;
     }
+    flush(tempPath_, name_);
     if (::rename(tempPath_.c_str(), target_.c_str()) != 0) {
         failWrite(name_, errno);
     }
@@ -169,6 +183,9 @@ void AtomicFile::commit() {
 }
 
 bool AtomicFile::commitNew() {
+    if (pending_) {
+        flush(tempPath_, name_);
+    }
     if (pending_ && ::link(tempPath_.c_str(), target_.c_str()) != 0) {
         if (errno == EEXIST) {
             return false;

@@ -22,9 +22,6 @@ struct RenderJob {
     Timings& timings;
 };
 
-/// Whether the outputs are sequences. Throws UsageError if only some are, or for options that exclude each other.
-bool isSequence(const RenderOptions& options);
-
 /// Renders the frames of this share whose files are missing. Throws Error when interrupted. Returns whether there was
 /// anything to do.
 bool renderSequence(const RenderJob& job);

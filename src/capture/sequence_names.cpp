@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
+#include <system_error>
 
 namespace reflet {
 
@@ -20,7 +22,7 @@ FrameNames::FrameNames(const std::string& pattern) : pattern_(pattern), folder_(
     REFLET_CHECK(first != std::string::npos, "{}", pattern);
     const size_t end = std::min(name.find_first_not_of('#', first), name.size());
     if (name.find('#', end) != std::string::npos) {
-        failUsage("-o {}: the name has two runs of #; use one for the frame number", pattern);
+        failUsage("{}: the name has two runs of #; use one for the frame number", pattern);
     }
     before_ = name.substr(0, first);
     after_ = name.substr(end);
@@ -43,12 +45,32 @@ bool FrameNames::matches(std::string_view name) const {
 
 std::vector<fs::path> FrameNames::existing() const {
     std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(folder_.empty() ? fs::path(".") : folder_)) {
+    std::error_code error;
+    const fs::directory_iterator entries(folder_.empty() ? fs::path(".") : folder_, error);
+    if (error) {
+        fail("{}: the folder cannot be read: {}", pattern_, error.message());
+    }
+    for (const auto& entry : entries) {
         if (matches(entry.path().filename().string())) {
             files.push_back(folder_ / entry.path().filename());
         }
     }
     return files;
+}
+
+std::vector<uint32_t> FrameNames::numbers() const {
+    std::vector<uint32_t> all;
+    for (const fs::path& path : existing()) {
+        const std::string name = path.filename().string();
+        const char* end = name.data() + name.size() - after_.size();
+        uint32_t number = 0;
+        const auto [rest, error] = std::from_chars(name.data() + before_.size(), end, number);
+        if (error == std::errc() && rest == end && file(number) == path) {  // not another number of digits
+            all.push_back(number);
+        }
+    }
+    std::ranges::sort(all);
+    return all;
 }
 
 }  // namespace reflet

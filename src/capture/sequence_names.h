@@ -20,8 +20,10 @@ public:
 
     [[nodiscard]] const std::string& pattern() const { return pattern_; }
     [[nodiscard]] std::filesystem::path file(uint32_t number) const;
-    /// All existing files that match the pattern.
+    /// All existing files that match the pattern. Throws Error if the folder cannot be read.
     [[nodiscard]] std::vector<std::filesystem::path> existing() const;
+    /// Their numbers, sorted.
+    [[nodiscard]] std::vector<uint32_t> numbers() const;
     /// Beside the images: "out/picture_####.png.sequence.json".
     [[nodiscard]] std::filesystem::path record() const { return pattern_ + ".sequence.json"; }
 

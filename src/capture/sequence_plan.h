@@ -2,21 +2,13 @@
 // segments, each of which starts with an empty history: so a part of the sequence gives the same images as the whole.
 #pragma once
 
+#include "capture/share.h"
+
 #include <cstdint>
 #include <functional>
-#include <string>
 #include <vector>
 
 namespace reflet {
-
-/// One of `count` equal shares, counted from 0.
-struct Share {
-    uint32_t index = 0;
-    uint32_t count = 1;
-};
-
-/// "3/16" is the third of sixteen; "" is all. Throws UsageError.
-Share parseShare(const std::string& text);
 
 struct SequencePlan {
     uint32_t frames = 1;

@@ -84,7 +84,7 @@ void compareRecords(const FrameNames& names, const ordered_json& record,
         fail("{}: not a record of a sequence: replace it with --overwrite", names.record().string());
     }
     nlohmann::json now = parseJson(jsonText(record));  // as it reads back from a file
-    if (old.value("device", now.at("device")) != now.at("device")) {
+    if (old.contains("device") && now.contains("device") && old.at("device") != now.at("device")) {
         warn(fmt::format("{}: begun on {}; frames of this device may differ in the last bits", names.pattern(),
                          jsonText(old.at("device"))));
     }
@@ -122,6 +122,7 @@ ordered_json recordOf(const View& view) {
                         {"irradiance", numbers(view.sun.irradiance)},
                         {"angular_diameter", view.sun.angularDiameter}}},
                       {"environment", recordOf(view.environment)},
+                      {"background", {static_cast<int>(view.background.mode), numbers(view.background.color)}},
                       {"time", view.time},
                       {"mirrors", view.mirrors}};
     if (view.lampRadius) {

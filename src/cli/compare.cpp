@@ -1,12 +1,12 @@
 // `reflet compare`: measures the error of an image against a reference.
-#include "compare/compare.h"
+#include "cli/compare.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json_text.h"
 #include "base/text.h"
+#include "capture/sequence_names.h"
 #include "cli/commands.h"
 #include "compare/heat_map.h"
-#include "compare/picture_input.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -20,22 +20,6 @@
 namespace reflet {
 
 namespace {
-
-struct CompareCommand {
-    std::string picture;
-    std::string truth;
-    std::string mask;
-    std::string heatMap;
-    std::vector<std::string> failAbove;
-    float pixelsPerDegree = CompareOptions().pixelsPerDegree;
-    bool json = false;
-};
-
-/// METRIC=X of --fail-above.
-struct Limit {
-    const Metric* metric = nullptr;
-    double value = 0.0;
-};
 
 Limit parseLimit(const std::string& text) {
     const size_t equals = text.find('=');
@@ -58,43 +42,37 @@ Limit parseLimit(const std::string& text) {
     return {&*metric, value};
 }
 
-void checkHeatMapFile(const std::string& file) {
+void checkOutput(std::string_view option, const std::string& file, std::string_view ending) {
     if (file.empty()) {
         return;
     }
-    if (!file.ends_with(".png")) {
-        failUsage("--heatmap {}: the name must end in .png", file);
+    if (!file.ends_with(ending)) {
+        failUsage("{} {}: the name must end in {}", option, file, ending);
     }
     const AtomicFile trial(file);  // fails before the work, not after it
 }
 
-std::vector<bool> loadMask(const std::string& mask, const std::array<PictureName, 2>& names,
-                           const FloatImage& picture) {
+std::vector<bool> loadMask(const std::string& mask, const PicturePair& names, const FloatImage& picture) {
     if (mask.empty()) {
         return {};
     }
     return mask == "hits" ? readHitMask(names, picture) : readMask(parsePictureName(mask), picture);
 }
 
-std::string valueText(const Metric& metric, const Difference& difference) {
-    return fmt::format("{:.6g}{}{}", metric.value(difference), metric.unit.empty() ? "" : " ", metric.unit);
-}
-
 void printTable(const Difference& difference, uint64_t pixels) {
     for (const Metric& metric : metrics()) {
-        fmt::print("{:<13} {}\n", metric.name, valueText(metric, difference));
+        fmt::print("{:<13} {}\n", metric.name, valueText(metric, metric.value(difference)));
     }
     fmt::print("{:<13} {} of {}\n", "pixels", difference.pixels, pixels);
 }
 
 // JSON has no infinity: it becomes null.
-void printJson(const CompareCommand& command, const FloatImage& flip, const CompareOptions& options,
-               const Difference& difference) {
+void printJson(const CompareCommand& command, const FloatImage& flip, ImageKind kind, const Difference& difference) {
     nlohmann::ordered_json json{{"picture", command.picture},
                                 {"truth", command.truth},
-                                {"kind", options.kind == ImageKind::linear ? "linear" : "display"},
+                                {"kind", kind == ImageKind::linear ? "linear" : "display"},
                                 {"size", {flip.width, flip.height}},
-                                {"pixels_per_degree", options.pixelsPerDegree}};
+                                {"pixels_per_degree", command.pixelsPerDegree}};
     for (const Metric& metric : metrics()) {
         json[std::string(metric.name)] = metric.value(difference);
     }
@@ -105,10 +83,9 @@ void printJson(const CompareCommand& command, const FloatImage& flip, const Comp
 void checkLimits(const std::vector<Limit>& limits, const Difference& difference) {
     std::vector<std::string> broken;
     for (const Limit& limit : limits) {
-        const double value = limit.metric->value(difference);
-        if (limit.metric->largeIsGood ? value < limit.value : value > limit.value) {
+        if (limit.isBroken(difference)) {
             broken.push_back(fmt::format("{} is {}, {} the limit {}", limit.metric->name,
-                                         valueText(*limit.metric, difference),
+                                         valueText(*limit.metric, limit.metric->value(difference)),
                                          limit.metric->largeIsGood ? "below" : "above", limit.value));
         }
     }
@@ -117,30 +94,43 @@ void checkLimits(const std::vector<Limit>& limits, const Difference& difference)
     }
 }
 
-void compare(const CompareCommand& command) {
-    std::vector<Limit> limits;
-    std::ranges::transform(command.failAbove, std::back_inserter(limits), parseLimit);
-    const std::array names{parsePictureName(command.picture), parsePictureName(command.truth)};
-    if (names[0].kind != names[1].kind) {
-        failUsage("{} and {}: one is linear, the other display-encoded; compare two images of the same kind",
-                  command.picture, command.truth);
-    }
-    checkHeatMapFile(command.heatMap);
-    const FloatImage picture = readPicture(names[0]);
-    const FloatImage truth = readPicture(names[1]);
-    CompareOptions options{names[0].kind, command.pixelsPerDegree, {}, command.picture, command.truth};
-    checkComparable(picture, truth, options);
-    options.mask = loadMask(command.mask, names, picture);
-    const Comparison result = compareImages(picture, truth, options);
+void compareOne(const CompareCommand& command, const PicturePair& names, const std::vector<Limit>& limits) {
+    const Comparison result = comparePair(command, names);
     if (!command.heatMap.empty()) {
         writePng(command.heatMap, heatMap(result.flip));
     }
     if (command.json) {
-        printJson(command, result.flip, options, result.difference);
+        printJson(command, result.flip, names[0].kind, result.difference);
     } else {
         printTable(result.difference, result.flip.data.size());
     }
     checkLimits(limits, result.difference);
+}
+
+void compare(const CompareCommand& command) {
+    std::vector<Limit> limits;
+    std::ranges::transform(command.failAbove, std::back_inserter(limits), parseLimit);
+    const PicturePair names{parsePictureName(command.picture), parsePictureName(command.truth)};
+    if (names[0].kind != names[1].kind) {
+        failUsage("{} and {}: one is linear, the other display-encoded; compare two images of the same kind",
+                  command.picture, command.truth);
+    }
+    checkOutput("--heatmap", command.heatMap, ".png");
+    checkOutput("--plot", command.plot, ".svg");
+    if (FrameNames::isPattern(names[0].file)) {
+        compareSequences(command, names, limits);
+        return;
+    }
+    for (const std::string& file : {names[1].file, command.mask, command.heatMap}) {
+        if (FrameNames::isPattern(file)) {
+            failUsage("{}: it names a sequence, but {} is one image: name A with a run of #, too", file,
+                      command.picture);
+        }
+    }
+    if (!command.plot.empty()) {
+        failUsage("--plot is only for sequences: name the images with a run of #, as in a_####.exr b_####.exr");
+    }
+    compareOne(command, names, limits);
 }
 
 std::string compareFooter() {
@@ -157,27 +147,61 @@ std::string compareFooter() {
            "--mask hits keeps the pixels where both EXR files have data: layer confidence above 0 in any channel,\n"
            "or, in a file without that layer, depth above 0 (reflet render --aov depth).\n"
            "--json prints { picture, truth, kind, size, pixels_per_degree, METRIC..., pixels }; infinity is null.\n"
+           "Sequences: every frame of B is compared with the frame of A that has its number; B may also be one image.\n"
+           "Prints every frame, the means and the worst frame of each metric (bias: the largest |bias|; JSON: frames,\n"
+           "mean, worst). --fail-above holds for every frame.\n"
            "Example: reflet compare image.exr reference.exr:final --mask hits --heatmap error.png --fail-above "
-           "flip=0.1";
+           "flip=0.1\n"
+           "reflet compare noisy_####.exr clean_####.exr --plot error.svg --heatmap worst.png";
 }
 
 }  // namespace
 
+bool Limit::isBroken(const Difference& difference) const {
+    const double is = metric->value(difference);
+    return metric->largeIsGood ? is < value : is > value;
+}
+
+std::string valueText(const Metric& metric, double value) {
+    return fmt::format("{:.6g}{}{}", value, metric.unit.empty() ? "" : " ", metric.unit);
+}
+
+Comparison comparePair(const CompareCommand& command, const PicturePair& names) {
+    const FloatImage picture = readPicture(names[0]);
+    const FloatImage truth = readPicture(names[1]);
+    CompareOptions options{names[0].kind, command.pixelsPerDegree, {}, names[0].text, names[1].text};
+    checkComparable(picture, truth, options);
+    options.mask = loadMask(command.mask, names, picture);
+    return compareImages(picture, truth, options);
+}
+
 void addCompareCommand(CLI::App& app) {
     auto options = std::make_shared<CompareCommand>();
     CLI::App* command = app.add_subcommand("compare", "Measure the error of an image against a reference");
-    command->add_option("A", options->picture, "Image: .png, .jpg, .hdr or .exr; select a layer as FILE.exr:LAYER")
+    command
+        ->add_option(
+            "A", options->picture,
+            "Image: .png, .jpg, .hdr or .exr; select a layer as FILE.exr:LAYER. With a run of #, as in a_####.exr, "
+            "a sequence")
         ->required();
     command
         ->add_option("B", options->truth,
                      "Reference image, in the same formats; without a layer, the unnamed one (final)")
         ->required();
     command
-        ->add_option("--mask", options->mask,
-                     "Pixels to compare: those above 0.5 in an image, or 'hits': those where both files have data")
+        ->add_option(
+            "--mask", options->mask,
+            "Pixels to compare: those above 0.5 in an image (or in each of a sequence), or 'hits': those where both "
+            "files have data")
         ->type_name("FILE|hits");
-    command->add_option("--heatmap", options->heatMap, "Write per-pixel FLIP as an image, dark 0 to light 1")
+    command
+        ->add_option(
+            "--heatmap", options->heatMap,
+            "Write per-pixel FLIP as an image, dark 0 to light 1. Sequences: of the frame with the largest FLIP, "
+            "or, with a run of #, of every frame")
         ->type_name("F.png");
+    command->add_option("--plot", options->plot, "Sequences: write all metrics over the frames as a plot")
+        ->type_name("F.svg");
     command->add_flag("--json", options->json, "Print JSON instead of a table");
     command
         ->add_option("--fail-above", options->failAbove,

@@ -2,21 +2,29 @@
 #include "reference/reference.h"
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/progress.h"
 #include "base/text.h"
 #include "capture/pictures.h"
+#include "capture/sequence_files.h"
+#include "capture/sequence_plan.h"
+#include "capture/sequence_record.h"
+#include "capture/sequence_views.h"
 #include "capture/show.h"
 #include "cli/commands.h"
 #include "cli/scene_arguments.h"
+#include "cli/sequence_arguments.h"
 #include "effects/exposure/exposure.h"
 #include "reference/sample_progress.h"
 #include "renderer/background/background.h"
 #include "renderer/exposure/scene_exposure.h"
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <new>
 
@@ -27,6 +35,8 @@ namespace {
 struct ReferenceCommand {
     SceneOptions scene;
     std::vector<std::string> outputs;
+    uint32_t frames = 1;
+    SequenceOptions sequence;
     std::optional<uint32_t> bounces;
     std::optional<uint32_t> samples;
     float noise = 0.0F;
@@ -106,16 +116,32 @@ ReferenceOptions referenceOptions(const ReferenceCommand& command, const Setting
     return options;
 }
 
-ReferencePicture tracePicture(const Scene& scene, const View& view, uvec2 size, const ReferenceOptions& options) {
-    SampleProgress progress("tracing", options, size);
+/// What is traced, and how.
+struct Job {
+    const ReferenceCommand& command;
+    const Settings& settings;
+    const ReferenceOptions& options;
+    const Scene& scene;
+    const View& view;
+    uvec2 size;
+};
+
+ReferencePicture tracePicture(const Job& job, const View& view, uint32_t seed,
+                              const std::function<void(const ReferenceProgress&)>& show) {
+    ReferenceOptions options = job.options;
+    options.seed = seed;
     try {
-        return traceReference(scene, view, size, options, [&](const ReferenceProgress& now) {
-            progress.set(now);
+        return traceReference(job.scene, view, job.size, options, [&](const ReferenceProgress& now) {
+            show(now);
             return !InterruptNote::arrived();
         });
     } catch (const std::bad_alloc&) {
-        fail("not enough memory for an image of {}x{} pixels: choose a smaller --size", size.x, size.y);
+        fail("not enough memory for an image of {}x{} pixels: choose a smaller --size", job.size.x, job.size.y);
     }
+}
+
+bool wasInterrupted(const Job& job, const ReferencePicture& picture) {
+    return !picture.complete && picture.samples < job.options.samples;
 }
 
 // Those that are asked for, in that order, and first an unnamed copy of the first, which every viewer shows.
@@ -147,14 +173,115 @@ std::vector<ImageLayer> layersOf(const ReferencePicture& picture, const Referenc
     return layers;
 }
 
-std::string summary(const ReferencePicture& picture) {
+void writePicture(const Job& job, const std::string& file, const ReferencePicture& picture,
+                  const TonemapSettings& tonemap) {
+    const Background& background = job.view.background;
+    const std::vector<std::string>& layers = job.command.layers;
+    if (isExr(file)) {
+        writeExr(file, layersOf(picture, job.command, background));
+    } else if (!layers.empty() && layers.front() != "final") {
+        writePng(file, makePicture(findShow(layers.front()), chosenLayers(picture, job.command).front().image));
+    } else {
+        writePng(file, displayedOver(picture.final, picture.coverage, background, tonemap));
+    }
+}
+
+std::string raysText(uint64_t rays, double seconds) {
     constexpr double million = 1e6;
-    const double rays = static_cast<double>(picture.rays) / million;
+    const double millions = static_cast<double>(rays) / million;
+    return fmt::format("{:.2f} million rays in {:.2f} s: {:.2f} million rays per second", millions, seconds,
+                       millions / std::max(seconds, 1.0 / million));
+}
+
+std::string summary(const ReferencePicture& picture) {
     return fmt::format(
-        "{}, noise {}; {:.2f} million rays in {:.2f} s: {:.2f} million rays per second",
+        "{}, noise {}; {}",
         picture.samples == 1 ? "1 sample per pixel" : fmt::format("{} samples per pixel", picture.samples),
-        picture.samples == 1 ? "unknown" : fmt::format("{:.3g}", picture.noise), rays, picture.seconds,
-        rays / std::max(picture.seconds, 1.0 / million));
+        picture.samples == 1 ? "unknown" : fmt::format("{:.3g}", picture.noise),
+        raysText(picture.rays, picture.seconds));
+}
+
+void traceOne(const Job& job) {
+    const InterruptNote note;
+    SampleProgress progress("tracing", job.options, job.size);
+    const ReferencePicture picture =
+        tracePicture(job, job.view, job.options.seed, [&](const ReferenceProgress& now) { progress.set(now); });
+    const TonemapSettings tonemap = exposedAs(job.settings.tonemap, job.scene, picture.final, picture.depth);
+    for (const std::string& file : job.command.outputs) {
+        writePicture(job, file, picture, tonemap);
+    }
+    if (wasInterrupted(job, picture)) {
+        fail("interrupted after {} of {} samples per pixel; {} {} the samples so far", picture.samples,
+             job.options.samples, fmt::join(job.command.outputs, ", "),
+             job.command.outputs.size() == 1 ? "holds" : "hold");
+    }
+    fmt::print("{}{}\n", summary(picture),
+               exposesAutomatically(job.settings.tonemap, job.scene)
+                   ? fmt::format("; exposure {:+.2f} stops", tonemap.exposure)
+                   : "");
+}
+
+// Everything that the images depend on: equal in all shares and, except for an orbit, for any number of frames.
+nlohmann::ordered_json makeRecord(const Job& job, const FrameNames& names) {
+    const ReferenceCommand& c = job.command;
+    const ReferenceOptions& o = job.options;
+    nlohmann::ordered_json record = commonRecord(c.scene, c.sequence, c.frames, job.view);
+    record["reference"] = {{"samples", o.samples},   {"noise", o.noise},
+                           {"bounces", o.bounces},   {"filter", c.filter},
+                           {"sampling", c.sampling}, {"visible_only", o.visibleOnly},
+                           {"pinhole", o.pinhole},   {"lambert_only", o.lambertOnly},
+                           {"layers", c.layers}};
+    if (o.ambientOcclusion) {
+        record["reference"]["ao"] = {o.aoRadius, o.aoFalloff};
+    }
+    if (!isExr(names.pattern())) {
+        for (const SettingEntry& entry : settingEntries()) {
+            if (entry.name.starts_with("tonemap.")) {
+                record["settings"][entry.name] = settingText(job.settings, entry);
+            }
+        }
+    }
+    return record;
+}
+
+// Every frame has other noise, which depends on its number alone; the first has that of a single image.
+uint32_t frameSeed(uint32_t seed, uint32_t frame) {
+    return seed + frame * 0x9E3779B9U;  // odd: no two frames share a seed
+}
+
+void traceSequence(const Job& job) {
+    const InterruptNote note;
+    const ReferenceCommand& c = job.command;
+    const SequenceViews views(job.view, job.scene, c.sequence, c.frames);
+    const SequenceFiles files(c.outputs, c.sequence.firstFrame);
+    for (const FrameNames& names : files.names()) {
+        beginSequence(names, makeRecord(job, names), c.sequence.overwrite, printWarning);
+    }
+    const SequencePlan plan{.frames = c.frames};
+    const auto runs = plan.runs(parseShare(c.sequence.share), [&](uint32_t frame) { return files.isMissing(frame); });
+    Progress progress("tracing frame", plan.work(runs));
+    uint32_t traced = 0;
+    uint64_t rays = 0;
+    double seconds = 0.0;
+    for (const SequencePlan::Run& run : runs) {
+        const auto missing = files.missing(run.begin);  // another process may have made some in the meantime
+        if (!missing.empty()) {
+            const ReferencePicture picture =
+                tracePicture(job, views.of(run.begin), frameSeed(job.options.seed, run.begin), [](const auto&) {});
+            if (wasInterrupted(job, picture)) {
+                fail("interrupted after {} frames; run the same command again to continue", traced);
+            }
+            const TonemapSettings tonemap = exposedAs(job.settings.tonemap, job.scene, picture.final, picture.depth);
+            for (const auto& file : missing) {
+                writePicture(job, file.string(), picture, tonemap);
+            }
+            ++traced;
+            rays += picture.rays;
+            seconds += picture.seconds;
+        }
+        progress.advance();
+    }
+    fmt::print("{} of {} frames traced; {}\n", traced, c.frames, raysText(rays, seconds));
 }
 
 void trace(const ReferenceCommand& command) {
@@ -164,29 +291,15 @@ void trace(const ReferenceCommand& command) {
     const Settings settings = loadSettings(command.scene);
     const ReferenceOptions options = referenceOptions(command, settings);
     checkOutputs(command.outputs, "reference");
+    const bool sequence = isSequence(command.outputs, command.sequence, command.frames);
     const Scene scene = loadScene(command.scene);
     const View view = loadView(command.scene, scene);
-
-    const InterruptNote note;
-    const ReferencePicture picture = tracePicture(scene, view, size, options);
-    const TonemapSettings tonemap = exposedAs(settings.tonemap, scene, picture.final, picture.depth);
-    for (const std::string& file : command.outputs) {
-        if (isExr(file)) {
-            writeExr(file, layersOf(picture, command, view.background));
-        } else {
-            const bool other = !command.layers.empty() && command.layers.front() != "final";
-            writePng(file,
-                     other ? makePicture(findShow(command.layers.front()), chosenLayers(picture, command).front().image)
-                           : displayedOver(picture.final, picture.coverage, view.background, tonemap));
-        }
+    const Job job{command, settings, options, scene, view, size};
+    if (sequence) {
+        traceSequence(job);
+    } else {
+        traceOne(job);
     }
-    if (!picture.complete && picture.samples < options.samples) {
-        fail("interrupted after {} of {} samples per pixel; {} {} the samples so far", picture.samples, options.samples,
-             fmt::join(command.outputs, ", "), command.outputs.size() == 1 ? "holds" : "hold");
-    }
-    fmt::print(
-        "{}{}\n", summary(picture),
-        exposesAutomatically(settings.tonemap, scene) ? fmt::format("; exposure {:+.2f} stops", tonemap.exposure) : "");
 }
 
 constexpr const char* referenceFooter =
@@ -206,8 +319,9 @@ constexpr const char* referenceFooter =
     "estimates the image's own relative MSE.\n"
     "Of the settings, only materials.lambert_only and (for PNG) tonemap.* apply.\n"
     "An interrupt (Ctrl-C) writes the samples so far, at least one per pixel, and exits with status 1; a second one\n"
-    "exits at once.\n"
-    "Example: reflet reference builtin:cubes --size 640x360 --spp 256 -o reference.exr";
+    "exits at once. Of a sequence it keeps the frames that are done; run the same command again to continue.\n"
+    "Example: reflet reference builtin:cubes --size 640x360 --spp 256 -o reference.exr\n"
+    "reflet reference scene.glb --frames 96 --path orbit --noise 0.02 -o clean_####.exr";
 
 }  // namespace
 
@@ -215,9 +329,17 @@ void addReferenceCommand(CLI::App& app) {
     auto options = std::make_shared<ReferenceCommand>();
     CLI::App* command = app.add_subcommand("reference", "Path trace a scene on the CPU: the ground truth");
     addSceneOptions(*command, options->scene);
-    command->add_option("-o,--output", options->outputs, "Output image, .exr or .png; may be repeated")
+    command
+        ->add_option(
+            "-o,--output", options->outputs,
+            "Output image, .exr or .png; may be repeated. With a run of #, as in clean_####.exr, every frame is "
+            "written to the file of its number, and existing files are kept")
         ->type_name("FILE")
         ->allow_extra_args(false);
+    std::vector<const CLI::Option*> sequenceOptions = addSequenceOptions(*command, options->sequence, false);
+    sequenceOptions.push_back(command->add_option("--frames", options->frames, "Sequences: number of frames")
+                                  ->check(CLI::Range(1U, 1000000U))
+                                  ->capture_default_str());
     command->add_option("--bounces", options->bounces, "Scattered rays per path; 0: only direct light [unlimited]")
         ->type_name("N");
     command
@@ -267,7 +389,10 @@ void addReferenceCommand(CLI::App& app) {
         ->check(CLI::Range(0U, 4096U))
         ->capture_default_str();
     command->footer(referenceFooter);
-    command->callback([options] { trace(*options); });
+    command->callback([options, sequenceOptions] {
+        checkSequenceOptions(sequenceOptions, options->outputs);
+        trace(*options);
+    });
 }
 
 }  // namespace reflet

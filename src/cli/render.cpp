@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/device_options.h"
 #include "cli/scene_arguments.h"
+#include "cli/sequence_arguments.h"
 #include "device/device.h"
 #include "renderer/history.h"
 #include "renderer/renderer.h"
@@ -84,7 +85,9 @@ uint32_t framesFor(const RenderOptions& options, const Settings& settings, const
     if (options.frames > 0) {
         return options.frames;
     }
-    return isSequence(options) ? 1 : framesToSettle(historyUse(settings, scene), settings);
+    return isSequence(options.outputs, options.sequence, options.frames)
+               ? 1
+               : framesToSettle(historyUse(settings, scene), settings);
 }
 
 void render(const RenderOptions& asked) {
@@ -94,7 +97,7 @@ void render(const RenderOptions& asked) {
     Pictures pictures(options.show, options.aovs);
     pictures.prepare(settings);
     checkOutputs(options);
-    const bool sequence = isSequence(options);
+    const bool sequence = isSequence(options.outputs, options.sequence, options.frames);
     const Scene scene = loadScene(options.scene);
     options.frames = framesFor(asked, settings, scene);
     const View view = loadView(options.scene, scene);
@@ -126,39 +129,6 @@ void render(const RenderOptions& asked) {
     }
 }
 
-// Adds the options that apply only to sequences, and returns them.
-std::vector<const CLI::Option*> addSequenceOptions(CLI::App& command, SequenceOptions& o) {
-    std::vector<const CLI::Option*> all;
-    all.push_back(command.add_option("--first-frame", o.firstFrame, "Sequences: frame number in the first file's name")
-                      ->capture_default_str());
-    all.push_back(command.add_option("--fps", o.fps, "Sequences: frames per second; the first frame is at --time")
-                      ->type_name("F")
-                      ->capture_default_str());
-    all.push_back(command
-                      .add_option("--path", o.path,
-                                  "Sequences: camera path; orbit: once around its target; or a file of keyframes "
-                                  "(docs/view-files.md)")
-                      ->type_name("orbit|FILE.json"));
-    all.push_back(command
-                      .add_option("--segment", o.segment,
-                                  "Sequences: frames rendered consecutively, starting from an empty history; 0: all. "
-                                  "Always 1 if the settings keep no history")
-                      ->type_name("FRAMES")
-                      ->capture_default_str());
-    all.push_back(command
-                      .add_option("--warmup", o.warmUp,
-                                  "Sequences: frames rendered before each segment to fill the history, but not written")
-                      ->check(CLI::Range(0U, 10000U))
-                      ->type_name("FRAMES")
-                      ->capture_default_str());
-    all.push_back(
-        command.add_option("--share", o.share, "Sequences: render only every Nth segment, for N processes, as in 3/16")
-            ->type_name("K/N"));
-    all.push_back(command.add_flag("--overwrite", o.overwrite,
-                                   "Sequences: remove existing frames first, also those of other settings"));
-    return all;
-}
-
 }  // namespace
 
 void addRenderCommand(CLI::App& app) {
@@ -176,7 +146,7 @@ void addRenderCommand(CLI::App& app) {
                      "Frames to render; the last one is written, or, with # in the name, all of them [1; for a single "
                      "image as many as its histories need to settle]")
         ->check(CLI::Range(1U, 1000000U));
-    const auto sequenceOptions = addSequenceOptions(*command, options->sequence);
+    const auto sequenceOptions = addSequenceOptions(*command, options->sequence, true);
     command->add_option("--show", options->show, "Render target to write (see reflet list shows)")
         ->type_name("NAME")
         ->capture_default_str();
@@ -196,14 +166,7 @@ void addRenderCommand(CLI::App& app) {
         "Example: reflet render scene.glb --size 640x360 --set diffuse.rays=16 -o picture.png -o values.exr --aov "
         "direct,normal\nreflet render scene.glb --frames 96 --path orbit -o round_####.png");
     command->callback([options, sequenceOptions] {
-        if (!isSequence(*options)) {
-            for (const CLI::Option* option : sequenceOptions) {
-                if (option->count() > 0) {
-                    failUsage("{} is only for sequences: name the output with a run of #, as in -o picture_####.png",
-                              option->get_name());
-                }
-            }
-        }
+        checkSequenceOptions(sequenceOptions, options->outputs);
         render(*options);
     });
 }

@@ -132,6 +132,25 @@ TEST_F(Install, PkgConfigKnowsIt) {
     EXPECT_EQ(version.said, "0.1.0\n");
 }
 
+TEST_F(Install, TheProgramComesWithManualCompletionAndDesktopData) {
+    install();
+    const std::string share = at("prefix") + "/share/";
+    for (const char* file : {"man/man1/reflet.1.gz", "bash-completion/completions/reflet",
+                             "zsh/vendor-completions/_reflet", "fish/vendor_completions.d/reflet.fish",
+                             "applications/org.reflet.Reflet.desktop", "metainfo/org.reflet.Reflet.metainfo.xml",
+                             "icons/hicolor/scalable/apps/org.reflet.Reflet.svg", "doc/reflet/copyright"}) {
+        EXPECT_TRUE(fs::exists(share + file) && fs::file_size(share + file) > 0) << file;
+    }
+    EXPECT_NE(run("gzip -dc " + share + "man/man1/reflet.1.gz").said.find(".TH REFLET 1"), std::string::npos);
+    expectRuns("bash -n " + share + "bash-completion/completions/reflet");
+    if (run("command -v desktop-file-validate").status == 0) {
+        expectRuns("desktop-file-validate " + share + "applications/org.reflet.Reflet.desktop");
+    }
+    if (run("command -v appstreamcli").status == 0) {
+        expectRuns("appstreamcli validate --no-net " + share + "metainfo/org.reflet.Reflet.metainfo.xml");
+    }
+}
+
 TEST_F(Install, AnotherMinorVersionIsRefused) {
     install();
     write("use/CMakeLists.txt",
@@ -205,6 +224,8 @@ TEST(Exports, AreThoseOfTheHeader) {
     };
     EXPECT_GT(lines(declared.said).size(), 20U);
     EXPECT_EQ(lines(symbols.said), lines(declared.said));
+    const Ran soname = run("objdump -p " REFLET_EXPORTS " | grep SONAME");
+    EXPECT_NE(soname.said.find(".so.0\n"), std::string::npos) << soname.said;
     const Ran needed = run("objdump -p " REFLET_EXPORTS " | grep NEEDED");
     EXPECT_EQ(needed.said.find("fmt"), std::string::npos) << needed.said;
     EXPECT_EQ(needed.said.find("spirv"), std::string::npos) << needed.said;

@@ -1,0 +1,44 @@
+// The parts of `reflet compare` that images and sequences share.
+#pragma once
+
+#include "compare/compare.h"
+#include "compare/picture_input.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace reflet {
+
+struct CompareCommand {
+    std::string picture;
+    std::string truth;
+    std::string mask;
+    std::string heatMap;
+    std::string plot;
+    std::vector<std::string> failAbove;
+    float pixelsPerDegree = CompareOptions().pixelsPerDegree;
+    bool json = false;
+};
+
+using PicturePair = std::array<PictureName, 2>;  ///< the image, the reference
+
+/// METRIC=X of --fail-above.
+struct Limit {
+    const Metric* metric = nullptr;
+    double value = 0.0;
+
+    [[nodiscard]] bool isBroken(const Difference& difference) const;
+};
+
+/// "31.2 dB"
+std::string valueText(const Metric& metric, double value);
+
+/// Reads two images and compares them, with the command's mask. Throws Error.
+Comparison comparePair(const CompareCommand& command, const PicturePair& names);
+
+/// Compares every frame of a sequence, prints a table or JSON, writes heat maps and the plot. names: the first with a
+/// run of #. Throws Error, also if a frame of the reference is missing in the other sequence or a limit is broken.
+void compareSequences(const CompareCommand& command, const PicturePair& names, const std::vector<Limit>& limits);
+
+}  // namespace reflet
