@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string>
-#include <vector>
 
 namespace reflet {
 
@@ -35,22 +33,6 @@ gpu::Pass& writeLayers(gpu::Pass& pass, const Layers& layers) {
         .write("groundBlur", layers.groundBlur)
         .write("front", layers.front)
         .write("frontBlur", layers.frontBlur);
-}
-
-// Steps of a square grid, the shortest first; the last one is longer than any disk.
-std::array<vec4, dofMostSamples> gridSteps() {
-    std::vector<vec4> steps;
-    constexpr int side = 8;
-    for (int y = -side; y <= side; ++y) {
-        for (int x = -side; x <= side; ++x) {
-            steps.emplace_back(x, y, glm::length(vec2(x, y)), 0.0F);
-        }
-    }
-    std::ranges::stable_sort(steps, {}, &vec4::z);
-    std::array<vec4, dofMostSamples> first{};
-    std::copy_n(steps.begin(), first.size(), first.begin());
-    first.back().z = std::numeric_limits<float>::max();
-    return first;
 }
 
 // Area of a regular polygon inside the unit circle, or of that circle.
@@ -129,7 +111,6 @@ Blurred gather(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& layers, gp
         .read("frontCoarse", coarse ? none : large.front)
         .write("groundOut", out.ground)
         .write("frontOut", out.front)
-        .params(gridSteps(), "steps")
         .params(DofGatherParams{sizes.half2, in.settings.samples, 1.0F / shapeArea(in.lens.blades),
                                 in.lens.bladeRotation, in.lens.blades})
         .dispatch(size);

@@ -33,7 +33,6 @@ SETTINGS(DofSettings, DOF_SETTINGS)
 const uint dofTile = 8;
 // Levels of the half-resolution layers, with level 0.
 const uint dofLevels = 5;
-const uint dofMostSamples = 160;
 
 struct DofCocParams {
     vec4 depthToDistance;  // of the view
