@@ -6,6 +6,7 @@
 // sample counts where its own disk reaches the pixel, with a weight of one over its disk's area, so that light is kept.
 // The background is composited by distance, so that nothing sharp leaks into what is blurred behind it; where the near
 // layer hides it, it is filled from around. The near layer goes on top, with its coverage. What is in focus keeps its
+// full resolution. Highlights, far brighter than what is around them, are taken out of the layers and drawn as disks of
 // full resolution. (J. Jimenez, Next Generation Post Processing in Call of Duty: Advanced Warfare, SIGGRAPH 2014; G.
 // Abadie, A Life of a Bokeh, SIGGRAPH 2018; S. Gortler et al., The Lumigraph, 1996: pull-push; M. Potmesil, I.
 // Chakravarty, A Lens and Aperture Camera Model for Synthetic Image Generation, 1981)
@@ -46,14 +47,17 @@ struct DofSizes {
     uvec2 half2;   // half of it, rounded up
     vec2 toDepth;  // pixels of the depth buffer per pixel of the picture
     uint level;    // of mips: to make
+    float disk;    // 1 over the area of the aperture's shape with radius 1
+    float turn;    // of the aperture [rad]
+    uint blades;   // of the aperture, if it is a polygon
 };
 
 struct DofGatherParams {
     uvec2 half2;
     uint samples;  // of a disk, at most
-    float disk;    // 1 over the area of the aperture's shape with radius 1
-    float turn;    // of the aperture [rad]
-    uint blades;   // of the aperture, if it is a polygon
+    float disk;    // as in DofSizes
+    float turn;
+    uint blades;
 };
 
 SHARED_END

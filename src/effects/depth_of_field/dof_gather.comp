@@ -3,9 +3,9 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/depth_of_field/dof_layers.glsl"
+#include "effects/depth_of_field/dof_shape.glsl"
 #include "shaders/half_float.glsl"
 
-layout(constant_id = 0) const uint polygon = 0u;  // shape of the aperture; 0: round
 layout(constant_id = 1) const uint coarse = 0u;  // 1: large disks, at a quarter of the picture's size; 0: the rest, and both together
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -97,17 +97,6 @@ Disk diskOf(vec2 at, float radius) {
     return d;
 }
 
-// Length of a way as a share of what the aperture's shape has in that direction.
-float shapeLength(vec2 way) {
-    if (polygon == 0u) {
-        return length(way);
-    }
-    float side = 6.28318531 / float(params.blades);
-    float within = atan(-way.y, way.x) - params.turn;
-    within -= side * (floor(within / side) + 0.5);
-    return length(way) * cos(within) / cos(0.5 * side);
-}
-
 // A disk that a cell's light is spread over, made smaller by as much as it is blurred. `weight`: the cell's area over its own.
 struct Spread {
     float radius;
@@ -165,7 +154,7 @@ vec3 blurredGround(vec2 at, Ground own, float most) {
     float whole = 1e-6;
     for (Step go = firstStep(d); within(d, go); go = next(d, go)) {
         // The pixel is on the other side of the cell's disk.
-        float away = shapeLength(-wayAfter(d, go));
+        float away = shapeLength(-wayAfter(d, go), params.turn, params.blades);
         Ground g = loadGround(cellAfter(d, go), d.level);
         float seen = g.presence * g.far;
         float weight = seen * reaches(spreadOf(d, g.coc), away, perSide);
@@ -193,7 +182,7 @@ vec4 blurredFront(vec2 at, float most, float mostSmall) {
     vec4 sum = vec4(0.0);
     float whole = 1e-6;
     for (Step go = firstStep(d); within(d, go); go = next(d, go)) {
-        float away = shapeLength(wayAfter(d, go));  // disks in front of the plane of focus are turned by half a turn
+        float away = shapeLength(wayAfter(d, go), params.turn, params.blades);  // disks in front of the plane of focus are turned by half a turn
         Front n = loadFront(cellAfter(d, go), d.level);
         float isLarge = largeShare(n.coc);
         sum += (coarse != 0u ? isLarge : 1.0 - isLarge) * reaches(spreadOf(d, n.coc), away, perSide) * n.light;

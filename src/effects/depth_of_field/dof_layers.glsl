@@ -57,6 +57,21 @@ struct FrontSum {
 // The radius of a mixed cell is that of its bright content, which is seen to be blurred.
 float brightness(vec3 light) { return 1e-3 + max(light.r, max(light.g, light.b)); }
 
+// Highlights are brighter than the tile's darkness by the first factor, and keep as much as the second leaves.
+const vec2 highlight = vec2(8.0, 2.0);
+const float leastHighlight = 1.0;  // radius [pixels of the picture]: smaller disks are not apart
+
+// Share of a pixel's light that is drawn apart, at full resolution. darkness: harmonic mean of the tile's brightness; 0: none is.
+float highlightShare(vec3 light, float coc, float darkness) {
+    float bright = brightness(light);
+    bool apart = darkness > 0.0 && bright > highlight.x * darkness && abs(coc) > leastHighlight;
+    return apart ? 1.0 - highlight.y * darkness / bright : 0.0;
+}
+
+// Blocks of 4x4 pixels along the side of a tile, and where one of them is.
+const int dofTileBlocks = int(dofTile) / 2;
+ivec2 inBlocks(int i) { return ivec2(i % dofTileBlocks, i / dofTileBlocks); }
+
 void add(inout GroundSum sum, Ground g) {
     float weight = g.presence * (sharpWeight + (1.0 - sharpWeight) * g.far);
     float bright = weight * brightness(g.light);
