@@ -67,6 +67,11 @@ void makeMips(gpu::Recorder& f, const Layers& layers, DofSizes sizes) {
     }
 }
 
+// Blocks grow with the picture, as disks do.
+uint32_t blockSide(uint32_t height) {
+    return height < 540 ? 4 : height < 1080 ? 8 : 16;
+}
+
 // Light that is drawn apart; as dof_highlights.comp and dof_lists.comp write it.
 struct Highlights {
     gpu::Image light, shape, lists;
@@ -75,7 +80,7 @@ struct Highlights {
 // Takes highlights out of the layers.
 Highlights findHighlights(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& layers, gpu::Image tiles,
                           gpu::Image radiance, gpu::Image coc, const DofSizes& sizes) {
-    const uvec2 blocks = (sizes.half2 + 1U) / 2U;
+    const uvec2 blocks = (sizes.size + sizes.block - 1U) / sizes.block;
     const Highlights out{scratch.storage(layerFormats[0], blocks), scratch.storage(layerFormats[0], blocks),
                          scratch.storage(layerFormats[0], tiles.size)};
     gpu::Pass find = f.compute("highlights", "dof_highlights.comp");
@@ -90,6 +95,7 @@ Highlights findHighlights(gpu::Recorder& f, gpu::Scratch& scratch, const Layers&
         .write("highlights", out.light)
         .write("highlightShape", out.shape)
         .write("lists", out.lists)
+        .params(sizes)
         .dispatch(tiles.size);
     return out;
 }
@@ -173,6 +179,7 @@ DofImages depthOfField(gpu::Recorder& f, DofStore& own, const DofInputs& in) {
                          (size + 1U) / 2U,
                          vec2(coc.size) / vec2(size),
                          0,
+                         blockSide(size.y),
                          1.0F / shapeArea(in.lens.blades),
                          in.lens.bladeRotation,
                          in.lens.blades};

@@ -32,6 +32,7 @@ Highlights highlightsAt(vec2 at, float coc, vec4 tiles) {
     // What is farther than the pixel's surface is hidden by it.
     vec2 isBehind = vec2(1.0, -1.1 * own - 0.25) / (0.2 * own + 0.5);
     float open = nearShare(coc);
+    int side = tileBlocks(params.block);
     for (int y = int(tiles.y); y < int(tiles.w); ++y) {
         for (int x = int(tiles.x); x < int(tiles.z); ++x) {
             ivec2 tile = ivec2(x, y);
@@ -40,7 +41,7 @@ Highlights highlightsAt(vec2 at, float coc, vec4 tiles) {
             vec2 apart = max(max(corner - at, at - corner - float(tileSide)), 0.0);
             int count = dot(apart, apart) < list.y * list.y ? int(list.x) : 0;
             for (int i = 0; i < count; ++i) {
-                ivec2 place = tile * dofTileBlocks + inBlocks(i);
+                ivec2 place = tile * side + ivec2(i % side, i / side);
                 vec4 light = imageLoad(highlights, place);
                 vec4 shape = imageLoad(highlightShape, place);
                 vec2 way = at - corner - shape.xy;
@@ -71,7 +72,7 @@ void main() {
     for (int i = 0; i < some; ++i) {
         darkness = imageLoad(lists, tile).b;
     }
-    sharp.rgb *= 1.0 - highlightShare(sharp.rgb, c, darkness);
+    sharp.rgb *= 1.0 - highlightShare(sharp.rgb, c, darkness, params.block);
     Highlights apart = highlightsAt(vec2(pixel) + 0.5, c, drawn);
     // Bilinear; blurred cells before sharp ones, whose light must not leak.
     ivec2 corner = (pixel - 1) >> 1;

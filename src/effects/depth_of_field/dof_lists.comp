@@ -5,10 +5,15 @@
 #include "effects/depth_of_field/dof_layers.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(scalar) uniform ParamsBlock { DofSizes params; };
 layout(rgba16f) uniform readonly image2D tiles;
 layout(rgba16f) uniform image2D highlights;
 layout(rgba16f) uniform image2D highlightShape;
 layout(rgba16f) uniform writeonly image2D lists;
+
+int side = tileBlocks(params.block);
+
+ivec2 inBlocks(int i) { return ivec2(i % side, i / side); }
 
 void main() {
     ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
@@ -16,11 +21,11 @@ void main() {
         return;
     }
     float darkness = imageLoad(tiles, tile).a;
-    ivec2 first = tile * dofTileBlocks;
+    ivec2 first = tile * side;
     ivec2 last = imageSize(highlights) - 1;
     int count = 0;
     float reach = 0.0;
-    int end = darkness > 0.0 ? dofTileBlocks * dofTileBlocks : 0;
+    int end = darkness > 0.0 ? side * side : 0;
     for (int i = 0; i < end; ++i) {
         ivec2 at = first + inBlocks(i);
         ivec2 from = min(at, last);

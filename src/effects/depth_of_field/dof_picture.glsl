@@ -27,7 +27,7 @@ void splitCell(ivec2 cell, float darkness) {
         ivec2 pixel = min(2 * cell + ivec2(i & 1, i >> 1), last);
         float c = cocAt(pixel);
         vec3 light = lightAt(pixel);
-        light *= 1.0 - highlightShare(light, c, darkness);
+        light *= 1.0 - highlightShare(light, c, darkness, params.block);
         float near = nearShare(c);
         add(behind, Ground(light, 1.0 - near, 0.5 * max(c, 0.0), farShare(c)));
         add(before, Front(near * vec4(light, 1.0), -0.5 * c));

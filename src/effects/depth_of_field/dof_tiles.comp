@@ -36,6 +36,6 @@ void main() {
         }
     }
     float darkness = dark.y / dark.x;
-    bool some = brightest > highlight.x * darkness && 2.0 * max(largest.x, largest.y) > leastHighlight;
+    bool some = brightest > highlight.x * darkness && 2.0 * max(largest.x, largest.y) > leastHighlight(params.block);
     imageStore(tiles, tile, vec4(largest, some ? darkness : 0.0));
 }
