@@ -116,18 +116,20 @@ gpu::Image describeTiles(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& 
 
 // How far the disks of each tile reach, and the tiles whose highlights reach it.
 struct Reach {
-    gpu::Image layers, highlights;
+    gpu::Image layers, drawn, drawnTiles;
 };
 
-// largest: radius, in pixels of half resolution.
-Reach makeReach(gpu::Recorder& f, gpu::Scratch& scratch, gpu::Image tiles, gpu::Image lists, float largest) {
-    const Reach reach{scratch.storage(layerFormats[0], tiles.size), scratch.storage(layerFormats[0], tiles.size)};
+// around: tiles that the largest disk reaches.
+Reach makeReach(gpu::Recorder& f, gpu::Scratch& scratch, gpu::Image tiles, gpu::Image lists, uint32_t around) {
+    const Reach reach{scratch.storage(layerFormats[0], tiles.size), scratch.storage(layerFormats[3], tiles.size),
+                      scratch.storage(layerFormats[3], (2U * around + 1U) * tiles.size)};
     f.compute("reach", "dof_reach.comp")
-        .constant("around", 1U + static_cast<uint32_t>(std::ceil(largest / static_cast<float>(dofTile))))
+        .constant("around", around)
         .read("tiles", tiles)
         .read("lists", lists)
         .write("reach", reach.layers)
-        .write("highlightReach", reach.highlights)
+        .write("drawn", reach.drawn)
+        .write("drawnTiles", reach.drawnTiles)
         .dispatch(tiles.size);
     return reach;
 }
@@ -192,11 +194,13 @@ DofImages depthOfField(gpu::Recorder& f, DofStore& own, const DofInputs& in) {
     const Highlights highlights = findHighlights(f, scratch, layers, tiles, in.radiance, coc, sizes);
     makeMips(f, layers, sizes);
     const float largest = std::max(0.5F * in.settings.maxRadius * height, 1.0F);
-    const Reach reach = makeReach(f, scratch, tiles, highlights.lists, largest);
+    const uint32_t around = 1U + static_cast<uint32_t>(std::ceil(largest / static_cast<float>(dofTile)));
+    const Reach reach = makeReach(f, scratch, tiles, highlights.lists, around);
     const Blurred large = gather(f, scratch, layers, reach.layers, in, sizes, {});
     const Blurred all = gather(f, scratch, layers, reach.layers, in, sizes, large);
     const gpu::Image result = own.result.storage(f, layerFormats[0], size);
     f.compute("composite", "dof_composite.comp")
+        .constant("around", around)
         .constant("polygon", in.lens.blades < 3 ? 0U : 1U)
         .read("radiance", in.radiance)
         .read("coc", coc)
@@ -206,7 +210,8 @@ DofImages depthOfField(gpu::Recorder& f, DofStore& own, const DofInputs& in) {
         .read("highlights", highlights.light)
         .read("highlightShape", highlights.shape)
         .read("lists", highlights.lists)
-        .read("highlightReach", reach.highlights)
+        .read("drawn", reach.drawn)
+        .read("drawnTiles", reach.drawnTiles)
         .write("result", result)
         .params(sizes)
         .dispatch(size);

@@ -22,7 +22,7 @@ SHARED_BEGIN
     SWITCH(enabled, 1,                                                                                                \
            "Depth of field (DoF, bokeh) of cameras with an aperture (view files: aperture_radius or f_number). Cost " \
            "only with such a camera.")                                                                                \
-    VALUE(uint, samples, 72, 24, 150,                                                                                 \
+    VALUE(uint, samples, 48, 24, 150,                                                                                 \
           "Samples per pixel and layer of depth of field, at half the picture's size; at a quarter for large disks. " \
           "More: sharper edges of disks, cost grows linearly.")                                                       \
     VALUE(float, maxRadius, 0.05, 0.001, 0.25,                                                                        \
