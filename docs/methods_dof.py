@@ -89,12 +89,12 @@ def depth_of_field(page):
     for name, frame in (("effect", effect), ("lens", lens)):
         page.picture("lamps-" + name, frame, *LAMPS)
     rows = []
-    for name, frame in [("no effect", pinhole)] + [("`dof.samples=%d`" % n, Defocus(pinhole, "dof.samples=%d" % n)) for n in (24, 72, 150)]:
+    for name, frame in [("no effect", pinhole)] + [("`dof.samples=%d`" % n, Defocus(pinhole, "dof.samples=%d" % n)) for n in (24, 48, 150)]:
         rows.append([name] + [error(frame, lens, mask) for mask in [None] + masks])
     page.table("error", ["picture", "all", "far", "without lamps", "near", "without lamps"], rows)
 
-    passes = {n: milliseconds("dof.samples=%d" % n) for n in (24, 72, 150)}
-    names = [p for p in passes[72] if p.startswith("dof.")]
+    passes = {n: milliseconds("dof.samples=%d" % n) for n in (24, 48, 150)}
+    names = [p for p in passes[48] if p.startswith("dof.")]
     rows = [["`%s`" % name] + ["%.1f" % passes[n][name] for n in passes] for name in names]
     rows.append(["all"] + ["%.1f" % sum(passes[n][name] for name in names) for n in passes])
     page.table("cost", ["pass"] + ["`samples=%d`" % n for n in passes], rows)

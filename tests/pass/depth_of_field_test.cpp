@@ -134,6 +134,43 @@ TEST_F(DepthOfField, APointsDiskHasTheLensesRadiusAndAllOfItsLight) {
     }
 }
 
+TEST_F(DepthOfField, AHighlightsDiskIsEvenAndHasASharpEdge) {
+    DofRun run(device());
+    const std::vector<vec4> out = run(
+        [](const uvec2& p) {
+            return Point{vec3(p.x / 2 == 40 && p.y / 2 == 30 ? 1000.0F : 0.01F), infinitelyFar};
+        },
+        lensOf(24));
+    const float inside = 4.0F * 1000.0F / (glm::pi<float>() * 24.0F * 24.0F);
+    for (int y = 0; y < 120; ++y) {
+        for (int x = 0; x < 160; ++x) {
+            const float away = glm::length(vec2(x, y) + 0.5F - vec2(81, 61));
+            if (away < 22.0F) {
+                ASSERT_NEAR(at(out, x, y), inside, 0.05F * inside) << x << ' ' << y;
+            }
+            if (away > 26.0F) {
+                ASSERT_NEAR(at(out, x, y), 0.01F, 0.002F) << x << ' ' << y;
+            }
+        }
+    }
+}
+
+TEST_F(DepthOfField, AHighlightBehindWhatIsInFocusIsHidden) {
+    DofRun run(device());
+    const std::vector<vec4> out = run(
+        [](const uvec2& p) {
+            const float lit = p.x / 2 == 43 && p.y / 2 == 30 ? 1000.0F : 0.01F;
+            return p.x < 80 ? Point{vec3(1.0F), 4.0F} : Point{vec3(lit), infinitelyFar};
+        },
+        lensOf(24));
+    EXPECT_GT(at(out, 81, 60), 1.0F);
+    for (int y = 0; y < 120; ++y) {
+        for (int x = 0; x < 80; ++x) {
+            ASSERT_EQ(at(out, x, y), 1.0F) << x << ' ' << y;
+        }
+    }
+}
+
 TEST_F(DepthOfField, EvenSurfacesStayEven) {
     DofRun run(device());
     for (const float z : {infinitelyFar, 8.0F, 4.4F, 3.6F, 2.5F, 1.5F}) {

@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string>
-#include <vector>
 
 namespace reflet {
 
@@ -35,22 +33,6 @@ gpu::Pass& writeLayers(gpu::Pass& pass, const Layers& layers) {
         .write("groundBlur", layers.groundBlur)
         .write("front", layers.front)
         .write("frontBlur", layers.frontBlur);
-}
-
-// Steps of a square grid, the shortest first; the last one is longer than any disk.
-std::array<vec4, dofMostSamples> gridSteps() {
-    std::vector<vec4> steps;
-    constexpr int side = 8;
-    for (int y = -side; y <= side; ++y) {
-        for (int x = -side; x <= side; ++x) {
-            steps.emplace_back(x, y, glm::length(vec2(x, y)), 0.0F);
-        }
-    }
-    std::ranges::stable_sort(steps, {}, &vec4::z);
-    std::array<vec4, dofMostSamples> first{};
-    std::copy_n(steps.begin(), first.size(), first.begin());
-    first.back().z = std::numeric_limits<float>::max();
-    return first;
 }
 
 // Area of a regular polygon inside the unit circle, or of that circle.
@@ -85,23 +67,70 @@ void makeMips(gpu::Recorder& f, const Layers& layers, DofSizes sizes) {
     }
 }
 
-// How far the disks of each tile reach. largest: radius, in pixels of half resolution.
-gpu::Image makeReach(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& layers, const DofSizes& sizes,
-                     float largest) {
-    const uvec2 tileCount = (sizes.half2 + dofTile - 1U) / dofTile;
-    const gpu::Image tiles = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, tileCount);
-    const gpu::Image reach = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, tileCount);
+// Blocks grow with the picture, as disks do.
+uint32_t blockSide(uint32_t height) {
+    return height < 540 ? 4 : height < 1080 ? 8 : 16;
+}
+
+// Light that is drawn apart; as dof_highlights.comp and dof_lists.comp write it.
+struct Highlights {
+    gpu::Image light, shape, lists;
+};
+
+// Takes highlights out of the layers.
+Highlights findHighlights(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& layers, gpu::Image tiles,
+                          gpu::Image radiance, gpu::Image coc, const DofSizes& sizes) {
+    const uvec2 blocks = (sizes.size + sizes.block - 1U) / sizes.block;
+    const Highlights out{scratch.storage(layerFormats[0], blocks), scratch.storage(layerFormats[0], blocks),
+                         scratch.storage(layerFormats[0], tiles.size)};
+    gpu::Pass find = f.compute("highlights", "dof_highlights.comp");
+    find.read("radiance", radiance).read("coc", coc).read("tiles", tiles);
+    writeLayers(find, layers)
+        .write("highlights", out.light)
+        .write("highlightShape", out.shape)
+        .params(sizes)
+        .dispatch(blocks);
+    f.compute("lists", "dof_lists.comp")
+        .read("tiles", tiles)
+        .write("highlights", out.light)
+        .write("highlightShape", out.shape)
+        .write("lists", out.lists)
+        .params(sizes)
+        .dispatch(tiles.size);
+    return out;
+}
+
+gpu::Image describeTiles(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& layers, const DofSizes& sizes) {
+    const uvec2 count = (sizes.half2 + dofTile - 1U) / dofTile;
+    const gpu::Image tiles = scratch.storage(layerFormats[0], count);
     f.compute("tiles", "dof_tiles.comp")
+        .read("ground", layers.ground)
         .read("groundBlur", layers.groundBlur)
+        .read("front", layers.front)
         .read("frontBlur", layers.frontBlur)
         .write("tiles", tiles)
         .params(sizes)
-        .dispatch(tileCount);
+        .dispatch(count);
+    return tiles;
+}
+
+// How far the disks of each tile reach, and the tiles whose highlights reach it.
+struct Reach {
+    gpu::Image layers, drawn, drawnTiles;
+};
+
+// around: tiles that the largest disk reaches.
+Reach makeReach(gpu::Recorder& f, gpu::Scratch& scratch, gpu::Image tiles, gpu::Image lists, uint32_t around) {
+    const Reach reach{scratch.storage(layerFormats[0], tiles.size), scratch.storage(layerFormats[3], tiles.size),
+                      scratch.storage(layerFormats[3], (2U * around + 1U) * tiles.size)};
     f.compute("reach", "dof_reach.comp")
-        .constant("around", 1U + static_cast<uint32_t>(std::ceil(largest / static_cast<float>(dofTile))))
+        .constant("around", around)
         .read("tiles", tiles)
-        .write("reach", reach)
-        .dispatch(tileCount);
+        .read("lists", lists)
+        .write("reach", reach.layers)
+        .write("drawn", reach.drawn)
+        .write("drawnTiles", reach.drawnTiles)
+        .dispatch(tiles.size);
     return reach;
 }
 
@@ -129,9 +158,7 @@ Blurred gather(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& layers, gp
         .read("frontCoarse", coarse ? none : large.front)
         .write("groundOut", out.ground)
         .write("frontOut", out.front)
-        .params(gridSteps(), "steps")
-        .params(DofGatherParams{sizes.half2, in.settings.samples, 1.0F / shapeArea(in.lens.blades),
-                                in.lens.bladeRotation, in.lens.blades})
+        .params(DofGatherParams{sizes.half2, in.settings.samples, sizes.disk, sizes.turn, sizes.blades})
         .dispatch(size);
     return out;
 }
@@ -150,23 +177,41 @@ DofImages depthOfField(gpu::Recorder& f, DofStore& own, const DofInputs& in) {
     const uvec2 size = in.radiance.size;
     const auto height = static_cast<float>(size.y);
     const gpu::Image coc = circleOfConfusion(f, own.coc, in, height);
-    const DofSizes sizes{size, (size + 1U) / 2U, vec2(coc.size) / vec2(size), 0};
+    const DofSizes sizes{size,
+                         (size + 1U) / 2U,
+                         vec2(coc.size) / vec2(size),
+                         0,
+                         blockSide(size.y),
+                         1.0F / shapeArea(in.lens.blades),
+                         in.lens.bladeRotation,
+                         in.lens.blades};
     gpu::Scratch scratch(f);
     const Layers layers = makeLayers(scratch, sizes.half2);
     gpu::Pass split = f.compute("split", "dof_split.comp");
     split.read("radiance", in.radiance).read("coc", coc);
     writeLayers(split, layers).params(sizes).dispatch(sizes.half2);
+    const gpu::Image tiles = describeTiles(f, scratch, layers, sizes);
+    const Highlights highlights = findHighlights(f, scratch, layers, tiles, in.radiance, coc, sizes);
     makeMips(f, layers, sizes);
     const float largest = std::max(0.5F * in.settings.maxRadius * height, 1.0F);
-    const gpu::Image reach = makeReach(f, scratch, layers, sizes, largest);
-    const Blurred large = gather(f, scratch, layers, reach, in, sizes, {});
-    const Blurred all = gather(f, scratch, layers, reach, in, sizes, large);
+    const uint32_t around = 1U + static_cast<uint32_t>(std::ceil(largest / static_cast<float>(dofTile)));
+    const Reach reach = makeReach(f, scratch, tiles, highlights.lists, around);
+    const Blurred large = gather(f, scratch, layers, reach.layers, in, sizes, {});
+    const Blurred all = gather(f, scratch, layers, reach.layers, in, sizes, large);
     const gpu::Image result = own.result.storage(f, layerFormats[0], size);
     f.compute("composite", "dof_composite.comp")
+        .constant("around", around)
+        .constant("polygon", in.lens.blades < 3 ? 0U : 1U)
         .read("radiance", in.radiance)
         .read("coc", coc)
         .read("groundOut", all.ground)
         .read("frontOut", all.front)
+        .read("reach", reach.layers)
+        .read("highlights", highlights.light)
+        .read("highlightShape", highlights.shape)
+        .read("lists", highlights.lists)
+        .read("drawn", reach.drawn)
+        .read("drawnTiles", reach.drawnTiles)
         .write("result", result)
         .params(sizes)
         .dispatch(size);

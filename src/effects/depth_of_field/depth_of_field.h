@@ -6,6 +6,7 @@
 // sample counts where its own disk reaches the pixel, with a weight of one over its disk's area, so that light is kept.
 // The background is composited by distance, so that nothing sharp leaks into what is blurred behind it; where the near
 // layer hides it, it is filled from around. The near layer goes on top, with its coverage. What is in focus keeps its
+// full resolution. Highlights, far brighter than what is around them, are taken out of the layers and drawn as disks of
 // full resolution. (J. Jimenez, Next Generation Post Processing in Call of Duty: Advanced Warfare, SIGGRAPH 2014; G.
 // Abadie, A Life of a Bokeh, SIGGRAPH 2018; S. Gortler et al., The Lumigraph, 1996: pull-push; M. Potmesil, I.
 // Chakravarty, A Lens and Aperture Camera Model for Synthetic Image Generation, 1981)
@@ -21,7 +22,7 @@ SHARED_BEGIN
     SWITCH(enabled, 1,                                                                                                \
            "Depth of field (DoF, bokeh) of cameras with an aperture (view files: aperture_radius or f_number). Cost " \
            "only with such a camera.")                                                                                \
-    VALUE(uint, samples, 72, 24, 150,                                                                                 \
+    VALUE(uint, samples, 48, 24, 150,                                                                                 \
           "Samples per pixel and layer of depth of field, at half the picture's size; at a quarter for large disks. " \
           "More: sharper edges of disks, cost grows linearly.")                                                       \
     VALUE(float, maxRadius, 0.05, 0.001, 0.25,                                                                        \
@@ -33,7 +34,6 @@ SETTINGS(DofSettings, DOF_SETTINGS)
 const uint dofTile = 8;
 // Levels of the half-resolution layers, with level 0.
 const uint dofLevels = 5;
-const uint dofMostSamples = 160;
 
 struct DofCocParams {
     vec4 depthToDistance;  // of the view
@@ -47,14 +47,18 @@ struct DofSizes {
     uvec2 half2;   // half of it, rounded up
     vec2 toDepth;  // pixels of the depth buffer per pixel of the picture
     uint level;    // of mips: to make
+    uint block;    // pixels along the side of a block, 4 to 16: each has at most one highlight
+    float disk;    // 1 over the area of the aperture's shape with radius 1
+    float turn;    // of the aperture [rad]
+    uint blades;   // of the aperture, if it is a polygon
 };
 
 struct DofGatherParams {
     uvec2 half2;
     uint samples;  // of a disk, at most
-    float disk;    // 1 over the area of the aperture's shape with radius 1
-    float turn;    // of the aperture [rad]
-    uint blades;   // of the aperture, if it is a polygon
+    float disk;    // as in DofSizes
+    float turn;
+    uint blades;
 };
 
 SHARED_END

@@ -3,15 +3,13 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/depth_of_field/dof_layers.glsl"
+#include "effects/depth_of_field/dof_shape.glsl"
 #include "shaders/half_float.glsl"
 
-layout(constant_id = 0) const uint polygon = 0u;  // shape of the aperture; 0: round
 layout(constant_id = 1) const uint coarse = 0u;  // 1: large disks, at a quarter of the picture's size; 0: the rest, and both together
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { DofGatherParams params; };
-// Steps of a square grid, the shortest first: x, y, length.
-layout(scalar) uniform StepsBlock { vec4 at[dofMostSamples]; } steps;
 layout(rgba16f) uniform readonly image2D ground;
 layout(rg16f) uniform readonly image2D groundBlur;
 layout(rgba16f) uniform readonly image2D front;
@@ -73,7 +71,7 @@ Ground filledGround(ivec2 cell, int ownLevel) {
 struct Disk {
     int level;     // of the mips
     float side;    // of a cell, in pixels of half resolution
-    float limit;   // of the steps
+    float reach2;  // squared length of the longest step, in cells; negative: none
     ivec2 first;   // cell that steps start from
     vec2 toFirst;  // its centre, from the pixel's
     float area;    // of a cell over that of the aperture's shape with radius 1
@@ -82,6 +80,7 @@ struct Disk {
 
 // From the pixel to its cell's centre, at most, and half a disk's edge, in cells.
 const float margin = 0.7072 + 0.5;
+const float mostReach = 7.1;  // cuts disks that are too large for the coarsest level
 
 // at: in pixels of half resolution.
 Disk diskOf(vec2 at, float radius) {
@@ -89,23 +88,13 @@ Disk diskOf(vec2 at, float radius) {
     float most = sqrt(float(params.samples) * 0.31831) - margin;
     d.level = int(clamp(ceil(log2(max(radius, 0.01) / most)), 0.0, float(dofLevels - 1u)));
     d.side = float(1 << d.level);
-    d.limit = radius < leastRadius ? -1.0 : radius / d.side + margin;
+    float reach = min(radius / d.side + margin, mostReach);
+    d.reach2 = radius < leastRadius ? -1.0 : reach * reach;
     d.first = ivec2(at) >> d.level;
     d.toFirst = (vec2(d.first) + 0.5) * d.side - at;
     d.area = params.disk * d.side * d.side;
     d.blur = 0.75 * d.side * d.side + 0.6667 * pixelSide * pixelSide;  // the last: upsampling
     return d;
-}
-
-// Length of a way as a share of what the aperture's shape has in that direction.
-float shapeLength(vec2 way) {
-    if (polygon == 0u) {
-        return length(way);
-    }
-    float side = 6.28318531 / float(params.blades);
-    float within = atan(-way.y, way.x) - params.turn;
-    within -= side * (floor(within / side) + 0.5);
-    return length(way) * cos(within) / cos(0.5 * side);
 }
 
 // A disk that a cell's light is spread over, made smaller by as much as it is blurred. `weight`: the cell's area over its own.
@@ -123,9 +112,32 @@ Spread spreadOf(Disk d, float radius) {
 // How much of a cell's light reaches a point that is so far away.
 float reaches(Spread s, float away, float perSide) { return s.weight * clamp((s.radius - away) * perSide + 0.5, 0.0, 1.0); }
 
-ivec2 cellAfter(Disk d, vec4 go) { return clamp(d.first + ivec2(go.xy), ivec2(0), levelSize(cells, d.level) - 1); }
+// Steps over the cells of a disk, row by row. Computed, as CPU devices read tables of steps slower than images.
+struct Step {
+    vec2 go;     // cells from the first
+    float end;  // length of the row to either side
+};
 
-vec2 wayAfter(Disk d, vec4 go) { return d.toFirst + d.side * go.xy; }
+float halfRow(float reach2, float y) { return floor(sqrt(max(reach2 - y * y, 0.0))); }
+
+Step firstStep(Disk d) {
+    float top = -halfRow(d.reach2, 0.0);
+    float end = halfRow(d.reach2, top);
+    return Step(vec2(-end, top), end);
+}
+
+bool within(Disk d, Step s) { return s.go.y * s.go.y <= d.reach2; }
+
+Step next(Disk d, Step s) {
+    bool ends = s.go.x >= s.end;
+    float y = s.go.y + float(ends);
+    float end = halfRow(d.reach2, y);
+    return Step(vec2(ends ? -end : s.go.x + 1.0, y), end);
+}
+
+ivec2 cellAfter(Disk d, Step s) { return clamp(d.first + ivec2(s.go), ivec2(0), levelSize(cells, d.level) - 1); }
+
+vec2 wayAfter(Disk d, Step s) { return d.toFirst + d.side * s.go; }
 
 // The background, composited by distance: what is not farther than the point has the coverage of its disks, and what is farther
 // shows through the rest. What is sharp, or hidden, counts as unknown.
@@ -140,10 +152,9 @@ vec3 blurredGround(vec2 at, Ground own, float most) {
     vec4 behind = vec4(0.0);
     float known = 0.0;
     float whole = 1e-6;
-    for (uint i = 0u; steps.at[i].z <= d.limit; ++i) {
-        vec4 go = steps.at[i];
+    for (Step go = firstStep(d); within(d, go); go = next(d, go)) {
         // The pixel is on the other side of the cell's disk.
-        float away = shapeLength(-wayAfter(d, go));
+        float away = shapeLength(-wayAfter(d, go), params.turn, params.blades);
         Ground g = loadGround(cellAfter(d, go), d.level);
         float seen = g.presence * g.far;
         float weight = seen * reaches(spreadOf(d, g.coc), away, perSide);
@@ -170,9 +181,8 @@ vec4 blurredFront(vec2 at, float most, float mostSmall) {
     float perSide = 1.0 / d.side;
     vec4 sum = vec4(0.0);
     float whole = 1e-6;
-    for (uint i = 0u; steps.at[i].z <= d.limit; ++i) {
-        vec4 go = steps.at[i];
-        float away = shapeLength(wayAfter(d, go));  // disks in front of the plane of focus are turned by half a turn
+    for (Step go = firstStep(d); within(d, go); go = next(d, go)) {
+        float away = shapeLength(wayAfter(d, go), params.turn, params.blades);  // disks in front of the plane of focus are turned by half a turn
         Front n = loadFront(cellAfter(d, go), d.level);
         float isLarge = largeShare(n.coc);
         sum += (coarse != 0u ? isLarge : 1.0 - isLarge) * reaches(spreadOf(d, n.coc), away, perSide) * n.light;

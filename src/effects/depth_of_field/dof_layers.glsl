@@ -57,6 +57,21 @@ struct FrontSum {
 // The radius of a mixed cell is that of its bright content, which is seen to be blurred.
 float brightness(vec3 light) { return 1e-3 + max(light.r, max(light.g, light.b)); }
 
+// Highlights are brighter than the tile's darkness by the first factor, and keep as much as the second leaves.
+const vec2 highlight = vec2(16.0, 2.0);
+// Radius [pixels of the picture]: disks of neighbouring blocks that are smaller would not join. block: side of a block.
+float leastHighlight(uint block) { return 0.75 * float(block); }
+
+// Share of a pixel's light that is drawn apart, at full resolution. darkness: harmonic mean of the tile's brightness; 0: none is.
+float highlightShare(vec3 light, float coc, float darkness, uint block) {
+    float bright = brightness(light);
+    bool apart = darkness > 0.0 && bright > highlight.x * darkness && abs(coc) > leastHighlight(block);
+    return apart ? 1.0 - highlight.y * darkness / bright : 0.0;
+}
+
+// Blocks along the side of a tile.
+int tileBlocks(uint block) { return int(2u * dofTile / block); }
+
 void add(inout GroundSum sum, Ground g) {
     float weight = g.presence * (sharpWeight + (1.0 - sharpWeight) * g.far);
     float bright = weight * brightness(g.light);

@@ -1,12 +1,14 @@
 // How far the layers of each tile reach. In: both layers. Out: the largest radius of the near layer, of the background, and of small
-// disks of the near layer.
+// disks of the near layer; the harmonic mean of brightness where there are highlights, else 0.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/depth_of_field/dof_layers.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { DofSizes params; };
+layout(rgba16f) uniform readonly image2D ground;
 layout(rg16f) uniform readonly image2D groundBlur;
+layout(rgba16f) uniform readonly image2D front;
 layout(r32f) uniform readonly image2D frontBlur;
 layout(rgba16f) uniform writeonly image2D tiles;
 
@@ -18,14 +20,22 @@ void main() {
         return;
     }
     vec3 largest = vec3(0.0);
+    vec2 dark = vec2(0.0);  // sum of 1 / brightness, count
+    float brightest = 0.0;
     for (int y = first.y; y < end.y; ++y) {
         for (int x = first.x; x < end.x; ++x) {
             // The radius of an empty near cell is 0.
             float near = imageLoad(frontBlur, ivec2(x, y)).r;
             vec2 far = imageLoad(groundBlur, ivec2(x, y)).rg;
             float small = near < large.y ? near : 0.0;
+            vec4 behind = imageLoad(ground, ivec2(x, y));
+            float bright = brightness(behind.rgb * behind.a + imageLoad(front, ivec2(x, y)).rgb);
+            dark += vec2(1.0 / bright, 1.0);
+            brightest = max(brightest, bright);
             largest = max(largest, vec3(near, far.g > 0.0 ? far.r : 0.0, small));
         }
     }
-    imageStore(tiles, tile, vec4(largest, 0.0));
+    float darkness = dark.y / dark.x;
+    bool some = brightest > highlight.x * darkness && 2.0 * max(largest.x, largest.y) > leastHighlight(params.block);
+    imageStore(tiles, tile, vec4(largest, some ? darkness : 0.0));
 }
