@@ -206,7 +206,6 @@ DofImages depthOfField(gpu::Recorder& f, DofStore& own, const DofInputs& in) {
         .read("coc", coc)
         .read("groundOut", all.ground)
         .read("frontOut", all.front)
-        .read("reach", reach.layers)
         .read("highlights", highlights.light)
         .read("highlightShape", highlights.shape)
         .read("lists", highlights.lists)

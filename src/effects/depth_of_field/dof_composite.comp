@@ -11,7 +11,6 @@ uniform sampler2D radiance;
 layout(r32f) uniform readonly image2D coc;
 layout(rgba16f) uniform readonly image2D groundOut;
 layout(rgba16f) uniform readonly image2D frontOut;
-layout(rgba16f) uniform readonly image2D reach;
 layout(rgba16f) uniform readonly image2D highlights;  // as dof_highlights.comp, dof_lists.comp and dof_reach.comp write them
 layout(rgba16f) uniform readonly image2D highlightShape;
 layout(rgba16f) uniform readonly image2D lists;
@@ -73,12 +72,10 @@ void main() {
     float c = imageLoad(coc, min(ivec2((vec2(pixel) + 0.5) * params.toDepth), imageSize(coc) - 1)).r;
     ivec2 tile = pixel / tileSide;
     int tiles = int(imageLoad(drawn, tile).r);
-    float darkness = 0.0;
-    int some = min(tiles, 1);
+    int some = min(tiles, 1);  // CPU devices run both sides of a branch
     for (int i = 0; i < some; ++i) {
-        darkness = imageLoad(lists, tile).b;
+        sharp.rgb *= 1.0 - highlightShare(sharp.rgb, c, imageLoad(lists, tile).b, params.block);
     }
-    sharp.rgb *= 1.0 - highlightShare(sharp.rgb, c, darkness, params.block);
     Highlights apart = highlightsAt(vec2(pixel) + 0.5, c, tiles);
     // Bilinear; blurred cells before sharp ones, whose light must not leak.
     ivec2 corner = (pixel - 1) >> 1;
@@ -87,9 +84,7 @@ void main() {
     float blurred = blurredShare(c);
     vec4 behind = vec4(0.0);
     vec4 before = vec4(0.0);
-    // In focus, with nothing in front, the layers are not looked up.
-    int end = blurred > 0.0 || imageLoad(reach, tile).r > 0.0 ? 4 : 0;
-    for (int i = 0; i < end; ++i) {
+    for (int i = 0; i < 4; ++i) {
         ivec2 side = ivec2(i & 1, i >> 1);
         ivec2 cell = clamp(corner + side, ivec2(0), last);
         vec2 w = mix(1.0 - part, part, vec2(side));
