@@ -32,7 +32,8 @@ namespace fs = std::filesystem;
 constexpr double idleWait = 0.25;
 constexpr double movesFor = 0.3;     // after the last change
 constexpr double playsEvery = 0.04;  // redraws while animations play
-constexpr double drawEvery = 0.025;  // on a CPU, which also renders
+constexpr double drawEvery = 0.025;
+constexpr double drawMovingEvery = 0.045;  // leaves more for the image  // on a CPU, which also renders
 constexpr double saveEvery = 2.0;
 constexpr int settlingRedraws = 3;
 constexpr size_t keptFrameTimes = 160;
@@ -414,7 +415,8 @@ void Viewer::loop() {
     lastLoop_ = Clock::now();
     while (!window_.closing() && !InterruptNote::arrived()) {
         Window::waitForEvents(timeToWait());
-        if (const double early = drawEvery - secondsSince(lastDraw_); sharesCpu && early > 0.0) {
+        const double pause = moving_ ? drawMovingEvery : drawEvery;
+        if (const double early = pause - secondsSince(lastDraw_); sharesCpu && early > 0.0) {
             std::this_thread::sleep_for(std::chrono::duration<double>(early));
             Window::waitForEvents(0.0);
         }

@@ -216,6 +216,9 @@ void Viewer::writeStatus() {
          {{"aperture_radius", state_.view.camera.apertureRadius},
           {"focus_distance", state_.view.camera.focusDistance}}},
         {"compare", {{"message", compare_.message()}, {"samples", compare_.samples()}}}};
+    for (const gpu::PassTime& pass : now_.live->passes) {
+        json["passes"][pass.name] = pass.ms;
+    }
     if (now_.live->exposure) {
         json["exposure"] = *now_.live->exposure;
     }
