@@ -22,7 +22,7 @@ namespace {
 using std::chrono::milliseconds;
 constexpr std::chrono::seconds patience(60);  // reached only if the window hangs
 constexpr milliseconds betweenLooks(50);
-constexpr milliseconds handSpeed(60);
+constexpr milliseconds handSpeed(45);
 
 }  // namespace
 
@@ -135,15 +135,13 @@ void DesktopTest::reveal(const std::string& control) const {
     }
 }
 
-// Waits until nothing is drawn any more, or for six seconds: reported positions of controls are outdated during
-// scrolling,
-// and ImGui 1.86 ignores a press and release within one slow frame.
+// Waits until the window has drawn all that it was told: reported positions of controls are outdated during scrolling,
+// and ImGui 1.86 ignores a press and release within one redraw.
 void DesktopTest::settle() const {
-    constexpr int mostLooks = 15;
+    constexpr int mostLooks = 30;
     for (int i = 0; i < mostLooks; ++i) {
-        const nlohmann::json before = status()["drawn"];
-        std::this_thread::sleep_for(milliseconds(400));  // longer than a frame
-        if (status()["drawn"] == before) {
+        std::this_thread::sleep_for(milliseconds(200));  // longer than events take to arrive
+        if (status()["answered"].get<bool>()) {
             return;
         }
     }
@@ -178,9 +176,19 @@ void DesktopTest::press(const std::string& keys) const {
     use({"key", keys});
 }
 
+double DesktopTest::millisecondsToAnswer(const std::string& key,
+                                         const std::function<bool(const nlohmann::json&)>& answered) const {
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_EQ(runOther("xdotool", {"key", key}, environment()).status, 0);
+    while (!answered(status()) && std::chrono::steady_clock::now() < start + patience) {
+        std::this_thread::sleep_for(milliseconds(2));
+    }
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
 void DesktopTest::type(const std::string& text) const {
     settle();
-    use({"type", "--delay", "40", text});
+    use({"type", "--delay", "15", text});
 }
 
 void DesktopTest::resize(uint32_t width, uint32_t height) const {

@@ -1,8 +1,10 @@
 // `reflet view` on a virtual desktop, with simulated input.
 #include "cli/desktop.h"
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <iostream>
 #include <thread>
 
 namespace reflet::view_test {
@@ -90,6 +92,35 @@ TEST_F(View, AUserWalksThroughItUnderTheValidationLayers) {
     EXPECT_EQ(status()["picked"]["pixel"], picked["pixel"]);
     click("focus here");
     EXPECT_TRUE(shows([&](const json& now) { return now["lens"]["focus_distance"] == picked["values"]["depth"][0]; }));
+
+    // The parts of the light by their keys.
+    press("3");
+    EXPECT_TRUE(shows([](const json& now) { return now["settings"]["specular"]["rays"] == 0; }));
+    press("3");
+    EXPECT_TRUE(shows([](const json& now) { return !now["settings"].contains("specular"); }));
+
+    // A settings file has names in common with views. A file that is neither says why.
+    write("both.json", R"({"probes": {"enabled": true}, "composite": {"direct": false}})");
+    typeFile("both.json");
+    click("open");
+    EXPECT_TRUE(shows([](const json& now) { return now["settings"]["composite"]["direct"] == false; }));
+    click("switch direct");
+    EXPECT_TRUE(shows([](const json& now) { return !now["settings"].contains("composite"); }));
+    write("sun.json", R"({"sun": {"direction": [0, -1, 0]}})");
+    typeFile("sun.json");
+    click("open");
+    EXPECT_TRUE(shows([](const json& now) { return now["notice"] == "sun.json: view loaded"; }));
+    write("typo.json", R"({"sun": {"directoin": [0, -1, 0]}})");
+    typeFile("typo.json");
+    click("open");
+    EXPECT_TRUE(shows(
+        [](const json& now) { return now["problem"].get<std::string>().find("directoin") != std::string::npos; }));
+
+    // The file browser, in the folder of the tests.
+    write("listed.json", R"({"tonemap": {"exposure": 1}})");
+    click("browse");
+    click("file listed.json");
+    EXPECT_TRUE(shows([](const json& now) { return now["settings"]["tonemap"]["exposure"] == 1; }));
 
     // The window's size.
     resize(760, 300);
@@ -209,6 +240,34 @@ TEST_F(View, CompilesShadersThatAreEditedKeepsTheLastGoodOneAndLosesNothingWithT
     openDesktop();
     openViewer({"builtin:cubes", "--size", "240x400"});
     EXPECT_EQ(status()["settings"], settings);
+    EXPECT_TRUE(quietSuccess(quit()));
+}
+
+// Frames of this size take the time of many redraws, and over 5 s in total. The latency is reported, not tested.
+TEST_F(View, AnswersWhileAFrameIsComputed) {
+    openViewer({"builtin:cave", "--size", "900x720", "--fresh", "--preset", "plain"});
+    std::vector<double> latencies;
+    for (int i = 0; i < 4; ++i) {
+        press("5");  // all is computed anew
+        const bool paused = status()["paused"];
+        latencies.push_back(
+            millisecondsToAnswer("space", [&](const json& now) { return now["paused"].get<bool>() != paused; }));
+        press("space");
+    }
+    std::ranges::sort(latencies);
+    std::cout << "a key is answered within " << latencies[latencies.size() / 2] << " ms (median), " << latencies.back()
+              << " ms (longest)\n";
+
+    // While the view moves, the picture is computed at a lower resolution, and at rest at the whole one.
+    const auto from = inPicture(0.3, 0.5);
+    const json still = status();
+    press("5");
+    drag(from[0], from[1], from[0] + 200.0, from[1]);
+    EXPECT_TRUE(shows([&](const json& now) { return now["camera"] != still["camera"]; }));
+    const int drawn = status()["drawn"];
+    const int rendered = status()["rendered"];
+    EXPECT_GT(drawn, rendered);  // panels do not wait for frames
+    EXPECT_TRUE(shows([](const json& now) { return now["scale"] == 1.0 && !now["moving"].get<bool>(); }));
     EXPECT_TRUE(quietSuccess(quit()));
 }
 
