@@ -183,6 +183,9 @@ Picked Session::pick(const ViewerState& state, uvec2 size, uvec2 pixel) {
     settings.composite.layers = 1;
     std::vector<ShowReadback> readbacks;
     gpu::Readback ray;
+    gpu::Readback hemisphere;
+    TraceScreenSettings diffuse = settings.traceScreen;
+    diffuse.maxDistance = std::min(diffuse.maxDistance, settings.diffuse.maxDistance);
     renderer_.stopBetweenPasses({});
     renderFrame(state, state.view, size, settings, [&](gpu::Frame& f, const FrameImages& made) {
         for (const Show& show : shows()) {
@@ -190,11 +193,16 @@ Picked Session::pick(const ViewerState& state, uvec2 size, uvec2 pixel) {
                 readbacks.push_back(requestShow(f, made, show));
             }
         }
-        ray = recordRay(f, recordRay_, {made.g, made.backDepth, made.pyramid}, made.view, settings.traceScreen,
-                        pixel * made.g.depth.size / size);
+        const RecordRayInputs inputs{made.g, made.backDepth, made.pyramid};
+        const uvec2 place = pixel * made.g.depth.size / size;
+        ray = recordRay(f, recordRay_, inputs, made.view, settings.traceScreen, place);
+        hemisphere = recordHemisphere(f, recordRay_, inputs, made.view, diffuse, place);
     });
     const gpu::Frame& frame = renderer_.frame();
-    Picked picked{pixel, {}, recordedRay(frame, ray), shown_.view, shown_.changes};
+    Picked picked{pixel, {}, recordedRay(frame, ray), {}, shown_.view, shown_.changes};
+    if (picked.ray) {
+        picked.hemisphere = recordedHemisphere(frame, hemisphere);
+    }
     for (const ShowReadback& readback : readbacks) {
         picked.values.push_back({std::string(readback.show->name), readback.show->channels,
                                  fetchValue(frame, readback, shown_.view, pixel)});

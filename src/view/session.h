@@ -25,9 +25,10 @@ struct PickedValues {
 struct Picked {
     uvec2 pixel{0};
     std::vector<PickedValues> values;
-    std::optional<RecordedRay> ray;  ///< none where the pixel shows no surface
-    ViewParams view{};               ///< at the time of the pick
-    uint64_t change = 0;             ///< Shown::changes at the time of the pick
+    std::optional<RecordedRay> ray;          ///< none where the pixel shows no surface
+    std::vector<RecordedSample> hemisphere;  ///< diffuse rays from the pixel; none without a surface
+    ViewParams view{};                       ///< at the time of the pick
+    uint64_t change = 0;                     ///< Shown::changes at the time of the pick
 };
 
 /// The display image of a show's values: tone mapped, as by --show, or in false colours.

@@ -121,6 +121,7 @@ private:
 
     // viewer_overlay.cpp
     void drawDivider();
+    void drawHemisphere();
     void drawLegends();
     void drawErrorAt(const vec2& mouse);
     void drawRay();
@@ -148,8 +149,9 @@ private:
     std::string filter_;
     std::string openName_;
     std::optional<Picked> picked_;
-    uint32_t steps_ = 0;       ///< single frames that were asked for
-    bool opensPixel_ = false;  ///< opens the pixel panel in the next frame
+    uint32_t steps_ = 0;            ///< single frames that were asked for
+    bool showsHemisphere_ = false;  ///< diffuse rays of the picked pixel, instead of the mirror ray
+    bool opensPixel_ = false;       ///< opens the pixel panel in the next frame
     std::optional<uvec2> toPick_;
     int redraws_ = 3;  ///< redraws until the user interface has settled
     bool dragsDivider_ = false;

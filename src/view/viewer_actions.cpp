@@ -229,6 +229,9 @@ void Viewer::writeStatus() {
     if (picked_) {
         json["picked"] = pickedJson(*picked_);
     }
+    if (picked_ && !picked_->hemisphere.empty()) {
+        json["picked"]["diffuse_hits"] = std::ranges::count_if(picked_->hemisphere, &RecordedSample::hits);
+    }
     json["controls"] = ordered_json::object();
     for (const auto& [name, place] : places_.all()) {
         json["controls"][name] = {place.min.x, place.min.y, place.max.x, place.max.y};

@@ -115,6 +115,34 @@ vec2 Viewer::onWindow(const vec2& pixel) const {
     return rect.min + pixel / vec2(now_.live->size) * rect.size;
 }
 
+// The diffuse rays, coloured by who answers them: as in the image 'source'.
+void Viewer::drawHemisphere() {
+    const Settings& s = state_.settings;
+    constexpr ImU32 screen = IM_COL32(0, 255, 0, 170);
+    const ImU32 next = s.traceScene.enabled != 0    ? IM_COL32(255, 255, 0, 150)
+                       : s.probes.enabled != 0      ? IM_COL32(255, 0, 255, 150)
+                       : s.environment.enabled != 0 ? IM_COL32(80, 80, 255, 170)
+                                                    : IM_COL32(120, 120, 120, 150);
+    const mat4& toClip = now_.live->view.worldToClip;
+    const auto onPicture = [&](const vec4& clip) {
+        const vec2 at = onWindow((0.5F + 0.5F * vec2(clip) / clip.w) * vec2(now_.live->size));
+        return ImVec2(at.x, at.y);
+    };
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    const vec3 start = picked_->ray->start;
+    const float reach = 0.12F * glm::distance(start, state_.view.camera.position);  // of rays that end nowhere
+    for (const RecordedSample& sample : picked_->hemisphere) {
+        const vec3 end = start + (sample.hits ? sample.distance : reach) * sample.direction;
+        if (const auto line = inFront(toClip * vec4(start, 1.0F), toClip * vec4(end, 1.0F))) {
+            const ImU32 color = sample.hits && s.traceScreen.enabled != 0 ? screen : next;
+            draw.AddLine(onPicture(line->first), onPicture(line->second), color, 1.0F);
+            if (color == screen) {
+                draw.AddCircleFilled(onPicture(line->second), 2.5F, color, 6);
+            }
+        }
+    }
+}
+
 void Viewer::drawDivider() {
     if (state_.compare.with == CompareWith::nothing) {
         return;
@@ -236,7 +264,9 @@ void Viewer::drawRay() {
     const vec2 perPixel = rect.size / vec2(now_.live->size);
     const auto at = [](const vec2& v) { return ImVec2(v.x, v.y); };
     const bool asPicked = isPickedView();
-    if (picked_->ray) {
+    if (picked_->ray && showsHemisphere_) {
+        drawHemisphere();
+    } else if (picked_->ray) {
         const RecordedRay& ray = *picked_->ray;
         for (const RayStep& step : asPicked ? std::span(ray.steps) : std::span<const RayStep>()) {
             const auto side = static_cast<float>(1U << step.level);
@@ -323,6 +353,17 @@ void Viewer::pixelPanel() {
         ImGui::TextUnformatted(explanation(*picked_->ray, state_.settings).c_str());
         ImGui::PopTextWrapPos();
         offerSources();
+        ImGui::Checkbox("diffuse rays instead", &showsHemisphere_);
+        places_.note("diffuse rays");
+        tooltip(fmt::format(
+            "{} rays over the pixel's hemisphere, each for the same share of its diffuse light, coloured by "
+            "who answers: green the screen, else the first source that is on: yellow ray tracing, magenta "
+            "probes, blue the environment.",
+            recordedSamples));
+        if (showsHemisphere_) {
+            const auto hits = std::ranges::count_if(picked_->hemisphere, &RecordedSample::hits);
+            ImGui::Text("%d of %u hit the screen", static_cast<int>(hits), recordedSamples);
+        }
     } else {
         ImGui::TextUnformatted("No surface here.");
     }

@@ -87,6 +87,7 @@ TEST_F(View, AUserWalksThroughItUnderTheValidationLayers) {
     EXPECT_EQ(picked["values"]["albedo"].size(), 3U);
     ASSERT_TRUE(picked.contains("ray"));
     EXPECT_GT(picked["ray"]["samples"].get<int>(), 0);
+    EXPECT_GT(picked["diffuse_hits"].get<int>(), 0);
     click("diffuse.adaptive");  // the pixel is read again with the new setting
     EXPECT_TRUE(shows([&](const json& now) { return now["picked"]["change"] > picked["change"]; }));
     EXPECT_EQ(status()["picked"]["pixel"], picked["pixel"]);

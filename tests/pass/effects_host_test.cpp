@@ -180,6 +180,7 @@ public:
         const gpu::Image stops = measureExposure(f, stores_.exposure, mean.mean, g_.depth, 0.0F, 0.5F);
         const gpu::Image display = tonemap(f, stores_.display, mean.mean, {}, stops);
         recordRay(f, stores_.recordRay, {g_, {}, pyramid}, view, {}, size / 2U);
+        recordHemisphere(f, stores_.recordRay, {g_, {}, pyramid}, view, {}, size / 2U);
         return {f.readback(light.lit), f.readback(means.light.lit), f.readback(mean.mean), f.readback(upscaled.mean),
                 f.readback(display)};
     }

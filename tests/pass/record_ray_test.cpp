@@ -80,6 +80,37 @@ TEST_F(RecordRay, HasAStepForEachDepthThatWasLookedAt) {
     }
 }
 
+// Its rays are as many as one pixel's of the frame, in other directions of the same distribution.
+TEST_F(RecordRay, AsManyDiffuseRaysHitTheScreenAsInTheFrame) {
+    const Settings settings = settingsOf({"diffuse.rays=64", "specular.rays=0", "trace_screen.jitter=false"});
+    const Pictures p = render(scene_, view_, size, settings, {"depth", "confidence"});
+    std::vector<float> shares;
+    for (uint32_t x = 1; x < size.x; x += 9) {
+        const uvec2 pixel(x, size.y * 2 / 3);
+        if (!p.hasSurface(pixel.x, pixel.y)) {
+            continue;
+        }
+        Renderer renderer(device(), scene_, [](const std::string&) {});
+        gpu::Readback readback;
+        RecordRayStore store;
+        renderer.render(view_, size, 0, settings, [&](gpu::Frame& f, const FrameImages& images) {
+            readback = recordHemisphere(f, store, {images.g, images.backDepth, images.pyramid},
+                                        makeViewParams(view_.camera, size, 0, 0), settings.traceScreen, pixel);
+        });
+        const std::vector<RecordedSample> samples = recordedHemisphere(renderer.frame(), readback);
+        ASSERT_EQ(samples.size(), recordedSamples);
+        float hits = 0.0F;
+        for (const RecordedSample& sample : samples) {
+            EXPECT_NEAR(glm::length(sample.direction), 1.0F, 1e-4F);
+            hits += sample.hits ? 1.0F : 0.0F;
+        }
+        shares.push_back(hits / float(recordedSamples));
+        EXPECT_NEAR(shares.back(), p.value("confidence", pixel.x, pixel.y, 0), 0.12F) << pixel.x << ' ' << pixel.y;
+    }
+    ASSERT_GT(shares.size(), 3U);
+    EXPECT_GT(*std::ranges::max_element(shares) - *std::ranges::min_element(shares), 0.1F) << "pixels that differ";
+}
+
 TEST_F(RecordRay, SaysThatTheSkyHasNone) {
     scene_ = sceneOf(lambertMaterial(vec3(0.5F)), builtin::box(vec3(0.1F)));
     view_ = View{};

@@ -3,12 +3,14 @@
 // In: depth, normals, back depth, pyramid. Out: a row of texels, see record_ray.h.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
-#include "effects/lobe/record_ray.h"
 #include "effects/gbuffer/gbuffer.glsl"
 #include "effects/levels.glsl"
+#include "effects/lobe/record_ray.h"
 
 layout(local_size_x = 1) in;
-layout(scalar) uniform ParamsBlock { RecordRayParams params; };
+layout(scalar) uniform ParamsBlock {
+    RecordRayParams params;
+};
 uniform sampler2D depth;
 uniform usampler2D normal;
 uniform usampler2D geometricNormal;
@@ -30,7 +32,9 @@ float loadDepth(ivec2 pixel) {
     note(pixel, 0, d);
     return d;
 }
-float loadBackDepth(ivec2 pixel) { return texelFetch(backDepth, pixel, 0).r; }
+float loadBackDepth(ivec2 pixel) {
+    return texelFetch(backDepth, pixel, 0).r;
+}
 vec2 loadCell(ivec2 cell, int level) {
     vec2 depths = imageLoad(pyramid, cell + ivec2(0, levelRow(ivec2(params.view.size), level))).rg;
     note(cell, level, depths.x);
@@ -52,11 +56,12 @@ void main() {
     MarchRay ray = makeMarchRay(p, direction, planeOnScreen(p, flatNormal, params.view.clipToWorld), view);
     MarchOptions options = marchOptions(params.settings, params.settings.maxDistance, params.secondLayer, 1.0);
     MarchResult hit = marchBy(params.settings.method, ray, options, view);
-    bool facesAway = hit.outcome == marchHit &&
-                     dot(unpackUnitVector(texelFetch(geometricNormal, hit.pixel, 0).r), direction) > 0.0;
+    bool facesAway =
+        hit.outcome == marchHit && dot(unpackUnitVector(texelFetch(geometricNormal, hit.pixel, 0).r), direction) > 0.0;
     imageStore(record, ivec2(0, 0), vec4(float(hit.outcome), vec2(hit.pixel), hit.distance));
     imageStore(record, ivec2(1, 0), vec4(hit.clear, float(hit.occluded), float(hit.steps), float(facesAway)));
-    imageStore(record, ivec2(2, 0), fadeOf(hit, p, direction, params.settings, params.settings.maxDistance, params.view));
+    imageStore(record, ivec2(2, 0),
+               fadeOf(hit, p, direction, params.settings, params.settings.maxDistance, params.view));
     imageStore(record, ivec2(3, 0), vec4(direction, float(noted)));
     imageStore(record, ivec2(4, 0), vec4(p, 1.0));
 }

@@ -8,21 +8,51 @@
 
 namespace reflet {
 
+namespace {
+
+gpu::Pass recordPass(gpu::Recorder& f, RecordRayStore& own, const RecordRayInputs& in, const RecordRayParams& params,
+                     const char* name, const char* shader) {
+    gpu::Pass pass = f.compute(name, shader);
+    pass.read("depth", in.g.depth)
+        .read("normal", in.g.normal)
+        .read("geometricNormal", in.g.geometricNormal)
+        .read("backDepth", in.backDepth ? in.backDepth : in.g.depth)
+        .read("pyramid", in.pyramid ? in.pyramid : makePyramid(f, own.pyramid, in.g.depth, in.backDepth))
+        .params(params);
+    return pass;
+}
+
+}  // namespace
+
 gpu::Readback recordRay(gpu::Recorder& f, RecordRayStore& own, const RecordRayInputs& in, const ViewParams& view,
                         const TraceScreenSettings& settings, uvec2 pixel) {
     const gpu::Image record =
         own.record.storage(f, VK_FORMAT_R32G32B32A32_SFLOAT, uvec2(recordHead + recordedSteps, 1));
-    const gpu::Image pyramid = in.pyramid ? in.pyramid : makePyramid(f, own.pyramid, in.g.depth, in.backDepth);
-    f.compute("record_ray", "record_ray.comp")
-        .read("depth", in.g.depth)
-        .read("normal", in.g.normal)
-        .read("geometricNormal", in.g.geometricNormal)
-        .read("backDepth", in.backDepth ? in.backDepth : in.g.depth)
-        .read("pyramid", pyramid)
+    recordPass(f, own, in, {view, settings, pixel, in.backDepth ? 1U : 0U}, "record_ray", "record_ray.comp")
         .write("record", record)
-        .params(RecordRayParams{view, settings, pixel, in.backDepth ? 1U : 0U})
         .dispatch(1);
     return f.readback(record);
+}
+
+gpu::Readback recordHemisphere(gpu::Recorder& f, RecordRayStore& own, const RecordRayInputs& in, const ViewParams& view,
+                               const TraceScreenSettings& settings, uvec2 pixel) {
+    const gpu::Image record = own.hemisphere.storage(f, VK_FORMAT_R32G32B32A32_SFLOAT, uvec2(2 * recordedSamples, 1));
+    recordPass(f, own, in, {view, settings, pixel, in.backDepth ? 1U : 0U}, "record_hemisphere",
+               "record_hemisphere.comp")
+        .write("record", record)
+        .dispatch(recordedSamples);
+    return f.readback(record);
+}
+
+std::vector<RecordedSample> recordedHemisphere(const gpu::Recorder& f, gpu::Readback readback) {
+    std::vector<vec4> texels(size_t(2) * recordedSamples);
+    std::memcpy(texels.data(), f.bytes(readback).data(), texels.size() * sizeof(vec4));
+    std::vector<RecordedSample> samples;
+    for (size_t i = 0; i < texels.size(); i += 2) {
+        const vec4& end = texels[i + 1];
+        samples.push_back({vec3(texels[i]), texels[i].w, end.x != 0.0F, uvec2(end.y, end.z)});
+    }
+    return samples;
 }
 
 std::optional<RecordedRay> recordedRay(const gpu::Recorder& f, gpu::Readback readback) {

@@ -15,6 +15,9 @@ SHARED_BEGIN
 const uint recordHead = 5;
 const uint recordedSteps = 1024;  // further steps are counted, not stored
 
+// Rays over a pixel's hemisphere, two texels each: (direction, metres), (1: it hits the screen, pixel of the hit).
+const uint recordedSamples = 64;
+
 struct RecordRayParams {
     ViewParams view;
     TraceScreenSettings settings;
@@ -59,6 +62,14 @@ struct RecordedRay {
     std::vector<RayStep> steps;
 };
 
+/// A diffuse ray of a pixel.
+struct RecordedSample {
+    vec3 direction{0.0F};   ///< unit length
+    float distance = 0.0F;  ///< marched, metres
+    bool hits = false;      ///< on the screen; else the next source answers
+    uvec2 pixel{0};         ///< of the hit
+};
+
 struct RecordRayInputs {
     const GBuffer& g;
     gpu::Image backDepth;  ///< second depth layer, or none
@@ -69,6 +80,7 @@ struct RecordRayInputs {
 struct RecordRayStore {
     gpu::KeptImage record{"ray_record"};
     gpu::KeptImage pyramid{"pyramid"};  ///< of images that have none
+    gpu::KeptImage hemisphere{"hemisphere_record"};
 };
 
 /// Records the mirror ray of the pixel. Call recordRay while recording the frame with these images, recordedRay when
@@ -76,6 +88,12 @@ struct RecordRayStore {
 gpu::Readback recordRay(gpu::Recorder& f, RecordRayStore& own, const RecordRayInputs& in, const ViewParams& view,
                         const TraceScreenSettings& settings, uvec2 pixel);
 std::optional<RecordedRay> recordedRay(const gpu::Recorder& f, gpu::Readback readback);
+
+/// Records as many diffuse rays of the pixel as recordedSamples, evenly over its cosine-weighted hemisphere: each
+/// stands for the same share of its light. The pixel must show a surface for the result to mean anything.
+gpu::Readback recordHemisphere(gpu::Recorder& f, RecordRayStore& own, const RecordRayInputs& in, const ViewParams& view,
+                               const TraceScreenSettings& settings, uvec2 pixel);
+std::vector<RecordedSample> recordedHemisphere(const gpu::Recorder& f, gpu::Readback readback);
 
 }  // namespace reflet
 #endif
