@@ -113,6 +113,14 @@ void ControlPlaces::note(const std::string& name) {
     }
 }
 
+std::string valuesText(const std::vector<float>& values) {
+    std::string all;
+    for (const float value : values) {
+        all += fmt::format("{}{:.4g}", all.empty() ? "" : "  ", value);
+    }
+    return all;
+}
+
 void tooltip(const std::string& text) {
     if (ImGui::IsItemHovered()) {
         // Beside the row, which it would hide; below it where there is no room.

@@ -28,6 +28,9 @@ private:
     std::map<std::string, Rectangle> places_;
 };
 
+/// The values with four digits.
+std::string valuesText(const std::vector<float>& values);
+
 /// Shows the text while the pointer hovers over the last item.
 void tooltip(const std::string& text);
 

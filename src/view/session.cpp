@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace reflet {
 
@@ -184,6 +185,8 @@ Picked Session::pick(const ViewerState& state, uvec2 size, uvec2 pixel) {
     std::vector<ShowReadback> readbacks;
     gpu::Readback ray;
     gpu::Readback hemisphere;
+    std::optional<gpu::Readback> shadow;
+    const float sunSlope = std::tan(0.5F * posed(state.view, *opened_.scene).sun.angularDiameter);
     TraceScreenSettings diffuse = settings.traceScreen;
     diffuse.maxDistance = std::min(diffuse.maxDistance, settings.diffuse.maxDistance);
     renderer_.stopBetweenPasses({});
@@ -196,12 +199,17 @@ Picked Session::pick(const ViewerState& state, uvec2 size, uvec2 pixel) {
         const RecordRayInputs inputs{made.g, made.backDepth, made.pyramid};
         const uvec2 place = pixel * made.g.depth.size / size;
         ray = recordRay(f, recordRay_, inputs, made.view, settings.traceScreen, place);
+        if (made.shadowMap && settings.shadow.filter != ShadowFilter::traced) {
+            shadow = recordShadow(f, recordShadow_, made.g, {made.shadowMap, made.shadowRange, {}},
+                                  {made.view, made.sun, settings.shadow, sunSlope, place});
+        }
         hemisphere = recordHemisphere(f, recordRay_, inputs, made.view, diffuse, place);
     });
     const gpu::Frame& frame = renderer_.frame();
-    Picked picked{pixel, {}, recordedRay(frame, ray), {}, shown_.view, shown_.changes};
+    Picked picked{pixel, {}, recordedRay(frame, ray), {}, {}, shown_.view, shown_.changes};
     if (picked.ray) {
         picked.hemisphere = recordedHemisphere(frame, hemisphere);
+        picked.shadow = shadow ? std::optional(recordedShadow(frame, *shadow)) : std::nullopt;
     }
     for (const ShowReadback& readback : readbacks) {
         picked.values.push_back({std::string(readback.show->name), readback.show->channels,

@@ -4,6 +4,7 @@
 
 #include "capture/show.h"
 #include "effects/lobe/record_ray.h"
+#include "effects/shadow/record_shadow.h"
 #include "renderer/renderer.h"
 #include "view/viewer_state.h"
 
@@ -27,9 +28,15 @@ struct Picked {
     std::vector<PickedValues> values;
     std::optional<RecordedRay> ray;          ///< none where the pixel shows no surface
     std::vector<RecordedSample> hemisphere;  ///< diffuse rays from the pixel; none without a surface
+    std::optional<RecordedShadow> shadow;    ///< of the sun; none without a surface or a shadow map
     ViewParams view{};                       ///< at the time of the pick
     uint64_t change = 0;                     ///< Shown::changes at the time of the pick
 };
+
+/// Whether these settings count the hit: back faces may be rejected.
+inline bool countsAsHit(const RecordedRay& ray, const TraceScreenSettings& settings) {
+    return ray.outcome == RayOutcome::hit && !(ray.facesAway && settings.rejectBackfaces != 0);
+}
 
 /// The display image of a show's values: tone mapped, as by --show, or in false colours.
 Bitmap shownPicture(const ViewerState& state, const TonemapSettings& tonemap, const FloatImage& values);
@@ -103,6 +110,7 @@ private:
     OpenScene opened_;
     Renderer renderer_;
     RecordRayStore recordRay_;
+    gpu::KeptImage recordShadow_{"shadow_record"};
     Shown shown_;
     std::optional<Asked> asked_;
 };

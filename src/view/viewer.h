@@ -113,6 +113,7 @@ private:
     void showPanel();
     void comparePanel();
     void offerSources();
+    void explainPanel();
     void pixelPanel();
     void timesPanel();
     void filesPanel();
@@ -122,6 +123,7 @@ private:
     // viewer_overlay.cpp
     void drawDivider();
     void drawHemisphere();
+    void drawShadowSearch();
     void drawLegends();
     void drawErrorAt(const vec2& mouse);
     void drawRay();
@@ -149,9 +151,10 @@ private:
     std::string filter_;
     std::string openName_;
     std::optional<Picked> picked_;
-    uint32_t steps_ = 0;            ///< single frames that were asked for
-    bool showsHemisphere_ = false;  ///< diffuse rays of the picked pixel, instead of the mirror ray
-    bool opensPixel_ = false;       ///< opens the pixel panel in the next frame
+    uint32_t steps_ = 0;  ///< single frames that were asked for
+    enum class Explains : uint8_t { mirror, diffuse, shadow };
+    Explains explains_ = Explains::mirror;  ///< what is drawn of the picked pixel
+    bool opensPixel_ = false;               ///< opens the pixel panel in the next frame
     std::optional<uvec2> toPick_;
     int redraws_ = 3;  ///< redraws until the user interface has settled
     bool dragsDivider_ = false;

@@ -232,6 +232,9 @@ void Viewer::writeStatus() {
     if (picked_ && !picked_->hemisphere.empty()) {
         json["picked"]["diffuse_hits"] = std::ranges::count_if(picked_->hemisphere, &RecordedSample::hits);
     }
+    if (picked_ && picked_->shadow) {
+        json["picked"]["shadow_lookups"] = picked_->shadow->lookups;
+    }
     json["controls"] = ordered_json::object();
     for (const auto& [name, place] : places_.all()) {
         json["controls"][name] = {place.min.x, place.min.y, place.max.x, place.max.y};

@@ -17,87 +17,6 @@ namespace reflet {
 
 namespace {
 
-std::string text(const std::vector<float>& values) {
-    std::string all;
-    for (const float value : values) {
-        all += fmt::format("{}{:.4g}", all.empty() ? "" : "  ", value);
-    }
-    return all;
-}
-
-// Distances of rays that hit nothing are the largest of the format.
-std::string pickedText(const PickedValues& picked) {
-    if (!picked.name.ends_with("hit_distance")) {
-        return text(picked.values);
-    }
-    constexpr float miss = 65000.0F;
-    std::string all;
-    for (const float value : picked.values) {
-        all += fmt::format("{}{}", all.empty() ? "" : "  ", value < miss ? fmt::format("{:.4g}", value) : "miss");
-    }
-    return all;
-}
-
-// Whether these settings count the hit: back faces may be rejected.
-bool isHit(const RecordedRay& ray, const TraceScreenSettings& settings) {
-    return ray.outcome == RayOutcome::hit && !(ray.facesAway && settings.rejectBackfaces != 0);
-}
-
-// The sources that are on, in the order in which a ray that misses the screen asks them.
-std::string nextSources(const Settings& settings) {
-    std::vector<std::string> names;
-    if (settings.planar.enabled != 0 && settings.planar.beforeScreen == 0) {
-        names.emplace_back("planar reflections");
-    }
-    if (settings.traceScene.enabled != 0) {
-        names.emplace_back("ray tracing (trace_scene)");
-    }
-    if (settings.probes.enabled != 0) {
-        names.emplace_back("probes");
-    }
-    if (settings.environment.enabled != 0) {
-        names.emplace_back("the environment");
-    }
-    return fmt::format("{}", fmt::join(names, ", then "));
-}
-
-// Explains the outcome of the mirror ray.
-std::string explanation(const RecordedRay& ray, const Settings& all) {
-    const TraceScreenSettings& settings = all.traceScreen;
-    const std::string at = fmt::format("pixel {}, {}", ray.pixel.x, ray.pixel.y);
-    std::string why;
-    if (isHit(ray, settings)) {
-        why = fmt::format(
-            "Hit: after {:.3g} m it meets the surface at {}. Confidence {:.2f}: edge {:.2f}, distance {:.2f}, "
-            "camera {:.2f}.",
-            ray.distance, at, ray.confidence, ray.edge, ray.far, ray.camera);
-    } else if (ray.outcome == RayOutcome::hit) {
-        why = fmt::format(
-            "Miss: after {:.3g} m it meets the surface at {} from behind, but only its front is on the screen "
-            "(trace_screen.reject_backfaces).",
-            ray.distance, at);
-    } else if (ray.outcome == RayOutcome::leftScreen) {
-        why = fmt::format("Miss: it leaves the screen after {:.3g} m.", ray.distance);
-    } else if (ray.outcome == RayOutcome::hidden) {
-        why = fmt::format("Miss: it passes behind a surface by more than trace_screen.thickness ({:g} m).",
-                          settings.thickness);
-    } else {
-        why = fmt::format("Miss: it has reached trace_screen.max_steps ({}) or trace_screen.max_distance ({:g} m).",
-                          settings.maxSteps, settings.maxDistance);
-    }
-    if (ray.lost && !isHit(ray, settings)) {
-        why += fmt::format(
-            " From {:.3g} m on it was occluded: behind a visible surface by more than trace_screen.thickness "
-            "({:g} m).",
-            ray.clear, settings.thickness);
-    }
-    if (!isHit(ray, settings)) {
-        const std::string next = nextSources(all);
-        why += next.empty() ? " Nothing else is on: its light is black." : fmt::format(" Next: {}.", next);
-    }
-    return why;
-}
-
 // Clips a line in clip space to the part in front of the camera.
 std::optional<std::pair<vec4, vec4>> inFront(vec4 a, vec4 b) {
     constexpr float nearest = 1e-3F;  // metres in front of a perspective camera; orthographic: w is 1
@@ -143,6 +62,32 @@ void Viewer::drawHemisphere() {
     }
 }
 
+// The look-ups of the sun's shadow: red where something blocks, drawn where it is; else green, beside the point.
+void Viewer::drawShadowSearch() {
+    const RecordedShadow& shadow = *picked_->shadow;
+    const mat4& toClip = now_.live->view.worldToClip;
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    const auto onPicture = [&](const vec3& place) -> std::optional<ImVec2> {
+        const vec4 clip = toClip * vec4(place, 1.0F);
+        if (clip.w < 1e-3F) {
+            return std::nullopt;
+        }
+        const vec2 at = onWindow((0.5F + 0.5F * vec2(clip) / clip.w) * vec2(now_.live->size));
+        return ImVec2(at.x, at.y);
+    };
+    const std::optional<ImVec2> point = onPicture(shadow.point);
+    for (const RecordedShadow::Texel& texel : shadow.texels) {
+        const std::optional<ImVec2> at = onPicture(texel.place);
+        if (!at || !point) {
+            continue;
+        }
+        if (texel.blocks) {
+            draw.AddLine(*point, *at, IM_COL32(255, 90, 80, 90), 1.0F);
+        }
+        draw.AddCircleFilled(*at, 2.5F, texel.blocks ? IM_COL32(255, 90, 80, 255) : IM_COL32(90, 230, 110, 255), 6);
+    }
+}
+
 void Viewer::drawDivider() {
     if (state_.compare.with == CompareWith::nothing) {
         return;
@@ -181,7 +126,7 @@ void Viewer::drawErrorAt(const vec2& mouse) {
         const size_t channels = image->channels.size();
         const auto first =
             image->data.begin() + static_cast<std::ptrdiff_t>((size_t(pixel.y) * image->width + pixel.x) * channels);
-        return text(std::vector<float>(first, first + static_cast<std::ptrdiff_t>(channels)));
+        return valuesText(std::vector<float>(first, first + static_cast<std::ptrdiff_t>(channels)));
     };
     std::string lines;
     for (const auto& [name, image] : {std::pair("A", now_.live->values), std::pair("B", compare_.values()),
@@ -264,7 +209,9 @@ void Viewer::drawRay() {
     const vec2 perPixel = rect.size / vec2(now_.live->size);
     const auto at = [](const vec2& v) { return ImVec2(v.x, v.y); };
     const bool asPicked = isPickedView();
-    if (picked_->ray && showsHemisphere_) {
+    if (picked_->shadow && explains_ == Explains::shadow) {
+        drawShadowSearch();
+    } else if (picked_->ray && explains_ == Explains::diffuse) {
         drawHemisphere();
     } else if (picked_->ray) {
         const RecordedRay& ray = *picked_->ray;
@@ -285,7 +232,7 @@ void Viewer::drawRay() {
             };
             const vec2 start = onPicture(line->first);
             const vec2 end = onPicture(line->second);
-            const bool hit = isHit(ray, state_.settings.traceScreen);
+            const bool hit = countsAsHit(ray, state_.settings.traceScreen);
             const ImU32 color = hit ? IM_COL32(90, 230, 110, 255) : IM_COL32(255, 90, 80, 255);
             draw.AddLine(at(start), at(end), color, 1.5F);
             draw.AddCircleFilled(at(start), 2.5F, color, 8);
@@ -301,83 +248,6 @@ void Viewer::drawRay() {
         draw.AddCircle(at(onWindow(vec2(picked_->pixel) + 0.5F)), 5.0F, IM_COL32(255, 255, 255, 255), 16, 1.5F);
     }
     draw.PopClipRect();
-}
-
-// Sources that are off and could answer a miss.
-void Viewer::offerSources() {
-    if (isHit(*picked_->ray, state_.settings.traceScreen)) {
-        return;
-    }
-    Settings& s = state_.settings;
-    bool first = true;
-    for (const auto& [name, on] :
-         {std::pair("ray tracing", &s.traceScene.enabled), std::pair("probes", &s.probes.enabled),
-          std::pair("environment", &s.environment.enabled)}) {
-        if (*on != 0) {
-            continue;
-        }
-        if (!first) {
-            ImGui::SameLine();
-        }
-        first = false;
-        if (ImGui::Button(fmt::format("switch on {}", name).c_str())) {
-            *on = 1;
-        }
-        places_.note(fmt::format("switch on {}", name));
-    }
-}
-
-void Viewer::pixelPanel() {
-    if (!picked_) {
-        ImGui::TextDisabled("Click on the image to pick a pixel.");
-        return;
-    }
-    ImGui::Text("pixel %u, %u", picked_->pixel.x, picked_->pixel.y);
-    ImGui::SameLine();
-    if (ImGui::Button("again")) {
-        pickPixel(glm::min(picked_->pixel, renderSize() - 1U), false);
-    }
-    places_.note("pick again");
-    tooltip(
-        "Picks this pixel again in the current image. Changes of settings and light do so automatically; a moved "
-        "camera shows the recorded ray from its new position.");
-    ImGui::SameLine();
-    if (ImGui::Button("focus here")) {
-        attempt([&] { focusOnPicked(); });
-    }
-    places_.note("focus here");
-    tooltip("Puts the plane of focus of the camera's lens at this pixel's depth.");
-    if (picked_->ray) {
-        ImGui::PushTextWrapPos(0.0F);
-        ImGui::Text("Mirror ray, %u depth samples", picked_->ray->samples);
-        ImGui::TextUnformatted(explanation(*picked_->ray, state_.settings).c_str());
-        ImGui::PopTextWrapPos();
-        offerSources();
-        ImGui::Checkbox("diffuse rays instead", &showsHemisphere_);
-        places_.note("diffuse rays");
-        tooltip(fmt::format(
-            "{} rays over the pixel's hemisphere, each for the same share of its diffuse light, coloured by "
-            "who answers: green the screen, else the first source that is on: yellow ray tracing, magenta "
-            "probes, blue the environment.",
-            recordedSamples));
-        if (showsHemisphere_) {
-            const auto hits = std::ranges::count_if(picked_->hemisphere, &RecordedSample::hits);
-            ImGui::Text("%d of %u hit the screen", static_cast<int>(hits), recordedSamples);
-        }
-    } else {
-        ImGui::TextUnformatted("No surface here.");
-    }
-    if (ImGui::BeginTable("values", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
-        for (const PickedValues& values : picked_->values) {
-            ImGui::TableNextRow();
-            ImGui::TableNextColumn();
-            ImGui::TextUnformatted(values.name.c_str());
-            tooltip(std::string(findShow(values.name).description));
-            ImGui::TableNextColumn();
-            ImGui::TextUnformatted(pickedText(values).c_str());
-        }
-        ImGui::EndTable();
-    }
 }
 
 void Viewer::helpOverlay() {

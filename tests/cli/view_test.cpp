@@ -88,6 +88,7 @@ TEST_F(View, AUserWalksThroughItUnderTheValidationLayers) {
     ASSERT_TRUE(picked.contains("ray"));
     EXPECT_GT(picked["ray"]["samples"].get<int>(), 0);
     EXPECT_GT(picked["diffuse_hits"].get<int>(), 0);
+    EXPECT_GT(picked["shadow_lookups"].get<int>(), 0);
     click("diffuse.adaptive");  // the pixel is read again with the new setting
     EXPECT_TRUE(shows([&](const json& now) { return now["picked"]["change"] > picked["change"]; }));
     EXPECT_EQ(status()["picked"]["pixel"], picked["pixel"]);
