@@ -140,7 +140,8 @@ private:
         std::vector<fs::path> files;
         for (const FrameNames& names : outputs_) {
             fs::path file = names.file(job_.options.sequence.firstFrame + frame);
-            if (!fs::exists(file)) {
+            // A folder of that name is none: writing the frame says that it is in the way.
+            if (std::error_code ignored; !fs::is_regular_file(file, ignored)) {
                 files.push_back(std::move(file));
             }
         }

@@ -44,7 +44,7 @@ bool FrameNames::matches(std::string_view name) const {
 std::vector<fs::path> FrameNames::existing() const {
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(folder_.empty() ? fs::path(".") : folder_)) {
-        if (matches(entry.path().filename().string())) {
+        if (std::error_code ignored; !entry.is_directory(ignored) && matches(entry.path().filename().string())) {
             files.push_back(folder_ / entry.path().filename());
         }
     }
