@@ -5,10 +5,14 @@
 #include "base/error.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <random>
 #include <string>
 #include <system_error>
@@ -56,13 +60,13 @@ private:
 }
 
 /// A name in the same folder that is unique across processes and threads, also of several machines that share the
-/// folder, where process ids are not unique: hence a random number for each process.
+/// folder, where process ids are not unique: hence a random number for each process. Without the target's name, which
+/// may be as long as a file system allows.
 fs::path temporaryName(const fs::path& target) {
     static const unsigned process = std::random_device()();
     static std::atomic<unsigned> counter = 0;
     fs::path result = target;
-    result.replace_filename(
-        fmt::format(".{}.{}-{:08x}-{}.tmp", target.filename().string(), ::getpid(), process, counter++));
+    result.replace_filename(fmt::format(".reflet-{}-{:08x}-{}.tmp", ::getpid(), process, counter++));
     return result;
 }
 
@@ -73,6 +77,46 @@ void flush(const fs::path& path, const fs::path& name) {
     if (!file.valid() || (::fsync(file.get()) != 0 && errno != EINVAL)) {  // EINVAL: a file system that cannot
         failWrite(name, errno);
     }
+}
+
+/// Names of temporary files, for a signal handler: no locks, and no memory taken while one looks.
+class TemporaryList {
+public:
+    static constexpr size_t none = 64;
+
+    size_t add(const fs::path& path) noexcept {
+        char* name = ::strdup(path.c_str());
+        for (size_t i = 0; name != nullptr && i < names_.size(); ++i) {
+            char* empty = nullptr;
+            if (names_.at(i).compare_exchange_strong(empty, name)) {
+                return i;
+            }
+        }
+        std::free(name);  // NOLINT(cppcoreguidelines-no-malloc): of strdup
+        return none;
+    }
+
+    void forget(size_t index) noexcept {
+        if (index < none) {
+            std::free(names_.at(index).exchange(nullptr));  // NOLINT(cppcoreguidelines-no-malloc): of strdup
+        }
+    }
+
+    void removeAll() const noexcept {
+        for (const std::atomic<char*>& name : names_) {
+            if (const char* path = name.load(); path != nullptr) {
+                ::unlink(path);
+            }
+        }
+    }
+
+private:
+    std::array<std::atomic<char*>, none> names_{};
+};
+
+TemporaryList& temporaryList() noexcept {
+    static constinit TemporaryList list;
+    return list;
 }
 
 void writeAll(int descriptor, std::string_view content, const fs::path& name) {
@@ -89,16 +133,31 @@ void writeAll(int descriptor, std::string_view content, const fs::path& name) {
 
 }  // namespace
 
-std::string readFile(const fs::path& path) {
-    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+std::string readFile(const fs::path& path, uint64_t maxBytes) {
+    struct stat status {};
+    const auto check = [&](bool done) {
+        if (!done) {
+            fail("{}: cannot be read: {}", path.string(), reason(errno));
+        }
+        if (S_ISDIR(status.st_mode)) {
+            fail("{}: cannot be read: {}", path.string(), reason(EISDIR));
+        }
+        if (!S_ISREG(status.st_mode)) {
+            fail("{}: cannot be read: it is a pipe or a device, not a regular file", path.string());
+        }
+        if (status.st_size > 0 && static_cast<uint64_t>(status.st_size) > maxBytes) {
+            fail("{}: cannot be read: it has {} bytes, more than the limit of {} MiB", path.string(), status.st_size,
+                 maxBytes >> 20U);
+        }
+    };
+    check(::stat(path.c_str(), &status) == 0);  // before opening it: to open a device can have effects
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (!file.valid()) {
         fail("{}: cannot be read: {}", path.string(), reason(errno));
     }
+    check(::fstat(file.get(), &status) == 0);  // it may be another one by now
     std::string content;
-    std::error_code ignored;
-    if (const uintmax_t size = fs::file_size(path, ignored); !ignored) {
-        content.reserve(size);
-    }
+    content.reserve(static_cast<size_t>(status.st_size));
     std::string block(size_t{1} << 16, '\0');
     for (;;) {
         const ssize_t count = ::read(file.get(), block.data(), block.size());
@@ -110,6 +169,9 @@ std::string readFile(const fs::path& path) {
         }
         if (count > 0) {
             content.append(block, 0, static_cast<size_t>(count));
+            if (content.size() > maxBytes) {  // it grows, or is one of /proc, which have size 0
+                fail("{}: cannot be read: it has more than {} MiB", path.string(), maxBytes >> 20U);
+            }
         }
     }
 }
@@ -162,12 +224,14 @@ AtomicFile::AtomicFile(const fs::path& target) : name_(target), target_(target) 
         failWrite(name_, errno);
     }
     pending_ = true;
+    listed_ = temporaryList().add(tempPath_);
 }
 
 AtomicFile::~AtomicFile() {
     if (pending_) {
         std::error_code ignored;
         fs::remove(tempPath_, ignored);
+        temporaryList().forget(listed_);
     }
 }
 
@@ -180,6 +244,11 @@ void AtomicFile::commit() {
         failWrite(name_, errno);
     }
     pending_ = false;
+    temporaryList().forget(listed_);
+}
+
+void removeTemporaryFiles() noexcept {
+    temporaryList().removeAll();
 }
 
 bool AtomicFile::commitNew() {

@@ -1,14 +1,16 @@
 // Reads and writes whole files. Writing is atomic.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
 
 namespace reflet {
 
-/// The content of a file. Throws Error if it cannot be read.
-std::string readFile(const std::filesystem::path& path);
+/// The content of a file. Throws Error if it cannot be read, has more than `maxBytes` bytes, or is no regular file:
+/// reading a pipe or a device might never end.
+std::string readFile(const std::filesystem::path& path, uint64_t maxBytes = uint64_t{1} << 40U);
 
 /// Writes a file atomically: readers of `path` see the old content or the new, never a part. Throws Error and leaves
 /// the old content on failure.
@@ -17,6 +19,10 @@ void writeFileAtomically(const std::filesystem::path& path, std::string_view con
 /// The same for a file that must not exist yet. Returns false if `path` exists, even if another process creates it
 /// concurrently.
 bool writeNewFile(const std::filesystem::path& path, std::string_view content);
+
+/// Removes the temporary files of writes that are going on, for a program that ends at once. May be called by a signal
+/// handler.
+void removeTemporaryFiles() noexcept;
 
 /// For libraries that write to a path themselves: let them write to tempPath(), then call commit(). Without commit()
 /// the target is unchanged. A target that is no regular file (/dev/null, a pipe) is written directly.
@@ -42,6 +48,7 @@ private:
     std::filesystem::path target_;    ///< symbolic links resolved
     std::filesystem::path tempPath_;  ///< target_ itself if that is written directly
     bool pending_ = false;            ///< the temporary file exists
+    size_t listed_ = 0;               ///< of the temporary file in the list of removeTemporaryFiles
 };
 
 }  // namespace reflet

@@ -1,8 +1,9 @@
-// PNG and Radiance HDR through stb, encoded and decoded in memory.
+// PNG and other 8-bit formats through stb, encoded and decoded in memory.
 #include "base/image_file.h"
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/limits.h"
 
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
@@ -19,7 +20,7 @@ using StbPixels = std::unique_ptr<T, decltype(&stbi_image_free)>;
 
 /// The content of a file, checked for the size limit of stb.
 struct Encoded {
-    explicit Encoded(const std::filesystem::path& path) : content(readFile(path)) {
+    explicit Encoded(const std::filesystem::path& path) : content(readFile(path, memoryLimit())) {
         if (content.size() > static_cast<size_t>(std::numeric_limits<int>::max())) {
             fail("{}: cannot be read: larger than 2 GiB", path.string());
         }
@@ -61,6 +62,17 @@ Bitmap readBitmap(const std::filesystem::path& path) {
     int width = 0;
     int height = 0;
     int channels = 0;
+    if (stbi_is_hdr_from_memory(file.data(), file.size()) != 0) {  // a format of values; stb's reader may never end
+        fail("{}: cannot be read as an image: it is a Radiance HDR image", path.string());
+    }
+    if (stbi_info_from_memory(file.data(), file.size(), &width, &height, &channels) == 0) {
+        failDecode(path);
+    }
+    constexpr uint64_t bytesPerPixel = 16;  // the inflated rows, two copies while channels are added, the result
+    const std::string excess = imageExcess(static_cast<uint64_t>(width), static_cast<uint64_t>(height), bytesPerPixel);
+    if (width <= 0 || height <= 0 || !excess.empty()) {
+        fail("{}: cannot be read as an image: it {}", path.string(), excess.empty() ? "has no pixels" : excess);
+    }
     const StbPixels<stbi_uc> pixels(stbi_load_from_memory(file.data(), file.size(), &width, &height, &channels, 0),
                                     &stbi_image_free);
     if (!pixels) {
@@ -69,25 +81,6 @@ Bitmap readBitmap(const std::filesystem::path& path) {
     Bitmap bitmap{static_cast<uint32_t>(width), static_cast<uint32_t>(height), static_cast<uint32_t>(channels), {}};
     bitmap.data.assign(pixels.get(), pixels.get() + size_t{bitmap.width} * bitmap.height * bitmap.channels);
     return bitmap;
-}
-
-FloatImage readHdr(const std::filesystem::path& path) {
-    const Encoded file(path);
-    // stb would convert an 8-bit image to floats with a gamma of its own.
-    if (stbi_is_hdr_from_memory(file.data(), file.size()) == 0) {
-        fail("{}: is not a Radiance HDR image", path.string());
-    }
-    int width = 0;
-    int height = 0;
-    int channels = 0;
-    const StbPixels<float> pixels(stbi_loadf_from_memory(file.data(), file.size(), &width, &height, &channels, 3),
-                                  &stbi_image_free);
-    if (!pixels) {
-        failDecode(path);
-    }
-    FloatImage image{static_cast<uint32_t>(width), static_cast<uint32_t>(height), {"R", "G", "B"}, {}};
-    image.data.assign(pixels.get(), pixels.get() + size_t{image.width} * image.height * 3);
-    return image;
 }
 
 }  // namespace reflet

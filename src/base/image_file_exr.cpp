@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/limits.h"
 
 #include <ImathBox.h>
 #include <ImfChannelList.h>
@@ -200,6 +201,14 @@ void checkPlausible(const std::vector<ImageLayer>& layers, size_t fileSize) {
     if (bytes > bestCompression * static_cast<double>(fileSize)) {
         fail("an image of {:g} bytes cannot be stored in {} bytes", bytes, fileSize);
     }
+    if (bytes > 0.0) {
+        const FloatImage& first = layers.front().image;  // all have one size
+        const double pixels = double(first.width) * first.height;
+        const std::string excess = imageExcess(first.width, first.height, static_cast<uint64_t>(bytes / pixels));
+        if (!excess.empty()) {
+            fail("it {}", excess);
+        }
+    }
 }
 
 std::vector<ImageLayer> decodeExr(std::string_view content) {
@@ -239,7 +248,7 @@ void writeExr(const std::filesystem::path& path, std::span<const ImageLayer> lay
 }
 
 std::vector<ImageLayer> readExr(const std::filesystem::path& path) {
-    const std::string content = readFile(path);
+    const std::string content = readFile(path, memoryLimit());
     try {
         return decodeExr(content);
     } catch (const std::exception& error) {

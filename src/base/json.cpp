@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json_text.h"
+#include "base/message.h"
 #include "base/text.h"
 
 #include <algorithm>
@@ -29,7 +30,7 @@ public:
             auto& [keys, current] = objects_.back();
             current = parsed.get<std::string>();
             if (!keys.insert(current).second) {
-                fail("{}: {}: duplicate key", file_, currentPath());
+                fail("{}: {}: duplicate key", file_, oneLine(currentPath()));
             }
         }
         return true;
@@ -69,7 +70,7 @@ std::string jsonReason(const json::exception& error) {
     if (text.starts_with("parse error")) {
         text.erase(0, text.find(": ") + 2);
     }
-    return text;
+    return oneLine(text, 300);  // it quotes the token that it stopped at
 }
 
 /// The JSON text of a value, if it is short.
@@ -84,7 +85,11 @@ std::string shown(const json& value) {
 }  // namespace
 
 json parseJsonFile(const std::filesystem::path& path) {
-    const std::string text = readFile(path);
+    const JsonLimits limits;
+    const std::string text = readFile(path, limits.bytes);
+    if (const std::string excess = jsonExcess(text, limits); !excess.empty()) {
+        fail("{}: {}", path.string(), excess);
+    }
     try {
         // By reference: the parser copies its callback.
         DuplicateKeys duplicateKeys(path.string());
@@ -97,7 +102,7 @@ json parseJsonFile(const std::filesystem::path& path) {
 }
 
 void JsonNode::complain(std::string_view what) const {
-    fail("{}: {}{}{}", file_, path_, path_.empty() ? "" : ": ", what);
+    fail("{}: {}{}{}", file_, oneLine(path_), path_.empty() ? "" : ": ", what);
 }
 
 void JsonNode::complainMustBe(std::string_view what) const {

@@ -12,7 +12,8 @@
 
 namespace reflet {
 
-/// Throws Error: an unreadable file, malformed JSON ("FILE:LINE:COLUMN: ..."), a duplicate key in an object.
+/// Throws Error: an unreadable file, one that exceeds JsonLimits (base/json_text.h), malformed JSON ("FILE:LINE:COLUMN:
+/// ..."), a duplicate key in an object.
 nlohmann::json parseJsonFile(const std::filesystem::path& path);
 
 /// A value of a JSON file with its path. Refers to the root value, which must outlive it.

@@ -4,13 +4,28 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
 namespace reflet {
 
-/// Throws nlohmann::json::parse_error.
-nlohmann::json parseJson(std::string_view text);
+/// What a JSON text may have. Parsed values take 20 to 100 bytes each, "[]" alone three bytes of text; and much of what
+/// reads, compares or writes a value calls itself for each level.
+struct JsonLimits {
+    uint64_t bytes = uint64_t{64} << 20U;
+    uint64_t values = 4'000'000;  ///< numbers, texts, arrays, objects ...
+    int depth = 128;              ///< of nested arrays and objects
+};
+
+/// Upper bound on the number of values in a text, which need not be valid JSON.
+uint64_t jsonValues(std::string_view text);
+
+/// Which limit the text exceeds, as the end of an error message; empty: none. All parsers below ask it first.
+std::string jsonExcess(std::string_view text, const JsonLimits& limits = {});
+
+/// Throws nlohmann::json::parse_error, or Error if the text exceeds a limit.
+nlohmann::json parseJson(std::string_view text, const JsonLimits& limits = {});
 /// The same; a value that is_discarded() where the text is not JSON.
 nlohmann::json parseJsonIfValid(std::string_view text);
 /// As parseJson; objects keep the order of their keys.

@@ -1,11 +1,12 @@
 // Progress of long work on a terminal.
 #include "base/progress.h"
 
+#include "base/message.h"
+
 #include <fmt/format.h>
 
 #include <unistd.h>
 #include <cmath>
-#include <cstdio>
 
 namespace reflet {
 
@@ -22,7 +23,7 @@ std::string durationText(double seconds) {
 
 void tellWritten(const std::string& what) {
     if (isatty(STDERR_FILENO) != 0) {
-        fmt::print(stderr, "written: {}\n", what);
+        printRaw(fmt::format("written: {}\n", what));
     }
 }
 
@@ -31,7 +32,7 @@ Progress::Progress(std::string what, uint64_t total)
 
 Progress::~Progress() {
     if (shown_) {
-        fmt::print(stderr, "\r\033[K");
+        printRaw("\r\033[K");
     }
 }
 
@@ -45,9 +46,8 @@ void Progress::set(uint64_t done, std::string_view note) {
     shown_ = true;
     const double elapsed = std::chrono::duration<double>(now - start_).count();
     const double left = elapsed / static_cast<double>(done_) * static_cast<double>(total_ - done_);
-    fmt::print(stderr, "\r\033[K{} {} of {}, {} left{}{}", what_, done_, total_, durationText(left),
-               note.empty() ? "" : ", ", note);
-    (void)std::fflush(stderr);
+    printRaw(fmt::format("\r\033[K{} {} of {}, {} left{}{}", what_, done_, total_, durationText(left),
+                         note.empty() ? "" : ", ", note));
 }
 
 }  // namespace reflet

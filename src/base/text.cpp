@@ -54,6 +54,10 @@ bool onePartOfOther(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::optional<std::string> nearestName(std::string_view name, std::span<const std::string> names) {
+    constexpr size_t longest = 100;  // comparing takes time for each pair of letters, and no known name is as long
+    if (name.size() > longest) {
+        return std::nullopt;
+    }
     const std::string wanted = lettersOf(name);
     std::optional<std::string> nearest;
     size_t nearestDistance = std::numeric_limits<size_t>::max();

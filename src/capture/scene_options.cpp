@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/json.h"
+#include "base/message.h"
 #include "base/text.h"
 #include "renderer/presets.h"
 #include "scene/background.h"
@@ -17,7 +18,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdio>
 
 namespace reflet {
 
@@ -74,11 +74,11 @@ void chooseLight(const SceneOptions& options, const Scene& scene, const nlohmann
 }  // namespace
 
 void printWarning(const std::string& message) {
-    fmt::print(stderr, "reflet: warning: {}\n", message);
+    printMessage("warning:", message);
 }
 
 void printNote(const std::string& message) {
-    fmt::print(stderr, "reflet: note: {}\n", message);
+    printMessage("note:", message);
 }
 
 Scene loadScene(const SceneOptions& options) {

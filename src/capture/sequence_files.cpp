@@ -52,7 +52,8 @@ std::vector<fs::path> SequenceFiles::missing(uint32_t frame) const {
     std::vector<fs::path> files;
     for (const FrameNames& names : names_) {
         fs::path file = names.file(firstFrame_ + frame);
-        if (!fs::exists(file)) {
+        // A folder of that name is none: writing the frame says that it is in the way.
+        if (std::error_code ignored; !fs::is_regular_file(file, ignored)) {
             files.push_back(std::move(file));
         }
     }

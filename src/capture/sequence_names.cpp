@@ -51,7 +51,7 @@ std::vector<fs::path> FrameNames::existing() const {
         fail("{}: the folder cannot be read: {}", pattern_, error.message());
     }
     for (const auto& entry : entries) {
-        if (matches(entry.path().filename().string())) {
+        if (std::error_code ignored; !entry.is_directory(ignored) && matches(entry.path().filename().string())) {
             files.push_back(folder_ / entry.path().filename());
         }
     }

@@ -5,9 +5,10 @@
 #include "base/file.h"
 #include "base/json.h"
 #include "base/json_text.h"
+#include "base/message.h"
 #include "capture/fingerprint.h"
 #include "scene/camera_json.h"
-#include "scene/gltf/uri.h"
+#include "scene/gltf/files.h"
 
 #include <algorithm>
 #include <array>
@@ -19,28 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-
-// The JSON of a .gltf file, or of a .glb file's first chunk.
-nlohmann::json gltfJson(const std::string& content) {
-    constexpr size_t header = 20;
-    const bool binary = content.starts_with("glTF") && content.size() > header;
-    return parseJsonIfValid(binary ? content.substr(header, content.find('\0', header)) : content);
-}
-
-std::vector<std::string> namedFiles(const std::string& content) {
-    std::vector<std::string> uris;
-    const nlohmann::json json = gltfJson(content);
-    for (const char* key : {"buffers", "images"}) {
-        if (json.is_object() && json.contains(key)) {
-            for (const nlohmann::json& entry : json.at(key)) {
-                if (const std::string uri = entry.value("uri", ""); !uri.empty() && !uri.starts_with("data:")) {
-                    uris.push_back(percentDecoded(uri));
-                }
-            }
-        }
-    }
-    return uris;
-}
 
 ordered_json numbers(const vec3& v) {
     return {v.x, v.y, v.z};
@@ -61,7 +40,7 @@ std::vector<std::string> differences(const nlohmann::json& old, const nlohmann::
     const nlohmann::json after = now.flatten();
     std::vector<std::string> found;
     const auto text = [](const nlohmann::json& all, const std::string& key) {
-        return all.contains(key) ? jsonText(all.at(key)) : "missing";
+        return all.contains(key) ? oneLine(jsonText(all.at(key))) : "missing";
     };
     nlohmann::json keys = before;
     keys.update(after);
@@ -69,7 +48,7 @@ std::vector<std::string> differences(const nlohmann::json& old, const nlohmann::
         const std::string was = text(before, key);
         const std::string is = text(after, key);
         if (was != is) {
-            std::string name = key.substr(1);
+            std::string name = oneLine(key.substr(std::min<size_t>(1, key.size())));
             std::ranges::replace(name, '/', '.');
             found.push_back(fmt::format("{} was {}, is {}", name, was, is));
         }
@@ -86,7 +65,7 @@ void compareRecords(const FrameNames& names, const ordered_json& record,
     nlohmann::json now = parseJson(jsonText(record));  // as it reads back from a file
     if (old.contains("device") && now.contains("device") && old.at("device") != now.at("device")) {
         warn(fmt::format("{}: begun on {}; frames of this device may differ in the last bits", names.pattern(),
-                         jsonText(old.at("device"))));
+                         oneLine(jsonText(old.at("device")))));
     }
     old.erase("device");
     now.erase("device");
@@ -106,12 +85,7 @@ std::string sceneFingerprint(const std::string& scene) {
         return "";
     }
     Fingerprint sum;
-    const std::string content = readFile(scene);
-    sum.add(std::as_bytes(std::span(content)));
-    for (const std::string& file : namedFiles(content)) {
-        const std::string named = readFile(fs::path(scene).parent_path() / file);
-        sum.add(std::as_bytes(std::span(named)));
-    }
+    visitGltfFiles(scene, [&](std::span<const uint8_t> bytes) { sum.add(std::as_bytes(bytes)); });
     return sum.text();
 }
 

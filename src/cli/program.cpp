@@ -1,28 +1,26 @@
 #include "cli/program.h"
 
 #include "base/error.h"
+#include "base/message.h"
 #include "base/text.h"
+#include "cli/last_resort.h"
 #include "cli/manual.h"
 #include "version.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <cstdio>
+#include <new>
 
 namespace reflet {
 
 namespace {
 
-constexpr int exitFailed = 1;
 constexpr int exitUsage = 2;
 
-// Prints one line: control characters in names from outside become spaces.
-int reportError(std::string message, int status) {
-    std::ranges::replace_if(
-        message, [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
-    fmt::print(stderr, "reflet: {}\n", message);
+int reportError(std::string_view message, int status) noexcept {
+    printMessage("", message);
     return status;
 }
 
@@ -102,12 +100,17 @@ int parseAndRun(int argc, char** argv, std::span<const AddCommand> commands) {
 }  // namespace
 
 int runProgram(int argc, char** argv, std::span<const AddCommand> commands) {
+    prepareForFailures();
     try {
         return parseAndRun(argc, argv, commands);
     } catch (const UsageError& error) {
         return reportError(error.what(), exitUsage);
+    } catch (const std::bad_alloc&) {
+        return reportError("needs more memory than is available", exitFailed);
     } catch (const std::exception& error) {
         return reportError(error.what(), exitFailed);
+    } catch (...) {
+        return reportError("failed for an unknown reason", exitFailed);
     }
 }
 

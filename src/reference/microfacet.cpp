@@ -35,8 +35,9 @@ public:
     }
 
     [[nodiscard]] LobeAlbedo at(float cosine, float roughness) const {
-        const float x = std::clamp(cosine, 0.0F, 1.0F) * (side - 1);
-        const float y = std::clamp(roughness, 0.0F, 1.0F) * (side - 1);
+        const auto unit = [](float v) { return v > 0.0F ? std::min(v, 1.0F) : 0.0F; };  // NaN is 0
+        const float x = unit(cosine) * (side - 1);
+        const float y = unit(roughness) * (side - 1);
         const int column = std::min(static_cast<int>(x), side - 2);
         const int row = std::min(static_cast<int>(y), side - 2);
         const vec2 value = glm::mix(glm::mix(entry(column, row), entry(column + 1, row), x - column),

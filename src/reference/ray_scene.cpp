@@ -12,6 +12,7 @@
 #endif
 
 #include <array>
+#include <cmath>
 #include <cstring>
 
 namespace reflet {
@@ -27,6 +28,14 @@ struct EmbreeGeometry {
 };
 
 namespace {
+
+// Farthest coordinate, and largest scale of an instance [m]: the fourth power of a length, in the squared length of a
+// cross product, is still a float. Beyond, normals are no numbers, and Embree's hierarchy can be none.
+constexpr float farthest = 1e9F;
+
+bool isWithin(const vec3& v) {
+    return std::abs(v.x) <= farthest && std::abs(v.y) <= farthest && std::abs(v.z) <= farthest;  // NaN is not
+}
 
 vec2 barycentricOf(const RTCFilterFunctionNArguments& args) {
     return {RTCHitN_u(args.hit, args.N, 0), RTCHitN_v(args.hit, args.N, 0)};
@@ -154,6 +163,14 @@ struct RayScene::State {
         const Mesh& mesh = scene.meshes.at(instance.mesh);
         const Material& material = scene.materials.at(mesh.material);
         const mat3 m(instance.objectToWorld);
+        const auto checkReach = [&](bool within) {
+            if (!within) {
+                fail(
+                    "instance {} '{}' is too far or too large: the reference takes coordinates and scales up to {:g} m",
+                    g.instance, instance.name.substr(0, 100), farthest);
+            }
+        };
+        checkReach(isWithin(m[0]) && isWithin(m[1]) && isWithin(m[2]));
         g.mirrored = glm::determinant(m) < 0.0F;
         g.doubleSided = material.doubleSided;
         // The cofactor matrix: the inverse transpose up to a factor, but defined for singular matrices, too.
@@ -165,6 +182,7 @@ struct RayScene::State {
         check("copying positions");
         for (size_t i = 0; i < mesh.positions.size(); ++i) {
             positions[i] = vec3(instance.objectToWorld * vec4(mesh.positions[i], 1.0F));
+            checkReach(isWithin(positions[i]));
         }
         g.positions = positions;
         rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.indices.data(), 0,

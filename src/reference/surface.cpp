@@ -82,12 +82,22 @@ void setGlass(SurfacePoint& s, const Scene& scene, const Material& material, con
 }
 
 // The interpolated normal with that normal map; it points outwards, whichever side the ray came from.
+/// Of a triangle, also where squares of its area are too small for floats.
+vec3 triangleNormal(const Triangle& t) {
+    const vec3 n = glm::normalize(glm::cross(t.b - t.a, t.c - t.a));
+    if (std::isfinite(n.x)) {
+        return n;
+    }
+    const glm::dvec3 exact = glm::cross(glm::dvec3(t.b) - glm::dvec3(t.a), glm::dvec3(t.c) - glm::dvec3(t.a));
+    return glm::length(exact) > 0.0 ? vec3(glm::normalize(exact)) : vec3(0.0F, 1.0F, 0.0F);
+}
+
 vec3 outerNormal(const RayScene& rays, const Hit& hit, const Corners& corners, const vec3& fallback,
                  const TextureSlot& map, float scale) {
     const Scene& scene = rays.scene();
     const vec3 sum = rays.normalToWorld(hit.instance) * corners.mix([](const VertexAttributes& v) { return v.normal; });
     const float length = glm::length(sum);
-    const vec3 n = length > 0.0F ? sum / length : fallback;
+    const vec3 n = length > 0.0F && std::isfinite(length) ? sum / length : fallback;
     if (map.image < 0) {
         return n;
     }
@@ -140,7 +150,7 @@ SurfacePoint surfaceAt(const RayScene& rays, const Hit& hit, const vec3& directi
     s.position = t.a * corners.weight[0] + t.b * corners.weight[1] + t.c * corners.weight[2];
     s.clearance = 4e-6F * std::max({largest(t.a), largest(t.b), largest(t.c)});
     s.toOrigin = -glm::normalize(direction);
-    const vec3 outer = glm::normalize(glm::cross(t.b - t.a, t.c - t.a)) * (rays.mirrored(hit.instance) ? -1.0F : 1.0F);
+    const vec3 outer = triangleNormal(t) * (rays.mirrored(hit.instance) ? -1.0F : 1.0F);
     s.front = glm::dot(outer, s.toOrigin) >= 0.0F;
     s.geometricNormal = s.front ? outer : -outer;
     const vec3 shading = outerNormal(rays, hit, corners, outer, material.normalTexture, material.normalScale);

@@ -2,10 +2,13 @@
 #include "view/saved_state.h"
 
 #include "base/error.h"
-#include "base/file.h"
+#include "base/home.h"
 #include "base/json.h"
 #include "base/json_text.h"
+#include "base/message.h"
 #include "capture/fingerprint.h"
+#include "capture/scene_options.h"
+#include "capture/show.h"
 #include "renderer/presets.h"
 #include "scene/view_file.h"
 
@@ -13,8 +16,11 @@
 #include <array>
 #include <cctype>
 #include <cstdlib>
+#include <functional>
+#include <mutex>
 #include <span>
 #include <utility>
+#include <vector>
 
 namespace reflet {
 
@@ -22,6 +28,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
+
+constexpr double largestWindow = 8192.0;  // along a side; a device may take minutes to draw a larger one
+const uvec2 smallestWindow(320, 200);
+constexpr size_t longestName = 100;  // of a scene, in a file name, which may have 255 bytes
 
 constexpr std::array<std::pair<Running, const char*>, 3> runningNames{
     {{Running::onDemand, "on demand"}, {Running::continuous, "continuous"}, {Running::paused, "paused"}}};
@@ -36,7 +46,7 @@ std::string nameOf(const std::array<std::pair<T, const char*>, N>& names, T valu
 }
 
 template <class T, size_t N>
-T valueOf(const std::array<std::pair<T, const char*>, N>& names, const ordered_json& json, const char* key,
+T valueOf(const std::array<std::pair<T, const char*>, N>& names, const nlohmann::json& json, const char* key,
           T standard) {
     const auto found = std::ranges::find(names, json.value(key, std::string()),
                                          [](const std::pair<T, const char*>& p) { return std::string(p.second); });
@@ -74,40 +84,86 @@ ordered_json toJson(const ViewerState& state) {
     return json;
 }
 
-void fromJson(const ordered_json& json, const fs::path& file, const Restore& what, ViewerState& state) {
+/// The number of this key, if there is one.
+template <class T>
+void readNumber(const JsonNode& node, const char* key, double min, double max, T& number) {
+    if (const auto value = node.find(key)) {
+        number = static_cast<T>(value->number(min, max));
+    }
+}
+
+/// The name of this key, if there is one; must be one of `names`, which gives an Error that lists them.
+void readName(const JsonNode& node, const char* key, const std::function<void(const std::string&)>& check,
+              std::string& name) {
+    if (const auto value = node.find(key)) {
+        if (!value->json().is_string()) {
+            value->complainMustBe("a text");
+        }
+        const std::string wanted = value->json().get<std::string>();
+        try {
+            check(wanted);
+        } catch (const Error& error) {
+            value->complain(error.what());
+        }
+        name = wanted;
+    }
+}
+
+/// An object of this key, or an empty one.
+JsonNode part(const JsonNode& root, const char* key) {
+    static const nlohmann::json none = nlohmann::json::object();
+    const auto found = root.find(key);
+    if (found && !found->json().is_object()) {
+        found->complainMustBe("an object");
+    }
+    return found ? *found : JsonNode(none, "");
+}
+
+void fromJson(const nlohmann::json& json, const fs::path& file, const Restore& what, ViewerState& state) {
+    const JsonNode root(json, file);
+    if (!json.is_object()) {
+        root.complainMustBe("an object");
+    }
     if (what.view && json.contains("view")) {
-        applyViewJson(nlohmann::json(json["view"]), file, state.view);
+        applyViewJson(json["view"], file, state.view);
     }
     if (what.settings && json.contains("preset")) {
         Settings settings;
         applyPreset(settings, json["preset"].get<std::string>());
         state.ofPreset = settings;
-        applySettingsJson(settings, nlohmann::json(json.value("settings", ordered_json::object())), file.string());
+        applySettingsJson(settings, part(root, "settings").json(), file.string());
         state.preset = json["preset"].get<std::string>();
         state.settings = settings;
     }
     state.running = valueOf(runningNames, json, "running", state.running);
     state.plays = json.value("plays", state.plays);
-    const ordered_json show = json.value("show", ordered_json::object());
-    state.show = show.value("name", state.show);
-    state.falseColor = show.value("false_color", state.falseColor);
-    state.low = show.value("low", state.low);
-    state.high = show.value("high", state.high);
-    state.scale = std::clamp(json.value("scale", state.scale), 0.1F, 2.0F);
-    state.mostFrames = std::clamp(json.value("most_frames", state.mostFrames), 0.0F, 1000.0F);
-    const ordered_json compare = json.value("compare", ordered_json::object());
+    const JsonNode show = part(root, "show");
+    readName(
+        show, "name", [](const std::string& name) { (void)findShow(name); }, state.show);
+    state.falseColor = show.json().value("false_color", state.falseColor);
+    readNumber(show, "low", -1e30, 1e30, state.low);
+    readNumber(show, "high", -1e30, 1e30, state.high);
+    readNumber(root, "scale", 0.1, 2.0, state.scale);
+    readNumber(root, "most_frames", 0.0, 1000.0, state.mostFrames);
+    const JsonNode compare = part(root, "compare");
     Compare& c = state.compare;
-    c.with = valueOf(compareNames, compare, "with", c.with);
-    c.preset = compare.value("preset", c.preset);
-    c.file = compare.value("file", c.file);
-    c.samples = std::clamp(compare.value("samples", c.samples), 1U, 65536U);
-    c.divider = std::clamp(compare.value("divider", c.divider), 0.0F, 1.0F);
-    c.errorImage = compare.value("error_image", c.errorImage);
+    c.with = valueOf(compareNames, compare.json(), "with", c.with);
+    readName(
+        compare, "preset",
+        [](const std::string& name) {
+            Settings ignored;
+            applyPreset(ignored, name);
+        },
+        c.preset);
+    c.file = compare.json().value("file", c.file);
+    readNumber(compare, "samples", 1.0, 65536.0, c.samples);
+    readNumber(compare, "divider", 0.0, 1.0, c.divider);
+    c.errorImage = compare.json().value("error_image", c.errorImage);
     state.panels = json.value("panels", state.panels);
-    state.panelWidth = std::clamp(json.value("panel_width", state.panelWidth), 200.0F, 2000.0F);
-    if (json.contains("window")) {
-        state.window = glm::clamp(uvec2(json["window"].at(0).get<uint32_t>(), json["window"].at(1).get<uint32_t>()),
-                                  uvec2(320, 200), uvec2(16384));
+    readNumber(root, "panel_width", 200.0, 2000.0, state.panelWidth);
+    if (const auto window = root.find("window")) {
+        const std::vector<double> size = window->numbers(2, 0.0, largestWindow, "pixels");
+        state.window = glm::max(uvec2(size[0], size[1]), smallestWindow);
     }
 }
 
@@ -124,8 +180,10 @@ fs::path configurationFolder() {
     if (configured != nullptr && *configured != '\0') {
         return fs::path(configured) / "reflet";
     }
-    const char* home = std::getenv("HOME");
-    return fs::path(home != nullptr ? home : ".") / ".config" / "reflet";
+    if (const auto home = homeFolder()) {
+        return *home / ".config" / "reflet";
+    }
+    fail("there is no home folder: set XDG_CONFIG_HOME or HOME to keep the window's state");
 }
 
 fs::path stateFile(const std::string& scene) {
@@ -134,7 +192,14 @@ fs::path stateFile(const std::string& scene) {
     std::ranges::replace_if(
         name, [](unsigned char c) { return std::isalnum(c) == 0 && c != '-' && c != '_'; }, '_');
     // Files of the same name can be in different folders.
-    return configurationFolder() / "view" / fmt::format("{}-{}.json", name, fingerprintOf(key));
+    const std::string file = fmt::format("{}-{}.json", name.substr(0, longestName), fingerprintOf(key));
+    try {
+        return configurationFolder() / "view" / file;
+    } catch (const Error& error) {
+        static std::once_flag told;
+        std::call_once(told, [&] { printWarning(error.what()); });
+        return "/dev/null";
+    }
 }
 
 std::string stateText(const ViewerState& state) {
@@ -143,14 +208,14 @@ std::string stateText(const ViewerState& state) {
 
 bool restoreState(ViewerState& state, const Restore& what) {
     const fs::path file = stateFile(state.source.scene);
-    if (!fs::exists(file)) {
+    if (std::error_code ignored; !fs::is_regular_file(file, ignored)) {
         return false;
     }
     ViewerState restored = state;
     try {
-        fromJson(ordered_json(parseJsonFile(file)), file, what, restored);
+        fromJson(parseJsonFile(file), file, what, restored);
     } catch (const nlohmann::json::exception& error) {
-        fail("{}: {}", file.string(), error.what());
+        fail("{}: {}", file.string(), oneLine(error.what()));
     }
     state = restored;
     return true;

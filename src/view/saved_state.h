@@ -7,13 +7,14 @@
 
 namespace reflet {
 
-/// $XDG_CONFIG_HOME/reflet, or ~/.config/reflet.
+/// $XDG_CONFIG_HOME/reflet, or .config/reflet in the home folder. Throws Error if there is no home folder.
 std::filesystem::path configurationFolder();
 
 /// A hash of the text that is stable across runs and machines, for file names.
 std::string fingerprintOf(const std::string& text);
 
-/// The file with the state of a scene: `scene` as on the command line.
+/// The file with the state of a scene: `scene` as on the command line. /dev/null if there is no home folder, which is
+/// warned of once.
 std::filesystem::path stateFile(const std::string& scene);
 
 /// The content of that file: everything that is restored when the scene is opened again.

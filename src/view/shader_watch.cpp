@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <string_view>
 
@@ -48,6 +49,29 @@ Ran runCommand(const std::string& command) {
     ran.status = WIFEXITED(status) ? WEXITSTATUS(status) : 1;
     return ran;
 }
+
+/// A new folder that only this user can enter: in a shared one, others could put a link where the compiler writes.
+class PrivateFolder {
+public:
+    PrivateFolder() : path_((fs::temp_directory_path() / "reflet-shader-XXXXXX").string()) {
+        if (::mkdtemp(path_.data()) == nullptr) {
+            fail("{}: cannot create a folder there", fs::temp_directory_path().string());
+        }
+    }
+    ~PrivateFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    PrivateFolder(const PrivateFolder&) = delete;
+    PrivateFolder& operator=(const PrivateFolder&) = delete;
+    PrivateFolder(PrivateFolder&&) = delete;
+    PrivateFolder& operator=(PrivateFolder&&) = delete;
+
+    [[nodiscard]] const std::string& path() const { return path_; }
+
+private:
+    std::string path_;
+};
 
 }  // namespace
 
@@ -93,7 +117,8 @@ std::set<std::string> ShaderWatch::usersOf(const std::string& name) const {
 }
 
 bool ShaderWatch::compile(const std::string& name) {
-    const fs::path out = fs::temp_directory_path() / fmt::format("reflet-shader-{}.spv", ::getpid());
+    const PrivateFolder folder;
+    const fs::path out = fs::path(folder.path()) / "shader.spv";
     const Ran ran = runCommand(fmt::format("{} -I {} -o {} {} 2>&1", REFLET_GLSLC, shellWord(sources_.string()),
                                            shellWord(out.string()), shellWord((sources_ / name).string())));
     if (ran.status != 0) {
@@ -101,8 +126,6 @@ bool ShaderWatch::compile(const std::string& name) {
         return false;
     }
     const std::string bytes = readFile(out);
-    std::error_code ignored;
-    fs::remove(out, ignored);
     std::vector<uint32_t> words(bytes.size() / sizeof(uint32_t));
     std::memcpy(words.data(), bytes.data(), words.size() * sizeof(uint32_t));
     try {

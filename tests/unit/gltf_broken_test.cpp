@@ -295,7 +295,7 @@ INSTANTIATE_TEST_SUITE_P(
             "materials[0].pbrMetallicRoughness.baseColorTexture.extensions.KHR_texture_transform.scale: has 1")
             .warns(defaultUsed),
         poke<uint8_t>("NotAnImage", 6, 0, 0, "images[0]: is not a PNG", "").warns(noTexture),
-        poke<uint8_t>("GiganticImage", 6, 17, 0x0F, "images[0]: has 983042 x 2 pixels", "").warns(noTexture),
+        poke<uint8_t>("GiganticImage", 6, 17, 0x0F, "images[0]: claims 983042 x 2 pixels", "").warns(noTexture),
         poke<uint64_t>("AQuarterGigapixelInAFewBytes", 6, 2, 0x0040000000400000ULL, "images[0]: claims 16384 x 16384",
                        "")
             .warns(noTexture),

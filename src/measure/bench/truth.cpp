@@ -3,10 +3,12 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/home.h"
 #include "base/json.h"
 #include "base/json_text.h"
 #include "base/progress.h"
 #include "capture/fingerprint.h"
+#include "capture/scene_options.h"
 #include "reference/sample_progress.h"
 
 #include <nlohmann/json.hpp>
@@ -120,12 +122,26 @@ std::optional<Truth> readTruth(const fs::path& picture, const fs::path& facts) {
     if (!fs::exists(facts) || !fs::exists(picture)) {
         return std::nullopt;
     }
-    const nlohmann::json json = parseJsonFile(facts);
-    Truth truth{{}, picture.string(), json.at("samples"), json.at("noise")};
-    for (ImageLayer& layer : readExr(picture)) {
-        truth.layers[layer.name] = std::move(layer.image);
+    try {
+        const nlohmann::json json = parseJsonFile(facts);
+        const JsonNode root(json, facts);
+        const auto number = [&](const char* key, double most) {
+            const auto value = json.is_object() ? root.find(key) : std::nullopt;
+            if (!value) {
+                root.complain(fmt::format("has no {}", key));
+            }
+            return value->number(0.0, most);
+        };
+        Truth truth{
+            {}, picture.string(), static_cast<uint32_t>(number("samples", 4294967295.0)), number("noise", 1e30)};
+        for (ImageLayer& layer : readExr(picture)) {
+            truth.layers[layer.name] = std::move(layer.image);
+        }
+        return truth;
+    } catch (const Error& error) {
+        printWarning(fmt::format("{}; this cached ground truth will be made anew", error.what()));
+        return std::nullopt;
     }
-    return truth;
 }
 
 // The facts are written last: their file marks the image as complete.
@@ -177,11 +193,13 @@ void parseTruth(const std::string& text, TruthOptions& options) {
 
 fs::path standardTruthFolder() {
     const char* cache = std::getenv("XDG_CACHE_HOME");
-    const char* home = std::getenv("HOME");
-    const fs::path base = cache != nullptr && *cache != '\0' ? fs::path(cache)
-                          : home != nullptr                  ? fs::path(home) / ".cache"
-                                                             : fs::temp_directory_path();
-    return base / "reflet" / "truth";
+    if (cache != nullptr && *cache != '\0') {
+        return fs::path(cache) / "reflet" / "truth";
+    }
+    if (const auto home = homeFolder()) {
+        return *home / ".cache" / "reflet" / "truth";
+    }
+    return {};  // not the shared temporary folder, where others could prepare what is read
 }
 
 Settings chainSettings(const Settings& settings, uint32_t raysPerFrame) {
@@ -221,6 +239,9 @@ Truth getTruth(gpu::Device& device, const BenchScene& scene, uvec2 size, const S
                const TruthOptions& options) {
     if (options.kind == TruthKind::none) {
         return {};
+    }
+    if (options.folder.empty()) {
+        failUsage("there is no home folder for the cache of ground truth: choose a folder with --truth-cache");
     }
     const std::string key = truthKey(scene, size, settings, options);
     Fingerprint print;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr uint64_t maxFileBytes = 1ULL << 32U;  // a .glb stores its length in 32 bits
 constexpr uint64_t maxJsonBytes = 1ULL << 29U;
-constexpr int maxJsonDepth = 128;
+constexpr uint64_t jsonBytesPerValue = 256;  // in the four forms that the document is in until it is a scene
 constexpr size_t headerBytes = 12;
 constexpr size_t chunkHeaderBytes = 8;
 constexpr uint32_t magicGltf = 0x46546C67;
@@ -30,37 +30,15 @@ uint32_t readU32(Bytes bytes, size_t at) {
            uint32_t(bytes[at + 3]) << 24U;
 }
 
-/// Depth of nested brackets outside strings. The JSON library's parser callback could tell, but takes time quadratic in
-/// the length of arrays.
-int nesting(Bytes text) {
-    int depth = 0;
-    int deepest = 0;
-    bool inString = false;
-    for (size_t i = 0; i < text.size(); ++i) {
-        const char c = static_cast<char>(text[i]);
-        if (inString) {
-            i += c == '\\' ? 1 : 0;
-            inString = c != '"';
-        } else if (c == '"') {
-            inString = true;
-        } else if (c == '[' || c == '{') {
-            deepest = std::max(deepest, ++depth);
-        } else if (c == ']' || c == '}') {
-            --depth;
-        }
+nlohmann::json parseJson(Bytes bytes, GltfReport& report) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const JsonLimits limits{.bytes = maxJsonBytes, .values = UINT64_MAX};
+    if (const std::string excess = jsonExcess(text, limits); !excess.empty()) {
+        report.fail("JSON", "{}", excess);
     }
-    return deepest;
-}
-
-nlohmann::json parseJson(Bytes text, const GltfReport& report) {
-    if (text.size() > maxJsonBytes) {
-        report.fail("JSON", "has {} bytes, more than the limit of {} MiB", text.size(), maxJsonBytes >> 20U);
-    }
-    if (nesting(text) > maxJsonDepth) {
-        report.fail("JSON", "is nested more than {} levels deep", maxJsonDepth);
-    }
+    report.charge("JSON", jsonBytesPerValue * jsonValues(text));
     try {
-        return reflet::parseJson({reinterpret_cast<const char*>(text.data()), text.size()});
+        return reflet::parseJson(text, limits);
     } catch (const nlohmann::json::parse_error& error) {
         const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min<size_t>(error.byte, text.size()));
         report.fail("JSON", "is not valid JSON at line {}, byte {} of {}", 1 + std::count(text.begin(), end, '\n'),

@@ -1,6 +1,7 @@
 // Reads the bytes of an image of a glTF file and decodes them by their format.
 #include "scene/gltf/image.h"
 
+#include "base/limits.h"
 #include "scene/gltf/image_formats.h"
 #include "scene/gltf/uri.h"
 
@@ -44,6 +45,9 @@ std::span<const uint8_t> bytesOfView(const GltfDocument& document, int index, Gl
 void checkImageSize(uint64_t width, uint64_t height, const std::string& part, GltfReport& report) {
     if (width == 0 || height == 0 || width > maxSide || height > maxSide) {
         report.fail(part, "has {} x {} pixels, but each side must have 1 to {}", width, height, maxSide);
+    }
+    if (const std::string excess = imageExcess(width, height, textureBytesPerPixel); !excess.empty()) {
+        report.fail(part, "{}", excess);
     }
     report.charge(part, width * height * 4);
 }

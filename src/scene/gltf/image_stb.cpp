@@ -91,11 +91,11 @@ Image decodeStb(std::span<const uint8_t> bytes, const std::string& part, GltfRep
     if (stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) == 0 || width <= 0 || height <= 0) {
         report.fail(part, "is a broken image: {}", reason());
     }
-    checkImageSize(static_cast<uint64_t>(width), static_cast<uint64_t>(height), part, report);
     const uint64_t pixels = uint64_t(width) * uint64_t(height);
     if (pixels > mostPixels(bytes)) {
         report.fail(part, "claims {} x {} pixels in only {} bytes", width, height, bytes.size());
     }
+    checkImageSize(static_cast<uint64_t>(width), static_cast<uint64_t>(height), part, report);
     const bool deep = stbi_is_16_bit_from_memory(bytes.data(), size) != 0;
     if (deep) {
         report.charge(part, pixels * 8);

@@ -1,23 +1,15 @@
 // Problems of glTF files as errors or warnings, and a limit on the memory of a scene.
 #include "scene/gltf/report.h"
 
+#include "base/message.h"
+
 #include <algorithm>
-#include <cctype>
 
 namespace reflet {
 
 namespace {
-constexpr size_t maxLineLength = 200;
-constexpr uint64_t maxSceneBytes = 8ULL << 30U;
 constexpr uint64_t maxProblems = 100000;  // each takes microseconds
 }  // namespace
-
-std::string oneLine(std::string_view text) {
-    std::string result(text.substr(0, maxLineLength));
-    std::replace_if(
-        result.begin(), result.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
-    return text.size() > maxLineLength ? result + "..." : result;
-}
 
 std::string GltfReport::place(std::string_view part) const {
     return oneLine(file_) + ": " + (part.empty() ? "" : oneLine(part) + ": ");
@@ -73,8 +65,10 @@ void GltfReport::printWarnings() {
 }
 
 void GltfReport::charge(std::string_view part, uint64_t bytes) {
-    if (bytes > maxSceneBytes - charged_) {
-        refuse(part, "takes the scene past the limit of {} GiB of memory", maxSceneBytes >> 30U);
+    const uint64_t limit = memoryLimit_;
+    if (bytes > limit - charged_) {
+        refuse(part, "takes the scene past the limit of {:.3g} GiB of memory: {}", static_cast<double>(limit) / 0x1p30,
+               raiseMemoryLimit(std::max(bytes, charged_ + bytes)));
     }
     charged_ += bytes;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/error.h"
+#include "base/limits.h"
 
 #include <cstdint>
 #include <functional>
@@ -13,9 +14,6 @@
 #include <vector>
 
 namespace reflet {
-
-/// The text on one line: control characters become '?', and texts of more than 200 characters are truncated.
-std::string oneLine(std::string_view text);
 
 /// One part of the file is invalid. Error's text is "FILE: PART: what".
 class GltfProblem : public Error {
@@ -113,8 +111,8 @@ public:
     /// The first problem that was tolerated, "PART: what"; empty if there was none.
     [[nodiscard]] const std::string& firstProblem() const { return firstProblem_; }
 
-    /// Counts bytes that are about to be allocated for `part`; refuses more than 8 GiB for one scene. A small file can
-    /// ask for any amount of memory by using the same bytes many times.
+    /// Counts bytes that are about to be allocated for `part`; refuses more than memoryLimit() for one scene. A small
+    /// file can ask for any amount of memory by using the same bytes many times.
     void charge(std::string_view part, uint64_t bytes);
 
 private:
@@ -139,6 +137,7 @@ private:
     std::string firstProblem_;
     uint64_t problems_ = 0;
     uint64_t charged_ = 0;
+    uint64_t memoryLimit_ = memoryLimit();
 };
 
 }  // namespace reflet

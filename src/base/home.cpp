@@ -1,0 +1,27 @@
+// The user's home folder.
+#include "base/home.h"
+
+#include <pwd.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <vector>
+
+namespace reflet {
+
+std::optional<std::filesystem::path> homeFolder() {
+    const char* home = std::getenv("HOME");  // NOLINT(concurrency-mt-unsafe): nothing sets the environment
+    if (home != nullptr && *home == '/') {
+        return home;
+    }
+    std::vector<char> texts(16384);
+    passwd entry{};
+    passwd* found = nullptr;
+    if (::getpwuid_r(::getuid(), &entry, texts.data(), texts.size(), &found) == 0 && found != nullptr &&
+        found->pw_dir != nullptr && *found->pw_dir == '/') {
+        return found->pw_dir;
+    }
+    return std::nullopt;
+}
+
+}  // namespace reflet

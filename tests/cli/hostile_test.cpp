@@ -1,0 +1,169 @@
+// Broken or hostile input, and surroundings in which the program cannot work: one line and status 1, never a signal, a
+// hang or a file that is left behind.
+#include "cli/program.h"
+
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+
+namespace reflet::hostile_test {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr int failed = 1;
+constexpr int usage = 2;
+
+class Hostile : public ProgramTest {
+protected:
+    /// Runs "reflet REST" by a shell that redirects or limits it.
+    [[nodiscard]] Outcome shell(const std::string& before, const std::string& rest) const {
+        return runOther("sh", {"-c", before + " \"$0\" " + rest, REFLET_PROGRAM});
+    }
+    [[nodiscard]] Outcome withJson(const char* option, const std::string& json) const {
+        write("x.json", json);
+        return render("builtin:cubes", {option, "x.json", "--frames", "2", "-o", "a_#.png"});
+    }
+};
+
+const std::string renderCubes = "render builtin:cubes --preset plain --size 32x18 -o a.png";
+const std::string deep = std::string(100000, '[') + std::string(100000, ']');
+
+TEST_F(Hostile, DeeplyNestedJsonIsAnErrorWhereverItIsRead) {
+    for (const char* option : {"--settings", "--view-file", "--path"}) {
+        for (const std::string& json : {deep, "{\"camera\":" + deep + "}"}) {
+            EXPECT_TRUE(refused(withJson(option, json), failed, {"x.json", "nested more than 128"})) << option;
+        }
+    }
+    ASSERT_EQ(render("builtin:cubes", {"--frames", "2", "-o", "b_#.png"}).status, 0);
+    const std::vector<std::string> names = files();
+    const auto record =
+        std::ranges::find_if(names, [](const std::string& n) { return n.ends_with(".json") && n != "x.json"; });
+    ASSERT_NE(record, names.end());
+    write(*record, "{\"settings\":" + deep + "}");
+    EXPECT_TRUE(refused(render("builtin:cubes", {"--frames", "2", "-o", "b_#.png"}), failed, {"nested more than 128"}));
+}
+
+TEST_F(Hostile, PipesAndDevicesAreNotReadAsFiles) {
+    ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+    ASSERT_EQ(::mkfifo(path("pipe.hdr").c_str(), 0600), 0);
+    for (const char* option : {"--settings", "--view-file", "--path"}) {
+        for (const char* file : {"pipe", "/dev/zero"}) {
+            EXPECT_TRUE(refused(render("builtin:cubes", {option, file, "--frames", "2", "-o", "a_#.png"}), failed,
+                                {file, "not a regular file"}))
+                << option;
+        }
+    }
+    EXPECT_TRUE(
+        refused(render("builtin:cubes", {"--environment", "pipe.hdr", "-o", "a.png"}), failed, {"regular file"}));
+    EXPECT_TRUE(refused(render("pipe", {"-o", "a.png"}), failed, {"pipe", "not a file"}));
+}
+
+TEST_F(Hostile, AClosedOrFullStandardErrorStopsNothing) {
+    for (const char* redirection : {" 2>&-", " 2>/dev/full", " 2>&- >&- <&-"}) {
+        const Outcome drawn = shell("", renderCubes + " --environment sky" + redirection);
+        EXPECT_EQ(drawn.status, 0) << redirection;
+        EXPECT_GT(readBitmap(path("a.png")).width, 0U) << redirection;
+        EXPECT_EQ(files(), std::vector<std::string>{"a.png"}) << redirection;
+        fs::remove(path("a.png"));
+        EXPECT_EQ(shell("", "render nowhere.gltf -o a.png" + std::string(redirection)).status, failed) << redirection;
+        EXPECT_EQ(shell("", "render --nonsense" + std::string(redirection)).status, usage) << redirection;
+        EXPECT_TRUE(files().empty()) << redirection;  // nothing was written to a file that became standard error
+    }
+}
+
+TEST_F(Hostile, AWarningToAClosedStandardErrorStopsNothing) {
+    write("a.gltf", R"({"asset": {"version": "2.0"}, "extensionsUsed": ["NO_such"], "scenes": [{"nodes": [0]}],
+                        "nodes": [{"name": "empty"}]})");
+    EXPECT_EQ(shell("", "render a.gltf --preset plain --size 32x18 -o a.png 2>/dev/full").status, 0);
+    EXPECT_TRUE(fs::exists(path("a.png")));
+}
+
+TEST_F(Hostile, AClosedStandardOutputIsAFailureNotASignal) {
+    const Outcome closed = runOther("sh", {"-c", "{ \"$0\" list settings; echo $? >&2; } | true", REFLET_PROGRAM});
+    EXPECT_TRUE(closed.err.ends_with("\n1\n") || closed.err == "0\n") << closed.err;  // 0: all fitted into the pipe
+    EXPECT_EQ(shell("", "list settings >/dev/full").status, failed);
+}
+
+TEST_F(Hostile, AFileSizeLimitIsAFailureAndLeavesNothing) {
+    const Outcome limited = shell("ulimit -f 1;", "render builtin:cubes --preset plain --size 320x180 -o a.png");
+    EXPECT_TRUE(refused(limited, failed, {"a.png: cannot be written", "too large"}));
+    EXPECT_TRUE(files().empty());
+}
+
+TEST_F(Hostile, ACrashPrintsOneLineAndEndsWithStatusOne) {
+    rlimit cores{};
+    ::getrlimit(RLIMIT_CORE, &cores);
+    const rlimit none{0, cores.rlim_max};
+    ::setrlimit(RLIMIT_CORE, &none);  // inherited; with core files, crashes stay signals
+    for (const int signal : {SIGSEGV, SIGABRT}) {
+        const Outcome crashed = interrupt({"reference", "builtin:cubes", "--spp", "100000", "-o", "a.png"}, {signal});
+        EXPECT_TRUE(refused(crashed, failed, {"internal error", "memory"})) << signal;
+        EXPECT_TRUE(files().empty());
+    }
+    ::setrlimit(RLIMIT_CORE, &cores);
+}
+
+TEST_F(Hostile, AFolderNamedLikeAFrameIsInTheWay) {
+    fs::create_directory(path("a_1.png"));
+    EXPECT_TRUE(refused(render("builtin:cubes", {"--frames", "2", "-o", "a_#.png"}), failed, {"a_1.png", "folder"}));
+    EXPECT_TRUE(fs::exists(path("a_0.png")));
+}
+
+TEST_F(Hostile, ATextureThatChangesMakesASequenceAnotherOne) {
+    writePng(path("t.png"), {2, 2, 3, std::vector<uint8_t>(12, 10)});
+    write("a.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"name": "empty"}],
+                        "images": [{"uri": "t.png"}, {"uri": "../../../../../../../etc/passwd"}, {"uri": "pipe"}]})");
+    ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+    const Arguments sequence{"--frames", "2", "-o", "a_#.png"};
+    ASSERT_EQ(render("a.gltf", sequence).status, 0);
+    EXPECT_EQ(render("a.gltf", sequence).status, 0);
+    writePng(path("t.png"), {2, 2, 3, std::vector<uint8_t>(12, 20)});
+    const Outcome other = render("a.gltf", sequence);
+    EXPECT_EQ(other.status, failed);
+    EXPECT_NE(other.err.find("scene_fingerprint was"), std::string::npos) << other.err;
+}
+
+TEST_F(Hostile, ErrorLinesQuoteOnlyTheBeginningOfLongTexts) {
+    const std::string name(300000, 'k');
+    for (const std::string& json : {"{\"" + name + "\": {}}", "{\"diffuse\": {\"" + name + "\": 1}}",
+                                    "{\"diffuse\": {\"rays\": \"" + name + "\"}}", "{\"diffuse\": \"" + name + "\"}"}) {
+        const Outcome wrong = withJson("--settings", json);
+        EXPECT_TRUE(refused(wrong, failed, {"x.json"}));
+        EXPECT_LT(wrong.err.size(), 8100U);
+    }
+}
+
+TEST_F(Hostile, ReferencesOfSceneThatAreTooFarSayWhatIs) {
+    write("far.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0, 1]}],
+        "nodes": [{"mesh": 0}, {"mesh": 0, "name": "moon", "translation": [1e18, 0, 0]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [{"byteLength": 36, "uri": "data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
+    const Outcome far =
+        run({"reference", "far.gltf", "--spp", "1", "--size", "32x18", "--environment", "sky", "-o", "a.png"});
+    EXPECT_TRUE(refused(far, failed, {"instance 1 'moon'", "1e+09 m"}));
+    EXPECT_EQ(render("far.gltf", {"-o", "a.png"}).status, 0);
+}
+
+TEST_F(Hostile, ATruthCacheThatIsBrokenIsMadeAnew) {
+    const Arguments bench{"bench", "builtin:cubes", "--size", "32x18",       "--frames", "1",  "--truth-cache",
+                          "cache", "--preset",      "plain",  "--truth-spp", "2",        "-o", "out.json"};
+    const Outcome first = run(bench);
+    ASSERT_EQ(first.status, 0) << first.err;
+    for (const auto& entry : fs::directory_iterator(path("cache"))) {
+        if (entry.path().extension() == ".json") {
+            write(entry.path().string(), "{\"samples\": \"many\"}");
+        }
+    }
+    const Outcome again = run(bench);
+    EXPECT_EQ(again.status, 0) << again.err;
+    EXPECT_NE(again.err.find("this cached ground truth will be made anew"), std::string::npos) << again.err;
+    EXPECT_EQ(run(bench).err.find("anew"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace reflet::hostile_test
