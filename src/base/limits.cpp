@@ -51,7 +51,7 @@ std::string imageExcess(uint64_t width, uint64_t height, uint64_t bytesPerPixel)
     if (!huge && bytes <= limit / shareOfOne) {
         return "";
     }
-    return fmt::format("takes {:.1f} GiB to decode {} x {} pixels, a single image may take {:.3g}: {}",
+    return fmt::format("takes {:.1f} GiB to decode {} x {} pixels, a single image may take {:.3g} GiB: {}",
                        static_cast<double>(bytes) / gib, width, height,
                        static_cast<double>(limit) / gib / double{shareOfOne}, raiseMemoryLimit(shareOfOne * bytes));
 }

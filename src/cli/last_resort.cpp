@@ -40,13 +40,16 @@ namespace {
     endNow("reflet: internal error: the program ended itself\n");
 }
 
-void endCrashed(int signal) {
-    endNow(
-        signal == SIGABRT
-            ? "reflet: internal error: the program or a library ended itself; perhaps memory ran out (ulimit -v, "
-              "ulimit -d)\n"
-            : "reflet: internal error: the program, a library or the graphics driver crashed; perhaps memory ran out "
-              "(ulimit -v, ulimit -d)\n");
+bool isLimited(__rlimit_resource resource) noexcept {
+    rlimit limit{};
+    return ::getrlimit(resource, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+}
+
+void endCrashed(int /*signal*/) {
+    if (isLimited(RLIMIT_AS) || isLimited(RLIMIT_DATA)) {  // Mesa and LLVM do not check what they allocate
+        endNow("reflet: a library or the graphics driver crashed, probably for lack of memory: raise ulimit -v or -d\n");
+    }
+    endNow("reflet: internal error: the program, a library or the graphics driver crashed\n");
 }
 
 bool crashesAreWanted() {

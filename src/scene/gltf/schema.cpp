@@ -241,7 +241,9 @@ private:
             fail(&place, "is {}, not an object", kindOf(value));
         }
         json result = json::object();
-        for (const auto& [name, item] : value.items()) {
+        for (const auto& entry : value.items()) {
+            const std::string& name = entry.key();  // not structured bindings, which Clang 14 cannot capture
+            const json& item = entry.value();
             const Place inner{.parent = &place, .name = name.empty() ? "\"\"" : std::string_view(name)};
             const auto add = [&] {
                 json checked = field.refersTo != nullptr ? index(item, field.refersTo, inner)
