@@ -191,10 +191,10 @@ void writeTemporary(const AtomicFile& file, std::string_view content, const fs::
 
 }  // namespace
 
-void writeFileAtomically(const fs::path& path, std::string_view content) {
+void writeFileAtomically(const fs::path& path, std::string_view content, Lasting lasting) {
     AtomicFile file(path);
     writeTemporary(file, content, path);
-    file.commit();
+    file.commit(lasting);
 }
 
 bool writeNewFile(const fs::path& path, std::string_view content) {
@@ -219,12 +219,14 @@ AtomicFile::AtomicFile(const fs::path& target) : name_(target), target_(target) 
         target_ = dangling ? target : resolved;
     }
     tempPath_ = temporaryName(target_);
+    listed_ = temporaryList().add(tempPath_);  // first: the program may end right after the file is created
     const Descriptor descriptor(::open(tempPath_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (!descriptor.valid()) {
-        failWrite(name_, errno);
+        const int error = errno;
+        temporaryList().forget(listed_);
+        failWrite(name_, error);
     }
     pending_ = true;
-    listed_ = temporaryList().add(tempPath_);
 }
 
 AtomicFile::~AtomicFile() {
@@ -235,11 +237,13 @@ AtomicFile::~AtomicFile() {
     }
 }
 
-void AtomicFile::commit() {
+void AtomicFile::commit(Lasting lasting) {
     if (!pending_) {
         return;
     }
-    flush(tempPath_, name_);
+    if (lasting == Lasting::yes) {
+        flush(tempPath_, name_);
+    }
     if (::rename(tempPath_.c_str(), target_.c_str()) != 0) {
         failWrite(name_, errno);
     }

@@ -12,9 +12,12 @@ namespace reflet {
 /// reading a pipe or a device might never end.
 std::string readFile(const std::filesystem::path& path, uint64_t maxBytes = uint64_t{1} << 40U);
 
+/// Whether a written file must survive a loss of power: the disk is waited for.
+enum class Lasting : uint8_t { no, yes };
+
 /// Writes a file atomically: readers of `path` see the old content or the new, never a part. Throws Error and leaves
 /// the old content on failure.
-void writeFileAtomically(const std::filesystem::path& path, std::string_view content);
+void writeFileAtomically(const std::filesystem::path& path, std::string_view content, Lasting lasting = Lasting::yes);
 
 /// The same for a file that must not exist yet. Returns false if `path` exists, even if another process creates it
 /// concurrently.
@@ -39,7 +42,7 @@ public:
     [[nodiscard]] const std::filesystem::path& tempPath() const { return tempPath_; }
 
     /// Renames the temporary file to the target. Call at most once. Throws Error.
-    void commit();
+    void commit(Lasting lasting = Lasting::yes);
     /// The same, but returns false and changes nothing if the target exists.
     bool commitNew();
 

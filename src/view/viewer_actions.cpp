@@ -239,7 +239,7 @@ void Viewer::writeStatus() {
     for (const auto& [name, place] : places_.all()) {
         json["controls"][name] = {place.min.x, place.min.y, place.max.x, place.max.y};
     }
-    writeFileAtomically(options_.status, jsonText(json, 1) + "\n");
+    writeFileAtomically(options_.status, jsonText(json, 1) + "\n", Lasting::no);
 }
 
 }  // namespace reflet
