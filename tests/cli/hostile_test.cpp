@@ -149,6 +149,7 @@ TEST_F(Hostile, ReferencesOfSceneThatAreTooFarSayWhatIs) {
     EXPECT_EQ(render("far.gltf", {"-o", "a.png"}).status, 0);
 }
 
+// Over 5 s: three processes that measure a scene.
 TEST_F(Hostile, ATruthCacheThatIsBrokenIsMadeAnew) {
     const Arguments bench{"bench", "builtin:cubes", "--size", "32x18",       "--frames", "1",      "--truth-cache",
                           "cache", "--preset",      "plain",  "--truth-spp", "2",        "--json", "out.json"};
