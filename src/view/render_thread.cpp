@@ -262,8 +262,11 @@ bool RenderThread::renderLive(const Wanted& wanted) {
     } else {
         const bool mayStop = !wanted.moving && !steps;
         const Clock::time_point start = Clock::now();
-        const bool done = live_->render(state, size, wanted.values,
-                                        [&] { return mayStop && stops_.load(std::memory_order_relaxed); });
+        std::function<bool()> stop;  // none for short frames: each pass would be waited for
+        if (mayStop) {
+            stop = [this] { return stops_.load(std::memory_order_relaxed); };
+        }
+        const bool done = live_->render(state, size, wanted.values, stop);
         lastFrame_ = Clock::now();
         const double milliseconds = 1e3 * secondsSince(start);
         if (!done) {
