@@ -30,6 +30,9 @@ void reduce(const Effort& effort, uvec2& size, Settings& settings) {
     if (effort.fewRays) {
         settings.diffuse.rays = std::min(settings.diffuse.rays, 1U);
         settings.specular.rays = std::min(settings.specular.rays, 1U);
+        // Their cost is that of further views, most of it for any size.
+        settings.transmission.layers = std::min(settings.transmission.layers, 1U);
+        settings.planar.enabled = 0;
     }
 }
 

@@ -11,7 +11,7 @@ namespace reflet {
 /// Reductions of a frame.
 struct Effort {
     float scale = 1.0F;    ///< of the sides of what is rendered
-    bool fewRays = false;  ///< at most one ray per pixel and lobe
+    bool fewRays = false;  ///< at most one ray per pixel and lobe and one layer of glass; no planar reflections
 
     [[nodiscard]] bool isReduced() const { return scale < 1.0F || fewRays; }
     bool operator==(const Effort&) const = default;
