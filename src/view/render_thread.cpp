@@ -177,6 +177,7 @@ void RenderThread::loop(gpu::Device& device, ShaderWatch& shaders) {
         }
         lock.lock();
         state_.deviceMemory = device.memory().used(gpu::MemoryUse::device);
+        state_.validationMessages = device.validationMessages();  // also of frames after the last job
         if (!more && version == version_) {
             settled_ = version;
             ++published_;
