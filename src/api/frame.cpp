@@ -263,9 +263,12 @@ gpu::Image recordDepthOfField(RefletView_T& view, Frame& frame, const Settings& 
                               gpu::Image color) {
     gpu::Recorder& f = view.recorder;
     const gpu::Image radiance = color ? importLight(f, view.images->dofInput, color) : pictureSoFar(frame);
-    const DofImages blurred = depthOfField(
-        f, view.images->dof,
-        {radiance, frame.g.depth, frame.antialiased ? frame.g.motion : gpu::Image{}, frame.view, lens, settings.dof});
+    DofInputs in{radiance,   frame.g.depth, frame.antialiased ? frame.g.motion : gpu::Image{},
+                 frame.view, lens,          settings.dof};
+    if (frame.specular && frame.composed) {
+        in.reflections = {frame.g, *frame.specular, frame.composed, ggxTable(f, view.images->ggxTable)};
+    }
+    const DofImages blurred = depthOfField(f, view.images->dof, in);
     frame.defocused = blurred.radiance;
     frame.circleOfConfusion = blurred.coc;
     return blurred.radiance;

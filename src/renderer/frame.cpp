@@ -298,8 +298,10 @@ void defocus(gpu::Recorder& f, FrameStore& own, const FrameInputs& in, const Set
         return;
     }
     const gpu::Image motion = historyUse(settings).temporal ? out.g.motion : gpu::Image{};
+    const DofReflections reflections{out.g, out.specular, out.unfiltered, in.ggxTable,
+                                     settings.materials.lambertOnly != 0};
     const auto blurred = [&](DofStore& store, gpu::Image picture) {
-        return depthOfField(f, store, {picture, out.g.depth, motion, in.view, in.lens, settings.dof});
+        return depthOfField(f, store, {picture, out.g.depth, motion, in.view, in.lens, settings.dof, reflections});
     };
     const DofImages light = blurred(own.dof, out.light.lit);
     out.light.lit = light.radiance;

@@ -6,12 +6,12 @@
 #include "effects/composite/composite.h"
 #include "effects/gbuffer/gbuffer_surface.glsl"
 #include "effects/lobe/upsample.glsl"
+#include "effects/lobe/upsample_specular.glsl"
 #include "shaders/directional_light.glsl"
 #include "shaders/half_float.glsl"
 #include "shaders/projection.glsl"
 
 layout(constant_id = 0) const uint diffuseScale = 1u;  // 0: the lobe is black
-layout(constant_id = 1) const uint specularScale = 1u;
 layout(constant_id = 2) const uint lambertOnly = 0u;
 layout(constant_id = 3) const uint layers = 1u;
 layout(constant_id = 4) const uint hasDirectional = 0u;
@@ -25,7 +25,6 @@ uniform sampler2D material;
 uniform sampler2D ggxTable;
 layout(rgba16f) uniform readonly image2D direct;
 layout(rgba16f) uniform readonly image2D diffuse;
-layout(rgba16f) uniform readonly image2D specular;
 layout(rgba16f) uniform writeonly image2D indirectDiffuse;
 layout(rgba16f) uniform writeonly image2D indirectSpecular;
 layout(rgba16f) uniform writeonly image2D lit;
@@ -33,8 +32,6 @@ layout(rgba16f) uniform writeonly image2D lit;
 uniform usampler2D geometricNormal;
 layout(r32f) uniform readonly image2D diffuseDepth;
 layout(r32ui) uniform readonly uimage2D diffuseNormal;
-layout(r32f) uniform readonly image2D specularDepth;
-layout(r32ui) uniform readonly uimage2D specularNormal;
 layout(rgba16f) uniform readonly image2D diffuseDirectional;
 
 vec3 diffuseRadiance(Shown shown) {
@@ -67,27 +64,6 @@ vec3 diffuseRadiance(Shown shown) {
     return sum.rgb * whole * (turns ? relightFactor(directional * whole, normals * whole, shown.normal) : 1.0);
 }
 
-vec3 specularRadiance(Shown shown) {
-    if (specularScale == 0u) {
-        return vec3(0.0);
-    }
-    if (specularScale == 1u) {
-        return imageLoad(specular, shown.pixel).rgb;
-    }
-    ivec2 size = imageSize(specularDepth);
-    Blocks b = blocksAt(shown, specularScale, params.specularBlockOffset, size);
-    vec4 sum = vec4(0.0);
-    for (int i = 0; i < 4; ++i) {
-        ivec2 block = blockAt(b, i, size);
-        vec2 away = vec2(block * int(specularScale) + int(params.specularBlockOffset) - shown.pixel);
-        float d = imageLoad(specularDepth, block).r;
-        vec3 n = unpackUnitVector(imageLoad(specularNormal, block).r);
-        float same = onSameSurface(shown, away, d) * facingLike(n, shown.normal, false);
-        sum += weighed(b.weights[i], same, d) * vec4(imageLoad(specular, block).rgb, 1.0);
-    }
-    return sum.rgb * (1.0 / max(sum.a, 1e-12));
-}
-
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, ivec2(params.view.size)))) {
@@ -110,7 +86,7 @@ void main() {
                           screenPlane(p, geometric, params.view.clipToWorld, params.view.pixel, params.view.pixelAngle));
         }
         fromDiffuse = params.diffuseGain * s.diffuse * diffuseRadiance(shown);
-        fromSpecular = s.specular * specularRadiance(shown);
+        fromSpecular = s.specular * specularLight(shown, params.specularBlockOffset).rgb;
     }
     if (layers != 0u) {
         imageStore(indirectDiffuse, pixel, vec4(clampToHalf(fromDiffuse), 1.0));

@@ -1,18 +1,12 @@
 // Records the composite.
 #include "effects/composite/composite.h"
 
+#include "effects/lobe/upsample.h"
 #include "gpu/context.h"
 
 namespace reflet {
 
-namespace {
-
-// 0: the lobe is black and not read.
-uint32_t scaleOf(const LobeLight& light) {
-    return light.dark ? 0 : light.from.scale;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 Composite composite(gpu::Recorder& f, CompositeStore& own, const CompositeInputs& in, gpu::Image lit,
                     CompositeParams params) {
@@ -23,16 +17,12 @@ Composite composite(gpu::Recorder& f, CompositeStore& own, const CompositeInputs
     const Composite result{
         .indirectDiffuse = layer(own.indirectDiffuse), .indirectSpecular = layer(own.indirectSpecular), .lit = lit};
     const gpu::Image unwritten = in.layers ? lit : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT);
-    // Lobes at full resolution need no upsampling.
-    const auto blockImage = [&](const LobeLight& light, gpu::Image image, VkFormat format) {
-        return light.from.scale > 1 ? image : f.placeholder(format);
-    };
     params.diffuseBlockOffset = blockPixelOffset(in.diffuse.from.scale);
     params.specularBlockOffset = blockPixelOffset(in.specular.from.scale);
     gpu::Pass pass = f.compute("composite", "composite.comp");
+    bindUpsampledSpecular(f, pass, in.specular);
     bindSurfaces(f, pass, in.g)
-        .constant("diffuseScale", scaleOf(in.diffuse))
-        .constant("specularScale", scaleOf(in.specular))
+        .constant("diffuseScale", upsampledScale(in.diffuse))
         .constant("lambertOnly", in.lambertOnly ? 1U : 0U)
         .constant("layers", in.layers ? 1U : 0U)
         .constant("hasDirectional", in.diffuse.directional ? 1U : 0U)
@@ -42,13 +32,10 @@ Composite composite(gpu::Recorder& f, CompositeStore& own, const CompositeInputs
         .read("material", in.g.material)
         .read("ggxTable", in.ggxTable, f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
         .read("geometricNormal", in.g.geometricNormal)
-        .read("diffuseDepth", blockImage(in.diffuse, in.diffuse.from.g.depth, VK_FORMAT_R32_SFLOAT))
-        .read("diffuseNormal", blockImage(in.diffuse, in.diffuse.from.g.normal, VK_FORMAT_R32_UINT))
-        .read("specularDepth", blockImage(in.specular, in.specular.from.g.depth, VK_FORMAT_R32_SFLOAT))
-        .read("specularNormal", blockImage(in.specular, in.specular.from.g.normal, VK_FORMAT_R32_UINT))
+        .read("diffuseDepth", surfacesToUpsample(f, in.diffuse, in.diffuse.from.g.depth, VK_FORMAT_R32_SFLOAT))
+        .read("diffuseNormal", surfacesToUpsample(f, in.diffuse, in.diffuse.from.g.normal, VK_FORMAT_R32_UINT))
         .read("direct", in.direct)
         .read("diffuse", in.diffuse.radiance)
-        .read("specular", in.specular.radiance)
         .read("diffuseDirectional", in.diffuse.directional ? in.diffuse.directional : in.diffuse.radiance)
         .write("indirectDiffuse", in.layers ? result.indirectDiffuse : unwritten)
         .write("indirectSpecular", in.layers ? result.indirectSpecular : unwritten)

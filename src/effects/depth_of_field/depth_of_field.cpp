@@ -2,6 +2,8 @@
 #include "effects/depth_of_field/depth_of_field.h"
 
 #include "effects/levels.h"
+#include "effects/lobe/upsample.h"
+#include "gpu/context.h"
 
 #include <algorithm>
 #include <array>
@@ -41,8 +43,32 @@ float shapeArea(uint32_t corners) {
     return corners < 3 ? glm::pi<float>() : 0.5F * n * std::sin(2.0F * glm::pi<float>() / n);
 }
 
-gpu::Image circleOfConfusion(gpu::Recorder& f, gpu::HistoryImage& own, const DofInputs& in, float height) {
+// The depth of what pixels show: of reflected images where these are most of the light.
+gpu::Image apparentDepth(gpu::Recorder& f, gpu::KeptImage& own, const DofInputs& in) {
+    if (!in.reflections || in.reflections->specular.dark || in.settings.reflections == 0) {
+        return in.depth;
+    }
+    const DofReflections& r = *in.reflections;
+    const gpu::Image apparent = own.storage(f, VK_FORMAT_R32_SFLOAT, in.depth.size);
+    gpu::Pass pass = f.compute("apparent_depth", "dof_apparent.comp");
+    bindSurfaces(f, pass, r.g).constant("lambertOnly", r.lambertOnly ? 1U : 0U);
+    bindUpsampledSpecular(f, pass, r.specular)
+        .read("depth", in.depth)
+        .read("normal", r.g.normal)
+        .read("geometricNormal", r.g.geometricNormal)
+        .read("baseColor", r.g.baseColor)
+        .read("material", r.g.material)
+        .read("ggxTable", r.ggxTable, f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
+        .read("lit", r.lit)
+        .write("apparentDepth", apparent)
+        .params(DofApparentParams{in.view, blockPixelOffset(r.specular.from.scale)})
+        .dispatch(in.depth.size);
+    return apparent;
+}
+
+gpu::Image circleOfConfusion(gpu::Recorder& f, DofStore& store, const DofInputs& in, float height) {
     const uvec2 size = in.depth.size;
+    gpu::HistoryImage& own = store.coc;
     const gpu::History coc = own.swap(f, VK_FORMAT_R32_SFLOAT, size);
     const bool steady = in.motion && coc.valid;
     const bool orthographic = in.view.eye.w == 0.0F;
@@ -51,7 +77,7 @@ gpu::Image circleOfConfusion(gpu::Recorder& f, gpu::HistoryImage& own, const Dof
     const vec4 lens(atInfinity, 1.0F / in.lens.focusDistance, orthographic ? 1.0F : 0.0F,
                     in.settings.maxRadius * height);
     f.compute("coc", "dof_coc.comp")
-        .read("depth", in.depth)
+        .read("depth", apparentDepth(f, store.apparentDepth, in))
         .read("motion", steady ? in.motion : f.placeholder(VK_FORMAT_R16G16_SFLOAT))
         .read("previous", coc.previous)
         .write("coc", coc.next)
@@ -176,7 +202,7 @@ DofImages depthOfField(gpu::Recorder& f, DofStore& own, const DofInputs& in) {
     const auto scope = f.scope("dof");
     const uvec2 size = in.radiance.size;
     const auto height = static_cast<float>(size.y);
-    const gpu::Image coc = circleOfConfusion(f, own.coc, in, height);
+    const gpu::Image coc = circleOfConfusion(f, own, in, height);
     const DofSizes sizes{size,
                          (size + 1U) / 2U,
                          vec2(coc.size) / vec2(size),

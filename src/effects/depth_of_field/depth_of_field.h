@@ -25,6 +25,9 @@ SHARED_BEGIN
     VALUE(uint, samples, 48, 24, 150,                                                                                 \
           "Samples per pixel and layer of depth of field, at half the picture's size; at a quarter for large disks. " \
           "More: sharper edges of disks, cost grows linearly.")                                                       \
+    SWITCH(reflections, 1,                                                                                            \
+           "Blur reflections by the distance of what they show, where they are most of a pixel's light. Off: by the " \
+           "distance of the surface.")                                                                                \
     VALUE(float, maxRadius, 0.05, 0.001, 0.25,                                                                        \
           "Largest circle of confusion: its radius as a share of the picture's height. Larger blur is cut to it. "    \
           "Larger: right for wide apertures, coarser disks with the same samples.")
@@ -34,6 +37,11 @@ SETTINGS(DofSettings, DOF_SETTINGS)
 const uint dofTile = 8;
 // Levels of the half-resolution layers, with level 0.
 const uint dofLevels = 5;
+
+struct DofApparentParams {
+    ViewParams view;
+    uint specularBlockOffset;  // blockPixelOffset of the lobe
+};
 
 struct DofCocParams {
     vec4 depthToDistance;  // of the view
@@ -65,7 +73,10 @@ SHARED_END
 
 #ifdef __cplusplus
 
+#include "effects/lobe/rays.h"
 #include "gpu/recorder.h"
+
+#include <optional>
 
 namespace reflet {
 
@@ -77,6 +88,15 @@ struct Lens {
     float bladeRotation = 0.0F;  ///< radians, counter-clockwise as the camera sees the disks of what is far
 };
 
+/// What pixels reflect, of the size of the depth.
+struct DofReflections {
+    GBuffer g;
+    LobeLight specular;
+    gpu::Image lit;  ///< RGBA16F: the sum of all light, not antialiased
+    gpu::Image ggxTable;
+    bool lambertOnly = false;  ///< MaterialsSettings
+};
+
 struct DofInputs {
     gpu::Image radiance;     ///< RGBA16F or RGBA32F, of the picture's size; alpha is kept
     gpu::Image depth;        ///< reversed, of this size or smaller (temporal upscaling)
@@ -84,10 +104,12 @@ struct DofInputs {
     const ViewParams& view;  ///< of `depth`
     Lens lens;
     DofSettings settings;
+    std::optional<DofReflections> reflections{};  ///< none: reflections are blurred by their surface's distance
 };
 
 /// Owns the images of depth of field.
 struct DofStore {
+    gpu::KeptImage apparentDepth{"apparent_depth"};
     gpu::HistoryImage coc{"circle_of_confusion"};
     gpu::KeptImage result{"depth_of_field"};
 };

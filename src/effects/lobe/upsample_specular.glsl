@@ -1,0 +1,39 @@
+// A pixel's reflected light, upsampled if it was traced at reduced resolution.
+#ifndef REFLET_UPSAMPLE_SPECULAR_GLSL
+#define REFLET_UPSAMPLE_SPECULAR_GLSL
+
+#include "effects/lobe/upsample.glsl"
+#include "shaders/octahedral.glsl"
+
+layout(constant_id = 1) const uint specularScale = 1u;  // pixels along a block's side; 0: the lobe is black
+
+layout(rgba16f) uniform readonly image2D specular;  // LobeLight.radiance
+layout(r32f) uniform readonly image2D specularDepth;
+layout(r32ui) uniform readonly uimage2D specularNormal;
+
+// Mean radiance of the lobe, and mean hit distance [m]. blockOffset: blockPixelOffset of specularScale.
+vec4 specularLight(Shown shown, uint blockOffset) {
+    if (specularScale == 0u) {
+        return vec4(0.0);
+    }
+    if (specularScale == 1u) {
+        return imageLoad(specular, shown.pixel);
+    }
+    ivec2 size = imageSize(specularDepth);
+    Blocks b = blocksAt(shown, specularScale, blockOffset, size);
+    vec4 sum = vec4(0.0);
+    float weights = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 block = blockAt(b, i, size);
+        vec2 away = vec2(block * int(specularScale) + int(blockOffset) - shown.pixel);
+        float d = imageLoad(specularDepth, block).r;
+        vec3 n = unpackUnitVector(imageLoad(specularNormal, block).r);
+        float same = onSameSurface(shown, away, d) * facingLike(n, shown.normal, false);
+        float weight = weighed(b.weights[i], same, d);
+        sum += weight * imageLoad(specular, block);
+        weights += weight;
+    }
+    return sum * (1.0 / max(weights, 1e-12));
+}
+
+#endif
