@@ -1,0 +1,51 @@
+// Runs the program again and again, each time with another Vulkan call that fails, and checks how it takes that.
+#pragma once
+
+#include "cli/program.h"
+#include "fault/faults.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace reflet::fault {
+
+/// Environment of a process that runs with the layer.
+Environment layerEnvironment(const std::filesystem::path& report, const std::string& fault);
+
+/// What the layer reported.
+struct Report {
+    std::map<std::string, uint64_t> calls;  ///< by function
+    bool hit = false;                       ///< the fault was made
+    bool ended = false;                     ///< the process ended in the ordinary way
+    std::string complaints;                 ///< leaked objects and misuse
+};
+Report readReport(const std::filesystem::path& report);
+
+/// "vkAllocateMemory:3:VK_ERROR_OUT_OF_DEVICE_MEMORY"
+std::string textOf(const Fault& fault);
+/// What a message about the result has to say.
+std::string wordsOf(VkResult result);
+
+/// Faults for these calls. Everything (REFLET_FAULT_ALL is set): each error of the first, the last and up to `most`
+/// calls in between of each function. Otherwise one fault a function, the calls and errors of which are spread.
+std::vector<Fault> plan(const std::map<std::string, uint64_t>& calls, uint64_t most);
+/// Whether everything is to be tested.
+bool testsAll();
+
+/// What a swept command does and writes.
+struct Command {
+    std::string name;  ///< in the summary
+    std::function<Outcome(const Environment&)> run;
+    std::filesystem::path folder;      ///< that it runs in
+    std::vector<std::string> outputs;  ///< files that it writes there
+};
+
+/// Runs the command without a fault, then with each of those planned, and expects each time: status 0 or 1, one line
+/// that says what failed, old or whole output files and no others, no leaked objects. Prints a table.
+void sweep(const Command& command, uint64_t most);
+
+}  // namespace reflet::fault
