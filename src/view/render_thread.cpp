@@ -306,6 +306,9 @@ bool RenderThread::renderRight(gpu::Device& device, const Wanted& wanted) {
     } catch (const Error& error) {
         right_.reset();
         shown->problem = error.what();
+    } catch (const std::bad_alloc&) {
+        right_.reset();
+        shown->problem = "not enough memory for this image";
     }
     publish([&](State& state) { state.right = shown; });
     return shown->problem.empty();

@@ -1,6 +1,9 @@
 // The Vulkan functions that the fault layer makes fail, and the errors that the specification allows for each.
 #pragma once
 
+#ifndef VK_NO_PROTOTYPES
+#define VK_NO_PROTOTYPES
+#endif
 #include <vulkan/vulkan_core.h>
 
 #include <array>

@@ -1,5 +1,6 @@
 // Each function of the C API with a Vulkan call in it that fails: the right result, a text that says what failed,
 // nothing leaked, and everything works when it is tried again. REFLET_FAULT_ALL: with many calls (tests/fault/all.sh).
+#include "fault/effort.h"
 #include "fault/sweep.h"
 #include "library/library_host.h"
 

@@ -1,5 +1,6 @@
 // The program with a Vulkan call that fails. REFLET_FAULT_ALL: with many (tests/fault/all.sh).
 #include "cli/desktop.h"
+#include "fault/effort.h"
 #include "fault/sweep.h"
 
 namespace reflet::fault {
@@ -18,6 +19,36 @@ TEST_F(Faulty, RenderSaysWhatFailedAndLeavesNothing) {
     sweep(command({"render", "builtin:cubes", "--preset", "plain", "--size", "32x18", "-o", "a.png", "-o", "a.exr"},
                   {"a.png", "a.exr"}),
           1000);
+}
+
+TEST_F(Faulty, BenchSaysWhatFailedAndLeavesNothing) {
+    if (!testsAll()) {
+        GTEST_SKIP() << "the same calls as render's; only with REFLET_FAULT_ALL";
+    }
+    sweep(command({"bench",   "builtin:cubes", "--size",   "16x16",    "--frames", "1",       "--warmup",
+                   "0",       "--first",       "1",        "--motion", "0",        "--rest",  "0",
+                   "--truth", "none",          "--preset", "plain",    "--json",   "out.json"},
+                  {"out.json"}),
+          20);
+}
+
+class FaultyWindow : public DesktopTest {
+protected:
+    /// Opens the window, waits until the image has converged, writes a picture of the window and ends.
+    [[nodiscard]] Command command() const {
+        const auto open = [this](const Environment& with) {
+            Environment all = environment();
+            all.insert(with.begin(), with.end());
+            return run({"view", "builtin:cubes", "--fresh", "--preset", "plain", "--size", "64x64", "--window-picture",
+                        "w.png"},
+                       all);
+        };
+        return {"view", open, path("x").parent_path(), {"w.png"}};
+    }
+};
+
+TEST_F(FaultyWindow, TheWindowComesBackOrSaysWhyNot) {
+    sweep(command(), 6);
 }
 
 }  // namespace

@@ -3,7 +3,10 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "base/json.h"
+#include "base/json_text.h"
+#include "fault/effort.h"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -180,10 +183,6 @@ std::string wordsOf(VkResult result) {
         default:
             return "";
     }
-}
-
-bool testsAll() {
-    return std::getenv("REFLET_FAULT_ALL") != nullptr;  // NOLINT(concurrency-mt-unsafe): one thread
 }
 
 std::vector<Fault> plan(const std::map<std::string, uint64_t>& calls, uint64_t most) {

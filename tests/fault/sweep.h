@@ -33,8 +33,6 @@ std::string wordsOf(VkResult result);
 /// Faults for these calls. Everything (REFLET_FAULT_ALL is set): each error of the first, the last and up to `most`
 /// calls in between of each function. Otherwise one fault a function, the calls and errors of which are spread.
 std::vector<Fault> plan(const std::map<std::string, uint64_t>& calls, uint64_t most);
-/// Whether everything is to be tested.
-bool testsAll();
 
 /// What a swept command does and writes.
 struct Command {
