@@ -227,10 +227,21 @@ void makePipeline(Context& context, const PipelineInfo& info, const std::vector<
             : makeGraphics(context, info, vertexInput(shaders.front(), info.vertices), pipeline.layout, stages);
 }
 
-void destroy(Context& context, const Pipeline& pipeline) {
-    context.vk.vkDestroyPipeline(context.handle(), pipeline.handle, nullptr);
-    context.vk.vkDestroyPipelineLayout(context.handle(), pipeline.layout, nullptr);
-    context.vk.vkDestroyDescriptorSetLayout(context.handle(), pipeline.set, nullptr);
+// Of a pipeline, without what describes it: copying that would take memory.
+struct Handles {
+    VkPipeline pipeline;
+    VkPipelineLayout layout;
+    VkDescriptorSetLayout set;
+};
+
+Handles handlesOf(const Pipeline& pipeline) {
+    return {pipeline.handle, pipeline.layout, pipeline.set};
+}
+
+void destroy(Context& context, const Handles& handles) {
+    context.vk.vkDestroyPipeline(context.handle(), handles.pipeline, nullptr);
+    context.vk.vkDestroyPipelineLayout(context.handle(), handles.layout, nullptr);
+    context.vk.vkDestroyDescriptorSetLayout(context.handle(), handles.set, nullptr);
 }
 
 }  // namespace
@@ -242,7 +253,7 @@ PipelineCache::~PipelineCache() {
 // Commands that are still recorded or in flight may use them.
 void PipelineCache::clear() {
     for (const auto& [info, pipeline] : pipelines_) {
-        context_.retire([&context = context_, retired = *pipeline] { destroy(context, retired); });
+        context_.retire([&context = context_, retired = handlesOf(*pipeline)] { destroy(context, retired); });
     }
     pipelines_.clear();
 }
@@ -272,7 +283,7 @@ const Pipeline& PipelineCache::get(const PipelineInfo& info) {
         makePipeline(context_, info, shaders, made);
         pipelines_.emplace(info, nullptr).first->second = std::move(pipeline);
     } catch (...) {
-        destroy(context_, made);
+        destroy(context_, handlesOf(made));
         throw;
     }
     ++context_.counts().pipelines;

@@ -127,14 +127,15 @@ void Texture::retire() {
     if (context_ == nullptr || !state_) {
         return;
     }
-    context_->retire([context = context_, image = state_->image, view = view_, mips = mips_, allocation = allocation_] {
-        for (VkImageView mip : mips) {
-            context->vk.vkDestroyImageView(context->handle(), mip, nullptr);
-        }
-        context->vk.vkDestroyImageView(context->handle(), view, nullptr);
-        context->vk.vkDestroyImage(context->handle(), image, nullptr);
-        context->memory().release(allocation);
-    });
+    context_->retire(
+        [context = context_, image = state_->image, view = view_, mips = std::move(mips_), allocation = allocation_] {
+            for (VkImageView mip : mips) {
+                context->vk.vkDestroyImageView(context->handle(), mip, nullptr);
+            }
+            context->vk.vkDestroyImageView(context->handle(), view, nullptr);
+            context->vk.vkDestroyImage(context->handle(), image, nullptr);
+            context->memory().release(allocation);
+        });
     state_.reset();
 }
 

@@ -193,7 +193,10 @@ void RenderThread::publishFailure(const std::string& why) {
     live_->resetHistory();
     auto shown = std::make_shared<Shown>();
     shown->problem = why;
-    publish([&](State& state) { state.live = shown; });
+    publish([&](State& state) {
+        state.live = shown;
+        state.scene = scene_;  // even if none of its frames has succeeded
+    });
 }
 
 void RenderThread::watchShaders(gpu::Device& device, ShaderWatch& shaders) {

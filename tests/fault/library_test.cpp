@@ -7,9 +7,11 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <memory>
 #include <span>
+#include <sstream>
 
 namespace reflet::fault {
 namespace {
@@ -78,16 +80,18 @@ protected:
         faults_ = find == nullptr ? nullptr : static_cast<Faults*>(find());
         room_ = std::make_unique<HostRoom>(*host_, test::RoomConventions{});
     }
-    ~FaultyLibrary() override {
-        if (shared_ != nullptr) {
-            refletDestroyContext(shared_);
-        }
-    }
 
     void SetUp() override {
         ASSERT_NE(faults_, nullptr) << "the layer is not loaded";
         faults_->setActive(false);
+        atFirst_ = faults_->alive();
         shared_ = host_->makeContext();
+    }
+    void TearDown() override {
+        if (shared_ != nullptr) {
+            refletDestroyContext(shared_);
+            EXPECT_EQ(faults_->alive(), atFirst_);
+        }
     }
 
     RefletContext createContext(Caller& call) {
@@ -191,6 +195,9 @@ protected:
         lookAt(call, context, view);
         host_->host.waitForAll();
         call("refletFinishView", [&] { return refletFinishView(view); });
+        for (size_t i = 0; i < functionCount; ++i) {
+            calls_.at(i) = faults_->calls(static_cast<Function>(i));
+        }
         std::vector<std::byte> shown;
         if (!call.stays) {
             Caller again(*faults_);
@@ -210,14 +217,14 @@ protected:
     }
 
     void check(const Scenario& scenario, const Fault& fault) {
-        const std::string before = faults_->alive();
+        const std::string before = aliveOfViews();
         faults_->arm(fault);
         Caller call(*faults_);
         call.stays = fault.result == VK_ERROR_DEVICE_LOST;
         const std::vector<std::byte> shown = live(call, scenario);
         const std::string what = textOf(fault) + ": " + call.text;
         EXPECT_GT(faults_->hits(), 0U) << what;
-        EXPECT_EQ(faults_->alive(), before) << what;
+        EXPECT_EQ(aliveOfViews(), before) << what;
         EXPECT_EQ(faults_->misuses(), "") << what;
         EXPECT_EQ(call.others, "") << what;
         if (!call.stays) {
@@ -246,8 +253,8 @@ protected:
         }
         std::map<std::string, uint64_t> calls;
         for (const Function function : wanted) {
-            if (faults_->calls(function) > 0) {
-                calls[functions.at(function).name] = faults_->calls(function);
+            if (calls_.at(function) > 0) {
+                calls[functions.at(function).name] = calls_.at(function);
             }
         }
         ASSERT_FALSE(calls.empty());
@@ -264,10 +271,25 @@ protected:
         }
     }
 
+    /// What is alive without the pipelines and samplers of contexts: a frame without a part has other pipelines.
+    [[nodiscard]] std::string aliveOfViews() const {
+        std::istringstream all(faults_->alive());
+        std::string kept;
+        for (std::string one; std::getline(all, one, ',');) {
+            const bool ofContext = one.find("Pipeline") != std::string::npos ||
+                                   one.find("SetLayout") != std::string::npos ||
+                                   one.find("Sampler") != std::string::npos;
+            kept += ofContext ? "" : one + ",";
+        }
+        return kept;
+    }
+
     std::unique_ptr<LibraryHost> host_;
     std::unique_ptr<HostRoom> room_;
     Faults* faults_ = nullptr;
     RefletContext shared_ = nullptr;
+    std::string atFirst_;                          ///< alive before there was a context
+    std::array<uint64_t, functionCount> calls_{};  ///< of each function until the frame after the failure
 };
 
 TEST_F(FaultyLibrary, FailuresOfImagesBuffersAndDescriptorsAreReported) {
