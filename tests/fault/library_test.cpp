@@ -258,7 +258,7 @@ protected:
             }
         }
         ASSERT_FALSE(calls.empty());
-        const std::vector<Fault> faults = plan(calls, 12);
+        const std::vector<Fault> faults = plan(calls);
         for (const Fault& fault : faults) {
             check(scenario, fault);
         }

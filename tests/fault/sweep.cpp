@@ -185,7 +185,7 @@ std::string wordsOf(VkResult result) {
     }
 }
 
-std::vector<Fault> plan(const std::map<std::string, uint64_t>& calls, uint64_t most) {
+std::vector<Fault> plan(const std::map<std::string, uint64_t>& calls) {
     std::vector<Fault> faults;
     size_t turn = 0;
     for (size_t i = 0; i < functionCount; ++i) {
@@ -201,7 +201,7 @@ std::vector<Fault> plan(const std::map<std::string, uint64_t>& calls, uint64_t m
             ++turn;
             continue;
         }
-        for (const uint64_t call : chosenCalls(known->second, most)) {
+        for (const uint64_t call : chosenCalls(known->second, callsBetween())) {
             for (size_t e = 0; e < info.errors.size() && info.errors.at(e) != VK_SUCCESS; ++e) {
                 faults.push_back({function, call, info.errors.at(e), false});
             }
@@ -210,7 +210,7 @@ std::vector<Fault> plan(const std::map<std::string, uint64_t>& calls, uint64_t m
     return faults;
 }
 
-void sweep(const Command& command, uint64_t most) {
+void sweep(const Command& command) {
     const fs::path report = command.folder.string() + ".report";
     const auto run = [&](const std::string& fault) {
         fs::remove(report);
@@ -221,8 +221,15 @@ void sweep(const Command& command, uint64_t most) {
     const Report counted = readReport(report);
     ASSERT_EQ(plain.status, 0) << plain.err;
     ASSERT_TRUE(counted.ended && counted.complaints.empty()) << "is the layer loaded? " << counted.complaints;
+    std::vector<Fault> faults = plan(counted.calls);
+    if (!testsAll() && !command.few.empty()) {
+        faults.clear();
+        for (const std::string& fault : command.few) {
+            faults.push_back(parseFault(fault).value());
+        }
+    }
     std::map<std::string, Tally> tallies;
-    for (const Fault& fault : plan(counted.calls, most)) {
+    for (const Fault& fault : faults) {
         const std::string text = textOf(fault);
         Tally& tally = tallies[functions.at(fault.function).name];
         tally.calls = counted.calls.at(functions.at(fault.function).name);

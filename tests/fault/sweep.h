@@ -30,9 +30,9 @@ std::string textOf(const Fault& fault);
 /// What a message about the result has to say.
 std::string wordsOf(VkResult result);
 
-/// Faults for these calls. Everything (REFLET_FAULT_ALL is set): each error of the first, the last and up to `most`
-/// calls in between of each function. Otherwise one fault a function, the calls and errors of which are spread.
-std::vector<Fault> plan(const std::map<std::string, uint64_t>& calls, uint64_t most);
+/// Faults for these calls: one for each function, the calls and errors of which are spread. With REFLET_FAULT_ALL=N
+/// each error of the first, the last and N calls in between of each function.
+std::vector<Fault> plan(const std::map<std::string, uint64_t>& calls);
 
 /// What a swept command does and writes.
 struct Command {
@@ -40,10 +40,11 @@ struct Command {
     std::function<Outcome(const Environment&)> run;
     std::filesystem::path folder;      ///< that it runs in
     std::vector<std::string> outputs;  ///< files that it writes there
+    std::vector<std::string> few;      ///< all faults to make without REFLET_FAULT_ALL; empty: as plan() says
 };
 
 /// Runs the command without a fault, then with each of those planned, and expects each time: status 0 or 1, one line
 /// that says what failed, old or whole output files and no others, no leaked objects. Prints a table.
-void sweep(const Command& command, uint64_t most);
+void sweep(const Command& command);
 
 }  // namespace reflet::fault
