@@ -16,8 +16,12 @@
 #include "unit/gltf_encoders.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -33,6 +37,7 @@ struct Ends {
     uint64_t done = 0;
     uint64_t errors = 0;
     uint64_t badAllocs = 0;
+    uint64_t terminated = 0;
 };
 
 // One attempt; the text is empty if it ended as it should.
@@ -70,11 +75,34 @@ struct Reader {
     const char* name;
     Read read;
     uint64_t most = 0;  ///< numbers of allocations that are tried, spread over all; 0: each
-    /// nlohmann-json leaks elements if memory runs out while it parses, and its destructor allocates: without any
-    /// memory it ends the process (the program then says so, see cli/last_resort.h).
+    /// nlohmann-json leaks elements if memory runs out while it parses, and its destructor allocates: if that fails it
+    /// ends the process (the program then says so, see cli/last_resort.h). Each attempt has a process of its own.
     bool json = false;
     std::string parsed;  ///< the JSON of a scene: leaks are only looked for after it has been parsed
 };
+
+// In a process of its own, which std::terminate may end for lack of memory.
+std::string attemptApart(const Read& read, Allocator allocator, uint64_t number, Ends& ends, bool mayLeak) {
+    constexpr int terminated = 42;
+    const pid_t child = ::fork();
+    if (child == 0) {
+        ::alarm(20);
+        std::set_terminate([] { ::_exit(terminated); });
+        Ends own;
+        const std::string wrong = attempt(read, allocator, number, false, own, mayLeak);
+        std::fputs(wrong.c_str(), stderr);
+        std::fflush(stderr);
+        ::_exit(!wrong.empty() ? 1 : own.done > 0 ? 10 : own.errors > 0 ? 11 : 12);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    ends.done += code == 10 ? 1 : 0;
+    ends.errors += code == 11 ? 1 : 0;
+    ends.badAllocs += code == 12 ? 1 : 0;
+    ends.terminated += code == terminated ? 1 : 0;
+    return (code >= 10 && code <= 12) || code == terminated ? "" : "status " + std::to_string(code);
+}
 
 uint64_t allocationsToParse(const Reader& reader, Allocator allocator) {
     if (reader.parsed.empty()) {
@@ -95,13 +123,16 @@ void failEach(const Reader& reader, Allocator allocator, bool always) {
     const char* kind = allocator == Allocator::malloc ? "malloc" : "new";
     ends = {};
     for (uint64_t number = 1; number <= count; number += stride) {
-        const std::string wrong = attempt(reader.read, allocator, number, always, ends, number <= parsing);
+        const bool mayLeak = number <= parsing;
+        const std::string wrong = reader.json ? attemptApart(reader.read, allocator, number, ends, mayLeak)
+                                              : attempt(reader.read, allocator, number, always, ends);
         EXPECT_EQ(wrong, "") << reader.name << ", allocation " << number << " of " << count << " by " << kind
                              << (always ? " and all later ones" : "");
     }
     if (testsAll()) {
-        std::printf("%-12s %-6s %-4s %6d allocations: %d Error, %d bad_alloc, %d went on\n", reader.name, kind,
-                    always ? "all" : "one", int(count), int(ends.errors), int(ends.badAllocs), int(ends.done));
+        std::printf("%-12s %-6s %-4s %6d allocations: %d Error, %d bad_alloc, %d terminated, %d went on\n", reader.name,
+                    kind, always ? "all" : "one", int(count), int(ends.errors), int(ends.badAllocs),
+                    int(ends.terminated), int(ends.done));
     }
     EXPECT_EQ(attempt(reader.read, allocator, 0, false, ends), "") << reader.name;
 }
