@@ -65,11 +65,11 @@ FailingAllocation::FailingAllocation(Allocator allocator, uint64_t number, bool 
 }
 
 FailingAllocation::~FailingAllocation() {
-    stop();
+    counting = false;
 }
 
 void FailingAllocation::stop() {
-    counting = false;
+    toFail = 0;
 }
 
 uint64_t FailingAllocation::count() {

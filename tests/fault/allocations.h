@@ -16,7 +16,7 @@ public:
     FailingAllocation(const FailingAllocation&) = delete;
     FailingAllocation& operator=(const FailingAllocation&) = delete;
 
-    /// Ends counting and failing.
+    /// Ends failing; what is alive is still counted.
     static void stop();
     static uint64_t count();
     /// Allocated and not freed since it was made, by operator new.
