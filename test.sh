@@ -114,6 +114,7 @@ else
     fi
 fi
 addShards library_tests build/bin/library_tests "$filter" 2
+addShards fault_tests build/bin/fault_tests "$filter" 1
 addShards shader_tests build/bin/shader_tests "$filter" 1
 addShards reference_tests build/bin/reference_tests "$filter" 1
 addShards unit_tests build/bin/unit_tests "$filter" 1
@@ -131,8 +132,8 @@ for shard in "${shards[@]}"; do
     read -ra words <<<"$shard"
     readShard "${words[0]}" "${words[3]}"
 done
-for name in cli_tests pass_tests pass_tests_tracing pass_tests_ray_query library_tests shader_tests reference_tests \
-    unit_tests; do
+for name in cli_tests pass_tests pass_tests_tracing pass_tests_ray_query library_tests fault_tests shader_tests \
+    reference_tests unit_tests; do
     [[ -z "${seconds[$name]-}" ]] || echo "$name: ${good[$name]} passed, ${bad[$name]} failed, ${seconds[$name]} s of one core"
 done
 echo "build $built s, tests $((SECONDS - built)) s, in all $SECONDS s"

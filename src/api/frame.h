@@ -37,8 +37,7 @@ public:
 private:
     RefletView_T& view_;
     std::vector<RefletImage> images_;
-    std::vector<gpu::ImageState*> states_;
-    bool acquired_ = false;
+    std::vector<VkImageMemoryBarrier2> back_;  ///< made by acquire(): the destructor must not allocate
 };
 
 /// A result for the host.

@@ -168,16 +168,9 @@ void HostImages::acquire() {
         barrier.newLayout = sampledLayout(image);
         barriers.push_back(barrier);
     }
+    back_.reserve(images_.size());
     record(view_, barriers);
-    acquired_ = true;
-}
-
-// Later writes of the host wait for the reads, and find the layout that they left.
-HostImages::~HostImages() {
-    if (!acquired_) {
-        return;
-    }
-    std::vector<VkImageMemoryBarrier2> barriers;
+    // Later writes of the host wait for the reads, and find the layout that they left.
     for (const RefletImage& image : images_) {
         VkImageMemoryBarrier2 barrier = barrierOf(image);
         barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
@@ -185,9 +178,12 @@ HostImages::~HostImages() {
         barrier.dstAccessMask = accessIn(image.layout);
         barrier.oldLayout = sampledLayout(image);
         barrier.newLayout = image.layout;
-        barriers.push_back(barrier);
+        back_.push_back(barrier);
     }
-    record(view_, barriers);
+}
+
+HostImages::~HostImages() {
+    record(view_, back_);
 }
 
 RefletImage resultOf(const gpu::Image& image) {

@@ -65,9 +65,10 @@ private:
 fs::path temporaryName(const fs::path& target) {
     static const unsigned process = std::random_device()();
     static std::atomic<unsigned> counter = 0;
-    fs::path result = target;
-    result.replace_filename(fmt::format(".reflet-{}-{:08x}-{}.tmp", ::getpid(), process, counter++));
-    return result;
+    // As text: fs::path::replace_filename of libstdc++ 12 frees what it does not own if memory runs out in it.
+    const std::string& whole = target.native();
+    const std::string folder = whole.substr(0, whole.rfind('/') + 1);
+    return folder + fmt::format(".reflet-{}-{:08x}-{}.tmp", ::getpid(), process, counter++);
 }
 
 /// Brings a file's content to the disk. Without that, a machine that loses power may keep the name, but not the

@@ -10,6 +10,7 @@
 
 #include <limits>
 #include <memory>
+#include <new>
 #include <string_view>
 
 namespace reflet {
@@ -33,6 +34,9 @@ struct Encoded {
 
 [[noreturn]] void failDecode(const std::filesystem::path& path) {
     const char* reason = stbi_failure_reason();
+    if (reason != nullptr && std::string_view(reason) == "outofmem") {
+        throw std::bad_alloc();
+    }
     fail("{}: cannot be read as an image: {}", path.string(), reason != nullptr ? reason : "unknown format");
 }
 

@@ -20,6 +20,7 @@
 #include <cstring>
 #include <exception>
 #include <map>
+#include <new>
 #include <string_view>
 #include <thread>
 
@@ -241,6 +242,8 @@ void writeExr(const std::filesystem::path& path, std::span<const ImageLayer> lay
         content = encodeExr(layers);
     } catch (const std::logic_error&) {
         throw;  // a failed check
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception& error) {
         fail("{}: cannot be encoded as EXR: {}", path.string(), exrReason(error));
     }
@@ -251,6 +254,8 @@ std::vector<ImageLayer> readExr(const std::filesystem::path& path) {
     const std::string content = readFile(path, memoryLimit());
     try {
         return decodeExr(content);
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception& error) {
         fail("{}: cannot be read as EXR: {}", path.string(), exrReason(error));
     }

@@ -72,17 +72,18 @@ void recordBuild(Device& device, VkCommandBuffer commands, const VkAccelerationS
 
 }  // namespace
 
-AccelerationStructure::AccelerationStructure(Device& device, const TriangleInput& triangles) : device_(&device) {
+AccelerationStructure::AccelerationStructure(Device& device, const TriangleInput& triangles)
+    : AccelerationStructure() {  // so that the destructor runs if something fails below
+    device_ = &device;
     REFLET_CHECK(device.hasRayQuery(), "'{}' has no ray query", device.description().name);
-    bottom_ =
-        build(VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, triangleGeometry(device, triangles), triangles.count);
+    build(bottom_, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, triangleGeometry(device, triangles),
+          triangles.count);
     const Buffer instance = uploadInstance(device, bottom_.structure);
-    top_ = build(VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, instanceGeometry(device, instance), 1);
+    build(top_, VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, instanceGeometry(device, instance), 1);
 }
 
-AccelerationStructure::Level AccelerationStructure::build(VkAccelerationStructureTypeKHR type,
-                                                          const VkAccelerationStructureGeometryKHR& geometry,
-                                                          uint32_t primitives) {
+void AccelerationStructure::build(Level& level, VkAccelerationStructureTypeKHR type,
+                                  const VkAccelerationStructureGeometryKHR& geometry, uint32_t primitives) {
     VkAccelerationStructureBuildGeometryInfoKHR info{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR};
     info.type = type;
     info.flags = VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
@@ -94,7 +95,6 @@ AccelerationStructure::Level AccelerationStructure::build(VkAccelerationStructur
     vk.vkGetAccelerationStructureBuildSizesKHR(device_->handle(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR,
                                                &info, &primitives, &sizes);
 
-    Level level;
     level.memory =
         Buffer(*device_, sizes.accelerationStructureSize,
                VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
@@ -103,8 +103,10 @@ AccelerationStructure::Level AccelerationStructure::build(VkAccelerationStructur
     create.buffer = level.memory.handle();
     create.size = sizes.accelerationStructureSize;
     create.type = type;
-    vkCheck(vk.vkCreateAccelerationStructureKHR(device_->handle(), &create, nullptr, &level.structure),
+    VkAccelerationStructureKHR made = VK_NULL_HANDLE;
+    vkCheck(vk.vkCreateAccelerationStructureKHR(device_->handle(), &create, nullptr, &made),
             "creating an acceleration structure");
+    level.structure = made;
 
     const VkDeviceSize alignment = device_->scratchAlignment();
     const Buffer scratch(*device_, sizes.buildScratchSize + alignment,
@@ -113,7 +115,6 @@ AccelerationStructure::Level AccelerationStructure::build(VkAccelerationStructur
     info.dstAccelerationStructure = level.structure;
     info.scratchData.deviceAddress = (addressOf(*device_, scratch) + alignment - 1) / alignment * alignment;
     device_->runNow([&](VkCommandBuffer commands) { recordBuild(*device_, commands, info, primitives); });
-    return level;
 }
 
 void AccelerationStructure::retire(Level& level) {

@@ -42,8 +42,8 @@ private:
         Buffer memory;
         VkAccelerationStructureKHR structure = VK_NULL_HANDLE;
     };
-    Level build(VkAccelerationStructureTypeKHR type, const VkAccelerationStructureGeometryKHR& geometry,
-                uint32_t primitives);
+    void build(Level& level, VkAccelerationStructureTypeKHR type, const VkAccelerationStructureGeometryKHR& geometry,
+               uint32_t primitives);
     void retire(Level& level);
 
     Device* device_ = nullptr;

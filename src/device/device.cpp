@@ -69,7 +69,9 @@ void DeviceHandles::createInstance(const DeviceOptions& options) {
     instance_ = makeInstance(options.validation ? validationLayer : nullptr, options.windowExtensions);
     if (options.validation) {
         const auto info = messengerInfo(onValidation, this);
-        vkCheck(vkCreateDebugUtilsMessengerEXT(instance_, &info, nullptr, &messenger_), "creating the messenger");
+        VkDebugUtilsMessengerEXT made = VK_NULL_HANDLE;
+        vkCheck(vkCreateDebugUtilsMessengerEXT(instance_, &info, nullptr, &made), "creating the messenger");
+        messenger_ = made;
     }
 }
 
@@ -105,7 +107,9 @@ void DeviceHandles::createDevice(bool fillsWindows) {
     info.ppEnabledExtensionNames = extensions.data();
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queueInfo;
-    vkCheck(vkCreateDevice(physical_, &info, nullptr, &device_), "opening the device");
+    VkDevice made = VK_NULL_HANDLE;
+    vkCheck(vkCreateDevice(physical_, &info, nullptr, &made), "opening the device");
+    device_ = made;
     volkLoadDeviceTable(&functions_, device_);
     functions_.vkGetDeviceQueue(device_, queueFamily_, 0, &queue_);
     opened_ = {.instance = instance_,
@@ -123,14 +127,26 @@ Device::Device(const DeviceOptions& options) : DeviceHandles(options), Context(o
     VkSemaphoreTypeCreateInfo type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
     type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
     const VkSemaphoreCreateInfo semaphore{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &type, 0};
-    vkCheck(functions().vkCreateSemaphore(handle(), &semaphore, nullptr, &timeline_), "creating the timeline");
+    VkSemaphore timeline = VK_NULL_HANDLE;
+    vkCheck(functions().vkCreateSemaphore(handle(), &semaphore, nullptr, &timeline), "creating the timeline");
+    timeline_ = timeline;
 
     const VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr,
                                        VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, queueFamily()};
-    vkCheck(functions().vkCreateCommandPool(handle(), &pool, nullptr, &immediatePool_), "creating a command pool");
+    VkCommandPool made = VK_NULL_HANDLE;
+    const VkResult result = functions().vkCreateCommandPool(handle(), &pool, nullptr, &made);
+    if (result != VK_SUCCESS) {
+        destroyOwn();
+        vkCheck(result, "creating a command pool");
+    }
+    immediatePool_ = made;
 }
 
 Device::~Device() {
+    destroyOwn();
+}
+
+void Device::destroyOwn() {
     functions().vkDeviceWaitIdle(handle());
     functions().vkDestroyCommandPool(handle(), immediatePool_, nullptr);
     functions().vkDestroySemaphore(handle(), timeline_, nullptr);
@@ -169,15 +185,28 @@ void Device::runNow(const std::function<void(VkCommandBuffer)>& record) {
     allocate.commandBufferCount = 1;
     VkCommandBuffer commands = VK_NULL_HANDLE;
     vkCheck(functions().vkAllocateCommandBuffers(handle(), &allocate, &commands), "allocating commands");
+    const uint64_t work = beginWork();
+    const auto finish = [&] {
+        functions().vkFreeCommandBuffers(handle(), immediatePool_, 1, &commands);
+        finishWork(work);
+    };
+    try {
+        recordAndRun(commands, record);
+    } catch (...) {
+        functions().vkDeviceWaitIdle(handle());  // the work may have been submitted
+        finish();
+        throw;
+    }
+    finish();
+}
+
+void Device::recordAndRun(VkCommandBuffer commands, const std::function<void(VkCommandBuffer)>& record) {
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     vkCheck(functions().vkBeginCommandBuffer(commands, &begin), "beginning commands");
-    const uint64_t work = beginWork();
     record(commands);
     vkCheck(functions().vkEndCommandBuffer(commands), "ending commands");
     wait(submit(commands));
-    finishWork(work);
-    functions().vkFreeCommandBuffers(handle(), immediatePool_, 1, &commands);
 }
 
 }  // namespace reflet::gpu

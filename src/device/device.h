@@ -99,6 +99,9 @@ public:
     void runNow(const std::function<void(VkCommandBuffer)>& record);
 
 private:
+    void destroyOwn();
+    void recordAndRun(VkCommandBuffer commands, const std::function<void(VkCommandBuffer)>& record);
+
     VkSemaphore timeline_ = VK_NULL_HANDLE;
     VkCommandPool immediatePool_ = VK_NULL_HANDLE;
     uint64_t submitted_ = 0;

@@ -11,12 +11,18 @@ namespace reflet::gpu {
 Frame::Frame(Device& device) : Recorder(device), device_(device) {
     const VolkDeviceTable& vk = device.functions();
     const VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, 0, device.queueFamily()};
-    vkCheck(vk.vkCreateCommandPool(device.handle(), &pool, nullptr, &commandPool_), "creating a command pool");
+    VkCommandPool made = VK_NULL_HANDLE;
+    vkCheck(vk.vkCreateCommandPool(device.handle(), &pool, nullptr, &made), "creating a command pool");
     VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-    allocate.commandPool = commandPool_;
+    allocate.commandPool = made;
     allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     allocate.commandBufferCount = 1;
-    vkCheck(vk.vkAllocateCommandBuffers(device.handle(), &allocate, &commands_), "allocating commands");
+    const VkResult allocated = vk.vkAllocateCommandBuffers(device.handle(), &allocate, &commands_);
+    if (allocated != VK_SUCCESS) {
+        vk.vkDestroyCommandPool(device.handle(), made, nullptr);
+        vkCheck(allocated, "allocating commands");
+    }
+    commandPool_ = made;
 }
 
 Frame::~Frame() {

@@ -99,9 +99,10 @@ std::vector<std::string> missingRequirements(VkPhysicalDevice device, const VkPh
 // Whether the device has all of the extensions.
 bool hasExtensions(VkPhysicalDevice device, std::span<const char* const> names) {
     uint32_t count = 0;
-    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
+    constexpr const char* asking = "asking for the device's extensions";
+    vkCheck(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr), asking);
     std::vector<VkExtensionProperties> extensions(count);
-    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
+    vkCheck(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()), asking);
     return std::ranges::all_of(names, [&](const char* name) {
         return std::ranges::any_of(extensions, [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
     });
@@ -128,9 +129,10 @@ std::vector<std::string> extrasOf(VkPhysicalDevice device) {
 
 std::vector<VkPhysicalDevice> physicalDevices(VkInstance instance) {
     uint32_t count = 0;
-    vkEnumeratePhysicalDevices(instance, &count, nullptr);
+    constexpr const char* asking = "asking for Vulkan devices";
+    vkCheck(vkEnumeratePhysicalDevices(instance, &count, nullptr), asking);
     std::vector<VkPhysicalDevice> devices(count);
-    vkEnumeratePhysicalDevices(instance, &count, devices.data());
+    vkCheck(vkEnumeratePhysicalDevices(instance, &count, devices.data()), asking);
     return devices;
 }
 
@@ -273,8 +275,13 @@ std::vector<DeviceDescription> listDevices() {
         return {};
     }
     std::vector<DeviceDescription> list;
-    for (const VkPhysicalDevice device : physicalDevices(instance)) {
-        list.push_back(describe(device));
+    try {
+        for (const VkPhysicalDevice device : physicalDevices(instance)) {
+            list.push_back(describe(device));
+        }
+    } catch (...) {
+        vkDestroyInstance(instance, nullptr);
+        throw;
     }
     vkDestroyInstance(instance, nullptr);
     return list;

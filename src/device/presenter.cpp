@@ -30,9 +30,10 @@ VkSurfaceFormatKHR chooseFormat(VkPhysicalDevice device, VkSurfaceKHR surface) {
 
 VkPresentModeKHR chooseMode(VkPhysicalDevice device, VkSurfaceKHR surface, bool verticalSync) {
     uint32_t count = 0;
-    vkGetPhysicalDeviceSurfacePresentModesKHR(device, surface, &count, nullptr);
+    constexpr const char* asking = "querying the window's presentation modes";
+    vkCheck(vkGetPhysicalDeviceSurfacePresentModesKHR(device, surface, &count, nullptr), asking);
     std::vector<VkPresentModeKHR> modes(count);
-    vkGetPhysicalDeviceSurfacePresentModesKHR(device, surface, &count, modes.data());
+    vkCheck(vkGetPhysicalDeviceSurfacePresentModesKHR(device, surface, &count, modes.data()), asking);
     for (const VkPresentModeKHR wanted : {VK_PRESENT_MODE_MAILBOX_KHR, VK_PRESENT_MODE_IMMEDIATE_KHR}) {
         if (!verticalSync && std::ranges::find(modes, wanted) != modes.end()) {
             return wanted;
@@ -44,15 +45,24 @@ VkPresentModeKHR chooseMode(VkPhysicalDevice device, VkSurfaceKHR surface, bool 
 }  // namespace
 
 Presenter::Presenter(Device& device, VkSurfaceKHR surface) : device_(device), surface_(surface) {
-    VkBool32 supported = VK_FALSE;
-    vkGetPhysicalDeviceSurfaceSupportKHR(device.physical(), device.queueFamily(), surface, &supported);
-    if (supported == VK_FALSE) {
+    try {
+        open();
+    } catch (...) {
         vkDestroySurfaceKHR(device.instance(), surface, nullptr);
-        fail("the device '{}' cannot present to this window; select another with --device", device.description().name);
+        throw;
     }
-    format_ = chooseFormat(device.physical(), surface);
+}
+
+void Presenter::open() {
+    VkBool32 supported = VK_FALSE;
+    vkCheck(vkGetPhysicalDeviceSurfaceSupportKHR(device_.physical(), device_.queueFamily(), surface_, &supported),
+            "asking whether the device can present to the window");
+    if (supported == VK_FALSE) {
+        fail("the device '{}' cannot present to this window; select another with --device", device_.description().name);
+    }
+    format_ = chooseFormat(device_.physical(), surface_);
     const VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, nullptr, 0};
-    vkCheck(device.functions().vkCreateFence(device.handle(), &fence, nullptr, &acquired_), "creating a fence");
+    vkCheck(device_.functions().vkCreateFence(device_.handle(), &fence, nullptr, &acquired_), "creating a fence");
 }
 
 Presenter::~Presenter() {
@@ -102,8 +112,19 @@ void Presenter::makeSwapchain(uvec2 window) {
                               : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
     info.presentMode = chooseMode(device_.physical(), surface_, verticalSync_);
     info.clipped = VK_TRUE;
-    vkCheck(device_.functions().vkCreateSwapchainKHR(device_.handle(), &info, nullptr, &swapchain_),
+    VkSwapchainKHR made = VK_NULL_HANDLE;
+    vkCheck(device_.functions().vkCreateSwapchainKHR(device_.handle(), &info, nullptr, &made),
             "creating the window's images");
+    swapchain_ = made;
+    try {
+        takeImages();
+    } catch (...) {
+        dropSwapchain();
+        throw;
+    }
+}
+
+void Presenter::takeImages() {
     uint32_t count = 0;
     vkCheck(device_.functions().vkGetSwapchainImagesKHR(device_.handle(), swapchain_, &count, nullptr),
             "counting the window's images");

@@ -29,7 +29,9 @@ public:
     void setVerticalSync(bool on);
 
 private:
+    void open();
     void makeSwapchain(uvec2 window);
+    void takeImages();
     void dropSwapchain();
     void copy(VkCommandBuffer commands, const Image& from, VkImage to) const;
 

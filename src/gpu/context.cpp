@@ -130,18 +130,21 @@ void Context::finishWork(uint64_t serial) {
     collectRetired();
 }
 
-void Context::retire(std::function<void()> destroy) {
-    retired_.push_back({lastSerial_, std::move(destroy)});
-    collectRetired();
+// Allocates nothing itself: called by destructors.
+void Context::collectRetired() noexcept {
+    const uint64_t oldest = unfinished_.empty() ? UINT64_MAX : *unfinished_.begin();
+    while (!retired_.empty() && retired_.front().serial < oldest) {
+        const std::function<void()> destroy = std::move(retired_.front().destroy);
+        retired_.pop_front();
+        destroyNow(destroy);
+    }
 }
 
-void Context::collectRetired() {
-    const uint64_t oldest = unfinished_.empty() ? UINT64_MAX : *unfinished_.begin();
-    const auto used = std::ranges::find_if(retired_, [&](const Retired& r) { return r.serial >= oldest; });
-    std::vector<Retired> free(std::make_move_iterator(retired_.begin()), std::make_move_iterator(used));
-    retired_.erase(retired_.begin(), used);
-    for (const Retired& retired : free) {
-        retired.destroy();
+void Context::destroyNow(const std::function<void()>& destroy) noexcept {
+    try {
+        destroy();
+    } catch (const std::bad_alloc&) {  // of the list of free memory, which then has a hole less
+        return;
     }
 }
 

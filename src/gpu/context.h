@@ -8,8 +8,10 @@
 #include "gpu/shader.h"
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
+#include <new>
 #include <set>
 #include <string>
 #include <utility>
@@ -88,8 +90,10 @@ public:
     /// The device has finished these commands, or they will never be submitted. Destroys what only they could use.
     void finishWork(uint64_t serial);
 
-    /// Deferred destruction: runs `destroy` once all work that has begun is finished; at once if there is none.
-    void retire(std::function<void()> destroy);
+    /// Deferred destruction: runs `destroy` once all work that has begun is finished; at once if there is none. For
+    /// destructors: without memory to defer it, what would be destroyed stays until the device is destroyed.
+    template <class F>
+    void retire(F destroy) noexcept;
 
     VkResult allocateMemory(const VkMemoryAllocateInfo& info, VkDeviceMemory* memory);
     void freeMemory(VkDeviceMemory memory);
@@ -107,7 +111,8 @@ private:
         std::function<void()> destroy;
     };
 
-    void collectRetired();
+    void collectRetired() noexcept;
+    static void destroyNow(const std::function<void()>& destroy) noexcept;
 
     VkDevice device_ = VK_NULL_HANDLE;
     std::function<VkResult(const VkMemoryAllocateInfo&, VkDeviceMemory*)> allocateMemory_;
@@ -126,7 +131,20 @@ private:
     std::vector<std::pair<SamplerInfo, VkSampler>> samplers_;
     uint64_t lastSerial_ = 0;
     std::set<uint64_t> unfinished_;
-    std::vector<Retired> retired_;  ///< serials ascend
+    std::deque<Retired> retired_;  ///< serials ascend
 };
+
+template <class F>
+void Context::retire(F destroy) noexcept {
+    try {
+        if (unfinished_.empty()) {
+            destroy();
+        } else {
+            retired_.push_back({lastSerial_, std::move(destroy)});
+        }
+    } catch (const std::bad_alloc&) {  // the device may be using it
+        return;
+    }
+}
 
 }  // namespace reflet::gpu

@@ -67,7 +67,8 @@ BufferView KeptBuffer::get(Recorder& f, VkDeviceSize size) {
 
 History HistoryImage::swap(Recorder& f, VkFormat format, uvec2 size) {
     const ImageInfo info = storageInfo(format, size);
-    const bool fresh = !(textures_[0].info() == info);
+    // Both: making the second one may have failed.
+    const bool fresh = !(textures_[0].info() == info && textures_[1].info() == info);
     if (fresh) {
         for (Texture& texture : textures_) {
             texture = Texture(f.context(), info, f.nameOf(name_));

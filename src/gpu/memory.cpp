@@ -94,6 +94,8 @@ uint32_t Memory::chooseType(uint32_t allowed, MemoryUse use) const {
 
 MemoryBlock& Memory::addBlock(uint32_t type, bool linear, VkDeviceSize size) {
     auto block = std::make_unique<MemoryBlock>();
+    block->holes[0] = size;
+    blocks_.reserve(blocks_.size() + 1);
     VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
     flags.flags = context_.hasRayQuery() && linear ? VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT : 0;
     const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &flags, size, type};
@@ -106,11 +108,14 @@ MemoryBlock& Memory::addBlock(uint32_t type, bool linear, VkDeviceSize size) {
     block->type = type;
     block->linear = linear;
     block->size = size;
-    block->holes[0] = size;
     if ((properties_.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0) {
         void* mapped = nullptr;
-        vkCheck(context_.vk.vkMapMemory(context_.handle(), block->memory, 0, VK_WHOLE_SIZE, 0, &mapped),
-                "mapping device memory");
+        const VkResult mapping =
+            context_.vk.vkMapMemory(context_.handle(), block->memory, 0, VK_WHOLE_SIZE, 0, &mapped);
+        if (mapping < 0) {
+            context_.freeMemory(block->memory);
+            vkCheck(mapping, "mapping device memory");
+        }
         block->mapped = static_cast<std::byte*>(mapped);
     }
     reserved_ += size;

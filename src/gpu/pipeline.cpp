@@ -88,6 +88,21 @@ void checkConstants(const std::vector<Shader>& shaders, const PipelineInfo& info
     }
 }
 
+/// The shader modules of a pipeline while it is made.
+struct Modules {
+    Context& context;
+    std::vector<VkShaderModule> handles;
+
+    explicit Modules(Context& of) : context(of) {}
+    ~Modules() {
+        for (VkShaderModule handle : handles) {
+            context.vk.vkDestroyShaderModule(context.handle(), handle, nullptr);
+        }
+    }
+    Modules(const Modules&) = delete;
+    Modules& operator=(const Modules&) = delete;
+};
+
 VkShaderModule makeModule(Context& context, const Shader& shader) {
     VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     info.codeSize = shader.words.size_bytes();
@@ -194,12 +209,14 @@ VkPipeline makeCompute(Context& context, const VkPipelineShaderStageCreateInfo& 
 void makePipeline(Context& context, const PipelineInfo& info, const std::vector<Shader>& shaders, Pipeline& pipeline) {
     std::vector<Specialization> specializations;
     std::vector<VkPipelineShaderStageCreateInfo> stages;
+    Modules modules(context);
     specializations.reserve(shaders.size());
+    modules.handles.reserve(shaders.size());
     for (const Shader& shader : shaders) {
         const Specialization& specialization = specializations.emplace_back(shader, info);
         VkPipelineShaderStageCreateInfo stage{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
         stage.stage = shader.stage;
-        stage.module = makeModule(context, shader);
+        stage.module = modules.handles.emplace_back(makeModule(context, shader));
         stage.pName = "main";
         stage.pSpecializationInfo = &specialization.info;
         stages.push_back(stage);
@@ -208,9 +225,23 @@ void makePipeline(Context& context, const PipelineInfo& info, const std::vector<
         shaders.front().stage == VK_SHADER_STAGE_COMPUTE_BIT
             ? makeCompute(context, stages.front(), pipeline.layout)
             : makeGraphics(context, info, vertexInput(shaders.front(), info.vertices), pipeline.layout, stages);
-    for (const auto& stage : stages) {
-        context.vk.vkDestroyShaderModule(context.handle(), stage.module, nullptr);
-    }
+}
+
+// Of a pipeline, without what describes it: copying that would take memory.
+struct Handles {
+    VkPipeline pipeline;
+    VkPipelineLayout layout;
+    VkDescriptorSetLayout set;
+};
+
+Handles handlesOf(const Pipeline& pipeline) {
+    return {pipeline.handle, pipeline.layout, pipeline.set};
+}
+
+void destroy(Context& context, const Handles& handles) {
+    context.vk.vkDestroyPipeline(context.handle(), handles.pipeline, nullptr);
+    context.vk.vkDestroyPipelineLayout(context.handle(), handles.layout, nullptr);
+    context.vk.vkDestroyDescriptorSetLayout(context.handle(), handles.set, nullptr);
 }
 
 }  // namespace
@@ -222,12 +253,7 @@ PipelineCache::~PipelineCache() {
 // Commands that are still recorded or in flight may use them.
 void PipelineCache::clear() {
     for (const auto& [info, pipeline] : pipelines_) {
-        context_.retire(
-            [&context = context_, handle = pipeline->handle, layout = pipeline->layout, set = pipeline->set] {
-                context.vk.vkDestroyPipeline(context.handle(), handle, nullptr);
-                context.vk.vkDestroyPipelineLayout(context.handle(), layout, nullptr);
-                context.vk.vkDestroyDescriptorSetLayout(context.handle(), set, nullptr);
-            });
+        context_.retire([&context = context_, retired = handlesOf(*pipeline)] { destroy(context, retired); });
     }
     pipelines_.clear();
 }
@@ -250,11 +276,18 @@ const Pipeline& PipelineCache::get(const PipelineInfo& info) {
             pipeline->colorOutputs.assign(shader.outputs.begin(), shader.outputs.end());
         }
     }
-    pipeline->set = makeSetLayout(context_, pipeline->bindings);
-    pipeline->layout = makeLayout(context_, *pipeline, info.drawSet);
-    makePipeline(context_, info, shaders, *pipeline);
+    Pipeline& made = *pipeline;
+    try {
+        made.set = makeSetLayout(context_, made.bindings);
+        made.layout = makeLayout(context_, made, info.drawSet);
+        makePipeline(context_, info, shaders, made);
+        pipelines_.emplace(info, nullptr).first->second = std::move(pipeline);
+    } catch (...) {
+        destroy(context_, handlesOf(made));
+        throw;
+    }
     ++context_.counts().pipelines;
-    return *pipelines_.emplace(info, std::move(pipeline)).first->second;
+    return made;
 }
 
 }  // namespace reflet::gpu

@@ -51,8 +51,10 @@ VkQueryPool makeQueryPool(Context& context) {
 
 }  // namespace
 
-Recorder::Recorder(Context& context, uint32_t framesInFlight) : context_(context), slots_(framesInFlight) {
+// The other constructor first, so that the destructor runs if something fails here.
+Recorder::Recorder(Context& context, uint32_t framesInFlight) : Recorder(context, WithoutSlots{}) {
     REFLET_CHECK(framesInFlight >= 1 && framesInFlight <= maxFramesInFlight, "{} frames in flight", framesInFlight);
+    slots_.resize(framesInFlight);
     for (Slot& slot : slots_) {
         slot.uniforms.push_back(makeUniforms(context));
         slot.descriptorPools.push_back(makeDescriptorPool(context));
@@ -388,9 +390,10 @@ Recorder::UniformSlice Recorder::uploadUniform(std::span<const std::byte> bytes)
     REFLET_CHECK(bytes.size() <= uniformBytes, "a uniform block of {} bytes", bytes.size());
     if (offset + bytes.size() > uniformBytes) {
         offset = 0;
-        if (++now.uniformBlock == now.uniforms.size()) {
+        if (now.uniformBlock + 1 == now.uniforms.size()) {
             now.uniforms.push_back(makeUniforms(context_));
         }
+        ++now.uniformBlock;  // only now: a host may go on with the frame after a failure
     }
     const Buffer& block = now.uniforms[now.uniformBlock];
     std::memcpy(block.bytes().data() + offset, bytes.data(), bytes.size());

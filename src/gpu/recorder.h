@@ -126,6 +126,9 @@ private:
     friend class Pass;
     friend class Scratch;
 
+    struct WithoutSlots {};
+    Recorder(Context& context, WithoutSlots /*tag*/) : context_(context) {}
+
     struct UniformSlice {
         VkBuffer buffer;
         VkDeviceSize offset;

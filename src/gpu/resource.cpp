@@ -82,7 +82,7 @@ VkImageView makeView(Context& context, VkImage image, VkImageViewType type, cons
 }  // namespace
 
 Texture::Texture(Context& context, const ImageInfo& info, const std::string& name)
-    : context_(&context), info_(info), state_(std::make_unique<ImageState>()) {
+    : Texture() {  // so that the destructor runs if something fails below
     const uint32_t limit = context.limits().maxImageDimension2D;
     if (info.size.x == 0 || info.size.y == 0 || info.size.x > limit || info.size.y > limit) {
         fail("the image '{}' cannot be {}x{}: this device has images from 1x1 to {}x{}", name, info.size.x, info.size.y,
@@ -98,15 +98,14 @@ Texture::Texture(Context& context, const ImageInfo& info, const std::string& nam
     create.samples = VK_SAMPLE_COUNT_1_BIT;
     create.usage = info.usage;
     ++context.counts().images;
-    vkCheck(context.vk.vkCreateImage(context.handle(), &create, nullptr, &state_->image), "creating an image");
+    auto state = std::make_unique<ImageState>();
+    vkCheck(context.vk.vkCreateImage(context.handle(), &create, nullptr, &state->image), "creating an image");
+    context_ = &context;
+    info_ = info;
+    state_ = std::move(state);
     VkMemoryRequirements needs{};
     context.vk.vkGetImageMemoryRequirements(context.handle(), state_->image, &needs);
-    try {
-        allocation_ = context.memory().allocate(needs, MemoryUse::device, false);
-    } catch (...) {
-        context.vk.vkDestroyImage(context.handle(), state_->image, nullptr);
-        throw;
-    }
+    allocation_ = context.memory().allocate(needs, MemoryUse::device, false);
     context.nameImage(state_->image, name);
     vkCheck(context.vk.vkBindImageMemory(context.handle(), state_->image, allocation_.memory, allocation_.offset),
             "binding image memory");
@@ -128,14 +127,15 @@ void Texture::retire() {
     if (context_ == nullptr || !state_) {
         return;
     }
-    context_->retire([context = context_, image = state_->image, view = view_, mips = mips_, allocation = allocation_] {
-        for (VkImageView mip : mips) {
-            context->vk.vkDestroyImageView(context->handle(), mip, nullptr);
-        }
-        context->vk.vkDestroyImageView(context->handle(), view, nullptr);
-        context->vk.vkDestroyImage(context->handle(), image, nullptr);
-        context->memory().release(allocation);
-    });
+    context_->retire(
+        [context = context_, image = state_->image, view = view_, mips = std::move(mips_), allocation = allocation_] {
+            for (VkImageView mip : mips) {
+                context->vk.vkDestroyImageView(context->handle(), mip, nullptr);
+            }
+            context->vk.vkDestroyImageView(context->handle(), view, nullptr);
+            context->vk.vkDestroyImage(context->handle(), image, nullptr);
+            context->memory().release(allocation);
+        });
     state_.reset();
 }
 
@@ -158,21 +158,20 @@ Texture& Texture::operator=(Texture&& other) noexcept {
 }
 
 Buffer::Buffer(Context& context, VkDeviceSize size, VkBufferUsageFlags usage, MemoryUse use, const std::string& name)
-    : context_(&context), size_(size), state_(std::make_unique<BufferState>()) {
+    : Buffer() {  // so that the destructor runs if something fails below
     REFLET_CHECK(size > 0, "buffer '{}'", name);
     VkBufferCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     create.size = size;
     create.usage = usage;
     ++context.counts().buffers;
-    vkCheck(context.vk.vkCreateBuffer(context.handle(), &create, nullptr, &state_->buffer), "creating a buffer");
+    auto state = std::make_unique<BufferState>();
+    vkCheck(context.vk.vkCreateBuffer(context.handle(), &create, nullptr, &state->buffer), "creating a buffer");
+    context_ = &context;
+    size_ = size;
+    state_ = std::move(state);
     VkMemoryRequirements needs{};
     context.vk.vkGetBufferMemoryRequirements(context.handle(), state_->buffer, &needs);
-    try {
-        allocation_ = context.memory().allocate(needs, use, true);
-    } catch (...) {
-        context.vk.vkDestroyBuffer(context.handle(), state_->buffer, nullptr);
-        throw;
-    }
+    allocation_ = context.memory().allocate(needs, use, true);
     vkCheck(context.vk.vkBindBufferMemory(context.handle(), state_->buffer, allocation_.memory, allocation_.offset),
             "binding buffer memory");
 }

@@ -86,7 +86,8 @@ LampParams lampParams(const Lamp& lamp) {
 }  // namespace
 
 GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn)
-    : device_(device), materialLayout_(makeMaterialLayout(device)) {
+    : GpuScene(device) {  // so that the destructor runs if something fails below
+    materialLayout_ = makeMaterialLayout(device);
     uploadMeshes(scene);
     uploadMaterials(scene, warn);
     addLamps(scene, warn);

@@ -65,6 +65,8 @@ public:
     [[nodiscard]] gpu::BufferView indices() const { return indices_.view(); }
 
 private:
+    explicit GpuScene(gpu::Device& device) : device_(device) {}
+
     struct MeshRange {
         uint32_t firstIndex;
         int32_t firstVertex;

@@ -193,7 +193,10 @@ void RenderThread::publishFailure(const std::string& why) {
     live_->resetHistory();
     auto shown = std::make_shared<Shown>();
     shown->problem = why;
-    publish([&](State& state) { state.live = shown; });
+    publish([&](State& state) {
+        state.live = shown;
+        state.scene = scene_;  // even if none of its frames has succeeded
+    });
 }
 
 void RenderThread::watchShaders(gpu::Device& device, ShaderWatch& shaders) {
@@ -306,6 +309,9 @@ bool RenderThread::renderRight(gpu::Device& device, const Wanted& wanted) {
     } catch (const Error& error) {
         right_.reset();
         shown->problem = error.what();
+    } catch (const std::bad_alloc&) {
+        right_.reset();
+        shown->problem = "not enough memory for this image";
     }
     publish([&](State& state) { state.right = shown; });
     return shown->problem.empty();

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <new>
 #include <set>
 #include <string_view>
 
@@ -133,6 +134,9 @@ tinygltf::Model parseStructure(const json& document, const GltfReport& report) {
     std::string warnings;
     tinygltf::TinyGLTF loader;
     if (!loader.LoadASCIIFromString(&model, &errors, &warnings, text.data(), static_cast<unsigned>(text.size()), "")) {
+        if (errors.find("bad_alloc") != std::string::npos) {  // tinygltf makes a text of it
+            throw std::bad_alloc();
+        }
         report.fail("JSON", "tinygltf: {}", errors.substr(0, errors.find('\n')));
     }
     restoreIndices(model, document, report);
