@@ -26,12 +26,6 @@ inline GltfDocument documentOf(const uint8_t* bytes, size_t size) {
     return document;
 }
 
-inline void appendWord(std::string& to, size_t value) {
-    for (unsigned shift = 0; shift < 32; shift += 8) {
-        to.push_back(static_cast<char>(value >> shift & 0xFFU));
-    }
-}
-
 /// Loads a .glb of this document and binary chunk. What the loader refuses is no finding.
 inline void loadGlb(std::string json, std::string payload) {
     json.resize((json.size() + 3) / 4 * 4, ' ');

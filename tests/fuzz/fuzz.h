@@ -88,6 +88,13 @@ inline std::filesystem::path file(const char* name, const void* bytes, size_t si
     return path;
 }
 
+/// 32 bits, little-endian.
+inline void appendWord(std::string& to, size_t value) {
+    for (unsigned shift = 0; shift < 32; shift += 8) {
+        to.push_back(static_cast<char>(value >> shift & 0xFFU));
+    }
+}
+
 /// Calls a reader. Errors must be one line of bounded length. Returns 0, as libFuzzer wants.
 template <class Action>
 int survive(const Action& action) {

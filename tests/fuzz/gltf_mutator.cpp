@@ -2,6 +2,7 @@
 #include "gltf_mutator.h"
 
 #include "base/json_text.h"
+#include "fuzz.h"
 
 #include <array>
 #include <utility>
@@ -26,12 +27,6 @@ size_t wordAt(std::string_view bytes, size_t at) {
         value = value << 8U | static_cast<uint8_t>(bytes[at + i]);
     }
     return value;
-}
-
-void appendWord(std::string& to, size_t value) {
-    for (unsigned shift = 0; shift < 32; shift += 8) {
-        to.push_back(static_cast<char>(value >> shift & 0xFFU));
-    }
 }
 
 /// All values of the document, parents before children.
