@@ -136,6 +136,20 @@ for name in cli_tests pass_tests pass_tests_tracing pass_tests_ray_query library
     reference_tests unit_tests; do
     [[ -z "${seconds[$name]-}" ]] || echo "$name: ${good[$name]} passed, ${bad[$name]} failed, ${seconds[$name]} s of one core"
 done
+# The sanitized build of the fuzz targets takes minutes, and so do they.
+if [[ -n "${REFLET_FUZZ_SMOKE-}" ]]; then
+    status=0
+    ./fuzz.sh smoke | tee "$logs/fuzz.log" || status=$?
+    passed=$((passed + $(grep -c ': nothing found' "$logs/fuzz.log" || true)))
+    mapfile -t -O "${#failures[@]}" failures < <(grep ': FOUND' "$logs/fuzz.log")
+    failed=$((failed + $(grep -c ': FOUND' "$logs/fuzz.log" || true)))
+    if ((status != 0 && status != 3)) && ! grep -q ': FOUND' "$logs/fuzz.log"; then
+        failures+=("fuzz.sh ended with status $status")
+        failed=$((failed + 1))
+    fi
+else
+    echo "not run: the fuzz targets under libFuzzer, 20 s each: REFLET_FUZZ_SMOKE=1 ./test.sh, or ./fuzz.sh smoke (clang)"
+fi
 echo "build $built s, tests $((SECONDS - built)) s, in all $SECONDS s"
 ((${#failures[@]} == 0)) || printf 'failed: %s\n' "${failures[@]}"
 ((skipped == 0)) || echo "$skipped skipped"

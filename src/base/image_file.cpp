@@ -3,7 +3,9 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/jpeg_check.h"
 #include "base/limits.h"
+#include "base/message.h"
 
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
@@ -33,11 +35,21 @@ struct Encoded {
 };
 
 [[noreturn]] void failDecode(const std::filesystem::path& path) {
-    const char* reason = stbi_failure_reason();
+    const char* reason = stbi_failure_reason();  // may quote the file
     if (reason != nullptr && std::string_view(reason) == "outofmem") {
         throw std::bad_alloc();
     }
-    fail("{}: cannot be read as an image: {}", path.string(), reason != nullptr ? reason : "unknown format");
+    fail("{}: cannot be read as an image: {}", path.string(), oneLine(reason != nullptr ? reason : "unknown format"));
+}
+
+/// stb reads more formats than these, by readers that crash or never end on broken files.
+void checkFormat(const std::filesystem::path& path, std::span<const uint8_t> bytes) {
+    if (!startsAsPng(bytes) && !startsAsJpeg(bytes)) {
+        fail("{}: cannot be read as an image: it is neither PNG nor JPEG", path.string());
+    }
+    if (const std::string problem = startsAsJpeg(bytes) ? jpegProblem(bytes) : ""; !problem.empty()) {
+        fail("{}: cannot be read as an image: {}", path.string(), problem);
+    }
 }
 
 void appendToString(void* target, void* data, int size) {
@@ -66,9 +78,7 @@ Bitmap readBitmap(const std::filesystem::path& path) {
     int width = 0;
     int height = 0;
     int channels = 0;
-    if (stbi_is_hdr_from_memory(file.data(), file.size()) != 0) {  // a format of values; stb's reader may never end
-        fail("{}: cannot be read as an image: it is a Radiance HDR image", path.string());
-    }
+    checkFormat(path, {file.data(), file.content.size()});
     if (stbi_info_from_memory(file.data(), file.size(), &width, &height, &channels) == 0) {
         failDecode(path);
     }

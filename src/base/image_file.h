@@ -38,7 +38,7 @@ struct ImageLayer {
 /// Writes a bitmap of 3 or 4 channels. Throws Error if the file cannot be written.
 void writePng(const std::filesystem::path& path, const Bitmap& bitmap);
 
-/// Reads PNG, JPEG and the other 8-bit formats that stb supports, with the channels of the file. Throws Error, also for
+/// Reads PNG and JPEG, with the channels of the file. Throws Error, also for
 /// an image beyond imageExcess (base/limits.h), as the readers below do.
 Bitmap readBitmap(const std::filesystem::path& path);
 

@@ -1,12 +1,12 @@
-// Scenes: .gltf and .glb, with all that is inside them, and the files that they name.
+// Scenes: .gltf and .glb, with all that is inside them.
 #include "scene/gltf/gltf.h"
 #include "fuzz.h"
-#include "scene/gltf/files.h"
+#include "scene/pose.h"
 
-using namespace reflet;
-
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
-    const auto path = fuzz::file("scene.glb", bytes, size);
-    fuzz::survive([&] { (void)loadGltf(path, {.strict = false}); });
-    return fuzz::survive([&] { visitGltfFiles(path, [](std::span<const uint8_t>) {}); });
+FUZZ_TARGET(gltf) {
+    const auto path = file("scene.glb", bytes, size);
+    return survive([&] {
+        const Scene scene = loadGltf(path, {});
+        (void)scenePose(scene, 0.7);
+    });
 }

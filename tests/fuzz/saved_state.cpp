@@ -4,21 +4,18 @@
 
 #include <cstdlib>
 
-using namespace reflet;
-
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
-    static const bool once = [] {
-        ::setenv("XDG_CONFIG_HOME", fuzz::folder().c_str(), 1);
-        std::filesystem::create_directories(stateFile("builtin:cubes").parent_path());
-        return true;
+FUZZ_TARGET(savedState) {
+    static const std::filesystem::path home = [] {
+        std::filesystem::create_directories(folder() / "reflet/view");
+        return folder();
     }();
-    (void)once;
-    std::ofstream(stateFile("builtin:cubes"), std::ios::binary)
-        .write(reinterpret_cast<const char*>(bytes), static_cast<std::streamsize>(size));
+    // Other tests of the same process may set it.
+    ::setenv("XDG_CONFIG_HOME", home.c_str(), 1);
+    writeBytes(stateFile("builtin:cubes"), bytes, size);
     ViewerState state;
     state.source.scene = "builtin:cubes";
     state.preset = "plain";
-    return fuzz::survive([&] {
+    return survive([&] {
         restoreState(state, {});
         (void)stateText(state);
     });

@@ -5,12 +5,14 @@
 
 #include <nlohmann/json.hpp>
 
-using namespace reflet;
-
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
+FUZZ_TARGET(sequenceRecord) {
     static const nlohmann::ordered_json record{
         {"device", "d"}, {"size", {2, 3}}, {"view", recordOf(View{})}, {"settings", {{"diffuse.rays", "4"}}}};
-    fuzz::file("a_#.png.sequence.json", bytes, size);
-    const FrameNames names((fuzz::folder() / "a_#.png").string());
-    return fuzz::survive([&] { beginSequence(names, record, false, [](const std::string&) {}); });
+    static const std::filesystem::path own = [] {  // it is listed each time
+        std::filesystem::create_directories(folder() / "sequence");
+        return folder() / "sequence";
+    }();
+    writeBytes(own / "a_#.png.sequence.json", bytes, size);
+    const FrameNames names((own / "a_#.png").string());
+    return survive([&] { beginSequence(names, record, false, [](const std::string&) {}); });
 }

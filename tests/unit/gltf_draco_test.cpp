@@ -1,4 +1,5 @@
 // Loading of glTF primitives compressed with Draco.
+#include "base/error.h"
 #include "gltf_builder.h"
 
 #include <draco/compression/encode.h>
@@ -97,6 +98,12 @@ TEST(GltfDraco, AttributesMayHaveAnyTypeAndTheAccessorSaysWhetherTheyAreNormalis
             EXPECT_EQ(vertex.color, glm::u16vec4(65535, 13107, 0, 257));
         }
     }
+}
+
+TEST(GltfDraco, AnAttributeOfTruthValuesIsAnError) {
+    DracoTriangle triangle;
+    triangle.add<uint8_t>("COLOR_0", draco::DT_BOOL, ubyteType, false, {212, 1, 0, 1});
+    EXPECT_THROW(triangle.load(draco::MESH_SEQUENTIAL_ENCODING), Error);
 }
 
 }  // namespace

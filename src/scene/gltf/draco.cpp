@@ -110,6 +110,9 @@ bool convert(const draco::PointAttribute& attribute, draco::AttributeValueIndex 
     if (attribute.data_type() == draco::DT_FLOAT32 || attribute.data_type() == draco::DT_FLOAT64) {
         return attribute.ConvertValue<float>(index, components, &value.x);
     }
+    if (attribute.data_type() == draco::DT_BOOL) {  // glTF has none, and any byte may stand for one
+        return false;
+    }
     std::array<int64_t, 4> integers{};
     if (!attribute.ConvertValue<int64_t>(index, components, integers.data())) {
         return false;

@@ -1,6 +1,8 @@
 // PNG and JPEG images, by stb_image.
 #include "scene/gltf/image_formats.h"
 
+#include "base/jpeg_check.h"
+
 #include <stb/stb_image.h>
 
 #include <algorithm>
@@ -14,6 +16,7 @@ namespace reflet {
 namespace {
 
 constexpr uint64_t maxDeflateRatio = 1032;
+constexpr size_t depthAt = 24;                  // of the PNG header's bits per channel; the colour type follows
 constexpr uint64_t maxJpegPixelsPerByte = 512;  // a block of 8 x 8 takes at least one bit
 
 bool startsWith(std::span<const uint8_t> bytes, std::span<const uint8_t> magic) {
@@ -26,7 +29,6 @@ uint64_t mostPixels(std::span<const uint8_t> bytes) {
         return maxJpegPixelsPerByte * bytes.size();
     }
     constexpr std::array<uint64_t, 7> channels{1, 1, 3, 1, 2, 1, 4};  // by the PNG header's colour type
-    constexpr size_t depthAt = 24;
     const uint64_t depth = std::max<uint64_t>(bytes[depthAt], 1);
     const uint64_t bits = depth * channels.at(std::min<size_t>(bytes[depthAt + 1], 6));
     return maxDeflateRatio * bytes.size() * 8 / bits;
@@ -79,11 +81,16 @@ bool isPng(std::span<const uint8_t> bytes) {
 }
 
 bool isJpeg(std::span<const uint8_t> bytes) {
-    constexpr std::array<uint8_t, 3> magic{0xFF, 0xD8, 0xFF};
-    return startsWith(bytes, magic);
+    return startsAsJpeg(bytes);
 }
 
 Image decodeStb(std::span<const uint8_t> bytes, const std::string& part, GltfReport& report) {
+    if (const std::string problem = isJpeg(bytes) ? jpegProblem(bytes) : ""; !problem.empty()) {
+        report.fail(part, "is a broken image: {}", problem);
+    }
+    if (isPng(bytes) && bytes.size() < depthAt + 2) {  // stb takes what is missing for zeros
+        report.fail(part, "is a broken image: its header is truncated");
+    }
     const int size = static_cast<int>(bytes.size());  // at most 2^30
     int width = 0;
     int height = 0;

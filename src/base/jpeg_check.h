@@ -1,0 +1,18 @@
+// Checks a JPEG image before stb_image decodes it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace reflet {
+
+/// Whether the bytes start as a PNG or JPEG image, the formats of stb_image that are read.
+bool startsAsPng(std::span<const uint8_t> bytes);
+bool startsAsJpeg(std::span<const uint8_t> bytes);
+
+/// What is wrong with the Huffman tables, as the end of an error message; empty: nothing. Versions of stb_image before
+/// 2.28 write past a table of more than 256 codes, and decode by a table that the file does not define.
+std::string jpegProblem(std::span<const uint8_t> bytes);
+
+}  // namespace reflet

@@ -1,0 +1,127 @@
+// Broken images that crash or mislead the libraries that decode them: all of them found by fuzzing.
+#include "base/error.h"
+#include "base/file.h"
+#include "base/image_file.h"
+#include "base/jpeg_check.h"
+#include "gltf_encoders.h"
+
+#include <gtest/gtest.h>
+#include <stb/stb_image_write.h>
+
+namespace reflet::test::image_broken_test {
+namespace {
+
+/// The error without the file's name; empty: there is none.
+std::string complaintOf(const std::string& name, const std::string& bytes) {
+    const auto path = testFolder() / name;
+    writeFileAtomically(path, bytes);
+    try {
+        if (name.ends_with(".exr")) {
+            (void)readExr(path);
+        } else {
+            (void)readBitmap(path);
+        }
+    } catch (const Error& error) {
+        return std::string(error.what()).substr(path.string().size() + 2);
+    }
+    return "";
+}
+
+std::string textureComplaint(const std::string& bytes) {
+    GltfBuilder b = triangle();
+    b.add("materials", {{"pbrMetallicRoughness",
+                         {{"baseColorTexture", {{"index", addTextureOf(b, {bytes.begin(), bytes.end()})}}}}}});
+    b.document["meshes"][0]["primitives"][0]["material"] = 0;
+    return complaint(b.writeGlb(testFolder() / "scene.glb"));
+}
+
+std::string jpegOf(int width, int height) {
+    const std::vector<uint8_t> pixels(static_cast<size_t>(width) * static_cast<size_t>(height) * 3, 90);
+    std::string jpeg;
+    stbi_write_jpg_to_func(
+        [](void* context, void* data, int size) {
+            static_cast<std::string*>(context)->append(static_cast<const char*>(data), static_cast<size_t>(size));
+        },
+        &jpeg, width, height, 3, pixels.data(), 90);
+    return jpeg;
+}
+
+std::string jpegProblemOf(const std::string& jpeg) {
+    return jpegProblem({reinterpret_cast<const uint8_t*>(jpeg.data()), jpeg.size()});
+}
+
+TEST(BrokenImage, OfAnotherFormatIsNotDecoded) {
+    EXPECT_EQ(complaintOf("a.png", "GIF89a\x01\x01"), "cannot be read as an image: it is neither PNG nor JPEG");
+    EXPECT_EQ(complaintOf("a.jpg", std::string("8BPS\0\1", 6)),
+              "cannot be read as an image: it is neither PNG nor JPEG");
+}
+
+TEST(BrokenImage, TheNameOfAPngChunkCannotBreakTheMessage) {
+    const std::vector<uint8_t> bytes = pngOf(2, 2, {1, 2, 3, 4});
+    std::string png(bytes.begin(), bytes.end());
+    png.replace(png.find("IDAT"), 4, "ID\nT");
+    const std::string message = complaintOf("a.png", png);
+    EXPECT_TRUE(message.starts_with("cannot be read as an image: ")) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+}
+
+TEST(BrokenImage, AnExrAttributeThatClaimsMoreThanTheFileHasTakesNoMemory) {
+    const auto path = testFolder() / "whole.exr";
+    writeExr(path, std::vector<ImageLayer>{{"", {2, 1, {"R", "G", "B"}, std::vector<float>(6, 0.5F)}}});
+    const std::string whole = readFile(path);
+    const auto with =
+        [&](const std::string& length) {  // an attribute of a type that OpenEXR does not know, of one byte
+            return whole.substr(0, 8) + std::string("extra\0odd\0", 10) + length + "x" + whole.substr(8);
+        };
+    EXPECT_EQ(complaintOf("a.exr", with(std::string("\1\0\0\0", 4))), "");
+    for (const std::string& length : {std::string("\xFF\xFF\xFF\x7F"), std::string("\xFF\xFF\xFF\xFF")}) {
+        EXPECT_EQ(complaintOf("a.exr", with(length)), "cannot be read as EXR: its header is truncated");
+    }
+}
+
+TEST(BrokenImage, APngTextureNeedsItsHeader) {
+    const std::vector<uint8_t> png = pngOf(2, 2, {1, 2, 3, 4});
+    EXPECT_EQ(textureComplaint(std::string(png.begin(), png.end())), "");
+    for (size_t length = 16; length < 26; ++length) {
+        EXPECT_EQ(textureComplaint(std::string(png.begin(), png.begin() + static_cast<std::ptrdiff_t>(length))),
+                  "images[0]: is a broken image: its header is truncated");
+    }
+}
+
+TEST(BrokenImage, AJpegNeedsTheHuffmanTablesThatItsScansUse) {
+    const std::string whole = jpegOf(8, 8);
+    ASSERT_EQ(jpegProblemOf(whole), "");
+    EXPECT_EQ(textureComplaint(whole), "");
+    std::string jpeg = whole;
+    const size_t tables = jpeg.find("\xFF\xC4");
+    jpeg[tables + 1] = '\xEC';  // a segment that decoders skip
+    const std::string undefined = "a scan uses a Huffman table that is not defined";
+    EXPECT_EQ(jpegProblemOf(jpeg), undefined);
+    EXPECT_EQ(complaintOf("a.jpg", jpeg), "cannot be read as an image: " + undefined);
+    EXPECT_EQ(textureComplaint(jpeg), "images[0]: is a broken image: " + undefined);
+}
+
+TEST(BrokenImage, AHuffmanTableOfAJpegHasAtMost256Codes) {
+    std::string jpeg = jpegOf(8, 8);
+    const size_t tables = jpeg.find("\xFF\xC4") + 4;
+    jpeg.replace(tables + 1, 16, std::string(16, '\x40'));
+    EXPECT_EQ(jpegProblemOf(jpeg), "a Huffman table is broken");
+}
+
+TEST(BrokenImage, AProgressiveJpegNeedsTablesOfTheKindThatAScanCodes) {
+    const std::string start("\xFF\xD8\xFF\xC2\x00\x08\x00\x00\x00\x00\x00\x00", 12);
+    const auto table = [](char kind) {
+        return std::string("\xFF\xC4\x00\x14", 4) + kind + std::string("\x01") + std::string(15, '\0') + '\x05';
+    };
+    const auto scan = [](char from) {
+        return std::string("\xFF\xDA\x00\x08\x01\x01\x00", 7) + from + std::string("\x05\0", 2);
+    };
+    EXPECT_EQ(jpegProblemOf(start + table('\x00') + scan('\x00')), "");
+    EXPECT_NE(jpegProblemOf(start + table('\x00') + scan('\x01')), "");
+    EXPECT_EQ(jpegProblemOf(start + table('\x10') + scan('\x01')), "");
+    EXPECT_NE(jpegProblemOf(start + table('\x10') + scan('\x00')), "");
+    EXPECT_NE(jpegProblemOf(start + table('\x10') + "\xFF\xDA"), "");
+}
+
+}  // namespace
+}  // namespace reflet::test::image_broken_test
