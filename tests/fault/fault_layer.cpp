@@ -19,6 +19,7 @@ namespace {
 /// returns functions of the layers above.
 struct Chain {
     VkInstance instance = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;  ///< none of an instance
     PFN_vkGetInstanceProcAddr lookUpInstance = nullptr;
     PFN_vkGetDeviceProcAddr lookUpDevice = nullptr;
     std::unordered_map<std::string_view, PFN_vkVoidFunction> functions;
@@ -62,6 +63,13 @@ void addChain(Handle handle, Chain chain, PFN_vkVoidFunction(VKAPI_PTR* lookUp)(
     add("vkCreateDevice");
     const std::scoped_lock lock(chainMutex);
     chains()[keyOf(handle)] = std::move(chain);
+}
+
+// A device that is lost executes nothing any more, and what it used may be destroyed. The real one has to end its work.
+void endWork(const Chain& chain) {
+    if (chain.device != VK_NULL_HANDLE) {
+        reinterpret_cast<PFN_vkDeviceWaitIdle>(chain.find("vkDeviceWaitIdle"))(chain.device);
+    }
 }
 
 template <class Object>
@@ -186,6 +194,9 @@ struct Failing<F, VkResult(VKAPI_PTR*)(Handle, Args...)> {
         const uint64_t surface = (uint64_t{0} | ... | surfaceIn(args));
         const VkResult fault = Faults::get().decide(F, key, surface);
         VkResult result = fault;
+        if (fault == VK_ERROR_DEVICE_LOST) {
+            endWork(chainOf(key));
+        }
         if (fault >= 0) {
             using Next = VkResult(VKAPI_PTR*)(Handle, Args...);
             result = reinterpret_cast<Next>(chainOf(key).find(functions[F].name))(handle, args...);
@@ -237,7 +248,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createInstance(const VkInstanceCreateInfo* info, 
     const VkResult result = create(info, host, instance);
     if (result == VK_SUCCESS) {
         Faults::get().made(f_vkCreateInstance, nullptr, bits(*instance));
-        addChain(*instance, {*instance, lookUp, nullptr, {}}, lookUp);
+        addChain(*instance, {*instance, VK_NULL_HANDLE, lookUp, nullptr, {}}, lookUp);
     }
     return result;
 }
@@ -260,7 +271,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkD
     const VkResult result = create(physical, info, host, device);
     if (result == VK_SUCCESS) {
         Faults::get().made(f_vkCreateDevice, keyOf(physical), bits(*device));
-        addChain(*device, {instance, lookUp, lookUpDevice, {}}, lookUpDevice);
+        addChain(*device, {instance, *device, lookUp, lookUpDevice, {}}, lookUpDevice);
     }
     return result;
 }
