@@ -2,6 +2,7 @@
 #include "base/image_file.h"
 
 #include "base/error.h"
+#include "base/exr_check.h"
 #include "base/file.h"
 #include "base/limits.h"
 
@@ -212,38 +213,11 @@ void checkPlausible(const std::vector<ImageLayer>& layers, size_t fileSize) {
     }
 }
 
-/// OpenEXR takes as much memory as an attribute of the header claims to have, up to 2 GiB, before it reads it.
-/// "OpenEXR File Layout": names and types end with 0, a length and as many bytes follow, and an empty name ends a
-/// header.
-void checkAttributes(std::string_view content) {
-    constexpr size_t versionBytes = 8;
-    constexpr char multiPart = 0x10;  // of the second byte of the version
-    const bool manyHeaders = content.size() > versionBytes && (content[5] & multiPart) != 0;
-    for (size_t at = versionBytes; at < content.size();) {
-        if (content[at] == 0) {
-            if (!manyHeaders || at + 1 >= content.size() || content[at + 1] == 0) {
-                return;
-            }
-            ++at;
-        }
-        const size_t typeAt = content.find('\0', at);
-        const size_t lengthAt = typeAt == std::string_view::npos ? typeAt : content.find('\0', typeAt + 1);
-        int32_t length = 0;
-        if (lengthAt == std::string_view::npos || content.size() - lengthAt - 1 < sizeof length) {
-            return;  // OpenEXR says what is wrong
-        }
-        std::memcpy(&length, content.data() + lengthAt + 1, sizeof length);
-        at = lengthAt + 1 + sizeof length;
-        if (length < 0 || static_cast<size_t>(length) > content.size() - at) {
-            fail("its header is truncated");
-        }
-        at += static_cast<size_t>(length);
-    }
-}
-
 std::vector<ImageLayer> decodeExr(std::string_view content) {
     configureOpenExr();
-    checkAttributes(content);
+    if (!exrHeadersAreWhole(content)) {
+        fail("its header is broken");
+    }
     MemoryInput input(content);
     Imf::InputFile file(input, 0);  // single-threaded: stops at the first damaged line, where threads go on
     const Imath::Box2i window = file.header().dataWindow();

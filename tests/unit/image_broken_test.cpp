@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <stb/stb_image_write.h>
 
+#include <cstring>
+
 namespace reflet::test::image_broken_test {
 namespace {
 
@@ -65,18 +67,53 @@ TEST(BrokenImage, TheNameOfAPngChunkCannotBreakTheMessage) {
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
 }
 
-TEST(BrokenImage, AnExrAttributeThatClaimsMoreThanTheFileHasTakesNoMemory) {
-    const auto path = testFolder() / "whole.exr";
-    writeExr(path, std::vector<ImageLayer>{{"", {2, 1, {"R", "G", "B"}, std::vector<float>(6, 0.5F)}}});
-    const std::string whole = readFile(path);
-    const auto with =
-        [&](const std::string& length) {  // an attribute of a type that OpenEXR does not know, of one byte
-            return whole.substr(0, 8) + std::string("extra\0odd\0", 10) + length + "x" + whole.substr(8);
-        };
-    EXPECT_EQ(complaintOf("a.exr", with(std::string("\1\0\0\0", 4))), "");
-    for (const std::string& length : {std::string("\xFF\xFF\xFF\x7F"), std::string("\xFF\xFF\xFF\xFF")}) {
-        EXPECT_EQ(complaintOf("a.exr", with(length)), "cannot be read as EXR: its header is truncated");
+class BrokenExr : public ::testing::Test {
+protected:
+    BrokenExr() {
+        const auto path = testFolder() / "whole.exr";
+        writeExr(path, std::vector<ImageLayer>{{"", {2, 1, {"R", "G", "B"}, std::vector<float>(6, 0.5F)}}});
+        whole_ = readFile(path);
     }
+
+    /// The error, with one more attribute. There is always one: pixels move, too.
+    [[nodiscard]] std::string complaintWith(const std::string& type, const std::string& length,
+                                            const std::string& value) const {
+        const std::string zero(1, '\0');
+        return complaintOf("a.exr",
+                           whole_.substr(0, 8) + "extra" + zero + type + zero + length + value + whole_.substr(8));
+    }
+
+    const std::string broken_ = "cannot be read as EXR: its header is broken";
+    std::string whole_;
+};
+
+std::string word(uint32_t value) {
+    std::string bytes(4, '\0');
+    std::memcpy(bytes.data(), &value, 4);
+    return bytes;
+}
+
+TEST_F(BrokenExr, AnAttributeThatClaimsMoreThanTheFileHasTakesNoMemory) {
+    EXPECT_NE(complaintWith("odd", word(1), "x"), broken_);
+    EXPECT_EQ(complaintWith("odd", word(0x7FFFFFFF), "x"), broken_);
+    EXPECT_EQ(complaintWith("odd", word(0xFFFFFFFF), "x"), broken_);
+    EXPECT_NE(complaintWith("string", word(3), "abc"), broken_);
+    EXPECT_EQ(complaintWith("string", word(0x7FFFFFFF), "abc"), broken_);
+}
+
+TEST_F(BrokenExr, AnAttributeHasTheLengthOfItsType) {  // OpenEXR reads by the type, not by the length
+    EXPECT_NE(complaintWith("v2i", word(8), word(1) + word(2)), broken_);
+    EXPECT_EQ(complaintWith("v2i", word(9), word(1) + word(2) + "x"), broken_);
+}
+
+TEST_F(BrokenExr, LengthsInsideOfAnAttributeFitIt) {
+    EXPECT_NE(complaintWith("stringvector", word(6), word(2) + "ab"), broken_);
+    EXPECT_EQ(complaintWith("stringvector", word(6), word(0x7FFFFFFF) + "ab"), broken_);
+    EXPECT_NE(complaintWith("preview", word(12), word(1) + word(1) + "rgba"), broken_);
+    EXPECT_EQ(complaintWith("preview", word(12), word(65536) + word(65536) + "rgba"), broken_);
+    const std::string channel = std::string("A\0", 2) + word(1) + word(0) + word(1) + word(1);
+    EXPECT_NE(complaintWith("chlist", word(19), channel + std::string(1, '\0')), broken_);
+    EXPECT_EQ(complaintWith("chlist", word(18), channel), broken_);
 }
 
 TEST(BrokenImage, APngTextureNeedsItsHeader) {
