@@ -6,6 +6,7 @@
 #include "base/jpeg_check.h"
 #include "base/limits.h"
 #include "base/message.h"
+#include "base/png_check.h"
 
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
@@ -47,7 +48,7 @@ void checkFormat(const std::filesystem::path& path, std::span<const uint8_t> byt
     if (!startsAsPng(bytes) && !startsAsJpeg(bytes)) {
         fail("{}: cannot be read as an image: it is neither PNG nor JPEG", path.string());
     }
-    if (const std::string problem = startsAsJpeg(bytes) ? jpegProblem(bytes) : ""; !problem.empty()) {
+    if (const std::string problem = startsAsJpeg(bytes) ? jpegProblem(bytes) : pngProblem(bytes); !problem.empty()) {
         fail("{}: cannot be read as an image: {}", path.string(), problem);
     }
 }

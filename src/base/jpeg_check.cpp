@@ -75,11 +75,6 @@ bool startsWith(Bytes bytes, Bytes magic) {
 
 }  // namespace
 
-bool startsAsPng(Bytes bytes) {
-    constexpr std::array<uint8_t, 8> magic{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
-    return startsWith(bytes, magic);
-}
-
 bool startsAsJpeg(Bytes bytes) {
     constexpr std::array<uint8_t, 3> magic{0xFF, 0xD8, 0xFF};
     return startsWith(bytes, magic);

@@ -7,8 +7,6 @@
 
 namespace reflet {
 
-/// Whether the bytes start as a PNG or JPEG image, the formats of stb_image that are read.
-bool startsAsPng(std::span<const uint8_t> bytes);
 bool startsAsJpeg(std::span<const uint8_t> bytes);
 
 /// What is wrong with the Huffman tables, as the end of an error message; empty: nothing. Versions of stb_image before

@@ -2,6 +2,7 @@
 #include "base/setting_table.h"
 
 #include "base/error.h"
+#include "base/message.h"
 #include "base/text.h"
 
 #include <algorithm>
@@ -53,11 +54,11 @@ const SettingEntry& SettingTable::find(std::string_view name) const {
     const auto renamed = std::ranges::find(renamed_, snake, &std::pair<std::string_view, std::string_view>::first);
     const std::string now = renamed == renamed_.end() ? snake : std::string(renamed->second);
     if (known(now) != entries_.end()) {
-        failUsage("setting '{}' is called '{}' now", name, now);
+        failUsage("setting '{}' is called '{}' now", oneLine(name), now);
     }
     std::vector<std::string> names;
     std::ranges::transform(entries_, std::back_inserter(names), &SettingEntry::name);
-    failUsage("unknown setting '{}' (all of them: {}){}", name, listedBy_, suggestion(name, names));
+    failUsage("unknown setting '{}' (all of them: {}){}", oneLine(name), listedBy_, suggestion(name, names));
 }
 
 void SettingTable::set(void* settings, std::string_view name, const std::string& value) const {
@@ -69,9 +70,9 @@ void SettingTable::set(void* settings, std::string_view name, const std::string&
                            : entry.info.type == SettingType::real    ? "a number from "
                                                                      : "";
         if (const std::string renamed = snakeCase(value); renamed != value && parseValue(entry.info, renamed)) {
-            failUsage("{}: '{}' is called '{}' now", entry.name, value, renamed);
+            failUsage("{}: '{}' is called '{}' now", entry.name, oneLine(value), renamed);
         }
-        failUsage("{} must be {}{}, is '{}'", entry.name, kind, rangeText(entry.info), value);
+        failUsage("{} must be {}{}, is '{}'", entry.name, kind, rangeText(entry.info), oneLine(value));
     }
     storeSetting(settings, entry.info, *parsed);
 }

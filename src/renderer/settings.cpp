@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/json_text.h"
+#include "base/message.h"
 #include "base/text.h"
 #include "renderer/gbuffer/draw_gbuffer.h"
 
@@ -75,7 +76,7 @@ void checkEffect(const std::string& effect) {
         }
     }
     if (std::ranges::find(effects, effect) == effects.end()) {
-        failUsage("no effect is called '{}'; there are: {}{}", effect, fmt::join(effects, ", "),
+        failUsage("no effect is called '{}'; there are: {}{}", oneLine(effect), fmt::join(effects, ", "),
                   suggestion(effect, effects));
     }
 }

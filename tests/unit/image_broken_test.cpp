@@ -67,6 +67,14 @@ TEST(BrokenImage, TheNameOfAPngChunkCannotBreakTheMessage) {
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
 }
 
+TEST(BrokenImage, APngChunkThatClaimsMoreThanTheFileHasTakesNoMemory) {
+    const std::vector<uint8_t> bytes = pngOf(2, 2, {1, 2, 3, 4});
+    std::string png(bytes.begin(), bytes.end());
+    png.replace(png.find("IDAT") - 4, 4, std::string("\x3F\xFF\xFF\xFF", 4));
+    EXPECT_EQ(complaintOf("a.png", png), "cannot be read as an image: a chunk is truncated");
+    EXPECT_NE(textureComplaint(png).find("a chunk is truncated"), std::string::npos) << textureComplaint(png);
+}
+
 class BrokenExr : public ::testing::Test {
 protected:
     BrokenExr() {

@@ -2,6 +2,7 @@
 #include "scene/gltf/image_formats.h"
 
 #include "base/jpeg_check.h"
+#include "base/png_check.h"
 
 #include <stb/stb_image.h>
 
@@ -85,11 +86,11 @@ bool isJpeg(std::span<const uint8_t> bytes) {
 }
 
 Image decodeStb(std::span<const uint8_t> bytes, const std::string& part, GltfReport& report) {
-    if (const std::string problem = isJpeg(bytes) ? jpegProblem(bytes) : ""; !problem.empty()) {
-        report.fail(part, "is a broken image: {}", problem);
-    }
     if (isPng(bytes) && bytes.size() < depthAt + 2) {  // stb takes what is missing for zeros
         report.fail(part, "is a broken image: its header is truncated");
+    }
+    if (const std::string problem = isJpeg(bytes) ? jpegProblem(bytes) : pngProblem(bytes); !problem.empty()) {
+        report.fail(part, "is a broken image: {}", problem);
     }
     const int size = static_cast<int>(bytes.size());  // at most 2^30
     int width = 0;
