@@ -92,10 +92,11 @@ protected:
     static Subject& subject(const std::string& name) {
         auto& subjects = all();
         if (!subjects.contains(name)) {
-            Scene scene = name == "monitor"     ? monitor()
-                          : name == "panes"     ? panes()
-                          : name == "wide lens" ? wideLens()
-                                                : findBuiltinScene(name)->make();
+            Scene scene = name == "monitor"       ? monitor()
+                          : name == "panes"       ? panes()
+                          : name == "wide lens"   ? wideLens("lens")
+                          : name == "wide mirror" ? wideLens("mirror-hall")
+                                                  : findBuiltinScene(name)->make();
             subjects[name] = std::make_unique<Subject>(device(), std::move(scene));
         }
         return *subjects.at(name);
@@ -118,8 +119,8 @@ private:
         return scene;
     }
     // Disks of several pixels, in pictures as small as these.
-    static Scene wideLens() {
-        Scene scene = findBuiltinScene("lens")->make();
+    static Scene wideLens(const char* name) {
+        Scene scene = findBuiltinScene(name)->make();
         scene.cameras.front().apertureRadius = 1.0F;
         return scene;
     }
@@ -191,6 +192,7 @@ const std::vector<Context>& contexts() {
         {"live.", {"shadow.filter=none", "materials.anisotropy=1"}, "monitor"},
         {"environment.", {}, "mirror-hall"},
         {"dof.", {"dof.max_radius=0.25"}, "wide lens"},
+        {"dof.reflections", {}, "wide mirror"},
         {"ao.", {"ao.method=bitmask"}},
         {"ao.method", {}},
         {"ao.thickness", {"ao.method=bitmask", "ao.radius=10"}, "colonnade"},
