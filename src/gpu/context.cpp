@@ -57,6 +57,9 @@ Context::~Context() {
     for (const auto& [info, sampler] : samplers_) {
         vk.vkDestroySampler(device_, sampler, nullptr);
     }
+    for (const auto& [bindings, layout] : setLayouts_) {
+        vk.vkDestroyDescriptorSetLayout(device_, layout, nullptr);
+    }
 }
 
 VkSampler Context::sampler(const SamplerInfo& info) {
@@ -82,6 +85,28 @@ VkSampler Context::sampler(const SamplerInfo& info) {
     samplers_.emplace_back(info, sampler);
     ++counts_.samplers;
     return sampler;
+}
+
+VkDescriptorSetLayout Context::setLayout(const std::vector<VkDescriptorType>& bindings) {
+    for (const auto& [known, layout] : setLayouts_) {
+        if (known == bindings) {
+            return layout;
+        }
+    }
+    std::vector<VkDescriptorSetLayoutBinding> list(bindings.size());
+    for (uint32_t i = 0; i < list.size(); ++i) {
+        list[i] = {i, bindings[i], 1, VK_SHADER_STAGE_ALL, nullptr};
+    }
+    VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+    info.bindingCount = static_cast<uint32_t>(list.size());
+    info.pBindings = list.data();
+    auto& [key, layout] = setLayouts_.emplace_back(bindings, VkDescriptorSetLayout(VK_NULL_HANDLE));
+    const VkResult result = vk.vkCreateDescriptorSetLayout(device_, &info, nullptr, &layout);
+    if (result != VK_SUCCESS) {
+        setLayouts_.pop_back();
+        vkCheck(result, "creating a set layout");
+    }
+    return layout;
 }
 
 VkResult Context::allocateMemory(const VkMemoryAllocateInfo& info, VkDeviceMemory* memory) {

@@ -85,6 +85,10 @@ public:
     /// Equal infos share one sampler, which lives as long as the context.
     VkSampler sampler(const SamplerInfo& info);
 
+    /// A layout of single descriptors, by binding, for all stages. Equal ones share one, which lives as long as the
+    /// context, and so the pipelines that are made with it serve one scene after another.
+    VkDescriptorSetLayout setLayout(const std::vector<VkDescriptorType>& bindings);
+
     /// Announces commands that are going to be recorded and submitted; returns their serial number for finishWork.
     uint64_t beginWork();
     /// The device has finished these commands, or they will never be submitted. Destroys what only they could use.
@@ -129,6 +133,7 @@ private:
     ShaderLibrary shaders_;
     std::unique_ptr<PipelineCache> pipelines_;
     std::vector<std::pair<SamplerInfo, VkSampler>> samplers_;
+    std::vector<std::pair<std::vector<VkDescriptorType>, VkDescriptorSetLayout>> setLayouts_;
     uint64_t lastSerial_ = 0;
     std::set<uint64_t> unfinished_;
     std::deque<Retired> retired_;  ///< serials ascend

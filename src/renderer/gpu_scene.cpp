@@ -19,19 +19,10 @@ namespace reflet {
 namespace {
 
 // Binding 0: MaterialParams; the others: the slots' textures.
-VkDescriptorSetLayout makeMaterialLayout(gpu::Device& device) {
-    std::array<VkDescriptorSetLayoutBinding, 1 + slotCount> bindings{};
-    for (uint32_t i = 0; i < bindings.size(); ++i) {
-        bindings[i] = {i, i == 0 ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1,
-                       VK_SHADER_STAGE_ALL, nullptr};
-    }
-    VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
-    info.bindingCount = static_cast<uint32_t>(bindings.size());
-    info.pBindings = bindings.data();
-    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-    gpu::vkCheck(device.vk.vkCreateDescriptorSetLayout(device.handle(), &info, nullptr, &layout),
-                 "creating the material layout");
-    return layout;
+VkDescriptorSetLayout materialLayout(gpu::Device& device) {
+    std::vector<VkDescriptorType> bindings(1 + slotCount, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+    bindings.front() = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    return device.setLayout(bindings);
 }
 
 VkDescriptorPool makeMaterialPool(gpu::Device& device, uint32_t materials) {
@@ -87,7 +78,7 @@ LampParams lampParams(const Lamp& lamp) {
 
 GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn)
     : GpuScene(device) {  // so that the destructor runs if something fails below
-    materialLayout_ = makeMaterialLayout(device);
+    materialLayout_ = materialLayout(device);
     uploadMeshes(scene);
     uploadMaterials(scene, warn);
     addLamps(scene, warn);
@@ -95,9 +86,8 @@ GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const std::function<
 }
 
 GpuScene::~GpuScene() {
-    device_.retire([device = &device_, pool = materialPool_, layout = materialLayout_] {
+    device_.retire([device = &device_, pool = materialPool_] {
         device->vk.vkDestroyDescriptorPool(device->handle(), pool, nullptr);
-        device->vk.vkDestroyDescriptorSetLayout(device->handle(), layout, nullptr);
     });
 }
 

@@ -68,7 +68,7 @@ void DesktopTest::TearDown() {
     }
 }
 
-Environment DesktopTest::environment() const {
+Variables DesktopTest::environment() const {
     // Without a folder for its sockets, newer versions of GLFW print that there is no Wayland.
     return {
         {"DISPLAY", display_}, {"XDG_CONFIG_HOME", path("config").string()}, {"XDG_RUNTIME_DIR", path(".").string()}};

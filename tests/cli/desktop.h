@@ -46,7 +46,7 @@ protected:
     void settle() const;
 
     [[nodiscard]] int viewer() const { return viewer_; }
-    [[nodiscard]] Environment environment() const;
+    [[nodiscard]] Variables environment() const;
 
 private:
     void reveal(const std::string& control) const;

@@ -35,7 +35,7 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
     return result;
 }
 
-std::vector<std::string> environment(const Environment& added) {
+std::vector<std::string> environment(const Variables& added) {
     std::vector<std::string> result;
     for (char** variable = ::environ; *variable != nullptr; ++variable) {
         const std::string text = *variable;
@@ -68,7 +68,7 @@ struct Places {
     fs::path err;
 };
 
-pid_t start(const std::string& program, const Arguments& arguments, const Environment& added, const Places& places) {
+pid_t start(const std::string& program, const Arguments& arguments, const Variables& added, const Places& places) {
     Arguments all{program};
     all.insert(all.end(), arguments.begin(), arguments.end());
     std::vector<std::string> variables = environment(added);
@@ -150,13 +150,13 @@ ProgramTest::~ProgramTest() {
     fs::remove_all(said_, ignored);
 }
 
-Outcome ProgramTest::run(const Arguments& arguments, const Environment& added, const fs::path& out) const {
+Outcome ProgramTest::run(const Arguments& arguments, const Variables& added, const fs::path& out) const {
     const Places places{folder_, out.empty() ? said_ / "out" : out, said_ / "err"};
     const int status = waitFor(start(REFLET_PROGRAM, arguments, added, places));
     return {status, out.empty() ? readFile(said_ / "out") : "", readFile(said_ / "err")};
 }
 
-Outcome ProgramTest::runOther(const std::string& program, const Arguments& arguments, const Environment& added) const {
+Outcome ProgramTest::runOther(const std::string& program, const Arguments& arguments, const Variables& added) const {
     const int status = waitFor(start(program, arguments, added, {folder_, said_ / "out", said_ / "err"}));
     return {status, readFile(said_ / "out"), readFile(said_ / "err")};
 }
@@ -175,7 +175,7 @@ Outcome ProgramTest::interrupt(const Arguments& arguments, const std::vector<int
     return {status, readFile(said_ / "out"), readFile(said_ / "err")};
 }
 
-int ProgramTest::begin(const Arguments& arguments, const Environment& added) const {
+int ProgramTest::begin(const Arguments& arguments, const Variables& added) const {
     return start(REFLET_PROGRAM, arguments, added, {folder_, said_ / "out", said_ / "err"});
 }
 
@@ -193,7 +193,7 @@ Outcome ProgramTest::killWhen(const Arguments& arguments, const std::function<bo
     return {status, readFile(said_ / "out"), readFile(said_ / "err")};
 }
 
-Outcome ProgramTest::render(const std::string& scene, const Arguments& more, const Environment& added) const {
+Outcome ProgramTest::render(const std::string& scene, const Arguments& more, const Variables& added) const {
     Arguments all{"render", scene, "--size", "32x18"};
     if (std::ranges::find(more, "--preset") == more.end()) {
         all.insert(all.end(), {"--preset", "plain"});

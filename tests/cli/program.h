@@ -23,7 +23,8 @@ struct Outcome {
 };
 
 using Arguments = std::vector<std::string>;
-using Environment = std::map<std::string, std::string>;
+/// Environment variables.
+using Variables = std::map<std::string, std::string>;
 
 /// A test in an empty folder, which is the program's working folder and is removed afterwards.
 class ProgramTest : public testing::Test {
@@ -32,13 +33,13 @@ protected:
     ~ProgramTest() override;
 
     /// Standard output is captured, or goes to `out`.
-    [[nodiscard]] Outcome run(const Arguments& arguments, const Environment& added = {},
+    [[nodiscard]] Outcome run(const Arguments& arguments, const Variables& added = {},
                               const std::filesystem::path& out = {}) const;
     /// Another program, searched for in PATH.
     [[nodiscard]] Outcome runOther(const std::string& program, const Arguments& arguments,
-                                   const Environment& added = {}) const;
+                                   const Variables& added = {}) const;
     /// `reflet render SCENE --size 32x18` and more; with preset plain, which keeps no history, unless one is given.
-    [[nodiscard]] Outcome render(const std::string& scene, const Arguments& more, const Environment& added = {}) const;
+    [[nodiscard]] Outcome render(const std::string& scene, const Arguments& more, const Variables& added = {}) const;
 
     /// As run(), with `signals` sent to the program: the first one once it has a handler for it and has used `work`
     /// seconds
@@ -47,7 +48,7 @@ protected:
                                     double work = 0.0) const;
 
     /// As run(), but does not wait. Returns the process id, for finish().
-    [[nodiscard]] int begin(const Arguments& arguments, const Environment& added = {}) const;
+    [[nodiscard]] int begin(const Arguments& arguments, const Variables& added = {}) const;
     [[nodiscard]] Outcome finish(int process) const;
 
     /// As run(), but kills it (SIGKILL) as soon as `reached` returns true, unless it ended before.

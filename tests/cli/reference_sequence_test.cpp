@@ -22,7 +22,7 @@ protected:
         }
         return arguments(cubes, all);
     }
-    void orbitIn(const std::string& folder, const Arguments& more = {}, const Environment& environment = {}) const {
+    void orbitIn(const std::string& folder, const Arguments& more = {}, const Variables& environment = {}) const {
         fs::create_directory(path(folder));
         EXPECT_TRUE(quietSuccess(run(orbit(folder + "/a_##.exr", more), environment)));
     }
@@ -125,14 +125,14 @@ TEST_F(ReferenceSequence, AnInterruptKeepsWholeFramesAlone) {
 
 // The share that a scheduler's environment says, as the frames' numbers.
 TEST_F(ReferenceSequence, TheShareIsThatOfTheJobArray) {
-    const auto expectShare = [&](const std::string& share, const Environment& environment, const Numbers& expected) {
+    const auto expectShare = [&](const std::string& share, const Variables& environment, const Numbers& expected) {
         orbitIn("a", {"--share", share}, environment);
         EXPECT_EQ(numbers("a"), expected) << share;
         fs::remove_all(path("a"));
     };
     const auto slurm = [](const std::string& id, const std::string& min, const std::string& max,
                           const std::string& count, const std::string& step) {
-        return Environment{{"SLURM_ARRAY_TASK_ID", id},
+        return Variables{{"SLURM_ARRAY_TASK_ID", id},
                            {"SLURM_ARRAY_TASK_MIN", min},
                            {"SLURM_ARRAY_TASK_MAX", max},
                            {"SLURM_ARRAY_TASK_COUNT", count},
@@ -144,7 +144,7 @@ TEST_F(ReferenceSequence, TheShareIsThatOfTheJobArray) {
     expectShare("auto/3", slurm("1", "0", "2", "3", "1"), {"01"});
     expectShare("auto", slurm("0", "0", "0", "1", "1"), {"00", "01", "02", "03"});
     expectShare("auto", {{"SLURM_STEP_NUM_TASKS", "2"}, {"SLURM_PROCID", "1"}}, {"01", "03"});
-    Environment both = slurm("1", "0", "1", "2", "1");
+    Variables both = slurm("1", "0", "1", "2", "1");
     both.insert({{"SLURM_STEP_NUM_TASKS", "2"}, {"SLURM_PROCID", "0"}});
     expectShare("auto", both, {"02"});
     expectShare("auto/4", {{"PBS_ARRAY_INDEX", "4"}}, {"03"});
@@ -153,7 +153,7 @@ TEST_F(ReferenceSequence, TheShareIsThatOfTheJobArray) {
 }
 
 TEST_F(ReferenceSequence, AnEnvironmentWithoutAShareIsAUsageError) {
-    const auto refuses = [&](const std::string& share, const Environment& environment,
+    const auto refuses = [&](const std::string& share, const Variables& environment,
                              std::initializer_list<std::string_view> words) {
         EXPECT_TRUE(refused(run(orbit("a_#.exr", {"--share", share}), environment), 2, words));
     };
@@ -167,7 +167,7 @@ TEST_F(ReferenceSequence, AnEnvironmentWithoutAShareIsAUsageError) {
     refuses("auto/4", {{"PBS_ARRAY_INDEX", "5"}}, {"task 5", "4"});
     refuses("auto/4", {{"PARALLEL_SEQ", "one"}}, {"PARALLEL_SEQ", "'one'"});
     refuses("auto", {{"SLURM_ARRAY_TASK_ID", "1"}}, {"SLURM_ARRAY_TASK_MIN"});
-    Environment gaps{{"SLURM_ARRAY_TASK_ID", "7"},
+    Variables gaps{{"SLURM_ARRAY_TASK_ID", "7"},
                      {"SLURM_ARRAY_TASK_MIN", "0"},
                      {"SLURM_ARRAY_TASK_MAX", "7"},
                      {"SLURM_ARRAY_TASK_COUNT", "3"}};

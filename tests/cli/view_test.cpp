@@ -168,7 +168,8 @@ TEST_F(View, RestsWhilePaused) {
 // Over 5 s: opens the window three times and waits for it to rest after each input.
 TEST_F(View, AScreenshotIsWhatRenderWritesAndAllComesBackTheNextTime) {
     const Arguments remembered{"builtin:cubes", "--size", "96x400"};
-    openViewer(with(remembered, {"--preset", "plain", "--set", "temporal.enabled=true"}));  // history, and few passes
+    openViewer(with(remembered, {"--preset", "plain", "--set", "temporal.enabled=true", "--set",
+                                 "temporal.frames=6"}));  // a short history, and few passes
     const json first = status()["camera"];
     findSetting("tonemap.exposure");
     click("tonemap.exposure");
@@ -281,7 +282,7 @@ TEST_F(View, WritesAPictureOfItself) {
 }
 
 TEST_F(View, SaysThatThereIsNoDisplay) {
-    Environment none = environment();
+    Variables none = environment();
     none["DISPLAY"] = "";
     none["WAYLAND_DISPLAY"] = "";
     const Outcome outcome = run({"view", "builtin:cubes"}, none);

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int failed = 1;
 const std::string cubes = "builtin:cubes";
-const Environment noDriver{{"VK_ICD_FILENAMES", "/nowhere/none.json"}, {"VK_DRIVER_FILES", "/nowhere/none.json"}};
+const Variables noDriver{{"VK_ICD_FILENAMES", "/nowhere/none.json"}, {"VK_DRIVER_FILES", "/nowhere/none.json"}};
 
 class WrongFile : public ProgramTest {
 protected:

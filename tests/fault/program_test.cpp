@@ -8,7 +8,7 @@ namespace {
 class Faulty : public ProgramTest {
 protected:
     [[nodiscard]] Command command(const Arguments& arguments, std::vector<std::string> outputs) const {
-        return {arguments.front(), [this, arguments](const Environment& with) { return run(arguments, with); },
+        return {arguments.front(), [this, arguments](const Variables& with) { return run(arguments, with); },
                 path("x").parent_path(), std::move(outputs)};
     }
 };
@@ -40,8 +40,8 @@ class FaultyWindow : public DesktopTest {
 protected:
     /// Opens the window, waits until the image has converged, writes a picture of the window and ends.
     [[nodiscard]] Command command() const {
-        const auto open = [this](const Environment& with) {
-            Environment all = environment();
+        const auto open = [this](const Variables& with) {
+            Variables all = environment();
             all.insert(with.begin(), with.end());
             return run({"view", "builtin:cubes", "--fresh", "--preset", "plain", "--size", "64x64", "--window-picture",
                         "w.png"},

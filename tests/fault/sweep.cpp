@@ -136,7 +136,7 @@ void printTable(const std::string& name, const std::map<std::string, Tally>& tal
 
 }  // namespace
 
-Environment layerEnvironment(const fs::path& report, const std::string& fault) {
+Variables layerEnvironment(const fs::path& report, const std::string& fault) {
     return {{"VK_INSTANCE_LAYERS", "VK_LAYER_REFLET_fault"},
             {"VK_LAYER_PATH", REFLET_FAULT_LAYER_FOLDER},
             {"REFLET_FAULT", fault},

@@ -13,8 +13,8 @@
 
 namespace reflet::fault {
 
-/// Environment of a process that runs with the layer.
-Environment layerEnvironment(const std::filesystem::path& report, const std::string& fault);
+/// Variables of a process that runs with the layer.
+Variables layerEnvironment(const std::filesystem::path& report, const std::string& fault);
 
 /// What the layer reported.
 struct Report {
@@ -37,7 +37,7 @@ std::vector<Fault> plan(const std::map<std::string, uint64_t>& calls);
 /// What a swept command does and writes.
 struct Command {
     std::string name;  ///< in the summary
-    std::function<Outcome(const Environment&)> run;
+    std::function<Outcome(const Variables&)> run;
     std::filesystem::path folder;      ///< that it runs in
     std::vector<std::string> outputs;  ///< files that it writes there
     std::vector<std::string> few;      ///< all faults to make without REFLET_FAULT_ALL; empty: as plan() says

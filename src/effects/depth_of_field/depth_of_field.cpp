@@ -2,6 +2,7 @@
 #include "effects/depth_of_field/depth_of_field.h"
 
 #include "effects/levels.h"
+#include "effects/lobe/ray_tiles.h"
 #include "effects/lobe/upsample.h"
 #include "gpu/context.h"
 
@@ -50,6 +51,16 @@ gpu::Image apparentDepth(gpu::Recorder& f, gpu::KeptImage& own, const DofInputs&
     }
     const DofReflections& r = *in.reflections;
     const gpu::Image apparent = own.storage(f, VK_FORMAT_R32_SFLOAT, in.depth.size);
+    gpu::Scratch scratch(f);
+    const uvec2 tiles = (in.depth.size + rayTileSide - 1U) / rayTileSide;
+    const gpu::BufferView list = makeTileList(f, scratch, tiles);
+    f.compute("polished_tiles", "dof_polished_tiles.comp")
+        .read("depth", in.depth)
+        .read("material", r.g.material)
+        .write("apparentDepth", apparent)
+        .write("list", list)
+        .params(DofPolishedTilesParams{in.depth.size})
+        .dispatch(tiles);
     gpu::Pass pass = f.compute("apparent_depth", "dof_apparent.comp");
     bindSurfaces(f, pass, r.g).constant("lambertOnly", r.lambertOnly ? 1U : 0U);
     bindUpsampledSpecular(f, pass, r.specular)
@@ -60,9 +71,10 @@ gpu::Image apparentDepth(gpu::Recorder& f, gpu::KeptImage& own, const DofInputs&
         .read("material", r.g.material)
         .read("ggxTable", r.ggxTable, f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
         .read("lit", r.lit)
+        .read("list", list)
         .write("apparentDepth", apparent)
         .params(DofApparentParams{in.view, blockPixelOffset(r.specular.from.scale)})
-        .dispatch(in.depth.size);
+        .dispatchIndirect(list, 0);
     return apparent;
 }
 

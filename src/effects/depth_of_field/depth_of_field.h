@@ -38,6 +38,13 @@ const uint dofTile = 8;
 // Levels of the half-resolution layers, with level 0.
 const uint dofLevels = 5;
 
+// Perceptual roughness from which a surface shows no image that a lens could focus on.
+const float dofRoughestImage = 0.4;
+
+struct DofPolishedTilesParams {
+    uvec2 size;  // of the depth buffer
+};
+
 struct DofApparentParams {
     ViewParams view;
     uint specularBlockOffset;  // blockPixelOffset of the lobe

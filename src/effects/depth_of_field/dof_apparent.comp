@@ -1,5 +1,5 @@
-// The distance at which a pixel's light comes into focus: of its surface, or of the image that it reflects. In: G-buffer, lit
-// radiance, reflected light with its hit distance. Out: depth.
+// The distance at which a pixel's light comes into focus: of its surface, or of the image that it reflects. One group per tile of
+// the list. In: G-buffer, lit radiance, reflected light with its hit distance, the list. Out: depth where an image is reflected.
 //
 // A mirror shows an image at the hit distance behind it, a curved one nearer (mirror equation; E. Hecht, Optics, 5.4). Where
 // reflected light is the larger share of the pixel's, the pixel takes that image's distance.
@@ -7,6 +7,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/depth_of_field/depth_of_field.h"
 #include "effects/gbuffer/gbuffer_surface.glsl"
+#include "effects/lobe/ray_tiles.glsl"
 #include "effects/lobe/upsample_specular.glsl"
 #include "shaders/luminance.glsl"
 #include "shaders/projection.glsl"
@@ -23,6 +24,11 @@ uniform sampler2D material;
 uniform sampler2D ggxTable;
 uniform sampler2D lit;
 layout(r32f) uniform writeonly image2D apparentDepth;
+layout(scalar) readonly buffer ListBlock {
+    uint groups[3];
+    uint count;
+    uint items[];
+} list;
 
 ivec2 last = ivec2(params.view.size) - 1;
 
@@ -69,21 +75,8 @@ float hitDistanceAround(Shown shown, float own) {
     return own;
 }
 
-// Reflected light around the pixel, at most.
-float brightestAround(ivec2 pixel) {
-    int scale = max(int(specularScale), 1);
-    ivec2 end = imageSize(specular) - 1;
-    ivec2 corner = max(pixel - int(params.specularBlockOffset), ivec2(0)) / scale;
-    int blocks = scale > 1 ? 4 : 1;
-    float brightest = 0.0;
-    for (int i = 0; i < blocks; ++i) {
-        brightest = max(brightest, luminance(imageLoad(specular, min(corner + ivec2(i & 1, i >> 1), end)).rgb));
-    }
-    return brightest;
-}
-
 const vec2 shareRange = vec2(0.35, 0.65);      // of reflected light: from the surface's distance to the image's
-const vec2 roughnessRange = vec2(0.4, 0.2);  // rough surfaces show no image that a lens could focus on
+const vec2 roughnessRange = vec2(dofRoughestImage, 0.2);  // rough surfaces show no image that a lens could focus on
 
 // The depth where the pixel shows a reflected image.
 float depthOfImage(ivec2 pixel, float d, vec3 p, vec3 n, float nv, float reflectance, float roughness) {
@@ -101,30 +94,26 @@ float depthOfImage(ivec2 pixel, float d, vec3 p, vec3 n, float nv, float reflect
     float shows = polish * smoothstep(shareRange.x, shareRange.y, share);
     float image = 1.0 / max(mix(1.0 / z, vergence, shows), 1e-6);
     vec4 k = params.view.depthToDistance;
-    return (k.x - image * k.z) / (image * k.w - k.y);
+    return shows > 0.0 ? (k.x - image * k.z) / (image * k.w - k.y) : d;
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    uint item = gl_WorkGroupID.y * tileListRow + gl_WorkGroupID.x;
+    if (item >= list.count) {
+        return;
+    }
+    ivec2 pixel = ivec2(unpackTilePlace(list.items[item]) * rayTileSide + gl_LocalInvocationID.xy);
     if (any(greaterThan(pixel, last))) {
         return;
     }
     float d = texelFetch(depth, pixel, 0).r;
-    float apparent = d;
     MaterialTexel m = unpackMaterial(texelFetch(material, pixel, 0));
-    // CPU devices run both sides of a branch, but not the rounds of a loop that no pixel needs.
-    int polished = d > 0.0 && m.roughness < roughnessRange.x ? 1 : 0;
-    for (int i = 0; i < polished; ++i) {
-        vec3 p = positionAt(pixel, d);
-        vec3 n = normalAt(pixel);
-        float nv = dot(n, directionToEye(p, params.view.eye));
-        Surface s = surfaceAt(pixel, texelFetch(baseColor, pixel, 0).rgb, m, nv, ggxTable, lambertOnly != 0u);
-        float reflectance = luminance(s.specular);
-        float most = shareRange.x * luminance(texelFetch(lit, pixel, 0).rgb);
-        int shows = reflectance * brightestAround(pixel) > most ? 1 : 0;
-        for (int j = 0; j < shows; ++j) {
-            apparent = depthOfImage(pixel, d, p, n, nv, reflectance, m.roughness);
-        }
+    if (d <= 0.0 || m.roughness >= roughnessRange.x) {
+        return;
     }
-    imageStore(apparentDepth, pixel, vec4(apparent));
+    vec3 p = positionAt(pixel, d);
+    vec3 n = normalAt(pixel);
+    float nv = dot(n, directionToEye(p, params.view.eye));
+    Surface s = surfaceAt(pixel, texelFetch(baseColor, pixel, 0).rgb, m, nv, ggxTable, lambertOnly != 0u);
+    imageStore(apparentDepth, pixel, vec4(depthOfImage(pixel, d, p, n, nv, luminance(s.specular), m.roughness)));
 }
