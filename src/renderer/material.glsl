@@ -6,6 +6,7 @@
 
 #include "effects/material_features.glsl"
 #include "renderer/material.h"
+#include "shaders/not_inlined.glsl"
 
 layout(set = 1, binding = 0, scalar) uniform MaterialBlock { MaterialParams material; };
 layout(set = 1, binding = 1) uniform sampler2D baseColorTexture;
@@ -21,7 +22,11 @@ layout(set = 1, binding = 10) uniform sampler2D coatTexture;
 layout(set = 1, binding = 11) uniform sampler2D coatRoughnessTexture;
 layout(set = 1, binding = 12) uniform sampler2D coatNormalTexture;
 
-bool hasTexture(uint slot) { return (usedSlots & (1u << slot)) != 0u && (material.textured & (1u << slot)) != 0u; }
+bool hasTexture(uint slot) {
+    return (usedSlots & (1u << slot)) != 0u && (notInlined(material.textured, gl_FragCoord) & (1u << slot)) != 0u;
+}
+
+bool isBlended() { return notInlined(material.blended, gl_FragCoord) != 0u; }
 
 vec2 slotUv(uint slot, vec2 uv0, vec2 uv1) {
     vec3 uv = vec3((material.secondUv & (1u << slot)) != 0u ? uv1 : uv0, 1.0);
@@ -38,7 +43,7 @@ bool materialBaseColor(vec2 uv0, vec2 uv1, vec4 vertexColor, out vec4 color) {
 }
 
 // Whether a blended surface of this alpha is in the layers of blended surfaces.
-bool isTranslucent(float alpha) { return material.blended != 0u && alpha >= invisibleAlpha && alpha < opaqueAlpha; }
+bool isTranslucent(float alpha) { return isBlended() && alpha >= invisibleAlpha && alpha < opaqueAlpha; }
 
 // Share of the light in the dielectric's base that passes the surface.
 float materialTransmission(vec2 uv0, vec2 uv1) {

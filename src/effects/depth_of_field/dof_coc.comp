@@ -5,6 +5,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/depth_of_field/depth_of_field.h"
+#include "shaders/not_inlined.glsl"
 #include "shaders/projection.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -30,10 +31,11 @@ void main() {
     }
     float d = texelFetch(depth, pixel, 0).r;
     float radius = radiusOf(d);
-    if (params.hasPrevious != 0u) {
+    bool hasPrevious = notInlined(params.hasPrevious, gl_GlobalInvocationID.x) != 0u;
+    if (hasPrevious) {
         float nearest = d;
         float farthest = d;
-        int end = params.hasPrevious != 0u ? 9 : 0;  // CPU devices run both sides of a branch
+        int end = hasPrevious ? 9 : 0;  // CPU devices run both sides of a branch
         for (int i = 0; i < end; ++i) {
             float other = texelFetch(depth, clamp(pixel + ivec2(i % 3, i / 3) - 1, ivec2(0), last), 0).r;
             nearest = max(nearest, other);

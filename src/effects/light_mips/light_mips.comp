@@ -4,6 +4,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/levels.glsl"
 #include "effects/light_mips/light_mips.h"
+#include "shaders/not_inlined.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { LightMipsParams params; };
@@ -11,7 +12,7 @@ uniform sampler2D light;
 layout(rgba16f) uniform image2D mips;
 
 ivec2 pixels = ivec2(params.size);
-int level = int(params.level);
+int level = int(notInlined(params.level, gl_GlobalInvocationID.x));
 
 // Sum over the pixels of a cell of the finer level; alpha: their number.
 vec4 below(ivec2 cell) {

@@ -5,6 +5,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/levels.glsl"
 #include "effects/pyramid/pyramid.h"
+#include "shaders/not_inlined.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { PyramidParams params; };
@@ -13,13 +14,13 @@ uniform sampler2D backDepth;
 layout(rg32f) uniform image2D pyramid;
 
 ivec2 pixels = ivec2(params.size);
-int level = int(params.level);
+int level = int(notInlined(params.level, gl_GlobalInvocationID.x));
 
 vec2 below(ivec2 cell) {
     cell = min(cell, levelSize(pixels, level - 1) - 1);  // with odd sizes the last cell is read twice
     if (level == 1) {
         float front = texelFetch(depth, cell, 0).r;
-        float back = params.secondLayer != 0u ? texelFetch(backDepth, cell, 0).r : 0.0;
+        float back = notInlined(params.secondLayer, gl_GlobalInvocationID.x) != 0u ? texelFetch(backDepth, cell, 0).r : 0.0;
         return vec2(front, front <= 0.0 ? -1.0 : back > 0.0 ? back : front);
     }
     return imageLoad(pyramid, cell + ivec2(0, levelRow(pixels, level - 1))).rg;

@@ -2,6 +2,7 @@
 // surface; and how the mean changed over frames at rest. In: this frame's radiance, depth, motion; what changed so far.
 // Out: around, spread, changes.
 #include "effects/temporal/temporal.h"
+#include "shaders/not_inlined.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { TemporalParams params; };
@@ -25,7 +26,7 @@ const float recentShare = 0.25;   // weight of a frame in the recent difference
 // Jitter changes the mean, too: only the differences of several frames together tell that light changed.
 void keepChanges(ivec2 pixel, float luma, vec2 moved) {
     vec4 past = vec4(0.0);
-    if (params.hasPrevious != 0u && length(moved * vec2(params.size)) < stillest) {
+    if (notInlined(params.hasPrevious, gl_GlobalInvocationID.x) != 0u && length(moved * vec2(params.size)) < stillest) {
         past = imageLoad(previousChanges, pixel);
     }
     float frames = min(past.a + 1.0, lastingFrames);

@@ -19,7 +19,8 @@ const float farther = 1e-5;
 
 void main() {
     vec4 color;
-    if (material.alphaCutoff > 0.0 && !materialBaseColor(uv.xy, uv.zw, vertexColor, color)) {
+    bool cutOut = notInlined(uint(material.alphaCutoff > 0.0), gl_FragCoord) != 0u;
+    if (cutOut && !materialBaseColor(uv.xy, uv.zw, vertexColor, color)) {
         discard;
     }
     float first = depthToViewDistance(texelFetch(firstDepth, ivec2(gl_FragCoord.xy), 0).r, params.depthToDistance);

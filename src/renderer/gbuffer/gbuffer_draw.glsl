@@ -88,7 +88,7 @@ bool isPeeled() {
 // kept: by the alpha test.
 bool isDrawn(float alpha, bool kept) {
     if (surfaces == surfacesOpaque) {
-        return material.blended != 0u ? alpha >= params.blendedFrom : kept;
+        return isBlended() ? alpha >= params.blendedFrom : kept;
     }
     return isPeeled() && (translucent == translucentBlended ? isTranslucent(alpha) : kept);
 }
@@ -123,7 +123,7 @@ void main() {
         outEmissive *= texture(emissiveTexture, slotUv(slotEmissive, uv.xy, uv.zw)).rgb;
     }
     uint flags = params.settings.lambertOnly != 0u ? materialFlagLambert : 0u;
-    if (mayBeUnlit() && material.unlit != 0u) {
+    if (mayBeUnlit() && notInlined(material.unlit, gl_FragCoord) != 0u) {
         flags |= materialFlagUnlit;
         roughnessMetallic = vec2(1.0, 0.0);
         occlusion = 1.0;

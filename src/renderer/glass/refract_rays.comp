@@ -6,6 +6,7 @@
 #include "effects/gbuffer/gbuffer_surface.glsl"
 #include "effects/lobe/rays.glsl"
 #include "renderer/glass/glass.h"
+#include "shaders/not_inlined.glsl"
 #include "shaders/projection.glsl"
 #include "shaders/refraction.glsl"
 
@@ -56,13 +57,14 @@ BackFace backFaceAt(ivec2 pixel, uint same) {
 // again. Without a back face: a slab.
 Crossing findExit(ivec2 pixel, vec3 p, vec3 n, vec3 inside, float thickness) {
     Crossing c = Crossing(p + inside * thickness, -n, inside, thickness);
-    if (params.exitSteps == 0u) {
+    uint exitSteps = notInlined(params.exitSteps, gl_GlobalInvocationID.x);
+    if (exitSteps == 0u) {
         return c;
     }
     uint same = texelFetch(kind, pixel, 0).r;
     BackFace back = backFaceAt(pixel, same);
     float longest = back.found ? 4.0 * distance(back.point, p) : 0.0;
-    for (uint i = 0u; i < params.exitSteps && back.found; ++i) {
+    for (uint i = 0u; i < exitSteps && back.found; ++i) {
         float slope = dot(inside, back.normal);
         float path = slope > 0.02 ? dot(back.point - p, back.normal) / slope : distance(back.point, p);
         path = clamp(path, 0.0, longest);
@@ -117,7 +119,7 @@ void refractPixel(ivec2 pixel, float d) {
     imageStore(origins, pixel, vec4(c.point, c.path));
     imageStore(leavingNormal, pixel, uvec4(packUnitVector(c.normal), 0u, 0u, 0u));
     imageStore(share, pixel, vec4(light, 1.0));
-    Ray ray = Ray(outside, 1.0, 1.0, params.frosted != 0u && spread > 0.05 ? spread : 0.0);
+    Ray ray = Ray(outside, 1.0, 1.0, notInlined(params.frosted, gl_GlobalInvocationID.x) != 0u && spread > 0.05 ? spread : 0.0);
     imageStore(direction, ivec3(pixel, 0), uvec4(packRay(ray), 0u, 0u));
     appendRay(WaitingRay(ivec3(pixel, 0), 1.0, 0.0, false));
 }

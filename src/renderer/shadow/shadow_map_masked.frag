@@ -12,7 +12,7 @@ layout(location = 1) in vec4 vertexColor;
 void main() {
     vec4 color;
     bool kept = materialBaseColor(uv.xy, uv.zw, vertexColor, color);
-    if (opaqueOnly != 0u && material.blended != 0u) {
+    if (opaqueOnly != 0u && isBlended()) {
         kept = color.a >= opaqueAlpha;
     }
     if (!kept) {
