@@ -46,12 +46,9 @@ protected:
     }
 
     static void expectUnitAndAbove(const std::vector<vec3>& directions) {
-        // Vulkan allows sine and cosine an error of 5e-4. llvmpipe's directions are off by 5e-7, SwiftShader's
-        // by 2.1e-6.
-        constexpr double unitLengthTolerance = 4e-6;
         for (const vec3& d : directions) {
             ASSERT_GE(d.z, 0.0F);
-            ASSERT_NEAR(glm::length(glm::dvec3(d)), 1.0, unitLengthTolerance);
+            ASSERT_NEAR(glm::length(glm::dvec3(d)), 1.0, 5e-7);
         }
     }
 

@@ -11,9 +11,7 @@
 #include "shaders/not_inlined.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(scalar) uniform ParamsBlock {
-    CubeLobesParams params;
-};
+layout(scalar) uniform ParamsBlock { CubeLobesParams params; };
 uniform samplerCubeArray sharp;
 layout(rgba16f) uniform writeonly image2DArray lobes;
 
