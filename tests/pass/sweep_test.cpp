@@ -325,8 +325,9 @@ TEST_P(SweepOfScene, IsSoundInEveryShowAndWithEveryPreset) {
     // A third of the presets with each scene, and so each with several: compiling their shaders takes most of the time.
     const std::vector<std::string> scenes = sceneNames();
     const auto index = static_cast<size_t>(std::ranges::find(scenes, GetParam()) - scenes.begin());
-    for (size_t i = index % 3; i < presets().size(); i += 3) {
-        const Preset& preset = presets()[i];
+    const auto known = presets();
+    for (size_t i = index % 3; i < known.size(); i += 3) {
+        const Preset& preset = known[i];
         Settings settings;
         applyPreset(settings, preset.name);
         // These two cost most of the time; their ends are swept apart, and presets name anisotropy for speed alone.
