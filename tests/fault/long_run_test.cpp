@@ -179,9 +179,9 @@ TEST_F(LongRun, IsFlatAndRepeatsItself) {
     EXPECT_EQ(first.reserved, last.reserved);
     EXPECT_EQ(first.files, last.files);
     EXPECT_EQ(first.threads, last.threads);
-    // llvmpipe 22.3 keeps what it compiled for the first frame after a change: 5 MiB each time, measured. What was
-    // found here first cost 260.
-    constexpr double keptByDriver = 8.0;
+    // llvmpipe 22.3 keeps what it compiled for the first frame after a change: 5 MiB each time, measured, and 16 with
+    // huge pages (test.sh). What was found here first cost 260.
+    constexpr double keptByDriver = 32.0;
     const double changes = static_cast<double>(states().size()) * static_cast<double>(seen.size() - 2);
     EXPECT_LT(last.residentMiB, first.residentMiB + keptByDriver * changes);
     EXPECT_EQ(faults_->misuses(), "");
