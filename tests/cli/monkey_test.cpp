@@ -131,7 +131,7 @@ protected:
 // Over 5 s: for as long as it is asked to.
 TEST_F(Monkey, PlaysWithTheWindow) {
     const uint32_t seconds = numberOf("REFLET_MONKEY", 5);
-    openViewer({"builtin:moving", "--size", "200x160", "--fresh", "--validate"});
+    openViewer({"builtin:moving", "--size", "200x160", "--preset", "plain", "--fresh", "--validate"});
     const auto start = std::chrono::steady_clock::now();
     const auto since = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
     double nextLook = 0.0;
