@@ -246,7 +246,7 @@ void Viewer::attempt(const std::function<void()>& work) {
     try {
         work();
         problem_.clear();
-    } catch (const Error& error) {
+    } catch (const std::runtime_error& error) {
         problem_ = error.what();
     } catch (const std::bad_alloc&) {
         problem_ = "not enough memory";

@@ -65,6 +65,9 @@ void Viewer::showScene(const OpenScene& opened, uint64_t number, const SceneOpti
 }
 
 void Viewer::openFile(const std::string& file) {
+    if (file.empty()) {
+        fail("type the name of a file to open, or choose one with browse");
+    }
     const std::filesystem::path path = std::filesystem::absolute(file);
     const std::string extension = path.extension().string();
     if (extension == ".exr") {

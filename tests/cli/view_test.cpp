@@ -102,6 +102,10 @@ TEST_F(View, AUserWalksThroughItUnderTheValidationLayers) {
     press("3");
     EXPECT_TRUE(shows([](const json& now) { return !now["settings"].contains("specular"); }));
 
+    click("open");  // without a name
+    EXPECT_TRUE(shows(
+        [](const json& now) { return now["problem"].get<std::string>().find("type the name") != std::string::npos; }));
+
     // A settings file has names in common with views. A file that is neither says why.
     write("both.json", R"({"probes": {"enabled": true}, "composite": {"direct": false}})");
     typeFile("both.json");
