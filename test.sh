@@ -121,8 +121,11 @@ else
     if driver=$(tests/second_driver.sh build); then
         withDriver "$driver" pass_tests pass_tests_ray_query
         addShards pass_tests_ray_query build/pass_tests_ray_query '*SceneRays*' 1
+        # That driver keeps nothing, so that any memory that grows is ours.
+        withDriver "$driver" fault_tests fault_tests_second_driver
+        addShards fault_tests_second_driver build/fault_tests_second_driver 'LongRun*' 1
     else
-        echo "tests by ray query are skipped"
+        echo "tests by ray query and on a newer driver are skipped"
     fi
 fi
 addShards library_tests build/bin/library_tests "$filter" 2
@@ -145,7 +148,7 @@ for shard in "${shards[@]}"; do
     readShard "${words[0]}" "${words[3]}"
 done
 for name in cli_tests pass_tests pass_tests_tracing pass_tests_swiftshader pass_tests_ray_query library_tests \
-    fault_tests shader_tests shader_tests_swiftshader reference_tests unit_tests; do
+    fault_tests fault_tests_second_driver shader_tests shader_tests_swiftshader reference_tests unit_tests; do
     [[ -z "${seconds[$name]-}" ]] || echo "$name: ${good[$name]} passed, ${bad[$name]} failed, ${seconds[$name]} s of one core"
 done
 # The sanitized build of the fuzz targets takes minutes, and so do they.

@@ -2,14 +2,14 @@
 # Builds with sanitizers, and runs tests:
 #   tests/sanitize.sh address [FILTER]   every test with AddressSanitizer, LeakSanitizer and UndefinedBehaviorSanitizer
 #   tests/sanitize.sh thread [FILTER]    what has threads (the window, jobs, the library) with ThreadSanitizer
-# FILTER: as --gtest_filter. What other libraries leak or share is named, one by one, in tests/sanitize/. Logs:
+# FILTER: as --gtest_filter. What other libraries leak or share belongs into tests/sanitize/, one by one. Logs:
 # build-sanitize/test-logs or build-thread/test-logs. The last line says "N passed, N failed".
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 kind=${1-}
 case $kind in
     address) build=build-sanitize preset=sanitize filter=${2-*} ;;
-    thread) build=build-thread preset=thread filter=${2-View.*:Monkey.*:Sequence*:*Threads*:*Jobs*} ;;
+    thread) build=build-thread preset=thread filter=${2-View.*:Monkey.*:Sequence.*:ReferenceSequence.*:*Threads*} ;;
     *)
         echo "usage: tests/sanitize.sh address|thread [FILTER]" >&2
         exit 2

@@ -246,7 +246,7 @@ void Viewer::attempt(const std::function<void()>& work) {
     try {
         work();
         problem_.clear();
-    } catch (const std::runtime_error& error) {
+    } catch (const std::runtime_error& error) {  // std::filesystem throws others than Error
         problem_ = error.what();
     } catch (const std::bad_alloc&) {
         problem_ = "not enough memory";

@@ -3,12 +3,9 @@
 // REFLET_MONKEY: for how many seconds [0: skipped]; REFLET_MONKEY_SEED: with which input [1].
 #include "cli/desktop.h"
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <random>
 #include <thread>
@@ -20,32 +17,6 @@ namespace {
 uint32_t numberOf(const char* variable, uint32_t standard) {
     const char* text = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe): one thread
     return text == nullptr ? standard : static_cast<uint32_t>(std::strtoul(text, nullptr, 10));
-}
-
-struct Holdings {
-    double residentMiB = 0.0;
-    size_t files = 0;
-    size_t threads = 0;
-};
-
-Holdings holdingsOf(int process) {
-    const std::filesystem::path folder = std::filesystem::path("/proc") / std::to_string(process);
-    Holdings all;
-    std::ifstream file(folder / "status");
-    for (std::string word; file >> word;) {
-        if (word == "VmRSS:") {
-            file >> all.residentMiB;
-            all.residentMiB /= 1024.0;
-        } else if (word == "Threads:") {
-            file >> all.threads;
-        }
-    }
-    std::error_code ended;
-    for (auto i = std::filesystem::directory_iterator(folder / "fd", ended); i != std::filesystem::directory_iterator();
-         i.increment(ended)) {
-        ++all.files;
-    }
-    return all;
 }
 
 // Keys of the window and of its text fields. Not Ctrl+Q, which the end is left to.
@@ -121,7 +92,7 @@ protected:
                 "1"};
     }
 
-    [[nodiscard]] bool isRunning() const { return holdingsOf(viewer()).residentMiB > 0.0; }  // the dead have no memory
+    [[nodiscard]] bool isRunning() const { return useOf(viewer()).residentMiB > 0.0; }  // the dead have no memory
 
     std::mt19937 random_{numberOf("REFLET_MONKEY_SEED", 1)};
     uint32_t width_ = 640;
@@ -139,7 +110,6 @@ TEST_F(Monkey, PlaysWithTheWindow) {
     const auto since = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
     double nextLook = 0.0;
     uint32_t inputs = 0;
-    std::vector<Holdings> seen;
     while (since() < seconds && isRunning()) {
         const Outcome did = runOther("xdotool", below(3) == 0 ? control() : something(), environment());
         ASSERT_TRUE(did.status == 0 || !isRunning() || did.err.find("windowsize") != std::string::npos) << did.err;
@@ -147,10 +117,8 @@ TEST_F(Monkey, PlaysWithTheWindow) {
         std::this_thread::sleep_for(std::chrono::milliseconds(below(8) == 0 ? 300 : 20));
         if (since() > nextLook) {
             EXPECT_TRUE(shows([](const nlohmann::json& now) { return now["answered"].get<bool>(); }));
-            seen.push_back(holdingsOf(viewer()));
             nextLook += 60.0;
-            std::cout << static_cast<int>(since()) << " s, " << inputs << " inputs: " << seen.back().residentMiB
-                      << " MiB, " << seen.back().files << " files, " << seen.back().threads << " threads" << std::endl;
+            std::cout << static_cast<int>(since()) << " s, " << inputs << " inputs: " << useOf(viewer()) << std::endl;
         }
     }
     ASSERT_TRUE(isRunning()) << finish(viewer()).err;

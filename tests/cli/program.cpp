@@ -121,6 +121,29 @@ fs::path makeFolder() {
 
 }  // namespace
 
+ProcessUse useOf(int process) {
+    const fs::path folder = fs::path("/proc") / std::to_string(process);
+    ProcessUse use;
+    std::ifstream file(folder / "status");
+    for (std::string word; file >> word;) {
+        if (word == "VmRSS:") {
+            file >> use.residentMiB;
+            use.residentMiB /= 1024.0;
+        } else if (word == "Threads:") {
+            file >> use.threads;
+        }
+    }
+    std::error_code ended;
+    for (auto i = fs::directory_iterator(folder / "fd", ended); i != fs::directory_iterator(); i.increment(ended)) {
+        ++use.files;
+    }
+    return use;
+}
+
+std::ostream& operator<<(std::ostream& to, const ProcessUse& use) {
+    return to << use.residentMiB << " MiB resident, " << use.files << " files, " << use.threads << " threads";
+}
+
 double cpuSeconds(int process) {
     clockid_t clock = 0;
     timespec time{};

@@ -9,6 +9,7 @@
 #include <functional>
 #include <initializer_list>
 #include <map>
+#include <ostream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -70,6 +71,15 @@ private:
 
 /// Whether a program of that name is in PATH.
 bool isInstalled(std::string_view program);
+
+/// What a process has. Without memory it has ended.
+struct ProcessUse {
+    double residentMiB = 0.0;
+    size_t files = 0;  ///< open
+    size_t threads = 0;
+};
+ProcessUse useOf(int process);
+std::ostream& operator<<(std::ostream& to, const ProcessUse& use);
 
 /// CPU time of a process over all threads, in seconds.
 double cpuSeconds(int process);

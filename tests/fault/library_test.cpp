@@ -1,10 +1,9 @@
 // Each function of the C API with a Vulkan call in it that fails: the right result, a text that says what failed,
 // nothing leaked, and everything works when it is tried again. REFLET_FAULT_ALL: with many calls (tests/fault/all.sh).
 #include "fault/effort.h"
+#include "fault/layer.h"
 #include "fault/sweep.h"
 #include "library/library_host.h"
-
-#include <dlfcn.h>
 
 #include <algorithm>
 #include <array>
@@ -66,18 +65,9 @@ struct Scenario {
 class FaultyLibrary : public testing::Test {
 protected:
     FaultyLibrary() {
-        // NOLINTBEGIN(concurrency-mt-unsafe): one thread
-        ::setenv("VK_INSTANCE_LAYERS", "VK_LAYER_REFLET_fault", 1);
-        const char* folders = REFLET_FAULT_LAYER_FOLDER
-            ":/usr/share/vulkan/explicit_layer.d:/usr/local/share/vulkan/explicit_layer.d:/etc/vulkan/explicit_layer.d";
-        ::setenv("VK_LAYER_PATH", folders, 1);
+        const WithLayer layer;
         host_ = std::make_unique<LibraryHost>();
-        ::unsetenv("VK_INSTANCE_LAYERS");
-        ::unsetenv("VK_LAYER_PATH");
-        // NOLINTEND(concurrency-mt-unsafe)
-        void* layer = ::dlopen(REFLET_FAULT_LAYER, RTLD_NOW | RTLD_NOLOAD);
-        const auto find = layer == nullptr ? nullptr : reinterpret_cast<void* (*)()>(::dlsym(layer, "refletFaults"));
-        faults_ = find == nullptr ? nullptr : static_cast<Faults*>(find());
+        faults_ = faultsOfLayer();
         room_ = std::make_unique<HostRoom>(*host_, test::RoomConventions{});
     }
 
