@@ -133,10 +133,10 @@ TEST_F(ReferenceSequence, TheShareIsThatOfTheJobArray) {
     const auto slurm = [](const std::string& id, const std::string& min, const std::string& max,
                           const std::string& count, const std::string& step) {
         return Variables{{"SLURM_ARRAY_TASK_ID", id},
-                           {"SLURM_ARRAY_TASK_MIN", min},
-                           {"SLURM_ARRAY_TASK_MAX", max},
-                           {"SLURM_ARRAY_TASK_COUNT", count},
-                           {"SLURM_ARRAY_TASK_STEP", step}};
+                         {"SLURM_ARRAY_TASK_MIN", min},
+                         {"SLURM_ARRAY_TASK_MAX", max},
+                         {"SLURM_ARRAY_TASK_COUNT", count},
+                         {"SLURM_ARRAY_TASK_STEP", step}};
     };
     expectShare("auto", slurm("1", "0", "2", "3", "1"), {"01"});
     expectShare("auto", slurm("1", "1", "3", "3", "1"), {"00", "03"});
@@ -168,9 +168,9 @@ TEST_F(ReferenceSequence, AnEnvironmentWithoutAShareIsAUsageError) {
     refuses("auto/4", {{"PARALLEL_SEQ", "one"}}, {"PARALLEL_SEQ", "'one'"});
     refuses("auto", {{"SLURM_ARRAY_TASK_ID", "1"}}, {"SLURM_ARRAY_TASK_MIN"});
     Variables gaps{{"SLURM_ARRAY_TASK_ID", "7"},
-                     {"SLURM_ARRAY_TASK_MIN", "0"},
-                     {"SLURM_ARRAY_TASK_MAX", "7"},
-                     {"SLURM_ARRAY_TASK_COUNT", "3"}};
+                   {"SLURM_ARRAY_TASK_MIN", "0"},
+                   {"SLURM_ARRAY_TASK_MAX", "7"},
+                   {"SLURM_ARRAY_TASK_COUNT", "3"}};
     refuses("auto", gaps, {"--array=0-2", "K/N"});
     gaps["SLURM_ARRAY_TASK_MAX"] = "2";
     refuses("auto", gaps, {"task 7"});
