@@ -93,18 +93,29 @@ private:
         const auto& [name, baseColor, metallic, roughness, emissive, normalScale, occlusionStrength, alphaCutoff,
                      blended, doubleSided, unlit, ior, specular, specularColor, camera, baseColorTexture,
                      metallicRoughnessTexture, normalTexture, occlusionTexture, emissiveTexture, specularTexture,
-                     specularColorTexture, transmission, clearcoat] = material;
+                     specularColorTexture, transmission, clearcoat, sheen, anisotropy] = material;
         all(name, baseColor, metallic, roughness, emissive, normalScale, occlusionStrength, alphaCutoff, blended,
             doubleSided, unlit, ior, specular, specularColor, camera, baseColorTexture, metallicRoughnessTexture,
             normalTexture, occlusionTexture, emissiveTexture, specularTexture, specularColorTexture);
         if (transmission.factor > 0.0F) {  // others keep the print that they had before there was glass
-            const auto& [factor, thickness, attenuationColor, attenuationDistance, texture, thicknessTexture] =
-                transmission;
+            const auto& [factor, thickness, attenuationColor, attenuationDistance, dispersion, texture,
+                         thicknessTexture] = transmission;
             all(factor, thickness, attenuationColor, attenuationDistance, texture, thicknessTexture);
+            if (dispersion > 0.0F) {
+                add(dispersion);
+            }
         }
         if (clearcoat.factor > 0.0F) {
             const auto& [factor, coatRoughness, coatScale, texture, roughnessTexture, coatNormal] = clearcoat;
             all(factor, coatRoughness, coatScale, texture, roughnessTexture, coatNormal);
+        }
+        if (sheen.color != vec3(0.0F)) {
+            const auto& [color, sheenRoughness, colorTexture, roughnessTexture] = sheen;
+            all(color, sheenRoughness, colorTexture, roughnessTexture);
+        }
+        if (anisotropy.strength > 0.0F) {
+            const auto& [strength, rotation, texture] = anisotropy;
+            all(strength, rotation, texture);
         }
     }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace reflet {
 
@@ -34,26 +35,49 @@ Bsdf::Bsdf(const SurfacePoint& point, const ReferenceOptions& options, const Bou
     if (options.lambertOnly) {
         return;
     }
+    setSheen(point);
     setLayers(point, boundary);
     setCoat(point);
     setChances();
 }
 
+void Bsdf::setSheen(const SurfacePoint& point) {
+    if (point.sheen.color != vec3(0.0F)) {
+        sheen_ = SheenLobe(frame_, view_, point.sheen.color, point.sheen.roughness);
+    }
+}
+
+// An anisotropic lobe has about the albedo of the isotropic one with the same mean square of widths.
+void Bsdf::setSpecular(const SurfacePoint& point, const Reflectance& both, const LobeAlbedo& table) {
+    const vec3& along = point.anisotropy.direction;
+    if (along == vec3(0.0F)) {
+        specular_ = SpecularLobe(frame_, view_, vec2(square(point.roughness)), both, specularAlbedo_, table);
+        return;
+    }
+    const mat3 frame(along, glm::cross(point.normal, along), point.normal);
+    specular_ =
+        SpecularLobe(frame, viewIn(frame, point.toOrigin), point.anisotropy.alpha, both, specularAlbedo_, table);
+}
+
 void Bsdf::setLayers(const SurfacePoint& point, const Boundary& boundary) {
     const bool inside = boundary.kind == Boundary::Kind::inner || boundary.kind == Boundary::Kind::none;
     const float transmission = point.transmission * (1.0F - point.metallic);
-    const LobeAlbedo table = ggxAlbedo(view_.z, point.roughness);
+    const bool isotropic = point.anisotropy.direction == vec3(0.0F);
+    const vec2& alpha = point.anisotropy.alpha;
+    const float roughness = isotropic ? point.roughness : std::sqrt(glm::length(alpha) * 0.70710678F);
+    const LobeAlbedo table = ggxAlbedo(view_.z, roughness);
+    const float beneath = 1.0F - sheen_.albedo();
     // glTF blends a dielectric and a metal by `metallic`; their albedos are blended likewise.
     const vec3 layer = compensated(point.dielectric.f0, point.dielectric.f90, table);
     const vec3 metal = compensated(point.baseColor, 1.0F, table);
     // Inside glass the lobe of the boundary reflects in the layer's place.
     const float opaque = inside ? 1.0F - point.transmission : 1.0F;
-    specularAlbedo_ = glm::min(glm::mix(layer * opaque, metal, point.metallic), 1.0F);
+    specularAlbedo_ = beneath * glm::min(glm::mix(layer * opaque, metal, point.metallic), 1.0F);
     const Reflectance both{glm::mix(point.dielectric.f0, point.baseColor, point.metallic),
                            point.dielectric.f90 + point.metallic * (1.0F - point.dielectric.f90)};
-    specular_ = SpecularLobe(frame_, view_, square(point.roughness), both, specularAlbedo_, table);
+    setSpecular(point, both, table);
     // KHR_materials_specular: the base gets what the layer's most reflective channel leaves.
-    const float base = (1.0F - point.metallic) * (1.0F - std::min(largest(layer), 1.0F));
+    const float base = beneath * (1.0F - point.metallic) * (1.0F - std::min(largest(layer), 1.0F));
     diffuse_ = point.baseColor * (base * (1.0F - point.transmission));
     if (!(transmission > 0.0F)) {
         return;
@@ -76,7 +100,7 @@ void Bsdf::setCoat(const SurfacePoint& point) {
     const vec3 view = viewIn(frame, point.toOrigin);
     const LobeAlbedo table = ggxAlbedo(view.z, point.coat.roughness);
     const vec3 albedo = compensated(coatReflectance.f0, coatReflectance.f90, table);
-    coat_ = SpecularLobe(frame, view, square(point.coat.roughness), coatReflectance, albedo, table);
+    coat_ = SpecularLobe(frame, view, vec2(square(point.coat.roughness)), coatReflectance, albedo, table);
     coatFactor_ = point.coat.factor;
     coatAlbedo_ = coatFactor_ * std::min(albedo.x, 1.0F);
 }
@@ -85,17 +109,17 @@ void Bsdf::setCoat(const SurfacePoint& point) {
 void Bsdf::setChances() {
     const float beneath = 1.0F - coatAlbedo_;
     const float through = total(transmitted_) + 3.0F * reflectedInside_;
-    const std::array<float, lobes> light{beneath * total(specularAlbedo_), beneath * total(diffuse_), beneath * through,
-                                         3.0F * coatAlbedo_};
-    const float all = light[specular] + light[diffuse] + light[glass] + light[coat];
+    const std::array<float, lobes> light{beneath * total(specularAlbedo_), beneath * total(diffuse_),
+                                         beneath * 3.0F * sheen_.albedo(), beneath * through, 3.0F * coatAlbedo_};
+    const auto sumOf = [](const auto& values) { return std::accumulate(values.begin(), values.end(), 0.0F); };
+    const float all = sumOf(light);
     if (!(all > 0.0F)) {
         return;
     }
     for (size_t i = 0; i < lobes; ++i) {
         chances_[i] = light[i] > 0.0F ? std::max(light[i] / all, 0.1F) : 0.0F;
     }
-    const float sum = chances_[specular] + chances_[diffuse] + chances_[glass] + chances_[coat];
-    *std::ranges::max_element(chances_) -= sum - 1.0F;
+    *std::ranges::max_element(chances_) -= sumOf(chances_) - 1.0F;
 }
 
 Reflection Bsdf::evaluate(const vec3& toLight, float leastAlpha) const {
@@ -104,6 +128,7 @@ Reflection Bsdf::evaluate(const vec3& toLight, float leastAlpha) const {
     if (above(toLight)) {
         if (cosine > 0.0F) {
             r.diffuse = diffuse_ * (cosine / pi);
+            r.diffuse += chances_[sheen] > 0.0F ? sheen_.reflect(toLight) : vec3(0.0F);
             r.specular = chances_[specular] > 0.0F ? specular_.reflect(toLight, leastAlpha) : vec3(0.0F);
         }
         r.diffuse *= 1.0F - coatAlbedo_;
@@ -135,6 +160,7 @@ float Bsdf::pdf(const vec3& direction) const {
     if (cosine > 0.0F) {
         sum += chances_[diffuse] * (uniform_ ? 0.5F / pi : cosine / pi);
         sum += chances_[specular] > 0.0F ? chances_[specular] * specular_.pdf(direction) : 0.0F;
+        sum += chances_[sheen] * SheenLobe::pdf;
     }
     sum += chances_[coat] > 0.0F ? chances_[coat] * coat_.pdf(direction) : 0.0F;
     return sum + (chances_[glass] > 0.0F ? chances_[glass] * glass_.pdf(direction * frame_) : 0.0F);
@@ -196,7 +222,10 @@ Scattered Bsdf::scatter(float lobe, const vec2& u) const {
             return s;  // no other lobe has that direction
         }
     } else {
-        s.direction = chosen == specular ? specular_.sample(u) : chosen == coat ? coat_.sample(u) : sampleDiffuse(u);
+        s.direction = chosen == specular ? specular_.sample(u)
+                      : chosen == coat   ? coat_.sample(u)
+                      : chosen == sheen  ? sheen_.sample(u)
+                                         : sampleDiffuse(u);
         if ((chosen == specular && !specular_.above(s.direction)) || (chosen == coat && !coat_.above(s.direction))) {
             return {};  // masked; what another lobe scatters there is not its concern
         }

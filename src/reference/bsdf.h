@@ -1,10 +1,11 @@
 // The surface model: Lambert under GGX. The diffuse base receives what the specular layer does not reflect; a share of
-// it may be transmitted instead (glass.h), and a clear coat may lie over everything. Specified in docs/conventions.md;
-// shares no code with src/shaders/ggx.glsl.
+// it may be transmitted instead (glass.h). A sheen may lie over both, and a clear coat over everything. Specified in
+// docs/conventions.md; shares no code with src/shaders/ggx.glsl.
 #pragma once
 
 #include "reference/glass.h"
 #include "reference/reference.h"
+#include "reference/sheen_lobe.h"
 #include "reference/specular_lobe.h"
 #include "reference/surface.h"
 
@@ -14,7 +15,7 @@ namespace reflet {
 
 /// Reflected and transmitted radiance is incident radiance · (diffuse + specular).
 struct Reflection {
-    vec3 diffuse{0.0F};
+    vec3 diffuse{0.0F};   ///< with sheen
     vec3 specular{0.0F};  ///< with transmitted light
 
     [[nodiscard]] vec3 sum() const { return diffuse + specular; }
@@ -48,8 +49,10 @@ public:
     [[nodiscard]] float pdf(const vec3& direction) const;
 
 private:
-    enum Lobe : uint8_t { specular, diffuse, glass, coat, lobes };
+    enum Lobe : uint8_t { specular, diffuse, sheen, glass, coat, lobes };
 
+    void setSheen(const SurfacePoint& point);
+    void setSpecular(const SurfacePoint& point, const Reflectance& both, const LobeAlbedo& table);
     void setLayers(const SurfacePoint& point, const Boundary& boundary);
     void setCoat(const SurfacePoint& point);
     void setChances();
@@ -69,10 +72,11 @@ private:
     GlassLobe glass_;
     vec3 transmitted_{0.0F};        ///< weight of the glass lobe's transmitted light
     float reflectedInside_ = 0.0F;  ///< of the light that an inner boundary reflects
+    SheenLobe sheen_;
     SpecularLobe coat_;
     float coatAlbedo_ = 0.0F;
     float coatFactor_ = 0.0F;
-    std::array<float, lobes> chances_{0.0F, 1.0F, 0.0F, 0.0F};
+    std::array<float, lobes> chances_{0.0F, 1.0F, 0.0F, 0.0F, 0.0F};
 };
 
 }  // namespace reflet

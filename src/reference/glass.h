@@ -8,6 +8,7 @@
 
 #include "base/math.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -74,7 +75,14 @@ private:
 struct Medium {
     uint32_t instance = 0;
     float ior = 1.0F;
-    vec3 extinction{0.0F};  ///< per metre
+    vec3 extinction{0.0F};    ///< per metre
+    float dispersion = 0.0F;  ///< Transmission::dispersion
+
+    /// Its index of refraction for red, green or blue light: 0, 1 or 2. (KHR_materials_dispersion: (ior - 1) / Abbe
+    /// number between red and blue)
+    [[nodiscard]] float iorOf(uint32_t channel) const {
+        return std::max(ior + (ior - 1.0F) * dispersion * 0.025F * (static_cast<float>(channel) - 1.0F), 1.0F);
+    }
 };
 
 /// The volumes around a ray. The one that was entered last counts where several overlap; more than fit are left out.

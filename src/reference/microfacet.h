@@ -23,20 +23,29 @@ inline float schlick(float cosine) {
     return square(square(rest)) * rest;
 }
 
-/// Smith's Lambda; masking is 1 / (1 + Lambda).
+/// Smith's Lambda; masking is 1 / (1 + Lambda). alpha, here and below: along x and y.
+inline float smithLambda(const vec3& w, const vec2& alpha) {
+    const float stretched = square(alpha.x * w.x) + square(alpha.y * w.y);
+    return 0.5F * (std::sqrt(1.0F + stretched / std::max(w.z * w.z, 1e-12F)) - 1.0F);
+}
 inline float smithLambda(const vec3& w, float alpha) {
-    const float tan2 = (w.x * w.x + w.y * w.y) / std::max(w.z * w.z, 1e-12F);
-    return 0.5F * (std::sqrt(1.0F + alpha * alpha * tan2) - 1.0F);
+    return smithLambda(w, vec2(alpha));
 }
 
-inline float ggxDensity(const vec3& h, float alpha) {
+inline float ggxDensity(const vec3& h, const vec2& alpha) {
     // In terms of the slope, which keeps precision for narrow lobes.
-    const float stretched = (h.x * h.x + h.y * h.y) / square(alpha) + h.z * h.z;
-    return 1.0F / (pi * square(alpha * stretched));
+    const float stretched = square(h.x / alpha.x) + square(h.y / alpha.y) + h.z * h.z;
+    return 1.0F / (pi * alpha.x * alpha.y * square(stretched));
+}
+inline float ggxDensity(const vec3& h, float alpha) {
+    return ggxDensity(h, vec2(alpha));
 }
 
 /// Samples the normals visible from v; u in [0, 1)².
-vec3 sampleVisibleNormal(const vec3& v, float alpha, const vec2& u);
+vec3 sampleVisibleNormal(const vec3& v, const vec2& alpha, const vec2& u);
+inline vec3 sampleVisibleNormal(const vec3& v, float alpha, const vec2& u) {
+    return sampleVisibleNormal(v, vec2(alpha), u);
+}
 
 /// Pdf of sampleVisibleNormal, per solid angle of the normal.
 inline float visibleNormalPdf(const vec3& v, const vec3& h, float alpha) {

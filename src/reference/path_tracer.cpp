@@ -21,6 +21,7 @@ enum Purpose : uint32_t { forSun, forLampAndLobe, forEmitter, forEmitterChoice, 
 
 constexpr uint32_t pairForAmbient = 0xA0000000;  // beyond those of any path
 constexpr uint32_t pairForLens = 0xA0000001;
+constexpr uint32_t pairForChannel = 0xA0000002;
 
 uint32_t pairFor(uint32_t vertex, Purpose purpose) {
     return 1 + vertex * purposes + purpose;
@@ -45,9 +46,11 @@ Ray rayToLamp(const vec3& origin, const vec3& center, const LightSample& lamp) {
 // surface.
 struct PathTracer::Walk {
     SurfacePoint point;
-    uint32_t vertex = 0;   ///< number of surfaces before this one
-    uint32_t bounces = 0;  ///< of these, those that are no boundary of glass which the path went through
-    Media media;           ///< on the side of the vertex that the ray comes from
+    uint32_t vertex = 0;              ///< number of surfaces before this one
+    uint32_t bounces = 0;             ///< of these, those that are no boundary of glass which the path went through
+    Media media;                      ///< on the side of the vertex that the ray comes from
+    std::optional<uint32_t> channel;  ///< the only one that is left after glass that disperses light
+    vec3 refractable{1.0F};           ///< factor on what the vertex refracts: 3 in the channel chosen there, or 1
     Reflection throughput;
     const PixelSampler& random;
     PathSample out;
@@ -59,6 +62,26 @@ struct PathTracer::Walk {
     void attenuate(const vec3& share) {
         throughput.diffuse *= share;
         throughput.specular *= share;
+    }
+    // Glass that disperses light refracts one channel of three, with thrice the weight.
+    void disperse() {
+        refractable = vec3(1.0F);
+        if (!(point.transmission > 0.0F) || !point.bounded || !(point.medium.dispersion > 0.0F)) {
+            return;
+        }
+        const uint32_t one =
+            channel.value_or(std::min(static_cast<uint32_t>(3.0F * random.pair(pairForChannel).x), 2U));
+        if (!channel) {
+            refractable = vec3(one == 0 ? 3 : 0, one == 1 ? 3 : 0, one == 2 ? 3 : 0);
+        }
+        point.medium.ior = point.medium.iorOf(one);
+    }
+    // After scattering toward s.
+    void keepChannel(const Scattered& s) {
+        if (s.throughGlass && refractable != vec3(1.0F)) {
+            attenuate(refractable);
+            channel = refractable.x > 0.0F ? 0 : refractable.y > 0.0F ? 1 : 2;
+        }
     }
     [[nodiscard]] vec2 pair(Purpose purpose) const { return random.pair(pairFor(vertex, purpose)); }
     // Counts the ray.
@@ -91,7 +114,7 @@ std::optional<SurfacePoint> PathTracer::firstSurface(const Ray& ray) const {
 }
 
 PathSample PathTracer::trace(const vec2& place, const PixelSampler& random) const {
-    Walk walk{{}, 0, 0, {}, {}, random, {}};
+    Walk walk{.point = {}, .media = {}, .channel = {}, .throughput = {}, .random = random, .out = {}};
     const bool lens = camera_.hasLens() && !options_.pinhole;
     const Ray ray = walk.counted(lens ? camera_.throughLens(place, random.pair(pairForLens)) : camera_.through(place));
     const auto first = firstSurface(ray);
@@ -107,6 +130,7 @@ PathSample PathTracer::trace(const vec2& place, const PixelSampler& random) cons
         walk.out.ambientVisibility = ambientVisibility(walk);
     }
     for (;; ++walk.vertex) {
+        walk.disperse();
         const Boundary boundary = walk.point.transmission > 0.0F ? boundaryAt(walk.point, walk.media) : Boundary{};
         const Bsdf bsdf(walk.point, options_, boundary);
         addLamps(walk, bsdf);
@@ -192,7 +216,7 @@ void PathTracer::addEmitters(Walk& walk, const Bsdf& bsdf) const {
     if (options_.visibleOnly && s.onSurface && !cameraSees(walk, surfaceAt(rays_, s.hit, s.toLight))) {
         return;
     }
-    const vec3 light = s.light * (s.pdf / (s.pdf + bsdf.pdf(s.toLight)));
+    const vec3 light = s.light * walk.refractable * (s.pdf / (s.pdf + bsdf.pdf(s.toLight)));
     if (walk.vertex == 0) {
         walk.out.indirectDiffuse += r.diffuse * light;
         walk.out.indirectSpecular += r.specular * light;
@@ -215,6 +239,7 @@ bool PathTracer::step(Walk& walk, const Bsdf& bsdf, bool spent) const {
     } else {
         walk.attenuate(s.weight.sum());
     }
+    walk.keepChannel(s);
     if (walk.vertex >= rouletteStart) {
         const vec3 share = walk.throughput.sum();
         const float survival = std::min(std::max({share.x, share.y, share.z}), 0.95F);

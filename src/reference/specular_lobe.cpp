@@ -9,7 +9,7 @@ vec3 viewIn(const mat3& frame, const vec3& toViewer) {
     return glm::normalize(vec3(v.x, v.y, std::max(v.z, leastCosine)));
 }
 
-SpecularLobe::SpecularLobe(const mat3& frame, const vec3& view, float alpha, const Reflectance& reflectance,
+SpecularLobe::SpecularLobe(const mat3& frame, const vec3& view, const vec2& alpha, const Reflectance& reflectance,
                            const vec3& albedo, const LobeAlbedo& table)
     : frame_(frame),
       view_(view),
@@ -18,9 +18,9 @@ SpecularLobe::SpecularLobe(const mat3& frame, const vec3& view, float alpha, con
       compensation_(albedo / glm::max(reflectance.f0 * table.scale + reflectance.f90 * table.bias, 1e-4F)) {}
 
 vec3 SpecularLobe::reflect(const vec3& toLight, float leastAlpha) const {
-    const float alpha = std::max(alpha_, leastAlpha);
+    const vec2 alpha = glm::max(alpha_, leastAlpha);
     const vec3 l = toLight * frame_;
-    if (l.z <= 0.0F || alpha < mirrorAlpha) {
+    if (l.z <= 0.0F || std::max(alpha.x, alpha.y) < mirrorAlpha) {
         return vec3(0.0F);
     }
     const vec3 h = glm::normalize(view_ + l);

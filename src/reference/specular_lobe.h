@@ -17,11 +17,12 @@ struct Reflectance {
 class SpecularLobe {
 public:
     SpecularLobe() = default;
-    /// albedo: the share of the light that the layer reflects; table: that of single scattering.
-    SpecularLobe(const mat3& frame, const vec3& view, float alpha, const Reflectance& reflectance, const vec3& albedo,
-                 const LobeAlbedo& table);
+    /// alpha: along tangent and bitangent; albedo: the share of the light that the layer reflects; table: that of
+    /// single scattering.
+    SpecularLobe(const mat3& frame, const vec3& view, const vec2& alpha, const Reflectance& reflectance,
+                 const vec3& albedo, const LobeAlbedo& table);
 
-    [[nodiscard]] bool mirror() const { return alpha_ < mirrorAlpha; }
+    [[nodiscard]] bool mirror() const { return std::max(alpha_.x, alpha_.y) < mirrorAlpha; }
     /// BRDF · cosine with at least that alpha; 0 from below the surface, and of mirrors unless `leastAlpha` widens
     /// them.
     [[nodiscard]] vec3 reflect(const vec3& toLight, float leastAlpha = 0.0F) const;
@@ -40,7 +41,7 @@ private:
 
     mat3 frame_{1.0F};  ///< tangent, bitangent, normal
     vec3 view_{0, 0, 1};
-    float alpha_ = 1.0F;
+    vec2 alpha_{1.0F};
     Reflectance reflectance_;
     vec3 compensation_{0.0F};
 };

@@ -78,10 +78,22 @@ void setGlass(SurfacePoint& s, const Scene& scene, const Material& material, con
     s.transmission = factorAt(scene, t.factor, t.texture, corners, 0);
     s.bounded = t.thickness > 0.0F;
     s.medium = {s.hit.instance, material.ior,
-                -glm::log(glm::max(t.attenuationColor, 1e-6F)) / std::max(t.attenuationDistance, 1e-6F)};
+                -glm::log(glm::max(t.attenuationColor, 1e-6F)) / std::max(t.attenuationDistance, 1e-6F), t.dispersion};
 }
 
-// The interpolated normal with that normal map; it points outwards, whichever side the ray came from.
+// KHR_materials_sheen: on the outside of glass only.
+void setSheen(SurfacePoint& s, const Scene& scene, const Material& material, const Corners& corners) {
+    const Sheen& sheen = material.sheen;
+    if (sheen.color == vec3(0.0F) || (s.bounded && !s.front)) {
+        return;
+    }
+    s.sheen.color = sheen.color;
+    if (sheen.colorTexture.image >= 0) {
+        s.sheen.color *= vec3(readTexture(scene, sheen.colorTexture, corners.uv0(), corners.uv1(), true));
+    }
+    s.sheen.roughness = factorAt(scene, sheen.roughness, sheen.roughnessTexture, corners, 3);
+}
+
 /// Of a triangle, also where squares of its area are too small for floats.
 vec3 triangleNormal(const Triangle& t) {
     const vec3 n = glm::normalize(glm::cross(t.b - t.a, t.c - t.a));
@@ -92,6 +104,21 @@ vec3 triangleNormal(const Triangle& t) {
     return glm::length(exact) > 0.0 ? vec3(glm::normalize(exact)) : vec3(0.0F, 1.0F, 0.0F);
 }
 
+// Unit tangent and bitangent of a surface with that normal, which points outwards; nullopt: it has none.
+std::optional<std::array<vec3, 2>> tangentsAt(const RayScene& rays, const Hit& hit, const Corners& corners,
+                                              const vec3& n) {
+    const vec4 tangent = corners.mix([](const VertexAttributes& v) { return v.tangent; });
+    const vec3 along = mat3(rays.scene().instances[hit.instance].objectToWorld) * vec3(tangent);
+    const vec3 t = along - n * glm::dot(n, along);
+    if (!(glm::length(t) > 0.0F)) {
+        return std::nullopt;
+    }
+    const float handedness = (tangent.w < 0.0F) != rays.mirrored(hit.instance) ? -1.0F : 1.0F;
+    const vec3 unit = glm::normalize(t);
+    return std::array{unit, glm::cross(n, unit) * handedness};
+}
+
+// The interpolated normal with that normal map; it points outwards, whichever side the ray came from.
 vec3 outerNormal(const RayScene& rays, const Hit& hit, const Corners& corners, const vec3& fallback,
                  const TextureSlot& map, float scale) {
     const Scene& scene = rays.scene();
@@ -101,18 +128,39 @@ vec3 outerNormal(const RayScene& rays, const Hit& hit, const Corners& corners, c
     if (map.image < 0) {
         return n;
     }
-    const vec4 tangent = corners.mix([](const VertexAttributes& v) { return v.tangent; });
-    const vec3 along = mat3(scene.instances[hit.instance].objectToWorld) * vec3(tangent);
-    const vec3 t = along - n * glm::dot(n, along);
-    if (!(glm::length(t) > 0.0F)) {
+    const auto tangents = tangentsAt(rays, hit, corners, n);
+    if (!tangents) {
         return n;
     }
-    const float handedness = (tangent.w < 0.0F) != rays.mirrored(hit.instance) ? -1.0F : 1.0F;
-    const vec3 tUnit = glm::normalize(t);
     vec3 m = vec3(readTexture(scene, map, corners.uv0(), corners.uv1(), false)) * 2.0F - 1.0F;
     m.x *= scale;
     m.y *= scale;
-    return glm::normalize(tUnit * m.x + glm::cross(n, tUnit) * (handedness * m.y) + n * m.z);
+    return glm::normalize(tangents->front() * m.x + tangents->back() * m.y + n * m.z);
+}
+
+// KHR_materials_anisotropy: alpha grows toward 1 along the direction. `shading` points outwards.
+void setAnisotropy(SurfacePoint& s, const RayScene& rays, const Material& material, const Corners& corners,
+                   const vec3& shading) {
+    constexpr float leastAlpha = 1e-3F;
+    const Anisotropy& a = material.anisotropy;
+    const auto tangents = a.strength > 0.0F ? tangentsAt(rays, s.hit, corners, shading) : std::nullopt;
+    if (!tangents) {
+        return;
+    }
+    vec2 along(std::cos(a.rotation), std::sin(a.rotation));
+    float strength = a.strength;
+    if (a.texture.image >= 0) {
+        const vec3 texel = vec3(readTexture(rays.scene(), a.texture, corners.uv0(), corners.uv1(), false));
+        const vec2 painted = vec2(texel) * 2.0F - 1.0F;
+        along = {along.x * painted.x - along.y * painted.y, along.y * painted.x + along.x * painted.y};
+        strength *= texel.z;
+    }
+    const vec3 direction = tangents->front() * along.x + tangents->back() * along.y;
+    if (!(strength > 0.0F) || !(glm::length(direction) > 1e-3F)) {
+        return;
+    }
+    const float across = std::max(square(s.roughness), leastAlpha);
+    s.anisotropy = {glm::normalize(direction), {glm::mix(across, 1.0F, square(strength)), across}};
 }
 
 // KHR_materials_clearcoat. It covers the surface's emission, too.
@@ -166,6 +214,8 @@ SurfacePoint surfaceAt(const RayScene& rays, const Hit& hit, const vec3& directi
     }
     setGlass(s, scene, material, corners);
     setDielectric(s, scene, material, corners);
+    setSheen(s, scene, material, corners);
+    setAnisotropy(s, rays, material, corners, shading);
     s.unlit = material.unlit;
     if (s.front || material.doubleSided) {
         s.emission = emissionOf(scene, material, corners);

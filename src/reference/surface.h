@@ -14,6 +14,18 @@ struct CoatPoint {
     vec3 normal{0.0F};  ///< unit, on the side of the ray's origin
 };
 
+/// KHR_materials_sheen at a point.
+struct SheenPoint {
+    vec3 color{0.0F};
+    float roughness = 0.0F;
+};
+
+/// KHR_materials_anisotropy at a point: GGX's alpha along the direction and across it.
+struct AnisotropyPoint {
+    vec3 direction{0.0F};  ///< unit, perpendicular to the shading normal; 0: the reflection is isotropic
+    vec2 alpha{1.0F};
+};
+
 struct SurfacePoint {
     vec3 position{0.0F};
     vec3 geometricNormal{0.0F};  ///< unit, of the triangle, facing the ray's origin
@@ -29,6 +41,8 @@ struct SurfacePoint {
     bool bounded = false;       ///< the surface bounds a volume
     Medium medium;              ///< of that volume
     CoatPoint coat;
+    SheenPoint sheen;
+    AnisotropyPoint anisotropy;
     bool unlit = false;      ///< reflects nothing
     vec3 emission{0.0F};     ///< radiance toward the ray's origin; 0 from the back of single-sided surfaces
     float clearance = 0.0F;  ///< offset of new rays from the surface, to avoid self-intersection [m]

@@ -59,8 +59,9 @@ struct Transmission {
     float thickness = 0.0F;    ///< of the volume beneath the surface [m in object space]; 0: none
     vec3 attenuationColor{1};  ///< that white light has after `attenuationDistance` in the volume
     float attenuationDistance = std::numeric_limits<float>::infinity();  ///< metres in the world, > 0
-    TextureSlot texture;                                                 ///< red
-    TextureSlot thicknessTexture;                                        ///< green
+    float dispersion = 0.0F;       ///< KHR_materials_dispersion: 20 over the Abbe number, >= 0; 0: none. Volumes only
+    TextureSlot texture;           ///< red
+    TextureSlot thicknessTexture;  ///< green
 };
 
 /// KHR_materials_clearcoat: a second layer of reflectance 0.04 over everything else.
@@ -71,6 +72,21 @@ struct Clearcoat {
     TextureSlot texture;           ///< red
     TextureSlot roughnessTexture;  ///< green
     TextureSlot normalTexture;     ///< none: the normal of the vertices
+};
+
+/// KHR_materials_sheen: fibres over the base and beneath the clear coat, whose light is seen at grazing angles.
+struct Sheen {
+    vec3 color{0.0F};              ///< factor, 0..1; 0: none
+    float roughness = 0.0F;        ///< perceptual, factor, 0..1
+    TextureSlot colorTexture;      ///< sRGB
+    TextureSlot roughnessTexture;  ///< alpha
+};
+
+/// KHR_materials_anisotropy: the reflection is stretched along a direction of the surface.
+struct Anisotropy {
+    float strength = 0.0F;  ///< factor, 0..1; 0: none
+    float rotation = 0.0F;  ///< of the direction from the tangent to the bitangent [rad]
+    TextureSlot texture;    ///< red, green: direction, as -1..1 along tangent and bitangent; blue: strength
 };
 
 /// glTF metallic-roughness. Colours are linear.
@@ -101,6 +117,8 @@ struct Material {
     TextureSlot specularColorTexture;  ///< sRGB
     Transmission transmission;
     Clearcoat clearcoat;
+    Sheen sheen;
+    Anisotropy anisotropy;
 };
 
 /// Vertex attributes besides the position. Unit normal; unit tangent, w = ±1 (bitangent = w · cross(n, t)).

@@ -166,6 +166,50 @@ TEST(GltfExtensions, ClearcoatHasItsFactorsAndTextures) {
     expectTexture(scene, c.normalTexture, 3);
 }
 
+TEST(GltfExtensions, SheenHasItsFactorsAndTextures) {
+    GltfBuilder b = withExtension("KHR_materials_sheen", json::object());
+    b.document["materials"][0]["extensions"]["KHR_materials_sheen"] = {
+        {"sheenColorFactor", {0.5, 0.25, 1}},
+        {"sheenRoughnessFactor", 0.75},
+        {"sheenColorTexture", {{"index", b.addTexture({1, 0, 0, 255})}}},
+        {"sheenRoughnessTexture", {{"index", b.addTexture({2, 0, 0, 255})}}}};
+    const Loaded loaded = load(b);
+    EXPECT_TRUE(loaded.warnings.empty());
+    const Sheen& s = loaded.scene.materials.at(0).sheen;
+    EXPECT_EQ(s.color, vec3(0.5F, 0.25F, 1.0F));
+    EXPECT_EQ(s.roughness, 0.75F);
+    expectTexture(loaded.scene, s.colorTexture, 1);
+    expectTexture(loaded.scene, s.roughnessTexture, 2);
+    EXPECT_EQ(materialOf(withExtension("KHR_materials_sheen", json::object())).sheen.color, vec3(0.0F));
+}
+
+TEST(GltfExtensions, AnisotropyHasItsFactorsAndTexture) {
+    GltfBuilder b = withExtension("KHR_materials_anisotropy", json::object());
+    b.document["materials"][0]["extensions"]["KHR_materials_anisotropy"] = {
+        {"anisotropyStrength", 0.5},
+        {"anisotropyRotation", 1.25},
+        {"anisotropyTexture", {{"index", b.addTexture({1, 0, 0, 255})}}}};
+    const Loaded loaded = load(b);
+    EXPECT_TRUE(loaded.warnings.empty());
+    const Anisotropy& a = loaded.scene.materials.at(0).anisotropy;
+    EXPECT_EQ(a.strength, 0.5F);
+    EXPECT_EQ(a.rotation, 1.25F);
+    expectTexture(loaded.scene, a.texture, 1);
+}
+
+TEST(GltfExtensions, DispersionIsThatOfAVolume) {
+    GltfBuilder b = withExtension("KHR_materials_transmission", {{"transmissionFactor", 1}});
+    json& extensions = b.document["materials"][0]["extensions"];
+    extensions["KHR_materials_dispersion"] = {{"dispersion", 0.5}};
+    b.document["extensionsUsed"].push_back("KHR_materials_dispersion");
+    EXPECT_EQ(load(b).scene.materials.at(0).transmission.dispersion, 0.0F) << "a sheet bends no light";
+    extensions["KHR_materials_volume"] = {{"thicknessFactor", 1}};
+    b.document["extensionsUsed"].push_back("KHR_materials_volume");
+    const Loaded loaded = load(b);
+    EXPECT_TRUE(loaded.warnings.empty());
+    EXPECT_EQ(loaded.scene.materials.at(0).transmission.dispersion, 0.5F);
+}
+
 TEST(GltfExtensions, UnlitSurfacesHaveNeitherGlassNorCoat) {
     GltfBuilder b = withExtension("KHR_materials_unlit", json::object());
     b.document["materials"][0]["extensions"]["KHR_materials_transmission"] = {{"transmissionFactor", 1}};
@@ -196,6 +240,12 @@ TEST(GltfExtensions, ValuesOutOfRangeAreErrors) {
               "materials[0].extensions.KHR_materials_clearcoat.clearcoatRoughnessFactor: is -1, not between 0 and 1");
     EXPECT_TRUE(complaintAbout(withExtension("KHR_materials_volume", {{"thicknessFactor", -1}}))
                     .starts_with("materials[0].extensions.KHR_materials_volume.thicknessFactor: is -1"));
+    EXPECT_TRUE(complaintAbout(withExtension("KHR_materials_dispersion", {{"dispersion", -1}}))
+                    .starts_with("materials[0].extensions.KHR_materials_dispersion.dispersion: is -1"));
+    EXPECT_TRUE(complaintAbout(withExtension("KHR_materials_sheen", {{"sheenColorFactor", {0, 2, 0}}}))
+                    .starts_with("materials[0].extensions.KHR_materials_sheen.sheenColorFactor[1]: is 2"));
+    EXPECT_TRUE(complaintAbout(withExtension("KHR_materials_anisotropy", {{"anisotropyStrength", 2}}))
+                    .starts_with("materials[0].extensions.KHR_materials_anisotropy.anisotropyStrength: is 2"));
     EXPECT_TRUE(complaintAbout(withExtension("KHR_materials_ior", {{"ior", -1}}))
                     .starts_with("materials[0].extensions.KHR_materials_ior.ior: is -1"));
     EXPECT_EQ(complaintAbout(withExtension("KHR_materials_unlit", 7)),

@@ -218,13 +218,13 @@ TEST(GltfScene, AFarAwayCameraStillHasATargetApartFromItself) {
 
 TEST(GltfScene, EachKindOfUnsupportedFeatureIsWarnedOfOnce) {
     GltfBuilder b = triangle();
-    b.document["extensionsUsed"] = {"ACME_holograms", "KHR_lights_punctual", "KHR_materials_sheen"};
+    b.document["extensionsUsed"] = {"ACME_holograms", "KHR_lights_punctual", "KHR_materials_iridescence"};
     b.document["skins"] = json::array({{{"joints", {0}}}});
     b.document["nodes"][0]["skin"] = 0;
     b.addRoot({{"mesh", 0}, {"skin", 0}});
     const std::vector<std::string> warnings = load(std::move(b)).warnings;
     const std::vector<std::string> expected{"the extension will be ignored: ACME_holograms is not supported",
-                                            "sheen will be missing: KHR_materials_sheen is not supported",
+                                            "iridescence will be missing: KHR_materials_iridescence is not supported",
                                             "the mesh will not be deformed: it has no JOINTS_0 and WEIGHTS_0"};
     ASSERT_EQ(warnings.size(), expected.size());
     for (size_t i = 0; i < expected.size(); ++i) {

@@ -49,12 +49,9 @@ struct UnsupportedExtension {
     std::string_view name;
     std::string_view consequence;
 };
-constexpr std::array<UnsupportedExtension, 8> unsupportedExtensions{
+constexpr std::array<UnsupportedExtension, 5> unsupportedExtensions{
     {{"KHR_materials_diffuse_transmission", "translucent surfaces will be drawn opaque"},
-     {"KHR_materials_dispersion", "glass will not split light into colours"},
-     {"KHR_materials_sheen", "sheen will be missing"},
      {"KHR_materials_iridescence", "iridescence will be missing"},
-     {"KHR_materials_anisotropy", "anisotropic highlights will be drawn isotropic"},
      {"EXT_texture_avif", "AVIF textures will be missing"},
      {"KHR_animation_pointer", "animated materials, lamps and cameras will stand still"},
      {"EXT_lights_image_based", "image-based light will be missing"}}};

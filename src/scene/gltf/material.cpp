@@ -114,10 +114,14 @@ Material GltfMaterials::convert(int material) {
     readSpecular(result, source.extensions, part + ".extensions.");
     result.transmission = transmissionOf(source.extensions, part + ".extensions.");
     result.clearcoat = clearcoatOf(source.extensions, part + ".extensions.");
+    result.sheen = sheenOf(source.extensions, part + ".extensions.");
+    result.anisotropy = anisotropyOf(source.extensions, part + ".extensions.");
     result.unlit = source.extensions.contains("KHR_materials_unlit");
     if (result.unlit) {
         result.transmission = {};
         result.clearcoat = {};
+        result.sheen = {};
+        result.anisotropy = {};
     }
     if (result.blended && result.transmission.factor == 0.0F && result.clearcoat.factor > 0.0F) {
         report_.warn(

@@ -23,6 +23,8 @@ private:
     TextureSlot slotOf(const tinygltf::Value& object, const std::string& name, const std::string& part);
     void readSpecular(Material& material, const tinygltf::ExtensionMap& extensions, const std::string& part);
     Transmission transmissionOf(const tinygltf::ExtensionMap& extensions, const std::string& part);
+    Sheen sheenOf(const tinygltf::ExtensionMap& extensions, const std::string& part);
+    Anisotropy anisotropyOf(const tinygltf::ExtensionMap& extensions, const std::string& part);
     Clearcoat clearcoatOf(const tinygltf::ExtensionMap& extensions, const std::string& part);
     void transformUv(TextureSlot& slot, const tinygltf::Value& transform, const std::string& part);
     int32_t useImage(int image);

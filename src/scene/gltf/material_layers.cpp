@@ -1,5 +1,5 @@
-// Converts the material extensions for glass and clear coats: KHR_materials_transmission, KHR_materials_volume and
-// KHR_materials_clearcoat.
+// Converts the material extensions for glass and layers: KHR_materials_transmission, KHR_materials_volume,
+// KHR_materials_dispersion, KHR_materials_clearcoat, KHR_materials_sheen and KHR_materials_anisotropy.
 #include "scene/gltf/material.h"
 
 namespace reflet {
@@ -8,6 +8,13 @@ namespace {
 
 float floatOr(const tinygltf::Value& object, const char* name, double otherwise) {
     return static_cast<float>(object.Has(name) ? object.Get(name).GetNumberAsDouble() : otherwise);
+}
+
+vec3 colorOr(const tinygltf::Value& object, const char* name, vec3 color) {
+    for (int c = 0; object.Has(name) && c < 3; ++c) {
+        color[c] = static_cast<float>(object.Get(name).Get(c).GetNumberAsDouble());
+    }
+    return color;
 }
 
 }  // namespace
@@ -27,6 +34,9 @@ Transmission GltfMaterials::transmissionOf(const tinygltf::ExtensionMap& extensi
     }
     const auto& [volumeName, volume] = *inside;
     result.thickness = floatOr(volume, "thicknessFactor", 0.0);
+    if (const auto spread = extensions.find("KHR_materials_dispersion"); spread != extensions.end()) {
+        result.dispersion = floatOr(spread->second, "dispersion", 0.0);
+    }
     result.thicknessTexture = slotOf(volume, "thicknessTexture", part + volumeName);
     const float distance = floatOr(volume, "attenuationDistance", 0.0);
     if (distance > 0.0F) {
@@ -35,9 +45,34 @@ Transmission GltfMaterials::transmissionOf(const tinygltf::ExtensionMap& extensi
         report_.warn("attenuation", part + volumeName + ".attenuationDistance",
                      "the glass will be clear: 0 is not greater than 0");
     }
-    for (int c = 0; volume.Has("attenuationColor") && c < 3; ++c) {
-        result.attenuationColor[c] = static_cast<float>(volume.Get("attenuationColor").Get(c).GetNumberAsDouble());
+    result.attenuationColor = colorOr(volume, "attenuationColor", result.attenuationColor);
+    return result;
+}
+
+Sheen GltfMaterials::sheenOf(const tinygltf::ExtensionMap& extensions, const std::string& part) {
+    Sheen result;
+    const auto found = extensions.find("KHR_materials_sheen");
+    if (found == extensions.end()) {
+        return result;
     }
+    const auto& [name, sheen] = *found;
+    result.color = colorOr(sheen, "sheenColorFactor", vec3(0.0F));
+    result.roughness = floatOr(sheen, "sheenRoughnessFactor", 0.0);
+    result.colorTexture = slotOf(sheen, "sheenColorTexture", part + name);
+    result.roughnessTexture = slotOf(sheen, "sheenRoughnessTexture", part + name);
+    return result;
+}
+
+Anisotropy GltfMaterials::anisotropyOf(const tinygltf::ExtensionMap& extensions, const std::string& part) {
+    Anisotropy result;
+    const auto found = extensions.find("KHR_materials_anisotropy");
+    if (found == extensions.end()) {
+        return result;
+    }
+    const auto& [name, anisotropy] = *found;
+    result.strength = floatOr(anisotropy, "anisotropyStrength", 0.0);
+    result.rotation = floatOr(anisotropy, "anisotropyRotation", 0.0);
+    result.texture = slotOf(anisotropy, "anisotropyTexture", part + name);
     return result;
 }
 

@@ -176,8 +176,20 @@ void readSkin(Mesh& mesh, const PrimitiveSource& source, const std::vector<uint3
     }
 }
 
+/// The texture whose coordinates the material's tangents follow; nullptr: it needs none.
+const TextureSlot* tangentTexture(const Material& material) {
+    for (const TextureSlot* slot :
+         {&material.normalTexture, &material.anisotropy.texture, &material.clearcoat.normalTexture}) {
+        if (slot->image >= 0) {
+            return slot;
+        }
+    }
+    // The plain first set: that of a slot without a texture.
+    return material.anisotropy.strength > 0.0F ? &material.anisotropy.texture : nullptr;
+}
+
 /// glTF 2.0, 3.7.2.1: missing normals become flat normals, and then the file's tangents are ignored.
-void completeFrames(Mesh& mesh, const PrimitiveSource& source, const TextureSlot& normalTexture,
+void completeFrames(Mesh& mesh, const PrimitiveSource& source, const TextureSlot* tangentTexture,
                     const std::string& part, GltfReport& report) {
     const bool flat = source.find("NORMAL") == nullptr;
     if (flat) {
@@ -190,9 +202,9 @@ void completeFrames(Mesh& mesh, const PrimitiveSource& source, const TextureSlot
     }
     if (!flat && source.find("TANGENT") != nullptr) {
         repairTangents(mesh);
-    } else if (normalTexture.image >= 0) {
+    } else if (tangentTexture != nullptr) {
         report.charge(part, mesh.positions.size() * vertexBytes);  // every vertex may be split
-        makeTangents(mesh, normalTexture);
+        makeTangents(mesh, *tangentTexture);
     } else {
         for (VertexAttributes& vertex : mesh.attributes) {
             vertex.tangent = vec4(perpendicular(vertex.normal), 1.0F);
@@ -263,7 +275,7 @@ void GltfMeshes::loadPrimitive(size_t mesh, size_t primitive) {
     readSkin(result, opened, used, part, report_);
     readGltfMorph(result, document_, source, opened, used, part, report_);
     result.indices = std::move(opened.triangles);
-    completeFrames(result, opened, scene_.materials[result.material].normalTexture, part, report_);
+    completeFrames(result, opened, tangentTexture(scene_.materials[result.material]), part, report_);
     meshes_[mesh].push_back(static_cast<uint32_t>(scene_.meshes.size()));
     scene_.meshes.push_back(std::move(result));
 }

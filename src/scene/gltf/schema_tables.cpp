@@ -190,11 +190,26 @@ constexpr std::array clearcoat{
     Field{.name = "clearcoatRoughnessTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
     Field{.name = "clearcoatNormalTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
 };
+constexpr std::array sheen{
+    Field{.name = "sheenColorFactor", .array = true, .items = 3, .min = 0, .max = 1},
+    Field{.name = "sheenColorTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
+    Field{.name = "sheenRoughnessFactor", .min = 0, .max = 1},
+    Field{.name = "sheenRoughnessTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
+};
+constexpr std::array anisotropy{
+    Field{.name = "anisotropyStrength", .min = 0, .max = 1},
+    Field{.name = "anisotropyRotation"},
+    Field{.name = "anisotropyTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
+};
+constexpr std::array dispersion{Field{.name = "dispersion", .min = 0}};
 constexpr std::array<Field, 0> unlit{};
 constexpr std::array materialExtensions{
+    Field{.name = "KHR_materials_anisotropy", .type = Type::object, .fields = anisotropy},
     Field{.name = "KHR_materials_clearcoat", .type = Type::object, .fields = clearcoat},
+    Field{.name = "KHR_materials_dispersion", .type = Type::object, .fields = dispersion},
     Field{.name = "KHR_materials_emissive_strength", .type = Type::object, .fields = emissiveStrength},
     Field{.name = "KHR_materials_ior", .type = Type::object, .fields = ior},
+    Field{.name = "KHR_materials_sheen", .type = Type::object, .fields = sheen},
     Field{.name = "KHR_materials_specular", .type = Type::object, .fields = specular},
     Field{.name = "KHR_materials_transmission", .type = Type::object, .fields = transmission},
     Field{.name = "KHR_materials_unlit", .type = Type::object, .fields = unlit},

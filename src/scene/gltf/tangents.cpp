@@ -152,8 +152,8 @@ private:
 
 }  // namespace
 
-void makeTangents(Mesh& mesh, const TextureSlot& normalTexture) {
-    TangentMaker(mesh, normalTexture).run();
+void makeTangents(Mesh& mesh, const TextureSlot& texture) {
+    TangentMaker(mesh, texture).run();
 }
 
 }  // namespace reflet

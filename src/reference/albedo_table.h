@@ -1,0 +1,23 @@
+// A table of directional albedos.
+#pragma once
+
+#include "base/math.h"
+
+#include <vector>
+
+namespace reflet {
+
+/// Two numbers for each cosine of the angle between normal and viewer and each perceptual roughness, both 0..1,
+/// interpolated between entries at even distances.
+class AlbedoTable {
+public:
+    /// Calls integrate(cosine, roughness) for each entry, from several threads.
+    explicit AlbedoTable(vec2 (*integrate)(float cosine, float roughness));
+
+    [[nodiscard]] vec2 at(float cosine, float roughness) const;
+
+private:
+    std::vector<vec2> entries_;
+};
+
+}  // namespace reflet
