@@ -7,6 +7,8 @@
 layout(constant_id = 40) const uint materialFeatures = 0u;  // bit mask of materialFeature…
 
 bool mayBeUnlit() { return (materialFeatures & materialFeatureUnlit) != 0u; }
+bool mayHaveSheen() { return (materialFeatures & materialFeatureSheen) != 0u; }
+bool mayBeAnisotropic() { return (materialFeatures & materialFeatureAnisotropy) != 0u; }
 bool mayReflectUnusually() { return (materialFeatures & materialFeatureReflectance) != 0u; }
 
 // F0 over dielectricF0, and F90, of a dielectric; color, weight: of KHR_materials_specular, with F0 by

@@ -41,6 +41,7 @@ struct DrawList {
     bool unlit = false;                    ///< nothing reflects light
     bool glass = false;                    ///< some draws are transmissive
     bool frosted = false;                  ///< some of these are rough
+    bool dispersive = false;               ///< some of these disperse light
     bool murky = false;                    ///< some of these are opaque in part
     bool coated = false;                   ///< some draws have clear coats
     bool coatedGlass = false;              ///< some of these are transmissive

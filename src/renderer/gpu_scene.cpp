@@ -183,7 +183,7 @@ void GpuScene::uploadMaterials(const Scene& scene, const std::function<void(cons
     std::vector<std::byte> blocks(std::max<size_t>(count, 1) * stride);
     for (uint32_t i = 0; i < count; ++i) {
         MaterialParams params = materialParams(scene.materials[i]);
-        params.glass = params.transmission > 0.0F ? i + 1 : 0;
+        params.glass = params.transmission > 0.0F ? glassKind(scene.materials[i], i + 1) : 0;
         live[i] = livePictureOf(scene, scene.materials[i], warn);
         if (live[i]) {
             params.emissive = vec3(1.0F);
@@ -252,6 +252,8 @@ void GpuScene::addDraws(const Scene& scene) {
         draw.blended = material.blended && !draw.glass;
         draws_.glass = draws_.glass || draw.glass;
         draws_.frosted = draws_.frosted || (draw.glass && material.roughness > 0.0F);
+        const Transmission& glass = material.transmission;
+        draws_.dispersive = draws_.dispersive || (draw.glass && glass.thickness > 0.0F && glass.dispersion > 0.0F);
         const bool murky = material.transmission.factor < 1.0F || material.transmission.texture.image >= 0;
         draws_.murky = draws_.murky || (draw.glass && murky);
         draw.coated = material.clearcoat.factor > 0.0F && !draw.blended;

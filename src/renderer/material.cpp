@@ -2,6 +2,7 @@
 #include "renderer/material.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace reflet {
 
@@ -17,12 +18,15 @@ std::array<const TextureSlot*, slotCount> textureSlots(const Material& m) {
             &m.transmission.thicknessTexture,
             &m.clearcoat.texture,
             &m.clearcoat.roughnessTexture,
-            &m.clearcoat.normalTexture};
+            &m.clearcoat.normalTexture,
+            &m.sheen.colorTexture,
+            &m.sheen.roughnessTexture,
+            &m.anisotropy.texture};
 }
 
 bool isSrgb(uint slot) {
     // The specular slots often share one image: sRGB decoding leaves alpha as it is.
-    return slot == slotBaseColor || (slot >= slotEmissive && slot <= slotSpecularColor);
+    return slot == slotBaseColor || slot == slotSheenColor || (slot >= slotEmissive && slot <= slotSpecularColor);
 }
 
 namespace {
@@ -34,6 +38,12 @@ float dielectricF0Over4Percent(float ior) {
 }
 
 }  // namespace
+
+uint glassKind(const Material& material, uint number) {
+    constexpr uint most = (1U << (32 - glassKindBits)) - 1;
+    const float dispersion = std::min(material.transmission.dispersion * glassDispersionSteps, float(most));
+    return (number & ((1U << glassKindBits) - 1)) | static_cast<uint>(dispersion + 0.5F) << glassKindBits;
+}
 
 MaterialParams materialParams(const Material& m) {
     MaterialParams p{};
@@ -59,6 +69,10 @@ MaterialParams materialParams(const Material& m) {
     p.coat = m.clearcoat.factor;
     p.coatRoughness = m.clearcoat.roughness;
     p.coatNormalScale = m.clearcoat.normalScale;
+    p.sheenColor = m.sheen.color;
+    p.sheenRoughness = m.sheen.roughness;
+    p.anisotropyAlong = {std::cos(m.anisotropy.rotation), std::sin(m.anisotropy.rotation)};
+    p.anisotropy = m.anisotropy.strength;
     const auto slots = textureSlots(m);
     for (size_t i = 0; i < slotCount; ++i) {
         p.textured |= slots[i]->image >= 0 ? 1U << i : 0U;
@@ -73,7 +87,9 @@ uint materialFeatures(const Material& m) {
     const MaterialParams p = materialParams(m);
     const bool textured = (p.textured & (1U << slotSpecular | 1U << slotSpecularColor)) != 0;
     const bool reflectance = textured || p.f0 != vec3(1.0F) || p.f90 != 1.0F;
-    return (reflectance ? materialFeatureReflectance : 0U) | (m.unlit ? materialFeatureUnlit : 0U);
+    return (reflectance ? materialFeatureReflectance : 0U) | (m.unlit ? materialFeatureUnlit : 0U) |
+           (m.sheen.color != vec3(0.0F) ? materialFeatureSheen : 0U) |
+           (m.anisotropy.strength > 0.0F ? materialFeatureAnisotropy : 0U);
 }
 
 }  // namespace reflet

@@ -21,6 +21,9 @@ layout(set = 1, binding = 9) uniform sampler2D thicknessTexture;
 layout(set = 1, binding = 10) uniform sampler2D coatTexture;
 layout(set = 1, binding = 11) uniform sampler2D coatRoughnessTexture;
 layout(set = 1, binding = 12) uniform sampler2D coatNormalTexture;
+layout(set = 1, binding = 13) uniform sampler2D sheenColorTexture;
+layout(set = 1, binding = 14) uniform sampler2D sheenRoughnessTexture;
+layout(set = 1, binding = 15) uniform sampler2D anisotropyTexture;
 
 bool hasTexture(uint slot) {
     return (usedSlots & (1u << slot)) != 0u && (notInlined(material.textured, gl_FragCoord) & (1u << slot)) != 0u;
@@ -65,6 +68,30 @@ vec4 materialReflectance(vec2 uv0, vec2 uv1) {
         color *= texture(specularColorTexture, slotUv(slotSpecularColor, uv0, uv1)).rgb;
     }
     return reflectanceTexel(color, weight);
+}
+
+// Colour and perceptual roughness of the sheen.
+vec4 materialSheen(vec2 uv0, vec2 uv1) {
+    vec4 sheen = vec4(material.sheenColor, material.sheenRoughness);
+    if (hasTexture(slotSheenColor)) {
+        sheen.rgb *= texture(sheenColorTexture, slotUv(slotSheenColor, uv0, uv1)).rgb;
+    }
+    if (hasTexture(slotSheenRoughness)) {
+        sheen.a *= texture(sheenRoughnessTexture, slotUv(slotSheenRoughness, uv0, uv1)).a;
+    }
+    return sheen;
+}
+
+// Direction of the anisotropy along tangent and bitangent, any length, and its strength.
+vec3 materialAnisotropy(vec2 uv0, vec2 uv1) {
+    vec3 anisotropy = vec3(material.anisotropyAlong, material.anisotropy);
+    if (hasTexture(slotAnisotropy)) {
+        vec3 texel = texture(anisotropyTexture, slotUv(slotAnisotropy, uv0, uv1)).rgb;
+        vec2 along = texel.rg * 2.0 - 1.0;
+        vec2 turn = anisotropy.xy;
+        anisotropy = vec3(mat2(turn.x, turn.y, -turn.y, turn.x) * along, anisotropy.z * texel.b);
+    }
+    return anisotropy;
 }
 
 #endif

@@ -8,7 +8,7 @@
 
 SHARED_BEGIN
 
-// Slots of Material, in the order of the bindings 1..12 of set 1; binding 0 is this block.
+// Slots of Material, in the order of the bindings 1..15 of set 1; binding 0 is this block.
 const uint slotBaseColor = 0;
 const uint slotMetallicRoughness = 1;
 const uint slotNormal = 2;
@@ -21,7 +21,10 @@ const uint slotThickness = 8;
 const uint slotCoat = 9;
 const uint slotCoatRoughness = 10;
 const uint slotCoatNormal = 11;
-const uint slotCount = 12;
+const uint slotSheenColor = 12;
+const uint slotSheenRoughness = 13;
+const uint slotAnisotropy = 14;
+const uint slotCount = 15;
 const uint sceneSlotCount = 8;  // the first ones, which ray hits read
 
 // Alpha from which blended surfaces are opaque, 254.5 / 255, and below which they are not there.
@@ -30,6 +33,10 @@ const float invisibleAlpha = 0.002;
 
 // Relative difference of depths that counts as none in depth peeling.
 const float peelTolerance = 1e-6;
+
+// A transmissive material, in images: a number of its own from 1 in the lower bits, and its dispersion.
+const uint glassKindBits = 20;
+const float glassDispersionSteps = 100.0;  // per 1
 
 struct MaterialParams {
     vec4 baseColor;
@@ -45,15 +52,19 @@ struct MaterialParams {
     uint unlit;          // 1: emits its base colour and reflects nothing
     vec3 f0;             // of the dielectric, over dielectricF0, without the factor that follows
     float f90;           // of the dielectric, 0..1; a factor of F0, too
-    vec3 uvRows[24];     // two per slot, KHR_texture_transform
+    vec3 uvRows[30];     // two per slot, KHR_texture_transform
     float transmission;  // share of the light in the dielectric's base that passes the surface, 0: opaque
     float ior;
     vec3 extinction;      // of the volume beneath [1/m]
     float thickness;      // of that volume [m in object space]; 0: none, a sheet
-    uint glass;           // a number of its own for each transmissive material, from 1
+    uint glass;           // glassKind of a transmissive material, else 0
     float coat;           // share of the surface beneath a clear coat, 0: none
     float coatRoughness;  // perceptual
     float coatNormalScale;
+    vec3 sheenColor;
+    float sheenRoughness;  // perceptual
+    vec2 anisotropyAlong;  // direction of the anisotropy along tangent and bitangent, unit
+    float anisotropy;      // its strength, 0..1
 };
 
 SHARED_END
@@ -71,6 +82,9 @@ std::array<const TextureSlot*, slotCount> textureSlots(const Material& material)
 
 /// Whether the slot's colours are sRGB.
 bool isSrgb(uint slot);
+
+/// number: of the material, from 1.
+uint glassKind(const Material& material, uint number);
 
 MaterialParams materialParams(const Material& material);
 

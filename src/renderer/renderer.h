@@ -28,9 +28,9 @@ public:
     FrameImages render(const View& asked, uvec2 size, uint32_t seed, const Settings& settings,
                        const std::function<void(gpu::Frame&, const FrameImages&)>& after = {});
 
-    /// From the next frame on, asks `stop` between passes while a frame is computed. If it returns true, render() throws
-    /// gpu::FrameStopped; restart() must be called then. Empty: frames are not stopped. Captures of probes and other
-    /// preparations are always completed.
+    /// From the next frame on, asks `stop` between passes while a frame is computed. If it returns true, render()
+    /// throws gpu::FrameStopped; restart() must be called then. Empty: frames are not stopped. Captures of probes and
+    /// other preparations are always completed.
     void stopBetweenPasses(std::function<bool()> stop) { stop_ = std::move(stop); }
 
     /// Discards all history: the next frame is rendered like a renderer's first, with the noise of the frame of this

@@ -36,9 +36,9 @@ vec3 sampleGgx(vec2 u, float alpha) {
     return vec3(r * cos(phi), r * sin(phi), sqrt(z2));
 }
 
-// Half vector from the distribution of GGX normals visible from v (unit, v.z > 0), pdf = D · max(dot(v, h), 0) · G1(v)
+// Half vector from the distribution of GGX normals visible from v (unit, v.z > 0); alpha: along x and y. pdf = D · max(dot(v, h), 0) · G1(v)
 // / v.z. (Dupuy and Benyoub, Sampling Visible GGX Normals with Spherical Caps, HPG 2023)
-vec3 sampleGgxVisible(vec2 u, vec3 v, float alpha) {
+vec3 sampleGgxVisible(vec2 u, vec3 v, vec2 alpha) {
     vec3 stretched = normalize(vec3(alpha * v.xy, v.z));
     float phi = 2.0 * pi * u.y;
     float z = (1.0 - u.x) * (1.0 + stretched.z) - stretched.z;
@@ -46,5 +46,6 @@ vec3 sampleGgxVisible(vec2 u, vec3 v, float alpha) {
     vec3 h = vec3(r * cos(phi), r * sin(phi), z) + stretched;
     return normalize(vec3(alpha * h.xy, max(h.z, 0.0)));
 }
+vec3 sampleGgxVisible(vec2 u, vec3 v, float alpha) { return sampleGgxVisible(u, v, vec2(alpha)); }
 
 #endif

@@ -85,7 +85,7 @@ void main() {
             shown = Shown(pixel, d, n,
                           screenPlane(p, geometric, params.view.clipToWorld, params.view.pixel, params.view.pixelAngle));
         }
-        fromDiffuse = params.diffuseGain * s.diffuse * diffuseRadiance(shown);
+        fromDiffuse = params.diffuseGain * (s.diffuse + s.sheenAlbedo) * diffuseRadiance(shown);
         fromSpecular = s.specular * specularLight(shown, params.specularBlockOffset).rgb;
     }
     if (layers != 0u) {

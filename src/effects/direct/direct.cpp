@@ -7,7 +7,7 @@ namespace reflet {
 
 gpu::Image ggxTable(gpu::Recorder& f, gpu::KeptImage& own) {
     constexpr uint32_t side = 32;  // ggxTableSize in ggx.glsl
-    const gpu::Image table = own.storage(f, VK_FORMAT_R16G16_SFLOAT, uvec2(side));
+    const gpu::Image table = own.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, uvec2(side));
     if (!own.holds(f, side)) {
         f.compute("ggx_table", "ggx_table.comp").write("table", table).dispatch(uvec2(side));
     }

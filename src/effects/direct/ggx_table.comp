@@ -1,13 +1,26 @@
 // Directional albedo of the single-scattering GGX lobe as A · F0 + B, by quadrature over the visible half vectors;
 // texel coordinates are (nv, roughness). (Karis, Real Shading in Unreal Engine 4, 2013, with exact visibility.)
-// Out: table (A, B).
+// And that of a white sheen. Out: table (A, B, sheen).
 #version 460
 #include "shaders/ggx.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(rg16f) uniform writeonly image2D table;
+layout(rgba16f) uniform writeonly image2D table;
 
 const uint sampleCount = 32u;  // per axis
+
+// By quadrature over half of the hemisphere; the other half is the same.
+float sheenAlbedo(float nv, float roughness) {
+    const uint steps = 20u;  // per axis: the lobe is wide
+    vec3 v = vec3(sqrt(1.0 - nv * nv), 0.0, nv);
+    float sum = 0.0;
+    for (uint i = 0u; i < steps * steps; ++i) {
+        vec2 u = (vec2(i % steps, i / steps) + 0.5) / float(steps);
+        vec3 l = sampleUniformHemisphere(vec2(u.x, 0.5 * u.y));
+        sum += sheenBrdf(l.z, nv, normalize(v + l).z, roughness) * l.z;
+    }
+    return min(sum * 2.0 * pi / float(steps * steps), 1.0);
+}
 
 void main() {
     vec2 size = vec2(imageSize(table));
@@ -30,5 +43,5 @@ void main() {
             sum += weight * vec2(1.0 - fresnel, fresnel);
         }
     }
-    imageStore(table, ivec2(gl_GlobalInvocationID.xy), vec4(sum / float(sampleCount * sampleCount), 0.0, 0.0));
+    imageStore(table, ivec2(gl_GlobalInvocationID.xy), vec4(sum / float(sampleCount * sampleCount), sheenAlbedo(nv, roughness), 0.0));
 }

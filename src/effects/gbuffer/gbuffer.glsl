@@ -19,6 +19,16 @@ struct MaterialTexel {
 MaterialTexel unpackMaterial(vec4 texel) {
     return MaterialTexel(texel.r, texel.g, texel.b, uint(texel.a * 255.0 + 0.5));
 }
+// sheen: colour, 0..1, and perceptual roughness; anisotropy: as in Surface.
+uvec2 packLayers(vec4 sheen, vec2 anisotropy) {
+    return uvec2(packUnorm4x8(vec4(packBaseColor(sheen.rgb), sheen.a)), packSnorm2x16(anisotropy));
+}
+vec4 unpackSheen(uvec2 texel) {
+    vec4 sheen = unpackUnorm4x8(texel.x);
+    return vec4(unpackBaseColor(sheen.rgb), sheen.a);
+}
+vec2 unpackAnisotropy(uvec2 texel) { return unpackSnorm2x16(texel.y); }
+
 bool isLambert(MaterialTexel m) { return (m.flags & materialFlagLambert) != 0u; }
 
 #endif

@@ -13,6 +13,8 @@ const uint materialFlagUnlit = 2;  // emits the base colour, reflects nothing
 // What shaders are specialized for, because any material that is drawn has it.
 const uint materialFeatureReflectance = 1;  // the dielectric's F0 is not 4 % of all light, or its F90 is not 1
 const uint materialFeatureUnlit = 2;
+const uint materialFeatureSheen = 4;
+const uint materialFeatureAnisotropy = 8;
 
 SHARED_END
 
@@ -31,11 +33,13 @@ struct GBuffer {
                                  ///< gradient, unlike smooth or mapped normals
     gpu::Image baseColor;  ///< RGB10A2: square root of the linear base colour. Error up to 0.15 %, against 0.8 % for
                            ///< RGBA8 sRGB in the same four bytes (llvmpipe, base colour 0.5)
-    gpu::Image material;   ///< RGBA8: perceptual roughness, metallic, occlusion, flags / 255
+    gpu::Image material;   ///< RGBA8: perceptual roughness (of anisotropic surfaces that of the geometric mean of
+                           ///< both alphas), metallic, occlusion, flags / 255
     gpu::Image emissive;   ///< B10G11R11: emitted radiance
     gpu::Image motion;     ///< RGBA16F: uv now minus uv last frame; the surface's own motion away from the camera along
                            ///< its axis [m], exactly 0 at rest; alpha of blended surfaces, share of clear coats, else 0
     gpu::Image reflectance{};  ///< RGBA16F: F0 of the dielectric over 4 %, F90; null unless a material differs from 1
+    gpu::Image layers{};       ///< RG32_UINT: sheen and anisotropy (packLayers); null unless a material has either
     uint32_t features = 0;     ///< materialFeature… of the draw list
 };
 

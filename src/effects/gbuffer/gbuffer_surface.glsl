@@ -6,6 +6,7 @@
 #include "effects/material_features.glsl"
 
 uniform sampler2D surfaceReflectance;
+uniform usampler2D surfaceLayers;
 
 bool isUnlit(MaterialTexel m) { return mayBeUnlit() && (m.flags & materialFlagUnlit) != 0u; }
 
@@ -18,14 +19,26 @@ vec4 dielectricAt(ivec2 pixel) {
     return vec4(dielectricF0 * texel.rgb, texel.a);
 }
 
+vec2 anisotropyAt(ivec2 pixel) {
+    return mayBeAnisotropic() ? unpackAnisotropy(texelFetch(surfaceLayers, pixel, 0).rg) : vec2(0.0);
+}
+
 // Its specular directional albedo is read from the table at nv. lambert: as in the material's flag, or a constant, which
 // saves CPU devices from computing both branches.
 Surface surfaceAt(ivec2 pixel, vec3 baseColorTexel, MaterialTexel m, float nv, sampler2D ggxTable, bool lambert) {
     if (isUnlit(m)) {
         return blackSurface();
     }
-    vec2 table = lambert ? vec2(0.0) : textureLod(ggxTable, ggxTableUv(nv, m.roughness), 0.0).rg;
-    return makeSurface(unpackBaseColor(baseColorTexel), m.metallic, m.roughness, dielectricAt(pixel), table, lambert);
+    vec2 anisotropy = lambert ? vec2(0.0) : anisotropyAt(pixel);
+    float tableRoughness = mayBeAnisotropic() ? albedoRoughness(m.roughness, anisotropy) : m.roughness;
+    vec2 table = lambert ? vec2(0.0) : textureLod(ggxTable, ggxTableUv(nv, tableRoughness), 0.0).rg;
+    Surface s = makeSurface(unpackBaseColor(baseColorTexel), m.metallic, m.roughness, dielectricAt(pixel), table, lambert);
+    s.anisotropy = anisotropy;
+    if (mayHaveSheen() && !lambert) {
+        vec4 sheen = unpackSheen(texelFetch(surfaceLayers, pixel, 0).rg);
+        addSheen(s, sheen.rgb, sheen.a, textureLod(ggxTable, ggxTableUv(nv, sheen.a), 0.0).b);
+    }
+    return s;
 }
 
 // Emitted radiance. Unlit surfaces emit their base colour, which has more digits than the emissive image.

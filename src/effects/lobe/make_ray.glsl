@@ -20,11 +20,14 @@ float relativeF0(ivec2 pixel, MaterialTexel m) {
 // Reflection at a sampled visible GGX normal. The weight is BRDF · cos / pdf divided by the directional albedo, which
 // the composite multiplies in. One weight for all three channels: F0 is taken by its luminance.
 Ray specularRay(RayNumber number, vec3 n, vec3 v, MaterialTexel m) {
-    mat3 frame = basisAround(n);
+    vec2 anisotropy = anisotropyAt(number.pixel);
+    mat3 frame = mayBeAnisotropic() ? anisotropicBasis(n, anisotropy) : basisAround(n);
     vec3 eye = v * frame;
     eye = normalize(vec3(eye.xy, max(eye.z, 1e-3)));  // normal maps may face away from the eye
     float alpha = m.roughness * m.roughness;
-    bool cone = spreads != 0u && m.roughness > rayParams.specular.maxRoughness && rayParams.specular.roughFallback == RoughFallback_mips;
+    vec2 widths = mayBeAnisotropic() ? anisotropicAlpha(alpha, anisotropy) : vec2(alpha);
+    bool cone = spreads != 0u && m.roughness > rayParams.specular.maxRoughness &&
+                rayParams.specular.roughFallback == RoughFallback_mips && anisotropy == vec2(0.0);
     vec3 h = vec3(0.0, 0.0, 1.0);
     float share = 1.0;  // masking: the share of light along the ray that reaches the eye
     if (cone && rayParams.coneShare == 0.0) {
@@ -32,19 +35,25 @@ Ray specularRay(RayNumber number, vec3 n, vec3 v, MaterialTexel m) {
     }
     if (m.roughness > mirrorRoughness) {
         vec2 u = randomPair(number);
-        h = sampleGgxVisible(cone ? u * vec2(rayParams.coneShare, 1.0) : u, eye, alpha);
+        h = sampleGgxVisible(cone ? u * vec2(rayParams.coneShare, 1.0) : u, eye, widths);
     }
     vec3 l = 2.0 * dot(eye, h) * h - eye;
     if (cone) {
         return Ray(frame * l, 1.0, 1.0, m.roughness);
     }
     if (m.roughness > mirrorRoughness) {
-        float a2 = alpha * alpha;
-        share = ggxVisibility(max(l.z, 0.0), eye.z, alpha) * 2.0 * max(l.z, 0.0) *
-                (eye.z + sqrt(eye.z * eye.z * (1.0 - a2) + a2));
+        if (mayBeAnisotropic()) {
+            vec3 toLight = vec3(l.xy, max(l.z, 0.0));
+            share = ggxVisibility(toLight, eye, widths) * 2.0 * toLight.z * (eye.z + length(vec3(widths * eye.xy, eye.z)));
+        } else {
+            float a2 = alpha * alpha;
+            share = ggxVisibility(max(l.z, 0.0), eye.z, alpha) * 2.0 * max(l.z, 0.0) *
+                    (eye.z + sqrt(eye.z * eye.z * (1.0 - a2) + a2));
+        }
     }
     float y = relativeF0(number.pixel, m);
-    vec2 table = textureLod(ggxTable, ggxTableUv(eye.z, m.roughness), 0.0).rg;
+    float tableRoughness = mayBeAnisotropic() ? albedoRoughness(m.roughness, anisotropy) : m.roughness;
+    vec2 table = textureLod(ggxTable, ggxTableUv(eye.z, tableRoughness), 0.0).rg;
     float weight = share * fresnelSchlick(vec3(y), dot(eye, h)).x / max(y * table.x + table.y, 1e-3);
     float fade = rayParams.specular.maxRoughness < 1.0 && rayParams.specular.roughFallback == RoughFallback_next
                      ? smoothstep(rayParams.specular.maxRoughness - 0.1, rayParams.specular.maxRoughness, m.roughness)

@@ -20,6 +20,7 @@ layout(rgba8) uniform writeonly image2D pickedBaseColor;
 layout(rgba8) uniform writeonly image2D pickedMaterial;
 layout(rg16f) uniform writeonly image2D pickedMotion;
 layout(rgba16f) uniform writeonly image2D pickedReflectance;
+layout(rg32ui) uniform writeonly uimage2D pickedLayers;
 
 void main() {
     ivec2 block = ivec2(gl_GlobalInvocationID.xy);
@@ -37,5 +38,8 @@ void main() {
     imageStore(pickedMotion, block, texelFetch(motion, pixel, 0));
     if (mayReflectUnusually()) {
         imageStore(pickedReflectance, block, texelFetch(surfaceReflectance, pixel, 0));
+    }
+    if (mayHaveSheen() || mayBeAnisotropic()) {
+        imageStore(pickedLayers, block, texelFetch(surfaceLayers, pixel, 0));
     }
 }

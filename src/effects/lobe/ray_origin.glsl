@@ -1,4 +1,4 @@
-// Where a pixel's rays start. Bound by the sources of rays, from RaySurfaces.
+// Where a pixel's rays start. Bound by bindRayOrigins (rays.h).
 #ifndef REFLET_RAY_ORIGIN_GLSL
 #define REFLET_RAY_ORIGIN_GLSL
 
@@ -6,14 +6,14 @@
 #include "shaders/projection.glsl"
 
 layout(constant_id = 42) const uint startsElsewhere = 0u;  // 1: not at the pixel's surface
-uniform sampler2D origins;
+uniform sampler2DArray origins;
 
-// depth: of the pixel's surface.
-vec3 rayOrigin(ivec2 pixel, float depth, ViewParams view) {
+// slot: pixel and number of the ray; depth: of the pixel's surface.
+vec3 rayOrigin(ivec3 slot, float depth, ViewParams view) {
     if (startsElsewhere != 0u) {
-        return texelFetch(origins, pixel, 0).xyz;
+        return texelFetch(origins, slot, 0).xyz;
     }
-    return uvToWorld(pixelToUv(pixel, view.pixel), depth, view.clipToWorld);
+    return uvToWorld(pixelToUv(slot.xy, view.pixel), depth, view.clipToWorld);
 }
 
 #endif

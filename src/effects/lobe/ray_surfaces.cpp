@@ -43,6 +43,7 @@ RaySurfaces pickSurfaces(gpu::Recorder& f, RaySurfacesStore& own, const GBuffer&
         .emissive = {},
         .motion = own.motion.storage(f, VK_FORMAT_R16G16_SFLOAT, size),
         .reflectance = g.reflectance ? own.reflectance.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, size) : gpu::Image{},
+        .layers = g.layers ? own.layers.storage(f, VK_FORMAT_R32G32_UINT, size) : gpu::Image{},
         .features = g.features};
     gpu::Pass pass = f.compute("pick_surfaces", "pick_surfaces.comp");
     bindSurfaces(f, pass, g)
@@ -60,6 +61,7 @@ RaySurfaces pickSurfaces(gpu::Recorder& f, RaySurfacesStore& own, const GBuffer&
         .write("pickedMotion", picked.motion)
         .write("pickedReflectance",
                picked.reflectance ? picked.reflectance : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT))
+        .write("pickedLayers", picked.layers ? picked.layers : f.placeholder(VK_FORMAT_R32G32_UINT))
         .params(PickSurfacesParams{uvec2(view.size), size, scale, blockPixelOffset(scale)})
         .dispatch(size);
     return {.g = picked, .view = blocks, .scale = scale};

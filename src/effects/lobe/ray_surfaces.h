@@ -33,7 +33,7 @@ struct RaySurfaces {
     ViewParams view;       ///< its clip space maps the picked pixels' centres to the coarse pixels' centres. pixelAngle
                            ///< stays that of full resolution, the resolution of depth
     uint32_t scale = 1;    ///< side of a block in full-resolution pixels
-    gpu::Image origins{};  ///< RGBA32F: points in world space where rays start, if not at the surfaces; none
+    gpu::Image origins{};  ///< RGBA32F array: points in world space where rays start, if not at the surfaces; none
     gpu::Image ambientOcclusion{};  ///< of ambientOcclusion(), at full resolution: dims prefiltered light; may be none
 };
 
@@ -54,6 +54,7 @@ struct RaySurfacesStore {
     gpu::KeptImage material{"surfaces.material"};
     gpu::KeptImage motion{"surfaces.motion"};
     gpu::KeptImage reflectance{"surfaces.reflectance"};
+    gpu::KeptImage layers{"surfaces.layers"};
 };
 
 /// The surfaces of a grid with blocks of scale x scale pixels; with 1 nothing is copied. A block whose picked pixel

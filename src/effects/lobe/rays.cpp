@@ -71,6 +71,12 @@ gpu::Pass& bindMeans(gpu::Recorder& f, gpu::Pass& pass, const LobeLight& light, 
         .write("directional", light.directional ? light.directional : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT));
 }
 
+gpu::Pass& bindRayOrigins(gpu::Recorder& f, gpu::Pass& pass, const Rays& rays) {
+    const gpu::Image& origins = rays.from.origins;
+    return pass.constant("startsElsewhere", origins ? 1U : 0U)
+        .read("origins", origins ? origins : f.placeholder(VK_FORMAT_R32G32B32A32_SFLOAT, gpu::ViewKind::array));
+}
+
 LobeLight resolveRays(gpu::Recorder& f, LobeLightStore& own, const Rays& rays) {
     const uvec2 size = rays.direction.size;
     LobeLight light = lobeImages(f, own, rays.from, rays.countSteps);

@@ -222,6 +222,9 @@ gpu::Image directionalImage(gpu::Recorder& f, LobeLightStore& own, const Rays& r
 /// Binds a lobe's images as outputs of a pass that includes resolve_ray.glsl. firstRay: of its batch.
 gpu::Pass& bindMeans(gpu::Recorder& f, gpu::Pass& pass, const LobeLight& light, uint32_t firstRay);
 
+/// Binds what ray_origin.glsl reads.
+gpu::Pass& bindRayOrigins(gpu::Recorder& f, gpu::Pass& pass, const Rays& rays);
+
 /// Adds the batch to the lobe's images, weighted by 1 over the pixel's ray count.
 LobeLight resolveRays(gpu::Recorder& f, LobeLightStore& own, const Rays& rays);
 

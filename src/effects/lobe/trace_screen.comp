@@ -60,7 +60,7 @@ RayAnswer answerRay(ivec3 slot, Ray ray, inout WaitingRay w) {
         return noAnswer;
     }
     float d = texelFetch(ownDepth, slot.xy, 0).r;
-    vec3 p = rayOrigin(slot.xy, d, params.own);
+    vec3 p = rayOrigin(slot, d, params.own);
     vec3 n = unpackUnitVector(texelFetch(ownGeometricNormal, slot.xy, 0).r);
     if (through != throughScreen && !liesOnMirror(p, n)) {
         return noAnswer;

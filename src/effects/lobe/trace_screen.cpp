@@ -22,6 +22,7 @@ void record(gpu::Recorder& f, gpu::Pass pass, Rays& rays, const Trace& trace, co
     if (trace.through != throughScreen) {
         seen.lit = {};
     }
+    bindRayOrigins(f, pass, rays);
     bindScreen(f, pass, seen,
                {.own = rays.from.view,
                 .mirror = trace.mirror,
@@ -31,8 +32,6 @@ void record(gpu::Recorder& f, gpu::Pass pass, Rays& rays, const Trace& trace, co
                rays.imageMotion)
         .constant("countSteps", countSteps ? 1U : 0U)
         .constant("through", trace.through)
-        .constant("startsElsewhere", rays.from.origins ? 1U : 0U)
-        .read("origins", rays.from.origins ? rays.from.origins : rays.from.g.depth)
         .read("ownDepth", rays.from.g.depth)
         .read("ownGeometricNormal", rays.from.g.geometricNormal)
         .read("direction", rays.direction)

@@ -2,7 +2,7 @@
 // first layer. Out: the share of the light that passes, and extinction behind it [1/m].
 #version 460
 #extension GL_EXT_scalar_block_layout : require
-layout(constant_id = 1) const uint usedSlots = 4095u;
+layout(constant_id = 1) const uint usedSlots = 32767u;
 #include "renderer/glass/glass_share.glsl"
 #include "renderer/material.glsl"
 

@@ -20,7 +20,9 @@ GBuffer drawGBuffer(gpu::Recorder& f, GBufferStore& own, const DrawList& list, c
     const bool blended = bool(content.opaqueDepth);
     const uint32_t surfaces = !blended ? surfacesOpaque : content.nearerDepth ? surfacesBehind : surfacesNearest;
     const bool clipped = clipPlane != vec4(0.0F);
-    const bool reflectance = !content.coat && (list.materialFeatures & materialFeatureReflectance) != 0;
+    const uint32_t features = content.coat ? 0 : list.materialFeatures;
+    const bool layers = (features & (materialFeatureSheen | materialFeatureAnisotropy)) != 0;
+    const bool reflectance = layers || (features & materialFeatureReflectance) != 0;
     const uvec2 size(view.size);
     const GBuffer g{
         .depth = own.depth.target(f, VK_FORMAT_D32_SFLOAT, size),
@@ -31,10 +33,14 @@ GBuffer drawGBuffer(gpu::Recorder& f, GBufferStore& own, const DrawList& list, c
         .emissive = own.emissive.target(f, VK_FORMAT_B10G11R11_UFLOAT_PACK32, size),
         .motion = own.motion.target(f, VK_FORMAT_R16G16B16A16_SFLOAT, size),
         .reflectance = reflectance ? own.reflectance.target(f, VK_FORMAT_R16G16B16A16_SFLOAT, size) : gpu::Image{},
-        .features = content.coat ? 0 : list.materialFeatures,
+        .layers = layers ? own.layers.target(f, VK_FORMAT_R32G32_UINT, size) : gpu::Image{},
+        .features = features,
     };
     const VkClearColorValue zero{};
-    gpu::Pass pass = f.raster("gbuffer", {"gbuffer.vert", reflectance ? "gbuffer_reflectance.frag" : "gbuffer.frag"});
+    const char* const fragment = layers        ? "gbuffer_layers.frag"
+                                 : reflectance ? "gbuffer_reflectance.frag"
+                                               : "gbuffer.frag";
+    gpu::Pass pass = f.raster("gbuffer", {"gbuffer.vert", fragment});
     for (const gpu::Image picture : list.livePictures) {
         pass.read(picture);
     }
@@ -60,6 +66,9 @@ GBuffer drawGBuffer(gpu::Recorder& f, GBufferStore& own, const DrawList& list, c
         .params(GBufferParams{view, settings, clipPlane, content.blendedFrom});
     if (reflectance) {
         pass.color("outReflectance", g.reflectance, zero);
+    }
+    if (layers) {
+        pass.color("outLayers", g.layers, zero);
     }
     pass.draw([&](const gpu::DrawCommands& to) {
         const auto keep = [&](const Draw& draw) {

@@ -62,6 +62,7 @@ struct GBufferStore {
     gpu::KeptImage emissive{"emissive"};
     gpu::KeptImage motion{"motion"};
     gpu::KeptImage reflectance{"reflectance"};
+    gpu::KeptImage layers{"layers"};
 };
 
 /// What of the draw list a G-buffer holds.

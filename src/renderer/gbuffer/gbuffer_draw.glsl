@@ -1,10 +1,11 @@
 // G-buffer: evaluates the material's textures and factors, and the shading normal. The includer defines
-// REFLET_REFLECTANCE_TARGET if there is a target for the reflectance: a shader must not write to one that is missing.
+// REFLET_REFLECTANCE_TARGET and REFLET_LAYERS_TARGET if there are targets for the reflectance, and for sheen and
+// anisotropy: a shader must not write to one that is missing.
 #include "effects/gbuffer/gbuffer.glsl"
 #include "renderer/gbuffer/draw_gbuffer.h"
 
 layout(constant_id = 0) const uint clipped = 0u;
-layout(constant_id = 2) const uint usedSlots = 4095u;
+layout(constant_id = 2) const uint usedSlots = 32767u;
 layout(constant_id = 3) const uint surfaces = surfacesOpaque;
 layout(constant_id = 4) const uint translucent = translucentBlended;
 #include "renderer/material.glsl"
@@ -30,6 +31,9 @@ layout(location = 5) out vec4 outMotion;
 #ifdef REFLET_REFLECTANCE_TARGET
 layout(location = 6) out vec4 outReflectance;
 #endif
+#ifdef REFLET_LAYERS_TARGET
+layout(location = 7) out uvec2 outLayers;
+#endif
 
 // The triangle's normal, facing the camera; the shading normal if the triangle is seen edge-on.
 vec3 geometricNormal(vec3 shading) {
@@ -42,13 +46,38 @@ vec3 geometricNormal(vec3 shading) {
     return n * (inversesqrt(square) * (dot(n, toEye) < 0.0 ? -1.0 : 1.0));
 }
 
-vec3 mappedNormal(vec3 n, vec3 texel, float scale) {
+mat3 tangentFrame(vec3 n) {
     vec3 t = normalize(tangentW.xyz - n * dot(n, tangentW.xyz));
-    vec3 b = cross(n, t) * tangentW.w;
+    return mat3(t, cross(n, t) * tangentW.w, n);
+}
+
+vec3 mappedNormal(vec3 n, vec3 texel, float scale) {
     vec3 m = texel * 2.0 - 1.0;
     m.xy *= scale;
-    return normalize(mat3(t, b, n) * m);
+    return normalize(tangentFrame(n) * m);
 }
+
+#ifdef REFLET_LAYERS_TARGET
+// KHR_materials_anisotropy: alpha grows from `roughness` squared toward 1 along the direction. Sets the roughness to that
+// of the geometric mean of both. n: as packed in the G-buffer.
+vec2 anisotropyAround(vec3 n, inout float roughness) {
+    const float leastAlpha = 1e-3;
+    vec3 anisotropy = materialAnisotropy(uv.xy, uv.zw);
+    mat3 frame = tangentFrame(gl_FrontFacing ? n : -n);
+    vec3 direction = frame[0] * anisotropy.x + frame[1] * anisotropy.y;
+    mat3 basis = basisAround(n);
+    vec2 along = vec2(dot(direction, basis[0]), dot(direction, basis[1]));
+    float square = dot(along, along);
+    if (!(anisotropy.z > 0.0) || !(square > 1e-6)) {
+        return vec2(0.0);
+    }
+    float across = max(roughness * roughness, leastAlpha);
+    float ratio = mix(across, 1.0, anisotropy.z * anisotropy.z) / across;
+    roughness = sqrt(across * sqrt(ratio));
+    vec2 twice = vec2(along.x * along.x - along.y * along.y, 2.0 * along.x * along.y) / square;
+    return twice * (0.5 * log2(ratio) / mostAnisotropy);
+}
+#endif
 
 vec3 shadingNormal() {
     vec3 n = normalize(normalW);
@@ -138,6 +167,10 @@ void main() {
     }
 #ifdef REFLET_REFLECTANCE_TARGET
     outReflectance = materialReflectance(uv.xy, uv.zw);
+#endif
+#ifdef REFLET_LAYERS_TARGET
+    vec2 anisotropy = anisotropyAround(unpackUnitVector(packUnitVector(n)), roughnessMetallic.x);
+    outLayers = packLayers(materialSheen(uv.xy, uv.zw), anisotropy);
 #endif
     outBaseColor = vec4(packBaseColor(baseColor.rgb), 1.0);
     outNormal = packUnitVector(n);

@@ -44,18 +44,20 @@ GlassSurfaces glassSurfaces(gpu::Recorder& f, GlassSurfacesStore& own, const Dra
 }
 
 RefractedRays refractRays(gpu::Recorder& f, gpu::Scratch& scratch, GlassSurfacesStore& own, const GBuffer& g,
-                          const GlassSurfaces& glass, gpu::Image ggxTable, const RefractParams& params) {
+                          const GlassSurfaces& glass, gpu::Image ggxTable, bool disperses,
+                          const RefractParams& params) {
     const uvec2 size = g.depth.size;
     RaySurfaces from{.g = g, .view = params.view};
-    from.origins = own.origins.storage(f, VK_FORMAT_R32G32B32A32_SFLOAT, size);
+    from.origins = own.origins.storage(f, VK_FORMAT_R32G32B32A32_SFLOAT, size, disperses ? 3 : 1, true);
     from.g.geometricNormal = own.leavingNormal.storage(f, VK_FORMAT_R32_UINT, size);
     RayGeneration generation{.from = from, .tiles = {}, .ggxTable = ggxTable};
     generation.lobe = lobeSpecular;
-    generation.params.rayCount = 1;
+    generation.params.rayCount = disperses ? 3 : 1;
     RefractedRays out{raysOf(f, scratch, generation), own.share.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, size)};
     out.rays.spreads = params.frosted != 0;
     gpu::Pass pass = f.compute("refract_rays", "refract_rays.comp");
     bindSurfaces(f, pass, g)
+        .constant("disperses", disperses ? 1U : 0U)
         .read("depth", g.depth)
         .read("normal", g.normal)
         .read("geometricNormal", g.geometricNormal)
@@ -82,6 +84,7 @@ void glassOver(gpu::Recorder& f, const GBuffer& g, gpu::Image layer, const Refra
                gpu::Image behind, gpu::Image over) {
     f.compute("glass_over", "glass_over.comp")
         .constant("transmits", transmitted != nullptr ? 1U : 0U)
+        .constant("disperses", transmitted != nullptr && transmitted->rays.count > 1 ? 1U : 0U)
         .read("depth", g.depth)
         .read("layer", layer)
         .read("behind", behind)

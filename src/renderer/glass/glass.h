@@ -68,7 +68,7 @@ struct GlassSurfacesStore {
 struct GlassSurfaces {
     gpu::Image tint;        ///< RGBA16F: share of light that passes the surface, without reflection; thickness [m]
     gpu::Image volume;      ///< RGBA16F: extinction [1/m]; index of refraction
-    gpu::Image kind;        ///< R32_UINT: MaterialParams::glass, 0: none
+    gpu::Image kind;        ///< R32_UINT: MaterialParams::glass (glassKind), 0: none
     gpu::Image exitDepth;   ///< D32, reversed: of the nearest back face of that material behind the surface, 0: none
     gpu::Image exitNormal;  ///< R32_UINT: its normal, outward (packUnitVector)
 };
@@ -77,15 +77,16 @@ struct GlassSurfaces {
 GlassSurfaces glassSurfaces(gpu::Recorder& f, GlassSurfacesStore& own, const DrawList& list, const ViewParams& view,
                             const GBuffer& g);
 
-/// A ray for each pixel of the layer, from where it leaves the glass.
+/// A ray for each pixel of the layer, or three where it disperses light, from where it leaves the glass.
 struct RefractedRays {
     Rays rays;
-    gpu::Image share;  ///< RGBA16F: share of the ray's radiance that reaches the viewer
+    /// RGBA16F: share of the ray's radiance that reaches the viewer; number of rays: 3 are of red, green, blue.
+    gpu::Image share;
 };
 
-/// The rays' images live as long as `scratch`.
+/// The rays' images live as long as `scratch`. disperses: whether some of the glass does.
 RefractedRays refractRays(gpu::Recorder& f, gpu::Scratch& scratch, GlassSurfacesStore& own, const GBuffer& g,
-                          const GlassSurfaces& glass, gpu::Image ggxTable, const RefractParams& params);
+                          const GlassSurfaces& glass, gpu::Image ggxTable, bool disperses, const RefractParams& params);
 
 /// over = what the layer itself sends, where there is one, plus what it transmits (none: nothing); `behind` elsewhere.
 /// All RGBA16F. The alpha of `behind` is kept.

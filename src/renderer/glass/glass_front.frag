@@ -3,7 +3,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "renderer/glass/glass.h"
-layout(constant_id = 0) const uint usedSlots = 4095u;
+layout(constant_id = 0) const uint usedSlots = 32767u;
 #include "renderer/material.glsl"
 #include "shaders/half_float.glsl"
 

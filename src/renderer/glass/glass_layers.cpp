@@ -45,7 +45,7 @@ LightLayers addLayer(gpu::Recorder& f, GlassStore& own, const ViewInputs& in, co
     }
     const GlassSurfaces made = glassSurfaces(f, own.surfaces, in.draws, in.view, g);
     gpu::Scratch scratch(f);
-    RefractedRays refracted = refractRays(f, scratch, own.surfaces, g, made, in.ggxTable,
+    RefractedRays refracted = refractRays(f, scratch, own.surfaces, g, made, in.ggxTable, in.draws.dispersive,
                                           {in.view, settings.transmission.exitSteps, in.draws.frosted ? 1U : 0U});
     answerRays(f, refracted.rays, in, settings, seen);
     const auto over = [&](gpu::KeptImage& kept, gpu::Image layer, const RefractedRays* rays, gpu::Image under,

@@ -6,6 +6,7 @@
 #include "shaders/half_float.glsl"
 
 layout(constant_id = 0) const uint transmits = 1u;
+layout(constant_id = 1) const uint disperses = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { GlassOverParams params; };
@@ -25,7 +26,13 @@ void main() {
     if (texelFetch(depth, pixel, 0).r > 0.0) {
         light.rgb = texelFetch(layer, pixel, 0).rgb;
         if (transmits != 0u) {
-            light.rgb += texelFetch(share, pixel, 0).rgb * imageLoad(answer, ivec3(pixel, 0)).rgb;
+            vec4 passed = texelFetch(share, pixel, 0);
+            vec3 beyond = imageLoad(answer, ivec3(pixel, 0)).rgb;
+            if (disperses != 0u && passed.a > 1.0) {
+                beyond.g = imageLoad(answer, ivec3(pixel, 1)).g;
+                beyond.b = imageLoad(answer, ivec3(pixel, 2)).b;
+            }
+            light.rgb += passed.rgb * beyond;
         }
     }
     imageStore(over, pixel, roundToHalf(vec4(clampToHalf(light.rgb), light.a)));

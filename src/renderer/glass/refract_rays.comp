@@ -1,14 +1,18 @@
 // Follows the view rays through a layer of glass. In: the layer's depth, normals, material; what it is made of; depth and
 // normals of its back faces. Out: where each ray leaves the glass, the normal and the direction there, the list of these
-// rays, and the share of their light that reaches the viewer.
+// rays, and the share of their light that reaches the viewer. Where the material disperses light (KHR_materials_dispersion)
+// red, green and blue have a ray each.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/gbuffer/gbuffer_surface.glsl"
 #include "effects/lobe/rays.glsl"
 #include "renderer/glass/glass.h"
+#include "renderer/material.h"
 #include "shaders/not_inlined.glsl"
 #include "shaders/projection.glsl"
 #include "shaders/refraction.glsl"
+
+layout(constant_id = 0) const uint disperses = 0u;  // 1: some materials do
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { RefractParams params; };
@@ -22,7 +26,7 @@ uniform usampler2D kind;
 uniform sampler2D exitDepth;
 uniform usampler2D exitNormal;
 uniform sampler2D ggxTable;
-layout(rgba32f) uniform writeonly image2D origins;
+layout(rgba32f) uniform writeonly image2DArray origins;
 layout(r32ui) uniform writeonly uimage2D leavingNormal;
 layout(rgba16f) uniform writeonly image2D share;
 layout(rg32ui) uniform writeonly uimage2DArray direction;
@@ -93,35 +97,71 @@ vec3 leave(inout Crossing c, vec3 n, float ior, vec4 dielectric, inout vec3 ligh
     return outside;
 }
 
+// A layer of glass at a pixel.
+struct Pane {
+    ivec2 pixel;
+    vec3 point;
+    vec3 normal;  // of shading
+    vec3 toEye;
+    vec4 passes;  // share of the light that passes the surface, thickness [m]
+    vec4 inside;  // extinction [1/m], index of refraction
+    float roughness;
+    vec4 dielectric;
+};
+
+struct Refracted {
+    Crossing exit;
+    vec3 direction;
+    vec3 light;  // share that reaches the viewer
+};
+
+Refracted refractBy(Pane pane, float ior, vec3 light) {
+    vec3 bent;
+    refractAt(-pane.toEye, -pane.normal, 1.0 / ior, bent);
+    Refracted r;
+    r.exit = findExit(pane.pixel, pane.point, pane.normal, bent, pane.passes.a);
+    r.light = light * pane.passes.rgb * exp(-pane.inside.rgb * r.exit.path);
+    r.direction = leave(r.exit, pane.normal, ior, pane.dielectric, r.light);
+    return r;
+}
+
+void emitRay(Pane pane, int layer, Refracted r, float ior) {
+    float spread = pane.passes.a > 0.0 ? refractedRoughness(pane.roughness, ior) : pane.roughness;
+    bool frosted = notInlined(params.frosted, gl_GlobalInvocationID.x) != 0u && spread > 0.05;
+    Ray ray = Ray(r.direction, 1.0, 1.0, frosted ? spread : 0.0);
+    imageStore(origins, ivec3(pane.pixel, layer), vec4(r.exit.point, r.exit.path));
+    imageStore(direction, ivec3(pane.pixel, layer), uvec4(packRay(ray), 0u, 0u));
+    appendRay(WaitingRay(ivec3(pane.pixel, layer), 1.0, 0.0, false));
+}
+
 void refractPixel(ivec2 pixel, float d) {
     vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
     vec3 n = unpackUnitVector(texelFetch(normal, pixel, 0).r);
-    vec3 geometric = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
     vec3 v = directionToEye(p, params.view.eye);
-    vec4 passes = texelFetch(tint, pixel, 0);
-    vec4 inside = texelFetch(volume, pixel, 0);
     MaterialTexel m = unpackMaterial(texelFetch(material, pixel, 0));
     m.metallic = 0.0;
-    vec4 dielectric = dielectricAt(pixel);
-    vec3 light = passes.rgb * surfaceAt(pixel, vec3(1.0), m, max(dot(n, v), 1e-3), ggxTable, false).diffuse;
-    Crossing c = Crossing(p, -geometric, -v, 0.0);
-    vec3 outside = -v;
-    float spread = m.roughness;
-    if (passes.a > 0.0) {
-        float ior = max(inside.a, 1.0);
-        vec3 refracted;
-        refractAt(-v, -n, 1.0 / ior, refracted);
-        c = findExit(pixel, p, n, refracted, passes.a);
-        light *= passes.rgb * exp(-inside.rgb * c.path);
-        outside = leave(c, n, ior, dielectric, light);
-        spread = refractedRoughness(m.roughness, ior);
+    Pane pane = Pane(pixel, p, n, v, texelFetch(tint, pixel, 0), texelFetch(volume, pixel, 0), m.roughness, dielectricAt(pixel));
+    vec3 light = pane.passes.rgb * surfaceAt(pixel, vec3(1.0), m, max(dot(n, v), 1e-3), ggxTable, false).diffuse;
+    vec3 geometric = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
+    Refracted r = Refracted(Crossing(p, -geometric, -v, 0.0), -v, light);
+    float ior = max(pane.inside.a, 1.0);
+    bool split = false;
+    if (pane.passes.a > 0.0) {
+        r = refractBy(pane, ior, light);
+        float dispersion = disperses != 0u ? float(texelFetch(kind, pixel, 0).r >> glassKindBits) / glassDispersionSteps : 0.0;
+        split = dispersion > 0.0;
+        // Indices of red and blue light, whose difference is (ior - 1) over the Abbe number.
+        float aside = (ior - 1.0) * dispersion * 0.025;
+        for (int side = -1; split && side <= 1; side += 2) {
+            float other = max(ior + float(side) * aside, 1.0);
+            Refracted o = refractBy(pane, other, light);
+            emitRay(pane, side + 1, o, other);
+            r.light = side < 0 ? vec3(o.light.r, r.light.gb) : vec3(r.light.rg, o.light.b);
+        }
     }
-    imageStore(origins, pixel, vec4(c.point, c.path));
-    imageStore(leavingNormal, pixel, uvec4(packUnitVector(c.normal), 0u, 0u, 0u));
-    imageStore(share, pixel, vec4(light, 1.0));
-    Ray ray = Ray(outside, 1.0, 1.0, notInlined(params.frosted, gl_GlobalInvocationID.x) != 0u && spread > 0.05 ? spread : 0.0);
-    imageStore(direction, ivec3(pixel, 0), uvec4(packRay(ray), 0u, 0u));
-    appendRay(WaitingRay(ivec3(pixel, 0), 1.0, 0.0, false));
+    emitRay(pane, split ? 1 : 0, r, ior);
+    imageStore(leavingNormal, pixel, uvec4(packUnitVector(r.exit.normal), 0u, 0u, 0u));
+    imageStore(share, pixel, vec4(r.light, split ? 3.0 : 1.0));
 }
 
 void main() {
@@ -129,8 +169,10 @@ void main() {
     if (any(greaterThanEqual(pixel, ivec2(params.view.size)))) {
         return;
     }
-    imageStore(answer, ivec3(pixel, 0), vec4(0.0));
-    imageStore(source, ivec3(pixel, 0), vec4(0.0));
+    for (int i = 0; i < (disperses != 0u ? 3 : 1); ++i) {
+        imageStore(answer, ivec3(pixel, i), vec4(0.0));
+        imageStore(source, ivec3(pixel, i), vec4(0.0));
+    }
     float d = texelFetch(depth, pixel, 0).r;
     if (d > 0.0) {
         refractPixel(pixel, d);

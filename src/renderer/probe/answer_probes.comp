@@ -37,7 +37,7 @@ ProbeParams loadProbe(uint index) { return params.probes.probes[index]; }
 RayAnswer answerRay(ivec3 slot, Ray ray) {
     ivec2 pixel = slot.xy;
     float d = texelFetch(depth, pixel, 0).r;
-    vec3 p = rayOrigin(pixel, d, params.view);
+    vec3 p = rayOrigin(slot, d, params.view);
     bool hemisphere = spreads != 0u && lobe == lobeDiffuse && ray.spread > 0.0;
     // Scattered rays are averaged over frames anyway. A mirror's would show the choice as grain.
     uint stream = params.firstRay + uint(slot.z) + hashPcg(params.view.seed + 11u);

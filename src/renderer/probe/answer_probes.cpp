@@ -11,12 +11,11 @@ void answerProbes(gpu::Recorder& f, Rays& rays, const ProbeMaps& probes, const P
     const VkSampler trilinear =
         f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
     gpu::Pass pass = f.compute("answer_probes", "answer_probes.comp");
+    bindRayOrigins(f, pass, rays);
     bindAmbientOcclusion(f, pass, rays.from.ambientOcclusion, rays.from.scale)
         .constant("lobe", rays.lobe)
         .constant("spreads", rays.spreads ? 1U : 0U)
         .constant("parallax", static_cast<uint32_t>(settings.parallax))
-        .constant("startsElsewhere", rays.from.origins ? 1U : 0U)
-        .read("origins", rays.from.origins ? rays.from.origins : rays.from.g.depth)
         .read("depth", rays.from.g.depth)
         .read("material", rays.from.g.material)
         .read("probeLobes", probes.lobes, trilinear)

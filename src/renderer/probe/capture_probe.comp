@@ -44,7 +44,7 @@ vec3 indirectAt(ivec2 pixel, vec3 p) {
     vec3 r = reflect(-v, n);
     ProbeQuery around = ProbeQuery(p, n, 0.0, true, ProbeParallax_box, params.blend, -1.0);
     ProbeQuery mirrored = ProbeQuery(p, r, m.roughness, false, ProbeParallax_box, params.blend, -1.0);
-    vec3 radiance = s.diffuse * m.occlusion * probesOrSky(around, environmentIrradianceOverPi(n));
+    vec3 radiance = (s.diffuse + s.sheenAlbedo) * m.occlusion * probesOrSky(around, environmentIrradianceOverPi(n));
     return radiance + s.specular * probesOrSky(mirrored, environmentLobe(r, m.roughness));
 }
 

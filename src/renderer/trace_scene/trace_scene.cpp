@@ -13,6 +13,7 @@ void traceScene(gpu::Recorder& f, Rays& rays, const TraceSceneInputs& in, uint32
                        (params.settings.light == SceneHitLight::screen || params.fromPrevious != 0);
     const bool tellsMotion = rays.imageMotion && rays.firstRay == 0;
     gpu::Pass pass = f.compute("trace_scene", in.scene.rays.shader("trace_scene"));
+    bindRayOrigins(f, pass, rays);
     in.scene.rays.bind(pass);
     in.scene.surfaces.bind(pass);
     bindEnvironment(pass, in.environment);
@@ -28,8 +29,6 @@ void traceScene(gpu::Recorder& f, Rays& rays, const TraceSceneInputs& in, uint32
         .read("probeIrradiance", in.probes ? in.probes.irradiance : in.environment.irradiance)
         .read("probeDistance", in.probes ? in.probes.distance : in.environment.lobes)
         .params(in.probes.block, "probeBlock")
-        .constant("startsElsewhere", rays.from.origins ? 1U : 0U)
-        .read("origins", rays.from.origins ? rays.from.origins : rays.from.g.depth)
         .read("ownDepth", rays.from.g.depth)
         .read("ownGeometricNormal", rays.from.g.geometricNormal)
         .read("depth", g.depth)

@@ -250,7 +250,7 @@ vec3 radianceAlong(SceneRay ray, inout uint random, out float hitDistance) {
 // built-in scene cave that loses a tenth of the light).
 SceneRay rayOfPixel(ivec3 slot, Ray ray) {
     float d = texelFetch(ownDepth, slot.xy, 0).r;
-    vec3 p = rayOrigin(slot.xy, d, params.own);
+    vec3 p = rayOrigin(slot, d, params.own);
     vec3 n = unpackUnitVector(texelFetch(ownGeometricNormal, slot.xy, 0).r);
     float away = depthToViewDistance(d, params.own.depthToDistance);
     float roughness = unpackMaterial(texelFetch(material, slot.xy, 0)).roughness;
