@@ -22,7 +22,7 @@ struct Draw {
     bool masked = false;   ///< has an alpha cutoff
     bool blended = false;  ///< alpha is coverage; masked, too
     bool glass = false;    ///< transmissive
-    bool coated = false;   ///< has a clear coat; not of blended draws
+    bool coated = false;   ///< has a clear coat
     float alpha = 1.0F;    ///< of blended draws: the largest that occurs, or more
     bool doubleSided = false;
     bool turnedOver = false;  ///< its triangles have clockwise winding in object space
@@ -45,6 +45,7 @@ struct DrawList {
     bool murky = false;                    ///< some of these are opaque in part
     bool coated = false;                   ///< some draws have clear coats
     bool coatedGlass = false;              ///< some of these are transmissive
+    bool coatedBlended = false;            ///< some of these are blended
     std::vector<gpu::Image> livePictures;  ///< camera images shown by materials, written by passes
     /// Changes whenever the draws' geometry or transforms change. 0: treat as always changed.
     uint64_t version = 0;

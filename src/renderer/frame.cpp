@@ -15,7 +15,6 @@
 #include "effects/temporal/temporal.h"
 #include "effects/tonemap/tonemap.h"
 #include "gpu/context.h"
-#include "renderer/blend/blend.h"
 #include "renderer/gbuffer/draw_gbuffer.h"
 #include "renderer/history.h"
 #include "renderer/planar/planar_view.h"
@@ -40,48 +39,6 @@ TracedView tracedView(const ViewInputs& in, const ViewImages& images) {
                               .lit = {},
                               .lightMips = {}};
     return {images, screen, {}};
-}
-
-// Light of blended surfaces, and in alpha what they let through of the light behind. Layers only if they are kept.
-struct BlendedLight {
-    gpu::Image lit;  // none: the view shows no blended surfaces
-    gpu::Image direct;
-    gpu::Image indirectDiffuse;
-    gpu::Image indirectSpecular;
-};
-
-BlendedLight lightBlended(gpu::Recorder& f, BlendStore& own, const ViewInputs& in, const Settings& asked,
-                          const TracedView& seen, bool layers) {
-    BlendedLight out;
-    if (asked.blend.layers == 0 || !showsBlended(in.draws, in.view)) {
-        return out;
-    }
-    const auto scope = f.scope("blend");
-    const Settings settings = layerSettings(asked);
-    const auto sum = [&](gpu::KeptImage& image) { return image.storage(f, litFormat, seen.images.g.depth.size); };
-    out.lit = sum(own.lit);
-    if (layers) {
-        out = {out.lit, sum(own.direct), sum(own.indirectDiffuse), sum(own.indirectSpecular)};
-    }
-    gpu::Image nearer;
-    for (uint32_t i = 0; i < settings.blend.layers; ++i) {
-        BlendStore::Layer& store = own.layers[i % own.layers.size()];
-        TracedView layer{seen.images, seen.screen, {}};
-        layer.images.ambientOcclusion = {};
-        const GBufferContent content{
-            .clipPlane = in.clipPlane, .opaqueDepth = seen.images.g.depth, .nearerDepth = nearer};
-        layer.images.g = drawGBuffer(f, store.g, in.draws, in.view, settings.materials, content);
-        nearer = layer.images.g.depth;
-        const Composite light = lightLayer(f, store, in, settings, layer, layers);
-        const gpu::Image alpha = layer.images.g.motion;
-        blendLayer(f, out.lit, light.lit, alpha, i == 0);
-        if (layers) {
-            blendLayer(f, out.direct, layer.images.direct, alpha, i == 0);
-            blendLayer(f, out.indirectDiffuse, light.indirectDiffuse, alpha, i == 0);
-            blendLayer(f, out.indirectSpecular, light.indirectSpecular, alpha, i == 0);
-        }
-    }
-    return out;
 }
 
 // `behind` with the blended surfaces in front of it, in another image.

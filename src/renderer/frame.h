@@ -8,6 +8,7 @@
 #include "effects/temporal/temporal.h"
 #include "gpu/recorder.h"
 #include "renderer/background/background.h"
+#include "renderer/blend/blend_layers.h"
 #include "renderer/coat/coat.h"
 #include "renderer/direct_view.h"
 #include "renderer/gbuffer/draw_gbuffer.h"
@@ -17,7 +18,6 @@
 #include "renderer/settings.h"
 #include "renderer/trace_lobe.h"
 
-#include <array>
 #include <vector>
 
 namespace reflet {
@@ -36,18 +36,6 @@ struct ViewStore {
     gpu::KeptImage litBlended{"lit.blended"};
     GlassStore glass;
     CoatStore coat;
-};
-
-/// Owns the images of the layers of blended surfaces in front of a view.
-struct BlendStore {
-    struct Layer : LitLayerStore {
-        GBufferStore g;
-    };
-    std::array<Layer, 2> layers;  ///< used in turn: a layer is peeled by the depth of the one before
-    gpu::KeptImage lit{"blended"};
-    gpu::KeptImage direct{"blended_direct"};
-    gpu::KeptImage indirectDiffuse{"blended_diffuse"};
-    gpu::KeptImage indirectSpecular{"blended_specular"};
 };
 
 /// Owns all images of a frame; every picture that is rendered over time has its own.

@@ -256,8 +256,9 @@ void GpuScene::addDraws(const Scene& scene) {
         draws_.dispersive = draws_.dispersive || (draw.glass && glass.thickness > 0.0F && glass.dispersion > 0.0F);
         const bool murky = material.transmission.factor < 1.0F || material.transmission.texture.image >= 0;
         draws_.murky = draws_.murky || (draw.glass && murky);
-        draw.coated = material.clearcoat.factor > 0.0F && !draw.blended;
+        draw.coated = material.clearcoat.factor > 0.0F;
         draws_.coated = draws_.coated || draw.coated;
+        draws_.coatedBlended = draws_.coatedBlended || (draw.coated && draw.blended);
         draws_.coatedGlass = draws_.coatedGlass || (draw.coated && draw.glass);
         draw.alpha = draw.blended ? material.baseColor.a : 1.0F;
         draw.doubleSided = material.doubleSided;

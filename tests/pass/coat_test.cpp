@@ -155,6 +155,24 @@ TEST(Coat, ItsTextureSaysWhereItIs) {
     EXPECT_NEAR(halves.value("final", 40, 24), 0.0F, 1e-4F);
 }
 
+// Coverage scales the coat with the rest of the surface; where it is whole, the coat is that of an opaque surface.
+TEST(Coat, OfABlendedSurfaceCoversWithIt) {
+    const auto shown = [](float alpha, const char* coats) {
+        Material black = lambertMaterial(vec3(0.0F));
+        black.roughness = 1.0F;
+        black.specular = 0.0F;
+        black.blended = true;
+        black.alphaCutoff = blendCutoff;
+        black.baseColor.a = alpha;
+        black.clearcoat = {.factor = 1.0F};
+        View view = whiteRoom();
+        return render(wall(black), view, size, settingsOf({"diffuse.rays=0", coats}), {"final"}).value("final", 24, 24);
+    };
+    EXPECT_NEAR(shown(1.0F, "materials.coats=true"), 0.04F, 0.002F);
+    const float behind = shown(0.5F, "materials.coats=false");
+    EXPECT_NEAR(shown(0.5F, "materials.coats=true"), behind + 0.5F * 0.04F, 0.002F);
+}
+
 // A bright panel that a mirror-like coat shows, and a rough or tilted one does not.
 TEST(Coat, ItHasARoughnessAndANormalOfItsOwn) {
     const auto shown = [](const Image* roughness, const Image* normal) {

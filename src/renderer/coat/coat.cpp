@@ -28,7 +28,9 @@ gpu::Image directOnCoats(gpu::Recorder& f, LitLayerStore& own, const ViewInputs&
 
 bool showsCoats(const ViewInputs& in, const Settings& settings) {
     const bool glass = drawsGlass(in.draws, settings.transmission, settings.materials);
-    const auto keep = [&](const Draw& draw) { return draw.coated && !(draw.glass && glass); };
+    const auto keep = [&](const Draw& draw) {
+        return draw.coated && draw.alpha >= opaqueAlpha && !(draw.glass && glass);
+    };
     return in.draws.coated && settings.materials.coats != 0 && settings.materials.lambertOnly == 0 &&
            anyDraws(in.draws, {.keep = keep, .worldToClip = in.view.worldToClip});
 }
@@ -45,7 +47,8 @@ LightLayers addCoats(gpu::Recorder& f, CoatStore& own, const ViewInputs& in, con
     GBufferContent content{
         .clipPlane = in.clipPlane, .opaqueDepth = surfaces.depth, .nearerDepth = surfaces.nearerDepth};
     content.coat = true;
-    content.glass = surfaces.glass;
+    content.glass = surfaces.kind == CoatedSurfaces::Kind::glass;
+    content.blendedCoats = surfaces.kind == CoatedSurfaces::Kind::blended;
     content.withoutGlass = drawsGlass(in.draws, settings.transmission, settings.materials);
     TracedView coats = seen;
     coats.images.ambientOcclusion = {};

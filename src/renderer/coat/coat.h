@@ -44,8 +44,8 @@ bool coatsGlass(const DrawList& list, const Settings& settings);
 /// The surfaces whose coats are drawn.
 struct CoatedSurfaces {
     gpu::Image depth;        ///< as rendered, with the same list and view
-    gpu::Image nearerDepth;  ///< of the layer of glass in front; none: `depth` is that of the nearest one
-    bool glass = false;      ///< a layer of glass, not the opaque surfaces
+    gpu::Image nearerDepth;  ///< of the layer in front; none: `depth` is that of the nearest one
+    enum class Kind : uint8_t { opaque, glass, blended } kind = Kind::opaque;
 };
 
 /// Composites the coats over `behind`, the light of these surfaces. seen: the surfaces, with their shadows, and the

@@ -12,6 +12,13 @@ bool isInFront(const Aabb& box, const vec4& plane) {
     return glm::dot(plane, vec4(farthest, 1.0F)) > 0.0F;
 }
 
+uint32_t translucentOf(const GBufferContent& content) {
+    if (content.coat) {
+        return content.blendedCoats ? translucentBlendedCoat : content.glass ? translucentGlassCoat : translucentCoat;
+    }
+    return content.glass ? translucentGlass : translucentBlended;
+}
+
 }  // namespace
 
 GBuffer drawGBuffer(gpu::Recorder& f, GBufferStore& own, const DrawList& list, const ViewParams& view,
@@ -50,9 +57,7 @@ GBuffer drawGBuffer(gpu::Recorder& f, GBufferStore& own, const DrawList& list, c
     pass.constant("clipped", clipped ? 1U : 0U)
         .constant("usedSlots", list.textureSlots)
         .constant("surfaces", surfaces)
-        .constant("translucent", content.coat    ? translucentCoat
-                                 : content.glass ? translucentGlass
-                                                 : translucentBlended)
+        .constant("translucent", translucentOf(content))
         .constant("materialFeatures", list.materialFeatures)
         .constant("bent", list.previousPositions != VK_NULL_HANDLE ? 1U : 0U)
         .color("outBaseColor", g.baseColor, zero)
@@ -73,7 +78,8 @@ GBuffer drawGBuffer(gpu::Recorder& f, GBufferStore& own, const DrawList& list, c
     pass.draw([&](const gpu::DrawCommands& to) {
         const auto keep = [&](const Draw& draw) {
             const bool opaque = draw.alpha >= content.blendedFrom && !(content.withoutGlass && draw.glass);
-            const bool layer = content.glass ? draw.glass : content.coat ? opaque : draw.blended;
+            const bool opaqueCoats = content.coat && !content.blendedCoats;
+            const bool layer = content.glass ? draw.glass : opaqueCoats ? opaque : draw.blended;
             const bool drawn = (blended ? layer : opaque) && (draw.coated || !content.coat);
             return drawn && (!clipped || isInFront(draw.boundsW, clipPlane));
         };

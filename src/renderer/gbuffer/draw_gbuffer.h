@@ -33,7 +33,9 @@ const uint surfacesBehind = 2;   // the next ones, behind those of another layer
 // What those translucent surfaces are, as the specialization constant `translucent`.
 const uint translucentBlended = 0;
 const uint translucentGlass = 1;
-const uint translucentCoat = 2;  // the clear coats of what is seen
+const uint translucentCoat = 2;  // the clear coats of opaque surfaces
+const uint translucentGlassCoat = 3;
+const uint translucentBlendedCoat = 4;
 
 struct GBufferParams {
     ViewParams view;
@@ -75,6 +77,7 @@ struct GBufferContent {
     /// The clear coats of those surfaces, or of the opaque ones: black dielectrics of the standard reflectance, whose
     /// share is in the motion's alpha. opaqueDepth: of the surfaces themselves.
     bool coat = false;
+    bool blendedCoats = false;  ///< those of a layer of blended surfaces, not of the opaque ones
     bool withoutGlass = false;  ///< transmissive surfaces do not count as opaque
 };
 

@@ -8,6 +8,7 @@ layout(constant_id = 0) const uint clipped = 0u;
 layout(constant_id = 2) const uint usedSlots = 32767u;
 layout(constant_id = 3) const uint surfaces = surfacesOpaque;
 layout(constant_id = 4) const uint translucent = translucentBlended;
+const bool drawsCoats = translucent >= translucentCoat;
 #include "renderer/material.glsl"
 
 layout(scalar) uniform ParamsBlock { GBufferParams params; };
@@ -81,7 +82,7 @@ vec2 anisotropyAround(vec3 n, inout float roughness) {
 
 vec3 shadingNormal() {
     vec3 n = normalize(normalW);
-    if (translucent == translucentCoat) {
+    if (drawsCoats) {
         if (hasTexture(slotCoatNormal)) {
             n = mappedNormal(n, texture(coatNormalTexture, slotUv(slotCoatNormal, uv.xy, uv.zw)).xyz,
                              material.coatNormalScale);
@@ -116,10 +117,12 @@ bool isPeeled() {
 
 // kept: by the alpha test.
 bool isDrawn(float alpha, bool kept) {
+    bool opaque = isBlended() ? alpha >= params.blendedFrom : kept;
     if (surfaces == surfacesOpaque) {
-        return isBlended() ? alpha >= params.blendedFrom : kept;
+        return opaque;
     }
-    return isPeeled() && (translucent == translucentBlended ? isTranslucent(alpha) : kept);
+    bool glass = translucent == translucentGlass || translucent == translucentGlassCoat;
+    return isPeeled() && (glass ? kept : translucent == translucentCoat ? opaque : isTranslucent(alpha));
 }
 
 void main() {
@@ -158,7 +161,7 @@ void main() {
         occlusion = 1.0;
         outEmissive = vec3(0.0);
     }
-    if (translucent == translucentCoat) {
+    if (drawsCoats) {
         vec2 coat = clearCoat();
         baseColor = vec4(vec3(0.0), coat.x);
         roughnessMetallic = vec2(coat.y, 0.0);

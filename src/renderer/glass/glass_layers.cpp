@@ -62,7 +62,7 @@ LightLayers addLayer(gpu::Recorder& f, GlassStore& own, const ViewInputs& in, co
         out.light.indirectDiffuse = over(to.diffuse, lit.indirectDiffuse, nullptr, behind.light.indirectDiffuse);
         out.light.indirectSpecular = over(to.specular, lit.indirectSpecular, &refracted, behind.light.indirectSpecular);
     }
-    return coats ? addCoats(f, own.coat, in, settings, seen, {g.depth, nearerDepth, true}, out, last, layers) : out;
+    return coats ? addCoats(f, own.coat, in, settings, seen, {g.depth, nearerDepth, CoatedSurfaces::Kind::glass}, out, last, layers) : out;
 }
 
 }  // namespace

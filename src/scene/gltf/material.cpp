@@ -123,12 +123,6 @@ Material GltfMaterials::convert(int material) {
         result.sheen = {};
         result.anisotropy = {};
     }
-    if (result.blended && result.transmission.factor == 0.0F && result.clearcoat.factor > 0.0F) {
-        report_.warn(
-            "clear coat", part,
-            "the clear coat will be missing from the renderer's picture: only \"reflet reference\" draws coats "
-            "of materials with alphaMode BLEND");
-    }
     if (source.extras.Has("camera")) {
         result.unlit = false;
         result.camera = source.extras.Get("camera").Get<std::string>();
