@@ -41,16 +41,6 @@ TracedView tracedView(const ViewInputs& in, const ViewImages& images) {
     return {images, screen, {}};
 }
 
-// `behind` with the blended surfaces in front of it, in another image.
-gpu::Image withBlended(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image front, gpu::Image behind) {
-    if (!front) {
-        return behind;
-    }
-    const gpu::Image over = own.storage(f, litFormat, behind.size);
-    blendOver(f, front, behind, over);
-    return over;
-}
-
 // The light that rays from blended surfaces, and then reflections, read at hits: direct light, or all light so far.
 gpu::Image lightSoFar(gpu::Recorder& f, ViewStore& own, const ViewInputs& in, const Settings& settings,
                       const LobeLight& diffuse, const ScreenImages& screen) {
@@ -67,18 +57,20 @@ gpu::Image lightSoFar(gpu::Recorder& f, ViewStore& own, const ViewInputs& in, co
 
 // Lights the blended surfaces, and sets the light that reflections read at hits: all light so far, with blended
 // surfaces in front; and its mips for cones. read: any rays read it.
-BlendedLight lightForReflections(gpu::Recorder& f, ViewStore& own, BlendStore& blend, const ViewInputs& in,
-                                 const Settings& settings, const LobeLight& diffuse, TracedView& seen, bool read,
-                                 bool layers) {
+BlendedSurfaces lightForReflections(gpu::Recorder& f, ViewStore& own, const ViewInputs& in, const Settings& settings,
+                                    const LobeLight& diffuse, TracedView& seen, bool read, bool layers) {
     ScreenImages& screen = seen.screen;
     const SpecularSettings& s = settings.specular;
     screen.light = read ? lightSoFar(f, own, in, settings, diffuse, screen) : screen.light;
-    const BlendedLight blended = lightBlended(f, blend, in, settings, seen, layers);
+    const bool both = settings.blend.layers > 0 && showsBlended(in.draws, in.view) && showsGlass(in, settings);
+    const gpu::Image glassDepth = both ? nearestGlass(f, own.glass, in, settings, seen.images.g.depth) : gpu::Image{};
+    const BlendedSurfaces blended = lightBlended(f, own.blend, in, settings, seen, glassDepth, layers);
     if (!read || s.rays == 0) {
         return blended;
     }
     const auto scope = f.scope("specular");
-    screen.light = withBlended(f, own.litSoFarBlended, blended.lit, screen.light);
+    screen.light = withBlended(f, own.litSoFarBehindGlass, blended.behindGlass.lit, screen.light);
+    screen.light = withBlended(f, own.litSoFarBlended, blended.front.lit, screen.light);
     if (s.roughFallback == RoughFallback::mips && s.maxRoughness < 1.0F) {
         const bool previous = settings.traceScreen.light == HitLight::previous && screen.lit.valid;
         screen.lightMips = makeLightMips(f, own.lightMips, previous ? screen.lit.previous : screen.light);
@@ -135,7 +127,7 @@ ScreenImages renderReflectionView(gpu::Recorder& f, FrameStore::Planar& own, con
     // Without diffuse rays, the probes' light remains.
     const gpu::Image base = settings.diffuse.rays > 0 ? images.direct : seen.screen.light;
     seen.screen.light = base;
-    const BlendedLight blended = lightForReflections(f, own, own.blend, in, settings, diffuse, seen, true, false);
+    const BlendedSurfaces blended = lightForReflections(f, own, in, settings, diffuse, seen, true, false);
     gpu::Image light = seen.screen.light;
     const bool reflects = lit && settings.planar.specular != 0;
     if (reflects) {
@@ -151,11 +143,12 @@ ScreenImages renderReflectionView(gpu::Recorder& f, FrameStore::Planar& own, con
         }
     }
     if (showsGlass(in, settings)) {
+        light = reflects ? withBlended(f, own.behindGlass.lit, blended.behindGlass.lit, light) : light;
         light = throughGlass(f, own.glass, in, settings, seen, {images.direct, {{}, {}, light}},
                              own.litGlass.storage(f, litFormat, light.size), false)
                     .light.lit;
     }
-    seen.screen.light = reflects ? withBlended(f, own.litBlended, blended.lit, light) : light;
+    seen.screen.light = reflects ? withBlended(f, own.litBlended, blended.front.lit, light) : light;
     const bool blurred = settings.planar.form == PlanarForm::camera && settings.planar.cameraBlur > 1.0F;
     if (seen.screen.lightMips || blurred) {
         seen.screen.lightMips = makeLightMips(f, own.lightMips, seen.screen.light);
@@ -214,7 +207,7 @@ gpu::Image renderLiveCameras(gpu::Recorder& f, std::vector<DirectViewStore>& own
 
 // Puts the background behind the radiance that is shown; coverage is accumulated as the radiance.
 void showBackground(gpu::Recorder& f, FrameStore& own, const FrameInputs& in, const Settings& settings,
-                    const BlendedLight& blended, FrameImages& out) {
+                    const BlendedSurfaces& blended, FrameImages& out) {
     const gpu::Image depth = showsGlass(in, settings) ? depthWithGlass(f, own.glass, out.g.depth) : out.g.depth;
     const BackgroundImages shown =
         drawBackground(f, own.background, depth, out.direct, out.light.lit, *in.background.environment, in.view);
@@ -225,28 +218,20 @@ void showBackground(gpu::Recorder& f, FrameStore& own, const FrameInputs& in, co
     }
     const auto scope = f.scope("coverage");
     out.coverage = shown.coverage;
-    if (blended.lit) {
-        out.coverage = own.coverageBlended.storage(f, litFormat, shown.coverage.size);
-        coverOver(f, blended.lit, shown.coverage, out.coverage);
-    }
+    const auto cover = [&](gpu::KeptImage& kept, gpu::Image front) {
+        if (front) {
+            const gpu::Image over = kept.storage(f, litFormat, shown.coverage.size);
+            coverOver(f, front, out.coverage, over);
+            out.coverage = over;
+        }
+    };
+    cover(own.coverageBehindGlass, blended.behindGlass.lit);
+    cover(own.coverageBlended, blended.front.lit);
     if (settings.accumulate.enabled != 0) {
         out.coverage =
             accumulate(f, own.coverageMean, {out.coverage, {out.coverage, out.coverage, out.coverage}}, in.framesBefore)
                 .direct;
     }
-}
-
-// Composites blended surfaces over the frame's light and its layers. lit: the image of the sum.
-void addBlended(gpu::Recorder& f, FrameStore& own, const BlendedLight& blended, gpu::Image lit, FrameImages& out) {
-    if (!blended.lit) {
-        return;
-    }
-    blendOver(f, blended.lit, out.light.lit, lit);
-    out.light.lit = lit;
-    out.direct = withBlended(f, own.directBlended, blended.direct, out.direct);
-    out.light.indirectDiffuse = withBlended(f, own.diffuseBlended, blended.indirectDiffuse, out.light.indirectDiffuse);
-    out.light.indirectSpecular =
-        withBlended(f, own.specularBlended, blended.indirectSpecular, out.light.indirectSpecular);
 }
 
 // Depth of field, of the radiance and of what surfaces cover of the picture.
@@ -285,7 +270,7 @@ FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in
     const bool layers = settings.composite.layers != 0 || settings.accumulate.enabled != 0;
     const bool reused = settings.traceScene.enabled != 0 && settings.traceScene.reuseScreen != 0;
     const bool read = settings.traceScreen.enabled != 0 || reused;
-    const BlendedLight blended = lightForReflections(f, own, own.blend, in, settings, out.diffuse, seen, read, layers);
+    const BlendedSurfaces blended = lightForReflections(f, own, in, settings, out.diffuse, seen, read, layers);
     const bool glass = showsGlass(in, settings);
     if (glass && read && settings.specular.rays > 0 && settings.traceScreen.light != HitLight::previous) {
         seen.screen.light = lightWithGlass(f, own, in, settings, seen);
@@ -296,10 +281,10 @@ FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in
     const CompositeInputs parts{
         out.g, out.direct, out.diffuse, out.specular, in.ggxTable, settings.materials.lambertOnly != 0, layers};
     const auto image = [&](gpu::KeptImage& kept) { return kept.storage(f, litFormat, lit.next.size); };
-    const gpu::Image behind = blended.lit ? image(own.litBehind) : lit.next;
+    const gpu::Image behind = blended.front.lit ? image(own.litBehind) : lit.next;
     const bool coats = showsCoats(in, settings);
     // Without rays, no frame reads the last one's light.
-    const bool directAlone = out.diffuse.dark && out.specular.dark && !layers && !blended.lit &&
+    const bool directAlone = out.diffuse.dark && out.specular.dark && !layers && !blended.front.lit &&
                              !in.background.environment && !glass && !coats;
     const gpu::Image withoutGlass = glass ? image(own.litWithoutGlass) : behind;
     const gpu::Image withoutCoats = coats ? image(own.litWithoutCoats) : withoutGlass;
@@ -312,19 +297,22 @@ FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in
         out.light = all.light;
     }
     if (glass) {
-        const LightLayers all = throughGlass(f, own.glass, in, settings, seen, {out.direct, out.light}, behind, layers);
+        const LightLayers beyond = withBlended(f, own.behindGlass, blended.behindGlass, {out.direct, out.light});
+        const LightLayers all = throughGlass(f, own.glass, in, settings, seen, beyond, behind, layers);
         out.direct = all.direct;
         out.light = all.light;
     }
     gpu::Image sum = lit.next;
     if (in.background.environment) {
-        if (blended.lit) {
-            blendOver(f, blended.lit, behind, lit.next);  // rays of the next frame see the environment behind
+        if (blended.front.lit) {
+            blendOver(f, blended.front.lit, behind, lit.next);  // rays of the next frame see the environment behind
             sum = image(own.litShown);
         }
         showBackground(f, own, in, settings, blended, out);
     }
-    addBlended(f, own, blended, sum, out);
+    const LightLayers shown = withBlended(f, own.withBlended, blended.front, {out.direct, out.light}, sum);
+    out.direct = shown.direct;
+    out.light = shown.light;
     if (settings.accumulate.enabled != 0) {
         const LightLayers means = accumulate(f, own.accumulated, {out.direct, out.light}, in.framesBefore);
         out.direct = means.direct;

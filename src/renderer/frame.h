@@ -31,9 +31,12 @@ struct ViewStore {
     gpu::KeptImage ambientLit{"ambient"};
     gpu::KeptImage litSoFar{"lit_so_far"};
     gpu::KeptImage litSoFarBlended{"lit_so_far.blended"};
+    gpu::KeptImage litSoFarBehindGlass{"lit_so_far.behind_glass"};
     gpu::KeptImage lightMips{"light_mips"};
     gpu::KeptImage lit{"lit"};
     gpu::KeptImage litBlended{"lit.blended"};
+    BlendStore blend;
+    WithBlendedStore behindGlass;
     GlassStore glass;
     CoatStore coat;
 };
@@ -41,15 +44,14 @@ struct ViewStore {
 /// Owns all images of a frame; every picture that is rendered over time has its own.
 struct FrameStore : ViewStore {
     struct Planar : ViewStore {
-        BlendStore blend;
         gpu::KeptImage litGlass{"lit.glass"};
     };
     gpu::HistoryImage history{"lit"};
-    BlendStore blend;
     std::vector<Planar> planar;
     std::vector<DirectViewStore> live;
     BackgroundStore background;
     gpu::KeptImage coverageBlended{"coverage.blended"};
+    gpu::KeptImage coverageBehindGlass{"coverage.behind_glass"};
     AccumulateStore coverageMean;
     gpu::KeptImage litBehind{"lit_behind"};
     gpu::KeptImage litWithoutCoats{"lit_without_coats"};
@@ -57,9 +59,7 @@ struct FrameStore : ViewStore {
     gpu::KeptImage indirectAlone{"indirect_alone"};
     gpu::KeptImage litSoFarGlass{"lit_so_far.glass"};
     gpu::KeptImage litShown{"lit_shown"};
-    gpu::KeptImage directBlended{"direct.blended"};
-    gpu::KeptImage diffuseBlended{"indirect_diffuse.blended"};
-    gpu::KeptImage specularBlended{"indirect_specular.blended"};
+    WithBlendedStore withBlended;
     AccumulateStore accumulated;
     TemporalStore temporal;
     gpu::HistoryImage exposure{"exposure"};

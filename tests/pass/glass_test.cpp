@@ -151,6 +151,25 @@ TEST(Glass, ASheetTintsOnceAndNearerSheetsShowFartherOnes) {
     EXPECT_LT(glm::distance(middle("transmission.layers=1"), vec3(1.0F, 0.25F, 1.0F)), 0.01F) << "the nearest one";
 }
 
+TEST(Glass, BlendedSurfacesAreBehindOrBeforeIt) {
+    Material red = glow({1, 0, 0});
+    red.blended = true;
+    red.alphaCutoff = blendCutoff;
+    red.baseColor.a = 0.5F;
+    Material blue = red;
+    blue.emissive = {0, 0, 1};
+    const vec3 tint(0.5F, 0.75F, 0.25F);
+    Scene scene;
+    add(scene, glow(vec3(1)), wall(vec2(9)), at({0, 0, -3}));
+    add(scene, red, wall(vec2(9)), at({0, 0, -1}));
+    add(scene, glass(0.0F, 1.0F, tint), wall(vec2(9)));
+    add(scene, blue, wall(vec2(9)), at({0, 0, 1}));
+    const vec3 behind = 0.5F * vec3(1, 0, 0) + 0.5F * vec3(1);
+    const vec3 got = seen(scene, darkView()).color("final", 32, 24);
+    EXPECT_LT(glm::distance(got, 0.5F * vec3(0, 0, 1) + 0.5F * tint * behind), 0.01F)
+        << got.r << ' ' << got.g << ' ' << got.b;
+}
+
 TEST(Glass, MirrorsShowIt) {
     Scene scene;
     add(scene, glow({1, 1, 1}), wall({9, 9}), at({0, 0, -3}));

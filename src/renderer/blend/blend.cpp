@@ -7,12 +7,16 @@ bool showsBlended(const DrawList& list, const ViewParams& view) {
     return anyDraws(list, {.keep = [](const Draw& draw) { return draw.blended; }, .worldToClip = view.worldToClip});
 }
 
-void blendLayer(gpu::Recorder& f, gpu::Image accumulated, gpu::Image radiance, gpu::Image motion, bool first) {
+void blendLayer(gpu::Recorder& f, gpu::Image accumulated, gpu::Image radiance, const BlendedLayer& layer,
+                BlendSide side) {
     f.compute("blend_layer", "blend_layer.comp")
+        .constant("side", static_cast<uint32_t>(side))
         .read("radiance", radiance)
-        .read("motion", motion)
+        .read("motion", layer.motion)
+        .read("depth", layer.depth)
+        .read("glassDepth", side == BlendSide::all ? layer.depth : layer.glassDepth)
         .write("accumulated", accumulated)
-        .params(BlendLayerParams{accumulated.size, first ? 1U : 0U})
+        .params(BlendLayerParams{accumulated.size, layer.first ? 1U : 0U})
         .dispatch(accumulated.size);
 }
 

@@ -45,9 +45,21 @@ namespace reflet {
 /// Whether the view may show blended surfaces.
 bool showsBlended(const DrawList& list, const ViewParams& view);
 
+/// Which surfaces of a layer count.
+enum class BlendSide : uint8_t { all, beforeGlass, behindGlass };
+
+/// The layer that blendLayer composites.
+struct BlendedLayer {
+    gpu::Image depth;
+    gpu::Image motion;      ///< of its G-buffer, with alpha
+    gpu::Image glassDepth;  ///< depth of the nearest glass; none with BlendSide::all
+    bool first = false;     ///< nothing is in front of it
+};
+
 /// Composites a layer under those in front of it. accumulated: RGBA16F, their light and what they let through; written
-/// by the first layer. radiance: of the layer; motion: its G-buffer's, with alpha.
-void blendLayer(gpu::Recorder& f, gpu::Image accumulated, gpu::Image radiance, gpu::Image motion, bool first);
+/// by the first layer. radiance: of the layer.
+void blendLayer(gpu::Recorder& f, gpu::Image accumulated, gpu::Image radiance, const BlendedLayer& layer,
+                BlendSide side);
 
 /// over = accumulated layers over the light `behind` them; the alpha of `behind` is kept. RGBA16F, not the same image.
 void blendOver(gpu::Recorder& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over);

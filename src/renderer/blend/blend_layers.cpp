@@ -17,23 +17,36 @@ LightLayers litLayer(gpu::Recorder& f, BlendStore& own, BlendStore::Layer& store
     return addCoats(f, own.coat, in, settings, layer, surfaces, lit, {}, layers);
 }
 
+BlendedLight imagesOf(gpu::Recorder& f, BlendedLightStore& own, uvec2 size, bool layers) {
+    const auto sum = [&](gpu::KeptImage& image) { return image.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, size); };
+    if (!layers) {
+        return {sum(own.lit), {}, {}, {}};
+    }
+    return {sum(own.lit), sum(own.direct), sum(own.indirectDiffuse), sum(own.indirectSpecular)};
+}
+
+void addLayer(gpu::Recorder& f, const BlendedLight& to, const LightLayers& lit, const BlendedLayer& layer,
+              BlendSide side) {
+    blendLayer(f, to.lit, lit.light.lit, layer, side);
+    if (to.direct) {
+        blendLayer(f, to.direct, lit.direct, layer, side);
+        blendLayer(f, to.indirectDiffuse, lit.light.indirectDiffuse, layer, side);
+        blendLayer(f, to.indirectSpecular, lit.light.indirectSpecular, layer, side);
+    }
+}
+
 }  // namespace
 
-BlendedLight lightBlended(gpu::Recorder& f, BlendStore& own, const ViewInputs& in, const Settings& asked,
-                          const TracedView& seen, bool layers) {
-    BlendedLight out;
+BlendedSurfaces lightBlended(gpu::Recorder& f, BlendStore& own, const ViewInputs& in, const Settings& asked,
+                             const TracedView& seen, gpu::Image glassDepth, bool layers) {
     if (asked.blend.layers == 0 || !showsBlended(in.draws, in.view)) {
-        return out;
+        return {};
     }
     const auto scope = f.scope("blend");
     const Settings settings = layerSettings(asked);
-    const auto sum = [&](gpu::KeptImage& image) {
-        return image.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, seen.images.g.depth.size);
-    };
-    out.lit = sum(own.lit);
-    if (layers) {
-        out = {out.lit, sum(own.direct), sum(own.indirectDiffuse), sum(own.indirectSpecular)};
-    }
+    const uvec2 size = seen.images.g.depth.size;
+    const BlendedSurfaces out{imagesOf(f, own.front, size, layers),
+                              glassDepth ? imagesOf(f, own.behindGlass, size, layers) : BlendedLight{}};
     gpu::Image nearer;
     for (uint32_t i = 0; i < settings.blend.layers; ++i) {
         BlendStore::Layer& store = own.layers[i % own.layers.size()];
@@ -44,14 +57,41 @@ BlendedLight lightBlended(gpu::Recorder& f, BlendStore& own, const ViewInputs& i
         layer.images.g = drawGBuffer(f, store.g, in.draws, in.view, settings.materials, content);
         const LightLayers lit = litLayer(f, own, store, in, settings, layer, nearer, layers);
         nearer = layer.images.g.depth;
-        const gpu::Image alpha = layer.images.g.motion;
-        blendLayer(f, out.lit, lit.light.lit, alpha, i == 0);
-        if (layers) {
-            blendLayer(f, out.direct, lit.direct, alpha, i == 0);
-            blendLayer(f, out.indirectDiffuse, lit.light.indirectDiffuse, alpha, i == 0);
-            blendLayer(f, out.indirectSpecular, lit.light.indirectSpecular, alpha, i == 0);
+        const BlendedLayer blended{nearer, layer.images.g.motion, glassDepth, i == 0};
+        addLayer(f, out.front, lit, blended, glassDepth ? BlendSide::beforeGlass : BlendSide::all);
+        if (glassDepth) {
+            addLayer(f, out.behindGlass, lit, blended, BlendSide::behindGlass);
         }
     }
+    return out;
+}
+
+gpu::Image withBlended(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image front, gpu::Image behind) {
+    if (!front) {
+        return behind;
+    }
+    const gpu::Image over = own.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, behind.size);
+    blendOver(f, front, behind, over);
+    return over;
+}
+
+LightLayers withBlended(gpu::Recorder& f, WithBlendedStore& own, const BlendedLight& front, const LightLayers& behind,
+                        gpu::Image lit) {
+    if (!front.lit) {
+        return behind;
+    }
+    LightLayers out = behind;
+    if (lit) {
+        blendOver(f, front.lit, behind.light.lit, lit);
+        out.light.lit = lit;
+    } else {
+        out.light.lit = withBlended(f, own.lit, front.lit, behind.light.lit);
+    }
+    out.direct = withBlended(f, own.direct, front.direct, behind.direct);
+    out.light.indirectDiffuse =
+        withBlended(f, own.indirectDiffuse, front.indirectDiffuse, behind.light.indirectDiffuse);
+    out.light.indirectSpecular =
+        withBlended(f, own.indirectSpecular, front.indirectSpecular, behind.light.indirectSpecular);
     return out;
 }
 

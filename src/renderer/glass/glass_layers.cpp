@@ -62,7 +62,9 @@ LightLayers addLayer(gpu::Recorder& f, GlassStore& own, const ViewInputs& in, co
         out.light.indirectDiffuse = over(to.diffuse, lit.indirectDiffuse, nullptr, behind.light.indirectDiffuse);
         out.light.indirectSpecular = over(to.specular, lit.indirectSpecular, &refracted, behind.light.indirectSpecular);
     }
-    return coats ? addCoats(f, own.coat, in, settings, seen, {g.depth, nearerDepth, CoatedSurfaces::Kind::glass}, out, last, layers) : out;
+    return coats ? addCoats(f, own.coat, in, settings, seen, {g.depth, nearerDepth, CoatedSurfaces::Kind::glass}, out,
+                            last, layers)
+                 : out;
 }
 
 }  // namespace
@@ -95,6 +97,13 @@ LightLayers throughGlass(gpu::Recorder& f, GlassStore& own, const ViewInputs& in
                        i == 0 ? lit : gpu::Image{});
     }
     return sum;
+}
+
+gpu::Image nearestGlass(gpu::Recorder& f, GlassStore& own, const ViewInputs& in, const Settings& settings,
+                        gpu::Image opaqueDepth) {
+    const auto scope = f.scope("glass");
+    const GBufferContent content{.clipPlane = in.clipPlane, .opaqueDepth = opaqueDepth, .glass = true};
+    return drawGBuffer(f, own.g.front(), in.draws, in.view, settings.materials, content).depth;
 }
 
 gpu::Image depthWithGlass(gpu::Recorder& f, GlassStore& own, gpu::Image opaqueDepth) {

@@ -38,6 +38,10 @@ bool showsGlass(const ViewInputs& in, const Settings& settings);
 LightLayers throughGlass(gpu::Recorder& f, GlassStore& own, const ViewInputs& in, const Settings& asked,
                          const TracedView& seen, const LightLayers& behind, gpu::Image lit, bool layers);
 
+/// Depth of the nearest glass before throughGlass has drawn it; 0: none. D32.
+gpu::Image nearestGlass(gpu::Recorder& f, GlassStore& own, const ViewInputs& in, const Settings& settings,
+                        gpu::Image opaqueDepth);
+
 /// Depth of the opaque surfaces, or of the glass of the last throughGlass where that is nearer: R32F.
 gpu::Image depthWithGlass(gpu::Recorder& f, GlassStore& own, gpu::Image opaqueDepth);
 
