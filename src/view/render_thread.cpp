@@ -69,15 +69,9 @@ bool RenderThread::endsBy(Clock::time_point end) {
     return changed_.wait_until(lock, end, [this] { return ended_; });
 }
 
-std::vector<std::string> RenderThread::unfinished() const {
+size_t RenderThread::unfinished() const {
     const std::scoped_lock lock(mutex_);
-    std::vector<std::string> names;
-    for (const Job& job : jobs_) {
-        if (job.atEnd == AtEnd::complete) {
-            names.push_back(job.name);
-        }
-    }
-    return names;
+    return static_cast<size_t>(std::ranges::count(jobs_, AtEnd::complete, &Job::atEnd));
 }
 
 void RenderThread::want(Wanted wanted) {

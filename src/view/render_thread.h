@@ -78,9 +78,9 @@ public:
 
     /// Stops the frame, completes jobs that must not be lost, and closes the device. Returns whether all that was done
     /// by then: a pass that the device has begun cannot be stopped, and may take minutes. If not, the object must not
-    /// be destroyed, and `unfinished` has the names of the jobs that are lost if the process ends.
+    /// be destroyed, and `unfinished` is the number of such jobs that are lost if the process ends.
     [[nodiscard]] bool endsBy(Clock::time_point end);
-    [[nodiscard]] std::vector<std::string> unfinished() const;
+    [[nodiscard]] size_t unfinished() const;
 
     [[nodiscard]] State state() const;
     /// Whether there is nothing left to do: the image has converged, and no job waits.

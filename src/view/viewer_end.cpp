@@ -74,8 +74,9 @@ void Viewer::run() {
     const std::exception_ptr complaint = thrownBy([this] { checkMessages(); });
     thrown = thrown ? thrown : unsaved ? unsaved : complaint;
     if (!ended) {
-        for (const std::string& name : render_.unfinished()) {
-            printWarning(fmt::format("the window was closed before this was done: {}", name));
+        if (const size_t lost = render_.unfinished(); lost > 0) {
+            printWarning(
+                fmt::format("screenshots not written, as the device is busy: {}; close the window after them", lost));
         }
         endProgram(thrown);
     }
