@@ -13,7 +13,7 @@ constexpr uvec2 size(33, 17);  // odd: the horizon goes through the centres of a
 Scene floorOfTiles(bool mips) {
     Scene scene;
     builtin::Canvas tile("tile", 64, 64, 0xFFFFFF);
-    tile.rectangle({0, 0}, {32, 64}, 0x000000);
+    tile.rectangle({0, 0, 32, 64}, 0x000000);
     Sampler sampler;
     sampler.mips = mips;
     Material m = lambertMaterial(vec3(1.0F));
