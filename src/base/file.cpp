@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
 #include <random>
 #include <string>
 #include <system_error>
@@ -120,6 +121,12 @@ TemporaryList& temporaryList() noexcept {
     return list;
 }
 
+/// Held while a temporary file is created.
+std::mutex& creation() noexcept {
+    static constinit std::mutex mutex;
+    return mutex;
+}
+
 void writeAll(int descriptor, std::string_view content, const fs::path& name) {
     while (!content.empty()) {
         const ssize_t written = ::write(descriptor, content.data(), content.size());
@@ -220,6 +227,7 @@ AtomicFile::AtomicFile(const fs::path& target) : name_(target), target_(target) 
         target_ = dangling ? target : resolved;
     }
     tempPath_ = temporaryName(target_);
+    const std::scoped_lock lock(creation());
     listed_ = temporaryList().add(tempPath_);  // first: the program may end right after the file is created
     const Descriptor descriptor(::open(tempPath_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (!descriptor.valid()) {
@@ -254,6 +262,12 @@ void AtomicFile::commit(Lasting lasting) {
 
 void removeTemporaryFiles() noexcept {
     temporaryList().removeAll();
+}
+
+void exitNow(int status) noexcept {
+    creation().lock();  // for good: what is created after the removal would stay
+    removeTemporaryFiles();
+    ::_exit(status);
 }
 
 bool AtomicFile::commitNew() {

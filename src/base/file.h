@@ -27,6 +27,10 @@ bool writeNewFile(const std::filesystem::path& path, std::string_view content);
 /// handler.
 void removeTemporaryFiles() noexcept;
 
+/// Ends the process at once, without destructors: for where a thread cannot be waited for. Files that threads are
+/// writing are whole or unchanged, and no temporary files are left.
+[[noreturn]] void exitNow(int status) noexcept;
+
 /// For libraries that write to a path themselves: let them write to tempPath(), then call commit(). Without commit()
 /// the target is unchanged. A target that is no regular file (/dev/null, a pipe) is written directly.
 class AtomicFile {

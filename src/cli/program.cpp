@@ -1,6 +1,7 @@
 #include "cli/program.h"
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/message.h"
 #include "base/text.h"
 #include "cli/last_resort.h"
@@ -22,6 +23,21 @@ constexpr int exitUsage = 2;
 int reportError(std::string_view message, int status) noexcept {
     printMessage("", message);
     return status;
+}
+
+// Returns the exit status.
+int reportThrown(const std::exception_ptr& thrown) noexcept {
+    try {
+        std::rethrow_exception(thrown);
+    } catch (const UsageError& error) {
+        return reportError(error.what(), exitUsage);
+    } catch (const std::bad_alloc&) {
+        return reportError("needs more memory than is available", exitFailed);
+    } catch (const std::exception& error) {
+        return reportError(error.what(), exitFailed);
+    } catch (...) {
+        return reportError("failed for an unknown reason", exitFailed);
+    }
 }
 
 // "reflet list scenes"
@@ -103,15 +119,13 @@ int runProgram(int argc, char** argv, std::span<const AddCommand> commands) {
     prepareForFailures();
     try {
         return parseAndRun(argc, argv, commands);
-    } catch (const UsageError& error) {
-        return reportError(error.what(), exitUsage);
-    } catch (const std::bad_alloc&) {
-        return reportError("needs more memory than is available", exitFailed);
-    } catch (const std::exception& error) {
-        return reportError(error.what(), exitFailed);
     } catch (...) {
-        return reportError("failed for an unknown reason", exitFailed);
+        return reportThrown(std::current_exception());
     }
+}
+
+void endProgram(const std::exception_ptr& thrown) noexcept {
+    exitNow(thrown ? reportThrown(thrown) : 0);
 }
 
 }  // namespace reflet

@@ -1,6 +1,7 @@
 // The command line as a whole: finds the subcommand, runs it, reports errors.
 #pragma once
 
+#include <exception>
 #include <span>
 
 namespace CLI {
@@ -15,5 +16,9 @@ using AddCommand = void (*)(CLI::App&);
 /// Runs the subcommand that the arguments name. Errors go to standard error, one line each. Returns the exit status: 0
 /// success, 1 failure, 2 usage error.
 int runProgram(int argc, char** argv, std::span<const AddCommand> commands);
+
+/// Reports what was thrown, or success if it is null, and ends the process without destructors: for where a thread
+/// cannot be waited for.
+[[noreturn]] void endProgram(const std::exception_ptr& thrown) noexcept;
 
 }  // namespace reflet

@@ -151,12 +151,14 @@ void GpuScene::writeMaterialSet(const MaterialBinding& binding) {
         writes[i].pBufferInfo = &block;
         if (i > 0) {
             gpu::SamplerInfo info = binding.samplers[i - 1];
-            info.anisotropy = filter_.mips ? static_cast<float>(filter_.anisotropy) : 1.0F;
+            const bool live = binding.live && i - 1 == slotEmissive;
             info.lodBias = filter_.mipBias;
             info.maxLod = filter_.mips ? info.maxLod : 0.0F;
+            // Without a coarser level Mesa's CPU driver looks up all texels below a pixel.
+            const bool hasMips = info.maxLod > 0.0F && !live;
+            info.anisotropy = hasMips ? static_cast<float>(filter_.anisotropy) : 1.0F;
             images[i - 1] = {device_.sampler(info), binding.views[i - 1],
-                             binding.live && i - 1 == slotEmissive ? VK_IMAGE_LAYOUT_GENERAL
-                                                                   : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+                             live ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
             writes[i].pImageInfo = &images[i - 1];
         }
     }

@@ -31,9 +31,25 @@ bool hasTexture(uint slot) {
 
 bool isBlended() { return notInlined(material.blended, gl_FragCoord) != 0u; }
 
+// Whether it is true for any of the four pixels that share derivatives.
+bool anyInQuad(bool own) {
+    float found = float(own);
+    found = min(found + fwidthFine(found), 1.0);  // of neighbours in the row and the column
+    return found + fwidthFine(found) > 0.0;       // and across
+}
+
+// On triangles seen edge-on, uv changes by thousands and more from pixel to pixel. Mesa's CPU driver looks up every
+// texel of such a footprint in the coarsest level, which takes minutes. With any anisotropy and bias of the settings,
+// footprints of more than 64 repeats are in that level, which is one texel: one of 8 repeats has the same answer.
+vec2 boundedFootprint(vec2 uv) {
+    vec2 reach = max(abs(dFdxFine(uv)), abs(dFdyFine(uv)));
+    bool bounded = max(reach.x, reach.y) <= 64.0;  // false for NaN
+    return anyInQuad(!bounded) ? fract(uv) + 8.0 * vec2(ivec2(gl_FragCoord.xy) & 1) : uv;
+}
+
 vec2 slotUv(uint slot, vec2 uv0, vec2 uv1) {
     vec3 uv = vec3((material.secondUv & (1u << slot)) != 0u ? uv1 : uv0, 1.0);
-    return vec2(dot(material.uvRows[2u * slot], uv), dot(material.uvRows[2u * slot + 1u], uv));
+    return boundedFootprint(vec2(dot(material.uvRows[2u * slot], uv), dot(material.uvRows[2u * slot + 1u], uv)));
 }
 
 // The colour with alpha; false if alpha is below the cutoff.

@@ -1,6 +1,7 @@
 // Runs work in the background while the window stays responsive.
 #pragma once
 
+#include "view/clock.h"
 #include "view/window.h"
 
 #include <sys/resource.h>
@@ -69,6 +70,11 @@ public:
     /// Asks the work to end; that may take a while.
     void cancel() { cancelled_ = true; }
     [[nodiscard]] bool cancelled() const { return cancelled_; }
+
+    /// Whether it has ended by then; waits for that.
+    [[nodiscard]] bool endsBy(Clock::time_point end) const {
+        return !busy() || future_.wait_until(end) == std::future_status::ready;
+    }
 
     void stop() {
         cancel();

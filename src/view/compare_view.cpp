@@ -27,10 +27,14 @@ ViewerState withPreset(const ViewerState& state) {
 
 }  // namespace
 
+void CompareView::cancel() {
+    truth_.cancel();
+    errorWork_.cancel();
+    fileWork_.cancel();
+}
+
 void CompareView::forget() {
-    truth_.stop();
-    errorWork_.stop();
-    fileWork_.stop();
+    cancel();
     truth_.discard();
     errorWork_.discard();
     fileWork_.discard();

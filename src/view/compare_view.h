@@ -21,6 +21,12 @@ class CompareView {
 public:
     /// Drops everything, for another scene.
     void forget();
+    /// Asks the work in the background to end.
+    void cancel();
+    /// Whether it has ended by then; waits for that.
+    [[nodiscard]] bool endsBy(Clock::time_point end) const {
+        return truth_.endsBy(end) && errorWork_.endsBy(end) && fileWork_.endsBy(end);
+    }
 
     /// What update() is told.
     struct Inputs {

@@ -35,7 +35,12 @@ bool same(const Wanted& a, const Wanted& b) {
 RenderThread::RenderThread(const gpu::DeviceOptions& options, const std::string& shaders) {
     std::promise<void> opened;
     std::future<void> isOpen = opened.get_future();
-    thread_ = std::thread([&, this] { run(options, shaders, opened); });
+    thread_ = std::thread([&, this] {
+        run(options, shaders, opened);
+        const std::scoped_lock lock(mutex_);
+        ended_ = true;
+        changed_.notify_all();
+    });
     try {
         isOpen.get();
     } catch (...) {
@@ -45,13 +50,28 @@ RenderThread::RenderThread(const gpu::DeviceOptions& options, const std::string&
 }
 
 RenderThread::~RenderThread() {
+    end();
+    thread_.join();
+}
+
+void RenderThread::end() {
     {
         const std::scoped_lock lock(mutex_);
         ends_ = true;
         stops_ = true;
     }
     changed_.notify_all();
-    thread_.join();
+}
+
+bool RenderThread::endsBy(Clock::time_point end) {
+    this->end();
+    std::unique_lock lock(mutex_);
+    return changed_.wait_until(lock, end, [this] { return ended_; });
+}
+
+size_t RenderThread::unfinished() const {
+    const std::scoped_lock lock(mutex_);
+    return static_cast<size_t>(std::ranges::count(jobs_, AtEnd::complete, &Job::atEnd));
 }
 
 void RenderThread::want(Wanted wanted) {
@@ -70,10 +90,10 @@ void RenderThread::want(Wanted wanted) {
     changed_.notify_all();
 }
 
-void RenderThread::post(std::string name, std::function<Finish(Work&)> job) {
+void RenderThread::post(std::string name, AtEnd atEnd, std::function<Finish(Work&)> job) {
     {
         const std::scoped_lock lock(mutex_);
-        jobs_.push_back({std::move(name), std::move(job)});
+        jobs_.push_back({std::move(name), atEnd, std::move(job)});
     }
     changed_.notify_all();
 }
@@ -85,7 +105,7 @@ std::vector<RenderThread::Finish> RenderThread::takeFinished() {
 
 std::string RenderThread::busyWith() const {
     const std::scoped_lock lock(mutex_);
-    return !runs_.empty() ? runs_ : jobs_.empty() ? "" : jobs_.front().name;
+    return jobs_.empty() ? "" : jobs_.front().name;
 }
 
 RenderThread::State RenderThread::state() const {
@@ -95,7 +115,7 @@ RenderThread::State RenderThread::state() const {
 
 bool RenderThread::rests() const {
     const std::scoped_lock lock(mutex_);
-    return jobs_.empty() && runs_.empty() && finished_.empty() && wanted_ && settled_ == version_;
+    return jobs_.empty() && finished_.empty() && wanted_ && settled_ == version_;
 }
 
 void RenderThread::publish(const std::function<void(State&)>& change) {
@@ -133,16 +153,18 @@ void RenderThread::loop(gpu::Device& device, ShaderWatch& shaders) {
               }};
     std::unique_lock lock(mutex_);
     for (;;) {
+        if (ends_) {
+            std::erase_if(jobs_, [](const Job& job) { return job.atEnd == AtEnd::drop; });
+        }
         if (!jobs_.empty()) {
-            const Job job = std::move(jobs_.front());
-            jobs_.pop_front();
-            runs_ = job.name;
+            const Job& job = jobs_.front();  // others may be added behind it
             lock.unlock();
             runJob(job, work);
             lock.lock();
-            runs_.clear();
+            jobs_.pop_front();
+            ++published_;
             lock.unlock();
-            publish([&](State& state) { state.validationMessages = device.validationMessages(); });
+            Window::wake();
             lock.lock();
             continue;
         }
@@ -177,7 +199,6 @@ void RenderThread::loop(gpu::Device& device, ShaderWatch& shaders) {
         }
         lock.lock();
         state_.deviceMemory = device.memory().used(gpu::MemoryUse::device);
-        state_.validationMessages = device.validationMessages();  // also of frames after the last job
         if (!more && version == version_) {
             settled_ = version;
             ++published_;
@@ -201,7 +222,7 @@ void RenderThread::publishFailure(const std::string& why) {
 
 void RenderThread::watchShaders(gpu::Device& device, ShaderWatch& shaders) {
     const std::string before = shaders.problem();
-    const bool replaced = shaders.update();
+    const bool replaced = shaders.update([this] { return ends_.load(); });
     lastWatch_ = Clock::now();
     if (replaced) {
         device.pipelines().clear();

@@ -56,24 +56,31 @@ public:
         std::string shaderProblem;          ///< why an edited shader does not compile; empty: none
         std::vector<std::string> reloaded;  ///< shaders that were replaced last
         uint32_t reloads = 0;               ///< how often shaders were replaced
-        std::vector<std::string> validationMessages;
     };
 
     /// Opens the device, and blocks until it is open. Throws Error.
     RenderThread(const gpu::DeviceOptions& options, const std::string& shaders);
-    /// Completes the jobs that were posted.
+    /// As endsBy(), but waits for as long as it takes.
     ~RenderThread();
     RenderThread(const RenderThread&) = delete;
     RenderThread& operator=(const RenderThread&) = delete;
 
     /// Replaces what was wanted before. Stops a frame that is no longer wanted, unless the image is moving.
     void want(Wanted wanted);
+    /// Whether a job that has not begun when the thread ends is lost.
+    enum class AtEnd : uint8_t { drop, complete };
     /// Runs the job between two frames. The window is woken, and `takeFinished` returns what the job returned, or
     /// something that throws what the job threw. name: of what it does, for busyWith().
-    void post(std::string name, std::function<Finish(Work&)> job);
+    void post(std::string name, AtEnd atEnd, std::function<Finish(Work&)> job);
     std::vector<Finish> takeFinished();
     /// Name of the job that runs or waits; empty: none.
     [[nodiscard]] std::string busyWith() const;
+
+    /// Stops the frame, completes jobs that must not be lost, and closes the device. Returns whether all that was done
+    /// by then: a pass that the device has begun cannot be stopped, and may take minutes. If not, the object must not
+    /// be destroyed, and `unfinished` is the number of such jobs that are lost if the process ends.
+    [[nodiscard]] bool endsBy(Clock::time_point end);
+    [[nodiscard]] size_t unfinished() const;
 
     [[nodiscard]] State state() const;
     /// Whether there is nothing left to do: the image has converged, and no job waits.
@@ -84,9 +91,11 @@ public:
 private:
     struct Job {
         std::string name;
+        AtEnd atEnd = AtEnd::drop;
         std::function<Finish(Work&)> work;
     };
 
+    void end();
     void run(const gpu::DeviceOptions& options, const std::string& shaders, std::promise<void>& opened);
     void loop(gpu::Device& device, ShaderWatch& shaders);
     void watchShaders(gpu::Device& device, ShaderWatch& shaders);
@@ -103,15 +112,15 @@ private:
     // Of the window and the thread, guarded by the mutex.
     mutable std::mutex mutex_;
     std::condition_variable changed_;
-    std::deque<Job> jobs_;
-    std::string runs_;  ///< name of the running job
+    std::deque<Job> jobs_;  ///< the first one may be running
     std::vector<Finish> finished_;
     std::optional<Wanted> wanted_;
     uint64_t version_ = 0;  ///< of wanted_
     uint64_t settled_ = 0;  ///< version for which nothing is left to render
-    bool ends_ = false;
+    bool ended_ = false;
     State state_;
 
+    std::atomic<bool> ends_ = false;
     std::atomic<bool> stops_ = false;  ///< the frame that is rendered now is not wanted any more
     std::atomic<uint64_t> published_ = 0;
 

@@ -137,7 +137,7 @@ bool ShaderWatch::compile(const std::string& name) {
     return true;
 }
 
-bool ShaderWatch::update() {
+bool ShaderWatch::update(const std::function<bool()>& stop) {
     std::set<std::string> shaders;
     for (auto& [name, file] : files_) {
         std::error_code error;
@@ -164,6 +164,9 @@ bool ShaderWatch::update() {
     problem_.clear();
     replaced_.clear();
     for (const std::string& shader : shaders) {
+        if (stop()) {
+            return false;
+        }
         if (compile(shader)) {
             replaced_.push_back(shader);
         } else {

@@ -4,6 +4,7 @@
 #include "gpu/shader.h"
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -20,8 +21,9 @@ public:
     [[nodiscard]] bool watches() const { return !files_.empty(); }
 
     /// Recompiles what has changed since the last call and replaces the running shaders, except those that do not
-    /// compile. Returns whether any was replaced; the caller must drop its pipelines then.
-    bool update();
+    /// compile. Returns whether any was replaced; the caller must drop its pipelines then. stop: asked before each
+    /// shader.
+    bool update(const std::function<bool()>& stop);
 
     /// Error of the last failed compilation, with file and line; empty: none.
     [[nodiscard]] const std::string& problem() const { return problem_; }

@@ -2,7 +2,6 @@
 #include "view/viewer.h"
 
 #include "base/error.h"
-#include "base/file.h"
 #include "base/interrupt.h"
 #include "base/json.h"
 #include "cli/device_options.h"
@@ -27,7 +26,6 @@ namespace reflet {
 
 namespace {
 
-namespace fs = std::filesystem;
 // Seconds.
 constexpr double idleWait = 0.25;
 constexpr double movesFor = 0.3;     // after the last change
@@ -57,10 +55,14 @@ ViewerState initialState(const ViewerOptions& options) {
     return state;
 }
 
-gpu::DeviceOptions deviceOptions(const ViewerOptions& options) {
+gpu::DeviceOptions deviceOptions(const ViewerOptions& options, std::atomic<size_t>& messages) {
     return {.select = options.device,
             .validation = options.validate,
-            .onMessage = printWarning,
+            .onMessage =
+                [&messages](const std::string& message) {
+                    ++messages;
+                    printWarning(message);
+                },
             .shaders = {effectShaders(), rendererShaders()},
             .windowExtensions = Window::vulkanExtensions()};
 }
@@ -84,8 +86,8 @@ Viewer::Viewer(const ViewerOptions& options)
     : options_(options),
       state_(initialState(options)),
       window_("Reflet", state_.window),
-      render_(deviceOptions(options), options.shaders.empty() ? REFLET_SHADER_SOURCES : options.shaders),
-      device_(deviceOptions(options)),
+      render_(deviceOptions(options, messages_), options.shaders.empty() ? REFLET_SHADER_SOURCES : options.shaders),
+      device_(deviceOptions(options, messages_)),
       presenter_(device_, window_.surface(device_.instance())) {
     now_.live = std::make_shared<const Shown>();
     if (!options.pick.empty()) {
@@ -254,33 +256,13 @@ void Viewer::attempt(const std::function<void()>& work) {
     redraws_ = settlingRedraws;
 }
 
-void Viewer::save() {
-    if (window_.size().x > 0) {
-        state_.window = window_.size();
-    }
-    lastSave_ = Clock::now();
-    const std::string text = stateText(state_);
-    if (text == saved_) {
-        return;
-    }
-    const fs::path file = stateFile(state_.source.scene);
-    std::error_code ignored;  // writing the file reports it better
-    fs::create_directories(file.parent_path(), ignored);
-    saved_ = text;
-    try {
-        writeFileAtomically(file, text);
-    } catch (const Error& error) {
-        tell(fmt::format("The state cannot be saved: {}", error.what()));
-        if (!warnedOfSaving_) {
-            printWarning(notice_);
-        }
-        warnedOfSaving_ = true;
-    }
-}
-
 // Draws only that the scene is being opened: everything else needs it.
 void Viewer::waitForScene() {
-    window_.takeKeys();
+    for (const KeyPress& press : window_.takeKeys()) {
+        if (press.control && press.key == GLFW_KEY_Q) {
+            window_.close();
+        }
+    }
     window_.beginUi();
     ImGui::SetNextWindowPos({0.0F, 0.0F});
     ImGui::Begin("Opening", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize);
@@ -306,7 +288,6 @@ void Viewer::drawWindow() {
 }
 
 void Viewer::loop() {
-    const InterruptNote note;
     const bool sharesCpu = device_.description().kind == "CPU";
     lastLoop_ = Clock::now();
     while (!window_.closing() && !InterruptNote::arrived()) {
@@ -359,20 +340,6 @@ void Viewer::loop() {
         if (secondsSince(lastSave_) > saveEvery) {  // so that little is lost if the display goes away
             save();
         }
-    }
-}
-
-void Viewer::run() {
-    try {
-        loop();
-    } catch (...) {
-        save();
-        throw;
-    }
-    save();
-    const size_t messages = device_.validationMessages().size() + render_.state().validationMessages.size();
-    if (options_.validate && messages > 0) {
-        fail("the validation layers reported {} messages", messages);
     }
 }
 

@@ -11,6 +11,7 @@
 #include "view/render_thread.h"
 #include "view/window.h"
 
+#include <atomic>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -74,7 +75,10 @@ private:
     void noteTimes();
     void tell(const std::string& text) { notice_ = text; }
     void attempt(const std::function<void()>& work);
+
+    // viewer_end.cpp
     void save();
+    void checkMessages() const;
 
     // viewer_actions.cpp
     void applyPresetNamed(const std::string& name);
@@ -131,6 +135,7 @@ private:
 
     ViewerOptions options_;
     ViewerState state_;
+    std::atomic<size_t> messages_ = 0;  ///< of the validation layers, for both devices
     Window window_;
     RenderThread render_;
     gpu::Device device_;  ///< of the window alone

@@ -122,20 +122,21 @@ void Viewer::takeScreenshot(const std::string& file) {
     if (!file.empty() && extension != ".png" && extension != ".exr") {
         fail("{}: the name must end in .png or .exr", file);
     }
-    render_.post("writing a screenshot", [this, file, state = state_, size = renderSize()](RenderThread::Work& work) {
-        std::string name = file;
-        for (int i = 1; name.empty(); ++i) {
-            const std::string next = fmt::format("{}-{}.png", sceneStem(state.source.scene), i);
-            name = fs::exists(next) ? "" : next;
-        }
-        work.live->screenshot(state, size, name);
-        return [this, name] { tell(fmt::format("Written: {}", fs::absolute(name).string())); };
-    });
+    render_.post("writing a screenshot", RenderThread::AtEnd::complete,
+                 [this, file, state = state_, size = renderSize()](RenderThread::Work& work) {
+                     std::string name = file;
+                     for (int i = 1; name.empty(); ++i) {
+                         const std::string next = fmt::format("{}-{}.png", sceneStem(state.source.scene), i);
+                         name = fs::exists(next) ? "" : next;
+                     }
+                     work.live->screenshot(state, size, name);
+                     return [this, name] { tell(fmt::format("Written: {}", fs::absolute(name).string())); };
+                 });
 }
 
 void Viewer::pickPixel(uvec2 pixel, bool focuses) {
     render_.post(
-        "reading a pixel",
+        "reading a pixel", RenderThread::AtEnd::drop,
         [this, pixel, focuses, state = state_, size = renderSize()](RenderThread::Work& work) -> RenderThread::Finish {
             const Picked picked = work.live->pick(state, size, pixel);
             return [this, picked, focuses] {

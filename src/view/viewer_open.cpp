@@ -27,12 +27,13 @@ bool givesSettings(const SceneOptions& source) {
 
 // The open scene stays until the other one is there.
 void Viewer::open(const SceneOptions& source, bool restores) {
-    render_.post(fmt::format("opening {}", source.scene), [this, source, restores](RenderThread::Work& work) {
-        auto session = std::make_unique<Session>(work.device, source);
-        const OpenScene opened = session->opened();
-        const uint64_t number = work.replace(std::move(session));
-        return [this, opened, number, source, restores] { showScene(opened, number, source, restores); };
-    });
+    render_.post(fmt::format("opening {}", source.scene), RenderThread::AtEnd::drop,
+                 [this, source, restores](RenderThread::Work& work) {
+                     auto session = std::make_unique<Session>(work.device, source);
+                     const OpenScene opened = session->opened();
+                     const uint64_t number = work.replace(std::move(session));
+                     return [this, opened, number, source, restores] { showScene(opened, number, source, restores); };
+                 });
 }
 
 void Viewer::showScene(const OpenScene& opened, uint64_t number, const SceneOptions& source, bool restores) {

@@ -50,6 +50,7 @@ public:
     [[nodiscard]] vec2 pressedAt() const { return pressedAt_; }
     [[nodiscard]] bool closing() const;
     void close();
+    void hide();
     void setTitle(const std::string& title);
     void copyText(const std::string& text);
     [[nodiscard]] uvec2 pixels() const;                   ///< 0 while minimised

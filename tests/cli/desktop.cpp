@@ -80,16 +80,27 @@ void DesktopTest::use(const Arguments& arguments) const {
     std::this_thread::sleep_for(handSpeed);
 }
 
-void DesktopTest::openViewer(const Arguments& arguments) {
+void DesktopTest::startViewer(const Arguments& arguments) {
     Arguments all{"view", "--status", "status.json"};
     all.insert(all.end(), arguments.begin(), arguments.end());
     std::filesystem::remove(path("status.json"));
     viewer_ = begin(all, environment());
+}
+
+void DesktopTest::openViewer(const Arguments& arguments) {
+    startViewer(arguments);
     ASSERT_TRUE(atRest());
 }
 
 Outcome DesktopTest::quit() {
     press("ctrl+q");
+    Outcome outcome = finish(viewer_);
+    viewer_ = 0;
+    return outcome;
+}
+
+Outcome DesktopTest::endBy(int signal) {
+    ::kill(viewer_, signal);
     Outcome outcome = finish(viewer_);
     viewer_ = 0;
     return outcome;

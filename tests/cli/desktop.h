@@ -17,10 +17,14 @@ protected:
     void SetUp() override;
     void TearDown() override;
 
-    /// Opens the viewer with --status, and waits until it has finished rendering.
+    /// Opens the viewer with --status.
+    void startViewer(const Arguments& arguments);
+    /// The same, and waits until it has finished rendering.
     void openViewer(const Arguments& arguments);
     /// Quits it by Ctrl+Q.
     [[nodiscard]] Outcome quit();
+    /// Ends it by a signal.
+    [[nodiscard]] Outcome endBy(int signal);
     /// Ends the display, and waits for the viewer to exit.
     [[nodiscard]] Outcome endDesktop();
     void openDesktop();
@@ -45,7 +49,7 @@ protected:
     /// Waits until the window has answered all input, for six seconds at most.
     void settle() const;
 
-    [[nodiscard]] int viewer() const { return viewer_; }
+    [[nodiscard]] int viewer() const { return viewer_; }  ///< process id
     [[nodiscard]] Variables environment() const;
 
 private:

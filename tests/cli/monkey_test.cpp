@@ -3,6 +3,7 @@
 // REFLET_MONKEY: for how many seconds [0: skipped]; REFLET_MONKEY_SEED: with which input [1].
 #include "cli/desktop.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdlib>
@@ -87,9 +88,9 @@ protected:
         const nlohmann::json place = std::next(controls.begin(), below(static_cast<uint32_t>(controls.size()))).value();
         const double across = 0.05 + 0.9 * static_cast<double>(below(100)) / 100.0;
         const double at = place[0].get<double>() + across * (place[2].get<double>() - place[0].get<double>());
-        return {"mousemove", std::to_string(static_cast<int>(at)),
-                std::to_string(static_cast<int>(0.5 * (place[1].get<double>() + place[3].get<double>()))), "click",
-                "1"};
+        const double height = 0.5 * (place[1].get<double>() + place[3].get<double>());
+        const auto inWindow = [](double d) { return std::to_string(static_cast<int>(std::max(d, 0.0))); };
+        return {"mousemove", inWindow(at), inWindow(height), "click", "1"};
     }
 
     [[nodiscard]] bool isRunning() const { return useOf(viewer()).residentMiB > 0.0; }  // the dead have no memory
@@ -102,7 +103,7 @@ protected:
 // Over 5 s: for as long as it is asked to.
 TEST_F(Monkey, PlaysWithTheWindow) {
     const uint32_t seconds = numberOf("REFLET_MONKEY", 0);
-    if (seconds == 0) {  // it may choose settings with which a pass, and so the end, takes minutes
+    if (seconds == 0) {
         GTEST_SKIP() << "REFLET_MONKEY says for how many seconds";
     }
     openViewer({"builtin:moving", "--size", "200x160", "--preset", "plain", "--fresh", "--validate"});
@@ -127,7 +128,9 @@ TEST_F(Monkey, PlaysWithTheWindow) {
     (void)runOther("xdotool", atRest, environment());
     const Outcome ended = quit();
     EXPECT_EQ(ended.status, 0) << ended.err;
-    EXPECT_EQ(ended.err, "");
+    // The last ones may take longer than the window waits.
+    EXPECT_TRUE(ended.err.empty() || ended.err.starts_with("reflet: warning: screenshots not written")) << ended.err;
+    EXPECT_LE(std::ranges::count(ended.err, '\n'), 1) << ended.err;
     EXPECT_GT(inputs, seconds);
 }
 

@@ -176,9 +176,7 @@ TEST_F(Sequence, WithoutAnOrbitMoreFramesMayBeAddedLater) {
     write("path.json", R"({"keyframes": [{"time": 0, "position": [6, 2, 0], "target": [0, 0, 0]},
                                          {"time": 0.2, "position": [4, 3, 4], "target": [0, 0, 0]}]})");
     const auto frames = [&](const std::string& count, const std::string& name) {
-        Arguments all{"--frames", count, "--path", "path.json", "-o", name, "--segment", "2", "--warmup", "2",
-                      // llvmpipe's anisotropic filtering takes a minute per frame here.
-                      "--set", "materials.anisotropy=1"};
+        Arguments all{"--frames", count, "--path", "path.json", "-o", name, "--segment", "2", "--warmup", "2"};
         all.insert(all.end(), history.begin(), history.end());
         EXPECT_TRUE(quietSuccess(render("builtin:cubes", all)));
     };

@@ -21,14 +21,18 @@ vec3 cubeFaceDirection(vec2 at, uint face) {
 // A texel centre's position on its face, -1 to 1.
 vec2 cubeTexelCenter(ivec2 texel, int side) { return (2.0 * vec2(texel) + 1.0) / float(side) - 1.0; }
 
-// Solid angle of the part of a face from its centre to `at`; negative where one coordinate is.
-float cubeCornerSolidAngle(vec2 at) { return atan(at.x * at.y, sqrt(dot(at, at) + 1.0)); }
-
+// By Gauss's quadrature of 2x2 points: off by 4e-4 of a texel for a side of 4, 3e-7 for 32. The exact difference of four
+// arc tangents is worse, as Vulkan allows them an error that is near the whole solid angle of a small texel.
 float cubeTexelSolidAngle(ivec2 texel, int side) {
-    vec2 low = 2.0 * vec2(texel) / float(side) - 1.0;
-    vec2 high = low + 2.0 / float(side);
-    return cubeCornerSolidAngle(high) + cubeCornerSolidAngle(low) - cubeCornerSolidAngle(vec2(low.x, high.y)) -
-           cubeCornerSolidAngle(vec2(high.x, low.y));
+    vec2 center = cubeTexelCenter(texel, side);
+    float offset = 0.577350269 / float(side);
+    float sum = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        vec2 at = center + offset * vec2((i & 1) * 2 - 1, (i >> 1) * 2 - 1);
+        float distance2 = 1.0 + dot(at, at);
+        sum += inversesqrt(distance2 * distance2 * distance2);
+    }
+    return sum / float(side * side);
 }
 
 // Lookups. All maps need trilinear filtering; directions may have any length except for 0.
