@@ -5,6 +5,7 @@
 #include "cli/command_line.h"
 #include "cli/commands.h"
 #include "cli/device_options.h"
+#include "cli/output_files.h"
 #include "cli/text_table.h"
 #include "measure/bench/against.h"
 #include "measure/bench/bandwidth.h"
@@ -116,11 +117,9 @@ BenchPlan makePlan(const BenchCommand& command) {
     if (std::ranges::find(comparable, plan.layer) == comparable.end()) {
         failUsage("--layer must be one of {}, is '{}'", fmt::join(comparable, ", "), plan.layer);
     }
-    for (const std::string& file : {command.json, command.plot}) {
-        if (!file.empty()) {
-            const AtomicFile trial(file);  // fails now, not after minutes of work
-        }
-    }
+    std::vector<std::string> inputs = inputFiles(command.shared);
+    inputs.insert(inputs.end(), command.scenes.begin(), command.scenes.end());
+    tryOutputs({command.json, command.plot}, inputs);
     plan.scenes = scenesOf(command);
     return plan;
 }
