@@ -117,9 +117,7 @@ BenchPlan makePlan(const BenchCommand& command) {
     if (std::ranges::find(comparable, plan.layer) == comparable.end()) {
         failUsage("--layer must be one of {}, is '{}'", fmt::join(comparable, ", "), plan.layer);
     }
-    std::vector<std::string> inputs = inputFiles(command.shared);
-    inputs.insert(inputs.end(), command.scenes.begin(), command.scenes.end());
-    tryOutputs({command.json, command.plot}, inputs);
+    tryOutputs({command.json, command.plot}, inputFiles(command.shared, command.scenes));
     plan.scenes = scenesOf(command);
     return plan;
 }

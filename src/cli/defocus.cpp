@@ -97,9 +97,7 @@ FloatImage blurred(gpu::Device& device, const SharpPicture& sharp, const Camera&
 
 void defocus(const DefocusCommand& command) {
     const Settings settings = loadSettings(command.scene);
-    std::vector<std::string> inputs = inputFiles(command.scene);
-    inputs.push_back(command.picture);
-    checkOutputs(command.outputs, inputs, "defocus");
+    checkOutputs(command.outputs, inputFiles(command.scene, {command.picture}), "defocus");
     const SharpPicture sharp = readSharp(command.picture);
     const Scene scene = loadScene(command.scene);
     const View view = posed(loadView(command.scene, scene), scene);

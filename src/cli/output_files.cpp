@@ -43,8 +43,9 @@ void tryOutputs(const std::vector<std::string>& outputs, const std::vector<std::
     }
 }
 
-std::vector<std::string> inputFiles(const SceneOptions& options) {
+std::vector<std::string> inputFiles(const SceneOptions& options, const std::vector<std::string>& more) {
     std::vector<std::string> files = options.settingsFiles;
+    files.insert(files.end(), more.begin(), more.end());
     files.insert(files.end(), {options.scene, options.viewFile, options.environment});
     return files;
 }

@@ -12,7 +12,7 @@ struct SceneOptions;
 /// replace one of the inputs or an earlier output. Empty names are left out.
 void tryOutputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 
-/// The files that the options of a scene name.
-std::vector<std::string> inputFiles(const SceneOptions& options);
+/// The files that the options of a scene name, and `more`.
+std::vector<std::string> inputFiles(const SceneOptions& options, const std::vector<std::string>& more);
 
 }  // namespace reflet

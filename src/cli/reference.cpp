@@ -291,9 +291,7 @@ void trace(const ReferenceCommand& command) {
     checkLayers(command);
     const Settings settings = loadSettings(command.scene);
     const ReferenceOptions options = referenceOptions(command, settings);
-    std::vector<std::string> inputs = inputFiles(command.scene);
-    inputs.push_back(command.sequence.path);
-    checkOutputs(command.outputs, inputs, "reference");
+    checkOutputs(command.outputs, inputFiles(command.scene, {command.sequence.path}), "reference");
     const bool sequence = isSequence(command.outputs, command.sequence, command.frames);
     const Scene scene = loadScene(command.scene);
     const View view = loadView(command.scene, scene);

@@ -42,9 +42,7 @@ void checkOutputs(const RenderOptions& options) {
     }
     std::vector<std::string> outputs = options.outputs;
     outputs.push_back(options.timings);
-    std::vector<std::string> inputs = inputFiles(options.scene);
-    inputs.push_back(options.sequence.path);
-    tryOutputs(outputs, inputs);
+    tryOutputs(outputs, inputFiles(options.scene, {options.sequence.path}));
 }
 
 // Renders the frames of one view and writes the last one.
