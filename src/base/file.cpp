@@ -1,5 +1,5 @@
-// Reads and writes whole files. Files are written to a temporary name in the same folder and then renamed, which is
-// atomic on POSIX.
+// Reads and writes whole files. What is written has no name, or a temporary one in the same folder, until it is whole;
+// linking and renaming are atomic on POSIX.
 #include "base/file.h"
 
 #include "base/error.h"
@@ -72,15 +72,6 @@ fs::path temporaryName(const fs::path& target) {
     return folder + fmt::format(".reflet-{}-{:08x}-{}.tmp", ::getpid(), process, counter++);
 }
 
-/// Brings a file's content to the disk. Without that, a machine that loses power may keep the name, but not the
-/// content.
-void flush(const fs::path& path, const fs::path& name) {
-    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-    if (!file.valid() || (::fsync(file.get()) != 0 && errno != EINVAL)) {  // EINVAL: a file system that cannot
-        failWrite(name, errno);
-    }
-}
-
 /// Names of temporary files, for a signal handler: no locks, and no memory taken while one looks.
 class TemporaryList {
 public:
@@ -139,6 +130,37 @@ void writeAll(int descriptor, std::string_view content, const fs::path& name) {
     }
 }
 
+/// A file without a name in the folder of `target`: whatever ends the program, nothing is left of it. Negative: there
+/// are none on this file system, or without /proc.
+int openUnnamed(const fs::path& target) {
+    const std::string& whole = target.native();
+    const std::string folder = whole.substr(0, whole.rfind('/') + 1) + ".";
+    return ::access("/proc/self/fd", X_OK) != 0 ? -1 : ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+}
+
+/// False with errno set if it fails.
+bool linkUnnamed(int descriptor, const fs::path& path) {
+    std::array<char, 32> self{};
+    *fmt::format_to_n(self.data(), self.size() - 1, "/proc/self/fd/{}", descriptor).out = '\0';
+    return ::linkat(AT_FDCWD, self.data(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW) == 0;
+}
+
+/// To a pipe or a device.
+void writeDirectly(const fs::path& path, std::string_view content) {
+    // Not blocking: to open a pipe that nothing reads would wait for ever. Writing to it may wait.
+    Descriptor file(::open(path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC | O_NONBLOCK));
+    if (!file.valid() && errno == ENXIO) {
+        fail("{}: cannot be written: it is a socket, or a pipe that nothing reads", path.string());
+    }
+    if (!file.valid() || ::fcntl(file.get(), F_SETFL, O_WRONLY) != 0) {
+        failWrite(path, errno);
+    }
+    writeAll(file.get(), content, path);
+    if (!file.close()) {
+        failWrite(path, errno);
+    }
+}
+
 }  // namespace
 
 std::string readFile(const fs::path& path, uint64_t maxBytes) {
@@ -184,80 +206,118 @@ std::string readFile(const fs::path& path, uint64_t maxBytes) {
     }
 }
 
-namespace {
-
-void writeTemporary(const AtomicFile& file, std::string_view content, const fs::path& name) {
-    Descriptor descriptor(::open(file.tempPath().c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC));
-    if (!descriptor.valid()) {
-        failWrite(name, errno);
-    }
-    writeAll(descriptor.get(), content, name);
-    if (!descriptor.close()) {
-        failWrite(name, errno);
-    }
-}
-
-}  // namespace
-
 void writeFileAtomically(const fs::path& path, std::string_view content, Lasting lasting) {
     AtomicFile file(path);
-    writeTemporary(file, content, path);
+    file.write(content);
     file.commit(lasting);
 }
 
 bool writeNewFile(const fs::path& path, std::string_view content) {
     AtomicFile file(path);
-    writeTemporary(file, content, path);
+    file.write(content);
     return file.commitNew();
 }
 
-AtomicFile::AtomicFile(const fs::path& target) : name_(target), target_(target) {
-    std::error_code ignored;
-    const fs::file_status status = fs::status(target, ignored);
+AtomicFile::AtomicFile(const fs::path& target, Naming naming) : name_(target), target_(target) {
+    std::error_code error;
+    const fs::file_status status = fs::status(target, error);
+    if (status.type() == fs::file_type::none) {  // too long, or a loop of links
+        failWrite(target, error.value());
+    }
     if (fs::is_directory(status) || !target.has_filename()) {
         fail("{}: cannot be written: it is a folder; name a file in it", target.string());
     }
-    if (fs::exists(status) && !fs::is_regular_file(status)) {
-        tempPath_ = target_;
+    direct_ = fs::exists(status) && !fs::is_regular_file(status);
+    if (direct_) {
         return;
     }
-    if (fs::is_symlink(fs::symlink_status(target, ignored))) {
+    if (fs::is_symlink(fs::symlink_status(target, error))) {
         std::error_code dangling;
         const fs::path resolved = fs::canonical(target, dangling);
         target_ = dangling ? target : resolved;
     }
+    if (naming == Naming::whenWhole) {
+        descriptor_ = openUnnamed(target_);
+    }
+    if (descriptor_ < 0) {
+        openNamed();
+    }
+}
+
+void AtomicFile::openNamed() {
     tempPath_ = temporaryName(target_);
     const std::scoped_lock lock(creation());
     listed_ = temporaryList().add(tempPath_);  // first: the program may end right after the file is created
-    const Descriptor descriptor(::open(tempPath_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-    if (!descriptor.valid()) {
+    descriptor_ = ::open(tempPath_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) {
         const int error = errno;
         temporaryList().forget(listed_);
         failWrite(name_, error);
     }
-    pending_ = true;
 }
 
 AtomicFile::~AtomicFile() {
-    if (pending_) {
-        std::error_code ignored;
-        fs::remove(tempPath_, ignored);
+    if (descriptor_ >= 0) {
+        ::close(descriptor_);
+    }
+    forgetTemporary();
+}
+
+void AtomicFile::forgetTemporary() noexcept {
+    if (!tempPath_.empty()) {
+        ::unlink(tempPath_.c_str());
         temporaryList().forget(listed_);
+        tempPath_.clear();
     }
 }
 
+void AtomicFile::write(std::string_view content) {
+    if (direct_) {
+        writeDirectly(name_, content);
+    } else {
+        writeAll(descriptor_, content, name_);
+    }
+}
+
+// Brings the content to the disk. Without that, a machine that loses power may keep the name, but not the content.
+void AtomicFile::flush() const {
+    if (::fsync(descriptor_) != 0 && errno != EINVAL) {  // EINVAL: a file system that cannot
+        failWrite(name_, errno);
+    }
+}
+
+bool AtomicFile::linkTo(const fs::path& path) const {
+    return tempPath_.empty() ? linkUnnamed(descriptor_, path) : ::link(tempPath_.c_str(), path.c_str()) == 0;
+}
+
 void AtomicFile::commit(Lasting lasting) {
-    if (!pending_) {
+    if (direct_) {
         return;
     }
     if (lasting == Lasting::yes) {
-        flush(tempPath_, name_);
+        flush();
     }
-    if (::rename(tempPath_.c_str(), target_.c_str()) != 0) {
+    if (tempPath_.empty()) {
+        if (linkTo(target_)) {
+            return;
+        }
+        if (errno != EEXIST) {
+            failWrite(name_, errno);
+        }
+        fs::path named = temporaryName(target_);  // no call replaces a file by one without a name
+        const std::scoped_lock lock(creation());
+        listed_ = temporaryList().add(named);
+        if (!linkTo(named)) {
+            const int error = errno;
+            temporaryList().forget(listed_);
+            failWrite(name_, error);
+        }
+        tempPath_ = std::move(named);
+    }
+    if (::close(std::exchange(descriptor_, -1)) != 0 || ::rename(tempPath_.c_str(), target_.c_str()) != 0) {
         failWrite(name_, errno);
     }
-    pending_ = false;
-    temporaryList().forget(listed_);
+    forgetTemporary();
 }
 
 void removeTemporaryFiles() noexcept {
@@ -271,10 +331,11 @@ void exitNow(int status) noexcept {
 }
 
 bool AtomicFile::commitNew() {
-    if (pending_) {
-        flush(tempPath_, name_);
+    if (direct_) {
+        return true;
     }
-    if (pending_ && ::link(tempPath_.c_str(), target_.c_str()) != 0) {
+    flush();
+    if (!linkTo(target_)) {
         if (errno == EEXIST) {
             return false;
         }

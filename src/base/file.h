@@ -23,39 +23,48 @@ void writeFileAtomically(const std::filesystem::path& path, std::string_view con
 /// concurrently.
 bool writeNewFile(const std::filesystem::path& path, std::string_view content);
 
-/// Removes the temporary files of writes that are going on, for a program that ends at once. May be called by a signal
-/// handler.
+/// Removes the temporary names of writes that are going on (not all file systems need them), for a program that ends at
+/// once. May be called by a signal handler.
 void removeTemporaryFiles() noexcept;
 
 /// Ends the process at once, without destructors: for where a thread cannot be waited for. Files that threads are
 /// writing are whole or unchanged, and no temporary files are left.
 [[noreturn]] void exitNow(int status) noexcept;
 
-/// For libraries that write to a path themselves: let them write to tempPath(), then call commit(). Without commit()
-/// the target is unchanged. A target that is no regular file (/dev/null, a pipe) is written directly.
+/// A file that gets its name when it is whole. Without commit() the target is unchanged. A target that is no regular
+/// file (/dev/null, a pipe) is written directly.
 class AtomicFile {
 public:
-    /// Creates the empty temporary file in the target's folder. Throws Error if the target cannot be written.
-    explicit AtomicFile(const std::filesystem::path& target);
+    /// atOnce: a temporary name, as on file systems where all files have one.
+    enum class Naming : uint8_t { whenWhole, atOnce };
+
+    /// Throws Error if the target cannot be written.
+    explicit AtomicFile(const std::filesystem::path& target, Naming naming = Naming::whenWhole);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
     AtomicFile(AtomicFile&&) = delete;
     AtomicFile& operator=(AtomicFile&&) = delete;
 
-    [[nodiscard]] const std::filesystem::path& tempPath() const { return tempPath_; }
-
-    /// Renames the temporary file to the target. Call at most once. Throws Error.
+    /// Adds to the content. Throws Error.
+    void write(std::string_view content);
+    /// Gives the file the target's name. Call at most once. Throws Error.
     void commit(Lasting lasting = Lasting::yes);
     /// The same, but returns false and changes nothing if the target exists.
     bool commitNew();
 
 private:
+    void openNamed();
+    void forgetTemporary() noexcept;
+    void flush() const;
+    [[nodiscard]] bool linkTo(const std::filesystem::path& path) const;
+
     std::filesystem::path name_;      ///< as the caller gave it, for messages
     std::filesystem::path target_;    ///< symbolic links resolved
-    std::filesystem::path tempPath_;  ///< target_ itself if that is written directly
-    bool pending_ = false;            ///< the temporary file exists
-    size_t listed_ = 0;               ///< of the temporary file in the list of removeTemporaryFiles
+    std::filesystem::path tempPath_;  ///< empty: it has no name
+    bool direct_ = false;             ///< not a regular file
+    int descriptor_ = -1;
+    size_t listed_ = 0;  ///< of the temporary file in the list of removeTemporaryFiles
 };
 
 }  // namespace reflet

@@ -19,6 +19,9 @@ constexpr uint8_t soi = 0xD8;  // follows the eight restart markers
 constexpr uint8_t eoi = 0xD9;
 constexpr uint8_t sos = 0xDA;
 
+constexpr int mostComponents = 4;  // a scan of its own for each, at most, unless it is progressive
+constexpr int mostScans = 32;      // writers of progressive images make about ten
+
 constexpr const char* truncated = "a segment of its header is truncated";
 
 /// The tables that have been defined: [0] for DC, [1] for AC coefficients.
@@ -82,6 +85,7 @@ bool startsAsJpeg(Bytes bytes) {
 
 std::string jpegProblem(Bytes bytes) {
     Tables tables{};
+    int scans = 0;
     bool progressive = false;
     std::string problem;
     while (problem.empty()) {
@@ -105,6 +109,8 @@ std::string jpegProblem(Bytes bytes) {
         progressive = progressive || marker == sofProgressive;
         if (marker == dht) {
             problem = readTables(segment, tables);
+        } else if (marker == sos && ++scans > (progressive ? mostScans : mostComponents)) {
+            problem = "it has too many scans";
         } else if (marker == sos) {
             problem = checkScan(segment, tables, progressive);
         }

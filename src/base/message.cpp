@@ -24,6 +24,16 @@ std::string oneLine(std::string_view text, size_t most) {
     return withoutControls(text.substr(0, most), '?') + (text.size() > most ? "..." : "");
 }
 
+std::string listed(std::span<const std::string> names) {
+    constexpr size_t most = 20;
+    constexpr size_t mostBytes = 60;
+    std::string text = names.empty() ? "none" : "";
+    for (size_t i = 0; i < names.size() && i < most; ++i) {
+        text += (i == 0 ? "" : ", ") + oneLine(names[i], mostBytes);
+    }
+    return text + (names.size() > most ? " and " + std::to_string(names.size() - most) + " more" : "");
+}
+
 void printRaw(std::string_view text) noexcept {
     (void)std::fwrite(text.data(), 1, text.size(), stderr);  // not fmt::print, which throws
     (void)std::fflush(stderr);

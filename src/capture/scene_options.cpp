@@ -49,8 +49,7 @@ const Camera& findCamera(const Scene& scene, const std::string& wanted) {
         for (size_t i = 0; i < scene.cameras.size(); ++i) {
             names.push_back(fmt::format("{} '{}'", i, scene.cameras[i].name));
         }
-        failUsage("the scene has no camera '{}'; its cameras: {}", wanted,
-                  names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")));
+        failUsage("the scene has no camera '{}'; its cameras: {}", wanted, listed(names));
     }
     return *found;
 }

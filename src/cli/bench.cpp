@@ -5,6 +5,7 @@
 #include "cli/command_line.h"
 #include "cli/commands.h"
 #include "cli/device_options.h"
+#include "cli/output_files.h"
 #include "cli/text_table.h"
 #include "measure/bench/against.h"
 #include "measure/bench/bandwidth.h"
@@ -116,11 +117,7 @@ BenchPlan makePlan(const BenchCommand& command) {
     if (std::ranges::find(comparable, plan.layer) == comparable.end()) {
         failUsage("--layer must be one of {}, is '{}'", fmt::join(comparable, ", "), plan.layer);
     }
-    for (const std::string& file : {command.json, command.plot}) {
-        if (!file.empty()) {
-            const AtomicFile trial(file);  // fails now, not after minutes of work
-        }
-    }
+    tryOutputs({command.json, command.plot}, inputFiles(command.shared, command.scenes));
     plan.scenes = scenesOf(command);
     return plan;
 }

@@ -1,11 +1,12 @@
 // `reflet compare`: measures the error of an image against a reference.
 #include "cli/compare.h"
 #include "base/error.h"
-#include "base/file.h"
 #include "base/json_text.h"
+#include "base/limits.h"
 #include "base/text.h"
 #include "capture/sequence_names.h"
 #include "cli/commands.h"
+#include "cli/output_files.h"
 #include "compare/heat_map.h"
 
 #include <CLI/CLI.hpp>
@@ -49,7 +50,6 @@ void checkOutput(std::string_view option, const std::string& file, std::string_v
     if (!file.ends_with(ending)) {
         failUsage("{} {}: the name must end in {}", option, file, ending);
     }
-    const AtomicFile trial(file);  // fails before the work, not after it
 }
 
 std::vector<bool> loadMask(const std::string& mask, const PicturePair& names, const FloatImage& picture) {
@@ -117,6 +117,7 @@ void compare(const CompareCommand& command) {
     }
     checkOutput("--heatmap", command.heatMap, ".png");
     checkOutput("--plot", command.plot, ".svg");
+    tryOutputs({command.heatMap, command.plot}, {names[0].file, names[1].file, command.mask});
     if (FrameNames::isPattern(names[0].file)) {
         compareSequences(command, names, limits);
         return;
@@ -166,8 +167,22 @@ std::string valueText(const Metric& metric, double value) {
     return fmt::format("{:.6g}{}{}", value, metric.unit.empty() ? "" : " ", metric.unit);
 }
 
+/// Measured: FLIP of linear images takes most.
+void checkMemory(const FloatImage& picture, const std::string& name) {
+    constexpr uint64_t bytesPerPixel = 140;
+    constexpr double gib = 1U << 30U;
+    const uint64_t limit = memoryLimit();
+    const uint64_t bytes = uint64_t(picture.width) * picture.height * bytesPerPixel;
+    if (bytes > limit) {
+        fail("{}: to compare {} x {} pixels takes {:.1f} GiB, more than the limit of {:.3g} GiB: {}", name,
+             picture.width, picture.height, static_cast<double>(bytes) / gib, static_cast<double>(limit) / gib,
+             raiseMemoryLimit(bytes));
+    }
+}
+
 Comparison comparePair(const CompareCommand& command, const PicturePair& names) {
     const FloatImage picture = readPicture(names[0]);
+    checkMemory(picture, names[0].text);
     const FloatImage truth = readPicture(names[1]);
     CompareOptions options{names[0].kind, command.pixelsPerDegree, {}, names[0].text, names[1].text};
     checkComparable(picture, truth, options);

@@ -1,10 +1,10 @@
 // `reflet defocus`: depth of field on a picture that was made elsewhere, or by the reference without a lens.
 #include "base/error.h"
-#include "base/file.h"
 #include "capture/pictures.h"
 #include "capture/texels.h"
 #include "cli/commands.h"
 #include "cli/device_options.h"
+#include "cli/output_files.h"
 #include "cli/scene_arguments.h"
 #include "device/device.h"
 #include "device/frame.h"
@@ -97,7 +97,7 @@ FloatImage blurred(gpu::Device& device, const SharpPicture& sharp, const Camera&
 
 void defocus(const DefocusCommand& command) {
     const Settings settings = loadSettings(command.scene);
-    checkOutputs(command.outputs, "defocus");
+    checkOutputs(command.outputs, inputFiles(command.scene, {command.picture}), "defocus");
     const SharpPicture sharp = readSharp(command.picture);
     const Scene scene = loadScene(command.scene);
     const View view = posed(loadView(command.scene, scene), scene);

@@ -40,16 +40,35 @@ namespace {
     endNow("reflet: internal error: the program ended itself\n");
 }
 
-bool isLimited(__rlimit_resource resource) noexcept {
+bool isLimited(__rlimit_resource resource, rlim_t enough = RLIM_INFINITY) noexcept {
     rlimit limit{};
-    return ::getrlimit(resource, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+    return ::getrlimit(resource, &limit) == 0 && limit.rlim_cur < enough;
 }
 
 void endCrashed(int /*signal*/) {
+    constexpr rlim_t usualStack = 8U << 20U;
+    if (isLimited(RLIMIT_STACK, usualStack)) {
+        endNow("reflet: crashed, probably for lack of memory for the stack: raise ulimit -s\n");
+    }
     if (isLimited(RLIMIT_AS) || isLimited(RLIMIT_DATA)) {  // Mesa and LLVM do not check what they allocate
-        endNow("reflet: a library or the graphics driver crashed, probably for lack of memory: raise ulimit -v or -d\n");
+        endNow(
+            "reflet: a library or the graphics driver crashed, probably for lack of memory: raise ulimit -v or -d\n");
     }
     endNow("reflet: internal error: the program, a library or the graphics driver crashed\n");
+}
+
+void endOutOfTime(int /*signal*/) {
+    endNow("reflet: took more CPU time than ulimit -t allows\n");
+}
+
+// `ulimit -t` sets both limits, and the second one kills without a signal that could be handled.
+void leaveTimeToEnd() {
+    rlimit time{};
+    if (::getrlimit(RLIMIT_CPU, &time) == 0 && time.rlim_cur != RLIM_INFINITY && time.rlim_cur == time.rlim_max &&
+        time.rlim_cur > 1) {
+        --time.rlim_cur;
+        ::setrlimit(RLIMIT_CPU, &time);
+    }
 }
 
 bool crashesAreWanted() {
@@ -94,6 +113,8 @@ void prepareForFailures() noexcept {
     openStandardStreams();
     ::signal(SIGPIPE, SIG_IGN);
     ::signal(SIGXFSZ, SIG_IGN);
+    ::signal(SIGXCPU, endOutOfTime);
+    leaveTimeToEnd();
     std::set_terminate(endTerminated);
     if (!crashesAreWanted()) {
         catchCrashes();

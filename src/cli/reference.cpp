@@ -11,6 +11,7 @@
 #include "capture/sequence_views.h"
 #include "capture/show.h"
 #include "cli/commands.h"
+#include "cli/output_files.h"
 #include "cli/scene_arguments.h"
 #include "cli/sequence_arguments.h"
 #include "effects/exposure/exposure.h"
@@ -290,7 +291,7 @@ void trace(const ReferenceCommand& command) {
     checkLayers(command);
     const Settings settings = loadSettings(command.scene);
     const ReferenceOptions options = referenceOptions(command, settings);
-    checkOutputs(command.outputs, "reference");
+    checkOutputs(command.outputs, inputFiles(command.scene, {command.sequence.path}), "reference");
     const bool sequence = isSequence(command.outputs, command.sequence, command.frames);
     const Scene scene = loadScene(command.scene);
     const View view = loadView(command.scene, scene);

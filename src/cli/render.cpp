@@ -6,6 +6,7 @@
 #include "capture/sequence.h"
 #include "cli/commands.h"
 #include "cli/device_options.h"
+#include "cli/output_files.h"
 #include "cli/scene_arguments.h"
 #include "cli/sequence_arguments.h"
 #include "device/device.h"
@@ -39,13 +40,9 @@ void checkOutputs(const RenderOptions& options) {
     if (!options.aovs.empty() && std::ranges::none_of(options.outputs, isExr)) {
         failUsage("--aov needs an EXR output: add -o FILE.exr");
     }
-    std::vector<fs::path> all(options.outputs.begin(), options.outputs.end());
-    if (!options.timings.empty()) {
-        all.emplace_back(options.timings);
-    }
-    for (const fs::path& path : all) {  // fails now, not after minutes of work
-        const AtomicFile trial(path);
-    }
+    std::vector<std::string> outputs = options.outputs;
+    outputs.push_back(options.timings);
+    tryOutputs(outputs, inputFiles(options.scene, {options.sequence.path}));
 }
 
 // Renders the frames of one view and writes the last one.

@@ -2,8 +2,8 @@
 #include "cli/scene_arguments.h"
 
 #include "base/error.h"
-#include "base/file.h"
 #include "capture/pictures.h"
+#include "cli/output_files.h"
 
 #include <CLI/CLI.hpp>
 
@@ -55,7 +55,8 @@ void addViewOptions(CLI::App& command, SceneOptions& options) {
     command.add_option("--seed", options.seed, "Seed of the random numbers")->capture_default_str();
 }
 
-void checkOutputs(const std::vector<std::string>& outputs, std::string_view command) {
+void checkOutputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs,
+                  std::string_view command) {
     if (outputs.empty()) {
         failUsage("nothing to write: add -o FILE.exr or -o FILE.png (see reflet {} --help)", command);
     }
@@ -63,8 +64,8 @@ void checkOutputs(const std::vector<std::string>& outputs, std::string_view comm
         if (!isExr(file) && std::filesystem::path(file).extension() != ".png") {
             failUsage("-o {}: the name must end in .exr or .png", file);
         }
-        const AtomicFile trial(file);  // fails now, not after minutes of work
     }
+    tryOutputs(outputs, inputs);
 }
 
 }  // namespace reflet

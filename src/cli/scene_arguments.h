@@ -18,8 +18,8 @@ void addSceneOptions(CLI::App& command, SceneOptions& options);
 /// Adds the options other than SCENE, --preset and --variant, for a subcommand that takes several of these.
 void addViewOptions(CLI::App& command, SceneOptions& options);
 
-/// Throws UsageError unless there are names, all end in .exr or .png, and the files can be written. command: for its
-/// help.
-void checkOutputs(const std::vector<std::string>& outputs, std::string_view command);
+/// Throws UsageError unless there are names and all end in .exr or .png; then as tryOutputs. command: for its help.
+void checkOutputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs,
+                  std::string_view command);
 
 }  // namespace reflet

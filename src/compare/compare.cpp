@@ -2,6 +2,7 @@
 #include "compare/compare.h"
 
 #include "base/error.h"
+#include "base/message.h"
 #include "compare/color.h"
 #include "compare/flip.h"
 
@@ -115,12 +116,11 @@ void checkComparable(const FloatImage& image, const FloatImage& reference, const
     }
     if (image.channels.size() != reference.channels.size()) {
         fail("{} has the channels {}, but {} has {}: only images with the same number of channels can be compared",
-             options.imageName, fmt::join(image.channels, ", "), options.referenceName,
-             fmt::join(reference.channels, ", "));
+             options.imageName, listed(image.channels), options.referenceName, listed(reference.channels));
     }
     if (image.channels.size() != 1 && image.channels.size() != 3) {
         fail("{} has the channels {}: only images with 1 or 3 channels can be compared", options.imageName,
-             fmt::join(image.channels, ", "));
+             listed(image.channels));
     }
     if (pixelCount(image) == 0) {
         fail("{} has no pixels", options.imageName);

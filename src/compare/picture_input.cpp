@@ -2,6 +2,7 @@
 #include "compare/picture_input.h"
 
 #include "base/error.h"
+#include "base/message.h"
 #include "base/text.h"
 
 #include <algorithm>
@@ -73,8 +74,8 @@ FloatImage readLayer(const PictureName& name) {
     std::vector<std::string> names;
     std::ranges::transform(layers, std::back_inserter(names),
                            [](const ImageLayer& other) { return other.name.empty() ? "final" : other.name; });
-    fail("{}: has no layer '{}'; its layers: {}{}", name.file, name.layer.empty() ? "final" : name.layer,
-         fmt::join(names, ", "), suggestion(name.layer, names));
+    fail("{}: has no layer '{}'; its layers: {}{}", name.file, name.layer.empty() ? "final" : name.layer, listed(names),
+         suggestion(name.layer, names));
 }
 
 FloatImage readAllChannels(const PictureName& name) {

@@ -122,6 +122,15 @@ constexpr RTCSceneFlags filterFlag = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS
 constexpr RTCSceneFlags filterFlag = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
 #endif
 
+// Embree ends the program at rays beyond its limit, of 1.8e18, or of no numbers: those of a camera at such a place.
+bool isTraceable(const Ray& ray) {
+    constexpr float most = 1e18F;
+    const auto fits = [](const vec3& v) {
+        return std::abs(v.x) < most && std::abs(v.y) < most && std::abs(v.z) < most;
+    };
+    return fits(ray.origin) && fits(ray.direction) && ray.near >= 0.0F && ray.far >= 0.0F;  // NaN does not
+}
+
 RTCRay embreeRay(const Ray& ray) {
     RTCRay r{};
     r.org_x = ray.origin.x;
@@ -223,6 +232,9 @@ RayScene::RayScene(const Scene& scene) : state_(new State{scene, {}, nullptr, nu
 RayScene::~RayScene() = default;
 
 std::optional<Hit> RayScene::intersect(const Ray& ray, RayKind kind) const {
+    if (!isTraceable(ray)) {
+        return std::nullopt;
+    }
     RTCRayHit r{};
     r.ray = embreeRay(ray);
     r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -235,6 +247,9 @@ std::optional<Hit> RayScene::intersect(const Ray& ray, RayKind kind) const {
 }
 
 bool RayScene::occluded(const Ray& ray, RayKind kind) const {
+    if (!isTraceable(ray)) {
+        return false;
+    }
     RTCRay r = embreeRay(ray);
     Query(kind).occluded(state_->hierarchy, r);
     return r.tfar < 0.0F;

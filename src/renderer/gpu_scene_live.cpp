@@ -1,6 +1,8 @@
 // Live camera images: textures rendered every frame and shown by materials.
 #include "renderer/gpu_scene.h"
 
+#include "base/message.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,8 +25,7 @@ std::optional<size_t> GpuScene::livePictureOf(const Scene& scene, const Material
         std::ranges::transform(scene.cameras, std::back_inserter(names),
                                [](const Camera& c) { return fmt::format("'{}'", c.name); });
         warn(fmt::format("material '{}' shows camera '{}', which is not in the scene; its cameras are: {}",
-                         material.name, material.camera,
-                         names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+                         material.name, material.camera, listed(names)));
         return std::nullopt;
     }
     live_.push_back({*camera, *camera, {}});

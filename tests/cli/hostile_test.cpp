@@ -61,6 +61,57 @@ TEST_F(Hostile, PipesAndDevicesAreNotReadAsFiles) {
     EXPECT_TRUE(refused(render("pipe", {"-o", "a.png"}), failed, {"pipe", "not a file"}));
 }
 
+TEST_F(Hostile, APipeThatNothingReadsIsNotWaitedFor) {
+    ASSERT_EQ(::mkfifo(path("pipe.png").c_str(), 0600), 0);
+    EXPECT_TRUE(refused(render("builtin:cubes", {"-o", "pipe.png"}), failed, {"pipe.png", "nothing reads"}));
+    EXPECT_TRUE(refused(run({"reference", "builtin:cubes", "--size", "8x8", "--spp", "1", "-o", "pipe.png"}), failed,
+                        {"pipe.png", "nothing reads"}));
+}
+
+TEST_F(Hostile, AnOutputThatIsAnInputIsRefusedAndTheInputKept) {
+    write("a.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"name": "empty"}]})");
+    write("x.json", "{}");
+    writePng(path("a.png"), {2, 2, 3, std::vector<uint8_t>(12, 10)});
+    fs::create_symlink("a.gltf", path("link.json"));
+    const std::string scene = read("a.gltf");
+    const std::string picture = read("a.png");
+    for (const char* target : {"a.gltf", "./a.gltf", "link.json", "x.json"}) {
+        EXPECT_TRUE(refused(render("a.gltf", {"--settings", "x.json", "--timings", target}), usage,
+                            {target, "would replace an input"}));
+        EXPECT_TRUE(refused(run({"bench", "builtin:cubes", "a.gltf", "--view-file", "x.json", "--json", target}), usage,
+                            {target, "would replace an input"}));
+    }
+    EXPECT_TRUE(refused(run({"compare", "a.png", "a.png", "--heatmap", "a.png"}), usage, {"would replace an input"}));
+    EXPECT_TRUE(
+        refused(run({"compare", "a_#.png", "b_#.png", "--heatmap", "a_#.png"}), usage, {"would replace an input"}));
+    EXPECT_EQ(read("a.gltf"), scene);
+    EXPECT_EQ(read("a.png"), picture);
+    EXPECT_EQ(read("x.json"), "{}");
+}
+
+TEST_F(Hostile, TwoOutputsOfOneNameAreRefused) {
+    EXPECT_TRUE(refused(render("builtin:cubes", {"-o", "a.png", "--timings", "./a.png"}), usage, {"two outputs"}));
+    EXPECT_TRUE(files().empty());
+}
+
+TEST_F(Hostile, AListOfNamesFromAFileIsShort) {
+    FloatImage image{1, 1, {}, {}};
+    for (int i = 0; i < 500; ++i) {
+        image.channels.push_back("channel" + std::to_string(i));
+        image.data.push_back(1.0F);
+    }
+    writeExr(path("a.exr"), std::vector<ImageLayer>{{"", image}});
+    const Outcome compared = run({"compare", "a.exr", "a.exr"});
+    EXPECT_TRUE(refused(compared, failed, {"channel0, ", "and 480 more"}));
+}
+
+TEST_F(Hostile, ComparingTakesNoMoreMemoryThanTheLimit) {
+    writePng(path("a.png"), {1000, 100, 3, std::vector<uint8_t>(300000, 10)});
+    EXPECT_TRUE(refused(run({"compare", "a.png", "a.png"}, {{"REFLET_MEMORY_LIMIT", "0.01"}}), failed,
+                        {"a.png: to compare 1000 x 100 pixels takes", "REFLET_MEMORY_LIMIT"}));
+    EXPECT_EQ(run({"compare", "a.png", "a.png"}).status, 0);
+}
+
 TEST_F(Hostile, AClosedOrFullStandardErrorStopsNothing) {
     for (const char* redirection : {" 2>&-", " 2>/dev/full", " 2>&- >&- <&-"}) {
         const Outcome drawn = shell("", renderCubes + " --environment sky" + redirection);
@@ -93,6 +144,12 @@ TEST_F(Hostile, AFileSizeLimitIsAFailureAndLeavesNothing) {
     EXPECT_TRUE(files().empty());
 }
 
+TEST_F(Hostile, ALimitOfCpuTimeIsAFailureAndLeavesNothing) {
+    const Outcome limited = shell("ulimit -t 2;", "reference builtin:cubes --spp 100000 -o a.png");
+    EXPECT_TRUE(refused(limited, failed, {"ulimit -t"}));
+    EXPECT_TRUE(files().empty());
+}
+
 TEST_F(Hostile, ACrashPrintsOneLineAndEndsWithStatusOne) {
     rlimit cores{};
     ::getrlimit(RLIMIT_CORE, &cores);
@@ -104,6 +161,11 @@ TEST_F(Hostile, ACrashPrintsOneLineAndEndsWithStatusOne) {
         EXPECT_TRUE(files().empty());
     }
     ::setrlimit(RLIMIT_CORE, &cores);
+}
+
+TEST_F(Hostile, AStackThatIsTooSmallSaysHowToRaiseIt) {
+    const Outcome small = shell("ulimit -c 0; ulimit -s 16;", "reference builtin:cubes --size 8x8 --spp 1 -o a.png");
+    EXPECT_TRUE(small.status == 0 || refused(small, failed, {"raise ulimit -s"})) << small.status << small.err;
 }
 
 TEST_F(Hostile, AFolderNamedLikeAFrameIsInTheWay) {
@@ -147,6 +209,22 @@ TEST_F(Hostile, ReferencesOfSceneThatAreTooFarSayWhatIs) {
         run({"reference", "far.gltf", "--spp", "1", "--size", "32x18", "--environment", "sky", "-o", "a.png"});
     EXPECT_TRUE(refused(far, failed, {"instance 1 'moon'", "1e+09 m"}));
     EXPECT_EQ(render("far.gltf", {"-o", "a.png"}).status, 0);
+}
+
+TEST_F(Hostile, ReferencesFromTooFarAwaySeeNothing) {  // Embree ends the program at such rays
+    write("far.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0, 1, 2]}],
+        "nodes": [{"mesh": 0}, {"camera": 0, "translation": [1e19, 0, 0]}, {"camera": 1, "translation": [0, 0, 5]}],
+        "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}},
+                    {"type": "orthographic", "orthographic": {"xmag": 1e38, "ymag": 1e38, "znear": 0, "zfar": 9}}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [{"byteLength": 36, "uri": "data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
+    for (const char* camera : {"0", "1"}) {
+        const Outcome far = run({"reference", "far.gltf", "--camera", camera, "--spp", "1", "--size", "8x8",
+                                 "--environment", "sky", "-o", "a.png"});
+        EXPECT_EQ(far.status, 0) << far.err;
+    }
 }
 
 // Over 5 s: three processes that measure a scene.

@@ -133,6 +133,26 @@ TEST(BrokenImage, APngTextureNeedsItsHeader) {
     }
 }
 
+TEST(BrokenImage, AJpegHasNotMoreScansThanWritersMake) {  // each makes stb_image visit every block
+    const std::string whole = jpegOf(8, 8);
+    const size_t start = whole.find("\xFF\xDA");
+    const std::string scan = whole.substr(start, whole.size() - 2 - start);
+    const auto withScans = [&](int count, bool progressive) {
+        std::string jpeg = whole.substr(0, start);
+        if (progressive) {
+            jpeg.at(jpeg.find("\xFF\xC0") + 1) = '\xC2';
+        }
+        for (int i = 0; i < count; ++i) {
+            jpeg += scan;
+        }
+        return jpeg + whole.substr(whole.size() - 2);
+    };
+    EXPECT_EQ(jpegProblemOf(withScans(4, false)), "");
+    EXPECT_EQ(jpegProblemOf(withScans(5, false)), "it has too many scans");
+    EXPECT_EQ(jpegProblemOf(withScans(32, true)), "");
+    EXPECT_EQ(jpegProblemOf(withScans(33, true)), "it has too many scans");
+}
+
 TEST(BrokenImage, AJpegNeedsTheHuffmanTablesThatItsScansUse) {
     const std::string whole = jpegOf(8, 8);
     ASSERT_EQ(jpegProblemOf(whole), "");

@@ -4,8 +4,11 @@
 #include "base/error.h"
 #include "base/file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <array>
 #include <cmath>
@@ -141,12 +144,64 @@ TEST_F(Files, AFailingWriteLeavesTheOldFileWholeAndNothingElse) {
 }
 
 TEST_F(Files, WithoutCommitNothingIsWritten) {
-    {
-        const AtomicFile file(at("x"));
-        EXPECT_TRUE(fs::exists(file.tempPath()));
-        EXPECT_EQ(file.tempPath().parent_path(), at("x").parent_path());
+    for (const auto naming : {AtomicFile::Naming::whenWhole, AtomicFile::Naming::atOnce}) {
+        {
+            AtomicFile file(at("x"), naming);
+            file.write("content");
+            EXPECT_FALSE(fs::exists(at("x")));
+        }
+        EXPECT_EQ(fileCount(), 0U);
     }
-    EXPECT_EQ(fileCount(), 0U);
+}
+
+TEST_F(Files, AreTheSameWithATemporaryName) {
+    for (const char* content : {"old", "new"}) {
+        AtomicFile file(at("x"), AtomicFile::Naming::atOnce);
+        EXPECT_EQ(fileCount(), 1U + (fs::exists(at("x")) ? 1U : 0U));
+        file.write(content);
+        file.commit();
+        EXPECT_EQ(readFile(at("x")), content);
+        EXPECT_EQ(fileCount(), 1U);
+    }
+    AtomicFile another(at("x"), AtomicFile::Naming::atOnce);
+    EXPECT_FALSE(another.commitNew());
+}
+
+// Where the file system can: then not even SIGKILL leaves a part of a file.
+TEST_F(Files, HaveNoNameUntilTheyAreWhole) {
+    const int unnamed = ::open(at("").c_str(), O_TMPFILE | O_WRONLY, 0600);
+    if (unnamed < 0) {
+        GTEST_SKIP() << "this file system has no files without a name";
+    }
+    ::close(unnamed);
+    for (const char* content : {"old", "new"}) {
+        AtomicFile file(at("x"));
+        file.write(content);
+        EXPECT_EQ(fileCount(), fs::exists(at("x")) ? 1U : 0U);
+        file.commit();
+        EXPECT_EQ(readFile(at("x")), content);
+    }
+    EXPECT_EQ(fileCount(), 1U);
+}
+
+TEST_F(Files, APipeThatNothingReadsIsAnErrorAndOneThatIsReadIsWritten) {
+    ASSERT_EQ(::mkfifo(at("pipe").c_str(), 0600), 0);
+    EXPECT_EQ(messageOf([&] { writeFileAtomically(at("pipe"), "content"); }),
+              at("pipe").string() + ": cannot be written: it is a socket, or a pipe that nothing reads");
+    const int reader = ::open(at("pipe").c_str(), O_RDONLY | O_NONBLOCK);
+    writeFileAtomically(at("pipe"), "content");
+    std::array<char, 16> got{};
+    EXPECT_EQ(::read(reader, got.data(), got.size()), 7);
+    ::close(reader);
+}
+
+TEST_F(Files, OfANameThatCannotBeAreRefusedAtOnce) {
+    fs::create_symlink("loop", at("loop"));
+    for (const fs::path& name : {at("loop"), at(std::string(256, 'n'))}) {
+        EXPECT_TRUE(
+            messageOf([&] { const AtomicFile file(name); }).starts_with(name.string() + ": cannot be written: "))
+            << name;
+    }
 }
 
 TEST_F(Files, ALinkKeepsPointingAtTheFileThatIsReplaced) {

@@ -147,6 +147,16 @@ TEST(Limits, MessagesQuoteOnlyTheBeginningOfLongTexts) {
     EXPECT_EQ(nearestName(name, std::array<std::string, 1>{"k"}), std::nullopt);
 }
 
+TEST(Limits, MessagesListOnlyTheFirstNames) {
+    EXPECT_EQ(listed({}), "none");
+    std::vector<std::string> names{"a", "b\n", std::string(100, 'c')};
+    EXPECT_EQ(listed(names), "a, b?, " + std::string(60, 'c') + "...");
+    names.assign(20, "x");
+    EXPECT_TRUE(listed(names).ends_with(", x"));
+    names.assign(1000, "x");
+    EXPECT_TRUE(listed(names).ends_with(", x and 980 more"));
+}
+
 TEST(RegularFiles, AreAllThatIsRead) {
     const fs::path folder = emptyFolder("no_files");
     ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
@@ -165,7 +175,7 @@ TEST(RegularFiles, OfAnyNameThatTheFileSystemAllowsCanBeWritten) {
 TEST(RegularFiles, ThatAreBeingWrittenAreRemovedWhenTheProgramEndsAtOnce) {
     const fs::path folder = emptyFolder("ending");
     {
-        const AtomicFile file(folder / "x");
+        const AtomicFile file(folder / "x", AtomicFile::Naming::atOnce);
         EXPECT_FALSE(fs::is_empty(folder));
         removeTemporaryFiles();
         EXPECT_TRUE(fs::is_empty(folder));

@@ -3,10 +3,14 @@
 #include "scene/gltf/container.h"
 #include "base/json_text.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <cstring>
-#include <fstream>
+#include <memory>
 #include <span>
 #include <system_error>
 
@@ -127,14 +131,16 @@ std::vector<uint8_t> readFileBytes(const std::filesystem::path& path, uint64_t m
     if (!std::filesystem::is_regular_file(status)) {  // reading a pipe or a device might never end
         report.fail(part, "{} is not a file", path.string());
     }
-    const uint64_t size = std::filesystem::file_size(path, error);
-    std::ifstream stream(path, std::ios::binary);
-    if (error || !stream) {
+    // Not blocking, and checked again: another file may have that name by now, such as a pipe.
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    const std::unique_ptr<std::FILE, decltype(&std::fclose)> file(descriptor < 0 ? nullptr : ::fdopen(descriptor, "rb"),
+                                                                  std::fclose);
+    struct stat opened {};
+    if (!file || ::fstat(descriptor, &opened) != 0 || !S_ISREG(opened.st_mode)) {
         report.fail(part, "{} cannot be read", path.string());
     }
-    std::vector<uint8_t> bytes(std::min(size, maxBytes));
-    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    if (static_cast<uint64_t>(stream.gcount()) != bytes.size()) {
+    std::vector<uint8_t> bytes(std::min(static_cast<uint64_t>(opened.st_size), maxBytes));
+    if (std::fread(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) {
         report.fail(part, "{} cannot be read to its end", path.string());
     }
     return bytes;

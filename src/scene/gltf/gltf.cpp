@@ -1,6 +1,7 @@
 // Loads glTF 2.0 files (.gltf, .glb) into a Scene: read and check the document, choose the scene, place its nodes.
 #include "scene/gltf/gltf.h"
 
+#include "base/message.h"
 #include "scene/gltf/lens.h"
 #include "scene/gltf/nodes.h"
 #include "scene/opacity.h"
@@ -53,8 +54,7 @@ int chooseVariant(const std::vector<std::string>& names, const std::string& want
     }
     const auto found = std::ranges::find(names, wanted);
     if (found == names.end()) {
-        report.failUsage("", "there is no material variant '{}'; the file's variants: {}", wanted,
-                         names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")));
+        report.failUsage("", "there is no material variant '{}'; the file's variants: {}", wanted, listed(names));
     }
     return static_cast<int>(found - names.begin());
 }

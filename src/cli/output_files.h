@@ -1,0 +1,18 @@
+// Checks the files that a subcommand will write.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace reflet {
+
+struct SceneOptions;
+
+/// Fails now, not after minutes of work. Throws Error if one of the outputs cannot be written, UsageError if it would
+/// replace one of the inputs or an earlier output. Empty names are left out.
+void tryOutputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
+
+/// The files that the options of a scene name, and `more`.
+std::vector<std::string> inputFiles(const SceneOptions& options, const std::vector<std::string>& more);
+
+}  // namespace reflet
