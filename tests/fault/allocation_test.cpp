@@ -13,6 +13,7 @@
 #include "scene/environment.h"
 #include "scene/gltf/gltf.h"
 #include "scene/view_file.h"
+#include "support/sanitizer.h"
 #include "unit/gltf_encoders.h"
 
 #include <gtest/gtest.h>
@@ -88,7 +89,7 @@ std::string attemptApart(const Read& read, Allocator allocator, uint64_t number,
     constexpr int terminated = 42;
     const pid_t child = ::fork();
     if (child == 0) {
-        ::alarm(20);
+        ::alarm(20 * test::slowness);
         std::set_terminate([] { ::_exit(terminated); });
         Ends own;
         const std::string wrong = attempt(read, allocator, number, false, own, {true, allocator == Allocator::malloc});
