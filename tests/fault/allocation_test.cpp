@@ -26,6 +26,7 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -50,6 +51,10 @@ struct Allowed {
 
 // One attempt; the text is empty if it ended as it should.
 std::string attempt(const Read& read, Allocator allocator, uint64_t number, bool always, Ends& ends, Allowed allowed) {
+    std::optional<test::UncheckedLeaks> unchecked;
+    if (allowed.leaks) {
+        unchecked.emplace();
+    }
     const FailingAllocation failing(allocator, number, always);
     try {
         read();
