@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/json_text.h"
+#include "support/sanitizer.h"
 
 #include <spawn.h>
 #include <sys/wait.h>
@@ -20,7 +21,7 @@ namespace reflet {
 namespace {
 
 using std::chrono::milliseconds;
-constexpr std::chrono::seconds patience(60);  // reached only if the window hangs
+constexpr std::chrono::seconds patience(60 * test::slowness);  // reached only if the window hangs
 constexpr milliseconds betweenLooks(50);
 constexpr milliseconds handSpeed(45);
 
@@ -149,7 +150,7 @@ void DesktopTest::reveal(const std::string& control) const {
 // Waits until the window has drawn all that it was told: reported positions of controls are outdated during scrolling,
 // and ImGui 1.86 ignores a press and release within one redraw.
 void DesktopTest::settle() const {
-    constexpr int mostLooks = 30;
+    constexpr int mostLooks = 30 * test::slowness;
     for (int i = 0; i < mostLooks; ++i) {
         std::this_thread::sleep_for(milliseconds(200));  // longer than events take to arrive
         if (status()["answered"].get<bool>()) {

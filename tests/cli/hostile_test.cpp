@@ -1,6 +1,7 @@
 // Broken or hostile input, and surroundings in which the program cannot work: one line and status 1, never a signal, a
 // hang or a file that is left behind.
 #include "cli/program.h"
+#include "support/sanitizer.h"
 
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -151,6 +152,9 @@ TEST_F(Hostile, ALimitOfCpuTimeIsAFailureAndLeavesNothing) {
 }
 
 TEST_F(Hostile, ACrashPrintsOneLineAndEndsWithStatusOne) {
+    if (test::addressSanitizer) {
+        GTEST_SKIP() << "AddressSanitizer reports crashes itself";
+    }
     rlimit cores{};
     ::getrlimit(RLIMIT_CORE, &cores);
     const rlimit none{0, cores.rlim_max};

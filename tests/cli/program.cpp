@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "support/sanitizer.h"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -24,7 +25,7 @@ namespace reflet {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::chrono::seconds limit(120);  // reached only if the program hangs
+constexpr std::chrono::seconds limit(120 * test::slowness);  // reached only if the program hangs
 constexpr std::chrono::milliseconds pause(2);
 constexpr int killed = 128;
 

@@ -13,6 +13,7 @@
 #include "scene/environment.h"
 #include "scene/gltf/gltf.h"
 #include "scene/view_file.h"
+#include "support/sanitizer.h"
 #include "unit/gltf_encoders.h"
 
 #include <gtest/gtest.h>
@@ -25,6 +26,7 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -49,6 +51,10 @@ struct Allowed {
 
 // One attempt; the text is empty if it ended as it should.
 std::string attempt(const Read& read, Allocator allocator, uint64_t number, bool always, Ends& ends, Allowed allowed) {
+    std::optional<test::UncheckedLeaks> unchecked;
+    if (allowed.leaks) {
+        unchecked.emplace();
+    }
     const FailingAllocation failing(allocator, number, always);
     try {
         read();
@@ -88,7 +94,7 @@ std::string attemptApart(const Read& read, Allocator allocator, uint64_t number,
     constexpr int terminated = 42;
     const pid_t child = ::fork();
     if (child == 0) {
-        ::alarm(20);
+        ::alarm(20 * test::slowness);
         std::set_terminate([] { ::_exit(terminated); });
         Ends own;
         const std::string wrong = attempt(read, allocator, number, false, own, {true, allocator == Allocator::malloc});

@@ -127,7 +127,8 @@ void operator delete[](void* memory, size_t /*size*/, std::align_val_t /*alignme
 }
 // NOLINTEND(misc-new-delete-overloads)
 
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+// Sanitizers have a malloc of their own.
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 extern "C" {
 void* __libc_malloc(size_t size);
 void* __libc_calloc(size_t count, size_t size);

@@ -1,5 +1,7 @@
 // The library as others get it: installed, moved elsewhere, found by CMake and pkg-config, or as a part of their
 // project.
+#include "support/sanitizer.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -48,14 +50,13 @@ protected:
     ~Install() override { fs::remove_all(folder_); }
 
     void SetUp() override {
-#ifdef __SANITIZE_ADDRESS__
-        GTEST_SKIP() << "programs outside of the build are linked without the sanitizers that the library then needs";
-#endif
+        if (anySanitizer) {
+            GTEST_SKIP()
+                << "programs outside of the build are linked without the sanitizer that the library then needs";
+        }
     }
 
-    [[nodiscard]] std::string at(const std::string& name) const {
-        return (folder_ / name).string();
-    }
+    [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
     void write(const std::string& name, const std::string& text) const {
         fs::create_directories((folder_ / name).parent_path());
         std::ofstream(folder_ / name) << text;

@@ -510,7 +510,7 @@ TEST_F(Library, AResetForgetsTheHistory) {
     refletDestroyContext(context);
 }
 
-TEST_F(Library, WorksOnTwoDevicesAtATime) {
+TEST_F(Library, WorksOnTwoDevicesOnTwoThreads) {
     LibraryHost second;
     LibraryHost* hosts[2] = {&host_, &second};
     std::vector<uint32_t> pictures[2];
