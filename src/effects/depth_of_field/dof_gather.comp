@@ -71,16 +71,19 @@ Ground filledGround(ivec2 cell, int ownLevel) {
 struct Disk {
     int level;     // of the mips
     float side;    // of a cell, in pixels of half resolution
-    float reach2;  // squared length of the longest step, in cells; negative: none
     ivec2 first;   // cell that steps start from
     vec2 toFirst;  // its centre, from the pixel's
     float area;    // of a cell over that of the aperture's shape with radius 1
     float blur;    // squared radius by which cells and upsampling widen a disk's second moment
+    float reach;   // from the pixel to the centres of the farthest cells; negative: there are none
 };
 
 // From the pixel to its cell's centre, at most, and half a disk's edge, in cells.
 const float margin = 0.7072 + 0.5;
-const float mostReach = 7.1;  // cuts disks that are too large for the coarsest level
+const float mostReach = 7.1;  // cells; cuts disks that are too large for the coarsest level
+
+// Radius of a disk that is made smaller by as much as it is blurred; smaller ones would show the cells.
+float spreadRadius(Disk d, float radius) { return sqrt(max(radius * radius - d.blur, 0.5 * d.side * d.side)); }
 
 // at: in pixels of half resolution.
 Disk diskOf(vec2 at, float radius) {
@@ -88,16 +91,15 @@ Disk diskOf(vec2 at, float radius) {
     float most = sqrt(float(params.samples) * 0.31831) - margin;
     d.level = int(clamp(ceil(log2(max(radius, 0.01) / most)), 0.0, float(dofLevels - 1u)));
     d.side = float(1 << d.level);
-    float reach = min(radius / d.side + margin, mostReach);
-    d.reach2 = radius < leastRadius ? -1.0 : reach * reach;
     d.first = ivec2(at) >> d.level;
     d.toFirst = (vec2(d.first) + 0.5) * d.side - at;
     d.area = params.disk * d.side * d.side;
     d.blur = 0.75 * d.side * d.side + 0.6667 * pixelSide * pixelSide;  // the last: upsampling
+    d.reach = radius < leastRadius ? -1.0 : min(spreadRadius(d, radius) + 0.5 * d.side, mostReach * d.side);
     return d;
 }
 
-// A disk that a cell's light is spread over, made smaller by as much as it is blurred. `weight`: the cell's area over its own.
+// A disk that a cell's light is spread over. `weight`: the cell's area over its own.
 struct Spread {
     float radius;
     float weight;
@@ -105,8 +107,8 @@ struct Spread {
 
 Spread spreadOf(Disk d, float radius) {
     float edge = 0.5 * d.side;
-    float r2 = max(radius * radius - d.blur, 0.5 * d.side * d.side);  // smaller ones would show the cells
-    return Spread(sqrt(r2), d.area / (r2 + 0.3333 * edge * edge));
+    float spread = spreadRadius(d, radius);
+    return Spread(spread, d.area / (spread * spread + 0.3333 * edge * edge));
 }
 
 // How much of a cell's light reaches a point that is so far away.
@@ -114,25 +116,24 @@ float reaches(Spread s, float away, float perSide) { return s.weight * clamp((s.
 
 // Steps over the cells of a disk, row by row. Computed, as CPU devices read tables of steps slower than images.
 struct Step {
-    vec2 go;     // cells from the first
-    float end;  // length of the row to either side
+    vec2 go;    // cells from the first
+    float end;  // last of the row
 };
 
-float halfRow(float reach2, float y) { return floor(sqrt(max(reach2 - y * y, 0.0))); }
-
-Step firstStep(Disk d) {
-    float top = -halfRow(d.reach2, 0.0);
-    float end = halfRow(d.reach2, top);
-    return Step(vec2(-end, top), end);
+Step rowOf(Disk d, float y) {
+    vec2 way = d.toFirst / d.side;
+    float reach = d.reach / d.side;
+    float width = sqrt(max(reach * reach - (way.y + y) * (way.y + y), 0.0));
+    return Step(vec2(ceil(-width - way.x), y), floor(width - way.x));
 }
 
-bool within(Disk d, Step s) { return s.go.y * s.go.y <= d.reach2; }
+Step firstStep(Disk d) { return rowOf(d, ceil(-(d.reach + d.toFirst.y) / d.side)); }
+
+bool within(Disk d, Step s) { return s.go.y * d.side + d.toFirst.y <= d.reach; }
 
 Step next(Disk d, Step s) {
-    bool ends = s.go.x >= s.end;
-    float y = s.go.y + float(ends);
-    float end = halfRow(d.reach2, y);
-    return Step(vec2(ends ? -end : s.go.x + 1.0, y), end);
+    Step row = rowOf(d, s.go.y + 1.0);
+    return s.go.x < s.end ? Step(s.go + vec2(1.0, 0.0), s.end) : row;
 }
 
 ivec2 cellAfter(Disk d, Step s) { return clamp(d.first + ivec2(s.go), ivec2(0), levelSize(cells, d.level) - 1); }
