@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string>
 
 namespace reflet {
@@ -152,15 +153,24 @@ gpu::Image describeTiles(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& 
     return tiles;
 }
 
-// How far the disks of each tile reach, and the tiles whose highlights reach it.
+// How far the disks of each tile reach, the tiles whose highlights reach it, and lists of tiles.
 struct Reach {
-    gpu::Image layers, drawn, drawnTiles;
+    gpu::Image layers, drawn, drawnTiles, lists;
+    gpu::BufferView heads;
 };
 
 // around: tiles that the largest disk reaches.
 Reach makeReach(gpu::Recorder& f, gpu::Scratch& scratch, gpu::Image tiles, gpu::Image lists, uint32_t around) {
+    constexpr uint32_t longestRow = dofListRow * dofLargeTiles;
+    const uint32_t rows = (tiles.size.x * tiles.size.y + dofListRow - 1U) / dofListRow;
+    std::array<DofListHead, dofLists> heads{};
+    heads.fill({{dofListRow, 0, 1}, 0});
     const Reach reach{scratch.storage(layerFormats[0], tiles.size), scratch.storage(layerFormats[3], tiles.size),
-                      scratch.storage(layerFormats[3], (2U * around + 1U) * tiles.size)};
+                      scratch.storage(layerFormats[3], (2U * around + 1U) * tiles.size),
+                      scratch.storage(VK_FORMAT_R32_UINT, {longestRow, dofLists * rows}),
+                      scratch.buffer(sizeof(heads))};
+    f.update(reach.heads, std::as_bytes(std::span(heads)));
+    f.clear(reach.lists, {.uint32 = {~0U, ~0U, ~0U, ~0U}});
     f.compute("reach", "dof_reach.comp")
         .constant("around", around)
         .read("tiles", tiles)
@@ -168,6 +178,8 @@ Reach makeReach(gpu::Recorder& f, gpu::Scratch& scratch, gpu::Image tiles, gpu::
         .write("reach", reach.layers)
         .write("drawn", reach.drawn)
         .write("drawnTiles", reach.drawnTiles)
+        .write("tileLists", reach.lists)
+        .write("heads", reach.heads)
         .dispatch(tiles.size);
     return reach;
 }
@@ -178,26 +190,33 @@ struct Blurred {
 };
 
 // large: the result for large disks, at half of `size`; none: makes it.
-Blurred gather(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& layers, gpu::Image reach, const DofInputs& in,
+Blurred gather(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& layers, const Reach& reach, const DofInputs& in,
                const DofSizes& sizes, const Blurred& large) {
     const bool coarse = !large.ground;
     const uvec2 size = levelSize(sizes.half2, coarse ? 1 : 0);
     const Blurred out{scratch.storage(layerFormats[0], size), scratch.storage(layerFormats[2], size)};
+    // Tiles that are not gathered are looked up beside others.
+    f.clear(out.ground);
+    f.clear(out.front);
     const gpu::Image none = f.placeholder(layerFormats[0]);
-    f.compute(coarse ? "gather_large" : "gather", "dof_gather.comp")
-        .constant("polygon", in.lens.blades < 3 ? 0U : 1U)
-        .constant("coarse", coarse ? 1U : 0U)
-        .read("ground", layers.ground)
-        .read("groundBlur", layers.groundBlur)
-        .read("front", layers.front)
-        .read("frontBlur", layers.frontBlur)
-        .read("reach", reach)
-        .read("groundCoarse", coarse ? none : large.ground)
-        .read("frontCoarse", coarse ? none : large.front)
-        .write("groundOut", out.ground)
-        .write("frontOut", out.front)
-        .params(DofGatherParams{sizes.half2, in.settings.samples, sizes.disk, sizes.turn, sizes.blades})
-        .dispatch(size);
+    for (const uint32_t front : {0U, dofFront}) {
+        f.compute(coarse ? "gather_large" : "gather", "dof_gather.comp")
+            .constant("polygon", in.lens.blades < 3 ? 0U : 1U)
+            .constant("coarse", coarse ? 1U : 0U)
+            .constant("hasFront", front)
+            .read("ground", layers.ground)
+            .read("groundBlur", layers.groundBlur)
+            .read("front", layers.front)
+            .read("frontBlur", layers.frontBlur)
+            .read("reach", reach.layers)
+            .read("tileLists", reach.lists)
+            .read("groundCoarse", coarse ? none : large.ground)
+            .read("frontCoarse", coarse ? none : large.front)
+            .write("groundOut", out.ground)
+            .write("frontOut", out.front)
+            .params(DofGatherParams{sizes.half2, in.settings.samples, sizes.disk, sizes.turn, sizes.blades})
+            .dispatchIndirect(reach.heads, ((coarse ? dofGatherLarge : dofGather) + front) * sizeof(DofListHead));
+    }
     return out;
 }
 
@@ -231,27 +250,32 @@ DofImages depthOfField(gpu::Recorder& f, DofStore& own, const DofInputs& in) {
     const gpu::Image tiles = describeTiles(f, scratch, layers, sizes);
     const Highlights highlights = findHighlights(f, scratch, layers, tiles, in.radiance, coc, sizes);
     makeMips(f, layers, sizes);
-    const float largest = std::max(0.5F * in.settings.maxRadius * height, 1.0F);
-    const uint32_t around = 1U + static_cast<uint32_t>(std::ceil(largest / static_cast<float>(dofTile)));
+    // Holes are filled from up to three tiles away.
+    const float largest = 0.5F * in.settings.maxRadius * height;
+    const uint32_t around = 1U + std::max(static_cast<uint32_t>(std::ceil(largest / static_cast<float>(dofTile))), 3U);
     const Reach reach = makeReach(f, scratch, tiles, highlights.lists, around);
-    const Blurred large = gather(f, scratch, layers, reach.layers, in, sizes, {});
-    const Blurred all = gather(f, scratch, layers, reach.layers, in, sizes, large);
+    const Blurred large = gather(f, scratch, layers, reach, in, sizes, {});
+    const Blurred all = gather(f, scratch, layers, reach, in, sizes, large);
     const gpu::Image result = own.result.storage(f, layerFormats[0], size);
-    f.compute("composite", "dof_composite.comp")
-        .constant("around", around)
-        .constant("polygon", in.lens.blades < 3 ? 0U : 1U)
-        .read("radiance", in.radiance)
-        .read("coc", coc)
-        .read("groundOut", all.ground)
-        .read("frontOut", all.front)
-        .read("highlights", highlights.light)
-        .read("highlightShape", highlights.shape)
-        .read("lists", highlights.lists)
-        .read("drawn", reach.drawn)
-        .read("drawnTiles", reach.drawnTiles)
-        .write("result", result)
-        .params(sizes)
-        .dispatch(size);
+    for (const uint32_t list : {dofComposite, dofComposite + dofHighlights, dofCopy}) {
+        f.compute("composite", "dof_composite.comp")
+            .constant("around", around)
+            .constant("polygon", in.lens.blades < 3 ? 0U : 1U)
+            .constant("list", list)
+            .read("radiance", in.radiance)
+            .read("coc", coc)
+            .read("groundOut", all.ground)
+            .read("frontOut", all.front)
+            .read("highlights", highlights.light)
+            .read("highlightShape", highlights.shape)
+            .read("lists", highlights.lists)
+            .read("drawn", reach.drawn)
+            .read("drawnTiles", reach.drawnTiles)
+            .read("tileLists", reach.lists)
+            .write("result", result)
+            .params(sizes)
+            .dispatchIndirect(reach.heads, list * sizeof(DofListHead));
+    }
     return {result, coc};
 }
 

@@ -35,6 +35,27 @@ SETTINGS(DofSettings, DOF_SETTINGS)
 
 // Side of a tile, in half-resolution pixels; tiles tell how far the layers reach.
 const uint dofTile = 8;
+
+// Lists of tiles; each pass runs over those that need it. Added up where there are two of a kind.
+const uint dofGather = 0;       // blurred tiles; + dofFront
+const uint dofGatherLarge = 2;  // of these, tiles with large disks; + dofFront
+const uint dofComposite = 4;    // tiles that change; + dofHighlights
+const uint dofCopy = 6;         // all other tiles
+const uint dofLists = 7;
+const uint dofFront = 1;       // disks of the near layer reach the tile
+const uint dofHighlights = 1;  // highlights reach it
+
+// Groups per row of the indirect dispatch over a list; 65535 rows suffice for the largest picture.
+const uint dofListRow = 16;
+// Tiles per group of dofGatherLarge; of the other lists 1.
+const uint dofLargeTiles = 4;
+
+// An indirect dispatch over a list, and its number of tiles.
+struct DofListHead {
+    uint groups[3];
+    uint count;
+};
+
 // Levels of the half-resolution layers, with level 0.
 const uint dofLevels = 5;
 

@@ -1,8 +1,10 @@
-// Puts the layers together at full size. In: radiance, circle of confusion, blurred layers, highlights. Out: radiance.
+// Puts the layers together at full size, in the tiles of a list. In: radiance, circle of confusion, blurred layers, highlights, the
+// list. Out: radiance.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/depth_of_field/dof_layers.glsl"
 #include "effects/depth_of_field/dof_shape.glsl"
+#include "effects/depth_of_field/dof_tile_lists.glsl"
 #include "shaders/half_float.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -18,6 +20,9 @@ layout(r32f) uniform readonly image2D drawn;
 layout(r32f) uniform readonly image2D drawnTiles;
 layout(constant_id = 1) const uint around = 1u;  // as in dof_reach.comp
 layout(rgba16f) uniform writeonly image2D result;
+
+layout(constant_id = 2) const uint list = dofComposite;
+layout(r32ui) uniform readonly uimage2D tileLists;
 
 const int tileSide = 2 * int(dofTile);  // in pixels
 const int steps = 2 * int(around) + 1;
@@ -62,38 +67,69 @@ Highlights highlightsAt(vec2 at, float coc, int tiles) {
     return sum;
 }
 
+// The layers at the four pixels of a cell.
+struct Layers {
+    mat4 behind;  // radiance · weight, weight
+    mat4 before;  // radiance · coverage, coverage
+};
+
+vec4 groundAt(ivec2 cell) {
+    vec4 g = imageLoad(groundOut, cell);
+    return (sharpWeight + g.a) * vec4(g.rgb, 1.0);  // blurred cells before sharp ones, whose light must not leak
+}
+
+// Bilinear. top, bottom: weight of a row of cells for the upper and the lower pixels.
+void addRow(inout Layers sum, ivec2 cell, float top, float bottom) {
+    ivec2 last = ivec2(params.half2) - 1;
+    ivec2 middle = clamp(cell, ivec2(0), last);
+    ivec2 left = ivec2(max(cell.x - 1, 0), middle.y);
+    ivec2 right = ivec2(min(cell.x + 1, last.x), middle.y);
+    vec4 g = 0.75 * groundAt(middle);
+    vec4 gl = g + 0.25 * groundAt(left);
+    vec4 gr = g + 0.25 * groundAt(right);
+    sum.behind += mat4(top * gl, top * gr, bottom * gl, bottom * gr);
+    vec4 f = 0.75 * imageLoad(frontOut, middle);
+    vec4 fl = f + 0.25 * imageLoad(frontOut, left);
+    vec4 fr = f + 0.25 * imageLoad(frontOut, right);
+    sum.before += mat4(top * fl, top * fr, bottom * fl, bottom * fr);
+}
+
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, ivec2(params.size)))) {
+    uint item = imageLoad(tileLists, ivec2(gl_WorkGroupID.xy) + ivec2(0, listStart(list, imageSize(tileLists).y))).r;
+    ivec2 tile = unpackTile(item);
+    ivec2 cell = tile * int(dofTile) + ivec2(gl_LocalInvocationID.xy);
+    if (item == dofNoTile || any(greaterThanEqual(cell, ivec2(params.half2)))) {
         return;
     }
-    vec4 sharp = texelFetch(radiance, pixel, 0);
-    sharp.rgb = clampToHalf(sharp.rgb);
-    float c = imageLoad(coc, min(ivec2((vec2(pixel) + 0.5) * params.toDepth), imageSize(coc) - 1)).r;
-    ivec2 tile = pixel / tileSide;
-    int tiles = int(imageLoad(drawn, tile).r);
-    int some = min(tiles, 1);  // CPU devices run both sides of a branch
-    for (int i = 0; i < some; ++i) {
-        sharp.rgb *= 1.0 - highlightShare(sharp.rgb, c, imageLoad(lists, tile).b, params.block);
+    Layers layers = Layers(mat4(0.0), mat4(0.0));
+    int tiles = 0;
+    float darkness = 0.0;
+    if (list != dofCopy) {
+        addRow(layers, cell - ivec2(0, 1), 0.25, 0.0);
+        addRow(layers, cell, 0.75, 0.75);
+        addRow(layers, cell + ivec2(0, 1), 0.0, 0.25);
     }
-    Highlights apart = highlightsAt(vec2(pixel) + 0.5, c, tiles);
-    // Bilinear; blurred cells before sharp ones, whose light must not leak.
-    ivec2 corner = (pixel - 1) >> 1;
-    vec2 part = 0.75 - 0.5 * vec2(pixel & 1);
-    ivec2 last = ivec2(params.half2) - 1;
-    float blurred = blurredShare(c);
-    vec4 behind = vec4(0.0);
-    vec4 before = vec4(0.0);
+    if (list == dofComposite + dofHighlights) {
+        tiles = int(imageLoad(drawn, tile).r);
+        darkness = imageLoad(lists, tile).b;
+    }
     for (int i = 0; i < 4; ++i) {
-        ivec2 side = ivec2(i & 1, i >> 1);
-        ivec2 cell = clamp(corner + side, ivec2(0), last);
-        vec2 w = mix(1.0 - part, part, vec2(side));
-        float weight = w.x * w.y;
-        vec4 g = imageLoad(groundOut, cell);
-        behind += weight * (sharpWeight + g.a) * vec4(g.rgb, 1.0);
-        before += weight * imageLoad(frontOut, cell);
+        ivec2 pixel = 2 * cell + ivec2(i & 1, i >> 1);
+        vec4 sharp = texelFetch(radiance, pixel, 0);
+        vec3 light = clampToHalf(sharp.rgb);
+        if (list != dofCopy) {
+            float c = imageLoad(coc, min(ivec2((vec2(pixel) + 0.5) * params.toDepth), imageSize(coc) - 1)).r;
+            Highlights apart = Highlights(vec3(0.0), vec3(0.0));
+            if (list == dofComposite + dofHighlights) {
+                light *= 1.0 - highlightShare(light, c, darkness, params.block);
+                apart = highlightsAt(vec2(pixel) + 0.5, c, tiles);
+            }
+            float blurred = blurredShare(c);
+            vec4 behind = layers.behind[i];
+            vec4 before = layers.before[i];
+            light = blurred > 0.0 ? mix(light, behind.rgb / behind.a, blurred) : light;
+            light = (light + apart.far) * (1.0 - before.a) + before.rgb + apart.near;
+        }
+        imageStore(result, pixel, vec4(min(light, largestHalf), sharp.a));
     }
-    vec3 light = blurred > 0.0 ? mix(sharp.rgb, behind.rgb / behind.a, blurred) : sharp.rgb;
-    light = (light + apart.far) * (1.0 - before.a) + before.rgb + apart.near;
-    imageStore(result, pixel, vec4(min(light, 65504.0), sharp.a));
 }

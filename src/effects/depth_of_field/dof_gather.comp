@@ -1,12 +1,14 @@
-// Gathers both layers. In: the layers with their mips, reach of the tiles. Out: the blurred background,
-// and the near layer with its coverage.
+// Gathers both layers in the tiles of a list. In: the layers with their mips, reach of the tiles, the list. Out: the blurred
+// background, and the near layer with its coverage.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/depth_of_field/dof_layers.glsl"
 #include "effects/depth_of_field/dof_shape.glsl"
+#include "effects/depth_of_field/dof_tile_lists.glsl"
 #include "shaders/half_float.glsl"
 
 layout(constant_id = 1) const uint coarse = 0u;  // 1: large disks, at a quarter of the picture's size; 0: the rest, and both together
+layout(constant_id = 2) const uint hasFront = 0u;   // 1: tiles that disks of the near layer reach
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { DofGatherParams params; };
@@ -19,6 +21,7 @@ layout(rgba16f) uniform readonly image2D groundCoarse;  // of the pass with coar
 layout(rgba16f) uniform readonly image2D frontCoarse;
 layout(rgba16f) uniform writeonly image2D groundOut;  // radiance, blurred share
 layout(rgba16f) uniform writeonly image2D frontOut;   // radiance · coverage, coverage
+layout(r32ui) uniform readonly uimage2D tileLists;
 
 ivec2 cells = ivec2(params.half2);
 const float leastRadius = 0.25;  // smaller disks are points
@@ -44,7 +47,7 @@ Ground filledGround(ivec2 cell, int ownLevel) {
     vec2 at = (vec2(cell) + 0.5) * float(1 << ownLevel);
     vec4 light = vec4(0.0);  // radiance, how much of it is known
     vec2 blur = vec2(0.0);
-    for (int level = from; level > ownLevel; --level) {
+    for (int level = from; level > ownLevel; level -= 2) {
         vec2 place = at / float(1 << level) - 0.5;
         vec2 part = fract(place);
         ivec2 last = levelSize(cells, level) - 1;
@@ -213,16 +216,35 @@ void addCoarse(ivec2 pixel, float coc, float mostNear, inout vec3 light, inout v
     front = mostNear > large.x ? before + (1.0 - before.a) * front : front;  // larger disks are nearer
 }
 
+// The pixel of this thread; false: none. Large disks: a group has some tiles of fewer pixels.
+bool listedPixel(out ivec2 pixel) {
+    uint index = gl_LocalInvocationIndex;
+    ivec2 place = ivec2(gl_WorkGroupID.xy);
+    uvec2 local = gl_LocalInvocationID.xy;
+    if (coarse != 0u) {
+        place.x = place.x * int(dofLargeTiles) + int(index >> 4u);
+        local = uvec2(index & 3u, (index >> 2u) & 3u);
+    }
+    place.y += listStart((coarse != 0u ? dofGatherLarge : dofGather) + hasFront, imageSize(tileLists).y);
+    uint item = imageLoad(tileLists, place).r;
+    pixel = unpackTile(item) * int(dofTile >> coarse) + ivec2(local);
+    return item != dofNoTile && all(lessThan(pixel, levelSize(cells, int(coarse))));
+}
+
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, levelSize(cells, int(coarse))))) {
+    ivec2 pixel;
+    if (!listedPixel(pixel)) {
         return;
     }
     vec2 at = (vec2(pixel) + 0.5) * pixelSide;
     vec3 radii = imageLoad(reach, min(ivec2(at), cells - 1) / int(dofTile)).rgb;
-    Ground own = filledGround(pixel, int(coarse));
+    Ground own = loadGround(pixel, int(coarse));
+    vec4 front = vec4(0.0);
+    if (hasFront != 0u) {
+        own = filledGround(pixel, int(coarse));
+        front = blurredFront(at, radii.x, radii.z);
+    }
     vec3 light = blurredGround(at, own, radii.y);
-    vec4 front = blurredFront(at, radii.x, radii.z);
     if (coarse == 0u) {
         addCoarse(pixel, own.coc, radii.x, light, front);
     }
