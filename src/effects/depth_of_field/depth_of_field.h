@@ -83,7 +83,7 @@ struct DofSizes {
     uvec2 half2;   // half of it, rounded up
     vec2 toDepth;  // pixels of the depth buffer per pixel of the picture
     uint level;    // of mips: to make
-    uint block;    // pixels along the side of a block, 4 to 16: each has at most one highlight
+    uint block;    // pixels along the side of a block, 4, 8 or 16: each has at most one highlight
     float disk;    // 1 over the area of the aperture's shape with radius 1
     float turn;    // of the aperture [rad]
     uint blades;   // of the aperture, if it is a polygon

@@ -15,6 +15,8 @@ uniform sampler2D motion;
 layout(r32f) uniform readonly image2D previous;
 layout(r32f) uniform writeonly image2D coc;
 
+const float steady = 0.02;  // a smaller change of the radius [pixels] is not seen
+
 float radiusOf(float d) {
     float z = depthToViewDistance(d, params.depthToDistance);
     vec4 lens = params.lens;
@@ -33,19 +35,21 @@ void main() {
     float radius = radiusOf(d);
     bool hasPrevious = notInlined(params.hasPrevious, gl_GlobalInvocationID.x) != 0u;
     if (hasPrevious) {
+        vec2 moved = texelFetch(motion, pixel, 0).rg * vec2(params.size);
+        ivec2 before = ivec2(floor(vec2(pixel) - moved + 0.5));
+        bool known = all(equal(before, clamp(before, ivec2(0), last)));
+        float held = imageLoad(previous, clamp(before, ivec2(0), last)).r;
+        // Neighbours are looked up only where the radius changes. CPU devices run both sides of a branch.
+        int end = hasPrevious && known && abs(held - radius) > steady ? 9 : 0;
         float nearest = d;
         float farthest = d;
-        int end = hasPrevious ? 9 : 0;  // CPU devices run both sides of a branch
         for (int i = 0; i < end; ++i) {
             float other = texelFetch(depth, clamp(pixel + ivec2(i % 3, i / 3) - 1, ivec2(0), last), 0).r;
             nearest = max(nearest, other);
             farthest = min(farthest, other);
         }
-        vec2 moved = texelFetch(motion, pixel, 0).rg * vec2(params.size);
-        ivec2 before = ivec2(floor(vec2(pixel) - moved + 0.5));
-        bool known = all(equal(before, clamp(before, ivec2(0), last)));
-        float held = imageLoad(previous, clamp(before, ivec2(0), last)).r;
-        radius = known ? clamp(held, radiusOf(nearest), radiusOf(farthest)) : radius;
+        float beside = end > 0 ? clamp(held, radiusOf(nearest), radiusOf(farthest)) : held;
+        radius = known ? beside : radius;
     }
     imageStore(coc, pixel, vec4(radius));
 }

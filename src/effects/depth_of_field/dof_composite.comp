@@ -27,19 +27,24 @@ layout(r32ui) uniform readonly uimage2D tileLists;
 const int tileSide = 2 * int(dofTile);  // in pixels
 const int steps = 2 * int(around) + 1;
 
-// Light of the highlights at a pixel with a circle of confusion of that radius: behind and in front of the plane of focus.
+// A thread composites the four pixels of a cell: a column each.
+const vec4 pixelX = vec4(0.0, 1.0, 0.0, 1.0);
+const vec4 pixelY = vec4(0.0, 0.0, 1.0, 1.0);
+
+// Light of highlights behind and in front of the plane of focus.
 struct Highlights {
-    vec3 far;
-    vec3 near;
+    mat4x3 far;
+    mat4x3 near;
 };
 
-// tiles: that have highlights that reach the pixel's.
-Highlights highlightsAt(vec2 at, float coc, int tiles) {
-    Highlights sum = Highlights(vec3(0.0), vec3(0.0));
-    float own = max(coc, 0.0);
+// at: centre of the first pixel. tiles: that have highlights that reach the pixels' tile.
+Highlights highlightsAt(vec2 at, vec4 coc, int tiles) {
+    Highlights sum = Highlights(mat4x3(0.0), mat4x3(0.0));
     // What is farther than the pixel's surface is hidden by it.
-    vec2 isBehind = vec2(1.0, -1.1 * own - 0.25) / (0.2 * own + 0.5);
-    float open = nearShare(coc);
+    vec4 own = max(coc, 0.0);
+    vec4 perCoc = 1.0 / (0.2 * own + 0.5);
+    vec4 from = (1.1 * own + 0.25) * perCoc;
+    vec4 open = vec4(nearShare(coc.x), nearShare(coc.y), nearShare(coc.z), nearShare(coc.w));
     int side = tileBlocks(params.block);
     int shift = findMSB(side);
     ivec2 first = ivec2(at) / tileSide * steps;
@@ -49,7 +54,7 @@ Highlights highlightsAt(vec2 at, float coc, int tiles) {
         ivec2 tile = ivec2(index & 1023, index >> 10);
         vec2 corner = vec2(tile * tileSide);
         vec2 list = imageLoad(lists, tile).rg;
-        vec2 apart = max(max(corner - at, at - corner - float(tileSide)), 0.0);
+        vec2 apart = max(max(corner - at - 1.0, at - corner - float(tileSide)), 0.0);
         int count = dot(apart, apart) < list.y * list.y ? int(list.x) : 0;
         for (int i = 0; i < count; ++i) {
             ivec2 place = tile * side + ivec2(i & (side - 1), i >> shift);
@@ -57,14 +62,20 @@ Highlights highlightsAt(vec2 at, float coc, int tiles) {
             vec4 shape = imageLoad(highlightShape, place);
             vec2 way = at - corner - shape.xy;
             // Disks in front of the plane of focus are turned by half a turn.
-            float away = shapeLength(way * sign(light.a), params.turn, params.blades);
-            vec3 lit = clamp((shape.z - away) * shape.w + 0.5, 0.0, 1.0) * light.rgb;
-            float hidden = clamp(light.a * isBehind.x + isBehind.y, 0.0, 1.0);
-            sum.far += light.a > 0.0 ? max(1.0 - hidden, open) * lit : vec3(0.0);
-            sum.near += light.a > 0.0 ? vec3(0.0) : lit;
+            vec4 x = (way.x + pixelX) * sign(light.a);
+            vec4 y = (way.y + pixelY) * sign(light.a);
+            vec4 away = shapeLengths(x, y, params.turn, params.blades);
+            vec4 lit = clamp((shape.z - away) * shape.w + 0.5, 0.0, 1.0);
+            vec4 hidden = clamp(light.a * perCoc - from, 0.0, 1.0);
+            sum.far += outerProduct(light.rgb, light.a > 0.0 ? max(1.0 - hidden, open) * lit : vec4(0.0));
+            sum.near += outerProduct(light.rgb, light.a > 0.0 ? vec4(0.0) : lit);
         }
     }
     return sum;
+}
+
+float cocAt(ivec2 pixel) {
+    return imageLoad(coc, min(ivec2((vec2(pixel) + 0.5) * params.toDepth), imageSize(coc) - 1)).r;
 }
 
 // The layers at the four pixels of a cell.
@@ -101,34 +112,32 @@ void main() {
     if (item == dofNoTile || any(greaterThanEqual(cell, ivec2(params.half2)))) {
         return;
     }
+    ivec2 first = 2 * cell;
     Layers layers = Layers(mat4(0.0), mat4(0.0));
-    int tiles = 0;
+    Highlights apart = Highlights(mat4x3(0.0), mat4x3(0.0));
+    vec4 cocs = vec4(0.0);
     float darkness = 0.0;
     if (list != dofCopy) {
+        cocs = vec4(cocAt(first), cocAt(first + ivec2(1, 0)), cocAt(first + ivec2(0, 1)), cocAt(first + 1));
         addRow(layers, cell - ivec2(0, 1), 0.25, 0.0);
         addRow(layers, cell, 0.75, 0.75);
         addRow(layers, cell + ivec2(0, 1), 0.0, 0.25);
     }
     if (list == dofComposite + dofHighlights) {
-        tiles = int(imageLoad(drawn, tile).r);
         darkness = imageLoad(lists, tile).b;
+        apart = highlightsAt(vec2(first) + 0.5, cocs, int(imageLoad(drawn, tile).r));
     }
     for (int i = 0; i < 4; ++i) {
-        ivec2 pixel = 2 * cell + ivec2(i & 1, i >> 1);
+        ivec2 pixel = first + ivec2(i & 1, i >> 1);
         vec4 sharp = texelFetch(radiance, pixel, 0);
         vec3 light = clampToHalf(sharp.rgb);
         if (list != dofCopy) {
-            float c = imageLoad(coc, min(ivec2((vec2(pixel) + 0.5) * params.toDepth), imageSize(coc) - 1)).r;
-            Highlights apart = Highlights(vec3(0.0), vec3(0.0));
-            if (list == dofComposite + dofHighlights) {
-                light *= 1.0 - highlightShare(light, c, darkness, params.block);
-                apart = highlightsAt(vec2(pixel) + 0.5, c, tiles);
-            }
-            float blurred = blurredShare(c);
+            light *= 1.0 - highlightShare(light, cocs[i], darkness, params.block);
             vec4 behind = layers.behind[i];
             vec4 before = layers.before[i];
+            float blurred = blurredShare(cocs[i]);
             light = blurred > 0.0 ? mix(light, behind.rgb / behind.a, blurred) : light;
-            light = (light + apart.far) * (1.0 - before.a) + before.rgb + apart.near;
+            light = (light + apart.far[i]) * (1.0 - before.a) + before.rgb + apart.near[i];
         }
         imageStore(result, pixel, vec4(min(light, largestHalf), sharp.a));
     }

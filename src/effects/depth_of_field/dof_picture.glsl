@@ -12,7 +12,7 @@ layout(rg16f) uniform writeonly image2D groundBlur; // radius, blurred share
 layout(rgba16f) uniform writeonly image2D front;    // radiance · coverage, coverage
 layout(r32f) uniform writeonly image2D frontBlur;   // radius
 
-vec3 lightAt(ivec2 pixel) { return clampToHalf(texelFetch(radiance, pixel, 0).rgb); }
+vec3 lightAt(ivec2 pixel) { return clampToHalf(textureLod(radiance, (vec2(pixel) + 0.5) / vec2(params.size), 0.0).rgb); }
 
 float cocAt(ivec2 pixel) {
     return imageLoad(coc, min(ivec2((vec2(pixel) + 0.5) * params.toDepth), imageSize(coc) - 1)).r;

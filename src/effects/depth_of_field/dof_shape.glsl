@@ -15,4 +15,10 @@ float shapeLength(vec2 way, float turn, uint blades) {
     return length(way) * cos(within) / cos(0.5 * side);
 }
 
+// Of four ways.
+vec4 shapeLengths(vec4 x, vec4 y, float turn, uint blades) {
+    return vec4(shapeLength(vec2(x.x, y.x), turn, blades), shapeLength(vec2(x.y, y.y), turn, blades),
+                shapeLength(vec2(x.z, y.z), turn, blades), shapeLength(vec2(x.w, y.w), turn, blades));
+}
+
 #endif
