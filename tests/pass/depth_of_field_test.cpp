@@ -155,6 +155,40 @@ TEST_F(DepthOfField, AHighlightsDiskIsEvenAndHasASharpEdge) {
     }
 }
 
+/// Share of a disk's light in the pixel `away` from its centre.
+double diskInPixel(const vec2& away, double radius) {
+    constexpr int n = 16;
+    int inside = 0;
+    for (int i = 0; i < n * n; ++i) {
+        const vec2 at = away + (vec2(i % n, i / n) + 0.5F) / float(n) - 0.5F;
+        inside += glm::length(at) < radius ? 1 : 0;
+    }
+    return inside / (n * n * glm::pi<double>() * radius * radius);
+}
+
+TEST_F(DepthOfField, SmallDisksAreRound) {
+    DofRun run(device());
+    for (const float radius : {-2.5F, -1.5F, 1.0F, 1.5F, 2.0F, 2.5F, 3.0F}) {
+        for (const uvec2& lit : {uvec2(80, 60), uvec2(81, 61)}) {
+            // At 16 m, disks have three quarters of their radius at infinity; at 2 m, before the plane of focus, all of
+            // it.
+            const float z = radius > 0.0F ? 16.0F : 2.0F;
+            const Lens lens = lensOf(radius > 0.0F ? radius / 0.75F : -radius);
+            const std::vector<vec4> out = run(
+                [&](const uvec2& p) {
+                    return Point{vec3(p == lit ? 100.0F : 0.0F), z};
+                },
+                lens);
+            double misplaced = 0.0;
+            for (uint32_t i = 0; i < size.x * size.y; ++i) {
+                const vec2 away = vec2(i % size.x, i / size.x) - vec2(lit);
+                misplaced += 0.5 * std::abs(out[i].x - 100.0 * diskInPixel(away, std::abs(radius)));
+            }
+            EXPECT_LT(misplaced, 4.0) << "percent of the light of a disk of radius " << radius;
+        }
+    }
+}
+
 TEST_F(DepthOfField, AHighlightBehindWhatIsInFocusIsHidden) {
     DofRun run(device());
     const std::vector<vec4> out = run(

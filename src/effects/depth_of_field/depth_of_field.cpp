@@ -21,15 +21,16 @@ struct Layers {
     gpu::Image ground, groundBlur, front, frontBlur;
 };
 
-constexpr std::array layerFormats{VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R16G16_SFLOAT, VK_FORMAT_R16G16B16A16_SFLOAT,
-                                  VK_FORMAT_R32_SFLOAT};
+constexpr VkFormat half4Format = VK_FORMAT_R16G16B16A16_SFLOAT;
+constexpr VkFormat half2Format = VK_FORMAT_R16G16_SFLOAT;
+constexpr VkFormat floatFormat = VK_FORMAT_R32_SFLOAT;
 
 // cells: of level 0, with the other levels at its right (dof_layers.glsl).
 Layers makeLayers(gpu::Scratch& scratch, uvec2 cells) {
     const uvec2 levels = levelsImageSize(cells, dofLevels);
     const uvec2 size(cells.x + levels.x, std::max(cells.y, levels.y));
-    return {scratch.storage(layerFormats[0], size), scratch.storage(layerFormats[1], size),
-            scratch.storage(layerFormats[2], size), scratch.storage(layerFormats[3], size)};
+    return {scratch.storage(half4Format, size), scratch.storage(half2Format, size), scratch.storage(half4Format, size),
+            scratch.storage(half2Format, size)};
 }
 
 gpu::Pass& writeLayers(gpu::Pass& pass, const Layers& layers) {
@@ -111,76 +112,92 @@ uint32_t blockSide(uint32_t height) {
     return height < 540 ? 4 : height < 1080 ? 8 : 16;
 }
 
+// Largest radius of disks that are drawn at full resolution. In large pictures fewer are, as cost grows with their
+// area.
+float fullDisk(uint32_t height) {
+    return height < 540 ? 3.0F : 1.5F;
+}
+
+// What tiles hold, as dof_tiles.comp writes it, and the lists of tiles.
+struct Tiles {
+    gpu::Image layers, smallDisks, lists;
+    gpu::BufferView heads;
+};
+
+Tiles describeTiles(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& layers, const DofSizes& sizes) {
+    const uvec2 count = (sizes.half2 + dofTile - 1U) / dofTile;
+    const uint32_t rows = (count.x * count.y + dofListRow - 1U) / dofListRow;
+    std::array<DofListHead, dofLists> heads{};
+    heads.fill({{dofListRow, 0, 1}, 0});
+    const Tiles tiles{scratch.storage(half4Format, count), scratch.storage(half4Format, count),
+                      scratch.storage(VK_FORMAT_R32_UINT, {dofListRow * dofGroupTiles, dofLists * rows}),
+                      scratch.buffer(sizeof(heads))};
+    f.update(tiles.heads, std::as_bytes(std::span(heads)));
+    f.clear(tiles.lists, {.uint32 = {~0U, ~0U, ~0U, ~0U}});
+    f.compute("tiles", "dof_tiles.comp")
+        .read("ground", layers.ground)
+        .read("groundBlur", layers.groundBlur)
+        .read("front", layers.front)
+        .read("frontBlur", layers.frontBlur)
+        .write("tiles", tiles.layers)
+        .write("smallDisks", tiles.smallDisks)
+        .write("tileLists", tiles.lists)
+        .write("heads", tiles.heads)
+        .params(sizes)
+        .dispatch(count);
+    return tiles;
+}
+
 // Light that is drawn apart; as dof_highlights.comp and dof_lists.comp write it.
 struct Highlights {
     gpu::Image light, shape, lists;
 };
 
 // Takes highlights out of the layers.
-Highlights findHighlights(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& layers, gpu::Image tiles,
+Highlights findHighlights(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& layers, const Tiles& tiles,
                           gpu::Image radiance, gpu::Image coc, const DofSizes& sizes) {
     const uvec2 blocks = (sizes.size + sizes.block - 1U) / sizes.block;
-    const Highlights out{scratch.storage(layerFormats[0], blocks), scratch.storage(layerFormats[0], blocks),
-                         scratch.storage(layerFormats[0], tiles.size)};
+    const Highlights out{scratch.storage(half4Format, blocks), scratch.storage(half4Format, blocks),
+                         scratch.storage(half4Format, tiles.layers.size)};
     gpu::Pass find = f.compute("highlights", "dof_highlights.comp");
-    find.read("radiance", radiance).read("coc", coc).read("tiles", tiles);
+    find.read("radiance", radiance).read("coc", coc).read("tiles", tiles.layers);
     writeLayers(find, layers)
+        .read("tileLists", tiles.lists)
         .write("highlights", out.light)
         .write("highlightShape", out.shape)
         .params(sizes)
-        .dispatch(blocks);
+        .dispatchIndirect(tiles.heads, dofBright * sizeof(DofListHead));
     f.compute("lists", "dof_lists.comp")
-        .read("tiles", tiles)
+        .read("tiles", tiles.layers)
         .write("highlights", out.light)
         .write("highlightShape", out.shape)
         .write("lists", out.lists)
         .params(sizes)
-        .dispatch(tiles.size);
+        .dispatch(tiles.layers.size);
     return out;
 }
 
-gpu::Image describeTiles(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& layers, const DofSizes& sizes) {
-    const uvec2 count = (sizes.half2 + dofTile - 1U) / dofTile;
-    const gpu::Image tiles = scratch.storage(layerFormats[0], count);
-    f.compute("tiles", "dof_tiles.comp")
-        .read("ground", layers.ground)
-        .read("groundBlur", layers.groundBlur)
-        .read("front", layers.front)
-        .read("frontBlur", layers.frontBlur)
-        .write("tiles", tiles)
-        .params(sizes)
-        .dispatch(count);
-    return tiles;
-}
-
-// How far the disks of each tile reach, the tiles whose highlights reach it, and lists of tiles.
+// How far the disks of each tile reach, and the tiles whose highlights reach it.
 struct Reach {
-    gpu::Image layers, drawn, drawnTiles, lists;
-    gpu::BufferView heads;
+    gpu::Image layers, drawn, drawnTiles;
 };
 
 // around: tiles that the largest disk reaches.
-Reach makeReach(gpu::Recorder& f, gpu::Scratch& scratch, gpu::Image tiles, gpu::Image lists, uint32_t around) {
-    constexpr uint32_t longestRow = dofListRow * dofLargeTiles;
-    const uint32_t rows = (tiles.size.x * tiles.size.y + dofListRow - 1U) / dofListRow;
-    std::array<DofListHead, dofLists> heads{};
-    heads.fill({{dofListRow, 0, 1}, 0});
-    const Reach reach{scratch.storage(layerFormats[0], tiles.size), scratch.storage(layerFormats[3], tiles.size),
-                      scratch.storage(layerFormats[3], (2U * around + 1U) * tiles.size),
-                      scratch.storage(VK_FORMAT_R32_UINT, {longestRow, dofLists * rows}),
-                      scratch.buffer(sizeof(heads))};
-    f.update(reach.heads, std::as_bytes(std::span(heads)));
-    f.clear(reach.lists, {.uint32 = {~0U, ~0U, ~0U, ~0U}});
+Reach makeReach(gpu::Recorder& f, gpu::Scratch& scratch, const Tiles& tiles, gpu::Image lists, uint32_t around) {
+    const uvec2 count = tiles.layers.size;
+    const Reach reach{scratch.storage(half4Format, count), scratch.storage(floatFormat, count),
+                      scratch.storage(floatFormat, (2U * around + 1U) * count)};
     f.compute("reach", "dof_reach.comp")
         .constant("around", around)
-        .read("tiles", tiles)
+        .read("tiles", tiles.layers)
+        .read("smallDisks", tiles.smallDisks)
         .read("lists", lists)
         .write("reach", reach.layers)
         .write("drawn", reach.drawn)
         .write("drawnTiles", reach.drawnTiles)
-        .write("tileLists", reach.lists)
-        .write("heads", reach.heads)
-        .dispatch(tiles.size);
+        .write("tileLists", tiles.lists)
+        .write("heads", tiles.heads)
+        .dispatch(count);
     return reach;
 }
 
@@ -190,15 +207,15 @@ struct Blurred {
 };
 
 // large: the result for large disks, at half of `size`; none: makes it.
-Blurred gather(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& layers, const Reach& reach, const DofInputs& in,
-               const DofSizes& sizes, const Blurred& large) {
+Blurred gather(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& layers, const Tiles& tiles, const Reach& reach,
+               const DofInputs& in, const DofSizes& sizes, const Blurred& large) {
     const bool coarse = !large.ground;
     const uvec2 size = levelSize(sizes.half2, coarse ? 1 : 0);
-    const Blurred out{scratch.storage(layerFormats[0], size), scratch.storage(layerFormats[2], size)};
+    const Blurred out{scratch.storage(half4Format, size), scratch.storage(half4Format, size)};
     // Tiles that are not gathered are looked up beside others.
     f.clear(out.ground);
     f.clear(out.front);
-    const gpu::Image none = f.placeholder(layerFormats[0]);
+    const gpu::Image none = f.placeholder(half4Format);
     for (const uint32_t front : {0U, dofFront}) {
         f.compute(coarse ? "gather_large" : "gather", "dof_gather.comp")
             .constant("polygon", in.lens.blades < 3 ? 0U : 1U)
@@ -209,13 +226,13 @@ Blurred gather(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& layers, co
             .read("front", layers.front)
             .read("frontBlur", layers.frontBlur)
             .read("reach", reach.layers)
-            .read("tileLists", reach.lists)
+            .read("tileLists", tiles.lists)
             .read("groundCoarse", coarse ? none : large.ground)
             .read("frontCoarse", coarse ? none : large.front)
             .write("groundOut", out.ground)
             .write("frontOut", out.front)
             .params(DofGatherParams{sizes.half2, in.settings.samples, sizes.disk, sizes.turn, sizes.blades})
-            .dispatchIndirect(reach.heads, ((coarse ? dofGatherLarge : dofGather) + front) * sizeof(DofListHead));
+            .dispatchIndirect(tiles.heads, ((coarse ? dofGatherLarge : dofGather) + front) * sizeof(DofListHead));
     }
     return out;
 }
@@ -239,6 +256,7 @@ DofImages depthOfField(gpu::Recorder& f, DofStore& own, const DofInputs& in) {
                          vec2(coc.size) / vec2(size),
                          0,
                          blockSide(size.y),
+                         fullDisk(size.y),
                          1.0F / shapeArea(in.lens.blades),
                          in.lens.bladeRotation,
                          in.lens.blades};
@@ -247,17 +265,17 @@ DofImages depthOfField(gpu::Recorder& f, DofStore& own, const DofInputs& in) {
     gpu::Pass split = f.compute("split", "dof_split.comp");
     split.read("radiance", in.radiance).read("coc", coc);
     writeLayers(split, layers).params(sizes).dispatch(sizes.half2);
-    const gpu::Image tiles = describeTiles(f, scratch, layers, sizes);
+    const Tiles tiles = describeTiles(f, scratch, layers, sizes);
     const Highlights highlights = findHighlights(f, scratch, layers, tiles, in.radiance, coc, sizes);
     makeMips(f, layers, sizes);
     // Holes are filled from up to three tiles away.
     const float largest = 0.5F * in.settings.maxRadius * height;
     const uint32_t around = 1U + std::max(static_cast<uint32_t>(std::ceil(largest / static_cast<float>(dofTile))), 3U);
     const Reach reach = makeReach(f, scratch, tiles, highlights.lists, around);
-    const Blurred large = gather(f, scratch, layers, reach, in, sizes, {});
-    const Blurred all = gather(f, scratch, layers, reach, in, sizes, large);
-    const gpu::Image result = own.result.storage(f, layerFormats[0], size);
-    for (const uint32_t list : {dofComposite, dofComposite + dofHighlights, dofCopy}) {
+    const Blurred large = gather(f, scratch, layers, tiles, reach, in, sizes, {});
+    const Blurred all = gather(f, scratch, layers, tiles, reach, in, sizes, large);
+    const gpu::Image result = own.result.storage(f, half4Format, size);
+    for (uint32_t list = dofComposite; list <= dofCopy; ++list) {
         f.compute("composite", "dof_composite.comp")
             .constant("around", around)
             .constant("polygon", in.lens.blades < 3 ? 0U : 1U)
@@ -271,10 +289,11 @@ DofImages depthOfField(gpu::Recorder& f, DofStore& own, const DofInputs& in) {
             .read("lists", highlights.lists)
             .read("drawn", reach.drawn)
             .read("drawnTiles", reach.drawnTiles)
-            .read("tileLists", reach.lists)
+            .read("reach", reach.layers)
+            .read("tileLists", tiles.lists)
             .write("result", result)
             .params(sizes)
-            .dispatchIndirect(reach.heads, list * sizeof(DofListHead));
+            .dispatchIndirect(tiles.heads, list * sizeof(DofListHead));
     }
     return {result, coc};
 }

@@ -39,16 +39,18 @@ const uint dofTile = 8;
 // Lists of tiles; each pass runs over those that need it. Added up where there are two of a kind.
 const uint dofGather = 0;       // blurred tiles; + dofFront
 const uint dofGatherLarge = 2;  // of these, tiles with large disks; + dofFront
-const uint dofComposite = 4;    // tiles that change; + dofHighlights
-const uint dofCopy = 6;         // all other tiles
-const uint dofLists = 7;
+const uint dofComposite = 4;    // tiles that change; + dofHighlights + dofSmall
+const uint dofCopy = 8;         // all other tiles
+const uint dofBright = 9;       // tiles with highlights of their own
+const uint dofLists = 10;
 const uint dofFront = 1;       // disks of the near layer reach the tile
 const uint dofHighlights = 1;  // highlights reach it
+const uint dofSmall = 2;       // disks that are drawn at full resolution may reach it
 
 // Groups per row of the indirect dispatch over a list; 65535 rows suffice for the largest picture.
 const uint dofListRow = 16;
-// Tiles per group of dofGatherLarge; of the other lists 1.
-const uint dofLargeTiles = 4;
+// Tiles per group of dofGatherLarge and dofBright; of the other lists 1.
+const uint dofGroupTiles = 4;
 
 // An indirect dispatch over a list, and its number of tiles.
 struct DofListHead {
@@ -79,14 +81,15 @@ struct DofCocParams {
 };
 
 struct DofSizes {
-    uvec2 size;    // of the picture
-    uvec2 half2;   // half of it, rounded up
-    vec2 toDepth;  // pixels of the depth buffer per pixel of the picture
-    uint level;    // of mips: to make
-    uint block;    // pixels along the side of a block, 4, 8 or 16: each has at most one highlight
-    float disk;    // 1 over the area of the aperture's shape with radius 1
-    float turn;    // of the aperture [rad]
-    uint blades;   // of the aperture, if it is a polygon
+    uvec2 size;      // of the picture
+    uvec2 half2;     // half of it, rounded up
+    vec2 toDepth;    // pixels of the depth buffer per pixel of the picture
+    uint level;      // of mips: to make
+    uint block;      // pixels along the side of a block, 4, 8 or 16: each has at most one highlight
+    float fullDisk;  // largest radius of disks that are drawn at full resolution [pixels of the picture]
+    float disk;      // 1 over the area of the aperture's shape with radius 1
+    float turn;      // of the aperture [rad]
+    uint blades;     // of the aperture, if it is a polygon
 };
 
 struct DofGatherParams {

@@ -22,7 +22,11 @@ layout(constant_id = 1) const uint around = 1u;  // as in dof_reach.comp
 layout(rgba16f) uniform writeonly image2D result;
 
 layout(constant_id = 2) const uint list = dofComposite;
+layout(rgba16f) uniform readonly image2D reach;
 layout(r32ui) uniform readonly uimage2D tileLists;
+
+const bool hasHighlights = list < dofCopy && ((list - dofComposite) & dofHighlights) != 0u;
+const bool hasSmall = list < dofCopy && ((list - dofComposite) & dofSmall) != 0u;
 
 const int tileSide = 2 * int(dofTile);  // in pixels
 const int steps = 2 * int(around) + 1;
@@ -30,6 +34,8 @@ const int steps = 2 * int(around) + 1;
 // A thread composites the four pixels of a cell: a column each.
 const vec4 pixelX = vec4(0.0, 1.0, 0.0, 1.0);
 const vec4 pixelY = vec4(0.0, 0.0, 1.0, 1.0);
+
+float nearShareAt(float coc) { return nearShare(coc, params.fullDisk); }
 
 // Light of highlights behind and in front of the plane of focus.
 struct Highlights {
@@ -44,7 +50,7 @@ Highlights highlightsAt(vec2 at, vec4 coc, int tiles) {
     vec4 own = max(coc, 0.0);
     vec4 perCoc = 1.0 / (0.2 * own + 0.5);
     vec4 from = (1.1 * own + 0.25) * perCoc;
-    vec4 open = vec4(nearShare(coc.x), nearShare(coc.y), nearShare(coc.z), nearShare(coc.w));
+    vec4 open = vec4(nearShareAt(coc.x), nearShareAt(coc.y), nearShareAt(coc.z), nearShareAt(coc.w));
     int side = tileBlocks(params.block);
     int shift = findMSB(side);
     ivec2 first = ivec2(at) / tileSide * steps;
@@ -76,6 +82,49 @@ Highlights highlightsAt(vec2 at, vec4 coc, int tiles) {
 
 float cocAt(ivec2 pixel) {
     return imageLoad(coc, min(ivec2((vec2(pixel) + 0.5) * params.toDepth), imageSize(coc) - 1)).r;
+}
+
+// CPU devices sample faster than they fetch.
+vec4 sharpAt(ivec2 pixel) {
+    vec4 sharp = textureLod(radiance, (vec2(pixel) + 0.5) / vec2(params.size), 0.0);
+    return vec4(clampToHalf(sharp.rgb), sharp.a);
+}
+
+// Disks that half resolution has too few cells for, at full resolution.
+struct SmallDisks {
+    mat4 own;   // mean over the pixel's own disk of what is not nearer: radiance · share of full resolution, that share
+    mat4 over;  // what is nearer: radiance · coverage, coverage
+};
+
+// largest: radius of the small disks that may reach the pixels.
+SmallDisks smallDisks(ivec2 first, vec4 coc, float largest) {
+    SmallDisks sum = SmallDisks(mat4(0.0), mat4(0.0));
+    vec4 whole = vec4(0.0);
+    vec4 radius = clamp(abs(coc), 0.5, params.fullDisk);
+    ivec2 last = ivec2(params.size) - 1;
+    int n = int(ceil(largest + 0.5)) - 1;
+    for (int y = -n; y <= n + 1; ++y) {
+        for (int x = -n; x <= n + 1; ++x) {
+            ivec2 pixel = clamp(first + ivec2(x, y), ivec2(0), last);
+            float c = cocAt(pixel);
+            vec4 light = (1.0 - blurredShare(c, params.fullDisk)) * vec4(sharpAt(pixel).rgb, 1.0);
+            // Disks in front of the plane of focus are turned by half a turn.
+            float turned = c < 0.0 ? -1.0 : 1.0;
+            vec4 away = shapeLengths(turned * (pixelX - float(x)), turned * (pixelY - float(y)), params.turn, params.blades);
+            vec4 nearer = clamp(2.0 * (coc - c) - 0.5, 0.0, 1.0);
+            vec4 inside = (1.0 - nearer) * clamp(radius - away + 0.5, 0.0, 1.0);
+            float r = clamp(abs(c), 0.5, params.fullDisk);
+            vec4 covered = nearer * clamp(r - away + 0.5, 0.0, 1.0) * params.disk / (r * r + 0.0833);
+            sum.own += outerProduct(light, inside);
+            sum.over += outerProduct(light, covered);
+            whole += inside;
+        }
+    }
+    for (int i = 0; i < 4; ++i) {
+        sum.own[i] /= whole[i];
+        sum.over[i] /= max(sum.over[i].a, 1.0);
+    }
+    return sum;
 }
 
 // The layers at the four pixels of a cell.
@@ -123,20 +172,31 @@ void main() {
         addRow(layers, cell, 0.75, 0.75);
         addRow(layers, cell + ivec2(0, 1), 0.0, 0.25);
     }
-    if (list == dofComposite + dofHighlights) {
+    SmallDisks small = SmallDisks(mat4(0.0), mat4(0.0));
+    if (hasSmall) {
+        small = smallDisks(first, cocs, imageLoad(reach, tile).a);
+    }
+    if (hasHighlights) {
         darkness = imageLoad(lists, tile).b;
         apart = highlightsAt(vec2(first) + 0.5, cocs, int(imageLoad(drawn, tile).r));
     }
     for (int i = 0; i < 4; ++i) {
         ivec2 pixel = first + ivec2(i & 1, i >> 1);
-        vec4 sharp = texelFetch(radiance, pixel, 0);
-        vec3 light = clampToHalf(sharp.rgb);
+        vec4 sharp = sharpAt(pixel);
+        vec3 light = sharp.rgb;
         if (list != dofCopy) {
             light *= 1.0 - highlightShare(light, cocs[i], darkness, params.block);
             vec4 behind = layers.behind[i];
             vec4 before = layers.before[i];
-            float blurred = blurredShare(cocs[i]);
-            light = blurred > 0.0 ? mix(light, behind.rgb / behind.a, blurred) : light;
+            float blurred = blurredShare(cocs[i], params.fullDisk);
+            vec3 layer = behind.rgb / behind.a;
+            if (hasSmall) {
+                light = small.own[i].rgb + (1.0 - small.own[i].a) * layer;
+            }
+            light = blurred > 0.0 ? mix(light, layer, blurred) : light;
+            if (hasSmall) {
+                light = small.over[i].rgb + (1.0 - small.over[i].a) * light;
+            }
             light = (light + apart.far[i]) * (1.0 - before.a) + before.rgb + apart.near[i];
         }
         imageStore(result, pixel, vec4(min(light, largestHalf), sharp.a));

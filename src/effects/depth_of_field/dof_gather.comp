@@ -15,7 +15,7 @@ layout(scalar) uniform ParamsBlock { DofGatherParams params; };
 layout(rgba16f) uniform readonly image2D ground;
 layout(rg16f) uniform readonly image2D groundBlur;
 layout(rgba16f) uniform readonly image2D front;
-layout(r32f) uniform readonly image2D frontBlur;
+layout(rg16f) uniform readonly image2D frontBlur;
 layout(rgba16f) uniform readonly image2D reach;
 layout(rgba16f) uniform readonly image2D groundCoarse;  // of the pass with coarse = 1
 layout(rgba16f) uniform readonly image2D frontCoarse;
@@ -222,7 +222,7 @@ bool listedPixel(out ivec2 pixel) {
     ivec2 place = ivec2(gl_WorkGroupID.xy);
     uvec2 local = gl_LocalInvocationID.xy;
     if (coarse != 0u) {
-        place.x = place.x * int(dofLargeTiles) + int(index >> 4u);
+        place.x = place.x * int(dofGroupTiles) + int(index >> 4u);
         local = uvec2(index & 3u, (index >> 2u) & 3u);
     }
     place.y += listStart((coarse != 0u ? dofGatherLarge : dofGather) + hasFront, imageSize(tileLists).y);

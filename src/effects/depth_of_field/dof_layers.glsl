@@ -5,16 +5,24 @@
 #include "effects/depth_of_field/depth_of_field.h"
 #include "effects/levels.glsl"
 
-// Squared radius, in pixels of half resolution, of the smallest disk that the passes can make.
+// Squared radius, in pixels of half resolution, of the smallest disk that the layers can make.
 const float leastDisk = 1.42;
 
-// Share of the blurred layers in a pixel with a circle of confusion of this radius. A smaller disk than the smallest is mixed of
-// that and the sharp pixel, with the same second moment.
-float blurredShare(float coc) { return clamp((coc * coc - 0.25) / (4.0 * leastDisk - 0.25), 0.0, 1.0); }
+// Share of the layers in a pixel with a circle of confusion of this radius; the rest is drawn at full resolution. full: largest
+// radius there (DofSizes). Between that and the layers' smallest disk both are mixed, with the right second moment.
+float blurredShare(float coc, float full) {
+    float least = max(4.0 * leastDisk, (full + 0.5) * (full + 0.5));
+    return clamp((coc * coc - full * full) / (least - full * full), 0.0, 1.0);
+}
+
+// Radius of what is drawn at full resolution; 0: in focus, or nothing is.
+float fullRadius(float coc, float full) {
+    return abs(coc) > 0.5 && blurredShare(coc, full) < 1.0 ? min(abs(coc), full) : 0.0;
+}
 
 // Share of a pixel that belongs to the near layer, and share that is blurred of what is in the background.
-float nearShare(float coc) { return coc < 0.0 ? blurredShare(coc) : 0.0; }
-float farShare(float coc) { return coc > 0.0 ? blurredShare(coc) : 0.0; }
+float nearShare(float coc, float full) { return coc < 0.0 ? blurredShare(coc, full) : 0.0; }
+float farShare(float coc, float full) { return coc > 0.0 ? blurredShare(coc, full) : 0.0; }
 
 // Sharp content has this weight against blurred content of the same cell.
 const float sharpWeight = 1e-4;
@@ -59,8 +67,9 @@ float brightness(vec3 light) { return 1e-3 + max(light.r, max(light.g, light.b))
 
 // Highlights are brighter than the tile's darkness by the first factor, and keep as much as the second leaves.
 const vec2 highlight = vec2(16.0, 2.0);
-// Radius [pixels of the picture]: disks of neighbouring blocks that are smaller would not join. block: side of a block.
-float leastHighlight(uint block) { return 0.75 * float(block); }
+// Radius [pixels of the picture]: disks of neighbouring blocks that are smaller would not join; at least that from which nothing is
+// drawn at full resolution (blurredShare). block: side of a block.
+float leastHighlight(uint block) { return max(0.75 * float(block), 3.5); }
 
 // Share of a pixel's light that is drawn apart, at full resolution. darkness: harmonic mean of the tile's brightness; 0: none is.
 float highlightShare(vec3 light, float coc, float darkness, uint block) {

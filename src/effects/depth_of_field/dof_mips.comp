@@ -8,7 +8,7 @@ layout(scalar) uniform ParamsBlock { DofSizes params; };
 layout(rgba16f) uniform image2D ground;
 layout(rg16f) uniform image2D groundBlur;
 layout(rgba16f) uniform image2D front;
-layout(r32f) uniform image2D frontBlur;
+layout(rg16f) uniform image2D frontBlur;
 
 ivec2 cells = ivec2(params.half2);
 int level = int(params.level);

@@ -1,5 +1,7 @@
 // How far the layers of each tile reach. In: both layers. Out: the largest radius of the near layer, of the background, and of small
-// disks of the near layer; the harmonic mean of brightness where there are highlights, else 0.
+// disks of the near layer; the harmonic mean of brightness where there are highlights, else 0. And the largest radius of disks
+// that are drawn at full resolution: of all, and of those that may reach the tile beside, above or below, and across the corner. And
+// the list of tiles with highlights.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/depth_of_field/dof_layers.glsl"
@@ -9,8 +11,17 @@ layout(scalar) uniform ParamsBlock { DofSizes params; };
 layout(rgba16f) uniform readonly image2D ground;
 layout(rg16f) uniform readonly image2D groundBlur;
 layout(rgba16f) uniform readonly image2D front;
-layout(r32f) uniform readonly image2D frontBlur;
+layout(rg16f) uniform readonly image2D frontBlur;
 layout(rgba16f) uniform writeonly image2D tiles;
+layout(rgba16f) uniform writeonly image2D smallDisks;
+layout(r32ui) uniform writeonly uimage2D tileLists;
+layout(scalar) buffer ListHeadsBlock {
+    DofListHead lists[dofLists];
+} heads;
+
+#include "effects/depth_of_field/dof_tile_append.glsl"
+
+const int smallReach = 2;  // of disks at full resolution [cells]
 
 void main() {
     ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
@@ -22,10 +33,15 @@ void main() {
     vec3 largest = vec3(0.0);
     vec2 dark = vec2(0.0);  // sum of 1 / brightness, count
     float brightest = 0.0;
+    vec4 full = vec4(0.0);
     for (int y = first.y; y < end.y; ++y) {
         for (int x = first.x; x < end.x; ++x) {
             // The radius of an empty near cell is 0.
-            float near = imageLoad(frontBlur, ivec2(x, y)).r;
+            vec2 before = imageLoad(frontBlur, ivec2(x, y)).rg;
+            float near = before.r;
+            bool beside = min(x - first.x, end.x - 1 - x) < smallReach;
+            bool above = min(y - first.y, end.y - 1 - y) < smallReach;
+            full = max(full, before.g * vec4(1.0, beside, above, beside && above));
             vec2 far = imageLoad(groundBlur, ivec2(x, y)).rg;
             float small = near < large.y ? near : 0.0;
             vec4 behind = imageLoad(ground, ivec2(x, y));
@@ -38,4 +54,8 @@ void main() {
     float darkness = dark.y / dark.x;
     bool some = brightest > highlight.x * darkness && 2.0 * max(largest.x, largest.y) > leastHighlight(params.block);
     imageStore(tiles, tile, vec4(largest, some ? darkness : 0.0));
+    imageStore(smallDisks, tile, full);
+    if (some) {
+        append(dofBright, tile, dofGroupTiles);
+    }
 }
