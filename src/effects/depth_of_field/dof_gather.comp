@@ -47,7 +47,7 @@ Ground filledGround(ivec2 cell, int ownLevel) {
     vec2 at = (vec2(cell) + 0.5) * float(1 << ownLevel);
     vec4 light = vec4(0.0);  // radiance, how much of it is known
     vec2 blur = vec2(0.0);
-    for (int level = from; level > ownLevel; level -= 2) {
+    for (int level = from; level > ownLevel; --level) {
         vec2 place = at / float(1 << level) - 0.5;
         vec2 part = fract(place);
         ivec2 last = levelSize(cells, level) - 1;
