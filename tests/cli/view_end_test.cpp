@@ -71,7 +71,6 @@ TEST_F(ViewEnd, CtrlQDoesNotWaitForThePassThatTheDeviceHasBegun) {
     EXPECT_FALSE(std::filesystem::exists(path("cubes-1.png")));
 }
 
-// Over 5 s: with the validation layers, the window opens more slowly.
 TEST_F(ViewEnd, NeitherDoesASignalAndUnderTheValidationLayers) {
     startLongPass({"--validate"});
     EXPECT_EQ(endsSoon([&] { return endBy(SIGTERM); }).err, "");
