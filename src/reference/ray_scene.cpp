@@ -14,6 +14,8 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <memory>
+#include <type_traits>
 
 namespace reflet {
 
@@ -131,6 +133,11 @@ bool isTraceable(const Ray& ray) {
     return fits(ray.origin) && fits(ray.direction) && ray.near >= 0.0F && ray.far >= 0.0F;  // NaN does not
 }
 
+struct ReleaseGeometry {
+    void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
+using GeometryOwner = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, ReleaseGeometry>;
+
 RTCRay embreeRay(const Ray& ray) {
     RTCRay r{};
     r.org_x = ray.origin.x;
@@ -185,7 +192,8 @@ struct RayScene::State {
         // The cofactor matrix: the inverse transpose up to a factor, but defined for singular matrices, too.
         g.normalToWorld =
             mat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])) * (g.mirrored ? -1.0F : 1.0F);
-        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        const GeometryOwner owner(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
+        RTCGeometry geometry = owner.get();
         auto* positions = static_cast<vec3*>(rtcSetNewGeometryBuffer(
             geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), mesh.positions.size()));
         check("copying positions");
@@ -203,7 +211,6 @@ struct RayScene::State {
         }
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(hierarchy, geometry, g.instance);
-        rtcReleaseGeometry(geometry);
         check("adding a mesh");
     }
 };

@@ -4,16 +4,22 @@
 #include "view/window.h"
 
 #include "base/error.h"
+#include "base/file.h"
+#include "cli/last_resort.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
+#include <dlfcn.h>
 #include <imgui.h>
 #include <imgui_internal.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <string_view>
 #include <utility>
 
 namespace reflet {
@@ -27,6 +33,23 @@ std::string& lastGlfwError() {
 
 Window& windowOf(GLFWwindow* handle) {
     return *static_cast<Window*>(glfwGetWindowUserPointer(handle));
+}
+
+// Xlib answers the loss of its display by exit(), which destroys static objects that other threads, of the program and
+// of the driver, still use. GLFW does not offer its handler.
+void endWithTheDisplay() {
+    using Handler = int (*)(void* display);
+    void* library = ::dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD);
+    void* function = library == nullptr ? nullptr : ::dlsym(library, "XSetIOErrorHandler");
+    if (function == nullptr) {
+        return;  // another window system
+    }
+    reinterpret_cast<Handler (*)(Handler)>(function)([](void*) -> int {
+        constexpr std::string_view message = "reflet: the display is gone\n";
+        removeTemporaryFiles();
+        std::fwrite(message.data(), 1, message.size(), stderr);
+        ::_exit(exitFailed);
+    });
 }
 
 // DejaVu Sans, where Debian (fonts-dejavu-core) and other distributions install it.
@@ -78,6 +101,7 @@ Window::Window(const std::string& title, uvec2 size) {
     if (glfwInit() == GLFW_FALSE) {
         fail("no window can be opened ({}); `reflet render` needs none", lastGlfwError());
     }
+    endWithTheDisplay();
     if (glfwVulkanSupported() == GLFW_FALSE) {
         glfwTerminate();
         fail("Vulkan cannot present to a window here; `reflet render` needs none");
