@@ -193,6 +193,8 @@ void main() {
             if (hasSmall) {
                 light = small.own[i].rgb + (1.0 - small.own[i].a) * layer;
             }
+            // Behind the plane of focus, the mean over small disks has the layer's share already.
+            blurred = hasSmall && cocs[i] > 0.0 ? 0.0 : blurred;
             light = blurred > 0.0 ? mix(light, layer, blurred) : light;
             if (hasSmall) {
                 light = small.over[i].rgb + (1.0 - small.over[i].a) * light;
