@@ -188,7 +188,7 @@ Outcome ProgramTest::runOther(const std::string& program, const Arguments& argum
 Outcome ProgramTest::interrupt(const Arguments& arguments, const std::vector<int>& signals, double work) const {
     const pid_t child = start(REFLET_PROGRAM, arguments, {}, {folder_, said_ / "out", said_ / "err"});
     const int first = signals.front();
-    EXPECT_TRUE(waitUntil(child, [&] { return catches(child, first) && cpuSeconds(child) >= work; }));
+    EXPECT_TRUE(waitUntil(child, [&] { return catches(child, first) && cpuSeconds(child) >= work * test::slowness; }));
     ::kill(child, first);
     for (size_t i = 1; i < signals.size(); ++i) {
         // The handler resets itself (SA_RESETHAND).
