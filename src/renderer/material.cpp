@@ -42,7 +42,7 @@ float dielectricF0Over4Percent(float ior) {
 uint glassKind(const Material& material, uint number) {
     constexpr uint most = (1U << (32 - glassKindBits)) - 1;
     const float dispersion = std::min(material.transmission.dispersion * glassDispersionSteps, float(most));
-    return (number & ((1U << glassKindBits) - 1)) | static_cast<uint>(dispersion + 0.5F) << glassKindBits;
+    return (number & ((1U << glassKindBits) - 1)) | static_cast<uint>(std::lround(dispersion)) << glassKindBits;
 }
 
 MaterialParams materialParams(const Material& m) {

@@ -41,7 +41,8 @@ protected:
     void drag(double fromX, double fromY, double toX, double toY) const;
     /// keys: xdotool's names, such as "space" or "ctrl+q".
     void press(const std::string& keys) const;
-    /// Presses the key, and waits until the status says that it was answered, for a minute at most (longer with a sanitizer).
+    /// Presses the key, and waits until the status says that it was answered, for a minute at most (longer with a
+    /// sanitizer).
     [[nodiscard]] double millisecondsToAnswer(const std::string& key,
                                               const std::function<bool(const nlohmann::json&)>& answered) const;
     void type(const std::string& text) const;

@@ -24,7 +24,8 @@ SHARED_END
 
 namespace reflet {
 
-/// The GGX directional albedo table (RGBA16F, 32x32: A, B, albedo of a sheen; see ggx_table.comp). Computed in the first frame.
+/// The GGX directional albedo table (RGBA16F, 32x32: A, B, albedo of a sheen; see ggx_table.comp). Computed in the
+/// first frame.
 gpu::Image ggxTable(gpu::Recorder& f, gpu::KeptImage& own);
 
 /// Light visibility per pixel.
