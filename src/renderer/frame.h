@@ -101,6 +101,6 @@ struct FrameImages : ViewImages {
 };
 
 /// Records all passes of one frame.
-FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in, const Settings& settings);
+FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in, const Settings& asked);
 
 }  // namespace reflet
