@@ -46,6 +46,9 @@ struct GBuffer {
 /// Specializes a pass whose shader includes gbuffer_surface.glsl, and binds what that reads.
 gpu::Pass& bindSurfaces(gpu::Recorder& f, gpu::Pass& pass, const GBuffer& g);
 
+/// The same for a shader that uses no more of it than dielectricAt.
+gpu::Pass& bindReflectance(gpu::Recorder& f, gpu::Pass& pass, const GBuffer& g);
+
 }  // namespace reflet
 #endif
 

@@ -30,7 +30,7 @@ RayTiles shareRays(gpu::Recorder& f, gpu::Scratch& scratch, gpu::HistoryImage& o
     constexpr std::array<uint32_t, histogramSize> none{};
     f.update(histogram, std::as_bytes(std::span(none)));
     gpu::Pass pass = f.compute("measure_noise", "measure_noise.comp");
-    bindSurfaces(f, pass, from.g)
+    bindReflectance(f, pass, from.g)
         .constant("lobe", lobe)
         .read("depth", from.g.depth)
         .read("material", from.g.material)
