@@ -117,7 +117,9 @@ BenchPlan makePlan(const BenchCommand& command) {
     if (std::ranges::find(comparable, plan.layer) == comparable.end()) {
         failUsage("--layer must be one of {}, is '{}'", fmt::join(comparable, ", "), plan.layer);
     }
-    tryOutputs({command.json, command.plot}, inputFiles(command.shared, command.scenes));
+    Inputs inputs = inputFiles(command.shared);
+    inputs.scenes = command.scenes;
+    tryOutputs({command.json, command.plot}, inputs);
     plan.scenes = scenesOf(command);
     return plan;
 }

@@ -117,7 +117,7 @@ void compare(const CompareCommand& command) {
     }
     checkOutput("--heatmap", command.heatMap, ".png");
     checkOutput("--plot", command.plot, ".svg");
-    tryOutputs({command.heatMap, command.plot}, {names[0].file, names[1].file, command.mask});
+    tryOutputs({command.heatMap, command.plot}, {{names[0].file, names[1].file, command.mask}, {}});
     if (FrameNames::isPattern(names[0].file)) {
         compareSequences(command, names, limits);
         return;

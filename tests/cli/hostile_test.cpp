@@ -90,6 +90,23 @@ TEST_F(Hostile, AnOutputThatIsAnInputIsRefusedAndTheInputKept) {
     EXPECT_EQ(read("x.json"), "{}");
 }
 
+TEST_F(Hostile, AnOutputThatIsAFileOfTheSceneIsRefused) {
+    const std::string texel("texel of no format");
+    fs::create_directory(path("s"));
+    write("s/a.gltf", R"({"asset": {"version": "2.0"}, "buffers": [{"uri": "%62.json", "byteLength": 2}],
+        "images": [{"uri": "../x.png"}, {"uri": "map_01.png"}], "scenes": [{"nodes": [0]}], "nodes": [{"name": "n"}]})");
+    write("s/b.json", "{}");
+    write("s/map_01.png", texel);
+    for (const char* target : {"s/map_01.png", "s/../s/map_01.png", "s/map_##.png"}) {
+        EXPECT_TRUE(
+            refused(render("s/a.gltf", {"-o", target}), usage, {target, "would replace an input", "map_01.png"}))
+            << target;
+    }
+    EXPECT_TRUE(refused(run({"bench", "builtin:cubes", "s/a.gltf", "--json", "s/b.json"}), usage, {"would replace"}));
+    EXPECT_EQ(read("s/map_01.png"), texel);
+    EXPECT_EQ(read("s/b.json"), "{}");
+}
+
 TEST_F(Hostile, TwoOutputsOfOneNameAreRefused) {
     EXPECT_TRUE(refused(render("builtin:cubes", {"-o", "a.png", "--timings", "./a.png"}), usage, {"two outputs"}));
     EXPECT_TRUE(files().empty());

@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "gltf_builder.h"
 #include "gltf_encoders.h"
+#include "scene/gltf/container.h"
 #include "scene/gltf/files.h"
 
 #include <gtest/gtest.h>
@@ -224,6 +225,22 @@ TEST(SceneFiles, OutsideOfTheFolderOrThatAreNoneAreNotOpened) {
                     has(files[i], "there is no file"))
             << i << files[i].substr(0, 100);
     }
+}
+
+// As if the file or a folder on the way to it had become a link after the loader looked.
+TEST(SceneFiles, ALinkThatAppearsAfterTheCheckIsNotFollowed) {
+    const fs::path folder = fs::canonical(emptyFolder("swapped"));
+    fs::create_directories(folder / "inside/textures");
+    writeFileAtomically(folder / "inside/textures/a.png", "texels");
+    writeFileAtomically(folder / "a.png", "secret");
+    fs::create_symlink("../a.png", folder / "inside/link");
+    fs::create_symlink("..", folder / "inside/up");
+    const fs::path inside = folder / "inside";
+    const GltfReport report("scene.gltf", nullptr);
+    const auto read = [&](const char* name) { return readFileBytes(inside / name, 6, "images[0]", report, inside); };
+    EXPECT_EQ(read("textures/a.png").size(), 6U);
+    EXPECT_THROW((void)read("link"), Error);
+    EXPECT_THROW((void)read("up/a.png"), Error);
 }
 
 }  // namespace

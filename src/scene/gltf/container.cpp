@@ -119,10 +119,24 @@ GltfContainer splitGlb(Bytes file, GltfReport& report) {
     return result;
 }
 
+/// Opens a file below a folder, folder by folder, so that none of them can have become a symbolic link since the path
+/// was checked. Negative if it fails.
+int openWithin(const std::filesystem::path& folder, const std::filesystem::path& path, int flags) {
+    int at = ::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
+    const std::filesystem::path below = path.lexically_relative(folder);
+    for (auto part = below.begin(); part != below.end() && at >= 0; ++part) {
+        const bool last = std::next(part) == below.end();
+        const int next = ::openat(at, part->c_str(), O_NOFOLLOW | (last ? flags : O_PATH | O_DIRECTORY | O_CLOEXEC));
+        ::close(at);
+        at = next;
+    }
+    return at;
+}
+
 }  // namespace
 
 std::vector<uint8_t> readFileBytes(const std::filesystem::path& path, uint64_t maxBytes, std::string_view part,
-                                   const GltfReport& report) {
+                                   const GltfReport& report, const std::filesystem::path& within) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
     if (status.type() == std::filesystem::file_type::not_found) {
@@ -132,7 +146,8 @@ std::vector<uint8_t> readFileBytes(const std::filesystem::path& path, uint64_t m
         report.fail(part, "{} is not a file", path.string());
     }
     // Not blocking, and checked again: another file may have that name by now, such as a pipe.
-    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    constexpr int flags = O_RDONLY | O_CLOEXEC | O_NONBLOCK;
+    const int descriptor = within.empty() ? ::open(path.c_str(), flags) : openWithin(within, path, flags);
     const std::unique_ptr<std::FILE, decltype(&std::fclose)> file(descriptor < 0 ? nullptr : ::fdopen(descriptor, "rb"),
                                                                   std::fclose);
     struct stat opened {};

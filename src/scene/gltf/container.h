@@ -19,8 +19,9 @@ struct GltfContainer {
 /// A .glb is recognized by its first bytes, not by its name. Throws Error.
 GltfContainer readGltfContainer(const std::filesystem::path& path, GltfReport& report);
 
-/// The first `maxBytes` bytes of a regular file, or all of it if shorter. Throws Error that names `part`.
+/// The first `maxBytes` bytes of a regular file, or all of it if shorter. `within`: if not empty, a folder that `path`
+/// lies in, both without symbolic links; none that appears meanwhile is followed. Throws Error that names `part`.
 std::vector<uint8_t> readFileBytes(const std::filesystem::path& path, uint64_t maxBytes, std::string_view part,
-                                   const GltfReport& report);
+                                   const GltfReport& report, const std::filesystem::path& within = {});
 
 }  // namespace reflet

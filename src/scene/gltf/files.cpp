@@ -1,6 +1,7 @@
 // The files that a glTF scene is made of.
 #include "scene/gltf/files.h"
 
+#include "base/error.h"
 #include "base/limits.h"
 #include "scene/gltf/container.h"
 #include "scene/gltf/uri.h"
@@ -46,6 +47,23 @@ void visitGltfFiles(const std::filesystem::path& path, const std::function<void(
             visit({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
         }
     }
+}
+
+std::vector<std::filesystem::path> namedGltfFiles(const std::filesystem::path& path) {
+    std::vector<std::filesystem::path> files;
+    try {
+        GltfReport report(path.string(), {});
+        for (const std::string& uri : namedUris(readGltfContainer(path, report).document)) {
+            try {
+                files.push_back(uriFile(uri, path.parent_path(), "uri", report).path);
+            } catch (const GltfProblem&) {  // such a file is never read
+                continue;
+            }
+        }
+    } catch (const Error&) {
+        return files;
+    }
+    return files;
 }
 
 }  // namespace reflet

@@ -123,11 +123,8 @@ std::string percentDecoded(std::string_view uri) {
     return result;
 }
 
-std::vector<uint8_t> readUri(const std::string& uri, const std::filesystem::path& folder, uint64_t maxBytes,
-                             std::string_view part, const GltfReport& report) {
-    if (uri.starts_with("data:")) {
-        return readDataUri(uri, part, report);
-    }
+UriFile uriFile(const std::string& uri, const std::filesystem::path& folder, std::string_view part,
+                const GltfReport& report) {
     const std::string shown = uri.substr(0, 80);
     const std::string name = percentDecoded(uri);
     if (hasScheme(uri) || hasScheme(name)) {
@@ -145,7 +142,16 @@ std::vector<uint8_t> readUri(const std::string& uri, const std::filesystem::path
     if (!isInside(path, home)) {  // a symbolic link
         report.fail(part, "{} leads out of the scene's folder", shown);
     }
-    return readFileBytes(path, maxBytes, part, report);
+    return {home, path};
+}
+
+std::vector<uint8_t> readUri(const std::string& uri, const std::filesystem::path& folder, uint64_t maxBytes,
+                             std::string_view part, const GltfReport& report) {
+    if (uri.starts_with("data:")) {
+        return readDataUri(uri, part, report);
+    }
+    const UriFile file = uriFile(uri, folder, part, report);
+    return readFileBytes(file.path, maxBytes, part, report, file.folder);
 }
 
 }  // namespace reflet
