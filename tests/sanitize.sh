@@ -31,7 +31,8 @@ logs=$PWD/$build/test-logs
 rm -rf "$logs"
 mkdir -p "$logs"
 common=log_path=$logs/report:log_exe_name=1:exitcode=66
-export ASAN_OPTIONS=$common:detect_leaks=1:detect_stack_use_after_return=0:allocator_may_return_null=1
+# Small blocks that llvmpipe aligns to pages would fill the default quarantine with gigabytes.
+export ASAN_OPTIONS=$common:quarantine_size_mb=16:detect_leaks=1:detect_stack_use_after_return=0:allocator_may_return_null=1
 export LSAN_OPTIONS=$common:suppressions=$PWD/tests/sanitize/leaks.txt:print_suppressions=0
 export UBSAN_OPTIONS=$common:print_stacktrace=1
 export TSAN_OPTIONS=$common:suppressions=$PWD/tests/sanitize/threads.txt:second_deadlock_stack=1:ignore_noninstrumented_modules=1

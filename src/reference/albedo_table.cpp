@@ -1,7 +1,8 @@
 // Filling and reading of a table of directional albedos.
 #include "reference/albedo_table.h"
 
-#include <tbb/parallel_for.h>
+#include "reference/parallel.h"
+
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -20,13 +21,13 @@ size_t indexOf(int column, int row) {
 
 // Isolated: a waiting thread must not start tracing a path, which would need this very table.
 AlbedoTable::AlbedoTable(vec2 (*integrate)(float cosine, float roughness)) : entries_(size_t(side) * side) {
-    const auto fillRow = [&](int row) {
+    const auto fillRow = [&](uint32_t row) {
         for (int column = 0; column < side; ++column) {
             const float cosine = static_cast<float>(column) / (side - 1);
-            entries_[indexOf(column, row)] = integrate(cosine, static_cast<float>(row) / (side - 1));
+            entries_[indexOf(column, static_cast<int>(row))] = integrate(cosine, static_cast<float>(row) / (side - 1));
         }
     };
-    tbb::this_task_arena::isolate([&] { tbb::parallel_for(0, side, fillRow); });
+    tbb::this_task_arena::isolate([&] { parallelFor(side, fillRow); });
 }
 
 vec2 AlbedoTable::at(float cosine, float roughness) const {

@@ -1,15 +1,14 @@
-// Renders the reference in passes over tiles. Pixels are independent, so that the result does not depend on the number
-// of
-// threads.
+// Renders the reference in passes over tiles. Pixels are independent, so that the number of threads does not change the
+// result.
 #include "reference/reference.h"
 
 #include "base/color.h"
 #include "base/error.h"
+#include "reference/parallel.h"
 #include "reference/path_tracer.h"
 #include "scene/pose.h"
 
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -102,7 +101,7 @@ public:
 private:
     void tracePass(uint32_t first, uint32_t count) {
         const uvec2 tiles = (size_ + tileSize - 1U) / tileSize;
-        tbb::parallel_for(0U, tiles.x * tiles.y, [&](uint32_t tile) {
+        parallelFor(tiles.x * tiles.y, [&](uint32_t tile) {
             if (stopped_ && first > 0) {
                 return;
             }
@@ -193,7 +192,7 @@ void gatherMeans(ReferencePicture& picture, uvec2 size, const std::vector<PixelS
 void traceCenters(ReferencePicture& picture, uvec2 size, const PathTracer& tracer) {
     picture.normal = makeImage(size, xyz);
     picture.depth = makeImage(size, grey);
-    tbb::parallel_for(0U, size.y, [&](uint32_t y) {
+    parallelFor(size.y, [&](uint32_t y) {
         for (uint32_t x = 0; x < size.x; ++x) {
             if (const auto surface = tracer.firstSurface(vec2(x, y) + 0.5F)) {
                 const size_t i = size_t(y) * size.x + x;

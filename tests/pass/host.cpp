@@ -129,7 +129,6 @@ void Host::frame(const std::function<void(VkCommandBuffer)>& record) {
     VkCommandBuffer commands = commands_.at(slot);
     VkFence fence = fences_.at(slot);
     deviceFunction<PFN_vkWaitForFences>("vkWaitForFences")(device_, 1, &fence, VK_TRUE, UINT64_MAX);
-    deviceFunction<PFN_vkResetFences>("vkResetFences")(device_, 1, &fence);
     const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     check(deviceFunction<PFN_vkBeginCommandBuffer>("vkBeginCommandBuffer")(commands, &begin), "begin");
     record(commands);
@@ -137,6 +136,8 @@ void Host::frame(const std::function<void(VkCommandBuffer)>& record) {
     VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
     submit.commandBufferCount = 1;
     submit.pCommandBuffers = &commands;
+    // Not before: if recording fails, nothing would ever signal it.
+    deviceFunction<PFN_vkResetFences>("vkResetFences")(device_, 1, &fence);
     check(deviceFunction<PFN_vkQueueSubmit>("vkQueueSubmit")(queue_, 1, &submit, fence), "submit");
 }
 
