@@ -22,6 +22,7 @@ class Renderer {
 public:
     /// The scene must outlive the renderer: what only rays or probes need is made of it when it is first needed.
     Renderer(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn);
+    Renderer(gpu::Device& device, const Scene&& scene, const std::function<void(const std::string&)>& warn) = delete;
 
     /// Records one frame; `after` may record more (read-backs). Returns when the device is done. Motion is that since
     /// the last frame, whatever its view and time were; in the first frame there is none.

@@ -238,7 +238,8 @@ class LayersPasses : public DeviceTest {};
 
 TEST_F(LayersPasses, ScenesWithoutThemRecordNothingOfThem) {
     const auto images = [](const Material& material) {
-        Renderer renderer(device(), ballOn(material, vec3(0.5F)), [](const std::string&) {});
+        const Scene scene = ballOn(material, vec3(0.5F));
+        Renderer renderer(device(), scene, [](const std::string&) {});
         return renderer.render(outdoors(), size, 0, settingsOf({"diffuse.rays=0"})).g;
     };
     Material bare = velvet();
