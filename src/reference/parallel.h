@@ -1,16 +1,17 @@
-// A parallel loop on oneTBB's threads that ThreadSanitizer understands.
+// A parallel loop.
 #pragma once
 
+#ifdef __SANITIZE_THREAD__
+#include <tbb/task_arena.h>
+
+#include <atomic>
+#include <thread>
+#include <vector>
+#else
 #include <tbb/parallel_for.h>
+#endif
 
 #include <cstdint>
-
-#ifdef __SANITIZE_THREAD__
-// The packaged oneTBB is not compiled with ThreadSanitizer, which thus sees no order between the start of a loop, its
-// bodies and its end, and would report everything that they share.
-extern "C" void __tsan_acquire(void* address);
-extern "C" void __tsan_release(void* address);
-#endif
 
 namespace reflet {
 
@@ -18,15 +19,19 @@ namespace reflet {
 template <class Body>
 void parallelFor(uint32_t count, const Body& body) {
 #ifdef __SANITIZE_THREAD__
-    char begun = 0;
-    char ended = 0;
-    __tsan_release(&begun);
-    tbb::parallel_for(0U, count, [&](uint32_t i) {
-        __tsan_acquire(&begun);
-        body(i);
-        __tsan_release(&ended);
-    });
-    __tsan_acquire(&ended);
+    // The packaged oneTBB is not compiled with ThreadSanitizer, which thus sees no order between a loop and what
+    // follows.
+    std::atomic<uint32_t> next = 0;
+    const auto work = [&] {
+        for (uint32_t i = next++; i < count; i = next++) {
+            body(i);
+        }
+    };
+    std::vector<std::jthread> helpers;
+    for (int i = 1; i < tbb::this_task_arena::max_concurrency(); ++i) {
+        helpers.emplace_back(work);
+    }
+    work();
 #else
     tbb::parallel_for(0U, count, body);
 #endif

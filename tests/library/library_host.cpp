@@ -5,6 +5,7 @@
 
 #include <volk.h>
 
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <iterator>
@@ -15,45 +16,46 @@ namespace {
 
 // ---- what the library makes on the device --------------------------------------------------------------------------
 
-PFN_vkCreateComputePipelines realPipelines = nullptr;
-PFN_vkAllocateMemory realAllocate = nullptr;
-PFN_vkCreateImage realImage = nullptr;
-PFN_vkCreateDescriptorPool realPool = nullptr;
-PFN_vkGetDeviceProcAddr realLookUp = nullptr;
+// Several threads may look them up.
+std::atomic<PFN_vkCreateComputePipelines> realPipelines = nullptr;
+std::atomic<PFN_vkAllocateMemory> realAllocate = nullptr;
+std::atomic<PFN_vkCreateImage> realImage = nullptr;
+std::atomic<PFN_vkCreateDescriptorPool> realPool = nullptr;
+std::atomic<PFN_vkGetDeviceProcAddr> realLookUp = nullptr;
 
 VKAPI_ATTR VkResult VKAPI_CALL notePipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
                                              const VkComputePipelineCreateInfo* infos,
                                              const VkAllocationCallbacks* host, VkPipeline* pipelines) {
-    LibraryHost::made().pipelines += count;
-    return realPipelines(device, cache, count, infos, host, pipelines);
+    std::atomic_ref(LibraryHost::made().pipelines) += count;
+    return realPipelines.load()(device, cache, count, infos, host, pipelines);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL noteAllocate(VkDevice device, const VkMemoryAllocateInfo* info,
                                             const VkAllocationCallbacks* host, VkDeviceMemory* memory) {
-    ++LibraryHost::made().allocations;
-    return realAllocate(device, info, host, memory);
+    ++std::atomic_ref(LibraryHost::made().allocations);
+    return realAllocate.load()(device, info, host, memory);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL noteImage(VkDevice device, const VkImageCreateInfo* info,
                                          const VkAllocationCallbacks* host, VkImage* image) {
-    ++LibraryHost::made().images;
-    return realImage(device, info, host, image);
+    ++std::atomic_ref(LibraryHost::made().images);
+    return realImage.load()(device, info, host, image);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL notePool(VkDevice device, const VkDescriptorPoolCreateInfo* info,
                                         const VkAllocationCallbacks* host, VkDescriptorPool* pool) {
-    ++LibraryHost::made().pools;
-    return realPool(device, info, host, pool);
+    ++std::atomic_ref(LibraryHost::made().pools);
+    return realPool.load()(device, info, host, pool);
 }
 
 template <class F>
-PFN_vkVoidFunction wrap(F& real, F wrapper, PFN_vkVoidFunction found) {
+PFN_vkVoidFunction wrap(std::atomic<F>& real, F wrapper, PFN_vkVoidFunction found) {
     real = reinterpret_cast<F>(found);
     return reinterpret_cast<PFN_vkVoidFunction>(wrapper);
 }
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL lookUpOnDevice(VkDevice device, const char* name) {
-    const PFN_vkVoidFunction found = realLookUp(device, name);
+    const PFN_vkVoidFunction found = realLookUp.load()(device, name);
     const std::string_view wanted(name);
     if (wanted == "vkCreateComputePipelines") {
         return wrap<PFN_vkCreateComputePipelines>(realPipelines, notePipelines, found);
