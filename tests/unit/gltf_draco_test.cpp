@@ -50,6 +50,12 @@ public:
         describe(semantic, componentType, "VEC" + std::to_string(value.size()), normalized);
     }
 
+    /// Positions are those of an accessor, zeros, and not in the Draco data.
+    void leavePositionsOut(uint32_t count) {
+        ids_.erase("POSITION");
+        builder_.document["accessors"][accessors_["POSITION"].get<size_t>()]["count"] = count;
+    }
+
     Mesh load(int method) {
         auto metadata = std::make_unique<draco::GeometryMetadata>();
         metadata->AddEntryString("made by", "a test");
@@ -104,6 +110,19 @@ TEST(GltfDraco, AnAttributeOfTruthValuesIsAnError) {
     DracoTriangle triangle;
     triangle.add<uint8_t>("COLOR_0", draco::DT_BOOL, ubyteType, false, {212, 1, 0, 1});
     EXPECT_THROW(triangle.load(draco::MESH_SEQUENTIAL_ENCODING), Error);
+}
+
+TEST(GltfDraco, PositionsThatAreNotCompressedAreAsManyAsTheDataHasVertices) {
+    for (const uint32_t count : {2U, 3U, 4U}) {
+        DracoTriangle triangle;
+        triangle.add<int8_t>("NORMAL", draco::DT_INT8, byteType, true, {0, 0, -127});
+        triangle.leavePositionsOut(count);
+        if (count == 3) {
+            EXPECT_EQ(triangle.load(draco::MESH_SEQUENTIAL_ENCODING).positions, std::vector<vec3>(3, vec3(0)));
+        } else {
+            EXPECT_THROW(triangle.load(draco::MESH_SEQUENTIAL_ENCODING), Error) << count;
+        }
+    }
 }
 
 }  // namespace

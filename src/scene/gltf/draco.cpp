@@ -1,7 +1,6 @@
 // Decodes primitives compressed with KHR_draco_mesh_compression; the packaged tinygltf is built without Draco. The
-// counts
-// in the headers are checked before the Draco library allocates memory for them. Layout of the headers: "Draco 3D Data
-// Compression Bitstream Specification", version 2.2, 2018.
+// counts in the headers are checked before the Draco library allocates memory for them. Layout of the headers: "Draco 3D
+// Data Compression Bitstream Specification", version 2.2, 2018.
 #include "scene/gltf/draco.h"
 
 #include <draco/compression/decode.h>
@@ -180,6 +179,7 @@ DracoPrimitive decodeDraco(const GltfDocument& document, const tinygltf::Primiti
 
     DracoPrimitive result;
     result.indices = readDracoIndices(*mesh, here, report);
+    result.vertices = mesh->num_points();
     for (const std::string& name : extension.Get("attributes").Keys()) {
         const std::string attributePart = fmt::format("{}.attributes.{}", here, name);
         const auto found = primitive.attributes.find(name);
@@ -195,7 +195,7 @@ DracoPrimitive decodeDraco(const GltfDocument& document, const tinygltf::Primiti
         result.attributes[name] = {.data = reinterpret_cast<const uint8_t*>(values.data()),
                                    .stride = sizeof(vec4),
                                    .components = components,
-                                   .count = mesh->num_points()};
+                                   .count = result.vertices};
     }
     return result;
 }

@@ -12,7 +12,8 @@ namespace reflet {
 
 /// A decoded primitive. The views look into `values`.
 struct DracoPrimitive {
-    std::vector<uint32_t> indices;  ///< three per triangle, in range
+    std::vector<uint32_t> indices;  ///< three per triangle, less than `vertices`
+    uint32_t vertices = 0;
     std::map<std::string, AccessorView> attributes;
     std::map<std::string, std::vector<vec4>> values;
 };

@@ -16,8 +16,7 @@ namespace {
 constexpr uint64_t vertexBytes = sizeof(vec3) + sizeof(VertexAttributes) + sizeof(VertexSkin);
 
 /// The vertices that the triangles use, ascending; the triangles are renumbered to match. Primitives often share one
-/// long
-/// vertex list, of which each uses only a part.
+/// long vertex list, of which each uses only a part.
 std::vector<uint32_t> takeUsed(std::vector<uint32_t>& triangles, uint32_t vertices) {
     std::vector<uint32_t> used;
     if (vertices <= 4 * triangles.size()) {

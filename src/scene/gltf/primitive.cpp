@@ -187,6 +187,10 @@ PrimitiveSource openPrimitive(const GltfDocument& document, const tinygltf::Prim
         if (source.draco.attributes.empty() || source.draco.indices.empty()) {
             report.fail(part + ".extensions.KHR_draco_mesh_compression", "holds no triangles");
         }
+        if (vertices != source.draco.vertices) {  // positions that are not compressed
+            report.fail(part + ".attributes.POSITION", "has {} vertices, but the Draco data has {}", vertices,
+                        source.draco.vertices);
+        }
         source.triangles = std::move(source.draco.indices);
     } else if (primitive.indices >= 0) {
         const std::vector<uint32_t> indices = readIndices(document, primitive.indices, vertices, report);
