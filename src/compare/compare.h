@@ -42,11 +42,9 @@ struct Comparison {
 };
 
 /// Both images must have the same size and the same number of channels: 1 (grey) or 3. Throws Error for different sizes
-/// or
-/// channels, for NaN or infinity (naming image, pixel and channel; even in masked pixels, because FLIP filters over
+/// or channels, for NaN or infinity (naming image, pixel and channel; even in masked pixels, because FLIP filters over
 /// neighbours), for a mask of another size or without pixels, and for pixelsPerDegree out of range. For FLIP alone,
-/// values
-/// below 0 and, in display images, above 1 are clamped. The result does not depend on the number of threads.
+/// values below 0 and, in display images, above 1 are clamped. The result does not depend on the number of threads.
 Comparison compareImages(const FloatImage& image, const FloatImage& reference, const CompareOptions& options);
 
 /// Throws as compareImages does for the images, so that they can be checked before a mask is made.

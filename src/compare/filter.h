@@ -30,8 +30,7 @@ Planes3 makePlanes3(uint32_t width, uint32_t height);
 using Kernel = std::vector<float>;
 
 /// Calls work(y) once per row, in parallel on all hardware threads. No row may read what another writes, so that the
-/// result
-/// is deterministic. An exception from `work` terminates the program.
+/// result is deterministic. An exception from `work` terminates the program.
 void forEachRow(uint32_t height, const std::function<void(uint32_t y)>& work);
 
 /// out(x) = sum over i of kernel(i) · in(x + i - radius). Borders are clamped.

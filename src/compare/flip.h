@@ -25,8 +25,7 @@ struct ExposureRange {
 
 /// From the exposure that maps the reference's largest luminance to 0.85 on the display to the one that maps its median
 /// there; as many as there are stops in between, at least both ends. Not specified in the paper: if the median is 0,
-/// the
-/// median of the values above 0 is used; a black reference has the single exposure 0.
+/// the median of the values above 0 is used; a black reference has the single exposure 0.
 ExposureRange exposureRange(const Planes3& reference);
 
 /// Tone mapping of scene radiance (>= 0) to 0..1: the paper's default, an approximation of ACES (Narkowicz: ACES Filmic

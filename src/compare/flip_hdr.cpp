@@ -11,8 +11,7 @@ namespace reflet {
 namespace {
 
 // y(x) = (k0 x² + k1 x + k2) / (k3 x² + k4 x + k5) with k2 = 0. The radiance is scaled by 0.6 as in the paper, because
-// the
-// curve's author found it too bright otherwise.
+// the curve's author found it too bright otherwise.
 constexpr double preScale = 0.6;
 constexpr double k0 = 2.51 * preScale * preScale;
 constexpr double k1 = 0.03 * preScale;

@@ -48,12 +48,10 @@ public:
     [[nodiscard]] bool hasSampledEmitters() const { return !triangles_.empty() || environmentChance_ > 0.0F; }
 
     /// Samples the sun's disk. The irradiance is that of a surface that faces the sampled point, scaled so that a
-    /// surface
-    /// that faces the sun's centre receives the sun's irradiance from the whole disk.
+    /// surface that faces the sun's centre receives the sun's irradiance from the whole disk.
     [[nodiscard]] LightSample drawSun(const vec2& u) const;
     /// Selects a lamp in proportion to its light at the point, and samples its disk for the shadow ray; light and
-    /// direction
-    /// are those of the centre.
+    /// direction are those of the centre.
     [[nodiscard]] LightSample drawLamp(const SurfacePoint& point, float choice, const vec2& u) const;
     /// Samples an emissive surface or the environment image; light 0 if none of it arrives.
     [[nodiscard]] LightSample drawEmitter(const SurfacePoint& point, float choice, const vec2& u) const;

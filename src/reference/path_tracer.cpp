@@ -30,8 +30,7 @@ uint32_t pairFor(uint32_t vertex, Purpose purpose) {
 }  // namespace
 
 // A shadow ray to a point on a lamp's disk, which ends where the lamp's clearance begins. Its direction is not
-// normalized,
-// but reaches to that point.
+// normalized, but reaches to that point.
 Ray rayToLamp(const vec3& origin, const vec3& center, const LightSample& lamp) {
     Ray ray{origin, center + lamp.aside - origin};
     const float length = glm::length(ray.direction);

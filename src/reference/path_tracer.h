@@ -1,6 +1,5 @@
 // Traces one path through a position in the image: next-event estimation at every vertex, and multiple importance
-// sampling
-// of light and BSDF samples. (Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997)
+// sampling of light and BSDF samples. (Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997)
 #pragma once
 
 #include "reference/camera_rays.h"

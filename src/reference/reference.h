@@ -1,12 +1,9 @@
 // The reference (ground truth): a path tracer on the CPU (Embree). It shares the scene and the surface model with the
-// GPU
-// renderer, but no shading code, so that each validates the other.
+// GPU renderer, but no shading code, so that each validates the other.
 //
 // Light is split into the same layers as in the renderer: light of sun and lamps at the visible surface, its emission
-// and
-// the background are `direct`; all light that reaches it by a scattered ray (from other surfaces, including emissive
-// ones,
-// and from the environment) is indirect_diffuse or indirect_specular.
+// and the background are `direct`; all light that reaches it by a scattered ray (from other surfaces, including
+// emissive ones, and from the environment) is indirect_diffuse or indirect_specular.
 #pragma once
 
 #include "base/image_file.h"

@@ -1,6 +1,5 @@
 // Random numbers for a sample of a pixel: the first two Sobol dimensions with an independent Owen scrambling for every
-// pair
-// that a path requests (padding). (Burley, Practical Hash-based Owen Scrambling, JCGT 2020)
+// pair that a path requests (padding). (Burley, Practical Hash-based Owen Scrambling, JCGT 2020)
 #pragma once
 
 #include "base/math.h"

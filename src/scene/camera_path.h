@@ -56,8 +56,7 @@ private:
 CameraPath loadCameraPath(const std::filesystem::path& path, const Camera& camera);
 
 /// Centre of an orbit: the camera's target or, if the target only gives a direction, the first surface along it, else
-/// the
-/// point ahead that is nearest to the scene's centre.
+/// the point ahead that is nearest to the scene's centre.
 vec3 orbitPivot(const Camera& camera, const Scene& scene);
 
 /// The camera rotated about the vertical through the pivot, counter-clockwise as seen from above. turns 1: 360 degrees.

@@ -191,8 +191,7 @@ void setTransform(Lamp& lamp, const mat4& toWorld);
 float lampClearance(float radius);
 
 /// Light for rays that hit nothing. The mapping of directions to the image is in scene/environment.h. Two are equal
-/// only
-/// if they share their image.
+/// only if they share their image.
 struct Environment {
     vec3 radiance{0.0F};  ///< constant over all directions [W/(m² sr)]; not used where there is an image
     /// Equirectangular, "R" "G" "B", linear, finite, not negative [W/(m² sr)], rows from the top (+Y). May be null.
@@ -272,8 +271,7 @@ struct View {
 };
 
 /// The scene's first camera, its sun and its environment. Without a camera: one that frames the whole scene from
-/// slightly
-/// above; without any light, unless it is unlit: a sun from over the camera's shoulder.
+/// slightly above; without any light, unless it is unlit: a sun from over the camera's shoulder.
 View defaultView(const Scene& scene);
 
 /// From behind the camera's left shoulder, 53 degrees above the horizon, white, pi W/m².

@@ -25,8 +25,7 @@ namespace reflet {
 ///     "time": 1.5 }
 /// Angles are in degrees, paths relative to the file. An image or a radiance replaces the whole environment; a list of
 /// probes, even an empty one, replaces all others. Throws Error for an unreadable file, malformed JSON (with its line),
-/// an
-/// unknown key (naming the nearest), or a value of the wrong type, length or range.
+/// an unknown key (naming the nearest), or a value of the wrong type, length or range.
 void applyViewFile(const std::filesystem::path& path, View& view);
 
 /// The same for parsed JSON. path: for messages, and the base of relative paths.

@@ -43,8 +43,7 @@ protected:
     [[nodiscard]] Outcome render(const std::string& scene, const Arguments& more, const Variables& added = {}) const;
 
     /// As run(), with `signals` sent to the program: the first one once it has a handler for it and has used `work`
-    /// seconds
-    /// of CPU time, each further one when the previous one has been handled.
+    /// seconds of CPU time, each further one when the previous one has been handled.
     [[nodiscard]] Outcome interrupt(const Arguments& arguments, const std::vector<int>& signals,
                                     double work = 0.0) const;
 

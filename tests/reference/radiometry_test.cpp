@@ -110,8 +110,7 @@ TEST(Furnace, AWhiteDielectricOfAnyIorAndSpecularReturnsWhatItsTintDoesNotTake) 
 }
 
 // Irradiance at the origin, facing up, from a rectangle of radiance 1 parallel to the floor at a height, with one
-// corner
-// above the origin. (A catalogue of radiation heat transfer configuration factors, J. Howell, B-3)
+// corner above the origin. (A catalogue of radiation heat transfer configuration factors, J. Howell, B-3)
 double cornerFactor(double a, double b, double height) {
     const double x = a / height;
     const double y = b / height;

@@ -1,6 +1,5 @@
 // One Vulkan device for all tests of a process, with validation and synchronization validation. A validation message
-// fails
-// the test that caused it; one at destruction (such as a leak) fails the run.
+// fails the test that caused it; one at destruction (such as a leak) fails the run.
 #pragma once
 
 #include "device/device.h"

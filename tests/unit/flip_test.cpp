@@ -107,8 +107,7 @@ TEST(Flip, OfRedAndGreenIsAsWorkedOutByHand) {
 }
 
 // On either side of a step from 0 to h the edge detector's negative weights cover only 0 and its positive ones only h:
-// its
-// response is h. The point detector is symmetric, and its response is smaller.
+// its response is h. The point detector is symmetric, and its response is smaller.
 TEST(Flip, AnEdgeOfHeightHInOneImageOnlyIsAFeatureOfRootOfHOverRootTwo) {
     for (const float h : {1.0F, 0.3F}) {
         Plane step(60, 40);
@@ -134,8 +133,7 @@ TEST(Flip, SwappedSidesOfAnEdgeAreAColorDifferenceAndNoFeature) {
 }
 
 // The contrast sensitivity filter leaves 0.15 of a single pixel: 0.2 + 0.15 · 0.8 = 0.32 is 11.5 L* above the
-// surrounding
-// grey, a colour difference of 11.5^0.7 · 0.95 / 16.51 = 0.32. FLIP = color^(1 - feature) is more.
+// surrounding grey, a colour difference of 11.5^0.7 · 0.95 / 16.51 = 0.32. FLIP = color^(1 - feature) is more.
 TEST(Flip, AFireflyStandsOut) {
     const auto grey = constant(vec3(0.2F));
     Planes3 firefly = grey;

@@ -76,8 +76,7 @@ GltfBuilder triangle();
 GltfBuilder slider();
 
 /// A skinned triangle: its third vertex follows a second joint with weight 0.75. That joint is one metre up, and moved
-/// by 2
-/// along z from its bind pose.
+/// by 2 along z from its bind pose.
 GltfBuilder bent();
 
 /// A scene that uses one of everything that the loader reads.

@@ -184,8 +184,7 @@ TEST(ScenePose, CamerasLampsAndTheSunMoveWithTheirNodes) {
 }
 
 /// A bar along x with three vertices at 0, 1, 2: the first follows a joint at 0, the last a joint at 1 that rotates
-/// about
-/// z, the middle one both.
+/// about z, the middle one both.
 Scene bar() {
     Scene scene;
     scene.nodes.resize(2);

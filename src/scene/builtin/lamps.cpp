@@ -1,6 +1,5 @@
 // A walled courtyard at night with a hundred lamps: lanterns of short range along its walls and its path, and spot
-// lights
-// over sculptures. Only the eight spot lights, which are the strongest, have shadow casters in their range.
+// lights over sculptures. Only the eight spot lights, which are the strongest, have shadow casters in their range.
 #include "scene/builtin/assemble.h"
 #include "scene/builtin/patterns.h"
 #include "scene/builtin/scenes.h"

@@ -1,6 +1,5 @@
 // An animated room, from time 0 on: a box that slides and stops at 1 s, a rotating cube, a bending tube. One half of
-// the
-// floor is glossy, the other a mirror. The animation repeats after 4 s.
+// the floor is glossy, the other a mirror. The animation repeats after 4 s.
 #include "scene/builtin/assemble.h"
 #include "scene/builtin/patterns.h"
 #include "scene/builtin/scenes.h"

@@ -1,7 +1,6 @@
 // Meshes of basic shapes for the built-in scenes: unit normals, tangents along u, counter-clockwise front faces.
 // u grows to the right and v downwards as seen from the front, so that images are upright. The tangent points to
-// growing u
-// and the bitangent, w · cross(n, t), to falling v (up in the image), as in glTF.
+// growing u and the bitangent, w · cross(n, t), to falling v (up in the image), as in glTF.
 #pragma once
 
 #include "scene/scene.h"

@@ -1,6 +1,5 @@
 // Meshes the zero isosurface of a scalar field by naive surface nets (S. Gibson, Constrained Elastic Surface Nets,
-// 1998)
-// without the relaxation.
+// 1998) without the relaxation.
 #pragma once
 
 #include "scene/scene.h"
@@ -16,8 +15,7 @@ struct Lattice {
 };
 
 /// field: negative inside the solid. If the solid does not touch the lattice's border, the mesh is closed. Normals
-/// point
-/// outwards, along the field's gradient; uvs are not set (see boxMapped).
+/// point outwards, along the field's gradient; uvs are not set (see boxMapped).
 Mesh surfaceNets(const Lattice& lattice, const std::function<float(const vec3&)>& field);
 
 }  // namespace reflet::builtin

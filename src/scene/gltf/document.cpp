@@ -1,7 +1,6 @@
 // Reads a glTF file: container, schema check, parsing by tinygltf, buffers, cross-checks.
 // tinygltf gets a document without buffers and images, because its own loading of them falls back to the working
-// folder,
-// decodes '+' in a file name as a space, decodes every image and has no limits.
+// folder, decodes '+' in a file name as a space, decodes every image and has no limits.
 #include "scene/gltf/document.h"
 
 #include "base/json_text.h"

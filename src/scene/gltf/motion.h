@@ -15,15 +15,13 @@ Node readGltfNode(const tinygltf::Node& node);
 class GltfMotion {
 public:
     /// Fills nodes, animations and skins of the scene, unless the file has neither animations nor skins. Throws Error.
-    /// All
-    /// three must outlive this object.
+    /// All three must outlive this object.
     GltfMotion(const GltfDocument& document, Scene& scene, GltfReport& report);
 
     /// Index into Scene::nodes of the file's node; < 0: the scene is static.
     [[nodiscard]] int32_t node(int index) const { return nodes_.empty() ? -1 : nodes_[static_cast<size_t>(index)]; }
     /// Index into Scene::skins of the file's skin; < 0: the mesh has no joints and weights. Throws Error if the mesh
-    /// refers
-    /// to a joint that the skin does not have. part: of the node.
+    /// refers to a joint that the skin does not have. part: of the node.
     [[nodiscard]] int32_t skin(int index, uint32_t mesh, const std::string& part) const;
 
     /// Whether a channel animates the morph weights of the file's node.
