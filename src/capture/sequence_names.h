@@ -20,6 +20,8 @@ public:
 
     [[nodiscard]] const std::string& pattern() const { return pattern_; }
     [[nodiscard]] std::filesystem::path file(uint32_t number) const;
+    /// Whether a frame could have this file name, without a folder.
+    [[nodiscard]] bool matches(std::string_view name) const;
     /// All existing files that match the pattern. Throws Error if the folder cannot be read.
     [[nodiscard]] std::vector<std::filesystem::path> existing() const;
     /// Their numbers, sorted.
@@ -28,8 +30,6 @@ public:
     [[nodiscard]] std::filesystem::path record() const { return pattern_ + ".sequence.json"; }
 
 private:
-    [[nodiscard]] bool matches(std::string_view name) const;
-
     std::string pattern_;
     std::filesystem::path folder_;
     std::string before_;  ///< of the file's name

@@ -18,69 +18,69 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Also for files that do not exist yet, and for patterns of sequences.
+/// Also for files that do not exist yet.
 bool areOneFile(const fs::path& a, const fs::path& b) {
     std::error_code error;
     if (fs::equivalent(a, b, error)) {
         return fs::is_regular_file(a, error);  // /dev/null may be named twice
     }
-    const fs::path name = fs::weakly_canonical(fs::absolute(a), error);
-    return !error && !fs::exists(a, error) && name == fs::weakly_canonical(fs::absolute(b), error);
-}
-
-/// The file itself and, of a pattern, the frames that exist.
-std::vector<fs::path> withFrames(const std::string& file) {
-    std::vector<fs::path> files{file};
-    if (std::error_code error;
-        FrameNames::isPattern(file) && fs::is_directory(fs::absolute(file).parent_path(), error)) {
-        std::ranges::copy(FrameNames(file).existing(), std::back_inserter(files));
+    if (fs::exists(a, error)) {
+        return false;
     }
-    return files;
+    const fs::path name = fs::weakly_canonical(fs::absolute(a), error);
+    return !error && name == fs::weakly_canonical(fs::absolute(b), error);
 }
 
-/// What patterns of sequences name is added, and what scenes name if there is something that could be replaced.
-std::vector<fs::path> allInputs(const Inputs& inputs, const std::vector<std::string>& outputs) {
+/// Whether a sequence of this name has the file. Names with several runs of # are those of single files.
+bool isFrameOf(const std::string& pattern, const fs::path& file) {
+    const std::string name = fs::path(pattern).filename().string();
+    const size_t last = name.rfind('#');
+    if (last == std::string::npos || name.find_first_not_of('#', name.find('#')) < last) {
+        return false;
+    }
+    std::error_code error;
+    return FrameNames(pattern).matches(file.filename().string()) &&
+           fs::equivalent(fs::absolute(pattern).parent_path(), fs::absolute(file).parent_path(), error);
+}
+
+bool collide(const std::string& a, const std::string& b) {
+    return areOneFile(a, b) || isFrameOf(a, b) || isFrameOf(b, a);
+}
+
+/// With what scenes name, if there is something that could be replaced.
+std::vector<std::string> allInputs(const Inputs& inputs, const std::vector<std::string>& outputs) {
     const bool replacing = std::ranges::any_of(outputs, [](const std::string& file) {
         std::error_code error;
         return FrameNames::isPattern(file) || fs::exists(file, error);
     });
-    std::vector<fs::path> all;
-    for (const std::string& file : inputs.files) {
-        std::ranges::copy(withFrames(file), std::back_inserter(all));
-    }
+    std::vector<std::string> all = inputs.files;
     for (const std::string& scene : inputs.scenes) {
-        all.emplace_back(scene);
+        all.push_back(scene);
         if (replacing) {
             std::ranges::copy(namedGltfFiles(scene), std::back_inserter(all));
         }
     }
+    std::erase(all, "");
     return all;
 }
 
 }  // namespace
 
 void tryOutputs(const std::vector<std::string>& outputs, const Inputs& inputs) {
-    std::vector<fs::path> taken = allInputs(inputs, outputs);
-    std::erase_if(taken, [](const fs::path& file) { return file.empty(); });
-    const size_t inputCount = taken.size();
-    for (const std::string& output : outputs) {
-        if (output.empty()) {
+    const std::vector<std::string> taken = allInputs(inputs, outputs);
+    for (auto output = outputs.begin(); output != outputs.end(); ++output) {
+        if (output->empty()) {
             continue;
         }
-        const AtomicFile trial(output);
-        for (const fs::path& file : withFrames(output)) {
-            const auto same =
-                std::ranges::find_if(taken, [&](const fs::path& other) { return areOneFile(file, other); });
-            if (same == taken.end()) {
-                continue;
-            }
-            if (static_cast<size_t>(same - taken.begin()) >= inputCount) {
-                failUsage("{}: two outputs have this name: choose another for one of them", output);
-            }
-            const std::string input = *same == output ? "" : fmt::format(", {}", same->string());
-            failUsage("{}: would replace an input of this command{}: choose another name", output, input);
+        const AtomicFile trial(*output);
+        const auto isOutput = [&](const std::string& file) { return !file.empty() && collide(*output, file); };
+        if (const auto input = std::ranges::find_if(taken, isOutput); input != taken.end()) {
+            const std::string which = *input == *output ? "" : fmt::format(", {}", *input);
+            failUsage("{}: would replace an input of this command{}: choose another name", *output, which);
         }
-        taken.emplace_back(output);
+        if (std::any_of(outputs.begin(), output, isOutput)) {
+            failUsage("{}: two outputs have this name: choose another for one of them", *output);
+        }
     }
 }
 

@@ -103,8 +103,17 @@ TEST_F(Hostile, AnOutputThatIsAFileOfTheSceneIsRefused) {
             << target;
     }
     EXPECT_TRUE(refused(run({"bench", "builtin:cubes", "s/a.gltf", "--json", "s/b.json"}), usage, {"would replace"}));
+    writePng(path("a_1.png"), {2, 2, 3, std::vector<uint8_t>(12, 10)});
+    EXPECT_TRUE(refused(run({"compare", "a_#.png", "a_#.png", "--heatmap", "a_1.png"}), usage, {"would replace"}));
     EXPECT_EQ(read("s/map_01.png"), texel);
     EXPECT_EQ(read("s/b.json"), "{}");
+}
+
+// Only in the name of a sequence's frames does # stand for digits.
+TEST_F(Hostile, AFileMayHaveAnyNumberOfHashesInItsName) {
+    write("#1#.json", "{}");
+    EXPECT_EQ(render("builtin:cubes", {"--settings", "#1#.json", "--timings", "a#b#.json"}).status, 0);
+    EXPECT_EQ(render("builtin:cubes", {"--settings", "#1#.json", "--timings", "a#b#.json"}).status, 0);
 }
 
 TEST_F(Hostile, TwoOutputsOfOneNameAreRefused) {
