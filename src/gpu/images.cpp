@@ -12,7 +12,9 @@ namespace {
 
 constexpr VkImageUsageFlags copied = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
 
-ImageInfo storageInfo(VkFormat format, uvec2 size, uint32_t layers = 1, bool array = false) {
+}  // namespace
+
+ImageInfo storageInfo(VkFormat format, uvec2 size, uint32_t layers, bool array) {
     return {format,
             size,
             1,
@@ -27,8 +29,6 @@ ImageInfo targetInfo(VkFormat format, uvec2 size) {
                                              : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     return {format, size, 1, 1, attachment | VK_IMAGE_USAGE_SAMPLED_BIT | copied};
 }
-
-}  // namespace
 
 Image KeptImage::get(Recorder& f, const ImageInfo& info) {
     if (!(texture_.info() == info)) {

@@ -27,6 +27,11 @@ struct History {
     bool valid = false;  ///< false: `previous` has no content (first frame, or a new size)
 };
 
+/// A storage image, also sampled. With several layers, or `array`: an array view.
+ImageInfo storageInfo(VkFormat format, uvec2 size, uint32_t layers = 1, bool array = false);
+/// A render target (colour or depth), also sampled.
+ImageInfo targetInfo(VkFormat format, uvec2 size);
+
 class KeptImage {
 public:
     /// name: for messages; must outlive the image.

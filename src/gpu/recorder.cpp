@@ -79,6 +79,9 @@ Recorder::~Recorder() {
 void Recorder::begin(VkCommandBuffer commands) {
     ++number_;
     finish(slot());
+    giveBack(frameImages_, frameBuffers_);
+    frameImages_.clear();
+    frameBuffers_.clear();
     Slot& now = slot();
     for (const VkDescriptorPool pool : now.descriptorPools) {
         vkCheck(context_.vk.vkResetDescriptorPool(context_.handle(), pool, 0), "resetting descriptors");
@@ -277,6 +280,21 @@ void Recorder::copy(Image from, Image to) {
     copy.extent = {from.size.x, from.size.y, 1};
     context_.vk.vkCmdCopyImage(commands_, from.state->image, VK_IMAGE_LAYOUT_GENERAL, to.state->image,
                                VK_IMAGE_LAYOUT_GENERAL, 1, &copy);
+}
+
+Image Recorder::image(std::string_view /*name*/, VkFormat format, uvec2 size, uint32_t layers, bool array) {
+    frameImages_.push_back(takeImage(storageInfo(format, size, layers, array)));
+    return pooledImage(frameImages_.back());
+}
+
+Image Recorder::target(std::string_view /*name*/, VkFormat format, uvec2 size) {
+    frameImages_.push_back(takeImage(targetInfo(format, size)));
+    return pooledImage(frameImages_.back());
+}
+
+BufferView Recorder::buffer(std::string_view /*name*/, VkDeviceSize size) {
+    frameBuffers_.push_back(takeBuffer(size));
+    return pooledBuffer(frameBuffers_.back());
 }
 
 Image Recorder::placeholder(VkFormat format, ViewKind view) {

@@ -80,6 +80,13 @@ public:
     /// Copies the first level of a single-layer image to one of the same format and size.
     void copy(Image from, Image to);
 
+    /// Images and buffers for the rest of this frame, and until the next one begins. Their contents are undefined at
+    /// first. image: a storage image, also sampled; with several layers, or `array`: an array view. target: a render
+    /// target (colour or depth), also sampled. buffer: a storage buffer, also for indirect arguments.
+    Image image(std::string_view name, VkFormat format, uvec2 size, uint32_t layers = 1, bool array = false);
+    Image target(std::string_view name, VkFormat format, uvec2 size);
+    BufferView buffer(std::string_view name, VkDeviceSize size);
+
     /// An image of one texel, to bind where a shader does not use what it declares; `array`: an array view.
     Image placeholder(VkFormat format, ViewKind view = ViewKind::byLayers);
 
@@ -188,6 +195,8 @@ private:
     std::string prefix_;
     std::vector<PooledImage> pooledImages_;
     std::vector<PooledBuffer> pooledBuffers_;
+    std::vector<size_t> frameImages_;   ///< taken for this frame
+    std::vector<size_t> frameBuffers_;  ///< taken for this frame
     std::map<std::pair<VkFormat, ViewKind>, Texture> placeholders_;
     std::vector<PassTime> times_;
 };
