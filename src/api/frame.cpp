@@ -35,7 +35,7 @@ gpu::BufferView blueNoiseOf(RefletView_T& view) {
 
 gpu::Image pyramidOf(RefletView_T& view, Frame& frame) {
     if (!frame.pyramid) {
-        frame.pyramid = makePyramid(view.recorder, view.images->pyramid, frame.g.depth, frame.backDepth);
+        frame.pyramid = makePyramid(view.recorder, frame.g.depth, frame.backDepth);
     }
     return frame.pyramid;
 }
@@ -59,11 +59,10 @@ EnvironmentLight environmentLight(RefletView_T& view, const EnvironmentInputs& i
     const bool changed = own.generation != f.generation() || own.revision != in.revision || own.from != in.from;
     if (changed || f.isCollecting()) {
         const auto scope = f.scope("environment");
-        gpu::Image texels;
+        const gpu::Image texels = own.texels.storage(f, lightFormat, in.image ? in.image.size : uvec2(1));
         if (in.image) {
-            texels = importLight(f, own.texels, in.image);
+            importLight(f, in.image, false, texels);
         } else {  // the factor is its radiance
-            texels = own.texels.storage(f, lightFormat, uvec2(1));
             f.clear(texels, {{1.0F, 1.0F, 1.0F, 1.0F}});
         }
         const uint32_t side = in.image ? cubeSideFor(in.image.size) : 1;
@@ -95,13 +94,12 @@ gpu::Image lightAtHits(RefletView_T& view, Frame& frame, const Settings& setting
         return frame.light;
     }
     gpu::Recorder& f = view.recorder;
-    LobeImages& own = view.images->specular;
     const auto scope = f.scope("specular");
-    const LobeLight none = blackLobe(f, own.own.light, {frame.g, frame.view}, false);
-    const gpu::Image sum = own.litSoFar.storage(f, lightFormat, view.size);
+    const LobeLight none = blackLobe(f, {frame.g, frame.view}, false);
+    const gpu::Image sum = f.image("lit_so_far", lightFormat, view.size);
     const CompositeInputs parts{frame.g, frame.light, *frame.diffuse, none, ggxTable(f, view.images->ggxTable),
                                 false,   false};
-    return composite(f, view.images->layers, parts, sum, {frame.view, settings.diffuse.gain}).lit;
+    return composite(f, parts, sum, {frame.view, settings.diffuse.gain}).lit;
 }
 
 // The last picture of this frame before depth of field.
@@ -116,31 +114,29 @@ gpu::Image pictureSoFar(const Frame& frame) {
 }  // namespace
 
 void recordImport(RefletView_T& view, Frame& frame, const HostSurfaces& host, const ImportParams& params) {
-    const ImportedSurfaces surfaces = importSurfaces(view.recorder, view.images->import, host, params);
+    const ImportedSurfaces surfaces = importSurfaces(view.recorder, host, params);
     frame.g = surfaces.g;
     frame.backDepth = surfaces.backDepth;
 }
 
 gpu::Image recordSunShadow(RefletView_T& view, Frame& frame, const Settings& settings, const SunInputs& in) {
     gpu::Recorder& f = view.recorder;
-    ViewImages& own = *view.images;
     ShadowSettings shadow = settings.shadow;
     shadow.resolution = in.map.size.x;
     shadow.earlyOut = 0;
     if (shadow.filter == ShadowFilter::traced) {
         failArgument("shadow.filter: the library does not trace shadow rays; set hard, pcf or pcss");
     }
-    const gpu::Image map = importShadowMap(f, own.shadowMap, in.map, in.sun.count, in.reversed);
+    const gpu::Image map = importShadowMap(f, in.map, in.sun.count, in.reversed);
     const SunVisibility seen =
-        sunVisibility(f, own.sun, frame.g, {map, {}, blueNoiseOf(view)}, {frame.view, in.sun, shadow, in.slope});
+        sunVisibility(f, frame.g, {map, {}, blueNoiseOf(view)}, {frame.view, in.sun, shadow, in.slope});
     gpu::Image visible = seen.visibility;
     if (shadow.denoise != 0 && seen.penumbra) {
-        visible = denoiseShadow(f, own.sunDenoise, frame.g, visible, seen.penumbra,
+        visible = denoiseShadow(f, &view.images->sunVisibility, frame.g, visible, seen.penumbra,
                                 {frame.view, in.toSun, shadow.history, shadow.samples, 0});
     }
     if (in.contact && settings.contact.distance > 0.0F) {
-        visible = contactShadow(f, own.contact, frame.g, pyramidOf(view, frame), visible,
-                                {frame.view, settings.contact, in.toSun});
+        visible = contactShadow(f, frame.g, pyramidOf(view, frame), visible, {frame.view, settings.contact, in.toSun});
     }
     frame.sunVisibility = visible;
     return visible;
@@ -151,7 +147,7 @@ gpu::Image recordAmbientOcclusion(RefletView_T& view, Frame& frame, const Settin
     if (settings.ao.method == AoMethod::none) {
         failArgument("ao.method: is none, its default; set horizon or bitmask");
     }
-    frame.ambientOcclusion = ambientOcclusion(f, view.images->ao,
+    frame.ambientOcclusion = ambientOcclusion(f, &view.images->ambientOcclusion,
                                               {.g = frame.g,
                                                .view = frame.view,
                                                .backDepth = frame.backDepth,
@@ -166,8 +162,8 @@ LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings,
                      const EnvironmentInputs& environment) {
     gpu::Recorder& f = view.recorder;
     const bool diffuse = lobe == lobeDiffuse;
-    LobeImages& own = diffuse ? view.images->diffuse : view.images->specular;
-    frame.light = importLight(f, own.light, light);
+    LobeStore& own = diffuse ? view.images->diffuse : view.images->specular;
+    frame.light = importLight(f, light);
     const TraceScreenSettings trace = traceSettings(settings, frame);
     ScreenImages screen{
         frame.g, frame.view, frame.backDepth, {}, lightAtHits(view, frame, settings, lobe), litOf(view, frame), {}};
@@ -176,13 +172,13 @@ LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings,
     const SpecularSettings& s = settings.specular;
     if (!diffuse && s.roughFallback == RoughFallback::mips && s.maxRoughness < 1.0F) {
         const bool previous = trace.light == HitLight::previous && screen.lit.valid;
-        screen.lightMips = makeLightMips(f, own.lightMips, previous ? screen.lit.previous : screen.light);
+        screen.lightMips = makeLightMips(f, previous ? screen.lit.previous : screen.light);
     }
     const float longest = diffuse ? settings.diffuse.maxDistance : trace.maxDistance;
     const bool exact = hiz || trace.method == TraceMethod::exhaustive;
     const EnvironmentLight around = environmentLight(view, environment);
     const LobeLight traced =
-        traceLobe(f, own.own,
+        traceLobe(f, &own,
                   {.lobe = lobe,
                    .g = frame.g,
                    .view = frame.view,
@@ -208,44 +204,44 @@ LobeLight recordDenoise(RefletView_T& view, Frame& frame, const Settings& settin
     gpu::Recorder& f = view.recorder;
     const bool diffuse = lobe == lobeDiffuse;
     const auto scope = f.scope(diffuse ? "diffuse" : "specular");
-    LobeImages& own = diffuse ? view.images->diffuse : view.images->specular;
+    LobeStore& own = diffuse ? view.images->diffuse : view.images->specular;
     LobeLight light;
     light.from = {frame.g, frame.view, 1};
-    light.radiance = importLight(f, diffuse ? view.images->noisyDiffuse : view.images->noisySpecular, noisy, true);
+    light.radiance = importLight(f, noisy, true);
     light.source = light.radiance;
-    const LobeLight clean = denoise(f, own.own.denoise, light, lobe, frame.view, denoiseSettings(view, settings));
+    const LobeLight clean = denoise(f, &own.denoise, light, lobe, frame.view, denoiseSettings(view, settings));
     (diffuse ? frame.diffuse : frame.specular) = clean;
     return clean;
 }
 
 Composite recordComposite(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image light) {
     gpu::Recorder& f = view.recorder;
-    ViewImages& own = *view.images;
     if (light) {
-        frame.light = importLight(f, own.lightAlone, light);
+        frame.light = importLight(f, light);
     }
     if (!frame.light) {
         failArgument(
             "light: is NULL, and neither refletDiffuseGi nor refletReflections has been given any in this frame");
     }
-    const auto lobeOr = [&](const std::optional<LobeLight>& lobe, LobeImages& images, const char* name) {
+    const auto lobeOr = [&](const std::optional<LobeLight>& lobe, const char* name) {
         if (lobe) {
             return *lobe;
         }
         const auto scope = f.scope(name);
-        return blackLobe(f, images.own.light, {frame.g, frame.view}, false);
+        return blackLobe(f, {frame.g, frame.view}, false);
     };
-    const LobeLight diffuse = lobeOr(frame.diffuse, own.diffuse, "diffuse");
-    const LobeLight specular = lobeOr(frame.specular, own.specular, "specular");
-    const CompositeInputs parts{frame.g, frame.light, diffuse, specular, ggxTable(f, own.ggxTable), false, true};
-    const Composite sum = composite(f, own.layers, parts, litOf(view, frame).next, {frame.view, settings.diffuse.gain});
+    const LobeLight diffuse = lobeOr(frame.diffuse, "diffuse");
+    const LobeLight specular = lobeOr(frame.specular, "specular");
+    const CompositeInputs parts{frame.g, frame.light, diffuse, specular, ggxTable(f, view.images->ggxTable),
+                                false,   true};
+    const Composite sum = composite(f, parts, litOf(view, frame).next, {frame.view, settings.diffuse.gain});
     frame.composed = sum.lit;
     return sum;
 }
 
 gpu::Image recordTemporal(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image color) {
     gpu::Recorder& f = view.recorder;
-    const gpu::Image radiance = color ? importLight(f, view.images->temporalInput, color) : frame.composed;
+    const gpu::Image radiance = color ? importLight(f, color) : frame.composed;
     if (!radiance) {
         failArgument("color: is NULL, and refletComposite has not run in this frame");
     }
@@ -262,13 +258,13 @@ gpu::Image recordTemporal(RefletView_T& view, Frame& frame, const Settings& sett
 gpu::Image recordDepthOfField(RefletView_T& view, Frame& frame, const Settings& settings, const Lens& lens,
                               gpu::Image color) {
     gpu::Recorder& f = view.recorder;
-    const gpu::Image radiance = color ? importLight(f, view.images->dofInput, color) : pictureSoFar(frame);
+    const gpu::Image radiance = color ? importLight(f, color) : pictureSoFar(frame);
     DofInputs in{radiance,   frame.g.depth, frame.antialiased ? frame.g.motion : gpu::Image{},
                  frame.view, lens,          settings.dof};
     if (frame.specular && frame.composed) {
         in.reflections = {frame.g, *frame.specular, frame.composed, ggxTable(f, view.images->ggxTable)};
     }
-    const DofImages blurred = depthOfField(f, view.images->dof, in);
+    const DofImages blurred = depthOfField(f, view.images->circleOfConfusion, in);
     frame.defocused = blurred.radiance;
     frame.circleOfConfusion = blurred.coc;
     return blurred.radiance;
@@ -276,7 +272,7 @@ gpu::Image recordDepthOfField(RefletView_T& view, Frame& frame, const Settings& 
 
 gpu::Image recordToneMap(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image color, bool automatic) {
     gpu::Recorder& f = view.recorder;
-    const gpu::Image given = color ? importLight(f, view.images->toneMapInput, color) : frame.defocused;
+    const gpu::Image given = color ? importLight(f, color) : frame.defocused;
     const gpu::Image radiance = given ? given : pictureSoFar(frame);
     gpu::Image exposure;
     if (automatic) {
@@ -288,7 +284,7 @@ gpu::Image recordToneMap(RefletView_T& view, Frame& frame, const Settings& setti
         exposure = measureExposure(f, view.images->exposure, metered, frame.g.depth, frame.elapsed,
                                    settings.tonemap.adaptation);
     }
-    return tonemap(f, view.images->display, radiance, settings.tonemap, exposure);
+    return tonemap(f, radiance, settings.tonemap, exposure);
 }
 
 }  // namespace reflet::api

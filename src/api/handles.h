@@ -38,14 +38,6 @@ struct RefletSettings_T {
 
 namespace reflet::api {
 
-/// Images of one lobe, and the light that its rays read.
-struct LobeImages {
-    LobeStore own;
-    gpu::KeptImage light{"light"};
-    gpu::KeptImage litSoFar{"lit_so_far"};
-    gpu::KeptImage lightMips{"light_mips"};
-};
-
 /// The environment's image and the maps made from it.
 struct EnvironmentImages {
     gpu::KeptImage texels{"environment"};
@@ -57,31 +49,18 @@ struct EnvironmentImages {
 
 /// All that a view keeps from frame to frame.
 struct ViewImages {
-    ImportStore import;
-    gpu::KeptImage pyramid{"pyramid"};
     gpu::KeptBuffer blueNoise{"blue_noise"};
     bool hasBlueNoise = false;
     gpu::KeptImage ggxTable{"ggx_table"};
     EnvironmentImages environment;
-    gpu::KeptImage shadowMap{"shadow_map"};
-    SunVisibilityStore sun;
-    ShadowDenoiseStore sunDenoise;
-    gpu::KeptImage contact{"contact_shadow"};
-    AoStore ao;
-    LobeImages diffuse;
-    LobeImages specular;
-    gpu::KeptImage noisyDiffuse{"noisy_diffuse"};
-    gpu::KeptImage noisySpecular{"noisy_specular"};
-    CompositeStore layers;
-    gpu::KeptImage lightAlone{"light_alone"};
+    gpu::HistoryImage sunVisibility{"shadow_clean.history"};
+    DenoiseStore ambientOcclusion;
+    LobeStore diffuse;
+    LobeStore specular;
     gpu::HistoryImage lit{"lit"};
-    gpu::KeptImage temporalInput{"temporal_input"};
     TemporalStore temporal;
-    gpu::KeptImage dofInput{"depth_of_field_input"};
-    DofStore dof;
-    gpu::KeptImage toneMapInput{"tone_map_input"};
+    gpu::HistoryImage circleOfConfusion{"circle_of_confusion"};
     gpu::HistoryImage exposure{"exposure"};
-    gpu::KeptImage display{"display"};
 };
 
 /// What has been recorded of the current frame.

@@ -75,16 +75,14 @@ FloatImage blurred(gpu::Device& device, const SharpPicture& sharp, const Camera&
         depth.push_back(reversedDepth(sharp.depth.data[i], view.depthToDistance));
     }
     gpu::Frame f(device);
-    DofStore store;
-    gpu::KeptImage radianceImage("radiance");
-    gpu::KeptImage depthImage("depth");
+    gpu::HistoryImage coc("circle_of_confusion");
     f.begin();
-    const gpu::Image light = radianceImage.storage(f, VK_FORMAT_R32G32B32A32_SFLOAT, size);
-    const gpu::Image depths = depthImage.storage(f, VK_FORMAT_R32_SFLOAT, size);
+    const gpu::Image light = f.image("radiance", VK_FORMAT_R32G32B32A32_SFLOAT, size);
+    const gpu::Image depths = f.image("depth", VK_FORMAT_R32_SFLOAT, size);
     f.upload(light, std::as_bytes(std::span(radiance)));
     f.upload(depths, std::as_bytes(std::span(depth)));
     const Lens lens{camera.apertureRadius, camera.focusDistance, camera.blades, camera.bladeRotation};
-    const gpu::Image out = depthOfField(f, store, {light, depths, {}, view, lens, settings}).radiance;
+    const gpu::Image out = depthOfField(f, coc, {light, depths, {}, view, lens, settings}).radiance;
     const gpu::Readback copy = f.readback(out);
     f.submit();
     f.wait();

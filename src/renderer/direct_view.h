@@ -41,6 +41,7 @@ struct ViewInputs {
 /// Formats are documented with the effects.
 struct ViewImages {
     GBuffer g;
+    gpu::Image drawnDepth;        ///< depth of `g` before depth.format, D32
     gpu::Image backDepth;         ///< none unless trace_screen.thickness_mode is second_layer
     gpu::Image pyramid;           ///< none unless trace_screen.method is hiz or there are contact shadows
     gpu::Image shadowMap;         ///< none without sun or shadows
@@ -61,39 +62,23 @@ struct ViewImages {
 /// Lights for shading at hits of traced rays.
 SceneLights sceneLights(const ViewInputs& in, const Settings& settings);
 
-/// Owns the images of direct light on one set of surfaces.
-struct SurfaceLightStore {
+/// What one view keeps for the next frame: shadow maps as long as they hold, and histories.
+struct DirectViewStore {
     gpu::KeptImage shadowMap{"shadow_map"};
     gpu::KeptImage shadowRange{"shadow_range"};
-    SunVisibilityStore sun;
-    ShadowDenoiseStore sunDenoise;
-    gpu::KeptImage contactVisibility{"contact_visibility"};
     BlendShadowStore blendShadow;
-    gpu::KeptImage blendVisibility{"blend_visibility"};
-    LampTilesStore lampTiles;
     gpu::KeptImage lampShadowMap{"lamp_shadow_map"};
-    gpu::KeptImage lampVisibility{"lamp_visibility"};
-    gpu::KeptImage direct{"direct"};
-    DirectRaysStore rays;
-};
-
-/// Owns the images of one view.
-struct DirectViewStore {
-    AoStore ao;
-    GBufferStore g;
-    gpu::KeptImage backDepth{"back_depth"};
-    gpu::KeptImage keptDepth{"kept_depth"};
-    gpu::KeptImage keptBackDepth{"kept_back_depth"};
-    gpu::KeptImage pyramid{"pyramid"};
-    SurfaceLightStore light;
+    gpu::HistoryImage sunVisibility{"shadow_clean.history"};
+    DenoiseStore ambientOcclusion;
 };
 
 /// Records the passes of one view. lampShadowMap: from another view of the same frame, to be shared; none: it is drawn.
 ViewImages directView(gpu::Recorder& f, DirectViewStore& own, const ViewInputs& in, const Settings& settings,
                       gpu::Image lampShadowMap = {});
 
-/// The same for given surfaces: visibility and direct light at out.g. Shadow maps that `out` has are used.
-void lightSurfaces(gpu::Recorder& f, SurfaceLightStore& own, const ViewInputs& in, const Settings& settings,
+/// The same for given surfaces: visibility and direct light at out.g. Shadow maps that `out` has are used. own: none:
+/// `out` has all of them, and there is no history.
+void lightSurfaces(gpu::Recorder& f, DirectViewStore* own, const ViewInputs& in, const Settings& settings,
                    ViewImages& out);
 
 }  // namespace reflet

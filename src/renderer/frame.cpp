@@ -42,55 +42,51 @@ TracedView tracedView(const ViewInputs& in, const ViewImages& images) {
 }
 
 // The light that rays from blended surfaces, and then reflections, read at hits: direct light, or all light so far.
-gpu::Image lightSoFar(gpu::Recorder& f, ViewStore& own, const ViewInputs& in, const Settings& settings,
-                      const LobeLight& diffuse, const ScreenImages& screen) {
+gpu::Image lightSoFar(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const LobeLight& diffuse,
+                      const ScreenImages& screen) {
     if (settings.traceScreen.light != HitLight::lit || settings.specular.rays == 0 || settings.diffuse.rays == 0) {
         return screen.light;
     }
     const auto scope = f.scope("specular");
-    const LobeLight none = blackLobe(f, own.specular.light, {screen.g, in.view}, settings.traceScreen.countSteps != 0);
-    const gpu::Image soFar = own.litSoFar.storage(f, litFormat, screen.light.size);
+    const LobeLight none = blackLobe(f, {screen.g, in.view}, settings.traceScreen.countSteps != 0);
+    const gpu::Image soFar = f.image("lit_so_far", litFormat, screen.light.size);
     const CompositeInputs parts{screen.g, screen.light, diffuse, none, in.ggxTable, settings.materials.lambertOnly != 0,
                                 false};
-    return composite(f, own.layers, parts, soFar, {in.view, settings.diffuse.gain}).lit;
+    return composite(f, parts, soFar, {in.view, settings.diffuse.gain}).lit;
 }
 
 // Lights the blended surfaces, and sets the light that reflections read at hits: all light so far, with blended
 // surfaces in front; and its mips for cones. read: any rays read it.
-BlendedSurfaces lightForReflections(gpu::Recorder& f, ViewStore& own, const ViewInputs& in, const Settings& settings,
+BlendedSurfaces lightForReflections(gpu::Recorder& f, const ViewInputs& in, const Settings& settings,
                                     const LobeLight& diffuse, TracedView& seen, bool read, bool layers) {
     ScreenImages& screen = seen.screen;
     const SpecularSettings& s = settings.specular;
-    screen.light = read ? lightSoFar(f, own, in, settings, diffuse, screen) : screen.light;
+    screen.light = read ? lightSoFar(f, in, settings, diffuse, screen) : screen.light;
     const bool both = settings.blend.layers > 0 && showsBlended(in.draws, in.view) && showsGlass(in, settings);
-    const gpu::Image glassDepth = both ? nearestGlass(f, own.glass, in, settings, seen.images.g.depth) : gpu::Image{};
-    const BlendedSurfaces blended = lightBlended(f, own.blend, in, settings, seen, glassDepth, layers);
+    const gpu::Image glassDepth = both ? nearestGlass(f, in, settings, seen.images.g.depth) : gpu::Image{};
+    const BlendedSurfaces blended = lightBlended(f, in, settings, seen, glassDepth, layers);
     if (!read || s.rays == 0) {
         return blended;
     }
     const auto scope = f.scope("specular");
-    screen.light = withBlended(f, own.litSoFarBehindGlass, blended.behindGlass.lit, screen.light);
-    screen.light = withBlended(f, own.litSoFarBlended, blended.front.lit, screen.light);
+    screen.light = withBlended(f, blended.behindGlass.lit, screen.light);
+    screen.light = withBlended(f, blended.front.lit, screen.light);
     if (s.roughFallback == RoughFallback::mips && s.maxRoughness < 1.0F) {
         const bool previous = settings.traceScreen.light == HitLight::previous && screen.lit.valid;
-        screen.lightMips = makeLightMips(f, own.lightMips, previous ? screen.lit.previous : screen.light);
+        screen.lightMips = makeLightMips(f, previous ? screen.lit.previous : screen.light);
     }
     return blended;
 }
 
 // The light that reflections read at hits, with the glass in front of these: as the last frame has it, but of this one.
-gpu::Image lightWithGlass(gpu::Recorder& f, FrameStore& own, const ViewInputs& in, const Settings& settings,
-                          const TracedView& seen) {
+gpu::Image lightWithGlass(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen) {
     const auto scope = f.scope("specular");
     const gpu::Image light = seen.screen.light;
-    return throughGlass(f, own.glass, in, settings, seen, {light, {{}, {}, light}},
-                        own.litSoFarGlass.storage(f, litFormat, light.size), false)
-        .light.lit;
+    return throughGlass(f, in, settings, seen, {light, {{}, {}, light}}, {}, false).light.light.lit;
 }
 
 // Direct light with diffuse light from the probes, if there are any.
-gpu::Image withProbeLight(gpu::Recorder& f, ViewStore& own, const ViewInputs& in, Settings settings,
-                          const TracedView& seen) {
+gpu::Image withProbeLight(gpu::Recorder& f, const ViewInputs& in, Settings settings, const TracedView& seen) {
     if (!in.probes) {
         return seen.images.direct;
     }
@@ -102,12 +98,12 @@ gpu::Image withProbeLight(gpu::Recorder& f, ViewStore& own, const ViewInputs& in
     settings.diffuse.distribution = RayDistribution::normal;
     settings.diffuse.adaptive = 0;
     settings.diffuse.reuse = 0;
-    const LobeLight diffuse = traceLobe(f, own.diffuse, in, settings, seen, lobeDiffuse);
-    const LobeLight none = blackLobe(f, own.specular.light, {seen.images.g, in.view}, false);
-    const gpu::Image sum = own.ambientLit.storage(f, litFormat, seen.images.direct.size);
+    const LobeLight diffuse = traceLobe(f, nullptr, in, settings, seen, lobeDiffuse);
+    const LobeLight none = blackLobe(f, {seen.images.g, in.view}, false);
+    const gpu::Image sum = f.image("ambient", litFormat, seen.images.direct.size);
     const CompositeInputs parts{
         seen.images.g, seen.images.direct, diffuse, none, in.ggxTable, settings.materials.lambertOnly != 0, false};
-    return composite(f, own.layers, parts, sum, {in.view, settings.diffuse.gain}).lit;
+    return composite(f, parts, sum, {in.view, settings.diffuse.gain}).lit;
 }
 
 // Renders a planar view, for use by reflections. It has no last frame: `previous` acts as `lit` there, and probes bring
@@ -122,36 +118,33 @@ ScreenImages renderReflectionView(gpu::Recorder& f, FrameStore::Planar& own, con
     settings.denoise.history = 0;
     const ViewImages images = directView(f, own.direct, in, settings, lampShadowMap);
     TracedView seen = tracedView(in, images);
-    seen.screen.light = lit ? withProbeLight(f, own, in, settings, seen) : images.direct;
-    const LobeLight diffuse = traceLobe(f, own.diffuse, in, settings, seen, lobeDiffuse);
+    seen.screen.light = lit ? withProbeLight(f, in, settings, seen) : images.direct;
+    const LobeLight diffuse = traceLobe(f, nullptr, in, settings, seen, lobeDiffuse);
     // Without diffuse rays, the probes' light remains.
     const gpu::Image base = settings.diffuse.rays > 0 ? images.direct : seen.screen.light;
     seen.screen.light = base;
-    const BlendedSurfaces blended = lightForReflections(f, own, in, settings, diffuse, seen, true, false);
+    const BlendedSurfaces blended = lightForReflections(f, in, settings, diffuse, seen, true, false);
     gpu::Image light = seen.screen.light;
     const bool reflects = lit && settings.planar.specular != 0;
     if (reflects) {
-        const LobeLight specular = traceLobe(f, own.specular, in, settings, seen, lobeSpecular);
-        const gpu::Image all = own.lit.storage(f, litFormat, images.direct.size);
+        const LobeLight specular = traceLobe(f, nullptr, in, settings, seen, lobeSpecular);
+        const gpu::Image all = f.image("lit", litFormat, images.direct.size);
         const CompositeInputs parts{images.g, base, diffuse, specular, in.ggxTable, settings.materials.lambertOnly != 0,
                                     false};
-        light = composite(f, own.layers, parts, all, {in.view, settings.diffuse.gain}).lit;
+        light = composite(f, parts, all, {in.view, settings.diffuse.gain}).lit;
         if (showsCoats(in, settings)) {
-            light = addCoats(f, own.coat, in, settings, seen, {own.direct.g.depth.last()},
-                             {images.direct, {{}, {}, light}}, {}, false)
+            light = addCoats(f, in, settings, seen, {images.drawnDepth}, {images.direct, {{}, {}, light}}, {}, false)
                         .light.lit;
         }
     }
     if (showsGlass(in, settings)) {
-        light = reflects ? withBlended(f, own.behindGlass.lit, blended.behindGlass.lit, light) : light;
-        light = throughGlass(f, own.glass, in, settings, seen, {images.direct, {{}, {}, light}},
-                             own.litGlass.storage(f, litFormat, light.size), false)
-                    .light.lit;
+        light = reflects ? withBlended(f, blended.behindGlass.lit, light) : light;
+        light = throughGlass(f, in, settings, seen, {images.direct, {{}, {}, light}}, {}, false).light.light.lit;
     }
-    seen.screen.light = reflects ? withBlended(f, own.litBlended, blended.front.lit, light) : light;
+    seen.screen.light = reflects ? withBlended(f, blended.front.lit, light) : light;
     const bool blurred = settings.planar.form == PlanarForm::camera && settings.planar.cameraBlur > 1.0F;
     if (seen.screen.lightMips || blurred) {
-        seen.screen.lightMips = makeLightMips(f, own.lightMips, seen.screen.light);
+        seen.screen.lightMips = makeLightMips(f, seen.screen.light);
     }
     return seen.screen;
 }
@@ -161,8 +154,8 @@ ScreenImages renderPlanarView(gpu::Recorder& f, FrameStore::Planar& own, const F
     const PlanarSettings& s = settings.planar;
     if (s.form == PlanarForm::duplicate) {
         const uint32_t largestMap = f.context().limits().maxImageDimension2D;
-        const MirroredScene room = mirroredScene(in, mirror, settings.shadow, largestMap);
-        ViewInputs behind = duplicateViewInputs(in, mirror, s, room);
+        own.room = std::make_unique<MirroredScene>(mirroredScene(in, mirror, settings.shadow, largestMap));
+        ViewInputs behind = duplicateViewInputs(in, mirror, s, *own.room);
         behind.traced = nullptr;  // these are not mirrored
         behind.probes = {};
         Settings there = settings;
@@ -207,10 +200,10 @@ gpu::Image renderLiveCameras(gpu::Recorder& f, std::vector<DirectViewStore>& own
 
 // Puts the background behind the radiance that is shown; coverage is accumulated as the radiance.
 void showBackground(gpu::Recorder& f, FrameStore& own, const FrameInputs& in, const Settings& settings,
-                    const BlendedSurfaces& blended, FrameImages& out) {
-    const gpu::Image depth = showsGlass(in, settings) ? depthWithGlass(f, own.glass, out.g.depth) : out.g.depth;
+                    const BlendedSurfaces& blended, const NearestGlass& glass, FrameImages& out) {
+    const gpu::Image depth = glass.depth ? depthWithGlass(f, glass, out.g.depth) : out.g.depth;
     const BackgroundImages shown =
-        drawBackground(f, own.background, depth, out.direct, out.light.lit, *in.background.environment, in.view);
+        drawBackground(f, depth, out.direct, out.light.lit, *in.background.environment, in.view);
     out.direct = shown.direct;
     out.light.lit = shown.lit;
     if (!in.background.shown.needsCoverage()) {
@@ -218,15 +211,15 @@ void showBackground(gpu::Recorder& f, FrameStore& own, const FrameInputs& in, co
     }
     const auto scope = f.scope("coverage");
     out.coverage = shown.coverage;
-    const auto cover = [&](gpu::KeptImage& kept, gpu::Image front) {
+    const auto cover = [&](gpu::Image front) {
         if (front) {
-            const gpu::Image over = kept.storage(f, litFormat, shown.coverage.size);
+            const gpu::Image over = f.image("coverage.blended", litFormat, shown.coverage.size);
             coverOver(f, front, out.coverage, over);
             out.coverage = over;
         }
     };
-    cover(own.coverageBehindGlass, blended.behindGlass.lit);
-    cover(own.coverageBlended, blended.front.lit);
+    cover(blended.behindGlass.lit);
+    cover(blended.front.lit);
     if (settings.accumulate.enabled != 0) {
         out.coverage =
             accumulate(f, own.coverageMean, {out.coverage, {out.coverage, out.coverage, out.coverage}}, in.framesBefore)
@@ -242,15 +235,15 @@ void defocus(gpu::Recorder& f, FrameStore& own, const FrameInputs& in, const Set
     const gpu::Image motion = historyUse(settings).temporal ? out.g.motion : gpu::Image{};
     const DofReflections reflections{out.g, out.specular, out.unfiltered, in.ggxTable,
                                      settings.materials.lambertOnly != 0};
-    const auto blurred = [&](DofStore& store, gpu::Image picture) {
+    const auto blurred = [&](gpu::HistoryImage& store, gpu::Image picture) {
         return depthOfField(f, store, {picture, out.g.depth, motion, in.view, in.lens, settings.dof, reflections});
     };
-    const DofImages light = blurred(own.dof, out.light.lit);
+    const DofImages light = blurred(own.circleOfConfusion, out.light.lit);
     out.light.lit = light.radiance;
     out.circleOfConfusion = light.coc;
     if (out.coverage) {
         const auto scope = f.scope("coverage");
-        out.coverage = blurred(own.dofCoverage, out.coverage).radiance;
+        out.coverage = blurred(own.coverageCircleOfConfusion, out.coverage).radiance;
     }
 }
 
@@ -266,51 +259,53 @@ FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in
     FrameImages out{seen.images};
     out.view = in.view;
     out.probeAtlas = in.probes.atlas;
-    out.diffuse = traceLobe(f, own.diffuse, in, settings, seen, lobeDiffuse);
+    out.diffuse = traceLobe(f, &own.diffuse, in, settings, seen, lobeDiffuse);
     const bool layers = settings.composite.layers != 0 || settings.accumulate.enabled != 0;
     const bool reused = settings.traceScene.enabled != 0 && settings.traceScene.reuseScreen != 0;
     const bool read = settings.traceScreen.enabled != 0 || reused;
-    const BlendedSurfaces blended = lightForReflections(f, own, in, settings, out.diffuse, seen, read, layers);
+    const BlendedSurfaces blended = lightForReflections(f, in, settings, out.diffuse, seen, read, layers);
     const bool glass = showsGlass(in, settings);
     if (glass && read && settings.specular.rays > 0 && settings.traceScreen.light != HitLight::previous) {
-        seen.screen.light = lightWithGlass(f, own, in, settings, seen);
+        seen.screen.light = lightWithGlass(f, in, settings, seen);
     }
     seen.mirrors = renderPlanarViews(f, own, in, settings, out.lampShadowMap);
-    out.specular = traceLobe(f, own.specular, in, settings, seen, lobeSpecular);
+    out.specular = traceLobe(f, &own.specular, in, settings, seen, lobeSpecular);
 
     const CompositeInputs parts{
         out.g, out.direct, out.diffuse, out.specular, in.ggxTable, settings.materials.lambertOnly != 0, layers};
-    const auto image = [&](gpu::KeptImage& kept) { return kept.storage(f, litFormat, lit.next.size); };
-    const gpu::Image behind = blended.front.lit ? image(own.litBehind) : lit.next;
+    const auto image = [&](const char* name) { return f.image(name, litFormat, lit.next.size); };
+    const gpu::Image behind = blended.front.lit ? image("lit_behind") : lit.next;
     const bool coats = showsCoats(in, settings);
     // Without rays, no frame reads the last one's light.
     const bool directAlone = out.diffuse.dark && out.specular.dark && !layers && !blended.front.lit &&
                              !in.background.environment && !glass && !coats;
-    const gpu::Image withoutGlass = glass ? image(own.litWithoutGlass) : behind;
-    const gpu::Image withoutCoats = coats ? image(own.litWithoutCoats) : withoutGlass;
+    const gpu::Image withoutGlass = glass ? image("lit_without_glass") : behind;
+    const gpu::Image withoutCoats = coats ? image("lit_without_coats") : withoutGlass;
     out.light = directAlone ? Composite{{}, {}, out.direct}
-                            : composite(f, own.layers, parts, withoutCoats, {in.view, settings.diffuse.gain});
+                            : composite(f, parts, withoutCoats, {in.view, settings.diffuse.gain});
     if (coats) {
-        const LightLayers all = addCoats(f, own.coat, in, settings, seen, {own.direct.g.depth.last()},
-                                         {out.direct, out.light}, withoutGlass, layers);
+        const LightLayers all =
+            addCoats(f, in, settings, seen, {seen.images.drawnDepth}, {out.direct, out.light}, withoutGlass, layers);
         out.direct = all.direct;
         out.light = all.light;
     }
+    NearestGlass nearestGlass;
     if (glass) {
-        const LightLayers beyond = withBlended(f, own.behindGlass, blended.behindGlass, {out.direct, out.light});
-        const LightLayers all = throughGlass(f, own.glass, in, settings, seen, beyond, behind, layers);
-        out.direct = all.direct;
-        out.light = all.light;
+        const LightLayers beyond = withBlended(f, blended.behindGlass, {out.direct, out.light});
+        const LightThroughGlass all = throughGlass(f, in, settings, seen, beyond, behind, layers);
+        out.direct = all.light.direct;
+        out.light = all.light.light;
+        nearestGlass = all.nearest;
     }
     gpu::Image sum = lit.next;
     if (in.background.environment) {
         if (blended.front.lit) {
             blendOver(f, blended.front.lit, behind, lit.next);  // rays of the next frame see the environment behind
-            sum = image(own.litShown);
+            sum = image("lit_shown");
         }
-        showBackground(f, own, in, settings, blended, out);
+        showBackground(f, own, in, settings, blended, nearestGlass, out);
     }
-    const LightLayers shown = withBlended(f, own.withBlended, blended.front, {out.direct, out.light}, sum);
+    const LightLayers shown = withBlended(f, blended.front, {out.direct, out.light}, sum);
     out.direct = shown.direct;
     out.light = shown.light;
     if (settings.accumulate.enabled != 0) {
@@ -319,11 +314,11 @@ FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in
         out.light = means.light;
     }
     if (settings.composite.direct == 0) {
-        out.light.lit = withoutDirect(f, own.indirectAlone, out.light.lit, out.direct);
+        out.light.lit = withoutDirect(f, out.light.lit, out.direct);
     }
     out.unfiltered = out.light.lit;
     if (historyUse(settings).temporal) {
-        const GBuffer followed = glass ? motionWithGlass(f, own.glass, out.g) : out.g;
+        const GBuffer followed = glass ? motionWithGlass(f, nearestGlass, out.g) : out.g;
         const TemporalImages means =
             temporal(f, own.temporal, {followed, out.light.lit, out.coverage, in.view, in.outputSize, in.jitter},
                      settings.temporal);
@@ -336,11 +331,10 @@ FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in
         out.exposure = measureExposure(f, own.exposure, metered, out.g.depth, in.elapsed, settings.tonemap.adaptation);
     }
     defocus(f, own, in, settings, out);
-    const gpu::Image radiance =
-        out.coverage ? straightRadiance(f, own.straight, out.light.lit, out.coverage) : out.light.lit;
-    out.display = tonemap(f, own.display, radiance, settings.tonemap, out.exposure);
+    const gpu::Image radiance = out.coverage ? straightRadiance(f, out.light.lit, out.coverage) : out.light.lit;
+    out.display = tonemap(f, radiance, settings.tonemap, out.exposure);
     if (out.coverage) {
-        out.display = overBackground(f, own.displayOver, out.display, out.coverage, in.background.shown);
+        out.display = overBackground(f, out.display, out.coverage, in.background.shown);
         out.transparent = in.background.shown.mode == Background::Mode::transparent;
     }
     return out;

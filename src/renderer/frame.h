@@ -18,56 +18,29 @@
 #include "renderer/settings.h"
 #include "renderer/trace_lobe.h"
 
+#include <memory>
 #include <vector>
 
 namespace reflet {
 
-/// Owns the images of a view with indirect light.
-struct ViewStore {
+/// What a frame keeps for the next one; every picture that is rendered over time has its own.
+struct FrameStore {
+    struct Planar {
+        DirectViewStore direct;
+        std::unique_ptr<MirroredScene> room;  ///< drawn in this frame, if any
+    };
     DirectViewStore direct;
     LobeStore diffuse;
     LobeStore specular;
-    CompositeStore layers;
-    gpu::KeptImage ambientLit{"ambient"};
-    gpu::KeptImage litSoFar{"lit_so_far"};
-    gpu::KeptImage litSoFarBlended{"lit_so_far.blended"};
-    gpu::KeptImage litSoFarBehindGlass{"lit_so_far.behind_glass"};
-    gpu::KeptImage lightMips{"light_mips"};
-    gpu::KeptImage lit{"lit"};
-    gpu::KeptImage litBlended{"lit.blended"};
-    BlendStore blend;
-    WithBlendedStore behindGlass;
-    GlassStore glass;
-    CoatStore coat;
-};
-
-/// Owns all images of a frame; every picture that is rendered over time has its own.
-struct FrameStore : ViewStore {
-    struct Planar : ViewStore {
-        gpu::KeptImage litGlass{"lit.glass"};
-    };
     gpu::HistoryImage history{"lit"};
     std::vector<Planar> planar;
     std::vector<DirectViewStore> live;
-    BackgroundStore background;
-    gpu::KeptImage coverageBlended{"coverage.blended"};
-    gpu::KeptImage coverageBehindGlass{"coverage.behind_glass"};
     AccumulateStore coverageMean;
-    gpu::KeptImage litBehind{"lit_behind"};
-    gpu::KeptImage litWithoutCoats{"lit_without_coats"};
-    gpu::KeptImage litWithoutGlass{"lit_without_glass"};
-    gpu::KeptImage indirectAlone{"indirect_alone"};
-    gpu::KeptImage litSoFarGlass{"lit_so_far.glass"};
-    gpu::KeptImage litShown{"lit_shown"};
-    WithBlendedStore withBlended;
     AccumulateStore accumulated;
     TemporalStore temporal;
     gpu::HistoryImage exposure{"exposure"};
-    DofStore dof;
-    DofStore dofCoverage;
-    gpu::KeptImage straight{"background.straight"};
-    gpu::KeptImage display{"display"};
-    gpu::KeptImage displayOver{"background.display"};
+    gpu::HistoryImage circleOfConfusion{"circle_of_confusion"};
+    gpu::HistoryImage coverageCircleOfConfusion{"coverage.circle_of_confusion"};
 };
 
 struct FrameInputs : ViewInputs {

@@ -12,21 +12,20 @@ Settings layerSettings(Settings settings) {
     return settings;
 }
 
-Composite lightLayer(gpu::Recorder& f, LitLayerStore& own, const ViewInputs& in, const Settings& settings,
-                     TracedView& layer, bool layers) {
-    lightSurfaces(f, own.light, in, settings, layer.images);
-    return reflectedLight(f, own, in, settings, layer, layers);
+Composite lightLayer(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, TracedView& layer, bool layers) {
+    lightSurfaces(f, nullptr, in, settings, layer.images);
+    return reflectedLight(f, in, settings, layer, layers);
 }
 
-Composite reflectedLight(gpu::Recorder& f, LitLayerStore& own, const ViewInputs& in, const Settings& settings,
-                         const TracedView& layer, bool layers) {
-    const LobeLight diffuse = traceLobe(f, own.diffuse, in, settings, layer, lobeDiffuse);
-    const LobeLight specular = traceLobe(f, own.specular, in, settings, layer, lobeSpecular);
+Composite reflectedLight(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& layer,
+                         bool layers) {
+    const LobeLight diffuse = traceLobe(f, nullptr, in, settings, layer, lobeDiffuse);
+    const LobeLight specular = traceLobe(f, nullptr, in, settings, layer, lobeSpecular);
     const CompositeInputs parts{layer.images.g, layer.images.direct, diffuse,
                                 specular,       in.ggxTable,         settings.materials.lambertOnly != 0,
                                 layers};
-    const gpu::Image lit = own.lit.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, layer.images.g.depth.size);
-    return composite(f, own.layers, parts, lit, {in.view, settings.diffuse.gain});
+    const gpu::Image lit = f.image("lit", VK_FORMAT_R16G16B16A16_SFLOAT, layer.images.g.depth.size);
+    return composite(f, parts, lit, {in.view, settings.diffuse.gain});
 }
 
 }  // namespace reflet

@@ -6,25 +6,15 @@
 
 namespace reflet {
 
-/// Owns the images of the light of a layer.
-struct LitLayerStore {
-    SurfaceLightStore light;
-    LobeStore diffuse;
-    LobeStore specular;
-    CompositeStore layers;
-    gpu::KeptImage lit{"lit"};
-};
-
 /// Settings for layers: they have no history, and no depth pyramid for contact shadows.
 Settings layerSettings(Settings settings);
 
 /// layer: with the G-buffer of the layer; its direct light is set. Its rays are traced in the screen of the opaque
 /// surfaces.
-Composite lightLayer(gpu::Recorder& f, LitLayerStore& own, const ViewInputs& in, const Settings& settings,
-                     TracedView& layer, bool layers);
+Composite lightLayer(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, TracedView& layer, bool layers);
 
 /// The same, with the direct light that the layer has.
-Composite reflectedLight(gpu::Recorder& f, LitLayerStore& own, const ViewInputs& in, const Settings& settings,
-                         const TracedView& layer, bool layers);
+Composite reflectedLight(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& layer,
+                         bool layers);
 
 }  // namespace reflet

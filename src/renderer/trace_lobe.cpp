@@ -56,7 +56,7 @@ std::vector<RaySource> sourcesOf(const ViewInputs& in, const Settings& settings,
 
 }  // namespace
 
-LobeLight traceLobe(gpu::Recorder& f, LobeStore& own, const ViewInputs& in, const Settings& settings,
+LobeLight traceLobe(gpu::Recorder& f, LobeStore* own, const ViewInputs& in, const Settings& settings,
                     const TracedView& seen, uint32_t lobe) {
     LobeSettings common = lobe == lobeDiffuse ? lobeSettings(settings.diffuse) : lobeSettings(settings.specular);
     common.rays = in.draws.unlit ? 0 : common.rays;

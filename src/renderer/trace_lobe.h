@@ -19,7 +19,7 @@ struct TracedView {
 };
 
 /// A lobe with the sources that the settings ask for: screen, planar views, the scene's triangles, probes, environment.
-LobeLight traceLobe(gpu::Recorder& f, LobeStore& own, const ViewInputs& in, const Settings& settings,
+LobeLight traceLobe(gpu::Recorder& f, LobeStore* own, const ViewInputs& in, const Settings& settings,
                     const TracedView& seen, uint32_t lobe);
 
 /// Has the same sources answer other rays that start in front of the screen: the screen first, no planar views.

@@ -198,12 +198,12 @@ Picked Session::pick(const ViewerState& state, uvec2 size, uvec2 pixel) {
         }
         const RecordRayInputs inputs{made.g, made.backDepth, made.pyramid};
         const uvec2 place = pixel * made.g.depth.size / size;
-        ray = recordRay(f, recordRay_, inputs, made.view, settings.traceScreen, place);
+        ray = recordRay(f, inputs, made.view, settings.traceScreen, place);
         if (made.shadowMap && settings.shadow.filter != ShadowFilter::traced) {
-            shadow = recordShadow(f, recordShadow_, made.g, {made.shadowMap, made.shadowRange, {}},
+            shadow = recordShadow(f, made.g, {made.shadowMap, made.shadowRange, {}},
                                   {made.view, made.sun, settings.shadow, sunSlope, place});
         }
-        hemisphere = recordHemisphere(f, recordRay_, inputs, made.view, diffuse, place);
+        hemisphere = recordHemisphere(f, inputs, made.view, diffuse, place);
     });
     const gpu::Frame& frame = renderer_.frame();
     Picked picked{pixel, {}, recordedRay(frame, ray), {}, {}, shown_.view, shown_.changes};

@@ -109,8 +109,6 @@ private:
     gpu::Device& device_;
     OpenScene opened_;
     Renderer renderer_;
-    RecordRayStore recordRay_;
-    gpu::KeptImage recordShadow_{"shadow_record"};
     Shown shown_;
     std::optional<Asked> asked_;
 };

@@ -37,11 +37,9 @@ protected:
         const ViewParams view = makeViewParams(camera, size, 0, 0);
         gpu::Frame& f = frame();
         f.begin();
-        GBufferStore store;
-        gpu::KeptImage backStore("back_depth");
-        const GBuffer g = drawGBuffer(f, store, onDevice.draws(), view, {});
+        const GBuffer g = drawGBuffer(f, onDevice.draws(), view, {});
         const gpu::Readback front = f.readback(g.depth);
-        const gpu::Readback back = f.readback(drawBackDepth(f, backStore, onDevice.draws(), g.depth, view));
+        const gpu::Readback back = f.readback(drawBackDepth(f, onDevice.draws(), g.depth, view));
         f.submit();
         f.wait();
         return {distances(f.bytes(front), view), distances(f.bytes(back), view)};

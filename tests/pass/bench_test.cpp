@@ -241,9 +241,8 @@ TEST(Motion, WhatComesToRestIsHeldAgainstItsFinalValueWhereTheMotionChangedIt) {
 TEST_F(BenchDeviceTest, APassCountsTheBytesOfWhatItBinds) {
     gpu::Frame& f = frame();
     f.begin();
-    gpu::Scratch scratch(f);
-    const gpu::Image from = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, {64, 32});
-    const gpu::Image to = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, {16, 8});
+    const gpu::Image from = f.image("from", VK_FORMAT_R16G16B16A16_SFLOAT, {64, 32});
+    const gpu::Image to = f.image("to", VK_FORMAT_R16G16B16A16_SFLOAT, {16, 8});
     showLive(f, from, to);
     f.submit();
     f.wait();

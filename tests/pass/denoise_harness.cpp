@@ -18,13 +18,13 @@ constexpr uint32_t packedTowardCamera = 0;  // packUnitVector of +Z: the middle 
 // Puts values into an image by one of the shaders that fill.
 class Filler {
 public:
-    Filler(gpu::Frame& frame, uvec2 size) : frame_(frame), scratch_(frame), size_(size) {}
+    Filler(gpu::Frame& frame, uvec2 size) : frame_(frame), size_(size) {}
 
     template <class T>
     gpu::Image fill(const char* name, VkFormat format, const char* shader, const std::vector<T>& texels) {
         uploads_.push_back(gpu::uploadBuffer(frame_.device(), std::as_bytes(std::span(texels)),
                                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, name));
-        const gpu::Image image = scratch_.storage(format, size_);
+        const gpu::Image image = frame_.image(name, format, size_);
         frame_.compute(name, shader).read("inputs", uploads_.back().view()).write("image", image).dispatch(size_);
         return image;
     }
@@ -34,7 +34,6 @@ public:
 
 private:
     gpu::Frame& frame_;
-    gpu::Scratch scratch_;
     uvec2 size_;
     std::vector<gpu::Buffer> uploads_;
 };
@@ -85,7 +84,7 @@ std::vector<vec4> DenoiseRun::add(const LitWall& light, const WallFrame& wall) {
     lobe.radiance = filler.colors("radiance", radiance);
     lobe.imageMotion = filler.fill("image_motion", VK_FORMAT_R16G16_SFLOAT, "fill_pair_test.comp",
                                    std::vector<vec4>(count, vec4(wall.imageMotion / vec2(size_), 0.0F, 0.0F)));
-    const LobeLight clean = denoise(frame_, store_, lobe, lobe_, view, settings_);
+    const LobeLight clean = denoise(frame_, &store_, lobe, lobe_, view, settings_);
     const gpu::Readback copy = frame_.readback(clean.radiance);
     frame_.submit();
     frame_.wait();

@@ -54,12 +54,12 @@ public:
     float operator()(const Mirror& m) {
         const ViewParams view = makeViewParams(cameraOf(m), size, 0, 0);
         const vec4 onWall = view.worldToClip * vec4(0.0F, 0.0F, -wall, 1.0F);
-        const auto filled = [&](gpu::KeptImage& image, VkFormat format, uvec2 imageSize, auto&& texel) {
+        const auto filled = [&](const char* name, VkFormat format, uvec2 imageSize, auto&& texel) {
             std::vector<decltype(texel(vec2()))> texels;
             for (uint32_t i = 0; i < imageSize.x * imageSize.y; ++i) {
                 texels.push_back(texel((vec2(i % imageSize.x, i / imageSize.x) + 0.5F) / vec2(imageSize) - 0.5F));
             }
-            const gpu::Image made = image.storage(frame_, format, imageSize);
+            const gpu::Image made = frame_.image(name, format, imageSize);
             frame_.upload(made, std::as_bytes(std::span(texels)));
             return made;
         };
@@ -76,28 +76,28 @@ public:
 
         frame_.begin();
         GBuffer g;
-        g.depth = filled(store_.depth, VK_FORMAT_R32_SFLOAT, size, depthAt);
-        g.normal = filled(store_.normal, VK_FORMAT_R32_UINT, size, normalAt);
-        g.geometricNormal = filled(store_.geometricNormal, VK_FORMAT_R32_UINT, size, [](vec2) {
+        g.depth = filled("depth", VK_FORMAT_R32_SFLOAT, size, depthAt);
+        g.normal = filled("normal", VK_FORMAT_R32_UINT, size, normalAt);
+        g.geometricNormal = filled("geometric_normal", VK_FORMAT_R32_UINT, size, [](vec2) {
             return packed({0.0F, 0.0F, 1.0F});
         });
-        g.baseColor = filled(store_.baseColor, half4, size, color(1.0F, 1.0F));
-        g.material = filled(store_.material, half4, size,
+        g.baseColor = filled("base_color", half4, size, color(1.0F, 1.0F));
+        g.material = filled("material", half4, size,
                             [&](vec2) { return glm::packHalf4x16(vec4(m.roughness, m.metallic, 1.0F, 0.0F)); });
         LobeLight specular;
         const uvec2 traced = size / m.scale;
         specular.from.scale = m.scale;
-        specular.from.g.depth = filled(store_.lobeDepth, VK_FORMAT_R32_SFLOAT, traced, depthAt);
-        specular.from.g.normal = filled(store_.lobeNormal, VK_FORMAT_R32_UINT, traced, normalAt);
-        specular.radiance = filled(store_.radiance, half4, traced, color(m.reflected, m.hitDistance));
-        const gpu::Image lit = filled(store_.lit, half4, size, color(m.lit, 1.0F));
+        specular.from.g.depth = filled("lobe_depth", VK_FORMAT_R32_SFLOAT, traced, depthAt);
+        specular.from.g.normal = filled("lobe_normal", VK_FORMAT_R32_UINT, traced, normalAt);
+        specular.radiance = filled("radiance", half4, traced, color(m.reflected, m.hitDistance));
+        const gpu::Image lit = filled("lit", half4, size, color(m.lit, 1.0F));
         DofSettings settings;
         settings.maxRadius = 0.25F;
         settings.reflections = m.enabled ? 1U : 0U;
         const Lens lens{.apertureRadius = aperture, .focusDistance = m.focus};
-        const DofReflections reflections{g, specular, lit, ggxTable(frame_, store_.ggx)};
+        const DofReflections reflections{g, specular, lit, ggxTable(frame_, ggx_)};
         const DofInputs in{lit, g.depth, {}, view, lens, settings, reflections};
-        const gpu::Readback copy = frame_.readback(depthOfField(frame_, store_.dof, in).coc);
+        const gpu::Readback copy = frame_.readback(depthOfField(frame_, coc_, in).coc);
         frame_.submit();
         frame_.wait();
         const std::vector<vec4> coc = decodeTexels(VK_FORMAT_R32_SFLOAT, frame_.bytes(copy));
@@ -114,12 +114,8 @@ public:
     static constexpr float aperture = 0.1F;
 
 private:
-    struct {
-        gpu::KeptImage depth{"depth"}, normal{"normal"}, geometricNormal{"geometric_normal"}, baseColor{"base_color"},
-            material{"material"}, lobeDepth{"lobe_depth"}, lobeNormal{"lobe_normal"}, radiance{"radiance"}, lit{"lit"},
-            ggx{"ggx"};
-        DofStore dof;
-    } store_;
+    gpu::KeptImage ggx_{"ggx"};
+    gpu::HistoryImage coc_{"circle_of_confusion"};
     gpu::Frame frame_;
     float pixelAngle_ = 1.0F;
 };

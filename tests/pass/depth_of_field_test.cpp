@@ -54,11 +54,10 @@ public:
             depth.emplace_back(near / p.z);
         }
         std::vector<gpu::Buffer> uploads;
-        gpu::Scratch scratch(frame_);
         const auto fill = [&](const char* name, const std::vector<vec4>& texels) {
             uploads.push_back(gpu::uploadBuffer(frame_.device(), std::as_bytes(std::span(texels)),
                                                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, name));
-            const gpu::Image image = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, size);
+            const gpu::Image image = frame_.image(name, VK_FORMAT_R16G16B16A16_SFLOAT, size);
             frame_.compute(name, "fill_color_test.comp")
                 .read("inputs", uploads.back().view())
                 .write("image", image)
@@ -81,7 +80,7 @@ public:
 
 private:
     gpu::Frame frame_;
-    DofStore store_;
+    gpu::HistoryImage store_{"circle_of_confusion"};
 };
 
 float at(const std::vector<vec4>& picture, int x, int y) {

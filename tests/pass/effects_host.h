@@ -51,35 +51,18 @@ struct Stores {
     gpu::KeptBuffer blueNoise{"host.blue_noise"};
     gpu::KeptImage ggx{"ggx_table"};
     CubeMap cube;
-    gpu::KeptImage keptDepth{"kept_depth"};
-    gpu::KeptImage pyramid{"pyramid"};
-    SunVisibilityStore sun;
-    ShadowDenoiseStore sunDenoise;
-    gpu::KeptImage contact{"contact"};
-    LampTilesStore lampTiles;
-    gpu::KeptImage lampVisibility{"lamp_visibility"};
-    gpu::KeptImage direct{"direct"};
-    gpu::KeptImage lightMips{"light_mips"};
+    gpu::HistoryImage sunVisibility{"shadow_clean.history"};
     gpu::HistoryImage lit{"lit"};
-    AoStore ao;
-    DofStore dof;
+    DenoiseStore ao;
+    gpu::HistoryImage coc{"circle_of_confusion"};
     LobeStore diffuse;
     LobeStore specular;
-    CompositeStore composite;
     AccumulateStore accumulate;
     TemporalStore temporal;
     TemporalStore upscaling;
     gpu::HistoryImage exposure{"exposure"};
-    gpu::KeptImage display{"display"};
-    RecordRayStore recordRay;
-    ImportStore import;
-    gpu::KeptImage importedLight{"imported_light"};
-    gpu::KeptImage importedMap{"imported_map"};
     gpu::KeptImage blockDepth{"host.block_depth"};
     gpu::KeptImage blockLight{"host.block_light"};
-    gpu::KeptImage blockPyramid{"host.block_pyramid"};
-    std::array<LobeStore, 2> diffuseWays;
-    std::array<LobeStore, 2> specularWays;
 };
 
 struct Results {
@@ -154,24 +137,24 @@ public:
                         stores_.cube.lobes.image(),
                         stores_.cube.irradiance.image(),
                         {vec3(1.0F), vec2(1.0F, 0.0F)}};
-        importSurfaces(f, stores_.import, {.depth = g_.depth, .normal = stores_.color.last()}, {view, mat4(1.0F)});
-        importLight(f, stores_.importedLight, stores_.sky.last());
-        importShadowMap(f, stores_.importedMap, stores_.shadowMap.last(), 1, true);
-        const gpu::Image pyramid = makePyramid(f, stores_.pyramid, g_.depth);
-        keptDepth(f, stores_.keptDepth, g_.depth, view, {.format = DepthBuffer::standard16});
+        importSurfaces(f, {.depth = g_.depth, .normal = stores_.color.last()}, {view, mat4(1.0F)});
+        importLight(f, stores_.sky.last());
+        importShadowMap(f, stores_.shadowMap.last(), 1, true);
+        const gpu::Image pyramid = makePyramid(f, g_.depth);
+        keptDepth(f, g_.depth, view, {.format = DepthBuffer::standard16});
         const gpu::Image direct = lightDirectly(f, view, pyramid);
         const gpu::History lit = stores_.lit.swap(f, colorFormat, size);
         const Composite light = lightIndirectly(f, view, {pyramid, direct, lit});
         const TemporalImages mean = temporal(f, stores_.temporal, {g_, light.lit, {}, view}, {});
         const TemporalInputs smaller{g_, light.lit, {}, view, 2U * size, vec2(0.1F, -0.2F)};
         const Lens lens{.apertureRadius = 0.05F, .focusDistance = 2.0F};
-        depthOfField(f, stores_.dof, {mean.mean, g_.depth, g_.motion, view, lens, {}});
+        depthOfField(f, stores_.coc, {mean.mean, g_.depth, g_.motion, view, lens, {}});
         const TemporalImages upscaled = temporal(f, stores_.upscaling, smaller, {});
         const LightLayers means = accumulate(f, stores_.accumulate, {direct, light}, 0);
         const gpu::Image stops = measureExposure(f, stores_.exposure, mean.mean, g_.depth, 0.0F, 0.5F);
-        const gpu::Image display = tonemap(f, stores_.display, mean.mean, {}, stops);
-        recordRay(f, stores_.recordRay, {g_, {}, pyramid}, view, {}, size / 2U);
-        recordHemisphere(f, stores_.recordRay, {g_, {}, pyramid}, view, {}, size / 2U);
+        const gpu::Image display = tonemap(f, mean.mean, {}, stops);
+        recordRay(f, {g_, {}, pyramid}, view, {}, size / 2U);
+        recordHemisphere(f, {g_, {}, pyramid}, view, {}, size / 2U);
         return {f.readback(light.lit), f.readback(means.light.lit), f.readback(mean.mean), f.readback(upscaled.mean),
                 f.readback(display)};
     }
@@ -196,30 +179,28 @@ public:
         upload(f, stores_.blockDepth, VK_FORMAT_R32_SFLOAT, depth);
         upload(f, stores_.blockLight, colorFormat, light);
         g_.depth = stores_.blockDepth.last();
-        const ScreenImages screen{
-            g_, view, {}, makePyramid(f, stores_.blockPyramid, g_.depth), stores_.blockLight.last(), {}, {}};
+        const ScreenImages screen{g_, view, {}, makePyramid(f, g_.depth), stores_.blockLight.last(), {}, {}};
         TraceScreenSettings trace;
         trace.rejectBackfaces = 0;  // the buffer has one normal for all
         const std::vector<RaySource> silent{[](gpu::Recorder&, Rays&) {}};
         std::array<LobeReadbacks, 2> read;
         for (size_t i = 0; i < 2; ++i) {
-            const LobeLight traced =
-                traceLobe(f, lobe == lobeDiffuse ? stores_.diffuseWays[i] : stores_.specularWays[i],
-                          {.lobe = lobe,
-                           .g = g_,
-                           .view = view,
-                           .settings = {.rays = 10},
-                           .diffuse = {},
-                           .specular = {},
-                           .denoise = {.enabled = 0},
-                           .environmentSettings = {},
-                           .environment = environment_,
-                           .ggxTable = stores_.ggx.last(),
-                           .blueNoise = stores_.blueNoise.get(f, blueNoise().size_bytes()),
-                           .screen = {&screen, trace, 100.0F},
-                           .sources = i == 0 ? std::span<const RaySource>() : silent,
-                           .lit = {},
-                           .countSteps = true});
+            const LobeLight traced = traceLobe(f, nullptr,
+                                               {.lobe = lobe,
+                                                .g = g_,
+                                                .view = view,
+                                                .settings = {.rays = 10},
+                                                .diffuse = {},
+                                                .specular = {},
+                                                .denoise = {.enabled = 0},
+                                                .environmentSettings = {},
+                                                .environment = environment_,
+                                                .ggxTable = stores_.ggx.last(),
+                                                .blueNoise = stores_.blueNoise.get(f, blueNoise().size_bytes()),
+                                                .screen = {&screen, trace, 100.0F},
+                                                .sources = i == 0 ? std::span<const RaySource>() : silent,
+                                                .lit = {},
+                                                .countSteps = true});
             read[i] = {f.readback(traced.radiance), f.readback(traced.source), f.readback(traced.steps)};
         }
         return read;
@@ -246,10 +227,10 @@ private:
         ShadowSettings shadow;
         shadow.earlyOut = 0;
         const SunVisibility seen =
-            sunVisibility(f, stores_.sun, g_, {stores_.shadowMap.last(), {}, noise}, {view, sun, shadow, 0.005F});
-        gpu::Image visible = denoiseShadow(f, stores_.sunDenoise, g_, seen.visibility, seen.penumbra,
+            sunVisibility(f, g_, {stores_.shadowMap.last(), {}, noise}, {view, sun, shadow, 0.005F});
+        gpu::Image visible = denoiseShadow(f, &stores_.sunVisibility, g_, seen.visibility, seen.penumbra,
                                            {view, toSun, 8, shadow.samples, 0});
-        visible = contactShadow(f, stores_.contact, g_, pyramid, visible, {view, {.distance = 0.2F}, toSun});
+        visible = contactShadow(f, g_, pyramid, visible, {view, {.distance = 0.2F}, toSun});
         LampBlock lamps{};
         lamps.count = 1;
         lamps.lamps[0] = {.position = vec3(0.0F, 0.0F, -2.0F),
@@ -264,23 +245,23 @@ private:
         shadows.columns = 1;
         shadows.lamps[0] = {
             .lamp = lamps.lamps[0], .worldToTile = mat3(1.0F), .halfTangent = 1.0F, .near = 0.01F, .tiles = 6};
-        const LampTiles tiles = findLampTiles(f, stores_.lampTiles, g_.depth, lamps, view, {});
-        const gpu::Image lampsSeen = lampVisibility(
-            f, stores_.lampVisibility, g_, {stores_.shadowMap.last(), tiles.masks, noise}, shadows, {view, {}});
-        return directLight(f, stores_.direct, g_, {visible, lampsSeen, tiles.masks}, stores_.ggx.last(),
-                           {view, toSun, vec3(3.0F)}, {lamps, environment_});
+        const LampTiles tiles = findLampTiles(f, g_.depth, lamps, view, {});
+        const gpu::Image lampsSeen =
+            lampVisibility(f, g_, {stores_.shadowMap.last(), tiles.masks, noise}, shadows, {view, {}});
+        return directLight(f, g_, {visible, lampsSeen, tiles.masks}, stores_.ggx.last(), {view, toSun, vec3(3.0F)},
+                           {lamps, environment_});
     }
 
     Composite lightIndirectly(gpu::Recorder& f, const ViewParams& view, const Indirect& in) {
         ScreenImages screen{g_, view, {}, in.pyramid, in.direct, in.lit, {}};
-        screen.lightMips = makeLightMips(f, stores_.lightMips, in.direct);
+        screen.lightMips = makeLightMips(f, in.direct);
         TraceScreenSettings trace;
         trace.light = HitLight::previous;
         const DenoiseSettings denoise{.enabled = 1};
         const gpu::BufferView noise = stores_.blueNoise.get(f, blueNoise().size_bytes());
         const AoSettings ao{.method = AoMethod::bitmask, .downsample = 2};
         const gpu::Image occlusion =
-            ambientOcclusion(f, stores_.ao, {g_, view, {}, ao, denoise, stores_.ggx.last(), noise});
+            ambientOcclusion(f, &stores_.ao, {g_, view, {}, ao, denoise, stores_.ggx.last(), noise});
         LobeInputs lobe{.lobe = lobeDiffuse,
                         .g = g_,
                         .view = view,
@@ -296,12 +277,11 @@ private:
                         .sources = {},
                         .ambientOcclusion = occlusion,
                         .lit = in.lit};
-        const LobeLight diffuse = traceLobe(f, stores_.diffuse, lobe);
+        const LobeLight diffuse = traceLobe(f, &stores_.diffuse, lobe);
         lobe.lobe = lobeSpecular;
         lobe.settings = {.rays = 2, .adaptive = true};
-        const LobeLight specular = traceLobe(f, stores_.specular, lobe);
-        return composite(f, stores_.composite, {g_, in.direct, diffuse, specular, stores_.ggx.last()}, in.lit.next,
-                         {view, 1.0F});
+        const LobeLight specular = traceLobe(f, &stores_.specular, lobe);
+        return composite(f, {g_, in.direct, diffuse, specular, stores_.ggx.last()}, in.lit.next, {view, 1.0F});
     }
 
     Stores stores_;

@@ -36,7 +36,6 @@ protected:
         std::ranges::fill(outputs.bytes(), std::byte{0});
         OracleParams params{makeViewParams(view.camera, size, 0, 0), {}};
         params.settings.maxSteps = 4096;  // more than any ray needs
-        gpu::KeptImage pyramid("pyramid");
         Renderer renderer(device(), scene, [](const std::string&) {});
         Settings settings = settingsOf({"diffuse.rays=0", "specular.rays=0", "shadow.filter=none"});
         settings.traceScreen.thicknessMode = secondLayer ? ThicknessMode::secondLayer : ThicknessMode::constant;
@@ -45,7 +44,7 @@ protected:
                 .constant("secondLayer", secondLayer ? 1U : 0U)
                 .read("depth", images.g.depth)
                 .read("backDepth", secondLayer ? images.backDepth : images.g.depth)
-                .read("pyramid", makePyramid(f, pyramid, images.g.depth, images.backDepth))
+                .read("pyramid", makePyramid(f, images.g.depth, images.backDepth))
                 .read("geometricNormal", images.g.geometricNormal)
                 .write("outputs", outputs.view())
                 .params(params)

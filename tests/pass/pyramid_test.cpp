@@ -63,8 +63,8 @@ vec2 extremesOf(const Layers& layers, bool second, uvec2 cell, uint32_t level) {
 
 class Pyramid : public DeviceTest {
 protected:
-    static gpu::Image fill(gpu::Frame& f, gpu::Scratch& scratch, uvec2 size, const gpu::Buffer& values) {
-        const gpu::Image image = scratch.storage(VK_FORMAT_R32_SFLOAT, size);
+    static gpu::Image fill(gpu::Frame& f, uvec2 size, const gpu::Buffer& values) {
+        const gpu::Image image = f.image("depth", VK_FORMAT_R32_SFLOAT, size);
         f.compute("fill", "fill_image_test.comp").read("inputs", values.view()).write("image", image).dispatch(size);
         return image;
     }
@@ -81,11 +81,9 @@ protected:
         const gpu::Buffer back = upload(layers.back);
         gpu::Frame& f = frame();
         f.begin();
-        gpu::Scratch scratch(f);
-        gpu::KeptImage store("pyramid");
-        const gpu::Image depth = fill(f, scratch, layers.size, front);
-        const gpu::Image backDepth = second ? fill(f, scratch, layers.size, back) : gpu::Image{};
-        const gpu::Image pyramid = makePyramid(f, store, depth, backDepth);
+        const gpu::Image depth = fill(f, layers.size, front);
+        const gpu::Image backDepth = second ? fill(f, layers.size, back) : gpu::Image{};
+        const gpu::Image pyramid = makePyramid(f, depth, backDepth);
         const gpu::Readback readback = f.readback(pyramid);
         f.submit();
         f.wait();

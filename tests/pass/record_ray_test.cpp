@@ -19,9 +19,8 @@ protected:
         std::vector<std::optional<RecordedRay>> rays;
         for (const uvec2& pixel : pixels) {
             gpu::Readback readback;
-            RecordRayStore store;
             renderer.render(view_, size, 0, settings, [&](gpu::Frame& f, const FrameImages& images) {
-                readback = recordRay(f, store, {images.g, images.backDepth, images.pyramid},
+                readback = recordRay(f, {images.g, images.backDepth, images.pyramid},
                                      makeViewParams(view_.camera, size, 0, 0), settings.traceScreen, pixel);
             });
             rays.push_back(recordedRay(renderer.frame(), readback));
@@ -92,9 +91,8 @@ TEST_F(RecordRay, AsManyDiffuseRaysHitTheScreenAsInTheFrame) {
         }
         Renderer renderer(device(), scene_, [](const std::string&) {});
         gpu::Readback readback;
-        RecordRayStore store;
         renderer.render(view_, size, 0, settings, [&](gpu::Frame& f, const FrameImages& images) {
-            readback = recordHemisphere(f, store, {images.g, images.backDepth, images.pyramid},
+            readback = recordHemisphere(f, {images.g, images.backDepth, images.pyramid},
                                         makeViewParams(view_.camera, size, 0, 0), settings.traceScreen, pixel);
         });
         const std::vector<RecordedSample> samples = recordedHemisphere(renderer.frame(), readback);

@@ -27,9 +27,8 @@ protected:
                 continue;
             }
             gpu::Readback readback;
-            gpu::KeptImage image("record");
             renderer.render(view_, size, 0, settings, [&](gpu::Frame& f, const FrameImages& images) {
-                readback = recordShadow(f, image, images.g, {images.shadowMap, images.shadowRange, {}},
+                readback = recordShadow(f, images.g, {images.shadowMap, images.shadowRange, {}},
                                         {images.view, images.sun, settings.shadow, slope, pixel});
             });
             all.emplace_back(pixel, recordedShadow(renderer.frame(), readback));

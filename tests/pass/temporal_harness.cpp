@@ -28,11 +28,10 @@ std::vector<vec4> TemporalRun::add(const MadeUpFrame& picture) {
         depth.emplace_back(p.depth);
     }
     std::vector<gpu::Buffer> uploads;
-    gpu::Scratch scratch(frame_);
     const auto fill = [&](const char* name, const std::vector<vec4>& texels) {
         uploads.push_back(gpu::uploadBuffer(frame_.device(), std::as_bytes(std::span(texels)),
                                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, name));
-        const gpu::Image image = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, size_);
+        const gpu::Image image = frame_.image(name, VK_FORMAT_R16G16B16A16_SFLOAT, size_);
         frame_.compute(name, "fill_color_test.comp")
             .read("inputs", uploads.back().view())
             .write("image", image)

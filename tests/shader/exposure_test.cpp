@@ -68,9 +68,8 @@ protected:
         const gpu::Buffer depthColors = upload(depths);
         gpu::Frame& f = frame();
         f.begin();
-        gpu::Scratch scratch(f);
-        const gpu::Image radiance = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, seen.size);
-        const gpu::Image depth = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, seen.size);
+        const gpu::Image radiance = f.image("radiance", VK_FORMAT_R16G16B16A16_SFLOAT, seen.size);
+        const gpu::Image depth = f.image("depth", VK_FORMAT_R16G16B16A16_SFLOAT, seen.size);
         fill(f, colors, radiance);
         fill(f, depthColors, depth);
         const gpu::Readback copy = f.readback(measureExposure(f, *history, radiance, depth, elapsed, adaptation));

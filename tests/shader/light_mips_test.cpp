@@ -44,7 +44,9 @@ protected:
             .read("colors", upload.view())
             .write("radiance", images.light)
             .dispatch(size);
-        images.mips = makeLightMips(f, images.mipsStore, images.light);
+        const gpu::Image made = makeLightMips(f, images.light);
+        images.mips = images.mipsStore.storage(f, made.format, made.size);  // outlives the frame
+        f.copy(made, images.mips);
         images.copy = f.readback(images.mips);
         f.submit();
         f.wait();

@@ -48,14 +48,12 @@ protected:
         registerTestShaders();
         gpu::Frame& f = frame();
         f.begin();
-        gpu::Scratch scratch(f);
-        gpu::KeptImage display("display");
-        const gpu::Image radiance = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, size);
+        const gpu::Image radiance = f.image("radiance", VK_FORMAT_R16G16B16A16_SFLOAT, size);
         f.compute("fill", "tone_map_image_test.comp")
             .read("colors", upload.view())
             .write("radiance", radiance)
             .dispatch(size);
-        const gpu::Readback copy = f.readback(tonemap(f, display, radiance, settings));
+        const gpu::Readback copy = f.readback(tonemap(f, radiance, settings));
         f.submit();
         f.wait();
         const auto bytes = f.bytes(copy);

@@ -9,7 +9,7 @@ LightLayers accumulate(gpu::Recorder& f, AccumulateStore& own, const LightLayers
     const gpu::History direct = own.direct.swap(f, exact, size);
     const gpu::History diffuse = own.indirectDiffuse.swap(f, exact, size);
     const gpu::History specular = own.indirectSpecular.swap(f, exact, size);
-    const gpu::Image lit = own.lit.storage(f, exact, size);
+    const gpu::Image lit = f.image("accumulated_lit", exact, size);
     const float frames = direct.valid ? static_cast<float>(framesBefore) + 1.0F : 1.0F;
     f.compute("accumulate", "accumulate.comp")
         .read("direct", frame.direct)

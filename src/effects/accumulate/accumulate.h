@@ -39,7 +39,6 @@ struct AccumulateStore {
     gpu::HistoryImage direct{"accumulated_direct"};
     gpu::HistoryImage indirectDiffuse{"accumulated_indirect_diffuse"};
     gpu::HistoryImage indirectSpecular{"accumulated_indirect_specular"};
-    gpu::KeptImage lit{"accumulated_lit"};
 };
 
 /// The means of the layers over this frame and the `framesBefore` before it. RGBA32F, as half floats would lose a

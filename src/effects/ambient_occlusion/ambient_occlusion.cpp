@@ -22,26 +22,24 @@ SliceTracing slicesOf(const AoInputs& in) {
 
 }  // namespace
 
-gpu::Image ambientOcclusion(gpu::Recorder& f, AoStore& own, const AoInputs& in) {
+gpu::Image ambientOcclusion(gpu::Recorder& f, DenoiseStore* own, const AoInputs& in) {
     const AoSettings& s = in.settings;
     if (s.method == AoMethod::none) {
         return {};
     }
     const auto scope = f.scope("ao");
-    const RaySurfaces from = pickSurfaces(f, own.surfaces, in.g, in.view, s.downsample);
-    gpu::Scratch scratch(f);
-    const RayGeneration generation{
-        .from = from,
-        .tiles = classifyTiles(f, scratch, own.tiles, from, lobeDiffuse, {s.slices, s.slices, 1.0F}),
-        .ggxTable = in.ggxTable,
-        .blueNoise = in.blueNoise,
-        .params = {{}, {}, {}, 0, s.slices, 0.0F},
-        .directional = true};
-    LobeLight light = ambientSlices(f, own.light, generation, slicesOf(in));
+    const RaySurfaces from = pickSurfaces(f, in.g, in.view, s.downsample);
+    const RayGeneration generation{.from = from,
+                                   .tiles = classifyTiles(f, from, lobeDiffuse, {s.slices, s.slices, 1.0F}),
+                                   .ggxTable = in.ggxTable,
+                                   .blueNoise = in.blueNoise,
+                                   .params = {{}, {}, {}, 0, s.slices, 0.0F},
+                                   .directional = true};
+    LobeLight light = ambientSlices(f, generation, slicesOf(in));
     if (in.denoise.enabled != 0) {
-        light = denoise(f, own.denoise, light, lobeDiffuse, in.view, in.denoise);
+        light = denoise(f, own, light, lobeDiffuse, in.view, in.denoise);
     }
-    const gpu::Image result = own.result.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, in.g.depth.size);
+    const gpu::Image result = f.image("ambient_occlusion", VK_FORMAT_R16G16B16A16_SFLOAT, in.g.depth.size);
     f.compute("finish_ao", "finish_ao.comp")
         .constant("scale", from.scale)
         .constant("multiBounce", s.multiBounce)

@@ -80,18 +80,9 @@ struct AoInputs {
     gpu::BufferView blueNoise;
 };
 
-/// Owns the images of ambient occlusion in one view.
-struct AoStore {
-    RaySurfacesStore surfaces;
-    gpu::KeptImage tiles{"tiles"};
-    LobeLightStore light;
-    DenoiseStore denoise;
-    gpu::KeptImage result{"result"};
-};
-
 /// RGBA16F: bent normal (world space, unit: mean direction of what is open), visibility: 1 nothing near, 0 all covered;
-/// 1, and no direction, in the background. None with AoMethod::none.
-gpu::Image ambientOcclusion(gpu::Recorder& f, AoStore& own, const AoInputs& in);
+/// 1, and no direction, in the background. None with AoMethod::none. own: as of denoise().
+gpu::Image ambientOcclusion(gpu::Recorder& f, DenoiseStore* own, const AoInputs& in);
 
 /// Binds the result, which may be none, to a pass that includes ambient_visibility.glsl. scale: of the RaySurfaces
 /// whose pixels the pass looks up.

@@ -6,16 +6,13 @@
 
 namespace reflet {
 
-namespace {}  // namespace
-
-Composite composite(gpu::Recorder& f, CompositeStore& own, const CompositeInputs& in, gpu::Image lit,
-                    CompositeParams params) {
+Composite composite(gpu::Recorder& f, const CompositeInputs& in, gpu::Image lit, CompositeParams params) {
     const uvec2 size = in.g.depth.size;
-    const auto layer = [&](gpu::KeptImage& image) {
-        return in.layers ? image.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, size) : gpu::Image{};
+    const auto layer = [&](const char* name) {
+        return in.layers ? f.image(name, VK_FORMAT_R16G16B16A16_SFLOAT, size) : gpu::Image{};
     };
     const Composite result{
-        .indirectDiffuse = layer(own.indirectDiffuse), .indirectSpecular = layer(own.indirectSpecular), .lit = lit};
+        .indirectDiffuse = layer("indirect_diffuse"), .indirectSpecular = layer("indirect_specular"), .lit = lit};
     const gpu::Image unwritten = in.layers ? lit : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT);
     params.diffuseBlockOffset = blockPixelOffset(in.diffuse.from.scale);
     params.specularBlockOffset = blockPixelOffset(in.specular.from.scale);
@@ -45,8 +42,8 @@ Composite composite(gpu::Recorder& f, CompositeStore& own, const CompositeInputs
     return result;
 }
 
-gpu::Image withoutDirect(gpu::Recorder& f, gpu::KeptImage& kept, gpu::Image lit, gpu::Image direct) {
-    const gpu::Image remaining = kept.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, lit.size);
+gpu::Image withoutDirect(gpu::Recorder& f, gpu::Image lit, gpu::Image direct) {
+    const gpu::Image remaining = f.image("without_direct", VK_FORMAT_R16G16B16A16_SFLOAT, lit.size);
     f.compute("without_direct", "without_direct.comp")
         .read("lit", lit)
         .read("direct", direct)

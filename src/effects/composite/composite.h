@@ -51,18 +51,11 @@ struct Composite {
     gpu::Image lit;
 };
 
-/// Owns the layers.
-struct CompositeStore {
-    gpu::KeptImage indirectDiffuse{"indirect_diffuse"};
-    gpu::KeptImage indirectSpecular{"indirect_specular"};
-};
-
 /// Sets the block offsets of params. lit: written.
-Composite composite(gpu::Recorder& f, CompositeStore& own, const CompositeInputs& in, gpu::Image lit,
-                    CompositeParams params);
+Composite composite(gpu::Recorder& f, const CompositeInputs& in, gpu::Image lit, CompositeParams params);
 
-/// lit - direct, of the same size, at least 0. kept: written.
-gpu::Image withoutDirect(gpu::Recorder& f, gpu::KeptImage& kept, gpu::Image lit, gpu::Image direct);
+/// lit - direct, of the same size, at least 0.
+gpu::Image withoutDirect(gpu::Recorder& f, gpu::Image lit, gpu::Image direct);
 
 }  // namespace reflet
 #endif

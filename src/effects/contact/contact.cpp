@@ -3,9 +3,9 @@
 
 namespace reflet {
 
-gpu::Image contactShadow(gpu::Recorder& f, gpu::KeptImage& own, const GBuffer& g, gpu::Image pyramid,
-                         gpu::Image sunVisibility, const ContactParams& params) {
-    const gpu::Image visibility = own.storage(f, VK_FORMAT_R8_UNORM, g.depth.size);
+gpu::Image contactShadow(gpu::Recorder& f, const GBuffer& g, gpu::Image pyramid, gpu::Image sunVisibility,
+                         const ContactParams& params) {
+    const gpu::Image visibility = f.image("contact_shadow", VK_FORMAT_R8_UNORM, g.depth.size);
     f.compute("contact_shadow", "contact_shadow.comp")
         .read("depth", g.depth)
         .read("geometricNormal", g.geometricNormal)

@@ -36,8 +36,8 @@ SHARED_END
 namespace reflet {
 
 /// R8, 1: lit: the minimum of `sunVisibility` (by the shadow map) and the contact shadow. pyramid: from makePyramid.
-gpu::Image contactShadow(gpu::Recorder& f, gpu::KeptImage& own, const GBuffer& g, gpu::Image pyramid,
-                         gpu::Image sunVisibility, const ContactParams& params);
+gpu::Image contactShadow(gpu::Recorder& f, const GBuffer& g, gpu::Image pyramid, gpu::Image sunVisibility,
+                         const ContactParams& params);
 
 }  // namespace reflet
 #endif

@@ -1,8 +1,6 @@
 // Records the denoiser of indirect light.
 #include "effects/denoise/denoise.h"
 
-#include <utility>
-
 namespace reflet {
 
 namespace {
@@ -21,11 +19,10 @@ struct Gathered {
     gpu::Image nextDirectional;
 };
 
-gpu::Image tileLimits(gpu::Recorder& f, gpu::Scratch& scratch, const LobeLight& light, uint32_t lobe,
-                      const DenoiseSettings& settings) {
+gpu::Image tileLimits(gpu::Recorder& f, const LobeLight& light, uint32_t lobe, const DenoiseSettings& settings) {
     const uvec2 size = light.radiance.size;
     const uvec2 tiles = (size + denoiseTileSide - 1U) / denoiseTileSide;
-    const gpu::Image limits = scratch.storage(VK_FORMAT_R32G32_SFLOAT, tiles);
+    const gpu::Image limits = f.image("denoise.limits", VK_FORMAT_R32G32_SFLOAT, tiles);
     f.compute("denoise_tiles", "denoise_tiles.comp")
         .constant("lobe", lobe)
         .constant("meanRays", light.tiles.meanRays)
@@ -38,21 +35,19 @@ gpu::Image tileLimits(gpu::Recorder& f, gpu::Scratch& scratch, const LobeLight& 
     return limits;
 }
 
-Gathered gather(gpu::Recorder& f, gpu::Scratch& scratch, DenoiseStore& own, const LobeLight& light, uint32_t lobe,
-                const ViewParams& picture, const DenoiseSettings& settings) {
+Gathered gather(gpu::Recorder& f, DenoiseStore* own, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
+                const DenoiseSettings& settings) {
     const uvec2 size = light.radiance.size;
     const DenoiseHistory past = denoiseHistory(f, own, lobe, size, settings);
-    const gpu::Image limits = tileLimits(f, scratch, light, lobe, settings);
-    const auto image = [&](gpu::KeptImage& result) {  // without blur passes this is the result
-        return settings.passes == 0 ? result.storage(f, lightFormat, size) : scratch.storage(lightFormat, size);
-    };
+    const gpu::Image limits = tileLimits(f, light, lobe, settings);
     const bool turns = static_cast<bool>(light.directional);
-    const Gathered out{.light = image(own.denoised),
-                       .surface = past.surface.next,
-                       .moments = past.moments.next,
-                       .nextLight = past.light.next,
-                       .directional = turns ? image(own.denoisedDirectional) : f.placeholder(lightFormat),
-                       .nextDirectional = past.directional.next};
+    const Gathered out{
+        .light = f.image("denoise.gathered", lightFormat, size),
+        .surface = past.surface.next,
+        .moments = past.moments.next,
+        .nextLight = past.light.next,
+        .directional = turns ? f.image("denoise.gathered_directional", lightFormat, size) : f.placeholder(lightFormat),
+        .nextDirectional = past.directional.next};
     f.compute("denoise_gather", "denoise_gather.comp")
         .constant("lobe", lobe)
         .constant("hasImageMotion", light.imageMotion ? 1U : 0U)
@@ -86,37 +81,38 @@ Gathered gather(gpu::Recorder& f, gpu::Scratch& scratch, DenoiseStore& own, cons
 
 }  // namespace
 
-DenoiseHistory denoiseHistory(gpu::Recorder& f, DenoiseStore& own, uint32_t lobe, uvec2 size,
+DenoiseHistory denoiseHistory(gpu::Recorder& f, DenoiseStore* own, uint32_t lobe, uvec2 size,
                               const DenoiseSettings& settings) {
-    const uvec2 kept = settings.history > 0 ? size : uvec2(1);
+    if (own == nullptr || settings.history == 0) {  // what only the next frame would read is not written
+        const auto unread = [&](VkFormat format) { return gpu::History{f.placeholder(format), f.placeholder(format)}; };
+        const auto written = [&](const char* name, VkFormat format) {
+            return gpu::History{f.placeholder(format), f.image(name, format, size)};
+        };
+        return {unread(lightFormat), written("denoise.surface", surfaceFormat),
+                written("denoise.moments", momentsFormat), unread(lightFormat)};
+    }
     const bool turns = lobe == lobeDiffuse && settings.directional != 0;
-    DenoiseHistory past{own.light.swap(f, lightFormat, kept), own.surface.swap(f, surfaceFormat, size),
-                        own.moments.swap(f, momentsFormat, size),
-                        own.directional.swap(f, lightFormat, turns ? kept : uvec2(1))};
-    past.valid = settings.history > 0 && past.light.valid && past.surface.valid && past.directional.valid;
+    DenoiseHistory past{own->light.swap(f, lightFormat, size), own->surface.swap(f, surfaceFormat, size),
+                        own->moments.swap(f, momentsFormat, size),
+                        own->directional.swap(f, lightFormat, turns ? size : uvec2(1))};
+    past.valid = past.light.valid && past.surface.valid && past.directional.valid;
     return past;
 }
 
-LobeLight denoise(gpu::Recorder& f, DenoiseStore& own, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
-                  const DenoiseSettings& settings) {
-    gpu::Scratch scratch(f);
+LobeLight denoise(gpu::Recorder& f, DenoiseStore* own, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
+                  DenoiseSettings settings) {
+    settings.history = own != nullptr ? settings.history : 0;
     const uvec2 size = light.radiance.size;
-    const Gathered gathered = gather(f, scratch, own, light, lobe, picture, settings);
+    const Gathered gathered = gather(f, own, light, lobe, picture, settings);
     const auto scale = static_cast<float>(light.from.scale);
     DenoiseBlurParams params{light.from.view, settings.radius / scale, picture.pixelAngle * scale, 0};
     gpu::Image from = gathered.light;
     gpu::Image directional = gathered.directional;
     const bool turns = static_cast<bool>(light.directional);
-    gpu::Image spare;  // of an earlier pass, no longer read
-    gpu::Image spareDirectional;
     for (; params.pass < settings.passes; ++params.pass) {
-        const bool last = params.pass + 1 == settings.passes;
-        const auto image = [&](gpu::KeptImage& result, gpu::Image free) {
-            return last ? result.storage(f, lightFormat, size) : free ? free : scratch.storage(lightFormat, size);
-        };
-        const gpu::Image to = image(own.denoised, spare);
+        const gpu::Image to = f.image("denoised", lightFormat, size);
         const gpu::Image toDirectional =
-            turns ? image(own.denoisedDirectional, spareDirectional) : f.placeholder(lightFormat);
+            turns ? f.image("denoised_directional", lightFormat, size) : f.placeholder(lightFormat);
         f.compute("denoise_blur", "denoise_blur.comp")
             .constant("lobe", lobe)
             .constant("feedsBack", params.pass == 0 && settings.history > 0 ? 1U : 0U)
@@ -132,8 +128,8 @@ LobeLight denoise(gpu::Recorder& f, DenoiseStore& own, const LobeLight& light, u
             .write("blurredDirectional", toDirectional)
             .params(params)
             .dispatch(size);
-        spare = std::exchange(from, to);
-        spareDirectional = std::exchange(directional, toDirectional);
+        from = to;
+        directional = toDirectional;
         params.radius *= 0.5F;
     }
     LobeLight clean = light;

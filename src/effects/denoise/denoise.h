@@ -67,14 +67,12 @@ SHARED_END
 
 namespace reflet {
 
-/// Owns the denoiser's history and result of a lobe.
+/// Owns the denoiser's history of a lobe.
 struct DenoiseStore {
     gpu::HistoryImage light{"denoise.light"};
     gpu::HistoryImage surface{"denoise.surface"};
     gpu::HistoryImage moments{"denoise.moments"};
     gpu::HistoryImage directional{"denoise.directional"};
-    gpu::KeptImage denoised{"denoised"};
-    gpu::KeptImage denoisedDirectional{"denoised_directional"};
 };
 
 /// The denoiser's history of a lobe; images of the grid's size.
@@ -86,14 +84,14 @@ struct DenoiseHistory {
     bool valid = false;        ///< whether all `previous` images exist
 };
 
-/// The history that denoise() reads and writes in this frame. size: of the grid.
-DenoiseHistory denoiseHistory(gpu::Recorder& f, DenoiseStore& own, uint32_t lobe, uvec2 size,
+/// The history that denoise() reads and writes in this frame. own: none: there is no history. size: of the grid.
+DenoiseHistory denoiseHistory(gpu::Recorder& f, DenoiseStore* own, uint32_t lobe, uvec2 size,
                               const DenoiseSettings& settings);
 
-/// Denoises the lobe. picture: the full-resolution view of light.from. Preserves mean radiance; infinity, NaN and
-/// values beyond half floats become finite.
-LobeLight denoise(gpu::Recorder& f, DenoiseStore& own, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
-                  const DenoiseSettings& settings);
+/// Denoises the lobe. own: none: this frame alone, whatever settings.history is. picture: the full-resolution view of
+/// light.from. Preserves mean radiance; infinity, NaN and values beyond half floats become finite.
+LobeLight denoise(gpu::Recorder& f, DenoiseStore* own, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
+                  DenoiseSettings settings);
 
 }  // namespace reflet
 #endif

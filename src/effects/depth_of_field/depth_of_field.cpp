@@ -26,11 +26,11 @@ constexpr VkFormat half2Format = VK_FORMAT_R16G16_SFLOAT;
 constexpr VkFormat floatFormat = VK_FORMAT_R32_SFLOAT;
 
 // cells: of level 0, with the other levels at its right (dof_layers.glsl).
-Layers makeLayers(gpu::Scratch& scratch, uvec2 cells) {
+Layers makeLayers(gpu::Recorder& f, uvec2 cells) {
     const uvec2 levels = levelsImageSize(cells, dofLevels);
     const uvec2 size(cells.x + levels.x, std::max(cells.y, levels.y));
-    return {scratch.storage(half4Format, size), scratch.storage(half2Format, size), scratch.storage(half4Format, size),
-            scratch.storage(half2Format, size)};
+    return {f.image("dof.ground", half4Format, size), f.image("dof.ground_blur", half2Format, size),
+            f.image("dof.front", half4Format, size), f.image("dof.front_blur", half2Format, size)};
 }
 
 gpu::Pass& writeLayers(gpu::Pass& pass, const Layers& layers) {
@@ -47,15 +47,14 @@ float shapeArea(uint32_t corners) {
 }
 
 // The depth of what pixels show: of reflected images where these are most of the light.
-gpu::Image apparentDepth(gpu::Recorder& f, gpu::KeptImage& own, const DofInputs& in) {
+gpu::Image apparentDepth(gpu::Recorder& f, const DofInputs& in) {
     if (!in.reflections || in.reflections->specular.dark || in.settings.reflections == 0) {
         return in.depth;
     }
     const DofReflections& r = *in.reflections;
-    const gpu::Image apparent = own.storage(f, VK_FORMAT_R32_SFLOAT, in.depth.size);
-    gpu::Scratch scratch(f);
+    const gpu::Image apparent = f.image("apparent_depth", VK_FORMAT_R32_SFLOAT, in.depth.size);
     const uvec2 tiles = (in.depth.size + rayTileSide - 1U) / rayTileSide;
-    const gpu::BufferView list = makeTileList(f, scratch, tiles);
+    const gpu::BufferView list = makeTileList(f, tiles);
     f.compute("polished_tiles", "dof_polished_tiles.comp")
         .read("depth", in.depth)
         .read("material", r.g.material)
@@ -80,9 +79,8 @@ gpu::Image apparentDepth(gpu::Recorder& f, gpu::KeptImage& own, const DofInputs&
     return apparent;
 }
 
-gpu::Image circleOfConfusion(gpu::Recorder& f, DofStore& store, const DofInputs& in, float height) {
+gpu::Image circleOfConfusion(gpu::Recorder& f, gpu::HistoryImage& own, const DofInputs& in, float height) {
     const uvec2 size = in.depth.size;
-    gpu::HistoryImage& own = store.coc;
     const gpu::History coc = own.swap(f, VK_FORMAT_R32_SFLOAT, size);
     const bool steady = in.motion && coc.valid;
     const bool orthographic = in.view.eye.w == 0.0F;
@@ -91,7 +89,7 @@ gpu::Image circleOfConfusion(gpu::Recorder& f, DofStore& store, const DofInputs&
     const vec4 lens(atInfinity, 1.0F / in.lens.focusDistance, orthographic ? 1.0F : 0.0F,
                     in.settings.maxRadius * height);
     f.compute("coc", "dof_coc.comp")
-        .read("depth", apparentDepth(f, store.apparentDepth, in))
+        .read("depth", apparentDepth(f, in))
         .read("motion", steady ? in.motion : f.placeholder(VK_FORMAT_R16G16_SFLOAT))
         .read("previous", coc.previous)
         .write("coc", coc.next)
@@ -124,14 +122,14 @@ struct Tiles {
     gpu::BufferView heads;
 };
 
-Tiles describeTiles(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& layers, const DofSizes& sizes) {
+Tiles describeTiles(gpu::Recorder& f, const Layers& layers, const DofSizes& sizes) {
     const uvec2 count = (sizes.half2 + dofTile - 1U) / dofTile;
     const uint32_t rows = (count.x * count.y + dofListRow - 1U) / dofListRow;
     std::array<DofListHead, dofLists> heads{};
     heads.fill({{dofListRow, 0, 1}, 0});
-    const Tiles tiles{scratch.storage(half4Format, count), scratch.storage(half4Format, count),
-                      scratch.storage(VK_FORMAT_R32_UINT, {dofListRow * dofGroupTiles, dofLists * rows}),
-                      scratch.buffer(sizeof(heads))};
+    const Tiles tiles{f.image("dof.tiles", half4Format, count), f.image("dof.small_disks", half4Format, count),
+                      f.image("dof.tile_lists", VK_FORMAT_R32_UINT, {dofListRow * dofGroupTiles, dofLists * rows}),
+                      f.buffer("dof.heads", sizeof(heads))};
     f.update(tiles.heads, std::as_bytes(std::span(heads)));
     f.clear(tiles.lists, {.uint32 = {~0U, ~0U, ~0U, ~0U}});
     f.compute("tiles", "dof_tiles.comp")
@@ -154,11 +152,12 @@ struct Highlights {
 };
 
 // Takes highlights out of the layers.
-Highlights findHighlights(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& layers, const Tiles& tiles,
-                          gpu::Image radiance, gpu::Image coc, const DofSizes& sizes) {
+Highlights findHighlights(gpu::Recorder& f, const Layers& layers, const Tiles& tiles, gpu::Image radiance,
+                          gpu::Image coc, const DofSizes& sizes) {
     const uvec2 blocks = (sizes.size + sizes.block - 1U) / sizes.block;
-    const Highlights out{scratch.storage(half4Format, blocks), scratch.storage(half4Format, blocks),
-                         scratch.storage(half4Format, tiles.layers.size)};
+    const Highlights out{f.image("dof.highlights", half4Format, blocks),
+                         f.image("dof.highlight_shape", half4Format, blocks),
+                         f.image("dof.lists", half4Format, tiles.layers.size)};
     gpu::Pass find = f.compute("highlights", "dof_highlights.comp");
     find.read("radiance", radiance).read("coc", coc).read("tiles", tiles.layers);
     writeLayers(find, layers)
@@ -183,10 +182,10 @@ struct Reach {
 };
 
 // around: tiles that the largest disk reaches.
-Reach makeReach(gpu::Recorder& f, gpu::Scratch& scratch, const Tiles& tiles, gpu::Image lists, uint32_t around) {
+Reach makeReach(gpu::Recorder& f, const Tiles& tiles, gpu::Image lists, uint32_t around) {
     const uvec2 count = tiles.layers.size;
-    const Reach reach{scratch.storage(half4Format, count), scratch.storage(floatFormat, count),
-                      scratch.storage(floatFormat, (2U * around + 1U) * count)};
+    const Reach reach{f.image("dof.reach", half4Format, count), f.image("dof.drawn", floatFormat, count),
+                      f.image("dof.drawn_tiles", floatFormat, (2U * around + 1U) * count)};
     f.compute("reach", "dof_reach.comp")
         .constant("around", around)
         .read("tiles", tiles.layers)
@@ -207,11 +206,11 @@ struct Blurred {
 };
 
 // large: the result for large disks, at half of `size`; none: makes it.
-Blurred gather(gpu::Recorder& f, gpu::Scratch& scratch, const Layers& layers, const Tiles& tiles, const Reach& reach,
-               const DofInputs& in, const DofSizes& sizes, const Blurred& large) {
+Blurred gather(gpu::Recorder& f, const Layers& layers, const Tiles& tiles, const Reach& reach, const DofInputs& in,
+               const DofSizes& sizes, const Blurred& large) {
     const bool coarse = !large.ground;
     const uvec2 size = levelSize(sizes.half2, coarse ? 1 : 0);
-    const Blurred out{scratch.storage(half4Format, size), scratch.storage(half4Format, size)};
+    const Blurred out{f.image("dof.ground_out", half4Format, size), f.image("dof.front_out", half4Format, size)};
     // Tiles that are not gathered are looked up beside others.
     f.clear(out.ground);
     f.clear(out.front);
@@ -243,7 +242,7 @@ bool blurs(const Lens& lens, const DofSettings& settings) {
     return settings.enabled != 0 && lens.apertureRadius > 0.0F;
 }
 
-DofImages depthOfField(gpu::Recorder& f, DofStore& own, const DofInputs& in) {
+DofImages depthOfField(gpu::Recorder& f, gpu::HistoryImage& own, const DofInputs& in) {
     if (!blurs(in.lens, in.settings)) {
         return {in.radiance, {}};
     }
@@ -260,21 +259,20 @@ DofImages depthOfField(gpu::Recorder& f, DofStore& own, const DofInputs& in) {
                          1.0F / shapeArea(in.lens.blades),
                          in.lens.bladeRotation,
                          in.lens.blades};
-    gpu::Scratch scratch(f);
-    const Layers layers = makeLayers(scratch, sizes.half2);
+    const Layers layers = makeLayers(f, sizes.half2);
     gpu::Pass split = f.compute("split", "dof_split.comp");
     split.read("radiance", in.radiance).read("coc", coc);
     writeLayers(split, layers).params(sizes).dispatch(sizes.half2);
-    const Tiles tiles = describeTiles(f, scratch, layers, sizes);
-    const Highlights highlights = findHighlights(f, scratch, layers, tiles, in.radiance, coc, sizes);
+    const Tiles tiles = describeTiles(f, layers, sizes);
+    const Highlights highlights = findHighlights(f, layers, tiles, in.radiance, coc, sizes);
     makeMips(f, layers, sizes);
     // Holes are filled from up to three tiles away.
     const float largest = 0.5F * in.settings.maxRadius * height;
     const uint32_t around = 1U + std::max(static_cast<uint32_t>(std::ceil(largest / static_cast<float>(dofTile))), 3U);
-    const Reach reach = makeReach(f, scratch, tiles, highlights.lists, around);
-    const Blurred large = gather(f, scratch, layers, tiles, reach, in, sizes, {});
-    const Blurred all = gather(f, scratch, layers, tiles, reach, in, sizes, large);
-    const gpu::Image result = own.result.storage(f, half4Format, size);
+    const Reach reach = makeReach(f, tiles, highlights.lists, around);
+    const Blurred large = gather(f, layers, tiles, reach, in, sizes, {});
+    const Blurred all = gather(f, layers, tiles, reach, in, sizes, large);
+    const gpu::Image result = f.image("depth_of_field", half4Format, size);
     for (uint32_t list = dofComposite; list <= dofCopy; ++list) {
         f.compute("composite", "dof_composite.comp")
             .constant("around", around)

@@ -138,13 +138,6 @@ struct DofInputs {
     std::optional<DofReflections> reflections{};  ///< none: reflections are blurred by their surface's distance
 };
 
-/// Owns the images of depth of field.
-struct DofStore {
-    gpu::KeptImage apparentDepth{"apparent_depth"};
-    gpu::HistoryImage coc{"circle_of_confusion"};
-    gpu::KeptImage result{"depth_of_field"};
-};
-
 struct DofImages {
     gpu::Image radiance;  ///< RGBA16F of the picture's size; the input without an effect
     gpu::Image coc;  ///< R32F of the depth's size: signed radius in pixels of the picture, negative in front of the
@@ -154,7 +147,8 @@ struct DofImages {
 /// Whether the picture is blurred at all.
 bool blurs(const Lens& lens, const DofSettings& settings);
 
-DofImages depthOfField(gpu::Recorder& f, DofStore& own, const DofInputs& in);
+/// coc: the history of DofImages::coc.
+DofImages depthOfField(gpu::Recorder& f, gpu::HistoryImage& coc, const DofInputs& in);
 
 }  // namespace reflet
 #endif

@@ -14,9 +14,9 @@ gpu::Image ggxTable(gpu::Recorder& f, gpu::KeptImage& own) {
     return table;
 }
 
-gpu::Image directLight(gpu::Recorder& f, gpu::KeptImage& own, const GBuffer& g, const LightVisibility& visibility,
-                       gpu::Image ggxTable, const DirectParams& params, const DirectLights& lights) {
-    const gpu::Image direct = own.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size);
+gpu::Image directLight(gpu::Recorder& f, const GBuffer& g, const LightVisibility& visibility, gpu::Image ggxTable,
+                       const DirectParams& params, const DirectLights& lights) {
+    const gpu::Image direct = f.image("direct", VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size);
     // Always bound, but not read if no lamp casts a shadow.
     const gpu::Image lampVisibility =
         visibility.lamps ? visibility.lamps : f.placeholder(VK_FORMAT_R8G8B8A8_UNORM, gpu::ViewKind::array);

@@ -43,8 +43,8 @@ struct DirectLights {
 };
 
 /// RGBA16F: radiance of direct light, emission and background, alpha 1.
-gpu::Image directLight(gpu::Recorder& f, gpu::KeptImage& own, const GBuffer& g, const LightVisibility& visibility,
-                       gpu::Image ggxTable, const DirectParams& params, const DirectLights& lights);
+gpu::Image directLight(gpu::Recorder& f, const GBuffer& g, const LightVisibility& visibility, gpu::Image ggxTable,
+                       const DirectParams& params, const DirectLights& lights);
 
 }  // namespace reflet
 #endif

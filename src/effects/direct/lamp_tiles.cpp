@@ -5,15 +5,15 @@
 
 namespace reflet {
 
-LampTiles findLampTiles(gpu::Recorder& f, LampTilesStore& own, gpu::Image depth, const LampBlock& lamps,
-                        const ViewParams& view, const DirectSettings& settings) {
+LampTiles findLampTiles(gpu::Recorder& f, gpu::Image depth, const LampBlock& lamps, const ViewParams& view,
+                        const DirectSettings& settings) {
     const uvec2 tiles = (depth.size + lampTileSide - 1U) / lampTileSide;
     const uint32_t layers = std::max((lamps.count + lampsPerLayer - 1) / lampsPerLayer, 1U);
-    LampTiles found{own.masks.storage(f, VK_FORMAT_R32G32B32A32_UINT, tiles, layers, /*array=*/true), {}};
+    LampTiles found{f.image("lamp_tiles", VK_FORMAT_R32G32B32A32_UINT, tiles, layers, /*array=*/true), {}};
     if (lamps.count == 0) {
         return found;
     }
-    found.count = own.count.storage(f, VK_FORMAT_R32_SFLOAT, tiles);
+    found.count = f.image("lamp_count", VK_FORMAT_R32_SFLOAT, tiles);
     constexpr uint32_t threads = 8;  // along each side of a tile's thread group
     f.compute("lamp_tiles", "lamp_tiles.comp")
         .read("depth", depth)

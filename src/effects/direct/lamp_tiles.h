@@ -36,15 +36,9 @@ struct LampTiles {
     gpu::Image count;  ///< R32F: number of lamps that may light the tile; none without lamps
 };
 
-/// Owns the images of LampTiles.
-struct LampTilesStore {
-    gpu::KeptImage masks{"lamp_tiles"};
-    gpu::KeptImage count{"lamp_count"};
-};
-
 /// Conservative: includes every lamp that lights a surface of the tile. With lampTiles off, every tile gets all lamps.
-LampTiles findLampTiles(gpu::Recorder& f, LampTilesStore& own, gpu::Image depth, const LampBlock& lamps,
-                        const ViewParams& view, const DirectSettings& settings);
+LampTiles findLampTiles(gpu::Recorder& f, gpu::Image depth, const LampBlock& lamps, const ViewParams& view,
+                        const DirectSettings& settings);
 
 }  // namespace reflet
 #endif

@@ -16,9 +16,8 @@ uint32_t meterStep(uvec2 size) {
 
 gpu::Image measureExposure(gpu::Recorder& f, gpu::HistoryImage& own, gpu::Image radiance, gpu::Image depth,
                            float elapsed, float adaptation) {
-    gpu::Scratch scratch(f);
     const auto scope = f.scope("exposure");
-    const gpu::BufferView histogram = scratch.buffer(meterSize * sizeof(uint32_t));
+    const gpu::BufferView histogram = f.buffer("histogram", meterSize * sizeof(uint32_t));
     constexpr std::array<uint32_t, meterSize> none{};
     f.update(histogram, std::as_bytes(std::span(none)));
     const uint32_t step = meterStep(radiance.size);

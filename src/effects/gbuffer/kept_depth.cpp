@@ -20,12 +20,11 @@ KeptDepthParams keptDepthParams(const ViewParams& view, DepthBuffer buffer) {
     return {farDepth, steps, uvec2(view.size)};
 }
 
-gpu::Image keptDepth(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image depth, const ViewParams& view,
-                     const DepthSettings& settings) {
+gpu::Image keptDepth(gpu::Recorder& f, gpu::Image depth, const ViewParams& view, const DepthSettings& settings) {
     if (settings.format == DepthBuffer::reversedFloat) {
         return depth;
     }
-    const gpu::Image kept = own.storage(f, VK_FORMAT_R32_SFLOAT, depth.size);
+    const gpu::Image kept = f.image("kept_depth", VK_FORMAT_R32_SFLOAT, depth.size);
     f.compute("kept_depth", "kept_depth.comp")
         .read("depth", depth)
         .write("kept", kept)

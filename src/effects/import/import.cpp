@@ -3,25 +3,25 @@
 
 namespace reflet {
 
-ImportedSurfaces importSurfaces(gpu::Recorder& f, ImportStore& own, const HostSurfaces& host, ImportParams params) {
+ImportedSurfaces importSurfaces(gpu::Recorder& f, const HostSurfaces& host, ImportParams params) {
     const uvec2 size = host.depth.size;
     ImportedSurfaces out;
     const gpu::Image placeholder = f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT);
     const auto given = [&](gpu::Image image) { return image ? image : placeholder; };
     const auto has = [](gpu::Image image) { return image ? 1U : 0U; };
     GBuffer& g = out.g;
-    g.depth = own.depth.storage(f, VK_FORMAT_R32_SFLOAT, size);
-    g.normal = own.normal.storage(f, VK_FORMAT_R32_UINT, size);
-    g.geometricNormal = own.geometricNormal.storage(f, VK_FORMAT_R32_UINT, size);
-    g.baseColor = own.baseColor.storage(f, VK_FORMAT_A2B10G10R10_UNORM_PACK32, size);
-    g.material = own.material.storage(f, VK_FORMAT_R8G8B8A8_UNORM, size);
-    g.motion = own.motion.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, size);
+    g.depth = f.image("depth", VK_FORMAT_R32_SFLOAT, size);
+    g.normal = f.image("normal", VK_FORMAT_R32_UINT, size);
+    g.geometricNormal = f.image("geometric_normal", VK_FORMAT_R32_UINT, size);
+    g.baseColor = f.image("base_color", VK_FORMAT_A2B10G10R10_UNORM_PACK32, size);
+    g.material = f.image("material", VK_FORMAT_R8G8B8A8_UNORM, size);
+    g.motion = f.image("motion", VK_FORMAT_R16G16B16A16_SFLOAT, size);
     if (host.f0) {
-        g.reflectance = own.reflectance.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, size);
+        g.reflectance = f.image("reflectance", VK_FORMAT_R16G16B16A16_SFLOAT, size);
         g.features = materialFeatureReflectance;
     }
     if (host.backDepth) {
-        out.backDepth = own.backDepth.storage(f, VK_FORMAT_R32_SFLOAT, size);
+        out.backDepth = f.image("back_depth", VK_FORMAT_R32_SFLOAT, size);
     }
     params.roughnessChannel = host.roughnessChannel;
     params.metallicChannel = host.metallicChannel;
@@ -59,8 +59,8 @@ ImportedSurfaces importSurfaces(gpu::Recorder& f, ImportStore& own, const HostSu
     return out;
 }
 
-gpu::Image importLight(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image light, bool keepAlpha) {
-    const gpu::Image out = own.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, light.size);
+gpu::Image importLight(gpu::Recorder& f, gpu::Image light, bool keepAlpha, gpu::Image into) {
+    const gpu::Image out = into ? into : f.image("light", VK_FORMAT_R16G16B16A16_SFLOAT, light.size);
     f.compute("import.light", "import_light.comp")
         .constant("keepAlpha", keepAlpha ? 1 : 0)
         .read("hostLight", light)
@@ -70,9 +70,9 @@ gpu::Image importLight(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image light, 
     return out;
 }
 
-gpu::Image importShadowMap(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image map, uint32_t cascades, bool reversed) {
+gpu::Image importShadowMap(gpu::Recorder& f, gpu::Image map, uint32_t cascades, bool reversed) {
     const uvec2 tiles(cascades > 1 ? 2 : 1, cascades > 2 ? 2 : 1);
-    const gpu::Image out = own.storage(f, VK_FORMAT_R32_SFLOAT, map.size * tiles);
+    const gpu::Image out = f.image("shadow_map", VK_FORMAT_R32_SFLOAT, map.size * tiles);
     f.compute("import.shadow", cascades > 1 ? "import_shadow_array.comp" : "import_shadow.comp")
         .constant("reversed", reversed ? 1 : 0)
         .read("hostMap", map)

@@ -63,31 +63,20 @@ struct HostSurfaces {
     gpu::Image backDepth;
 };
 
-/// Owns the imported images.
-struct ImportStore {
-    gpu::KeptImage depth{"depth"};
-    gpu::KeptImage normal{"normal"};
-    gpu::KeptImage geometricNormal{"geometric_normal"};
-    gpu::KeptImage baseColor{"base_color"};
-    gpu::KeptImage material{"material"};
-    gpu::KeptImage motion{"motion"};
-    gpu::KeptImage reflectance{"reflectance"};
-    gpu::KeptImage backDepth{"back_depth"};
-};
-
 struct ImportedSurfaces {
     GBuffer g;             ///< without emissive; depth is R32F
     gpu::Image backDepth;  ///< R32F, reversed; none if the host has none
 };
 
 /// params: without the channels, which are set.
-ImportedSurfaces importSurfaces(gpu::Recorder& f, ImportStore& own, const HostSurfaces& host, ImportParams params);
+ImportedSurfaces importSurfaces(gpu::Recorder& f, const HostSurfaces& host, ImportParams params);
 
-/// RGBA16F of the same size: finite, 0 to 65504. alpha: as given, or 1.
-gpu::Image importLight(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image light, bool keepAlpha = false);
+/// RGBA16F of the same size: finite, 0 to 65504. alpha: as given, or 1. into: where it is written;
+/// none: an image of this frame.
+gpu::Image importLight(gpu::Recorder& f, gpu::Image light, bool keepAlpha = false, gpu::Image into = {});
 
 /// R32F: the cascades' maps as tiles, depth reversed (SunShadowParams). map: a 2D array view if there are several.
-gpu::Image importShadowMap(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image map, uint32_t cascades, bool reversed);
+gpu::Image importShadowMap(gpu::Recorder& f, gpu::Image map, uint32_t cascades, bool reversed);
 
 }  // namespace reflet
 #endif

@@ -21,7 +21,7 @@ SHARED_END
 namespace reflet {
 
 /// RGBA16F: level 1 and up of an RGBA16F image. Each cell is the mean of its pixels; cells at edges may have fewer.
-gpu::Image makeLightMips(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image light);
+gpu::Image makeLightMips(gpu::Recorder& f, gpu::Image light);
 
 }  // namespace reflet
 #endif

@@ -21,12 +21,12 @@ uint32_t adaptiveRayLimit(gpu::Recorder& f, uvec2 size, uint32_t mean) {
     return std::max(raysPerBatch(f, size, std::min(mostTimes * mean, maxAdaptiveRays)), mean);
 }
 
-RayTiles shareRays(gpu::Recorder& f, gpu::Scratch& scratch, gpu::HistoryImage& own, const RaySurfaces& from,
-                   uint32_t lobe, const RayCounts& counts, const LobeHistory& past) {
+RayTiles shareRays(gpu::Recorder& f, gpu::HistoryImage& own, const RaySurfaces& from, uint32_t lobe,
+                   const RayCounts& counts, const LobeHistory& past) {
     const uvec2 size = (from.g.depth.size + rayTileSide - 1U) / rayTileSide;
-    const gpu::Image noise = scratch.storage(VK_FORMAT_R32G32_SFLOAT, size);
+    const gpu::Image noise = f.image("noise", VK_FORMAT_R32G32_SFLOAT, size);
     const gpu::History tiles = own.swap(f, VK_FORMAT_R32G32_SFLOAT, size);
-    const gpu::BufferView histogram = scratch.buffer(histogramSize * sizeof(uint32_t));
+    const gpu::BufferView histogram = f.buffer("noise_histogram", histogramSize * sizeof(uint32_t));
     constexpr std::array<uint32_t, histogramSize> none{};
     f.update(histogram, std::as_bytes(std::span(none)));
     gpu::Pass pass = f.compute("measure_noise", "measure_noise.comp");
@@ -46,7 +46,7 @@ RayTiles shareRays(gpu::Recorder& f, gpu::Scratch& scratch, gpu::HistoryImage& o
         .params(MeasureNoiseParams{from.view, vec2(past.lit.size) / static_cast<float>(from.scale), past.lit.size,
                                    from.scale, blockPixelOffset(from.scale), past.valid && tiles.valid ? 1U : 0U})
         .dispatch(size);
-    const gpu::BufferView list = makeTileList(f, scratch, size);
+    const gpu::BufferView list = makeTileList(f, size);
     const auto mean = static_cast<float>(counts.rays);
     const uint32_t most = adaptiveRayLimit(f, from.g.depth.size, counts.rays);
     f.compute("share_rays", "share_rays.comp")

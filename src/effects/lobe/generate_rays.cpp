@@ -35,19 +35,18 @@ gpu::Pass& bindDiffuseRays(gpu::Pass& pass, const RayGeneration& in) {
         .params(params, "rayParams");
 }
 
-Rays raysOf(gpu::Recorder& f, gpu::Scratch& scratch, const RayGeneration& in) {
+Rays raysOf(gpu::Recorder& f, const RayGeneration& in) {
     const uvec2 size = in.from.g.depth.size;
     const uint32_t layers = in.params.rayCount;
     Rays rays{.from = in.from,
               .tiles = in.tiles,
-              .direction = scratch.storage(VK_FORMAT_R32G32_UINT, size, layers, true),
-              .answer = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, size, layers, true),
-              .source = scratch.storage(VK_FORMAT_R8G8B8A8_UNORM, size, layers, true),
-              .steps = in.countSteps ? scratch.storage(VK_FORMAT_R32_SFLOAT, size, layers, true)
+              .direction = f.image("ray_direction", VK_FORMAT_R32G32_UINT, size, layers, true),
+              .answer = f.image("ray_answer", VK_FORMAT_R16G16B16A16_SFLOAT, size, layers, true),
+              .source = f.image("ray_source", VK_FORMAT_R8G8B8A8_UNORM, size, layers, true),
+              .steps = in.countSteps ? f.image("ray_steps", VK_FORMAT_R32_SFLOAT, size, layers, true)
                                      : f.placeholder(VK_FORMAT_R32_SFLOAT, gpu::ViewKind::array),
               .imageMotion = in.imageMotion,
               .waiting = {},
-              .scratch = &scratch,
               .firstRay = in.params.firstRay,
               .count = layers,
               .lobe = in.lobe,
@@ -61,8 +60,8 @@ Rays raysOf(gpu::Recorder& f, gpu::Scratch& scratch, const RayGeneration& in) {
     return rays;
 }
 
-Rays generateRays(gpu::Recorder& f, gpu::Scratch& scratch, const RayGeneration& in) {
-    Rays rays = raysOf(f, scratch, in);
+Rays generateRays(gpu::Recorder& f, const RayGeneration& in) {
+    Rays rays = raysOf(f, in);
     gpu::Pass pass = f.compute("generate_rays", "generate_rays.comp");
     bindGeneration(f, pass, in)
         .constant("adaptive", in.tiles.meanRays > 0 ? 1U : 0U)
@@ -75,12 +74,9 @@ Rays generateRays(gpu::Recorder& f, gpu::Scratch& scratch, const RayGeneration& 
     return rays;
 }
 
-LobeLight traceAtOnce(gpu::Recorder& f, LobeLightStore& own, const RayGeneration& in, const ScreenSource& screen,
-                      const EnvironmentSource& environment) {
+void traceAtOnce(gpu::Recorder& f, const LobeLight& light, const RayGeneration& in, const ScreenSource& screen,
+                 const EnvironmentSource& environment) {
     const uvec2 size = in.from.g.depth.size;
-    LobeLight light = lobeImages(f, own, in.from, in.countSteps);
-    light.tiles = in.tiles;
-    light.directional = in.directional ? own.directional.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, size) : gpu::Image{};
     const bool traced = screen.images != nullptr;
     const ScreenImages nothing{.g = in.from.g, .view = in.from.view};
     gpu::Pass pass = f.compute("trace_at_once", "trace_at_once.comp");
@@ -98,7 +94,6 @@ LobeLight traceAtOnce(gpu::Recorder& f, LobeLightStore& own, const RayGeneration
         .constant("environmentLights", environment.settings.enabled)
         .params(AnswerEnvironmentParams{environment.settings}, "environmentAnswer")
         .dispatchStrips(size);
-    return light;
 }
 
 }  // namespace reflet

@@ -30,16 +30,13 @@ struct LobeInputs {
     float coneShare = 0.0F;              ///< of GenerateRaysParams
 };
 
-/// Owns the images of a lobe in one view.
+/// Owns the histories of a lobe in one view.
 struct LobeStore {
-    RaySurfacesStore surfaces;
-    gpu::KeptImage tiles{"tiles"};
     gpu::HistoryImage adaptiveTiles{"adaptive_tiles"};
-    LobeLightStore light;
     DenoiseStore denoise;
 };
 
-/// The light of the lobe; black with no rays.
-LobeLight traceLobe(gpu::Recorder& f, LobeStore& own, const LobeInputs& in);
+/// The light of the lobe; black with no rays. own: none: without history, whatever the settings are.
+LobeLight traceLobe(gpu::Recorder& f, LobeStore* own, const LobeInputs& in);
 
 }  // namespace reflet

@@ -27,24 +27,24 @@ ViewParams viewOfBlocks(const ViewParams& view, uint32_t scale) {
     return v;
 }
 
-RaySurfaces pickSurfaces(gpu::Recorder& f, RaySurfacesStore& own, const GBuffer& g, const ViewParams& view,
-                         uint32_t scale) {
+RaySurfaces pickSurfaces(gpu::Recorder& f, const GBuffer& g, const ViewParams& view, uint32_t scale) {
     if (scale == 1) {
         return {.g = g, .view = view, .scale = scale};
     }
     const ViewParams blocks = viewOfBlocks(view, scale);
     const uvec2 size(blocks.size);
-    const GBuffer picked{
-        .depth = own.depth.storage(f, VK_FORMAT_R32_SFLOAT, size),
-        .normal = own.normal.storage(f, VK_FORMAT_R32_UINT, size),
-        .geometricNormal = own.geometricNormal.storage(f, VK_FORMAT_R32_UINT, size),
-        .baseColor = own.baseColor.storage(f, VK_FORMAT_R8G8B8A8_UNORM, size),
-        .material = own.material.storage(f, VK_FORMAT_R8G8B8A8_UNORM, size),
-        .emissive = {},
-        .motion = own.motion.storage(f, VK_FORMAT_R16G16_SFLOAT, size),
-        .reflectance = g.reflectance ? own.reflectance.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, size) : gpu::Image{},
-        .layers = g.layers ? own.layers.storage(f, VK_FORMAT_R32G32_UINT, size) : gpu::Image{},
-        .features = g.features};
+    const GBuffer picked{.depth = f.image("surfaces.depth", VK_FORMAT_R32_SFLOAT, size),
+                         .normal = f.image("surfaces.normal", VK_FORMAT_R32_UINT, size),
+                         .geometricNormal = f.image("surfaces.geometric_normal", VK_FORMAT_R32_UINT, size),
+                         .baseColor = f.image("surfaces.base_color", VK_FORMAT_R8G8B8A8_UNORM, size),
+                         .material = f.image("surfaces.material", VK_FORMAT_R8G8B8A8_UNORM, size),
+                         .emissive = {},
+                         .motion = f.image("surfaces.motion", VK_FORMAT_R16G16_SFLOAT, size),
+                         .reflectance = g.reflectance
+                                            ? f.image("surfaces.reflectance", VK_FORMAT_R16G16B16A16_SFLOAT, size)
+                                            : gpu::Image{},
+                         .layers = g.layers ? f.image("surfaces.layers", VK_FORMAT_R32G32_UINT, size) : gpu::Image{},
+                         .features = g.features};
     gpu::Pass pass = f.compute("pick_surfaces", "pick_surfaces.comp");
     bindSurfaces(f, pass, g)
         .read("depth", g.depth)

@@ -45,22 +45,9 @@ constexpr uint32_t blockPixelOffset(uint32_t scale) {
 /// The view of a coarse grid: ceil(size / scale) pixels.
 ViewParams viewOfBlocks(const ViewParams& view, uint32_t scale);
 
-/// Owns the images of a coarse grid.
-struct RaySurfacesStore {
-    gpu::KeptImage depth{"surfaces.depth"};
-    gpu::KeptImage normal{"surfaces.normal"};
-    gpu::KeptImage geometricNormal{"surfaces.geometric_normal"};
-    gpu::KeptImage baseColor{"surfaces.base_color"};
-    gpu::KeptImage material{"surfaces.material"};
-    gpu::KeptImage motion{"surfaces.motion"};
-    gpu::KeptImage reflectance{"surfaces.reflectance"};
-    gpu::KeptImage layers{"surfaces.layers"};
-};
-
 /// The surfaces of a grid with blocks of scale x scale pixels; with 1 nothing is copied. A block whose picked pixel
 /// lies outside of the image counts as sky.
-RaySurfaces pickSurfaces(gpu::Recorder& f, RaySurfacesStore& own, const GBuffer& g, const ViewParams& view,
-                         uint32_t scale);
+RaySurfaces pickSurfaces(gpu::Recorder& f, const GBuffer& g, const ViewParams& view, uint32_t scale);
 
 }  // namespace reflet
 #endif

@@ -7,19 +7,18 @@
 
 namespace reflet {
 
-gpu::BufferView makeTileList(gpu::Recorder& f, gpu::Scratch& scratch, uvec2 tiles) {
+gpu::BufferView makeTileList(gpu::Recorder& f, uvec2 tiles) {
     const VkDeviceSize items = VkDeviceSize(tiles.x) * tiles.y;
-    const gpu::BufferView list = scratch.buffer(rayListHeader + items * sizeof(uint32_t));
+    const gpu::BufferView list = f.buffer("tile_list", rayListHeader + items * sizeof(uint32_t));
     constexpr uint32_t empty[] = {tileListRow, 0, 1, 0};
     f.update(list, std::as_bytes(std::span(empty)));
     return list;
 }
 
-RayTiles classifyTiles(gpu::Recorder& f, gpu::Scratch& scratch, gpu::KeptImage& own, const RaySurfaces& from,
-                       uint32_t lobe, const RayCounts& counts) {
+RayTiles classifyTiles(gpu::Recorder& f, const RaySurfaces& from, uint32_t lobe, const RayCounts& counts) {
     const uvec2 size = (from.g.depth.size + rayTileSide - 1U) / rayTileSide;
     const bool varies = lobe == lobeSpecular && counts.roughRays < 1.0F;
-    const RayTiles tiles{own.storage(f, VK_FORMAT_R32G32_SFLOAT, size), makeTileList(f, scratch, size),
+    const RayTiles tiles{f.image("tiles", VK_FORMAT_R32G32_SFLOAT, size), makeTileList(f, size),
                          varies ? counts.rays : 0, counts.rays};
     f.compute("classify_tiles", "classify_tiles.comp")
         .constant("lobe", lobe)

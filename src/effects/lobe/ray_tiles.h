@@ -59,12 +59,10 @@ struct RayCounts {
 };
 
 /// An empty list with room for all tiles.
-gpu::BufferView makeTileList(gpu::Recorder& f, gpu::Scratch& scratch, uvec2 tiles);
+gpu::BufferView makeTileList(gpu::Recorder& f, uvec2 tiles);
 
-/// The same ray count for all pixels in tiles that have the lobe, but for rough tiles. The list lives as long as
-/// `scratch`.
-RayTiles classifyTiles(gpu::Recorder& f, gpu::Scratch& scratch, gpu::KeptImage& own, const RaySurfaces& from,
-                       uint32_t lobe, const RayCounts& counts);
+/// The same ray count for all pixels in tiles that have the lobe, but for rough tiles.
+RayTiles classifyTiles(gpu::Recorder& f, const RaySurfaces& from, uint32_t lobe, const RayCounts& counts);
 
 }  // namespace reflet
 #endif

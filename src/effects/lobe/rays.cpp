@@ -25,29 +25,32 @@ bool raysSpread(uint32_t lobe, const DiffuseSettings& diffuse, const SpecularSet
 gpu::BufferView makeRayList(gpu::Recorder& f, const Rays& rays) {
     const uvec2 size = rays.direction.size;
     const VkDeviceSize items = VkDeviceSize(size.x) * size.y * rays.direction.layers;
-    const gpu::BufferView list = rays.scratch->buffer(rayListHeader + items * sizeof(RayItem));
+    const gpu::BufferView list = f.buffer("rays", rayListHeader + items * sizeof(RayItem));
     constexpr uint32_t empty[] = {0, 1, 1, 0};
     f.update(list, std::as_bytes(std::span(empty)));
     return list;
 }
 
-LobeLight lobeImages(gpu::Recorder& f, LobeLightStore& own, const RaySurfaces& from, bool countSteps) {
+LobeLight lobeImages(gpu::Recorder& f, const RaySurfaces& from, bool countSteps, bool directional) {
     const uvec2 size = from.g.depth.size;
     LobeLight light{.from = from,
-                    .radiance = own.radiance.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, size),
-                    .source = own.source.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, size),
+                    .radiance = f.image("radiance", VK_FORMAT_R16G16B16A16_SFLOAT, size),
+                    .source = f.image("source", VK_FORMAT_R16G16B16A16_SFLOAT, size),
                     .steps = {},
                     .tiles = {},
                     .imageMotion = {},
                     .directional = {}};
+    if (directional) {
+        light.directional = f.image("directional", VK_FORMAT_R16G16B16A16_SFLOAT, size);
+    }
     if (countSteps) {
-        light.steps = own.steps.storage(f, VK_FORMAT_R32_SFLOAT, size);
+        light.steps = f.image("steps", VK_FORMAT_R32_SFLOAT, size);
     }
     return light;
 }
 
-LobeLight blackLobe(gpu::Recorder& f, LobeLightStore& own, const RaySurfaces& from, bool countSteps) {
-    LobeLight light = lobeImages(f, own, from, countSteps);
+LobeLight blackLobe(gpu::Recorder& f, const RaySurfaces& from, bool countSteps) {
+    LobeLight light = lobeImages(f, from, countSteps, false);
     light.dark = true;
     f.clear(light.radiance);
     f.clear(light.source);
@@ -55,11 +58,6 @@ LobeLight blackLobe(gpu::Recorder& f, LobeLightStore& own, const RaySurfaces& fr
         f.clear(light.steps);
     }
     return light;
-}
-
-gpu::Image directionalImage(gpu::Recorder& f, LobeLightStore& own, const Rays& rays) {
-    return rays.directional ? own.directional.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, rays.from.g.depth.size)
-                            : gpu::Image{};
 }
 
 gpu::Pass& bindMeans(gpu::Recorder& f, gpu::Pass& pass, const LobeLight& light, uint32_t firstRay) {
@@ -77,11 +75,8 @@ gpu::Pass& bindRayOrigins(gpu::Recorder& f, gpu::Pass& pass, const Rays& rays) {
         .read("origins", origins ? origins : f.placeholder(VK_FORMAT_R32G32B32A32_SFLOAT, gpu::ViewKind::array));
 }
 
-LobeLight resolveRays(gpu::Recorder& f, LobeLightStore& own, const Rays& rays) {
+void resolveRays(gpu::Recorder& f, const LobeLight& light, const Rays& rays) {
     const uvec2 size = rays.direction.size;
-    LobeLight light = lobeImages(f, own, rays.from, rays.countSteps);
-    light.tiles = rays.tiles;
-    light.directional = directionalImage(f, own, rays);
     gpu::Pass pass = f.compute("resolve_rays", "resolve_rays.comp");
     bindMeans(f, pass, light, rays.firstRay)
         .constant("countSteps", rays.countSteps ? 1U : 0U)
@@ -97,7 +92,6 @@ LobeLight resolveRays(gpu::Recorder& f, LobeLightStore& own, const Rays& rays) {
         .read("normal", rays.from.g.normal)
         .params(ResolveRaysParams{rays.firstRay, rays.count, rays.from.view.frame, size})
         .dispatch(size);
-    return light;
 }
 
 }  // namespace reflet

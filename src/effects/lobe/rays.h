@@ -159,9 +159,8 @@ struct Rays {
     gpu::Image turning;  ///< RGBA16F array: what LobeLight.directional gets besides that of `direction`, for rays that
                          ///< stand for light from several directions (startSlices); none for others
     gpu::Image steps;    ///< R32F array: depth samples of the screen-space march; 1x1 unless counted
-    gpu::Image imageMotion;           ///< of LobeLight, or none; sources write it for each pixel's first ray
-    gpu::BufferView waiting;          ///< rays with remaining weight
-    gpu::Scratch* scratch = nullptr;  ///< owns the images and lists above; sources take their lists from it
+    gpu::Image imageMotion;   ///< of LobeLight, or none; sources write it for each pixel's first ray
+    gpu::BufferView waiting;  ///< rays with remaining weight
     uint32_t firstRay = 0;
     uint32_t count = 0;  ///< per pixel, in this batch, at most
     uint32_t lobe = 0;
@@ -187,15 +186,6 @@ struct LobeLight {
     bool dark = false;  ///< made by blackLobe: all black
 };
 
-/// Owns the images of LobeLight.
-struct LobeLightStore {
-    gpu::KeptImage radiance{"radiance"};
-    gpu::KeptImage source{"source"};
-    gpu::KeptImage steps{"steps"};
-    gpu::KeptImage directional{"directional"};
-    gpu::KeptImage imageMotion{"image_motion"};
-};
-
 /// Rays per pixel of one batch, 1 to `most`: as many as the device's buffers can hold at this size. Throws Error if not
 /// even one fits.
 uint32_t raysPerBatch(gpu::Recorder& f, uvec2 size, uint32_t most = maxRaysPerBatch);
@@ -210,14 +200,11 @@ bool raysSpread(uint32_t lobe, const DiffuseSettings& diffuse, const SpecularSet
 /// An empty list with room for all rays, for a source's misses.
 gpu::BufferView makeRayList(gpu::Recorder& f, const Rays& rays);
 
-/// A lobe's images, not yet written.
-LobeLight lobeImages(gpu::Recorder& f, LobeLightStore& own, const RaySurfaces& from, bool countSteps);
+/// A lobe's images, not yet written; `directional` only if it is asked for.
+LobeLight lobeImages(gpu::Recorder& f, const RaySurfaces& from, bool countSteps, bool directional);
 
 /// A lobe without rays, cleared to black.
-LobeLight blackLobe(gpu::Recorder& f, LobeLightStore& own, const RaySurfaces& from, bool countSteps);
-
-/// LobeLight.directional if the rays request it, or none.
-gpu::Image directionalImage(gpu::Recorder& f, LobeLightStore& own, const Rays& rays);
+LobeLight blackLobe(gpu::Recorder& f, const RaySurfaces& from, bool countSteps);
 
 /// Binds a lobe's images as outputs of a pass that includes resolve_ray.glsl. firstRay: of its batch.
 gpu::Pass& bindMeans(gpu::Recorder& f, gpu::Pass& pass, const LobeLight& light, uint32_t firstRay);
@@ -226,7 +213,7 @@ gpu::Pass& bindMeans(gpu::Recorder& f, gpu::Pass& pass, const LobeLight& light, 
 gpu::Pass& bindRayOrigins(gpu::Recorder& f, gpu::Pass& pass, const Rays& rays);
 
 /// Adds the batch to the lobe's images, weighted by 1 over the pixel's ray count.
-LobeLight resolveRays(gpu::Recorder& f, LobeLightStore& own, const Rays& rays);
+void resolveRays(gpu::Recorder& f, const LobeLight& light, const Rays& rays);
 
 }  // namespace reflet
 #endif

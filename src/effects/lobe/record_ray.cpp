@@ -10,35 +10,35 @@ namespace reflet {
 
 namespace {
 
-gpu::Pass recordPass(gpu::Recorder& f, RecordRayStore& own, const RecordRayInputs& in, const RecordRayParams& params,
-                     const char* name, const char* shader) {
+gpu::Pass recordPass(gpu::Recorder& f, const RecordRayInputs& in, const RecordRayParams& params, const char* name,
+                     const char* shader) {
     gpu::Pass pass = f.compute(name, shader);
     pass.read("depth", in.g.depth)
         .read("normal", in.g.normal)
         .read("geometricNormal", in.g.geometricNormal)
         .read("backDepth", in.backDepth ? in.backDepth : in.g.depth)
-        .read("pyramid", in.pyramid ? in.pyramid : makePyramid(f, own.pyramid, in.g.depth, in.backDepth))
+        .read("pyramid", in.pyramid ? in.pyramid : makePyramid(f, in.g.depth, in.backDepth))
         .params(params);
     return pass;
 }
 
 }  // namespace
 
-gpu::Readback recordRay(gpu::Recorder& f, RecordRayStore& own, const RecordRayInputs& in, const ViewParams& view,
+gpu::Readback recordRay(gpu::Recorder& f, const RecordRayInputs& in, const ViewParams& view,
                         const TraceScreenSettings& settings, uvec2 pixel) {
     const gpu::Image record =
-        own.record.storage(f, VK_FORMAT_R32G32B32A32_SFLOAT, uvec2(recordHead + recordedSteps, 1));
-    recordPass(f, own, in, {view, settings, pixel, in.backDepth ? 1U : 0U}, "record_ray", "record_ray.comp")
+        f.image("ray_record", VK_FORMAT_R32G32B32A32_SFLOAT, uvec2(recordHead + recordedSteps, 1));
+    recordPass(f, in, {view, settings, pixel, in.backDepth ? 1U : 0U}, "record_ray", "record_ray.comp")
         .write("record", record)
         .dispatch(1);
     return f.readback(record);
 }
 
-gpu::Readback recordHemisphere(gpu::Recorder& f, RecordRayStore& own, const RecordRayInputs& in, const ViewParams& view,
+gpu::Readback recordHemisphere(gpu::Recorder& f, const RecordRayInputs& in, const ViewParams& view,
                                const TraceScreenSettings& settings, uvec2 pixel) {
-    const gpu::Image record = own.hemisphere.storage(f, VK_FORMAT_R32G32B32A32_SFLOAT, uvec2(2 * recordedSamples, 1));
-    recordPass(f, own, in, {view, settings, pixel, in.backDepth ? 1U : 0U}, "record_hemisphere",
-               "record_hemisphere.comp")
+    const gpu::Image record =
+        f.image("hemisphere_record", VK_FORMAT_R32G32B32A32_SFLOAT, uvec2(2 * recordedSamples, 1));
+    recordPass(f, in, {view, settings, pixel, in.backDepth ? 1U : 0U}, "record_hemisphere", "record_hemisphere.comp")
         .write("record", record)
         .dispatch(recordedSamples);
     return f.readback(record);

@@ -3,12 +3,10 @@
 
 namespace reflet {
 
-LobeLight reuseRays(gpu::Recorder& f, LobeLightStore& own, const Rays& rays, const ViewParams& picture,
-                    uint32_t neighbours) {
+void reuseRays(gpu::Recorder& f, const LobeLight& light, const Rays& rays, const ViewParams& picture,
+               uint32_t neighbours) {
     const GBuffer& g = rays.from.g;
     const uvec2 size = rays.direction.size;
-    LobeLight light = lobeImages(f, own, rays.from, rays.countSteps);
-    light.directional = directionalImage(f, own, rays);
     f.compute("reuse_rays", "reuse_rays.comp")
         .constant("lobe", rays.lobe)
         .constant("countSteps", rays.countSteps ? 1U : 0U)
@@ -28,7 +26,6 @@ LobeLight reuseRays(gpu::Recorder& f, LobeLightStore& own, const Rays& rays, con
         .params(ReuseRaysParams{rays.from.view, rays.count, neighbours,
                                 picture.pixelAngle * static_cast<float>(rays.from.scale)})
         .dispatch(size);
-    return light;
 }
 
 }  // namespace reflet

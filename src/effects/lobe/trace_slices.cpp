@@ -17,9 +17,9 @@ gpu::Pass& bindSlices(gpu::Pass& pass, const RayGeneration& in, const SliceTraci
 }
 
 // What slices of light read, of the grid that they start from.
-gpu::Image packSlices(gpu::Recorder& f, gpu::Scratch& scratch, const RaySurfaces& from, const ScreenSource& screen) {
+gpu::Image packSlices(gpu::Recorder& f, const RaySurfaces& from, const ScreenSource& screen) {
     const uvec2 size = from.g.depth.size;
-    const gpu::Image packed = scratch.storage(VK_FORMAT_R32G32B32A32_UINT, size);
+    const gpu::Image packed = f.image("slices", VK_FORMAT_R32G32B32A32_UINT, size);
     gpu::Pass pass = f.compute("pack_slices", "pack_slices.comp");
     bindScreenLight(f, pass, *screen.images, {.own = from.view, .settings = screen.settings, .longest = screen.longest})
         .read("ownDepth", from.g.depth)
@@ -38,12 +38,9 @@ SliceTracing slicesOf(const ScreenSource& screen, uint32_t steps) {
 }
 
 // packed: none for ambient visibility.
-LobeLight atOnce(gpu::Recorder& f, LobeLightStore& own, const RayGeneration& in, const SliceTracing& slices,
-                 gpu::Image packed, bool rejectsBackfaces, const EnvironmentSource& environment) {
+void atOnce(gpu::Recorder& f, const LobeLight& light, const RayGeneration& in, const SliceTracing& slices,
+            gpu::Image packed, bool rejectsBackfaces, const EnvironmentSource& environment) {
     const uvec2 size = in.from.g.depth.size;
-    LobeLight light = lobeImages(f, own, in.from, in.countSteps);
-    light.tiles = in.tiles;
-    light.directional = in.directional ? own.directional.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, size) : gpu::Image{};
     gpu::Pass pass = f.compute("slices_at_once", "slices_at_once.comp");
     bindSlices(pass, in, slices);
     bindEnvironment(pass, environment.light);
@@ -58,21 +55,18 @@ LobeLight atOnce(gpu::Recorder& f, LobeLightStore& own, const RayGeneration& in,
         .read("packed", packed ? packed : f.placeholder(VK_FORMAT_R32G32B32A32_UINT))
         .params(AnswerEnvironmentParams{environment.settings}, "environmentAnswer")
         .dispatchStrips(size);
-    return light;
 }
 
 }  // namespace
 
-Rays startSlices(gpu::Recorder& f, gpu::Scratch& scratch, const RayGeneration& in, const ScreenSource& screen,
-                 uint32_t steps) {
-    Rays rays = raysOf(f, scratch, in);
+Rays startSlices(gpu::Recorder& f, const RayGeneration& in, const ScreenSource& screen, uint32_t steps) {
+    Rays rays = raysOf(f, in);
     gpu::Image turning = f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT, gpu::ViewKind::array);
     if (in.directional) {
-        turning = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, in.from.g.depth.size, in.params.rayCount, true);
+        turning = f.image("ray_turning", VK_FORMAT_R16G16B16A16_SFLOAT, in.from.g.depth.size, in.params.rayCount, true);
         rays.turning = turning;
     }
-    gpu::Scratch ofPass(f);
-    const gpu::Image packed = packSlices(f, ofPass, in.from, screen);
+    const gpu::Image packed = packSlices(f, in.from, screen);
     gpu::Pass pass = f.compute("start_slices", "start_slices.comp");
     bindSlices(pass, in, slicesOf(screen, steps))
         .constant("hasDirectional", in.directional ? 1U : 0U)
@@ -88,18 +82,20 @@ Rays startSlices(gpu::Recorder& f, gpu::Scratch& scratch, const RayGeneration& i
     return rays;
 }
 
-LobeLight slicesAtOnce(gpu::Recorder& f, LobeLightStore& own, const RayGeneration& in, const ScreenSource& screen,
-                       uint32_t steps, const EnvironmentSource& environment) {
-    gpu::Scratch ofPass(f);
-    const gpu::Image packed = packSlices(f, ofPass, in.from, screen);
-    return atOnce(f, own, in, slicesOf(screen, steps), packed, screen.settings.rejectBackfaces != 0, environment);
+void slicesAtOnce(gpu::Recorder& f, const LobeLight& light, const RayGeneration& in, const ScreenSource& screen,
+                  uint32_t steps, const EnvironmentSource& environment) {
+    const gpu::Image packed = packSlices(f, in.from, screen);
+    atOnce(f, light, in, slicesOf(screen, steps), packed, screen.settings.rejectBackfaces != 0, environment);
 }
 
-LobeLight ambientSlices(gpu::Recorder& f, LobeLightStore& own, const RayGeneration& in, const SliceTracing& slices) {
+LobeLight ambientSlices(gpu::Recorder& f, const RayGeneration& in, const SliceTracing& slices) {
     const gpu::Image unread = f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT);
     const gpu::Image unreadCube = f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT, gpu::ViewKind::cubeArray);
     const EnvironmentLight white{unread, unreadCube, unread, {}};
-    return atOnce(f, own, in, slices, {}, false, {white, {}});
+    LobeLight light = lobeImages(f, in.from, in.countSteps, in.directional);
+    light.tiles = in.tiles;
+    atOnce(f, light, in, slices, {}, false, {white, {}});
+    return light;
 }
 
 }  // namespace reflet

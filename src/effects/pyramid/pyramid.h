@@ -27,7 +27,7 @@ namespace reflet {
 
 /// RG32F: the largest (nearest) and the smallest (farthest) reversed depth of each cell, negative where there is sky.
 /// backDepth: the second layer, or none.
-gpu::Image makePyramid(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image depth, gpu::Image backDepth = {});
+gpu::Image makePyramid(gpu::Recorder& f, gpu::Image depth, gpu::Image backDepth = {});
 
 }  // namespace reflet
 #endif

@@ -3,10 +3,11 @@
 
 namespace reflet {
 
-gpu::Image lampVisibility(gpu::Recorder& f, gpu::KeptImage& own, const GBuffer& g, const LampShadowInputs& in,
-                          const LampShadows& shadows, const LampVisibilityParams& params) {
+gpu::Image lampVisibility(gpu::Recorder& f, const GBuffer& g, const LampShadowInputs& in, const LampShadows& shadows,
+                          const LampVisibilityParams& params) {
     const uint32_t layers = (shadows.count + 3) / 4;
-    const gpu::Image visibility = own.storage(f, VK_FORMAT_R8G8B8A8_UNORM, g.depth.size, layers, /*array=*/true);
+    const gpu::Image visibility =
+        f.image("lamp_visibility", VK_FORMAT_R8G8B8A8_UNORM, g.depth.size, layers, /*array=*/true);
     f.compute("lamp_visibility", "lamp_visibility.comp")
         .read("depth", g.depth)
         .read("geometricNormal", g.geometricNormal)

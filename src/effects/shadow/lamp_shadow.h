@@ -64,8 +64,8 @@ struct LampShadowInputs {
 };
 
 /// RGBA8, a layer per four lamps, a channel each: 1 lit; 0 in shadow and out of the lamp's range or cone.
-gpu::Image lampVisibility(gpu::Recorder& f, gpu::KeptImage& own, const GBuffer& g, const LampShadowInputs& in,
-                          const LampShadows& shadows, const LampVisibilityParams& params);
+gpu::Image lampVisibility(gpu::Recorder& f, const GBuffer& g, const LampShadowInputs& in, const LampShadows& shadows,
+                          const LampVisibilityParams& params);
 
 }  // namespace reflet
 #endif

@@ -6,10 +6,10 @@
 
 namespace reflet {
 
-gpu::Readback recordShadow(gpu::Recorder& f, gpu::KeptImage& own, const GBuffer& g, const ShadowInputs& in,
+gpu::Readback recordShadow(gpu::Recorder& f, const GBuffer& g, const ShadowInputs& in,
                            const RecordShadowParams& params) {
     const gpu::Image record =
-        own.storage(f, VK_FORMAT_R32G32B32A32_SFLOAT, uvec2(recordedShadowHead + recordedShadowTexels, 1));
+        f.image("shadow_record", VK_FORMAT_R32G32B32A32_SFLOAT, uvec2(recordedShadowHead + recordedShadowTexels, 1));
     const gpu::Image map = in.map ? in.map : g.depth;
     f.compute("record_shadow", "record_shadow.comp")
         .read("depth", g.depth)

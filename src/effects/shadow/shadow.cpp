@@ -3,19 +3,19 @@
 
 namespace reflet {
 
-SunVisibility sunVisibility(gpu::Recorder& f, SunVisibilityStore& own, const GBuffer& g, const ShadowInputs& in,
+SunVisibility sunVisibility(gpu::Recorder& f, const GBuffer& g, const ShadowInputs& in,
                             const ShadowVisibilityParams& params) {
     const ShadowFilter filter = params.settings.filter;
     const bool soft = filter == ShadowFilter::pcf || filter == ShadowFilter::pcss;
     const bool cascades = params.sun.count > 1;
     // Always bound, but unused where not needed.
-    const auto imageIf = [&](bool needed, gpu::KeptImage& image, VkFormat format) {
-        return needed ? image.storage(f, format, g.depth.size) : f.placeholder(format);
+    const auto imageIf = [&](bool needed, const char* name, VkFormat format) {
+        return needed ? f.image(name, format, g.depth.size) : f.placeholder(format);
     };
     const gpu::Image map = in.map ? in.map : g.depth;
-    const gpu::Image penumbra = imageIf(soft, own.penumbra, VK_FORMAT_R16G16_SFLOAT);
-    const gpu::Image index = imageIf(cascades, own.cascadeIndex, VK_FORMAT_R8_UNORM);
-    const gpu::Image visibility = own.visibility.storage(f, VK_FORMAT_R8_UNORM, g.depth.size);
+    const gpu::Image penumbra = imageIf(soft, "shadow_penumbra", VK_FORMAT_R16G16_SFLOAT);
+    const gpu::Image index = imageIf(cascades, "cascade_index", VK_FORMAT_R8_UNORM);
+    const gpu::Image visibility = f.image("sun_visibility", VK_FORMAT_R8_UNORM, g.depth.size);
     f.compute("shadow_visibility", "shadow_visibility.comp")
         .read("depth", g.depth)
         .read("geometricNormal", g.geometricNormal)

@@ -151,14 +151,7 @@ struct ShadowInputs {
     gpu::BufferView blueNoise;
 };
 
-/// Owns the images of SunVisibility.
-struct SunVisibilityStore {
-    gpu::KeptImage visibility{"sun_visibility"};
-    gpu::KeptImage penumbra{"shadow_penumbra"};
-    gpu::KeptImage cascadeIndex{"cascade_index"};
-};
-
-SunVisibility sunVisibility(gpu::Recorder& f, SunVisibilityStore& own, const GBuffer& g, const ShadowInputs& in,
+SunVisibility sunVisibility(gpu::Recorder& f, const GBuffer& g, const ShadowInputs& in,
                             const ShadowVisibilityParams& params);
 
 }  // namespace reflet

@@ -5,16 +5,16 @@ namespace reflet {
 
 namespace {
 
-gpu::Image clearedTexels(gpu::Recorder& f, gpu::Scratch& scratch, uvec2 size) {
-    const gpu::Image image = scratch.storage(VK_FORMAT_R32_UINT, size);
+gpu::Image clearedTexels(gpu::Recorder& f, const char* name, uvec2 size) {
+    const gpu::Image image = f.image(name, VK_FORMAT_R32_UINT, size);
     f.clear(image);
     return image;
 }
 
-gpu::BufferView listTiles(gpu::Recorder& f, gpu::Scratch& scratch, gpu::Image visibility, gpu::Image penumbra,
-                          gpu::Image cleaned) {
+gpu::BufferView listTiles(gpu::Recorder& f, gpu::Image visibility, gpu::Image penumbra, gpu::Image cleaned) {
     const uvec2 tiles = (visibility.size + shadowTileSide - 1U) / shadowTileSide;
-    const gpu::BufferView list = scratch.buffer(shadowTilesHeader + VkDeviceSize(tiles.x) * tiles.y * sizeof(uint32_t));
+    const gpu::BufferView list =
+        f.buffer("shadow_clean.tiles", shadowTilesHeader + VkDeviceSize(tiles.x) * tiles.y * sizeof(uint32_t));
     constexpr uint32_t empty[] = {0, 1, 1, 0};
     f.update(list, std::as_bytes(std::span(empty)));
     f.compute("shadow_clean.tiles", "shadow_clean_tiles.comp")
@@ -29,19 +29,22 @@ gpu::BufferView listTiles(gpu::Recorder& f, gpu::Scratch& scratch, gpu::Image vi
 
 }  // namespace
 
-gpu::Image denoiseShadow(gpu::Recorder& f, ShadowDenoiseStore& own, const GBuffer& g, gpu::Image visibility,
+gpu::Image denoiseShadow(gpu::Recorder& f, gpu::HistoryImage* own, const GBuffer& g, gpu::Image visibility,
                          gpu::Image penumbra, ShadowDenoiseParams params) {
-    gpu::Scratch scratch(f);
     const uvec2 size = visibility.size;
-    const gpu::Image cleaned = own.cleaned.storage(f, VK_FORMAT_R8_UNORM, size);
-    const gpu::BufferView tiles = listTiles(f, scratch, visibility, penumbra, cleaned);
-    const gpu::Image gathered = clearedTexels(f, scratch, size);
-    const gpu::Image blurred = clearedTexels(f, scratch, size);
-    const gpu::Image kernel = scratch.storage(VK_FORMAT_R32G32B32A32_UINT, size);
-    const bool keeps = params.historyFrames > 0;
-    const gpu::History history = own.history.swap(f, VK_FORMAT_R32G32_UINT, keeps ? size : uvec2(1));
-    f.clear(history.next);
-    params.hasPrevious = keeps && history.valid ? 1 : 0;
+    const gpu::Image cleaned = f.image("shadow_clean", VK_FORMAT_R8_UNORM, size);
+    const gpu::BufferView tiles = listTiles(f, visibility, penumbra, cleaned);
+    const gpu::Image gathered = clearedTexels(f, "shadow_clean.gathered", size);
+    const gpu::Image blurred = clearedTexels(f, "shadow_clean.blurred", size);
+    const gpu::Image kernel = f.image("shadow_clean.kernel", VK_FORMAT_R32G32B32A32_UINT, size);
+    params.historyFrames = own != nullptr ? params.historyFrames : 0;
+    constexpr VkFormat historyFormat = VK_FORMAT_R32G32_UINT;
+    gpu::History history{f.placeholder(historyFormat), f.placeholder(historyFormat)};
+    if (params.historyFrames > 0) {
+        history = own->swap(f, historyFormat, size);
+        f.clear(history.next);
+    }
+    params.hasPrevious = history.valid ? 1 : 0;
     f.compute("shadow_clean.gather", "shadow_clean_gather.comp")
         .read("tiles", tiles)
         .read("depth", g.depth)

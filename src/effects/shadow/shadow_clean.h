@@ -47,15 +47,10 @@ SHARED_END
 
 namespace reflet {
 
-/// Owns the denoiser's result and history.
-struct ShadowDenoiseStore {
-    gpu::KeptImage cleaned{"shadow_clean"};
-    gpu::HistoryImage history{"shadow_clean.history"};
-};
-
 /// visibility: R8; penumbra: RG16F, x: full width perpendicular to the sun's direction [m], 0 or less: unknown (see
-/// SunVisibility). Sets params.hasPrevious. Returns R8.
-gpu::Image denoiseShadow(gpu::Recorder& f, ShadowDenoiseStore& own, const GBuffer& g, gpu::Image visibility,
+/// SunVisibility). Sets params.hasPrevious. Returns R8. own: none: this frame alone,
+/// whatever params.historyFrames is.
+gpu::Image denoiseShadow(gpu::Recorder& f, gpu::HistoryImage* own, const GBuffer& g, gpu::Image visibility,
                          gpu::Image penumbra, ShadowDenoiseParams params);
 
 }  // namespace reflet

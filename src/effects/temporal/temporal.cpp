@@ -56,15 +56,14 @@ void upscale(gpu::Recorder& f, TemporalStore& own, const Histories& h, const Tem
     const gpu::History changes = own.changes.swap(f, VK_FORMAT_R16G16B16A16_SFLOAT, params.size);
     TemporalParams aroundParams = params;
     aroundParams.hasPrevious = changes.valid ? params.hasPrevious : 0U;
-    gpu::Scratch scratch(f);
-    const gpu::Image around = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, params.size);
-    const gpu::Image spread = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, params.size);
+    const gpu::Image around = f.image("temporal.around", VK_FORMAT_R16G16B16A16_SFLOAT, params.size);
+    const gpu::Image spread = f.image("temporal.spread", VK_FORMAT_R16G16B16A16_SFLOAT, params.size);
     gpu::Pass near =
         f.compute("temporal.around", in.coverage ? "temporal_around_coverage.comp" : "temporal_around.comp");
     gpu::Pass add =
         f.compute("temporal.upscale", in.coverage ? "temporal_upscale_coverage.comp" : "temporal_upscale.comp");
     if (in.coverage) {
-        const gpu::Image covered = scratch.storage(VK_FORMAT_R16G16_SFLOAT, params.size);
+        const gpu::Image covered = f.image("temporal.covered", VK_FORMAT_R16G16_SFLOAT, params.size);
         near.read("coverage", in.coverage).write("coveredAround", covered);
         add.read("coveredAround", covered);
     }

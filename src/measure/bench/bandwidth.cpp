@@ -20,9 +20,8 @@ double perSecond(uint64_t bytes, double ms) {
 
 double copyImages(gpu::Frame& f) {
     f.begin();
-    gpu::Scratch scratch(f);
-    const gpu::Image from = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, imageSize);
-    const gpu::Image to = scratch.storage(VK_FORMAT_R16G16B16A16_SFLOAT, imageSize);
+    const gpu::Image from = f.image("from", VK_FORMAT_R16G16B16A16_SFLOAT, imageSize);
+    const gpu::Image to = f.image("to", VK_FORMAT_R16G16B16A16_SFLOAT, imageSize);
     showLive(f, from, to);
     f.submit();
     f.wait();

@@ -9,11 +9,12 @@
 
 namespace reflet {
 
-BackgroundImages drawBackground(gpu::Recorder& f, BackgroundStore& own, gpu::Image depth, gpu::Image direct,
-                                gpu::Image lit, const EnvironmentLight& environment, const ViewParams& view) {
+BackgroundImages drawBackground(gpu::Recorder& f, gpu::Image depth, gpu::Image direct, gpu::Image lit,
+                                const EnvironmentLight& environment, const ViewParams& view) {
     constexpr VkFormat format = VK_FORMAT_R16G16B16A16_SFLOAT;
-    const BackgroundImages out{own.direct.storage(f, format, depth.size), own.lit.storage(f, format, depth.size),
-                               own.coverage.storage(f, format, depth.size)};
+    const BackgroundImages out{f.image("background.direct", format, depth.size),
+                               f.image("background.lit", format, depth.size),
+                               f.image("background.coverage", format, depth.size)};
     gpu::Pass pass = f.compute("background", "background.comp");
     bindEnvironment(pass, environment);
     pass.read("depth", depth)
@@ -27,8 +28,8 @@ BackgroundImages drawBackground(gpu::Recorder& f, BackgroundStore& own, gpu::Ima
     return out;
 }
 
-gpu::Image straightRadiance(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image premultiplied, gpu::Image coverage) {
-    const gpu::Image radiance = own.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, premultiplied.size);
+gpu::Image straightRadiance(gpu::Recorder& f, gpu::Image premultiplied, gpu::Image coverage) {
+    const gpu::Image radiance = f.image("background.straight", VK_FORMAT_R16G16B16A16_SFLOAT, premultiplied.size);
     f.compute("straight", "straight.comp")
         .read("premultiplied", premultiplied)
         .read("coverage", coverage)
@@ -38,9 +39,8 @@ gpu::Image straightRadiance(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image pr
     return radiance;
 }
 
-gpu::Image overBackground(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image display, gpu::Image coverage,
-                          const Background& background) {
-    const gpu::Image over = own.storage(f, VK_FORMAT_R8G8B8A8_UNORM, display.size);
+gpu::Image overBackground(gpu::Recorder& f, gpu::Image display, gpu::Image coverage, const Background& background) {
+    const gpu::Image over = f.image("background.display", VK_FORMAT_R8G8B8A8_UNORM, display.size);
     f.compute("underlay", "underlay.comp")
         .constant("transparent", background.mode == Background::Mode::transparent ? 1U : 0U)
         .read("display", display)

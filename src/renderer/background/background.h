@@ -52,22 +52,14 @@ struct BackgroundImages {
     gpu::Image coverage;  ///< red, green and blue: 1 where there is a surface, else 0
 };
 
-/// Owns the images of BackgroundImages.
-struct BackgroundStore {
-    gpu::KeptImage direct{"background.direct"};
-    gpu::KeptImage lit{"background.lit"};
-    gpu::KeptImage coverage{"background.coverage"};
-};
-
-BackgroundImages drawBackground(gpu::Recorder& f, BackgroundStore& own, gpu::Image depth, gpu::Image direct,
-                                gpu::Image lit, const EnvironmentLight& environment, const ViewParams& view);
+BackgroundImages drawBackground(gpu::Recorder& f, gpu::Image depth, gpu::Image direct, gpu::Image lit,
+                                const EnvironmentLight& environment, const ViewParams& view);
 
 /// Radiance divided by the coverage, 0 where that is 0: RGBA16F.
-gpu::Image straightRadiance(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image premultiplied, gpu::Image coverage);
+gpu::Image straightRadiance(gpu::Recorder& f, gpu::Image premultiplied, gpu::Image coverage);
 
 /// RGBA8: the display image over the background's colour, or with straight alpha.
-gpu::Image overBackground(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image display, gpu::Image coverage,
-                          const Background& background);
+gpu::Image overBackground(gpu::Recorder& f, gpu::Image display, gpu::Image coverage, const Background& background);
 
 /// The same two on the host, for images of the reference. coverage: "Y", 0 to 1. Both change nothing unless the
 /// background needs coverage.

@@ -6,23 +6,23 @@ namespace reflet {
 namespace {
 
 // The light of a layer with its clear coats.
-LightLayers litLayer(gpu::Recorder& f, BlendStore& own, BlendStore::Layer& store, const ViewInputs& in,
-                     const Settings& settings, TracedView& layer, gpu::Image nearerDepth, bool layers) {
-    const Composite light = lightLayer(f, store, in, settings, layer, layers);
+LightLayers litLayer(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, TracedView& layer,
+                     gpu::Image nearerDepth, bool layers) {
+    const Composite light = lightLayer(f, in, settings, layer, layers);
     const LightLayers lit{layer.images.direct, light};
     if (!in.draws.coatedBlended || settings.materials.coats == 0 || settings.materials.lambertOnly != 0) {
         return lit;
     }
     const CoatedSurfaces surfaces{layer.images.g.depth, nearerDepth, CoatedSurfaces::Kind::blended};
-    return addCoats(f, own.coat, in, settings, layer, surfaces, lit, {}, layers);
+    return addCoats(f, in, settings, layer, surfaces, lit, {}, layers);
 }
 
-BlendedLight imagesOf(gpu::Recorder& f, BlendedLightStore& own, uvec2 size, bool layers) {
-    const auto sum = [&](gpu::KeptImage& image) { return image.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, size); };
+BlendedLight imagesOf(gpu::Recorder& f, uvec2 size, bool layers) {
+    const auto sum = [&](const char* name) { return f.image(name, VK_FORMAT_R16G16B16A16_SFLOAT, size); };
     if (!layers) {
-        return {sum(own.lit), {}, {}, {}};
+        return {sum("blended"), {}, {}, {}};
     }
-    return {sum(own.lit), sum(own.direct), sum(own.indirectDiffuse), sum(own.indirectSpecular)};
+    return {sum("blended"), sum("blended_direct"), sum("blended_diffuse"), sum("blended_specular")};
 }
 
 void addLayer(gpu::Recorder& f, const BlendedLight& to, const LightLayers& lit, const BlendedLayer& layer,
@@ -37,25 +37,23 @@ void addLayer(gpu::Recorder& f, const BlendedLight& to, const LightLayers& lit, 
 
 }  // namespace
 
-BlendedSurfaces lightBlended(gpu::Recorder& f, BlendStore& own, const ViewInputs& in, const Settings& asked,
-                             const TracedView& seen, gpu::Image glassDepth, bool layers) {
+BlendedSurfaces lightBlended(gpu::Recorder& f, const ViewInputs& in, const Settings& asked, const TracedView& seen,
+                             gpu::Image glassDepth, bool layers) {
     if (asked.blend.layers == 0 || !showsBlended(in.draws, in.view)) {
         return {};
     }
     const auto scope = f.scope("blend");
     const Settings settings = layerSettings(asked);
     const uvec2 size = seen.images.g.depth.size;
-    const BlendedSurfaces out{imagesOf(f, own.front, size, layers),
-                              glassDepth ? imagesOf(f, own.behindGlass, size, layers) : BlendedLight{}};
+    const BlendedSurfaces out{imagesOf(f, size, layers), glassDepth ? imagesOf(f, size, layers) : BlendedLight{}};
     gpu::Image nearer;
     for (uint32_t i = 0; i < settings.blend.layers; ++i) {
-        BlendStore::Layer& store = own.layers[i % own.layers.size()];
         TracedView layer{seen.images, seen.screen, {}};
         layer.images.ambientOcclusion = {};
         const GBufferContent content{
             .clipPlane = in.clipPlane, .opaqueDepth = seen.images.g.depth, .nearerDepth = nearer};
-        layer.images.g = drawGBuffer(f, store.g, in.draws, in.view, settings.materials, content);
-        const LightLayers lit = litLayer(f, own, store, in, settings, layer, nearer, layers);
+        layer.images.g = drawGBuffer(f, in.draws, in.view, settings.materials, content);
+        const LightLayers lit = litLayer(f, in, settings, layer, nearer, layers);
         nearer = layer.images.g.depth;
         const BlendedLayer blended{nearer, layer.images.g.motion, glassDepth, i == 0};
         addLayer(f, out.front, lit, blended, glassDepth ? BlendSide::beforeGlass : BlendSide::all);
@@ -66,17 +64,16 @@ BlendedSurfaces lightBlended(gpu::Recorder& f, BlendStore& own, const ViewInputs
     return out;
 }
 
-gpu::Image withBlended(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image front, gpu::Image behind) {
+gpu::Image withBlended(gpu::Recorder& f, gpu::Image front, gpu::Image behind) {
     if (!front) {
         return behind;
     }
-    const gpu::Image over = own.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, behind.size);
+    const gpu::Image over = f.image("lit.blended", VK_FORMAT_R16G16B16A16_SFLOAT, behind.size);
     blendOver(f, front, behind, over);
     return over;
 }
 
-LightLayers withBlended(gpu::Recorder& f, WithBlendedStore& own, const BlendedLight& front, const LightLayers& behind,
-                        gpu::Image lit) {
+LightLayers withBlended(gpu::Recorder& f, const BlendedLight& front, const LightLayers& behind, gpu::Image lit) {
     if (!front.lit) {
         return behind;
     }
@@ -85,13 +82,11 @@ LightLayers withBlended(gpu::Recorder& f, WithBlendedStore& own, const BlendedLi
         blendOver(f, front.lit, behind.light.lit, lit);
         out.light.lit = lit;
     } else {
-        out.light.lit = withBlended(f, own.lit, front.lit, behind.light.lit);
+        out.light.lit = withBlended(f, front.lit, behind.light.lit);
     }
-    out.direct = withBlended(f, own.direct, front.direct, behind.direct);
-    out.light.indirectDiffuse =
-        withBlended(f, own.indirectDiffuse, front.indirectDiffuse, behind.light.indirectDiffuse);
-    out.light.indirectSpecular =
-        withBlended(f, own.indirectSpecular, front.indirectSpecular, behind.light.indirectSpecular);
+    out.direct = withBlended(f, front.direct, behind.direct);
+    out.light.indirectDiffuse = withBlended(f, front.indirectDiffuse, behind.light.indirectDiffuse);
+    out.light.indirectSpecular = withBlended(f, front.indirectSpecular, behind.light.indirectSpecular);
     return out;
 }
 

@@ -28,16 +28,16 @@ BlendShadowMaps drawBlendShadowMaps(gpu::Recorder& f, BlendShadowStore& own, con
             .depth(map.depth, 0.0F)
             .vertices(vertexLayout(), list.materialLayout)
             .params(sun)
-            .draw([&](const gpu::DrawCommands& to) {
-                recordSunMap(to, list, sun, settings, [](const Draw& d) { return d.blended || d.glass; });
+            .draw([&list, sun, resolution = settings.resolution](const gpu::DrawCommands& to) {
+                recordSunMap(to, list, sun, resolution, [](const Draw& d) { return d.blended || d.glass; });
             });
     }
     return maps;
 }
 
-gpu::Image blendShadow(gpu::Recorder& f, gpu::KeptImage& own, const GBuffer& g, const BlendShadowMaps& maps,
-                       gpu::Image sunVisibility, const BlendShadowParams& params) {
-    const gpu::Image visibility = own.storage(f, VK_FORMAT_R8_UNORM, g.depth.size);
+gpu::Image blendShadow(gpu::Recorder& f, const GBuffer& g, const BlendShadowMaps& maps, gpu::Image sunVisibility,
+                       const BlendShadowParams& params) {
+    const gpu::Image visibility = f.image("blend_visibility", VK_FORMAT_R8_UNORM, g.depth.size);
     f.compute("blend_shadow", "blend_shadow.comp")
         .read("depth", g.depth)
         .read("geometricNormal", g.geometricNormal)

@@ -51,8 +51,8 @@ BlendShadowMaps drawBlendShadowMaps(gpu::Recorder& f, BlendShadowStore& own, con
                                     const SunShadowParams& sun, const ShadowSettings& settings);
 
 /// The sun's visibility (R8) times what the blended surfaces let through.
-gpu::Image blendShadow(gpu::Recorder& f, gpu::KeptImage& own, const GBuffer& g, const BlendShadowMaps& maps,
-                       gpu::Image sunVisibility, const BlendShadowParams& params);
+gpu::Image blendShadow(gpu::Recorder& f, const GBuffer& g, const BlendShadowMaps& maps, gpu::Image sunVisibility,
+                       const BlendShadowParams& params);
 
 }  // namespace reflet
 #endif

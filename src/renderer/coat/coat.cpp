@@ -14,14 +14,13 @@ Settings coatSettings(const Settings& asked) {
 }
 
 // A coat is where its surface is, so it is in the same shadows.
-gpu::Image directOnCoats(gpu::Recorder& f, LitLayerStore& own, const ViewInputs& in, const Settings& settings,
-                         ViewImages coats) {
+gpu::Image directOnCoats(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, ViewImages coats) {
     if (settings.shadow.filter == ShadowFilter::traced && in.traced != nullptr) {
-        lightSurfaces(f, own.light, in, settings, coats);
+        lightSurfaces(f, nullptr, in, settings, coats);
         return coats.direct;
     }
-    return directLight(f, own.light.direct, coats.g, {coats.sunVisibility, coats.lampVisibility, coats.lampTiles.masks},
-                       in.ggxTable, {in.view, -in.sunDirection, in.sunIrradiance}, {in.lamps, in.environment, false});
+    return directLight(f, coats.g, {coats.sunVisibility, coats.lampVisibility, coats.lampTiles.masks}, in.ggxTable,
+                       {in.view, -in.sunDirection, in.sunIrradiance}, {in.lamps, in.environment, false});
 }
 
 }  // namespace
@@ -39,9 +38,8 @@ bool coatsGlass(const DrawList& list, const Settings& settings) {
     return list.coatedGlass && settings.materials.coats != 0;
 }
 
-LightLayers addCoats(gpu::Recorder& f, CoatStore& own, const ViewInputs& in, const Settings& asked,
-                     const TracedView& seen, const CoatedSurfaces& surfaces, const LightLayers& behind, gpu::Image lit,
-                     bool layers) {
+LightLayers addCoats(gpu::Recorder& f, const ViewInputs& in, const Settings& asked, const TracedView& seen,
+                     const CoatedSurfaces& surfaces, const LightLayers& behind, gpu::Image lit, bool layers) {
     const auto scope = f.scope("coat");
     const Settings settings = coatSettings(asked);
     GBufferContent content{
@@ -52,12 +50,12 @@ LightLayers addCoats(gpu::Recorder& f, CoatStore& own, const ViewInputs& in, con
     content.withoutGlass = drawsGlass(in.draws, settings.transmission, settings.materials);
     TracedView coats = seen;
     coats.images.ambientOcclusion = {};
-    coats.images.g = drawGBuffer(f, own.g, in.draws, in.view, settings.materials, content);
+    coats.images.g = drawGBuffer(f, in.draws, in.view, settings.materials, content);
     const GBuffer& g = coats.images.g;
-    coats.images.direct = directOnCoats(f, own.light, in, settings, coats.images);
-    const Composite light = reflectedLight(f, own.light, in, settings, coats, layers);
-    const auto over = [&](gpu::KeptImage& kept, gpu::Image layer, gpu::Image under, gpu::Image given = {}) {
-        const gpu::Image sum = given ? given : kept.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size);
+    coats.images.direct = directOnCoats(f, in, settings, coats.images);
+    const Composite light = reflectedLight(f, in, settings, coats, layers);
+    const auto over = [&](gpu::Image layer, gpu::Image under, gpu::Image given = {}) {
+        const gpu::Image sum = given ? given : f.image("lit", VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size);
         gpu::Pass pass = f.compute("coat_over", "coat_over.comp");
         bindSurfaces(f, pass, g)
             .read("depth", g.depth)
@@ -73,11 +71,11 @@ LightLayers addCoats(gpu::Recorder& f, CoatStore& own, const ViewInputs& in, con
         return sum;
     };
     LightLayers out = behind;
-    out.light.lit = over(own.lit, light.lit, behind.light.lit, lit);
+    out.light.lit = over(light.lit, behind.light.lit, lit);
     if (layers) {
-        out.direct = over(own.direct, coats.images.direct, behind.direct);
-        out.light.indirectDiffuse = over(own.diffuse, light.indirectDiffuse, behind.light.indirectDiffuse);
-        out.light.indirectSpecular = over(own.specular, light.indirectSpecular, behind.light.indirectSpecular);
+        out.direct = over(coats.images.direct, behind.direct);
+        out.light.indirectDiffuse = over(light.indirectDiffuse, behind.light.indirectDiffuse);
+        out.light.indirectSpecular = over(light.indirectSpecular, behind.light.indirectSpecular);
     }
     return out;
 }

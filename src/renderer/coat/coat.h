@@ -25,16 +25,6 @@ SHARED_END
 
 namespace reflet {
 
-/// Owns the images of the coats in a view.
-struct CoatStore {
-    GBufferStore g;
-    LitLayerStore light;
-    gpu::KeptImage lit{"coat.lit"};
-    gpu::KeptImage direct{"coat.direct"};
-    gpu::KeptImage diffuse{"coat.indirect_diffuse"};
-    gpu::KeptImage specular{"coat.indirect_specular"};
-};
-
 /// Whether the view may show coats of opaque surfaces; transmissive ones count as opaque where they are drawn so.
 bool showsCoats(const ViewInputs& in, const Settings& settings);
 
@@ -49,11 +39,10 @@ struct CoatedSurfaces {
 };
 
 /// Composites the coats over `behind`, the light of these surfaces. seen: the surfaces, with their shadows, and the
-/// screen that reflections read. lit: the sum is written to it; none: to an image of the store. layers: also those of
+/// screen that reflections read. lit: the sum is written to it; none: to an image of this frame. layers: also those of
 /// `behind`, not only the sum. Reflected light counts as indirect specular.
-LightLayers addCoats(gpu::Recorder& f, CoatStore& own, const ViewInputs& in, const Settings& asked,
-                     const TracedView& seen, const CoatedSurfaces& surfaces, const LightLayers& behind, gpu::Image lit,
-                     bool layers);
+LightLayers addCoats(gpu::Recorder& f, const ViewInputs& in, const Settings& asked, const TracedView& seen,
+                     const CoatedSurfaces& surfaces, const LightLayers& behind, gpu::Image lit, bool layers);
 
 }  // namespace reflet
 #endif

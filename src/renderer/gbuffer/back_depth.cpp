@@ -3,17 +3,17 @@
 
 namespace reflet {
 
-gpu::Image drawBackDepth(gpu::Recorder& f, gpu::KeptImage& own, const DrawList& list, gpu::Image depth,
-                         const ViewParams& view, bool withoutGlass) {
-    const gpu::Image back = own.target(f, VK_FORMAT_D32_SFLOAT, depth.size);
+gpu::Image drawBackDepth(gpu::Recorder& f, const DrawList& list, gpu::Image depth, const ViewParams& view,
+                         bool withoutGlass) {
+    const gpu::Image back = f.target("back_depth", VK_FORMAT_D32_SFLOAT, depth.size);
     f.raster("back_depth", {"back_depth.vert", "back_depth.frag"})
         .read("firstDepth", depth)
         .depth(back, 0.0F)
         .vertices(vertexLayout(), list.materialLayout)
         .params(BackDepthParams{view.worldToClip, view.depthToDistance})
-        .draw([&](const gpu::DrawCommands& to) {
+        .draw([&list, withoutGlass, worldToClip = view.worldToClip](const gpu::DrawCommands& to) {
             const auto keep = [&](const Draw& d) { return !d.blended && !(withoutGlass && d.glass); };
-            recordDraws(to, list, {keep, Cull::front, true, view.worldToClip}, false);
+            recordDraws(to, list, {keep, Cull::front, true, worldToClip}, false);
         });
     return back;
 }

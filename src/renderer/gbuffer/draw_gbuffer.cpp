@@ -21,9 +21,9 @@ uint32_t translucentOf(const GBufferContent& content) {
 
 }  // namespace
 
-GBuffer drawGBuffer(gpu::Recorder& f, GBufferStore& own, const DrawList& list, const ViewParams& view,
-                    const MaterialsSettings& settings, const GBufferContent& content) {
-    const vec4& clipPlane = content.clipPlane;
+GBuffer drawGBuffer(gpu::Recorder& f, const DrawList& list, const ViewParams& view, const MaterialsSettings& settings,
+                    const GBufferContent& content) {
+    const vec4 clipPlane = content.clipPlane;
     const bool blended = bool(content.opaqueDepth);
     const uint32_t surfaces = !blended ? surfacesOpaque : content.nearerDepth ? surfacesBehind : surfacesNearest;
     const bool clipped = clipPlane != vec4(0.0F);
@@ -32,15 +32,15 @@ GBuffer drawGBuffer(gpu::Recorder& f, GBufferStore& own, const DrawList& list, c
     const bool reflectance = layers || (features & materialFeatureReflectance) != 0;
     const uvec2 size(view.size);
     const GBuffer g{
-        .depth = own.depth.target(f, VK_FORMAT_D32_SFLOAT, size),
-        .normal = own.normal.target(f, VK_FORMAT_R32_UINT, size),
-        .geometricNormal = own.geometricNormal.target(f, VK_FORMAT_R32_UINT, size),
-        .baseColor = own.baseColor.target(f, VK_FORMAT_A2B10G10R10_UNORM_PACK32, size),
-        .material = own.material.target(f, VK_FORMAT_R8G8B8A8_UNORM, size),
-        .emissive = own.emissive.target(f, VK_FORMAT_B10G11R11_UFLOAT_PACK32, size),
-        .motion = own.motion.target(f, VK_FORMAT_R16G16B16A16_SFLOAT, size),
-        .reflectance = reflectance ? own.reflectance.target(f, VK_FORMAT_R16G16B16A16_SFLOAT, size) : gpu::Image{},
-        .layers = layers ? own.layers.target(f, VK_FORMAT_R32G32_UINT, size) : gpu::Image{},
+        .depth = f.target("depth", VK_FORMAT_D32_SFLOAT, size),
+        .normal = f.target("normal", VK_FORMAT_R32_UINT, size),
+        .geometricNormal = f.target("geometric_normal", VK_FORMAT_R32_UINT, size),
+        .baseColor = f.target("base_color", VK_FORMAT_A2B10G10R10_UNORM_PACK32, size),
+        .material = f.target("material", VK_FORMAT_R8G8B8A8_UNORM, size),
+        .emissive = f.target("emissive", VK_FORMAT_B10G11R11_UFLOAT_PACK32, size),
+        .motion = f.target("motion", VK_FORMAT_R16G16B16A16_SFLOAT, size),
+        .reflectance = reflectance ? f.target("reflectance", VK_FORMAT_R16G16B16A16_SFLOAT, size) : gpu::Image{},
+        .layers = layers ? f.target("layers", VK_FORMAT_R32G32_UINT, size) : gpu::Image{},
         .features = features,
     };
     const VkClearColorValue zero{};
@@ -75,7 +75,7 @@ GBuffer drawGBuffer(gpu::Recorder& f, GBufferStore& own, const DrawList& list, c
     if (layers) {
         pass.color("outLayers", g.layers, zero);
     }
-    pass.draw([&](const gpu::DrawCommands& to) {
+    pass.draw([=, &list](const gpu::DrawCommands& to) {
         const auto keep = [&](const Draw& draw) {
             const bool opaque = draw.alpha >= content.blendedFrom && !(content.withoutGlass && draw.glass);
             const bool opaqueCoats = content.coat && !content.blendedCoats;

@@ -54,19 +54,6 @@ SHARED_END
 
 namespace reflet {
 
-/// Owns the images of a G-buffer.
-struct GBufferStore {
-    gpu::KeptImage depth{"depth"};
-    gpu::KeptImage normal{"normal"};
-    gpu::KeptImage geometricNormal{"geometric_normal"};
-    gpu::KeptImage baseColor{"base_color"};
-    gpu::KeptImage material{"material"};
-    gpu::KeptImage emissive{"emissive"};
-    gpu::KeptImage motion{"motion"};
-    gpu::KeptImage reflectance{"reflectance"};
-    gpu::KeptImage layers{"layers"};
-};
-
 /// What of the draw list a G-buffer holds.
 struct GBufferContent {
     vec4 clipPlane{0.0F};             ///< as in GBufferParams; zero: none
@@ -81,12 +68,12 @@ struct GBufferContent {
     bool withoutGlass = false;  ///< transmissive surfaces do not count as opaque
 };
 
-/// Draws the list for the view: reversed Z, back faces of single-sided draws culled. Layers of blended surfaces are
-/// found by depth peeling (C. Everitt, Interactive Order-Independent Transparency, 2001). Clipping is done per pixel,
-/// because an oblique near plane (Lengyel, Oblique View Frustum Depth Projection and Clipping, 2005) would distort
-/// depth, and ray marching relies on distance = near / depth.
-GBuffer drawGBuffer(gpu::Recorder& f, GBufferStore& own, const DrawList& list, const ViewParams& view,
-                    const MaterialsSettings& settings, const GBufferContent& content = {});
+/// Draws the list, which must live until the frame has ended, for the view: reversed Z, back faces of single-sided
+/// draws culled. Layers of blended surfaces are found by depth peeling (C. Everitt, Interactive Order-Independent
+/// Transparency, 2001). Clipping is done per pixel, because an oblique near plane (Lengyel, Oblique View Frustum Depth
+/// Projection and Clipping, 2005) would distort depth, and ray marching relies on distance = near / depth.
+GBuffer drawGBuffer(gpu::Recorder& f, const DrawList& list, const ViewParams& view, const MaterialsSettings& settings,
+                    const GBufferContent& content = {});
 
 }  // namespace reflet
 #endif

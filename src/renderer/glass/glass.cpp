@@ -10,17 +10,17 @@ bool drawsGlass(const DrawList& list, const TransmissionSettings& settings, cons
     return list.glass && settings.layers > 0 && materials.lambertOnly == 0;
 }
 
-GlassSurfaces glassSurfaces(gpu::Recorder& f, GlassSurfacesStore& own, const DrawList& list, const ViewParams& view,
-                            const GBuffer& g) {
+GlassSurfaces glassSurfaces(gpu::Recorder& f, const DrawList& list, const ViewParams& view, const GBuffer& g) {
     const uvec2 size = g.depth.size;
     const VkClearColorValue zero{};
-    const GlassSurfaces out{
-        own.tint.target(f, VK_FORMAT_R16G16B16A16_SFLOAT, size),
-        own.volume.target(f, VK_FORMAT_R16G16B16A16_SFLOAT, size), own.kind.target(f, VK_FORMAT_R32_UINT, size),
-        own.exitDepth.target(f, VK_FORMAT_D32_SFLOAT, size), own.exitNormal.target(f, VK_FORMAT_R32_UINT, size)};
+    const GlassSurfaces out{f.target("glass.tint", VK_FORMAT_R16G16B16A16_SFLOAT, size),
+                            f.target("glass.volume", VK_FORMAT_R16G16B16A16_SFLOAT, size),
+                            f.target("glass.kind", VK_FORMAT_R32_UINT, size),
+                            f.target("glass.exit_depth", VK_FORMAT_D32_SFLOAT, size),
+                            f.target("glass.exit_normal", VK_FORMAT_R32_UINT, size)};
     const auto record = [&](Cull cull) {
-        return [&list, &view, cull](const gpu::DrawCommands& to) {
-            recordDraws(to, list, {[](const Draw& d) { return d.glass; }, cull, true, view.worldToClip}, false);
+        return [&list, worldToClip = view.worldToClip, cull](const gpu::DrawCommands& to) {
+            recordDraws(to, list, {[](const Draw& d) { return d.glass; }, cull, true, worldToClip}, false);
         };
     };
     f.raster("glass_front", {"glass.vert", "glass_front.frag"})
@@ -43,17 +43,16 @@ GlassSurfaces glassSurfaces(gpu::Recorder& f, GlassSurfacesStore& own, const Dra
     return out;
 }
 
-RefractedRays refractRays(gpu::Recorder& f, gpu::Scratch& scratch, GlassSurfacesStore& own, const GBuffer& g,
-                          const GlassSurfaces& glass, gpu::Image ggxTable, bool disperses,
-                          const RefractParams& params) {
+RefractedRays refractRays(gpu::Recorder& f, const GBuffer& g, const GlassSurfaces& glass, gpu::Image ggxTable,
+                          bool disperses, const RefractParams& params) {
     const uvec2 size = g.depth.size;
     RaySurfaces from{.g = g, .view = params.view};
-    from.origins = own.origins.storage(f, VK_FORMAT_R32G32B32A32_SFLOAT, size, disperses ? 3 : 1, true);
-    from.g.geometricNormal = own.leavingNormal.storage(f, VK_FORMAT_R32_UINT, size);
+    from.origins = f.image("glass.origins", VK_FORMAT_R32G32B32A32_SFLOAT, size, disperses ? 3 : 1, true);
+    from.g.geometricNormal = f.image("glass.leaving_normal", VK_FORMAT_R32_UINT, size);
     RayGeneration generation{.from = from, .tiles = {}, .ggxTable = ggxTable};
     generation.lobe = lobeSpecular;
     generation.params.rayCount = disperses ? 3 : 1;
-    RefractedRays out{raysOf(f, scratch, generation), own.share.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, size)};
+    RefractedRays out{raysOf(f, generation), f.image("glass.share", VK_FORMAT_R16G16B16A16_SFLOAT, size)};
     out.rays.spreads = params.frosted != 0;
     gpu::Pass pass = f.compute("refract_rays", "refract_rays.comp");
     bindSurfaces(f, pass, g)

@@ -52,18 +52,6 @@ namespace reflet {
 /// Whether transmissive surfaces of the list are drawn as glass, apart from the opaque ones.
 bool drawsGlass(const DrawList& list, const TransmissionSettings& settings, const MaterialsSettings& materials);
 
-/// Owns the images of glassSurfaces and refractRays.
-struct GlassSurfacesStore {
-    gpu::KeptImage tint{"glass.tint"};
-    gpu::KeptImage volume{"glass.volume"};
-    gpu::KeptImage kind{"glass.kind"};
-    gpu::KeptImage exitDepth{"glass.exit_depth"};
-    gpu::KeptImage exitNormal{"glass.exit_normal"};
-    gpu::KeptImage origins{"glass.origins"};
-    gpu::KeptImage leavingNormal{"glass.leaving_normal"};
-    gpu::KeptImage share{"glass.share"};
-};
-
 /// What a layer of transmissive surfaces is made of, and its back faces.
 struct GlassSurfaces {
     gpu::Image tint;        ///< RGBA16F: share of light that passes the surface, without reflection; thickness [m]
@@ -74,8 +62,7 @@ struct GlassSurfaces {
 };
 
 /// g: of the layer, drawn with the same list and view.
-GlassSurfaces glassSurfaces(gpu::Recorder& f, GlassSurfacesStore& own, const DrawList& list, const ViewParams& view,
-                            const GBuffer& g);
+GlassSurfaces glassSurfaces(gpu::Recorder& f, const DrawList& list, const ViewParams& view, const GBuffer& g);
 
 /// A ray for each pixel of the layer, or three where it disperses light, from where it leaves the glass.
 struct RefractedRays {
@@ -84,9 +71,9 @@ struct RefractedRays {
     gpu::Image share;
 };
 
-/// The rays' images live as long as `scratch`. disperses: whether some of the glass does.
-RefractedRays refractRays(gpu::Recorder& f, gpu::Scratch& scratch, GlassSurfacesStore& own, const GBuffer& g,
-                          const GlassSurfaces& glass, gpu::Image ggxTable, bool disperses, const RefractParams& params);
+/// disperses: whether some of the glass does.
+RefractedRays refractRays(gpu::Recorder& f, const GBuffer& g, const GlassSurfaces& glass, gpu::Image ggxTable,
+                          bool disperses, const RefractParams& params);
 
 /// over = what the layer itself sends, where there is one, plus what it transmits (none: nothing); `behind` elsewhere.
 /// All RGBA16F. The alpha of `behind` is kept.

@@ -174,12 +174,12 @@ gpu::Image drawLampShadowMap(gpu::Recorder& f, gpu::KeptImage& own, const DrawLi
         .depth(map, 0.0F)
         .vertices(vertexLayout())
         .params(params)
-        .draw([&](const gpu::DrawCommands& to) { drawTiles(to, list, shadows, params, false); });
+        .draw([=, &list](const gpu::DrawCommands& to) { drawTiles(to, list, shadows, params, false); });
     f.raster("lamp_shadow_map", {"lamp_shadow_map_masked.vert", "shadow_map_masked.frag"})
         .depth(map, std::nullopt)
         .vertices(vertexLayout(), list.materialLayout)
         .params(params)
-        .draw([&](const gpu::DrawCommands& to) { drawTiles(to, list, shadows, params, true); });
+        .draw([=, &list](const gpu::DrawCommands& to) { drawTiles(to, list, shadows, params, true); });
     return map;
 }
 

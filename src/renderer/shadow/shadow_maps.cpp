@@ -32,10 +32,10 @@ uvec2 sunMapSize(const SunShadowParams& sun, const ShadowSettings& settings) {
     return uvec2(sun.count > 1 ? 2 : 1, sun.count > 2 ? 2 : 1) * settings.resolution;
 }
 
-void recordSunMap(const gpu::DrawCommands& to, const DrawList& list, const SunShadowParams& sun,
-                  const ShadowSettings& settings, const std::function<bool(const Draw&)>& keep, bool bindMaterials) {
+void recordSunMap(const gpu::DrawCommands& to, const DrawList& list, const SunShadowParams& sun, uint32_t resolution,
+                  const std::function<bool(const Draw&)>& keep, bool bindMaterials) {
     for (uint i = 0; i < sun.count; ++i) {
-        drawIntoTile(to, uvec2(i % 2, i / 2), settings.resolution);
+        drawIntoTile(to, uvec2(i % 2, i / 2), resolution);
         recordDraws(to, list,
                     {.keep = keep,
                      .cull = Cull::none,
@@ -52,22 +52,24 @@ gpu::Image drawShadowMap(gpu::Recorder& f, gpu::KeptImage& own, const DrawList& 
     if (holdsSunMap(f, own, list, sun, settings, opaqueOnly)) {
         return depth;
     }
-    const auto record = [&](const gpu::DrawCommands& to, bool masked) {
-        const auto keep = [&](const Draw& d) { return d.masked == masked && !(opaqueOnly && d.glass); };
-        recordSunMap(to, list, sun, settings, keep, masked);
+    const auto record = [=, &list](bool masked) {
+        return [=, &list](const gpu::DrawCommands& to) {
+            const auto keep = [&](const Draw& d) { return d.masked == masked && !(opaqueOnly && d.glass); };
+            recordSunMap(to, list, sun, settings.resolution, keep, masked);
+        };
     };
     // Opaque draws need no fragment shader; cut-out draws test alpha.
     f.raster("shadow_map", {"shadow_map.vert"})
         .depth(depth, 0.0F)
         .vertices(vertexLayout())
         .params(sun)
-        .draw([&](const gpu::DrawCommands& to) { record(to, false); });
+        .draw(record(false));
     f.raster("shadow_map", {"shadow_map_masked.vert", "shadow_map_masked.frag"})
         .depth(depth, std::nullopt)
         .vertices(vertexLayout(), list.materialLayout)
         .params(sun)
         .constant("opaqueOnly", opaqueOnly ? 1U : 0U)
-        .draw([&](const gpu::DrawCommands& to) { record(to, true); });
+        .draw(record(true));
     return depth;
 }
 

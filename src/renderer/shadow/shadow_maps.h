@@ -37,9 +37,8 @@ gpu::Image drawShadowMap(gpu::Recorder& f, gpu::KeptImage& own, const DrawList& 
 uvec2 sunMapSize(const SunShadowParams& sun, const ShadowSettings& settings);
 bool holdsSunMap(const gpu::Recorder& f, gpu::KeptImage& image, const DrawList& list, const SunShadowParams& sun,
                  const ShadowSettings& settings, bool opaqueOnly = false);
-void recordSunMap(const gpu::DrawCommands& to, const DrawList& list, const SunShadowParams& sun,
-                  const ShadowSettings& settings, const std::function<bool(const Draw&)>& keep,
-                  bool bindMaterials = true);
+void recordSunMap(const gpu::DrawCommands& to, const DrawList& list, const SunShadowParams& sun, uint32_t resolution,
+                  const std::function<bool(const Draw&)>& keep, bool bindMaterials = true);
 
 /// Min/max pyramid of the map, RG32F: the largest (nearest to the sun) and the smallest depth of each cell. list, sun,
 /// settings, opaqueOnly: as for drawShadowMap; reused whenever the map is.

@@ -37,14 +37,7 @@ struct DirectRays {
     gpu::Image sunVisibility;  ///< R8: unoccluded share of the rays to the sun's disk, 1 for the sky
 };
 
-/// Owns the images of DirectRays.
-struct DirectRaysStore {
-    gpu::KeptImage direct{"direct"};
-    gpu::KeptImage sunVisibility{"sun_visibility"};
-};
-
-DirectRays directByRays(gpu::Recorder& f, DirectRaysStore& own, const GBuffer& g, const DirectRaysInputs& in,
-                        const DirectRaysParams& params);
+DirectRays directByRays(gpu::Recorder& f, const GBuffer& g, const DirectRaysInputs& in, const DirectRaysParams& params);
 
 }  // namespace reflet
 #endif
