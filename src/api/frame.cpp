@@ -26,9 +26,8 @@ constexpr VkFormat lightFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 gpu::BufferView blueNoiseOf(RefletView_T& view) {
     ViewImages& own = *view.images;
     const gpu::BufferView buffer = own.blueNoise.get(view.recorder, blueNoise().size_bytes());
-    if (!own.hasBlueNoise && !view.recorder.isCollecting()) {
+    if (!own.blueNoise.holds(view.recorder)) {
         view.recorder.update(buffer, std::as_bytes(blueNoise()));
-        own.hasBlueNoise = true;
     }
     return buffer;
 }
@@ -57,7 +56,7 @@ EnvironmentLight environmentLight(RefletView_T& view, const EnvironmentInputs& i
     gpu::Recorder& f = view.recorder;
     EnvironmentImages& own = view.images->environment;
     const bool changed = own.generation != f.generation() || own.revision != in.revision || own.from != in.from;
-    if (changed || f.isCollecting()) {
+    if (changed || f.isDiscarded(own.list)) {
         const auto scope = f.scope("environment");
         const gpu::Image texels = own.texels.storage(f, lightFormat, in.image ? in.image.size : uvec2(1));
         if (in.image) {
@@ -70,11 +69,11 @@ EnvironmentLight environmentLight(RefletView_T& view, const EnvironmentInputs& i
             own.cube = CubeMap(f.context(), side, 1, "environment");
         }
         prefilterEnvironment(f, own.cube, texels);
-        if (!f.isCollecting()) {
-            own.generation = f.generation();
-            own.revision = in.revision;
-            own.from = in.from;
-        }
+        own.generation = f.generation();
+        own.revision = in.revision;
+        own.from = in.from;
+        own.list = f.listNumber();
+        f.promise();
     }
     return {own.texels.last(), own.cube.lobes.image(), own.cube.irradiance.image(), in.params};
 }
@@ -111,12 +110,39 @@ gpu::Image pictureSoFar(const Frame& frame) {
     return radiance;
 }
 
+void keepLobe(gpu::Recorder& f, const std::optional<LobeLight>& lobe) {
+    if (!lobe) {
+        return;
+    }
+    const GBuffer& g = lobe->from.g;
+    for (const gpu::Image& image : {g.depth, g.normal, g.geometricNormal, g.baseColor, g.material, g.motion,
+                                    g.reflectance, g.layers, lobe->radiance, lobe->source, lobe->directional}) {
+        f.keep(image);
+    }
+}
+
+// Records what a call has listed. What later calls and the host may read stays for the rest of the frame.
+void finishCall(RefletView_T& view, const Frame& frame) {
+    gpu::Recorder& f = view.recorder;
+    const GBuffer& g = frame.g;
+    for (const gpu::Image& image :
+         {g.depth, g.normal, g.geometricNormal, g.baseColor, g.material, g.motion, g.reflectance, frame.backDepth,
+          frame.pyramid, frame.light, frame.antialiased, frame.defocused, frame.circleOfConfusion, frame.sunVisibility,
+          frame.ambientOcclusion, frame.display}) {
+        f.keep(image);
+    }
+    keepLobe(f, frame.diffuse);
+    keepLobe(f, frame.specular);
+    f.flush();
+}
+
 }  // namespace
 
 void recordImport(RefletView_T& view, Frame& frame, const HostSurfaces& host, const ImportParams& params) {
     const ImportedSurfaces surfaces = importSurfaces(view.recorder, host, params);
     frame.g = surfaces.g;
     frame.backDepth = surfaces.backDepth;
+    finishCall(view, frame);
 }
 
 gpu::Image recordSunShadow(RefletView_T& view, Frame& frame, const Settings& settings, const SunInputs& in) {
@@ -139,6 +165,7 @@ gpu::Image recordSunShadow(RefletView_T& view, Frame& frame, const Settings& set
         visible = contactShadow(f, frame.g, pyramidOf(view, frame), visible, {frame.view, settings.contact, in.toSun});
     }
     frame.sunVisibility = visible;
+    finishCall(view, frame);
     return visible;
 }
 
@@ -155,6 +182,7 @@ gpu::Image recordAmbientOcclusion(RefletView_T& view, Frame& frame, const Settin
                                                .denoise = denoiseSettings(view, settings),
                                                .ggxTable = ggxTable(f, view.images->ggxTable),
                                                .blueNoise = blueNoiseOf(view)});
+    finishCall(view, frame);
     return frame.ambientOcclusion;
 }
 
@@ -197,6 +225,7 @@ LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings,
                    .randomTracing = trace.enabled != 0 && trace.jitter != 0 && !exact,
                    .coneShare = trace.enabled != 0 ? 0.1F : 0.0F});
     (diffuse ? frame.diffuse : frame.specular) = traced;
+    finishCall(view, frame);
     return traced;
 }
 
@@ -211,6 +240,7 @@ LobeLight recordDenoise(RefletView_T& view, Frame& frame, const Settings& settin
     light.source = light.radiance;
     const LobeLight clean = denoise(f, &own.denoise, light, lobe, frame.view, denoiseSettings(view, settings));
     (diffuse ? frame.diffuse : frame.specular) = clean;
+    finishCall(view, frame);
     return clean;
 }
 
@@ -236,6 +266,9 @@ Composite recordComposite(RefletView_T& view, Frame& frame, const Settings& sett
                                 false,   true};
     const Composite sum = composite(f, parts, litOf(view, frame).next, {frame.view, settings.diffuse.gain});
     frame.composed = sum.lit;
+    f.keep(sum.indirectDiffuse);
+    f.keep(sum.indirectSpecular);
+    finishCall(view, frame);
     return sum;
 }
 
@@ -252,6 +285,7 @@ gpu::Image recordTemporal(RefletView_T& view, Frame& frame, const Settings& sett
     }
     const TemporalInputs in{frame.g, radiance, {}, frame.view, size, frame.jitter};
     frame.antialiased = temporal(f, view.images->temporal, in, settings.temporal).mean;
+    finishCall(view, frame);
     return frame.antialiased;
 }
 
@@ -267,6 +301,7 @@ gpu::Image recordDepthOfField(RefletView_T& view, Frame& frame, const Settings& 
     const DofImages blurred = depthOfField(f, view.images->circleOfConfusion, in);
     frame.defocused = blurred.radiance;
     frame.circleOfConfusion = blurred.coc;
+    finishCall(view, frame);
     return blurred.radiance;
 }
 
@@ -284,7 +319,9 @@ gpu::Image recordToneMap(RefletView_T& view, Frame& frame, const Settings& setti
         exposure = measureExposure(f, view.images->exposure, metered, frame.g.depth, frame.elapsed,
                                    settings.tonemap.adaptation);
     }
-    return tonemap(f, radiance, settings.tonemap, exposure);
+    frame.display = tonemap(f, radiance, settings.tonemap, exposure);
+    finishCall(view, frame);
+    return frame.display;
 }
 
 }  // namespace reflet::api

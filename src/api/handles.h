@@ -45,12 +45,12 @@ struct EnvironmentImages {
     uint64_t revision = 0;
     VkImageView from = VK_NULL_HANDLE;
     uint64_t generation = UINT64_MAX;  ///< of the recorder when they were made
+    uint64_t list = 0;                 ///< whose passes make them
 };
 
 /// All that a view keeps from frame to frame.
 struct ViewImages {
     gpu::KeptBuffer blueNoise{"blue_noise"};
-    bool hasBlueNoise = false;
     gpu::KeptImage ggxTable{"ggx_table"};
     EnvironmentImages environment;
     gpu::HistoryImage sunVisibility{"shadow_clean.history"};
@@ -77,6 +77,7 @@ struct Frame {
     gpu::Image circleOfConfusion;
     gpu::Image sunVisibility;
     gpu::Image ambientOcclusion;
+    gpu::Image display;
     std::optional<LobeLight> diffuse;
     std::optional<LobeLight> specular;
     float elapsed = 0.0F;

@@ -142,6 +142,7 @@ gpu::Image HostImages::add(const RefletImage& image) {
     }
     gpu::ImageState& state = view_.hostImages.emplace_back();
     state.image = image.image;
+    state.view = image.view;
     state.layout = sampledLayout(image);
     state.external = true;
     // One image may be given for several fields: it gets one barrier.
@@ -149,7 +150,7 @@ gpu::Image HostImages::add(const RefletImage& image) {
     if (!known) {
         images_.push_back(image);
     }
-    return {&state, image.view, image.format, {image.width, image.height}, 1, 1};
+    return {&state, -1, image.format, {image.width, image.height}, 1, 1};
 }
 
 void HostImages::acquire() {
@@ -192,7 +193,7 @@ RefletImage resultOf(const gpu::Image& image) {
         return result;
     }
     result.image = image.state->image;
-    result.view = image.view;
+    result.view = image.view();
     result.format = image.format;
     result.width = image.size.x;
     result.height = image.size.y;

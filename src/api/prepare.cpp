@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint32_t allEffects = 2 * REFLET_EFFECT_DEPTH_OF_FIELD - 1;
 
-// Stand-ins for the host's images: passes that are only collected never read them.
+// Stand-ins for the host's images: passes that are only prepared never read them.
 class StandIns {
 public:
     explicit StandIns(RefletView_T& view) : view_(view) {}
@@ -21,7 +21,7 @@ public:
         gpu::ImageState& state = view_.hostImages.emplace_back();
         state.external = true;
         state.layout = VK_IMAGE_LAYOUT_GENERAL;
-        return {&state, VK_NULL_HANDLE, VK_FORMAT_R16G16B16A16_SFLOAT, size, 1, 1};
+        return {&state, -1, VK_FORMAT_R16G16B16A16_SFLOAT, size, 1, 1};
     }
     gpu::Image makeIfGiven(const RefletImage& image) {
         return image.image != VK_NULL_HANDLE ? make(view_.size) : gpu::Image{};
@@ -31,7 +31,7 @@ private:
     RefletView_T& view_;
 };
 
-void collectFrame(RefletView_T& view, const Settings& settings, const RefletPrepareInfo& info) {
+void prepareFrame(RefletView_T& view, const Settings& settings, const RefletPrepareInfo& info) {
     StandIns standIns(view);
     const auto asked = [&](RefletEffect effect) { return (info.effects & effect) != 0; };
     Frame frame;
@@ -131,10 +131,12 @@ RefletResult refletPrepare(RefletView view, RefletSettings settings, const Refle
         }
         std::vector<gpu::PipelineInfo> missing;
         view->hostImages.clear();
-        view->recorder.collect(missing);
+        view->recorder.prepare(missing);
+        view->last.reset();  // its images belong to the frame that is prepared now
         try {
-            collectFrame(*view, settings->values, given);
+            prepareFrame(*view, settings->values, given);
         } catch (...) {
+            view->recorder.drop();
             view->recorder.end();
             throw;
         }

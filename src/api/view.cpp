@@ -120,7 +120,12 @@ RefletResult inFrame(RefletView view, RefletSettings settings,
         if (!view->frame) {
             failArgument("view: no frame has begun; call refletBeginFrame first");
         }
-        body(*view->frame, settings->values);
+        try {
+            body(*view->frame, settings->values);
+        } catch (...) {
+            view->recorder.drop();
+            throw;
+        }
     });
 }
 
@@ -172,12 +177,10 @@ RefletResult refletResizeView(RefletView view, uint32_t width, uint32_t height) 
         if (view->size != uvec2(width, height)) {
             view->size = {width, height};
             view->last.reset();
-            const bool noise = view->images->hasBlueNoise;  // the rest is of the old size
-            auto fresh = std::make_unique<ViewImages>();
+            auto fresh = std::make_unique<ViewImages>();  // the rest is of the old size
             std::swap(fresh->blueNoise, view->images->blueNoise);
             std::swap(fresh->ggxTable, view->images->ggxTable);
             std::swap(fresh->environment, view->images->environment);
-            fresh->hasBlueNoise = noise;
             view->images = std::move(fresh);
         }
     });
@@ -256,6 +259,7 @@ RefletResult refletBeginFrame(RefletView view, const RefletFrameInfo* info) {
             host.acquire();
             recordImport(*view, frame, surfaces, params);
         } catch (...) {
+            view->recorder.drop();
             view->recorder.end();
             throw;
         }

@@ -47,6 +47,7 @@ void Frame::begin() {
 }
 
 void Frame::runPassByPass(std::function<bool()> stop) {
+    flush();
     betweenPasses([this, stop = std::move(stop)] { runCommands(stop); });
 }
 
@@ -65,8 +66,8 @@ void Frame::runCommands(const std::function<bool()>& stop) {
 }
 
 void Frame::submit() {
-    betweenPasses({});
     end();
+    betweenPasses({});
     vkCheck(device_.functions().vkEndCommandBuffer(commands_), "ending commands");
     if (!submittedPasses_) {
         submitted_ = std::chrono::steady_clock::now();

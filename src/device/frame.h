@@ -21,9 +21,9 @@ public:
 
     /// Starts recording. Requires that `wait` was called for the last frame.
     void begin();
-    /// Until submit(), finishes each pass on the device before the next one is recorded, and calls `stop` in between. If
-    /// that returns true, FrameStopped is thrown from the recording of a pass: the passes so far have run, and the frame
-    /// is abandoned; call forget() before the next one. For devices on which a pass takes much longer than a submission.
+    /// Until submit(), finishes each pass that is listed from now on before the next one is recorded, and calls `stop` in
+    /// between. If that returns true, submit() throws FrameStopped: the passes so far have run, and the frame is
+    /// abandoned; call forget() before the next one. For devices on which a pass takes much longer than a submission.
     void runPassByPass(std::function<bool()> stop);
     /// Submits the recorded commands.
     void submit();

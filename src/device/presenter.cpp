@@ -134,10 +134,7 @@ void Presenter::takeImages() {
 }
 
 void Presenter::copy(VkCommandBuffer commands, const Image& from, VkImage to) const {
-    BarrierBatch before;
-    before.use(*from.state, VK_IMAGE_ASPECT_COLOR_BIT,
-               {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, false});
-    before.record(device_.vk, commands);
+    layoutBarrier(device_.vk, commands, from.state->image, {}, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_GENERAL);
     layoutBarrier(device_.vk, commands, to, {}, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     // A copy, because a blit between formats costs a CPU several times as much.
     VkImageCopy copy{};

@@ -131,10 +131,10 @@ void Context::nameImage(VkImage image, const std::string& name) const {
     }
 }
 
-void Context::beginLabel(VkCommandBuffer commands, const std::string& name) const {
+void Context::beginLabel(VkCommandBuffer commands, const char* name) const {
     if (beginLabel_ != nullptr) {
         VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
-        label.pLabelName = name.c_str();
+        label.pLabelName = name;
         beginLabel_(commands, &label);
     }
 }

@@ -103,7 +103,7 @@ public:
     void freeMemory(VkDeviceMemory memory);
     /// For debuggers; do nothing without VK_EXT_debug_utils.
     void nameImage(VkImage image, const std::string& name) const;
-    void beginLabel(VkCommandBuffer commands, const std::string& name) const;
+    void beginLabel(VkCommandBuffer commands, const char* name) const;
     void endLabel(VkCommandBuffer commands) const;
 
     /// Device-level functions.

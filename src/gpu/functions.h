@@ -58,12 +58,12 @@ namespace reflet::gpu {
     F(vkDestroyQueryPool)            \
     F(vkDestroySampler)              \
     F(vkDestroyShaderModule)         \
+    F(vkFreeDescriptorSets)          \
     F(vkFreeMemory)                  \
     F(vkGetBufferMemoryRequirements) \
     F(vkGetImageMemoryRequirements)  \
     F(vkGetQueryPoolResults)         \
     F(vkMapMemory)                   \
-    F(vkResetDescriptorPool)         \
     F(vkUpdateDescriptorSets)
 
 // Those of VK_KHR_acceleration_structure, and the addresses that it needs.

@@ -2,7 +2,7 @@
 #include "gpu/images.h"
 
 #include "gpu/context.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 #include <algorithm>
 
@@ -30,7 +30,7 @@ ImageInfo targetInfo(VkFormat format, uvec2 size) {
     return {format, size, 1, 1, attachment | VK_IMAGE_USAGE_SAMPLED_BIT | copied};
 }
 
-Image KeptImage::get(Recorder& f, const ImageInfo& info) {
+Image KeptImage::get(PassList& f, const ImageInfo& info) {
     if (!(texture_.info() == info)) {
         texture_ = Texture(f.context(), info, f.nameOf(name_));
         contents_.clear();
@@ -38,34 +38,44 @@ Image KeptImage::get(Recorder& f, const ImageInfo& info) {
     return texture_.image();
 }
 
-Image KeptImage::storage(Recorder& f, VkFormat format, uvec2 size, uint32_t layers, bool array) {
+Image KeptImage::storage(PassList& f, VkFormat format, uvec2 size, uint32_t layers, bool array) {
     return get(f, storageInfo(format, size, layers, array));
 }
 
-Image KeptImage::target(Recorder& f, VkFormat format, uvec2 size) {
+Image KeptImage::target(PassList& f, VkFormat format, uvec2 size) {
     return get(f, targetInfo(format, size));
 }
 
-bool KeptImage::holds(const Recorder& f, std::span<const std::byte> key) {
-    if (f.isCollecting()) {
-        return false;  // and nothing will be written
-    }
-    if (generation_ == f.generation() && std::ranges::equal(contents_, key)) {
+bool KeptImage::holds(PassList& f, std::span<const std::byte> key) {
+    if (generation_ == f.generation() && std::ranges::equal(contents_, key) && !f.isDiscarded(list_)) {
         return true;
     }
     generation_ = f.generation();
+    list_ = f.listNumber();
     contents_.assign(key.begin(), key.end());
+    f.promise();
     return false;
 }
 
-BufferView KeptBuffer::get(Recorder& f, VkDeviceSize size) {
+bool KeptBuffer::holds(PassList& f) {
+    if (written_ && !f.isDiscarded(list_)) {
+        return true;
+    }
+    written_ = true;
+    list_ = f.listNumber();
+    f.promise();
+    return false;
+}
+
+BufferView KeptBuffer::get(PassList& f, VkDeviceSize size) {
     if (!buffer_.view() || buffer_.view().size != size) {
         buffer_ = storageBuffer(f.context(), size, f.nameOf(name_));
+        written_ = false;
     }
     return buffer_.view();
 }
 
-History HistoryImage::swap(Recorder& f, VkFormat format, uvec2 size) {
+History HistoryImage::swap(PassList& f, VkFormat format, uvec2 size) {
     const ImageInfo info = storageInfo(format, size);
     // Both: making the second one may have failed.
     const bool fresh = !(textures_[0].info() == info && textures_[1].info() == info);
@@ -82,25 +92,6 @@ History HistoryImage::swap(Recorder& f, VkFormat format, uvec2 size) {
     }
     valid_ = valid_ && !fresh;
     return {textures_[current_ ^ 1U].image(), textures_[current_].image(), valid_};
-}
-
-Scratch::~Scratch() {
-    f_.giveBack(images_, buffers_);
-}
-
-Image Scratch::storage(VkFormat format, uvec2 size, uint32_t layers, bool array) {
-    images_.push_back(f_.takeImage(storageInfo(format, size, layers, array)));
-    return f_.pooledImage(images_.back());
-}
-
-Image Scratch::target(VkFormat format, uvec2 size) {
-    images_.push_back(f_.takeImage(targetInfo(format, size)));
-    return f_.pooledImage(images_.back());
-}
-
-BufferView Scratch::buffer(VkDeviceSize size) {
-    buffers_.push_back(f_.takeBuffer(size));
-    return f_.pooledBuffer(buffers_.back());
 }
 
 }  // namespace reflet::gpu

@@ -1,7 +1,5 @@
-// Who owns the images and buffers of effects. What an effect keeps from frame to frame, and what it returns, are
-// members of a struct that its caller owns, one for each instance of the effect: KeptImage, KeptBuffer, HistoryImage.
-// What it needs only while it records comes from a Scratch and goes back to the recorder, for the next effect, when
-// that ends.
+// Images and buffers that effects keep from frame to frame: members of a struct that the caller owns, one for each
+// instance of the effect. What lives in one frame only comes from the list of passes (PassList::image).
 //
 // All are made when they are first asked for, and again when they are asked for with another format or size: from the
 // second frame of the same settings and size on, nothing is made.
@@ -18,7 +16,7 @@
 
 namespace reflet::gpu {
 
-class Recorder;
+class PassList;
 
 /// A double-buffered image: this frame's and the last frame's.
 struct History {
@@ -39,30 +37,31 @@ public:
 
     /// A storage image, also sampled. Its contents are undefined unless `holds` says otherwise. With several layers, or
     /// `array`: an array view.
-    Image storage(Recorder& f, VkFormat format, uvec2 size, uint32_t layers = 1, bool array = false);
+    Image storage(PassList& f, VkFormat format, uvec2 size, uint32_t layers = 1, bool array = false);
     /// A render target (colour or depth), also sampled.
-    Image target(Recorder& f, VkFormat format, uvec2 size);
+    Image target(PassList& f, VkFormat format, uvec2 size);
 
     /// Whether the image still holds what an earlier frame wrote under the same key, and does not have to be written
     /// again. If not, the caller must write all of it, which makes it valid for this key. Keys hold everything that the
     /// contents depend on; their types have no padding.
     template <class T>
-    bool holds(const Recorder& f, const T& key) {
+    bool holds(PassList& f, const T& key) {
         static_assert(std::is_trivially_copyable_v<T>);
         return holds(f, std::as_bytes(std::span(&key, 1)));
     }
-    bool holds(const Recorder& f, std::span<const std::byte> key);
+    bool holds(PassList& f, std::span<const std::byte> key);
 
     /// The image of the last call; none before the first.
     [[nodiscard]] Image last() const { return texture_.info().size.x > 0 ? texture_.image() : Image{}; }
 
 private:
-    Image get(Recorder& f, const ImageInfo& info);
+    Image get(PassList& f, const ImageInfo& info);
 
     std::string_view name_;
     Texture texture_;
     std::vector<std::byte> contents_;  ///< key of the contents; empty: none
-    uint64_t generation_ = 0;          ///< of the recorder, when the contents were written
+    uint64_t generation_ = 0;          ///< of the list, when the contents were written
+    uint64_t list_ = 0;                ///< whose passes write them
 };
 
 /// A storage buffer, also usable for indirect arguments.
@@ -70,11 +69,16 @@ class KeptBuffer {
 public:
     explicit KeptBuffer(std::string_view name) : name_(name) {}
 
-    BufferView get(Recorder& f, VkDeviceSize size);
+    BufferView get(PassList& f, VkDeviceSize size);
+    /// Whether the buffer holds what it was written with: false once after it was made, or if the list that should have
+    /// written it was not recorded. The caller must write all of it then.
+    bool holds(PassList& f);
 
 private:
     std::string_view name_;
     Buffer buffer_;
+    bool written_ = false;
+    uint64_t list_ = 0;  ///< that writes it
 };
 
 /// Two storage images that swap every frame.
@@ -84,7 +88,7 @@ public:
 
     /// The same pair however often it is asked for in a frame. `previous` has no content after a frame in which it was
     /// not asked for.
-    History swap(Recorder& f, VkFormat format, uvec2 size);
+    History swap(PassList& f, VkFormat format, uvec2 size);
 
 private:
     std::string_view name_;
@@ -93,27 +97,6 @@ private:
     uint64_t generation_ = 0;
     uint32_t current_ = 0;
     bool valid_ = false;  ///< in the frame of the last use
-};
-
-/// Images and buffers for as long as it lives. Their contents are undefined at first.
-class Scratch {
-public:
-    explicit Scratch(Recorder& f) : f_(f) {}
-    ~Scratch();
-    Scratch(const Scratch&) = delete;
-    Scratch& operator=(const Scratch&) = delete;
-
-    /// As KeptImage::storage.
-    Image storage(VkFormat format, uvec2 size, uint32_t layers = 1, bool array = false);
-    /// As KeptImage::target.
-    Image target(VkFormat format, uvec2 size);
-    /// As KeptBuffer.
-    BufferView buffer(VkDeviceSize size);
-
-private:
-    Recorder& f_;
-    std::vector<size_t> images_;  ///< indices into the recorder's pool
-    std::vector<size_t> buffers_;
 };
 
 }  // namespace reflet::gpu

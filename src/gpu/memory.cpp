@@ -14,10 +14,6 @@ namespace {
 
 constexpr VkDeviceSize blockSize = VkDeviceSize(64) << 20U;
 
-VkDeviceSize alignUp(VkDeviceSize value, VkDeviceSize alignment) {
-    return (value + alignment - 1) / alignment * alignment;
-}
-
 }  // namespace
 
 // Linear and optimal resources never share a block, so bufferImageGranularity does not matter.

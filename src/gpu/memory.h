@@ -16,6 +16,11 @@ namespace reflet::gpu {
 class Context;
 struct MemoryBlock;
 
+/// The next multiple of `alignment`.
+constexpr VkDeviceSize alignUp(VkDeviceSize value, VkDeviceSize alignment) {
+    return (value + alignment - 1) / alignment * alignment;
+}
+
 enum class MemoryUse : uint8_t {
     device,    ///< device-local, not accessed by the host
     upload,    ///< written by the host, coherent

@@ -1,70 +1,103 @@
-// One pass, declared where it is recorded: its inputs, outputs and parameters, by their names in the shader.
+// One pass, declared where it is listed: its inputs, outputs and parameters, by their names in the shader.
 //
 //     f.compute("trace_screen", "trace_screen.comp")
 //         .read("depth", g.depth).read("lit", lit).write("answer", rays.answer)
 //         .params(TraceScreenParams{...})
 //         .dispatchIndirect(rays.list, offset);
 //
-// Unknown names, missing bindings, parameter blocks of the wrong size and writes to readonly resources throw a
-// std::logic_error that names the pass and the binding, in every build.
+// The last call appends it to the list. Unknown names, missing bindings, parameter blocks of the wrong size and writes
+// to readonly resources throw a std::logic_error that names the pass and the binding, in every build.
 #pragma once
 
 #include "base/strips.h"
-#include "gpu/pipeline.h"
-#include "gpu/resource.h"
+#include "gpu/pass_record.h"
 
-#include <functional>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <type_traits>
-#include <vector>
+#include <utility>
 
 namespace reflet::gpu {
 
-class Context;
-class Recorder;
+class PassList;
 
-/// Passed to the callback that records the draws of a raster pass.
-struct DrawCommands {
-    Context& context;
-    VkCommandBuffer commands;
-    VkPipelineLayout layout;
-};
-
-/// How a pass accesses a resource.
-struct Access {
-    VkPipelineStageFlags2 stages = 0;
-    VkAccessFlags2 access = 0;
-    bool write = false;
-};
-
-class Pass {
+/// What both kinds of pass have in common.
+class PassBase {
 public:
-    Pass(Recorder& recorder, std::string name, std::vector<std::string> shaders);
+    PassBase(PassList& list, PassRecord& record) : list_(&list), record_(&record) {}
 
-    Pass& read(std::string_view binding, Image image, VkSampler sampler = VK_NULL_HANDLE);
-    Pass& read(std::string_view binding, BufferView buffer);
+protected:
+    void bind(std::string_view binding, const Bound& bound);
+    void setUniform(std::string_view binding, std::span<const std::byte> bytes);
+    void setConstant(std::string_view name, uint32_t value);
+    /// Checks that everything is bound, notes all uses, and appends the pass.
+    void append();
+    void use(const Image& image, const Access& access);
+    void use(const BufferView& buffer, const Access& access);
+
+    PassList* list_;
+    PassRecord* record_;
+
+private:
+    [[nodiscard]] uint32_t slotOf(std::string_view binding, bool uniform) const;
+    void checkAccess(const ShaderBinding& binding, const Bound& bound) const;
+    void checkBound() const;
+};
+
+/// The declarations of a pass; Self is what they return.
+template <class Self>
+class DeclaredPass : public PassBase {
+public:
+    using PassBase::PassBase;
+
+    Self& read(std::string_view binding, Image image, VkSampler sampler = VK_NULL_HANDLE) {
+        return bound(binding, {image, {}, {}, sampler, false});
+    }
+    Self& read(std::string_view binding, BufferView buffer) {
+        return bound(binding, {{}, buffer, {}, VK_NULL_HANDLE, false});
+    }
     /// The structure must have been built before this frame began.
-    Pass& read(std::string_view binding, AccelerationView structure);
-    /// An image that the draws' own descriptor set binds. Raster only.
-    Pass& read(Image image);
+    Self& read(std::string_view binding, AccelerationView structure) {
+        return bound(binding, {{}, {}, structure, VK_NULL_HANDLE, false});
+    }
     /// A pass may also read what it writes.
-    Pass& write(std::string_view binding, Image image);
-    Pass& write(std::string_view binding, BufferView buffer);
+    Self& write(std::string_view binding, Image image) { return bound(binding, {image, {}, {}, VK_NULL_HANDLE, true}); }
+    Self& write(std::string_view binding, BufferView buffer) {
+        return bound(binding, {{}, buffer, {}, VK_NULL_HANDLE, true});
+    }
 
     /// Contents of the uniform block of that name. T must have no padding that the scalar layout of the shader would
     /// not have.
     template <class T>
-    Pass& params(const T& value, std::string_view binding = "params") {
+    Self& params(const T& value, std::string_view binding = "params") {
         static_assert(std::is_trivially_copyable_v<T>);
         return uniform(binding, std::as_bytes(std::span(&value, 1)));
     }
-    Pass& uniform(std::string_view binding, std::span<const std::byte> bytes);
+    Self& uniform(std::string_view binding, std::span<const std::byte> bytes) {
+        setUniform(binding, bytes);
+        return self();
+    }
 
     /// Sets a specialization constant.
-    Pass& constant(std::string_view name, uint32_t value);
+    Self& constant(std::string_view name, uint32_t value) {
+        setConstant(name, value);
+        return self();
+    }
+
+protected:
+    Self& self() { return static_cast<Self&>(*this); }
+
+private:
+    Self& bound(std::string_view binding, const Bound& what) {
+        bind(binding, what);
+        return self();
+    }
+};
+
+class ComputePass : public DeclaredPass<ComputePass> {
+public:
+    using DeclaredPass::DeclaredPass;
 
     /// Dispatches x · y · z threads, rounded up to whole groups.
     void dispatch(uint32_t x, uint32_t y = 1, uint32_t z = 1);
@@ -73,58 +106,35 @@ public:
     void dispatchStrips(uvec2 pixels) { dispatch(stripWidth, pixels.y, (pixels.x + stripWidth - 1) / stripWidth); }
     /// Group counts from a VkDispatchIndirectCommand at the start of the buffer plus `offset`.
     void dispatchIndirect(BufferView arguments, VkDeviceSize offset);
+};
 
-    /// Raster only. Cleared to `clear` if given; otherwise the contents are kept.
-    Pass& color(std::string_view output, Image image, std::optional<VkClearColorValue> clear);
-    Pass& depth(Image image, std::optional<float> clear);
+using Pass = ComputePass;
+
+class RasterPass : public DeclaredPass<RasterPass> {
+public:
+    using DeclaredPass::DeclaredPass;
+    using DeclaredPass::read;
+
+    /// An image that the draws' own descriptor set binds.
+    RasterPass& read(Image image);
+    /// Cleared to `clear` if given; otherwise the contents are kept.
+    RasterPass& color(std::string_view output, Image image, std::optional<VkClearColorValue> clear);
+    RasterPass& depth(Image image, std::optional<float> clear);
     /// Alpha-blends colours over the contents.
-    Pass& blend();
+    RasterPass& blend();
     /// Layout of the vertex buffers that the draws bind, and of the descriptor set (1) that they bind themselves.
-    Pass& vertices(const VertexLayout& layout, VkDescriptorSetLayout drawSet = VK_NULL_HANDLE);
-    /// Records the draws with a viewport over the whole target.
-    void draw(const std::function<void(const DrawCommands&)>& record);
+    RasterPass& vertices(const VertexLayout& layout, VkDescriptorSetLayout drawSet = VK_NULL_HANDLE);
+    /// Appends the pass. `record` records the draws, with a viewport over the whole target, when the list is recorded:
+    /// what it refers to must live until the frame has ended.
+    template <class F>
+    void draw(F record) {
+        record_->draw.emplace(std::move(record));
+        appendDraw();
+    }
 
 private:
-    struct Bound {
-        std::string name;
-        Image image;
-        BufferView buffer;
-        AccelerationView structure;
-        VkSampler sampler = VK_NULL_HANDLE;
-        bool write = false;
-    };
-    struct UniformBytes {
-        std::string name;
-        std::vector<std::byte> bytes;
-    };
-    struct Attachment {
-        std::string output;
-        Image image;
-        std::optional<VkClearColorValue> clear;
-    };
-
-    void prepare(const Pipeline& pipeline);
-    VkDescriptorSet writeSet(const Pipeline& pipeline);
-    void checkBindings(const Pipeline& pipeline) const;
-    void checkAccess(const ShaderBinding& binding, const Bound& bound) const;
-    void collectUses(const Pipeline& pipeline);
-    void emitBarriers();
-    [[nodiscard]] uint64_t boundBytes() const;
-    void use(Image image, const Access& access);
-    void use(BufferView buffer, const Access& access);
-    const Pipeline& startCompute();
-    void orderAttachments(const Pipeline& pipeline);
-
-    Recorder& recorder_;
-    std::string name_;
-    PipelineInfo info_;
-    std::vector<Bound> bound_;
-    std::vector<UniformBytes> uniforms_;
-    std::vector<Attachment> colors_;
-    Image depth_;
-    std::optional<float> clearDepth_;
-    std::vector<std::pair<Image, Access>> imageUses_;
-    std::vector<std::pair<BufferView, Access>> bufferUses_;
+    void appendDraw();
+    void checkTargets() const;
 };
 
 }  // namespace reflet::gpu

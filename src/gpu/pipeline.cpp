@@ -37,7 +37,10 @@ VkDescriptorSetLayout makeSetLayout(Context& context, const std::vector<ShaderBi
     std::vector<VkDescriptorSetLayoutBinding> list;
     list.reserve(bindings.size());
     for (const ShaderBinding& b : bindings) {
-        list.push_back({b.binding, b.type, b.count, VK_SHADER_STAGE_ALL, nullptr});
+        // The bytes of a block move from frame to frame; the sets stay.
+        const bool block = b.type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+        list.push_back({b.binding, block ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC : b.type, b.count,
+                        VK_SHADER_STAGE_ALL, nullptr});
     }
     VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
     info.bindingCount = static_cast<uint32_t>(list.size());
@@ -47,13 +50,14 @@ VkDescriptorSetLayout makeSetLayout(Context& context, const std::vector<ShaderBi
     return layout;
 }
 
-VkPipelineLayout makeLayout(Context& context, const Pipeline& pipeline, VkDescriptorSetLayout drawSet) {
-    const VkDescriptorSetLayout sets[] = {pipeline.set, drawSet};
-    const VkPushConstantRange push{VK_SHADER_STAGE_ALL, 0, pipeline.pushConstantSize};
+VkPipelineLayout makeLayout(Context& context, VkDescriptorSetLayout set, VkDescriptorSetLayout drawSet,
+                            uint32_t pushConstantSize) {
+    const VkDescriptorSetLayout sets[] = {set, drawSet};
+    const VkPushConstantRange push{VK_SHADER_STAGE_ALL, 0, pushConstantSize};
     VkPipelineLayoutCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
     info.setLayoutCount = drawSet != VK_NULL_HANDLE ? 2 : 1;
     info.pSetLayouts = sets;
-    info.pushConstantRangeCount = pipeline.pushConstantSize > 0 ? 1 : 0;
+    info.pushConstantRangeCount = pushConstantSize > 0 ? 1 : 0;
     info.pPushConstantRanges = &push;
     VkPipelineLayout layout = VK_NULL_HANDLE;
     vkCheck(context.vk.vkCreatePipelineLayout(context.handle(), &info, nullptr, &layout), "creating a pipeline layout");
@@ -77,16 +81,6 @@ struct Specialization {
         info = {static_cast<uint32_t>(entries.size()), entries.data(), data.size() * sizeof(uint32_t), data.data()};
     }
 };
-
-void checkConstants(const std::vector<Shader>& shaders, const PipelineInfo& info) {
-    for (const auto& constant : info.constants) {
-        const bool known = std::ranges::any_of(shaders, [&](const Shader& s) {
-            return std::ranges::find(s.constants, constant.first, &SpecializationConstant::name) != s.constants.end();
-        });
-        REFLET_CHECK(known, "{} has no specialization constant '{}' (set to {})", info.shaders.front(), constant.first,
-                     constant.second);
-    }
-}
 
 /// The shader modules of a pipeline while it is made.
 struct Modules {
@@ -227,21 +221,10 @@ void makePipeline(Context& context, const PipelineInfo& info, const std::vector<
             : makeGraphics(context, info, vertexInput(shaders.front(), info.vertices), pipeline.layout, stages);
 }
 
-// Of a pipeline, without what describes it: copying that would take memory.
-struct Handles {
-    VkPipeline pipeline;
-    VkPipelineLayout layout;
-    VkDescriptorSetLayout set;
-};
-
-Handles handlesOf(const Pipeline& pipeline) {
-    return {pipeline.handle, pipeline.layout, pipeline.set};
-}
-
-void destroy(Context& context, const Handles& handles) {
-    context.vk.vkDestroyPipeline(context.handle(), handles.pipeline, nullptr);
-    context.vk.vkDestroyPipelineLayout(context.handle(), handles.layout, nullptr);
-    context.vk.vkDestroyDescriptorSetLayout(context.handle(), handles.set, nullptr);
+void destroy(Context& context, const Pipeline& pipeline) {
+    context.vk.vkDestroyPipeline(context.handle(), pipeline.handle, nullptr);
+    context.vk.vkDestroyPipelineLayout(context.handle(), pipeline.layout, nullptr);
+    context.vk.vkDestroyDescriptorSetLayout(context.handle(), pipeline.set, nullptr);
 }
 
 }  // namespace
@@ -253,9 +236,38 @@ PipelineCache::~PipelineCache() {
 // Commands that are still recorded or in flight may use them.
 void PipelineCache::clear() {
     for (const auto& [info, pipeline] : pipelines_) {
-        context_.retire([&context = context_, retired = handlesOf(*pipeline)] { destroy(context, retired); });
+        context_.retire([&context = context_, retired = *pipeline] { destroy(context, retired); });
     }
     pipelines_.clear();
+    interfaces_.clear();
+    ++version_;
+}
+
+const ShaderInterface& PipelineCache::interfaceOf(std::span<const std::string_view> shaders) {
+    const std::vector<std::string_view> key(shaders.begin(), shaders.end());
+    if (const auto known = interfaces_.find(key); known != interfaces_.end()) {
+        return *known->second;
+    }
+    auto made = std::make_unique<ShaderInterface>();
+    std::vector<Shader> stages;
+    for (const std::string_view name : shaders) {
+        const Shader& shader = stages.emplace_back(context_.shaders().find(name));
+        made->shaders.push_back(shader.name);
+        made->stages |= shader.stage;
+        made->pushConstantSize = std::max(made->pushConstantSize, shader.pushConstantSize);
+        std::ranges::transform(shader.constants, std::back_inserter(made->constants), &SpecializationConstant::name);
+        if (shader.stage == VK_SHADER_STAGE_FRAGMENT_BIT) {
+            made->colorOutputs.assign(shader.outputs.begin(), shader.outputs.end());
+        }
+    }
+    made->localSize = stages.front().localSize;
+    made->bindings = mergeBindings(stages, 0);
+    std::ranges::sort(made->bindings, {}, &ShaderBinding::binding);  // as Vulkan takes dynamic offsets
+    for (const ShaderBinding& b : made->bindings) {
+        const auto first = std::ranges::find(made->bindings, b.name, &ShaderBinding::name);
+        made->sameName.push_back(static_cast<uint32_t>(first - made->bindings.begin()));
+    }
+    return *interfaces_.emplace(made->shaders, std::move(made)).first->second;
 }
 
 const Pipeline& PipelineCache::get(const PipelineInfo& info) {
@@ -264,26 +276,17 @@ const Pipeline& PipelineCache::get(const PipelineInfo& info) {
     }
     std::vector<Shader> shaders;
     std::ranges::transform(info.shaders, std::back_inserter(shaders),
-                           [&](const std::string& name) { return context_.shaders().find(name); });
-    checkConstants(shaders, info);
+                           [&](std::string_view name) { return context_.shaders().find(name); });
+    const ShaderInterface& interface = interfaceOf(info.shaders);
     auto pipeline = std::make_unique<Pipeline>();
-    pipeline->bindings = mergeBindings(shaders, 0);
-    pipeline->localSize = shaders.front().localSize;
-    for (const Shader& shader : shaders) {
-        pipeline->stages |= shader.stage;
-        pipeline->pushConstantSize = std::max(pipeline->pushConstantSize, shader.pushConstantSize);
-        if (shader.stage == VK_SHADER_STAGE_FRAGMENT_BIT) {
-            pipeline->colorOutputs.assign(shader.outputs.begin(), shader.outputs.end());
-        }
-    }
     Pipeline& made = *pipeline;
     try {
-        made.set = makeSetLayout(context_, made.bindings);
-        made.layout = makeLayout(context_, made, info.drawSet);
+        made.set = makeSetLayout(context_, interface.bindings);
+        made.layout = makeLayout(context_, made.set, info.drawSet, interface.pushConstantSize);
         makePipeline(context_, info, shaders, made);
         pipelines_.emplace(info, nullptr).first->second = std::move(pipeline);
     } catch (...) {
-        destroy(context_, handlesOf(made));
+        destroy(context_, made);
         throw;
     }
     ++context_.counts().pipelines;

@@ -6,7 +6,9 @@
 
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -27,11 +29,23 @@ struct VertexLayout {
     std::vector<VertexAttribute> attributes;
 };
 
-/// Description of a pipeline; equal descriptions share one.
+/// What the shaders of a pipeline expect together.
+struct ShaderInterface {
+    std::vector<std::string_view> shaders;     ///< names, as in the ShaderLibrary
+    std::vector<ShaderBinding> bindings;       ///< of set 0, of all stages, by number
+    std::vector<uint32_t> sameName;            ///< for each binding, the first one of its name: stages may share names
+    std::vector<std::string_view> constants;   ///< of all stages
+    std::vector<ShaderLocation> colorOutputs;  ///< of the fragment shader
+    VkShaderStageFlags stages = 0;
+    uint32_t pushConstantSize = 0;
+    glm::uvec3 localSize{1};
+};
+
+/// Description of a pipeline; equal descriptions share one. Names are those of the ShaderLibrary, which outlive it.
 struct PipelineInfo {
-    std::vector<std::string> shaders;                         ///< one .comp, or a .vert and optionally a .frag
-    std::vector<std::pair<std::string, uint32_t>> constants;  ///< specialization constants by name, as bits
-    std::vector<VkFormat> colorFormats;                       ///< by location
+    std::vector<std::string_view> shaders;                         ///< one .comp, or a .vert and optionally a .frag
+    std::vector<std::pair<std::string_view, uint32_t>> constants;  ///< specialization constants by name, as bits
+    std::vector<VkFormat> colorFormats;                            ///< by location
     VkFormat depthFormat = VK_FORMAT_UNDEFINED;
     bool blends = false;                             ///< alpha-blends colours over the contents
     const VertexLayout* vertices = nullptr;          ///< static data; nullptr: no vertex buffers
@@ -43,12 +57,7 @@ struct PipelineInfo {
 struct Pipeline {
     VkPipeline handle = VK_NULL_HANDLE;
     VkPipelineLayout layout = VK_NULL_HANDLE;
-    VkDescriptorSetLayout set = VK_NULL_HANDLE;  ///< set 0
-    std::vector<ShaderBinding> bindings;         ///< of set 0, of all stages
-    std::vector<ShaderLocation> colorOutputs;    ///< of the fragment shader
-    VkShaderStageFlags stages = 0;
-    uint32_t pushConstantSize = 0;
-    glm::uvec3 localSize{1};
+    VkDescriptorSetLayout set = VK_NULL_HANDLE;  ///< set 0; uniform blocks have dynamic offsets
 };
 
 class PipelineCache {
@@ -58,16 +67,24 @@ public:
     PipelineCache(const PipelineCache&) = delete;
     PipelineCache& operator=(const PipelineCache&) = delete;
 
-    /// Throws std::logic_error: an unknown shader or constant, or stages with conflicting bindings.
+    /// What these shaders expect; valid until clear(). Throws std::logic_error: an unknown shader, or stages with
+    /// conflicting bindings.
+    const ShaderInterface& interfaceOf(std::span<const std::string_view> shaders);
+
+    /// Throws std::logic_error: an unknown shader, or stages with conflicting bindings. The info's constants are known.
     const Pipeline& get(const PipelineInfo& info);
 
     [[nodiscard]] bool has(const PipelineInfo& info) const { return pipelines_.contains(info); }
 
     /// Forgets all pipelines, because shaders have changed.
     void clear();
+    /// Counts calls of clear().
+    [[nodiscard]] uint64_t version() const { return version_; }
 
 private:
     Context& context_;
+    uint64_t version_ = 0;
+    std::map<std::vector<std::string_view>, std::unique_ptr<ShaderInterface>> interfaces_;
     std::map<PipelineInfo, std::unique_ptr<Pipeline>> pipelines_;
 };
 

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "gpu/context.h"
 
+#include <atomic>
 #include <utility>
 
 namespace reflet::gpu {
@@ -81,8 +82,12 @@ VkImageView makeView(Context& context, VkImage image, VkImageViewType type, cons
 
 }  // namespace
 
-Texture::Texture(Context& context, const ImageInfo& info, const std::string& name)
-    : Texture() {  // so that the destructor runs if something fails below
+uint64_t nextResourceId() {
+    static std::atomic<uint64_t> last{0};
+    return ++last;
+}
+
+VkImage makeImage(Context& context, const ImageInfo& info, const std::string& name) {
     const uint32_t limit = context.limits().maxImageDimension2D;
     if (info.size.x == 0 || info.size.y == 0 || info.size.x > limit || info.size.y > limit) {
         fail("the image '{}' cannot be {}x{}: this device has images from 1x1 to {}x{}", name, info.size.x, info.size.y,
@@ -98,8 +103,35 @@ Texture::Texture(Context& context, const ImageInfo& info, const std::string& nam
     create.samples = VK_SAMPLE_COUNT_1_BIT;
     create.usage = info.usage;
     ++context.counts().images;
-    auto state = std::make_unique<ImageState>();
-    vkCheck(context.vk.vkCreateImage(context.handle(), &create, nullptr, &state->image), "creating an image");
+    VkImage image = VK_NULL_HANDLE;
+    vkCheck(context.vk.vkCreateImage(context.handle(), &create, nullptr, &image), "creating an image");
+    return image;
+}
+
+void makeViews(Context& context, const ImageInfo& info, ImageState& state) {
+    const VkImageAspectFlags aspect = aspectOf(info.format);
+    state.view = makeView(context, state.image, viewType(info), info, {aspect, 0, info.mips, 0, info.layers});
+    const bool written = (info.usage & VK_IMAGE_USAGE_STORAGE_BIT) != 0;
+    for (uint32_t level = 0; written && (info.mips > 1 || isCube(info)) && level < info.mips; ++level) {
+        state.mips.push_back(
+            makeView(context, state.image, VK_IMAGE_VIEW_TYPE_2D_ARRAY, info, {aspect, level, 1, 0, info.layers}));
+    }
+}
+
+void destroyImage(Context& context, const ImageState& state) {
+    for (VkImageView mip : state.mips) {
+        context.vk.vkDestroyImageView(context.handle(), mip, nullptr);
+    }
+    context.vk.vkDestroyImageView(context.handle(), state.view, nullptr);
+    context.vk.vkDestroyImage(context.handle(), state.image, nullptr);
+}
+
+Texture::Texture(Context& context, const ImageInfo& info, const std::string& name)
+    : Texture() {  // so that the destructor runs if something fails below
+    auto state = std::make_shared<ImageState>();
+    state->image = makeImage(context, info, name);
+    state->id = nextResourceId();
+    state->aspect = aspectOf(info.format);
     context_ = &context;
     info_ = info;
     state_ = std::move(state);
@@ -109,33 +141,23 @@ Texture::Texture(Context& context, const ImageInfo& info, const std::string& nam
     context.nameImage(state_->image, name);
     vkCheck(context.vk.vkBindImageMemory(context.handle(), state_->image, allocation_.memory, allocation_.offset),
             "binding image memory");
-    const VkImageAspectFlags aspect = aspectOf(info.format);
-    view_ = makeView(context, state_->image, viewType(info), info, {aspect, 0, info.mips, 0, info.layers});
-    const bool written = (info.usage & VK_IMAGE_USAGE_STORAGE_BIT) != 0;
-    for (uint32_t level = 0; written && (info.mips > 1 || isCube(info)) && level < info.mips; ++level) {
-        mips_.push_back(
-            makeView(context, state_->image, VK_IMAGE_VIEW_TYPE_2D_ARRAY, info, {aspect, level, 1, 0, info.layers}));
-    }
+    makeViews(context, info, *state_);
 }
 
 Image Texture::mip(uint32_t level) const {
-    REFLET_CHECK(level < mips_.size(), "level {} of {}", level, mips_.size());
-    return {state_.get(), mips_[level], info_.format, max(info_.size >> level, uvec2(1)), info_.layers};
+    REFLET_CHECK(level < state_->mips.size(), "level {} of {}", level, state_->mips.size());
+    return {state_.get(), static_cast<int32_t>(level), info_.format, max(info_.size >> level, uvec2(1)), info_.layers};
 }
 
+// The state goes with the image: passes of the frame that is being listed may still name it.
 void Texture::retire() {
     if (context_ == nullptr || !state_) {
         return;
     }
-    context_->retire(
-        [context = context_, image = state_->image, view = view_, mips = std::move(mips_), allocation = allocation_] {
-            for (VkImageView mip : mips) {
-                context->vk.vkDestroyImageView(context->handle(), mip, nullptr);
-            }
-            context->vk.vkDestroyImageView(context->handle(), view, nullptr);
-            context->vk.vkDestroyImage(context->handle(), image, nullptr);
-            context->memory().release(allocation);
-        });
+    context_->retire([context = context_, state = state_, allocation = allocation_] {
+        destroyImage(*context, *state);
+        context->memory().release(allocation);
+    });
     state_.reset();
 }
 
@@ -151,8 +173,6 @@ Texture& Texture::operator=(Texture&& other) noexcept {
     std::swap(context_, other.context_);
     std::swap(info_, other.info_);
     std::swap(state_, other.state_);
-    std::swap(view_, other.view_);
-    std::swap(mips_, other.mips_);
     std::swap(allocation_, other.allocation_);
     return *this;
 }
@@ -164,7 +184,8 @@ Buffer::Buffer(Context& context, VkDeviceSize size, VkBufferUsageFlags usage, Me
     create.size = size;
     create.usage = usage;
     ++context.counts().buffers;
-    auto state = std::make_unique<BufferState>();
+    auto state = std::make_shared<BufferState>();
+    state->id = nextResourceId();
     vkCheck(context.vk.vkCreateBuffer(context.handle(), &create, nullptr, &state->buffer), "creating a buffer");
     context_ = &context;
     size_ = size;
@@ -180,8 +201,8 @@ void Buffer::retire() {
     if (context_ == nullptr || !state_) {
         return;
     }
-    context_->retire([context = context_, buffer = state_->buffer, allocation = allocation_] {
-        context->vk.vkDestroyBuffer(context->handle(), buffer, nullptr);
+    context_->retire([context = context_, state = state_, allocation = allocation_] {
+        context->vk.vkDestroyBuffer(context->handle(), state->buffer, nullptr);
         context->memory().release(allocation);
     });
     state_.reset();

@@ -23,19 +23,42 @@ struct AccessState {
     VkPipelineStageFlags2 readStages = 0;     ///< since the last write
     VkPipelineStageFlags2 visibleStages = 0;  ///< stages to which the last write is visible
     VkAccessFlags2 visibleAccess = 0;
+
+    bool operator==(const AccessState&) const = default;
 };
 
+/// Place of a resource in the list of passes that uses it; written by that list alone.
+struct ListMark {
+    const void* owner = nullptr;  ///< the recorder
+    uint64_t list = 0;            ///< number of the list; 0: none yet
+    uint32_t index = 0;           ///< among the list's resources
+};
+
+/// What all views of an image share. Of an image that lives in one frame only, the handles are there once its passes
+/// are recorded.
 struct ImageState {
     VkImage image = VK_NULL_HANDLE;
+    VkImageView view = VK_NULL_HANDLE;  ///< all of its mips and layers
+    std::vector<VkImageView> mips;      ///< each as a 2D array of all layers; may be empty
+    uint64_t id = 0;                    ///< no other image of this process ever has it; 0: of a host
+    VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
     AccessState access;
-    bool external = false;  ///< its owner records the barriers; passes only sample it, in `layout`
+    ListMark mark;
+    int32_t transient = -1;  ///< index among the transient images of its recorder; negative: it has an owner
+    bool external = false;   ///< its owner records the barriers; passes only sample it, in `layout`
 };
 
 struct BufferState {
     VkBuffer buffer = VK_NULL_HANDLE;
+    uint64_t id = 0;  ///< as of ImageState
     AccessState access;
+    ListMark mark;
+    int32_t transient = -1;  ///< as of ImageState
 };
+
+/// For ImageState::id and BufferState::id.
+uint64_t nextResourceId();
 
 /// Type of the view that shaders get.
 enum class ViewKind : uint8_t {
@@ -59,13 +82,14 @@ struct ImageInfo {
 /// A view of a texture: all of its mips and layers, or one mip. Valid as long as its owner. Empty: `!image`.
 struct Image {
     ImageState* state = nullptr;
-    VkImageView view = VK_NULL_HANDLE;
+    int32_t level = -1;  ///< the mip level that is viewed; negative: all
     VkFormat format = VK_FORMAT_UNDEFINED;
     uvec2 size{0};
     uint32_t layers = 1;
     uint32_t mips = 1;
 
     explicit operator bool() const { return state != nullptr; }
+    [[nodiscard]] VkImageView view() const { return level < 0 ? state->view : state->mips[static_cast<size_t>(level)]; }
 };
 
 /// A whole buffer. Valid as long as its owner.
@@ -90,6 +114,13 @@ uint32_t bytesPerTexel(VkFormat format);
 /// Bytes of all texels of a view.
 uint64_t bytesOf(const Image& image);
 
+/// An image without memory, as an owner of one makes it. Throws Error for a size that the device does not have.
+VkImage makeImage(Context& context, const ImageInfo& info, const std::string& name);
+/// The views of an image that is bound to memory: state.view and, of storage images with several mips and of cubes,
+/// state.mips.
+void makeViews(Context& context, const ImageInfo& info, ImageState& state);
+void destroyImage(Context& context, const ImageState& state);
+
 class Texture {
 public:
     Texture() = default;
@@ -102,9 +133,7 @@ public:
     Texture& operator=(const Texture&) = delete;
 
     [[nodiscard]] const ImageInfo& info() const { return info_; }
-    [[nodiscard]] Image image() const {
-        return {state_.get(), view_, info_.format, info_.size, info_.layers, info_.mips};
-    }
+    [[nodiscard]] Image image() const { return {state_.get(), -1, info_.format, info_.size, info_.layers, info_.mips}; }
     /// One mip level as a 2D array of all layers (cubes: their faces), for passes that write it. Only for textures with
     /// storage usage and more than one mip, or a cube view.
     [[nodiscard]] Image mip(uint32_t level) const;
@@ -114,9 +143,7 @@ private:
 
     Context* context_ = nullptr;
     ImageInfo info_;
-    std::unique_ptr<ImageState> state_;
-    VkImageView view_ = VK_NULL_HANDLE;
-    std::vector<VkImageView> mips_;
+    std::shared_ptr<ImageState> state_;  ///< also of passes that are not recorded yet
     Allocation allocation_;
 };
 
@@ -142,7 +169,7 @@ private:
 
     Context* context_ = nullptr;
     VkDeviceSize size_ = 0;
-    std::unique_ptr<BufferState> state_;
+    std::shared_ptr<BufferState> state_;  ///< also of passes that are not recorded yet
     Allocation allocation_;
 };
 

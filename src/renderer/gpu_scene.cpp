@@ -133,7 +133,7 @@ void GpuScene::bindMaterial(const Scene& scene, const Material& material, Materi
         const TextureSlot& slot = *slots[i];
         binding.samplers[i] =
             samplerInfo(slot.sampler < 0 ? Sampler{} : scene.samplers.at(static_cast<size_t>(slot.sampler)));
-        binding.views[i] = texture(scene, slot.image, isSrgb(i)).view;
+        binding.views[i] = texture(scene, slot.image, isSrgb(i)).view();
     }
 }
 

@@ -49,7 +49,7 @@ void GpuScene::setLiveHeight(uint32_t pixels) {
     }
     for (MaterialBinding& binding : materialBindings_) {
         if (binding.live) {
-            binding.views[slotEmissive] = live_[*binding.live].texture.image().view;
+            binding.views[slotEmissive] = live_[*binding.live].texture.image().view();
             writeMaterialSet(binding);
         }
     }

@@ -207,6 +207,7 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
         frame_.runPassByPass(stop_);
     }
     const FrameImages images = renderFrame(frame_, store_, inputs, settings);
+    frame_.keep(images.display);
     if (after) {
         after(frame_, images);
     }

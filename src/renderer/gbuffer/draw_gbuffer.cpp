@@ -47,7 +47,7 @@ GBuffer drawGBuffer(gpu::Recorder& f, const DrawList& list, const ViewParams& vi
     const char* const fragment = layers        ? "gbuffer_layers.frag"
                                  : reflectance ? "gbuffer_reflectance.frag"
                                                : "gbuffer.frag";
-    gpu::Pass pass = f.raster("gbuffer", {"gbuffer.vert", fragment});
+    gpu::RasterPass pass = f.raster("gbuffer", {"gbuffer.vert", fragment});
     for (const gpu::Image picture : list.livePictures) {
         pass.read(picture);
     }

@@ -20,7 +20,7 @@ static_assert(sizeof(SunMapContents) == sizeof(SunShadowParams) + 12, "padding w
 
 }  // namespace
 
-bool holdsSunMap(const gpu::Recorder& f, gpu::KeptImage& image, const DrawList& list, const SunShadowParams& sun,
+bool holdsSunMap(gpu::Recorder& f, gpu::KeptImage& image, const DrawList& list, const SunShadowParams& sun,
                  const ShadowSettings& settings, bool opaqueOnly) {
     return list.version != 0 && image.holds(f, SunMapContents{.draws = list.version,
                                                               .sun = sun,

@@ -35,7 +35,7 @@ gpu::Image drawShadowMap(gpu::Recorder& f, gpu::KeptImage& own, const DrawList& 
 
 /// What another map of the same size needs: its size, whether a cached one is still valid, its draws.
 uvec2 sunMapSize(const SunShadowParams& sun, const ShadowSettings& settings);
-bool holdsSunMap(const gpu::Recorder& f, gpu::KeptImage& image, const DrawList& list, const SunShadowParams& sun,
+bool holdsSunMap(gpu::Recorder& f, gpu::KeptImage& image, const DrawList& list, const SunShadowParams& sun,
                  const ShadowSettings& settings, bool opaqueOnly = false);
 void recordSunMap(const gpu::DrawCommands& to, const DrawList& list, const SunShadowParams& sun, uint32_t resolution,
                   const std::function<bool(const Draw&)>& keep, bool bindMaterials = true);

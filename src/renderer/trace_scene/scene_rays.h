@@ -18,7 +18,7 @@
 
 namespace reflet::gpu {
 class Device;
-class Pass;
+class ComputePass;
 }  // namespace reflet::gpu
 
 namespace reflet {
@@ -44,7 +44,7 @@ public:
     /// The shader variant for the method: "trace_scene" gives "trace_scene.comp" or "trace_scene_query.comp".
     [[nodiscard]] std::string shader(std::string_view name) const;
     /// Binds what the shader's include reads.
-    gpu::Pass& bind(gpu::Pass& pass) const;
+    gpu::ComputePass& bind(gpu::Pass& pass) const;
 
 private:
     void upload(gpu::Device& device, const Bvh& bvh);

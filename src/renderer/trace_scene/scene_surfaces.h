@@ -12,7 +12,7 @@
 
 namespace reflet::gpu {
 class Device;
-class Pass;
+class ComputePass;
 }  // namespace reflet::gpu
 
 namespace reflet {
@@ -28,7 +28,7 @@ public:
     void pose(gpu::Device& device, const Scene& scene, const GpuScene& onDevice);
 
     /// Binds what scene_surfaces.glsl reads.
-    gpu::Pass& bind(gpu::Pass& pass) const;
+    gpu::ComputePass& bind(gpu::Pass& pass) const;
 
 private:
     gpu::BufferView attributes_;

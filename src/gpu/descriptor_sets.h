@@ -1,0 +1,43 @@
+// Descriptor sets that are written once and bound in every frame that binds the same.
+#pragma once
+
+#include "gpu/pass_record.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace reflet::gpu {
+
+class Context;
+
+class DescriptorSets {
+public:
+    explicit DescriptorSets(Context& context) : context_(context) {}
+    /// The device must have finished all frames.
+    ~DescriptorSets();
+    DescriptorSets(const DescriptorSets&) = delete;
+    DescriptorSets& operator=(const DescriptorSets&) = delete;
+
+    /// The set of a pass in this frame. uniforms: the buffer that holds its blocks. finished: the last frame number
+    /// that the device has finished.
+    VkDescriptorSet setOf(PassRecord& pass, const std::pair<VkBuffer, uint64_t>& uniforms, uint64_t frame,
+                          uint64_t finished);
+
+private:
+    void writeKey(const PassRecord& pass, uint64_t uniformsId);
+    CachedSet& makeRoom(PassRecord& pass, uint64_t finished);
+    void allocate(CachedSet& entry, VkDescriptorSetLayout layout);
+    void write(const PassRecord& pass, VkDescriptorSet set, VkBuffer uniforms);
+
+    Context& context_;
+    std::vector<VkDescriptorPool> pools_;
+    std::vector<uint64_t> key_;  ///< of the pass at hand
+    // Scratch of write().
+    std::vector<VkDescriptorImageInfo> images_;
+    std::vector<VkDescriptorBufferInfo> buffers_;
+    std::vector<VkWriteDescriptorSetAccelerationStructureKHR> structures_;
+    std::vector<VkWriteDescriptorSet> writes_;
+};
+
+}  // namespace reflet::gpu

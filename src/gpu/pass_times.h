@@ -1,0 +1,59 @@
+// Device times of passes, by timestamp queries.
+#pragma once
+
+#include "gpu/vulkan.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace reflet::gpu {
+
+class Context;
+
+/// Device time of one pass in milliseconds; passes of the same name are summed. Passes that do not depend on each other
+/// run side by side on a GPU: the time of one then contains that of others.
+struct PassTime {
+    std::string name;
+    double ms = 0.0;
+    /// Size of the bound images and buffers, each counted once: the least memory traffic if the pass reads or writes
+    /// all of them. Excludes what draws bind themselves (vertices, textures of materials).
+    uint64_t bytes = 0;
+    bool raster = false;  ///< draws triangles
+};
+
+class PassTimers {
+public:
+    explicit PassTimers(Context& context) : context_(context) {}
+
+    struct Timed {
+        std::string_view name;
+        uint32_t nameIndex = 0;  ///< equal for equal names
+        uint64_t bytes = 0;
+        bool raster = false;
+    };
+    /// Of one frame in flight.
+    struct Frame {
+        std::vector<VkQueryPool> pools;  ///< filled in turn
+        std::vector<Timed> passes;       ///< times not yet read
+    };
+
+    void makePool(Frame& frame);
+    void destroy(Frame& frame);
+    void reset(Frame& frame, VkCommandBuffer commands);
+    void begin(Frame& frame, VkCommandBuffer commands, const Timed& pass);
+    void end(Frame& frame, VkCommandBuffer commands);
+    /// Replaces `times`: "frame" first, then the passes in recording order.
+    void read(const Frame& frame, std::vector<PassTime>& times);
+
+private:
+    std::pair<VkQueryPool, uint32_t> timestamp(Frame& frame, VkCommandBuffer commands, uint32_t which);
+
+    Context& context_;
+    std::vector<uint64_t> ticks_;
+    std::vector<uint32_t> indices_;  ///< by name index: place in the times, plus 1
+};
+
+}  // namespace reflet::gpu

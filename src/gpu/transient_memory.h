@@ -1,0 +1,92 @@
+// The memory of what lives in one frame: blocks in which a plan places images and buffers, and the images and buffers
+// themselves, which are bound to a place once and used in every frame that has the same plan.
+#pragma once
+
+#include "gpu/memory.h"
+#include "gpu/plan.h"
+#include "gpu/resource.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace reflet::gpu {
+
+class Context;
+
+/// An image at its place. Destroyed once the device has finished with it.
+struct PlacedImage {
+    Context& context;
+    ImageState state;
+
+    explicit PlacedImage(Context& of) : context(of) {}
+    ~PlacedImage();
+    PlacedImage(const PlacedImage&) = delete;
+    PlacedImage& operator=(const PlacedImage&) = delete;
+};
+
+struct PlacedBuffer {
+    Context& context;
+    BufferState state;
+
+    explicit PlacedBuffer(Context& of) : context(of) {}
+    ~PlacedBuffer();
+    PlacedBuffer(const PlacedBuffer&) = delete;
+    PlacedBuffer& operator=(const PlacedBuffer&) = delete;
+};
+
+class TransientMemory {
+public:
+    explicit TransientMemory(Context& context) : context_(context) {}
+    ~TransientMemory();
+    TransientMemory(const TransientMemory&) = delete;
+    TransientMemory& operator=(const TransientMemory&) = delete;
+
+    struct Needs {
+        uint32_t heap = 0;  ///< index of heaps()
+        VkDeviceSize size = 0;
+        VkDeviceSize alignment = 1;
+    };
+    /// What an image or buffer takes in memory.
+    Needs needsOf(const ImageInfo& info);
+    Needs needsOf(VkDeviceSize bufferSize);
+
+    /// The heaps as a plan sees them.
+    [[nodiscard]] std::vector<GraphHeap>& heaps() { return heaps_; }
+
+    /// Makes room up to the end of what a plan places in each heap.
+    void reserve(const std::vector<VkDeviceSize>& ends);
+    /// The image of this kind at this place; one that is alive is used again.
+    std::shared_ptr<PlacedImage> image(const ImageInfo& info, VkDeviceSize offset, const std::string& name);
+    std::shared_ptr<PlacedBuffer> buffer(VkDeviceSize size, VkDeviceSize offset);
+
+    /// Gives all blocks back, for one of the right size to take their place; what was placed must not be used again.
+    void release();
+    [[nodiscard]] VkDeviceSize bytes() const;
+    [[nodiscard]] size_t blockCount() const;
+    /// For tests: a buffer over a whole block, to fill memory that is free. offset: in the heap; returns the offset in
+    /// the block.
+    std::pair<VkBuffer, VkDeviceSize> blockAt(uint32_t heap, VkDeviceSize offset);
+
+private:
+    struct Block {
+        Allocation allocation;
+        VkDeviceSize offset = 0;  ///< in the heap
+        VkBuffer all = VK_NULL_HANDLE;
+    };
+    uint32_t heapOf(uint32_t memoryTypes, VkDeviceSize alignment);
+    Block& blockOf(uint32_t heap, VkDeviceSize offset);
+
+    Context& context_;
+    std::vector<GraphHeap> heaps_;
+    std::vector<VkMemoryRequirements> requirements_;  ///< of each heap: its memory types
+    std::vector<std::vector<Block>> blocks_;          ///< of each heap
+    std::vector<std::pair<ImageInfo, Needs>> imageNeeds_;
+    std::map<VkDeviceSize, Needs> bufferNeeds_;
+    std::vector<std::pair<std::pair<ImageInfo, VkDeviceSize>, std::weak_ptr<PlacedImage>>> images_;
+    std::map<std::pair<VkDeviceSize, VkDeviceSize>, std::weak_ptr<PlacedBuffer>> buffers_;
+};
+
+}  // namespace reflet::gpu
