@@ -2,16 +2,13 @@
 #pragma once
 
 #include "api/settings.h"
-#include "effects/composite/composite.h"
-#include "effects/contact/contact.h"
-#include "effects/cube_map/cube_map.h"
-#include "effects/direct/direct.h"
-#include "effects/exposure/exposure.h"
-#include "effects/import/import.h"
-#include "effects/lobe/lobe.h"
-#include "effects/shadow/shadow_clean.h"
 #include "gpu/context.h"
 #include "gpu/recorder.h"
+#include "lighting/direct.h"
+#include "lighting/environment.h"
+#include "lighting/host_images.h"
+#include "lighting/indirect.h"
+#include "lighting/picture.h"
 
 #include "reflet/reflet.h"
 
@@ -59,24 +56,20 @@ struct ViewImages {
     LobeStore specular;
     gpu::HistoryImage lit{"lit"};
     TemporalStore temporal;
-    gpu::HistoryImage circleOfConfusion{"circle_of_confusion"};
+    lighting::DofHistory lens;
     gpu::HistoryImage exposure{"exposure"};
 };
 
 /// What has been recorded of the current frame.
-struct Frame {
-    ViewParams view{};
-    GBuffer g;
-    gpu::Image backDepth;
-    gpu::Image pyramid;
-    gpu::Image light;  ///< given to the lobes
-    gpu::History lit;  ///< swapped by the first effect that reads or writes it
+struct Frame : lighting::Surfaces {
+    lighting::ViewContext context;  ///< its environment is that of the last lobe
+    gpu::Image light;               ///< given to the lobes
+    gpu::History lit;               ///< swapped by the first effect that reads or writes it
     gpu::Image composed;
     gpu::Image antialiased;
     gpu::Image defocused;
     gpu::Image circleOfConfusion;
     gpu::Image sunVisibility;
-    gpu::Image ambientOcclusion;
     std::optional<LobeLight> diffuse;
     std::optional<LobeLight> specular;
     float elapsed = 0.0F;

@@ -35,7 +35,7 @@ void collectFrame(RefletView_T& view, const Settings& settings, const RefletPrep
     StandIns standIns(view);
     const auto asked = [&](RefletEffect effect) { return (info.effects & effect) != 0; };
     Frame frame;
-    frame.view.size = vec2(view.size);
+    frame.context.view.size = vec2(view.size);
     HostSurfaces surfaces = hostSurfaces(*info.gbuffer, [&](const RefletImage& i) { return standIns.makeIfGiven(i); });
     surfaces.depth = standIns.make(view.size);
     surfaces.normal = standIns.make(view.size);
@@ -133,7 +133,7 @@ RefletResult refletPrepare(RefletView view, RefletSettings settings, const Refle
         view->hostImages.clear();
         view->recorder.collect(missing);
         try {
-            collectFrame(*view, settings->values, given);
+            collectFrame(*view, settingsOfFrame(*view, settings->values), given);
         } catch (...) {
             view->recorder.end();
             throw;

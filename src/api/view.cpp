@@ -2,7 +2,7 @@
 #include "api/calls.h"
 #include "api/camera.h"
 #include "api/frame.h"
-#include "effects/jitter.h"
+#include "lighting/jitter.h"
 
 #include <algorithm>
 
@@ -89,6 +89,13 @@ HostSurfaces hostSurfaces(const RefletGBuffer& g, const std::function<gpu::Image
     return host;
 }
 
+Settings settingsOfFrame(const RefletView_T& view, const Settings& settings) {
+    Settings ofFrame = settings;
+    lighting::countRenderedPixels(ofFrame, static_cast<float>(view.size.y), static_cast<float>(outputSizeOf(view).y));
+    ofFrame.traceScreen.countSteps = 0;  // nobody can look at them
+    return ofFrame;
+}
+
 RefletResult onView(RefletView view, const std::function<void()>& body) {
     const RefletResult result = guarded([&] {
         if (view == nullptr) {
@@ -120,7 +127,7 @@ RefletResult inFrame(RefletView view, RefletSettings settings,
         if (!view->frame) {
             failArgument("view: no frame has begun; call refletBeginFrame first");
         }
-        body(*view->frame, settings->values);
+        body(*view->frame, settingsOfFrame(*view, settings->values));
     });
 }
 
@@ -198,8 +205,12 @@ RefletResult refletSetOutputSize(RefletView view, uint32_t width, uint32_t heigh
 
 RefletResult refletResetView(RefletView view) {
     return onView(view, [&] {
-        view->images->environment.generation += view->recorder.generation() == view->images->environment.generation;
+        EnvironmentImages& environment = view->images->environment;
+        const bool current = environment.generation == view->recorder.generation();
         view->recorder.forget();
+        if (current) {  // it has no history
+            environment.generation = view->recorder.generation();
+        }
         view->composedLast = false;
     });
 }
@@ -241,10 +252,10 @@ RefletResult refletBeginFrame(RefletView view, const RefletFrameInfo* info) {
         }
         checkGBuffer(given.gbuffer, view->size);
         Frame frame;
-        frame.view = viewParams(given, view->size);
+        frame.context.view = viewParams(given, view->size);
         frame.jitter = {given.jitter[0], given.jitter[1]};
         frame.elapsed = std::clamp(given.elapsed, 0.0F, 3600.0F);
-        const ImportParams params = importParams(given, frame.view);
+        const ImportParams params = importParams(given, frame.context.view);
         view->commands = given.commandBuffer;
         view->hostImages.clear();
         view->recorder.begin(given.commandBuffer);
