@@ -97,12 +97,9 @@ gpu::Image recordSunShadow(RefletView_T& view, Frame& frame, const Settings& set
         failArgument("shadow.filter: the library does not trace shadow rays; set hard, pcf or pcss");
     }
     const lighting::ViewContext& context = contextOf(view, frame);
-    lighting::SunMaps maps{
-        lighting::importShadowMap(f, in.map, in.sun.count, in.reversed), {}, in.sun, in.toSun, in.slope, in.contact};
-    if (lighting::readsShadowRange(settings.shadow)) {
-        maps.range = f.image("shadow_range", lighting::shadowRangeFormat, lighting::shadowRangeSize(maps.map.size));
-        lighting::shadowRange(f, maps.map, maps.range);
-    }
+    const gpu::Image map = lighting::importShadowMap(f, in.map, in.sun.count, in.reversed);
+    const lighting::SunMaps maps{map,       lighting::shadowRange(f, settings.shadow, map), in.sun, in.toSun, in.slope,
+                                 in.contact};
     frame.sunVisibility =
         lighting::sunShadow(f, &view.images->sunVisibility, context, settings, frame, maps).visibility;
     return frame.sunVisibility;
@@ -123,12 +120,9 @@ LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings,
     frame.context.environment = environmentLight(view, environment);
     const lighting::ViewContext& context = contextOf(view, frame);
     frame.light = lighting::importLight(f, light);
-    ScreenImages screen = lighting::screenOf(f, context, settings, frame, frame.light, litOf(view, frame));
-    if (lobe == lobeSpecular) {
-        screen.light =
-            frame.diffuse ? lighting::lightSoFar(f, context, settings, screen, *frame.diffuse) : screen.light;
-        lighting::prefilterLight(f, settings, screen);
-    }
+    const ScreenImages screen = lighting::lightAtHits(
+        f, context, settings, lobe, lighting::screenOf(f, context, settings, frame, frame.light, litOf(view, frame)),
+        frame.diffuse ? &*frame.diffuse : nullptr);
     const LobeLight traced = lighting::traceLobe(f, &storeOf(view, lobe), context, settings, lobe, frame, screen, {});
     (lobe == lobeDiffuse ? frame.diffuse : frame.specular) = traced;
     return traced;

@@ -32,6 +32,15 @@ uvec2 shadowRangeSize(uvec2 map) {
     return reflet::shadowRangeSize(map);
 }
 
+gpu::Image shadowRange(gpu::Recorder& f, const ShadowSettings& settings, gpu::Image map) {
+    if (!readsShadowRange(settings)) {
+        return {};
+    }
+    const gpu::Image range = f.image("shadow_range", shadowRangeFormat, shadowRangeSize(map.size));
+    shadowRange(f, map, range);
+    return range;
+}
+
 void shadowRange(gpu::Recorder& f, gpu::Image map, gpu::Image range) {
     makeShadowRange(f, map, range);
 }

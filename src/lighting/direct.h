@@ -31,6 +31,8 @@ bool readsShadowRange(const ShadowSettings& settings);
 /// Size and format of SunMaps::range for a map.
 uvec2 shadowRangeSize(uvec2 map);
 constexpr VkFormat shadowRangeFormat = VK_FORMAT_R32G32_SFLOAT;
+/// The range of a map that is new in each frame; none if sunShadow does not read it.
+gpu::Image shadowRange(gpu::Recorder& f, const ShadowSettings& settings, gpu::Image map);
 /// Writes all of the range of a map: nearest and farthest depth of its cells.
 void shadowRange(gpu::Recorder& f, gpu::Image map, gpu::Image range);
 

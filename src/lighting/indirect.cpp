@@ -159,6 +159,18 @@ void prefilterLight(gpu::Recorder& f, const LightingSettings& settings, ScreenIm
     screen.lightMips = makeLightMips(f, previous ? screen.lit.previous : screen.light);
 }
 
+ScreenImages lightAtHits(gpu::Recorder& f, const ViewContext& in, const LightingSettings& settings, uint32_t lobe,
+                         ScreenImages screen, const LobeLight* diffuse) {
+    if (lobe == lobeDiffuse) {
+        return screen;
+    }
+    if (diffuse != nullptr) {
+        screen.light = lightSoFar(f, in, settings, screen, *diffuse);
+    }
+    prefilterLight(f, settings, screen);
+    return screen;
+}
+
 void prefilterOwnLight(gpu::Recorder& f, ScreenImages& screen) {
     screen.lightMips = makeLightMips(f, screen.light);
 }

@@ -47,6 +47,11 @@ gpu::Image lightSoFar(gpu::Recorder& f, const ViewContext& in, const LightingSet
 /// Prefilters the light that reflection rays read at hits, if cones stand for some of them.
 void prefilterLight(gpu::Recorder& f, const LightingSettings& settings, ScreenImages& screen);
 
+/// Both, for views with nothing in front of the surfaces that rays hit: the screen as rays of the lobe read it.
+/// diffuse: none: it is not traced.
+ScreenImages lightAtHits(gpu::Recorder& f, const ViewContext& in, const LightingSettings& settings, uint32_t lobe,
+                         ScreenImages screen, const LobeLight* diffuse);
+
 /// Prefilters the screen's own light, for cones or for blurred lookups.
 void prefilterOwnLight(gpu::Recorder& f, ScreenImages& screen);
 

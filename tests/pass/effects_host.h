@@ -261,13 +261,12 @@ private:
     lighting::LightParts lightIndirectly(gpu::Recorder& f, const lighting::ViewContext& context,
                                          const LightingSettings& settings, lighting::Surfaces& surfaces,
                                          gpu::Image direct, const gpu::History& lit) {
-        ScreenImages screen = lighting::screenOf(f, context, settings, surfaces, direct, lit);
+        const ScreenImages screen = lighting::screenOf(f, context, settings, surfaces, direct, lit);
         const LobeLight diffuse =
             lighting::traceLobe(f, &stores_.diffuse, context, settings, lobeDiffuse, surfaces, screen, {});
-        screen.light = lighting::lightSoFar(f, context, settings, screen, diffuse);
-        lighting::prefilterLight(f, settings, screen);
+        const ScreenImages reflected = lighting::lightAtHits(f, context, settings, lobeSpecular, screen, &diffuse);
         const LobeLight specular =
-            lighting::traceLobe(f, &stores_.specular, context, settings, lobeSpecular, surfaces, screen, {});
+            lighting::traceLobe(f, &stores_.specular, context, settings, lobeSpecular, surfaces, reflected, {});
         return {direct, diffuse, specular};
     }
 
