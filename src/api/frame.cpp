@@ -11,7 +11,7 @@ namespace {
 constexpr VkFormat lightFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 
 gpu::BufferView blueNoiseOf(RefletView_T& view) {
-    ViewImages& own = *view.images;
+    ViewStore& own = *view.store;
     const gpu::BufferView buffer = own.blueNoise.get(view.recorder, blueNoise().size_bytes());
     if (!own.hasBlueNoise && !view.recorder.isCollecting()) {
         view.recorder.update(buffer, std::as_bytes(blueNoise()));
@@ -23,7 +23,7 @@ gpu::BufferView blueNoiseOf(RefletView_T& view) {
 // The frame's context with the tables that stages read, which are made for the first of them.
 const lighting::ViewContext& contextOf(RefletView_T& view, Frame& frame) {
     if (!frame.context.ggxTable) {
-        frame.context.ggxTable = lighting::ggxTable(view.recorder, view.images->ggxTable);
+        frame.context.ggxTable = lighting::ggxTable(view.recorder, view.store->ggxTable);
         frame.context.blueNoise = blueNoiseOf(view);
     }
     return frame.context;
@@ -32,7 +32,7 @@ const lighting::ViewContext& contextOf(RefletView_T& view, Frame& frame) {
 // This frame's and the last frame's picture. The first effect of a frame that reads or writes it swaps them.
 gpu::History litOf(RefletView_T& view, Frame& frame) {
     if (!frame.lit.next) {
-        frame.lit = view.images->lit.swap(view.recorder, lightFormat, view.size);
+        frame.lit = view.store->lit.swap(view.recorder, lightFormat, view.size);
         frame.lit.valid = frame.lit.valid && view.composedLast;
     }
     return frame.lit;
@@ -40,7 +40,7 @@ gpu::History litOf(RefletView_T& view, Frame& frame) {
 
 EnvironmentLight environmentLight(RefletView_T& view, const EnvironmentInputs& in) {
     gpu::Recorder& f = view.recorder;
-    EnvironmentImages& own = view.images->environment;
+    EnvironmentImages& own = view.store->environment;
     const bool changed = own.generation != f.generation() || own.revision != in.revision || own.from != in.from;
     if (changed || f.isCollecting()) {
         const gpu::Image texels = own.texels.storage(f, lightFormat, in.image ? in.image.size : uvec2(1));
@@ -61,7 +61,7 @@ EnvironmentLight environmentLight(RefletView_T& view, const EnvironmentInputs& i
 }
 
 LobeStore& storeOf(RefletView_T& view, uint32_t lobe) {
-    return lobe == lobeDiffuse ? view.images->diffuse : view.images->specular;
+    return lobe == lobeDiffuse ? view.store->diffuse : view.store->specular;
 }
 
 // The picture so far, with this radiance or what came of the last effect.
@@ -100,8 +100,7 @@ gpu::Image recordSunShadow(RefletView_T& view, Frame& frame, const Settings& set
     const gpu::Image map = lighting::importShadowMap(f, in.map, in.sun.count, in.reversed);
     const lighting::SunMaps maps{map,       lighting::shadowRange(f, settings.shadow, map), in.sun, in.toSun, in.slope,
                                  in.contact};
-    frame.sunVisibility =
-        lighting::sunShadow(f, &view.images->sunVisibility, context, settings, frame, maps).visibility;
+    frame.sunVisibility = lighting::sunShadow(f, &view.store->sunVisibility, context, settings, frame, maps).visibility;
     return frame.sunVisibility;
 }
 
@@ -109,7 +108,7 @@ gpu::Image recordAmbientOcclusion(RefletView_T& view, Frame& frame, const Settin
     if (settings.ao.method == AoMethod::none) {
         failArgument("ao.method: is none, its default; set horizon or bitmask");
     }
-    frame.ambientOcclusion = lighting::ambientOcclusion(view.recorder, &view.images->ambientOcclusion,
+    frame.ambientOcclusion = lighting::ambientOcclusion(view.recorder, &view.store->ambientOcclusion,
                                                         contextOf(view, frame), settings, frame);
     return frame.ambientOcclusion;
 }
@@ -166,7 +165,7 @@ gpu::Image recordTemporal(RefletView_T& view, Frame& frame, const Settings& sett
         failArgument("view: its output size, {}x{}, is smaller than its size, {}x{} (refletSetOutputSize)", size.x,
                      size.y, view.size.x, view.size.y);
     }
-    frame.antialiased = lighting::antialias(f, view.images->temporal, frame.context, settings,
+    frame.antialiased = lighting::antialias(f, view.store->temporal, frame.context, settings,
                                             lightWith(frame, radiance), size, frame.jitter)
                             .lit;
     return frame.antialiased;
@@ -177,7 +176,7 @@ gpu::Image recordDepthOfField(RefletView_T& view, Frame& frame, const Settings& 
     gpu::Recorder& f = view.recorder;
     const gpu::Image radiance = color ? lighting::importLight(f, color) : pictureSoFar(frame);
     const LobeLight* const specular = frame.specular && frame.composed ? &*frame.specular : nullptr;
-    const lighting::Light blurred = lighting::defocus(f, view.images->lens, contextOf(view, frame), settings, lens,
+    const lighting::Light blurred = lighting::defocus(f, view.store->lens, contextOf(view, frame), settings, lens,
                                                       frame, lightWith(frame, radiance), specular);
     frame.defocused = blurred.lit;
     frame.circleOfConfusion = blurred.circleOfConfusion;
@@ -194,7 +193,7 @@ gpu::Image recordToneMap(RefletView_T& view, Frame& frame, const Settings& setti
             failArgument(
                 "autoExposure: needs a picture of the view's size; color is larger, and refletComposite has not run");
         }
-        exposure = lighting::exposure(f, view.images->exposure, settings, frame, light, frame.elapsed);
+        exposure = lighting::exposure(f, view.store->exposure, settings, frame, light, frame.elapsed);
     }
     return lighting::display(f, settings, light.lit, exposure);
 }

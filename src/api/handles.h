@@ -45,7 +45,7 @@ struct EnvironmentImages {
 };
 
 /// All that a view keeps from frame to frame.
-struct ViewImages {
+struct ViewStore {
     gpu::KeptBuffer blueNoise{"blue_noise"};
     bool hasBlueNoise = false;
     gpu::KeptImage ggxTable{"ggx_table"};
@@ -88,9 +88,9 @@ struct RefletView_T {
     reflet::uvec2 size{0};
     reflet::uvec2 outputSize{0};                ///< of refletTemporal's pictures; 0: as size
     VkCommandBuffer commands = VK_NULL_HANDLE;  ///< of the current frame
-    std::unique_ptr<reflet::api::ViewImages> images;
+    std::unique_ptr<reflet::api::ViewStore> store;
     std::optional<reflet::api::Frame> frame;         ///< between begin and end
     std::optional<reflet::api::Frame> last;          ///< that has ended, for refletFindImage
     std::deque<reflet::gpu::ImageState> hostImages;  ///< of the current frame; elements stay where they are
-    bool composedLast = false;                       ///< whether the last frame wrote ViewImages::lit
+    bool composedLast = false;                       ///< whether the last frame wrote ViewStore::lit
 };

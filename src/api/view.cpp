@@ -153,7 +153,7 @@ RefletResult refletCreateView(RefletContext context, const RefletViewInfo* info,
         const std::scoped_lock lock(context->mutex);
         auto made = std::make_unique<RefletView_T>(*context, given.framesInFlight);
         made->size = {given.width, given.height};
-        made->images = std::make_unique<ViewImages>();
+        made->store = std::make_unique<ViewStore>();
         ++context->views;
         *view = made.release();
     });
@@ -179,13 +179,13 @@ RefletResult refletResizeView(RefletView view, uint32_t width, uint32_t height) 
         if (view->size != uvec2(width, height)) {
             view->size = {width, height};
             view->last.reset();
-            const bool noise = view->images->hasBlueNoise;  // the rest is of the old size
-            auto fresh = std::make_unique<ViewImages>();
-            std::swap(fresh->blueNoise, view->images->blueNoise);
-            std::swap(fresh->ggxTable, view->images->ggxTable);
-            std::swap(fresh->environment, view->images->environment);
+            const bool noise = view->store->hasBlueNoise;  // the rest is of the old size
+            auto fresh = std::make_unique<ViewStore>();
+            std::swap(fresh->blueNoise, view->store->blueNoise);
+            std::swap(fresh->ggxTable, view->store->ggxTable);
+            std::swap(fresh->environment, view->store->environment);
             fresh->hasBlueNoise = noise;
-            view->images = std::move(fresh);
+            view->store = std::move(fresh);
         }
     });
 }
@@ -205,7 +205,7 @@ RefletResult refletSetOutputSize(RefletView view, uint32_t width, uint32_t heigh
 
 RefletResult refletResetView(RefletView view) {
     return onView(view, [&] {
-        EnvironmentImages& environment = view->images->environment;
+        EnvironmentImages& environment = view->store->environment;
         const bool current = environment.generation == view->recorder.generation();
         view->recorder.forget();
         if (current) {  // it has no history

@@ -27,7 +27,8 @@ ScreenImages screenOf(gpu::Recorder& f, const ViewContext& in, const LightingSet
 /// Whether any rays read ScreenImages::light.
 bool readsScreenLight(const LightingSettings& settings, const RaySources& sources);
 
-/// The light of one lobe. history: none: this frame alone. rays: of the surfaces; `screen` may be another view's.
+/// The light of one lobe, for rays that start at the surfaces. screen: that they are marched through; it may be another
+/// view's. history: none: this frame alone.
 LobeLight traceLobe(gpu::Recorder& f, LobeStore* history, const ViewContext& in, const LightingSettings& settings,
                     uint32_t lobe, const Surfaces& surfaces, const ScreenImages& screen, const RaySources& sources);
 

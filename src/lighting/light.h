@@ -11,7 +11,8 @@ namespace reflet::lighting {
 struct Light : LightLayers {
     /// Red: share of the pixel that surfaces cover; the layers are premultiplied by it. None: all of it.
     gpu::Image coverage;
-    /// Alpha: what blended surfaces let through that are in these layers, before the coverage was known.
+    /// Light of blended surfaces that the layers hold already. They cover the background, too: alpha is what they let
+    /// through. Empty once `coverage` counts them.
     std::vector<gpu::Image> translucent;
     /// Of the nearest surface in each pixel, glass included; 0: the background shows.
     gpu::Image depth;

@@ -66,6 +66,7 @@ lighting::Light withBackground(gpu::Recorder& f, const FrameBackground& backgrou
     }
     const auto scope = f.scope("coverage");
     out.coverage = covered;
+    out.translucent.clear();
     for (const gpu::Image& translucent : light.translucent) {
         const gpu::Image behind = out.coverage;
         out.coverage = f.image("coverage.blended", radianceFormat, size);
