@@ -5,7 +5,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 file(GLOB api CONFIGURE_DEPENDS src/api/*.cpp src/api/*.h)
-set(library_parts reflet_core reflet_gpu reflet_noise reflet_effects)
+set(library_parts reflet_core reflet_gpu reflet_noise reflet_effects reflet_lighting)
 add_library(reflet ${api})
 foreach(part IN LISTS library_parts)
     target_sources(reflet PRIVATE $<TARGET_OBJECTS:${part}>)

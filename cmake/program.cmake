@@ -29,8 +29,8 @@ reflet_library(reflet_compare compare reflet_base)
 # The program's way to a device: opens one, submits, waits, presents.
 reflet_library(reflet_device device reflet_gpu PUBLIC ${CMAKE_DL_LIBS})
 
-# The deferred renderer: draws scenes, and uses the effects.
-reflet_library(reflet_renderer renderer reflet_effects reflet_device reflet_scene reflet_noise)
+# The deferred renderer: draws scenes, and lights them by the stages.
+reflet_library(reflet_renderer renderer reflet_lighting reflet_device reflet_scene reflet_noise)
 file(GLOB_RECURSE renderer_shaders CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} src/renderer/*.vert
     src/renderer/*.frag src/renderer/*.comp)
 reflet_shaders(reflet_renderer rendererShaders ${renderer_shaders})

@@ -2,7 +2,7 @@
 #include "api/camera.h"
 
 #include "api/calls.h"
-#include "effects/jitter.h"
+#include "lighting/jitter.h"
 
 #include <algorithm>
 #include <cmath>

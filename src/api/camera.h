@@ -1,8 +1,7 @@
 // A host's matrices and conventions as Reflet's.
 #pragma once
 
-#include "effects/import/import.h"
-#include "effects/view.h"
+#include "lighting/host_images.h"
 
 #include "reflet/reflet.h"
 

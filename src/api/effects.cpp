@@ -240,7 +240,7 @@ RefletResult refletComposite(RefletView view, RefletSettings settings, const Ref
         const RefletComposite given = adopted(composite, "RefletComposite");
         HostImages host(*view);
         const gpu::Image image = hostImageOf(light, "light", "the light that the lobes were given", host, view->size);
-        const Composite sum = recordComposite(*view, frame, values, image);
+        const lighting::Light sum = recordComposite(*view, frame, values, image);
         RefletComposite result{};
         result.structSize = given.structSize;
         result.lit = resultOf(sum.lit);

@@ -18,6 +18,9 @@ inline uvec2 outputSizeOf(const RefletView_T& view) {
     return view.outputSize.x > 0 ? view.outputSize : view.size;
 }
 
+/// The settings as the stages take them.
+Settings settingsOfFrame(const RefletView_T& view, const Settings& settings);
+
 /// Throws Failure if an image cannot be sampled, or has not this size (0: any). name: of the field.
 void checkImage(const RefletImage& image, const char* name, uvec2 size);
 
@@ -66,7 +69,7 @@ LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings,
                      const EnvironmentInputs& environment);
 LobeLight recordDenoise(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image noisy);
 /// light: none: what the lobes were given.
-Composite recordComposite(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image light);
+lighting::Light recordComposite(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image light);
 /// color: none: what was composited.
 gpu::Image recordTemporal(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image color);
 /// color: none: what was antialiased, or composited.

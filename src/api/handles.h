@@ -2,16 +2,13 @@
 #pragma once
 
 #include "api/settings.h"
-#include "effects/composite/composite.h"
-#include "effects/contact/contact.h"
-#include "effects/cube_map/cube_map.h"
-#include "effects/direct/direct.h"
-#include "effects/exposure/exposure.h"
-#include "effects/import/import.h"
-#include "effects/lobe/lobe.h"
-#include "effects/shadow/shadow_clean.h"
 #include "gpu/context.h"
 #include "gpu/recorder.h"
+#include "lighting/direct.h"
+#include "lighting/environment.h"
+#include "lighting/host_images.h"
+#include "lighting/indirect.h"
+#include "lighting/picture.h"
 
 #include "reflet/reflet.h"
 
@@ -49,7 +46,7 @@ struct EnvironmentImages {
 };
 
 /// All that a view keeps from frame to frame.
-struct ViewImages {
+struct ViewStore {
     gpu::KeptBuffer blueNoise{"blue_noise"};
     gpu::KeptImage ggxTable{"ggx_table"};
     EnvironmentImages environment;
@@ -59,24 +56,20 @@ struct ViewImages {
     LobeStore specular;
     gpu::HistoryImage lit{"lit"};
     TemporalStore temporal;
-    gpu::HistoryImage circleOfConfusion{"circle_of_confusion"};
+    lighting::DofHistory lens;
     gpu::HistoryImage exposure{"exposure"};
 };
 
 /// What has been recorded of the current frame.
-struct Frame {
-    ViewParams view{};
-    GBuffer g;
-    gpu::Image backDepth;
-    gpu::Image pyramid;
-    gpu::Image light;  ///< given to the lobes
-    gpu::History lit;  ///< swapped by the first effect that reads or writes it
+struct Frame : lighting::Surfaces {
+    lighting::ViewContext context;  ///< its environment is that of the last lobe
+    gpu::Image light;               ///< given to the lobes
+    gpu::History lit;               ///< swapped by the first effect that reads or writes it
     gpu::Image composed;
     gpu::Image antialiased;
     gpu::Image defocused;
     gpu::Image circleOfConfusion;
     gpu::Image sunVisibility;
-    gpu::Image ambientOcclusion;
     gpu::Image display;
     std::optional<LobeLight> diffuse;
     std::optional<LobeLight> specular;
@@ -96,9 +89,9 @@ struct RefletView_T {
     reflet::uvec2 size{0};
     reflet::uvec2 outputSize{0};                ///< of refletTemporal's pictures; 0: as size
     VkCommandBuffer commands = VK_NULL_HANDLE;  ///< of the current frame
-    std::unique_ptr<reflet::api::ViewImages> images;
+    std::unique_ptr<reflet::api::ViewStore> store;
     std::optional<reflet::api::Frame> frame;         ///< between begin and end
     std::optional<reflet::api::Frame> last;          ///< that has ended, for refletFindImage
     std::deque<reflet::gpu::ImageState> hostImages;  ///< of the current frame; elements stay where they are
-    bool composedLast = false;                       ///< whether the last frame wrote ViewImages::lit
+    bool composedLast = false;                       ///< whether the last frame wrote ViewStore::lit
 };

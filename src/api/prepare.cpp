@@ -35,7 +35,7 @@ void prepareFrame(RefletView_T& view, const Settings& settings, const RefletPrep
     StandIns standIns(view);
     const auto asked = [&](RefletEffect effect) { return (info.effects & effect) != 0; };
     Frame frame;
-    frame.view.size = vec2(view.size);
+    frame.context.view.size = vec2(view.size);
     HostSurfaces surfaces = hostSurfaces(*info.gbuffer, [&](const RefletImage& i) { return standIns.makeIfGiven(i); });
     surfaces.depth = standIns.make(view.size);
     surfaces.normal = standIns.make(view.size);
@@ -134,7 +134,7 @@ RefletResult refletPrepare(RefletView view, RefletSettings settings, const Refle
         view->recorder.prepare(missing);
         view->last.reset();  // its images belong to the frame that is prepared now
         try {
-            prepareFrame(*view, settings->values, given);
+            prepareFrame(*view, settingsOfFrame(*view, settings->values), given);
         } catch (...) {
             view->recorder.drop();
             view->recorder.end();

@@ -19,17 +19,17 @@ namespace {
 
 SettingTable makeTable() {
     SettingTable table("refletSettingInfo");
-    table.add<ShadowSettings>("shadow", offsetof(Settings, shadow));
-    table.add<ContactSettings>("contact", offsetof(Settings, contact));
-    table.add<TraceScreenSettings>("trace_screen", offsetof(Settings, traceScreen));
-    table.add<EnvironmentSettings>("environment", offsetof(Settings, environment));
-    table.add<DiffuseSettings>("diffuse", offsetof(Settings, diffuse));
-    table.add<SpecularSettings>("specular", offsetof(Settings, specular));
-    table.add<AoSettings>("ao", offsetof(Settings, ao));
-    table.add<DenoiseSettings>("denoise", offsetof(Settings, denoise));
-    table.add<TemporalSettings>("temporal", offsetof(Settings, temporal));
-    table.add<DofSettings>("dof", offsetof(Settings, dof));
-    table.add<TonemapSettings>("tonemap", offsetof(Settings, tonemap));
+    table.add<ShadowSettings>("shadow", offsetIn<Settings>(&Settings::shadow));
+    table.add<ContactSettings>("contact", offsetIn<Settings>(&Settings::contact));
+    table.add<TraceScreenSettings>("trace_screen", offsetIn<Settings>(&Settings::traceScreen));
+    table.add<EnvironmentSettings>("environment", offsetIn<Settings>(&Settings::environment));
+    table.add<DiffuseSettings>("diffuse", offsetIn<Settings>(&Settings::diffuse));
+    table.add<SpecularSettings>("specular", offsetIn<Settings>(&Settings::specular));
+    table.add<AoSettings>("ao", offsetIn<Settings>(&Settings::ao));
+    table.add<DenoiseSettings>("denoise", offsetIn<Settings>(&Settings::denoise));
+    table.add<TemporalSettings>("temporal", offsetIn<Settings>(&Settings::temporal));
+    table.add<DofSettings>("dof", offsetIn<Settings>(&Settings::dof));
+    table.add<TonemapSettings>("tonemap", offsetIn<Settings>(&Settings::tonemap));
     return table;
 }
 

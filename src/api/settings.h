@@ -2,34 +2,13 @@
 #pragma once
 
 #include "base/setting_table.h"
-#include "effects/ambient_occlusion/ambient_occlusion.h"
-#include "effects/contact/contact.h"
-#include "effects/denoise/denoise.h"
-#include "effects/depth_of_field/depth_of_field.h"
-#include "effects/lobe/answer_environment.h"
-#include "effects/lobe/rays.h"
-#include "effects/lobe/trace_screen.h"
-#include "effects/shadow/shadow.h"
-#include "effects/temporal/temporal.h"
-#include "effects/tonemap/tonemap.h"
+#include "lighting/settings.h"
 
 #include <string_view>
 
 namespace reflet::api {
 
-struct Settings {
-    ShadowSettings shadow;
-    ContactSettings contact;
-    TraceScreenSettings traceScreen;
-    EnvironmentSettings environment;
-    DiffuseSettings diffuse;
-    SpecularSettings specular;
-    AoSettings ao;
-    DenoiseSettings denoise;
-    TemporalSettings temporal;
-    DofSettings dof;
-    TonemapSettings tonemap;
-};
+using Settings = LightingSettings;
 
 const SettingTable& settingTable();
 

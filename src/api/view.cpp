@@ -2,7 +2,7 @@
 #include "api/calls.h"
 #include "api/camera.h"
 #include "api/frame.h"
-#include "effects/jitter.h"
+#include "lighting/jitter.h"
 
 #include <algorithm>
 
@@ -89,6 +89,13 @@ HostSurfaces hostSurfaces(const RefletGBuffer& g, const std::function<gpu::Image
     return host;
 }
 
+Settings settingsOfFrame(const RefletView_T& view, const Settings& settings) {
+    Settings ofFrame = settings;
+    lighting::countRenderedPixels(ofFrame, static_cast<float>(view.size.y), static_cast<float>(outputSizeOf(view).y));
+    ofFrame.traceScreen.countSteps = 0;  // nobody can look at them
+    return ofFrame;
+}
+
 RefletResult onView(RefletView view, const std::function<void()>& body) {
     const RefletResult result = guarded([&] {
         if (view == nullptr) {
@@ -121,7 +128,7 @@ RefletResult inFrame(RefletView view, RefletSettings settings,
             failArgument("view: no frame has begun; call refletBeginFrame first");
         }
         try {
-            body(*view->frame, settings->values);
+            body(*view->frame, settingsOfFrame(*view, settings->values));
         } catch (...) {
             view->recorder.drop();
             throw;
@@ -151,7 +158,7 @@ RefletResult refletCreateView(RefletContext context, const RefletViewInfo* info,
         const std::scoped_lock lock(context->mutex);
         auto made = std::make_unique<RefletView_T>(*context, given.framesInFlight);
         made->size = {given.width, given.height};
-        made->images = std::make_unique<ViewImages>();
+        made->store = std::make_unique<ViewStore>();
         ++context->views;
         *view = made.release();
     });
@@ -177,11 +184,11 @@ RefletResult refletResizeView(RefletView view, uint32_t width, uint32_t height) 
         if (view->size != uvec2(width, height)) {
             view->size = {width, height};
             view->last.reset();
-            auto fresh = std::make_unique<ViewImages>();  // the rest is of the old size
-            std::swap(fresh->blueNoise, view->images->blueNoise);
-            std::swap(fresh->ggxTable, view->images->ggxTable);
-            std::swap(fresh->environment, view->images->environment);
-            view->images = std::move(fresh);
+            auto fresh = std::make_unique<ViewStore>();  // the rest is of the old size
+            std::swap(fresh->blueNoise, view->store->blueNoise);
+            std::swap(fresh->ggxTable, view->store->ggxTable);
+            std::swap(fresh->environment, view->store->environment);
+            view->store = std::move(fresh);
         }
     });
 }
@@ -201,8 +208,12 @@ RefletResult refletSetOutputSize(RefletView view, uint32_t width, uint32_t heigh
 
 RefletResult refletResetView(RefletView view) {
     return onView(view, [&] {
-        view->images->environment.generation += view->recorder.generation() == view->images->environment.generation;
+        EnvironmentImages& environment = view->store->environment;
+        const bool current = environment.generation == view->recorder.generation();
         view->recorder.forget();
+        if (current) {  // it has no history
+            environment.generation = view->recorder.generation();
+        }
         view->composedLast = false;
     });
 }
@@ -244,10 +255,10 @@ RefletResult refletBeginFrame(RefletView view, const RefletFrameInfo* info) {
         }
         checkGBuffer(given.gbuffer, view->size);
         Frame frame;
-        frame.view = viewParams(given, view->size);
+        frame.context.view = viewParams(given, view->size);
         frame.jitter = {given.jitter[0], given.jitter[1]};
         frame.elapsed = std::clamp(given.elapsed, 0.0F, 3600.0F);
-        const ImportParams params = importParams(given, frame.view);
+        const ImportParams params = importParams(given, frame.context.view);
         view->commands = given.commandBuffer;
         view->hostImages.clear();
         view->recorder.begin(given.commandBuffer);

@@ -18,6 +18,14 @@ struct SettingEntry {
     SettingInfo info;  ///< offset counts from the start of that struct
 };
 
+/// Bytes from the start of `Settings` to a member, which may be one of a base.
+template <class Settings, class Effect, class Owner>
+size_t offsetIn(Effect Owner::*member) {
+    static const Settings settings{};
+    const auto* const all = reinterpret_cast<const std::byte*>(&settings);
+    return static_cast<size_t>(reinterpret_cast<const std::byte*>(&(settings.*member)) - all);
+}
+
 class SettingTable {
 public:
     /// listedBy: what lists all settings, for messages: "reflet list settings".

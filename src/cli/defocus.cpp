@@ -10,7 +10,7 @@
 #include "device/frame.h"
 #include "effects/depth_of_field/depth_of_field.h"
 #include "effects/tonemap/tone_map_image.h"
-#include "renderer/exposure/scene_exposure.h"
+#include "renderer/scene_exposure/scene_exposure.h"
 #include "renderer/shaders.h"
 #include "renderer/view_params.h"
 #include "scene/pose.h"

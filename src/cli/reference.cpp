@@ -17,7 +17,7 @@
 #include "effects/exposure/exposure.h"
 #include "reference/sample_progress.h"
 #include "renderer/background/background.h"
-#include "renderer/exposure/scene_exposure.h"
+#include "renderer/scene_exposure/scene_exposure.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>

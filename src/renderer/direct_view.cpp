@@ -1,13 +1,11 @@
 // Records one camera's view under direct light.
 #include "renderer/direct_view.h"
 
-#include "effects/contact/contact.h"
-#include "effects/pyramid/pyramid.h"
-#include "renderer/gbuffer/back_depth.h"
-#include "renderer/gbuffer/draw_gbuffer.h"
+#include "renderer/draw_gbuffer/back_depth.h"
+#include "renderer/draw_gbuffer/draw_gbuffer.h"
+#include "renderer/draw_shadows/lamp_shadow_maps.h"
+#include "renderer/draw_shadows/shadow_maps.h"
 #include "renderer/glass/glass.h"
-#include "renderer/shadow/lamp_shadow_maps.h"
-#include "renderer/shadow/shadow_maps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,78 +20,82 @@ void drawSurfaces(gpu::Recorder& f, const ViewInputs& in, const Settings& settin
     content.blendedFrom = settings.blend.layers > 0 ? opaqueAlpha : blendCutoff;
     out.g = drawGBuffer(f, in.draws, in.view, settings.materials, content);
     out.drawnDepth = out.g.depth;
-    const bool aoReads =
-        settings.ao.method == AoMethod::bitmask && settings.ao.thicknessMode == AoThickness::secondLayer;
-    if (settings.traceScreen.thicknessMode == ThicknessMode::secondLayer || aoReads) {
+    if (lighting::readsBackDepth(settings)) {
         const gpu::Image back = drawBackDepth(f, in.draws, out.g.depth, in.view, content.withoutGlass);
-        out.backDepth = keptDepth(f, back, in.view, settings.depth);
+        out.backDepth = lighting::keptDepth(f, in.view, settings.depth, back);
     }
-    out.g.depth = keptDepth(f, out.g.depth, in.view, settings.depth);
-    const bool traced = settings.traceScreen.enabled != 0 && (settings.diffuse.rays > 0 || settings.specular.rays > 0);
-    if ((traced && settings.traceScreen.method == TraceMethod::hiz) || settings.contact.distance > 0.0F) {
-        out.pyramid = makePyramid(f, out.g.depth, out.backDepth);
-    }
+    out.g.depth = lighting::keptDepth(f, in.view, settings.depth, out.drawnDepth);
 }
 
-// Sun visibility per pixel: shadow map, denoising, contact shadows.
-void renderSunVisibility(gpu::Recorder& f, DirectViewStore* own, const ViewInputs& in, const Settings& settings,
-                         ViewImages& out) {
-    ShadowSettings shadow = settings.shadow;
-    if (in.sunIrradiance == vec3(0.0F)) {
-        shadow.filter = ShadowFilter::none;
-    }
-    const float sunSlope = std::tan(0.5F * in.sunAngularDiameter);
-    out.sun = fitSunShadows(in.view, in.draws.boundsW, in.sunDirection, shadow,
-                            filterReach(in.draws.boundsW, shadow, sunSlope));
-    const bool glass = drawsGlass(in.draws, settings.transmission, settings.materials);
+bool sunShines(const ViewInputs& in) {
+    return in.sunIrradiance != vec3(0.0F);
+}
+
+float sunSlope(const ViewInputs& in) {
+    return std::tan(0.5F * in.sunAngularDiameter);
+}
+
+// Whether sunlight passes through some surfaces, in part.
+bool shinesThrough(const ViewInputs& in, const Settings& settings) {
     const bool blended = settings.blend.layers > 0 && std::ranges::any_of(in.draws.draws, &Draw::blended);
-    const bool throughBlended = shadow.filter != ShadowFilter::none && (blended || glass);
-    if (shadow.filter != ShadowFilter::none && !out.shadowMap) {
-        out.shadowMap = drawShadowMap(f, own->shadowMap, in.draws, out.sun, shadow, throughBlended);
+    return blended || drawsGlass(in.draws, settings.transmission, settings.materials);
+}
+
+void drawSunMaps(gpu::Recorder& f, DirectViewStore& own, const ViewInputs& in, const Settings& settings,
+                 ViewImages& out) {
+    ShadowSettings shadow = settings.shadow;
+    shadow.filter = sunShines(in) ? shadow.filter : ShadowFilter::none;
+    out.sun = fitSunShadows(in.view, in.draws.boundsW, in.sunDirection, shadow,
+                            filterReach(in.draws.boundsW, shadow, sunSlope(in)));
+    if (shadow.filter == ShadowFilter::none) {
+        return;
     }
-    ShadowInputs maps{.map = out.shadowMap, .range = {}, .blueNoise = in.blueNoise};
-    if (shadow.filter == ShadowFilter::pcss && shadow.earlyOut != 0) {
-        if (!out.shadowRange) {
-            out.shadowRange =
-                makeShadowRange(f, own->shadowRange, out.shadowMap, in.draws, out.sun, shadow, throughBlended);
-        }
-        maps.range = out.shadowRange;
+    const bool through = shinesThrough(in, settings);
+    out.shadowMap = drawShadowMap(f, own.shadowMap, in.draws, out.sun, shadow, through);
+    if (lighting::readsShadowRange(shadow)) {
+        out.shadowRange = drawShadowRange(f, own.shadowRange, out.shadowMap, in.draws, out.sun, shadow, through);
     }
-    const SunVisibility seen = sunVisibility(f, out.g, maps, {in.view, out.sun, shadow, sunSlope});
-    out.rawSunVisibility = seen.visibility;
-    out.shadowPenumbra = seen.penumbra;
-    out.sunVisibility =
-        shadow.denoise != 0 && seen.penumbra
-            ? denoiseShadow(f, own != nullptr ? &own->sunVisibility : nullptr, out.g, seen.visibility, seen.penumbra,
-                            {in.view, -in.sunDirection, shadow.history, shadow.samples, 0})
-            : seen.visibility;
-    out.cascadeIndex = seen.cascadeIndex;
-    if (settings.contact.distance > 0.0F && in.sunIrradiance != vec3(0.0F)) {
-        out.sunVisibility =
-            contactShadow(f, out.g, out.pyramid, out.sunVisibility, {in.view, settings.contact, -in.sunDirection});
-    }
-    if (throughBlended) {
-        if (!out.blendShadow.front().depth) {
-            out.blendShadow = drawBlendShadowMaps(f, own->blendShadow, in.draws, out.sun, shadow);
-        }
-        out.sunVisibility = blendShadow(f, out.g, out.blendShadow, out.sunVisibility,
-                                        {in.view, out.sun, shadow.resolution, shadow.bias});
+    if (through) {
+        out.blendShadow = drawBlendShadowMaps(f, own.blendShadow, in.draws, out.sun, shadow);
     }
 }
 
-void renderLampVisibility(gpu::Recorder& f, DirectViewStore* own, const ViewInputs& in, const Settings& settings,
-                          ViewImages& out) {
-    out.lampTiles = findLampTiles(f, out.g.depth, in.lamps, in.view, settings.direct);
-    if (in.lampShadows.count > 0) {
-        if (!out.lampShadowMap) {
-            out.lampShadowMap = drawLampShadowMap(f, own->lampShadowMap, in.draws, in.lampShadows);
-        }
-        out.lampVisibility = lampVisibility(f, out.g, {out.lampShadowMap, out.lampTiles.masks, in.blueNoise},
-                                            in.lampShadows, {in.view, settings.shadow});
+// Whether rays find the shadows, and there are no maps.
+bool tracesShadows(const ViewInputs& in, const Settings& settings) {
+    return settings.shadow.filter == ShadowFilter::traced && in.traced != nullptr;
+}
+
+DirectRays traceDirectLight(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const GBuffer& g) {
+    return directByRays(f, g, {*in.traced, in.ggxTable, in.environment, in.lamps},
+                        {in.view, sceneLights(in, settings), settings.shadow.rays});
+}
+
+// Sun visibility per pixel: shadow map, denoising, contact shadows, blended surfaces.
+void findSunVisibility(gpu::Recorder& f, gpu::HistoryImage* history, const ViewInputs& in, const Settings& settings,
+                       ViewImages& out) {
+    const lighting::SunMaps maps{out.shadowMap,    out.shadowRange, out.sun,
+                                 -in.sunDirection, sunSlope(in),    sunShines(in)};
+    const lighting::SunShadow sun = lighting::sunShadow(f, history, contextOf(in, settings), settings, out, maps);
+    out.rawSunVisibility = sun.raw;
+    out.shadowPenumbra = sun.penumbra;
+    out.cascadeIndex = sun.cascadeIndex;
+    out.sunVisibility = sun.visibility;
+    if (out.blendShadow.front().depth) {
+        out.sunVisibility = blendShadow(f, out.g, out.blendShadow, out.sunVisibility,
+                                        {in.view, out.sun, settings.shadow.resolution, settings.shadow.bias});
     }
 }
 
 }  // namespace
+
+lighting::ViewContext contextOf(const ViewInputs& in, const Settings& settings) {
+    return {.view = in.view,
+            .environment = in.environment,
+            .ggxTable = in.ggxTable,
+            .blueNoise = in.blueNoise,
+            .lambertOnly = settings.materials.lambertOnly != 0,
+            .unlit = in.draws.unlit};
+}
 
 SceneLights sceneLights(const ViewInputs& in, const Settings& settings) {
     return {.toSun = -in.sunDirection,
@@ -104,32 +106,46 @@ SceneLights sceneLights(const ViewInputs& in, const Settings& settings) {
 }
 
 ViewImages directView(gpu::Recorder& f, DirectViewStore& own, const ViewInputs& in, const Settings& settings,
-                      gpu::Image lampShadowMap) {
+                      gpu::Image lampShadowMap, ViewHistory history) {
     ViewImages out;
     out.lampShadowMap = lampShadowMap;
     drawSurfaces(f, in, settings, out);
-    lightSurfaces(f, &own, in, settings, out);
-    out.ambientOcclusion =
-        ambientOcclusion(f, &own.ambientOcclusion,
-                         {out.g, in.view, out.backDepth, settings.ao, settings.denoise, in.ggxTable, in.blueNoise});
+    if (!tracesShadows(in, settings)) {
+        drawSunMaps(f, own, in, settings, out);
+        if (in.lampShadows.count > 0 && !lampShadowMap) {
+            out.lampShadowMap = drawLampShadowMap(f, own.lampShadowMap, in.draws, in.lampShadows);
+        }
+    }
+    lightSurfaces(f, history == ViewHistory::kept ? &own.sunVisibility : nullptr, in, settings, out);
     return out;
 }
 
-void lightSurfaces(gpu::Recorder& f, DirectViewStore* own, const ViewInputs& in, const Settings& settings,
+void lightSurfaces(gpu::Recorder& f, gpu::HistoryImage* history, const ViewInputs& in, const Settings& settings,
                    ViewImages& out) {
-    if (settings.shadow.filter == ShadowFilter::traced && in.traced != nullptr) {
-        const DirectRays rays = directByRays(f, out.g, {*in.traced, in.ggxTable, in.environment, in.lamps},
-                                             {in.view, sceneLights(in, settings), settings.shadow.rays});
+    if (tracesShadows(in, settings)) {
+        const DirectRays rays = traceDirectLight(f, in, settings, out.g);
         out.direct = rays.direct;
         out.sunVisibility = rays.sunVisibility;
         out.rawSunVisibility = rays.sunVisibility;
         return;
     }
-    renderSunVisibility(f, own, in, settings, out);
-    renderLampVisibility(f, own, in, settings, out);
-    out.direct = directLight(f, out.g, {out.sunVisibility, out.lampVisibility, out.lampTiles.masks}, in.ggxTable,
-                             {in.view, -in.sunDirection, in.sunIrradiance},
-                             {in.lamps, in.environment, settings.materials.lambertOnly != 0});
+    const lighting::ViewContext context = contextOf(in, settings);
+    findSunVisibility(f, history, in, settings, out);
+    out.lampTiles = lighting::lampTiles(f, context, settings.direct, out, in.lamps);
+    out.lampVisibility =
+        lighting::lampShadow(f, context, settings, out, out.lampTiles, in.lampShadows, out.lampShadowMap);
+    out.direct = directLightOn(f, in, settings, out);
+}
+
+gpu::Image directLightOn(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const ViewImages& images) {
+    if (tracesShadows(in, settings)) {
+        return traceDirectLight(f, in, settings, images.g).direct;
+    }
+    return lighting::directLight(f, contextOf(in, settings), images,
+                                 {-in.sunDirection,
+                                  in.sunIrradiance,
+                                  in.lamps,
+                                  {images.sunVisibility, images.lampVisibility, images.lampTiles.masks}});
 }
 
 }  // namespace reflet

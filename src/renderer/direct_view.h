@@ -1,19 +1,13 @@
 // One camera's view under direct light: G-buffer, visibility of sun and lamps, radiance. The first half of the frame,
-// also used for planar views and probe faces.
+// also used for planar views, live cameras and probe faces.
 #pragma once
 
-#include "effects/ambient_occlusion/ambient_occlusion.h"
-#include "effects/direct/direct.h"
-#include "effects/direct/lamp_tiles.h"
-#include "effects/environment/environment_light.h"
-#include "effects/gbuffer/gbuffer.h"
-#include "effects/shadow/lamp_shadow.h"
-#include "effects/shadow/shadow.h"
-#include "effects/shadow/shadow_clean.h"
 #include "gpu/recorder.h"
+#include "lighting/direct.h"
+#include "lighting/surfaces.h"
 #include "renderer/blend/blend_shadow.h"
+#include "renderer/draw_gbuffer/draw_gbuffer.h"
 #include "renderer/draw_list.h"
-#include "renderer/gbuffer/draw_gbuffer.h"
 #include "renderer/probe/probes.h"
 #include "renderer/settings.h"
 #include "renderer/trace_scene/direct_rays.h"
@@ -38,12 +32,12 @@ struct ViewInputs {
     vec4 clipPlane{0.0F};                 ///< as for drawGBuffer; zero: none
 };
 
+/// What the stages read of it.
+lighting::ViewContext contextOf(const ViewInputs& in, const Settings& settings);
+
 /// Formats are documented with the effects.
-struct ViewImages {
-    GBuffer g;
+struct ViewImages : lighting::Surfaces {
     gpu::Image drawnDepth;        ///< depth of `g` before depth.format, D32
-    gpu::Image backDepth;         ///< none unless trace_screen.thickness_mode is second_layer
-    gpu::Image pyramid;           ///< none unless trace_screen.method is hiz or there are contact shadows
     gpu::Image shadowMap;         ///< none without sun or shadows
     gpu::Image shadowRange;       ///< its min/max pyramid; none unless it is used
     SunShadowParams sun{};        ///< its cascades
@@ -56,29 +50,33 @@ struct ViewImages {
     LampTiles lampTiles;          ///< of all lamps
     gpu::Image lampVisibility;    ///< none if no lamp casts a shadow
     gpu::Image direct;
-    gpu::Image ambientOcclusion;  ///< none without AO
 };
 
 /// Lights for shading at hits of traced rays.
 SceneLights sceneLights(const ViewInputs& in, const Settings& settings);
 
-/// What one view keeps for the next frame: shadow maps as long as they hold, and histories.
+/// What one view keeps for the next frame: shadow maps as long as they hold, and the history of the sun's penumbras.
 struct DirectViewStore {
     gpu::KeptImage shadowMap{"shadow_map"};
     gpu::KeptImage shadowRange{"shadow_range"};
     BlendShadowStore blendShadow;
     gpu::KeptImage lampShadowMap{"lamp_shadow_map"};
     gpu::HistoryImage sunVisibility{"shadow_clean.history"};
-    DenoiseStore ambientOcclusion;
 };
+
+/// Whether a view has seen the same place in the last frame.
+enum class ViewHistory : uint8_t { kept, none };
 
 /// Records the passes of one view. lampShadowMap: from another view of the same frame, to be shared; none: it is drawn.
 ViewImages directView(gpu::Recorder& f, DirectViewStore& own, const ViewInputs& in, const Settings& settings,
-                      gpu::Image lampShadowMap = {});
+                      gpu::Image lampShadowMap = {}, ViewHistory history = ViewHistory::kept);
 
-/// The same for given surfaces: visibility and direct light at out.g. Shadow maps that `out` has are used. own: none:
-/// `out` has all of them, and there is no history.
-void lightSurfaces(gpu::Recorder& f, DirectViewStore* own, const ViewInputs& in, const Settings& settings,
+/// Visibility and direct light at other surfaces of a view, with its shadow maps: sets these images of `out`. history:
+/// of the sun's penumbras; may be none.
+void lightSurfaces(gpu::Recorder& f, gpu::HistoryImage* history, const ViewInputs& in, const Settings& settings,
                    ViewImages& out);
+
+/// Direct light at surfaces that are in the same shadows as those of the view, whose visibilities `images` has.
+gpu::Image directLightOn(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const ViewImages& images);
 
 }  // namespace reflet

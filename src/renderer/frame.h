@@ -1,46 +1,32 @@
 // One frame: a lit image from a draw list, a view and lights.
 #pragma once
 
-#include "effects/accumulate/accumulate.h"
-#include "effects/composite/composite.h"
-#include "effects/depth_of_field/depth_of_field.h"
-#include "effects/lobe/rays.h"
-#include "effects/temporal/temporal.h"
 #include "gpu/recorder.h"
+#include "lighting/picture.h"
 #include "renderer/background/background.h"
-#include "renderer/blend/blend_layers.h"
-#include "renderer/coat/coat.h"
 #include "renderer/direct_view.h"
-#include "renderer/gbuffer/draw_gbuffer.h"
-#include "renderer/glass/glass_layers.h"
-#include "renderer/lit_layer.h"
-#include "renderer/planar/mirrors.h"
+#include "renderer/live/live_picture.h"
+#include "renderer/planar_views/render_planar.h"
 #include "renderer/settings.h"
-#include "renderer/trace_lobe.h"
 
-#include <memory>
+#include <span>
 #include <vector>
 
 namespace reflet {
 
 /// What a frame keeps for the next one; every picture that is rendered over time has its own.
 struct FrameStore {
-    struct Planar {
-        DirectViewStore direct;
-        std::unique_ptr<MirroredScene> room;  ///< drawn in this frame, if any
-    };
     DirectViewStore direct;
+    DenoiseStore ambientOcclusion;
     LobeStore diffuse;
     LobeStore specular;
-    gpu::HistoryImage history{"lit"};
-    std::vector<Planar> planar;
+    gpu::HistoryImage lit{"lit"};  ///< the light that rays of the next frame read at hits
+    std::vector<PlanarStore> planar;
     std::vector<DirectViewStore> live;
-    AccumulateStore coverageMean;
-    AccumulateStore accumulated;
+    lighting::AccumulateHistory means;
     TemporalStore temporal;
     gpu::HistoryImage exposure{"exposure"};
-    gpu::HistoryImage circleOfConfusion{"circle_of_confusion"};
-    gpu::HistoryImage coverageCircleOfConfusion{"coverage.circle_of_confusion"};
+    lighting::DofHistory lens;
 };
 
 struct FrameInputs : ViewInputs {
@@ -61,7 +47,7 @@ struct FrameImages : ViewImages {
     gpu::Image probeAtlas;  ///< of ProbeMaps; none without probes
     LobeLight diffuse;
     LobeLight specular;
-    Composite light;
+    lighting::Light light;
     gpu::Image unfiltered;  ///< light.lit before temporal antialiasing
     gpu::Image temporal;    ///< of FrameInputs.outputSize, as light.lit then is: radiance, history length; none without
                             ///< temporal antialiasing

@@ -1,9 +1,8 @@
 // What of a frame depends on the frames before it.
 #include "renderer/history.h"
 
-#include "effects/exposure/exposure.h"
-#include "effects/jitter.h"
-#include "renderer/exposure/scene_exposure.h"
+#include "lighting/jitter.h"
+#include "renderer/scene_exposure/scene_exposure.h"
 #include "renderer/settings.h"
 #include "scene/scene.h"
 

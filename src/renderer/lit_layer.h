@@ -1,20 +1,17 @@
-// Lights a layer of translucent surfaces like the opaque ones, by the same passes.
+// Lights a layer of translucent surfaces like the opaque ones, by the same passes, without history.
 #pragma once
 
-#include "effects/composite/composite.h"
 #include "renderer/trace_lobe.h"
 
 namespace reflet {
 
-/// Settings for layers: they have no history, and no depth pyramid for contact shadows.
-Settings layerSettings(Settings settings);
-
 /// layer: with the G-buffer of the layer; its direct light is set. Its rays are traced in the screen of the opaque
-/// surfaces.
-Composite lightLayer(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, TracedView& layer, bool layers);
+/// surfaces. layers: the parts of the light, too.
+LightLayers lightLayer(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, TracedView& layer,
+                       bool layers);
 
 /// The same, with the direct light that the layer has.
-Composite reflectedLight(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& layer,
-                         bool layers);
+LightLayers reflectedLight(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& layer,
+                           bool layers);
 
 }  // namespace reflet

@@ -4,13 +4,12 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "device/upload.h"
-#include "effects/exposure/exposure.h"
-#include "effects/jitter.h"
+#include "lighting/jitter.h"
 #include "noise/blue_noise.h"
-#include "renderer/exposure/scene_exposure.h"
+#include "renderer/draw_shadows/lamp_shadow_maps.h"
 #include "renderer/history.h"
 #include "renderer/probe/place_probes.h"
-#include "renderer/shadow/lamp_shadow_maps.h"
+#include "renderer/scene_exposure/scene_exposure.h"
 #include "scene/background.h"
 
 #include <algorithm>
@@ -188,7 +187,7 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
          .environment = environment_.update(frame_, view.environment),
          .lamps = lamps,
          .lampShadows = lampShadows,
-         .ggxTable = ggxTable(frame_, ggxTable_),
+         .ggxTable = lighting::ggxTable(frame_, ggxTable_),
          .blueNoise = blueNoise_.view(),
          .traced = traced,
          .time = view.time},

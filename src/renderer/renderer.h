@@ -2,7 +2,7 @@
 #pragma once
 
 #include "device/frame.h"
-#include "renderer/environment/environment_maps.h"
+#include "renderer/environment_maps/environment_maps.h"
 #include "renderer/frame.h"
 #include "renderer/gpu_scene.h"
 #include "renderer/probe/capture_probe.h"

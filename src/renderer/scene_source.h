@@ -1,8 +1,9 @@
 // Ray tracing as a source of the frame: passes the frame's view, lights and settings to trace_scene.
 #pragma once
 
-#include "effects/lobe/trace_screen.h"
-#include "renderer/frame.h"
+#include "effects/lobe/rays.h"
+#include "lighting/indirect.h"
+#include "renderer/direct_view.h"
 
 namespace reflet {
 

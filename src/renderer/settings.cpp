@@ -5,7 +5,7 @@
 #include "base/json_text.h"
 #include "base/message.h"
 #include "base/text.h"
-#include "renderer/gbuffer/draw_gbuffer.h"
+#include "renderer/draw_gbuffer/draw_gbuffer.h"
 
 #include <nlohmann/json.hpp>
 
@@ -35,28 +35,28 @@ constexpr std::pair<std::string_view, std::string_view> renamedSettings[] = {
 
 SettingTable makeTable() {
     SettingTable table("reflet list settings");
-    table.add<MaterialsSettings>("materials", offsetof(Settings, materials));
-    table.add<DepthSettings>("depth", offsetof(Settings, depth));
-    table.add<ShadowSettings>("shadow", offsetof(Settings, shadow));
-    table.add<ContactSettings>("contact", offsetof(Settings, contact));
-    table.add<DirectSettings>("direct", offsetof(Settings, direct));
-    table.add<TraceScreenSettings>("trace_screen", offsetof(Settings, traceScreen));
-    table.add<TraceSceneSettings>("trace_scene", offsetof(Settings, traceScene));
-    table.add<ProbesSettings>("probes", offsetof(Settings, probes));
-    table.add<PlanarSettings>("planar", offsetof(Settings, planar));
-    table.add<LiveSettings>("live", offsetof(Settings, live));
-    table.add<EnvironmentSettings>("environment", offsetof(Settings, environment));
-    table.add<AoSettings>("ao", offsetof(Settings, ao));
-    table.add<DiffuseSettings>("diffuse", offsetof(Settings, diffuse));
-    table.add<SpecularSettings>("specular", offsetof(Settings, specular));
-    table.add<DenoiseSettings>("denoise", offsetof(Settings, denoise));
-    table.add<CompositeSettings>("composite", offsetof(Settings, composite));
-    table.add<BlendSettings>("blend", offsetof(Settings, blend));
-    table.add<TransmissionSettings>("transmission", offsetof(Settings, transmission));
-    table.add<AccumulateSettings>("accumulate", offsetof(Settings, accumulate));
-    table.add<TemporalSettings>("temporal", offsetof(Settings, temporal));
-    table.add<DofSettings>("dof", offsetof(Settings, dof));
-    table.add<TonemapSettings>("tonemap", offsetof(Settings, tonemap));
+    table.add<MaterialsSettings>("materials", offsetIn<Settings>(&Settings::materials));
+    table.add<DepthSettings>("depth", offsetIn<Settings>(&Settings::depth));
+    table.add<ShadowSettings>("shadow", offsetIn<Settings>(&Settings::shadow));
+    table.add<ContactSettings>("contact", offsetIn<Settings>(&Settings::contact));
+    table.add<DirectSettings>("direct", offsetIn<Settings>(&Settings::direct));
+    table.add<TraceScreenSettings>("trace_screen", offsetIn<Settings>(&Settings::traceScreen));
+    table.add<TraceSceneSettings>("trace_scene", offsetIn<Settings>(&Settings::traceScene));
+    table.add<ProbesSettings>("probes", offsetIn<Settings>(&Settings::probes));
+    table.add<PlanarSettings>("planar", offsetIn<Settings>(&Settings::planar));
+    table.add<LiveSettings>("live", offsetIn<Settings>(&Settings::live));
+    table.add<EnvironmentSettings>("environment", offsetIn<Settings>(&Settings::environment));
+    table.add<AoSettings>("ao", offsetIn<Settings>(&Settings::ao));
+    table.add<DiffuseSettings>("diffuse", offsetIn<Settings>(&Settings::diffuse));
+    table.add<SpecularSettings>("specular", offsetIn<Settings>(&Settings::specular));
+    table.add<DenoiseSettings>("denoise", offsetIn<Settings>(&Settings::denoise));
+    table.add<CompositeSettings>("composite", offsetIn<Settings>(&Settings::composite));
+    table.add<BlendSettings>("blend", offsetIn<Settings>(&Settings::blend));
+    table.add<TransmissionSettings>("transmission", offsetIn<Settings>(&Settings::transmission));
+    table.add<AccumulateSettings>("accumulate", offsetIn<Settings>(&Settings::accumulate));
+    table.add<TemporalSettings>("temporal", offsetIn<Settings>(&Settings::temporal));
+    table.add<DofSettings>("dof", offsetIn<Settings>(&Settings::dof));
+    table.add<TonemapSettings>("tonemap", offsetIn<Settings>(&Settings::tonemap));
     table.rename(renamedSettings);
     return table;
 }

@@ -2,24 +2,12 @@
 #pragma once
 
 #include "base/setting_table.h"
-#include "effects/accumulate/accumulate.h"
-#include "effects/ambient_occlusion/ambient_occlusion.h"
-#include "effects/composite/composite.h"
-#include "effects/contact/contact.h"
-#include "effects/denoise/denoise.h"
-#include "effects/depth_of_field/depth_of_field.h"
-#include "effects/direct/lamp_tiles.h"
-#include "effects/gbuffer/gbuffer.h"
-#include "effects/gbuffer/kept_depth.h"
-#include "effects/lobe/answer_environment.h"
-#include "effects/lobe/rays.h"
-#include "effects/lobe/trace_screen.h"
-#include "effects/planar/planar.h"
-#include "effects/shadow/shadow.h"
-#include "effects/temporal/temporal.h"
-#include "effects/tonemap/tonemap.h"
+#include "lighting/direct.h"
+#include "lighting/picture.h"
+#include "lighting/settings.h"
+#include "lighting/surfaces.h"
 #include "renderer/blend/blend.h"
-#include "renderer/gbuffer/draw_gbuffer.h"
+#include "renderer/draw_gbuffer/draw_gbuffer.h"
 #include "renderer/glass/glass.h"
 #include "renderer/live/live_picture.h"
 #include "renderer/probe/probes.h"
@@ -33,29 +21,19 @@
 
 namespace reflet {
 
-struct Settings {
+/// Those of the stages, and what a renderer of scenes has besides.
+struct Settings : LightingSettings {
     MaterialsSettings materials;
     DepthSettings depth;
-    ShadowSettings shadow;
-    ContactSettings contact;
     DirectSettings direct;
-    TraceScreenSettings traceScreen;
     TraceSceneSettings traceScene;
     ProbesSettings probes;
     PlanarSettings planar;
     LiveSettings live;
-    EnvironmentSettings environment;
-    AoSettings ao;
-    DiffuseSettings diffuse;
-    SpecularSettings specular;
-    DenoiseSettings denoise;
     CompositeSettings composite;
     BlendSettings blend;
     TransmissionSettings transmission;
     AccumulateSettings accumulate;
-    TemporalSettings temporal;
-    DofSettings dof;
-    TonemapSettings tonemap;
 };
 
 /// Whether a frame with these settings traces rays against the scene's BVH.

@@ -1,10 +1,8 @@
 // The sources of both lobes of indirect light, for every view and layer of a frame.
 #pragma once
 
-#include "effects/lobe/lobe.h"
+#include "lighting/indirect.h"
 #include "renderer/direct_view.h"
-#include "renderer/planar/mirrors.h"
-#include "renderer/planar/planar_view.h"
 #include "renderer/settings.h"
 
 #include <vector>
@@ -13,16 +11,24 @@ namespace reflet {
 
 /// Surfaces that rays start from, and the views that these are traced in.
 struct TracedView {
-    ViewImages images;  ///< of the screen itself, or a layer of blended surfaces in front of it
+    ViewImages images;  ///< of the screen itself, or a layer of translucent surfaces in front of it
     ScreenImages screen;
     std::vector<PlanarView> mirrors;
 };
 
+/// Direct light as the screen's light. lit: this frame's and the last one's image of all light; may be none.
+TracedView tracedView(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, ViewImages images,
+                      const gpu::History& lit = {});
+
 /// A lobe with the sources that the settings ask for: screen, planar views, the scene's triangles, probes, environment.
-LobeLight traceLobe(gpu::Recorder& f, LobeStore* own, const ViewInputs& in, const Settings& settings,
+/// history: none: this frame alone.
+LobeLight traceLobe(gpu::Recorder& f, LobeStore* history, const ViewInputs& in, const Settings& settings,
                     const TracedView& seen, uint32_t lobe);
 
 /// Has the same sources answer other rays that start in front of the screen: the screen first, no planar views.
 void answerRays(gpu::Recorder& f, Rays& rays, const ViewInputs& in, const Settings& settings, const TracedView& seen);
+
+/// Whether rays of the view read its screen's light at hits.
+bool readsScreenLight(const ViewInputs& in, const Settings& settings, const TracedView& seen);
 
 }  // namespace reflet

@@ -1,10 +1,10 @@
 // The second depth layer: the far side of visible objects, found from geometry alone.
-#include "renderer/gbuffer/back_depth.h"
+#include "renderer/draw_gbuffer/back_depth.h"
 
 #include "capture/texels.h"
 #include "device/frame.h"
 #include "pass/harness.h"
-#include "renderer/gbuffer/draw_gbuffer.h"
+#include "renderer/draw_gbuffer/draw_gbuffer.h"
 #include "renderer/gpu_scene.h"
 #include "support/device_fixture.h"
 

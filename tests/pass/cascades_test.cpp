@@ -1,7 +1,7 @@
 // Cascades of the sun's shadow map: their benefit, and that nothing flickers when the camera moves.
 #include "pass/harness.h"
 #include "reference/reference.h"
-#include "renderer/shadow/shadow_maps.h"
+#include "renderer/draw_shadows/shadow_maps.h"
 
 #include <algorithm>
 #include <cmath>

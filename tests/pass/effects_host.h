@@ -1,26 +1,13 @@
-// A camera of a host that is not the program: a G-buffer that nobody drew, and every effect on it.
+// A camera of a host that is not the program: a G-buffer that nobody drew, and every stage on it.
 #pragma once
 
-#include "effects/accumulate/accumulate.h"
-#include "effects/ambient_occlusion/ambient_occlusion.h"
-#include "effects/composite/composite.h"
-#include "effects/contact/contact.h"
-#include "effects/depth_of_field/depth_of_field.h"
-#include "effects/direct/direct.h"
-#include "effects/direct/lamp_tiles.h"
-#include "effects/exposure/exposure.h"
-#include "effects/gbuffer/kept_depth.h"
-#include "effects/import/import.h"
-#include "effects/light_mips/light_mips.h"
-#include "effects/lobe/lobe.h"
 #include "effects/lobe/record_ray.h"
-#include "effects/lobe/trace_screen.h"
-#include "effects/pyramid/pyramid.h"
-#include "effects/shadow/lamp_shadow.h"
-#include "effects/shadow/shadow.h"
-#include "effects/shadow/shadow_clean.h"
-#include "effects/temporal/temporal.h"
-#include "effects/tonemap/tonemap.h"
+#include "effects/view.h"
+#include "lighting/direct.h"
+#include "lighting/environment.h"
+#include "lighting/host_images.h"
+#include "lighting/indirect.h"
+#include "lighting/picture.h"
 #include "noise/blue_noise.h"
 #include "renderer/view_params.h"
 
@@ -36,6 +23,7 @@ namespace reflet::test::effects_host_test {
 
 inline constexpr uvec2 size{48, 32};
 inline constexpr float wallDistance = 4.0F;
+inline constexpr uint32_t environmentSide = 64;
 inline constexpr VkFormat colorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 
 // What the host owns for its one camera.
@@ -54,12 +42,12 @@ struct Stores {
     gpu::HistoryImage sunVisibility{"shadow_clean.history"};
     gpu::HistoryImage lit{"lit"};
     DenoiseStore ao;
-    gpu::HistoryImage coc{"circle_of_confusion"};
     LobeStore diffuse;
     LobeStore specular;
-    AccumulateStore accumulate;
+    lighting::AccumulateHistory means;
     TemporalStore temporal;
     TemporalStore upscaling;
+    lighting::DofHistory lens;
     gpu::HistoryImage exposure{"exposure"};
     gpu::KeptImage blockDepth{"host.block_depth"};
     gpu::KeptImage blockLight{"host.block_light"};
@@ -82,7 +70,9 @@ struct LobeReadbacks {
 // A wall across the view, half of it a mirror, with sky above.
 class HostCamera {
 public:
-    explicit HostCamera(gpu::Context& context) { stores_.cube = CubeMap(context, 64, 1, "host.environment"); }
+    explicit HostCamera(gpu::Context& context) {
+        stores_.cube = CubeMap(context, environmentSide, 1, "host.environment");
+    }
 
     /// spoiled: with infinity, NaN, the largest half float and negative values in every image of floats.
     void makeInputs(gpu::Recorder& f, const ViewParams& view, bool spoiled) {
@@ -121,41 +111,35 @@ public:
         upload(f, stores_.shadowMap, VK_FORMAT_R32_SFLOAT, shadowMap);
         upload(f, stores_.sky, colorFormat, sky);
         f.update(stores_.blueNoise.get(f, blueNoise().size_bytes()), std::as_bytes(blueNoise()));
-        ggxTable(f, stores_.ggx);
-        prefilterEnvironment(f, stores_.cube, stores_.sky.last());
+        lighting::ggxTable(f, stores_.ggx);
+        lighting::prefilterEnvironment(f, stores_.cube, stores_.sky.last(), 4 * environmentSide);
     }
 
     Results record(gpu::Recorder& f, const ViewParams& view) {
-        g_ = {.depth = stores_.depth.last(),
-              .normal = stores_.normal.last(),
-              .geometricNormal = stores_.normal.last(),
-              .baseColor = stores_.color.last(),
-              .material = stores_.material.last(),
-              .emissive = stores_.emissive.last(),
-              .motion = stores_.motion.last()};
-        environment_ = {stores_.sky.last(),
-                        stores_.cube.lobes.image(),
-                        stores_.cube.irradiance.image(),
-                        {vec3(1.0F), vec2(1.0F, 0.0F)}};
-        importSurfaces(f, {.depth = g_.depth, .normal = stores_.color.last()}, {view, mat4(1.0F)});
-        importLight(f, stores_.sky.last());
-        importShadowMap(f, stores_.shadowMap.last(), 1, true);
-        const gpu::Image pyramid = makePyramid(f, g_.depth);
-        keptDepth(f, g_.depth, view, {.format = DepthBuffer::standard16});
-        const gpu::Image direct = lightDirectly(f, view, pyramid);
+        const lighting::ViewContext context = contextOf(f, view);
+        lighting::Surfaces surfaces = surfacesOf();
+        lighting::importSurfaces(f, {.depth = surfaces.g.depth, .normal = stores_.color.last()}, {view, mat4(1.0F)});
+        lighting::importLight(f, stores_.sky.last());
+        lighting::importShadowMap(f, stores_.shadowMap.last(), 1, true);
+        lighting::keptDepth(f, view, {.format = DepthBuffer::standard16}, surfaces.g.depth);
+        const LightingSettings settings = settingsOfHost();
+        const gpu::Image direct = lightDirectly(f, context, settings, surfaces);
+        surfaces.ambientOcclusion = lighting::ambientOcclusion(f, &stores_.ao, context, settings, surfaces);
         const gpu::History lit = stores_.lit.swap(f, colorFormat, size);
-        const Composite light = lightIndirectly(f, view, {pyramid, direct, lit});
-        const TemporalImages mean = temporal(f, stores_.temporal, {g_, light.lit, {}, view}, {});
-        const TemporalInputs smaller{g_, light.lit, {}, view, 2U * size, vec2(0.1F, -0.2F)};
+        const lighting::LightParts parts = lightIndirectly(f, context, settings, surfaces, direct, lit);
+        const lighting::Light light = lighting::compose(f, context, settings, surfaces, parts, true, lit.next);
+        const lighting::Light mean = lighting::antialias(f, stores_.temporal, context, settings, light, size, vec2(0));
+        const lighting::Light upscaled =
+            lighting::antialias(f, stores_.upscaling, context, settings, light, 2U * size, vec2(0.1F, -0.2F));
         const Lens lens{.apertureRadius = 0.05F, .focusDistance = 2.0F};
-        depthOfField(f, stores_.coc, {mean.mean, g_.depth, g_.motion, view, lens, {}});
-        const TemporalImages upscaled = temporal(f, stores_.upscaling, smaller, {});
-        const LightLayers means = accumulate(f, stores_.accumulate, {direct, light}, 0);
-        const gpu::Image stops = measureExposure(f, stores_.exposure, mean.mean, g_.depth, 0.0F, 0.5F);
-        const gpu::Image display = tonemap(f, mean.mean, {}, stops);
-        recordRay(f, {g_, {}, pyramid}, view, {}, size / 2U);
-        recordHemisphere(f, {g_, {}, pyramid}, view, {}, size / 2U);
-        return {f.readback(light.lit), f.readback(means.light.lit), f.readback(mean.mean), f.readback(upscaled.mean),
+        lighting::defocus(f, stores_.lens, context, settings, lens, surfaces, mean, &parts.specular);
+        const lighting::Light means = lighting::accumulate(f, stores_.means, light, 0);
+        const gpu::Image stops = lighting::exposure(f, stores_.exposure, settings, surfaces, mean, 0.0F);
+        const gpu::Image display = lighting::display(f, settings, mean.lit, stops);
+        const RecordRayInputs traced{surfaces.g, {}, surfaces.pyramid};
+        recordRay(f, traced, view, {}, size / 2U);
+        recordHemisphere(f, traced, view, {}, size / 2U);
+        return {f.readback(light.lit), f.readback(means.lit), f.readback(mean.lit), f.readback(upscaled.lit),
                 f.readback(display)};
     }
 
@@ -178,59 +162,81 @@ public:
         }
         upload(f, stores_.blockDepth, VK_FORMAT_R32_SFLOAT, depth);
         upload(f, stores_.blockLight, colorFormat, light);
-        g_.depth = stores_.blockDepth.last();
-        const ScreenImages screen{g_, view, {}, makePyramid(f, g_.depth), stores_.blockLight.last(), {}, {}};
-        TraceScreenSettings trace;
-        trace.rejectBackfaces = 0;  // the buffer has one normal for all
-        const std::vector<RaySource> silent{[](gpu::Recorder&, Rays&) {}};
+        lighting::Surfaces surfaces = surfacesOf();
+        surfaces.g.depth = stores_.blockDepth.last();
+        LightingSettings settings;
+        settings.diffuse.rays = 10;
+        settings.specular.rays = 10;
+        settings.traceScreen.countSteps = 1;
+        settings.traceScreen.rejectBackfaces = 0;  // the buffer has one normal for all
+        const lighting::ViewContext context = contextOf(f, view);
+        const ScreenImages screen = lighting::screenOf(f, context, settings, surfaces, stores_.blockLight.last(), {});
         std::array<LobeReadbacks, 2> read;
         for (size_t i = 0; i < 2; ++i) {
-            const LobeLight traced = traceLobe(f, nullptr,
-                                               {.lobe = lobe,
-                                                .g = g_,
-                                                .view = view,
-                                                .settings = {.rays = 10},
-                                                .diffuse = {},
-                                                .specular = {},
-                                                .denoise = {.enabled = 0},
-                                                .environmentSettings = {},
-                                                .environment = environment_,
-                                                .ggxTable = stores_.ggx.last(),
-                                                .blueNoise = stores_.blueNoise.get(f, blueNoise().size_bytes()),
-                                                .screen = {&screen, trace, 100.0F},
-                                                .sources = i == 0 ? std::span<const RaySource>() : silent,
-                                                .lit = {},
-                                                .countSteps = true});
+            lighting::RaySources sources;
+            if (i == 1) {
+                sources.others.emplace_back([](gpu::Recorder&, Rays&) {});
+            }
+            const LobeLight traced =
+                lighting::traceLobe(f, nullptr, context, settings, lobe, surfaces, screen, sources);
             read[i] = {f.readback(traced.radiance), f.readback(traced.source), f.readback(traced.steps)};
         }
         return read;
     }
 
 private:
-    struct Indirect {
-        gpu::Image pyramid;
-        gpu::Image direct;
-        gpu::History lit;
-    };
-
     template <class T>
     static void upload(gpu::Recorder& f, gpu::KeptImage& image, VkFormat format, const std::vector<T>& texels) {
         f.upload(image.storage(f, format, size), std::as_bytes(std::span(texels)));
     }
 
-    gpu::Image lightDirectly(gpu::Recorder& f, const ViewParams& view, gpu::Image pyramid) {
-        const gpu::BufferView noise = stores_.blueNoise.get(f, blueNoise().size_bytes());
+    static LightingSettings settingsOfHost() {
+        LightingSettings settings;
+        settings.shadow.history = 8;
+        settings.contact.distance = 0.2F;
+        settings.traceScreen.light = HitLight::previous;
+        settings.ao.method = AoMethod::bitmask;
+        settings.ao.downsample = 2;
+        settings.diffuse.rays = 1;
+        settings.diffuse.downsample = 2;
+        settings.specular.rays = 2;
+        settings.specular.adaptive = 1;
+        settings.specular.maxRoughness = 0.4F;
+        settings.specular.roughFallback = RoughFallback::mips;
+        settings.denoise.enabled = 1;
+        return settings;
+    }
+
+    lighting::ViewContext contextOf(gpu::Recorder& f, const ViewParams& view) {
+        return {.view = view,
+                .environment = {stores_.sky.last(),
+                                stores_.cube.lobes.image(),
+                                stores_.cube.irradiance.image(),
+                                {vec3(1.0F), vec2(1.0F, 0.0F)}},
+                .ggxTable = stores_.ggx.last(),
+                .blueNoise = stores_.blueNoise.get(f, blueNoise().size_bytes())};
+    }
+
+    lighting::Surfaces surfacesOf() const {
+        lighting::Surfaces surfaces;
+        surfaces.g = {.depth = stores_.depth.last(),
+                      .normal = stores_.normal.last(),
+                      .geometricNormal = stores_.normal.last(),
+                      .baseColor = stores_.color.last(),
+                      .material = stores_.material.last(),
+                      .emissive = stores_.emissive.last(),
+                      .motion = stores_.motion.last()};
+        return surfaces;
+    }
+
+    gpu::Image lightDirectly(gpu::Recorder& f, const lighting::ViewContext& context, const LightingSettings& settings,
+                             lighting::Surfaces& surfaces) {
         const vec3 toSun = glm::normalize(vec3(0.3F, 0.5F, 1.0F));
-        SunShadowParams sun{};
-        sun.count = 1;
-        sun.maps[0] = {glm::scale(mat4(1.0F), vec3(0.05F)), toSun, 0.1F, 40.0F};
-        ShadowSettings shadow;
-        shadow.earlyOut = 0;
-        const SunVisibility seen =
-            sunVisibility(f, g_, {stores_.shadowMap.last(), {}, noise}, {view, sun, shadow, 0.005F});
-        gpu::Image visible = denoiseShadow(f, &stores_.sunVisibility, g_, seen.visibility, seen.penumbra,
-                                           {view, toSun, 8, shadow.samples, 0});
-        visible = contactShadow(f, g_, pyramid, visible, {view, {.distance = 0.2F}, toSun});
+        lighting::SunMaps sun{.map = stores_.shadowMap.last(), .toSun = toSun, .slope = 0.005F, .contact = true};
+        sun.sun.count = 1;
+        sun.sun.maps[0] = {glm::scale(mat4(1.0F), vec3(0.05F)), toSun, 0.1F, 40.0F};
+        const lighting::SunShadow seen =
+            lighting::sunShadow(f, &stores_.sunVisibility, context, settings, surfaces, sun);
         LampBlock lamps{};
         lamps.count = 1;
         lamps.lamps[0] = {.position = vec3(0.0F, 0.0F, -2.0F),
@@ -245,48 +251,26 @@ private:
         shadows.columns = 1;
         shadows.lamps[0] = {
             .lamp = lamps.lamps[0], .worldToTile = mat3(1.0F), .halfTangent = 1.0F, .near = 0.01F, .tiles = 6};
-        const LampTiles tiles = findLampTiles(f, g_.depth, lamps, view, {});
+        const LampTiles tiles = lighting::lampTiles(f, context, {}, surfaces, lamps);
         const gpu::Image lampsSeen =
-            lampVisibility(f, g_, {stores_.shadowMap.last(), tiles.masks, noise}, shadows, {view, {}});
-        return directLight(f, g_, {visible, lampsSeen, tiles.masks}, stores_.ggx.last(), {view, toSun, vec3(3.0F)},
-                           {lamps, environment_});
+            lighting::lampShadow(f, context, settings, surfaces, tiles, shadows, stores_.shadowMap.last());
+        return lighting::directLight(f, context, surfaces,
+                                     {toSun, vec3(3.0F), lamps, {seen.visibility, lampsSeen, tiles.masks}});
     }
 
-    Composite lightIndirectly(gpu::Recorder& f, const ViewParams& view, const Indirect& in) {
-        ScreenImages screen{g_, view, {}, in.pyramid, in.direct, in.lit, {}};
-        screen.lightMips = makeLightMips(f, in.direct);
-        TraceScreenSettings trace;
-        trace.light = HitLight::previous;
-        const DenoiseSettings denoise{.enabled = 1};
-        const gpu::BufferView noise = stores_.blueNoise.get(f, blueNoise().size_bytes());
-        const AoSettings ao{.method = AoMethod::bitmask, .downsample = 2};
-        const gpu::Image occlusion =
-            ambientOcclusion(f, &stores_.ao, {g_, view, {}, ao, denoise, stores_.ggx.last(), noise});
-        LobeInputs lobe{.lobe = lobeDiffuse,
-                        .g = g_,
-                        .view = view,
-                        .settings = {.rays = 1, .downsample = 2},
-                        .diffuse = {},
-                        .specular = {},
-                        .denoise = denoise,
-                        .environmentSettings = {},
-                        .environment = environment_,
-                        .ggxTable = stores_.ggx.last(),
-                        .blueNoise = noise,
-                        .screen = {&screen, trace, 100.0F},
-                        .sources = {},
-                        .ambientOcclusion = occlusion,
-                        .lit = in.lit};
-        const LobeLight diffuse = traceLobe(f, &stores_.diffuse, lobe);
-        lobe.lobe = lobeSpecular;
-        lobe.settings = {.rays = 2, .adaptive = true};
-        const LobeLight specular = traceLobe(f, &stores_.specular, lobe);
-        return composite(f, {g_, in.direct, diffuse, specular, stores_.ggx.last()}, in.lit.next, {view, 1.0F});
+    lighting::LightParts lightIndirectly(gpu::Recorder& f, const lighting::ViewContext& context,
+                                         const LightingSettings& settings, lighting::Surfaces& surfaces,
+                                         gpu::Image direct, const gpu::History& lit) {
+        const ScreenImages screen = lighting::screenOf(f, context, settings, surfaces, direct, lit);
+        const LobeLight diffuse =
+            lighting::traceLobe(f, &stores_.diffuse, context, settings, lobeDiffuse, surfaces, screen, {});
+        const ScreenImages reflected = lighting::lightAtHits(f, context, settings, lobeSpecular, screen, &diffuse);
+        const LobeLight specular =
+            lighting::traceLobe(f, &stores_.specular, context, settings, lobeSpecular, surfaces, reflected, {});
+        return {direct, diffuse, specular};
     }
 
     Stores stores_;
-    GBuffer g_;
-    EnvironmentLight environment_;
 };
 
 }  // namespace reflet::test::effects_host_test

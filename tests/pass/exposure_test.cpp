@@ -3,8 +3,8 @@
 
 #include "capture/show.h"
 #include "pass/harness.h"
-#include "renderer/exposure/scene_exposure.h"
 #include "renderer/history.h"
+#include "renderer/scene_exposure/scene_exposure.h"
 #include "scene/builtin.h"
 #include "scene/builtin/shapes.h"
 #include "support/device_fixture.h"

@@ -1,6 +1,6 @@
 // Shadows of point and spot lamps: the position of their edges, and their casters.
 #include "pass/lamp_room.h"
-#include "renderer/shadow/lamp_shadow_maps.h"
+#include "renderer/draw_shadows/lamp_shadow_maps.h"
 
 #include <algorithm>
 #include <array>

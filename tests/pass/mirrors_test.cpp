@@ -1,5 +1,5 @@
 // Selection of the mirrors that get planar reflections.
-#include "renderer/planar/mirrors.h"
+#include "renderer/planar_views/mirrors.h"
 
 #include "pass/mirror_room.h"
 

@@ -1,6 +1,6 @@
 // Hard shadows: the position of their edges, and no self-shadowing.
 #include "pass/harness.h"
-#include "renderer/shadow/shadow_maps.h"
+#include "renderer/draw_shadows/shadow_maps.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Soft shadows of the sun: penumbra widths match similar triangles, in the right place, and nothing else is shadowed.
 #include "pass/harness.h"
-#include "renderer/shadow/shadow_maps.h"
+#include "renderer/draw_shadows/shadow_maps.h"
 #include "scene/builtin.h"
 
 #include <fmt/format.h>

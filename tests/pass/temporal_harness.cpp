@@ -40,13 +40,12 @@ std::vector<vec4> TemporalRun::add(const MadeUpFrame& picture) {
     };
     frame_.begin();
     const gpu::Image shown = fill("radiance", radiance);
-    GBuffer g{};
-    g.motion = fill("motion", motion);
-    g.depth = fill("depth", depth);
+    const gpu::Image motions = fill("motion", motion);
+    const gpu::Image depths = fill("depth", depth);
     ViewParams view{};
     const vec2 jitter = subpixelJitter(count_);
     view.frame = count_++;
-    const TemporalInputs in{g, shown, {}, view, output_, jitter};
+    const TemporalInputs in{depths, motions, shown, {}, view, output_, jitter};
     const gpu::Readback copy = frame_.readback(temporal(frame_, store_, in, settings_).mean);
     frame_.submit();
     frame_.wait();

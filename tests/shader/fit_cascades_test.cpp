@@ -1,5 +1,5 @@
 // fitCascades: every visible point is in the map of its distance, and texels stay aligned when the camera moves.
-#include "renderer/shadow/shadow_maps.h"
+#include "renderer/draw_shadows/shadow_maps.h"
 #include "shader/cascades_test.h"
 #include "shader/fit_cases.h"
 #include "shader/harness.h"

@@ -1,5 +1,5 @@
 // fitSunShadow: every visible point and every caster is in the map, and the map is no larger than they need.
-#include "renderer/shadow/shadow_maps.h"
+#include "renderer/draw_shadows/shadow_maps.h"
 #include "shader/fit_cases.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // object_motion.glsl against objects and mirrors at known positions.
 #include "shader/object_motion_test.h"
 
-#include "renderer/planar/planar_view.h"
+#include "renderer/planar_views/planar_view.h"
 #include "renderer/view_params.h"
 #include "shader/harness.h"
 

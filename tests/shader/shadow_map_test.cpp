@@ -1,8 +1,8 @@
 // shadow_map.glsl: a plane never shadows itself, and an occluder's shadow ends where it should.
 #include "shader/shadow_map_test.h"
 
+#include "renderer/draw_shadows/shadow_maps.h"
 #include "renderer/renderer.h"
-#include "renderer/shadow/shadow_maps.h"
 #include "shader/directions.h"
 #include "shader/harness.h"
 

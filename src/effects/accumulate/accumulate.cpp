@@ -13,8 +13,8 @@ LightLayers accumulate(gpu::Recorder& f, AccumulateStore& own, const LightLayers
     const float frames = direct.valid ? static_cast<float>(framesBefore) + 1.0F : 1.0F;
     f.compute("accumulate", "accumulate.comp")
         .read("direct", frame.direct)
-        .read("indirectDiffuse", frame.light.indirectDiffuse)
-        .read("indirectSpecular", frame.light.indirectSpecular)
+        .read("indirectDiffuse", frame.indirectDiffuse)
+        .read("indirectSpecular", frame.indirectSpecular)
         .read("directBefore", direct.previous)
         .read("indirectDiffuseBefore", diffuse.previous)
         .read("indirectSpecularBefore", specular.previous)
@@ -24,7 +24,7 @@ LightLayers accumulate(gpu::Recorder& f, AccumulateStore& own, const LightLayers
         .write("litMean", lit)
         .params(AccumulateParams{size, 1.0F / frames})
         .dispatch(size);
-    return {direct.next, {diffuse.next, specular.next, lit}};
+    return {direct.next, diffuse.next, specular.next, lit};
 }
 
 }  // namespace reflet

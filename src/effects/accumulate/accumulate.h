@@ -28,12 +28,6 @@ SHARED_END
 
 namespace reflet {
 
-/// Layers of light, of one frame or means over several.
-struct LightLayers {
-    gpu::Image direct;
-    Composite light;
-};
-
 /// Owns the means.
 struct AccumulateStore {
     gpu::HistoryImage direct{"accumulated_direct"};

@@ -6,13 +6,15 @@
 
 namespace reflet {
 
-Composite composite(gpu::Recorder& f, const CompositeInputs& in, gpu::Image lit, CompositeParams params) {
+LightLayers composite(gpu::Recorder& f, const CompositeInputs& in, gpu::Image lit, CompositeParams params) {
     const uvec2 size = in.g.depth.size;
     const auto layer = [&](const char* name) {
         return in.layers ? f.image(name, VK_FORMAT_R16G16B16A16_SFLOAT, size) : gpu::Image{};
     };
-    const Composite result{
-        .indirectDiffuse = layer("indirect_diffuse"), .indirectSpecular = layer("indirect_specular"), .lit = lit};
+    const LightLayers result{.direct = in.direct,
+                             .indirectDiffuse = layer("indirect_diffuse"),
+                             .indirectSpecular = layer("indirect_specular"),
+                             .lit = lit};
     const gpu::Image unwritten = in.layers ? lit : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT);
     params.diffuseBlockOffset = blockPixelOffset(in.diffuse.from.scale);
     params.specularBlockOffset = blockPixelOffset(in.specular.from.scale);

@@ -44,15 +44,16 @@ struct CompositeInputs {
     bool layers = true;        ///< false: only the sum is written
 };
 
-/// RGBA16F radiance: lit = direct + indirectDiffuse + indirectSpecular.
-struct Composite {
+/// Radiance, of one frame (RGBA16F) or means over several: lit = direct + indirectDiffuse + indirectSpecular.
+struct LightLayers {
+    gpu::Image direct;
     gpu::Image indirectDiffuse;  ///< none without layers
     gpu::Image indirectSpecular;
     gpu::Image lit;
 };
 
 /// Sets the block offsets of params. lit: written.
-Composite composite(gpu::Recorder& f, const CompositeInputs& in, gpu::Image lit, CompositeParams params);
+LightLayers composite(gpu::Recorder& f, const CompositeInputs& in, gpu::Image lit, CompositeParams params);
 
 /// lit - direct, of the same size, at least 0.
 gpu::Image withoutDirect(gpu::Recorder& f, gpu::Image lit, gpu::Image direct);

@@ -151,6 +151,12 @@ struct ShadowInputs {
     gpu::BufferView blueNoise;
 };
 
+/// Size of the range image of a map.
+uvec2 shadowRangeSize(uvec2 map);
+
+/// Writes the range image (RG32F) of a map: the largest depth (nearest to the sun) and the smallest of each cell.
+void makeShadowRange(gpu::Recorder& f, gpu::Image map, gpu::Image range);
+
 SunVisibility sunVisibility(gpu::Recorder& f, const GBuffer& g, const ShadowInputs& in,
                             const ShadowVisibilityParams& params);
 

@@ -68,8 +68,8 @@ void upscale(gpu::Recorder& f, TemporalStore& own, const Histories& h, const Tem
         add.read("coveredAround", covered);
     }
     near.read("radiance", in.radiance)
-        .read("depth", in.g.depth)
-        .read("motion", in.g.motion)
+        .read("depth", in.depth)
+        .read("motion", in.motion)
         .write("around", around)
         .write("spread", spread)
         .read("previousChanges", changes.previous)
@@ -98,7 +98,7 @@ TemporalImages temporal(gpu::Recorder& f, TemporalStore& own, const TemporalInpu
     } else {
         gpu::Pass pass = f.compute("temporal", in.coverage ? "temporal_coverage.comp" : "temporal.comp");
         bindHistories(pass, h, in);
-        pass.read("depth", in.g.depth).read("motion", in.g.motion).params(params).dispatch(columns(size));
+        pass.read("depth", in.depth).read("motion", in.motion).params(params).dispatch(columns(size));
     }
     return {h.mean.next, h.coverage.next};
 }

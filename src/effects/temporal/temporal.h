@@ -66,12 +66,13 @@ SHARED_END
 
 namespace reflet {
 
-/// view: of this frame; the sky is reprojected with it. radiance: RGBA16F, rendered with subpixel jitter (jitter.h),
-/// may contain NaN and infinity; g.motion: without jitter. coverage: if given, that of the pixels by surfaces, red, 0
-/// to 1; radiance is premultiplied by it. outputSize: at least that of radiance; 0: the
-/// same. jitter: of this frame, in its pixels; needed if the sizes differ.
+/// depth, motion: of what the radiance moves with; motion without jitter. radiance: RGBA16F, rendered with subpixel
+/// jitter (jitter.h), may contain NaN and infinity. view: of this frame; the sky is reprojected with it. coverage: if
+/// given, that of the pixels by surfaces, red, 0 to 1; radiance is premultiplied by it. outputSize: at least that of
+/// radiance; 0: the same. jitter: of this frame, in its pixels; needed if the sizes differ.
 struct TemporalInputs {
-    const GBuffer& g;
+    gpu::Image depth;
+    gpu::Image motion;
     gpu::Image radiance;
     gpu::Image coverage;
     const ViewParams& view;

@@ -4,7 +4,7 @@
 #include "compare/picture_input.h"
 #include "effects/exposure/exposure.h"
 #include "effects/tonemap/tone_map_image.h"
-#include "renderer/exposure/scene_exposure.h"
+#include "renderer/scene_exposure/scene_exposure.h"
 
 namespace reflet {
 

@@ -11,8 +11,8 @@
 #include "effects/exposure/exposure.h"
 #include "reference/sample_progress.h"
 #include "renderer/background/background.h"
-#include "renderer/exposure/scene_exposure.h"
 #include "renderer/renderer.h"
+#include "renderer/scene_exposure/scene_exposure.h"
 
 #include <fmt/format.h>
 

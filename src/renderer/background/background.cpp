@@ -3,33 +3,21 @@
 
 #include "base/error.h"
 #include "effects/tonemap/tone_map_image.h"
+#include "lighting/picture.h"
+#include "renderer/blend/blend.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace reflet {
 
-BackgroundImages drawBackground(gpu::Recorder& f, gpu::Image depth, gpu::Image direct, gpu::Image lit,
-                                const EnvironmentLight& environment, const ViewParams& view) {
-    constexpr VkFormat format = VK_FORMAT_R16G16B16A16_SFLOAT;
-    const BackgroundImages out{f.image("background.direct", format, depth.size),
-                               f.image("background.lit", format, depth.size),
-                               f.image("background.coverage", format, depth.size)};
-    gpu::Pass pass = f.compute("background", "background.comp");
-    bindEnvironment(pass, environment);
-    pass.read("depth", depth)
-        .read("direct", direct)
-        .read("lit", lit)
-        .write("directOver", out.direct)
-        .write("litOver", out.lit)
-        .write("coverage", out.coverage)
-        .params(BackgroundParams{view})
-        .dispatch(depth.size);
-    return out;
-}
+namespace {
 
+constexpr VkFormat radianceFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+
+// Radiance divided by the coverage, 0 where that is 0.
 gpu::Image straightRadiance(gpu::Recorder& f, gpu::Image premultiplied, gpu::Image coverage) {
-    const gpu::Image radiance = f.image("background.straight", VK_FORMAT_R16G16B16A16_SFLOAT, premultiplied.size);
+    const gpu::Image radiance = f.image("background.straight", radianceFormat, premultiplied.size);
     f.compute("straight", "straight.comp")
         .read("premultiplied", premultiplied)
         .read("coverage", coverage)
@@ -49,6 +37,51 @@ gpu::Image overBackground(gpu::Recorder& f, gpu::Image display, gpu::Image cover
         .params(UnderlayParams{background.color, over.size})
         .dispatch(over.size);
     return over;
+}
+
+}  // namespace
+
+lighting::Light withBackground(gpu::Recorder& f, const FrameBackground& background, const ViewParams& view,
+                               const lighting::Light& light) {
+    if (!background.environment) {
+        return light;
+    }
+    const uvec2 size = light.depth.size;
+    lighting::Light out = light;
+    out.direct = f.image("background.direct", radianceFormat, size);
+    out.lit = f.image("background.lit", radianceFormat, size);
+    const gpu::Image covered = f.image("background.coverage", radianceFormat, size);
+    gpu::Pass pass = f.compute("background", "background.comp");
+    bindEnvironment(pass, *background.environment);
+    pass.read("depth", light.depth)
+        .read("direct", light.direct)
+        .read("lit", light.lit)
+        .write("directOver", out.direct)
+        .write("litOver", out.lit)
+        .write("coverage", covered)
+        .params(BackgroundParams{view})
+        .dispatch(size);
+    if (!background.shown.needsCoverage()) {
+        return out;
+    }
+    const auto scope = f.scope("coverage");
+    out.coverage = covered;
+    out.translucent.clear();
+    for (const gpu::Image& translucent : light.translucent) {
+        const gpu::Image behind = out.coverage;
+        out.coverage = f.image("coverage.blended", radianceFormat, size);
+        coverOver(f, translucent, behind, out.coverage);
+    }
+    return out;
+}
+
+gpu::Image displayOver(gpu::Recorder& f, const FrameBackground& background, const LightingSettings& settings,
+                       const lighting::Light& light, gpu::Image exposure) {
+    if (!light.coverage) {
+        return lighting::display(f, settings, light.lit, exposure);
+    }
+    const gpu::Image radiance = straightRadiance(f, light.lit, light.coverage);
+    return overBackground(f, lighting::display(f, settings, radiance, exposure), light.coverage, background.shown);
 }
 
 FloatImage straightRadiance(const FloatImage& premultiplied, const FloatImage& coverage, const Background& background) {

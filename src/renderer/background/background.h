@@ -31,8 +31,9 @@ SHARED_END
 
 #include "base/image_file.h"
 #include "effects/environment/environment_light.h"
-#include "effects/tonemap/tonemap.h"
 #include "gpu/recorder.h"
+#include "lighting/light.h"
+#include "lighting/settings.h"
 #include "scene/scene.h"
 
 #include <optional>
@@ -45,24 +46,17 @@ struct FrameBackground {
     std::optional<EnvironmentLight> environment;  ///< only its texels; none: the environment itself is shown
 };
 
-/// RGBA16F copies with the background where there is no surface.
-struct BackgroundImages {
-    gpu::Image direct;
-    gpu::Image lit;
-    gpu::Image coverage;  ///< red, green and blue: 1 where there is a surface, else 0
-};
-
-BackgroundImages drawBackground(gpu::Recorder& f, gpu::Image depth, gpu::Image direct, gpu::Image lit,
-                                const EnvironmentLight& environment, const ViewParams& view);
-
-/// Radiance divided by the coverage, 0 where that is 0: RGBA16F.
-gpu::Image straightRadiance(gpu::Recorder& f, gpu::Image premultiplied, gpu::Image coverage);
+/// The light with the background where there is no surface, and how much of each pixel surfaces cover, if the
+/// background needs it. The light itself if the environment is shown.
+lighting::Light withBackground(gpu::Recorder& f, const FrameBackground& background, const ViewParams& view,
+                               const lighting::Light& light);
 
 /// RGBA8: the display image over the background's colour, or with straight alpha.
-gpu::Image overBackground(gpu::Recorder& f, gpu::Image display, gpu::Image coverage, const Background& background);
+gpu::Image displayOver(gpu::Recorder& f, const FrameBackground& background, const LightingSettings& settings,
+                       const lighting::Light& light, gpu::Image exposure);
 
-/// The same two on the host, for images of the reference. coverage: "Y", 0 to 1. Both change nothing unless the
-/// background needs coverage.
+/// On the host, for images of the reference: radiance divided by the coverage, and a display image over the background.
+/// coverage: "Y", 0 to 1. Both change nothing unless the background needs coverage.
 FloatImage straightRadiance(const FloatImage& premultiplied, const FloatImage& coverage, const Background& background);
 Bitmap overBackground(const Bitmap& display, const FloatImage& coverage, const Background& background);
 

@@ -1,51 +1,60 @@
 // Records the layers of blended surfaces.
 #include "renderer/blend/blend_layers.h"
 
+#include "renderer/coat/coat.h"
+#include "renderer/glass/glass_layers.h"
+#include "renderer/lit_layer.h"
+#include "renderer/sub_views.h"
+
 namespace reflet {
 
 namespace {
 
+constexpr VkFormat lightFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+
 // The light of a layer with its clear coats.
 LightLayers litLayer(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, TracedView& layer,
                      gpu::Image nearerDepth, bool layers) {
-    const Composite light = lightLayer(f, in, settings, layer, layers);
-    const LightLayers lit{layer.images.direct, light};
+    const LightLayers lit = lightLayer(f, in, settings, layer, layers);
     if (!in.draws.coatedBlended || settings.materials.coats == 0 || settings.materials.lambertOnly != 0) {
         return lit;
     }
-    const CoatedSurfaces surfaces{layer.images.g.depth, nearerDepth, CoatedSurfaces::Kind::blended};
-    return addCoats(f, in, settings, layer, surfaces, lit, {}, layers);
+    return addCoats(f, in, settings, layer, {layer.images.g.depth, nearerDepth, CoatedSurfaces::Kind::blended}, lit);
 }
 
-BlendedLight imagesOf(gpu::Recorder& f, uvec2 size, bool layers) {
-    const auto sum = [&](const char* name) { return f.image(name, VK_FORMAT_R16G16B16A16_SFLOAT, size); };
-    if (!layers) {
-        return {sum("blended"), {}, {}, {}};
+LightLayers imagesOf(gpu::Recorder& f, uvec2 size, bool layers) {
+    LightLayers sums;
+    sums.lit = f.image("blended", lightFormat, size);
+    if (layers) {
+        sums.direct = f.image("blended_direct", lightFormat, size);
+        sums.indirectDiffuse = f.image("blended_diffuse", lightFormat, size);
+        sums.indirectSpecular = f.image("blended_specular", lightFormat, size);
     }
-    return {sum("blended"), sum("blended_direct"), sum("blended_diffuse"), sum("blended_specular")};
+    return sums;
 }
 
-void addLayer(gpu::Recorder& f, const BlendedLight& to, const LightLayers& lit, const BlendedLayer& layer,
+void addLayer(gpu::Recorder& f, const LightLayers& to, const LightLayers& lit, const BlendedLayer& layer,
               BlendSide side) {
-    blendLayer(f, to.lit, lit.light.lit, layer, side);
+    blendLayer(f, to.lit, lit.lit, layer, side);
     if (to.direct) {
         blendLayer(f, to.direct, lit.direct, layer, side);
-        blendLayer(f, to.indirectDiffuse, lit.light.indirectDiffuse, layer, side);
-        blendLayer(f, to.indirectSpecular, lit.light.indirectSpecular, layer, side);
+        blendLayer(f, to.indirectDiffuse, lit.indirectDiffuse, layer, side);
+        blendLayer(f, to.indirectSpecular, lit.indirectSpecular, layer, side);
     }
 }
 
 }  // namespace
 
-BlendedSurfaces lightBlended(gpu::Recorder& f, const ViewInputs& in, const Settings& asked, const TracedView& seen,
-                             gpu::Image glassDepth, bool layers) {
-    if (asked.blend.layers == 0 || !showsBlended(in.draws, in.view)) {
+BlendedSurfaces lightBlended(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+                             bool layers) {
+    if (settings.blend.layers == 0 || !showsBlended(in.draws, in.view)) {
         return {};
     }
+    const gpu::Image glassDepth = nearestGlass(f, in, settings, seen.images.g.depth);
     const auto scope = f.scope("blend");
-    const Settings settings = layerSettings(asked);
+    const Settings ofLayer = layerSettings(settings);
     const uvec2 size = seen.images.g.depth.size;
-    const BlendedSurfaces out{imagesOf(f, size, layers), glassDepth ? imagesOf(f, size, layers) : BlendedLight{}};
+    const BlendedSurfaces out{imagesOf(f, size, layers), glassDepth ? imagesOf(f, size, layers) : LightLayers{}};
     gpu::Image nearer;
     for (uint32_t i = 0; i < settings.blend.layers; ++i) {
         TracedView layer{seen.images, seen.screen, {}};
@@ -53,7 +62,7 @@ BlendedSurfaces lightBlended(gpu::Recorder& f, const ViewInputs& in, const Setti
         const GBufferContent content{
             .clipPlane = in.clipPlane, .opaqueDepth = seen.images.g.depth, .nearerDepth = nearer};
         layer.images.g = drawGBuffer(f, in.draws, in.view, settings.materials, content);
-        const LightLayers lit = litLayer(f, in, settings, layer, nearer, layers);
+        const LightLayers lit = litLayer(f, in, ofLayer, layer, nearer, layers);
         nearer = layer.images.g.depth;
         const BlendedLayer blended{nearer, layer.images.g.motion, glassDepth, i == 0};
         addLayer(f, out.front, lit, blended, glassDepth ? BlendSide::beforeGlass : BlendSide::all);
@@ -68,25 +77,28 @@ gpu::Image withBlended(gpu::Recorder& f, gpu::Image front, gpu::Image behind) {
     if (!front) {
         return behind;
     }
-    const gpu::Image over = f.image("lit.blended", VK_FORMAT_R16G16B16A16_SFLOAT, behind.size);
+    const gpu::Image over = f.image("lit.blended", lightFormat, behind.size);
     blendOver(f, front, behind, over);
     return over;
 }
 
-LightLayers withBlended(gpu::Recorder& f, const BlendedLight& front, const LightLayers& behind, gpu::Image lit) {
+LightLayers withBlended(gpu::Recorder& f, const LightLayers& front, const LightLayers& behind) {
+    return {withBlended(f, front.direct, behind.direct), withBlended(f, front.indirectDiffuse, behind.indirectDiffuse),
+            withBlended(f, front.indirectSpecular, behind.indirectSpecular), withBlended(f, front.lit, behind.lit)};
+}
+
+lighting::Light withBlended(gpu::Recorder& f, const LightLayers& front, const lighting::Light& behind) {
     if (!front.lit) {
         return behind;
     }
-    LightLayers out = behind;
-    if (lit) {
-        blendOver(f, front.lit, behind.light.lit, lit);
-        out.light.lit = lit;
+    lighting::Light out = behind;
+    static_cast<LightLayers&>(out) = withBlended(f, front, static_cast<const LightLayers&>(behind));
+    if (behind.coverage) {
+        out.coverage = f.image("coverage.blended", lightFormat, behind.coverage.size);
+        coverOver(f, front.lit, behind.coverage, out.coverage);
     } else {
-        out.light.lit = withBlended(f, front.lit, behind.light.lit);
+        out.translucent.push_back(front.lit);
     }
-    out.direct = withBlended(f, front.direct, behind.direct);
-    out.light.indirectDiffuse = withBlended(f, front.indirectDiffuse, behind.light.indirectDiffuse);
-    out.light.indirectSpecular = withBlended(f, front.indirectSpecular, behind.light.indirectSpecular);
     return out;
 }
 

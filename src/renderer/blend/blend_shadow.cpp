@@ -1,6 +1,6 @@
 // Records the shadows of blended surfaces.
 #include "renderer/blend/blend_shadow.h"
-#include "renderer/shadow/shadow_maps.h"
+#include "renderer/draw_shadows/shadow_maps.h"
 
 #include <string>
 

@@ -1,30 +1,16 @@
 // Records the clear coats of a view.
 #include "renderer/coat/coat.h"
 
+#include "gpu/context.h"
 #include "renderer/glass/glass.h"
+#include "renderer/lit_layer.h"
+#include "renderer/sub_views.h"
 
 namespace reflet {
 
 namespace {
 
-Settings coatSettings(const Settings& asked) {
-    Settings settings = layerSettings(asked);
-    settings.diffuse.rays = 0;  // a coat has no diffuse base
-    return settings;
-}
-
-// A coat is where its surface is, so it is in the same shadows.
-gpu::Image directOnCoats(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, ViewImages coats) {
-    if (settings.shadow.filter == ShadowFilter::traced && in.traced != nullptr) {
-        lightSurfaces(f, nullptr, in, settings, coats);
-        return coats.direct;
-    }
-    return directLight(f, coats.g, {coats.sunVisibility, coats.lampVisibility, coats.lampTiles.masks}, in.ggxTable,
-                       {in.view, -in.sunDirection, in.sunIrradiance}, {in.lamps, in.environment, false});
-}
-
-}  // namespace
-
+// Whether the view may show coats of opaque surfaces.
 bool showsCoats(const ViewInputs& in, const Settings& settings) {
     const bool glass = drawsGlass(in.draws, settings.transmission, settings.materials);
     const auto keep = [&](const Draw& draw) {
@@ -34,49 +20,69 @@ bool showsCoats(const ViewInputs& in, const Settings& settings) {
            anyDraws(in.draws, {.keep = keep, .worldToClip = in.view.worldToClip});
 }
 
-bool coatsGlass(const DrawList& list, const Settings& settings) {
-    return list.coatedGlass && settings.materials.coats != 0;
-}
-
-LightLayers addCoats(gpu::Recorder& f, const ViewInputs& in, const Settings& asked, const TracedView& seen,
-                     const CoatedSurfaces& surfaces, const LightLayers& behind, gpu::Image lit, bool layers) {
-    const auto scope = f.scope("coat");
-    const Settings settings = coatSettings(asked);
+GBufferContent contentOf(const ViewInputs& in, const Settings& settings, const CoatedSurfaces& surfaces) {
     GBufferContent content{
         .clipPlane = in.clipPlane, .opaqueDepth = surfaces.depth, .nearerDepth = surfaces.nearerDepth};
     content.coat = true;
     content.glass = surfaces.kind == CoatedSurfaces::Kind::glass;
     content.blendedCoats = surfaces.kind == CoatedSurfaces::Kind::blended;
     content.withoutGlass = drawsGlass(in.draws, settings.transmission, settings.materials);
+    return content;
+}
+
+gpu::Image coatOver(gpu::Recorder& f, const ViewInputs& in, const GBuffer& g, gpu::Image layer, gpu::Image behind) {
+    const gpu::Image over = f.image("lit.coat", VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size);
+    gpu::Pass pass = f.compute("coat_over", "coat_over.comp");
+    bindSurfaces(f, pass, g)
+        .read("depth", g.depth)
+        .read("normal", g.normal)
+        .read("material", g.material)
+        .read("motion", g.motion)
+        .read("ggxTable", in.ggxTable, f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
+        .read("layer", layer)
+        .read("behind", behind)
+        .write("over", over)
+        .params(CoatOverParams{in.view})
+        .dispatch(over.size);
+    return over;
+}
+
+}  // namespace
+
+bool coatsGlass(const DrawList& list, const Settings& settings) {
+    return list.coatedGlass && settings.materials.coats != 0;
+}
+
+LightLayers addCoats(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+                     const CoatedSurfaces& surfaces, const LightLayers& behind) {
+    const auto scope = f.scope("coat");
+    const Settings ofCoat = coatSettings(settings);
     TracedView coats = seen;
     coats.images.ambientOcclusion = {};
-    coats.images.g = drawGBuffer(f, in.draws, in.view, settings.materials, content);
+    coats.images.g = drawGBuffer(f, in.draws, in.view, ofCoat.materials, contentOf(in, ofCoat, surfaces));
+    coats.images.direct = directLightOn(f, in, ofCoat, coats.images);  // a coat is in the shadows of its surface
+    const bool layers = bool(behind.indirectDiffuse);
+    const LightLayers light = reflectedLight(f, in, ofCoat, coats, layers);
     const GBuffer& g = coats.images.g;
-    coats.images.direct = directOnCoats(f, in, settings, coats.images);
-    const Composite light = reflectedLight(f, in, settings, coats, layers);
-    const auto over = [&](gpu::Image layer, gpu::Image under, gpu::Image given = {}) {
-        const gpu::Image sum = given ? given : f.image("lit", VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size);
-        gpu::Pass pass = f.compute("coat_over", "coat_over.comp");
-        bindSurfaces(f, pass, g)
-            .read("depth", g.depth)
-            .read("normal", g.normal)
-            .read("material", g.material)
-            .read("motion", g.motion)
-            .read("ggxTable", in.ggxTable, f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
-            .read("layer", layer)
-            .read("behind", under)
-            .write("over", sum)
-            .params(CoatOverParams{in.view})
-            .dispatch(sum.size);
-        return sum;
-    };
     LightLayers out = behind;
-    out.light.lit = over(light.lit, behind.light.lit, lit);
+    out.lit = coatOver(f, in, g, light.lit, behind.lit);
     if (layers) {
-        out.direct = over(coats.images.direct, behind.direct);
-        out.light.indirectDiffuse = over(light.indirectDiffuse, behind.light.indirectDiffuse);
-        out.light.indirectSpecular = over(light.indirectSpecular, behind.light.indirectSpecular);
+        out.direct = coatOver(f, in, g, light.direct, behind.direct);
+        out.indirectDiffuse = coatOver(f, in, g, light.indirectDiffuse, behind.indirectDiffuse);
+        out.indirectSpecular = coatOver(f, in, g, light.indirectSpecular, behind.indirectSpecular);
     }
+    return out;
+}
+
+LightLayers withCoats(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+                      const LightLayers& behind) {
+    return showsCoats(in, settings) ? addCoats(f, in, settings, seen, {seen.images.drawnDepth}, behind) : behind;
+}
+
+lighting::Light withCoats(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+                          const lighting::Light& behind) {
+    lighting::Light out = behind;
+    static_cast<LightLayers&>(out) = withCoats(f, in, settings, seen, static_cast<const LightLayers&>(behind));
     return out;
 }
 

@@ -20,13 +20,10 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "effects/accumulate/accumulate.h"
-#include "renderer/lit_layer.h"
+#include "lighting/light.h"
+#include "renderer/trace_lobe.h"
 
 namespace reflet {
-
-/// Whether the view may show coats of opaque surfaces; transmissive ones count as opaque where they are drawn so.
-bool showsCoats(const ViewInputs& in, const Settings& settings);
 
 /// Whether glass may have coats.
 bool coatsGlass(const DrawList& list, const Settings& settings);
@@ -38,11 +35,17 @@ struct CoatedSurfaces {
     enum class Kind : uint8_t { opaque, glass, blended } kind = Kind::opaque;
 };
 
-/// Composites the coats over `behind`, the light of these surfaces. seen: the surfaces, with their shadows, and the
-/// screen that reflections read. lit: the sum is written to it; none: to an image of this frame. layers: also those of
-/// `behind`, not only the sum. Reflected light counts as indirect specular.
-LightLayers addCoats(gpu::Recorder& f, const ViewInputs& in, const Settings& asked, const TracedView& seen,
-                     const CoatedSurfaces& surfaces, const LightLayers& behind, gpu::Image lit, bool layers);
+/// Composites the coats over `behind`, the light of these surfaces, with those of its layers that it has. seen: the
+/// surfaces, with their shadows, and the screen that reflections read. Reflected light counts as indirect specular.
+LightLayers addCoats(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+                     const CoatedSurfaces& surfaces, const LightLayers& behind);
+
+/// The same for the opaque surfaces of a view; `behind` itself if none that it shows has a coat. Transmissive ones
+/// count as opaque where they are drawn so.
+LightLayers withCoats(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+                      const LightLayers& behind);
+lighting::Light withCoats(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+                          const lighting::Light& behind);
 
 }  // namespace reflet
 #endif

@@ -44,8 +44,8 @@ SHARED_END
 
 #include "effects/lobe/rays.h"
 #include "gpu/recorder.h"
+#include "renderer/draw_gbuffer/draw_gbuffer.h"
 #include "renderer/draw_list.h"
-#include "renderer/gbuffer/draw_gbuffer.h"
 
 namespace reflet {
 

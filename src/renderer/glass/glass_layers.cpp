@@ -1,7 +1,10 @@
 // Records the layers of glass of a view.
 #include "renderer/glass/glass_layers.h"
 
-#include "effects/light_mips/light_mips.h"
+#include "lighting/indirect.h"
+#include "renderer/coat/coat.h"
+#include "renderer/lit_layer.h"
+#include "renderer/sub_views.h"
 
 #include <string>
 #include <vector>
@@ -9,15 +12,6 @@
 namespace reflet {
 
 namespace {
-
-Settings glassSettings(const Settings& asked, const DrawList& draws) {
-    Settings settings = layerSettings(asked);
-    settings.traceScreen.light = HitLight::lit;  // that of this frame, with the glass behind
-    if (!draws.murky) {
-        settings.diffuse.rays = 0;  // nothing reflects diffusely
-    }
-    return settings;
-}
 
 // The nearest layers, the nearest first.
 std::vector<GBuffer> peelGlass(gpu::Recorder& f, const ViewInputs& in, const Settings& settings,
@@ -33,78 +27,40 @@ std::vector<GBuffer> peelGlass(gpu::Recorder& f, const ViewInputs& in, const Set
     return peeled;
 }
 
-// seen: with the layer's G-buffer, and the light behind it on screen. nearerDepth: of the layer in front, if any. last:
-// gets the sum, if given.
+gpu::Image glassOver(gpu::Recorder& f, const GBuffer& g, gpu::Image layer, const RefractedRays* transmitted,
+                     gpu::Image behind) {
+    const gpu::Image over = f.image("lit.glass", VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size);
+    glassOver(f, g, layer, transmitted, behind, over);
+    return over;
+}
+
+// seen: with the layer's G-buffer, and the light behind it on screen. nearerDepth: of the layer in front, if any.
 LightThroughGlass addLayer(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, TracedView seen,
-                           gpu::Image nearerDepth, const LightLayers& behind, gpu::Image last) {
-    const bool layers = bool(behind.light.indirectDiffuse);
+                           gpu::Image nearerDepth, const LightLayers& behind) {
+    const bool layers = bool(behind.indirectDiffuse);
     const GBuffer& g = seen.images.g;
-    const Composite lit = lightLayer(f, in, settings, seen, layers);
+    const LightLayers lit = lightLayer(f, in, settings, seen, layers);
     if (in.draws.frosted) {
-        seen.screen.lightMips = makeLightMips(f, behind.light.lit);
+        lighting::prefilterOwnLight(f, seen.screen);
     }
     const GlassSurfaces made = glassSurfaces(f, in.draws, in.view, g);
     RefractedRays refracted = refractRays(f, g, made, in.ggxTable, in.draws.dispersive,
                                           {in.view, settings.transmission.exitSteps, in.draws.frosted ? 1U : 0U});
     answerRays(f, refracted.rays, in, settings, seen);
-    const auto over = [&](gpu::Image layer, const RefractedRays* rays, gpu::Image under, gpu::Image given = {}) {
-        const gpu::Image sum = given ? given : f.image("lit", VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size);
-        glassOver(f, g, layer, rays, under, sum);
-        return sum;
-    };
-    const bool coats = coatsGlass(in.draws, settings);
     LightLayers out = behind;
-    out.light.lit = over(lit.lit, &refracted, behind.light.lit, coats ? gpu::Image{} : last);
+    out.lit = glassOver(f, g, lit.lit, &refracted, behind.lit);
     if (layers) {
-        out.direct = over(seen.images.direct, nullptr, behind.direct);
-        out.light.indirectDiffuse = over(lit.indirectDiffuse, nullptr, behind.light.indirectDiffuse);
-        out.light.indirectSpecular = over(lit.indirectSpecular, &refracted, behind.light.indirectSpecular);
+        out.direct = glassOver(f, g, seen.images.direct, nullptr, behind.direct);
+        out.indirectDiffuse = glassOver(f, g, lit.indirectDiffuse, nullptr, behind.indirectDiffuse);
+        out.indirectSpecular = glassOver(f, g, lit.indirectSpecular, &refracted, behind.indirectSpecular);
     }
-    if (coats) {
-        const CoatedSurfaces surfaces{g.depth, nearerDepth, CoatedSurfaces::Kind::glass};
-        out = addCoats(f, in, settings, seen, surfaces, out, last, layers);
+    if (coatsGlass(in.draws, settings)) {
+        out = addCoats(f, in, settings, seen, {g.depth, nearerDepth, CoatedSurfaces::Kind::glass}, out);
     }
     return {out, {g.depth, g.motion, made.tint}};
 }
 
-}  // namespace
-
-bool showsGlass(const ViewInputs& in, const Settings& settings) {
-    return drawsGlass(in.draws, settings.transmission, settings.materials) &&
-           anyDraws(in.draws,
-                    {.keep = [](const Draw& draw) { return draw.glass; }, .worldToClip = in.view.worldToClip});
-}
-
-LightThroughGlass throughGlass(gpu::Recorder& f, const ViewInputs& in, const Settings& asked, const TracedView& seen,
-                               const LightLayers& behind, gpu::Image lit, bool layers) {
-    const auto scope = f.scope("glass");
-    const Settings settings = glassSettings(asked, in.draws);
-    const std::vector<GBuffer> peeled = peelGlass(f, in, settings, seen.images.g.depth);
-    LightThroughGlass sum{behind, {}};
-    if (!layers) {
-        sum.light.light.indirectDiffuse = {};
-        sum.light.light.indirectSpecular = {};
-    }
-    for (size_t i = peeled.size(); i-- > 0;) {
-        const auto layerScope = f.scope(std::to_string(i));
-        TracedView layer{seen.images, seen.screen, {}};
-        layer.images.g = peeled[i];
-        layer.images.ambientOcclusion = {};
-        layer.screen.light = sum.light.light.lit;
-        layer.screen.lit = {};
-        layer.screen.lightMips = {};
-        sum = addLayer(f, in, settings, layer, i > 0 ? peeled[i - 1].depth : gpu::Image{}, sum.light,
-                       i == 0 ? lit : gpu::Image{});
-    }
-    return sum;
-}
-
-gpu::Image nearestGlass(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, gpu::Image opaqueDepth) {
-    const auto scope = f.scope("glass");
-    const GBufferContent content{.clipPlane = in.clipPlane, .opaqueDepth = opaqueDepth, .glass = true};
-    return drawGBuffer(f, in.draws, in.view, settings.materials, content).depth;
-}
-
+// Depth of the opaque surfaces, or of the glass where that is nearer: R32F.
 gpu::Image depthWithGlass(gpu::Recorder& f, const NearestGlass& nearest, gpu::Image opaqueDepth) {
     const gpu::Image depth = f.image("glass.depth", VK_FORMAT_R32_SFLOAT, opaqueDepth.size);
     f.compute("glass_depth", "glass_depth.comp")
@@ -116,22 +72,74 @@ gpu::Image depthWithGlass(gpu::Recorder& f, const NearestGlass& nearest, gpu::Im
     return depth;
 }
 
-GBuffer motionWithGlass(gpu::Recorder& f, const NearestGlass& nearest, GBuffer g) {
-    const gpu::Image depth = f.image("glass.followed_depth", VK_FORMAT_R32_SFLOAT, g.depth.size);
-    const gpu::Image motion = f.image("glass.followed_motion", VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size);
+// Depth (R32F) and motion of the volumes of glass in front of what the light has moved with so far.
+void followGlass(gpu::Recorder& f, const NearestGlass& nearest, lighting::Light& light) {
+    const uvec2 size = light.followedDepth.size;
+    const gpu::Image depth = f.image("glass.followed_depth", VK_FORMAT_R32_SFLOAT, size);
+    const gpu::Image motion = f.image("glass.followed_motion", VK_FORMAT_R16G16B16A16_SFLOAT, size);
     f.compute("glass_motion", "glass_motion.comp")
-        .read("depth", g.depth)
-        .read("motion", g.motion)
+        .read("depth", light.followedDepth)
+        .read("motion", light.followedMotion)
         .read("layerDepth", nearest.depth)
         .read("layerMotion", nearest.motion)
         .read("tint", nearest.tint)
         .write("followedDepth", depth)
         .write("followedMotion", motion)
-        .params(GlassOverParams{depth.size})
-        .dispatch(depth.size);
-    g.depth = depth;
-    g.motion = motion;
-    return g;
+        .params(GlassOverParams{size})
+        .dispatch(size);
+    light.followedDepth = depth;
+    light.followedMotion = motion;
+}
+
+}  // namespace
+
+bool showsGlass(const ViewInputs& in, const Settings& settings) {
+    return drawsGlass(in.draws, settings.transmission, settings.materials) &&
+           anyDraws(in.draws,
+                    {.keep = [](const Draw& draw) { return draw.glass; }, .worldToClip = in.view.worldToClip});
+}
+
+LightThroughGlass throughGlass(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+                               const LightLayers& behind) {
+    LightThroughGlass sum{behind, {}};
+    if (!showsGlass(in, settings)) {
+        return sum;
+    }
+    const auto scope = f.scope("glass");
+    const Settings ofLayer = glassSettings(settings, in.draws);
+    const std::vector<GBuffer> peeled = peelGlass(f, in, ofLayer, seen.images.g.depth);
+    for (size_t i = peeled.size(); i-- > 0;) {
+        const auto layerScope = f.scope(std::to_string(i));
+        TracedView layer{seen.images, seen.screen, {}};
+        layer.images.g = peeled[i];
+        layer.images.ambientOcclusion = {};
+        layer.screen.light = sum.light.lit;
+        layer.screen.lit = {};
+        layer.screen.lightMips = {};
+        sum = addLayer(f, in, ofLayer, layer, i > 0 ? peeled[i - 1].depth : gpu::Image{}, sum.light);
+    }
+    return sum;
+}
+
+lighting::Light throughGlass(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+                             const lighting::Light& behind) {
+    const LightThroughGlass through = throughGlass(f, in, settings, seen, static_cast<const LightLayers&>(behind));
+    lighting::Light out = behind;
+    static_cast<LightLayers&>(out) = through.light;
+    if (through.nearest.depth) {
+        out.depth = depthWithGlass(f, through.nearest, behind.depth);
+        followGlass(f, through.nearest, out);
+    }
+    return out;
+}
+
+gpu::Image nearestGlass(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, gpu::Image opaqueDepth) {
+    if (!showsGlass(in, settings)) {
+        return {};
+    }
+    const auto scope = f.scope("glass");
+    const GBufferContent content{.clipPlane = in.clipPlane, .opaqueDepth = opaqueDepth, .glass = true};
+    return drawGBuffer(f, in.draws, in.view, settings.materials, content).depth;
 }
 
 }  // namespace reflet

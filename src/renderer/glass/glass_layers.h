@@ -1,19 +1,18 @@
 // The transmissive surfaces of a view, composited over the light behind them.
 #pragma once
 
-#include "effects/accumulate/accumulate.h"
-#include "renderer/coat/coat.h"
+#include "lighting/light.h"
 #include "renderer/glass/glass.h"
-#include "renderer/lit_layer.h"
+#include "renderer/trace_lobe.h"
 
 namespace reflet {
 
 /// Whether the view may show glass.
 bool showsGlass(const ViewInputs& in, const Settings& settings);
 
-/// The nearest layer of glass; none where a view shows no glass.
+/// The nearest layer of glass.
 struct NearestGlass {
-    gpu::Image depth;   ///< 0: none. D32
+    gpu::Image depth;   ///< D32; 0: none. No image: the view shows no glass
     gpu::Image motion;  ///< of its G-buffer
     gpu::Image tint;    ///< of its GlassSurfaces
 };
@@ -23,19 +22,18 @@ struct LightThroughGlass {
     NearestGlass nearest;
 };
 
-/// Composites the glass over `behind`, the light of the view's opaque surfaces, back to front: nearer glass refracts
-/// what is farther. Transmitted light counts as indirect specular. lit: the sum is written to it; none: to an image of
-/// this frame. layers: also those of `behind`, not only the sum.
-LightThroughGlass throughGlass(gpu::Recorder& f, const ViewInputs& in, const Settings& asked, const TracedView& seen,
-                               const LightLayers& behind, gpu::Image lit, bool layers);
+/// Composites the glass over `behind`, the light of the view's opaque surfaces with those of its layers that it has,
+/// back to front: nearer glass refracts what is farther. Transmitted light counts as indirect specular. `behind` itself
+/// if the view shows no glass.
+LightThroughGlass throughGlass(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+                               const LightLayers& behind);
 
-/// Depth of the nearest glass before throughGlass has drawn it; 0: none. D32.
+/// The same, with the depth of the nearest glass, and with depth and motion of volumes of glass, which the light then
+/// moves with.
+lighting::Light throughGlass(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+                             const lighting::Light& behind);
+
+/// Depth of the nearest glass before throughGlass has drawn it; 0: none. D32. None if the view shows no glass.
 gpu::Image nearestGlass(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, gpu::Image opaqueDepth);
-
-/// Depth of the opaque surfaces, or of the glass where that is nearer: R32F.
-gpu::Image depthWithGlass(gpu::Recorder& f, const NearestGlass& nearest, gpu::Image opaqueDepth);
-
-/// g, of the opaque surfaces, with the depth (R32F) and motion of the volumes of glass in front.
-GBuffer motionWithGlass(gpu::Recorder& f, const NearestGlass& nearest, GBuffer g);
 
 }  // namespace reflet

@@ -2,6 +2,7 @@
 #include "renderer/probe/capture_probe.h"
 
 #include "gpu/context.h"
+#include "renderer/sub_views.h"
 #include "renderer/view_params.h"
 
 #include <algorithm>
@@ -33,23 +34,6 @@ ProbeBlock blockOf(std::span<const Probe> probes) {
         block.probes[i] = {probes[i].position, probes[i].box.min, probes[i].box.max};
     }
     return block;
-}
-
-// Settings reduced to what matters in captures.
-Settings captureSettings(const Settings& settings) {
-    Settings s = settings;
-    s.depth = {};
-    s.blend.layers = 0;
-    s.transmission.layers = 0;
-    s.contact.distance = 0.0F;
-    s.traceScreen.method = TraceMethod::linear;  // no pyramid
-    s.traceScreen.thicknessMode = ThicknessMode::constant;
-    if (s.shadow.filter != ShadowFilter::none) {
-        s.shadow.filter = ShadowFilter::hard;
-    }
-    s.shadow.cascades = 1;
-    s.shadow.resolution = std::min(s.shadow.resolution, 1024U);
-    return s;
 }
 
 template <class T>

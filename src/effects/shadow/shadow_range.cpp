@@ -1,0 +1,32 @@
+// Records the min/max pyramid of a shadow map.
+#include "effects/levels.h"
+#include "effects/shadow/shadow.h"
+
+#include <string>
+
+namespace reflet {
+
+namespace {
+
+// Level 0, which is not stored.
+uvec2 cellsOf(uvec2 map) {
+    return levelSize(map, 2);
+}
+
+}  // namespace
+
+uvec2 shadowRangeSize(uvec2 map) {
+    return levelsImageSize(cellsOf(map), shadowRangeLevels);
+}
+
+void makeShadowRange(gpu::Recorder& f, gpu::Image map, gpu::Image range) {
+    for (uint32_t level = 1; level < shadowRangeLevels; ++level) {
+        f.compute("shadow_range." + std::to_string(level), "shadow_range.comp")
+            .read("shadowMap", map)
+            .write("range", range)
+            .params(ShadowRangeParams{map.size, level})
+            .dispatch(levelSize(cellsOf(map.size), level));
+    }
+}
+
+}  // namespace reflet

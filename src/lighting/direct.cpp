@@ -1,0 +1,90 @@
+// Records the stages of direct light.
+#include "lighting/direct.h"
+
+#include "effects/shadow/shadow_clean.h"
+
+namespace reflet::lighting {
+
+namespace {
+
+// Texels along a side of a cascade's tile.
+uint32_t tileSide(const SunMaps& maps) {
+    return maps.map.size.x / (maps.sun.count > 1 ? 2U : 1U);
+}
+
+gpu::Image withoutNoise(gpu::Recorder& f, gpu::HistoryImage* history, const ViewContext& in,
+                        const ShadowSettings& settings, const Surfaces& surfaces, const SunVisibility& seen,
+                        const vec3& toSun) {
+    if (settings.denoise == 0 || !seen.penumbra) {
+        return seen.visibility;
+    }
+    return denoiseShadow(f, history, surfaces.g, seen.visibility, seen.penumbra,
+                         {in.view, toSun, settings.history, settings.samples, 0});
+}
+
+}  // namespace
+
+bool readsShadowRange(const ShadowSettings& settings) {
+    return settings.filter == ShadowFilter::pcss && settings.earlyOut != 0;
+}
+
+uvec2 shadowRangeSize(uvec2 map) {
+    return reflet::shadowRangeSize(map);
+}
+
+gpu::Image shadowRange(gpu::Recorder& f, const ShadowSettings& settings, gpu::Image map) {
+    if (!readsShadowRange(settings)) {
+        return {};
+    }
+    const gpu::Image range = f.image("shadow_range", shadowRangeFormat, shadowRangeSize(map.size));
+    shadowRange(f, map, range);
+    return range;
+}
+
+void shadowRange(gpu::Recorder& f, gpu::Image map, gpu::Image range) {
+    makeShadowRange(f, map, range);
+}
+
+SunShadow sunShadow(gpu::Recorder& f, gpu::HistoryImage* history, const ViewContext& in,
+                    const LightingSettings& settings, Surfaces& surfaces, const SunMaps& maps) {
+    ShadowSettings shadow = settings.shadow;
+    if (maps.map) {
+        shadow.resolution = tileSide(maps);
+    } else {
+        shadow.filter = ShadowFilter::none;
+    }
+    const gpu::Image range = readsShadowRange(shadow) ? maps.range : gpu::Image{};
+    const SunVisibility seen =
+        sunVisibility(f, surfaces.g, {.map = maps.map, .range = range, .blueNoise = in.blueNoise},
+                      {in.view, maps.sun, shadow, maps.slope});
+    SunShadow out{.visibility = withoutNoise(f, history, in, shadow, surfaces, seen, maps.toSun),
+                  .raw = seen.visibility,
+                  .penumbra = seen.penumbra,
+                  .cascadeIndex = seen.cascadeIndex};
+    if (maps.contact && settings.contact.distance > 0.0F) {
+        out.visibility = contactShadow(f, surfaces.g, depthPyramid(f, surfaces), out.visibility,
+                                       {in.view, settings.contact, maps.toSun});
+    }
+    return out;
+}
+
+LampTiles lampTiles(gpu::Recorder& f, const ViewContext& in, const DirectSettings& settings, const Surfaces& surfaces,
+                    const LampBlock& lamps) {
+    return findLampTiles(f, surfaces.g.depth, lamps, in.view, settings);
+}
+
+gpu::Image lampShadow(gpu::Recorder& f, const ViewContext& in, const LightingSettings& settings,
+                      const Surfaces& surfaces, const LampTiles& tiles, const LampShadows& shadows, gpu::Image map) {
+    if (shadows.count == 0) {
+        return {};
+    }
+    return lampVisibility(f, surfaces.g, {map, tiles.masks, in.blueNoise}, shadows, {in.view, settings.shadow});
+}
+
+gpu::Image directLight(gpu::Recorder& f, const ViewContext& in, const Surfaces& surfaces, const LightSources& lights) {
+    return reflet::directLight(f, surfaces.g, lights.visibility, in.ggxTable,
+                               {in.view, lights.toSun, lights.sunIrradiance},
+                               {lights.lamps, in.environment, in.lambertOnly});
+}
+
+}  // namespace reflet::lighting

@@ -1,0 +1,63 @@
+// Direct light: the visibility of the sun and of lamps, and the light that they and the environment send to surfaces.
+#pragma once
+
+#include "effects/direct/direct.h"
+#include "effects/direct/lamp_tiles.h"
+#include "effects/shadow/lamp_shadow.h"
+#include "lighting/settings.h"
+#include "lighting/surfaces.h"
+
+namespace reflet::lighting {
+
+/// The sun and its shadow maps, as a caller has drawn or imported them.
+struct SunMaps {
+    gpu::Image map;         ///< depth, reversed, a tile per cascade; none: everything is lit
+    gpu::Image range;       ///< of shadowRange; none: the blocker search has no early-out
+    SunShadowParams sun{};  ///< of the cascades
+    vec3 toSun{0.0F};       ///< unit
+    float slope = 0.0F;     ///< tangent of half the angular diameter
+    bool contact = false;   ///< the sun casts contact shadows, if the settings have any
+};
+
+struct SunShadow {
+    gpu::Image visibility;    ///< R8: what direct light reads
+    gpu::Image raw;           ///< before denoising
+    gpu::Image penumbra;      ///< of SunVisibility; none with hard shadows
+    gpu::Image cascadeIndex;  ///< of SunVisibility; none with one cascade
+};
+
+/// Whether sunShadow reads SunMaps::range.
+bool readsShadowRange(const ShadowSettings& settings);
+/// Size and format of SunMaps::range for a map.
+uvec2 shadowRangeSize(uvec2 map);
+constexpr VkFormat shadowRangeFormat = VK_FORMAT_R32G32_SFLOAT;
+/// The range of a map that is new in each frame; none if sunShadow does not read it.
+gpu::Image shadowRange(gpu::Recorder& f, const ShadowSettings& settings, gpu::Image map);
+/// Writes all of the range of a map: nearest and farthest depth of its cells.
+void shadowRange(gpu::Recorder& f, gpu::Image map, gpu::Image range);
+
+/// Visibility of the sun: shadow map, denoised penumbras, contact shadows. history: of penumbras; none: this frame
+/// alone.
+SunShadow sunShadow(gpu::Recorder& f, gpu::HistoryImage* history, const ViewContext& in,
+                    const LightingSettings& settings, Surfaces& surfaces, const SunMaps& maps);
+
+/// Which lamps may light each tile of the screen.
+LampTiles lampTiles(gpu::Recorder& f, const ViewContext& in, const DirectSettings& settings, const Surfaces& surfaces,
+                    const LampBlock& lamps);
+
+/// Visibility of the lamps that cast shadows; none if no lamp does. map: the shadow maps of these.
+gpu::Image lampShadow(gpu::Recorder& f, const ViewContext& in, const LightingSettings& settings,
+                      const Surfaces& surfaces, const LampTiles& tiles, const LampShadows& shadows, gpu::Image map);
+
+/// Sources of direct light and how much of them surfaces see.
+struct LightSources {
+    vec3 toSun{0.0F};          ///< unit
+    vec3 sunIrradiance{0.0F};  ///< [W/m²]; 0: no sun
+    const LampBlock& lamps;
+    LightVisibility visibility;
+};
+
+/// RGBA16F: radiance of direct light, emission and the environment behind.
+gpu::Image directLight(gpu::Recorder& f, const ViewContext& in, const Surfaces& surfaces, const LightSources& lights);
+
+}  // namespace reflet::lighting

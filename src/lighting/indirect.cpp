@@ -1,0 +1,178 @@
+// Records the stages of indirect light.
+#include "lighting/indirect.h"
+
+#include "effects/composite/composite.h"
+#include "effects/import/import.h"
+#include "effects/light_mips/light_mips.h"
+#include "effects/lobe/answer_environment.h"
+
+#include <algorithm>
+
+namespace reflet::lighting {
+
+namespace {
+
+// Cones follow the lobe's centre, but on screen with a small random spread: the centre alone would give hit shapes
+// edges as hard as in a mirror. Prefiltered sources have no such edges.
+constexpr float coneShareOnScreen = 0.1F;
+
+bool marchesPyramid(const LightingSettings& settings) {
+    return settings.traceScreen.enabled != 0 && settings.traceScreen.method == TraceMethod::hiz;
+}
+
+// Whether marching the same ray again finds the same.
+bool marchesExactly(const TraceScreenSettings& settings) {
+    return settings.method == TraceMethod::hiz || settings.method == TraceMethod::exhaustive;
+}
+
+bool tracesAtRandom(const LightingSettings& settings, const RaySources& sources) {
+    const TraceScreenSettings& s = settings.traceScreen;
+    return (s.enabled != 0 && s.jitter != 0 && !marchesExactly(s)) || sources.random;
+}
+
+float longestRay(const LightingSettings& settings, uint32_t lobe) {
+    return lobe == lobeDiffuse ? settings.diffuse.maxDistance : settings.traceScreen.maxDistance;
+}
+
+TraceScreenSettings marchOf(const LightingSettings& settings, const ScreenImages& screen) {
+    TraceScreenSettings march = settings.traceScreen;
+    if (!screen.backDepth && march.thicknessMode == ThicknessMode::secondLayer) {
+        march.thicknessMode = ThicknessMode::constant;
+    }
+    return march;
+}
+
+bool startsWithMirrors(const RaySources& sources, uint32_t lobe) {
+    return lobe == lobeSpecular && sources.mirrorsFirst && !sources.mirrors.empty();
+}
+
+// In order of accuracy, each for the misses of the one before. Planar views see more than the screen and need no
+// thickness assumption; which of the two comes first is a setting. The screen is here only if it is not the first.
+std::vector<RaySource> orderOf(const LightingSettings& settings, const ScreenImages& screen, const RaySources& sources,
+                               uint32_t lobe) {
+    const float longest = longestRay(settings, lobe);
+    const TraceScreenSettings march = marchOf(settings, screen);
+    std::vector<RaySource> order;
+    if (lobe == lobeSpecular) {
+        for (const PlanarView& mirror : sources.mirrors) {
+            order.emplace_back([&mirror, march = settings.traceScreen, longest](gpu::Recorder& f, Rays& rays) {
+                traceMirror(f, rays, mirror, march, longest);
+            });
+        }
+    }
+    if (settings.traceScreen.enabled != 0 && startsWithMirrors(sources, lobe)) {
+        order.emplace_back(
+            [&screen, march, longest](gpu::Recorder& f, Rays& rays) { traceScreen(f, rays, screen, march, longest); });
+    }
+    order.insert(order.end(), sources.others.begin(), sources.others.end());
+    return order;
+}
+
+}  // namespace
+
+ScreenImages screenOf(gpu::Recorder& f, const ViewContext& in, const LightingSettings& settings, Surfaces& surfaces,
+                      gpu::Image direct, const gpu::History& lit) {
+    const bool traced = settings.diffuse.rays > 0 || settings.specular.rays > 0;
+    if (traced && marchesPyramid(settings)) {
+        depthPyramid(f, surfaces);
+    }
+    return {.g = surfaces.g,
+            .view = in.view,
+            .backDepth = surfaces.backDepth,
+            .pyramid = surfaces.pyramid,
+            .light = direct,
+            .lit = lit,
+            .lightMips = {}};
+}
+
+bool readsScreenLight(const LightingSettings& settings, const RaySources& sources) {
+    return settings.traceScreen.enabled != 0 || sources.readScreen;
+}
+
+LobeLight traceLobe(gpu::Recorder& f, LobeStore* history, const ViewContext& in, const LightingSettings& settings,
+                    uint32_t lobe, const Surfaces& surfaces, const ScreenImages& screen, const RaySources& sources) {
+    const bool marched = settings.traceScreen.enabled != 0;
+    const bool first = marched && !startsWithMirrors(sources, lobe);
+    const std::vector<RaySource> order = orderOf(settings, screen, sources, lobe);
+    LobeSettings rays = lobe == lobeDiffuse ? lobeSettings(settings.diffuse) : lobeSettings(settings.specular);
+    rays.rays = in.unlit ? 0 : rays.rays;
+    return reflet::traceLobe(
+        f, history,
+        {.lobe = lobe,
+         .g = surfaces.g,
+         .view = in.view,
+         .settings = rays,
+         .diffuse = settings.diffuse,
+         .specular = settings.specular,
+         .denoise = settings.denoise,
+         .environmentSettings = settings.environment,
+         .environment = in.environment,
+         .ggxTable = in.ggxTable,
+         .blueNoise = in.blueNoise,
+         .screen = {first ? &screen : nullptr, marchOf(settings, screen), longestRay(settings, lobe)},
+         .sources = order,
+         .ambientOcclusion = surfaces.ambientOcclusion,
+         .lit = screen.lit,
+         .randomTracing = tracesAtRandom(settings, sources),
+         .countSteps = settings.traceScreen.countSteps != 0,
+         .coneShare = marched ? coneShareOnScreen : 0.0F});
+}
+
+LobeLight denoiseLobe(gpu::Recorder& f, LobeStore& history, const ViewContext& in, const LightingSettings& settings,
+                      uint32_t lobe, const Surfaces& surfaces, gpu::Image noisy) {
+    const auto scope = f.scope(lobe == lobeDiffuse ? "diffuse" : "specular");
+    LobeLight light;
+    light.from = {surfaces.g, in.view, 1};
+    light.radiance = importLight(f, noisy, true);
+    light.source = light.radiance;
+    return denoise(f, &history.denoise, light, lobe, in.view, settings.denoise);
+}
+
+void answerRays(gpu::Recorder& f, Rays& rays, const ViewContext& in, const LightingSettings& settings,
+                const ScreenImages& screen, const RaySources& sources) {
+    if (settings.traceScreen.enabled != 0) {
+        traceScreen(f, rays, screen, marchOf(settings, screen), longestRay(settings, rays.lobe));
+    }
+    for (const RaySource& source : sources.others) {
+        source(f, rays);
+    }
+    answerEnvironment(f, rays, in.environment, settings.environment);
+}
+
+gpu::Image lightSoFar(gpu::Recorder& f, const ViewContext& in, const LightingSettings& settings,
+                      const ScreenImages& screen, const LobeLight& diffuse) {
+    if (settings.traceScreen.light != HitLight::lit || settings.specular.rays == 0 || diffuse.dark) {
+        return screen.light;
+    }
+    const auto scope = f.scope("specular");
+    const LobeLight none = blackLobe(f, {screen.g, in.view}, settings.traceScreen.countSteps != 0);
+    const gpu::Image soFar = f.image("lit_so_far", VK_FORMAT_R16G16B16A16_SFLOAT, screen.light.size);
+    const CompositeInputs parts{screen.g, screen.light, diffuse, none, in.ggxTable, in.lambertOnly, false};
+    return composite(f, parts, soFar, {in.view, settings.diffuse.gain}).lit;
+}
+
+void prefilterLight(gpu::Recorder& f, const LightingSettings& settings, ScreenImages& screen) {
+    if (!raysSpread(lobeSpecular, settings.diffuse, settings.specular)) {
+        return;
+    }
+    const bool previous = settings.traceScreen.light == HitLight::previous && screen.lit.valid;
+    screen.lightMips = makeLightMips(f, previous ? screen.lit.previous : screen.light);
+}
+
+ScreenImages lightAtHits(gpu::Recorder& f, const ViewContext& in, const LightingSettings& settings, uint32_t lobe,
+                         ScreenImages screen, const LobeLight* diffuse) {
+    if (lobe == lobeDiffuse) {
+        return screen;
+    }
+    if (diffuse != nullptr) {
+        screen.light = lightSoFar(f, in, settings, screen, *diffuse);
+    }
+    prefilterLight(f, settings, screen);
+    return screen;
+}
+
+void prefilterOwnLight(gpu::Recorder& f, ScreenImages& screen) {
+    screen.lightMips = makeLightMips(f, screen.light);
+}
+
+}  // namespace reflet::lighting

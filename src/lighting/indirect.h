@@ -1,0 +1,59 @@
+// Indirect light: two lobes of rays, diffuse and specular, and the light that these read where they hit the screen.
+#pragma once
+
+#include "effects/lobe/lobe.h"
+#include "effects/planar/planar.h"
+#include "lighting/settings.h"
+#include "lighting/surfaces.h"
+
+#include <span>
+#include <vector>
+
+namespace reflet::lighting {
+
+/// Sources of light for rays besides the screen and the environment, which the stages know.
+struct RaySources {
+    std::span<const PlanarView> mirrors;  ///< planar reflections; only reflection rays ask them
+    bool mirrorsFirst = true;             ///< before the screen, not after it
+    std::vector<RaySource> others;        ///< after both, the most exact first
+    bool random = false;                  ///< some of these may answer the same ray differently the next time
+    bool readScreen = false;              ///< some of these read the light of the screen at their hits
+};
+
+/// The screen as rays see it, with direct light. lit: this frame's and the last one's image of all light; may be none.
+ScreenImages screenOf(gpu::Recorder& f, const ViewContext& in, const LightingSettings& settings, Surfaces& surfaces,
+                      gpu::Image direct, const gpu::History& lit);
+
+/// Whether any rays read ScreenImages::light.
+bool readsScreenLight(const LightingSettings& settings, const RaySources& sources);
+
+/// The light of one lobe, for rays that start at the surfaces. screen: that they are marched through; it may be another
+/// view's. history: none: this frame alone.
+LobeLight traceLobe(gpu::Recorder& f, LobeStore* history, const ViewContext& in, const LightingSettings& settings,
+                    uint32_t lobe, const Surfaces& surfaces, const ScreenImages& screen, const RaySources& sources);
+
+/// A lobe that a host has traced, denoised. noisy: radiance; alpha: hit distance [m].
+LobeLight denoiseLobe(gpu::Recorder& f, LobeStore& history, const ViewContext& in, const LightingSettings& settings,
+                      uint32_t lobe, const Surfaces& surfaces, gpu::Image noisy);
+
+/// Has the sources answer rays that start in front of the screen, such as refracted ones: the screen first.
+void answerRays(gpu::Recorder& f, Rays& rays, const ViewContext& in, const LightingSettings& settings,
+                const ScreenImages& screen, const RaySources& sources);
+
+/// All light so far, which reflections (and rays of surfaces in front) read at hits: the screen's, with the diffuse
+/// lobe's if they are to read it.
+gpu::Image lightSoFar(gpu::Recorder& f, const ViewContext& in, const LightingSettings& settings,
+                      const ScreenImages& screen, const LobeLight& diffuse);
+
+/// Prefilters the light that reflection rays read at hits, if cones stand for some of them.
+void prefilterLight(gpu::Recorder& f, const LightingSettings& settings, ScreenImages& screen);
+
+/// Both, for views with nothing in front of the surfaces that rays hit: the screen as rays of the lobe read it.
+/// diffuse: none: it is not traced.
+ScreenImages lightAtHits(gpu::Recorder& f, const ViewContext& in, const LightingSettings& settings, uint32_t lobe,
+                         ScreenImages screen, const LobeLight* diffuse);
+
+/// Prefilters the screen's own light, for cones or for blurred lookups.
+void prefilterOwnLight(gpu::Recorder& f, ScreenImages& screen);
+
+}  // namespace reflet::lighting

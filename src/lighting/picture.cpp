@@ -1,0 +1,114 @@
+// Records the stages from light to a picture.
+#include "lighting/picture.h"
+
+#include "effects/exposure/exposure.h"
+#include "effects/tonemap/tonemap.h"
+
+namespace reflet::lighting {
+
+namespace {
+
+constexpr VkFormat lightFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+
+// Whether `lit` has the size of the depth, so that what it shows can be looked up there.
+bool fits(gpu::Image lit, const Surfaces& surfaces) {
+    return lit && lit.size == surfaces.g.depth.size;
+}
+
+}  // namespace
+
+LobeLight blackLobe(gpu::Recorder& f, const ViewContext& in, const Surfaces& surfaces, uint32_t lobe) {
+    const auto scope = f.scope(lobe == lobeDiffuse ? "diffuse" : "specular");
+    return reflet::blackLobe(f, {surfaces.g, in.view}, false);
+}
+
+Light compose(gpu::Recorder& f, const ViewContext& in, const LightingSettings& settings, const Surfaces& surfaces,
+              const LightParts& parts, bool layers, gpu::Image into) {
+    Light light;
+    light.direct = parts.direct;
+    light.depth = surfaces.g.depth;
+    light.followedDepth = surfaces.g.depth;
+    light.followedMotion = surfaces.g.motion;
+    if (parts.diffuse.dark && parts.specular.dark && !layers) {
+        light.lit = parts.direct;
+        return light;
+    }
+    const gpu::Image sum = into ? into : f.image("lit", lightFormat, surfaces.g.depth.size);
+    static_cast<LightLayers&>(light) =
+        composite(f, {surfaces.g, parts.direct, parts.diffuse, parts.specular, in.ggxTable, in.lambertOnly, layers},
+                  sum, {in.view, settings.diffuse.gain});
+    return light;
+}
+
+Light withoutDirect(gpu::Recorder& f, const Light& light) {
+    Light out = light;
+    out.lit = reflet::withoutDirect(f, light.lit, light.direct);
+    return out;
+}
+
+Light accumulate(gpu::Recorder& f, AccumulateHistory& own, const Light& light, uint32_t framesBefore) {
+    Light out = light;
+    static_cast<LightLayers&>(out) = reflet::accumulate(f, own.light, light, framesBefore);
+    if (light.coverage) {
+        const auto scope = f.scope("coverage");
+        const gpu::Image& c = light.coverage;
+        out.coverage = reflet::accumulate(f, own.coverage, {c, c, c, c}, framesBefore).direct;
+    }
+    return out;
+}
+
+Light antialias(gpu::Recorder& f, TemporalStore& own, const ViewContext& in, const LightingSettings& settings,
+                const Light& light, uvec2 outputSize, const vec2& jitter) {
+    const TemporalImages means = temporal(
+        f, own, {light.followedDepth, light.followedMotion, light.lit, light.coverage, in.view, outputSize, jitter},
+        settings.temporal);
+    Light out = light;
+    out.unfiltered = unfilteredOf(light);
+    out.antialiased = means.mean;
+    out.lit = means.mean;
+    out.coverage = means.coverage;
+    return out;
+}
+
+Light defocus(gpu::Recorder& f, DofHistory& own, const ViewContext& in, const LightingSettings& settings,
+              const Lens& lens, const Surfaces& surfaces, const Light& light, const LobeLight* specular) {
+    if (!blurs(lens, settings.dof)) {
+        return light;
+    }
+    Light out = light;
+    out.unfiltered = unfilteredOf(light);
+    DofInputs blur{.radiance = light.lit,
+                   .depth = surfaces.g.depth,
+                   .motion = light.antialiased ? surfaces.g.motion : gpu::Image{},
+                   .view = in.view,
+                   .lens = lens,
+                   .settings = settings.dof};
+    if (specular != nullptr && fits(out.unfiltered, surfaces)) {
+        blur.reflections = {surfaces.g, *specular, out.unfiltered, in.ggxTable, in.lambertOnly};
+    }
+    const DofImages blurred = depthOfField(f, own.light, blur);
+    out.lit = blurred.radiance;
+    out.circleOfConfusion = blurred.coc;
+    if (light.coverage) {
+        const auto scope = f.scope("coverage");
+        blur.radiance = light.coverage;
+        out.coverage = depthOfField(f, own.coverage, blur).radiance;
+    }
+    return out;
+}
+
+bool canMeter(const Light& light, const Surfaces& surfaces) {
+    return fits(light.lit, surfaces) || fits(light.unfiltered, surfaces);
+}
+
+gpu::Image exposure(gpu::Recorder& f, gpu::HistoryImage& own, const LightingSettings& settings,
+                    const Surfaces& surfaces, const Light& light, float elapsed) {
+    const gpu::Image metered = fits(light.lit, surfaces) ? light.lit : light.unfiltered;
+    return measureExposure(f, own, metered, surfaces.g.depth, elapsed, settings.tonemap.adaptation);
+}
+
+gpu::Image display(gpu::Recorder& f, const LightingSettings& settings, gpu::Image radiance, gpu::Image exposure) {
+    return tonemap(f, radiance, settings.tonemap, exposure);
+}
+
+}  // namespace reflet::lighting

@@ -1,0 +1,38 @@
+// The settings that the stages read. Every caller has these; a caller may have more.
+#pragma once
+
+#include "effects/ambient_occlusion/ambient_occlusion.h"
+#include "effects/contact/contact.h"
+#include "effects/denoise/denoise.h"
+#include "effects/depth_of_field/depth_of_field.h"
+#include "effects/lobe/answer_environment.h"
+#include "effects/lobe/rays.h"
+#include "effects/lobe/trace_screen.h"
+#include "effects/shadow/shadow.h"
+#include "effects/temporal/temporal.h"
+#include "effects/tonemap/tonemap.h"
+
+namespace reflet {
+
+struct LightingSettings {
+    ShadowSettings shadow;
+    ContactSettings contact;
+    TraceScreenSettings traceScreen;
+    EnvironmentSettings environment;
+    AoSettings ao;
+    DiffuseSettings diffuse;
+    SpecularSettings specular;
+    DenoiseSettings denoise;
+    TemporalSettings temporal;
+    DofSettings dof;
+    TonemapSettings tonemap;
+};
+
+namespace lighting {
+
+/// Users count pixels of the output; stages count those that are rendered. Call it once for the settings of a frame
+/// that is rendered at another height than its output has (temporal upscaling).
+void countRenderedPixels(LightingSettings& settings, float renderedHeight, float outputHeight);
+
+}  // namespace lighting
+}  // namespace reflet

@@ -1,0 +1,52 @@
+// What the stages of a view share: its camera, its surfaces, and tables.
+#pragma once
+
+#include "effects/denoise/denoise.h"
+#include "effects/environment/environment_light.h"
+#include "effects/gbuffer/gbuffer.h"
+#include "effects/gbuffer/kept_depth.h"
+#include "effects/view.h"
+#include "gpu/recorder.h"
+
+namespace reflet {
+
+struct LightingSettings;
+
+namespace lighting {
+
+/// The camera, and what is the same for all surfaces that it sees.
+struct ViewContext {
+    ViewParams view;
+    EnvironmentLight environment;
+    gpu::Image ggxTable;        ///< of ggxTable
+    gpu::BufferView blueNoise;  ///< noise/blue_noise.h
+    bool lambertOnly = false;   ///< every material is Lambert diffuse (MaterialsSettings)
+    bool unlit = false;         ///< nothing reflects light: no rays are traced
+};
+
+/// Surfaces that a view sees: its G-buffer, and what stages have derived from it.
+struct Surfaces {
+    GBuffer g;
+    gpu::Image backDepth;         ///< second depth layer; none: thickness is assumed
+    gpu::Image pyramid;           ///< of depthPyramid
+    gpu::Image ambientOcclusion;  ///< of the stage; none: prefiltered light is not occluded
+};
+
+/// Hierarchical depth (Hi-Z) of the surfaces, which keep it: it is made by the first stage that marches through it.
+gpu::Image depthPyramid(gpu::Recorder& f, Surfaces& surfaces);
+
+/// `depth` with the precision of another format, of `view`; itself with reversed_float.
+gpu::Image keptDepth(gpu::Recorder& f, const ViewParams& view, const DepthSettings& settings, gpu::Image depth);
+
+/// The GGX table, which the caller keeps from frame to frame.
+gpu::Image ggxTable(gpu::Recorder& f, gpu::KeptImage& own);
+
+/// Ambient occlusion for prefiltered light; none with AoMethod::none. own: its history; none: this frame alone.
+gpu::Image ambientOcclusion(gpu::Recorder& f, DenoiseStore* own, const ViewContext& in,
+                            const LightingSettings& settings, const Surfaces& surfaces);
+
+/// Whether ambient occlusion or rays through the screen read the second depth layer.
+bool readsBackDepth(const LightingSettings& settings);
+
+}  // namespace lighting
+}  // namespace reflet

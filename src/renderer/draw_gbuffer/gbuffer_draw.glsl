@@ -1,0 +1,184 @@
+// G-buffer: evaluates the material's textures and factors, and the shading normal. The includer defines
+// REFLET_REFLECTANCE_TARGET and REFLET_LAYERS_TARGET if there are targets for the reflectance, and for sheen and
+// anisotropy: a shader must not write to one that is missing.
+#include "effects/gbuffer/gbuffer.glsl"
+#include "renderer/draw_gbuffer/draw_gbuffer.h"
+
+layout(constant_id = 0) const uint clipped = 0u;
+layout(constant_id = 2) const uint usedSlots = 32767u;
+layout(constant_id = 3) const uint surfaces = surfacesOpaque;
+layout(constant_id = 4) const uint translucent = translucentBlended;
+const bool drawsCoats = translucent >= translucentCoat;
+#include "renderer/material.glsl"
+
+layout(scalar) uniform ParamsBlock { GBufferParams params; };
+uniform sampler2D opaqueDepth;
+uniform sampler2D nearerDepth;
+
+layout(location = 0) in vec3 normalW;
+layout(location = 1) in vec4 tangentW;
+layout(location = 2) in vec4 uv;
+layout(location = 3) in vec4 vertexColor;
+layout(location = 4) in vec3 clipNow;
+layout(location = 5) in vec4 clipBefore;
+layout(location = 6) in vec3 fromEye;
+
+layout(location = 0) out vec4 outBaseColor;
+layout(location = 1) out uint outNormal;
+layout(location = 2) out uint outGeometricNormal;
+layout(location = 3) out vec4 outMaterial;
+layout(location = 4) out vec3 outEmissive;
+layout(location = 5) out vec4 outMotion;
+#ifdef REFLET_REFLECTANCE_TARGET
+layout(location = 6) out vec4 outReflectance;
+#endif
+#ifdef REFLET_LAYERS_TARGET
+layout(location = 7) out uvec2 outLayers;
+#endif
+
+// The triangle's normal, facing the camera; the shading normal if the triangle is seen edge-on.
+vec3 geometricNormal(vec3 shading) {
+    vec3 n = cross(dFdx(fromEye), dFdy(fromEye));
+    float square = dot(n, n);
+    if (!(square > 1e-30)) {
+        return shading;
+    }
+    vec3 toEye = params.view.eye.w > 0.0 ? -fromEye : params.view.eye.xyz;
+    return n * (inversesqrt(square) * (dot(n, toEye) < 0.0 ? -1.0 : 1.0));
+}
+
+mat3 tangentFrame(vec3 n) {
+    vec3 t = normalize(tangentW.xyz - n * dot(n, tangentW.xyz));
+    return mat3(t, cross(n, t) * tangentW.w, n);
+}
+
+vec3 mappedNormal(vec3 n, vec3 texel, float scale) {
+    vec3 m = texel * 2.0 - 1.0;
+    m.xy *= scale;
+    return normalize(tangentFrame(n) * m);
+}
+
+#ifdef REFLET_LAYERS_TARGET
+// KHR_materials_anisotropy: alpha grows from `roughness` squared toward 1 along the direction. Sets the roughness to that
+// of the geometric mean of both. n: as packed in the G-buffer.
+vec2 anisotropyAround(vec3 n, inout float roughness) {
+    const float leastAlpha = 1e-3;
+    vec3 anisotropy = materialAnisotropy(uv.xy, uv.zw);
+    mat3 frame = tangentFrame(gl_FrontFacing ? n : -n);
+    vec3 direction = frame[0] * anisotropy.x + frame[1] * anisotropy.y;
+    mat3 basis = basisAround(n);
+    vec2 along = vec2(dot(direction, basis[0]), dot(direction, basis[1]));
+    float square = dot(along, along);
+    if (!(anisotropy.z > 0.0) || !(square > 1e-6)) {
+        return vec2(0.0);
+    }
+    float across = max(roughness * roughness, leastAlpha);
+    float ratio = mix(across, 1.0, anisotropy.z * anisotropy.z) / across;
+    roughness = sqrt(across * sqrt(ratio));
+    vec2 twice = vec2(along.x * along.x - along.y * along.y, 2.0 * along.x * along.y) / square;
+    return twice * (0.5 * log2(ratio) / mostAnisotropy);
+}
+#endif
+
+vec3 shadingNormal() {
+    vec3 n = normalize(normalW);
+    if (drawsCoats) {
+        if (hasTexture(slotCoatNormal)) {
+            n = mappedNormal(n, texture(coatNormalTexture, slotUv(slotCoatNormal, uv.xy, uv.zw)).xyz,
+                             material.coatNormalScale);
+        }
+    } else if (hasTexture(slotNormal)) {
+        n = mappedNormal(n, texture(normalTexture, slotUv(slotNormal, uv.xy, uv.zw)).xyz, material.normalScale);
+    }
+    return gl_FrontFacing ? n : -n;
+}
+
+// Share of the surface that is coated, and the coat's roughness.
+vec2 clearCoat() {
+    vec2 coat = vec2(material.coat, material.coatRoughness);
+    if (hasTexture(slotCoat)) {
+        coat.x *= texture(coatTexture, slotUv(slotCoat, uv.xy, uv.zw)).r;
+    }
+    if (hasTexture(slotCoatRoughness)) {
+        coat.y *= texture(coatRoughnessTexture, slotUv(slotCoatRoughness, uv.xy, uv.zw)).g;
+    }
+    return coat;
+}
+
+// Whether a translucent surface is in the layer, by its depth.
+bool isPeeled() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    bool seen = gl_FragCoord.z >= texelFetch(opaqueDepth, pixel, 0).r * (1.0 - peelTolerance);
+    if (surfaces == surfacesBehind) {
+        seen = seen && gl_FragCoord.z < texelFetch(nearerDepth, pixel, 0).r * (1.0 - peelTolerance);
+    }
+    return seen;
+}
+
+// kept: by the alpha test.
+bool isDrawn(float alpha, bool kept) {
+    bool opaque = isBlended() ? alpha >= params.blendedFrom : kept;
+    if (surfaces == surfacesOpaque) {
+        return opaque;
+    }
+    bool glass = translucent == translucentGlass || translucent == translucentGlassCoat;
+    return isPeeled() && (glass ? kept : translucent == translucentCoat ? opaque : isTranslucent(alpha));
+}
+
+void main() {
+    vec3 n = shadingNormal();
+    uint packedGeometric = packUnitVector(geometricNormal(n));  // derivatives must be taken before any discard
+    vec3 positionW = fromEye + params.view.eye.xyz * params.view.eye.w;
+    if (clipped != 0u && dot(params.clipPlane, vec4(positionW, 1.0)) <= 0.0) {
+        discard;
+    }
+    vec4 baseColor;
+    bool kept = materialBaseColor(uv.xy, uv.zw, vertexColor, baseColor);
+    if (!isDrawn(baseColor.a, kept)) {
+        discard;
+    }
+    if (translucent == translucentGlass) {  // what is left of the diffuse base; metals stay as they are
+        baseColor.rgb *= 1.0 - materialTransmission(uv.xy, uv.zw) * (1.0 - material.metallic);
+    }
+    vec2 roughnessMetallic = vec2(material.roughness, material.metallic);
+    if (hasTexture(slotMetallicRoughness)) {
+        roughnessMetallic *=
+            texture(metallicRoughnessTexture, slotUv(slotMetallicRoughness, uv.xy, uv.zw)).gb;
+    }
+    float occlusion = 1.0;
+    if (hasTexture(slotOcclusion)) {
+        float o = texture(occlusionTexture, slotUv(slotOcclusion, uv.xy, uv.zw)).r;
+        occlusion = 1.0 + material.occlusionStrength * (o - 1.0);
+    }
+    outEmissive = material.emissive;
+    if (hasTexture(slotEmissive)) {
+        outEmissive *= texture(emissiveTexture, slotUv(slotEmissive, uv.xy, uv.zw)).rgb;
+    }
+    uint flags = params.settings.lambertOnly != 0u ? materialFlagLambert : 0u;
+    if (mayBeUnlit() && notInlined(material.unlit, gl_FragCoord) != 0u) {
+        flags |= materialFlagUnlit;
+        roughnessMetallic = vec2(1.0, 0.0);
+        occlusion = 1.0;
+        outEmissive = vec3(0.0);
+    }
+    if (drawsCoats) {
+        vec2 coat = clearCoat();
+        baseColor = vec4(vec3(0.0), coat.x);
+        roughnessMetallic = vec2(coat.y, 0.0);
+        occlusion = 1.0;
+        outEmissive = vec3(0.0);
+    }
+#ifdef REFLET_REFLECTANCE_TARGET
+    outReflectance = materialReflectance(uv.xy, uv.zw);
+#endif
+#ifdef REFLET_LAYERS_TARGET
+    vec2 anisotropy = anisotropyAround(unpackUnitVector(packUnitVector(n)), roughnessMetallic.x);
+    outLayers = packLayers(materialSheen(uv.xy, uv.zw), anisotropy);
+#endif
+    outBaseColor = vec4(packBaseColor(baseColor.rgb), 1.0);
+    outNormal = packUnitVector(n);
+    outGeometricNormal = packedGeometric;
+    outMaterial = vec4(roughnessMetallic, occlusion, float(flags) / 255.0);
+    outMotion = vec4(0.5 * (clipNow.xy / clipNow.z - clipBefore.xy / clipBefore.z), clipBefore.w,
+                     surfaces == surfacesOpaque ? 0.0 : baseColor.a);
+}

@@ -1,0 +1,186 @@
+// Plans and records the lamps' shadow maps.
+#include "renderer/draw_shadows/lamp_shadow_maps.h"
+
+#include "gpu/context.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace reflet {
+
+namespace {
+
+constexpr float widestSpot = 60.0F;  // degrees from the axis; beyond that a cube map wastes less than a single tile
+
+float strength(const LampParams& lamp) {
+    return std::max({lamp.intensity.x, lamp.intensity.y, lamp.intensity.z});
+}
+
+// Indices of the lamps that can cast shadows, the strongest first.
+std::vector<uint32_t> casters(const LampBlock& lamps) {
+    std::vector<uint32_t> indices;
+    for (uint32_t i = 0; i < lamps.count; ++i) {
+        if (lamps.lamps[i].type != lampDirectional && strength(lamps.lamps[i]) > 0.0F) {
+            indices.push_back(i);
+        }
+    }
+    std::ranges::stable_sort(indices, std::greater<>(), [&](uint32_t i) { return strength(lamps.lamps[i]); });
+    return indices;
+}
+
+bool hasOneTile(const LampParams& lamp) {
+    return lamp.type == lampSpot && lamp.cosOuter > std::cos(glm::radians(widestSpot));
+}
+
+LampShadow shadowOf(const LampBlock& lamps, uint32_t index, uint32_t firstTile, uint32_t tileSize) {
+    const LampParams& lamp = lamps.lamps[index];
+    LampShadow shadow{};
+    shadow.lamp = lamp;
+    shadow.index = index;
+    shadow.near = std::max(lamp.radius, 1e-3F);  // lampClearance of scene.h
+    shadow.firstTile = firstTile;
+    shadow.tiles = cubeFaces;
+    shadow.halfTangent = 1.0F;
+    if (hasOneTile(lamp)) {
+        const vec3 axis = -lamp.toLamp;
+        const vec3 side = glm::normalize(glm::cross(std::abs(axis.y) < 0.99F ? vec3(0, 1, 0) : vec3(1, 0, 0), axis));
+        shadow.tiles = 1;
+        shadow.worldToTile = glm::transpose(mat3(side, glm::cross(axis, side), axis));
+        // Padding: two texels for lookups at the cone's edge, and the search radius beyond the cone.
+        const float tangent = std::sqrt(1.0F - lamp.cosOuter * lamp.cosOuter) / lamp.cosOuter;
+        shadow.halfTangent =
+            (tangent + (lamp.radius > 0.0F ? lampSearchTangent : 0.0F)) * (1.0F + 4.0F / static_cast<float>(tileSize));
+    }
+    return shadow;
+}
+
+// Rows are the tile's axes.
+mat3 tileRotation(const LampShadow& shadow, uint32_t face) {
+    if (shadow.tiles == 1) {
+        return shadow.worldToTile;
+    }
+    const auto axis = static_cast<int>(face / 2);
+    mat3 tileToWorld(0.0F);
+    tileToWorld[0][(axis + 1) % 3] = 1.0F;
+    tileToWorld[1][(axis + 2) % 3] = 1.0F;
+    tileToWorld[2][axis] = face % 2 == 0 ? 1.0F : -1.0F;
+    return glm::transpose(tileToWorld);
+}
+
+mat4 worldToClip(const LampShadow& shadow, uint32_t face) {
+    mat4 tileToClip(0.0F);
+    tileToClip[0][0] = 1.0F / shadow.halfTangent;
+    tileToClip[1][1] = 1.0F / shadow.halfTangent;
+    tileToClip[2][3] = 1.0F;
+    tileToClip[3][2] = shadow.near;
+    return tileToClip * mat4(tileRotation(shadow, face)) * glm::translate(mat4(1.0F), -shadow.lamp.position);
+}
+
+float distanceTo(const Aabb& box, const vec3& p) {
+    return glm::distance(p, glm::clamp(p, box.min, box.max));
+}
+
+// Draws all opaque or all cut-out draws into the tiles in which they are visible.
+void drawTiles(const gpu::DrawCommands& to, const DrawList& list, const LampShadows& shadows,
+               const LampTileParams& params, bool masked) {
+    for (uint32_t i = 0; i < shadows.count; ++i) {
+        const LampShadow& shadow = shadows.lamps[i];
+        const auto lit = [&](const Draw& d) {
+            return d.masked == masked && distanceTo(d.boundsW, shadow.lamp.position) * shadow.lamp.inverseRange < 1.0F;
+        };
+        for (uint32_t face = 0; face < shadow.tiles; ++face) {
+            const uint32_t tile = shadow.firstTile + face;
+            drawIntoTile(to, uvec2(tile % shadows.columns, tile / shadows.columns), shadows.tileSize);
+            to.context.vk.vkCmdPushConstants(to.commands, to.layout, VK_SHADER_STAGE_ALL, sizeof(glm::mat4x3),
+                                             sizeof(tile), &tile);
+            recordDraws(to, list, {lit, Cull::none, masked, params.worldToTile[tile]}, false);
+        }
+    }
+}
+
+uint32_t tilesOf(const LampShadows& shadows) {
+    const LampShadow& last = shadows.lamps[shadows.count - 1];
+    return last.firstTile + last.tiles;
+}
+
+}  // namespace
+
+LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, uint32_t largestSide,
+                            const std::function<void(const std::string&)>& warn) {
+    LampShadows shadows{};
+    std::vector<uint32_t> indices = casters(lamps);
+    if (settings.filter == ShadowFilter::none || settings.lamps == 0 || indices.empty()) {
+        return shadows;
+    }
+    shadows.count = std::min({settings.lamps, maxShadowedLamps, static_cast<uint32_t>(indices.size())});
+    shadows.tileSize = settings.lampResolution;
+    if (indices.size() > shadows.count) {
+        warn(fmt::format(
+            "the scene has {} point and spot lamps, but only the strongest {} cast shadows: shadow.lamps is the limit",
+            indices.size(), shadows.count));
+    }
+    indices.resize(shadows.count);
+    uint32_t tiles = 0;
+    for (const uint32_t i : indices) {
+        tiles += hasOneTile(lamps.lamps[i]) ? 1 : cubeFaces;
+    }
+    shadows.columns = static_cast<uint32_t>(std::ceil(std::sqrt(static_cast<float>(tiles))));
+    while (shadows.columns * shadows.tileSize > largestSide) {
+        shadows.tileSize /= 2;
+    }
+    for (uint32_t i = 0, tile = 0; i < shadows.count; tile += shadows.lamps[i++].tiles) {
+        lamps.lamps[indices[i]].shadow = i;
+        shadows.lamps[i] = shadowOf(lamps, indices[i], tile, shadows.tileSize);
+    }
+    if (shadows.tileSize < settings.lampResolution) {
+        warn(fmt::format(
+            "{} lamp shadow maps of {} texels a side do not fit into one image and are reduced to {}; lower "
+            "shadow.lamps or shadow.lamp_resolution",
+            tiles, settings.lampResolution, shadows.tileSize));
+    }
+    return shadows;
+}
+
+namespace {
+
+// Everything that the maps depend on, as a cache key.
+struct LampMapContents {
+    LampTileParams tiles;
+    uint32_t tileSize;
+    uint32_t columns;
+    uint64_t draws;
+};
+static_assert(sizeof(LampMapContents) == sizeof(LampTileParams) + 16, "padding would differ at random");
+
+}  // namespace
+
+gpu::Image drawLampShadowMap(gpu::Recorder& f, gpu::KeptImage& own, const DrawList& list, const LampShadows& shadows) {
+    LampTileParams params{};
+    for (uint32_t i = 0; i < shadows.count; ++i) {
+        for (uint32_t face = 0; face < shadows.lamps[i].tiles; ++face) {
+            params.worldToTile[shadows.lamps[i].firstTile + face] = worldToClip(shadows.lamps[i], face);
+        }
+    }
+    const uint32_t rows = (tilesOf(shadows) + shadows.columns - 1) / shadows.columns;
+    const gpu::Image map = own.target(f, VK_FORMAT_D32_SFLOAT, uvec2(shadows.columns, rows) * shadows.tileSize);
+    if (list.version != 0 && own.holds(f, LampMapContents{params, shadows.tileSize, shadows.columns, list.version})) {
+        return map;
+    }
+    // Opaque draws need no fragment shader; cut-out draws test alpha.
+    f.raster("lamp_shadow_map", {"lamp_shadow_map.vert"})
+        .depth(map, 0.0F)
+        .vertices(vertexLayout())
+        .params(params)
+        .draw([=, &list](const gpu::DrawCommands& to) { drawTiles(to, list, shadows, params, false); });
+    f.raster("lamp_shadow_map", {"lamp_shadow_map_masked.vert", "shadow_map_masked.frag"})
+        .depth(map, std::nullopt)
+        .vertices(vertexLayout(), list.materialLayout)
+        .params(params)
+        .draw([=, &list](const gpu::DrawCommands& to) { drawTiles(to, list, shadows, params, true); });
+    return map;
+}
+
+}  // namespace reflet

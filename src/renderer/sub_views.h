@@ -1,0 +1,30 @@
+// Settings of the views and layers that a frame renders besides what the camera sees: one function for each kind.
+#pragma once
+
+#include "renderer/settings.h"
+
+namespace reflet {
+
+struct DrawList;
+
+/// Layers of translucent surfaces in front of a view. They have no depth pyramid for contact shadows.
+Settings layerSettings(Settings settings);
+/// Layers of glass: rays read this frame's light, with the glass behind.
+Settings glassSettings(const Settings& settings, const DrawList& draws);
+/// Clear coats, which have no diffuse base.
+Settings coatSettings(const Settings& settings);
+
+/// What a planar reflection shows, for rays of the frame. It has no last frame: `previous` acts as `lit` there, and
+/// probes bring further bounces.
+Settings planarSettings(Settings settings);
+/// The same for a mirrored copy of the scene, whose triangles are not mirrored for rays.
+Settings duplicateSettings(const Settings& settings);
+/// Prefiltered diffuse light of probes alone.
+Settings probeLightSettings(Settings settings);
+
+/// Live camera images: direct light, translucent surfaces drawn opaque.
+Settings liveSettings(Settings settings);
+/// Faces of probes: what matters in captures.
+Settings captureSettings(Settings settings);
+
+}  // namespace reflet
