@@ -3,8 +3,8 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "capture/scene_options.h"
-#include "capture/sequence_names.h"
+#include "job/scene_options.h"
+#include "job/sequence_names.h"
 #include "scene/gltf/files.h"
 
 #include <algorithm>

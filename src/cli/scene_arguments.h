@@ -1,8 +1,8 @@
 // Options shared by the subcommands that take a scene.
 #pragma once
 
-#include "capture/scene_options.h"
 #include "cli/output_files.h"
+#include "job/scene_options.h"
 
 #include <string>
 #include <string_view>

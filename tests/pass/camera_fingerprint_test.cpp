@@ -1,5 +1,5 @@
 // Fingerprints of views: every field of a camera counts, and those of a lens only if there is one.
-#include "capture/fingerprint.h"
+#include "job/fingerprint.h"
 #include "scene/camera_fields.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // segments, each of which starts with an empty history: so a part of the sequence gives the same images as the whole.
 #pragma once
 
-#include "capture/share.h"
+#include "job/share.h"
 
 #include <cstdint>
 #include <functional>

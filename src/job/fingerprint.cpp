@@ -1,6 +1,6 @@
 // Computes fingerprints. Structured bindings name every member, so that adding a member to a struct without adding it
 // here does not compile.
-#include "capture/fingerprint.h"
+#include "job/fingerprint.h"
 
 #include "scene/camera_fields.h"
 

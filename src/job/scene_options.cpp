@@ -1,5 +1,5 @@
 // Scene, view, size and settings as options name them.
-#include "capture/scene_options.h"
+#include "job/scene_options.h"
 
 #include "base/error.h"
 #include "base/json.h"

@@ -2,9 +2,9 @@
 // record is shared between processes, so several can make one sequence, and any of them may end at any time.
 #pragma once
 
-#include "capture/scene_options.h"
-#include "capture/sequence_names.h"
-#include "capture/sequence_options.h"
+#include "job/scene_options.h"
+#include "job/sequence_names.h"
+#include "job/sequence_options.h"
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -1,5 +1,5 @@
 // Finds a process's share: named on the command line, or in the environment that a scheduler gave it.
-#include "capture/share.h"
+#include "job/share.h"
 
 #include "base/error.h"
 

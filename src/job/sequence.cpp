@@ -1,13 +1,13 @@
 // Renders sequences.
-#include "capture/sequence.h"
+#include "job/sequence.h"
 
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/progress.h"
-#include "capture/sequence_files.h"
-#include "capture/sequence_plan.h"
-#include "capture/sequence_record.h"
-#include "capture/sequence_views.h"
+#include "job/sequence_files.h"
+#include "job/sequence_plan.h"
+#include "job/sequence_record.h"
+#include "job/sequence_views.h"
 #include "renderer/history.h"
 
 #include <algorithm>

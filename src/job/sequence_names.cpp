@@ -1,5 +1,5 @@
 // File names of a sequence.
-#include "capture/sequence_names.h"
+#include "job/sequence_names.h"
 
 #include "base/error.h"
 

@@ -1,8 +1,8 @@
 // The options of `reflet render`.
 #pragma once
 
-#include "capture/scene_options.h"
-#include "capture/sequence_options.h"
+#include "job/scene_options.h"
+#include "job/sequence_options.h"
 
 #include <cstdint>
 #include <string>

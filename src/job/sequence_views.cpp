@@ -1,5 +1,5 @@
 // Computes the views of a sequence's frames.
-#include "capture/sequence_views.h"
+#include "job/sequence_views.h"
 
 #include "base/error.h"
 #include "base/json.h"

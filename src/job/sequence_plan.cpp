@@ -1,5 +1,5 @@
 // Plans segments of a sequence.
-#include "capture/sequence_plan.h"
+#include "job/sequence_plan.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // The views of a sequence's frames: time goes on, and the camera stands still, orbits or follows keyframes.
 #pragma once
 
-#include "capture/sequence_options.h"
+#include "job/sequence_options.h"
 #include "scene/camera_path.h"
 #include "scene/scene.h"
 

@@ -1,7 +1,7 @@
 // The record beside a sequence's images: what they depend on, so that images of different runs are not mixed.
 #pragma once
 
-#include "capture/sequence_names.h"
+#include "job/sequence_names.h"
 #include "scene/scene.h"
 
 #include <nlohmann/json.hpp>

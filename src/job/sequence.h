@@ -2,9 +2,9 @@
 #pragma once
 
 #include "capture/pictures.h"
-#include "capture/render_options.h"
 #include "capture/timings.h"
 #include "device/device.h"
+#include "job/render_options.h"
 #include "renderer/renderer.h"
 
 namespace reflet {

@@ -1,12 +1,12 @@
 // Writes and compares the records of sequences.
-#include "capture/sequence_record.h"
+#include "job/sequence_record.h"
 
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json.h"
 #include "base/json_text.h"
 #include "base/message.h"
-#include "capture/fingerprint.h"
+#include "job/fingerprint.h"
 #include "scene/camera_json.h"
 #include "scene/gltf/files.h"
 

@@ -1,10 +1,10 @@
 // Finds a sequence's missing files; checks options.
-#include "capture/sequence_files.h"
+#include "job/sequence_files.h"
 
 #include "base/error.h"
-#include "capture/sequence_record.h"
-#include "capture/sequence_views.h"
-#include "capture/share.h"
+#include "job/sequence_record.h"
+#include "job/sequence_views.h"
+#include "job/share.h"
 #include "version.h"
 
 #include <nlohmann/json.hpp>
