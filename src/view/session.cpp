@@ -192,7 +192,7 @@ Picked Session::pick(const ViewerState& state, uvec2 size, uvec2 pixel) {
     renderer_.stopBetweenPasses({});
     renderFrame(state, state.view, size, settings, [&](gpu::Frame& f, const FrameImages& made) {
         for (const Show& show : shows()) {
-            if (isMade(show, made) && !hasOwnSize(show)) {
+            if (isMade(show, made) && !show.is(ShowProperty::ownSize)) {
                 readbacks.push_back(requestShow(f, made, show));
             }
         }
