@@ -1,9 +1,9 @@
 // `reflet list`: lists scenes, presets, shows, settings and devices.
 #include "base/error.h"
 #include "base/json_text.h"
+#include "base/wrap.h"
 #include "capture/show.h"
 #include "cli/commands.h"
-#include "cli/text_table.h"
 #include "device/device.h"
 #include "renderer/presets.h"
 #include "scene/builtin.h"
