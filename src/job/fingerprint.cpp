@@ -96,27 +96,29 @@ private:
                      specularColorTexture, transmission, clearcoat, sheen, anisotropy] = material;
         all(name, baseColor, metallic, roughness, emissive, normalScale, occlusionStrength, alphaCutoff, blended,
             doubleSided, unlit, ior, specular, specularColor, camera, baseColorTexture, metallicRoughnessTexture,
-            normalTexture, occlusionTexture, emissiveTexture, specularTexture, specularColorTexture);
-        if (transmission.factor > 0.0F) {  // others keep the print that they had before there was glass
-            const auto& [factor, thickness, attenuationColor, attenuationDistance, dispersion, texture,
-                         thicknessTexture] = transmission;
-            all(factor, thickness, attenuationColor, attenuationDistance, texture, thicknessTexture);
-            if (dispersion > 0.0F) {
-                add(dispersion);
-            }
-        }
-        if (clearcoat.factor > 0.0F) {
-            const auto& [factor, coatRoughness, coatScale, texture, roughnessTexture, coatNormal] = clearcoat;
-            all(factor, coatRoughness, coatScale, texture, roughnessTexture, coatNormal);
-        }
-        if (sheen.color != vec3(0.0F)) {
-            const auto& [color, sheenRoughness, colorTexture, roughnessTexture] = sheen;
-            all(color, sheenRoughness, colorTexture, roughnessTexture);
-        }
-        if (anisotropy.strength > 0.0F) {
-            const auto& [strength, rotation, texture] = anisotropy;
-            all(strength, rotation, texture);
-        }
+            normalTexture, occlusionTexture, emissiveTexture, specularTexture, specularColorTexture, transmission,
+            clearcoat, sheen, anisotropy);
+    }
+
+    void add(const Transmission& transmission) {
+        const auto& [factor, thickness, attenuationColor, attenuationDistance, dispersion, texture, thicknessTexture] =
+            transmission;
+        all(factor, thickness, attenuationColor, attenuationDistance, dispersion, texture, thicknessTexture);
+    }
+
+    void add(const Clearcoat& clearcoat) {
+        const auto& [factor, roughness, normalScale, texture, roughnessTexture, normalTexture] = clearcoat;
+        all(factor, roughness, normalScale, texture, roughnessTexture, normalTexture);
+    }
+
+    void add(const Sheen& sheen) {
+        const auto& [color, roughness, colorTexture, roughnessTexture] = sheen;
+        all(color, roughness, colorTexture, roughnessTexture);
+    }
+
+    void add(const Anisotropy& anisotropy) {
+        const auto& [strength, rotation, texture] = anisotropy;
+        all(strength, rotation, texture);
     }
 
     void add(const VertexAttributes& vertex) {
@@ -170,22 +172,11 @@ private:
         all(name, mesh, objectToWorld, node, skin, weights, objectToNode);
     }
 
-    // `aims` says what others may do with the target. Pinholes keep the print that they had before there were lenses.
+    // `aims` says what others may do with the target.
     void add(const Camera& camera) {
-        add(camera.name);
-        addFields(camera, false);
-        add(camera.node);
-        if (camera.apertureRadius > 0.0F) {
-            addFields(camera, true);
-            add(camera.focus);
-        }
-    }
-
-    void addFields(const Camera& camera, bool lens) {
+        all(camera.name, camera.node, camera.focus);
         for (const CameraField& field : cameraFields()) {
-            if ((field.part == CameraField::Part::lens) == lens) {
-                std::visit([&](const auto member) { add(camera.*member); }, field.member);
-            }
+            std::visit([&](const auto member) { add(camera.*member); }, field.member);
         }
     }
 
@@ -223,8 +214,8 @@ void addTo(Fingerprint& print, const Scene& scene) {
                  nodes, animations, skins, variants] = scene;
     (void)fromFile;  // it does not change radiance
     (void)variants;  // names alone
-    Adder(print).all(name, images, samplers, materials, meshes, instances, lamps, cameras, sun, environment, nodes,
-                     animations, skins);
+    Adder(print).all(fingerprintVersion, name, images, samplers, materials, meshes, instances, lamps, cameras, sun,
+                     environment, nodes, animations, skins);
 }
 
 void addTo(Fingerprint& print, const View& view) {
@@ -232,23 +223,16 @@ void addTo(Fingerprint& print, const View& view) {
         view;
     (void)probes;
     (void)mirrors;
-    Adder(print).all(camera, sun, environment, time, lampRadius, lampsOff, hasDefaultSun);
-    if (background != Background{}) {  // others keep the print that they had before there were backgrounds
-        Adder(print).all(background.mode, background.color);
-    }
+    Adder(print).all(fingerprintVersion, camera, sun, environment, background.mode, background.color, time, lampRadius,
+                     lampsOff, hasDefaultSun);
 }
 
 void addTo(Fingerprint& print, const ReferenceOptions& options) {
     const auto& [bounces, samples, noise, filter, diffuse, visibleOnly, lambertOnly, lampShadows, ambientOcclusion,
                  aoRadius, aoFalloff, pinhole, seed, threads] = options;
     (void)threads;
-    Adder(print).all(bounces, samples, noise, filter, diffuse, visibleOnly, lambertOnly, lampShadows, seed);
-    if (ambientOcclusion) {  // others keep the print that they had before there was ambient occlusion
-        Adder(print).all(aoRadius, aoFalloff);
-    }
-    if (pinhole) {
-        Adder(print).all(pinhole);
-    }
+    Adder(print).all(fingerprintVersion, bounces, samples, noise, filter, diffuse, visibleOnly, lambertOnly,
+                     lampShadows, ambientOcclusion, aoRadius, aoFalloff, pinhole, seed);
 }
 
 }  // namespace reflet

@@ -23,6 +23,9 @@ private:
     uint64_t hash_ = 0xCBF29CE484222325ULL;
 };
 
+/// Changes with what is hashed below, and how: what was stored under an older one is made anew.
+constexpr uint32_t fingerprintVersion = 2;
+
 /// Everything that an image of the scene can depend on, also names and cameras.
 void addTo(Fingerprint& print, const Scene& scene);
 /// Everything but probes and mirrors (planar reflections), which the path traced reference does not use.
