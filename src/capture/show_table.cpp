@@ -1,8 +1,8 @@
 // The table of shows: where their values come from, and how they become pictures.
 #include "capture/show.h"
 
+#include "base/color.h"
 #include "effects/shadow/shadow.h"
-#include "effects/tonemap/tone_map_image.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,7 +72,7 @@ void normal(Texels t, const ViewParams&, float* out) {
 
 // From values to display RGB.
 vec3 encoded(const float* v) {
-    return srgbEncoded({v[0], v[1], v[2]});
+    return {encodeSrgb(v[0]), encodeSrgb(v[1]), encodeSrgb(v[2])};
 }
 vec3 grey(const float* v) {
     return vec3(std::clamp(v[0], 0.0F, 1.0F));
