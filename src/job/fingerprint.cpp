@@ -69,7 +69,7 @@ private:
         }
     }
 
-    void add(const Image& image) {
+    void add(const TextureImage& image) {
         const auto& [name, width, height, rgba] = image;
         all(name, width, height, rgba);
     }
