@@ -116,7 +116,7 @@ BenchPlan makePlan(const BenchCommand& command) {
     if (std::ranges::find(comparable, plan.layer) == comparable.end()) {
         failUsage("--layer must be one of {}, is '{}'", fmt::join(comparable, ", "), plan.layer);
     }
-    Inputs inputs = inputFiles(command.shared);
+    InputFiles inputs = inputFiles(command.shared);
     inputs.scenes = command.scenes;
     tryOutputs({command.json, command.plot}, inputs);
     plan.scenes = scenesOf(command);

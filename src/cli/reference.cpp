@@ -31,7 +31,7 @@ namespace reflet {
 namespace {
 
 /// What is traced, and how.
-struct Job {
+struct TraceJob {
     const ReferenceCommand& command;
     const Settings& settings;
     const ReferenceOptions& options;
@@ -40,7 +40,7 @@ struct Job {
     uvec2 size;
 };
 
-ReferencePicture tracePicture(const Job& job, const View& view, uint32_t seed,
+ReferencePicture tracePicture(const TraceJob& job, const View& view, uint32_t seed,
                               const std::function<void(const ReferenceProgress&)>& show) {
     ReferenceOptions options = job.options;
     options.seed = seed;
@@ -54,7 +54,7 @@ ReferencePicture tracePicture(const Job& job, const View& view, uint32_t seed,
     }
 }
 
-bool wasInterrupted(const Job& job, const ReferencePicture& picture) {
+bool wasInterrupted(const TraceJob& job, const ReferencePicture& picture) {
     return !picture.complete && picture.samples < job.options.samples;
 }
 
@@ -87,7 +87,7 @@ std::vector<ImageLayer> layersOf(const ReferencePicture& picture, const Referenc
     return layers;
 }
 
-void writePicture(const Job& job, const std::string& file, const ReferencePicture& picture,
+void writePicture(const TraceJob& job, const std::string& file, const ReferencePicture& picture,
                   const TonemapSettings& tonemap) {
     const Background& background = job.view.background;
     const std::vector<std::string>& layers = job.command.layers;
@@ -115,7 +115,7 @@ std::string summary(const ReferencePicture& picture) {
         raysText(picture.rays, picture.seconds));
 }
 
-void traceOne(const Job& job) {
+void traceOne(const TraceJob& job) {
     const InterruptNote note;
     SampleProgress progress("tracing", job.options, job.size);
     const ReferencePicture picture =
@@ -136,7 +136,7 @@ void traceOne(const Job& job) {
 }
 
 // Everything that the images depend on: equal in all shares and, except for an orbit, for any number of frames.
-nlohmann::ordered_json makeRecord(const Job& job, const FrameNames& names) {
+nlohmann::ordered_json makeRecord(const TraceJob& job, const FrameNames& names) {
     const ReferenceCommand& c = job.command;
     const ReferenceOptions& o = job.options;
     nlohmann::ordered_json record = commonRecord(c.scene, c.sequence, c.frames, job.view);
@@ -163,7 +163,7 @@ uint32_t frameSeed(uint32_t seed, uint32_t frame) {
     return seed + frame * 0x9E3779B9U;  // odd: no two frames share a seed
 }
 
-void traceSequence(const Job& job) {
+void traceSequence(const TraceJob& job) {
     const InterruptNote note;
     const ReferenceCommand& c = job.command;
     const SequenceViews views(job.view, job.scene, c.sequence, c.frames);
@@ -207,7 +207,7 @@ void trace(const ReferenceCommand& command) {
     const bool sequence = isSequence(command.outputs, command.sequence, command.frames);
     const Scene scene = loadScene(command.scene);
     const View view = loadView(command.scene, scene);
-    const Job job{command, settings, options, scene, view, size};
+    const TraceJob job{command, settings, options, scene, view, size};
     if (sequence) {
         traceSequence(job);
     } else {

@@ -221,7 +221,7 @@ void Panels::messages() {
 }
 
 // With a heading that folds it away. comesIntoView: opens it, and scrolls to it.
-void Panels::section(const char* title, const Section& how, const std::function<void()>& panel) {
+void Panels::section(const char* title, const Folding& how, const std::function<void()>& panel) {
     if (how.comesIntoView) {
         ImGui::SetNextItemOpen(true);
     }

@@ -34,12 +34,12 @@ public:
     void drawBrowser() { files_.drawBrowser(); }
 
 private:
-    struct Section {
+    struct Folding {
         bool startsOpen = false;
         bool comesIntoView = false;
     };
 
-    void section(const char* title, const Section& how, const std::function<void()>& panel);
+    void section(const char* title, const Folding& how, const std::function<void()>& panel);
     [[nodiscard]] std::string progressText() const;
     void runPanel();
     void timePanel();
