@@ -37,11 +37,12 @@ reflet_shaders(reflet_renderer rendererShaders ${renderer_shaders})
 file(GLOB presets CONFIGURE_DEPENDS src/renderer/presets/*.json)
 reflet_embed(reflet_renderer embeddedPresets ${presets})
 
-# Images of frames and their files; measurements; the subcommands.
-reflet_library(reflet_capture capture reflet_renderer reflet_reference)
+# Images of frames; what is rendered, and sequences of it; measurements; the subcommands.
+reflet_library(reflet_capture capture reflet_renderer)
+reflet_library(reflet_job job reflet_capture reflet_reference)
 include(cmake/version.cmake)
-reflet_version(reflet_capture)
-reflet_library(reflet_measure measure reflet_capture reflet_compare)
+reflet_version(reflet_job)
+reflet_library(reflet_measure measure reflet_job reflet_compare)
 file(GLOB report_files CONFIGURE_DEPENDS src/measure/report/*.css src/measure/report/*.js)
 reflet_embed(reflet_measure reportFiles ${report_files})
 reflet_library(reflet_cli cli reflet_measure PUBLIC CLI11::CLI11)

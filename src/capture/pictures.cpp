@@ -51,17 +51,18 @@ Pictures::Pictures(const std::string& show, const std::vector<std::string>& aovs
             aovs_.push_back(aov);
         }
     }
-    const auto ownSize = [](const Show* s) { return hasOwnSize(*s); };
+    const auto ownSize = [](const Show* s) { return s->is(ShowProperty::ownSize); };
     if (const auto found = std::ranges::find_if(aovs_, ownSize); found != aovs_.end()) {
         failUsage("--aov {0}: its size differs from the frame's; render it alone with --show {0}", (*found)->name);
     }
-    if (hasOwnSize(*main_) && !aovs_.empty()) {
+    if (main_->is(ShowProperty::ownSize) && !aovs_.empty()) {
         failUsage("--show {}: its size differs from the frame's, so it cannot share a file with --aov", main_->name);
     }
 }
 
 void Pictures::prepare(Settings& settings) const {
-    if (countsSteps(*main_) || std::ranges::any_of(aovs_, [](const Show* s) { return countsSteps(*s); })) {
+    if (main_->is(ShowProperty::countsSteps) ||
+        std::ranges::any_of(aovs_, [](const Show* s) { return s->is(ShowProperty::countsSteps); })) {
         settings.traceScreen.countSteps = 1;
     }
     settings.composite.layers = contains("indirect_diffuse") || contains("indirect_specular") ? 1 : 0;

@@ -12,6 +12,12 @@
 
 namespace reflet {
 
+enum class ShowProperty : uint8_t {
+    ordinary,
+    ownSize,      ///< its size differs from the frame's
+    countsSteps,  ///< needs trace_screen.count_steps
+};
+
 struct Show {
     std::string_view name;
     std::string_view description;  ///< meaning of the values, units and range
@@ -22,18 +28,15 @@ struct Show {
     std::vector<std::string> channels;
     /// From values to display RGB in 0..1 (already encoded). nullptr: uses the tone-mapped display image.
     vec3 (*picture)(const float* values);
+    ShowProperty property = ShowProperty::ordinary;
+
+    [[nodiscard]] bool is(ShowProperty wanted) const { return property == wanted; }
 };
 
 std::span<const Show> shows();
 
 /// Throws UsageError with the closest name.
 const Show& findShow(std::string_view name);
-
-/// Whether its size differs from the frame's.
-bool hasOwnSize(const Show& show);
-
-/// Whether it needs trace_screen.count_steps.
-bool countsSteps(const Show& show);
 
 /// Read-backs of the images of a show; fetch them after the frame is done.
 struct ShowReadback {
@@ -45,7 +48,7 @@ struct ShowReadback {
 /// Throws Error for an image that the frame's settings do not produce.
 ShowReadback requestShow(gpu::Frame& f, const FrameImages& images, const Show& show);
 FloatImage fetchValues(const gpu::Frame& f, const ShowReadback& readback, const ViewParams& view);
-/// The same at one pixel, one value per channel. Not for shows for which hasOwnSize() is true.
+/// The same at one pixel, one value per channel. Not for shows of a size of their own.
 std::vector<float> fetchValue(const gpu::Frame& f, const ShowReadback& readback, const ViewParams& view, uvec2 pixel);
 
 /// The display image of a show other than `final`.

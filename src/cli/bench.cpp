@@ -6,7 +6,6 @@
 #include "cli/commands.h"
 #include "cli/device_options.h"
 #include "cli/output_files.h"
-#include "cli/text_table.h"
 #include "measure/bench/against.h"
 #include "measure/bench/bandwidth.h"
 #include "measure/bench/output.h"
@@ -117,7 +116,7 @@ BenchPlan makePlan(const BenchCommand& command) {
     if (std::ranges::find(comparable, plan.layer) == comparable.end()) {
         failUsage("--layer must be one of {}, is '{}'", fmt::join(comparable, ", "), plan.layer);
     }
-    Inputs inputs = inputFiles(command.shared);
+    InputFiles inputs = inputFiles(command.shared);
     inputs.scenes = command.scenes;
     tryOutputs({command.json, command.plot}, inputs);
     plan.scenes = scenesOf(command);
@@ -178,14 +177,14 @@ constexpr size_t terminalWidth = 120;
 
 void writeResults(const BenchCommand& command, const BenchHead& head, const BenchPlan& plan,
                   const BenchResult& result) {
-    const std::string table = benchMarkdown(head, plan, result);
     if (!command.json.empty()) {
         writeFileAtomically(command.json, benchJson(head, plan, result));
     }
     if (!command.plot.empty()) {
         writeFileAtomically(command.plot, benchPlot(plan, result));
     }
-    fmt::print("{}", command.markdown ? table : alignedTables(table, terminalWidth));
+    const std::vector<Section> document = benchDocument(head, plan, result);
+    fmt::print("{}", command.markdown ? markdownOf(document) : plainTextOf(document, terminalWidth));
 }
 
 void bench(const BenchCommand& command, const std::string& typed) {

@@ -1,7 +1,7 @@
 // The command line of `reflet bench`.
 #pragma once
 
-#include "capture/scene_options.h"
+#include "job/scene_options.h"
 
 #include <cstdint>
 #include <string>

@@ -4,10 +4,10 @@
 #include "base/json_text.h"
 #include "base/limits.h"
 #include "base/text.h"
-#include "capture/sequence_names.h"
 #include "cli/commands.h"
 #include "cli/output_files.h"
 #include "compare/heat_map.h"
+#include "job/sequence_names.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>

@@ -3,10 +3,10 @@
 #include "base/file.h"
 #include "base/json_text.h"
 #include "base/progress.h"
-#include "capture/scene_options.h"
-#include "capture/sequence_names.h"
 #include "cli/compare.h"
 #include "compare/heat_map.h"
+#include "job/scene_options.h"
+#include "job/sequence_names.h"
 #include "measure/report/frame_plot.h"
 
 #include <nlohmann/json.hpp>

@@ -1,9 +1,10 @@
-// `reflet list`: lists scenes, presets, shows, settings and devices.
+// `reflet list`: lists scenes, presets, shows, settings, devices, material variants; list_passes.cpp lists passes.
 #include "base/error.h"
 #include "base/json_text.h"
+#include "base/wrap.h"
 #include "capture/show.h"
 #include "cli/commands.h"
-#include "cli/text_table.h"
+#include "cli/list_passes.h"
 #include "device/device.h"
 #include "renderer/presets.h"
 #include "scene/builtin.h"
@@ -156,7 +157,7 @@ void listDevices() {
 
 void addListCommand(CLI::App& app) {
     CLI::App* command =
-        app.add_subcommand("list", "List scenes, presets, shows, settings, devices or material variants");
+        app.add_subcommand("list", "List scenes, presets, shows, settings, devices, material variants or passes");
     const std::vector<std::pair<const char*, void (*)()>> lists{
         {"scenes", listScenes}, {"presets", listPresets}, {"shows", listShows}, {"devices", listDevices}};
     const char* descriptions[] = {"Built-in scenes", "Presets of settings", "Render targets for --show and --aov",
@@ -185,6 +186,7 @@ void addListCommand(CLI::App& app) {
     CLI::App* variants = command->add_subcommand("variants", "Material variants of a glTF file, for --variant");
     variants->add_option("FILE", *file, "A .gltf or .glb file")->required();
     variants->callback([file] { listVariants(*file); });
+    addPassesList(*command);
     command->require_subcommand(1);
 }
 

@@ -3,8 +3,8 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "capture/scene_options.h"
-#include "capture/sequence_names.h"
+#include "job/scene_options.h"
+#include "job/sequence_names.h"
 #include "scene/gltf/files.h"
 
 #include <algorithm>
@@ -48,7 +48,7 @@ bool collide(const std::string& a, const std::string& b) {
 }
 
 /// With what scenes name, if there is something that could be replaced.
-std::vector<std::string> allInputs(const Inputs& inputs, const std::vector<std::string>& outputs) {
+std::vector<std::string> allInputs(const InputFiles& inputs, const std::vector<std::string>& outputs) {
     const bool replacing = std::ranges::any_of(outputs, [](const std::string& file) {
         std::error_code error;
         return FrameNames::isPattern(file) || fs::exists(file, error);
@@ -66,7 +66,7 @@ std::vector<std::string> allInputs(const Inputs& inputs, const std::vector<std::
 
 }  // namespace
 
-void tryOutputs(const std::vector<std::string>& outputs, const Inputs& inputs) {
+void tryOutputs(const std::vector<std::string>& outputs, const InputFiles& inputs) {
     const std::vector<std::string> taken = allInputs(inputs, outputs);
     for (auto output = outputs.begin(); output != outputs.end(); ++output) {
         if (output->empty()) {
@@ -84,8 +84,8 @@ void tryOutputs(const std::vector<std::string>& outputs, const Inputs& inputs) {
     }
 }
 
-Inputs inputFiles(const SceneOptions& options, const std::vector<std::string>& more) {
-    Inputs inputs{options.settingsFiles, {options.scene}};
+InputFiles inputFiles(const SceneOptions& options, const std::vector<std::string>& more) {
+    InputFiles inputs{options.settingsFiles, {options.scene}};
     inputs.files.insert(inputs.files.end(), more.begin(), more.end());
     inputs.files.insert(inputs.files.end(), {options.viewFile, options.environment});
     return inputs;

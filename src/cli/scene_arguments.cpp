@@ -55,7 +55,7 @@ void addViewOptions(CLI::App& command, SceneOptions& options) {
     command.add_option("--seed", options.seed, "Seed of the random numbers")->capture_default_str();
 }
 
-void checkOutputs(const std::vector<std::string>& outputs, const Inputs& inputs, std::string_view command) {
+void checkOutputs(const std::vector<std::string>& outputs, const InputFiles& inputs, std::string_view command) {
     if (outputs.empty()) {
         failUsage("nothing to write: add -o FILE.exr or -o FILE.png (see reflet {} --help)", command);
     }

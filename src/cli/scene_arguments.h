@@ -1,8 +1,8 @@
 // Options shared by the subcommands that take a scene.
 #pragma once
 
-#include "capture/scene_options.h"
 #include "cli/output_files.h"
+#include "job/scene_options.h"
 
 #include <string>
 #include <string_view>
@@ -20,6 +20,6 @@ void addSceneOptions(CLI::App& command, SceneOptions& options);
 void addViewOptions(CLI::App& command, SceneOptions& options);
 
 /// Throws UsageError unless there are names and all end in .exr or .png; then as tryOutputs. command: for its help.
-void checkOutputs(const std::vector<std::string>& outputs, const Inputs& inputs, std::string_view command);
+void checkOutputs(const std::vector<std::string>& outputs, const InputFiles& inputs, std::string_view command);
 
 }  // namespace reflet

@@ -2,7 +2,7 @@
 #include "cli/sequence_arguments.h"
 
 #include "base/error.h"
-#include "capture/sequence_names.h"
+#include "job/sequence_names.h"
 
 #include <CLI/CLI.hpp>
 

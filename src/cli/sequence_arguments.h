@@ -1,7 +1,7 @@
 // Options of the subcommands that make sequences.
 #pragma once
 
-#include "capture/sequence_options.h"
+#include "job/sequence_options.h"
 
 #include <string>
 #include <vector>

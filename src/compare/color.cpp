@@ -1,4 +1,4 @@
-// Conversions between sRGB, YyCxCz and CIELAB.
+// Conversions between linear sRGB, YyCxCz and CIELAB.
 #include "compare/color.h"
 
 #include <algorithm>
@@ -32,16 +32,6 @@ float labCurveInverse(float f) {
 }
 
 }  // namespace
-
-float srgbToLinear(float encoded) {
-    const float c = std::clamp(encoded, 0.0F, 1.0F);
-    return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F);
-}
-
-float linearToSrgb(float linear) {
-    const float c = std::clamp(linear, 0.0F, 1.0F);
-    return c <= 0.0031308F ? 12.92F * c : 1.055F * std::pow(c, 1.0F / 2.4F) - 0.055F;
-}
 
 float cieLuminance(const vec3& linear) {
     return linearToXyz[0].y * linear.x + linearToXyz[1].y * linear.y + linearToXyz[2].y * linear.z;

@@ -8,11 +8,6 @@
 
 namespace reflet {
 
-/// The sRGB transfer function of one channel. Values outside of 0..1 are clamped.
-float srgbToLinear(float encoded);
-/// The inverse of srgbToLinear.
-float linearToSrgb(float linear);
-
 /// CIE Y of a linear colour: 1 for white.
 float cieLuminance(const vec3& linear);
 

@@ -1,6 +1,7 @@
 // Computes the metrics and validates their input.
 #include "compare/compare.h"
 
+#include "base/color.h"
 #include "base/error.h"
 #include "base/message.h"
 #include "compare/color.h"
@@ -60,7 +61,7 @@ Planes3 linearPlanes(const FloatImage& image, ImageKind kind) {
     for (size_t c = 0; c < planes.size(); ++c) {
         for (size_t i = 0; i < pixelCount(image); ++i) {
             const float value = image.data[i * channels + c % channels];
-            planes[c].data[i] = kind == ImageKind::display ? srgbToLinear(value) : value;
+            planes[c].data[i] = kind == ImageKind::display ? decodeSrgb(value) : value;
         }
     }
     return planes;

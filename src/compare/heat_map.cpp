@@ -1,6 +1,7 @@
 // Tabulates the colour map.
 #include "compare/heat_map.h"
 
+#include "base/color.h"
 #include "base/error.h"
 #include "compare/color.h"
 
@@ -22,7 +23,7 @@ Color colorOf(float t) {
     const vec3 linear = labToLinear({lightness, chroma * std::cos(hue), chroma * std::sin(hue)});
     Color color{};
     for (int c = 0; c < 3; ++c) {
-        color[static_cast<size_t>(c)] = static_cast<uint8_t>(std::lround(255.0F * linearToSrgb(linear[c])));
+        color[static_cast<size_t>(c)] = static_cast<uint8_t>(std::lround(255.0F * encodeSrgb(linear[c])));
     }
     return color;
 }

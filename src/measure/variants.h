@@ -1,7 +1,7 @@
 // The variants of a report or bench: presets, and named lists of settings.
 #pragma once
 
-#include "capture/scene_options.h"
+#include "job/scene_options.h"
 #include "renderer/settings.h"
 
 #include <string>

@@ -30,7 +30,8 @@ int wrapped(int texel, int size, Wrap wrap) {
 
 class Texels {
 public:
-    Texels(const Image& image, const Sampler& sampler, bool srgb) : image_(image), sampler_(sampler), srgb_(srgb) {}
+    Texels(const TextureImage& image, const Sampler& sampler, bool srgb)
+        : image_(image), sampler_(sampler), srgb_(srgb) {}
 
     [[nodiscard]] vec4 at(int x, int y) const {
         static const std::array<float, 256> decoded = decodingTable();
@@ -45,7 +46,7 @@ public:
     }
 
 private:
-    const Image& image_;
+    const TextureImage& image_;
     const Sampler& sampler_;
     bool srgb_;
 };
@@ -54,7 +55,7 @@ private:
 
 vec4 readTexture(const Scene& scene, const TextureSlot& slot, const vec2& uv0, const vec2& uv1, bool srgb) {
     static const Sampler standard;
-    const Image& image = scene.images[static_cast<size_t>(slot.image)];
+    const TextureImage& image = scene.images[static_cast<size_t>(slot.image)];
     const Sampler& sampler = slot.sampler < 0 ? standard : scene.samplers[static_cast<size_t>(slot.sampler)];
     const vec3 uv(slot.uvSet == 1 ? uv1 : uv0, 1.0F);
     // Coordinates far outside would overflow an int; repetition does not matter there.

@@ -120,7 +120,7 @@ gpu::Image GpuScene::texture(const Scene& scene, int32_t image, bool srgb) {
             constexpr std::array<uint8_t, 4> white{255, 255, 255, 255};
             texture = gpu::uploadTexture(device_, uvec2(1), white, srgb, false, "white");
         } else {
-            const Image& source = scene.images.at(static_cast<size_t>(image));
+            const TextureImage& source = scene.images.at(static_cast<size_t>(image));
             texture = gpu::uploadTexture(device_, {source.width, source.height}, source.rgba, srgb, true, source.name);
         }
     }

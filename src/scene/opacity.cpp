@@ -9,7 +9,7 @@ namespace reflet {
 
 namespace {
 
-bool alphaIsOne(const Image& image) {
+bool alphaIsOne(const TextureImage& image) {
     for (size_t i = 3; i < image.rgba.size(); i += 4) {
         if (image.rgba[i] != 255) {
             return false;

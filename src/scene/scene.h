@@ -19,7 +19,7 @@
 namespace reflet {
 
 /// 8-bit RGBA image, rows from the top. The texture slot that uses it decides whether it is sRGB.
-struct Image {
+struct TextureImage {
     std::string name;
     uint32_t width = 0;
     uint32_t height = 0;
@@ -207,7 +207,7 @@ struct Environment {
 struct Scene {
     std::string name;
     bool fromFile = false;  ///< its lights may have any unit; those of other scenes suit an exposure of 0
-    std::vector<Image> images;
+    std::vector<TextureImage> images;
     std::vector<Sampler> samplers;
     std::vector<Material> materials;
     std::vector<Mesh> meshes;

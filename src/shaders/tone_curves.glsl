@@ -1,16 +1,10 @@
-// Tone curves: linear Rec. 709 in, linear display light in 0..1 out; and the sRGB encoding.
+// Tone curves: linear Rec. 709 in, linear display light in 0..1 out.
 // C++ too: effects/tonemap/tone_map_image.cpp includes this among GLM's names, which is why numbers end in f.
 #ifndef REFLET_TONE_CURVES_GLSL
 #define REFLET_TONE_CURVES_GLSL
 
 // Reflectance of a dielectric at normal incidence; the neutral curve subtracts it.
 const float dielectricReflectance = 0.04f;
-
-// IEC 61966-2-1.
-vec3 encodeSrgb(vec3 c) {
-    c = clamp(c, 0.0f, 1.0f);
-    return mix(12.92f * c, 1.055f * pow(c, vec3(1.0f / 2.4f)) - 0.055f, greaterThan(c, vec3(0.0031308f)));
-}
 
 // The ACES reference rendering and output transforms for Rec. 709, as fitted by S. Hill (2016).
 vec3 toneAces(vec3 c) {

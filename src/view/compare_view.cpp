@@ -164,8 +164,8 @@ void CompareView::startTruth(const Inputs& in) {
 
 void CompareView::updateTruth(const Inputs& in) {
     const ViewerState& state = in.state;
-    const Asked asked{state.view, in.size, state.settings.materials.lambertOnly != 0,
-                      state.settings.temporal.enabled != 0 ? PixelFilter::box : PixelFilter::center};
+    const TruthRequest asked{state.view, in.size, state.settings.materials.lambertOnly != 0,
+                             state.settings.temporal.enabled != 0 ? PixelFilter::box : PixelFilter::center};
     if (!asked_ || !(*asked_ == asked)) {
         asked_ = asked;
         truth_.cancel();
@@ -198,7 +198,7 @@ void CompareView::updateTruth(const Inputs& in) {
     }
 }
 
-void CompareView::updateError(const Shown& live) {
+void CompareView::updateError(const RenderedImage& live) {
     if (const auto comparison = errorWork_.take()) {
         error_ = comparison->difference;
         errorMap_ = std::make_shared<const FloatImage>(comparison->flip);

@@ -32,10 +32,10 @@ public:
     struct Inputs {
         const ViewerState& state;
         const OpenScene& opened;
-        const Shown& live;     ///< the left side
-        const Shown* right;    ///< the right side, if it is rendered; null before its first frame
-        uvec2 size{0};         ///< of the image at rest
-        bool mayTrace = true;  ///< false while paused and while the view moves
+        const RenderedImage& live;   ///< the left side
+        const RenderedImage* right;  ///< the right side, if it is rendered; null before its first frame
+        uvec2 size{0};               ///< of the image at rest
+        bool mayTrace = true;        ///< false while paused and while the view moves
     };
     /// Brings the right side up to date with the state, the last frames of both sides and the background work.
     void update(const Inputs& in);
@@ -76,13 +76,13 @@ public:
     [[nodiscard]] float progress() const { return progress_; }
 
 private:
-    struct Asked {
+    struct TruthRequest {
         View view;
         uvec2 size{0};
         bool lambertOnly = false;
         PixelFilter filter = PixelFilter::box;
 
-        bool operator==(const Asked&) const = default;
+        bool operator==(const TruthRequest&) const = default;
     };
 
     void updatePreset(const Inputs& in);
@@ -90,7 +90,7 @@ private:
     void updateTruth(const Inputs& in);
     void startTruth(const Inputs& in);
     void chooseLayer(const ViewerState& state);
-    void updateError(const Shown& live);
+    void updateError(const RenderedImage& live);
     /// tonemap: of the left side, whose exposure both have.
     void updatePicture(const ViewerState& state, const TonemapSettings& tonemap);
     void setProblem(const std::string& text);
@@ -100,7 +100,7 @@ private:
     std::string fileProblem_;
     BackgroundTask<std::vector<ImageLayer>> fileWork_;
     std::vector<ImageLayer> layers_;
-    std::optional<Asked> asked_;
+    std::optional<TruthRequest> asked_;
     BackgroundTask<ReferencePicture> truth_;
     std::atomic<float> progress_ = 0.0F;
     uint32_t samples_ = 0;

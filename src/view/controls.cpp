@@ -2,6 +2,7 @@
 #include "view/controls.h"
 
 #include "base/error.h"
+#include "view/panel_text.h"
 #include "view/setting_search.h"
 
 #include <imgui.h>
@@ -14,8 +15,6 @@
 namespace reflet {
 
 namespace {
-
-const ImVec4 changedColor(1.0F, 0.78F, 0.35F, 1.0F);
 
 std::string effectOf(const SettingEntry& entry) {
     return entry.name.substr(0, entry.name.find('.'));

@@ -162,57 +162,59 @@ void RenderThread::loop(gpu::Device& device, ShaderWatch& shaders) {
             runJob(job, work);
             lock.lock();
             jobs_.pop_front();
-            ++published_;
-            lock.unlock();
-            Window::wake();
-            lock.lock();
-            continue;
-        }
-        if (ends_) {
+            announce(lock);
+        } else if (ends_) {
             return;
-        }
-        if (shaders.watches() && secondsSince(lastWatch_) >= watchEvery) {
+        } else if (shaders.watches() && secondsSince(lastWatch_) >= watchEvery) {
             lock.unlock();
             watchShaders(device, shaders);
             lock.lock();
-            continue;
-        }
-        if (!wanted_ || settled_ == version_) {
+        } else if (!wanted_ || settled_ == version_) {
             changed_.wait_for(lock, std::chrono::duration<double>(watchEvery));
-            continue;
+        } else {
+            renderWanted(device, lock);
         }
-        const Wanted wanted = *wanted_;
-        const uint64_t version = version_;
-        stops_ = false;
-        if (const double wait = timeToFrame(wanted); wait > 0.0) {
-            changed_.wait_for(lock, std::chrono::duration<double>(wait));
-            continue;
-        }
-        lock.unlock();
-        bool more = false;
-        try {
-            more = renderNext(device, wanted);
-        } catch (const Error& error) {
-            publishFailure(error.what());
-        } catch (const std::bad_alloc&) {
-            publishFailure("not enough memory for this image; a smaller window or a lower resolution needs less");
-        }
-        lock.lock();
-        state_.deviceMemory = device.memory().used(gpu::MemoryUse::device);
-        if (!more && version == version_) {
-            settled_ = version;
-            ++published_;
-            lock.unlock();
-            Window::wake();
-            lock.lock();
-        }
+    }
+}
+
+// Wakes the window for what has been published. lock: held.
+void RenderThread::announce(std::unique_lock<std::mutex>& lock) {
+    ++published_;
+    lock.unlock();
+    Window::wake();
+    lock.lock();
+}
+
+// A frame of what is wanted, once the frame rate limit allows it. lock: held.
+void RenderThread::renderWanted(gpu::Device& device, std::unique_lock<std::mutex>& lock) {
+    const Wanted wanted = *wanted_;
+    const uint64_t version = version_;
+    stops_ = false;
+    if (const double wait = timeToFrame(wanted); wait > 0.0) {
+        changed_.wait_for(lock, std::chrono::duration<double>(wait));
+        return;
+    }
+    lock.unlock();
+    bool more = false;
+    try {
+        more = renderNext(device, wanted);
+    } catch (const Error& error) {
+        publishFailure(error.what());
+    } catch (const std::bad_alloc&) {
+        publishFailure("not enough memory for this image; a smaller window or a lower resolution needs less");
+    }
+    lock.lock();
+    state_.deviceMemory = device.memory().used(gpu::MemoryUse::device);
+    if (!more && version == version_) {
+        settled_ = version;
+        announce(lock);
     }
 }
 
 // Nothing is tried again before something else is wanted.
 void RenderThread::publishFailure(const std::string& why) {
     live_->resetHistory();
-    auto shown = std::make_shared<Shown>();
+    auto shown = std::make_shared<RenderedImage>();
     shown->problem = why;
     publish([&](State& state) {
         state.live = shown;
@@ -302,7 +304,7 @@ bool RenderThread::renderLive(const Wanted& wanted) {
         displayed_ = display;
         effort_.note(wanted.size, effort, milliseconds);
     }
-    auto shown = std::make_shared<Shown>(live_->shown());
+    auto shown = std::make_shared<RenderedImage>(live_->shown());
     publish([&](State& published) {
         published.live = shown;
         published.effort = effort;
@@ -315,7 +317,7 @@ bool RenderThread::renderRight(gpu::Device& device, const Wanted& wanted) {
     if (!wanted.right || wanted.moving || wanted.state.running == Running::paused) {
         return false;
     }
-    auto shown = std::make_shared<Shown>();
+    auto shown = std::make_shared<RenderedImage>();
     try {
         if (!right_) {
             right_ = std::make_unique<Session>(device, *live_);

@@ -29,7 +29,7 @@ struct Wanted {
     ViewerState state;
     uvec2 size{0};        ///< of the image; 0: none is needed
     bool moving = false;  ///< the view or the settings are changing: a quick image is better than a good one
-    bool values = false;  ///< Shown::values are needed
+    bool values = false;  ///< RenderedImage::values are needed
     uint32_t steps = 0;   ///< single frames that were asked for in total, rendered even while paused
     std::optional<ViewerState> right;  ///< of another image of the same scene, for comparison
 };
@@ -48,8 +48,8 @@ public:
 
     /// What the thread publishes.
     struct State {
-        std::shared_ptr<const Shown> live;
-        std::shared_ptr<const Shown> right;
+        std::shared_ptr<const RenderedImage> live;
+        std::shared_ptr<const RenderedImage> right;
         Effort effort;                      ///< of the last live frame
         uint64_t scene = 0;                 ///< of `live`
         uint64_t deviceMemory = 0;          ///< bytes
@@ -98,6 +98,8 @@ private:
     void end();
     void run(const gpu::DeviceOptions& options, const std::string& shaders, std::promise<void>& opened);
     void loop(gpu::Device& device, ShaderWatch& shaders);
+    void announce(std::unique_lock<std::mutex>& lock);
+    void renderWanted(gpu::Device& device, std::unique_lock<std::mutex>& lock);
     void watchShaders(gpu::Device& device, ShaderWatch& shaders);
     void runJob(const Job& job, Work& work);
     /// Renders a frame of one of the images, if one is wanted. Returns whether there was anything to do.

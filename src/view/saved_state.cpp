@@ -6,9 +6,9 @@
 #include "base/json.h"
 #include "base/json_text.h"
 #include "base/message.h"
-#include "capture/fingerprint.h"
-#include "capture/scene_options.h"
 #include "capture/show.h"
+#include "job/fingerprint.h"
+#include "job/scene_options.h"
 #include "renderer/presets.h"
 #include "scene/view_file.h"
 

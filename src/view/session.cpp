@@ -72,11 +72,11 @@ Session::Session(gpu::Device& device, const Session& other)
     : device_(device), opened_(other.opened_), renderer_(device, *opened_.scene, printWarning) {}
 
 bool Session::wantsFrame(const ViewerState& state, uvec2 size) const {
-    if (!asked_ || state.plays || asked_->show != state.show) {
+    if (!last_ || state.plays || last_->show != state.show) {
         return true;
     }
     const Settings settings = renderedSettings(state);
-    return !(asked_->view == state.view) || asked_->size != size || !sameSettings(asked_->settings, settings) ||
+    return !(last_->view == state.view) || last_->size != size || !sameSettings(last_->settings, settings) ||
            shown_.frames < framesFor(settings, *opened_.scene);
 }
 
@@ -89,11 +89,11 @@ FrameImages Session::renderFrame(const ViewerState& state, const View& view, uve
 
 bool Session::render(const ViewerState& state, uvec2 size, bool keepValues, const std::function<bool()>& stop) {
     const Settings settings = renderedSettings(state);
-    if (!asked_ || !(asked_->view == state.view) || asked_->size != size || !sameSettings(asked_->settings, settings)) {
+    if (!last_ || !(last_->view == state.view) || last_->size != size || !sameSettings(last_->settings, settings)) {
         ++shown_.changes;
         shown_.frames = 0;
     }
-    asked_ = Asked{state.view, settings, size, state.show};
+    last_ = Request{state.view, settings, size, state.show};
     const Show& show = findShow(state.show);
     const bool fromValues = needsValues(state);
     std::optional<ShowReadback> readback;
@@ -148,7 +148,7 @@ void Session::refreshPicture(const ViewerState& state) {
 
 void Session::resetHistory() {
     renderer_.restart(0);
-    asked_.reset();
+    last_.reset();
     shown_.frames = 0;
 }
 
@@ -192,7 +192,7 @@ Picked Session::pick(const ViewerState& state, uvec2 size, uvec2 pixel) {
     renderer_.stopBetweenPasses({});
     renderFrame(state, state.view, size, settings, [&](gpu::Frame& f, const FrameImages& made) {
         for (const Show& show : shows()) {
-            if (isMade(show, made) && !hasOwnSize(show)) {
+            if (isMade(show, made) && !show.is(ShowProperty::ownSize)) {
                 readbacks.push_back(requestShow(f, made, show));
             }
         }

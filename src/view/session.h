@@ -30,7 +30,7 @@ struct Picked {
     std::vector<RecordedSample> hemisphere;  ///< diffuse rays from the pixel; none without a surface
     std::optional<RecordedShadow> shadow;    ///< of the sun; none without a surface or a shadow map
     ViewParams view{};                       ///< at the time of the pick
-    uint64_t change = 0;                     ///< Shown::changes at the time of the pick
+    uint64_t change = 0;                     ///< RenderedImage::changes at the time of the pick
 };
 
 /// Whether these settings count the hit: back faces may be rejected.
@@ -42,7 +42,7 @@ inline bool countsAsHit(const RecordedRay& ray, const TraceScreenSettings& setti
 Bitmap shownPicture(const ViewerState& state, const TonemapSettings& tonemap, const FloatImage& values);
 
 /// Copies of what a session's last frame left, for the window's thread.
-struct Shown {
+struct RenderedImage {
     std::shared_ptr<const Bitmap> picture;     ///< null before the first frame, or if `problem` says why
     std::shared_ptr<const FloatImage> values;  ///< of the show; null if they were not kept
     std::string problem;                       ///< why the show is not available
@@ -85,7 +85,7 @@ public:
     /// Redraws the display image of the same frame, with other false colours.
     void refreshPicture(const ViewerState& state);
 
-    [[nodiscard]] const Shown& shown() const { return shown_; }
+    [[nodiscard]] const RenderedImage& shown() const { return shown_; }
     [[nodiscard]] const OpenScene& opened() const { return opened_; }
 
     /// Writes the same file as `reflet render` for this state, with its number of frames. Throws Error.
@@ -96,7 +96,7 @@ public:
     Picked pick(const ViewerState& state, uvec2 size, uvec2 pixel);
 
 private:
-    struct Asked {
+    struct Request {
         View view;
         Settings settings;
         uvec2 size;
@@ -109,8 +109,8 @@ private:
     gpu::Device& device_;
     OpenScene opened_;
     Renderer renderer_;
-    Shown shown_;
-    std::optional<Asked> asked_;
+    RenderedImage shown_;
+    std::optional<Request> last_;
 };
 
 /// The settings of a frame: those of the state, plus what its show needs.

@@ -2,23 +2,20 @@
 #include "view/viewer.h"
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/interrupt.h"
-#include "base/json.h"
 #include "cli/device_options.h"
 #include "gpu/pipeline.h"
 #include "renderer/presets.h"
 #include "renderer/shaders.h"
-#include "scene/focus.h"
-#include "scene/view_file.h"
 #include "view/saved_state.h"
+#include "view/status.h"
 
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <filesystem>
 #include <thread>
 #include <tuple>
 
@@ -31,10 +28,7 @@ constexpr double idleWait = 0.25;
 constexpr double movesFor = 0.3;     // after the last change
 constexpr double playsEvery = 0.04;  // redraws while animations play
 constexpr double drawEvery = 0.025;
-constexpr double drawMovingEvery = 0.045;  // leaves more for the image  // on a CPU, which also renders
-constexpr double saveEvery = 2.0;
-constexpr int settlingRedraws = 3;
-constexpr size_t keptFrameTimes = 160;
+constexpr double drawMovingEvery = 0.045;  // on a CPU, which also renders: leaves more for the image
 
 // The state given by the command line, with the window's last size.
 ViewerState initialState(const ViewerOptions& options) {
@@ -82,51 +76,55 @@ uvec2 parsePixel(const std::string& text) {
 
 }  // namespace
 
-Viewer::Viewer(const ViewerOptions& options)
+Viewer::Viewer(const ViewerOptions& options) : Viewer(options, initialState(options)) {}
+
+Viewer::Viewer(const ViewerOptions& options, const ViewerState& first)
     : options_(options),
-      state_(initialState(options)),
-      window_("Reflet", state_.window),
+      window_("Reflet", first.window),
       render_(deviceOptions(options, messages_), options.shaders.empty() ? REFLET_SHADER_SOURCES : options.shaders),
       device_(deviceOptions(options, messages_)),
-      presenter_(device_, window_.surface(device_.instance())) {
-    now_.live = std::make_shared<const Shown>();
+      presenter_(device_, window_.surface(device_.instance())),
+      work_(first, window_, device_.limits().maxImageDimension2D),
+      saver_(work_, window_),
+      opener_(work_, render_, saver_, [this] { forgetScene(); }),
+      pixel_(work_, render_),
+      actions_(work_, render_, window_),
+      input_(work_, window_, actions_, pixel_),
+      panels_(work_, {window_, render_, actions_, opener_, pixel_, compare_, times_}),
+      overlay_(work_, window_, compare_, pixel_) {
     if (!options.pick.empty()) {
         toPick_ = parsePixel(options.pick);
     }
     uvec2 fontSize(0);
     const std::span<const uint8_t> font = Window::font(fontSize);
     canvas_ = std::make_unique<Canvas>(device_, fontSize, font, presenter_.isSwapped());
-    open(options.scene, !options.fresh);
+    opener_.open(options.scene, !options.fresh);
 }
 
 Viewer::~Viewer() = default;
 
-Viewer::PictureRect Viewer::pictureRect() const {
-    const vec2 window(window_.size());
-    const float left = state_.panels ? std::min(state_.panelWidth * window_.scale(), 0.8F * window.x) : 0.0F;
-    return {{left, 0.0F}, glm::max(window - vec2(left, 0.0F), vec2(1.0F))};
-}
-
-uvec2 Viewer::renderSize() const {
-    const vec2 perUnit = vec2(window_.pixels()) / glm::max(vec2(window_.size()), vec2(1.0F));
-    const vec2 size = pictureRect().size * perUnit * state_.scale;
-    return glm::clamp(uvec2(glm::round(size)), uvec2(16), uvec2(device_.limits().maxImageDimension2D));
+// What belongs to the scene before the open one.
+void Viewer::forgetScene() {
+    compare_.forget();
+    seen_.reset();
+    pixel_.forget();
+    window_.setTitle(fmt::format("Reflet: {}", work_.state.source.scene));
 }
 
 double Viewer::timeToWait() const {
-    if (redraws_ > 0) {
+    if (work_.redraws() > 0) {
         return 0.0;
     }
-    if (state_.plays && state_.running != Running::paused) {
+    if (work_.isPlaying()) {
         return playsEvery;
     }
     return moving_ ? movesFor : idleWait;
 }
 
 bool Viewer::atRest() const {
-    const Shown& shown = *now_.live;
-    return opened_.scene && render_.rests() && published_ == render_.published() && !moving_ && redraws_ == 0 &&
-           shown.frames >= shown.framesToConverge;
+    const RenderedImage& shown = work_.live();
+    return work_.opened.scene && render_.rests() && published_ == render_.published() && !moving_ &&
+           work_.redraws() == 0 && shown.frames >= shown.framesToConverge;
 }
 
 // Carries out --pick and --window-picture once the image has converged.
@@ -135,15 +133,13 @@ void Viewer::finishPicture() {
         return;
     }
     if (toPick_) {
-        const uvec2 pixel = glm::min(*toPick_, renderSize() - 1U);
+        const uvec2 pixel = glm::min(*toPick_, work_.renderSize() - 1U);
         toPick_.reset();
-        opensPixel_ = true;
-        pickPixel(pixel, false);
-    } else if (picked_ && picked_->change != now_.live->changes && isPickedView()) {
-        pickPixel(picked_->pixel, false);
-    } else if (!options_.windowPicture.empty()) {
-        if (now_.live->rendered == 0) {
-            fail("{}", now_.live->problem);
+        pixel_.openPanel();
+        pixel_.pick(pixel, false);
+    } else if (!pixel_.update() && !options_.windowPicture.empty()) {
+        if (work_.live().rendered == 0) {
+            fail("{}", work_.live().problem);
         }
         writePng(options_.windowPicture, canvas_->picture());
         window_.close();
@@ -157,28 +153,32 @@ void Viewer::takeFrames() {
         return;
     }
     published_ = published;
-    const std::shared_ptr<const Shown> before = now_.live;
-    const uint32_t reloads = now_.reloads;
-    const std::string shaderProblem = now_.shaderProblem;
-    now_ = render_.state();
-    if (!now_.live || now_.scene != scene_) {
-        now_.live = before;
-        now_.right = nullptr;
+    const std::shared_ptr<const RenderedImage> before = work_.published.live;
+    const uint32_t reloads = work_.published.reloads;
+    const std::string shaderProblem = work_.published.shaderProblem;
+    work_.published = render_.state();
+    if (!work_.published.live || work_.published.scene != work_.sceneNumber) {
+        work_.published.live = before;
+        work_.published.right = nullptr;
     }
-    if (now_.live->rendered != before->rendered) {
-        noteTimes();
+    if (work_.live().rendered != before->rendered) {
+        times_.note(work_.live());
     }
-    if (now_.reloads != reloads) {
+    if (work_.published.reloads != reloads) {
         compare_.forget();
-        tell(fmt::format("Recompiled: {}", fmt::join(now_.reloaded, ", ")));
+        work_.tell(fmt::format("Recompiled: {}", fmt::join(work_.published.reloaded, ", ")));
     }
-    redraws_ = std::max(redraws_, now_.shaderProblem == shaderProblem ? 1 : settlingRedraws);
+    if (work_.published.shaderProblem == shaderProblem) {
+        work_.redraw(1);
+    } else {
+        work_.redrawUntilSettled();
+    }
 }
 
 void Viewer::takeFinished() {
     for (const RenderThread::Finish& finish : render_.takeFinished()) {
-        if (opened_.scene) {
-            attempt(finish);
+        if (work_.opened.scene) {
+            work_.attempt(finish);
         } else {
             finish();  // without a scene there is nothing to go on with
         }
@@ -187,73 +187,41 @@ void Viewer::takeFinished() {
 
 // Tells the thread what is to be rendered.
 void Viewer::want() {
-    const uvec2 size = renderSize();
-    const bool changed = seen_ && (!(seen_->view == state_.view) || seen_->size != size ||
-                                   !sameSettings(seen_->settings, state_.settings));
+    const uvec2 size = work_.renderSize();
+    const bool changed = seen_ && (!(seen_->view == work_.state.view) || seen_->size != size ||
+                                   !sameSettings(seen_->settings, work_.state.settings));
     if (changed) {
         lastChange_ = Clock::now();
     }
     if (changed || !seen_) {
-        seen_ = Seen{state_.view, state_.settings, size};
+        seen_ = Seen{work_.state.view, work_.state.settings, size};
     }
-    moving_ = secondsSince(lastChange_) < movesFor || (state_.plays && state_.running != Running::paused);
-    render_.want({.scene = scene_,
-                  .state = state_,
+    moving_ = secondsSince(lastChange_) < movesFor || work_.isPlaying();
+    render_.want({.scene = work_.sceneNumber,
+                  .state = work_.state,
                   .size = window_.pixels().x == 0 ? uvec2(0) : size,
                   .moving = moving_,
-                  .values = CompareView::wantsValues(state_),
-                  .steps = steps_,
-                  .right = CompareView::rendered(state_)});
-}
-
-void Viewer::noteTimes() {
-    constexpr float weight = 0.1F;
-    const uint64_t rendered = now_.live->rendered;
-    for (const gpu::PassTime& pass : now_.live->passes) {
-        const auto known = std::ranges::find(passes_, pass.name, &PassHistory::name);
-        const auto ms = static_cast<float>(pass.ms);
-        if (known == passes_.end()) {
-            passes_.push_back({pass.name, ms, rendered});
-        } else {
-            known->mean = known->lastFrame + 1 == rendered ? glm::mix(known->mean, ms, weight) : ms;
-            known->lastFrame = rendered;
-        }
-    }
-    std::erase_if(passes_, [&](const PassHistory& pass) { return pass.lastFrame != rendered; });
-    frameTimes_.push_back(static_cast<float>(now_.live->milliseconds));
-    if (frameTimes_.size() > keptFrameTimes) {
-        frameTimes_.pop_front();
-    }
+                  .values = CompareView::wantsValues(work_.state),
+                  .steps = work_.steps,
+                  .right = CompareView::rendered(work_.state)});
 }
 
 void Viewer::present() {
-    const PictureRect rect = pictureRect();
+    const PictureRect rect = work_.pictureRect();
     const uvec2 pixels = window_.pixels();
     const vec2 perUnit = vec2(pixels) / glm::max(vec2(window_.size()), vec2(1.0F));
     Layout layout{pixels, rect.min * perUnit, rect.size * perUnit};
-    const bool compares = state_.compare.with != CompareWith::nothing && compare_.picture();
+    const bool compares = work_.state.compare.with != CompareWith::nothing && compare_.picture();
     if (compares) {
-        layout.divider = layout.corner.x + state_.compare.divider * layout.extent.x;
+        layout.divider = layout.corner.x + work_.state.compare.divider * layout.extent.x;
     }
-    layout.linear = now_.effort.isReduced();
+    layout.linear = work_.published.effort.isReduced();
     const gpu::Image window =
-        canvas_->draw(now_.live->picture, compares ? compare_.picture() : nullptr, layout, window_.endUi());
+        canvas_->draw(work_.live().picture, compares ? compare_.picture() : nullptr, layout, window_.endUi());
     if (!presenter_.present(window, pixels)) {
-        redraws_ = settlingRedraws;
+        work_.redrawUntilSettled();
     }
     ++drawn_;
-}
-
-void Viewer::attempt(const std::function<void()>& work) {
-    try {
-        work();
-        problem_.clear();
-    } catch (const std::runtime_error& error) {  // std::filesystem throws others than Error
-        problem_ = error.what();
-    } catch (const std::bad_alloc&) {
-        problem_ = "not enough memory";
-    }
-    redraws_ = settlingRedraws;
 }
 
 // Draws only that the scene is being opened: everything else needs it.
@@ -271,74 +239,103 @@ void Viewer::waitForScene() {
     present();
 }
 
-void Viewer::drawWindow() {
-    redraws_ = std::max(redraws_ - 1, 0);
-    window_.beginUi();
-    handlePointer();
-    handleKeys();  // after the pointer, so that a screenshot has the current view
-    flyByKeys();
-    if (state_.plays && state_.running != Running::paused) {
-        state_.view.time = std::min(state_.view.time + elapsed_, View::largestTime);
+void Viewer::writeStatus() const {
+    if (!options_.status.empty()) {
+        const WindowStatus status{.work = work_,
+                                  .compare = compare_,
+                                  .picked = pixel_.picked(),
+                                  .window = window_.size(),
+                                  .busyWith = render_.busyWith(),
+                                  .drawn = drawn_,
+                                  .moving = moving_,
+                                  .atRest = atRest()};
+        writeFileAtomically(options_.status, statusText(status), Lasting::no);
     }
-    drawUi();
+}
+
+void Viewer::drawWindow() {
+    work_.noteRedraw();
+    window_.beginUi();
+    input_.handlePointer();
+    input_.handleKeys();  // after the pointer, so that a screenshot has the current view
+    input_.fly(elapsed_);
+    if (work_.isPlaying()) {
+        work_.state.view.time = std::min(work_.state.view.time + elapsed_, View::largestTime);
+    }
+    work_.places.clear();
+    if (work_.state.panels) {
+        panels_.draw();
+    }
+    panels_.drawBrowser();
+    overlay_.draw();
     want();
     present();
     writeStatus();
     finishPicture();
 }
 
-void Viewer::loop() {
+// Returns whether anything has changed that is drawn.
+bool Viewer::updateComparison() {
+    const auto shown = [&] {
+        return std::tuple(compare_.message(), compare_.samples(), compare_.progress(),
+                          compare_.error() ? compare_.error()->flip : -1.0, compare_.picture());
+    };
+    const auto before = shown();
+    compare_.update({.state = work_.state,
+                     .opened = work_.opened,
+                     .live = work_.live(),
+                     .right = work_.published.right.get(),
+                     .size = work_.renderSize(),
+                     .mayTrace = work_.state.running != Running::paused && !moving_});
+    return shown() != before;
+}
+
+void Viewer::waitForEvents() {
+    Window::waitForEvents(timeToWait());
     const bool sharesCpu = device_.description().kind == "CPU";
+    const double pause = moving_ ? drawMovingEvery : drawEvery;
+    if (const double early = pause - secondsSince(lastDraw_); sharesCpu && early > 0.0) {
+        std::this_thread::sleep_for(std::chrono::duration<double>(early));
+        Window::waitForEvents(0.0);
+    }
+    elapsed_ = secondsSince(lastLoop_);
+    lastLoop_ = Clock::now();
+    if (window_.takeEvents()) {
+        work_.redrawUntilSettled();
+    }
+}
+
+// Of the open scene.
+void Viewer::update() {
+    for (const std::string& file : window_.takeDroppedFiles()) {
+        work_.attempt([&] { opener_.openFile(file); });
+    }
+    takeFrames();
+    const bool hasChanged = updateComparison();
+    if (moving_ && secondsSince(lastChange_) >= movesFor) {
+        work_.redraw(1);  // it comes to rest
+    }
+    if (work_.redraws() == 0 && !work_.isPlaying() && !hasChanged && !wasBusy_) {
+        return;
+    }
+    drawWindow();
+    wasBusy_ = !render_.busyWith().empty();
+    lastDraw_ = Clock::now();
+    saver_.saveIfDue();
+}
+
+void Viewer::loop() {
     lastLoop_ = Clock::now();
     while (!window_.closing() && !InterruptNote::arrived()) {
-        Window::waitForEvents(timeToWait());
-        const double pause = moving_ ? drawMovingEvery : drawEvery;
-        if (const double early = pause - secondsSince(lastDraw_); sharesCpu && early > 0.0) {
-            std::this_thread::sleep_for(std::chrono::duration<double>(early));
-            Window::waitForEvents(0.0);
-        }
-        elapsed_ = secondsSince(lastLoop_);
-        lastLoop_ = Clock::now();
-        if (window_.takeEvents()) {
-            redraws_ = settlingRedraws;
-        }
+        waitForEvents();
         takeFinished();
         if (window_.pixels().x == 0 || window_.pixels().y == 0) {  // minimised
-            redraws_ = 0;
+            work_.forgetRedraws();
             want();
-            continue;
-        }
-        if (!opened_.scene) {
+        } else if (!work_.opened.scene) {
             waitForScene();
-            continue;
-        }
-        for (const std::string& file : window_.takeDroppedFiles()) {
-            attempt([&] { openFile(file); });
-        }
-        takeFrames();
-        const auto shown = [&] {
-            return std::tuple(compare_.message(), compare_.samples(), compare_.progress(),
-                              compare_.error() ? compare_.error()->flip : -1.0, compare_.picture());
-        };
-        const auto before = shown();
-        compare_.update({.state = state_,
-                         .opened = opened_,
-                         .live = *now_.live,
-                         .right = now_.right.get(),
-                         .size = renderSize(),
-                         .mayTrace = state_.running != Running::paused && !moving_});
-        const bool plays = state_.plays && state_.running != Running::paused;
-        if (moving_ && secondsSince(lastChange_) >= movesFor) {
-            redraws_ = std::max(redraws_, 1);  // it comes to rest
-        }
-        if (redraws_ == 0 && !plays && shown() == before && !wasBusy_) {
-            continue;
-        }
-        drawWindow();
-        wasBusy_ = !render_.busyWith().empty();
-        lastDraw_ = Clock::now();
-        if (secondsSince(lastSave_) > saveEvery) {  // so that little is lost if the display goes away
-            save();
+        } else {
+            update();
         }
     }
 }

@@ -1,22 +1,27 @@
-// The viewer: a window, a scene, and the user's actions.
+// The viewer: a window, a scene, and the loop that brings both up to date.
 #pragma once
 
 #include "device/device.h"
 #include "device/presenter.h"
+#include "view/actions.h"
 #include "view/canvas.h"
 #include "view/clock.h"
 #include "view/compare_view.h"
-#include "view/controls.h"
-#include "view/file_browser.h"
+#include "view/frame_times.h"
+#include "view/input.h"
+#include "view/overlay.h"
+#include "view/panels.h"
+#include "view/pixel_inspector.h"
 #include "view/render_thread.h"
+#include "view/scene_opener.h"
+#include "view/state_saver.h"
 #include "view/window.h"
+#include "view/workspace.h"
 
 #include <atomic>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace reflet {
 
@@ -31,13 +36,6 @@ struct ViewerOptions {
     bool validate = false;
 };
 
-/// The device time of a pass over the last frames, milliseconds.
-struct PassHistory {
-    std::string name;
-    float mean = 0.0F;
-    uint64_t lastFrame = 0;
-};
-
 class Viewer {
 public:
     /// Opens the window and the scene. Throws Error or UsageError.
@@ -50,19 +48,12 @@ public:
     void run();
 
 private:
-    struct PictureRect {  // in window units
-        vec2 min{0.0F};
-        vec2 size{0.0F};
-    };
+    Viewer(const ViewerOptions& options, const ViewerState& first);
 
-    // viewer.cpp
     void loop();
-    void open(const SceneOptions& source, bool restores);
-    void showScene(const OpenScene& opened, uint64_t number, const SceneOptions& source, bool restores);
-    void openFile(const std::string& file);
-    void openJson(const std::filesystem::path& path);
-    [[nodiscard]] PictureRect pictureRect() const;
-    [[nodiscard]] uvec2 renderSize() const;
+    void waitForEvents();
+    void update();
+    bool updateComparison();
     [[nodiscard]] double timeToWait() const;
     [[nodiscard]] bool atRest() const;
     void takeFrames();
@@ -72,100 +63,30 @@ private:
     void drawWindow();
     void finishPicture();
     void present();
-    void noteTimes();
-    void tell(const std::string& text) { notice_ = text; }
-    void attempt(const std::function<void()>& work);
-
-    // viewer_end.cpp
-    void save();
+    void writeStatus() const;
+    void forgetScene();
     void checkMessages() const;
 
-    // viewer_actions.cpp
-    void applyPresetNamed(const std::string& name);
-    [[nodiscard]] std::string commandLine();
-    void takeScreenshot(const std::string& file);
-    [[nodiscard]] const Scene& scene() const { return *opened_.scene; }
-    void pickPixel(uvec2 pixel, bool focuses);
-    void focusAt(float distance);
-    void focusOnPicked();
-    [[nodiscard]] bool isPickedView() const;
-    void chooseFalseColorRange();
-    void writeStatus();
-
-    // viewer_input.cpp
-    void handleKeys();
-    void handleControlKey(const KeyPress& press);
-    void handleKey(const KeyPress& press);
-    void handlePointer();
-    void flyByKeys();
-    Camera& detachedCamera();
-    [[nodiscard]] uvec2 pixelAt(const vec2& mouse) const;
-
-    // viewer_panels.cpp
-    void drawUi();
-    void drawPanel();
-    [[nodiscard]] std::string progressText() const;
-    void runPanel();
-    void switchesPanel();
-    void settingsPanel();
-    void lampsPanel();
-    void lightPanel();
-    void environmentPanel();
-    void skyFollowsSun(bool moved);
-    void lensPanel();
-    void cameraPanel();
-    void showPanel();
-    void comparePanel();
-    void offerSources();
-    void explainPanel();
-    void pixelPanel();
-    void timesPanel();
-    void filesPanel();
-    void messages();
-    void helpOverlay();
-
-    // viewer_overlay.cpp
-    void drawDivider();
-    void drawHemisphere();
-    void drawShadowSearch();
-    void drawLegends();
-    void drawErrorAt(const vec2& mouse);
-    void drawRay();
-    [[nodiscard]] vec2 onWindow(const vec2& pixel) const;
-
     ViewerOptions options_;
-    ViewerState state_;
     std::atomic<size_t> messages_ = 0;  ///< of the validation layers, for both devices
     Window window_;
     RenderThread render_;
     gpu::Device device_;  ///< of the window alone
     gpu::Presenter presenter_;
     std::unique_ptr<Canvas> canvas_;
-    OpenScene opened_;         ///< no scene while the first one is opened
-    uint64_t scene_ = 0;       ///< its number
-    RenderThread::State now_;  ///< what the thread published last; `live` is never null
-    uint64_t published_ = 0;
+    Workspace work_;
     CompareView compare_;
-    ControlPlaces places_;
-    FileBrowser browser_;
-    bool sunMoved_ = false;  ///< since the sky was made
+    FrameTimes times_;
+    StateSaver saver_;
+    SceneOpener opener_;
+    PixelInspector pixel_;
+    Actions actions_;
+    Input input_;
+    Panels panels_;
+    Overlay overlay_;
 
-    std::string notice_;   ///< the last completed action
-    std::string problem_;  ///< the last failed action; stays until one succeeds
-    std::string fileName_;
-    std::string filter_;
-    std::string openName_;
-    std::optional<Picked> picked_;
-    uint32_t steps_ = 0;  ///< single frames that were asked for
-    enum class Explains : uint8_t { mirror, diffuse, shadow };
-    Explains explains_ = Explains::mirror;  ///< what is drawn of the picked pixel
-    bool opensPixel_ = false;               ///< opens the pixel panel in the next frame
+    uint64_t published_ = 0;  ///< what RenderThread::published was when its state was taken
     std::optional<uvec2> toPick_;
-    int redraws_ = 3;  ///< redraws until the user interface has settled
-    bool dragsDivider_ = false;
-    vec2 pressedAt_{0.0F};
-    vec2 pointerBefore_{0.0F};
-    bool pressedInPicture_ = false;
     struct Seen {
         View view;
         Settings settings;
@@ -177,13 +98,8 @@ private:
     Clock::time_point lastDraw_;
     Clock::time_point lastLoop_;
     double elapsed_ = 0.0;  ///< seconds since the loop's last iteration
-    std::deque<float> frameTimes_;
-    std::vector<PassHistory> passes_;
     bool wasBusy_ = false;  ///< with a job, whose name was drawn
     uint64_t drawn_ = 0;    ///< window redraws in total
-    Clock::time_point lastSave_ = Clock::now();
-    std::string saved_;  ///< content of the state file
-    bool warnedOfSaving_ = false;
 };
 
 }  // namespace reflet

@@ -1,7 +1,7 @@
 // The viewer's state: everything that panels change and that is saved.
 #pragma once
 
-#include "capture/scene_options.h"
+#include "job/scene_options.h"
 #include "renderer/settings.h"
 #include "scene/scene.h"
 

@@ -49,6 +49,18 @@ TEST_F(Lists, MaterialVariantsOfAFileAreThoseThatRenderTakes) {
                         {"--variant snow", "built-in"}));
 }
 
+TEST_F(Lists, PassesOfAFrameAreTablesOrDiagrams) {
+    const auto passes = [&](const Arguments& more) {
+        Arguments all{"list", "passes", "builtin:cubes", "--size", "64x36", "--preset", "fast"};
+        all.insert(all.end(), more.begin(), more.end());
+        return run(all);
+    };
+    EXPECT_TRUE(has(passes({}).out, {"### Passes\n", "| pass |", "### Resources\n", "| resource |"}));
+    EXPECT_TRUE(passes({"--format", "mermaid"}).out.starts_with("flowchart LR\n"));
+    EXPECT_TRUE(passes({"--format", "dot"}).out.starts_with("digraph frame {\n"));
+    EXPECT_TRUE(refused(passes({"--format", "svg"}), 2, {"--format", "svg"}));
+}
+
 TEST_F(Lists, EveryShowHasALineOfItsOwn) {
     const std::string text = output({"list", "shows"});
     std::vector<std::string> names = firstWords(text);

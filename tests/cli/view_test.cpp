@@ -58,96 +58,117 @@ Arguments with(Arguments arguments, const Arguments& more) {
     return arguments;
 }
 
+// Its steps, each of which ends at rest.
+class ViewWalk : public View {
+protected:
+    // By its checkbox, which changes the picture.
+    void togglesASetting() const {
+        findSetting("diffuse.adaptive");
+        const bool before = status()["settings"].contains("diffuse");
+        click("diffuse.adaptive");
+        EXPECT_TRUE(shows([&](const json& now) { return now["settings"].contains("diffuse") != before; }));
+        EXPECT_TRUE(atRest());
+    }
+    void movesTheCamera() const {
+        const json camera = status()["camera"];
+        const auto from = inPicture(0.5, 0.5);
+        drag(from[0], from[1], from[0] + 60.0, from[1] + 10.0);
+        EXPECT_TRUE(shows([&](const json& now) { return now["camera"] != camera; }));
+        press("r");
+        EXPECT_TRUE(shows([&](const json& now) { return now["camera"] == camera; }));
+        EXPECT_TRUE(atRest());
+    }
+    void picksAPixel() const {
+        const auto ground = inPicture(0.5, 0.8);
+        clickAt(ground[0], ground[1]);
+        EXPECT_TRUE(shows([](const json& now) { return now.contains("picked"); }));
+        const json picked = status()["picked"];
+        EXPECT_GT(picked["values"]["depth"][0].get<double>(), 0.0);
+        EXPECT_EQ(picked["values"]["albedo"].size(), 3U);
+        ASSERT_TRUE(picked.contains("ray"));
+        EXPECT_GT(picked["ray"]["samples"].get<int>(), 0);
+        EXPECT_GT(picked.value("diffuse_hits", 0), 0);
+        EXPECT_GT(picked.value("shadow_lookups", 0), 0);
+        click("diffuse.adaptive");  // the pixel is read again with the new setting
+        EXPECT_TRUE(shows([&](const json& now) { return now["picked"]["change"] > picked["change"]; }));
+        EXPECT_EQ(status()["picked"]["pixel"], picked["pixel"]);
+        click("focus here");
+        EXPECT_TRUE(
+            shows([&](const json& now) { return now["lens"]["focus_distance"] == picked["values"]["depth"][0]; }));
+    }
+    // The parts of the light, by their keys.
+    void switchesLight() const {
+        press("3");
+        EXPECT_TRUE(shows([](const json& now) { return now.value("/settings/specular/rays"_json_pointer, 9) == 0; }));
+        press("3");
+        EXPECT_TRUE(shows([](const json& now) { return !now["settings"].contains("specular"); }));
+    }
+    void opensSettingsAndViews() const {
+        click("open");  // without a name
+        EXPECT_TRUE(shows([](const json& now) {
+            return now["problem"].get<std::string>().find("type the name") != std::string::npos;
+        }));
+
+        // A settings file has names in common with views. A file that is neither says why.
+        write("both.json", R"({"probes": {"enabled": true}, "composite": {"direct": false}})");
+        typeFile("both.json");
+        click("open");
+        EXPECT_TRUE(shows([](const json& now) { return !now.value("/settings/composite/direct"_json_pointer, true); }));
+        click("switch direct");
+        EXPECT_TRUE(shows([](const json& now) { return !now["settings"].contains("composite"); }));
+        write("sun.json", R"({"sun": {"direction": [0, -1, 0]}})");
+        typeFile("sun.json");
+        click("open");
+        EXPECT_TRUE(shows([](const json& now) { return now["notice"] == "sun.json: view loaded"; }));
+        write("typo.json", R"({"sun": {"directoin": [0, -1, 0]}})");
+        typeFile("typo.json");
+        click("open");
+        EXPECT_TRUE(shows(
+            [](const json& now) { return now["problem"].get<std::string>().find("directoin") != std::string::npos; }));
+    }
+    // The file browser, in the folder of the tests.
+    void opensByTheBrowser() const {
+        write("listed.json", R"({"tonemap": {"exposure": 1}})");
+        click("browse");
+        click("file listed.json");
+        EXPECT_TRUE(
+            shows([](const json& now) { return now.value("/settings/tonemap/exposure"_json_pointer, 0.0) == 1.0; }));
+    }
+    void resizes() const {
+        resize(760, 300);
+        EXPECT_TRUE(shows([](const json& now) { return now["window"] == json({760, 300}); }));
+        EXPECT_TRUE(atRest());
+        EXPECT_EQ(status()["size"], json({380, 300}));
+    }
+    // An invalid file is an error and the scene stays; another one opens.
+    void opensScenes() const {
+        write("broken.gltf", "{ \"asset\": ");
+        typeFile("broken.gltf");
+        click("open");
+        EXPECT_TRUE(shows([](const json& now) {
+            return now["problem"].get<std::string>().find("broken.gltf") != std::string::npos;
+        }));
+        EXPECT_EQ(status()["scene"], "builtin:cubes");
+        typeFile("builtin:tilted-cube");
+        click("open");
+        EXPECT_TRUE(shows([](const json& now) { return now["scene"] == "builtin:tilted-cube"; }));
+        EXPECT_EQ(status()["problem"], "");
+        EXPECT_TRUE(atRest());
+    }
+};
+
 // Over 5 s: a walk through the window, which must rest after each input.
-TEST_F(View, AUserWalksThroughItUnderTheValidationLayers) {
+TEST_F(ViewWalk, PassesUnderTheValidationLayers) {
     openViewer(with(cubes, {"--validate", "--preset", "plain"}));  // without history, each rest is one frame
     EXPECT_EQ(status()["size"], json({240, 400}));
-
-    // Toggles a setting by its checkbox, which changes the picture.
-    findSetting("diffuse.adaptive");
-    const bool before = status()["settings"].contains("diffuse");
-    click("diffuse.adaptive");
-    EXPECT_TRUE(shows([&](const json& now) { return now["settings"].contains("diffuse") != before; }));
-    EXPECT_TRUE(atRest());
-
-    // The camera.
-    const json camera = status()["camera"];
-    const auto from = inPicture(0.5, 0.5);
-    drag(from[0], from[1], from[0] + 60.0, from[1] + 10.0);
-    EXPECT_TRUE(shows([&](const json& now) { return now["camera"] != camera; }));
-    press("r");
-    EXPECT_TRUE(shows([&](const json& now) { return now["camera"] == camera; }));
-    EXPECT_TRUE(atRest());
-
-    // A pixel.
-    const auto ground = inPicture(0.5, 0.8);
-    clickAt(ground[0], ground[1]);
-    EXPECT_TRUE(shows([](const json& now) { return now.contains("picked"); }));
-    const json picked = status()["picked"];
-    EXPECT_GT(picked["values"]["depth"][0].get<double>(), 0.0);
-    EXPECT_EQ(picked["values"]["albedo"].size(), 3U);
-    ASSERT_TRUE(picked.contains("ray"));
-    EXPECT_GT(picked["ray"]["samples"].get<int>(), 0);
-    EXPECT_GT(picked.value("diffuse_hits", 0), 0);
-    EXPECT_GT(picked.value("shadow_lookups", 0), 0);
-    click("diffuse.adaptive");  // the pixel is read again with the new setting
-    EXPECT_TRUE(shows([&](const json& now) { return now["picked"]["change"] > picked["change"]; }));
-    EXPECT_EQ(status()["picked"]["pixel"], picked["pixel"]);
-    click("focus here");
-    EXPECT_TRUE(shows([&](const json& now) { return now["lens"]["focus_distance"] == picked["values"]["depth"][0]; }));
-
-    // The parts of the light by their keys.
-    press("3");
-    EXPECT_TRUE(shows([](const json& now) { return now.value("/settings/specular/rays"_json_pointer, 9) == 0; }));
-    press("3");
-    EXPECT_TRUE(shows([](const json& now) { return !now["settings"].contains("specular"); }));
-
-    click("open");  // without a name
-    EXPECT_TRUE(shows(
-        [](const json& now) { return now["problem"].get<std::string>().find("type the name") != std::string::npos; }));
-
-    // A settings file has names in common with views. A file that is neither says why.
-    write("both.json", R"({"probes": {"enabled": true}, "composite": {"direct": false}})");
-    typeFile("both.json");
-    click("open");
-    EXPECT_TRUE(shows([](const json& now) { return !now.value("/settings/composite/direct"_json_pointer, true); }));
-    click("switch direct");
-    EXPECT_TRUE(shows([](const json& now) { return !now["settings"].contains("composite"); }));
-    write("sun.json", R"({"sun": {"direction": [0, -1, 0]}})");
-    typeFile("sun.json");
-    click("open");
-    EXPECT_TRUE(shows([](const json& now) { return now["notice"] == "sun.json: view loaded"; }));
-    write("typo.json", R"({"sun": {"directoin": [0, -1, 0]}})");
-    typeFile("typo.json");
-    click("open");
-    EXPECT_TRUE(shows(
-        [](const json& now) { return now["problem"].get<std::string>().find("directoin") != std::string::npos; }));
-
-    // The file browser, in the folder of the tests.
-    write("listed.json", R"({"tonemap": {"exposure": 1}})");
-    click("browse");
-    click("file listed.json");
-    EXPECT_TRUE(
-        shows([](const json& now) { return now.value("/settings/tonemap/exposure"_json_pointer, 0.0) == 1.0; }));
-
-    // The window's size.
-    resize(760, 300);
-    EXPECT_TRUE(shows([](const json& now) { return now["window"] == json({760, 300}); }));
-    EXPECT_TRUE(atRest());
-    EXPECT_EQ(status()["size"], json({380, 300}));
-
-    // An invalid file is an error and the scene stays; another one opens.
-    write("broken.gltf", "{ \"asset\": ");
-    typeFile("broken.gltf");
-    click("open");
-    EXPECT_TRUE(shows(
-        [](const json& now) { return now["problem"].get<std::string>().find("broken.gltf") != std::string::npos; }));
-    EXPECT_EQ(status()["scene"], "builtin:cubes");
-    typeFile("builtin:tilted-cube");
-    click("open");
-    EXPECT_TRUE(shows([](const json& now) { return now["scene"] == "builtin:tilted-cube"; }));
-    EXPECT_EQ(status()["problem"], "");
-    EXPECT_TRUE(atRest());
+    togglesASetting();
+    movesTheCamera();
+    picksAPixel();
+    switchesLight();
+    opensSettingsAndViews();
+    opensByTheBrowser();
+    resizes();
+    opensScenes();
     EXPECT_TRUE(quietSuccess(quit()));
 }
 

@@ -20,7 +20,7 @@ int decodeTexture(const uint8_t* bytes, size_t size) {
         document.model.images.push_back(image);
         GltfReport report("scene.glb", {}, true);
         (void)gltfImageIsBasis(document, 0, report);
-        const Image decoded = decodeGltfImage(document, 0, report);
+        const TextureImage decoded = decodeGltfImage(document, 0, report);
         if (decoded.rgba.size() != size_t{4} * decoded.width * decoded.height) {
             fuzz::finding("an image without all of its texels");
         }

@@ -1,7 +1,7 @@
 // Records of sequences that are resumed.
-#include "capture/sequence_record.h"
-#include "capture/sequence_names.h"
+#include "job/sequence_record.h"
 #include "fuzz.h"
+#include "job/sequence_names.h"
 
 #include <nlohmann/json.hpp>
 

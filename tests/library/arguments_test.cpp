@@ -189,12 +189,111 @@ TEST_F(Arguments, OfAFrame) {
     EXPECT_EQ(LibraryHost::made().images, 0U) << "nothing was recorded";
 }
 
-TEST_F(Arguments, OfEffects) {
-    RefletLobe lobe{};
-    RefletImage image{};
-    RefletComposite sum{sizeof sum, {}, {}, {}};
-    const RefletIndirectLight light = room_.light();
-    expectError(refletDiffuseGi(view_, settings_, &light, &lobe), "no frame has begun");
+// What is recorded is between the beginning and the end of a frame.
+class EffectArguments : public Arguments {
+protected:
+    void inAFrame(const std::function<void()>& record) {
+        host_.host.frame([&](VkCommandBuffer commands) {
+            const RefletFrameInfo info = room_.frame(commands, 0);
+            EXPECT_REFLET(refletBeginFrame(view_, &info));
+            record();
+            EXPECT_REFLET(refletEndFrame(view_));
+        });
+    }
+    void expectLightError(const std::string& field, const std::function<void(RefletIndirectLight&)>& spoil) {
+        RefletIndirectLight given = room_.light();
+        spoil(given);
+        expectError(refletDiffuseGi(view_, settings_, &given, &lobe_), field);
+        expectError(refletReflections(view_, settings_, &given, &lobe_), field);
+    }
+    void expectSunError(const std::string& field, const std::function<void(RefletSunShadow&)>& spoil) {
+        RefletSunShadow given = room_.sun();
+        spoil(given);
+        expectError(refletSunShadow(view_, settings_, &given, &image_), field);
+    }
+    void expectLensError(const std::string& field, const std::function<void(RefletLens&)>& spoil) {
+        RefletLens given{sizeof given, 0.1F, 2.0F, 6, 0.0F};
+        spoil(given);
+        expectError(refletDepthOfField(view_, settings_, &given, &light_.light, &image_), field);
+    }
+
+    RefletLobe lobe_{};
+    RefletImage image_{};
+    RefletComposite sum_{sizeof sum_, {}, {}, {}};
+    RefletIndirectLight light_ = room_.light();
+};
+
+TEST_F(EffectArguments, OfIndirectLight) {
+    expectError(refletDiffuseGi(view_, settings_, &light_, &lobe_), "no frame has begun");
+    inAFrame([&] {
+        expectLightError("structSize", [](auto& l) { l.structSize = 3; });
+        expectLightError("light.image", [](auto& l) { l.light.image = VK_NULL_HANDLE; });
+        expectLightError("light.format", [](auto& l) { l.light.format = VK_FORMAT_R8G8B8A8_UINT; });
+        expectLightError("factor", [](auto& l) { l.environment.factor[1] = -1.0F; });
+        expectLightError("factor", [](auto& l) { l.environment.factor[2] = INFINITY; });
+        expectLightError("rotation", [](auto& l) { l.environment.rotation = NAN; });
+        expectLightError("Environment.image", [](auto& l) {
+            l.environment.image = l.light;
+            l.environment.image.view = VK_NULL_HANDLE;
+        });
+        expectError(refletDiffuseGi(view_, settings_, nullptr, &lobe_), "RefletIndirectLight");
+        expectError(refletDiffuseGi(view_, settings_, &light_, nullptr), "lobe");
+        expectError(refletReflections(view_, nullptr, &light_, &lobe_), "settings");
+    });
+}
+
+TEST_F(EffectArguments, OfTheSunsShadow) {
+    inAFrame([&] {
+        expectSunError("map.image", [](auto& s) { s.map.image = VK_NULL_HANDLE; });
+        expectSunError("map", [](auto& s) { s.map.width = 32; });
+        expectSunError("cascades", [](auto& s) { s.cascades = 0; });
+        expectSunError("cascades", [](auto& s) { s.cascades = 5; });
+        expectSunError("ends", [](auto& s) { s.cascades = 2; });
+        expectSunError("worldToClip", [](auto& s) { s.worldToClip[0][2] = NAN; });
+        expectSunError("worldToClip", [](auto& s) { s.worldToClip[0][15] = 0.0F; });
+        expectSunError("toSun", [](auto& s) { s.toSun[1] = 0.0F; });
+        expectSunError("angularDiameter", [](auto& s) { s.angularDiameter = -1.0F; });
+        const RefletSunShadow right = room_.sun();
+        expectError(refletSunShadow(view_, settings_, &right, nullptr), "visibility");
+        EXPECT_REFLET(refletSetSetting(settings_, "shadow.filter", "traced"));
+        expectError(refletSunShadow(view_, settings_, &right, &image_), "shadow.filter");
+    });
+}
+
+TEST_F(EffectArguments, OfTheLens) {
+    inAFrame([&] {
+        expectLensError("apertureRadius", [](auto& l) { l.apertureRadius = -1.0F; });
+        expectLensError("apertureRadius", [](auto& l) { l.apertureRadius = NAN; });
+        expectLensError("focusDistance", [](auto& l) { l.focusDistance = 0.0F; });
+        expectLensError("focusDistance", [](auto& l) { l.focusDistance = INFINITY; });
+        expectLensError("blades", [](auto& l) { l.blades = 2; });
+        expectLensError("blades", [](auto& l) { l.blades = 17; });
+        expectLensError("bladeRotation", [](auto& l) { l.bladeRotation = NAN; });
+        expectLensError("structSize", [](auto& l) { l.structSize = 0; });
+        const RefletLens thin{sizeof thin, 0.1F, 2.0F, 0, 0.0F};
+        expectError(refletDepthOfField(view_, settings_, &thin, nullptr, &image_), "color");
+        expectError(refletDepthOfField(view_, settings_, &thin, &light_.light, nullptr), "blurred");
+        expectError(refletDepthOfField(view_, settings_, nullptr, &light_.light, &image_), "RefletLens");
+    });
+}
+
+TEST_F(EffectArguments, OfOtherEffects) {
+    inAFrame([&] {
+        expectError(refletAmbientOcclusion(view_, settings_, &image_), "ao.method");
+        expectError(refletAmbientOcclusion(view_, settings_, nullptr), "occlusion");
+        expectError(refletComposite(view_, settings_, nullptr, &sum_), "light");
+        expectError(refletComposite(view_, settings_, &light_.light, nullptr), "RefletComposite");
+        expectError(refletTemporal(view_, settings_, nullptr, &image_), "color");
+        expectError(refletToneMap(view_, settings_, nullptr, 0, &image_), "color");
+        expectError(refletToneMap(view_, settings_, &image_, 0, &image_), "color.image");
+        expectError(refletDenoise(view_, settings_, RefletLobeKind(2), &light_.light, &lobe_), "kind");
+        expectError(refletDenoise(view_, settings_, REFLET_LOBE_DIFFUSE, nullptr, &lobe_), "noisy");
+    });
+    expectError(refletFindImage(view_, "dept", &image_), "depth");
+    expectError(refletPassTimes(view_, nullptr, nullptr), "count");
+}
+
+TEST_F(EffectArguments, OfCallsBetweenFrames) {
     host_.host.frame([&](VkCommandBuffer commands) {
         const RefletFrameInfo info = room_.frame(commands, 0);
         EXPECT_REFLET(refletBeginFrame(view_, &info));
@@ -202,72 +301,11 @@ TEST_F(Arguments, OfEffects) {
         expectError(refletResizeView(view_, 4, 4), "begun");
         expectError(refletSetOutputSize(view_, 4, 4), "begun");
         expectError(refletFinishView(view_), "begun");
-        const auto lit = [&](const std::string& field, const std::function<void(RefletIndirectLight&)>& spoil) {
-            RefletIndirectLight given = room_.light();
-            spoil(given);
-            expectError(refletDiffuseGi(view_, settings_, &given, &lobe), field);
-            expectError(refletReflections(view_, settings_, &given, &lobe), field);
-        };
-        lit("structSize", [](auto& l) { l.structSize = 3; });
-        lit("light.image", [](auto& l) { l.light.image = VK_NULL_HANDLE; });
-        lit("light.format", [](auto& l) { l.light.format = VK_FORMAT_R8G8B8A8_UINT; });
-        lit("factor", [](auto& l) { l.environment.factor[1] = -1.0F; });
-        lit("factor", [](auto& l) { l.environment.factor[2] = INFINITY; });
-        lit("rotation", [](auto& l) { l.environment.rotation = NAN; });
-        lit("Environment.image", [](auto& l) {
-            l.environment.image = l.light;
-            l.environment.image.view = VK_NULL_HANDLE;
-        });
-        expectError(refletDiffuseGi(view_, settings_, nullptr, &lobe), "RefletIndirectLight");
-        expectError(refletDiffuseGi(view_, settings_, &light, nullptr), "lobe");
-        expectError(refletReflections(view_, nullptr, &light, &lobe), "settings");
-        const auto sun = [&](const std::string& field, const std::function<void(RefletSunShadow&)>& spoil) {
-            RefletSunShadow given = room_.sun();
-            spoil(given);
-            expectError(refletSunShadow(view_, settings_, &given, &image), field);
-        };
-        sun("map.image", [](auto& s) { s.map.image = VK_NULL_HANDLE; });
-        sun("map", [](auto& s) { s.map.width = 32; });
-        sun("cascades", [](auto& s) { s.cascades = 0; });
-        sun("cascades", [](auto& s) { s.cascades = 5; });
-        sun("ends", [](auto& s) { s.cascades = 2; });
-        sun("worldToClip", [](auto& s) { s.worldToClip[0][2] = NAN; });
-        sun("worldToClip", [](auto& s) { s.worldToClip[0][15] = 0.0F; });
-        sun("toSun", [](auto& s) { s.toSun[1] = 0.0F; });
-        sun("angularDiameter", [](auto& s) { s.angularDiameter = -1.0F; });
-        const RefletSunShadow right = room_.sun();
-        expectError(refletSunShadow(view_, settings_, &right, nullptr), "visibility");
-        expectError(refletAmbientOcclusion(view_, settings_, &image), "ao.method");
-        expectError(refletAmbientOcclusion(view_, settings_, nullptr), "occlusion");
-        expectError(refletComposite(view_, settings_, nullptr, &sum), "light");
-        expectError(refletComposite(view_, settings_, &light.light, nullptr), "RefletComposite");
-        expectError(refletTemporal(view_, settings_, nullptr, &image), "color");
-        expectError(refletToneMap(view_, settings_, nullptr, 0, &image), "color");
-        const auto lens = [&](const char* field, auto&& spoil) {
-            RefletLens given{sizeof given, 0.1F, 2.0F, 6, 0.0F};
-            spoil(given);
-            expectError(refletDepthOfField(view_, settings_, &given, &light.light, &image), field);
-        };
-        lens("apertureRadius", [](auto& l) { l.apertureRadius = -1.0F; });
-        lens("apertureRadius", [](auto& l) { l.apertureRadius = NAN; });
-        lens("focusDistance", [](auto& l) { l.focusDistance = 0.0F; });
-        lens("focusDistance", [](auto& l) { l.focusDistance = INFINITY; });
-        lens("blades", [](auto& l) { l.blades = 2; });
-        lens("blades", [](auto& l) { l.blades = 17; });
-        lens("bladeRotation", [](auto& l) { l.bladeRotation = NAN; });
-        lens("structSize", [](auto& l) { l.structSize = 0; });
-        const RefletLens thin{sizeof thin, 0.1F, 2.0F, 0, 0.0F};
-        expectError(refletDepthOfField(view_, settings_, &thin, nullptr, &image), "color");
-        expectError(refletDepthOfField(view_, settings_, &thin, &light.light, nullptr), "blurred");
-        expectError(refletDepthOfField(view_, settings_, nullptr, &light.light, &image), "RefletLens");
-        expectError(refletToneMap(view_, settings_, &image, 0, &image), "color.image");
-        expectError(refletDenoise(view_, settings_, RefletLobeKind(2), &light.light, &lobe), "kind");
-        expectError(refletDenoise(view_, settings_, REFLET_LOBE_DIFFUSE, nullptr, &lobe), "noisy");
-        EXPECT_REFLET(refletSetSetting(settings_, "shadow.filter", "traced"));
-        expectError(refletSunShadow(view_, settings_, &right, &image), "shadow.filter");
         EXPECT_REFLET(refletEndFrame(view_));
     });
-    expectError(refletFindImage(view_, "dept", &image), "depth");
+}
+
+TEST_F(EffectArguments, OfPreparing) {
     RefletPrepareInfo prepare{};
     uint32_t left = 0;
     expectError(refletPrepare(view_, settings_, &prepare, 1, &left), "structSize");
@@ -278,7 +316,6 @@ TEST_F(Arguments, OfEffects) {
     expectError(refletPrepare(view_, settings_, &prepare, 1, &left), "effects");
     prepare.effects = 1U << 20U;
     expectError(refletPrepare(view_, settings_, &prepare, 1, &left), "effects");
-    expectError(refletPassTimes(view_, nullptr, nullptr), "count");
 }
 
 TEST_F(Arguments, AnErrorIsLogged) {

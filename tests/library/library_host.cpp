@@ -6,9 +6,7 @@
 #include <volk.h>
 
 #include <atomic>
-#include <cmath>
 #include <cstring>
-#include <iterator>
 
 namespace reflet::test {
 
@@ -140,23 +138,6 @@ void move(VkCommandBuffer commands, const RefletImage& image, VkImageLayout from
     vkCmdPipelineBarrier2(commands, &info);
 }
 
-void store(float (&to)[16], const mat4& m) {
-    std::memcpy(to, &m[0][0], sizeof to);
-}
-
-vec2 octahedral(vec3 n) {
-    n /= std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
-    if (n.z >= 0.0F) {
-        return {n.x, n.y};
-    }
-    return {(1.0F - std::abs(n.y)) * (n.x >= 0.0F ? 1.0F : -1.0F),
-            (1.0F - std::abs(n.x)) * (n.y >= 0.0F ? 1.0F : -1.0F)};
-}
-
-float srgb(float linear) {
-    return linear <= 0.0031308F ? 12.92F * linear : 1.055F * std::pow(linear, 1.0F / 2.4F) - 0.055F;
-}
-
 }  // namespace
 
 LibraryHost::Made& LibraryHost::made() {
@@ -273,138 +254,6 @@ std::vector<std::byte> LibraryHost::read(const RefletImage& image, size_t bytesP
     host.waitForAll();
     const auto* from = static_cast<const std::byte*>(staging.mapped);
     return {from, from + bytes};
-}
-
-// Camera at (0, 1, 3), a little downward; floor y = 0 in front of a wall at z = -3, 2 m high.
-HostRoom::HostRoom(LibraryHost& host, RoomConventions conventions) {
-    const bool odd = conventions.unusual;
-    const float near = 0.1F;
-    const float far = 100.0F;
-    const float tangent = 0.5F;
-    const vec3 eye(0.0F, 1.0F, 3.0F);
-    const mat4 toView = glm::lookAt(eye, vec3(0.0F, 0.6F, 0.0F), vec3(0.0F, 1.0F, 0.0F));
-    mat4 toClip(0.0F);
-    toClip[0][0] = 1.0F / (tangent * float(width) / float(height));
-    toClip[1][1] = odd ? 1.0F / tangent : -1.0F / tangent;
-    toClip[2][3] = -1.0F;
-    toClip[2][2] = odd ? far / (near - far) : 0.0F;
-    toClip[3][2] = odd ? near * far / (near - far) : near;
-    const size_t count = size_t(width) * height;
-    std::vector<float> depth(count);
-    std::vector<vec4> normal(count);
-    std::vector<vec4> color(count);
-    std::vector<vec4> material(count);
-    std::vector<vec4> motion(count);
-    std::vector<vec4> lit(count);
-    const mat4 toWorld = glm::inverse(toView);
-    const vec2 moved(0.01F, -0.02F);  // uv
-    for (uint32_t i = 0; i < count; ++i) {
-        const vec2 uv((float(i % width) + 0.5F) / float(width), (float(i / width) + 0.5F) / float(height));
-        const vec2 ndc = 2.0F * uv - 1.0F;
-        const vec3 ray(toWorld * vec4(ndc.x / toClip[0][0], -ndc.y * tangent, -1.0F, 0.0F));  // 1 m ahead
-        const float toFloor = ray.y < 0.0F ? -eye.y / ray.y : INFINITY;
-        const float toWall = (-3.0F - eye.z) / ray.z;
-        const float distance = std::min(toFloor, toWall);
-        const bool sky = toWall <= toFloor && (eye + toWall * ray).y > 2.0F;
-        const bool floor = toFloor < toWall;
-        depth[i] = odd ? (far - near * far / distance) / (far - near) : near / distance;
-        depth[i] = sky ? (odd ? 1.0F : 0.0F) : depth[i];
-        const vec3 n = floor ? vec3(0.0F, 1.0F, 0.0F) : vec3(0.0F, 0.0F, 1.0F);
-        const vec2 octa = octahedral(n);
-        normal[i] = odd ? vec4(0.5F * (glm::mat3(toView) * n) + 0.5F, 0.0F) : vec4(octa, 0.0F, 0.0F);
-        const vec3 albedo = floor ? vec3(0.8F, 0.4F, 0.2F) : vec3(0.2F, 0.5F, 0.7F);
-        color[i] = odd ? vec4(srgb(albedo.x), srgb(albedo.y), srgb(albedo.z), 1.0F) : vec4(albedo, 1.0F);
-        const float roughness = floor ? 0.25F : 0.8F;
-        const float metallic = floor ? 1.0F : 0.0F;
-        material[i] = odd ? vec4(0.0F, metallic, 0.0F, roughness * roughness) : vec4(roughness, metallic, 0.0F, 0.0F);
-        motion[i] = odd ? vec4(-moved.x * float(width), -moved.y * float(height), 0.0F, 0.0F) : vec4(moved, 0.0F, 0.0F);
-        const float spot = i % width / 8 % 2 == 0 ? 1.0F : 0.3F;
-        lit[i] = sky ? vec4(0.5F, 0.6F, 0.8F, 1.0F) : vec4(spot * albedo, 1.0F);
-    }
-    constexpr float wrong[] = {NAN, INFINITY, -INFINITY, 65504.0F, 1e30F, -2.0F};
-    for (size_t i = 0; conventions.spoiled && i < count; i += 5) {
-        const float value = wrong[i / 5 % std::size(wrong)];
-        depth[i] = value;
-        normal[(i + 1) % count] = vec4(value);
-        color[(i + 2) % count] = vec4(value);
-        material[(i + 3) % count] = vec4(value);
-        motion[(i + 4) % count] = vec4(value);
-        lit[(i + 2) % count] = vec4(value);
-    }
-    constexpr VkFormat four = VK_FORMAT_R32G32B32A32_SFLOAT;
-    info_.structSize = sizeof info_;
-    store(info_.worldToView, toView);
-    store(info_.viewToClip, toClip);
-    info_.clipYUp = odd ? 1 : 0;
-    RefletGBuffer& g = info_.gbuffer;
-    g.depth = host.makeImage(VK_FORMAT_R32_SFLOAT, width, height, depth);
-    g.depthKind = odd ? REFLET_DEPTH_STANDARD : REFLET_DEPTH_REVERSED;
-    g.normal = host.makeImage(four, width, height, normal);
-    g.normalKind = odd ? REFLET_NORMAL_VECTOR_UNORM : REFLET_NORMAL_OCTAHEDRAL_SNORM;
-    g.normalsInViewSpace = odd ? 1 : 0;
-    g.roughness = host.makeImage(four, width, height, material);
-    g.roughnessChannel = odd ? 3 : 0;
-    g.roughnessKind = odd ? REFLET_ROUGHNESS_ALPHA : REFLET_ROUGHNESS_PERCEPTUAL;
-    g.metallic = g.roughness;
-    g.metallicChannel = 1;
-    g.baseColor = host.makeImage(four, width, height, color);
-    g.baseColorKind = odd ? REFLET_COLOR_SRGB : REFLET_COLOR_LINEAR;
-    g.motion = host.makeImage(four, width, height, motion);
-    g.motionKind = odd ? REFLET_MOTION_PIXELS : REFLET_MOTION_UV;
-    g.motionIsBeforeMinusNow = odd ? 1 : 0;
-    lit_ = host.makeImage(four, width, height, lit);
-    shadowMap_ = host.makeImage(VK_FORMAT_R32_SFLOAT, 64, 64, std::vector<float>(size_t(64) * 64, 0.0F));
-}
-
-RefletFrameInfo HostRoom::frame(VkCommandBuffer commands, uint32_t index) const {
-    RefletFrameInfo info = info_;
-    info.commandBuffer = commands;
-    info.frameIndex = index;
-    info.elapsed = 0.04F;
-    return info;
-}
-
-RefletIndirectLight HostRoom::light() const {
-    RefletIndirectLight light{};
-    light.structSize = sizeof light;
-    light.light = lit_;
-    light.environment.factor[0] = 0.5F;
-    light.environment.factor[1] = 0.6F;
-    light.environment.factor[2] = 0.8F;
-    return light;
-}
-
-RefletSunShadow HostRoom::sun() const {
-    RefletSunShadow sun{};
-    sun.structSize = sizeof sun;
-    sun.map = shadowMap_;
-    sun.cascades = 1;
-    store(sun.worldToClip[0], glm::scale(mat4(1.0F), vec3(0.1F, 0.1F, 0.05F)));
-    sun.toSun[1] = 1.0F;
-    return sun;
-}
-
-RoomResults recordRoom(const HostRoom& room, RefletView view, RefletSettings settings, VkCommandBuffer commands,
-                       uint32_t index) {
-    RoomResults out;
-    const RefletFrameInfo frame = room.frame(commands, index);
-    const RefletSunShadow sun = room.sun();
-    const RefletIndirectLight light = room.light();
-    out.sum.structSize = sizeof out.sum;
-    EXPECT_REFLET(refletBeginFrame(view, &frame));
-    EXPECT_REFLET(refletSunShadow(view, settings, &sun, &out.visibility));
-    if (std::strcmp(refletGetSetting(settings, "ao.method"), "none") != 0) {
-        EXPECT_REFLET(refletAmbientOcclusion(view, settings, &out.occlusion));
-    }
-    EXPECT_REFLET(refletDiffuseGi(view, settings, &light, &out.diffuse));
-    EXPECT_REFLET(refletReflections(view, settings, &light, &out.specular));
-    EXPECT_REFLET(refletComposite(view, settings, nullptr, &out.sum));
-    EXPECT_REFLET(refletTemporal(view, settings, nullptr, &out.antialiased));
-    const RefletLens lens{sizeof lens, 0.2F, 3.0F, 6, 0.1F};
-    EXPECT_REFLET(refletDepthOfField(view, settings, &lens, nullptr, &out.defocused));
-    EXPECT_REFLET(refletToneMap(view, settings, nullptr, 1, &out.display));
-    EXPECT_REFLET(refletEndFrame(view));
-    return out;
 }
 
 }  // namespace reflet::test

@@ -131,7 +131,7 @@ TEST_F(BackDepth, LooksThroughWhatIsCutOut) {
     // then the sheet's back behind it.
     Scene scene =
         sceneOf(lambertMaterial(vec3(0.5F)), builtin::patch({{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {1, 1}, {1, 1}}));
-    Image image{"half", 2, 1, {255, 255, 255, 255, 255, 255, 255, 0}};  // left half there, right half cut out
+    TextureImage image{"half", 2, 1, {255, 255, 255, 255, 255, 255, 255, 0}};  // left half there, right half cut out
     Sampler nearest;
     nearest.magLinear = nearest.minLinear = nearest.mips = false;
     nearest.wrapU = nearest.wrapV = Wrap::clamp;

@@ -1,5 +1,5 @@
-// Fingerprints of views: every field of a camera counts, and those of a lens only if there is one.
-#include "capture/fingerprint.h"
+// Fingerprints of views: every field of a camera counts.
+#include "job/fingerprint.h"
 #include "scene/camera_fields.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,6 @@ std::string printOf(const Camera& camera) {
 
 TEST(CameraFingerprint, DependsOnEveryField) {
     Camera camera;
-    camera.apertureRadius = 0.1F;
     for (const CameraField& field : cameraFields()) {
         Camera other = camera;
         std::visit([&](const auto member) { other.*member += 1; }, field.member);
@@ -26,15 +25,6 @@ TEST(CameraFingerprint, DependsOnEveryField) {
     Camera other = camera;
     other.focus.push_back({.kind = FocusTarget::Kind::node, .node = "box"});
     EXPECT_NE(printOf(other), printOf(camera));
-}
-
-// The hash of a pinhole's values alone, which references of earlier versions were stored under.
-TEST(CameraFingerprint, OfAPinholeIgnoresTheLens) {
-    Camera other;
-    other.blades = 5;
-    other.focusDistance = 3.0F;
-    other.focus.resize(1);
-    EXPECT_EQ(printOf(other), printOf(Camera{}));
 }
 
 }  // namespace

@@ -17,8 +17,8 @@ using builtin::at;
 
 constexpr uvec2 size(64, 48);
 
-Image texels(const std::vector<std::array<uint8_t, 4>>& row) {
-    Image image{"row", static_cast<uint32_t>(row.size()), 1, {}};
+TextureImage texels(const std::vector<std::array<uint8_t, 4>>& row) {
+    TextureImage image{"row", static_cast<uint32_t>(row.size()), 1, {}};
     for (const auto& texel : row) {
         image.rgba.insert(image.rgba.end(), texel.begin(), texel.end());
     }
@@ -175,7 +175,7 @@ TEST(Coat, OfABlendedSurfaceCoversWithIt) {
 
 // A bright panel that a mirror-like coat shows, and a rough or tilted one does not.
 TEST(Coat, ItHasARoughnessAndANormalOfItsOwn) {
-    const auto shown = [](const Image* roughness, const Image* normal) {
+    const auto shown = [](const TextureImage* roughness, const TextureImage* normal) {
         Material black = lambertMaterial(vec3(0.0F));
         black.specular = 0.0F;
         black.roughness = 1.0F;
@@ -193,8 +193,8 @@ TEST(Coat, ItHasARoughnessAndANormalOfItsOwn) {
         view.sun.irradiance = vec3(1);
         return render(scene, view, size, settingsOf({"diffuse.rays=0"}), {"final"});
     };
-    const Image halves = texels({{0, 77, 0, 255}, {0, 255, 0, 255}});
-    const Image tilted = texels({{128, 128, 255, 255}, {255, 128, 128, 255}});
+    const TextureImage halves = texels({{0, 77, 0, 255}, {0, 255, 0, 255}});
+    const TextureImage tilted = texels({{128, 128, 255, 255}, {255, 128, 128, 255}});
     const float bright = shown(nullptr, nullptr).value("final", 32, 24);
     EXPECT_GT(bright, 0.2F) << "the sun's highlight";
     const Pictures rough = shown(&halves, nullptr);

@@ -156,7 +156,7 @@ TEST(LampShadow, IsCastByNothingNearerToTheLampThanItsRadius) {
 TEST(LampShadow, CutOutMaterialsCastOnlyWhatIsThere) {
     Room room;
     room.scene.lamps.push_back(lampAt(Lamp::Type::point, {0, 2, 0}));
-    Image image{"half", 2, 1, {255, 255, 255, 255, 255, 255, 255, 0}};  // left half there, right half cut out
+    TextureImage image{"half", 2, 1, {255, 255, 255, 255, 255, 255, 255, 0}};  // left half there, right half cut out
     Sampler nearest;
     nearest.magLinear = nearest.minLinear = nearest.mips = false;
     nearest.wrapU = nearest.wrapV = Wrap::clamp;

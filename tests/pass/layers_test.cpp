@@ -188,8 +188,8 @@ TEST(Layers, WhiteOnesReturnAllLight) {
     EXPECT_NEAR(wall(white, false).value("final", 32, 24), 1.0F, 0.05F) << "compensated as an isotropic lobe";
 }
 
-Image texels(const std::vector<std::array<uint8_t, 4>>& row) {
-    Image image{"row", static_cast<uint32_t>(row.size()), 1, {}};
+TextureImage texels(const std::vector<std::array<uint8_t, 4>>& row) {
+    TextureImage image{"row", static_cast<uint32_t>(row.size()), 1, {}};
     for (const auto& texel : row) {
         image.rgba.insert(image.rgba.end(), texel.begin(), texel.end());
     }

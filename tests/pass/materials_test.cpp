@@ -49,13 +49,13 @@ std::vector<bool> pixelsOf(const FloatImage& albedo, const vec3& color) {
     return mask;
 }
 
-Image oneColor(std::array<uint8_t, 4> rgba) {
+TextureImage oneColor(std::array<uint8_t, 4> rgba) {
     return {.name = "color", .width = 1, .height = 1, .rgba = {rgba.begin(), rgba.end()}};
 }
 
 /// A texture of the colour beside black, of which its transform shows the colour alone.
 TextureSlot colorBesideBlack(Scene& scene, std::array<uint8_t, 4> rgba) {
-    Image image{.name = "half", .width = 2, .height = 1, .rgba = {0, 0, 0, 0}};
+    TextureImage image{.name = "half", .width = 2, .height = 1, .rgba = {0, 0, 0, 0}};
     image.rgba.insert(image.rgba.end(), rgba.begin(), rgba.end());
     TextureSlot slot = builtin::addTexture(scene, std::move(image));
     slot.uvTransform = {vec3(0.001F, 0, 0.75F), vec3(0, 0.001F, 0.5F)};

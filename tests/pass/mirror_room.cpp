@@ -14,7 +14,7 @@ void addBox(Scene& scene, const std::string& name, const vec3& color, const vec3
 }
 
 TextureSlot waves(Scene& scene) {
-    Image image{"waves", 128, 128, {}};
+    TextureImage image{"waves", 128, 128, {}};
     for (uint32_t y = 0; y < image.height; ++y) {
         for (uint32_t x = 0; x < image.width; ++x) {
             const float slope = 0.06F * std::sin(6.2831853F * static_cast<float>(x) / 128.0F * 2.0F);

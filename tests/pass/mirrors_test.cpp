@@ -89,7 +89,7 @@ TEST(Mirrors, DoubleSidedOnesMirrorOnTheSideOfTheCamera) {
 
 TEST(Mirrors, ATexturesMeanRoughnessCounts) {
     Scene scene = makeMirrorRoom({.roughness = 1.0F});
-    Image image{"roughness", 2, 1, {0, 0, 0, 255, 0, 51, 0, 255}};  // 0 and 0.2
+    TextureImage image{"roughness", 2, 1, {0, 0, 0, 255, 0, 51, 0, 255}};  // 0 and 0.2
     scene.materials[scene.meshes[scene.instances[1].mesh].material].metallicRoughnessTexture =
         builtin::addTexture(scene, std::move(image));
     const std::vector<FlatPiece> pieces = findFlatPieces(scene);

@@ -55,4 +55,10 @@ Material whiteMetal(float roughness) {
     return material;
 }
 
+Settings probeSettings(const std::vector<std::string>& more) {
+    std::vector<std::string> all{"trace_screen.enabled=false", "diffuse.rays=0", "probes.enabled=true"};
+    all.insert(all.end(), more.begin(), more.end());
+    return settingsOf(all);
+}
+
 }  // namespace reflet::test

@@ -18,6 +18,9 @@ void addProbeRoom(Scene& scene, const ProbeRoom& room);
 /// A probe whose box is the room.
 Probe probeIn(const ProbeRoom& room, const vec3& position);
 
+/// Settings with which probes are the only source of rays' light, changed by `more`.
+Settings probeSettings(const std::vector<std::string>& more);
+
 /// A metal that reflects everything.
 Material whiteMetal(float roughness);
 

@@ -1,4 +1,4 @@
-// Local probes: captures and reflections against the path tracer, blending, energy, and when they are updated.
+// Local probes: captures and reflections against the path tracer, blending, energy.
 #include "pass/probe_room.h"
 
 #include "compare/compare.h"
@@ -45,14 +45,6 @@ bool liesWithinAPixel(const FloatImage& image, const FloatImage& truth, unsigned
         }
     }
     return true;
-}
-
-const std::vector<std::string> onlyProbes{"trace_screen.enabled=false", "diffuse.rays=0", "probes.enabled=true"};
-
-Settings probeSettings(const std::vector<std::string>& more) {
-    std::vector<std::string> all = onlyProbes;
-    all.insert(all.end(), more.begin(), more.end());
-    return settingsOf(all);
 }
 
 // The faces of one probe, cut out of the atlas.
@@ -340,13 +332,6 @@ TEST(Probe, LeavesTheSkyToTheEnvironment) {
     EXPECT_NEAR(p.value("specular_source", 16, 12, 2), 0.9F, 0.01F);
 }
 
-// The probe maps after this many frames, and the images rendered with them.
-Pictures afterFrames(const Scene& scene, const View& view, const char* refresh, uint32_t frames) {
-    return render(scene, view, {64, 36},
-                  probeSettings({"probes.bounces=0", "probes.resolution=32", std::string("probes.refresh=") + refresh}),
-                  {"probe_atlas", "specular_radiance", "specular_source"}, frames);
-}
-
 TEST(Probe, IsNotUsedForRaysThatAreKnownToHitNothing) {
     const Scene scene = findBuiltinScene("gloss")->make();
     const auto reflections = [&](const char* probes) {
@@ -361,42 +346,6 @@ TEST(Probe, IsNotUsedForRaysThatAreKnownToHitNothing) {
         compareImages(reflections("probes.enabled=true"), reflections("probes.enabled=false"), {}).difference;
     EXPECT_EQ(d.relativeMse, 0.0);
     expectSilentValidation("probes behind the scene");
-}
-
-TEST(Probe, IsAfterSixFramesOfAFaceEachWhatItIsAtOnce) {
-    const Scene scene = findBuiltinScene("cornell")->make();
-    View view = defaultView(scene);
-    view.probes = {{{{0, 2.2F, 0.5F}, {vec3(-3, 0, -2.3F), vec3(3, 4, 2.3F)}}}};
-    const Pictures once = afterFrames(scene, view, "once", 6);
-    const Pictures sixth = afterFrames(scene, view, "face", 6);
-    EXPECT_EQ(once.images.at("probe_atlas").data, sixth.images.at("probe_atlas").data);
-    // Not bit-exact: which rays a device looks up together in a cube map is left to chance, and the rounding of
-    // llvmpipe's filter depends on whether one of them is near an edge.
-    const Difference looked =
-        compareImages(once.images.at("specular_radiance"), sixth.images.at("specular_radiance"), {}).difference;
-    EXPECT_LT(looked.relativeMse, 1e-8);
-    const Pictures fifth = afterFrames(scene, view, "face", 5);
-    for (unsigned x = 0; x < fifth.size.x; ++x) {
-        EXPECT_LT(fifth.value("specular_source", x, 18, 0), 0.3F) << "until then the environment answers";
-    }
-    EXPECT_NE(once.images.at("probe_atlas").data, fifth.images.at("probe_atlas").data);
-    expectSilentValidation("captures of a face each");
-}
-
-TEST(Probe, IsCapturedAnewWhenLightChangesAndOnlyThen) {
-    const Scene scene = findBuiltinScene("cornell")->make();
-    View view = defaultView(scene);
-    view.probes = {{{{0, 2.2F, 0.5F}, {vec3(-3, 0, -2.3F), vec3(3, 4, 2.3F)}}}};
-    View darker = view;
-    darker.sun.irradiance *= 0.25F;
-    View elsewhere = darker;
-    elsewhere.camera.position += vec3(0.5F);
-    const std::vector<Pictures> p = renderPath(scene, {view, darker, elsewhere, view}, {32, 18},
-                                               probeSettings({"probes.resolution=32"}), {"probe_atlas"});
-    const auto atlas = [&](size_t i) { return p[i].images.at("probe_atlas").data; };
-    EXPECT_NE(atlas(0), atlas(1));
-    EXPECT_EQ(atlas(1), atlas(2));
-    EXPECT_EQ(atlas(0), atlas(3));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ constexpr double frameTime = 1.0 / 24;
 constexpr double stopTime = 1.0;
 
 TextureSlot stripes(Scene& scene) {
-    Image image{"stripes", 64, 64, {}};
+    TextureImage image{"stripes", 64, 64, {}};
     for (uint32_t y = 0; y < image.height; ++y) {
         for (uint32_t x = 0; x < image.width; ++x) {
             const bool odd = (x / 16 + y / 16) % 2 != 0;

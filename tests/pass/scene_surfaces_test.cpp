@@ -88,8 +88,8 @@ protected:
 };
 
 // Smooth all over, so that a texel to the left or right is seen, and different in its four channels.
-Image gradient(const char* name, uint32_t width, uint32_t height, float turns) {
-    Image image{name, width, height, {}};
+TextureImage gradient(const char* name, uint32_t width, uint32_t height, float turns) {
+    TextureImage image{name, width, height, {}};
     for (uint32_t y = 0; y < height; ++y) {
         for (uint32_t x = 0; x < width; ++x) {
             const float u = (static_cast<float>(x) + 0.5F) / static_cast<float>(width);

@@ -171,7 +171,7 @@ TEST(Shadow, OfAMapOfGivenExtentEndsThere) {
 
 TEST(Shadow, CutOutMaterialsCastOnlyWhatIsThere) {
     Scene scene = sceneOf(lambertMaterial(vec3(0.5F)), builtin::ground({10, 10}, {1, 1}, {1, 1}));
-    Image image{"half", 2, 1, {255, 255, 255, 255, 255, 255, 255, 0}};  // left half there, right half cut out
+    TextureImage image{"half", 2, 1, {255, 255, 255, 255, 255, 255, 255, 0}};  // left half there, right half cut out
     Sampler nearest;
     nearest.magLinear = nearest.minLinear = nearest.mips = false;
     nearest.wrapU = nearest.wrapV = Wrap::clamp;

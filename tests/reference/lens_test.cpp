@@ -149,7 +149,7 @@ TEST(Aperture, IsUniformOverTheDiskAndOverPolygons) {
 // A colour that changes over a plane in focus: a pixel's centre shows the same point from all over the aperture.
 TEST(Lens, ShowsAPlaneInFocusAsAPinholeDoes) {
     Scene scene;
-    Image ramp{"ramp", 2, 2, {0, 40, 200, 255, 250, 80, 10, 255, 90, 250, 60, 255, 20, 0, 250, 255}};
+    TextureImage ramp{"ramp", 2, 2, {0, 40, 200, 255, 250, 80, 10, 255, 90, 250, 60, 255, 20, 0, 250, 255}};
     Material material = lambertMaterial(vec3(0.0F), vec3(2.0F));
     material.emissiveTexture = builtin::addTexture(scene, ramp, {.wrapU = Wrap::clamp, .wrapV = Wrap::clamp});
     add(scene, material, square({0, 0, -3}, {0, 0, 1}, 2.0F));

@@ -173,7 +173,7 @@ TEST(Camera, OrthographicAndNearPlaneAreTheViewsOwn) {
 
 TEST(Materials, CutOutPartsLetLightAndRaysThrough) {
     Scene scene;
-    Image half{"half", 2, 1, {255, 255, 255, 255, 255, 255, 255, 0}};
+    TextureImage half{"half", 2, 1, {255, 255, 255, 255, 255, 255, 255, 0}};
     const TextureSlot slot = builtin::addTexture(scene, half, {.magLinear = false});
     add(scene, lambertMaterial({1, 0, 0}), square({0, 0, 0}, {0, 1, 0}, 10.0F));
     Material cut = lambertMaterial({0, 1, 0});

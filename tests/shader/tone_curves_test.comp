@@ -1,6 +1,7 @@
 // Colours through the curve of the constant: 0 encodeSrgb, 1 ACES, 2 AgX, 3 neutral.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
+#include "shaders/srgb.glsl"
 #include "shaders/tone_curves.glsl"
 
 layout(constant_id = 0) const uint curve = 0u;

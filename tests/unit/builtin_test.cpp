@@ -227,7 +227,7 @@ TEST_P(EveryBuiltinScene, IndicesPointAtThingsThatExist) {
             EXPECT_LT(slot->uvSet, 2U) << m.name;
         }
     }
-    for (const Image& image : scene.images) {
+    for (const TextureImage& image : scene.images) {
         EXPECT_EQ(image.rgba.size(), size_t{4} * image.width * image.height) << image.name;
     }
 }

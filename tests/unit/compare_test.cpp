@@ -1,6 +1,7 @@
 // Metrics of images small enough to be worked out by hand, masks, and invalid input.
 #include "compare/compare.h"
 
+#include "base/color.h"
 #include "base/error.h"
 #include "compare/color.h"
 #include "compare/heat_map.h"
@@ -110,8 +111,8 @@ TEST(Compare, GreyIsTheColorWithThreeEqualChannels) {
 
 // Display values are decoded to linear first.
 TEST(Compare, FlipOfDisplayPicturesIsThatOfTheirLinearColors) {
-    const float a = linearToSrgb(labToLinear({42.0F, 0.0F, 0.0F}).x);
-    const float b = linearToSrgb(labToLinear({50.0F, 0.0F, 0.0F}).x);
+    const float a = encodeSrgb(labToLinear({42.0F, 0.0F, 0.0F}).x);
+    const float b = encodeSrgb(labToLinear({50.0F, 0.0F, 0.0F}).x);
     EXPECT_NEAR(difference(grey(2, {a, a}), grey(2, {b, b}), ImageKind::display).flip, 0.24668, 1e-4);
 }
 
@@ -192,7 +193,7 @@ TEST(Compare, EveryMetricHasANameAndIsItsValue) {
 vec3 labOf(const Bitmap& bitmap, size_t pixel) {
     vec3 linear(0.0F);
     for (int c = 0; c < 3; ++c) {
-        linear[c] = srgbToLinear(static_cast<float>(bitmap.data[3 * pixel + static_cast<size_t>(c)]) / 255.0F);
+        linear[c] = decodeSrgb(static_cast<float>(bitmap.data[3 * pixel + static_cast<size_t>(c)]) / 255.0F);
     }
     return linearToLab(linear);
 }

@@ -21,7 +21,7 @@ GltfBuilder showing(const std::function<int(GltfBuilder&)>& addTexture) {
     return b;
 }
 
-Image imageOf(const std::vector<uint8_t>& bytes, const std::string& extension = "") {
+TextureImage imageOf(const std::vector<uint8_t>& bytes, const std::string& extension = "") {
     GltfBuilder b = showing([&](GltfBuilder& to) { return addTextureOf(to, bytes, extension); });
     if (!extension.empty()) {
         b.document["extensionsUsed"] = {extension};
@@ -47,7 +47,7 @@ std::vector<uint8_t> gradient(size_t count) {
 TEST(GltfImage, AWebpTextureHasThePixelsThatWereEncoded) {
     const std::vector<uint8_t> pixels = gradient(5 * 3 * 4);
     for (const char* extension : {"", "EXT_texture_webp"}) {
-        const Image image = imageOf(webpOf(5, 3, pixels), extension);
+        const TextureImage image = imageOf(webpOf(5, 3, pixels), extension);
         EXPECT_EQ(image.width, 5U);
         EXPECT_EQ(image.height, 3U);
         EXPECT_EQ(image.rgba, pixels);
@@ -76,7 +76,7 @@ TEST(GltfImage, KtxTexturesOfOneToFourChannelsAreReadWithAndWithoutZstandard) {
          {Case{9, 1}, Case{15, 1}, Case{16, 2}, Case{22, 2}, Case{23, 3}, Case{29, 3}, Case{37, 4}, Case{43, 4}}) {
         for (const bool zstd : {false, true}) {
             const std::vector<uint8_t> pixels = gradient(3 * 2 * c.channels);
-            const Image image = imageOf(ktx2Of(3, 2, c.format, pixels, zstd), "KHR_texture_basisu");
+            const TextureImage image = imageOf(ktx2Of(3, 2, c.format, pixels, zstd), "KHR_texture_basisu");
             ASSERT_EQ(image.rgba.size(), 24U);
             for (size_t i = 0; i < 24; ++i) {
                 const size_t channel = i % 4;
@@ -114,7 +114,7 @@ TEST(GltfImage, SixteenBitsAreRoundedToEight) {
         deep.push_back(static_cast<uint16_t>(i * 257 + (i % 3 == 0 ? 0 : i % 3 == 1 ? 128 : 129)));
     }
     deep.back() = 65535;
-    const Image image = imageOf(deepPngOf(8, 8, deep));
+    const TextureImage image = imageOf(deepPngOf(8, 8, deep));
     ASSERT_EQ(image.rgba.size(), deep.size());
     for (size_t i = 0; i < deep.size(); ++i) {
         EXPECT_EQ(int(image.rgba[i]), std::lround(deep[i] / 65535.0 * 255.0)) << deep[i];

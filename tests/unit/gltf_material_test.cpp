@@ -230,7 +230,7 @@ TEST(GltfMaterial, ATextureWithoutAnImageIsLeftOutWithAWarning) {
 }
 
 /// Loads a triangle with an image of this URI, next to the files that `prepare` writes.
-Image imageFrom(const std::string& uri, const std::function<void(const std::filesystem::path&)>& prepare) {
+TextureImage imageFrom(const std::string& uri, const std::function<void(const std::filesystem::path&)>& prepare) {
     const auto folder = testFolder();
     prepare(folder);
     GltfBuilder b = triangle();
@@ -246,7 +246,7 @@ std::string pngBytes(std::array<uint8_t, 4> color) {
 
 TEST(GltfUri, ImagesMayBeFilesDataUrisAndPercentEncodedNames) {
     const auto red = [](uint8_t value) { return pngBytes({value, 0, 0, 255}); };
-    const Image file = imageFrom("a.png", [&](const auto& folder) { writeBytes(folder / "a.png", red(1)); });
+    const TextureImage file = imageFrom("a.png", [&](const auto& folder) { writeBytes(folder / "a.png", red(1)); });
     EXPECT_EQ(file.rgba.at(0), 1);
     EXPECT_EQ(file.name, "a.png");
     EXPECT_EQ(file.width, 3U);
@@ -276,7 +276,7 @@ TEST(GltfUri, ImagesMayBeJpeg) {
             static_cast<std::string*>(context)->append(static_cast<const char*>(data), static_cast<size_t>(size));
         },
         &jpeg, 16, 8, 3, grey.data(), 90);
-    const Image image = imageFrom("a.jpg", [&](const auto& folder) { writeBytes(folder / "a.jpg", jpeg); });
+    const TextureImage image = imageFrom("a.jpg", [&](const auto& folder) { writeBytes(folder / "a.jpg", jpeg); });
     EXPECT_EQ(image.width, 16U);
     EXPECT_EQ(image.height, 8U);
     EXPECT_NEAR(image.rgba.at(0), 200, 2);

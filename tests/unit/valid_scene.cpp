@@ -21,7 +21,7 @@ bool isIndexOrNone(int32_t index, size_t size) {
 }
 
 void expectValidMaterials(const Scene& scene) {
-    for (const Image& image : scene.images) {
+    for (const TextureImage& image : scene.images) {
         ASSERT_EQ(image.rgba.size(), size_t(image.width) * image.height * 4);
         ASSERT_GT(image.rgba.size(), 0U);
     }

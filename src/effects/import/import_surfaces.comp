@@ -6,6 +6,7 @@
 #include "effects/import/import.h"
 #include "effects/material_features.glsl"
 #include "shaders/projection.glsl"
+#include "shaders/srgb.glsl"
 
 layout(constant_id = 0) const uint reversed = 1u;
 layout(constant_id = 1) const uint normalKind = normalOctahedralSnorm;
@@ -107,17 +108,13 @@ float roughnessAt(ivec2 pixel) {
     return roughnessKind == roughnessAlpha ? sqrt(value) : value;
 }
 
-vec3 linearColor(vec3 encoded) {
-    return mix(encoded / 12.92, pow((encoded + 0.055) / 1.055, vec3(2.4)), greaterThan(encoded, vec3(0.04045)));
-}
-
 vec3 baseColorAt(ivec2 pixel) {
     if (hasBaseColor == 0u) {
         return vec3(0.5);
     }
     vec3 color = texelFetch(hostBaseColor, pixel, 0).rgb;
     color = finite(color) ? clamp(color, 0.0, 1.0) : vec3(0.0);
-    return baseColorIsSrgb != 0u ? linearColor(color) : color;
+    return baseColorIsSrgb != 0u ? decodeSrgb(color) : color;
 }
 
 // uv now minus uv in the last frame, without jitter.

@@ -4,6 +4,7 @@
 #define REFLET_DISPLAY_COLOR_GLSL
 
 #include "effects/tonemap/tonemap.h"
+#include "shaders/srgb.glsl"
 #include "shaders/tone_curves.glsl"
 
 // Display encoded, 0..1. `curve` is one of the constants ToneCurve_*, exposure in stops.

@@ -39,8 +39,4 @@ Bitmap toneMapped(const FloatImage& radiance, const TonemapSettings& settings) {
     return bitmap;
 }
 
-vec3 srgbEncoded(const vec3& linear) {
-    return glsl::encodeSrgb(linear);
-}
-
 }  // namespace reflet

@@ -10,7 +10,4 @@ namespace reflet {
 /// in the renderer, values are clamped to ±65504. NaN becomes black.
 Bitmap toneMapped(const FloatImage& radiance, const TonemapSettings& settings);
 
-/// sRGB encoding (IEC 61966-2-1) of linear values, which are clamped to 0..1.
-vec3 srgbEncoded(const vec3& linear);
-
 }  // namespace reflet

@@ -100,27 +100,27 @@ void addTimings(const nlohmann::json& timings, Samples& samples) {
 }
 
 // One measurement: scene, size and variant.
-struct Asked {
+struct Measurement {
     const AgainstPlan& plan;
     std::string scene;
     uvec2 size;
     Words variant;
 };
 
-Words commonWords(const Asked& asked, const char* command) {
-    Words words{command, asked.scene, "--size", fmt::format("{}x{}", asked.size.x, asked.size.y)};
-    words.insert(words.end(), asked.variant.begin(), asked.variant.end());
-    words.insert(words.end(), asked.plan.shared.begin(), asked.plan.shared.end());
+Words commonWords(const Measurement& measured, const char* command) {
+    Words words{command, measured.scene, "--size", fmt::format("{}x{}", measured.size.x, measured.size.y)};
+    words.insert(words.end(), measured.variant.begin(), measured.variant.end());
+    words.insert(words.end(), measured.plan.shared.begin(), measured.plan.shared.end());
     return words;
 }
 
-void benchOnce(const std::string& program, const Asked& asked, const fs::path& folder, BenchRun& run) {
+void benchOnce(const std::string& program, const Measurement& measured, const fs::path& folder, BenchRun& run) {
     const fs::path file = folder / "bench.json";
-    Words words = commonWords(asked, "bench");
+    Words words = commonWords(measured, "bench");
     const Words more{"--truth",       "none",
-                     "--first",       std::to_string(asked.plan.firstFrames),
-                     "--warmup",      std::to_string(asked.plan.warmup),
-                     "--frames",      std::to_string(asked.plan.frames),
+                     "--first",       std::to_string(measured.plan.firstFrames),
+                     "--warmup",      std::to_string(measured.plan.warmup),
+                     "--frames",      std::to_string(measured.plan.frames),
                      "--json",        file.string(),
                      "--no-bandwidth"};
     words.insert(words.end(), more.begin(), more.end());
@@ -132,14 +132,15 @@ void benchOnce(const std::string& program, const Asked& asked, const fs::path& f
     addBench(json.at("steady"), run.steady.samples);
 }
 
-void renderOnce(const std::string& program, const Asked& asked, const fs::path& folder, BenchRun& run) {
+void renderOnce(const std::string& program, const Measurement& measured, const fs::path& folder, BenchRun& run) {
     const fs::path file = folder / "timings.json";
-    if (!asked.variant.empty() && asked.variant.front() != "--preset") {
+    if (!measured.variant.empty() && measured.variant.front() != "--preset") {
         failUsage("--against {}: it has no bench, and its render takes no --variant; use --preset and --set",
-                  asked.plan.other);
+                  measured.plan.other);
     }
-    Words words = commonWords(asked, "render");
-    const Words more{"--frames", std::to_string(asked.plan.warmup + asked.plan.frames), "--timings", file.string()};
+    Words words = commonWords(measured, "render");
+    const Words more{"--frames", std::to_string(measured.plan.warmup + measured.plan.frames), "--timings",
+                     file.string()};
     words.insert(words.end(), more.begin(), more.end());
     addTimings(runFor(program, words, file), run.steady.samples);
 }
@@ -154,11 +155,11 @@ void measureAgainst(const AgainstPlan& plan, BenchResult& result) {
     for (const std::string& scene : plan.scenes) {
         for (const uvec2& size : plan.sizes) {
             for (const Words& variant : plan.variants) {
-                const Asked asked{plan, scene, size, variant};
+                const Measurement measured{plan, scene, size, variant};
                 BenchRun runs[2];
                 for (uint32_t round = 0; round < plan.rounds; ++round) {
                     for (const bool isOther : {false, true}) {
-                        (hasBench ? benchOnce : renderOnce)(isOther ? plan.other : own, asked, folder.path(),
+                        (hasBench ? benchOnce : renderOnce)(isOther ? plan.other : own, measured, folder.path(),
                                                             runs[isOther ? 1 : 0]);
                         progress.advance();
                     }

@@ -1,9 +1,11 @@
-// Formats the results of a bench: for other programs (JSON), for documents (Markdown) and as a plot.
+// Formats the results of a bench: for other programs (JSON), for readers (tables) and as a plot.
 #pragma once
 
+#include "base/document.h"
 #include "measure/bench/work.h"
 
 #include <string>
+#include <vector>
 
 namespace reflet {
 
@@ -20,7 +22,7 @@ struct BenchHead {
 std::string benchJson(const BenchHead& head, const BenchPlan& plan, const BenchResult& result);
 
 /// Tables: frames; comparisons; cost per pixel, if there are several sizes; passes.
-std::string benchMarkdown(const BenchHead& head, const BenchPlan& plan, const BenchResult& result);
+std::vector<Section> benchDocument(const BenchHead& head, const BenchPlan& plan, const BenchResult& result);
 
 /// An SVG: relative MSE against milliseconds from submission to fence, steady state; a series for each scene and size.
 std::string benchPlot(const BenchPlan& plan, const BenchResult& result);

@@ -1,8 +1,8 @@
 // Renders one scene with one list of settings at one size.
 #include "measure/bench/subject.h"
 
-#include "capture/scene_options.h"
 #include "capture/show.h"
+#include "job/scene_options.h"
 
 #include <chrono>
 

@@ -7,8 +7,8 @@
 #include "base/json.h"
 #include "base/json_text.h"
 #include "base/progress.h"
-#include "capture/fingerprint.h"
-#include "capture/scene_options.h"
+#include "job/fingerprint.h"
+#include "job/scene_options.h"
 #include "reference/sample_progress.h"
 
 #include <nlohmann/json.hpp>

@@ -21,17 +21,6 @@ std::string fixedText(double value, int decimals) {
 
 }  // namespace
 
-std::string escapeMarkdown(std::string_view text) {
-    std::string result;
-    for (const char c : text) {
-        if (std::string_view("\\`*_[]<>|#").find(c) != std::string_view::npos) {
-            result += '\\';
-        }
-        result += c == '\n' ? ' ' : c;
-    }
-    return result;
-}
-
 std::string relativeMseText(double value) {
     return fixedText(value, 5);
 }

@@ -8,9 +8,6 @@
 
 namespace reflet {
 
-/// Escapes text for a cell of a Markdown table.
-std::string escapeMarkdown(std::string_view text);
-
 // Fixed decimals, so that columns align; "–" for NaN, "∞" for infinity.
 std::string relativeMseText(double value);
 std::string flipText(double value);

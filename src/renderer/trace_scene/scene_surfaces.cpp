@@ -34,7 +34,7 @@ public:
         }
         images_.resize(layers_.size());
         for (const auto& [image, layer] : layers_) {
-            const Image& source = scene.images.at(static_cast<size_t>(image));
+            const TextureImage& source = scene.images.at(static_cast<size_t>(image));
             images_[layer] = {{source.width, source.height}, source.rgba, source.name};
             size_ = max(size_, images_[layer].size);
         }

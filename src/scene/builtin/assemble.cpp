@@ -7,7 +7,7 @@
 
 namespace reflet::builtin {
 
-TextureSlot addTexture(Scene& scene, Image image, const Sampler& sampler) {
+TextureSlot addTexture(Scene& scene, TextureImage image, const Sampler& sampler) {
     TextureSlot slot;
     slot.image = static_cast<int32_t>(scene.images.size());
     scene.images.push_back(std::move(image));

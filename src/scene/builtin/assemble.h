@@ -8,7 +8,7 @@
 
 namespace reflet::builtin {
 
-TextureSlot addTexture(Scene& scene, Image image, const Sampler& sampler = {});
+TextureSlot addTexture(Scene& scene, TextureImage image, const Sampler& sampler = {});
 
 /// A surface of one colour.
 struct Plain {

@@ -153,7 +153,8 @@ void Canvas::paint(const std::function<Hex(const vec2& uv)>& color) {
     }
 }
 
-Image normalMap(std::string name, uint32_t size, float metres, const std::function<float(const vec2& uv)>& height) {
+TextureImage normalMap(std::string name, uint32_t size, float metres,
+                       const std::function<float(const vec2& uv)>& height) {
     std::vector<float> heights(size_t{size} * size);
     const auto at = [&](uint32_t x, uint32_t y) -> float& { return heights[size_t{y % size} * size + x % size]; };
     for (uint32_t y = 0; y < size; ++y) {
@@ -162,7 +163,7 @@ Image normalMap(std::string name, uint32_t size, float metres, const std::functi
         }
     }
     const float twoPixels = 2.0F * metres / static_cast<float>(size);
-    Image image{std::move(name), size, size, std::vector<uint8_t>(heights.size() * 4, 255)};
+    TextureImage image{std::move(name), size, size, std::vector<uint8_t>(heights.size() * 4, 255)};
     for (uint32_t y = 0; y < size; ++y) {
         for (uint32_t x = 0; x < size; ++x) {
             const float toRight = at(x + 1, y) - at(x + size - 1, y);

@@ -47,13 +47,14 @@ public:
     /// Sets every pixel; uv is the pixel's centre.
     void paint(const std::function<Hex(const vec2& uv)>& color);
 
-    Image finish() { return std::move(image); }
+    TextureImage finish() { return std::move(image); }
 
 private:
-    Image image;
+    TextureImage image;
 };
 
 /// Tangent-space normal map of a tileable height field in metres over the unit square, which is `metres` wide.
-Image normalMap(std::string name, uint32_t size, float metres, const std::function<float(const vec2& uv)>& height);
+TextureImage normalMap(std::string name, uint32_t size, float metres,
+                       const std::function<float(const vec2& uv)>& height);
 
 }  // namespace reflet::builtin

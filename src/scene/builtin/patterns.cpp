@@ -49,7 +49,7 @@ float rockHeight(const vec2& uv) {
 
 }  // namespace
 
-Image labelledTiles(std::string name, const LabelledTiles& style) {
+TextureImage labelledTiles(std::string name, const LabelledTiles& style) {
     Canvas canvas(std::move(name), style.size, style.size, style.joint);
     const int tile = static_cast<int>(style.size) / style.tiles;
     const int gap = std::max(1, tile / 40);
@@ -68,7 +68,7 @@ Image labelledTiles(std::string name, const LabelledTiles& style) {
     return canvas.finish();
 }
 
-Image emblem(std::string name, std::string_view label, Hex field, Hex frame, Hex mark) {
+TextureImage emblem(std::string name, std::string_view label, Hex field, Hex frame, Hex mark) {
     constexpr int size = 512;
     Canvas canvas(std::move(name), size, size, frame);
     canvas.rectangle({28, 28, size - 56, size - 56}, field);
@@ -82,7 +82,7 @@ Image emblem(std::string name, std::string_view label, Hex field, Hex frame, Hex
     return canvas.finish();
 }
 
-Image pavingColors(std::string name, uint32_t size, Hex stone, Hex otherStone, Hex joint) {
+TextureImage pavingColors(std::string name, uint32_t size, Hex stone, Hex otherStone, Hex joint) {
     Canvas canvas(std::move(name), size, size, joint);
     canvas.paint([&](const vec2& uv) {
         const Stone s = stoneAt(uv);
@@ -95,7 +95,7 @@ Image pavingColors(std::string name, uint32_t size, Hex stone, Hex otherStone, H
     return canvas.finish();
 }
 
-Image pavingNormals(std::string name, uint32_t size, float metres) {
+TextureImage pavingNormals(std::string name, uint32_t size, float metres) {
     return normalMap(std::move(name), size, metres, [&](const vec2& uv) {
         const Stone s = stoneAt(uv);
         const float edge = glm::smoothstep(0.0F, 3.0F * halfJoint, s.toEdge);
@@ -104,7 +104,7 @@ Image pavingNormals(std::string name, uint32_t size, float metres) {
     });
 }
 
-Image rockColors(std::string name, uint32_t size, Hex dark, Hex light) {
+TextureImage rockColors(std::string name, uint32_t size, Hex dark, Hex light) {
     Canvas canvas(std::move(name), size, size, dark);
     canvas.paint([&](const vec2& uv) {
         const float bend = 0.06F * tilingNoise(uv, 3, 2, 43U);
@@ -114,11 +114,11 @@ Image rockColors(std::string name, uint32_t size, Hex dark, Hex light) {
     return canvas.finish();
 }
 
-Image rockNormals(std::string name, uint32_t size, float metres) {
+TextureImage rockNormals(std::string name, uint32_t size, float metres) {
     return normalMap(std::move(name), size, metres, [&](const vec2& uv) { return 0.03F * rockHeight(uv); });
 }
 
-Image piercedPanel(std::string name, uint32_t size, int repeats, Hex color) {
+TextureImage piercedPanel(std::string name, uint32_t size, int repeats, Hex color) {
     Canvas canvas(std::move(name), size, size, color);
     const float cell = static_cast<float>(size) / static_cast<float>(repeats);
     for (int y = 0; y < static_cast<int>(size); ++y) {

@@ -17,20 +17,20 @@ struct LabelledTiles {
     float grain = 4.0F;
     uint32_t seed = 1;  ///< of the tiles' colours
 };
-Image labelledTiles(std::string name, const LabelledTiles& style);
+TextureImage labelledTiles(std::string name, const LabelledTiles& style);
 
 /// A square emblem of rings, a frame and a label that looks different when rotated or mirrored.
-Image emblem(std::string name, std::string_view label, Hex field, Hex frame, Hex mark);
+TextureImage emblem(std::string name, std::string_view label, Hex field, Hex frame, Hex mark);
 
 /// Tileable flagstones of uneven width in courses: colours, and the matching normals.
-Image pavingColors(std::string name, uint32_t size, Hex stone, Hex otherStone, Hex joint);
-Image pavingNormals(std::string name, uint32_t size, float metres);
+TextureImage pavingColors(std::string name, uint32_t size, Hex stone, Hex otherStone, Hex joint);
+TextureImage pavingNormals(std::string name, uint32_t size, float metres);
 
 /// Tileable streaked stone.
-Image rockColors(std::string name, uint32_t size, Hex dark, Hex light);
-Image rockNormals(std::string name, uint32_t size, float metres);
+TextureImage rockColors(std::string name, uint32_t size, Hex dark, Hex light);
+TextureImage rockNormals(std::string name, uint32_t size, float metres);
 
 /// A panel perforated by round holes and four-pointed stars: alpha 0 in the holes.
-Image piercedPanel(std::string name, uint32_t size, int repeats, Hex color);
+TextureImage piercedPanel(std::string name, uint32_t size, int repeats, Hex color);
 
 }  // namespace reflet::builtin

@@ -16,7 +16,7 @@ constexpr uint64_t maxImageBytes = 1ULL << 30U;
 constexpr uint64_t maxSide = 16384;
 constexpr uint64_t formatBytes = 64;  // tell what isBasis asks
 
-Image decode(std::span<const uint8_t> bytes, const std::string& part, GltfReport& report) {
+TextureImage decode(std::span<const uint8_t> bytes, const std::string& part, GltfReport& report) {
     if (bytes.size() > maxImageBytes) {
         report.fail(part, "has {} bytes, more than the limit of {} MiB", bytes.size(), maxImageBytes >> 20U);
     }
@@ -52,10 +52,10 @@ void checkImageSize(uint64_t width, uint64_t height, const std::string& part, Gl
     report.charge(part, width * height * 4);
 }
 
-Image decodeGltfImage(const GltfDocument& document, size_t index, GltfReport& report) {
+TextureImage decodeGltfImage(const GltfDocument& document, size_t index, GltfReport& report) {
     const tinygltf::Image& source = document.model.images[index];
     const std::string part = fmt::format("images[{}]", index);
-    Image image;
+    TextureImage image;
     if (source.bufferView >= 0) {
         image = decode(bytesOfView(document, source.bufferView, report), part, report);
     } else if (!source.uri.empty()) {

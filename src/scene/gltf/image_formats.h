@@ -23,11 +23,11 @@ bool isBasis(std::span<const uint8_t> bytes);
 // are returned.
 
 /// PNG and JPEG. 16 bits per channel are rounded to 8.
-Image decodeStb(std::span<const uint8_t> bytes, const std::string& part, GltfReport& report);
-Image decodeWebp(std::span<const uint8_t> bytes, const std::string& part, GltfReport& report);
+TextureImage decodeStb(std::span<const uint8_t> bytes, const std::string& part, GltfReport& report);
+TextureImage decodeWebp(std::span<const uint8_t> bytes, const std::string& part, GltfReport& report);
 /// The largest level of a two-dimensional texture with one to four unsigned normalized channels of 8 bits each, as it
 /// is or with Zstandard.
-Image decodeKtx2(std::span<const uint8_t> bytes, const std::string& part, GltfReport& report);
+TextureImage decodeKtx2(std::span<const uint8_t> bytes, const std::string& part, GltfReport& report);
 
 /// Throws Error if the size is 0 or more than 16384 pixels per side; charges four bytes per pixel.
 void checkImageSize(uint64_t width, uint64_t height, const std::string& part, GltfReport& report);

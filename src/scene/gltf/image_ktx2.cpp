@@ -103,7 +103,7 @@ bool isBasis(std::span<const uint8_t> bytes) {
            (word(bytes, formatAt) == formatUndefined || word(bytes, schemeAt) == schemeBasisLz);
 }
 
-Image decodeKtx2(std::span<const uint8_t> bytes, const std::string& part, GltfReport& report) {
+TextureImage decodeKtx2(std::span<const uint8_t> bytes, const std::string& part, GltfReport& report) {
     if (isBasis(bytes)) {
         report.fail(part,
                     "is compressed with Basis Universal, which is not supported: convert it, for example with "
@@ -120,7 +120,7 @@ Image decodeKtx2(std::span<const uint8_t> bytes, const std::string& part, GltfRe
     if (word(bytes, depthAt) != 0 || word(bytes, layersAt) > 1 || word(bytes, facesAt) != 1) {
         report.fail(part, "is a KTX 2 image with layers, faces or depth, not a two-dimensional one");
     }
-    Image image;
+    TextureImage image;
     image.width = word(bytes, widthAt);
     image.height = word(bytes, heightAt);
     checkImageSize(image.width, image.height, part, report);

@@ -85,7 +85,7 @@ bool isJpeg(std::span<const uint8_t> bytes) {
     return startsAsJpeg(bytes);
 }
 
-Image decodeStb(std::span<const uint8_t> bytes, const std::string& part, GltfReport& report) {
+TextureImage decodeStb(std::span<const uint8_t> bytes, const std::string& part, GltfReport& report) {
     if (isPng(bytes) && bytes.size() < depthAt + 2) {  // stb takes what is missing for zeros
         report.fail(part, "is a broken image: its header is truncated");
     }
@@ -108,10 +108,10 @@ Image decodeStb(std::span<const uint8_t> bytes, const std::string& part, GltfRep
     if (deep) {
         report.charge(part, pixels * 8);
     }
-    Image image{.name = "",
-                .width = static_cast<uint32_t>(width),
-                .height = static_cast<uint32_t>(height),
-                .rgba = deep ? decodeDeep(bytes, pixels) : decodeShallow(bytes, pixels)};
+    TextureImage image{.name = "",
+                       .width = static_cast<uint32_t>(width),
+                       .height = static_cast<uint32_t>(height),
+                       .rgba = deep ? decodeDeep(bytes, pixels) : decodeShallow(bytes, pixels)};
     if (image.rgba.empty()) {
         report.fail(part, "is a broken image: {}", reason());
     }

@@ -16,7 +16,7 @@ bool isWebp(std::span<const uint8_t> bytes) {
            std::equal(webp.begin(), webp.end(), bytes.begin() + 8);
 }
 
-Image decodeWebp(std::span<const uint8_t> bytes, const std::string& part, GltfReport& report) {
+TextureImage decodeWebp(std::span<const uint8_t> bytes, const std::string& part, GltfReport& report) {
     WebPBitstreamFeatures features{};
     if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK) {
         report.fail(part, "is a broken WebP image");

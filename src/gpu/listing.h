@@ -1,0 +1,35 @@
+// The passes of a frame and their resources as plain values, for showing them.
+#pragma once
+
+#include "base/math.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace reflet::gpu {
+
+struct PassListing {
+    struct Pass {
+        std::string name;  ///< with its scopes: "diffuse.trace_screen"
+        bool raster = false;
+        std::vector<std::string> reads;  ///< names of resources
+        std::vector<std::string> writes;
+        uint64_t bytes = 0;  ///< size of all that it reads and writes
+        uint32_t level = 0;  ///< passes of one level do not depend on each other
+    };
+    struct Resource {
+        std::string name;
+        std::string format;  ///< of an image; empty: a buffer
+        uvec2 size{0};       ///< of an image, pixels
+        uint64_t bytes = 0;
+        int first = -1;       ///< index of the first pass that uses it; < 0: kept from frame to frame
+        int last = -1;        ///< of the last one
+        uint64_t offset = 0;  ///< in the memory that all resources of one frame share, bytes
+    };
+
+    std::vector<Pass> passes;  ///< in the order in which they are recorded
+    std::vector<Resource> resources;
+};
+
+}  // namespace reflet::gpu

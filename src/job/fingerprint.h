@@ -1,0 +1,36 @@
+// Hashes data to a short text that identifies it.
+#pragma once
+
+#include "reference/reference.h"
+#include "scene/scene.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace reflet {
+
+/// 64-bit FNV-1a, by G. Fowler, L. C. Noll, K.-P. Vo. Not cryptographic: it only has to detect changes.
+class Fingerprint {
+public:
+    void add(std::span<const std::byte> bytes);
+    void add(std::string_view text);
+    /// 16 hexadecimal digits.
+    [[nodiscard]] std::string text() const;
+
+private:
+    uint64_t hash_ = 0xCBF29CE484222325ULL;
+};
+
+/// Changes with what is hashed below, and how: what was stored under an older one is made anew.
+constexpr uint32_t fingerprintVersion = 2;
+
+/// Everything that an image of the scene can depend on, also names and cameras.
+void addTo(Fingerprint& print, const Scene& scene);
+/// Everything but probes and mirrors (planar reflections), which the path traced reference does not use.
+void addTo(Fingerprint& print, const View& view);
+/// Everything but the number of threads, on which the image does not depend.
+void addTo(Fingerprint& print, const ReferenceOptions& options);
+
+}  // namespace reflet

@@ -1,0 +1,158 @@
+// Scene, view, size and settings as options name them.
+#include "job/scene_options.h"
+
+#include "base/error.h"
+#include "base/json.h"
+#include "base/message.h"
+#include "base/text.h"
+#include "renderer/presets.h"
+#include "scene/background.h"
+#include "scene/builtin.h"
+#include "scene/default_light.h"
+#include "scene/focus.h"
+#include "scene/framing.h"
+#include "scene/gltf/gltf.h"
+#include "scene/view_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+
+namespace reflet {
+
+namespace {
+
+constexpr std::string_view builtinPrefix = "builtin:";
+
+Scene makeBuiltin(std::string_view name) {
+    if (std::optional<Scene> builtin = makeBuiltinScene(name)) {
+        return std::move(*builtin);
+    }
+    std::vector<std::string> names;
+    std::ranges::transform(builtinScenes(), std::back_inserter(names),
+                           [](const BuiltinScene& b) { return std::string(b.name); });
+    failUsage("no built-in scene is called '{}'; available: {}{}", name, fmt::join(names, ", "),
+              suggestion(name, names));
+}
+
+const Camera& findCamera(const Scene& scene, const std::string& wanted) {
+    size_t index = 0;
+    const char* end = wanted.data() + wanted.size();
+    const auto [rest, error] = std::from_chars(wanted.data(), end, index);
+    if (error == std::errc() && rest == end && index < scene.cameras.size()) {
+        return scene.cameras[index];
+    }
+    const auto found = std::ranges::find(scene.cameras, wanted, &Camera::name);
+    if (found == scene.cameras.end()) {
+        std::vector<std::string> names;
+        for (size_t i = 0; i < scene.cameras.size(); ++i) {
+            names.push_back(fmt::format("{} '{}'", i, scene.cameras[i].name));
+        }
+        failUsage("the scene has no camera '{}'; its cameras: {}", wanted, listed(names));
+    }
+    return *found;
+}
+
+// stated: the view file.
+void chooseLight(const SceneOptions& options, const Scene& scene, const nlohmann::json& stated, View& view) {
+    const Background background = options.background.empty() ? view.background : parseBackground(options.background);
+    const bool keepsLight = stated.contains("sun") || stated.contains("environment");
+    if (!options.environment.empty()) {
+        chooseEnvironment(view, {.name = options.environment, .base = {}, .keepsSun = stated.contains("sun")});
+    } else if (!keepsLight && !options.scene.starts_with(builtinPrefix)) {
+        if (const auto added = addDefaultLight(scene, view)) {
+            printNote(fmt::format("{}: {}; choose with --environment sky|studio|none|FILE", options.scene, *added));
+        }
+    }
+    if (!options.background.empty() || stated.contains("background")) {
+        view.background = background;
+    }
+}
+
+}  // namespace
+
+void printWarning(const std::string& message) {
+    printMessage("warning:", message);
+}
+
+void printNote(const std::string& message) {
+    printMessage("note:", message);
+}
+
+Scene loadScene(const SceneOptions& options) {
+    if (options.scene.starts_with(builtinPrefix)) {
+        if (options.sceneIndex.value_or(0) != 0) {
+            failUsage("--scene {}: a built-in scene is one scene", *options.sceneIndex);
+        }
+        if (!options.variant.empty()) {
+            failUsage("--variant {}: a built-in scene has no material variants", options.variant);
+        }
+        return makeBuiltin(std::string_view(options.scene).substr(builtinPrefix.size()));
+    }
+    if (options.sceneIndex && *options.sceneIndex < 0) {
+        failUsage("--scene must be 0 or more, is {}", *options.sceneIndex);
+    }
+    return loadGltf(options.scene, {.scene = options.sceneIndex.value_or(-1),
+                                    .variant = options.variant,
+                                    .warn = printWarning,
+                                    .strict = options.strict});
+}
+
+View loadView(const SceneOptions& options, const Scene& scene) {
+    const uvec2 size = parseSize(options.size);
+    const float aspect = float(size.x) / float(size.y);
+    View view = defaultView(scene, aspect);
+    const Camera made = view.camera;
+    if (!options.camera.empty()) {
+        view.camera = findCamera(scene, options.camera);
+    }
+    nlohmann::json stated = nlohmann::json::object();
+    if (!options.viewFile.empty()) {
+        stated = parseJsonFile(options.viewFile);
+        applyViewJson(stated, options.viewFile, view);
+        checkFocus(view.camera, scene, options.viewFile + ": camera.focus");
+    }
+    if (options.time) {
+        if (!(*options.time >= 0.0 && *options.time <= View::largestTime)) {
+            failUsage("--time must be 0 to {:g} seconds, is {}", View::largestTime, *options.time);
+        }
+        view.time = *options.time;
+    }
+    if (scene.cameras.empty() && view.camera == made && view.time > 0.0) {
+        view.camera = framingCamera(scene, aspect, view.time);  // what is animated is elsewhere then
+    }
+    chooseLight(options, scene, stated, view);
+    return view;
+}
+
+uvec2 parseSize(const std::string& text) {
+    uvec2 size(0);
+    const char* end = text.data() + text.size();
+    const auto width = std::from_chars(text.data(), end, size.x);
+    if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
+        const auto height = std::from_chars(width.ptr + 1, end, size.y);
+        if (height.ec == std::errc() && height.ptr == end && size.x > 0 && size.y > 0) {
+            return size;
+        }
+    }
+    failUsage("--size must be WIDTHxHEIGHT in pixels, both at least 1, is '{}'", text);
+}
+
+void changeSettings(Settings& settings, const SceneOptions& options) {
+    for (const std::string& file : options.settingsFiles) {
+        applySettingsJson(settings, parseJsonFile(file), file);
+    }
+    for (const std::string& assignment : options.set) {
+        setSetting(settings, assignment);
+    }
+}
+
+Settings loadSettings(const SceneOptions& options) {
+    Settings settings;
+    applyPreset(settings, options.preset.empty() ? defaultPreset : options.preset);
+    changeSettings(settings, options);
+    return settings;
+}
+
+}  // namespace reflet

@@ -1,0 +1,31 @@
+// Plans which frames of a sequence are rendered consecutively. Frames that depend on earlier ones are cut into
+// segments, each of which starts with an empty history: so a part of the sequence gives the same images as the whole.
+#pragma once
+
+#include "job/share.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace reflet {
+
+struct SequencePlan {
+    uint32_t frames = 1;
+    uint32_t segment = 1;  ///< frames, at least 1
+    uint32_t warmUp = 0;   ///< frames rendered before each segment
+
+    /// Frames [begin, end), counted from 0, to be rendered consecutively.
+    struct Run {
+        uint32_t begin = 0;
+        uint32_t end = 0;
+    };
+
+    /// Segments are dealt to the shares round-robin. Returns the share's segments that miss frames, each cut after its
+    /// last missing frame.
+    [[nodiscard]] std::vector<Run> runs(Share share, const std::function<bool(uint32_t frame)>& isMissing) const;
+    /// Number of frames to render, including warm-up frames.
+    [[nodiscard]] uint64_t work(const std::vector<Run>& runs) const;
+};
+
+}  // namespace reflet

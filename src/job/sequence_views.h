@@ -1,0 +1,34 @@
+// The views of a sequence's frames: time goes on, and the camera stands still, orbits or follows keyframes.
+#pragma once
+
+#include "job/sequence_options.h"
+#include "scene/camera_path.h"
+#include "scene/scene.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstdint>
+#include <optional>
+
+namespace reflet {
+
+class SequenceViews {
+public:
+    /// first: of the first frame. Throws Error for a bad path file, and UsageError if the last frame is too late.
+    SequenceViews(const View& first, const Scene& scene, const SequenceOptions& options, uint32_t frames);
+
+    /// frame: counted from 0.
+    [[nodiscard]] View of(uint32_t frame) const;
+
+private:
+    View first_;
+    double fps_;
+    uint32_t frames_;
+    std::optional<vec3> pivot_;
+    std::optional<CameraPath> path_;
+};
+
+/// The camera's path for the sequence's record: everything that the views depend on besides the first one.
+nlohmann::ordered_json pathRecord(const SequenceOptions& options, uint32_t frames);
+
+}  // namespace reflet

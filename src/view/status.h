@@ -1,0 +1,26 @@
+// Describes the window's content, for scripts.
+#pragma once
+
+#include "view/compare_view.h"
+#include "view/workspace.h"
+
+#include <optional>
+#include <string>
+
+namespace reflet {
+
+struct WindowStatus {
+    const Workspace& work;
+    const CompareView& compare;
+    const std::optional<Picked>& picked;
+    uvec2 window{0};  ///< size in window units
+    std::string busyWith;
+    uint64_t drawn = 0;  ///< redraws in total
+    bool moving = false;
+    bool atRest = false;
+};
+
+/// JSON; docs/window.md describes it.
+std::string statusText(const WindowStatus& status);
+
+}  // namespace reflet
