@@ -38,7 +38,7 @@ gpu::History litOf(RefletView_T& view, Frame& frame) {
 }
 
 EnvironmentLight environmentLight(RefletView_T& view, const EnvironmentInputs& in) {
-    gpu::Recorder& f = view.recorder;
+    gpu::PassList& f = view.recorder;
     EnvironmentImages& own = view.store->environment;
     const bool changed = own.generation != f.generation() || own.revision != in.revision || own.from != in.from;
     if (changed || f.isDiscarded(own.list)) {
@@ -84,7 +84,7 @@ gpu::Image pictureSoFar(const Frame& frame) {
     return radiance;
 }
 
-void keepLobe(gpu::Recorder& f, const std::optional<LobeLight>& lobe) {
+void keepLobe(gpu::PassList& f, const std::optional<LobeLight>& lobe) {
     if (!lobe) {
         return;
     }
@@ -118,7 +118,7 @@ void recordImport(RefletView_T& view, Frame& frame, const HostSurfaces& host, co
 }
 
 gpu::Image recordSunShadow(RefletView_T& view, Frame& frame, const Settings& settings, const SunInputs& in) {
-    gpu::Recorder& f = view.recorder;
+    gpu::PassList& f = view.recorder;
     if (settings.shadow.filter == ShadowFilter::traced) {
         failArgument("shadow.filter: the library does not trace shadow rays; set hard, pcf or pcss");
     }
@@ -143,7 +143,7 @@ gpu::Image recordAmbientOcclusion(RefletView_T& view, Frame& frame, const Settin
 
 LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image light,
                      const EnvironmentInputs& environment) {
-    gpu::Recorder& f = view.recorder;
+    gpu::PassList& f = view.recorder;
     frame.context.environment = environmentLight(view, environment);
     const lighting::ViewContext& context = contextOf(view, frame);
     frame.light = lighting::importLight(f, light);
@@ -157,7 +157,7 @@ LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings,
 }
 
 LobeLight recordDenoise(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image noisy) {
-    gpu::Recorder& f = view.recorder;
+    gpu::PassList& f = view.recorder;
     const LobeLight clean = lighting::denoiseLobe(f, storeOf(view, lobe), frame.context, settings, lobe, frame, noisy);
     (lobe == lobeDiffuse ? frame.diffuse : frame.specular) = clean;
     finishCall(view, frame);
@@ -165,7 +165,7 @@ LobeLight recordDenoise(RefletView_T& view, Frame& frame, const Settings& settin
 }
 
 lighting::Light recordComposite(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image light) {
-    gpu::Recorder& f = view.recorder;
+    gpu::PassList& f = view.recorder;
     if (light) {
         frame.light = lighting::importLight(f, light);
     }
@@ -188,7 +188,7 @@ lighting::Light recordComposite(RefletView_T& view, Frame& frame, const Settings
 }
 
 gpu::Image recordTemporal(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image color) {
-    gpu::Recorder& f = view.recorder;
+    gpu::PassList& f = view.recorder;
     const gpu::Image radiance = color ? lighting::importLight(f, color) : frame.composed;
     if (!radiance) {
         failArgument("color: is NULL, and refletComposite has not run in this frame");
@@ -207,7 +207,7 @@ gpu::Image recordTemporal(RefletView_T& view, Frame& frame, const Settings& sett
 
 gpu::Image recordDepthOfField(RefletView_T& view, Frame& frame, const Settings& settings, const Lens& lens,
                               gpu::Image color) {
-    gpu::Recorder& f = view.recorder;
+    gpu::PassList& f = view.recorder;
     const gpu::Image radiance = color ? lighting::importLight(f, color) : pictureSoFar(frame);
     const LobeLight* const specular = frame.specular && frame.composed ? &*frame.specular : nullptr;
     const lighting::Light blurred = lighting::defocus(f, view.store->lens, contextOf(view, frame), settings, lens,
@@ -219,7 +219,7 @@ gpu::Image recordDepthOfField(RefletView_T& view, Frame& frame, const Settings& 
 }
 
 gpu::Image recordToneMap(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image color, bool automatic) {
-    gpu::Recorder& f = view.recorder;
+    gpu::PassList& f = view.recorder;
     const gpu::Image given = color ? lighting::importLight(f, color) : frame.defocused;
     const lighting::Light light = lightWith(frame, given ? given : pictureSoFar(frame));
     gpu::Image exposure;

@@ -23,11 +23,6 @@ struct PassesCommand {
     std::string format = "markdown";
 };
 
-// TODO: renderer.frame().listing(), once the recorder tells its passes; until then there are none.
-gpu::PassListing passListing(const Renderer& /*renderer*/) {
-    return {};
-}
-
 void listPasses(const PassesCommand& command) {
     constexpr int frames = 3;  // the first ones make what is kept, and have no history
     const uvec2 size = parseSize(command.scene.size);
@@ -40,10 +35,11 @@ void listPasses(const PassesCommand& command) {
                         .shaders = {effectShaders(), rendererShaders()}});
     requireSize(device, size);
     Renderer renderer(device, scene, printWarning);
+    renderer.listPasses();
     for (int i = 0; i < frames; ++i) {
         renderer.render(view, size, command.scene.seed, settings);
     }
-    const gpu::PassListing listing = passListing(renderer);
+    const gpu::PassListing& listing = renderer.frame().listing();
     const std::string text = command.format == "mermaid" ? passesAsMermaid(listing)
                              : command.format == "dot"   ? passesAsDot(listing)
                                                          : passesAsMarkdown(listing);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/math.h"
+#include "gpu/vulkan.h"
 
 #include <cstdint>
 #include <string>
@@ -31,5 +32,8 @@ struct PassListing {
     std::vector<Pass> passes;  ///< in the order in which they are recorded
     std::vector<Resource> resources;
 };
+
+/// "R16G16B16A16_SFLOAT".
+std::string formatName(VkFormat format);
 
 }  // namespace reflet::gpu

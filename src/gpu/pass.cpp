@@ -62,7 +62,7 @@ void PassRecord::clearDeclarations() {
     boundBytes = 0;
 }
 
-uint32_t PassBase::slotOf(std::string_view binding, bool uniform) const {
+uint32_t Pass::slotOf(std::string_view binding, bool uniform) const {
     const std::vector<ShaderBinding>& bindings = record_->interface->bindings;
     const size_t call = record_->slots.size();
     if (!uniform && call < record_->lastSlots.size()) {
@@ -77,7 +77,10 @@ uint32_t PassBase::slotOf(std::string_view binding, bool uniform) const {
     return static_cast<uint32_t>(found - bindings.begin());
 }
 
-void PassBase::bind(std::string_view binding, const Bound& bound) {
+void Pass::bind(std::string_view binding, Bound bound) {
+    if (bound.write && bound.image && bound.image.state->unused) {
+        bound.image = list_->unusedTarget(bound.image);  // shared ones would make passes wait for one another
+    }
     const uint32_t slot = slotOf(binding, false);
     const ShaderBinding& declared = record_->interface->bindings[slot];
     if (!bound.image && !bound.buffer && !bound.structure) {
@@ -104,7 +107,7 @@ void PassBase::bind(std::string_view binding, const Bound& bound) {
     }
 }
 
-void PassBase::setUniform(std::string_view binding, std::span<const std::byte> bytes) {
+void Pass::setUniform(std::string_view binding, std::span<const std::byte> bytes) {
     const uint32_t slot = slotOf(binding, true);
     const ShaderBinding& declared = record_->interface->bindings[slot];
     REFLET_CHECK(declared.type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, "{}: the shader has no uniform block '{}'",
@@ -121,7 +124,7 @@ void PassBase::setUniform(std::string_view binding, std::span<const std::byte> b
     }
 }
 
-void PassBase::setConstant(std::string_view name, uint32_t value) {
+void Pass::setConstant(std::string_view name, uint32_t value) {
     const std::vector<std::string_view>& known = record_->interface->constants;
     const auto found = std::ranges::find(known, name);
     REFLET_CHECK(found != known.end(), "{} has no specialization constant '{}' (set to {})",
@@ -129,7 +132,7 @@ void PassBase::setConstant(std::string_view name, uint32_t value) {
     record_->info.constants.emplace_back(*found, value);
 }
 
-void PassBase::use(const Image& image, const Access& access) {
+void Pass::use(const Image& image, const Access& access) {
     // What its owner synchronizes, and what was uploaded once and is only read since.
     if (!image.state->external && image.state->layout != VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL) {
         list_->checkUsable(image);
@@ -137,12 +140,12 @@ void PassBase::use(const Image& image, const Access& access) {
     }
 }
 
-void PassBase::use(const BufferView& buffer, const Access& access) {
+void Pass::use(const BufferView& buffer, const Access& access) {
     list_->checkUsable(buffer);
     addUse(record_->bufferUses, buffer, access);
 }
 
-void PassBase::checkAccess(const ShaderBinding& binding, const Bound& bound) const {
+void Pass::checkAccess(const ShaderBinding& binding, const Bound& bound) const {
     const bool wantsBuffer = binding.type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     const bool wantsStructure = binding.type == VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR;
     const char* wanted = wantsStructure ? "an acceleration structure" : wantsBuffer ? "a buffer" : "an image";
@@ -158,7 +161,7 @@ void PassBase::checkAccess(const ShaderBinding& binding, const Bound& bound) con
                  static_cast<int>(bound.image.format), static_cast<int>(binding.format));
 }
 
-void PassBase::checkBound() const {
+void Pass::checkBound() const {
     constexpr uint32_t nothing = UINT32_MAX;
     const std::vector<ShaderBinding>& bindings = record_->interface->bindings;
     std::vector<uint32_t>& boundOf = record_->boundOf;
@@ -178,7 +181,7 @@ void PassBase::checkBound() const {
     }
 }
 
-void PassBase::append() {
+void Pass::append() {
     checkBound();
     list_->append(*record_);
 }

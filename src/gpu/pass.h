@@ -23,12 +23,12 @@ namespace reflet::gpu {
 class PassList;
 
 /// What both kinds of pass have in common.
-class PassBase {
+class Pass {
 public:
-    PassBase(PassList& list, PassRecord& record) : list_(&list), record_(&record) {}
+    Pass(PassList& list, PassRecord& record) : list_(&list), record_(&record) {}
 
 protected:
-    void bind(std::string_view binding, const Bound& bound);
+    void bind(std::string_view binding, Bound bound);
     void setUniform(std::string_view binding, std::span<const std::byte> bytes);
     void setConstant(std::string_view name, uint32_t value);
     /// Checks that everything is bound, notes all uses, and appends the pass.
@@ -47,9 +47,9 @@ private:
 
 /// The declarations of a pass; Self is what they return.
 template <class Self>
-class DeclaredPass : public PassBase {
+class DeclaredPass : public Pass {
 public:
-    using PassBase::PassBase;
+    using Pass::Pass;
 
     Self& read(std::string_view binding, Image image, VkSampler sampler = VK_NULL_HANDLE) {
         return bound(binding, {image, {}, {}, sampler, false});
@@ -107,8 +107,6 @@ public:
     /// Group counts from a VkDispatchIndirectCommand at the start of the buffer plus `offset`.
     void dispatchIndirect(BufferView arguments, VkDeviceSize offset);
 };
-
-using Pass = ComputePass;
 
 class RasterPass : public DeclaredPass<RasterPass> {
 public:

@@ -213,8 +213,15 @@ Image PassList::placeholder(VkFormat format, ViewKind view) {
         const uint32_t layers = view == ViewKind::cube || view == ViewKind::cubeArray ? 6 : 1;
         const ImageInfo info{format, uvec2(1), 1, layers, usage, view};
         texture = Texture(context_, info, "placeholder");
+        texture.image().state->unused = true;
     }
     return texture.image();
+}
+
+Image PassList::unusedTarget(const Image& placeholder) {
+    const auto like = std::ranges::find_if(
+        placeholders_, [&](const auto& entry) { return entry.second.image().state == placeholder.state; });
+    return transientImage("unused", like->second.info());
 }
 
 bool PassList::isDiscarded(uint64_t list) const {

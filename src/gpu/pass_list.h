@@ -101,7 +101,7 @@ public:
     [[nodiscard]] Context& context() { return context_; }
 
 protected:
-    friend class PassBase;
+    friend class Pass;
     friend class RasterPass;
 
     /// An image that lives in one frame.
@@ -168,6 +168,8 @@ private:
     void checkUsable(const BufferView& buffer) const;
     [[nodiscard]] const std::vector<BufferView>& drawnBuffers() const { return drawnBuffers_; }
     Image transientImage(std::string_view name, const ImageInfo& info);
+    /// An image like this placeholder, for one pass to bind as an output.
+    Image unusedTarget(const Image& placeholder);
 
     Context& context_;
     uint64_t generation_ = 0;

@@ -49,6 +49,7 @@ void Recorder::start() {
     open_ = true;
     listsOfFrame_ = 0;
     counting_ = {};
+    listing_ = {};
     began_ = std::chrono::steady_clock::now();
     for (GraphHeap& heap : memory_.heaps()) {
         heap.taken.clear();
@@ -117,12 +118,13 @@ std::span<const std::byte> Recorder::bytes(Readback readback) const {
     return slots_[finished_].readbacks.at(readback.index).bytes();
 }
 
-uint32_t Recorder::listed(ImageState& state) {
+uint32_t Recorder::listed(const Image& view) {
+    ImageState& state = *view.state;
     if (state.mark.list == listNumber() && state.mark.owner == this) {
         return state.mark.index;
     }
     state.mark = {this, listNumber(), static_cast<uint32_t>(resources_.size())};
-    resources_.push_back({&state, nullptr});
+    resources_.push_back({view, {}});
     GraphResource& resource = graph_.resources.emplace_back();
     ImageInfo& info = infos_.emplace_back();
     resource.image = true;
@@ -144,12 +146,13 @@ uint32_t Recorder::listed(ImageState& state) {
     return state.mark.index;
 }
 
-uint32_t Recorder::listed(BufferState& state) {
+uint32_t Recorder::listed(const BufferView& view) {
+    BufferState& state = *view.state;
     if (state.mark.list == listNumber() && state.mark.owner == this) {
         return state.mark.index;
     }
     state.mark = {this, listNumber(), static_cast<uint32_t>(resources_.size())};
-    resources_.push_back({nullptr, &state});
+    resources_.push_back({{}, view});
     GraphResource& resource = graph_.resources.emplace_back();
     infos_.emplace_back();
     TransientBuffer* transient = state.transient >= 0 ? &transientOf(state) : nullptr;
@@ -178,10 +181,10 @@ void Recorder::makeGraph() {
     for (PassRecord* pass : passes()) {
         const auto first = static_cast<uint32_t>(graph_.uses.size());
         for (const auto& [image, access] : pass->imageUses) {
-            graph_.uses.push_back({listed(*image.state), access});
+            graph_.uses.push_back({listed(image), access});
         }
         for (const auto& [buffer, access] : pass->bufferUses) {
-            graph_.uses.push_back({listed(*buffer.state), access});
+            graph_.uses.push_back({listed(buffer), access});
         }
         graph_.passes.push_back(
             {first, static_cast<uint32_t>(graph_.uses.size()) - first, pass->kind == PassKind::readback});
@@ -216,11 +219,11 @@ void Recorder::place(CachedPlan& cached) {
         if (offset == Plan::unplaced) {
             continue;
         }
-        if (resources_[r].image != nullptr) {
-            const TransientImage& image = transientOf(*resources_[r].image);
+        if (resources_[r].image) {
+            const TransientImage& image = transientOf(*resources_[r].image.state);
             cached.images[r] = memory_.image(image.info, offset, std::string(image.name));
         } else {
-            cached.buffers[r] = memory_.buffer(transientOf(*resources_[r].buffer).size, offset);
+            cached.buffers[r] = memory_.buffer(transientOf(*resources_[r].buffer.state).size, offset);
         }
     }
 }
@@ -228,18 +231,18 @@ void Recorder::place(CachedPlan& cached) {
 void Recorder::applyPlaces(const CachedPlan& cached) {
     for (size_t r = 0; r < resources_.size(); ++r) {
         if (cached.images[r]) {
-            ImageState& state = *resources_[r].image;
+            ImageState& state = *resources_[r].image.state;
             const ImageState& placed = cached.images[r]->state;
             state.image = placed.image;
             state.view = placed.view;
             state.id = placed.id;
         } else if (cached.buffers[r]) {
-            BufferState& state = *resources_[r].buffer;
+            BufferState& state = *resources_[r].buffer.state;
             state.buffer = cached.buffers[r]->state.buffer;
             state.id = cached.buffers[r]->state.id;
         }
-        if (resources_[r].image != nullptr && cached.plan.lifetimes[r].first != UINT32_MAX) {
-            resources_[r].image->layout = VK_IMAGE_LAYOUT_GENERAL;
+        if (resources_[r].image && cached.plan.lifetimes[r].first != UINT32_MAX) {
+            resources_[r].image.state->layout = VK_IMAGE_LAYOUT_GENERAL;
         }
     }
 }
@@ -249,9 +252,9 @@ void Recorder::noteFailure(const CachedPlan& cached) {
     const AccessState unknown{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT, 0, 0, 0};
     for (size_t r = 0; r < resources_.size(); ++r) {
         const Listed& of = resources_[r];
-        (of.image != nullptr ? of.image->access : of.buffer->access) = unknown;
+        (of.image ? of.image.state->access : of.buffer.state->access) = unknown;
         if (cached.graph.resources[r].undefined) {
-            of.image->layout = VK_IMAGE_LAYOUT_UNDEFINED;
+            of.image.state->layout = VK_IMAGE_LAYOUT_UNDEFINED;
         }
     }
     for (GraphHeap& heap : memory_.heaps()) {
@@ -263,7 +266,7 @@ void Recorder::noteFailure(const CachedPlan& cached) {
 void Recorder::noteLayouts(const CachedPlan& cached) {
     for (size_t r = 0; r < resources_.size() && missing_ != nullptr; ++r) {
         if (cached.graph.resources[r].undefined) {
-            resources_[r].image->layout = VK_IMAGE_LAYOUT_UNDEFINED;
+            resources_[r].image.state->layout = VK_IMAGE_LAYOUT_UNDEFINED;
         }
     }
 }
@@ -302,6 +305,9 @@ void Recorder::flush() {
             throw;
         }
         noteAfter(cached);
+        if (lists_) {
+            addToListing(cached);
+        }
     }
     noteLayouts(cached);
     for (size_t r = 0; r < resources_.size(); ++r) {
@@ -321,11 +327,11 @@ void Recorder::noteAfter(const CachedPlan& cached) {
         }
         const AccessState& after = cached.plan.after[r];
         const Listed& of = resources_[r];
-        (of.image != nullptr ? of.image->access : of.buffer->access) = after;
-        const int32_t transient = of.image != nullptr ? of.image->transient : of.buffer->transient;
+        (of.image ? of.image.state->access : of.buffer.state->access) = after;
+        const int32_t transient = of.image ? of.image.state->transient : of.buffer.state->transient;
         if (transient >= 0) {  // whoever gets its memory waits for this
             const uint32_t heap =
-                of.image != nullptr ? transientOf(*of.image).needs.heap : transientOf(*of.buffer).needs.heap;
+                of.image ? transientOf(*of.image.state).needs.heap : transientOf(*of.buffer.state).needs.heap;
             Access& before = memory_.heaps()[heap].before;
             before = merged(before, {after.writeStages | after.readStages, after.writeAccess, after.writeAccess != 0});
         }
@@ -383,9 +389,9 @@ void Recorder::recordBarrier(const PlannedBarrier& barrier) {
         first.newLayout = VK_IMAGE_LAYOUT_GENERAL;
         first.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
         first.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-        first.image = resources_[transition.resource].image->image;
+        first.image = resources_[transition.resource].image.state->image;
         // Colour and depth alike: all that there is.
-        first.subresourceRange = {resources_[transition.resource].image->aspect, 0, VK_REMAINING_MIP_LEVELS, 0,
+        first.subresourceRange = {resources_[transition.resource].image.state->aspect, 0, VK_REMAINING_MIP_LEVELS, 0,
                                   VK_REMAINING_ARRAY_LAYERS};
         imageBarriers_.push_back(first);
     }
@@ -585,6 +591,46 @@ void Recorder::poison(const CachedPlan& cached, uint32_t position, bool before) 
         }
     }
     vk.vkCmdPipelineBarrier2(commands_, &info);
+}
+
+void Recorder::addToListing(const CachedPlan& cached) {
+    const Plan& plan = cached.plan;
+    const auto firstPass = static_cast<int>(listing_.passes.size());
+    std::vector<std::string> names;
+    for (size_t r = 0; r < resources_.size(); ++r) {
+        PassListing::Resource& shown = listing_.resources.emplace_back();
+        const Listed& of = resources_[r];
+        const GraphResource& resource = cached.graph.resources[r];
+        shown.bytes = resource.transient ? resource.size : of.image ? of.image.state->bytes : of.buffer.state->bytes;
+        if (of.image) {
+            shown.name =
+                of.image.state->transient >= 0 ? std::string(transientOf(*of.image.state).name) : of.image.state->name;
+            shown.format = formatName(of.image.format);
+            shown.size = of.image.size;
+        } else {
+            shown.name = of.buffer.state->transient >= 0 ? std::string(transientOf(*of.buffer.state).name)
+                                                         : of.buffer.state->name;
+        }
+        names.push_back(shown.name);
+        if (resource.transient && plan.offsets[r] != Plan::unplaced) {
+            shown.first = firstPass + static_cast<int>(plan.lifetimes[r].first);
+            shown.last = firstPass + static_cast<int>(std::min<size_t>(plan.lifetimes[r].last, plan.order.size() - 1));
+            shown.offset = plan.offsets[r];
+        }
+    }
+    for (size_t i = 0; i < plan.order.size(); ++i) {
+        const PassRecord& pass = *passes()[plan.order[i]];
+        PassListing::Pass& shown = listing_.passes.emplace_back();
+        shown.name = pass.name;
+        shown.raster = pass.kind == PassKind::raster;
+        shown.bytes = pass.boundBytes;
+        shown.level = plan.levels[i];
+        const GraphPass& uses = cached.graph.passes[plan.order[i]];
+        for (uint32_t u = uses.firstUse; u < uses.firstUse + uses.useCount; ++u) {
+            const ResourceUse& use = cached.graph.uses[u];
+            (use.access.write ? shown.writes : shown.reads).push_back(names[use.resource]);
+        }
+    }
 }
 
 // Plans that have not been used for a while, and memory that is scattered or much too large. Where one list makes a

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "gpu/descriptor_sets.h"
+#include "gpu/listing.h"
 #include "gpu/pass_list.h"
 #include "gpu/pass_times.h"
 #include "gpu/transient_memory.h"
@@ -72,6 +73,11 @@ public:
     /// Bytes of the memory that images and buffers of one frame share.
     [[nodiscard]] VkDeviceSize transientBytes() const { return memory_.bytes(); }
 
+    /// From the next frame on, listing() tells the passes of each frame.
+    void listPasses() { lists_ = true; }
+    /// Of the last frame that was ended.
+    [[nodiscard]] const PassListing& listing() const { return listing_; }
+
     /// For tests: fills the memory of what lives in one frame with NaN before its first and after its last use. Slow.
     void poisonTransients(bool poisons) { poisons_ = poisons; }
 
@@ -114,15 +120,15 @@ private:
     };
     // A resource of the list at hand.
     struct Listed {
-        ImageState* image = nullptr;
-        BufferState* buffer = nullptr;
+        Image image;
+        BufferView buffer;
     };
 
     void start();
     void finish(Slot& slot);
     [[nodiscard]] Slot& slot() { return slots_[number_ % slots_.size()]; }
-    uint32_t listed(ImageState& state);
-    uint32_t listed(BufferState& state);
+    uint32_t listed(const Image& image);
+    uint32_t listed(const BufferView& buffer);
     void makeGraph();
     CachedPlan& planned();
     void place(CachedPlan& cached);
@@ -136,6 +142,7 @@ private:
     void recordDraw(PassRecord& pass);
     void recordReadback(const PassRecord& pass);
     void noteAfter(const CachedPlan& cached);
+    void addToListing(const CachedPlan& cached);
     void noteFailure(const CachedPlan& cached);
     void noteLayouts(const CachedPlan& cached);
     void poison(const CachedPlan& cached, uint32_t position, bool before);
@@ -152,6 +159,8 @@ private:
     uint64_t preparation_ = 0;  ///< serial of work, while something is prepared
     size_t finished_ = 0;       ///< slot of the last frame that the device has finished
     bool poisons_ = false;
+    bool lists_ = false;
+    PassListing listing_;
     uint32_t listsOfFrame_ = 0;
     bool tidies_ = false;       ///< memory is in several blocks, or too large, and one list makes a frame
     uint32_t roomyFrames_ = 0;  ///< in a row that used less than half of the memory

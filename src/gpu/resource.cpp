@@ -132,11 +132,13 @@ Texture::Texture(Context& context, const ImageInfo& info, const std::string& nam
     state->image = makeImage(context, info, name);
     state->id = nextResourceId();
     state->aspect = aspectOf(info.format);
+    state->name = name;
     context_ = &context;
     info_ = info;
     state_ = std::move(state);
     VkMemoryRequirements needs{};
     context.vk.vkGetImageMemoryRequirements(context.handle(), state_->image, &needs);
+    state_->bytes = needs.size;
     allocation_ = context.memory().allocate(needs, MemoryUse::device, false);
     context.nameImage(state_->image, name);
     vkCheck(context.vk.vkBindImageMemory(context.handle(), state_->image, allocation_.memory, allocation_.offset),
@@ -186,12 +188,14 @@ Buffer::Buffer(Context& context, VkDeviceSize size, VkBufferUsageFlags usage, Me
     ++context.counts().buffers;
     auto state = std::make_shared<BufferState>();
     state->id = nextResourceId();
+    state->name = name;
     vkCheck(context.vk.vkCreateBuffer(context.handle(), &create, nullptr, &state->buffer), "creating a buffer");
     context_ = &context;
     size_ = size;
     state_ = std::move(state);
     VkMemoryRequirements needs{};
     context.vk.vkGetBufferMemoryRequirements(context.handle(), state_->buffer, &needs);
+    state_->bytes = needs.size;
     allocation_ = context.memory().allocate(needs, use, true);
     vkCheck(context.vk.vkBindBufferMemory(context.handle(), state_->buffer, allocation_.memory, allocation_.offset),
             "binding buffer memory");

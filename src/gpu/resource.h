@@ -41,20 +41,25 @@ struct ImageState {
     VkImageView view = VK_NULL_HANDLE;  ///< all of its mips and layers
     std::vector<VkImageView> mips;      ///< each as a 2D array of all layers; may be empty
     uint64_t id = 0;                    ///< no other image of this process ever has it; 0: of a host
+    std::string name;                   ///< of what an owner made; of transient images the recorder knows it
+    VkDeviceSize bytes = 0;             ///< of its memory, if it has an owner
     VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
     AccessState access;
     ListMark mark;
     int32_t transient = -1;  ///< index among the transient images of its recorder; negative: it has an owner
+    bool unused = false;     ///< PassList::placeholder: no shader uses what it holds
     bool external = false;   ///< its owner records the barriers; passes only sample it, in `layout`
 };
 
 struct BufferState {
     VkBuffer buffer = VK_NULL_HANDLE;
-    uint64_t id = 0;  ///< as of ImageState
+    uint64_t id = 0;  ///< this and what follows as of ImageState
+    std::string name;
+    VkDeviceSize bytes = 0;
     AccessState access;
     ListMark mark;
-    int32_t transient = -1;  ///< as of ImageState
+    int32_t transient = -1;
 };
 
 /// For ImageState::id and BufferState::id.

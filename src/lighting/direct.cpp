@@ -12,7 +12,7 @@ uint32_t tileSide(const SunMaps& maps) {
     return maps.map.size.x / (maps.sun.count > 1 ? 2U : 1U);
 }
 
-gpu::Image withoutNoise(gpu::Recorder& f, gpu::HistoryImage* history, const ViewContext& in,
+gpu::Image withoutNoise(gpu::PassList& f, gpu::HistoryImage* history, const ViewContext& in,
                         const ShadowSettings& settings, const Surfaces& surfaces, const SunVisibility& seen,
                         const vec3& toSun) {
     if (settings.denoise == 0 || !seen.penumbra) {
@@ -32,7 +32,7 @@ uvec2 shadowRangeSize(uvec2 map) {
     return reflet::shadowRangeSize(map);
 }
 
-gpu::Image shadowRange(gpu::Recorder& f, const ShadowSettings& settings, gpu::Image map) {
+gpu::Image shadowRange(gpu::PassList& f, const ShadowSettings& settings, gpu::Image map) {
     if (!readsShadowRange(settings)) {
         return {};
     }
@@ -41,11 +41,11 @@ gpu::Image shadowRange(gpu::Recorder& f, const ShadowSettings& settings, gpu::Im
     return range;
 }
 
-void shadowRange(gpu::Recorder& f, gpu::Image map, gpu::Image range) {
+void shadowRange(gpu::PassList& f, gpu::Image map, gpu::Image range) {
     makeShadowRange(f, map, range);
 }
 
-SunShadow sunShadow(gpu::Recorder& f, gpu::HistoryImage* history, const ViewContext& in,
+SunShadow sunShadow(gpu::PassList& f, gpu::HistoryImage* history, const ViewContext& in,
                     const LightingSettings& settings, Surfaces& surfaces, const SunMaps& maps) {
     ShadowSettings shadow = settings.shadow;
     if (maps.map) {
@@ -68,12 +68,12 @@ SunShadow sunShadow(gpu::Recorder& f, gpu::HistoryImage* history, const ViewCont
     return out;
 }
 
-LampTiles lampTiles(gpu::Recorder& f, const ViewContext& in, const DirectSettings& settings, const Surfaces& surfaces,
+LampTiles lampTiles(gpu::PassList& f, const ViewContext& in, const DirectSettings& settings, const Surfaces& surfaces,
                     const LampBlock& lamps) {
     return findLampTiles(f, surfaces.g.depth, lamps, in.view, settings);
 }
 
-gpu::Image lampShadow(gpu::Recorder& f, const ViewContext& in, const LightingSettings& settings,
+gpu::Image lampShadow(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings,
                       const Surfaces& surfaces, const LampTiles& tiles, const LampShadows& shadows, gpu::Image map) {
     if (shadows.count == 0) {
         return {};
@@ -81,7 +81,7 @@ gpu::Image lampShadow(gpu::Recorder& f, const ViewContext& in, const LightingSet
     return lampVisibility(f, surfaces.g, {map, tiles.masks, in.blueNoise}, shadows, {in.view, settings.shadow});
 }
 
-gpu::Image directLight(gpu::Recorder& f, const ViewContext& in, const Surfaces& surfaces, const LightSources& lights) {
+gpu::Image directLight(gpu::PassList& f, const ViewContext& in, const Surfaces& surfaces, const LightSources& lights) {
     return reflet::directLight(f, surfaces.g, lights.visibility, in.ggxTable,
                                {in.view, lights.toSun, lights.sunIrradiance},
                                {lights.lamps, in.environment, in.lambertOnly});

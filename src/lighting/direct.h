@@ -32,21 +32,21 @@ bool readsShadowRange(const ShadowSettings& settings);
 uvec2 shadowRangeSize(uvec2 map);
 constexpr VkFormat shadowRangeFormat = VK_FORMAT_R32G32_SFLOAT;
 /// The range of a map that is new in each frame; none if sunShadow does not read it.
-gpu::Image shadowRange(gpu::Recorder& f, const ShadowSettings& settings, gpu::Image map);
+gpu::Image shadowRange(gpu::PassList& f, const ShadowSettings& settings, gpu::Image map);
 /// Writes all of the range of a map: nearest and farthest depth of its cells.
-void shadowRange(gpu::Recorder& f, gpu::Image map, gpu::Image range);
+void shadowRange(gpu::PassList& f, gpu::Image map, gpu::Image range);
 
 /// Visibility of the sun: shadow map, denoised penumbras, contact shadows. history: of penumbras; none: this frame
 /// alone.
-SunShadow sunShadow(gpu::Recorder& f, gpu::HistoryImage* history, const ViewContext& in,
+SunShadow sunShadow(gpu::PassList& f, gpu::HistoryImage* history, const ViewContext& in,
                     const LightingSettings& settings, Surfaces& surfaces, const SunMaps& maps);
 
 /// Which lamps may light each tile of the screen.
-LampTiles lampTiles(gpu::Recorder& f, const ViewContext& in, const DirectSettings& settings, const Surfaces& surfaces,
+LampTiles lampTiles(gpu::PassList& f, const ViewContext& in, const DirectSettings& settings, const Surfaces& surfaces,
                     const LampBlock& lamps);
 
 /// Visibility of the lamps that cast shadows; none if no lamp does. map: the shadow maps of these.
-gpu::Image lampShadow(gpu::Recorder& f, const ViewContext& in, const LightingSettings& settings,
+gpu::Image lampShadow(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings,
                       const Surfaces& surfaces, const LampTiles& tiles, const LampShadows& shadows, gpu::Image map);
 
 /// Sources of direct light and how much of them surfaces see.
@@ -58,6 +58,6 @@ struct LightSources {
 };
 
 /// RGBA16F: radiance of direct light, emission and the environment behind.
-gpu::Image directLight(gpu::Recorder& f, const ViewContext& in, const Surfaces& surfaces, const LightSources& lights);
+gpu::Image directLight(gpu::PassList& f, const ViewContext& in, const Surfaces& surfaces, const LightSources& lights);
 
 }  // namespace reflet::lighting

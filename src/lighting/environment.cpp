@@ -16,7 +16,7 @@ uint32_t environmentSide(uint32_t imageWidth) {
 
 }  // namespace
 
-void prefilterEnvironment(gpu::Recorder& f, CubeMap& cube, gpu::Image texels, uint32_t imageWidth) {
+void prefilterEnvironment(gpu::PassList& f, CubeMap& cube, gpu::Image texels, uint32_t imageWidth) {
     const auto scope = f.scope("environment");
     const uint32_t side = environmentSide(imageWidth);
     if (cube.sharp.info().size.x != side) {

@@ -3,12 +3,12 @@
 
 #include "effects/cube_map/cube_map.h"
 #include "effects/environment/environment_light.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 namespace reflet::lighting {
 
 /// Makes `cube` of the texels of an image; imageWidth: 0: these are of constant radiance. Keeps the cube's memory if it
 /// has the size already.
-void prefilterEnvironment(gpu::Recorder& f, CubeMap& cube, gpu::Image texels, uint32_t imageWidth);
+void prefilterEnvironment(gpu::PassList& f, CubeMap& cube, gpu::Image texels, uint32_t imageWidth);
 
 }  // namespace reflet::lighting

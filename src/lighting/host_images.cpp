@@ -3,16 +3,16 @@
 
 namespace reflet::lighting {
 
-Surfaces importSurfaces(gpu::Recorder& f, const HostSurfaces& host, const ImportParams& params) {
+Surfaces importSurfaces(gpu::PassList& f, const HostSurfaces& host, const ImportParams& params) {
     const ImportedSurfaces imported = reflet::importSurfaces(f, host, params);
     return {.g = imported.g, .backDepth = imported.backDepth, .pyramid = {}, .ambientOcclusion = {}};
 }
 
-gpu::Image importLight(gpu::Recorder& f, gpu::Image light, bool keepAlpha, gpu::Image into) {
+gpu::Image importLight(gpu::PassList& f, gpu::Image light, bool keepAlpha, gpu::Image into) {
     return reflet::importLight(f, light, keepAlpha, into);
 }
 
-gpu::Image importShadowMap(gpu::Recorder& f, gpu::Image map, uint32_t cascades, bool reversed) {
+gpu::Image importShadowMap(gpu::PassList& f, gpu::Image map, uint32_t cascades, bool reversed) {
     return reflet::importShadowMap(f, map, cascades, reversed);
 }
 

@@ -7,13 +7,13 @@
 namespace reflet::lighting {
 
 /// The G-buffer and the second depth layer of a host. params: without the channels, which are set.
-Surfaces importSurfaces(gpu::Recorder& f, const HostSurfaces& host, const ImportParams& params);
+Surfaces importSurfaces(gpu::PassList& f, const HostSurfaces& host, const ImportParams& params);
 
 /// RGBA16F of the same size: finite, 0 to 65504. alpha: as given with keepAlpha, else 1. into: where it is written;
 /// none: an image of this frame.
-gpu::Image importLight(gpu::Recorder& f, gpu::Image light, bool keepAlpha = false, gpu::Image into = {});
+gpu::Image importLight(gpu::PassList& f, gpu::Image light, bool keepAlpha = false, gpu::Image into = {});
 
 /// R32F: the cascades' maps as tiles, depth reversed. map: a 2D array view if there are several.
-gpu::Image importShadowMap(gpu::Recorder& f, gpu::Image map, uint32_t cascades, bool reversed);
+gpu::Image importShadowMap(gpu::PassList& f, gpu::Image map, uint32_t cascades, bool reversed);
 
 }  // namespace reflet::lighting

@@ -55,14 +55,14 @@ std::vector<RaySource> orderOf(const LightingSettings& settings, const ScreenIma
     std::vector<RaySource> order;
     if (lobe == lobeSpecular) {
         for (const PlanarView& mirror : sources.mirrors) {
-            order.emplace_back([&mirror, march = settings.traceScreen, longest](gpu::Recorder& f, Rays& rays) {
+            order.emplace_back([&mirror, march = settings.traceScreen, longest](gpu::PassList& f, Rays& rays) {
                 traceMirror(f, rays, mirror, march, longest);
             });
         }
     }
     if (settings.traceScreen.enabled != 0 && startsWithMirrors(sources, lobe)) {
         order.emplace_back(
-            [&screen, march, longest](gpu::Recorder& f, Rays& rays) { traceScreen(f, rays, screen, march, longest); });
+            [&screen, march, longest](gpu::PassList& f, Rays& rays) { traceScreen(f, rays, screen, march, longest); });
     }
     order.insert(order.end(), sources.others.begin(), sources.others.end());
     return order;
@@ -70,7 +70,7 @@ std::vector<RaySource> orderOf(const LightingSettings& settings, const ScreenIma
 
 }  // namespace
 
-ScreenImages screenOf(gpu::Recorder& f, const ViewContext& in, const LightingSettings& settings, Surfaces& surfaces,
+ScreenImages screenOf(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings, Surfaces& surfaces,
                       gpu::Image direct, const gpu::History& lit) {
     const bool traced = settings.diffuse.rays > 0 || settings.specular.rays > 0;
     if (traced && marchesPyramid(settings)) {
@@ -89,7 +89,7 @@ bool readsScreenLight(const LightingSettings& settings, const RaySources& source
     return settings.traceScreen.enabled != 0 || sources.readScreen;
 }
 
-LobeLight traceLobe(gpu::Recorder& f, LobeStore* history, const ViewContext& in, const LightingSettings& settings,
+LobeLight traceLobe(gpu::PassList& f, LobeStore* history, const ViewContext& in, const LightingSettings& settings,
                     uint32_t lobe, const Surfaces& surfaces, const ScreenImages& screen, const RaySources& sources) {
     const bool marched = settings.traceScreen.enabled != 0;
     const bool first = marched && !startsWithMirrors(sources, lobe);
@@ -118,7 +118,7 @@ LobeLight traceLobe(gpu::Recorder& f, LobeStore* history, const ViewContext& in,
          .coneShare = marched ? coneShareOnScreen : 0.0F});
 }
 
-LobeLight denoiseLobe(gpu::Recorder& f, LobeStore& history, const ViewContext& in, const LightingSettings& settings,
+LobeLight denoiseLobe(gpu::PassList& f, LobeStore& history, const ViewContext& in, const LightingSettings& settings,
                       uint32_t lobe, const Surfaces& surfaces, gpu::Image noisy) {
     const auto scope = f.scope(lobe == lobeDiffuse ? "diffuse" : "specular");
     LobeLight light;
@@ -128,7 +128,7 @@ LobeLight denoiseLobe(gpu::Recorder& f, LobeStore& history, const ViewContext& i
     return denoise(f, &history.denoise, light, lobe, in.view, settings.denoise);
 }
 
-void answerRays(gpu::Recorder& f, Rays& rays, const ViewContext& in, const LightingSettings& settings,
+void answerRays(gpu::PassList& f, Rays& rays, const ViewContext& in, const LightingSettings& settings,
                 const ScreenImages& screen, const RaySources& sources) {
     if (settings.traceScreen.enabled != 0) {
         traceScreen(f, rays, screen, marchOf(settings, screen), longestRay(settings, rays.lobe));
@@ -139,7 +139,7 @@ void answerRays(gpu::Recorder& f, Rays& rays, const ViewContext& in, const Light
     answerEnvironment(f, rays, in.environment, settings.environment);
 }
 
-gpu::Image lightSoFar(gpu::Recorder& f, const ViewContext& in, const LightingSettings& settings,
+gpu::Image lightSoFar(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings,
                       const ScreenImages& screen, const LobeLight& diffuse) {
     if (settings.traceScreen.light != HitLight::lit || settings.specular.rays == 0 || diffuse.dark) {
         return screen.light;
@@ -151,7 +151,7 @@ gpu::Image lightSoFar(gpu::Recorder& f, const ViewContext& in, const LightingSet
     return composite(f, parts, soFar, {in.view, settings.diffuse.gain}).lit;
 }
 
-void prefilterLight(gpu::Recorder& f, const LightingSettings& settings, ScreenImages& screen) {
+void prefilterLight(gpu::PassList& f, const LightingSettings& settings, ScreenImages& screen) {
     if (!raysSpread(lobeSpecular, settings.diffuse, settings.specular)) {
         return;
     }
@@ -159,7 +159,7 @@ void prefilterLight(gpu::Recorder& f, const LightingSettings& settings, ScreenIm
     screen.lightMips = makeLightMips(f, previous ? screen.lit.previous : screen.light);
 }
 
-ScreenImages lightAtHits(gpu::Recorder& f, const ViewContext& in, const LightingSettings& settings, uint32_t lobe,
+ScreenImages lightAtHits(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings, uint32_t lobe,
                          ScreenImages screen, const LobeLight* diffuse) {
     if (lobe == lobeDiffuse) {
         return screen;
@@ -171,7 +171,7 @@ ScreenImages lightAtHits(gpu::Recorder& f, const ViewContext& in, const Lighting
     return screen;
 }
 
-void prefilterOwnLight(gpu::Recorder& f, ScreenImages& screen) {
+void prefilterOwnLight(gpu::PassList& f, ScreenImages& screen) {
     screen.lightMips = makeLightMips(f, screen.light);
 }
 

@@ -21,7 +21,7 @@ struct RaySources {
 };
 
 /// The screen as rays see it, with direct light. lit: this frame's and the last one's image of all light; may be none.
-ScreenImages screenOf(gpu::Recorder& f, const ViewContext& in, const LightingSettings& settings, Surfaces& surfaces,
+ScreenImages screenOf(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings, Surfaces& surfaces,
                       gpu::Image direct, const gpu::History& lit);
 
 /// Whether any rays read ScreenImages::light.
@@ -29,31 +29,31 @@ bool readsScreenLight(const LightingSettings& settings, const RaySources& source
 
 /// The light of one lobe, for rays that start at the surfaces. screen: that they are marched through; it may be another
 /// view's. history: none: this frame alone.
-LobeLight traceLobe(gpu::Recorder& f, LobeStore* history, const ViewContext& in, const LightingSettings& settings,
+LobeLight traceLobe(gpu::PassList& f, LobeStore* history, const ViewContext& in, const LightingSettings& settings,
                     uint32_t lobe, const Surfaces& surfaces, const ScreenImages& screen, const RaySources& sources);
 
 /// A lobe that a host has traced, denoised. noisy: radiance; alpha: hit distance [m].
-LobeLight denoiseLobe(gpu::Recorder& f, LobeStore& history, const ViewContext& in, const LightingSettings& settings,
+LobeLight denoiseLobe(gpu::PassList& f, LobeStore& history, const ViewContext& in, const LightingSettings& settings,
                       uint32_t lobe, const Surfaces& surfaces, gpu::Image noisy);
 
 /// Has the sources answer rays that start in front of the screen, such as refracted ones: the screen first.
-void answerRays(gpu::Recorder& f, Rays& rays, const ViewContext& in, const LightingSettings& settings,
+void answerRays(gpu::PassList& f, Rays& rays, const ViewContext& in, const LightingSettings& settings,
                 const ScreenImages& screen, const RaySources& sources);
 
 /// All light so far, which reflections (and rays of surfaces in front) read at hits: the screen's, with the diffuse
 /// lobe's if they are to read it.
-gpu::Image lightSoFar(gpu::Recorder& f, const ViewContext& in, const LightingSettings& settings,
+gpu::Image lightSoFar(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings,
                       const ScreenImages& screen, const LobeLight& diffuse);
 
 /// Prefilters the light that reflection rays read at hits, if cones stand for some of them.
-void prefilterLight(gpu::Recorder& f, const LightingSettings& settings, ScreenImages& screen);
+void prefilterLight(gpu::PassList& f, const LightingSettings& settings, ScreenImages& screen);
 
 /// Both, for views with nothing in front of the surfaces that rays hit: the screen as rays of the lobe read it.
 /// diffuse: none: it is not traced.
-ScreenImages lightAtHits(gpu::Recorder& f, const ViewContext& in, const LightingSettings& settings, uint32_t lobe,
+ScreenImages lightAtHits(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings, uint32_t lobe,
                          ScreenImages screen, const LobeLight* diffuse);
 
 /// Prefilters the screen's own light, for cones or for blurred lookups.
-void prefilterOwnLight(gpu::Recorder& f, ScreenImages& screen);
+void prefilterOwnLight(gpu::PassList& f, ScreenImages& screen);
 
 }  // namespace reflet::lighting

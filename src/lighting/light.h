@@ -2,7 +2,7 @@
 #pragma once
 
 #include "effects/composite/composite.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 #include <vector>
 

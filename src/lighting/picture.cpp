@@ -17,12 +17,12 @@ bool fits(gpu::Image lit, const Surfaces& surfaces) {
 
 }  // namespace
 
-LobeLight blackLobe(gpu::Recorder& f, const ViewContext& in, const Surfaces& surfaces, uint32_t lobe) {
+LobeLight blackLobe(gpu::PassList& f, const ViewContext& in, const Surfaces& surfaces, uint32_t lobe) {
     const auto scope = f.scope(lobe == lobeDiffuse ? "diffuse" : "specular");
     return reflet::blackLobe(f, {surfaces.g, in.view}, false);
 }
 
-Light compose(gpu::Recorder& f, const ViewContext& in, const LightingSettings& settings, const Surfaces& surfaces,
+Light compose(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings, const Surfaces& surfaces,
               const LightParts& parts, bool layers, gpu::Image into) {
     Light light;
     light.direct = parts.direct;
@@ -40,13 +40,13 @@ Light compose(gpu::Recorder& f, const ViewContext& in, const LightingSettings& s
     return light;
 }
 
-Light withoutDirect(gpu::Recorder& f, const Light& light) {
+Light withoutDirect(gpu::PassList& f, const Light& light) {
     Light out = light;
     out.lit = reflet::withoutDirect(f, light.lit, light.direct);
     return out;
 }
 
-Light accumulate(gpu::Recorder& f, AccumulateHistory& own, const Light& light, uint32_t framesBefore) {
+Light accumulate(gpu::PassList& f, AccumulateHistory& own, const Light& light, uint32_t framesBefore) {
     Light out = light;
     static_cast<LightLayers&>(out) = reflet::accumulate(f, own.light, light, framesBefore);
     if (light.coverage) {
@@ -57,7 +57,7 @@ Light accumulate(gpu::Recorder& f, AccumulateHistory& own, const Light& light, u
     return out;
 }
 
-Light antialias(gpu::Recorder& f, TemporalStore& own, const ViewContext& in, const LightingSettings& settings,
+Light antialias(gpu::PassList& f, TemporalStore& own, const ViewContext& in, const LightingSettings& settings,
                 const Light& light, uvec2 outputSize, const vec2& jitter) {
     const TemporalImages means = temporal(
         f, own, {light.followedDepth, light.followedMotion, light.lit, light.coverage, in.view, outputSize, jitter},
@@ -70,7 +70,7 @@ Light antialias(gpu::Recorder& f, TemporalStore& own, const ViewContext& in, con
     return out;
 }
 
-Light defocus(gpu::Recorder& f, DofHistory& own, const ViewContext& in, const LightingSettings& settings,
+Light defocus(gpu::PassList& f, DofHistory& own, const ViewContext& in, const LightingSettings& settings,
               const Lens& lens, const Surfaces& surfaces, const Light& light, const LobeLight* specular) {
     if (!blurs(lens, settings.dof)) {
         return light;
@@ -101,13 +101,13 @@ bool canMeter(const Light& light, const Surfaces& surfaces) {
     return fits(light.lit, surfaces) || fits(light.unfiltered, surfaces);
 }
 
-gpu::Image exposure(gpu::Recorder& f, gpu::HistoryImage& own, const LightingSettings& settings,
+gpu::Image exposure(gpu::PassList& f, gpu::HistoryImage& own, const LightingSettings& settings,
                     const Surfaces& surfaces, const Light& light, float elapsed) {
     const gpu::Image metered = fits(light.lit, surfaces) ? light.lit : light.unfiltered;
     return measureExposure(f, own, metered, surfaces.g.depth, elapsed, settings.tonemap.adaptation);
 }
 
-gpu::Image display(gpu::Recorder& f, const LightingSettings& settings, gpu::Image radiance, gpu::Image exposure) {
+gpu::Image display(gpu::PassList& f, const LightingSettings& settings, gpu::Image radiance, gpu::Image exposure) {
     return tonemap(f, radiance, settings.tonemap, exposure);
 }
 

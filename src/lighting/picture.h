@@ -19,15 +19,15 @@ struct LightParts {
 };
 
 /// A lobe without rays.
-LobeLight blackLobe(gpu::Recorder& f, const ViewContext& in, const Surfaces& surfaces, uint32_t lobe);
+LobeLight blackLobe(gpu::PassList& f, const ViewContext& in, const Surfaces& surfaces, uint32_t lobe);
 
 /// The sum of the parts; direct light itself where neither lobe has rays and no layers are asked for. layers: each
 /// part, too. into: where the sum is written; none: an image of this frame.
-Light compose(gpu::Recorder& f, const ViewContext& in, const LightingSettings& settings, const Surfaces& surfaces,
+Light compose(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings, const Surfaces& surfaces,
               const LightParts& parts, bool layers, gpu::Image into = {});
 
 /// Only indirect light is left in the sum.
-Light withoutDirect(gpu::Recorder& f, const Light& light);
+Light withoutDirect(gpu::PassList& f, const Light& light);
 
 struct AccumulateHistory {
     AccumulateStore light;
@@ -35,10 +35,10 @@ struct AccumulateHistory {
 };
 
 /// Means over this frame and the `framesBefore` before it. The light must have layers.
-Light accumulate(gpu::Recorder& f, AccumulateHistory& own, const Light& light, uint32_t framesBefore);
+Light accumulate(gpu::PassList& f, AccumulateHistory& own, const Light& light, uint32_t framesBefore);
 
 /// Temporal antialiasing, and upscaling to the size of the output. jitter: of the view, in its pixels.
-Light antialias(gpu::Recorder& f, TemporalStore& own, const ViewContext& in, const LightingSettings& settings,
+Light antialias(gpu::PassList& f, TemporalStore& own, const ViewContext& in, const LightingSettings& settings,
                 const Light& light, uvec2 outputSize, const vec2& jitter);
 
 struct DofHistory {
@@ -48,17 +48,17 @@ struct DofHistory {
 
 /// The blur of the lens; the light itself if there is none. specular: reflections, which are blurred by the distance of
 /// what they show; none: like their surfaces.
-Light defocus(gpu::Recorder& f, DofHistory& own, const ViewContext& in, const LightingSettings& settings,
+Light defocus(gpu::PassList& f, DofHistory& own, const ViewContext& in, const LightingSettings& settings,
               const Lens& lens, const Surfaces& surfaces, const Light& light, const LobeLight* specular);
 
 /// Whether exposure can be measured: a picture of the size of the depth is needed.
 bool canMeter(const Light& light, const Surfaces& surfaces);
 
 /// Stops of automatic exposure, smoothed over frames. elapsed: seconds since the last frame.
-gpu::Image exposure(gpu::Recorder& f, gpu::HistoryImage& own, const LightingSettings& settings,
+gpu::Image exposure(gpu::PassList& f, gpu::HistoryImage& own, const LightingSettings& settings,
                     const Surfaces& surfaces, const Light& light, float elapsed);
 
 /// RGBA8, display encoded, alpha 1. exposure: none: that of the settings.
-gpu::Image display(gpu::Recorder& f, const LightingSettings& settings, gpu::Image radiance, gpu::Image exposure);
+gpu::Image display(gpu::PassList& f, const LightingSettings& settings, gpu::Image radiance, gpu::Image exposure);
 
 }  // namespace reflet::lighting

@@ -11,22 +11,22 @@ void countRenderedPixels(LightingSettings& settings, float renderedHeight, float
     settings.denoise.radius *= renderedHeight / outputHeight;
 }
 
-gpu::Image depthPyramid(gpu::Recorder& f, Surfaces& surfaces) {
+gpu::Image depthPyramid(gpu::PassList& f, Surfaces& surfaces) {
     if (!surfaces.pyramid) {
         surfaces.pyramid = makePyramid(f, surfaces.g.depth, surfaces.backDepth);
     }
     return surfaces.pyramid;
 }
 
-gpu::Image keptDepth(gpu::Recorder& f, const ViewParams& view, const DepthSettings& settings, gpu::Image depth) {
+gpu::Image keptDepth(gpu::PassList& f, const ViewParams& view, const DepthSettings& settings, gpu::Image depth) {
     return reflet::keptDepth(f, depth, view, settings);
 }
 
-gpu::Image ggxTable(gpu::Recorder& f, gpu::KeptImage& own) {
+gpu::Image ggxTable(gpu::PassList& f, gpu::KeptImage& own) {
     return reflet::ggxTable(f, own);
 }
 
-gpu::Image ambientOcclusion(gpu::Recorder& f, DenoiseStore* own, const ViewContext& in,
+gpu::Image ambientOcclusion(gpu::PassList& f, DenoiseStore* own, const ViewContext& in,
                             const LightingSettings& settings, const Surfaces& surfaces) {
     return reflet::ambientOcclusion(f, own,
                                     {.g = surfaces.g,

@@ -6,7 +6,7 @@
 #include "effects/gbuffer/gbuffer.h"
 #include "effects/gbuffer/kept_depth.h"
 #include "effects/view.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 namespace reflet {
 
@@ -33,16 +33,16 @@ struct Surfaces {
 };
 
 /// Hierarchical depth (Hi-Z) of the surfaces, which keep it: it is made by the first stage that marches through it.
-gpu::Image depthPyramid(gpu::Recorder& f, Surfaces& surfaces);
+gpu::Image depthPyramid(gpu::PassList& f, Surfaces& surfaces);
 
 /// `depth` with the precision of another format, of `view`; itself with reversed_float.
-gpu::Image keptDepth(gpu::Recorder& f, const ViewParams& view, const DepthSettings& settings, gpu::Image depth);
+gpu::Image keptDepth(gpu::PassList& f, const ViewParams& view, const DepthSettings& settings, gpu::Image depth);
 
 /// The GGX table, which the caller keeps from frame to frame.
-gpu::Image ggxTable(gpu::Recorder& f, gpu::KeptImage& own);
+gpu::Image ggxTable(gpu::PassList& f, gpu::KeptImage& own);
 
 /// Ambient occlusion for prefiltered light; none with AoMethod::none. own: its history; none: this frame alone.
-gpu::Image ambientOcclusion(gpu::Recorder& f, DenoiseStore* own, const ViewContext& in,
+gpu::Image ambientOcclusion(gpu::PassList& f, DenoiseStore* own, const ViewContext& in,
                             const LightingSettings& settings, const Surfaces& surfaces);
 
 /// Whether ambient occlusion or rays through the screen read the second depth layer.

@@ -14,7 +14,7 @@ namespace reflet {
 
 namespace {
 
-void drawSurfaces(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
+void drawSurfaces(gpu::PassList& f, const ViewInputs& in, const Settings& settings, ViewImages& out) {
     GBufferContent content{.clipPlane = in.clipPlane};
     content.withoutGlass = drawsGlass(in.draws, settings.transmission, settings.materials);
     content.blendedFrom = settings.blend.layers > 0 ? opaqueAlpha : blendCutoff;
@@ -41,7 +41,7 @@ bool shinesThrough(const ViewInputs& in, const Settings& settings) {
     return blended || drawsGlass(in.draws, settings.transmission, settings.materials);
 }
 
-void drawSunMaps(gpu::Recorder& f, DirectViewStore& own, const ViewInputs& in, const Settings& settings,
+void drawSunMaps(gpu::PassList& f, DirectViewStore& own, const ViewInputs& in, const Settings& settings,
                  ViewImages& out) {
     ShadowSettings shadow = settings.shadow;
     shadow.filter = sunShines(in) ? shadow.filter : ShadowFilter::none;
@@ -65,13 +65,13 @@ bool tracesShadows(const ViewInputs& in, const Settings& settings) {
     return settings.shadow.filter == ShadowFilter::traced && in.traced != nullptr;
 }
 
-DirectRays traceDirectLight(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const GBuffer& g) {
+DirectRays traceDirectLight(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const GBuffer& g) {
     return directByRays(f, g, {*in.traced, in.ggxTable, in.environment, in.lamps},
                         {in.view, sceneLights(in, settings), settings.shadow.rays});
 }
 
 // Sun visibility per pixel: shadow map, denoising, contact shadows, blended surfaces.
-void findSunVisibility(gpu::Recorder& f, gpu::HistoryImage* history, const ViewInputs& in, const Settings& settings,
+void findSunVisibility(gpu::PassList& f, gpu::HistoryImage* history, const ViewInputs& in, const Settings& settings,
                        ViewImages& out) {
     const lighting::SunMaps maps{out.shadowMap,    out.shadowRange, out.sun,
                                  -in.sunDirection, sunSlope(in),    sunShines(in)};
@@ -105,7 +105,7 @@ SceneLights sceneLights(const ViewInputs& in, const Settings& settings) {
             .lambertOnly = settings.materials.lambertOnly};
 }
 
-ViewImages directView(gpu::Recorder& f, DirectViewStore& own, const ViewInputs& in, const Settings& settings,
+ViewImages directView(gpu::PassList& f, DirectViewStore& own, const ViewInputs& in, const Settings& settings,
                       gpu::Image lampShadowMap, ViewHistory history) {
     ViewImages out;
     out.lampShadowMap = lampShadowMap;
@@ -120,7 +120,7 @@ ViewImages directView(gpu::Recorder& f, DirectViewStore& own, const ViewInputs& 
     return out;
 }
 
-void lightSurfaces(gpu::Recorder& f, gpu::HistoryImage* history, const ViewInputs& in, const Settings& settings,
+void lightSurfaces(gpu::PassList& f, gpu::HistoryImage* history, const ViewInputs& in, const Settings& settings,
                    ViewImages& out) {
     if (tracesShadows(in, settings)) {
         const DirectRays rays = traceDirectLight(f, in, settings, out.g);
@@ -137,7 +137,7 @@ void lightSurfaces(gpu::Recorder& f, gpu::HistoryImage* history, const ViewInput
     out.direct = directLightOn(f, in, settings, out);
 }
 
-gpu::Image directLightOn(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const ViewImages& images) {
+gpu::Image directLightOn(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const ViewImages& images) {
     if (tracesShadows(in, settings)) {
         return traceDirectLight(f, in, settings, images.g).direct;
     }

@@ -2,7 +2,7 @@
 // also used for planar views, live cameras and probe faces.
 #pragma once
 
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 #include "lighting/direct.h"
 #include "lighting/surfaces.h"
 #include "renderer/blend/blend_shadow.h"
@@ -68,15 +68,15 @@ struct DirectViewStore {
 enum class ViewHistory : uint8_t { kept, none };
 
 /// Records the passes of one view. lampShadowMap: from another view of the same frame, to be shared; none: it is drawn.
-ViewImages directView(gpu::Recorder& f, DirectViewStore& own, const ViewInputs& in, const Settings& settings,
+ViewImages directView(gpu::PassList& f, DirectViewStore& own, const ViewInputs& in, const Settings& settings,
                       gpu::Image lampShadowMap = {}, ViewHistory history = ViewHistory::kept);
 
 /// Visibility and direct light at other surfaces of a view, with its shadow maps: sets these images of `out`. history:
 /// of the sun's penumbras; may be none.
-void lightSurfaces(gpu::Recorder& f, gpu::HistoryImage* history, const ViewInputs& in, const Settings& settings,
+void lightSurfaces(gpu::PassList& f, gpu::HistoryImage* history, const ViewInputs& in, const Settings& settings,
                    ViewImages& out);
 
 /// Direct light at surfaces that are in the same shadows as those of the view, whose visibilities `images` has.
-gpu::Image directLightOn(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const ViewImages& images);
+gpu::Image directLightOn(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const ViewImages& images);
 
 }  // namespace reflet

@@ -29,25 +29,25 @@ bool keepsLayers(const Settings& settings) {
 }
 
 // The image of this frame's light, and the last one's. Without rays, no frame reads the last one's.
-gpu::History litOf(gpu::Recorder& f, FrameStore& own, const FrameInputs& in, const Settings& settings) {
+gpu::History litOf(gpu::PassList& f, FrameStore& own, const FrameInputs& in, const Settings& settings) {
     const bool traced = !in.draws.unlit && (settings.diffuse.rays > 0 || settings.specular.rays > 0);
     return traced ? own.lit.swap(f, VK_FORMAT_R16G16B16A16_SFLOAT, uvec2(in.view.size)) : gpu::History{};
 }
 
 // What rays of the next frame read at hits: all surfaces, with the environment behind them. The composite has written
 // it already where nothing is in front of it.
-void keepForNextFrame(gpu::Recorder& f, const gpu::History& lit, const lighting::Light& light) {
+void keepForNextFrame(gpu::PassList& f, const gpu::History& lit, const lighting::Light& light) {
     if (lit.next && lit.next.state != light.lit.state) {
         f.copy(light.lit, lit.next);
     }
 }
 
-lighting::Light withMeans(gpu::Recorder& f, FrameStore& own, const FrameInputs& in, const Settings& settings,
+lighting::Light withMeans(gpu::PassList& f, FrameStore& own, const FrameInputs& in, const Settings& settings,
                           const lighting::Light& light) {
     return settings.accumulate.enabled != 0 ? lighting::accumulate(f, own.means, light, in.framesBefore) : light;
 }
 
-lighting::Light withoutNoise(gpu::Recorder& f, FrameStore& own, const FrameInputs& in, const Settings& settings,
+lighting::Light withoutNoise(gpu::PassList& f, FrameStore& own, const FrameInputs& in, const Settings& settings,
                              const lighting::Light& light) {
     if (!historyUse(settings).temporal) {
         return light;
@@ -71,7 +71,7 @@ FrameImages imagesOf(const ViewImages& images, const FrameInputs& in, const ligh
 
 }  // namespace
 
-FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in, const Settings& asked) {
+FrameImages renderFrame(gpu::PassList& f, FrameStore& own, const FrameInputs& in, const Settings& asked) {
     const Settings settings = settingsOfFrame(in, asked);
     const lighting::ViewContext context = contextOf(in, settings);
     const bool layers = keepsLayers(settings);

@@ -1,7 +1,7 @@
 // One frame: a lit image from a draw list, a view and lights.
 #pragma once
 
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 #include "lighting/picture.h"
 #include "renderer/background/background.h"
 #include "renderer/direct_view.h"
@@ -60,6 +60,6 @@ struct FrameImages : ViewImages {
 };
 
 /// Records all passes of one frame.
-FrameImages renderFrame(gpu::Recorder& f, FrameStore& own, const FrameInputs& in, const Settings& asked);
+FrameImages renderFrame(gpu::PassList& f, FrameStore& own, const FrameInputs& in, const Settings& asked);
 
 }  // namespace reflet

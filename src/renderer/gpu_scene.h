@@ -43,7 +43,7 @@ public:
     /// No frame that draws the scene may be in flight.
     void pose(const Scene& scene, const ScenePose& now, const ScenePose& before);
     /// Records the skinning pass for the pose set by pose().
-    void skin(gpu::Recorder& f) const;
+    void skin(gpu::PassList& f) const;
     [[nodiscard]] bool hasSkins() const { return !skinned_.empty(); }
 
     /// Height of live camera images in pixels. No frame that draws the scene may be in flight.

@@ -54,7 +54,7 @@ void GpuScene::pose(const Scene& scene, const ScenePose& now, const ScenePose& b
     skinned_.pose(now, before);
 }
 
-void GpuScene::skin(gpu::Recorder& f) const {
+void GpuScene::skin(gpu::PassList& f) const {
     skinned_.record(f, {positions_.view(), previousPositions_.view(), attributes_.view()});
 }
 

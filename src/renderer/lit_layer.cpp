@@ -5,13 +5,13 @@
 
 namespace reflet {
 
-LightLayers lightLayer(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, TracedView& layer,
+LightLayers lightLayer(gpu::PassList& f, const ViewInputs& in, const Settings& settings, TracedView& layer,
                        bool layers) {
     lightSurfaces(f, nullptr, in, settings, layer.images);
     return reflectedLight(f, in, settings, layer, layers);
 }
 
-LightLayers reflectedLight(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& layer,
+LightLayers reflectedLight(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const TracedView& layer,
                            bool layers) {
     const LobeLight diffuse = traceLobe(f, nullptr, in, settings, layer, lobeDiffuse);
     const LobeLight specular = traceLobe(f, nullptr, in, settings, layer, lobeSpecular);

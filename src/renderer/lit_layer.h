@@ -7,11 +7,11 @@ namespace reflet {
 
 /// layer: with the G-buffer of the layer; its direct light is set. Its rays are traced in the screen of the opaque
 /// surfaces. layers: the parts of the light, too.
-LightLayers lightLayer(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, TracedView& layer,
+LightLayers lightLayer(gpu::PassList& f, const ViewInputs& in, const Settings& settings, TracedView& layer,
                        bool layers);
 
 /// The same, with the direct light that the layer has.
-LightLayers reflectedLight(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& layer,
+LightLayers reflectedLight(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const TracedView& layer,
                            bool layers);
 
 }  // namespace reflet

@@ -39,6 +39,10 @@ public:
     void restart(uint32_t frameNumber);
 
     [[nodiscard]] const gpu::Frame& frame() const { return frame_; }
+    /// From the next frame on, frame().listing() tells the passes.
+    void listPasses() { frame_.listPasses(); }
+    /// For tests (gpu::Recorder::poisonTransients).
+    void poisonTransients(bool poisons) { frame_.poisonTransients(poisons); }
 
 private:
     /// Poses the scene at the time of the view.

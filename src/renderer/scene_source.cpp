@@ -31,7 +31,7 @@ uint32_t sunShadowsAtHits(const Settings& settings, const ViewImages& seen) {
 
 }  // namespace
 
-void traceSceneFallback(gpu::Recorder& f, Rays& rays, const ViewInputs& in, const Settings& settings,
+void traceSceneFallback(gpu::PassList& f, Rays& rays, const ViewInputs& in, const Settings& settings,
                         const ViewImages& seen, const ScreenImages& screen) {
     if (settings.traceScene.enabled == 0 || in.traced == nullptr) {
         return;

@@ -9,7 +9,7 @@ namespace reflet {
 
 /// Traces the remaining rays against the BVH, if enabled and there is one. seen: the camera's images of this frame;
 /// screen: the inputs of screen-space tracing for this lobe.
-void traceSceneFallback(gpu::Recorder& f, Rays& rays, const ViewInputs& in, const Settings& settings,
+void traceSceneFallback(gpu::PassList& f, Rays& rays, const ViewInputs& in, const Settings& settings,
                         const ViewImages& seen, const ScreenImages& screen);
 
 }  // namespace reflet

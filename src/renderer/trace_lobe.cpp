@@ -20,31 +20,31 @@ lighting::RaySources sourcesOf(const ViewInputs& in, const Settings& settings, c
                                  .readScreen = scene && settings.traceScene.reuseScreen != 0};
     if (scene && in.traced != nullptr) {
         sources.others.emplace_back(
-            [&](gpu::Recorder& f, Rays& rays) { traceSceneFallback(f, rays, in, settings, seen.images, seen.screen); });
+            [&](gpu::PassList& f, Rays& rays) { traceSceneFallback(f, rays, in, settings, seen.images, seen.screen); });
     }
     if (in.probes) {
         sources.others.emplace_back(
-            [&](gpu::Recorder& f, Rays& rays) { answerProbes(f, rays, in.probes, settings.probes); });
+            [&](gpu::PassList& f, Rays& rays) { answerProbes(f, rays, in.probes, settings.probes); });
     }
     return sources;
 }
 
 }  // namespace
 
-TracedView tracedView(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, ViewImages images,
+TracedView tracedView(gpu::PassList& f, const ViewInputs& in, const Settings& settings, ViewImages images,
                       const gpu::History& lit) {
     TracedView seen{std::move(images), {}, {}};
     seen.screen = lighting::screenOf(f, contextOf(in, settings), settings, seen.images, seen.images.direct, lit);
     return seen;
 }
 
-LobeLight traceLobe(gpu::Recorder& f, LobeStore* history, const ViewInputs& in, const Settings& settings,
+LobeLight traceLobe(gpu::PassList& f, LobeStore* history, const ViewInputs& in, const Settings& settings,
                     const TracedView& seen, uint32_t lobe) {
     return lighting::traceLobe(f, history, contextOf(in, settings), settings, lobe, seen.images, seen.screen,
                                sourcesOf(in, settings, seen));
 }
 
-void answerRays(gpu::Recorder& f, Rays& rays, const ViewInputs& in, const Settings& settings, const TracedView& seen) {
+void answerRays(gpu::PassList& f, Rays& rays, const ViewInputs& in, const Settings& settings, const TracedView& seen) {
     lighting::answerRays(f, rays, contextOf(in, settings), settings, seen.screen, sourcesOf(in, settings, seen));
 }
 

@@ -17,16 +17,16 @@ struct TracedView {
 };
 
 /// Direct light as the screen's light. lit: this frame's and the last one's image of all light; may be none.
-TracedView tracedView(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, ViewImages images,
+TracedView tracedView(gpu::PassList& f, const ViewInputs& in, const Settings& settings, ViewImages images,
                       const gpu::History& lit = {});
 
 /// A lobe with the sources that the settings ask for: screen, planar views, the scene's triangles, probes, environment.
 /// history: none: this frame alone.
-LobeLight traceLobe(gpu::Recorder& f, LobeStore* history, const ViewInputs& in, const Settings& settings,
+LobeLight traceLobe(gpu::PassList& f, LobeStore* history, const ViewInputs& in, const Settings& settings,
                     const TracedView& seen, uint32_t lobe);
 
 /// Has the same sources answer other rays that start in front of the screen: the screen first, no planar views.
-void answerRays(gpu::Recorder& f, Rays& rays, const ViewInputs& in, const Settings& settings, const TracedView& seen);
+void answerRays(gpu::PassList& f, Rays& rays, const ViewInputs& in, const Settings& settings, const TracedView& seen);
 
 /// Whether rays of the view read its screen's light at hits.
 bool readsScreenLight(const ViewInputs& in, const Settings& settings, const TracedView& seen);

@@ -6,7 +6,7 @@
 
 namespace reflet {
 
-BlendedSurfaces lightForReflections(gpu::Recorder& f, const ViewInputs& in, const Settings& settings,
+BlendedSurfaces lightForReflections(gpu::PassList& f, const ViewInputs& in, const Settings& settings,
                                     const LobeLight& diffuse, TracedView& seen, ScreenReaders readers, bool layers) {
     const bool read = readers == ScreenReaders::others || readsScreenLight(in, settings, seen);
     ScreenImages& screen = seen.screen;
@@ -24,7 +24,7 @@ BlendedSurfaces lightForReflections(gpu::Recorder& f, const ViewInputs& in, cons
     return blended;
 }
 
-void addGlassForReflections(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, TracedView& seen) {
+void addGlassForReflections(gpu::PassList& f, const ViewInputs& in, const Settings& settings, TracedView& seen) {
     const bool read = settings.specular.rays > 0 && readsScreenLight(in, settings, seen);
     if (!read || settings.traceScreen.light == HitLight::previous || !showsGlass(in, settings)) {
         return;

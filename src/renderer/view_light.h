@@ -14,11 +14,11 @@ enum class ScreenReaders : uint8_t {
 
 /// Lights the blended surfaces, and sets the light that reflections read at hits: all light so far, with blended
 /// surfaces in front; and its mips for cones. layers: the parts of the blended surfaces' light, too.
-BlendedSurfaces lightForReflections(gpu::Recorder& f, const ViewInputs& in, const Settings& settings,
+BlendedSurfaces lightForReflections(gpu::PassList& f, const ViewInputs& in, const Settings& settings,
                                     const LobeLight& diffuse, TracedView& seen, ScreenReaders readers, bool layers);
 
 /// Sets the light that reflections read at hits to that of this frame with the glass in front, if they read this
 /// frame's at all: the last frame's has it already.
-void addGlassForReflections(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, TracedView& seen);
+void addGlassForReflections(gpu::PassList& f, const ViewInputs& in, const Settings& settings, TracedView& seen);
 
 }  // namespace reflet

@@ -75,7 +75,7 @@ public:
     }
 
     /// spoiled: with infinity, NaN, the largest half float and negative values in every image of floats.
-    void makeInputs(gpu::Recorder& f, const ViewParams& view, bool spoiled) {
+    void makeInputs(gpu::PassList& f, const ViewParams& view, bool spoiled) {
         const vec4 onWall = view.worldToClip * vec4(0.0F, 0.0F, -wallDistance, 1.0F);
         const size_t count = size_t(size.x) * size.y;
         std::vector<float> depth(count, onWall.z / onWall.w);
@@ -115,7 +115,7 @@ public:
         lighting::prefilterEnvironment(f, stores_.cube, stores_.sky.last(), 4 * environmentSide);
     }
 
-    Results record(gpu::Recorder& f, const ViewParams& view) {
+    Results record(gpu::PassList& f, const ViewParams& view) {
         const lighting::ViewContext context = contextOf(f, view);
         lighting::Surfaces surfaces = surfacesOf();
         lighting::importSurfaces(f, {.depth = surfaces.g.depth, .normal = stores_.color.last()}, {view, mat4(1.0F)});
@@ -145,7 +145,7 @@ public:
 
     /// A lobe's light on the wall with a block before it: traced at once, and by lists, which a source that answers
     /// nothing asks for.
-    std::array<LobeReadbacks, 2> traceBothWays(gpu::Recorder& f, const ViewParams& view, uint32_t lobe) {
+    std::array<LobeReadbacks, 2> traceBothWays(gpu::PassList& f, const ViewParams& view, uint32_t lobe) {
         const size_t count = size_t(size.x) * size.y;
         const auto depthAt = [&](float distance) {
             const vec4 clip = view.worldToClip * vec4(0.0F, 0.0F, -distance, 1.0F);
@@ -175,7 +175,7 @@ public:
         for (size_t i = 0; i < 2; ++i) {
             lighting::RaySources sources;
             if (i == 1) {
-                sources.others.emplace_back([](gpu::Recorder&, Rays&) {});
+                sources.others.emplace_back([](gpu::PassList&, Rays&) {});
             }
             const LobeLight traced =
                 lighting::traceLobe(f, nullptr, context, settings, lobe, surfaces, screen, sources);
@@ -186,7 +186,7 @@ public:
 
 private:
     template <class T>
-    static void upload(gpu::Recorder& f, gpu::KeptImage& image, VkFormat format, const std::vector<T>& texels) {
+    static void upload(gpu::PassList& f, gpu::KeptImage& image, VkFormat format, const std::vector<T>& texels) {
         f.upload(image.storage(f, format, size), std::as_bytes(std::span(texels)));
     }
 
@@ -207,7 +207,7 @@ private:
         return settings;
     }
 
-    lighting::ViewContext contextOf(gpu::Recorder& f, const ViewParams& view) {
+    lighting::ViewContext contextOf(gpu::PassList& f, const ViewParams& view) {
         return {.view = view,
                 .environment = {stores_.sky.last(),
                                 stores_.cube.lobes.image(),
@@ -229,7 +229,7 @@ private:
         return surfaces;
     }
 
-    gpu::Image lightDirectly(gpu::Recorder& f, const lighting::ViewContext& context, const LightingSettings& settings,
+    gpu::Image lightDirectly(gpu::PassList& f, const lighting::ViewContext& context, const LightingSettings& settings,
                              lighting::Surfaces& surfaces) {
         const vec3 toSun = glm::normalize(vec3(0.3F, 0.5F, 1.0F));
         lighting::SunMaps sun{.map = stores_.shadowMap.last(), .toSun = toSun, .slope = 0.005F, .contact = true};
@@ -258,7 +258,7 @@ private:
                                      {toSun, vec3(3.0F), lamps, {seen.visibility, lampsSeen, tiles.masks}});
     }
 
-    lighting::LightParts lightIndirectly(gpu::Recorder& f, const lighting::ViewContext& context,
+    lighting::LightParts lightIndirectly(gpu::PassList& f, const lighting::ViewContext& context,
                                          const LightingSettings& settings, lighting::Surfaces& surfaces,
                                          gpu::Image direct, const gpu::History& lit) {
         const ScreenImages screen = lighting::screenOf(f, context, settings, surfaces, direct, lit);

@@ -27,7 +27,7 @@ std::vector<TestHit> SceneRaysTest::trace(const SceneRays& scene, const std::vec
     const gpu::Buffer out(device(), rays.size() * sizeof(TestHit), storage, gpu::MemoryUse::readback, "hits");
     gpu::Frame& f = frame();
     f.begin();
-    gpu::Pass pass = f.compute("scene_rays_test", scene.shader("scene_rays_test"));
+    gpu::ComputePass pass = f.compute("scene_rays_test", scene.shader("scene_rays_test"));
     scene.bind(pass.read("rays", in.view()).write("hits", out.view())).dispatch(static_cast<uint32_t>(rays.size()));
     f.submit();
     f.wait();

@@ -41,7 +41,7 @@ protected:
         const gpu::Buffer outputs(device(), sizeof(SurfaceOfPixel) * size.x * size.y,
                                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryUse::readback, "outputs");
         frame().begin();
-        gpu::Pass pass = frame().compute("surfaces", "scene_surfaces_test.comp");
+        gpu::ComputePass pass = frame().compute("surfaces", "scene_surfaces_test.comp");
         traced.rays.bind(pass);
         traced.surfaces.bind(pass);
         pass.write("outputs", outputs.view())

@@ -68,7 +68,7 @@ protected:
 
     static std::vector<CubeLight> lookUp(const CubeMap& map, const std::vector<CubeLookup>& lookups) {
         const VkSampler linear = device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
-        return mapOnDevice<CubeLight>("cube_map_test.comp", lookups, NoParams{}, [&](gpu::Pass& pass) {
+        return mapOnDevice<CubeLight>("cube_map_test.comp", lookups, NoParams{}, [&](gpu::ComputePass& pass) {
             pass.read("sharp", map.sharp.image(), linear)
                 .read("lobes", map.lobes.image(), linear)
                 .read("irradiance", map.irradiance.image());

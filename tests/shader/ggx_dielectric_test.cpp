@@ -48,7 +48,7 @@ protected:
         record([&](gpu::Frame& f) { ggxTable(f, table); });
         VkSampler linear = device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR});
         return mapOnDevice<DielectricResult>("ggx_dielectric_test.comp", all, {},
-                                             [&](gpu::Pass& pass) { pass.read("ggxTable", table.last(), linear); });
+                                             [&](gpu::ComputePass& pass) { pass.read("ggxTable", table.last(), linear); });
     }
 };
 

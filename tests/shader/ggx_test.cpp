@@ -38,7 +38,7 @@ protected:
         }
         VkSampler linear = device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR});
         return mapOnDevice<Out>(shader, inputs, {},
-                                [&](gpu::Pass& pass) { pass.read("ggxTable", table()->last(), linear); });
+                                [&](gpu::ComputePass& pass) { pass.read("ggxTable", table()->last(), linear); });
     }
 
     static std::vector<GgxResult> surfaces(const std::vector<GgxCase>& cases) {

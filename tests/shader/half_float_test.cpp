@@ -33,7 +33,7 @@ TEST_F(HalfFloat, roundingGivesTheNearestOneAndNoBias) {
         given.emplace_back(std::exp2(exponent(random)), std::exp2(exponent(random)), std::exp2(exponent(random)));
     }
     const auto result = mapOnDevice<vec3>("half_float_test.comp", given, NoParams{},
-                                          [](gpu::Pass& pass) { pass.constant("rounds", 1U); });
+                                          [](gpu::ComputePass& pass) { pass.constant("rounds", 1U); });
     EXPECT_EQ(result[0], vec3(65504.0F, 65504.0F, 1.0F));
     double bias = 0.0;
     for (size_t i = 0; i < given.size(); ++i) {

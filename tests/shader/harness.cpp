@@ -31,7 +31,7 @@ void ShaderTest::runShader(std::string_view shader, const Io& io) {
     std::memcpy(inputs.bytes().data(), io.inputs.data(), io.inputs.size());
     gpu::Frame& f = frame();
     f.begin();
-    gpu::Pass pass = f.compute(shader, shader);
+    gpu::ComputePass pass = f.compute(shader, shader);
     pass.read("inputs", inputs.view()).write("outputs", outputs.view());
     if (!io.params.empty()) {
         pass.uniform("params", io.params);

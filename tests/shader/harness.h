@@ -22,7 +22,7 @@ protected:
     /// Outputs of `shader` for all inputs. `bind` binds what else the pass reads.
     template <class Out, std::ranges::contiguous_range Inputs, class Params = NoParams>
     static std::vector<Out> mapOnDevice(std::string_view shader, const Inputs& inputs, const Params& params = {},
-                                        const std::function<void(gpu::Pass&)>& bind = {}) {
+                                        const std::function<void(gpu::ComputePass&)>& bind = {}) {
         static_assert(std::is_trivially_copyable_v<Out>);
         std::vector<Out> outputs(std::ranges::size(inputs));
         std::span<const std::byte> block;
@@ -49,7 +49,7 @@ private:
         std::span<const std::byte> params;  ///< empty if the shader has none
         std::span<std::byte> outputs;
         uint32_t threads = 0;
-        const std::function<void(gpu::Pass&)>& bind;
+        const std::function<void(gpu::ComputePass&)>& bind;
     };
     static void runShader(std::string_view shader, const Io& io);
 };

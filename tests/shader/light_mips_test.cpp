@@ -55,7 +55,7 @@ protected:
 
     static std::vector<vec3> lookUp(const Images& images, const std::vector<LightLookup>& lookups) {
         return mapOnDevice<vec3>("light_mips_test.comp", lookups, NoParams{},
-                                 [&](gpu::Pass& pass) { pass.read("light", images.light).read("mips", images.mips); });
+                                 [&](gpu::ComputePass& pass) { pass.read("light", images.light).read("mips", images.mips); });
     }
 
     static vec3 texel(std::span<const std::byte> bytes, size_t index) {

@@ -44,7 +44,7 @@ protected:
 
     static std::vector<MarchAnswer> march(const MarchScene& scene, const std::vector<MarchInput>& rays,
                                           uint32_t method = marchMethodLinear, bool secondLayer = false) {
-        return mapOnDevice<MarchAnswer>("march_test.comp", rays, scene, [&](gpu::Pass& pass) {
+        return mapOnDevice<MarchAnswer>("march_test.comp", rays, scene, [&](gpu::ComputePass& pass) {
             pass.constant("method", method).constant("secondLayer", secondLayer ? 1U : 0U);
         });
     }

@@ -18,7 +18,7 @@ class Sampling : public ShaderTest {
 protected:
     static std::vector<vec3> sample(uint32_t kind, const std::vector<vec2>& u, float alpha = 1.0F) {
         return mapOnDevice<vec3>("sampling_test.comp", u, SamplingParams{alpha, {}},
-                                 [&](gpu::Pass& pass) { pass.constant("kind", kind); });
+                                 [&](gpu::ComputePass& pass) { pass.constant("kind", kind); });
     }
 
     static constexpr int strata = 512;

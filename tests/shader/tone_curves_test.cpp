@@ -18,7 +18,7 @@ class ToneCurves : public ShaderTest {
 protected:
     static std::vector<vec3> apply(uint32_t curve, const std::vector<vec3>& colors) {
         return mapOnDevice<vec3>("tone_curves_test.comp", colors, {},
-                                 [&](gpu::Pass& pass) { pass.constant("curve", curve); });
+                                 [&](gpu::ComputePass& pass) { pass.constant("curve", curve); });
     }
 
     /// Greys from 1e-6 to 65504, evenly by their logarithm, black first.

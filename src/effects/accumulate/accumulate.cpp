@@ -3,7 +3,7 @@
 
 namespace reflet {
 
-LightLayers accumulate(gpu::Recorder& f, AccumulateStore& own, const LightLayers& frame, uint32_t framesBefore) {
+LightLayers accumulate(gpu::PassList& f, AccumulateStore& own, const LightLayers& frame, uint32_t framesBefore) {
     constexpr VkFormat exact = VK_FORMAT_R32G32B32A32_SFLOAT;
     const uvec2 size = frame.direct.size;
     const gpu::History direct = own.direct.swap(f, exact, size);

@@ -24,7 +24,7 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "effects/composite/composite.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 namespace reflet {
 
@@ -37,7 +37,7 @@ struct AccumulateStore {
 
 /// The means of the layers over this frame and the `framesBefore` before it. RGBA32F, as half floats would lose a
 /// single frame's contribution to many.
-LightLayers accumulate(gpu::Recorder& f, AccumulateStore& own, const LightLayers& frame, uint32_t framesBefore);
+LightLayers accumulate(gpu::PassList& f, AccumulateStore& own, const LightLayers& frame, uint32_t framesBefore);
 
 }  // namespace reflet
 #endif

@@ -22,7 +22,7 @@ SliceTracing slicesOf(const AoInputs& in) {
 
 }  // namespace
 
-gpu::Image ambientOcclusion(gpu::Recorder& f, DenoiseStore* own, const AoInputs& in) {
+gpu::Image ambientOcclusion(gpu::PassList& f, DenoiseStore* own, const AoInputs& in) {
     const AoSettings& s = in.settings;
     if (s.method == AoMethod::none) {
         return {};
@@ -57,7 +57,7 @@ gpu::Image ambientOcclusion(gpu::Recorder& f, DenoiseStore* own, const AoInputs&
     return result;
 }
 
-gpu::Pass& bindAmbientOcclusion(gpu::Recorder& f, gpu::Pass& pass, gpu::Image result, uint32_t scale) {
+gpu::ComputePass& bindAmbientOcclusion(gpu::PassList& f, gpu::ComputePass& pass, gpu::Image result, uint32_t scale) {
     return pass.constant("ambientOcclusionScale", result ? scale : 0U)
         .read("ambientOcclusion", result ? result : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT));
 }

@@ -82,11 +82,11 @@ struct AoInputs {
 
 /// RGBA16F: bent normal (world space, unit: mean direction of what is open), visibility: 1 nothing near, 0 all covered;
 /// 1, and no direction, in the background. None with AoMethod::none. own: as of denoise().
-gpu::Image ambientOcclusion(gpu::Recorder& f, DenoiseStore* own, const AoInputs& in);
+gpu::Image ambientOcclusion(gpu::PassList& f, DenoiseStore* own, const AoInputs& in);
 
 /// Binds the result, which may be none, to a pass that includes ambient_visibility.glsl. scale: of the RaySurfaces
 /// whose pixels the pass looks up.
-gpu::Pass& bindAmbientOcclusion(gpu::Recorder& f, gpu::Pass& pass, gpu::Image result, uint32_t scale);
+gpu::ComputePass& bindAmbientOcclusion(gpu::PassList& f, gpu::ComputePass& pass, gpu::Image result, uint32_t scale);
 
 }  // namespace reflet
 #endif

@@ -6,7 +6,7 @@
 
 namespace reflet {
 
-LightLayers composite(gpu::Recorder& f, const CompositeInputs& in, gpu::Image lit, CompositeParams params) {
+LightLayers composite(gpu::PassList& f, const CompositeInputs& in, gpu::Image lit, CompositeParams params) {
     const uvec2 size = in.g.depth.size;
     const auto layer = [&](const char* name) {
         return in.layers ? f.image(name, VK_FORMAT_R16G16B16A16_SFLOAT, size) : gpu::Image{};
@@ -18,7 +18,7 @@ LightLayers composite(gpu::Recorder& f, const CompositeInputs& in, gpu::Image li
     const gpu::Image unwritten = in.layers ? lit : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT);
     params.diffuseBlockOffset = blockPixelOffset(in.diffuse.from.scale);
     params.specularBlockOffset = blockPixelOffset(in.specular.from.scale);
-    gpu::Pass pass = f.compute("composite", "composite.comp");
+    gpu::ComputePass pass = f.compute("composite", "composite.comp");
     bindUpsampledSpecular(f, pass, in.specular);
     bindSurfaces(f, pass, in.g)
         .constant("diffuseScale", upsampledScale(in.diffuse))
@@ -44,7 +44,7 @@ LightLayers composite(gpu::Recorder& f, const CompositeInputs& in, gpu::Image li
     return result;
 }
 
-gpu::Image withoutDirect(gpu::Recorder& f, gpu::Image lit, gpu::Image direct) {
+gpu::Image withoutDirect(gpu::PassList& f, gpu::Image lit, gpu::Image direct) {
     const gpu::Image remaining = f.image("without_direct", VK_FORMAT_R16G16B16A16_SFLOAT, lit.size);
     f.compute("without_direct", "without_direct.comp")
         .read("lit", lit)

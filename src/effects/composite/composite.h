@@ -30,7 +30,7 @@ SHARED_END
 
 #include "effects/gbuffer/gbuffer.h"
 #include "effects/lobe/rays.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 namespace reflet {
 
@@ -53,10 +53,10 @@ struct LightLayers {
 };
 
 /// Sets the block offsets of params. lit: written.
-LightLayers composite(gpu::Recorder& f, const CompositeInputs& in, gpu::Image lit, CompositeParams params);
+LightLayers composite(gpu::PassList& f, const CompositeInputs& in, gpu::Image lit, CompositeParams params);
 
 /// lit - direct, of the same size, at least 0.
-gpu::Image withoutDirect(gpu::Recorder& f, gpu::Image lit, gpu::Image direct);
+gpu::Image withoutDirect(gpu::PassList& f, gpu::Image lit, gpu::Image direct);
 
 }  // namespace reflet
 #endif

@@ -3,7 +3,7 @@
 
 namespace reflet {
 
-gpu::Image contactShadow(gpu::Recorder& f, const GBuffer& g, gpu::Image pyramid, gpu::Image sunVisibility,
+gpu::Image contactShadow(gpu::PassList& f, const GBuffer& g, gpu::Image pyramid, gpu::Image sunVisibility,
                          const ContactParams& params) {
     const gpu::Image visibility = f.image("contact_shadow", VK_FORMAT_R8_UNORM, g.depth.size);
     f.compute("contact_shadow", "contact_shadow.comp")

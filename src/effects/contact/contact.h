@@ -31,12 +31,12 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "effects/gbuffer/gbuffer.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 namespace reflet {
 
 /// R8, 1: lit: the minimum of `sunVisibility` (by the shadow map) and the contact shadow. pyramid: from makePyramid.
-gpu::Image contactShadow(gpu::Recorder& f, const GBuffer& g, gpu::Image pyramid, gpu::Image sunVisibility,
+gpu::Image contactShadow(gpu::PassList& f, const GBuffer& g, gpu::Image pyramid, gpu::Image sunVisibility,
                          const ContactParams& params);
 
 }  // namespace reflet

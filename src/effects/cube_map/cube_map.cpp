@@ -41,7 +41,7 @@ CubeMap::CubeMap(gpu::Context& context, uint32_t side, uint32_t cubes, const std
     REFLET_CHECK(std::has_single_bit(side), "{} pixels", side);
 }
 
-void makeCubeMips(gpu::Recorder& f, const CubeMap& map, const CubeFaces& faces) {
+void makeCubeMips(gpu::PassList& f, const CubeMap& map, const CubeFaces& faces) {
     for (uint32_t level = 1; level < map.sharp.info().mips; ++level) {
         const gpu::Image coarser = map.sharp.mip(level);
         f.compute("cube_mips", "cube_mips.comp")
@@ -52,7 +52,7 @@ void makeCubeMips(gpu::Recorder& f, const CubeMap& map, const CubeFaces& faces) 
     }
 }
 
-void filterCubeLobes(gpu::Recorder& f, const CubeMap& map, const CubeFaces& faces) {
+void filterCubeLobes(gpu::PassList& f, const CubeMap& map, const CubeFaces& faces) {
     const VkSampler linear = f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
     const uint32_t levels = map.lobes.info().mips;
     for (uint32_t level = 0; level < levels; ++level) {
@@ -67,7 +67,7 @@ void filterCubeLobes(gpu::Recorder& f, const CubeMap& map, const CubeFaces& face
     }
 }
 
-void projectCubeIrradiance(gpu::Recorder& f, const CubeMap& map, uint32_t firstCube, uint32_t count) {
+void projectCubeIrradiance(gpu::PassList& f, const CubeMap& map, uint32_t firstCube, uint32_t count) {
     uint32_t level = 0;
     while (map.sharp.info().size.x >> level > irradianceSide) {
         ++level;
@@ -80,7 +80,7 @@ void projectCubeIrradiance(gpu::Recorder& f, const CubeMap& map, uint32_t firstC
         .dispatch(threads * count);
 }
 
-void filterCubeMap(gpu::Recorder& f, const CubeMap& map, uint32_t firstCube, uint32_t count) {
+void filterCubeMap(gpu::PassList& f, const CubeMap& map, uint32_t firstCube, uint32_t count) {
     const CubeFaces faces{6 * firstCube, 6 * count};
     makeCubeMips(f, map, faces);
     filterCubeLobes(f, map, faces);

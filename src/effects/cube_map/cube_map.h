@@ -30,7 +30,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 #include <string>
 
@@ -56,18 +56,18 @@ struct CubeFaces {
 };
 
 /// Makes the mips of `sharp`, for these faces only.
-void makeCubeMips(gpu::Recorder& f, const CubeMap& map, const CubeFaces& faces);
+void makeCubeMips(gpu::PassList& f, const CubeMap& map, const CubeFaces& faces);
 
 /// Makes all levels of `lobes`, for these faces only. Reads the mips of `sharp` of all faces of their cubes. Costs 1
 /// sample per texel on level 0, 64 on level 1, doubling with each level up to 512: 3 million samples for a cube of 128
 /// pixels a side, half of them for level 1.
-void filterCubeLobes(gpu::Recorder& f, const CubeMap& map, const CubeFaces& faces);
+void filterCubeLobes(gpu::PassList& f, const CubeMap& map, const CubeFaces& faces);
 
 /// Makes the irradiance coefficients of `count` cubes, from the mips of `sharp`.
-void projectCubeIrradiance(gpu::Recorder& f, const CubeMap& map, uint32_t firstCube, uint32_t count);
+void projectCubeIrradiance(gpu::PassList& f, const CubeMap& map, uint32_t firstCube, uint32_t count);
 
 /// All three, for whole cubes.
-void filterCubeMap(gpu::Recorder& f, const CubeMap& map, uint32_t firstCube, uint32_t count);
+void filterCubeMap(gpu::PassList& f, const CubeMap& map, uint32_t firstCube, uint32_t count);
 
 }  // namespace reflet
 #endif

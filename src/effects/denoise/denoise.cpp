@@ -19,7 +19,7 @@ struct Gathered {
     gpu::Image nextDirectional;
 };
 
-gpu::Image tileLimits(gpu::Recorder& f, const LobeLight& light, uint32_t lobe, const DenoiseSettings& settings) {
+gpu::Image tileLimits(gpu::PassList& f, const LobeLight& light, uint32_t lobe, const DenoiseSettings& settings) {
     const uvec2 size = light.radiance.size;
     const uvec2 tiles = (size + denoiseTileSide - 1U) / denoiseTileSide;
     const gpu::Image limits = f.image("denoise.limits", VK_FORMAT_R32G32_SFLOAT, tiles);
@@ -35,7 +35,7 @@ gpu::Image tileLimits(gpu::Recorder& f, const LobeLight& light, uint32_t lobe, c
     return limits;
 }
 
-Gathered gather(gpu::Recorder& f, DenoiseStore* own, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
+Gathered gather(gpu::PassList& f, DenoiseStore* own, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
                 const DenoiseSettings& settings) {
     const uvec2 size = light.radiance.size;
     const DenoiseHistory past = denoiseHistory(f, own, lobe, size, settings);
@@ -81,7 +81,7 @@ Gathered gather(gpu::Recorder& f, DenoiseStore* own, const LobeLight& light, uin
 
 }  // namespace
 
-DenoiseHistory denoiseHistory(gpu::Recorder& f, DenoiseStore* own, uint32_t lobe, uvec2 size,
+DenoiseHistory denoiseHistory(gpu::PassList& f, DenoiseStore* own, uint32_t lobe, uvec2 size,
                               const DenoiseSettings& settings) {
     if (own == nullptr || settings.history == 0) {  // what only the next frame would read is not written
         const auto unread = [&](VkFormat format) { return gpu::History{f.placeholder(format), f.placeholder(format)}; };
@@ -99,7 +99,7 @@ DenoiseHistory denoiseHistory(gpu::Recorder& f, DenoiseStore* own, uint32_t lobe
     return past;
 }
 
-LobeLight denoise(gpu::Recorder& f, DenoiseStore* own, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
+LobeLight denoise(gpu::PassList& f, DenoiseStore* own, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
                   DenoiseSettings settings) {
     settings.history = own != nullptr ? settings.history : 0;
     const uvec2 size = light.radiance.size;

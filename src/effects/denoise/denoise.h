@@ -63,7 +63,7 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "effects/lobe/rays.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 namespace reflet {
 
@@ -85,12 +85,12 @@ struct DenoiseHistory {
 };
 
 /// The history that denoise() reads and writes in this frame. own: none: there is no history. size: of the grid.
-DenoiseHistory denoiseHistory(gpu::Recorder& f, DenoiseStore* own, uint32_t lobe, uvec2 size,
+DenoiseHistory denoiseHistory(gpu::PassList& f, DenoiseStore* own, uint32_t lobe, uvec2 size,
                               const DenoiseSettings& settings);
 
 /// Denoises the lobe. own: none: this frame alone, whatever settings.history is. picture: the full-resolution view of
 /// light.from. Preserves mean radiance; infinity, NaN and values beyond half floats become finite.
-LobeLight denoise(gpu::Recorder& f, DenoiseStore* own, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
+LobeLight denoise(gpu::PassList& f, DenoiseStore* own, const LobeLight& light, uint32_t lobe, const ViewParams& picture,
                   DenoiseSettings settings);
 
 }  // namespace reflet

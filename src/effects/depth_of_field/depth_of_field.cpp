@@ -26,14 +26,14 @@ constexpr VkFormat half2Format = VK_FORMAT_R16G16_SFLOAT;
 constexpr VkFormat floatFormat = VK_FORMAT_R32_SFLOAT;
 
 // cells: of level 0, with the other levels at its right (dof_layers.glsl).
-Layers makeLayers(gpu::Recorder& f, uvec2 cells) {
+Layers makeLayers(gpu::PassList& f, uvec2 cells) {
     const uvec2 levels = levelsImageSize(cells, dofLevels);
     const uvec2 size(cells.x + levels.x, std::max(cells.y, levels.y));
     return {f.image("dof.ground", half4Format, size), f.image("dof.ground_blur", half2Format, size),
             f.image("dof.front", half4Format, size), f.image("dof.front_blur", half2Format, size)};
 }
 
-gpu::Pass& writeLayers(gpu::Pass& pass, const Layers& layers) {
+gpu::ComputePass& writeLayers(gpu::ComputePass& pass, const Layers& layers) {
     return pass.write("ground", layers.ground)
         .write("groundBlur", layers.groundBlur)
         .write("front", layers.front)
@@ -47,7 +47,7 @@ float shapeArea(uint32_t corners) {
 }
 
 // The depth of what pixels show: of reflected images where these are most of the light.
-gpu::Image apparentDepth(gpu::Recorder& f, const DofInputs& in) {
+gpu::Image apparentDepth(gpu::PassList& f, const DofInputs& in) {
     if (!in.reflections || in.reflections->specular.dark || in.settings.reflections == 0) {
         return in.depth;
     }
@@ -62,7 +62,7 @@ gpu::Image apparentDepth(gpu::Recorder& f, const DofInputs& in) {
         .write("list", list)
         .params(DofPolishedTilesParams{in.depth.size})
         .dispatch(tiles);
-    gpu::Pass pass = f.compute("apparent_depth", "dof_apparent.comp");
+    gpu::ComputePass pass = f.compute("apparent_depth", "dof_apparent.comp");
     bindSurfaces(f, pass, r.g).constant("lambertOnly", r.lambertOnly ? 1U : 0U);
     bindUpsampledSpecular(f, pass, r.specular)
         .read("depth", in.depth)
@@ -79,7 +79,7 @@ gpu::Image apparentDepth(gpu::Recorder& f, const DofInputs& in) {
     return apparent;
 }
 
-gpu::Image circleOfConfusion(gpu::Recorder& f, gpu::HistoryImage& own, const DofInputs& in, float height) {
+gpu::Image circleOfConfusion(gpu::PassList& f, gpu::HistoryImage& own, const DofInputs& in, float height) {
     const uvec2 size = in.depth.size;
     const gpu::History coc = own.swap(f, VK_FORMAT_R32_SFLOAT, size);
     const bool steady = in.motion && coc.valid;
@@ -98,9 +98,9 @@ gpu::Image circleOfConfusion(gpu::Recorder& f, gpu::HistoryImage& own, const Dof
     return coc.next;
 }
 
-void makeMips(gpu::Recorder& f, const Layers& layers, DofSizes sizes) {
+void makeMips(gpu::PassList& f, const Layers& layers, DofSizes sizes) {
     for (sizes.level = 1; sizes.level < dofLevels; ++sizes.level) {
-        gpu::Pass pass = f.compute("mips." + std::to_string(sizes.level), "dof_mips.comp");
+        gpu::ComputePass pass = f.compute("mips." + std::to_string(sizes.level), "dof_mips.comp");
         writeLayers(pass, layers).params(sizes).dispatch(levelSize(sizes.half2, sizes.level));
     }
 }
@@ -122,7 +122,7 @@ struct Tiles {
     gpu::BufferView heads;
 };
 
-Tiles describeTiles(gpu::Recorder& f, const Layers& layers, const DofSizes& sizes) {
+Tiles describeTiles(gpu::PassList& f, const Layers& layers, const DofSizes& sizes) {
     const uvec2 count = (sizes.half2 + dofTile - 1U) / dofTile;
     const uint32_t rows = (count.x * count.y + dofListRow - 1U) / dofListRow;
     std::array<DofListHead, dofLists> heads{};
@@ -152,13 +152,13 @@ struct Highlights {
 };
 
 // Takes highlights out of the layers.
-Highlights findHighlights(gpu::Recorder& f, const Layers& layers, const Tiles& tiles, gpu::Image radiance,
+Highlights findHighlights(gpu::PassList& f, const Layers& layers, const Tiles& tiles, gpu::Image radiance,
                           gpu::Image coc, const DofSizes& sizes) {
     const uvec2 blocks = (sizes.size + sizes.block - 1U) / sizes.block;
     const Highlights out{f.image("dof.highlights", half4Format, blocks),
                          f.image("dof.highlight_shape", half4Format, blocks),
                          f.image("dof.lists", half4Format, tiles.layers.size)};
-    gpu::Pass find = f.compute("highlights", "dof_highlights.comp");
+    gpu::ComputePass find = f.compute("highlights", "dof_highlights.comp");
     find.read("radiance", radiance).read("coc", coc).read("tiles", tiles.layers);
     writeLayers(find, layers)
         .read("tileLists", tiles.lists)
@@ -182,7 +182,7 @@ struct Reach {
 };
 
 // around: tiles that the largest disk reaches.
-Reach makeReach(gpu::Recorder& f, const Tiles& tiles, gpu::Image lists, uint32_t around) {
+Reach makeReach(gpu::PassList& f, const Tiles& tiles, gpu::Image lists, uint32_t around) {
     const uvec2 count = tiles.layers.size;
     const Reach reach{f.image("dof.reach", half4Format, count), f.image("dof.drawn", floatFormat, count),
                       f.image("dof.drawn_tiles", floatFormat, (2U * around + 1U) * count)};
@@ -206,7 +206,7 @@ struct Blurred {
 };
 
 // large: the result for large disks, at half of `size`; none: makes it.
-Blurred gather(gpu::Recorder& f, const Layers& layers, const Tiles& tiles, const Reach& reach, const DofInputs& in,
+Blurred gather(gpu::PassList& f, const Layers& layers, const Tiles& tiles, const Reach& reach, const DofInputs& in,
                const DofSizes& sizes, const Blurred& large) {
     const bool coarse = !large.ground;
     const uvec2 size = levelSize(sizes.half2, coarse ? 1 : 0);
@@ -242,7 +242,7 @@ bool blurs(const Lens& lens, const DofSettings& settings) {
     return settings.enabled != 0 && lens.apertureRadius > 0.0F;
 }
 
-DofImages depthOfField(gpu::Recorder& f, gpu::HistoryImage& own, const DofInputs& in) {
+DofImages depthOfField(gpu::PassList& f, gpu::HistoryImage& own, const DofInputs& in) {
     if (!blurs(in.lens, in.settings)) {
         return {in.radiance, {}};
     }
@@ -260,7 +260,7 @@ DofImages depthOfField(gpu::Recorder& f, gpu::HistoryImage& own, const DofInputs
                          in.lens.bladeRotation,
                          in.lens.blades};
     const Layers layers = makeLayers(f, sizes.half2);
-    gpu::Pass split = f.compute("split", "dof_split.comp");
+    gpu::ComputePass split = f.compute("split", "dof_split.comp");
     split.read("radiance", in.radiance).read("coc", coc);
     writeLayers(split, layers).params(sizes).dispatch(sizes.half2);
     const Tiles tiles = describeTiles(f, layers, sizes);

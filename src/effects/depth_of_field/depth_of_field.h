@@ -105,7 +105,7 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "effects/lobe/rays.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 #include <optional>
 
@@ -148,7 +148,7 @@ struct DofImages {
 bool blurs(const Lens& lens, const DofSettings& settings);
 
 /// coc: the history of DofImages::coc.
-DofImages depthOfField(gpu::Recorder& f, gpu::HistoryImage& coc, const DofInputs& in);
+DofImages depthOfField(gpu::PassList& f, gpu::HistoryImage& coc, const DofInputs& in);
 
 }  // namespace reflet
 #endif

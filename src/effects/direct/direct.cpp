@@ -5,7 +5,7 @@
 
 namespace reflet {
 
-gpu::Image ggxTable(gpu::Recorder& f, gpu::KeptImage& own) {
+gpu::Image ggxTable(gpu::PassList& f, gpu::KeptImage& own) {
     constexpr uint32_t side = 32;  // ggxTableSize in ggx.glsl
     const gpu::Image table = own.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, uvec2(side));
     if (!own.holds(f, side)) {
@@ -14,14 +14,14 @@ gpu::Image ggxTable(gpu::Recorder& f, gpu::KeptImage& own) {
     return table;
 }
 
-gpu::Image directLight(gpu::Recorder& f, const GBuffer& g, const LightVisibility& visibility, gpu::Image ggxTable,
+gpu::Image directLight(gpu::PassList& f, const GBuffer& g, const LightVisibility& visibility, gpu::Image ggxTable,
                        const DirectParams& params, const DirectLights& lights) {
     const gpu::Image direct = f.image("direct", VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size);
     // Always bound, but not read if no lamp casts a shadow.
     const gpu::Image lampVisibility =
         visibility.lamps ? visibility.lamps : f.placeholder(VK_FORMAT_R8G8B8A8_UNORM, gpu::ViewKind::array);
     const VkSampler linear = f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR});
-    gpu::Pass pass = f.compute("direct", "direct.comp");
+    gpu::ComputePass pass = f.compute("direct", "direct.comp");
     bindEnvironment(pass, lights.environment);
     bindSurfaces(f, pass, g);
     pass.read("depth", g.depth)

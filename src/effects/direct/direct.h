@@ -20,13 +20,13 @@ SHARED_END
 
 #include "effects/environment/environment_light.h"
 #include "effects/gbuffer/gbuffer.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 namespace reflet {
 
 /// The GGX directional albedo table (RGBA16F, 32x32: A, B, albedo of a sheen; see ggx_table.comp). Computed in the
 /// first frame.
-gpu::Image ggxTable(gpu::Recorder& f, gpu::KeptImage& own);
+gpu::Image ggxTable(gpu::PassList& f, gpu::KeptImage& own);
 
 /// Light visibility per pixel.
 struct LightVisibility {
@@ -43,7 +43,7 @@ struct DirectLights {
 };
 
 /// RGBA16F: radiance of direct light, emission and background, alpha 1.
-gpu::Image directLight(gpu::Recorder& f, const GBuffer& g, const LightVisibility& visibility, gpu::Image ggxTable,
+gpu::Image directLight(gpu::PassList& f, const GBuffer& g, const LightVisibility& visibility, gpu::Image ggxTable,
                        const DirectParams& params, const DirectLights& lights);
 
 }  // namespace reflet

@@ -5,7 +5,7 @@
 
 namespace reflet {
 
-LampTiles findLampTiles(gpu::Recorder& f, gpu::Image depth, const LampBlock& lamps, const ViewParams& view,
+LampTiles findLampTiles(gpu::PassList& f, gpu::Image depth, const LampBlock& lamps, const ViewParams& view,
                         const DirectSettings& settings) {
     const uvec2 tiles = (depth.size + lampTileSide - 1U) / lampTileSide;
     const uint32_t layers = std::max((lamps.count + lampsPerLayer - 1) / lampsPerLayer, 1U);

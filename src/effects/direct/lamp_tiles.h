@@ -26,7 +26,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 namespace reflet {
 
@@ -37,7 +37,7 @@ struct LampTiles {
 };
 
 /// Conservative: includes every lamp that lights a surface of the tile. With lampTiles off, every tile gets all lamps.
-LampTiles findLampTiles(gpu::Recorder& f, gpu::Image depth, const LampBlock& lamps, const ViewParams& view,
+LampTiles findLampTiles(gpu::PassList& f, gpu::Image depth, const LampBlock& lamps, const ViewParams& view,
                         const DirectSettings& settings);
 
 }  // namespace reflet

@@ -5,18 +5,18 @@
 
 namespace reflet {
 
-void bindEnvironment(gpu::Pass& pass, const EnvironmentLight& light) {
+void bindEnvironment(gpu::ComputePass& pass, const EnvironmentLight& light) {
     pass.constant("environmentIsOneColor", light.texels.size == uvec2(1) ? 1U : 0U)
         .read("environmentTexels", light.texels)
         .params(light.params, "environment");
 }
 
-void bindEnvironmentLobes(gpu::Pass& pass, gpu::Context& context, const EnvironmentLight& light) {
+void bindEnvironmentLobes(gpu::ComputePass& pass, gpu::Context& context, const EnvironmentLight& light) {
     const VkSampler linear = context.sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
     pass.read("environmentLobes", light.lobes, linear).read("environmentIrradiance", light.irradiance);
 }
 
-void prefilterEnvironment(gpu::Recorder& f, const CubeMap& cube, gpu::Image texels) {
+void prefilterEnvironment(gpu::PassList& f, const CubeMap& cube, gpu::Image texels) {
     const gpu::Image faces = cube.sharp.mip(0);
     f.compute("environment_cube", "environment_cube.comp")
         .read("texels", texels)

@@ -17,7 +17,7 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "effects/cube_map/cube_map.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 namespace reflet {
 
@@ -30,13 +30,13 @@ struct EnvironmentLight {
 };
 
 /// Binds environment.glsl's resources, for exact radiance.
-void bindEnvironment(gpu::Pass& pass, const EnvironmentLight& light);
+void bindEnvironment(gpu::ComputePass& pass, const EnvironmentLight& light);
 
 /// Binds environment_lobes.glsl's additional resources, for prefiltered radiance.
-void bindEnvironmentLobes(gpu::Pass& pass, gpu::Context& context, const EnvironmentLight& light);
+void bindEnvironmentLobes(gpu::ComputePass& pass, gpu::Context& context, const EnvironmentLight& light);
 
 /// Records the prefiltering of an equirectangular image (RGBA16F) into the cube map.
-void prefilterEnvironment(gpu::Recorder& f, const CubeMap& cube, gpu::Image texels);
+void prefilterEnvironment(gpu::PassList& f, const CubeMap& cube, gpu::Image texels);
 
 }  // namespace reflet
 #endif

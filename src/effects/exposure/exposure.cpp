@@ -14,7 +14,7 @@ uint32_t meterStep(uvec2 size) {
     return static_cast<uint32_t>(std::max(std::sqrt(double(size.x) * size.y / enough), 1.0));
 }
 
-gpu::Image measureExposure(gpu::Recorder& f, gpu::HistoryImage& own, gpu::Image radiance, gpu::Image depth,
+gpu::Image measureExposure(gpu::PassList& f, gpu::HistoryImage& own, gpu::Image radiance, gpu::Image depth,
                            float elapsed, float adaptation) {
     const auto scope = f.scope("exposure");
     const gpu::BufferView histogram = f.buffer("histogram", meterSize * sizeof(uint32_t));

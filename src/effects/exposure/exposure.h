@@ -59,7 +59,7 @@ uint32_t meterStep(uvec2 size);
 
 /// R32G32_SFLOAT, exposureTexels wide; the last texel's R: stops by which the tone map multiplies the radiance.
 /// `radiance`: RGBA16F; `depth`: 0 where there is no surface; `elapsed`: seconds since the last frame.
-gpu::Image measureExposure(gpu::Recorder& f, gpu::HistoryImage& own, gpu::Image radiance, gpu::Image depth,
+gpu::Image measureExposure(gpu::PassList& f, gpu::HistoryImage& own, gpu::Image radiance, gpu::Image depth,
                            float elapsed, float adaptation);
 
 /// Stops, from a read-back of that image.

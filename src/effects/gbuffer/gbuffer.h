@@ -20,7 +20,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 namespace reflet {
 
@@ -44,10 +44,10 @@ struct GBuffer {
 };
 
 /// Specializes a pass whose shader includes gbuffer_surface.glsl, and binds what that reads.
-gpu::Pass& bindSurfaces(gpu::Recorder& f, gpu::Pass& pass, const GBuffer& g);
+gpu::ComputePass& bindSurfaces(gpu::PassList& f, gpu::ComputePass& pass, const GBuffer& g);
 
 /// The same for a shader that uses no more of it than dielectricAt.
-gpu::Pass& bindReflectance(gpu::Recorder& f, gpu::Pass& pass, const GBuffer& g);
+gpu::ComputePass& bindReflectance(gpu::PassList& f, gpu::ComputePass& pass, const GBuffer& g);
 
 }  // namespace reflet
 #endif

@@ -20,7 +20,7 @@ KeptDepthParams keptDepthParams(const ViewParams& view, DepthBuffer buffer) {
     return {farDepth, steps, uvec2(view.size)};
 }
 
-gpu::Image keptDepth(gpu::Recorder& f, gpu::Image depth, const ViewParams& view, const DepthSettings& settings) {
+gpu::Image keptDepth(gpu::PassList& f, gpu::Image depth, const ViewParams& view, const DepthSettings& settings) {
     if (settings.format == DepthBuffer::reversedFloat) {
         return depth;
     }

@@ -18,7 +18,7 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "effects/view.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 namespace reflet {
 
@@ -38,7 +38,7 @@ SETTINGS(DepthSettings, DEPTH_SETTINGS)
 
 /// `depth` (reversed, 0: sky) after rounding to such a format, reversed again: R32F. With reversed_float:
 /// `depth` itself, without a pass.
-gpu::Image keptDepth(gpu::Recorder& f, gpu::Image depth, const ViewParams& view, const DepthSettings& settings);
+gpu::Image keptDepth(gpu::PassList& f, gpu::Image depth, const ViewParams& view, const DepthSettings& settings);
 
 /// Parameters for a fixed-point format and the view.
 KeptDepthParams keptDepthParams(const ViewParams& view, DepthBuffer buffer);

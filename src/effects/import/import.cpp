@@ -3,7 +3,7 @@
 
 namespace reflet {
 
-ImportedSurfaces importSurfaces(gpu::Recorder& f, const HostSurfaces& host, ImportParams params) {
+ImportedSurfaces importSurfaces(gpu::PassList& f, const HostSurfaces& host, ImportParams params) {
     const uvec2 size = host.depth.size;
     ImportedSurfaces out;
     const gpu::Image placeholder = f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT);
@@ -59,7 +59,7 @@ ImportedSurfaces importSurfaces(gpu::Recorder& f, const HostSurfaces& host, Impo
     return out;
 }
 
-gpu::Image importLight(gpu::Recorder& f, gpu::Image light, bool keepAlpha, gpu::Image into) {
+gpu::Image importLight(gpu::PassList& f, gpu::Image light, bool keepAlpha, gpu::Image into) {
     const gpu::Image out = into ? into : f.image("light", VK_FORMAT_R16G16B16A16_SFLOAT, light.size);
     f.compute("import.light", "import_light.comp")
         .constant("keepAlpha", keepAlpha ? 1 : 0)
@@ -70,7 +70,7 @@ gpu::Image importLight(gpu::Recorder& f, gpu::Image light, bool keepAlpha, gpu::
     return out;
 }
 
-gpu::Image importShadowMap(gpu::Recorder& f, gpu::Image map, uint32_t cascades, bool reversed) {
+gpu::Image importShadowMap(gpu::PassList& f, gpu::Image map, uint32_t cascades, bool reversed) {
     const uvec2 tiles(cascades > 1 ? 2 : 1, cascades > 2 ? 2 : 1);
     const gpu::Image out = f.image("shadow_map", VK_FORMAT_R32_SFLOAT, map.size * tiles);
     f.compute("import.shadow", cascades > 1 ? "import_shadow_array.comp" : "import_shadow.comp")

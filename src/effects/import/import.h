@@ -40,7 +40,7 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "effects/gbuffer/gbuffer.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 namespace reflet {
 
@@ -69,14 +69,14 @@ struct ImportedSurfaces {
 };
 
 /// params: without the channels, which are set.
-ImportedSurfaces importSurfaces(gpu::Recorder& f, const HostSurfaces& host, ImportParams params);
+ImportedSurfaces importSurfaces(gpu::PassList& f, const HostSurfaces& host, ImportParams params);
 
 /// RGBA16F of the same size: finite, 0 to 65504. alpha: as given, or 1. into: where it is written;
 /// none: an image of this frame.
-gpu::Image importLight(gpu::Recorder& f, gpu::Image light, bool keepAlpha = false, gpu::Image into = {});
+gpu::Image importLight(gpu::PassList& f, gpu::Image light, bool keepAlpha = false, gpu::Image into = {});
 
 /// R32F: the cascades' maps as tiles, depth reversed (SunShadowParams). map: a 2D array view if there are several.
-gpu::Image importShadowMap(gpu::Recorder& f, gpu::Image map, uint32_t cascades, bool reversed);
+gpu::Image importShadowMap(gpu::PassList& f, gpu::Image map, uint32_t cascades, bool reversed);
 
 }  // namespace reflet
 #endif

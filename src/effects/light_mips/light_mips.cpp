@@ -9,7 +9,7 @@
 
 namespace reflet {
 
-gpu::Image makeLightMips(gpu::Recorder& f, gpu::Image light) {
+gpu::Image makeLightMips(gpu::PassList& f, gpu::Image light) {
     const auto levels = 1U + static_cast<uint32_t>(std::bit_width(std::max(light.size.x, light.size.y) - 1U));
     const gpu::Image mips = f.image("light_mips", VK_FORMAT_R16G16B16A16_SFLOAT, levelsImageSize(light.size, levels));
     for (uint32_t level = 1; level < levels; ++level) {

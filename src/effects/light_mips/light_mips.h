@@ -16,12 +16,12 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 namespace reflet {
 
 /// RGBA16F: level 1 and up of an RGBA16F image. Each cell is the mean of its pixels; cells at edges may have fewer.
-gpu::Image makeLightMips(gpu::Recorder& f, gpu::Image light);
+gpu::Image makeLightMips(gpu::PassList& f, gpu::Image light);
 
 }  // namespace reflet
 #endif

@@ -17,11 +17,11 @@ constexpr uint32_t mostTimes = 4;
 
 }  // namespace
 
-uint32_t adaptiveRayLimit(gpu::Recorder& f, uvec2 size, uint32_t mean) {
+uint32_t adaptiveRayLimit(gpu::PassList& f, uvec2 size, uint32_t mean) {
     return std::max(raysPerBatch(f, size, std::min(mostTimes * mean, maxAdaptiveRays)), mean);
 }
 
-RayTiles shareRays(gpu::Recorder& f, gpu::HistoryImage& own, const RaySurfaces& from, uint32_t lobe,
+RayTiles shareRays(gpu::PassList& f, gpu::HistoryImage& own, const RaySurfaces& from, uint32_t lobe,
                    const RayCounts& counts, const LobeHistory& past) {
     const uvec2 size = (from.g.depth.size + rayTileSide - 1U) / rayTileSide;
     const gpu::Image noise = f.image("noise", VK_FORMAT_R32G32_SFLOAT, size);
@@ -29,7 +29,7 @@ RayTiles shareRays(gpu::Recorder& f, gpu::HistoryImage& own, const RaySurfaces& 
     const gpu::BufferView histogram = f.buffer("noise_histogram", histogramSize * sizeof(uint32_t));
     constexpr std::array<uint32_t, histogramSize> none{};
     f.update(histogram, std::as_bytes(std::span(none)));
-    gpu::Pass pass = f.compute("measure_noise", "measure_noise.comp");
+    gpu::ComputePass pass = f.compute("measure_noise", "measure_noise.comp");
     bindReflectance(f, pass, from.g)
         .constant("lobe", lobe)
         .read("depth", from.g.depth)

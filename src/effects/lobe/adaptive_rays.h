@@ -57,11 +57,11 @@ struct LobeHistory {
 };
 
 /// Ray counts per tile in proportion to the noise; `counts.rays` is their mean over the pixels with the lobe.
-RayTiles shareRays(gpu::Recorder& f, gpu::HistoryImage& own, const RaySurfaces& from, uint32_t lobe,
+RayTiles shareRays(gpu::PassList& f, gpu::HistoryImage& own, const RaySurfaces& from, uint32_t lobe,
                    const RayCounts& counts, const LobeHistory& past);
 
 /// The most rays that a pixel gets if the mean is `mean`.
-uint32_t adaptiveRayLimit(gpu::Recorder& f, uvec2 size, uint32_t mean);
+uint32_t adaptiveRayLimit(gpu::PassList& f, uvec2 size, uint32_t mean);
 
 }  // namespace reflet
 #endif

@@ -5,9 +5,9 @@
 
 namespace reflet {
 
-void answerEnvironment(gpu::Recorder& f, Rays& rays, const EnvironmentLight& environment,
+void answerEnvironment(gpu::PassList& f, Rays& rays, const EnvironmentLight& environment,
                        const EnvironmentSettings& settings) {
-    gpu::Pass pass = f.compute("answer_environment", "answer_environment.comp");
+    gpu::ComputePass pass = f.compute("answer_environment", "answer_environment.comp");
     bindEnvironment(pass, environment);
     bindEnvironmentLobes(pass, f.context(), environment);
     bindAmbientOcclusion(f, pass, rays.from.ambientOcclusion, rays.from.scale)

@@ -30,13 +30,13 @@ SHARED_END
 #include "effects/environment/environment_light.h"
 #include "effects/gbuffer/gbuffer.h"
 #include "effects/lobe/rays.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 namespace reflet {
 
 /// Single rays get the exact radiance, cones and hemispheres (Ray.spread) the prefiltered one. Diffuse rays from
 /// surfaces with an occlusion map get less, because the map stands for nearby geometry that the rays could not hit.
-void answerEnvironment(gpu::Recorder& f, Rays& rays, const EnvironmentLight& environment,
+void answerEnvironment(gpu::PassList& f, Rays& rays, const EnvironmentLight& environment,
                        const EnvironmentSettings& settings);
 
 }  // namespace reflet

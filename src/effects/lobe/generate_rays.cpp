@@ -9,7 +9,7 @@ namespace reflet {
 namespace {
 
 // What make_ray.glsl reads.
-gpu::Pass& bindGeneration(gpu::Recorder& f, gpu::Pass& pass, const RayGeneration& in) {
+gpu::ComputePass& bindGeneration(gpu::PassList& f, gpu::ComputePass& pass, const RayGeneration& in) {
     const GBuffer& g = in.from.g;
     bindDiffuseRays(pass, in);
     return bindSurfaces(f, pass, g)
@@ -21,7 +21,7 @@ gpu::Pass& bindGeneration(gpu::Recorder& f, gpu::Pass& pass, const RayGeneration
 
 }  // namespace
 
-gpu::Pass& bindDiffuseRays(gpu::Pass& pass, const RayGeneration& in) {
+gpu::ComputePass& bindDiffuseRays(gpu::ComputePass& pass, const RayGeneration& in) {
     GenerateRaysParams params = in.params;
     params.view = in.from.view;
     return pass.constant("lobe", in.lobe)
@@ -35,7 +35,7 @@ gpu::Pass& bindDiffuseRays(gpu::Pass& pass, const RayGeneration& in) {
         .params(params, "rayParams");
 }
 
-Rays raysOf(gpu::Recorder& f, const RayGeneration& in) {
+Rays raysOf(gpu::PassList& f, const RayGeneration& in) {
     const uvec2 size = in.from.g.depth.size;
     const uint32_t layers = in.params.rayCount;
     Rays rays{.from = in.from,
@@ -60,9 +60,9 @@ Rays raysOf(gpu::Recorder& f, const RayGeneration& in) {
     return rays;
 }
 
-Rays generateRays(gpu::Recorder& f, const RayGeneration& in) {
+Rays generateRays(gpu::PassList& f, const RayGeneration& in) {
     Rays rays = raysOf(f, in);
-    gpu::Pass pass = f.compute("generate_rays", "generate_rays.comp");
+    gpu::ComputePass pass = f.compute("generate_rays", "generate_rays.comp");
     bindGeneration(f, pass, in)
         .constant("adaptive", in.tiles.meanRays > 0 ? 1U : 0U)
         .read("list", in.tiles.list)
@@ -74,12 +74,12 @@ Rays generateRays(gpu::Recorder& f, const RayGeneration& in) {
     return rays;
 }
 
-void traceAtOnce(gpu::Recorder& f, const LobeLight& light, const RayGeneration& in, const ScreenSource& screen,
+void traceAtOnce(gpu::PassList& f, const LobeLight& light, const RayGeneration& in, const ScreenSource& screen,
                  const EnvironmentSource& environment) {
     const uvec2 size = in.from.g.depth.size;
     const bool traced = screen.images != nullptr;
     const ScreenImages nothing{.g = in.from.g, .view = in.from.view};
-    gpu::Pass pass = f.compute("trace_at_once", "trace_at_once.comp");
+    gpu::ComputePass pass = f.compute("trace_at_once", "trace_at_once.comp");
     bindGeneration(f, pass, in);
     bindScreen(
         f, pass, traced ? *screen.images : nothing,

@@ -35,19 +35,19 @@ struct RayGeneration {
 };
 
 /// Binds what passes that include diffuse_ray.glsl read: noise, tiles, depth and normals of the surfaces.
-gpu::Pass& bindDiffuseRays(gpu::Pass& pass, const RayGeneration& in);
+gpu::ComputePass& bindDiffuseRays(gpu::ComputePass& pass, const RayGeneration& in);
 
 /// The images and the empty list of the rays, not yet generated.
-Rays raysOf(gpu::Recorder& f, const RayGeneration& in);
+Rays raysOf(gpu::PassList& f, const RayGeneration& in);
 
 /// Generates rays firstRay .. firstRay + rayCount for every pixel of `from` with a surface (and the lobe), up to its
 /// tile's rays per pixel.
-Rays generateRays(gpu::Recorder& f, const RayGeneration& in);
+Rays generateRays(gpu::PassList& f, const RayGeneration& in);
 
 /// Generates the same rays, has only screen and environment answer them, and averages them as resolveRays does, all in
 /// one pass that writes no ray to memory. The result is that of the separate passes, up to their rounding of directions
 /// and radiance. Not for tiles whose rays per pixel change from frame to frame (RayTiles::meanRays).
-void traceAtOnce(gpu::Recorder& f, const LobeLight& light, const RayGeneration& in, const ScreenSource& screen,
+void traceAtOnce(gpu::PassList& f, const LobeLight& light, const RayGeneration& in, const ScreenSource& screen,
                  const EnvironmentSource& environment);
 
 }  // namespace reflet

@@ -21,7 +21,7 @@ bool keepsHistory(const LobeStore* own, const DenoiseSettings& denoise) {
 }
 
 // No motion of reflected images, unless a source overwrites it.
-gpu::Image noImageMotion(gpu::Recorder& f, const RaySurfaces& from) {
+gpu::Image noImageMotion(gpu::PassList& f, const RaySurfaces& from) {
     const gpu::Image motion = f.image("image_motion", VK_FORMAT_R16G16_SFLOAT, from.g.depth.size);
     f.clear(motion);
     return motion;
@@ -29,7 +29,7 @@ gpu::Image noImageMotion(gpu::Recorder& f, const RaySurfaces& from) {
 
 // Rays per tile. Adaptive sampling needs the denoiser's history. All rays of a mirror's pixel are identical unless
 // their tracing is random; reuse requires a fixed count.
-RayTiles tilesOfLobe(gpu::Recorder& f, LobeStore* own, const RaySurfaces& from, const LobeInputs& in) {
+RayTiles tilesOfLobe(gpu::PassList& f, LobeStore* own, const RaySurfaces& from, const LobeInputs& in) {
     const LobeSettings& s = in.settings;
     const RayCounts counts{s.rays, s.reuse > 0 || in.randomTracing ? s.rays : std::min(s.rays, 1U),
                            keepsHistory(own, in.denoise) && s.reuse == 0 ? in.specular.roughRays : 1.0F};
@@ -46,7 +46,7 @@ RayTiles tilesOfLobe(gpu::Recorder& f, LobeStore* own, const RaySurfaces& from, 
 
 }  // namespace
 
-LobeLight traceLobe(gpu::Recorder& f, LobeStore* own, const LobeInputs& in) {
+LobeLight traceLobe(gpu::PassList& f, LobeStore* own, const LobeInputs& in) {
     const auto scope = f.scope(lobeNames[in.lobe]);
     const LobeSettings& s = in.settings;
     if (s.rays == 0) {

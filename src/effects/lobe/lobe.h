@@ -37,6 +37,6 @@ struct LobeStore {
 };
 
 /// The light of the lobe; black with no rays. own: none: without history, whatever the settings are.
-LobeLight traceLobe(gpu::Recorder& f, LobeStore* own, const LobeInputs& in);
+LobeLight traceLobe(gpu::PassList& f, LobeStore* own, const LobeInputs& in);
 
 }  // namespace reflet

@@ -27,7 +27,7 @@ ViewParams viewOfBlocks(const ViewParams& view, uint32_t scale) {
     return v;
 }
 
-RaySurfaces pickSurfaces(gpu::Recorder& f, const GBuffer& g, const ViewParams& view, uint32_t scale) {
+RaySurfaces pickSurfaces(gpu::PassList& f, const GBuffer& g, const ViewParams& view, uint32_t scale) {
     if (scale == 1) {
         return {.g = g, .view = view, .scale = scale};
     }
@@ -45,7 +45,7 @@ RaySurfaces pickSurfaces(gpu::Recorder& f, const GBuffer& g, const ViewParams& v
                                             : gpu::Image{},
                          .layers = g.layers ? f.image("surfaces.layers", VK_FORMAT_R32G32_UINT, size) : gpu::Image{},
                          .features = g.features};
-    gpu::Pass pass = f.compute("pick_surfaces", "pick_surfaces.comp");
+    gpu::ComputePass pass = f.compute("pick_surfaces", "pick_surfaces.comp");
     bindSurfaces(f, pass, g)
         .read("depth", g.depth)
         .read("normal", g.normal)

@@ -23,7 +23,7 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "effects/gbuffer/gbuffer.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 namespace reflet {
 
@@ -47,7 +47,7 @@ ViewParams viewOfBlocks(const ViewParams& view, uint32_t scale);
 
 /// The surfaces of a grid with blocks of scale x scale pixels; with 1 nothing is copied. A block whose picked pixel
 /// lies outside of the image counts as sky.
-RaySurfaces pickSurfaces(gpu::Recorder& f, const GBuffer& g, const ViewParams& view, uint32_t scale);
+RaySurfaces pickSurfaces(gpu::PassList& f, const GBuffer& g, const ViewParams& view, uint32_t scale);
 
 }  // namespace reflet
 #endif

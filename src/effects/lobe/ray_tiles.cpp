@@ -7,7 +7,7 @@
 
 namespace reflet {
 
-gpu::BufferView makeTileList(gpu::Recorder& f, uvec2 tiles) {
+gpu::BufferView makeTileList(gpu::PassList& f, uvec2 tiles) {
     const VkDeviceSize items = VkDeviceSize(tiles.x) * tiles.y;
     const gpu::BufferView list = f.buffer("tile_list", rayListHeader + items * sizeof(uint32_t));
     constexpr uint32_t empty[] = {tileListRow, 0, 1, 0};
@@ -15,7 +15,7 @@ gpu::BufferView makeTileList(gpu::Recorder& f, uvec2 tiles) {
     return list;
 }
 
-RayTiles classifyTiles(gpu::Recorder& f, const RaySurfaces& from, uint32_t lobe, const RayCounts& counts) {
+RayTiles classifyTiles(gpu::PassList& f, const RaySurfaces& from, uint32_t lobe, const RayCounts& counts) {
     const uvec2 size = (from.g.depth.size + rayTileSide - 1U) / rayTileSide;
     const bool varies = lobe == lobeSpecular && counts.roughRays < 1.0F;
     const RayTiles tiles{f.image("tiles", VK_FORMAT_R32G32_SFLOAT, size), makeTileList(f, size),

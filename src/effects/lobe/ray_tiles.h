@@ -39,7 +39,7 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "effects/lobe/ray_surfaces.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 namespace reflet {
 
@@ -59,10 +59,10 @@ struct RayCounts {
 };
 
 /// An empty list with room for all tiles.
-gpu::BufferView makeTileList(gpu::Recorder& f, uvec2 tiles);
+gpu::BufferView makeTileList(gpu::PassList& f, uvec2 tiles);
 
 /// The same ray count for all pixels in tiles that have the lobe, but for rough tiles.
-RayTiles classifyTiles(gpu::Recorder& f, const RaySurfaces& from, uint32_t lobe, const RayCounts& counts);
+RayTiles classifyTiles(gpu::PassList& f, const RaySurfaces& from, uint32_t lobe, const RayCounts& counts);
 
 }  // namespace reflet
 #endif

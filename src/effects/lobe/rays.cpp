@@ -8,7 +8,7 @@
 
 namespace reflet {
 
-uint32_t raysPerBatch(gpu::Recorder& f, uvec2 size, uint32_t most) {
+uint32_t raysPerBatch(gpu::PassList& f, uvec2 size, uint32_t most) {
     const VkDeviceSize layer = VkDeviceSize(size.x) * size.y * sizeof(RayItem);
     const VkDeviceSize fit = (f.context().limits().maxStorageBufferRange - rayListHeader) / layer;
     if (fit == 0 || std::max(size.x, size.y) > maxFrameSize) {
@@ -22,7 +22,7 @@ bool raysSpread(uint32_t lobe, const DiffuseSettings& diffuse, const SpecularSet
                                : specular.roughFallback == RoughFallback::mips && specular.maxRoughness < 1.0F;
 }
 
-gpu::BufferView makeRayList(gpu::Recorder& f, const Rays& rays) {
+gpu::BufferView makeRayList(gpu::PassList& f, const Rays& rays) {
     const uvec2 size = rays.direction.size;
     const VkDeviceSize items = VkDeviceSize(size.x) * size.y * rays.direction.layers;
     const gpu::BufferView list = f.buffer("rays", rayListHeader + items * sizeof(RayItem));
@@ -31,7 +31,7 @@ gpu::BufferView makeRayList(gpu::Recorder& f, const Rays& rays) {
     return list;
 }
 
-LobeLight lobeImages(gpu::Recorder& f, const RaySurfaces& from, bool countSteps, bool directional) {
+LobeLight lobeImages(gpu::PassList& f, const RaySurfaces& from, bool countSteps, bool directional) {
     const uvec2 size = from.g.depth.size;
     LobeLight light{.from = from,
                     .radiance = f.image("radiance", VK_FORMAT_R16G16B16A16_SFLOAT, size),
@@ -49,7 +49,7 @@ LobeLight lobeImages(gpu::Recorder& f, const RaySurfaces& from, bool countSteps,
     return light;
 }
 
-LobeLight blackLobe(gpu::Recorder& f, const RaySurfaces& from, bool countSteps) {
+LobeLight blackLobe(gpu::PassList& f, const RaySurfaces& from, bool countSteps) {
     LobeLight light = lobeImages(f, from, countSteps, false);
     light.dark = true;
     f.clear(light.radiance);
@@ -60,7 +60,7 @@ LobeLight blackLobe(gpu::Recorder& f, const RaySurfaces& from, bool countSteps) 
     return light;
 }
 
-gpu::Pass& bindMeans(gpu::Recorder& f, gpu::Pass& pass, const LobeLight& light, uint32_t firstRay) {
+gpu::ComputePass& bindMeans(gpu::PassList& f, gpu::ComputePass& pass, const LobeLight& light, uint32_t firstRay) {
     return pass.constant("hasDirectional", light.directional ? 1U : 0U)
         .constant("adds", firstRay > 0 ? 1U : 0U)
         .write("radiance", light.radiance)
@@ -69,15 +69,15 @@ gpu::Pass& bindMeans(gpu::Recorder& f, gpu::Pass& pass, const LobeLight& light, 
         .write("directional", light.directional ? light.directional : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT));
 }
 
-gpu::Pass& bindRayOrigins(gpu::Recorder& f, gpu::Pass& pass, const Rays& rays) {
+gpu::ComputePass& bindRayOrigins(gpu::PassList& f, gpu::ComputePass& pass, const Rays& rays) {
     const gpu::Image& origins = rays.from.origins;
     return pass.constant("startsElsewhere", origins ? 1U : 0U)
         .read("origins", origins ? origins : f.placeholder(VK_FORMAT_R32G32B32A32_SFLOAT, gpu::ViewKind::array));
 }
 
-void resolveRays(gpu::Recorder& f, const LobeLight& light, const Rays& rays) {
+void resolveRays(gpu::PassList& f, const LobeLight& light, const Rays& rays) {
     const uvec2 size = rays.direction.size;
-    gpu::Pass pass = f.compute("resolve_rays", "resolve_rays.comp");
+    gpu::ComputePass pass = f.compute("resolve_rays", "resolve_rays.comp");
     bindMeans(f, pass, light, rays.firstRay)
         .constant("countSteps", rays.countSteps ? 1U : 0U)
         .constant("adaptive", rays.tiles.meanRays > 0 ? 1U : 0U)

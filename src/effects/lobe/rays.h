@@ -129,7 +129,7 @@ SHARED_END
 
 #include "effects/lobe/ray_surfaces.h"
 #include "effects/lobe/ray_tiles.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 #include <functional>
 
@@ -188,32 +188,32 @@ struct LobeLight {
 
 /// Rays per pixel of one batch, 1 to `most`: as many as the device's buffers can hold at this size. Throws Error if not
 /// even one fits.
-uint32_t raysPerBatch(gpu::Recorder& f, uvec2 size, uint32_t most = maxRaysPerBatch);
+uint32_t raysPerBatch(gpu::PassList& f, uvec2 size, uint32_t most = maxRaysPerBatch);
 
 /// Answers what it can of rays.waiting, and leaves the other rays there: a source of the chain. It binds rays.answer
 /// and rays.source, and takes the list of its misses from makeRayList.
-using RaySource = std::function<void(gpu::Recorder&, Rays&)>;
+using RaySource = std::function<void(gpu::PassList&, Rays&)>;
 
 /// Whether some rays of the lobe may have a spread.
 bool raysSpread(uint32_t lobe, const DiffuseSettings& diffuse, const SpecularSettings& specular);
 
 /// An empty list with room for all rays, for a source's misses.
-gpu::BufferView makeRayList(gpu::Recorder& f, const Rays& rays);
+gpu::BufferView makeRayList(gpu::PassList& f, const Rays& rays);
 
 /// A lobe's images, not yet written; `directional` only if it is asked for.
-LobeLight lobeImages(gpu::Recorder& f, const RaySurfaces& from, bool countSteps, bool directional);
+LobeLight lobeImages(gpu::PassList& f, const RaySurfaces& from, bool countSteps, bool directional);
 
 /// A lobe without rays, cleared to black.
-LobeLight blackLobe(gpu::Recorder& f, const RaySurfaces& from, bool countSteps);
+LobeLight blackLobe(gpu::PassList& f, const RaySurfaces& from, bool countSteps);
 
 /// Binds a lobe's images as outputs of a pass that includes resolve_ray.glsl. firstRay: of its batch.
-gpu::Pass& bindMeans(gpu::Recorder& f, gpu::Pass& pass, const LobeLight& light, uint32_t firstRay);
+gpu::ComputePass& bindMeans(gpu::PassList& f, gpu::ComputePass& pass, const LobeLight& light, uint32_t firstRay);
 
 /// Binds what ray_origin.glsl reads.
-gpu::Pass& bindRayOrigins(gpu::Recorder& f, gpu::Pass& pass, const Rays& rays);
+gpu::ComputePass& bindRayOrigins(gpu::PassList& f, gpu::ComputePass& pass, const Rays& rays);
 
 /// Adds the batch to the lobe's images, weighted by 1 over the pixel's ray count.
-void resolveRays(gpu::Recorder& f, const LobeLight& light, const Rays& rays);
+void resolveRays(gpu::PassList& f, const LobeLight& light, const Rays& rays);
 
 }  // namespace reflet
 #endif

@@ -10,9 +10,9 @@ namespace reflet {
 
 namespace {
 
-gpu::Pass recordPass(gpu::Recorder& f, const RecordRayInputs& in, const RecordRayParams& params, const char* name,
+gpu::ComputePass recordPass(gpu::PassList& f, const RecordRayInputs& in, const RecordRayParams& params, const char* name,
                      const char* shader) {
-    gpu::Pass pass = f.compute(name, shader);
+    gpu::ComputePass pass = f.compute(name, shader);
     pass.read("depth", in.g.depth)
         .read("normal", in.g.normal)
         .read("geometricNormal", in.g.geometricNormal)
@@ -24,7 +24,7 @@ gpu::Pass recordPass(gpu::Recorder& f, const RecordRayInputs& in, const RecordRa
 
 }  // namespace
 
-gpu::Readback recordRay(gpu::Recorder& f, const RecordRayInputs& in, const ViewParams& view,
+gpu::Readback recordRay(gpu::PassList& f, const RecordRayInputs& in, const ViewParams& view,
                         const TraceScreenSettings& settings, uvec2 pixel) {
     const gpu::Image record =
         f.image("ray_record", VK_FORMAT_R32G32B32A32_SFLOAT, uvec2(recordHead + recordedSteps, 1));
@@ -34,7 +34,7 @@ gpu::Readback recordRay(gpu::Recorder& f, const RecordRayInputs& in, const ViewP
     return f.readback(record);
 }
 
-gpu::Readback recordHemisphere(gpu::Recorder& f, const RecordRayInputs& in, const ViewParams& view,
+gpu::Readback recordHemisphere(gpu::PassList& f, const RecordRayInputs& in, const ViewParams& view,
                                const TraceScreenSettings& settings, uvec2 pixel) {
     const gpu::Image record =
         f.image("hemisphere_record", VK_FORMAT_R32G32B32A32_SFLOAT, uvec2(2 * recordedSamples, 1));

@@ -78,13 +78,13 @@ struct RecordRayInputs {
 
 /// Records the mirror ray of the pixel. Call recordRay while recording the frame with these images, recordedRay when
 /// the frame is done; it returns nothing if the pixel shows no surface.
-gpu::Readback recordRay(gpu::Recorder& f, const RecordRayInputs& in, const ViewParams& view,
+gpu::Readback recordRay(gpu::PassList& f, const RecordRayInputs& in, const ViewParams& view,
                         const TraceScreenSettings& settings, uvec2 pixel);
 std::optional<RecordedRay> recordedRay(const gpu::Recorder& f, gpu::Readback readback);
 
 /// Records as many diffuse rays of the pixel as recordedSamples, evenly over its cosine-weighted hemisphere: each
 /// stands for the same share of its light. The pixel must show a surface for the result to mean anything.
-gpu::Readback recordHemisphere(gpu::Recorder& f, const RecordRayInputs& in, const ViewParams& view,
+gpu::Readback recordHemisphere(gpu::PassList& f, const RecordRayInputs& in, const ViewParams& view,
                                const TraceScreenSettings& settings, uvec2 pixel);
 std::vector<RecordedSample> recordedHemisphere(const gpu::Recorder& f, gpu::Readback readback);
 

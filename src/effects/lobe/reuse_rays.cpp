@@ -3,7 +3,7 @@
 
 namespace reflet {
 
-void reuseRays(gpu::Recorder& f, const LobeLight& light, const Rays& rays, const ViewParams& picture,
+void reuseRays(gpu::PassList& f, const LobeLight& light, const Rays& rays, const ViewParams& picture,
                uint32_t neighbours) {
     const GBuffer& g = rays.from.g;
     const uvec2 size = rays.direction.size;

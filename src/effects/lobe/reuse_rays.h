@@ -22,14 +22,14 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "effects/lobe/rays.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 namespace reflet {
 
 /// Writes the images of `light`. Needs all rays of the lobe in one batch. Radiance is the mean over own and reused
 /// rays, weighted by the pixel's own lobe over the pdf with which each was sampled. Source and steps are those of the
 /// pixel's own rays. Mirrors and cones reuse nothing. picture: the full-resolution view.
-void reuseRays(gpu::Recorder& f, const LobeLight& light, const Rays& rays, const ViewParams& picture,
+void reuseRays(gpu::PassList& f, const LobeLight& light, const Rays& rays, const ViewParams& picture,
                uint32_t neighbours);
 
 }  // namespace reflet

@@ -14,7 +14,7 @@ struct Trace {
 };
 
 // The pass as shared by both sources. rays.waiting: in: rays to trace; out: misses.
-void record(gpu::Recorder& f, gpu::Pass pass, Rays& rays, const Trace& trace, const TraceScreenSettings& settings,
+void record(gpu::PassList& f, gpu::ComputePass pass, Rays& rays, const Trace& trace, const TraceScreenSettings& settings,
             float longest) {
     const bool countSteps = rays.countSteps && trace.through == throughScreen;
     const gpu::BufferView missed = makeRayList(f, rays);
@@ -57,7 +57,7 @@ uint32_t throughOf(PlanarForm form) {
 
 }  // namespace
 
-gpu::Pass& bindScreenLight(gpu::Recorder& f, gpu::Pass& pass, const ScreenImages& seen, TraceScreenParams params) {
+gpu::ComputePass& bindScreenLight(gpu::PassList& f, gpu::ComputePass& pass, const ScreenImages& seen, TraceScreenParams params) {
     const bool previous = seen.lit.valid;
     const gpu::Image light = seen.light ? seen.light : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT);
     params.view = seen.view;
@@ -76,7 +76,7 @@ gpu::Pass& bindScreenLight(gpu::Recorder& f, gpu::Pass& pass, const ScreenImages
         .params(params);
 }
 
-gpu::Pass& bindScreen(gpu::Recorder& f, gpu::Pass& pass, const ScreenImages& seen, const TraceScreenParams& params,
+gpu::ComputePass& bindScreen(gpu::PassList& f, gpu::ComputePass& pass, const ScreenImages& seen, const TraceScreenParams& params,
                       gpu::Image imageMotion) {
     const bool tellsMotion = imageMotion && params.firstRay == 0;
     const TraceScreenSettings& s = params.settings;
@@ -93,12 +93,12 @@ gpu::Pass& bindScreen(gpu::Recorder& f, gpu::Pass& pass, const ScreenImages& see
         .write("imageMotion", tellsMotion ? imageMotion : f.placeholder(VK_FORMAT_R16G16_SFLOAT));
 }
 
-void traceScreen(gpu::Recorder& f, Rays& rays, const ScreenImages& screen, const TraceScreenSettings& settings,
+void traceScreen(gpu::PassList& f, Rays& rays, const ScreenImages& screen, const TraceScreenSettings& settings,
                  float longest) {
     record(f, f.compute("trace_screen", "trace_screen.comp"), rays, {screen}, settings, longest);
 }
 
-void traceMirror(gpu::Recorder& f, Rays& rays, const PlanarView& mirror, const TraceScreenSettings& settings,
+void traceMirror(gpu::PassList& f, Rays& rays, const PlanarView& mirror, const TraceScreenSettings& settings,
                  float longest) {
     record(f, f.compute("trace_mirror", "trace_screen.comp"), rays,
            {mirror.seen, throughOf(mirror.form), mirror.mirror}, settings, longest);

@@ -103,7 +103,7 @@ SHARED_END
 
 #include "effects/gbuffer/gbuffer.h"
 #include "effects/lobe/rays.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 #include <string>
 
@@ -123,15 +123,15 @@ struct ScreenImages {
 
 /// Binds what screen_light.glsl reads and the back depth, and sets its constants. params: `view` and `previousValid`
 /// are set here, `longest` is bounded by the settings.
-gpu::Pass& bindScreenLight(gpu::Recorder& f, gpu::Pass& pass, const ScreenImages& seen, TraceScreenParams params);
+gpu::ComputePass& bindScreenLight(gpu::PassList& f, gpu::ComputePass& pass, const ScreenImages& seen, TraceScreenParams params);
 
 /// The same for screen_hit.glsl. imageMotion: of Rays; may be none.
-gpu::Pass& bindScreen(gpu::Recorder& f, gpu::Pass& pass, const ScreenImages& seen, const TraceScreenParams& params,
+gpu::ComputePass& bindScreen(gpu::PassList& f, gpu::ComputePass& pass, const ScreenImages& seen, const TraceScreenParams& params,
                       gpu::Image imageMotion);
 
 /// Gives rays that hit a visible surface the light there; the others stay in rays.waiting. longest: maximum length of
 /// the lobe's rays [m].
-void traceScreen(gpu::Recorder& f, Rays& rays, const ScreenImages& screen, const TraceScreenSettings& settings,
+void traceScreen(gpu::PassList& f, Rays& rays, const ScreenImages& screen, const TraceScreenSettings& settings,
                  float longest);
 
 /// One planar reflection.
@@ -143,7 +143,7 @@ struct PlanarView {
 };
 
 /// Gives rays that start on the mirror the light of its planar view; misses stay in rays.waiting.
-void traceMirror(gpu::Recorder& f, Rays& rays, const PlanarView& mirror, const TraceScreenSettings& settings,
+void traceMirror(gpu::PassList& f, Rays& rays, const PlanarView& mirror, const TraceScreenSettings& settings,
                  float longest);
 
 }  // namespace reflet

@@ -7,7 +7,7 @@ namespace reflet {
 
 namespace {
 
-gpu::Pass& bindSlices(gpu::Pass& pass, const RayGeneration& in, const SliceTracing& slices) {
+gpu::ComputePass& bindSlices(gpu::ComputePass& pass, const RayGeneration& in, const SliceTracing& slices) {
     return bindDiffuseRays(pass, in)
         .constant("countSteps", in.countSteps ? 1U : 0U)
         .constant("sliceHorizon", slices.horizon ? 1U : 0U)
@@ -17,10 +17,10 @@ gpu::Pass& bindSlices(gpu::Pass& pass, const RayGeneration& in, const SliceTraci
 }
 
 // What slices of light read, of the grid that they start from.
-gpu::Image packSlices(gpu::Recorder& f, const RaySurfaces& from, const ScreenSource& screen) {
+gpu::Image packSlices(gpu::PassList& f, const RaySurfaces& from, const ScreenSource& screen) {
     const uvec2 size = from.g.depth.size;
     const gpu::Image packed = f.image("slices", VK_FORMAT_R32G32B32A32_UINT, size);
-    gpu::Pass pass = f.compute("pack_slices", "pack_slices.comp");
+    gpu::ComputePass pass = f.compute("pack_slices", "pack_slices.comp");
     bindScreenLight(f, pass, *screen.images, {.own = from.view, .settings = screen.settings, .longest = screen.longest})
         .read("ownDepth", from.g.depth)
         .read("ownGeometricNormal", from.g.geometricNormal)
@@ -38,10 +38,10 @@ SliceTracing slicesOf(const ScreenSource& screen, uint32_t steps) {
 }
 
 // packed: none for ambient visibility.
-void atOnce(gpu::Recorder& f, const LobeLight& light, const RayGeneration& in, const SliceTracing& slices,
+void atOnce(gpu::PassList& f, const LobeLight& light, const RayGeneration& in, const SliceTracing& slices,
             gpu::Image packed, bool rejectsBackfaces, const EnvironmentSource& environment) {
     const uvec2 size = in.from.g.depth.size;
-    gpu::Pass pass = f.compute("slices_at_once", "slices_at_once.comp");
+    gpu::ComputePass pass = f.compute("slices_at_once", "slices_at_once.comp");
     bindSlices(pass, in, slices);
     bindEnvironment(pass, environment.light);
     bindEnvironmentLobes(pass, f.context(), environment.light);
@@ -59,7 +59,7 @@ void atOnce(gpu::Recorder& f, const LobeLight& light, const RayGeneration& in, c
 
 }  // namespace
 
-Rays startSlices(gpu::Recorder& f, const RayGeneration& in, const ScreenSource& screen, uint32_t steps) {
+Rays startSlices(gpu::PassList& f, const RayGeneration& in, const ScreenSource& screen, uint32_t steps) {
     Rays rays = raysOf(f, in);
     gpu::Image turning = f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT, gpu::ViewKind::array);
     if (in.directional) {
@@ -67,7 +67,7 @@ Rays startSlices(gpu::Recorder& f, const RayGeneration& in, const ScreenSource& 
         rays.turning = turning;
     }
     const gpu::Image packed = packSlices(f, in.from, screen);
-    gpu::Pass pass = f.compute("start_slices", "start_slices.comp");
+    gpu::ComputePass pass = f.compute("start_slices", "start_slices.comp");
     bindSlices(pass, in, slicesOf(screen, steps))
         .constant("hasDirectional", in.directional ? 1U : 0U)
         .constant("rejectsBackfaces", screen.settings.rejectBackfaces)
@@ -82,13 +82,13 @@ Rays startSlices(gpu::Recorder& f, const RayGeneration& in, const ScreenSource& 
     return rays;
 }
 
-void slicesAtOnce(gpu::Recorder& f, const LobeLight& light, const RayGeneration& in, const ScreenSource& screen,
+void slicesAtOnce(gpu::PassList& f, const LobeLight& light, const RayGeneration& in, const ScreenSource& screen,
                   uint32_t steps, const EnvironmentSource& environment) {
     const gpu::Image packed = packSlices(f, in.from, screen);
     atOnce(f, light, in, slicesOf(screen, steps), packed, screen.settings.rejectBackfaces != 0, environment);
 }
 
-LobeLight ambientSlices(gpu::Recorder& f, const RayGeneration& in, const SliceTracing& slices) {
+LobeLight ambientSlices(gpu::PassList& f, const RayGeneration& in, const SliceTracing& slices) {
     const gpu::Image unread = f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT);
     const gpu::Image unreadCube = f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT, gpu::ViewKind::cubeArray);
     const EnvironmentLight white{unread, unreadCube, unread, {}};

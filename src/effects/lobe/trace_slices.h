@@ -31,14 +31,14 @@ struct SliceTracing {
 
 /// The screen of `screen` as the first source of the diffuse lobe, one slice per ray of in.params: rays.waiting are
 /// rays into what the slices leave open. The screen must be the view that in.from is picked from.
-Rays startSlices(gpu::Recorder& f, const RayGeneration& in, const ScreenSource& screen, uint32_t steps);
+Rays startSlices(gpu::PassList& f, const RayGeneration& in, const ScreenSource& screen, uint32_t steps);
 
 /// The same, with the environment's light from what is left open, and averaged, all in one pass.
-void slicesAtOnce(gpu::Recorder& f, const LobeLight& light, const RayGeneration& in, const ScreenSource& screen,
+void slicesAtOnce(gpu::PassList& f, const LobeLight& light, const RayGeneration& in, const ScreenSource& screen,
                   uint32_t steps, const EnvironmentSource& environment);
 
 /// The visible share of white light from all directions, as the radiance of a lobe: ambient visibility.
-LobeLight ambientSlices(gpu::Recorder& f, const RayGeneration& in, const SliceTracing& slices);
+LobeLight ambientSlices(gpu::PassList& f, const RayGeneration& in, const SliceTracing& slices);
 
 }  // namespace reflet
 #endif

@@ -7,11 +7,11 @@ uint32_t upsampledScale(const LobeLight& light) {
     return light.dark ? 0 : light.from.scale;
 }
 
-gpu::Image surfacesToUpsample(gpu::Recorder& f, const LobeLight& light, gpu::Image image, VkFormat format) {
+gpu::Image surfacesToUpsample(gpu::PassList& f, const LobeLight& light, gpu::Image image, VkFormat format) {
     return light.from.scale > 1 ? image : f.placeholder(format);
 }
 
-gpu::Pass& bindUpsampledSpecular(gpu::Recorder& f, gpu::Pass& pass, const LobeLight& specular) {
+gpu::ComputePass& bindUpsampledSpecular(gpu::PassList& f, gpu::ComputePass& pass, const LobeLight& specular) {
     const GBuffer& g = specular.from.g;
     return pass.constant("specularScale", upsampledScale(specular))
         .read("specular", specular.radiance)

@@ -9,9 +9,9 @@ namespace reflet {
 uint32_t upsampledScale(const LobeLight& light);
 
 /// An image of the lobe's surfaces; none is read at full resolution.
-gpu::Image surfacesToUpsample(gpu::Recorder& f, const LobeLight& light, gpu::Image image, VkFormat format);
+gpu::Image surfacesToUpsample(gpu::PassList& f, const LobeLight& light, gpu::Image image, VkFormat format);
 
 /// Binds what upsample_specular.glsl reads.
-gpu::Pass& bindUpsampledSpecular(gpu::Recorder& f, gpu::Pass& pass, const LobeLight& specular);
+gpu::ComputePass& bindUpsampledSpecular(gpu::PassList& f, gpu::ComputePass& pass, const LobeLight& specular);
 
 }  // namespace reflet

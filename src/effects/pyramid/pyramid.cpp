@@ -7,7 +7,7 @@
 
 namespace reflet {
 
-gpu::Image makePyramid(gpu::Recorder& f, gpu::Image depth, gpu::Image backDepth) {
+gpu::Image makePyramid(gpu::PassList& f, gpu::Image depth, gpu::Image backDepth) {
     const gpu::Image pyramid = f.image("pyramid", VK_FORMAT_R32G32_SFLOAT, levelsImageSize(depth.size, pyramidLevels));
     for (uint32_t level = 1; level < pyramidLevels; ++level) {
         f.compute("pyramid." + std::to_string(level), "pyramid.comp")

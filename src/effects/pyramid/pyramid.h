@@ -21,13 +21,13 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 namespace reflet {
 
 /// RG32F: the largest (nearest) and the smallest (farthest) reversed depth of each cell, negative where there is sky.
 /// backDepth: the second layer, or none.
-gpu::Image makePyramid(gpu::Recorder& f, gpu::Image depth, gpu::Image backDepth = {});
+gpu::Image makePyramid(gpu::PassList& f, gpu::Image depth, gpu::Image backDepth = {});
 
 }  // namespace reflet
 #endif

@@ -3,7 +3,7 @@
 
 namespace reflet {
 
-gpu::Image lampVisibility(gpu::Recorder& f, const GBuffer& g, const LampShadowInputs& in, const LampShadows& shadows,
+gpu::Image lampVisibility(gpu::PassList& f, const GBuffer& g, const LampShadowInputs& in, const LampShadows& shadows,
                           const LampVisibilityParams& params) {
     const uint32_t layers = (shadows.count + 3) / 4;
     const gpu::Image visibility =

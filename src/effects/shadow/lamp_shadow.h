@@ -53,7 +53,7 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "effects/gbuffer/gbuffer.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 namespace reflet {
 
@@ -64,7 +64,7 @@ struct LampShadowInputs {
 };
 
 /// RGBA8, a layer per four lamps, a channel each: 1 lit; 0 in shadow and out of the lamp's range or cone.
-gpu::Image lampVisibility(gpu::Recorder& f, const GBuffer& g, const LampShadowInputs& in, const LampShadows& shadows,
+gpu::Image lampVisibility(gpu::PassList& f, const GBuffer& g, const LampShadowInputs& in, const LampShadows& shadows,
                           const LampVisibilityParams& params);
 
 }  // namespace reflet

@@ -6,7 +6,7 @@
 
 namespace reflet {
 
-gpu::Readback recordShadow(gpu::Recorder& f, const GBuffer& g, const ShadowInputs& in,
+gpu::Readback recordShadow(gpu::PassList& f, const GBuffer& g, const ShadowInputs& in,
                            const RecordShadowParams& params) {
     const gpu::Image record =
         f.image("shadow_record", VK_FORMAT_R32G32B32A32_SFLOAT, uvec2(recordedShadowHead + recordedShadowTexels, 1));

@@ -45,7 +45,7 @@ struct RecordedShadow {
 
 /// Records the look-ups of the pixel with the same filter as sunVisibility, with another turn of its sample pattern.
 /// The pixel must show a surface for the result to mean anything. in.blueNoise is not used.
-gpu::Readback recordShadow(gpu::Recorder& f, const GBuffer& g, const ShadowInputs& in,
+gpu::Readback recordShadow(gpu::PassList& f, const GBuffer& g, const ShadowInputs& in,
                            const RecordShadowParams& params);
 RecordedShadow recordedShadow(const gpu::Recorder& f, gpu::Readback readback);
 

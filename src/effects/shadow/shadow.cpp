@@ -3,7 +3,7 @@
 
 namespace reflet {
 
-SunVisibility sunVisibility(gpu::Recorder& f, const GBuffer& g, const ShadowInputs& in,
+SunVisibility sunVisibility(gpu::PassList& f, const GBuffer& g, const ShadowInputs& in,
                             const ShadowVisibilityParams& params) {
     const ShadowFilter filter = params.settings.filter;
     const bool soft = filter == ShadowFilter::pcf || filter == ShadowFilter::pcss;

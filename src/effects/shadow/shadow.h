@@ -132,7 +132,7 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "effects/gbuffer/gbuffer.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 namespace reflet {
 
@@ -155,9 +155,9 @@ struct ShadowInputs {
 uvec2 shadowRangeSize(uvec2 map);
 
 /// Writes the range image (RG32F) of a map: the largest depth (nearest to the sun) and the smallest of each cell.
-void makeShadowRange(gpu::Recorder& f, gpu::Image map, gpu::Image range);
+void makeShadowRange(gpu::PassList& f, gpu::Image map, gpu::Image range);
 
-SunVisibility sunVisibility(gpu::Recorder& f, const GBuffer& g, const ShadowInputs& in,
+SunVisibility sunVisibility(gpu::PassList& f, const GBuffer& g, const ShadowInputs& in,
                             const ShadowVisibilityParams& params);
 
 }  // namespace reflet

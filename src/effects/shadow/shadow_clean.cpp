@@ -5,13 +5,13 @@ namespace reflet {
 
 namespace {
 
-gpu::Image clearedTexels(gpu::Recorder& f, const char* name, uvec2 size) {
+gpu::Image clearedTexels(gpu::PassList& f, const char* name, uvec2 size) {
     const gpu::Image image = f.image(name, VK_FORMAT_R32_UINT, size);
     f.clear(image);
     return image;
 }
 
-gpu::BufferView listTiles(gpu::Recorder& f, gpu::Image visibility, gpu::Image penumbra, gpu::Image cleaned) {
+gpu::BufferView listTiles(gpu::PassList& f, gpu::Image visibility, gpu::Image penumbra, gpu::Image cleaned) {
     const uvec2 tiles = (visibility.size + shadowTileSide - 1U) / shadowTileSide;
     const gpu::BufferView list =
         f.buffer("shadow_clean.tiles", shadowTilesHeader + VkDeviceSize(tiles.x) * tiles.y * sizeof(uint32_t));
@@ -29,7 +29,7 @@ gpu::BufferView listTiles(gpu::Recorder& f, gpu::Image visibility, gpu::Image pe
 
 }  // namespace
 
-gpu::Image denoiseShadow(gpu::Recorder& f, gpu::HistoryImage* own, const GBuffer& g, gpu::Image visibility,
+gpu::Image denoiseShadow(gpu::PassList& f, gpu::HistoryImage* own, const GBuffer& g, gpu::Image visibility,
                          gpu::Image penumbra, ShadowDenoiseParams params) {
     const uvec2 size = visibility.size;
     const gpu::Image cleaned = f.image("shadow_clean", VK_FORMAT_R8_UNORM, size);

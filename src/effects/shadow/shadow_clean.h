@@ -43,14 +43,14 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "effects/gbuffer/gbuffer.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 namespace reflet {
 
 /// visibility: R8; penumbra: RG16F, x: full width perpendicular to the sun's direction [m], 0 or less: unknown (see
 /// SunVisibility). Sets params.hasPrevious. Returns R8. own: none: this frame alone,
 /// whatever params.historyFrames is.
-gpu::Image denoiseShadow(gpu::Recorder& f, gpu::HistoryImage* own, const GBuffer& g, gpu::Image visibility,
+gpu::Image denoiseShadow(gpu::PassList& f, gpu::HistoryImage* own, const GBuffer& g, gpu::Image visibility,
                          gpu::Image penumbra, ShadowDenoiseParams params);
 
 }  // namespace reflet

@@ -19,7 +19,7 @@ uvec2 shadowRangeSize(uvec2 map) {
     return levelsImageSize(cellsOf(map), shadowRangeLevels);
 }
 
-void makeShadowRange(gpu::Recorder& f, gpu::Image map, gpu::Image range) {
+void makeShadowRange(gpu::PassList& f, gpu::Image map, gpu::Image range) {
     for (uint32_t level = 1; level < shadowRangeLevels; ++level) {
         f.compute("shadow_range." + std::to_string(level), "shadow_range.comp")
             .read("shadowMap", map)

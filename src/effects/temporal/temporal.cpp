@@ -19,7 +19,7 @@ struct Histories {
     bool valid = false;
 };
 
-Histories swapHistories(gpu::Recorder& f, TemporalStore& own, uvec2 size, bool covers) {
+Histories swapHistories(gpu::PassList& f, TemporalStore& own, uvec2 size, bool covers) {
     // Of frames at rest, deviation of the tone-compressed luma from the history: variance, and mean over the last few
     // frames.
     Histories h{own.mean.swap(f, VK_FORMAT_R16G16B16A16_SFLOAT, size),
@@ -34,7 +34,7 @@ Histories swapHistories(gpu::Recorder& f, TemporalStore& own, uvec2 size, bool c
     return h;
 }
 
-void bindHistories(gpu::Pass& pass, const Histories& h, const TemporalInputs& in) {
+void bindHistories(gpu::ComputePass& pass, const Histories& h, const TemporalInputs& in) {
     pass.read("radiance", in.radiance)
         .read("previousMean", h.mean.previous)
         .read("previousDeviations", h.deviations.previous)
@@ -50,7 +50,7 @@ uvec2 columns(uvec2 size) {
     return {size.x, (size.y + temporalColumn - 1) / temporalColumn};
 }
 
-void upscale(gpu::Recorder& f, TemporalStore& own, const Histories& h, const TemporalInputs& in,
+void upscale(gpu::PassList& f, TemporalStore& own, const Histories& h, const TemporalInputs& in,
              const TemporalParams& params) {
     const uvec2 output = h.mean.next.size;
     const gpu::History changes = own.changes.swap(f, VK_FORMAT_R16G16B16A16_SFLOAT, params.size);
@@ -58,9 +58,9 @@ void upscale(gpu::Recorder& f, TemporalStore& own, const Histories& h, const Tem
     aroundParams.hasPrevious = changes.valid ? params.hasPrevious : 0U;
     const gpu::Image around = f.image("temporal.around", VK_FORMAT_R16G16B16A16_SFLOAT, params.size);
     const gpu::Image spread = f.image("temporal.spread", VK_FORMAT_R16G16B16A16_SFLOAT, params.size);
-    gpu::Pass near =
+    gpu::ComputePass near =
         f.compute("temporal.around", in.coverage ? "temporal_around_coverage.comp" : "temporal_around.comp");
-    gpu::Pass add =
+    gpu::ComputePass add =
         f.compute("temporal.upscale", in.coverage ? "temporal_upscale_coverage.comp" : "temporal_upscale.comp");
     if (in.coverage) {
         const gpu::Image covered = f.image("temporal.covered", VK_FORMAT_R16G16_SFLOAT, params.size);
@@ -87,7 +87,7 @@ void upscale(gpu::Recorder& f, TemporalStore& own, const Histories& h, const Tem
 
 }  // namespace
 
-TemporalImages temporal(gpu::Recorder& f, TemporalStore& own, const TemporalInputs& in,
+TemporalImages temporal(gpu::PassList& f, TemporalStore& own, const TemporalInputs& in,
                         const TemporalSettings& settings) {
     const uvec2 size = in.radiance.size;
     const uvec2 output = in.outputSize.x > 0 ? in.outputSize : size;
@@ -96,7 +96,7 @@ TemporalImages temporal(gpu::Recorder& f, TemporalStore& own, const TemporalInpu
     if (size != output) {
         upscale(f, own, h, in, params);
     } else {
-        gpu::Pass pass = f.compute("temporal", in.coverage ? "temporal_coverage.comp" : "temporal.comp");
+        gpu::ComputePass pass = f.compute("temporal", in.coverage ? "temporal_coverage.comp" : "temporal.comp");
         bindHistories(pass, h, in);
         pass.read("depth", in.depth).read("motion", in.motion).params(params).dispatch(columns(size));
     }

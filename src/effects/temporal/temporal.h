@@ -62,7 +62,7 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "effects/gbuffer/gbuffer.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 namespace reflet {
 
@@ -94,7 +94,7 @@ struct TemporalStore {
     gpu::HistoryImage changes{"temporal_changes"};
 };
 
-TemporalImages temporal(gpu::Recorder& f, TemporalStore& own, const TemporalInputs& in,
+TemporalImages temporal(gpu::PassList& f, TemporalStore& own, const TemporalInputs& in,
                         const TemporalSettings& settings);
 
 }  // namespace reflet

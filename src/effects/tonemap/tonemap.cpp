@@ -3,9 +3,9 @@
 
 namespace reflet {
 
-gpu::Image tonemap(gpu::Recorder& f, gpu::Image radiance, const TonemapSettings& settings, gpu::Image exposure) {
+gpu::Image tonemap(gpu::PassList& f, gpu::Image radiance, const TonemapSettings& settings, gpu::Image exposure) {
     const gpu::Image display = f.image("display", VK_FORMAT_R8G8B8A8_UNORM, radiance.size);
-    gpu::Pass pass = f.compute("tonemap", exposure ? "tonemap_auto.comp" : "tonemap.comp");
+    gpu::ComputePass pass = f.compute("tonemap", exposure ? "tonemap_auto.comp" : "tonemap.comp");
     if (exposure) {
         pass.read("exposure", exposure);
     }

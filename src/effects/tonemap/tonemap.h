@@ -45,13 +45,13 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 namespace reflet {
 
 /// RGBA8, display encoded (sRGB unless the curve is gamma22), alpha 1. `exposure`: from measureExposure; none: that of
 /// the settings alone.
-gpu::Image tonemap(gpu::Recorder& f, gpu::Image radiance, const TonemapSettings& settings, gpu::Image exposure = {});
+gpu::Image tonemap(gpu::PassList& f, gpu::Image radiance, const TonemapSettings& settings, gpu::Image exposure = {});
 
 }  // namespace reflet
 #endif

@@ -16,7 +16,7 @@ namespace {
 constexpr VkFormat radianceFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 
 // Radiance divided by the coverage, 0 where that is 0.
-gpu::Image straightRadiance(gpu::Recorder& f, gpu::Image premultiplied, gpu::Image coverage) {
+gpu::Image straightRadiance(gpu::PassList& f, gpu::Image premultiplied, gpu::Image coverage) {
     const gpu::Image radiance = f.image("background.straight", radianceFormat, premultiplied.size);
     f.compute("straight", "straight.comp")
         .read("premultiplied", premultiplied)
@@ -27,7 +27,7 @@ gpu::Image straightRadiance(gpu::Recorder& f, gpu::Image premultiplied, gpu::Ima
     return radiance;
 }
 
-gpu::Image overBackground(gpu::Recorder& f, gpu::Image display, gpu::Image coverage, const Background& background) {
+gpu::Image overBackground(gpu::PassList& f, gpu::Image display, gpu::Image coverage, const Background& background) {
     const gpu::Image over = f.image("background.display", VK_FORMAT_R8G8B8A8_UNORM, display.size);
     f.compute("underlay", "underlay.comp")
         .constant("transparent", background.mode == Background::Mode::transparent ? 1U : 0U)
@@ -41,7 +41,7 @@ gpu::Image overBackground(gpu::Recorder& f, gpu::Image display, gpu::Image cover
 
 }  // namespace
 
-lighting::Light withBackground(gpu::Recorder& f, const FrameBackground& background, const ViewParams& view,
+lighting::Light withBackground(gpu::PassList& f, const FrameBackground& background, const ViewParams& view,
                                const lighting::Light& light) {
     if (!background.environment) {
         return light;
@@ -51,7 +51,7 @@ lighting::Light withBackground(gpu::Recorder& f, const FrameBackground& backgrou
     out.direct = f.image("background.direct", radianceFormat, size);
     out.lit = f.image("background.lit", radianceFormat, size);
     const gpu::Image covered = f.image("background.coverage", radianceFormat, size);
-    gpu::Pass pass = f.compute("background", "background.comp");
+    gpu::ComputePass pass = f.compute("background", "background.comp");
     bindEnvironment(pass, *background.environment);
     pass.read("depth", light.depth)
         .read("direct", light.direct)
@@ -75,7 +75,7 @@ lighting::Light withBackground(gpu::Recorder& f, const FrameBackground& backgrou
     return out;
 }
 
-gpu::Image displayOver(gpu::Recorder& f, const FrameBackground& background, const LightingSettings& settings,
+gpu::Image displayOver(gpu::PassList& f, const FrameBackground& background, const LightingSettings& settings,
                        const lighting::Light& light, gpu::Image exposure) {
     if (!light.coverage) {
         return lighting::display(f, settings, light.lit, exposure);

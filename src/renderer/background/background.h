@@ -31,7 +31,7 @@ SHARED_END
 
 #include "base/image_file.h"
 #include "effects/environment/environment_light.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 #include "lighting/light.h"
 #include "lighting/settings.h"
 #include "scene/scene.h"
@@ -48,11 +48,11 @@ struct FrameBackground {
 
 /// The light with the background where there is no surface, and how much of each pixel surfaces cover, if the
 /// background needs it. The light itself if the environment is shown.
-lighting::Light withBackground(gpu::Recorder& f, const FrameBackground& background, const ViewParams& view,
+lighting::Light withBackground(gpu::PassList& f, const FrameBackground& background, const ViewParams& view,
                                const lighting::Light& light);
 
 /// RGBA8: the display image over the background's colour, or with straight alpha.
-gpu::Image displayOver(gpu::Recorder& f, const FrameBackground& background, const LightingSettings& settings,
+gpu::Image displayOver(gpu::PassList& f, const FrameBackground& background, const LightingSettings& settings,
                        const lighting::Light& light, gpu::Image exposure);
 
 /// On the host, for images of the reference: radiance divided by the coverage, and a display image over the background.

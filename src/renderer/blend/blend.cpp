@@ -7,7 +7,7 @@ bool showsBlended(const DrawList& list, const ViewParams& view) {
     return anyDraws(list, {.keep = [](const Draw& draw) { return draw.blended; }, .worldToClip = view.worldToClip});
 }
 
-void blendLayer(gpu::Recorder& f, gpu::Image accumulated, gpu::Image radiance, const BlendedLayer& layer,
+void blendLayer(gpu::PassList& f, gpu::Image accumulated, gpu::Image radiance, const BlendedLayer& layer,
                 BlendSide side) {
     f.compute("blend_layer", "blend_layer.comp")
         .constant("side", static_cast<uint32_t>(side))
@@ -22,7 +22,7 @@ void blendLayer(gpu::Recorder& f, gpu::Image accumulated, gpu::Image radiance, c
 
 namespace {
 
-void compositeOver(gpu::Recorder& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over, uint32_t coverage) {
+void compositeOver(gpu::PassList& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over, uint32_t coverage) {
     f.compute("blend_over", "blend_over.comp")
         .read("accumulated", accumulated)
         .read("behind", behind)
@@ -33,11 +33,11 @@ void compositeOver(gpu::Recorder& f, gpu::Image accumulated, gpu::Image behind, 
 
 }  // namespace
 
-void blendOver(gpu::Recorder& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over) {
+void blendOver(gpu::PassList& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over) {
     compositeOver(f, accumulated, behind, over, 0);
 }
 
-void coverOver(gpu::Recorder& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over) {
+void coverOver(gpu::PassList& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over) {
     compositeOver(f, accumulated, behind, over, 1);
 }
 

@@ -35,7 +35,7 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "effects/view.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 #include "renderer/draw_list.h"
 
 #include <string_view>
@@ -58,14 +58,14 @@ struct BlendedLayer {
 
 /// Composites a layer under those in front of it. accumulated: RGBA16F, their light and what they let through; written
 /// by the first layer. radiance: of the layer.
-void blendLayer(gpu::Recorder& f, gpu::Image accumulated, gpu::Image radiance, const BlendedLayer& layer,
+void blendLayer(gpu::PassList& f, gpu::Image accumulated, gpu::Image radiance, const BlendedLayer& layer,
                 BlendSide side);
 
 /// over = accumulated layers over the light `behind` them; the alpha of `behind` is kept. RGBA16F, not the same image.
-void blendOver(gpu::Recorder& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over);
+void blendOver(gpu::PassList& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over);
 
 /// The same for the share of the pixel that surfaces cover, in red, green and blue.
-void coverOver(gpu::Recorder& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over);
+void coverOver(gpu::PassList& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over);
 
 }  // namespace reflet
 #endif

@@ -13,7 +13,7 @@ namespace {
 constexpr VkFormat lightFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 
 // The light of a layer with its clear coats.
-LightLayers litLayer(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, TracedView& layer,
+LightLayers litLayer(gpu::PassList& f, const ViewInputs& in, const Settings& settings, TracedView& layer,
                      gpu::Image nearerDepth, bool layers) {
     const LightLayers lit = lightLayer(f, in, settings, layer, layers);
     if (!in.draws.coatedBlended || settings.materials.coats == 0 || settings.materials.lambertOnly != 0) {
@@ -22,7 +22,7 @@ LightLayers litLayer(gpu::Recorder& f, const ViewInputs& in, const Settings& set
     return addCoats(f, in, settings, layer, {layer.images.g.depth, nearerDepth, CoatedSurfaces::Kind::blended}, lit);
 }
 
-LightLayers imagesOf(gpu::Recorder& f, uvec2 size, bool layers) {
+LightLayers imagesOf(gpu::PassList& f, uvec2 size, bool layers) {
     LightLayers sums;
     sums.lit = f.image("blended", lightFormat, size);
     if (layers) {
@@ -33,7 +33,7 @@ LightLayers imagesOf(gpu::Recorder& f, uvec2 size, bool layers) {
     return sums;
 }
 
-void addLayer(gpu::Recorder& f, const LightLayers& to, const LightLayers& lit, const BlendedLayer& layer,
+void addLayer(gpu::PassList& f, const LightLayers& to, const LightLayers& lit, const BlendedLayer& layer,
               BlendSide side) {
     blendLayer(f, to.lit, lit.lit, layer, side);
     if (to.direct) {
@@ -45,7 +45,7 @@ void addLayer(gpu::Recorder& f, const LightLayers& to, const LightLayers& lit, c
 
 }  // namespace
 
-BlendedSurfaces lightBlended(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+BlendedSurfaces lightBlended(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
                              bool layers) {
     if (settings.blend.layers == 0 || !showsBlended(in.draws, in.view)) {
         return {};
@@ -73,7 +73,7 @@ BlendedSurfaces lightBlended(gpu::Recorder& f, const ViewInputs& in, const Setti
     return out;
 }
 
-gpu::Image withBlended(gpu::Recorder& f, gpu::Image front, gpu::Image behind) {
+gpu::Image withBlended(gpu::PassList& f, gpu::Image front, gpu::Image behind) {
     if (!front) {
         return behind;
     }
@@ -82,12 +82,12 @@ gpu::Image withBlended(gpu::Recorder& f, gpu::Image front, gpu::Image behind) {
     return over;
 }
 
-LightLayers withBlended(gpu::Recorder& f, const LightLayers& front, const LightLayers& behind) {
+LightLayers withBlended(gpu::PassList& f, const LightLayers& front, const LightLayers& behind) {
     return {withBlended(f, front.direct, behind.direct), withBlended(f, front.indirectDiffuse, behind.indirectDiffuse),
             withBlended(f, front.indirectSpecular, behind.indirectSpecular), withBlended(f, front.lit, behind.lit)};
 }
 
-lighting::Light withBlended(gpu::Recorder& f, const LightLayers& front, const lighting::Light& behind) {
+lighting::Light withBlended(gpu::PassList& f, const LightLayers& front, const lighting::Light& behind) {
     if (!front.lit) {
         return behind;
     }

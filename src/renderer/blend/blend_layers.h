@@ -15,13 +15,13 @@ struct BlendedSurfaces {
 
 /// seen: the opaque surfaces, with the screen that reflections read. layers: also the parts of the light, not only the
 /// sum.
-BlendedSurfaces lightBlended(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+BlendedSurfaces lightBlended(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
                              bool layers);
 
 /// `behind` with the blended surfaces in front of it, in another image; `behind` itself if there are none.
-gpu::Image withBlended(gpu::Recorder& f, gpu::Image front, gpu::Image behind);
-LightLayers withBlended(gpu::Recorder& f, const LightLayers& front, const LightLayers& behind);
+gpu::Image withBlended(gpu::PassList& f, gpu::Image front, gpu::Image behind);
+LightLayers withBlended(gpu::PassList& f, const LightLayers& front, const LightLayers& behind);
 /// They cover the background, too.
-lighting::Light withBlended(gpu::Recorder& f, const LightLayers& front, const lighting::Light& behind);
+lighting::Light withBlended(gpu::PassList& f, const LightLayers& front, const lighting::Light& behind);
 
 }  // namespace reflet

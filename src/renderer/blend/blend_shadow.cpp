@@ -6,7 +6,7 @@
 
 namespace reflet {
 
-BlendShadowMaps drawBlendShadowMaps(gpu::Recorder& f, BlendShadowStore& own, const DrawList& list,
+BlendShadowMaps drawBlendShadowMaps(gpu::PassList& f, BlendShadowStore& own, const DrawList& list,
                                     const SunShadowParams& sun, const ShadowSettings& settings) {
     const uvec2 size = sunMapSize(sun, settings);
     const VkClearColorValue all{{1, 1, 1, 1}};
@@ -35,7 +35,7 @@ BlendShadowMaps drawBlendShadowMaps(gpu::Recorder& f, BlendShadowStore& own, con
     return maps;
 }
 
-gpu::Image blendShadow(gpu::Recorder& f, const GBuffer& g, const BlendShadowMaps& maps, gpu::Image sunVisibility,
+gpu::Image blendShadow(gpu::PassList& f, const GBuffer& g, const BlendShadowMaps& maps, gpu::Image sunVisibility,
                        const BlendShadowParams& params) {
     const gpu::Image visibility = f.image("blend_visibility", VK_FORMAT_R8_UNORM, g.depth.size);
     f.compute("blend_shadow", "blend_shadow.comp")

@@ -47,11 +47,11 @@ struct BlendShadowStore {
     std::array<Layer, blendShadowLayers> layers;
 };
 
-BlendShadowMaps drawBlendShadowMaps(gpu::Recorder& f, BlendShadowStore& own, const DrawList& list,
+BlendShadowMaps drawBlendShadowMaps(gpu::PassList& f, BlendShadowStore& own, const DrawList& list,
                                     const SunShadowParams& sun, const ShadowSettings& settings);
 
 /// The sun's visibility (R8) times what the blended surfaces let through.
-gpu::Image blendShadow(gpu::Recorder& f, const GBuffer& g, const BlendShadowMaps& maps, gpu::Image sunVisibility,
+gpu::Image blendShadow(gpu::PassList& f, const GBuffer& g, const BlendShadowMaps& maps, gpu::Image sunVisibility,
                        const BlendShadowParams& params);
 
 }  // namespace reflet

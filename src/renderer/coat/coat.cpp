@@ -30,9 +30,9 @@ GBufferContent contentOf(const ViewInputs& in, const Settings& settings, const C
     return content;
 }
 
-gpu::Image coatOver(gpu::Recorder& f, const ViewInputs& in, const GBuffer& g, gpu::Image layer, gpu::Image behind) {
+gpu::Image coatOver(gpu::PassList& f, const ViewInputs& in, const GBuffer& g, gpu::Image layer, gpu::Image behind) {
     const gpu::Image over = f.image("lit.coat", VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size);
-    gpu::Pass pass = f.compute("coat_over", "coat_over.comp");
+    gpu::ComputePass pass = f.compute("coat_over", "coat_over.comp");
     bindSurfaces(f, pass, g)
         .read("depth", g.depth)
         .read("normal", g.normal)
@@ -53,7 +53,7 @@ bool coatsGlass(const DrawList& list, const Settings& settings) {
     return list.coatedGlass && settings.materials.coats != 0;
 }
 
-LightLayers addCoats(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+LightLayers addCoats(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
                      const CoatedSurfaces& surfaces, const LightLayers& behind) {
     const auto scope = f.scope("coat");
     const Settings ofCoat = coatSettings(settings);
@@ -74,12 +74,12 @@ LightLayers addCoats(gpu::Recorder& f, const ViewInputs& in, const Settings& set
     return out;
 }
 
-LightLayers withCoats(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+LightLayers withCoats(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
                       const LightLayers& behind) {
     return showsCoats(in, settings) ? addCoats(f, in, settings, seen, {seen.images.drawnDepth}, behind) : behind;
 }
 
-lighting::Light withCoats(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+lighting::Light withCoats(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
                           const lighting::Light& behind) {
     lighting::Light out = behind;
     static_cast<LightLayers&>(out) = withCoats(f, in, settings, seen, static_cast<const LightLayers&>(behind));

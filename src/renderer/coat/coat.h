@@ -37,14 +37,14 @@ struct CoatedSurfaces {
 
 /// Composites the coats over `behind`, the light of these surfaces, with those of its layers that it has. seen: the
 /// surfaces, with their shadows, and the screen that reflections read. Reflected light counts as indirect specular.
-LightLayers addCoats(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+LightLayers addCoats(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
                      const CoatedSurfaces& surfaces, const LightLayers& behind);
 
 /// The same for the opaque surfaces of a view; `behind` itself if none that it shows has a coat. Transmissive ones
 /// count as opaque where they are drawn so.
-LightLayers withCoats(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+LightLayers withCoats(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
                       const LightLayers& behind);
-lighting::Light withCoats(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+lighting::Light withCoats(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
                           const lighting::Light& behind);
 
 }  // namespace reflet

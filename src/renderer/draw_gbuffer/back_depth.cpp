@@ -3,7 +3,7 @@
 
 namespace reflet {
 
-gpu::Image drawBackDepth(gpu::Recorder& f, const DrawList& list, gpu::Image depth, const ViewParams& view,
+gpu::Image drawBackDepth(gpu::PassList& f, const DrawList& list, gpu::Image depth, const ViewParams& view,
                          bool withoutGlass) {
     const gpu::Image back = f.target("back_depth", VK_FORMAT_D32_SFLOAT, depth.size);
     f.raster("back_depth", {"back_depth.vert", "back_depth.frag"})

@@ -16,7 +16,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 #include "renderer/draw_list.h"
 
 namespace reflet {
@@ -24,7 +24,7 @@ namespace reflet {
 /// Depth of the nearest back face behind the G-buffer's surface, per pixel: D32, reversed, 0: none. For closed objects
 /// that is their own far side, for open sheets that of the next object behind, if any. depth: the G-buffer's depth as
 /// rendered (same view and list), of the view's size. withoutGlass: as that of the G-buffer.
-gpu::Image drawBackDepth(gpu::Recorder& f, const DrawList& list, gpu::Image depth, const ViewParams& view,
+gpu::Image drawBackDepth(gpu::PassList& f, const DrawList& list, gpu::Image depth, const ViewParams& view,
                          bool withoutGlass = false);
 
 }  // namespace reflet

@@ -21,7 +21,7 @@ uint32_t translucentOf(const GBufferContent& content) {
 
 }  // namespace
 
-GBuffer drawGBuffer(gpu::Recorder& f, const DrawList& list, const ViewParams& view, const MaterialsSettings& settings,
+GBuffer drawGBuffer(gpu::PassList& f, const DrawList& list, const ViewParams& view, const MaterialsSettings& settings,
                     const GBufferContent& content) {
     const vec4 clipPlane = content.clipPlane;
     const bool blended = bool(content.opaqueDepth);

@@ -48,7 +48,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 #include "renderer/draw_list.h"
 #include "renderer/material.h"
 
@@ -72,7 +72,7 @@ struct GBufferContent {
 /// draws culled. Layers of blended surfaces are found by depth peeling (C. Everitt, Interactive Order-Independent
 /// Transparency, 2001). Clipping is done per pixel, because an oblique near plane (Lengyel, Oblique View Frustum Depth
 /// Projection and Clipping, 2005) would distort depth, and ray marching relies on distance = near / depth.
-GBuffer drawGBuffer(gpu::Recorder& f, const DrawList& list, const ViewParams& view, const MaterialsSettings& settings,
+GBuffer drawGBuffer(gpu::PassList& f, const DrawList& list, const ViewParams& view, const MaterialsSettings& settings,
                     const GBufferContent& content = {});
 
 }  // namespace reflet

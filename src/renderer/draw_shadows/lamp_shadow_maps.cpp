@@ -157,7 +157,7 @@ static_assert(sizeof(LampMapContents) == sizeof(LampTileParams) + 16, "padding w
 
 }  // namespace
 
-gpu::Image drawLampShadowMap(gpu::Recorder& f, gpu::KeptImage& own, const DrawList& list, const LampShadows& shadows) {
+gpu::Image drawLampShadowMap(gpu::PassList& f, gpu::KeptImage& own, const DrawList& list, const LampShadows& shadows) {
     LampTileParams params{};
     for (uint32_t i = 0; i < shadows.count; ++i) {
         for (uint32_t face = 0; face < shadows.lamps[i].tiles; ++face) {

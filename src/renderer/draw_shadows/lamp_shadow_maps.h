@@ -2,7 +2,7 @@
 #pragma once
 
 #include "effects/shadow/lamp_shadow.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 #include "renderer/draw_list.h"
 
 #include <functional>
@@ -17,6 +17,6 @@ LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, ui
                             const std::function<void(const std::string&)>& warn);
 
 /// Draws depth from the lamps, both sides of every surface: D32, reversed (near / distance along the tile's axis).
-gpu::Image drawLampShadowMap(gpu::Recorder& f, gpu::KeptImage& own, const DrawList& list, const LampShadows& shadows);
+gpu::Image drawLampShadowMap(gpu::PassList& f, gpu::KeptImage& own, const DrawList& list, const LampShadows& shadows);
 
 }  // namespace reflet

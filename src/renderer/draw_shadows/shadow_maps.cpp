@@ -18,7 +18,7 @@ static_assert(sizeof(SunMapContents) == sizeof(SunShadowParams) + 12, "padding w
 
 }  // namespace
 
-bool holdsSunMap(gpu::Recorder& f, gpu::KeptImage& image, const DrawList& list, const SunShadowParams& sun,
+bool holdsSunMap(gpu::PassList& f, gpu::KeptImage& image, const DrawList& list, const SunShadowParams& sun,
                  const ShadowSettings& settings, bool opaqueOnly) {
     return list.version != 0 && image.holds(f, SunMapContents{.draws = list.version,
                                                               .sun = sun,
@@ -44,7 +44,7 @@ void recordSunMap(const gpu::DrawCommands& to, const DrawList& list, const SunSh
     }
 }
 
-gpu::Image drawShadowMap(gpu::Recorder& f, gpu::KeptImage& own, const DrawList& list, const SunShadowParams& sun,
+gpu::Image drawShadowMap(gpu::PassList& f, gpu::KeptImage& own, const DrawList& list, const SunShadowParams& sun,
                          const ShadowSettings& settings, bool opaqueOnly) {
     const gpu::Image depth = own.target(f, VK_FORMAT_D32_SFLOAT, sunMapSize(sun, settings));
     if (holdsSunMap(f, own, list, sun, settings, opaqueOnly)) {
@@ -71,7 +71,7 @@ gpu::Image drawShadowMap(gpu::Recorder& f, gpu::KeptImage& own, const DrawList& 
     return depth;
 }
 
-gpu::Image drawShadowRange(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image shadowMap, const DrawList& list,
+gpu::Image drawShadowRange(gpu::PassList& f, gpu::KeptImage& own, gpu::Image shadowMap, const DrawList& list,
                            const SunShadowParams& sun, const ShadowSettings& settings, bool opaqueOnly) {
     const gpu::Image range = own.storage(f, lighting::shadowRangeFormat, lighting::shadowRangeSize(shadowMap.size));
     if (!holdsSunMap(f, own, list, sun, settings, opaqueOnly)) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "effects/shadow/shadow.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 #include "renderer/draw_list.h"
 
 namespace reflet {
@@ -30,18 +30,18 @@ ShadowMapParams centredSunShadow(const Aabb& sceneBounds, const vec3& direction,
 
 /// Draws depth from the sun, both sides of every surface: D32, reversed (1 nearest to the sun). A tile per cascade:
 /// 1x1, 2x1 or 2x2. opaqueOnly: of blended surfaces only what is opaque; else what has an alpha of blendCutoff.
-gpu::Image drawShadowMap(gpu::Recorder& f, gpu::KeptImage& own, const DrawList& list, const SunShadowParams& sun,
+gpu::Image drawShadowMap(gpu::PassList& f, gpu::KeptImage& own, const DrawList& list, const SunShadowParams& sun,
                          const ShadowSettings& settings, bool opaqueOnly = false);
 
 /// What another map of the same size needs: its size, whether a cached one is still valid, its draws.
 uvec2 sunMapSize(const SunShadowParams& sun, const ShadowSettings& settings);
-bool holdsSunMap(gpu::Recorder& f, gpu::KeptImage& image, const DrawList& list, const SunShadowParams& sun,
+bool holdsSunMap(gpu::PassList& f, gpu::KeptImage& image, const DrawList& list, const SunShadowParams& sun,
                  const ShadowSettings& settings, bool opaqueOnly = false);
 void recordSunMap(const gpu::DrawCommands& to, const DrawList& list, const SunShadowParams& sun, uint32_t resolution,
                   const std::function<bool(const Draw&)>& keep, bool bindMaterials = true);
 
 /// lighting::shadowRange of the map. list, sun, settings, opaqueOnly: as for drawShadowMap; reused whenever the map is.
-gpu::Image drawShadowRange(gpu::Recorder& f, gpu::KeptImage& own, gpu::Image shadowMap, const DrawList& list,
+gpu::Image drawShadowRange(gpu::PassList& f, gpu::KeptImage& own, gpu::Image shadowMap, const DrawList& list,
                            const SunShadowParams& sun, const ShadowSettings& settings, bool opaqueOnly = false);
 
 }  // namespace reflet

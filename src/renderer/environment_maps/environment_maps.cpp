@@ -44,7 +44,7 @@ const FloatImage& whiteImage() {
 
 }  // namespace
 
-void EnvironmentMaps::load(gpu::Recorder& f) {
+void EnvironmentMaps::load(gpu::PassList& f) {
     const FloatImage& image = image_ ? *image_ : whiteImage();
     scale_ = image_ ? scaleFor(image) : 1.0F;
     const gpu::Image texels = texels_.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, uvec2(image.width, image.height));
@@ -56,7 +56,7 @@ void EnvironmentMaps::load(gpu::Recorder& f) {
     lighting::prefilterEnvironment(f, cube_, texels, image_ ? image.width : 0);
 }
 
-EnvironmentLight EnvironmentMaps::update(gpu::Recorder& f, const Environment& environment) {
+EnvironmentLight EnvironmentMaps::update(gpu::PassList& f, const Environment& environment) {
     if (!texels_.last() || image_ != environment.image) {
         image_ = environment.image;
         load(f);

@@ -18,10 +18,10 @@ public:
     /// Records the upload and prefiltering of the image if it has changed; intensity and rotation may change freely.
     /// Values beyond half floats are kept up to 6.7e7 and clamped above: images are stored divided by a power of two of
     /// up to 1024.
-    EnvironmentLight update(gpu::Recorder& f, const Environment& environment);
+    EnvironmentLight update(gpu::PassList& f, const Environment& environment);
 
 private:
-    void load(gpu::Recorder& f);
+    void load(gpu::PassList& f);
 
     bool prefilters_ = true;
     std::shared_ptr<const FloatImage> image_;

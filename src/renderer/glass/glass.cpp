@@ -10,7 +10,7 @@ bool drawsGlass(const DrawList& list, const TransmissionSettings& settings, cons
     return list.glass && settings.layers > 0 && materials.lambertOnly == 0;
 }
 
-GlassSurfaces glassSurfaces(gpu::Recorder& f, const DrawList& list, const ViewParams& view, const GBuffer& g) {
+GlassSurfaces glassSurfaces(gpu::PassList& f, const DrawList& list, const ViewParams& view, const GBuffer& g) {
     const uvec2 size = g.depth.size;
     const VkClearColorValue zero{};
     const GlassSurfaces out{f.target("glass.tint", VK_FORMAT_R16G16B16A16_SFLOAT, size),
@@ -43,7 +43,7 @@ GlassSurfaces glassSurfaces(gpu::Recorder& f, const DrawList& list, const ViewPa
     return out;
 }
 
-RefractedRays refractRays(gpu::Recorder& f, const GBuffer& g, const GlassSurfaces& glass, gpu::Image ggxTable,
+RefractedRays refractRays(gpu::PassList& f, const GBuffer& g, const GlassSurfaces& glass, gpu::Image ggxTable,
                           bool disperses, const RefractParams& params) {
     const uvec2 size = g.depth.size;
     RaySurfaces from{.g = g, .view = params.view};
@@ -54,7 +54,7 @@ RefractedRays refractRays(gpu::Recorder& f, const GBuffer& g, const GlassSurface
     generation.params.rayCount = disperses ? 3 : 1;
     RefractedRays out{raysOf(f, generation), f.image("glass.share", VK_FORMAT_R16G16B16A16_SFLOAT, size)};
     out.rays.spreads = params.frosted != 0;
-    gpu::Pass pass = f.compute("refract_rays", "refract_rays.comp");
+    gpu::ComputePass pass = f.compute("refract_rays", "refract_rays.comp");
     bindSurfaces(f, pass, g)
         .constant("disperses", disperses ? 1U : 0U)
         .read("depth", g.depth)
@@ -79,7 +79,7 @@ RefractedRays refractRays(gpu::Recorder& f, const GBuffer& g, const GlassSurface
     return out;
 }
 
-void glassOver(gpu::Recorder& f, const GBuffer& g, gpu::Image layer, const RefractedRays* transmitted,
+void glassOver(gpu::PassList& f, const GBuffer& g, gpu::Image layer, const RefractedRays* transmitted,
                gpu::Image behind, gpu::Image over) {
     f.compute("glass_over", "glass_over.comp")
         .constant("transmits", transmitted != nullptr ? 1U : 0U)

@@ -43,7 +43,7 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "effects/lobe/rays.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 #include "renderer/draw_gbuffer/draw_gbuffer.h"
 #include "renderer/draw_list.h"
 
@@ -62,7 +62,7 @@ struct GlassSurfaces {
 };
 
 /// g: of the layer, drawn with the same list and view.
-GlassSurfaces glassSurfaces(gpu::Recorder& f, const DrawList& list, const ViewParams& view, const GBuffer& g);
+GlassSurfaces glassSurfaces(gpu::PassList& f, const DrawList& list, const ViewParams& view, const GBuffer& g);
 
 /// A ray for each pixel of the layer, or three where it disperses light, from where it leaves the glass.
 struct RefractedRays {
@@ -72,12 +72,12 @@ struct RefractedRays {
 };
 
 /// disperses: whether some of the glass does.
-RefractedRays refractRays(gpu::Recorder& f, const GBuffer& g, const GlassSurfaces& glass, gpu::Image ggxTable,
+RefractedRays refractRays(gpu::PassList& f, const GBuffer& g, const GlassSurfaces& glass, gpu::Image ggxTable,
                           bool disperses, const RefractParams& params);
 
 /// over = what the layer itself sends, where there is one, plus what it transmits (none: nothing); `behind` elsewhere.
 /// All RGBA16F. The alpha of `behind` is kept.
-void glassOver(gpu::Recorder& f, const GBuffer& g, gpu::Image layer, const RefractedRays* transmitted,
+void glassOver(gpu::PassList& f, const GBuffer& g, gpu::Image layer, const RefractedRays* transmitted,
                gpu::Image behind, gpu::Image over);
 
 }  // namespace reflet

@@ -14,7 +14,7 @@ namespace reflet {
 namespace {
 
 // The nearest layers, the nearest first.
-std::vector<GBuffer> peelGlass(gpu::Recorder& f, const ViewInputs& in, const Settings& settings,
+std::vector<GBuffer> peelGlass(gpu::PassList& f, const ViewInputs& in, const Settings& settings,
                                gpu::Image opaqueDepth) {
     std::vector<GBuffer> peeled;
     for (uint32_t i = 0; i < settings.transmission.layers; ++i) {
@@ -27,7 +27,7 @@ std::vector<GBuffer> peelGlass(gpu::Recorder& f, const ViewInputs& in, const Set
     return peeled;
 }
 
-gpu::Image glassOver(gpu::Recorder& f, const GBuffer& g, gpu::Image layer, const RefractedRays* transmitted,
+gpu::Image glassOver(gpu::PassList& f, const GBuffer& g, gpu::Image layer, const RefractedRays* transmitted,
                      gpu::Image behind) {
     const gpu::Image over = f.image("lit.glass", VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size);
     glassOver(f, g, layer, transmitted, behind, over);
@@ -35,7 +35,7 @@ gpu::Image glassOver(gpu::Recorder& f, const GBuffer& g, gpu::Image layer, const
 }
 
 // seen: with the layer's G-buffer, and the light behind it on screen. nearerDepth: of the layer in front, if any.
-LightThroughGlass addLayer(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, TracedView seen,
+LightThroughGlass addLayer(gpu::PassList& f, const ViewInputs& in, const Settings& settings, TracedView seen,
                            gpu::Image nearerDepth, const LightLayers& behind) {
     const bool layers = bool(behind.indirectDiffuse);
     const GBuffer& g = seen.images.g;
@@ -61,7 +61,7 @@ LightThroughGlass addLayer(gpu::Recorder& f, const ViewInputs& in, const Setting
 }
 
 // Depth of the opaque surfaces, or of the glass where that is nearer: R32F.
-gpu::Image depthWithGlass(gpu::Recorder& f, const NearestGlass& nearest, gpu::Image opaqueDepth) {
+gpu::Image depthWithGlass(gpu::PassList& f, const NearestGlass& nearest, gpu::Image opaqueDepth) {
     const gpu::Image depth = f.image("glass.depth", VK_FORMAT_R32_SFLOAT, opaqueDepth.size);
     f.compute("glass_depth", "glass_depth.comp")
         .read("opaque", opaqueDepth)
@@ -73,7 +73,7 @@ gpu::Image depthWithGlass(gpu::Recorder& f, const NearestGlass& nearest, gpu::Im
 }
 
 // Depth (R32F) and motion of the volumes of glass in front of what the light has moved with so far.
-void followGlass(gpu::Recorder& f, const NearestGlass& nearest, lighting::Light& light) {
+void followGlass(gpu::PassList& f, const NearestGlass& nearest, lighting::Light& light) {
     const uvec2 size = light.followedDepth.size;
     const gpu::Image depth = f.image("glass.followed_depth", VK_FORMAT_R32_SFLOAT, size);
     const gpu::Image motion = f.image("glass.followed_motion", VK_FORMAT_R16G16B16A16_SFLOAT, size);
@@ -99,7 +99,7 @@ bool showsGlass(const ViewInputs& in, const Settings& settings) {
                     {.keep = [](const Draw& draw) { return draw.glass; }, .worldToClip = in.view.worldToClip});
 }
 
-LightThroughGlass throughGlass(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+LightThroughGlass throughGlass(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
                                const LightLayers& behind) {
     LightThroughGlass sum{behind, {}};
     if (!showsGlass(in, settings)) {
@@ -121,7 +121,7 @@ LightThroughGlass throughGlass(gpu::Recorder& f, const ViewInputs& in, const Set
     return sum;
 }
 
-lighting::Light throughGlass(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+lighting::Light throughGlass(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
                              const lighting::Light& behind) {
     const LightThroughGlass through = throughGlass(f, in, settings, seen, static_cast<const LightLayers&>(behind));
     lighting::Light out = behind;
@@ -133,7 +133,7 @@ lighting::Light throughGlass(gpu::Recorder& f, const ViewInputs& in, const Setti
     return out;
 }
 
-gpu::Image nearestGlass(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, gpu::Image opaqueDepth) {
+gpu::Image nearestGlass(gpu::PassList& f, const ViewInputs& in, const Settings& settings, gpu::Image opaqueDepth) {
     if (!showsGlass(in, settings)) {
         return {};
     }

@@ -25,15 +25,15 @@ struct LightThroughGlass {
 /// Composites the glass over `behind`, the light of the view's opaque surfaces with those of its layers that it has,
 /// back to front: nearer glass refracts what is farther. Transmitted light counts as indirect specular. `behind` itself
 /// if the view shows no glass.
-LightThroughGlass throughGlass(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+LightThroughGlass throughGlass(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
                                const LightLayers& behind);
 
 /// The same, with the depth of the nearest glass, and with depth and motion of volumes of glass, which the light then
 /// moves with.
-lighting::Light throughGlass(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+lighting::Light throughGlass(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
                              const lighting::Light& behind);
 
 /// Depth of the nearest glass before throughGlass has drawn it; 0: none. D32. None if the view shows no glass.
-gpu::Image nearestGlass(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, gpu::Image opaqueDepth);
+gpu::Image nearestGlass(gpu::PassList& f, const ViewInputs& in, const Settings& settings, gpu::Image opaqueDepth);
 
 }  // namespace reflet

@@ -8,7 +8,7 @@
 
 namespace reflet {
 
-gpu::Image renderLiveCameras(gpu::Recorder& f, std::vector<DirectViewStore>& own, const ViewInputs& in,
+gpu::Image renderLiveCameras(gpu::PassList& f, std::vector<DirectViewStore>& own, const ViewInputs& in,
                              const Settings& settings, std::span<const LiveView> pictures) {
     own.resize(std::max(own.size(), pictures.size()));
     gpu::Image lampShadowMap;

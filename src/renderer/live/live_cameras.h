@@ -10,7 +10,7 @@
 namespace reflet {
 
 /// Direct light as each camera sees it. Returns the lamps' shadow map if one was drawn.
-gpu::Image renderLiveCameras(gpu::Recorder& f, std::vector<DirectViewStore>& own, const ViewInputs& in,
+gpu::Image renderLiveCameras(gpu::PassList& f, std::vector<DirectViewStore>& own, const ViewInputs& in,
                              const Settings& settings, std::span<const LiveView> pictures);
 
 }  // namespace reflet

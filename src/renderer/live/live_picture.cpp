@@ -3,7 +3,7 @@
 
 namespace reflet {
 
-void showLive(gpu::Recorder& f, gpu::Image radiance, gpu::Image picture) {
+void showLive(gpu::PassList& f, gpu::Image radiance, gpu::Image picture) {
     f.compute("live_picture", "live_picture.comp")
         .read("radiance", radiance)
         .write("picture", picture)

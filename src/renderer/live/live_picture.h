@@ -20,7 +20,7 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "effects/view.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 namespace reflet {
 
@@ -31,7 +31,7 @@ struct LiveView {
 };
 
 /// Copies radiance (RGBA16F, same size) to the picture.
-void showLive(gpu::Recorder& f, gpu::Image radiance, gpu::Image picture);
+void showLive(gpu::PassList& f, gpu::Image radiance, gpu::Image picture);
 
 }  // namespace reflet
 #endif

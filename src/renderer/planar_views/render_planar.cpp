@@ -17,7 +17,7 @@ namespace reflet {
 namespace {
 
 // Direct light with diffuse light from the probes, if there are any.
-gpu::Image withProbeLight(gpu::Recorder& f, const ViewInputs& in, const Settings& asked, const TracedView& seen) {
+gpu::Image withProbeLight(gpu::PassList& f, const ViewInputs& in, const Settings& asked, const TracedView& seen) {
     if (!in.probes) {
         return seen.images.direct;
     }
@@ -30,7 +30,7 @@ gpu::Image withProbeLight(gpu::Recorder& f, const ViewInputs& in, const Settings
 }
 
 // All light of the view, with its own reflections, coats and glass. light: what these read at hits so far.
-LightLayers reflectingLight(gpu::Recorder& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+LightLayers reflectingLight(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
                             gpu::Image base, const LobeLight& diffuse, const BlendedSurfaces& blended) {
     const LobeLight specular = traceLobe(f, nullptr, in, settings, seen, lobeSpecular);
     LightLayers light =
@@ -42,7 +42,7 @@ LightLayers reflectingLight(gpu::Recorder& f, const ViewInputs& in, const Settin
     return withBlended(f, blended.front, light);
 }
 
-ScreenImages renderReflection(gpu::Recorder& f, DirectViewStore& own, const ViewInputs& in, const Settings& settings,
+ScreenImages renderReflection(gpu::PassList& f, DirectViewStore& own, const ViewInputs& in, const Settings& settings,
                               gpu::Image lampShadowMap) {
     ViewImages images = directView(f, own, in, settings, lampShadowMap, ViewHistory::none);
     images.ambientOcclusion = lighting::ambientOcclusion(f, nullptr, contextOf(in, settings), settings, images);
@@ -69,7 +69,7 @@ ScreenImages renderReflection(gpu::Recorder& f, DirectViewStore& own, const View
     return seen.screen;
 }
 
-ScreenImages renderView(gpu::Recorder& f, PlanarStore& own, const ViewInputs& in, const Settings& settings,
+ScreenImages renderView(gpu::PassList& f, PlanarStore& own, const ViewInputs& in, const Settings& settings,
                         const Mirror& mirror, gpu::Image lampShadowMap) {
     const PlanarSettings& s = settings.planar;
     if (s.form != PlanarForm::duplicate) {
@@ -84,7 +84,7 @@ ScreenImages renderView(gpu::Recorder& f, PlanarStore& own, const ViewInputs& in
 
 }  // namespace
 
-std::vector<PlanarView> renderPlanarViews(gpu::Recorder& f, std::vector<PlanarStore>& own, const ViewInputs& in,
+std::vector<PlanarView> renderPlanarViews(gpu::PassList& f, std::vector<PlanarStore>& own, const ViewInputs& in,
                                           const Settings& settings, std::span<const Mirror> mirrors,
                                           gpu::Image lampShadowMap) {
     std::vector<PlanarView> views;

@@ -19,7 +19,7 @@ struct PlanarStore {
 };
 
 /// A view for each mirror. lampShadowMap: of the frame; may be none.
-std::vector<PlanarView> renderPlanarViews(gpu::Recorder& f, std::vector<PlanarStore>& own, const ViewInputs& in,
+std::vector<PlanarView> renderPlanarViews(gpu::PassList& f, std::vector<PlanarStore>& own, const ViewInputs& in,
                                           const Settings& settings, std::span<const Mirror> mirrors,
                                           gpu::Image lampShadowMap);
 

@@ -6,11 +6,11 @@
 
 namespace reflet {
 
-void answerProbes(gpu::Recorder& f, Rays& rays, const ProbeMaps& probes, const ProbesSettings& settings) {
+void answerProbes(gpu::PassList& f, Rays& rays, const ProbeMaps& probes, const ProbesSettings& settings) {
     const gpu::BufferView missed = makeRayList(f, rays);
     const VkSampler trilinear =
         f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
-    gpu::Pass pass = f.compute("answer_probes", "answer_probes.comp");
+    gpu::ComputePass pass = f.compute("answer_probes", "answer_probes.comp");
     bindRayOrigins(f, pass, rays);
     bindAmbientOcclusion(f, pass, rays.from.ambientOcclusion, rays.from.scale)
         .constant("lobe", rays.lobe)

@@ -20,13 +20,13 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "effects/lobe/rays.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 namespace reflet {
 
 /// Gives rays that start in a probe's box its radiance, as far as the probe does not see the sky. The others stay in
 /// rays.waiting.
-void answerProbes(gpu::Recorder& f, Rays& rays, const ProbeMaps& probes, const ProbesSettings& settings);
+void answerProbes(gpu::PassList& f, Rays& rays, const ProbeMaps& probes, const ProbesSettings& settings);
 
 }  // namespace reflet
 #endif

@@ -88,14 +88,14 @@ void Probes::makeMaps(gpu::Context& context, uint32_t resolution) {
     atlas_ = gpu::Texture(context, {VK_FORMAT_R16G16B16A16_SFLOAT, all, 1, 1, usage}, "probes.atlas");
 }
 
-gpu::Image Probes::captureFace(gpu::Recorder& f, const Capture& capture, uint32_t face, gpu::Image lampShadowMap) {
+gpu::Image Probes::captureFace(gpu::PassList& f, const Capture& capture, uint32_t face, gpu::Image lampShadowMap) {
     const auto scope = f.scope("probe");
     const uvec2 size = distance_.info().size;
     const vec3& position = block_.probes[face / probeFaces].position;
     ViewInputs in = capture.in;
     in.view = makeViewParams(cubeFaceCamera(position, face % probeFaces), size, in.view.frame, in.view.seed);
     const ViewImages images = directView(f, faces_, in, captureSettings(capture.settings), lampShadowMap);
-    gpu::Pass pass = f.compute("capture_probe", "capture_probe.comp");
+    gpu::ComputePass pass = f.compute("capture_probe", "capture_probe.comp");
     pass.params(in.environment.params, "environment");  // without its texels, which are not used here
     bindEnvironmentLobes(pass, f.context(), in.environment);
     bindSurfaces(f, pass, images.g);
@@ -117,7 +117,7 @@ gpu::Image Probes::captureFace(gpu::Recorder& f, const Capture& capture, uint32_
     return images.lampShadowMap;
 }
 
-void Probes::captureAll(gpu::Recorder& f, const ViewInputs& in, const Settings& settings) {
+void Probes::captureAll(gpu::PassList& f, const ViewInputs& in, const Settings& settings) {
     gpu::Image lampShadowMap;
     for (uint32_t bounce = 0; bounce <= settings.probes.bounces; ++bounce) {
         for (uint32_t face = 0; face < block_.count * probeFaces; ++face) {
@@ -128,7 +128,7 @@ void Probes::captureAll(gpu::Recorder& f, const ViewInputs& in, const Settings& 
     }
 }
 
-void Probes::captureNextFace(gpu::Recorder& f, const ViewInputs& in, const Settings& settings) {
+void Probes::captureNextFace(gpu::PassList& f, const ViewInputs& in, const Settings& settings) {
     const uint32_t faces = block_.count * probeFaces;
     const uint32_t face = facesCaptured_ % faces;
     captureFace(f, {in, settings, settings.probes.bounces > 0 && facesCaptured_ >= faces}, face);
@@ -145,7 +145,7 @@ void Probes::restart(bool sceneMoves) {
     }
 }
 
-ProbeMaps Probes::update(gpu::Recorder& f, const ViewInputs& in, std::span<const Probe> probes,
+ProbeMaps Probes::update(gpu::PassList& f, const ViewInputs& in, std::span<const Probe> probes,
                          const Settings& settings) {
     if (settings.probes.enabled == 0 || probes.empty()) {
         return {};

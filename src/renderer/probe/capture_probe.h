@@ -20,7 +20,7 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "effects/cube_map/cube_map.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 #include "renderer/direct_view.h"
 #include "scene/scene.h"
 
@@ -40,7 +40,7 @@ public:
     /// Maps of these probes (at most maxProbes) in the lighting of `in`. refresh once and moving: records the capture
     /// of all of them, unless they are up to date for the same probes, lights and settings. refresh face: records the
     /// capture of one face; a probe's map is updated after its sixth face.
-    ProbeMaps update(gpu::Recorder& f, const ViewInputs& in, std::span<const Probe> probes, const Settings& settings);
+    ProbeMaps update(gpu::PassList& f, const ViewInputs& in, std::span<const Probe> probes, const Settings& settings);
 
     /// With refresh face, captures start over. Maps captured all at once are kept, because they do not depend on time,
     /// unless the scene moves.
@@ -53,10 +53,10 @@ private:
         bool furtherLight;  ///< add indirect light from the existing maps
     };
     void makeMaps(gpu::Context& context, uint32_t resolution);
-    void captureAll(gpu::Recorder& f, const ViewInputs& in, const Settings& settings);
-    void captureNextFace(gpu::Recorder& f, const ViewInputs& in, const Settings& settings);
+    void captureAll(gpu::PassList& f, const ViewInputs& in, const Settings& settings);
+    void captureNextFace(gpu::PassList& f, const ViewInputs& in, const Settings& settings);
     /// face: 6 · probe + its number. Returns the lamps' shadow map, to be shared with other faces of the frame.
-    gpu::Image captureFace(gpu::Recorder& f, const Capture& capture, uint32_t face, gpu::Image lampShadowMap = {});
+    gpu::Image captureFace(gpu::PassList& f, const Capture& capture, uint32_t face, gpu::Image lampShadowMap = {});
 
     DirectViewStore faces_;  ///< of the face that is captured
     CubeMap map_;

@@ -111,7 +111,7 @@ void SkinnedVertices::pose(const ScenePose& now, const ScenePose& before) {
     }
 }
 
-void SkinnedVertices::record(gpu::Recorder& f, const Buffers& vertices) const {
+void SkinnedVertices::record(gpu::PassList& f, const Buffers& vertices) const {
     if (empty()) {
         return;
     }

@@ -37,7 +37,7 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "device/device.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 #include "scene/pose.h"
 
 #include <map>
@@ -64,7 +64,7 @@ public:
         gpu::BufferView attributes;         ///< VertexAttributes
     };
     /// Records the pass; later passes of this and following frames can draw the vertices.
-    void record(gpu::Recorder& f, const Buffers& vertices) const;
+    void record(gpu::PassList& f, const Buffers& vertices) const;
 
 private:
     void addMorph(const Scene& scene, size_t instance);

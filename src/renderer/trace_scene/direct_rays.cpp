@@ -5,12 +5,12 @@
 
 namespace reflet {
 
-DirectRays directByRays(gpu::Recorder& f, const GBuffer& g, const DirectRaysInputs& in,
+DirectRays directByRays(gpu::PassList& f, const GBuffer& g, const DirectRaysInputs& in,
                         const DirectRaysParams& params) {
     const uvec2 size = g.depth.size;
     const DirectRays out{.direct = f.image("direct", VK_FORMAT_R16G16B16A16_SFLOAT, size),
                          .sunVisibility = f.image("sun_visibility", VK_FORMAT_R8_UNORM, size)};
-    gpu::Pass pass = f.compute("direct_rays", in.scene.rays.shader("direct_rays"));
+    gpu::ComputePass pass = f.compute("direct_rays", in.scene.rays.shader("direct_rays"));
     in.scene.rays.bind(pass);
     in.scene.surfaces.bind(pass);
     bindEnvironment(pass, in.environment);

@@ -20,7 +20,7 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "effects/gbuffer/gbuffer.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 
 namespace reflet {
 
@@ -37,7 +37,7 @@ struct DirectRays {
     gpu::Image sunVisibility;  ///< R8: unoccluded share of the rays to the sun's disk, 1 for the sky
 };
 
-DirectRays directByRays(gpu::Recorder& f, const GBuffer& g, const DirectRaysInputs& in, const DirectRaysParams& params);
+DirectRays directByRays(gpu::PassList& f, const GBuffer& g, const DirectRaysInputs& in, const DirectRaysParams& params);
 
 }  // namespace reflet
 #endif

@@ -72,7 +72,7 @@ std::string SceneRays::shader(std::string_view name) const {
     return std::string(name) + (method_ == RayMethod::query ? "_query.comp" : ".comp");
 }
 
-gpu::Pass& SceneRays::bind(gpu::Pass& pass) const {
+gpu::ComputePass& SceneRays::bind(gpu::ComputePass& pass) const {
     pass.read("sceneTriangles", triangles_.view());
     return method_ == RayMethod::query ? pass.read("sceneHierarchy", acceleration_.view())
                                        : pass.read("sceneNodes", nodes_.view());

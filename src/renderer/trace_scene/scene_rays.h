@@ -44,7 +44,7 @@ public:
     /// The shader variant for the method: "trace_scene" gives "trace_scene.comp" or "trace_scene_query.comp".
     [[nodiscard]] std::string shader(std::string_view name) const;
     /// Binds what the shader's include reads.
-    gpu::ComputePass& bind(gpu::Pass& pass) const;
+    gpu::ComputePass& bind(gpu::ComputePass& pass) const;
 
 private:
     void upload(gpu::Device& device, const Bvh& bvh);

@@ -140,7 +140,7 @@ void SceneSurfaces::pose(gpu::Device& device, const Scene& scene, const GpuScene
                                    "scene instances");
 }
 
-gpu::Pass& SceneSurfaces::bind(gpu::Pass& pass) const {
+gpu::ComputePass& SceneSurfaces::bind(gpu::ComputePass& pass) const {
     return pass.read("sceneVertices", attributes_)
         .read("sceneIndices", indices_)
         .read("sceneInstances", instances_.view())

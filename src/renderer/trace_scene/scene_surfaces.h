@@ -28,7 +28,7 @@ public:
     void pose(gpu::Device& device, const Scene& scene, const GpuScene& onDevice);
 
     /// Binds what scene_surfaces.glsl reads.
-    gpu::ComputePass& bind(gpu::Pass& pass) const;
+    gpu::ComputePass& bind(gpu::ComputePass& pass) const;
 
 private:
     gpu::BufferView attributes_;

@@ -5,14 +5,14 @@
 
 namespace reflet {
 
-void traceScene(gpu::Recorder& f, Rays& rays, const TraceSceneInputs& in, uint32_t sunShadows,
+void traceScene(gpu::PassList& f, Rays& rays, const TraceSceneInputs& in, uint32_t sunShadows,
                 const TraceSceneParams& params) {
     const GBuffer& g = in.screen.g;
     const gpu::BufferView missed = makeRayList(f, rays);
     const bool reuse = params.settings.reuseScreen != 0 &&
                        (params.settings.light == SceneHitLight::screen || params.fromPrevious != 0);
     const bool tellsMotion = rays.imageMotion && rays.firstRay == 0;
-    gpu::Pass pass = f.compute("trace_scene", in.scene.rays.shader("trace_scene"));
+    gpu::ComputePass pass = f.compute("trace_scene", in.scene.rays.shader("trace_scene"));
     bindRayOrigins(f, pass, rays);
     in.scene.rays.bind(pass);
     in.scene.surfaces.bind(pass);

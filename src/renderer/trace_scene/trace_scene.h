@@ -84,7 +84,7 @@ SHARED_END
 #include "effects/environment/environment_light.h"
 #include "effects/lamps.h"
 #include "effects/lobe/trace_screen.h"
-#include "gpu/recorder.h"
+#include "gpu/pass_list.h"
 #include "renderer/probe/probes.h"
 #include "renderer/trace_scene/scene_rays.h"
 #include "renderer/trace_scene/scene_surfaces.h"
@@ -111,7 +111,7 @@ struct TraceSceneInputs {
 
 /// Hits get confidence 1. Misses stay in rays.waiting, marked as known misses, and so do rays beyond the budget and
 /// cones (Ray.spread).
-void traceScene(gpu::Recorder& f, Rays& rays, const TraceSceneInputs& in, uint32_t sunShadows,
+void traceScene(gpu::PassList& f, Rays& rays, const TraceSceneInputs& in, uint32_t sunShadows,
                 const TraceSceneParams& params);
 
 }  // namespace reflet
