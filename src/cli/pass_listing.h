@@ -10,9 +10,9 @@ namespace reflet {
 /// Two tables: of passes; of resources with their lifetimes.
 std::string passesAsMarkdown(const gpu::PassListing& listing);
 
-/// A flow chart of the frame's steps, to be read: passes of one scope ("diffuse.", or "planar0." and "planar1.") are one
-/// box. An arrow is what a step reads of another, by the last pass before that has written it; at most three
-/// names, from what was written last.
+/// A flow chart of the frame's steps, to be read: passes of one scope ("diffuse.", or "planar0." and "planar1.") are
+/// one box. An arrow is what a step reads of another, by the last pass before that has written it; at most three names,
+/// from what was written last.
 std::string passesAsMermaid(const gpu::PassListing& listing);
 
 /// All passes, for Graphviz: those of one scope are a group, and an arrow has all names.
