@@ -34,6 +34,7 @@ gpu::History litOf(RefletView_T& view, Frame& frame) {
         frame.lit = view.store->lit.swap(view.recorder, lightFormat, view.size);
         frame.lit.valid = frame.lit.valid && view.composedLast;
     }
+    frame.lit.valid = frame.lit.valid && !frame.composed;  // which overwrites the last picture
     return frame.lit;
 }
 
@@ -89,8 +90,8 @@ void keepLobe(gpu::PassList& f, const std::optional<LobeLight>& lobe) {
         return;
     }
     const GBuffer& g = lobe->from.g;
-    for (const gpu::Image& image : {g.depth, g.normal, g.geometricNormal, g.baseColor, g.material, g.motion,
-                                    g.reflectance, g.layers, lobe->radiance, lobe->source, lobe->directional}) {
+    // With these the composite brings a coarse lobe to full resolution.
+    for (const gpu::Image& image : {g.depth, g.normal, lobe->radiance, lobe->source, lobe->directional}) {
         f.keep(image);
     }
 }
@@ -146,6 +147,7 @@ LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings,
     gpu::PassList& f = view.recorder;
     frame.context.environment = environmentLight(view, environment);
     const lighting::ViewContext& context = contextOf(view, frame);
+    f.release(frame.light);  // of the other lobe
     frame.light = lighting::importLight(f, light);
     const ScreenImages screen = lighting::lightAtHits(
         f, context, settings, lobe, lighting::screenOf(f, context, settings, frame, frame.light, litOf(view, frame)),

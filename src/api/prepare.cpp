@@ -54,6 +54,9 @@ void prepareFrame(RefletView_T& view, const Settings& settings, const RefletPrep
     EnvironmentInputs environment;
     environment.image = info.hasEnvironmentImage != 0 ? standIns.make(uvec2(256)) : gpu::Image{};
     const gpu::Image color = standIns.make(view.size);
+    // With a composite, what comes after it needs no picture of the host's.
+    const bool composes = asked(REFLET_EFFECT_COMPOSITE);
+    const auto pictureOr = [&](uvec2 size) { return composes ? gpu::Image{} : standIns.make(size); };
     if (asked(REFLET_EFFECT_DIFFUSE_GI)) {
         recordLobe(view, frame, settings, lobeDiffuse, color, environment);
     }
@@ -69,17 +72,32 @@ void prepareFrame(RefletView_T& view, const Settings& settings, const RefletPrep
         recordComposite(view, frame, settings, frame.light ? gpu::Image{} : color);
     }
     if (asked(REFLET_EFFECT_TEMPORAL)) {
-        recordTemporal(view, frame, settings, color);
+        recordTemporal(view, frame, settings, composes ? gpu::Image{} : color);
     }
     if (asked(REFLET_EFFECT_DEPTH_OF_FIELD)) {
         for (const uint32_t blades : {0U, 6U}) {  // round apertures, and polygons
             recordDepthOfField(view, frame, settings, {.apertureRadius = 1.0F, .blades = blades},
-                               standIns.make(outputSizeOf(view)));
+                               pictureOr(outputSizeOf(view)));
         }
     }
     if (asked(REFLET_EFFECT_TONE_MAP)) {
-        recordToneMap(view, frame, settings, standIns.make(outputSizeOf(view)), info.autoExposure != 0);
+        recordToneMap(view, frame, settings, pictureOr(outputSizeOf(view)), info.autoExposure != 0);
     }
+}
+
+void prepareOnce(RefletView_T& view, const Settings& settings, const RefletPrepareInfo& info,
+                 std::vector<gpu::PipelineInfo>& missing) {
+    view.hostImages.clear();
+    view.last.reset();  // its images belong to the frame that is prepared now
+    view.recorder.prepare(missing);
+    try {
+        prepareFrame(view, settingsOfFrame(view, settings), info);
+    } catch (...) {
+        view.recorder.drop();
+        view.recorder.end();
+        throw;
+    }
+    view.recorder.end();
 }
 
 struct Named {
@@ -130,17 +148,11 @@ RefletResult refletPrepare(RefletView view, RefletSettings settings, const Refle
             failArgument("view: a frame has begun; prepare before refletBeginFrame or after refletEndFrame");
         }
         std::vector<gpu::PipelineInfo> missing;
-        view->hostImages.clear();
-        view->recorder.prepare(missing);
-        view->last.reset();  // its images belong to the frame that is prepared now
-        try {
-            prepareFrame(*view, settingsOfFrame(*view, settings->values), given);
-        } catch (...) {
-            view->recorder.drop();
-            view->recorder.end();
-            throw;
+        prepareOnce(*view, settings->values, given, missing);
+        if (view->recorder.counts().plans > 0) {  // now all histories exist: the rest goes around them
+            view->recorder.tidy();
+            prepareOnce(*view, settings->values, given, missing);
         }
-        view->recorder.end();
         const size_t made = std::min<size_t>(missing.size(), most);
         for (size_t i = 0; i < made; ++i) {
             view->owner.gpu->pipelines().get(missing[i]);

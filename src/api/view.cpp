@@ -127,10 +127,13 @@ RefletResult inFrame(RefletView view, RefletSettings settings,
         if (!view->frame) {
             failArgument("view: no frame has begun; call refletBeginFrame first");
         }
+        Frame before = *view->frame;
         try {
             body(*view->frame, settingsOfFrame(*view, settings->values));
         } catch (...) {
             view->recorder.drop();
+            before.light = view->recorder.isKept(before.light) ? before.light : gpu::Image{};
+            *view->frame = before;  // nothing that this call would have made exists
             throw;
         }
     });

@@ -56,9 +56,10 @@ void addPassesList(CLI::App& list) {
     addSceneOptions(*command, options->scene);
     addDeviceOption(*command, options->device);
     command
-        ->add_option("--format", options->format,
-                     "markdown: tables of passes and of resources; mermaid, dot: a diagram of what passes hand to each "
-                     "other")
+        ->add_option(
+            "--format", options->format,
+            "markdown: tables of passes and of resources; mermaid: a diagram of the frame's steps, a box for each "
+            "effect; dot: a diagram of all passes, for Graphviz")
         ->check(CLI::IsMember({"markdown", "mermaid", "dot"}))
         ->capture_default_str();
     command->footer("Example: reflet list passes builtin:cubes --preset fast --format dot | dot -Tsvg > passes.svg");

@@ -6,8 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
 #include <map>
-#include <set>
 #include <string_view>
 #include <utility>
 
@@ -62,11 +63,17 @@ std::string_view scopeOf(std::string_view pass) {
     return dot == std::string_view::npos ? std::string_view() : pass.substr(0, dot);
 }
 
+// Without the scope that its group's title says.
+std::string_view titleOf(std::string_view pass) {
+    const std::string_view scope = scopeOf(pass);
+    return scope.empty() ? pass : pass.substr(scope.size() + 1);
+}
+
 // What one pass hands to another.
 struct Edge {
     size_t from = 0;
     size_t to = 0;
-    std::string label;
+    std::vector<std::string> names;
 };
 
 // One for each pair of passes, in the order of `to`. What no earlier pass has written comes from the frame before or
@@ -82,8 +89,8 @@ std::vector<Edge> edgesOf(const gpu::PassListing& listing) {
                 resources[writer->second].push_back(name);
             }
         }
-        for (const auto& [from, names] : resources) {
-            edges.push_back({from, to, fmt::format("{}", fmt::join(names, ", "))});
+        for (auto& [from, names] : resources) {
+            edges.push_back({from, to, std::move(names)});
         }
         for (const std::string& name : pass.writes) {
             writers[name] = to;
@@ -106,36 +113,108 @@ std::vector<std::pair<std::string_view, std::vector<size_t>>> groupsOf(const gpu
     return groups;
 }
 
-// Without the scope that its group's title says.
-std::string_view titleOf(std::string_view pass) {
-    const std::string_view scope = scopeOf(pass);
-    return scope.empty() ? pass : pass.substr(scope.size() + 1);
+// "planar" of "planar0".
+std::string_view withoutNumber(std::string_view scope) {
+    return scope.substr(0, scope.find_last_not_of("0123456789") + 1);
 }
 
-// What the two kinds of diagram differ in.
-struct Diagram {
-    std::string_view begin;
-    std::string_view end;
-    std::string (*beginGroup)(std::string_view scope);
-    std::string_view endGroup;
-    std::string (*pass)(size_t index, std::string_view title, bool raster);
-    std::string (*edge)(const Edge& edge);
+void addOnce(std::vector<std::string>& names, std::string_view name) {
+    if (std::ranges::find(names, name) == names.end()) {
+        names.emplace_back(name);
+    }
+}
+
+// Passes of one scope, and of scopes that differ in their number only, as one step of the frame.
+struct Step {
+    std::string_view name;
+    std::vector<std::string> scopes;  ///< that are its own; empty: a pass without a scope
+    std::vector<std::string> passes;  ///< in it; a scope within the scope is one of these
+    bool raster = true;               ///< all of it
 };
 
-std::string drawn(const gpu::PassListing& listing, const Diagram& diagram) {
-    std::string text(diagram.begin);
-    for (const auto& [scope, passes] : groupsOf(listing)) {
-        text += scope.empty() ? "" : diagram.beginGroup(scope);
-        for (const size_t i : passes) {
-            text += scope.empty() ? "    " : "        ";
-            text += diagram.pass(i, titleOf(listing.passes[i].name), listing.passes[i].raster);
+// The steps, and those of these that each pass belongs to. Copies of values to the device and clears have none.
+struct Steps {
+    static constexpr size_t none = ~size_t(0);
+
+    std::vector<Step> steps;
+    std::vector<size_t> ofPass;
+};
+
+Steps stepsOf(const gpu::PassListing& listing) {
+    Steps all;
+    for (const Pass& pass : listing.passes) {
+        const std::string_view last = std::string_view(pass.name).substr(pass.name.rfind('.') + 1);
+        if (last == "update" || last == "clear" || last == "upload") {
+            all.ofPass.push_back(Steps::none);
+            continue;
         }
-        text += scope.empty() ? "" : diagram.endGroup;
+        const std::string_view scope = scopeOf(pass.name);
+        const std::string_view name = scope.empty() ? std::string_view(pass.name) : withoutNumber(scope);
+        auto step = std::ranges::find(all.steps, name, &Step::name);
+        if (step == all.steps.end()) {
+            step = all.steps.insert(all.steps.end(), Step{.name = name, .scopes = {}, .passes = {}});
+        }
+        if (!scope.empty()) {
+            addOnce(step->scopes, scope);
+            const std::string_view title = titleOf(pass.name);
+            addOnce(step->passes, title.substr(0, title.find('.')));
+        }
+        step->raster = step->raster && pass.raster;
+        all.ofPass.push_back(static_cast<size_t>(step - all.steps.begin()));
     }
-    for (const Edge& edge : edgesOf(listing)) {
-        text += "    " + diagram.edge(edge);
+    return all;
+}
+
+// What steps hand to each other: one edge for each pair, in the order of `to`. Names have no scope that is the step's.
+std::vector<Edge> edgesOf(const gpu::PassListing& listing, const Steps& steps) {
+    std::vector<Edge> ofPasses = edgesOf(listing);
+    std::ranges::sort(ofPasses, [](const Edge& a, const Edge& b) {  // what was written last is named first
+        return a.to != b.to ? a.to < b.to : a.from > b.from;
+    });
+    std::map<std::pair<size_t, size_t>, Edge> edges;  // by `to` and `from`
+    for (const Edge& edge : ofPasses) {
+        const size_t from = steps.ofPass[edge.from];
+        const size_t to = steps.ofPass[edge.to];
+        if (from == to || from == Steps::none || to == Steps::none) {
+            continue;
+        }
+        Edge& one = edges.try_emplace({to, from}, Edge{from, to, {}}).first->second;
+        for (const std::string& name : edge.names) {
+            const bool own =
+                std::ranges::find(steps.steps[from].scopes, scopeOf(name)) != steps.steps[from].scopes.end();
+            addOnce(one.names, own ? titleOf(name) : std::string_view(name));
+        }
     }
-    return text + std::string(diagram.end);
+    std::vector<Edge> list;
+    std::ranges::transform(edges, std::back_inserter(list), [](const auto& edge) { return edge.second; });
+    return list;
+}
+
+// In lines of a box, the names of its passes.
+std::string linesOf(const std::vector<std::string>& names) {
+    constexpr size_t width = 36;
+    std::string text;
+    size_t length = width;
+    for (const std::string& name : names) {
+        const bool fits = length + name.size() + 2 <= width;
+        text += (fits ? ", " : text.empty() ? "<br>" : ",<br>") + name;
+        length = fits ? length + name.size() + 2 : name.size();
+    }
+    return text;
+}
+
+std::string boxOf(size_t index, const Step& step) {
+    const std::string title =
+        step.scopes.empty() ? std::string(step.name) : fmt::format("{}", fmt::join(step.scopes, ", "));
+    const std::string label = step.passes.empty() ? title : fmt::format("<b>{}</b>{}", title, linesOf(step.passes));
+    return step.raster ? fmt::format("s{}([\"{}\"])", index, label) : fmt::format("s{}[\"{}\"]", index, label);
+}
+
+std::string labelOf(const Edge& edge) {
+    constexpr size_t most = 3;
+    const size_t shown = std::min(edge.names.size(), most);
+    return fmt::format("{}{}", fmt::join(edge.names.begin(), edge.names.begin() + static_cast<ptrdiff_t>(shown), ", "),
+                       shown < edge.names.size() ? ", …" : "");
 }
 
 }  // namespace
@@ -145,38 +224,33 @@ std::string passesAsMarkdown(const gpu::PassListing& listing) {
 }
 
 std::string passesAsMermaid(const gpu::PassListing& listing) {
-    return drawn(listing, {.begin = "flowchart LR\n",
-                           .end = "",
-                           .beginGroup = [](std::string_view scope) { return fmt::format("    subgraph {}\n", scope); },
-                           .endGroup = "    end\n",
-                           .pass =
-                               [](size_t index, std::string_view title, bool raster) {
-                                   return raster ? fmt::format("p{}([\"{}\"])\n", index, title)
-                                                 : fmt::format("p{}[\"{}\"]\n", index, title);
-                               },
-                           .edge =
-                               [](const Edge& edge) {
-                                   return fmt::format("p{} -->|\"{}\"| p{}\n", edge.from, edge.label, edge.to);
-                               }});
+    const Steps steps = stepsOf(listing);
+    std::string text = "flowchart TD\n";
+    for (size_t i = 0; i < steps.steps.size(); ++i) {
+        text += fmt::format("    {}\n", boxOf(i, steps.steps[i]));
+    }
+    for (const Edge& edge : edgesOf(listing, steps)) {
+        text += fmt::format("    s{} -->|\"{}\"| s{}\n", edge.from, labelOf(edge), edge.to);
+    }
+    return text;
 }
 
 std::string passesAsDot(const gpu::PassListing& listing) {
-    return drawn(listing,
-                 {.begin = "digraph frame {\n    rankdir=LR;\n    node [shape=box];\n",
-                  .end = "}\n",
-                  .beginGroup =
-                      [](std::string_view scope) {
-                          return fmt::format("    subgraph \"cluster_{0}\" {{\n        label=\"{0}\";\n", scope);
-                      },
-                  .endGroup = "    }\n",
-                  .pass =
-                      [](size_t index, std::string_view title, bool raster) {
-                          return fmt::format("p{} [label=\"{}\"{}];\n", index, title, raster ? ", shape=oval" : "");
-                      },
-                  .edge =
-                      [](const Edge& edge) {
-                          return fmt::format("p{} -> p{} [label=\"{}\"];\n", edge.from, edge.to, edge.label);
-                      }});
+    std::string text = "digraph frame {\n    rankdir=LR;\n    node [shape=box];\n";
+    for (const auto& [scope, passes] : groupsOf(listing)) {
+        if (!scope.empty()) {
+            text += fmt::format("    subgraph \"cluster_{0}\" {{\n        label=\"{0}\";\n", scope);
+        }
+        for (const size_t i : passes) {
+            text += fmt::format("{}p{} [label=\"{}\"{}];\n", scope.empty() ? "    " : "        ", i,
+                                titleOf(listing.passes[i].name), listing.passes[i].raster ? ", shape=oval" : "");
+        }
+        text += scope.empty() ? "" : "    }\n";
+    }
+    for (const Edge& edge : edgesOf(listing)) {
+        text += fmt::format("    p{} -> p{} [label=\"{}\"];\n", edge.from, edge.to, fmt::join(edge.names, ", "));
+    }
+    return text + "}\n";
 }
 
 }  // namespace reflet

@@ -10,11 +10,12 @@ namespace reflet {
 /// Two tables: of passes; of resources with their lifetimes.
 std::string passesAsMarkdown(const gpu::PassListing& listing);
 
-/// A flow chart from left to right. Passes of one scope ("diffuse.") are a group; an arrow is a resource that a pass
-/// reads, from the last pass before it that has written it.
+/// A flow chart of the frame's steps, to be read: passes of one scope ("diffuse.", or "planar0." and "planar1.") are one
+/// box. An arrow is what a step reads of another, by the last pass before that has written it; at most three
+/// names, from what was written last.
 std::string passesAsMermaid(const gpu::PassListing& listing);
 
-/// The same for Graphviz.
+/// All passes, for Graphviz: those of one scope are a group, and an arrow has all names.
 std::string passesAsDot(const gpu::PassListing& listing);
 
 }  // namespace reflet

@@ -78,11 +78,14 @@ BufferView KeptBuffer::get(PassList& f, VkDeviceSize size) {
 History HistoryImage::swap(PassList& f, VkFormat format, uvec2 size) {
     const ImageInfo info = storageInfo(format, size);
     // Both: making the second one may have failed.
-    const bool fresh = !(textures_[0].info() == info && textures_[1].info() == info);
+    const bool fresh = !(images_[0] && images_[0]->info == info && images_[1] && images_[1]->info == info);
     if (fresh) {
-        for (Texture& texture : textures_) {
-            texture = Texture(f.context(), info, f.nameOf(name_));
+        for (std::shared_ptr<HeldImage>& image : images_) {
+            image.reset();  // its memory may do for the new one
+            image = f.hold(info, f.nameOf(name_));
         }
+        images_[0]->other = images_[1];
+        images_[1]->other = images_[0];
     }
     if (lastUse_ != f.number() || generation_ != f.generation()) {
         current_ ^= 1U;
@@ -90,8 +93,14 @@ History HistoryImage::swap(PassList& f, VkFormat format, uvec2 size) {
         lastUse_ = f.number();
         generation_ = f.generation();
     }
-    valid_ = valid_ && !fresh;
-    return {textures_[current_ ^ 1U].image(), textures_[current_].image(), valid_};
+    // Once a list has written `next`, the memory of `previous` has served others.
+    valid_ = valid_ && !fresh && images_[current_]->usedFrame != f.number() + 1;
+    for (uint32_t i = 0; i < 2; ++i) {
+        images_[i]->frame = f.number();
+        images_[i]->isNext = i == current_;
+    }
+    const auto view = [&](HeldImage& image) { return Image{&image.state, -1, info.format, info.size}; };
+    return {view(*images_[current_ ^ 1U]), view(*images_[current_]), valid_};
 }
 
 }  // namespace reflet::gpu

@@ -81,7 +81,9 @@ private:
     uint64_t list_ = 0;  ///< that writes it
 };
 
-/// Two storage images that swap every frame.
+/// Two storage images that swap every frame. Their memory serves other images of the frame behind the last pass that
+/// reads `previous`, and before the first that writes `next`: after a list that has used `next`, later lists of the
+/// frame must not read `previous`.
 class HistoryImage {
 public:
     explicit HistoryImage(std::string_view name) : name_(name) {}
@@ -92,7 +94,7 @@ public:
 
 private:
     std::string_view name_;
-    Texture textures_[2];
+    std::shared_ptr<HeldImage> images_[2];
     uint64_t lastUse_ = 0;
     uint64_t generation_ = 0;
     uint32_t current_ = 0;

@@ -190,6 +190,25 @@ void PassList::keep(BufferView buffer) {
     }
 }
 
+bool PassList::isKept(Image image) const {
+    if (!image || image.state->transient < 0) {
+        return false;
+    }
+    const TransientImage& of = images_[static_cast<size_t>(image.state->transient)];
+    return of.kept && of.list != list_ && image.state->image != VK_NULL_HANDLE;
+}
+
+void PassList::release(Image image) {
+    if (!image || image.state->transient < 0) {
+        return;
+    }
+    TransientImage& of = transientOf(*image.state);
+    if (of.kept && of.list != list_) {
+        std::erase(memory_.heaps()[of.needs.heap].taken, MemoryRange{of.offset, of.needs.size});
+        of.kept = false;
+    }
+}
+
 void PassList::checkUsable(const Image& image) const {
     if (image.state->transient >= 0) {
         const TransientImage& of = images_[static_cast<size_t>(image.state->transient)];

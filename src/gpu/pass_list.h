@@ -29,7 +29,7 @@ struct Readback {
 
 class PassList {
 public:
-    explicit PassList(Context& context) : context_(context) {}
+    explicit PassList(Context& context) : context_(context), memory_(context) {}
     ~PassList() = default;
     PassList(const PassList&) = delete;
     PassList& operator=(const PassList&) = delete;
@@ -65,6 +65,13 @@ public:
     /// what writes this is needed. May be none.
     void keep(Image image);
     void keep(BufferView buffer);
+    /// Whether an earlier list of the frame has written it, and it was kept.
+    [[nodiscard]] bool isKept(Image image) const;
+    /// Takes that back for what an earlier list has written. May be none.
+    void release(Image image);
+
+    /// An image whose memory others use while nobody needs its contents: for HistoryImage.
+    std::shared_ptr<HeldImage> hold(const ImageInfo& info, const std::string& name) { return memory_.hold(info, name); }
 
     /// An image of one texel, to bind where a shader does not use what it declares; `array`: an array view.
     Image placeholder(VkFormat format, ViewKind view = ViewKind::byLayers);
@@ -112,6 +119,7 @@ protected:
         uint64_t list = 0;  ///< that it was made for
         bool kept = false;
         TransientMemory::Needs needs;  ///< of `info`; size 0: not known yet
+        VkDeviceSize offset = 0;       ///< in its heap, once its list is recorded
     };
     struct TransientBuffer {
         BufferState state;
@@ -139,6 +147,9 @@ protected:
             }
         }
     }
+
+    [[nodiscard]] TransientMemory& memory() { return memory_; }
+    [[nodiscard]] const TransientMemory& memory() const { return memory_; }
 
     uint64_t number_ = 0;   ///< of the frame, counts from 1
     bool open_ = false;     ///< passes may be appended
@@ -172,6 +183,7 @@ private:
     Image unusedTarget(const Image& placeholder);
 
     Context& context_;
+    TransientMemory memory_;
     uint64_t generation_ = 0;
     uint64_t frame_ = 0;  ///< counts calls of clearFrame
     uint64_t list_ = 1;

@@ -119,11 +119,27 @@ VkDeviceSize freeOffset(const GraphHeap& heap, std::vector<MemoryRange> busy, Vk
 
 // Whether two resources are used at the same time. Passes of one level run side by side: memory that they shared would
 // need a barrier between them.
+uint32_t levelAt(const Plan& plan, uint32_t position) {
+    return position < plan.levels.size() ? plan.levels[position] : UINT32_MAX;
+}
+
 bool liveTogether(const Plan& plan, const Lifetime& a, const Lifetime& b) {
-    const auto level = [&](uint32_t position) {
-        return position < plan.levels.size() ? plan.levels[position] : UINT32_MAX;
-    };
-    return level(a.first) <= level(b.last) && level(b.first) <= level(a.last);
+    return levelAt(plan, a.first) <= levelAt(plan, b.last) && levelAt(plan, b.first) <= levelAt(plan, a.last);
+}
+
+// Whether a resource must stay out of memory that is held.
+bool conflicts(const PassGraph& graph, const Plan& plan, const HeldRange& held, uint32_t resource) {
+    const Lifetime& life = plan.lifetimes[resource];
+    const bool used = held.resource != HeldRange::unused && plan.lifetimes[held.resource].first != UINT32_MAX;
+    switch (held.use) {
+        case HeldUse::untilLast:
+            return used && levelAt(plan, life.first) <= levelAt(plan, plan.lifetimes[held.resource].last);
+        case HeldUse::fromFirst:
+            return graph.resources[resource].output ||
+                   (used && levelAt(plan, life.last) >= levelAt(plan, plan.lifetimes[held.resource].first));
+        default:
+            return true;
+    }
 }
 
 // The largest first: what is small fits into the holes.
@@ -141,6 +157,11 @@ void place(const PassGraph& graph, Plan& plan) {
         const uint32_t r = bySize[i];
         const GraphResource& resource = graph.resources[r];
         std::vector<MemoryRange> busy = graph.heaps[resource.heap].taken;
+        for (const HeldRange& held : graph.heaps[resource.heap].held) {
+            if (conflicts(graph, plan, held, r)) {
+                busy.push_back(held.range);
+            }
+        }
         for (size_t k = 0; k < i; ++k) {
             const uint32_t other = bySize[k];
             if (graph.resources[other].heap == resource.heap &&
@@ -200,7 +221,16 @@ private:
             const std::vector<Source> sources = formerOccupants(u.resource);
             begin(position, u, sources, state);
         } else if (first && resource.undefined) {
-            begin(position, u, {}, state);
+            std::vector<Source> sources;
+            if (resource.held) {
+                sources = formerOccupants(u.resource);
+                if (state.write.access.stages != 0) {
+                    sources.push_back(state.write);
+                }
+                sources.insert(sources.end(), state.reads.begin(), state.reads.end());
+                state.reads.clear();
+            }
+            begin(position, u, sources, state);
         } else {
             wait(position, state.write, u.access, state.visibleBefore);
             if (u.access.write) {
@@ -223,6 +253,10 @@ private:
         }
     }
 
+    VkDeviceSize offsetOf(size_t r) const {
+        return graph_.resources[r].held ? graph_.resources[r].offset : plan_.offsets[r];
+    }
+
     // The last uses of whatever was in the memory before.
     std::vector<Source> formerOccupants(uint32_t r) const {
         const GraphResource& resource = graph_.resources[r];
@@ -233,10 +267,9 @@ private:
         }
         for (size_t other = 0; other < states_.size(); ++other) {
             const GraphResource& o = graph_.resources[other];
-            if (other == r || !o.transient || o.heap != resource.heap || plan_.offsets[other] == Plan::unplaced ||
-                plan_.lifetimes[other].last >= plan_.lifetimes[r].first ||
-                plan_.offsets[other] + o.size <= plan_.offsets[r] ||
-                plan_.offsets[r] + resource.size <= plan_.offsets[other]) {
+            if (other == r || (!o.transient && !o.held) || o.heap != resource.heap ||
+                plan_.lifetimes[other].first == UINT32_MAX || plan_.lifetimes[other].last >= plan_.lifetimes[r].first ||
+                offsetOf(other) + o.size <= offsetOf(r) || offsetOf(r) + resource.size <= offsetOf(other)) {
                 continue;
             }
             if (states_[other].write.access.stages != 0) {
@@ -322,7 +355,7 @@ private:
                 }
             }
             const GraphResource& resource = graph_.resources[r];
-            if (resource.transient && plan_.offsets[r] != Plan::unplaced) {
+            if ((resource.transient || resource.held) && plan_.lifetimes[r].first != UINT32_MAX) {
                 Access& heap = plan_.heapsAfter[resource.heap];
                 heap = merged(heap, {after.writeStages | after.readStages, after.writeAccess, after.writeAccess != 0});
             }

@@ -40,13 +40,22 @@ struct GraphPass {
     bool operator==(const GraphPass&) const = default;
 };
 
+/// When the memory of something that is kept from frame to frame is free for what lives in one frame.
+enum class HeldUse : uint8_t {
+    busy,       ///< never
+    untilLast,  ///< behind its last use in the list: nobody reads it again
+    fromFirst,  ///< before its first use, which overwrites it
+};
+
 struct GraphResource {
-    bool transient = false;  ///< its contents do not come from before the list, and it has no memory yet
-    bool output = false;     ///< transient: its contents are read after the list
-    bool image = false;      ///< has a layout
-    bool undefined = false;  ///< not transient: an image that is in no layout yet
-    uint32_t heap = 0;       ///< transient: index of PassGraph::heaps
-    VkDeviceSize size = 0;   ///< transient
+    bool transient = false;   ///< its contents do not come from before the list, and it has no memory yet
+    bool output = false;      ///< transient: its contents are read after the list
+    bool image = false;       ///< has a layout
+    bool undefined = false;   ///< not transient: an image that is in no layout, or whose memory others have used
+    bool held = false;        ///< not transient: it lies in a heap, at one of GraphHeap::held
+    uint32_t heap = 0;        ///< transient or held: index of PassGraph::heaps
+    VkDeviceSize offset = 0;  ///< held: in the heap
+    VkDeviceSize size = 0;    ///< transient or held
     VkDeviceSize alignment = 1;
     AccessState before;  ///< not transient: what its first use must wait for
 
@@ -60,12 +69,25 @@ struct MemoryRange {
     bool operator==(const MemoryRange&) const = default;
 };
 
+/// Memory of something that is kept, but that others may use in part of the list.
+struct HeldRange {
+    static constexpr uint32_t unused = UINT32_MAX;
+
+    MemoryRange range;
+    HeldUse use = HeldUse::busy;
+    uint32_t resource = unused;  ///< index of PassGraph::resources; unused: the list does not use it. It is free then
+                                 ///< unless it is busy, but with fromFirst not for outputs: a later list writes it
+
+    bool operator==(const HeldRange&) const = default;
+};
+
 /// Memory that transient resources are placed in: blocks, one after another in one space of offsets, in which nothing
 /// lies across two blocks. Behind the last one is room without end, for a block that will be made.
 struct GraphHeap {
     std::vector<VkDeviceSize> blocks;  ///< their sizes
     std::vector<MemoryRange> taken;    ///< by outputs of earlier lists of the frame
-    Access before;                     ///< by what was in this memory before; write: its access has writes
+    std::vector<HeldRange> held;
+    Access before;  ///< by what was in this memory before; write: its access has writes
 
     bool operator==(const GraphHeap&) const = default;
 };

@@ -61,6 +61,9 @@ public:
     /// Until end(), instead of begin(): lists are planned and not recorded. Images, buffers and memory are made as in a
     /// frame; the pipelines that the passes need and the context does not have yet are added to `missing`.
     void prepare(std::vector<PipelineInfo>& missing);
+    /// From the next frame on, memory is laid out anew: for callers that have flushed several lists, the first of which
+    /// did not know of the histories of the later ones.
+    void tidy() { tidies_ = true; }
 
     /// Of the last frame that the device has finished: rows from the top, tightly packed.
     [[nodiscard]] std::span<const std::byte> bytes(Readback readback) const;
@@ -71,7 +74,7 @@ public:
     /// Of the last frame that was ended.
     [[nodiscard]] const RecordingCounts& counts() const { return counted_; }
     /// Bytes of the memory that images and buffers of one frame share.
-    [[nodiscard]] VkDeviceSize transientBytes() const { return memory_.bytes(); }
+    [[nodiscard]] VkDeviceSize transientBytes() const { return memory().bytes(); }
 
     /// From the next frame on, listing() tells the passes of each frame.
     void listPasses() { lists_ = true; }
@@ -88,8 +91,7 @@ protected:
 
 private:
     struct WithoutSlots {};
-    Recorder(Context& context, WithoutSlots /*tag*/)
-        : PassList(context), memory_(context), sets_(context), timers_(context) {}
+    Recorder(Context& context, WithoutSlots /*tag*/) : PassList(context), sets_(context), timers_(context) {}
 
     // A block of uniforms, and what it is known by.
     struct UniformBlock {
@@ -147,11 +149,11 @@ private:
     void noteLayouts(const CachedPlan& cached);
     void poison(const CachedPlan& cached, uint32_t position, bool before);
     void dropUnused();
+    UniformBlock makeUniforms();
     UniformSlice uploadUniforms(const PassRecord& pass);
 
     std::function<void()> betweenPasses_;
     std::vector<Slot> slots_;
-    TransientMemory memory_;
     DescriptorSets sets_;
     PassTimers timers_;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;  ///< null between frames

@@ -34,6 +34,8 @@ struct ListMark {
     uint32_t index = 0;           ///< among the list's resources
 };
 
+struct HeldImage;
+
 /// What all views of an image share. Of an image that lives in one frame only, the handles are there once its passes
 /// are recorded.
 struct ImageState {
@@ -47,9 +49,10 @@ struct ImageState {
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
     AccessState access;
     ListMark mark;
-    int32_t transient = -1;  ///< index among the transient images of its recorder; negative: it has an owner
-    bool unused = false;     ///< PassList::placeholder: no shader uses what it holds
-    bool external = false;   ///< its owner records the barriers; passes only sample it, in `layout`
+    HeldImage* held = nullptr;  ///< that this is the state of; none for other images
+    int32_t transient = -1;     ///< index among the transient images of its recorder; negative: it has an owner
+    bool unused = false;        ///< PassList::placeholder: no shader uses what it holds
+    bool external = false;      ///< its owner records the barriers; passes only sample it, in `layout`
 };
 
 struct BufferState {

@@ -31,6 +31,13 @@ PlacedImage::~PlacedImage() {
     context.retire([&of = context, all = state] { destroyImage(of, all); });
 }
 
+HeldImage::~HeldImage() {
+    context.retire([&of = context, all = state, memory = allocation] {
+        destroyImage(of, all);
+        of.memory().release(memory);
+    });
+}
+
 PlacedBuffer::~PlacedBuffer() {
     context.retire([&of = context, buffer = state.buffer] { of.vk.vkDestroyBuffer(of.handle(), buffer, nullptr); });
 }
@@ -104,7 +111,8 @@ void TransientMemory::reserve(const std::vector<VkDeviceSize>& ends) {
         needs.size = alignUp(ends[heap] - start, needs.alignment);
         blocks_[heap].reserve(blocks_[heap].size() + 1);
         heaps_[heap].blocks.reserve(heaps_[heap].blocks.size() + 1);
-        blocks_[heap].push_back({context_.memory().allocate(needs, MemoryUse::device, false), start, VK_NULL_HANDLE});
+        blocks_[heap].push_back(
+            {context_.memory().allocate(needs, MemoryUse::device, false), start, VK_NULL_HANDLE, false});
         heaps_[heap].blocks.push_back(needs.size);
     }
 }
@@ -157,14 +165,72 @@ std::shared_ptr<PlacedBuffer> TransientMemory::buffer(VkDeviceSize size, VkDevic
     return placed;
 }
 
+std::shared_ptr<HeldImage> TransientMemory::hold(const ImageInfo& info, const std::string& name) {
+    const Needs needs = needsOf(info);
+    auto image = std::make_shared<HeldImage>(context_);
+    image->info = info;
+    image->state.image = makeImage(context_, info, name);
+    image->state.id = nextResourceId();
+    image->state.name = name;
+    image->state.aspect = aspectOf(info.format);
+    VkMemoryRequirements requirements = requirements_[needs.heap];
+    context_.vk.vkGetImageMemoryRequirements(context_.handle(), image->state.image, &requirements);
+    requirements.alignment = std::max(requirements.alignment, needs.alignment);
+    image->allocation = context_.memory().allocate(requirements, MemoryUse::device, false);
+    context_.nameImage(image->state.image, name);
+    vkCheck(context_.vk.vkBindImageMemory(context_.handle(), image->state.image, image->allocation.memory,
+                                          image->allocation.offset),
+            "binding image memory");
+    makeViews(context_, info, image->state);
+    image->state.bytes = needs.size;
+    image->state.held = image.get();
+    image->heap = needs.heap;
+    image->size = needs.size;
+    addHeld({image, needs.heap, 0, 0}, *image);
+    return image;
+}
+
+void TransientMemory::addHeld(HeldBlock block, HeldImage& image) {
+    GraphHeap& heap = heaps_[block.heap];
+    for (const VkDeviceSize size : heap.blocks) {
+        block.offset += size;
+    }
+    block.size = alignUp(image.size, requirements_[block.heap].alignment);
+    heap.blocks.push_back(block.size);
+    blocks_[block.heap].push_back({image.allocation, block.offset, VK_NULL_HANDLE, true});
+    image.offset = block.offset;
+    held_.push_back(block);
+}
+
+// Of a history, the image of the last frame is read until the list that writes this frame's; that one holds nothing
+// before.
+HeldUse TransientMemory::useOf(const HeldImage& image, uint64_t frame) {
+    const std::shared_ptr<HeldImage> other = image.other.lock();
+    const auto written = [&](const HeldImage& next) { return next.usedFrame == frame + 1; };
+    if (image.frame == frame) {
+        if (image.isNext) {
+            return written(image) ? HeldUse::busy : HeldUse::fromFirst;
+        }
+        return other && (written(*other) || other->listed) ? HeldUse::untilLast : HeldUse::busy;
+    }
+    // Not asked for in this frame yet: what was written in the last one may still be.
+    return image.isNext && image.frame + 1 == frame ? HeldUse::busy : HeldUse::fromFirst;
+}
+
+bool TransientMemory::isUntidy() const {
+    return std::ranges::any_of(held_, [](const HeldBlock& block) { return block.image.expired(); });
+}
+
 void TransientMemory::release() {
     for (size_t heap = 0; heap < blocks_.size(); ++heap) {
         for (Block& block : blocks_[heap]) {
-            context_.retire([&context = context_, allocation = block.allocation, all = block.all] {
+            context_.retire([&context = context_, held = block.held, allocation = block.allocation, all = block.all] {
                 if (all != VK_NULL_HANDLE) {
                     context.vk.vkDestroyBuffer(context.handle(), all, nullptr);
                 }
-                context.memory().release(allocation);
+                if (!held) {
+                    context.memory().release(allocation);
+                }
             });
         }
         blocks_[heap].clear();
@@ -174,22 +240,37 @@ void TransientMemory::release() {
     }
     images_.clear();
     buffers_.clear();
+    const std::vector<HeldBlock> before = std::move(held_);
+    held_.clear();
+    for (const HeldBlock& block : before) {
+        if (const std::shared_ptr<HeldImage> image = block.image.lock()) {
+            addHeld({image, block.heap, 0, 0}, *image);
+        }
+    }
 }
 
 VkDeviceSize TransientMemory::bytes() const {
     VkDeviceSize sum = 0;
-    for (const GraphHeap& heap : heaps_) {
-        for (const VkDeviceSize size : heap.blocks) {
-            sum += size;
+    for (const std::vector<Block>& blocks : blocks_) {
+        for (const Block& block : blocks) {
+            sum += block.held ? 0 : block.allocation.size;
         }
+    }
+    return sum;
+}
+
+VkDeviceSize TransientMemory::heldBytes() const {
+    VkDeviceSize sum = 0;
+    for (const HeldBlock& block : held_) {
+        sum += block.size;
     }
     return sum;
 }
 
 size_t TransientMemory::blockCount() const {
     size_t most = 0;
-    for (const GraphHeap& heap : heaps_) {
-        most = std::max(most, heap.blocks.size());
+    for (const std::vector<Block>& blocks : blocks_) {
+        most = std::max<size_t>(most, static_cast<size_t>(std::ranges::count(blocks, false, &Block::held)));
     }
     return most;
 }

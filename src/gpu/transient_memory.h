@@ -27,6 +27,29 @@ struct PlacedImage {
     PlacedImage& operator=(const PlacedImage&) = delete;
 };
 
+/// An image that keeps its contents from one frame to the next, in memory that others use while nobody needs them.
+/// One of the two of a history.
+struct HeldImage {
+    Context& context;
+    ImageInfo info;
+    ImageState state;
+    Allocation allocation;
+    uint32_t heap = 0;
+    VkDeviceSize offset = 0;  ///< in the heap
+    VkDeviceSize size = 0;
+    // The part that it plays now.
+    uint64_t frame = 0;              ///< for which the next member is said
+    bool isNext = false;             ///< it is written in this frame; otherwise it was in the last one
+    uint64_t usedFrame = 0;          ///< the last one in which an earlier list used it, plus 1
+    bool listed = false;             ///< the list at hand uses it
+    std::weak_ptr<HeldImage> other;  ///< of the same history
+
+    explicit HeldImage(Context& of) : context(of) {}
+    ~HeldImage();
+    HeldImage(const HeldImage&) = delete;
+    HeldImage& operator=(const HeldImage&) = delete;
+};
+
 struct PlacedBuffer {
     Context& context;
     BufferState state;
@@ -62,9 +85,30 @@ public:
     std::shared_ptr<PlacedImage> image(const ImageInfo& info, VkDeviceSize offset, const std::string& name);
     std::shared_ptr<PlacedBuffer> buffer(VkDeviceSize size, VkDeviceSize offset);
 
-    /// Gives all blocks back, for one of the right size to take their place; what was placed must not be used again.
+    /// Makes an image that is held until its owner lets go of it.
+    std::shared_ptr<HeldImage> hold(const ImageInfo& info, const std::string& name);
+    /// Says in `heaps` when held memory is free in the list at hand. resourceOf: of a state, or HeldRange::unused.
+    template <class F>
+    void describeHeld(std::vector<GraphHeap>& heaps, uint64_t frame, const F& resourceOf) const {
+        for (const HeldBlock& block : held_) {
+            const std::shared_ptr<HeldImage> image = block.image.lock();
+            HeldRange range{{block.offset, block.size}, HeldUse::busy, HeldRange::unused};
+            if (image) {
+                range.use = useOf(*image, frame);
+                range.resource = resourceOf(image->state);
+            }
+            heaps[block.heap].held.push_back(range);
+        }
+    }
+    /// Whether something that was held is gone, or was added to memory that is laid out already: release() puts the
+    /// rest in order.
+    [[nodiscard]] bool isUntidy() const;
+
+    /// Gives all other blocks back, for one of the right size to take their place; what was placed must not be used
+    /// again.
     void release();
-    [[nodiscard]] VkDeviceSize bytes() const;
+    [[nodiscard]] VkDeviceSize bytes() const;      ///< without what is held
+    [[nodiscard]] VkDeviceSize heldBytes() const;  ///< of what is held
     [[nodiscard]] size_t blockCount() const;
     /// For tests: a buffer over a whole block, to fill memory that is free. offset: in the heap; returns the offset in
     /// the block.
@@ -75,7 +119,17 @@ private:
         Allocation allocation;
         VkDeviceSize offset = 0;  ///< in the heap
         VkBuffer all = VK_NULL_HANDLE;
+        bool held = false;  ///< its memory belongs to a HeldImage
     };
+    // In the space of offsets; of a heap's blocks some are held.
+    struct HeldBlock {
+        std::weak_ptr<HeldImage> image;
+        uint32_t heap = 0;
+        VkDeviceSize offset = 0;
+        VkDeviceSize size = 0;
+    };
+    static HeldUse useOf(const HeldImage& image, uint64_t frame);
+    void addHeld(HeldBlock block, HeldImage& image);
     uint32_t heapOf(uint32_t memoryTypes, VkDeviceSize alignment);
     Block& blockOf(uint32_t heap, VkDeviceSize offset);
 
@@ -83,6 +137,7 @@ private:
     std::vector<GraphHeap> heaps_;
     std::vector<VkMemoryRequirements> requirements_;  ///< of each heap: its memory types
     std::vector<std::vector<Block>> blocks_;          ///< of each heap
+    std::vector<HeldBlock> held_;
     std::vector<std::pair<ImageInfo, Needs>> imageNeeds_;
     std::map<VkDeviceSize, Needs> bufferNeeds_;
     std::vector<std::pair<std::pair<ImageInfo, VkDeviceSize>, std::weak_ptr<PlacedImage>>> images_;

@@ -56,7 +56,7 @@ TEST_F(Lists, PassesOfAFrameAreTablesOrDiagrams) {
         return run(all);
     };
     EXPECT_TRUE(has(passes({}).out, {"### Passes\n", "| pass |", "### Resources\n", "| resource |"}));
-    EXPECT_TRUE(passes({"--format", "mermaid"}).out.starts_with("flowchart LR\n"));
+    EXPECT_TRUE(passes({"--format", "mermaid"}).out.starts_with("flowchart TD\n"));
     EXPECT_TRUE(passes({"--format", "dot"}).out.starts_with("digraph frame {\n"));
     EXPECT_TRUE(refused(passes({"--format", "svg"}), 2, {"--format", "svg"}));
 }
@@ -161,6 +161,13 @@ TEST_F(Lists, TheDocumentedSettingsAreThoseOfTheProgram) {
     const std::string page = readFile(std::filesystem::path(REFLET_SOURCE) / "docs" / "settings.md");
     EXPECT_EQ(output({"list", "settings", "--markdown"}), page)
         << "regenerate it: build/bin/reflet list settings --markdown > docs/settings.md";
+}
+
+TEST_F(Lists, TheDocumentedDiagramOfTheFrameIsThatOfTheProgram) {
+    const std::string page = readFile(std::filesystem::path(REFLET_SOURCE) / "docs" / "architecture.md");
+    const std::string diagram =
+        output({"list", "passes", "builtin:cubes", "--preset", "balanced", "--format", "mermaid"});
+    EXPECT_TRUE(has(page, {"```mermaid\n" + diagram + "```\n<!-- end of passes -->"})) << "run docs/architecture.sh";
 }
 
 TEST_F(Lists, AListThatCannotBeWrittenIsAFailure) {

@@ -261,6 +261,7 @@ TEST_F(BenchDeviceTest, APassCountsTheBytesOfWhatItBinds) {
     const gpu::Image from = f.image("from", VK_FORMAT_R16G16B16A16_SFLOAT, {64, 32});
     const gpu::Image to = f.image("to", VK_FORMAT_R16G16B16A16_SFLOAT, {16, 8});
     showLive(f, from, to);
+    f.keep(to);
     f.submit();
     f.wait();
     ASSERT_EQ(f.passTimes().size(), 2U);

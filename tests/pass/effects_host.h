@@ -118,13 +118,16 @@ public:
     Results record(gpu::PassList& f, const ViewParams& view) {
         const lighting::ViewContext context = contextOf(f, view);
         lighting::Surfaces surfaces = surfacesOf();
-        lighting::importSurfaces(f, {.depth = surfaces.g.depth, .normal = stores_.color.last()}, {view, mat4(1.0F)});
-        lighting::importLight(f, stores_.sky.last());
-        lighting::importShadowMap(f, stores_.shadowMap.last(), 1, true);
-        lighting::keptDepth(f, view, {.format = DepthBuffer::standard16}, surfaces.g.depth);
+        // What no pass reads is kept, so that it is recorded.
+        const HostSurfaces given{.depth = surfaces.g.depth, .normal = stores_.color.last()};
+        f.keep(lighting::importSurfaces(f, given, {view, mat4(1.0F)}).g.normal);
+        f.keep(lighting::importLight(f, stores_.sky.last()));
+        f.keep(lighting::importShadowMap(f, stores_.shadowMap.last(), 1, true));
+        f.keep(lighting::keptDepth(f, view, {.format = DepthBuffer::standard16}, surfaces.g.depth));
         const LightingSettings settings = settingsOfHost();
         const gpu::Image direct = lightDirectly(f, context, settings, surfaces);
         surfaces.ambientOcclusion = lighting::ambientOcclusion(f, &stores_.ao, context, settings, surfaces);
+        f.keep(surfaces.ambientOcclusion);
         const gpu::History lit = stores_.lit.swap(f, colorFormat, size);
         const lighting::LightParts parts = lightIndirectly(f, context, settings, surfaces, direct, lit);
         const lighting::Light light = lighting::compose(f, context, settings, surfaces, parts, true, lit.next);
@@ -132,7 +135,7 @@ public:
         const lighting::Light upscaled =
             lighting::antialias(f, stores_.upscaling, context, settings, light, 2U * size, vec2(0.1F, -0.2F));
         const Lens lens{.apertureRadius = 0.05F, .focusDistance = 2.0F};
-        lighting::defocus(f, stores_.lens, context, settings, lens, surfaces, mean, &parts.specular);
+        f.keep(lighting::defocus(f, stores_.lens, context, settings, lens, surfaces, mean, &parts.specular).lit);
         const lighting::Light means = lighting::accumulate(f, stores_.means, light, 0);
         const gpu::Image stops = lighting::exposure(f, stores_.exposure, settings, surfaces, mean, 0.0F);
         const gpu::Image display = lighting::display(f, settings, mean.lit, stops);

@@ -143,7 +143,7 @@ TEST_F(Gpu, TimesAreThereForEveryPassByItsScopedName) {
     {
         const auto scope = f.scope("outer");
         f.clear(radiance(f));
-        tonemap(f, radiance(f), {});
+        f.keep(tonemap(f, radiance(f), {}));
     }
     f.submit();
     f.wait();

@@ -36,22 +36,37 @@ TEST(PassListing, AsMarkdownHasATableOfPassesAndOneOfResources) {
               "| `history` | RGBA16F | 160x90 | 0.12 | kept | |\n");
 }
 
-TEST(PassListing, AsMermaidGroupsScopesAndLabelsEdgesByResource) {
+TEST(PassListing, AsMermaidHasABoxForEachScopeAndLabelsEdgesByResource) {
     EXPECT_EQ(passesAsMermaid(sample()),
-              "flowchart LR\n"
-              "    p0([\"gbuffer\"])\n"
-              "    p3[\"composite\"]\n"
-              "    subgraph diffuse\n"
-              "        p1[\"trace\"]\n"
-              "        p2[\"resolve\"]\n"
-              "    end\n"
-              "    p0 -->|\"depth, normal\"| p1\n"
-              "    p1 -->|\"rays\"| p2\n"
-              "    p0 -->|\"depth\"| p3\n"
-              "    p2 -->|\"rays\"| p3\n");
+              "flowchart TD\n"
+              "    s0([\"gbuffer\"])\n"
+              "    s1[\"<b>diffuse</b><br>trace, resolve\"]\n"
+              "    s2[\"composite\"]\n"
+              "    s0 -->|\"depth, normal\"| s1\n"
+              "    s0 -->|\"depth\"| s2\n"
+              "    s1 -->|\"rays\"| s2\n");
 }
 
-TEST(PassListing, AsDotIsTheSameForGraphviz) {
+// Scopes that differ in their number are one box; clears have none; an edge has three names at most.
+TEST(PassListing, AsMermaidIsShort) {
+    const gpu::PassListing listing{
+        {{.name = "planar0.gbuffer", .raster = true, .reads = {}, .writes = {"planar0.depth"}},
+         {.name = "planar0.specular.clear", .reads = {}, .writes = {"planar0.rays"}},
+         {.name = "planar1.gbuffer", .raster = true, .reads = {}, .writes = {"planar1.depth", "a", "b"}},
+         {.name = "planar1.pyramid.1", .reads = {"planar1.depth"}, .writes = {"c"}},
+         {.name = "planar1.pyramid.2", .reads = {"c"}, .writes = {"planar1.c.d"}},
+         {.name = "trace",
+          .reads = {"planar0.depth", "planar0.rays", "planar1.depth", "a", "b", "planar1.c.d"},
+          .writes = {}}},
+        {}};
+    EXPECT_EQ(passesAsMermaid(listing),
+              "flowchart TD\n"
+              "    s0[\"<b>planar0, planar1</b><br>gbuffer, pyramid\"]\n"
+              "    s1[\"trace\"]\n"
+              "    s0 -->|\"c.d, depth, a, …\"| s1\n");
+}
+
+TEST(PassListing, AsDotGroupsScopesAndHasAllPasses) {
     EXPECT_EQ(passesAsDot(sample()),
               "digraph frame {\n"
               "    rankdir=LR;\n"
@@ -71,7 +86,7 @@ TEST(PassListing, AsDotIsTheSameForGraphviz) {
 }
 
 TEST(PassListing, OfNothingIsEmpty) {
-    EXPECT_EQ(passesAsMermaid({}), "flowchart LR\n");
+    EXPECT_EQ(passesAsMermaid({}), "flowchart TD\n");
     EXPECT_EQ(passesAsMarkdown({}).find("`"), std::string::npos);
 }
 

@@ -148,7 +148,7 @@ private:
         const GraphResource& resource = graph_.resources[r];
         const gpu::AccessState& before = resource.before;
         if (written || resource.transient || resource.undefined) {
-            return;
+            return;  // its transition waits
         }
         const Access& access = uses[later].access;
         const bool seen = before.visibleStages != 0 &&
@@ -163,9 +163,16 @@ private:
         }
     }
 
+    VkDeviceSize offsetOf(uint32_t r) const {
+        return graph_.resources[r].held ? graph_.resources[r].offset : plan_.offsets[r];
+    }
+
+    bool hasMemory(uint32_t r) const { return graph_.resources[r].held || plan_.offsets[r] != Plan::unplaced; }
+
     bool overlap(uint32_t a, uint32_t b) const {
-        return plan_.offsets[a] < plan_.offsets[b] + graph_.resources[b].size &&
-               plan_.offsets[b] < plan_.offsets[a] + graph_.resources[a].size;
+        return graph_.resources[a].heap == graph_.resources[b].heap &&
+               offsetOf(a) < offsetOf(b) + graph_.resources[b].size &&
+               offsetOf(b) < offsetOf(a) + graph_.resources[a].size;
     }
 
     void checkMemory() {
@@ -180,9 +187,9 @@ private:
             }
             checkPlace(a, usesA);
             for (uint32_t b = 0; b < graph_.resources.size(); ++b) {
-                if (b != a && plan_.offsets[b] != Plan::unplaced && overlap(a, b) &&
-                    graph_.resources[a].heap == graph_.resources[b].heap) {
+                if (b != a && hasMemory(b) && overlap(a, b) && !usesOf(b).empty()) {
                     checkSharing(a, usesA, b, usesOf(b));
+                    checkSharing(b, usesOf(b), a, usesA);
                 }
             }
         }
@@ -207,9 +214,33 @@ private:
                 say("resource {} lies across the border at {}", r, border);
             }
         }
+        for (const gpu::HeldRange& held : heap.held) {
+            if (held.range.offset < end && plan_.offsets[r] < held.range.offset + held.range.size) {
+                checkHeld(r, uses, held);
+            }
+        }
         const At first = *std::ranges::min_element(uses, {}, &At::position);
         if (heap.before.stages != 0 && !barrierBetween({-1, heap.before}, first)) {
             say("resource {} does not wait for what was in its memory before the list", r);
+        }
+    }
+
+    // Held memory is used by others only while nobody needs what it holds.
+    void checkHeld(uint32_t r, const std::vector<At>& uses, const gpu::HeldRange& held) {
+        const bool listed = held.resource != gpu::HeldRange::unused;
+        const std::vector<At> own = listed ? usesOf(held.resource) : std::vector<At>{};
+        const bool output = graph_.resources[r].output;
+        for (const At& mine : uses) {
+            for (const At& its : own) {
+                const bool early = held.use == gpu::HeldUse::untilLast && mine.position <= its.position;
+                const bool late = held.use == gpu::HeldUse::fromFirst && mine.position >= its.position;
+                if (early || late) {
+                    say("resource {} is at {} in memory that is held", r, mine.position);
+                }
+            }
+        }
+        if (held.use == gpu::HeldUse::busy || (held.use == gpu::HeldUse::fromFirst && output)) {
+            say("resource {} lies in memory that is held", r);
         }
     }
 
@@ -268,12 +299,11 @@ private:
                 break;  // what comes later waits for this
             }
         }
-        if (!graph_.resources[t.resource].transient) {
+        if (!hasMemory(t.resource)) {
             return;
         }
         for (uint32_t other = 0; other < graph_.resources.size(); ++other) {
-            if (other == t.resource || plan_.offsets[other] == Plan::unplaced || !overlap(other, t.resource) ||
-                graph_.resources[other].heap != graph_.resources[t.resource].heap) {
+            if (other == t.resource || !hasMemory(other) || !overlap(other, t.resource)) {
                 continue;
             }
             for (const At& use : usesOf(other)) {

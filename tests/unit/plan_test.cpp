@@ -258,6 +258,27 @@ PassGraph randomGraph(uint32_t seed) {
             }
         }
     }
+    // Some of what is kept lies in a heap, one behind another.
+    std::vector<VkDeviceSize> ends(graph.heaps.size());
+    for (uint32_t i = 0; i < graph.resources.size(); ++i) {
+        GraphResource& r = graph.resources[i];
+        if (r.transient || !r.image || upTo(2) == 0) {
+            continue;
+        }
+        gpu::GraphHeap& heap = graph.heaps[r.heap];
+        r.held = true;
+        r.offset = 700 + ends[r.heap];  // behind what may be taken
+        ends[r.heap] += r.size;
+        const gpu::HeldUse use = r.undefined    ? gpu::HeldUse::fromFirst
+                                 : upTo(2) == 0 ? gpu::HeldUse::busy
+                                                : gpu::HeldUse::untilLast;
+        heap.held.push_back({{r.offset, r.size}, use, i});
+    }
+    for (gpu::GraphHeap& heap : graph.heaps) {
+        if (upTo(3) == 0) {
+            heap.held.push_back({{6000, 300}, static_cast<gpu::HeldUse>(upTo(3)), gpu::HeldRange::unused});
+        }
+    }
     const uint32_t passes = upTo(30);
     for (uint32_t p = 0; p < passes; ++p) {
         const auto first = static_cast<uint32_t>(graph.uses.size());

@@ -23,6 +23,7 @@ double copyImages(gpu::Frame& f) {
     const gpu::Image from = f.image("from", VK_FORMAT_R16G16B16A16_SFLOAT, imageSize);
     const gpu::Image to = f.image("to", VK_FORMAT_R16G16B16A16_SFLOAT, imageSize);
     showLive(f, from, to);
+    f.keep(to);
     f.submit();
     f.wait();
     return perSecond(bytesOf(from) + bytesOf(to), f.passTimes().back().ms);
