@@ -51,10 +51,14 @@ void expectSpread(const nlohmann::json& spread, size_t count) {
 
 void expectState(const nlohmann::json& state, size_t frames) {
     EXPECT_EQ(state.at("frames"), frames);
-    for (const char* total : {"wall_ms", "submitted_ms", "frame_ms"}) {
+    for (const char* total : {"wall_ms", "submitted_ms", "record_ms", "frame_ms"}) {
         expectSpread(state.at(total), frames);
         EXPECT_GT(state.at(total).at("median"), 0.0);
     }
+    EXPECT_GE(state.at("recorded").at("passes"), state.at("passes").size());
+    EXPECT_GT(state.at("recorded").at("barriers"), 0);
+    EXPECT_LE(state.at("recorded").at("barriers"), state.at("recorded").at("passes"));
+    EXPECT_GT(state.at("recorded").at("transient_bytes"), 32 * 18 * 8);
     for (const char* kind : {"groups", "passes"}) {
         ASSERT_FALSE(state.at(kind).empty());
         for (const auto& [name, pass] : state.at(kind).items()) {
@@ -106,7 +110,7 @@ TEST_F(BenchTest, OneSettingAgainstItselfHasARatioForEveryTurnAndEqualErrors) {
     EXPECT_EQ(pair.at("a"), "preset:fast,diffuse.rays=2");
     EXPECT_EQ(pair.at("b"), "fast,diffuse.rays=2");
     for (const auto& [state, turns] : {std::pair("first", 2U), std::pair("steady", 3U)}) {
-        for (const char* total : {"wall", "submitted", "frame"}) {
+        for (const char* total : {"wall", "submitted", "record", "frame"}) {
             const nlohmann::json& ratio = pair.at(state).at(total);
             ASSERT_EQ(ratio.at("ratios").size(), turns) << state << ' ' << total;
             expectSpread(ratio.at("ratio"), turns);
@@ -217,6 +221,23 @@ TEST_F(BenchTest, AnotherBuildTakesTurnsWithThisOne) {
     EXPECT_TRUE(json["comparisons"][0]["steady"]["passes"].contains("gbuffer"));
 }
 
+// Over 5 s: its processes each have their shaders compiled by the driver.
+TEST_F(BenchTest, AnOlderBuildThatDoesNotTellHowItRecordsIsCompared) {
+    // Its JSON has not the keys that came later.
+    write("old", fmt::format("#!/bin/sh\n'{}' \"$@\" || exit\nwhile [ $# -gt 0 ]; do\n"
+                             "  [ \"$1\" = --json ] && sed -i 's/\"record_ms\"/\"a\"/; s/\"recorded\"/\"b\"/' \"$2\"\n"
+                             "  shift\ndone\nexit 0\n",
+                             REFLET_PROGRAM));
+    std::filesystem::permissions(path("old"), std::filesystem::perms::owner_all);
+    ASSERT_TRUE(quietSuccess(bench({"--against", "./old", "--rounds", "1", "--preset", "direct"})));
+    const nlohmann::json json = numbers();
+    EXPECT_TRUE(json["runs"][0]["steady"].contains("record_ms"));
+    EXPECT_FALSE(json["runs"][1]["steady"].contains("record_ms"));
+    EXPECT_FALSE(json["runs"][1]["steady"].contains("recorded"));
+    EXPECT_TRUE(json["comparisons"][0]["steady"].contains("submitted"));
+    EXPECT_FALSE(json["comparisons"][0]["steady"].contains("record"));
+}
+
 TEST_F(BenchTest, ABuildWithoutABenchIsAskedForItsTimings) {
     write("old", fmt::format("#!/bin/sh\n[ \"$1\" = bench ] && exit 2\nexec '{}' \"$@\"\n", REFLET_PROGRAM));
     std::filesystem::permissions(path("old"), std::filesystem::perms::owner_all);
@@ -229,6 +250,9 @@ TEST_F(BenchTest, PrintsAlignedTablesOrMarkdownAndWritesAPlot) {
     const Outcome markdown = bench({"--preset", "direct", "--markdown", "--plot", "p.svg"});
     ASSERT_TRUE(quietSuccess(markdown));
     EXPECT_NE(markdown.out.find("| scene | variant | size |"), std::string::npos) << markdown.out;
+    EXPECT_NE(markdown.out.find("| wall ms | record ms |"), std::string::npos) << markdown.out;
+    EXPECT_NE(markdown.out.find("| memory, MB | transient, MB | passes | barriers |"), std::string::npos)
+        << markdown.out;
     EXPECT_NE(markdown.out.find("| builtin:cubes | direct | 32x18 |"), std::string::npos) << markdown.out;
     EXPECT_TRUE(read("p.svg").starts_with("<svg "));
     EXPECT_NE(read("p.svg").find("direct"), std::string::npos);

@@ -103,6 +103,23 @@ TEST(Samples, ThereIsARatioForEveryTurnInWhichBothTookTime) {
     EXPECT_EQ(ratios[2].ratios, std::vector<double>{0.5});
 }
 
+TEST(Samples, HostTimeToRecordIsComparedOnlyIfBothTellIt) {
+    Samples tells;
+    tells.add(4.0, 3.0, {}, Recording{0.5, 40, 15, 1000});
+    tells.add(4.0, 3.0, {}, Recording{0.25, 41, 16, 2000});
+    EXPECT_EQ(tells.find(SeriesKind::total, "record")->ms, (std::vector<double>{0.5, 0.25}));
+    EXPECT_EQ(tells.recording()->passes, 41U);
+    EXPECT_EQ(tells.recording()->barriers, 16U);
+    EXPECT_EQ(tells.recording()->transientBytes, 2000U);
+    EXPECT_FALSE(twoFrames().recording());
+    const auto compares = [](const std::vector<Ratio>& ratios) {
+        return std::ranges::find(ratios, "record", &Ratio::name) != ratios.end();
+    };
+    EXPECT_TRUE(compares(ratiosOf(tells, tells)));
+    EXPECT_FALSE(compares(ratiosOf(tells, twoFrames())));
+    EXPECT_FALSE(compares(ratiosOf(twoFrames(), tells)));
+}
+
 TEST(Scaling, TimesAreOverPixelsAndTheSpreadIsOfTheDearestOverTheCheapest) {
     BenchResult result;
     for (const uint32_t scale : {1U, 2U}) {

@@ -40,6 +40,20 @@ TEST_F(SteadyState, MakesNothing) {
     }
 }
 
+// Over 5 s: the preset compiles its own shaders.
+TEST_F(SteadyState, IsRecordedByTheLastFramesPlan) {
+    Renderer renderer(device(), scene_, [](const std::string&) {});
+    const Settings settings = preset("balanced");
+    renderFrames(renderer, view_, {48, 32}, settings, 4);
+    for (int i = 0; i < 2; ++i) {
+        renderFrames(renderer, view_, {48, 32}, settings, 1);
+        const gpu::RecordingCounts& counts = renderer.frame().counts();
+        EXPECT_EQ(counts.plans, 0U);
+        EXPECT_GT(counts.passes, 0U);
+        EXPECT_LE(2 * counts.barriers, counts.passes);
+    }
+}
+
 TEST_F(SteadyState, TwoViewsInTurnMakeNothing) {
     Renderer one(device(), scene_, [](const std::string&) {});
     Renderer other(device(), scene_, [](const std::string&) {});

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 
 namespace reflet {
 
@@ -86,8 +87,14 @@ void addBench(const nlohmann::json& state, Samples& samples) {
     for (const auto& [name, pass] : state.at("passes").items()) {
         passes.push_back({name, pass.at("median"), pass.at("bytes"), pass.at("raster")});
     }
+    std::optional<Recording> recording;
+    if (state.contains("record_ms")) {  // older programs do not tell
+        const nlohmann::json& counts = state.at("recorded");
+        recording = {state.at("record_ms").at("median"), counts.at("passes"), counts.at("barriers"),
+                     counts.at("transient_bytes")};
+    }
     if (state.contains("wall_ms")) {
-        samples.add(state.at("wall_ms").at("median"), state.at("submitted_ms").at("median"), passes);
+        samples.add(state.at("wall_ms").at("median"), state.at("submitted_ms").at("median"), passes, recording);
     }
 }
 

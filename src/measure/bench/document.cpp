@@ -51,8 +51,9 @@ void addErrors(TextTable::Row& row, const BenchState& state) {
 
 std::vector<TextTable::Column> frameColumns() {
     std::vector<TextTable::Column> columns{{"scene"}, {"variant"}, {"size"}};
-    for (const char* name : {"device ms", "submitted ms", "wall ms", "ns per pixel", "first: device ms", "submitted ms",
-                             "rel. MSE", "FLIP", "shown", "steady: rel. MSE", "FLIP", "shown", "memory, MB"}) {
+    for (const char* name : {"device ms", "submitted ms", "wall ms", "record ms", "ns per pixel", "first: device ms",
+                             "submitted ms", "rel. MSE", "FLIP", "shown", "steady: rel. MSE", "FLIP", "shown",
+                             "memory, MB", "transient, MB", "passes", "barriers"}) {
         columns.push_back({name, isNumber});
     }
     return columns;
@@ -71,12 +72,17 @@ TextTable frameTable(const BenchResult& result) {
             timeText(steady, SeriesKind::total, "frame"),
             timeText(steady, SeriesKind::total, "submitted"),
             medianText(steady, SeriesKind::total, "wall"),
+            medianText(steady, SeriesKind::total, "record"),
             submitted == nullptr ? "" : fmt::format("{:.1f}", spreadOf(submitted->ms).median * 1e6 / pixels),
             timeText(run.first.samples, SeriesKind::total, "frame"),
             timeText(run.first.samples, SeriesKind::total, "submitted")};
         addErrors(row, run.first);
         addErrors(row, run.steady);
         row.emplace_back(megabytes(run.memory));
+        const std::optional<Recording>& recorded = steady.recording();
+        row.emplace_back(recorded ? megabytes(recorded->transientBytes) : "");
+        row.emplace_back(recorded ? std::to_string(recorded->passes) : "");
+        row.emplace_back(recorded ? std::to_string(recorded->barriers) : "");
         table.rows.push_back(std::move(row));
     }
     return table;

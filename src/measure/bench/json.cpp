@@ -53,6 +53,11 @@ Json stateJson(const BenchState& state, double bandwidth) {
     }
     json["groups"] = groups;
     json["passes"] = passes;
+    if (const std::optional<Recording>& recorded = state.samples.recording()) {
+        json["recorded"] = {{"passes", recorded->passes},
+                            {"barriers", recorded->barriers},
+                            {"transient_bytes", recorded->transientBytes}};
+    }
     json["error"] = state.error ? errorJson(*state.error) : Json();
     if (state.displayedFlip) {
         json["error"]["displayed_flip"] = *state.displayedFlip;

@@ -6,13 +6,20 @@
 namespace reflet {
 
 void Samples::add(double wallMs, const gpu::Frame& frame) {
-    add(wallMs, frame.submittedMs(), frame.passTimes());
+    const gpu::RecordingCounts& counts = frame.counts();
+    add(wallMs, frame.submittedMs(), frame.passTimes(),
+        Recording{counts.ms, counts.passes, counts.barriers, frame.transientBytes()});
 }
 
-void Samples::add(double wallMs, double submittedMs, std::span<const gpu::PassTime> passes) {
+void Samples::add(double wallMs, double submittedMs, std::span<const gpu::PassTime> passes,
+                  const std::optional<Recording>& recording) {
     ++frames_;
+    recording_ = recording;
     addTime(SeriesKind::total, "wall", {"", wallMs});
     addTime(SeriesKind::total, "submitted", {"", submittedMs});
+    if (recording) {
+        addTime(SeriesKind::total, "record", {"", recording->ms});
+    }
     for (const gpu::PassTime& pass : passes) {
         if (pass.name == "frame") {
             addTime(SeriesKind::total, "frame", pass);

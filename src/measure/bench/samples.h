@@ -4,6 +4,7 @@
 #include "device/frame.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,7 +12,7 @@
 namespace reflet {
 
 enum class SeriesKind : uint8_t {
-    total,  ///< "wall", "submitted", "frame"
+    total,  ///< "wall", "submitted", "record", "frame"
     group,  ///< passes that belong together
     pass,
 };
@@ -25,16 +26,27 @@ struct Series {
     bool raster = false;  ///< a pass that draws triangles
 };
 
+/// What the host made of a frame.
+struct Recording {
+    double ms = 0.0;      ///< host time to list and record its passes
+    uint32_t passes = 0;  ///< copies and clears included
+    uint32_t barriers = 0;
+    uint64_t transientBytes = 0;  ///< of the memory that images and buffers of one frame share
+};
+
 /// Groups: "geometry" has all passes that draw triangles, "effects" all others; "diffuse" has all passes whose names
 /// start with "diffuse.", and so on.
 class Samples {
 public:
     /// `wallMs`: of the whole frame by the host's clock. Submission to fence, and the device times, come from `frame`.
     void add(double wallMs, const gpu::Frame& frame);
-    /// `passes` as from Frame::passTimes().
-    void add(double wallMs, double submittedMs, std::span<const gpu::PassTime> passes);
+    /// `passes` as from Frame::passTimes(). recording: none if it is not known, as of programs that do not tell it.
+    void add(double wallMs, double submittedMs, std::span<const gpu::PassTime> passes,
+             const std::optional<Recording>& recording = {});
 
     [[nodiscard]] size_t frames() const { return frames_; }
+    /// Of the last frame.
+    [[nodiscard]] const std::optional<Recording>& recording() const { return recording_; }
     /// Totals, groups, then passes in the order in which they first ran.
     [[nodiscard]] std::vector<Series> series() const;
     /// nullptr: no frame had it.
@@ -45,6 +57,7 @@ private:
     void addTime(SeriesKind kind, const std::string& name, const gpu::PassTime& time);
 
     size_t frames_ = 0;
+    std::optional<Recording> recording_;
     std::vector<Series> series_;
 };
 

@@ -10,21 +10,32 @@ namespace reflet {
 
 namespace {
 
-using Polygon = std::vector<vec3>;
+// On the stack: this runs in every frame. Four corners, and one more for each of at most ten planes that clip it; the
+// rest is room for rounding errors.
+struct Polygon {
+    std::array<vec3, 32> points{};
+    size_t count = 0;
+
+    void add(const vec3& point) {
+        if (count < points.size()) {
+            points[count++] = point;
+        }
+    }
+};
 
 // The part of a convex polygon on the side where dot(plane, (p, 1)) >= 0 (Sutherland and Hodgman 1974).
 Polygon clip(const Polygon& polygon, const vec4& plane) {
     Polygon kept;
-    for (size_t i = 0; i < polygon.size(); ++i) {
-        const vec3& a = polygon[i];
-        const vec3& b = polygon[(i + 1) % polygon.size()];
+    for (size_t i = 0; i < polygon.count; ++i) {
+        const vec3& a = polygon.points[i];
+        const vec3& b = polygon.points[(i + 1) % polygon.count];
         const float da = glm::dot(plane, vec4(a, 1.0F));
         const float db = glm::dot(plane, vec4(b, 1.0F));
         if (da >= 0.0F) {
-            kept.push_back(a);
+            kept.add(a);
         }
         if ((da >= 0.0F) != (db >= 0.0F)) {
-            kept.push_back(glm::mix(a, b, da / (da - db)));
+            kept.add(glm::mix(a, b, da / (da - db)));
         }
     }
     return kept;
@@ -36,7 +47,7 @@ std::array<Polygon, 6> boxFaces(const Aabb& box) {
     std::array<Polygon, 6> polygons;
     for (size_t i = 0; i < 6; ++i) {
         for (const unsigned corner : faces[i]) {
-            polygons[i].push_back(box.corner(corner));
+            polygons[i].add(box.corner(corner));
         }
     }
     return polygons;
@@ -48,16 +59,18 @@ std::array<vec4, 5> frustumPlanes(const mat4& worldToClip) {
     return {rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1], rows[3] - rows[2]};
 }
 
-// Corners of the intersection of box and frustum: the box's faces clipped by the frustum, and (where frustum edges pass
-// through the box) the frustum's faces, as large polygons, clipped by the box.
-Polygon visibleCorners(const Aabb& box, const mat4& clipToWorld) {
+// Bounds, in the space of `light`, of the intersection of box and frustum: the box's faces clipped by the frustum, and
+// (where frustum edges pass through the box) the frustum's faces, as large polygons, clipped by the box.
+Aabb visibleBounds(const Aabb& box, const mat4& clipToWorld, const LightSpace& light) {
     const auto planes = frustumPlanes(glm::inverse(clipToWorld));
-    Polygon corners;
+    Aabb seen;
     const auto addClipped = [&](Polygon polygon, size_t skip) {
         for (size_t i = 0; i < planes.size(); ++i) {
             polygon = i == skip ? polygon : clip(polygon, planes[i]);
         }
-        corners.insert(corners.end(), polygon.begin(), polygon.end());
+        for (size_t i = 0; i < polygon.count; ++i) {
+            seen.add(light.worldToLight * polygon.points[i]);
+        }
     };
     for (const Polygon& face : boxFaces(box)) {
         addClipped(face, planes.size());
@@ -69,7 +82,10 @@ Polygon visibleCorners(const Aabb& box, const mat4& clipToWorld) {
         const vec3 onPlane = box.center() - n * (glm::dot(n, box.center()) + planes[i].w / length);
         const vec3 t = glm::normalize(glm::cross(n, std::abs(n.x) < 0.5F ? vec3(1, 0, 0) : vec3(0, 1, 0))) * reach;
         const vec3 b = glm::normalize(glm::cross(n, t)) * reach;
-        Polygon large = {onPlane - t - b, onPlane + t - b, onPlane + t + b, onPlane - t + b};
+        Polygon large;
+        for (const vec3& corner : {onPlane - t - b, onPlane + t - b, onPlane + t + b, onPlane - t + b}) {
+            large.add(corner);
+        }
         for (int axis = 0; axis < 3; ++axis) {
             vec4 lower(0.0F, 0.0F, 0.0F, -box.min[axis]);
             vec4 upper(0.0F, 0.0F, 0.0F, box.max[axis]);
@@ -79,7 +95,7 @@ Polygon visibleCorners(const Aabb& box, const mat4& clipToWorld) {
         }
         addClipped(large, i);
     }
-    return corners;
+    return seen;
 }
 
 }  // namespace
@@ -90,10 +106,7 @@ ShadowMapParams fitSunShadow(const mat4& clipToWorld, const Aabb& sceneBounds, c
         return emptyMap(direction);
     }
     const LightSpace light = lightSpaceOf(sceneBounds, direction);
-    Aabb seen;
-    for (const vec3& p : visibleCorners(sceneBounds, clipToWorld)) {
-        seen.add(light.worldToLight * p);
-    }
+    Aabb seen = visibleBounds(sceneBounds, clipToWorld, light);
     if (seen.empty()) {  // the scene is out of view
         seen = light.scene;
     }

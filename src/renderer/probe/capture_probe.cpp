@@ -39,7 +39,8 @@ ProbeBlock blockOf(std::span<const Probe> probes) {
 template <class T>
 void append(std::vector<std::byte>& bytes, const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
-    std::ranges::copy(std::as_bytes(std::span(&value, 1)), std::back_inserter(bytes));
+    const auto more = std::as_bytes(std::span(&value, 1));
+    bytes.insert(bytes.end(), more.begin(), more.end());
 }
 
 VkSampler probeSampler(gpu::Context& context) {
@@ -50,6 +51,7 @@ VkSampler probeSampler(gpu::Context& context) {
 // face, captures follow the lights by themselves.
 std::vector<std::byte> keyOf(const ProbeBlock& block, const ViewInputs& in, const Settings& settings) {
     std::vector<std::byte> key;
+    key.reserve(sizeof(block) + sizeof(in.lamps) + sizeof(settings));  // one allocation each frame
     append(key, block);
     append(key, settings.probes.refresh);
     append(key, settings.probes.resolution);
