@@ -2,6 +2,7 @@
 #include "api/camera.h"
 
 #include "api/calls.h"
+#include "lighting/camera.h"
 #include "lighting/jitter.h"
 
 #include <algorithm>
@@ -37,23 +38,7 @@ mat4 reflectedProjection(mat4 viewToClip, const RefletFrameInfo& info) {
     return viewToClip;
 }
 
-// z of view space per metre in front of the camera: 1 or -1.
-float forwardOf(const mat4& p) {
-    const float perspective = p[2][3];
-    return perspective != 0.0F ? (perspective > 0.0F ? 1.0F : -1.0F) : (p[2][2] > 0.0F ? -1.0F : 1.0F);
-}
-
-// ViewParams::depthToDistance. Depth is (a z + b) / (c z + e) of view space's z.
-vec4 depthToDistance(const mat4& p, float forward) {
-    const float a = p[2][2];
-    const float b = p[3][2];
-    const float c = p[2][3];
-    const float e = p[3][3];
-    const vec4 fraction(forward * b, -forward * e, -a, c);
-    return fraction.z + 0.5F * fraction.w < 0.0F ? -fraction : fraction;
-}
-
-void checkCamera(const mat4& toView, const mat4& toClip, const glm::dmat4& inverse) {
+void checkCamera(const mat4& toView, const mat4& toClip, const mat4& clipToWorld) {
     const float scale = glm::determinant(glm::mat3(toView));
     if (std::abs(std::abs(scale) - 1.0F) > 0.01F) {
         failArgument("RefletFrameInfo.worldToView: scales by {}; it must be a rotation and a translation, in metres",
@@ -63,7 +48,7 @@ void checkCamera(const mat4& toView, const mat4& toClip, const glm::dmat4& inver
         failArgument("RefletFrameInfo.viewToClip: is no projection; matrices are column-major");
     }
     for (int i = 0; i < 16; ++i) {
-        if (!std::isfinite(inverse[i / 4][i % 4])) {
+        if (!std::isfinite(clipToWorld[i / 4][i % 4])) {
             failArgument("RefletFrameInfo.viewToClip: cannot be inverted");
         }
     }
@@ -74,27 +59,13 @@ void checkCamera(const mat4& toView, const mat4& toClip, const glm::dmat4& inver
 ViewParams viewParams(const RefletFrameInfo& info, uvec2 size) {
     const mat4 toView = matrixOf(info.worldToView, "worldToView");
     const mat4 toClip = reflectedProjection(matrixOf(info.viewToClip, "viewToClip"), info);
-    ViewParams v{};
-    v.worldToClip = toClip * toView;
-    // Inverted in double: an infinite far plane makes the matrix badly conditioned.
-    const glm::dmat4 clipToView = glm::inverse(glm::dmat4(toClip));
-    checkCamera(toView, toClip, clipToView);
-    v.clipToWorld = mat4(glm::inverse(glm::dmat4(toView)) * clipToView);
+    ViewParams v = lighting::viewOf(toView, toClip, size);
+    checkCamera(toView, toClip, v.clipToWorld);
     const bool first = isZero(info.previousWorldToView) && isZero(info.previousViewToClip);
     v.previousWorldToClip = first ? v.worldToClip
                                   : reflectedProjection(matrixOf(info.previousViewToClip, "previousViewToClip"), info) *
                                         matrixOf(info.previousWorldToView, "previousWorldToView");
-    const float forward = forwardOf(toClip);
-    const bool orthographic = toClip[2][3] == 0.0F;
-    const vec3 ahead = forward * vec3(glm::transpose(toView)[2]);
-    v.eye = orthographic ? vec4(-ahead, 0.0F) : vec4(vec3(glm::inverse(toView)[3]), 1.0F);
-    v.viewPlane = forward * glm::transpose(toView)[2];
-    v.depthToDistance = depthToDistance(toClip, forward);
-    v.size = vec2(size);
-    v.pixel = 1.0F / v.size;
-    v.pixelAngle = 2.0F / (std::abs(toClip[1][1]) * v.size.y);
     v.frame = info.frameIndex;
-    v.paddedClipToWorld = v.clipToWorld;
     const auto jitterOf = [](const float(&given)[2], const char* name) {
         if (!(std::abs(given[0]) <= 1.0F && std::abs(given[1]) <= 1.0F)) {
             failArgument("RefletFrameInfo.{}: is ({}, {}) pixels; must be -1 to 1", name, given[0], given[1]);

@@ -67,7 +67,7 @@ SunInputs sunInputs(const RefletSunShadow& sun, const Settings& settings) {
     in.toSun = glm::normalize(toSun);
     in.reversed = sun.depthKind == REFLET_DEPTH_REVERSED;
     in.contact = sun.contactShadows != 0;
-    in.slope = std::tan(0.5F * (sun.angularDiameter > 0.0F ? sun.angularDiameter : realSun));
+    in.slope = lighting::sunSlope(sun.angularDiameter > 0.0F ? sun.angularDiameter : realSun);
     in.sun.count = sun.cascades;
     float start = 0.0F;
     for (uint32_t i = 0; i < sun.cascades; ++i) {
@@ -78,7 +78,7 @@ SunInputs sunInputs(const RefletSunShadow& sun, const Settings& settings) {
         }
         const float end = last && !(sun.ends[i] > start) ? std::numeric_limits<float>::max() : sun.ends[i];
         in.sun.ends[i] = end;
-        in.sun.blends[i] = end - settings.shadow.cascadeBlend * (end - start);
+        in.sun.blends[i] = lighting::cascadeBlend(settings.shadow, start, end);
         start = end;
     }
     return in;
@@ -93,7 +93,7 @@ EnvironmentInputs environmentInputs(const RefletEnvironment& environment, HostIm
     if (in.image && factor == vec3(0.0F)) {
         factor = vec3(1.0F);
     }
-    in.params = {factor, {std::cos(environment.rotation), std::sin(environment.rotation)}};
+    in.params = lighting::environmentParams(factor, environment.rotation);
     return in;
 }
 

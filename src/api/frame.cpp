@@ -66,11 +66,7 @@ LobeStore& storeOf(RefletView_T& view, uint32_t lobe) {
 
 // The picture so far, with this radiance or what came of the last effect.
 lighting::Light lightWith(const Frame& frame, gpu::Image radiance) {
-    lighting::Light light;
-    light.lit = radiance;
-    light.depth = frame.g.depth;
-    light.followedDepth = frame.g.depth;
-    light.followedMotion = frame.g.motion;
+    lighting::Light light = lighting::lightOf(frame, radiance);
     light.antialiased = frame.antialiased;
     light.unfiltered = frame.composed;
     return light;
@@ -83,6 +79,16 @@ gpu::Image pictureSoFar(const Frame& frame) {
         failArgument("color: is NULL, and neither refletTemporal nor refletComposite has run in this frame");
     }
     return radiance;
+}
+
+// What the tone map is given: a host's picture, or the frame's.
+lighting::Light pictureToMap(const Frame& frame, gpu::Image given) {
+    if (given || !frame.defocused) {
+        return lightWith(frame, given ? given : pictureSoFar(frame));
+    }
+    lighting::Light light = lightWith(frame, frame.defocused);
+    light.sharp = frame.sharp;
+    return light;
 }
 
 void keepLobe(gpu::PassList& f, const std::optional<LobeLight>& lobe) {
@@ -102,8 +108,8 @@ void finishCall(RefletView_T& view, const Frame& frame) {
     const GBuffer& g = frame.g;
     for (const gpu::Image& image :
          {g.depth, g.normal, g.geometricNormal, g.baseColor, g.material, g.motion, g.reflectance, frame.backDepth,
-          frame.pyramid, frame.light, frame.antialiased, frame.defocused, frame.circleOfConfusion, frame.sunVisibility,
-          frame.ambientOcclusion, frame.display}) {
+          frame.pyramid, frame.light, frame.antialiased, frame.sharp, frame.defocused, frame.circleOfConfusion,
+          frame.sunVisibility, frame.ambientOcclusion, frame.display}) {
         f.keep(image);
     }
     keepLobe(f, frame.diffuse);
@@ -214,6 +220,7 @@ gpu::Image recordDepthOfField(RefletView_T& view, Frame& frame, const Settings& 
     const LobeLight* const specular = frame.specular && frame.composed ? &*frame.specular : nullptr;
     const lighting::Light blurred = lighting::defocus(f, view.store->lens, contextOf(view, frame), settings, lens,
                                                       frame, lightWith(frame, radiance), specular);
+    frame.sharp = radiance;
     frame.defocused = blurred.lit;
     frame.circleOfConfusion = blurred.circleOfConfusion;
     finishCall(view, frame);
@@ -222,8 +229,7 @@ gpu::Image recordDepthOfField(RefletView_T& view, Frame& frame, const Settings& 
 
 gpu::Image recordToneMap(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image color, bool automatic) {
     gpu::PassList& f = view.recorder;
-    const gpu::Image given = color ? lighting::importLight(f, color) : frame.defocused;
-    const lighting::Light light = lightWith(frame, given ? given : pictureSoFar(frame));
+    const lighting::Light light = pictureToMap(frame, color ? lighting::importLight(f, color) : gpu::Image{});
     gpu::Image exposure;
     if (automatic) {
         if (!lighting::canMeter(light, frame)) {

@@ -51,7 +51,7 @@ struct SunInputs {
     bool reversed = true;
     SunShadowParams sun{};
     vec3 toSun{0.0F};
-    float slope = 0.0F;  ///< tangent of half the angular diameter
+    float slope = 0.0F;  ///< of lighting::sunSlope
     bool contact = false;
 };
 

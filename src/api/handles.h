@@ -67,6 +67,7 @@ struct Frame : lighting::Surfaces {
     gpu::History lit;               ///< swapped by the first effect that reads or writes it
     gpu::Image composed;
     gpu::Image antialiased;
+    gpu::Image sharp;  ///< what depth of field was given
     gpu::Image defocused;
     gpu::Image circleOfConfusion;
     gpu::Image sunVisibility;

@@ -24,6 +24,11 @@ gpu::Image withoutNoise(gpu::PassList& f, gpu::HistoryImage* history, const View
 
 }  // namespace
 
+bool keepsPenumbras(const ShadowSettings& settings) {
+    const bool soft = settings.filter == ShadowFilter::pcf || settings.filter == ShadowFilter::pcss;
+    return soft && settings.denoise != 0 && settings.history > 0;
+}
+
 bool readsShadowRange(const ShadowSettings& settings) {
     return settings.filter == ShadowFilter::pcss && settings.earlyOut != 0;
 }

@@ -7,7 +7,14 @@
 #include "lighting/settings.h"
 #include "lighting/surfaces.h"
 
+#include <cmath>
+
 namespace reflet::lighting {
+
+/// Tangent of half the sun's angular diameter [rad].
+inline float sunSlope(float angularDiameter) {
+    return std::tan(0.5F * angularDiameter);
+}
 
 /// The sun and its shadow maps, as a caller has drawn or imported them.
 struct SunMaps {
@@ -15,9 +22,15 @@ struct SunMaps {
     gpu::Image range;       ///< of shadowRange; none: the blocker search has no early-out
     SunShadowParams sun{};  ///< of the cascades
     vec3 toSun{0.0F};       ///< unit
-    float slope = 0.0F;     ///< tangent of half the angular diameter
+    float slope = 0.0F;     ///< of sunSlope
     bool contact = false;   ///< the sun casts contact shadows, if the settings have any
 };
+
+/// Where a cascade begins to blend into the next (SunShadowParams::blends). begin, end: distances in front of the
+/// camera.
+inline float cascadeBlend(const ShadowSettings& settings, float begin, float end) {
+    return glm::mix(end, begin, settings.cascadeBlend);
+}
 
 struct SunShadow {
     gpu::Image visibility;    ///< R8: what direct light reads

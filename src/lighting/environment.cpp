@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace reflet::lighting {
 
@@ -15,6 +16,10 @@ uint32_t environmentSide(uint32_t imageWidth) {
 }
 
 }  // namespace
+
+EnvironmentParams environmentParams(const vec3& factor, float rotation) {
+    return {factor, vec2(std::cos(rotation), std::sin(rotation))};
+}
 
 void prefilterEnvironment(gpu::PassList& f, CubeMap& cube, gpu::Image texels, uint32_t imageWidth) {
     const auto scope = f.scope("environment");

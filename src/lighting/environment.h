@@ -7,6 +7,9 @@
 
 namespace reflet::lighting {
 
+/// factor: scale of the image's values, or the constant radiance; rotation about +Y [rad].
+EnvironmentParams environmentParams(const vec3& factor, float rotation);
+
 /// Makes `cube` of the texels of an image; imageWidth: 0: these are of constant radiance. Keeps the cube's memory if it
 /// has the size already.
 void prefilterEnvironment(gpu::PassList& f, CubeMap& cube, gpu::Image texels, uint32_t imageWidth);

@@ -72,8 +72,7 @@ std::vector<RaySource> orderOf(const LightingSettings& settings, const ScreenIma
 
 ScreenImages screenOf(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings, Surfaces& surfaces,
                       gpu::Image direct, const gpu::History& lit) {
-    const bool traced = settings.diffuse.rays > 0 || settings.specular.rays > 0;
-    if (traced && marchesPyramid(settings)) {
+    if (tracesRays(settings) && marchesPyramid(settings)) {
         depthPyramid(f, surfaces);
     }
     return {.g = surfaces.g,

@@ -22,6 +22,7 @@ struct Light : LightLayers {
     gpu::Image antialiased;  ///< radiance, history length; none without temporal antialiasing
     /// `lit` before antialiasing and depth of field, of the rendered size; none: `lit` itself.
     gpu::Image unfiltered;
+    gpu::Image sharp;              ///< `lit` before depth of field; none without it
     gpu::Image circleOfConfusion;  ///< of DofImages; none without depth of field
 };
 

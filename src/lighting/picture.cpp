@@ -15,6 +15,15 @@ bool fits(gpu::Image lit, const Surfaces& surfaces) {
     return lit && lit.size == surfaces.g.depth.size;
 }
 
+// What exposure is measured of, before the lens blurs it; none if no picture fits.
+gpu::Image meteredOf(const Light& light, const Surfaces& surfaces) {
+    const gpu::Image sharp = light.sharp ? light.sharp : light.lit;
+    if (fits(sharp, surfaces)) {
+        return sharp;
+    }
+    return fits(light.unfiltered, surfaces) ? light.unfiltered : gpu::Image{};
+}
+
 }  // namespace
 
 LobeLight blackLobe(gpu::PassList& f, const ViewContext& in, const Surfaces& surfaces, uint32_t lobe) {
@@ -22,15 +31,20 @@ LobeLight blackLobe(gpu::PassList& f, const ViewContext& in, const Surfaces& sur
     return reflet::blackLobe(f, {surfaces.g, in.view}, false);
 }
 
-Light compose(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings, const Surfaces& surfaces,
-              const LightParts& parts, bool layers, gpu::Image into) {
+Light lightOf(const Surfaces& surfaces, gpu::Image lit) {
     Light light;
-    light.direct = parts.direct;
+    light.lit = lit;
     light.depth = surfaces.g.depth;
     light.followedDepth = surfaces.g.depth;
     light.followedMotion = surfaces.g.motion;
+    return light;
+}
+
+Light compose(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings, const Surfaces& surfaces,
+              const LightParts& parts, bool layers, gpu::Image into) {
+    Light light = lightOf(surfaces, parts.direct);
+    light.direct = parts.direct;
     if (parts.diffuse.dark && parts.specular.dark && !layers) {
-        light.lit = parts.direct;
         return light;
     }
     const gpu::Image sum = into ? into : f.image("lit", lightFormat, surfaces.g.depth.size);
@@ -87,6 +101,7 @@ Light defocus(gpu::PassList& f, DofHistory& own, const ViewContext& in, const Li
         blur.reflections = {surfaces.g, *specular, out.unfiltered, in.ggxTable, in.lambertOnly};
     }
     const DofImages blurred = depthOfField(f, own.light, blur);
+    out.sharp = light.lit;
     out.lit = blurred.radiance;
     out.circleOfConfusion = blurred.coc;
     if (light.coverage) {
@@ -98,13 +113,12 @@ Light defocus(gpu::PassList& f, DofHistory& own, const ViewContext& in, const Li
 }
 
 bool canMeter(const Light& light, const Surfaces& surfaces) {
-    return fits(light.lit, surfaces) || fits(light.unfiltered, surfaces);
+    return bool(meteredOf(light, surfaces));
 }
 
 gpu::Image exposure(gpu::PassList& f, gpu::HistoryImage& own, const LightingSettings& settings,
                     const Surfaces& surfaces, const Light& light, float elapsed) {
-    const gpu::Image metered = fits(light.lit, surfaces) ? light.lit : light.unfiltered;
-    return measureExposure(f, own, metered, surfaces.g.depth, elapsed, settings.tonemap.adaptation);
+    return measureExposure(f, own, meteredOf(light, surfaces), surfaces.g.depth, elapsed, settings.tonemap.adaptation);
 }
 
 gpu::Image display(gpu::PassList& f, const LightingSettings& settings, gpu::Image radiance, gpu::Image exposure) {

@@ -21,6 +21,9 @@ struct LightParts {
 /// A lobe without rays.
 LobeLight blackLobe(gpu::PassList& f, const ViewContext& in, const Surfaces& surfaces, uint32_t lobe);
 
+/// A picture of the surfaces, with nothing in front of them.
+Light lightOf(const Surfaces& surfaces, gpu::Image lit);
+
 /// The sum of the parts; direct light itself where neither lobe has rays and no layers are asked for. layers: each
 /// part, too. into: where the sum is written; none: an image of this frame.
 Light compose(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings, const Surfaces& surfaces,
@@ -54,7 +57,8 @@ Light defocus(gpu::PassList& f, DofHistory& own, const ViewContext& in, const Li
 /// Whether exposure can be measured: a picture of the size of the depth is needed.
 bool canMeter(const Light& light, const Surfaces& surfaces);
 
-/// Stops of automatic exposure, smoothed over frames. elapsed: seconds since the last frame.
+/// Stops of automatic exposure, smoothed over frames: of the light before the lens. elapsed: seconds since the last
+/// frame.
 gpu::Image exposure(gpu::PassList& f, gpu::HistoryImage& own, const LightingSettings& settings,
                     const Surfaces& surfaces, const Light& light, float elapsed);
 

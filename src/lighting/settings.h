@@ -30,6 +30,12 @@ struct LightingSettings {
 
 namespace lighting {
 
+/// Whether either lobe has rays.
+bool tracesRays(const LightingSettings& settings);
+
+/// Whether sunShadow reads its history.
+bool keepsPenumbras(const ShadowSettings& settings);
+
 /// Users count pixels of the output; stages count those that are rendered. Call it once for the settings of a frame
 /// that is rendered at another height than its output has (temporal upscaling).
 void countRenderedPixels(LightingSettings& settings, float renderedHeight, float outputHeight);

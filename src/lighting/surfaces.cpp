@@ -7,6 +7,10 @@
 
 namespace reflet::lighting {
 
+bool tracesRays(const LightingSettings& settings) {
+    return settings.diffuse.rays > 0 || settings.specular.rays > 0;
+}
+
 void countRenderedPixels(LightingSettings& settings, float renderedHeight, float outputHeight) {
     settings.denoise.radius *= renderedHeight / outputHeight;
 }

@@ -32,7 +32,7 @@ bool sunShines(const ViewInputs& in) {
 }
 
 float sunSlope(const ViewInputs& in) {
-    return std::tan(0.5F * in.sunAngularDiameter);
+    return lighting::sunSlope(in.sunAngularDiameter);
 }
 
 // Whether sunlight passes through some surfaces, in part.

@@ -30,7 +30,7 @@ bool keepsLayers(const Settings& settings) {
 
 // The image of this frame's light, and the last one's. Without rays, no frame reads the last one's.
 gpu::History litOf(gpu::PassList& f, FrameStore& own, const FrameInputs& in, const Settings& settings) {
-    const bool traced = !in.draws.unlit && (settings.diffuse.rays > 0 || settings.specular.rays > 0);
+    const bool traced = !in.draws.unlit && lighting::tracesRays(settings);
     return traced ? own.lit.swap(f, VK_FORMAT_R16G16B16A16_SFLOAT, uvec2(in.view.size)) : gpu::History{};
 }
 

@@ -19,13 +19,11 @@ constexpr uint32_t meanFrames = 64;
 }  // namespace
 
 HistoryUse historyUse(const Settings& settings) {
-    const ShadowSettings& shadow = settings.shadow;
-    const bool penumbras = shadow.filter == ShadowFilter::pcf || shadow.filter == ShadowFilter::pcss;
-    const bool traced = settings.diffuse.rays > 0 || settings.specular.rays > 0;
+    const bool traced = lighting::tracesRays(settings);
     const bool reused = settings.traceScene.enabled != 0 &&
                         (settings.traceScene.reuseScreen != 0 || settings.traceScene.light == SceneHitLight::screen);
     const bool mean = settings.accumulate.enabled != 0;
-    return {.shadows = penumbras && shadow.denoise != 0 && shadow.history > 0,
+    return {.shadows = lighting::keepsPenumbras(settings.shadow),
             .hitLight = traced && settings.traceScreen.light == HitLight::previous &&
                         (settings.traceScreen.enabled != 0 || reused),
             .probes = settings.probes.enabled != 0 && settings.probes.refresh == ProbeRefresh::face,

@@ -2,6 +2,7 @@
 // for large-scale virtual environments, 2006), and each part has a map of the same resolution. Maps cover the parts'
 // bounding spheres, whose size does not depend on camera motion, and move in whole texels, so that shadow edges do not
 // shimmer.
+#include "lighting/direct.h"
 #include "renderer/draw_shadows/light_space.h"
 #include "renderer/draw_shadows/shadow_maps.h"
 
@@ -110,7 +111,7 @@ SunShadowParams fitCascades(const ViewParams& view, const Aabb& sceneBounds, con
     for (uint i = 0; i < sun.count; ++i) {
         const float part = static_cast<float>(i + 1) / static_cast<float>(sun.count);
         sun.ends[i] = splitAt(range, part, settings.cascadeSplit);
-        sun.blends[i] = glm::mix(sun.ends[i], lastEnd, settings.cascadeBlend);
+        sun.blends[i] = lighting::cascadeBlend(settings, lastEnd, sun.ends[i]);
         const Sphere sphere = boundingSphere(view, begin, sun.ends[i]);
         const vec2 center(light.worldToLight * sphere.center);
         const float half = sphere.radius + reach;

@@ -63,10 +63,7 @@ EnvironmentLight EnvironmentMaps::update(gpu::PassList& f, const Environment& en
     }
     const vec3 factor = image_ ? vec3(environment.intensity * scale_) : environment.radiance;
     const float angle = image_ ? environment.rotation : 0.0F;
-    return {texels_.last(),
-            cube_.lobes.image(),
-            cube_.irradiance.image(),
-            {factor, vec2(std::cos(angle), std::sin(angle))}};
+    return {texels_.last(), cube_.lobes.image(), cube_.irradiance.image(), lighting::environmentParams(factor, angle)};
 }
 
 }  // namespace reflet
