@@ -146,18 +146,18 @@ void Context::endLabel(VkCommandBuffer commands) const {
 }
 
 uint64_t Context::beginWork() {
-    unfinished_.insert(++lastSerial_);
+    unfinished_.push_back(++lastSerial_);
     return lastSerial_;
 }
 
 void Context::finishWork(uint64_t serial) {
-    unfinished_.erase(serial);
+    std::erase(unfinished_, serial);
     collectRetired();
 }
 
 // Allocates nothing itself: called by destructors.
 void Context::collectRetired() noexcept {
-    const uint64_t oldest = unfinished_.empty() ? UINT64_MAX : *unfinished_.begin();
+    const uint64_t oldest = unfinished_.empty() ? UINT64_MAX : unfinished_.front();
     while (!retired_.empty() && retired_.front().serial < oldest) {
         const std::function<void()> destroy = std::move(retired_.front().destroy);
         retired_.pop_front();

@@ -12,7 +12,6 @@
 #include <functional>
 #include <memory>
 #include <new>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -135,7 +134,7 @@ private:
     std::vector<std::pair<SamplerInfo, VkSampler>> samplers_;
     std::vector<std::pair<std::vector<VkDescriptorType>, VkDescriptorSetLayout>> setLayouts_;
     uint64_t lastSerial_ = 0;
-    std::set<uint64_t> unfinished_;
+    std::vector<uint64_t> unfinished_;  ///< ascending
     std::deque<Retired> retired_;  ///< serials ascend
 };
 
