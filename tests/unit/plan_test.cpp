@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
@@ -224,14 +225,34 @@ TEST(Plan, NothingLiesAcrossBlocksOrInWhatIsTaken) {
     EXPECT_EQ(plan.offsets[large], 352U) << "350, the end of the blocks, aligned";
 }
 
-// A list that nobody would write.
-PassGraph randomGraph(uint32_t seed) {
-    std::mt19937 random(seed);
-    const auto upTo = [&](uint32_t n) { return static_cast<uint32_t>(random() % n); };
-    const Access kinds[] = {reading, writing, indirect, clearing, copying, drawing, merged(indirect, reading)};
+// Lists that nobody would write.
+class RandomGraph {
+public:
+    explicit RandomGraph(uint32_t seed) : random_(seed) {
+        graph.heaps.resize(1 + upTo(2));
+        for (gpu::GraphHeap& heap : graph.heaps) {
+            fill(heap);
+        }
+        graph.resources.resize(1 + upTo(16));
+        for (GraphResource& resource : graph.resources) {
+            fill(resource);
+        }
+        holdSome();
+        for (uint32_t passes = upTo(30); passes > 0; --passes) {
+            addPass();
+        }
+    }
+
     PassGraph graph;
-    graph.heaps.resize(1 + upTo(2));
-    for (gpu::GraphHeap& heap : graph.heaps) {
+
+private:
+    uint32_t upTo(uint32_t n) { return static_cast<uint32_t>(random_() % n); }
+    Access kind(uint32_t most) {
+        const Access kinds[] = {reading, writing, indirect, clearing, copying, drawing, merged(indirect, reading)};
+        return kinds[upTo(most)];
+    }
+
+    void fill(gpu::GraphHeap& heap) {
         for (uint32_t i = upTo(3); i > 0; --i) {
             heap.blocks.push_back(64 + upTo(1000));
         }
@@ -240,8 +261,8 @@ PassGraph randomGraph(uint32_t seed) {
         }
         heap.before = upTo(2) == 0 ? Access{} : Access{writing.stages, VK_ACCESS_2_SHADER_WRITE_BIT, true};
     }
-    graph.resources.resize(1 + upTo(16));
-    for (GraphResource& r : graph.resources) {
+
+    void fill(GraphResource& r) {
         r.transient = upTo(3) > 0;
         r.image = upTo(4) > 0;
         r.output = r.transient && upTo(6) == 0;
@@ -250,7 +271,7 @@ PassGraph randomGraph(uint32_t seed) {
         r.size = 1 + upTo(300);
         r.alignment = 1U << upTo(5);
         if (!r.transient && !r.undefined && upTo(2) == 0) {
-            const Access before = kinds[upTo(6)];
+            const Access before = kind(6);
             r.before = {before.stages, before.write ? before.access : 0, upTo(2) == 0 ? reading.stages : 0, 0, 0};
             if (upTo(2) == 0) {
                 r.before.visibleStages = reading.stages;
@@ -258,47 +279,48 @@ PassGraph randomGraph(uint32_t seed) {
             }
         }
     }
-    // Some of what is kept lies in a heap, one behind another.
-    std::vector<VkDeviceSize> ends(graph.heaps.size());
-    for (uint32_t i = 0; i < graph.resources.size(); ++i) {
-        GraphResource& r = graph.resources[i];
-        if (r.transient || !r.image || upTo(2) == 0) {
-            continue;
+
+    // Some of what is kept lies in a heap, one behind another, behind what may be taken.
+    void holdSome() {
+        std::vector<VkDeviceSize> ends(graph.heaps.size(), 700);
+        for (uint32_t i = 0; i < graph.resources.size(); ++i) {
+            GraphResource& r = graph.resources[i];
+            if (r.transient || !r.image || upTo(2) == 0) {
+                continue;
+            }
+            r.held = true;
+            r.offset = ends[r.heap];
+            ends[r.heap] += r.size;
+            const gpu::HeldUse use = r.undefined    ? gpu::HeldUse::fromFirst
+                                     : upTo(2) == 0 ? gpu::HeldUse::busy
+                                                    : gpu::HeldUse::untilLast;
+            graph.heaps[r.heap].held.push_back({{r.offset, r.size}, use, i});
         }
-        gpu::GraphHeap& heap = graph.heaps[r.heap];
-        r.held = true;
-        r.offset = 700 + ends[r.heap];  // behind what may be taken
-        ends[r.heap] += r.size;
-        const gpu::HeldUse use = r.undefined    ? gpu::HeldUse::fromFirst
-                                 : upTo(2) == 0 ? gpu::HeldUse::busy
-                                                : gpu::HeldUse::untilLast;
-        heap.held.push_back({{r.offset, r.size}, use, i});
-    }
-    for (gpu::GraphHeap& heap : graph.heaps) {
-        if (upTo(3) == 0) {
-            heap.held.push_back({{6000, 300}, static_cast<gpu::HeldUse>(upTo(3)), gpu::HeldRange::unused});
+        for (gpu::GraphHeap& heap : graph.heaps) {
+            if (upTo(3) == 0) {
+                heap.held.push_back({{6000, 300}, static_cast<gpu::HeldUse>(upTo(3)), gpu::HeldRange::unused});
+            }
         }
     }
-    const uint32_t passes = upTo(30);
-    for (uint32_t p = 0; p < passes; ++p) {
-        const auto first = static_cast<uint32_t>(graph.uses.size());
+
+    void addPass() {
         std::vector<uint32_t> chosen(graph.resources.size());
-        for (uint32_t i = 0; i < chosen.size(); ++i) {
-            chosen[i] = i;
-        }
-        std::ranges::shuffle(chosen, random);
+        std::iota(chosen.begin(), chosen.end(), 0U);
+        std::ranges::shuffle(chosen, random_);
         chosen.resize(std::min<size_t>(chosen.size(), 1 + upTo(5)));
+        graph.passes.push_back(
+            {static_cast<uint32_t>(graph.uses.size()), static_cast<uint32_t>(chosen.size()), upTo(5) == 0});
         for (const uint32_t r : chosen) {
-            graph.uses.push_back({r, kinds[upTo(7)]});
+            graph.uses.push_back({r, kind(7)});
         }
-        graph.passes.push_back({first, static_cast<uint32_t>(graph.uses.size()) - first, upTo(5) == 0});
     }
-    return graph;
-}
+
+    std::mt19937 random_;
+};
 
 TEST(Plan, TenThousandRandomListsAreRight) {
     for (uint32_t seed = 1; seed <= 10000; ++seed) {
-        const PassGraph graph = randomGraph(seed);
+        const PassGraph graph = RandomGraph(seed).graph;
         const std::string fault = faultOf(graph, compile(graph));
         ASSERT_EQ(fault, "") << "seed " << seed;
     }
@@ -309,7 +331,7 @@ TEST(Plan, TheCheckerFindsWhatIsMissing) {
     uint32_t found = 0;
     uint32_t tried = 0;
     for (uint32_t seed = 1; seed <= 200; ++seed) {
-        const PassGraph graph = randomGraph(seed);
+        const PassGraph graph = RandomGraph(seed).graph;
         const Plan right = compile(graph);
         for (size_t i = 0; i < right.barriers.size(); ++i) {
             Plan wrong = right;

@@ -44,6 +44,19 @@ RayTiles tilesOfLobe(gpu::PassList& f, LobeStore* own, const RaySurfaces& from, 
                       past.valid && in.lit.valid});
 }
 
+// Rays of one batch, answered by the sources in turn.
+Rays answeredRays(gpu::PassList& f, const LobeInputs& in, const RayGeneration& generation, bool sliced) {
+    Rays rays = sliced ? startSlices(f, generation, in.screen, in.diffuse.sliceSteps) : generateRays(f, generation);
+    if (in.screen.images != nullptr && !sliced) {
+        traceScreen(f, rays, *in.screen.images, in.screen.settings, in.screen.longest);
+    }
+    for (const RaySource& source : in.sources) {
+        source(f, rays);
+    }
+    answerEnvironment(f, rays, in.environment, in.environmentSettings);
+    return rays;
+}
+
 }  // namespace
 
 LobeLight traceLobe(gpu::PassList& f, LobeStore* own, const LobeInputs& in) {
@@ -91,14 +104,7 @@ LobeLight traceLobe(gpu::PassList& f, LobeStore* own, const LobeInputs& in) {
             traceAtOnce(f, light, generation, in.screen, {in.environment, in.environmentSettings});
             continue;
         }
-        Rays rays = sliced ? startSlices(f, generation, in.screen, in.diffuse.sliceSteps) : generateRays(f, generation);
-        if (in.screen.images != nullptr && !sliced) {
-            traceScreen(f, rays, *in.screen.images, in.screen.settings, in.screen.longest);
-        }
-        for (const RaySource& source : in.sources) {
-            source(f, rays);
-        }
-        answerEnvironment(f, rays, in.environment, in.environmentSettings);
+        Rays rays = answeredRays(f, in, generation, sliced);
         if (reused) {
             reuseRays(f, light, rays, in.view, s.reuse);
         } else {

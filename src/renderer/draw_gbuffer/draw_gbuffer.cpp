@@ -19,6 +19,19 @@ uint32_t translucentOf(const GBufferContent& content) {
     return content.glass ? translucentGlass : translucentBlended;
 }
 
+// What every material fills.
+GBuffer targets(gpu::PassList& f, uvec2 size) {
+    return {
+        .depth = f.target("depth", VK_FORMAT_D32_SFLOAT, size),
+        .normal = f.target("normal", VK_FORMAT_R32_UINT, size),
+        .geometricNormal = f.target("geometric_normal", VK_FORMAT_R32_UINT, size),
+        .baseColor = f.target("base_color", VK_FORMAT_A2B10G10R10_UNORM_PACK32, size),
+        .material = f.target("material", VK_FORMAT_R8G8B8A8_UNORM, size),
+        .emissive = f.target("emissive", VK_FORMAT_B10G11R11_UFLOAT_PACK32, size),
+        .motion = f.target("motion", VK_FORMAT_R16G16B16A16_SFLOAT, size),
+    };
+}
+
 }  // namespace
 
 GBuffer drawGBuffer(gpu::PassList& f, const DrawList& list, const ViewParams& view, const MaterialsSettings& settings,
@@ -30,19 +43,10 @@ GBuffer drawGBuffer(gpu::PassList& f, const DrawList& list, const ViewParams& vi
     const uint32_t features = content.coat ? 0 : list.materialFeatures;
     const bool layers = (features & (materialFeatureSheen | materialFeatureAnisotropy)) != 0;
     const bool reflectance = layers || (features & materialFeatureReflectance) != 0;
-    const uvec2 size(view.size);
-    const GBuffer g{
-        .depth = f.target("depth", VK_FORMAT_D32_SFLOAT, size),
-        .normal = f.target("normal", VK_FORMAT_R32_UINT, size),
-        .geometricNormal = f.target("geometric_normal", VK_FORMAT_R32_UINT, size),
-        .baseColor = f.target("base_color", VK_FORMAT_A2B10G10R10_UNORM_PACK32, size),
-        .material = f.target("material", VK_FORMAT_R8G8B8A8_UNORM, size),
-        .emissive = f.target("emissive", VK_FORMAT_B10G11R11_UFLOAT_PACK32, size),
-        .motion = f.target("motion", VK_FORMAT_R16G16B16A16_SFLOAT, size),
-        .reflectance = reflectance ? f.target("reflectance", VK_FORMAT_R16G16B16A16_SFLOAT, size) : gpu::Image{},
-        .layers = layers ? f.target("layers", VK_FORMAT_R32G32_UINT, size) : gpu::Image{},
-        .features = features,
-    };
+    GBuffer g = targets(f, uvec2(view.size));
+    g.reflectance = reflectance ? f.target("reflectance", VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size) : gpu::Image{};
+    g.layers = layers ? f.target("layers", VK_FORMAT_R32G32_UINT, g.depth.size) : gpu::Image{};
+    g.features = features;
     const VkClearColorValue zero{};
     const char* const fragment = layers        ? "gbuffer_layers.frag"
                                  : reflectance ? "gbuffer_reflectance.frag"
