@@ -135,7 +135,7 @@ private:
     std::vector<std::pair<std::vector<VkDescriptorType>, VkDescriptorSetLayout>> setLayouts_;
     uint64_t lastSerial_ = 0;
     std::vector<uint64_t> unfinished_;  ///< ascending
-    std::deque<Retired> retired_;  ///< serials ascend
+    std::deque<Retired> retired_;       ///< serials ascend
 };
 
 template <class F>

@@ -89,7 +89,9 @@ History HistoryImage::swap(PassList& f, VkFormat format, uvec2 size) {
     }
     if (lastUse_ != f.number() || generation_ != f.generation()) {
         current_ ^= 1U;
-        valid_ = lastUse_ + 1 == f.number() && generation_ == f.generation();
+        // Asked for in the last frame, and written: that frame may have failed, or was only prepared.
+        valid_ = lastUse_ + 1 == f.number() && generation_ == f.generation() &&
+                 images_[current_ ^ 1U]->recordedFrame == f.number();
         lastUse_ = f.number();
         generation_ = f.generation();
     }

@@ -203,8 +203,10 @@ void Recorder::flush() {
     }
     for (const Listed& of : resources_) {
         if (of.image && of.image.state->held != nullptr) {
-            of.image.state->held->listed = false;
             of.image.state->held->usedFrame = number_ + 1;
+            if (missing_ == nullptr) {
+                of.image.state->held->recordedFrame = number_ + 1;
+            }
         }
     }
     ++listsOfFrame_;

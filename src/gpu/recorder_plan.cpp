@@ -30,7 +30,6 @@ uint32_t Recorder::listed(const Image& view) {
             resource.size = state.held->size;
             // Others may have been in its memory.
             resource.undefined = resource.undefined || (state.held->isNext && state.held->usedFrame != number_ + 1);
-            state.held->listed = true;
         }
         return state.mark.index;
     }

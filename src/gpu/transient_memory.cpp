@@ -204,14 +204,14 @@ void TransientMemory::addHeld(HeldBlock block, HeldImage& image) {
 
 // Of a history, the image of the last frame is read until the list that writes this frame's; that one holds nothing
 // before.
-HeldUse TransientMemory::useOf(const HeldImage& image, uint64_t frame) {
+HeldUse TransientMemory::useOf(const HeldImage& image, uint64_t frame, bool otherIsListed) {
     const std::shared_ptr<HeldImage> other = image.other.lock();
     const auto written = [&](const HeldImage& next) { return next.usedFrame == frame + 1; };
     if (image.frame == frame) {
         if (image.isNext) {
             return written(image) ? HeldUse::busy : HeldUse::fromFirst;
         }
-        return other && (written(*other) || other->listed) ? HeldUse::untilLast : HeldUse::busy;
+        return other && (written(*other) || otherIsListed) ? HeldUse::untilLast : HeldUse::busy;
     }
     // Not asked for in this frame yet: what was written in the last one may still be.
     return image.isNext && image.frame + 1 == frame ? HeldUse::busy : HeldUse::fromFirst;

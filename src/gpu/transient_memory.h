@@ -38,10 +38,11 @@ struct HeldImage {
     VkDeviceSize offset = 0;  ///< in the heap
     VkDeviceSize size = 0;
     // The part that it plays now.
-    uint64_t frame = 0;              ///< for which the next member is said
-    bool isNext = false;             ///< it is written in this frame; otherwise it was in the last one
-    uint64_t usedFrame = 0;          ///< the last one in which an earlier list used it, plus 1
-    bool listed = false;             ///< the list at hand uses it
+    uint64_t frame = 0;          ///< for which the next member is said
+    bool isNext = false;         ///< it is written in this frame; otherwise it was in the last one
+    uint64_t usedFrame = 0;      ///< the last one in which an earlier list used it, plus 1
+    uint64_t recordedFrame = 0;  ///< the last one in which a list that uses it was recorded, plus 1
+
     std::weak_ptr<HeldImage> other;  ///< of the same history
 
     explicit HeldImage(Context& of) : context(of) {}
@@ -94,7 +95,8 @@ public:
             const std::shared_ptr<HeldImage> image = block.image.lock();
             HeldRange range{{block.offset, block.size}, HeldUse::busy, HeldRange::unused};
             if (image) {
-                range.use = useOf(*image, frame);
+                const std::shared_ptr<HeldImage> other = image->other.lock();
+                range.use = useOf(*image, frame, other && resourceOf(other->state) != HeldRange::unused);
                 range.resource = resourceOf(image->state);
             }
             heaps[block.heap].held.push_back(range);
@@ -128,7 +130,7 @@ private:
         VkDeviceSize offset = 0;
         VkDeviceSize size = 0;
     };
-    static HeldUse useOf(const HeldImage& image, uint64_t frame);
+    static HeldUse useOf(const HeldImage& image, uint64_t frame, bool otherIsListed);
     void addHeld(HeldBlock block, HeldImage& image);
     uint32_t heapOf(uint32_t memoryTypes, VkDeviceSize alignment);
     Block& blockOf(uint32_t heap, VkDeviceSize offset);
