@@ -76,7 +76,7 @@ TEST_F(SteadyState, ManySizesLeaveNoMemoryBehind) {
         renderFrames(renderer, view_, {33 + 7 * i % 40, 20 + 5 * i % 30}, settings, 1);
     }
     renderFrames(renderer, view_, {48, 32}, settings, 5);
-    EXPECT_LE(memory(), before) << "less: what was done once had its room in the first frames'";
+    EXPECT_LE(memory(), before) << "it may be less: the first frames had room for what is done once";
 }
 
 }  // namespace
