@@ -23,7 +23,7 @@ TEST(SteadyFrame, AllocatesLittle) {
     applyPreset(settings, "balanced");
     settings.probes.resolution = 16;  // large ones take most of the time
     Renderer renderer(device, scene, [](const std::string&) {});
-    for (int i = 0; i < 24; ++i) {  // by then its memory has the right size (gpu::Recorder)
+    for (int i = 0; i < 40; ++i) {  // by then its memory has the right size (gpu::Recorder)
         renderer.render(view, {48, 32}, 0, settings);
     }
     // What is left: sources of rays as functions, the key of the probes, lists of lamps that cast shadows.
