@@ -135,19 +135,8 @@ protected:
     /// Starts a list: forgets the passes. recorded: they have been.
     void nextList(bool recorded);
     [[nodiscard]] const std::vector<PassRecord*>& passes() const { return passes_; }
-    [[nodiscard]] const std::deque<TransientImage>& transientImages() const { return images_; }
     TransientImage& transientOf(const ImageState& state) { return images_[static_cast<size_t>(state.transient)]; }
     TransientBuffer& transientOf(const BufferState& state) { return buffers_[static_cast<size_t>(state.transient)]; }
-    /// All records that were ever made, also of passes that are not in the list.
-    template <class F>
-    void eachRecord(const F& call) {
-        for (const std::unique_ptr<Named>& named : names_) {
-            for (const std::unique_ptr<PassRecord>& record : named->records) {
-                call(*record);
-            }
-        }
-    }
-
     [[nodiscard]] TransientMemory& memory() { return memory_; }
     [[nodiscard]] const TransientMemory& memory() const { return memory_; }
 

@@ -335,7 +335,6 @@ private:
 
     void finish() {
         plan_.after.resize(states_.size());
-        plan_.heapsAfter.resize(graph_.heaps.size());
         for (size_t r = 0; r < states_.size(); ++r) {
             const State& state = states_[r];
             AccessState& after = plan_.after[r];
@@ -353,11 +352,6 @@ private:
                     after.visibleStages |= b.to.stages;
                     after.visibleAccess |= b.to.access;
                 }
-            }
-            const GraphResource& resource = graph_.resources[r];
-            if ((resource.transient || resource.held) && plan_.lifetimes[r].first != UINT32_MAX) {
-                Access& heap = plan_.heapsAfter[resource.heap];
-                heap = merged(heap, {after.writeStages | after.readStages, after.writeAccess, after.writeAccess != 0});
             }
         }
     }

@@ -132,7 +132,6 @@ struct Plan {
     std::vector<VkDeviceSize> offsets;  ///< of each resource in its heap; unplaced: not transient, or not needed
     std::vector<AccessState> after;     ///< of each resource
     std::vector<VkDeviceSize> ends;     ///< of each heap: the end of what is placed in it by this list
-    std::vector<Access> heapsAfter;     ///< of each heap, as GraphHeap::before
 };
 
 /// Throws std::logic_error for uses of resources that do not exist.
