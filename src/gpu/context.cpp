@@ -41,6 +41,7 @@ Context::Context(const OpenDevice& open)
     instanceFunction<PFN_vkGetPhysicalDeviceProperties2>(open, "vkGetPhysicalDeviceProperties2")(open.physical,
                                                                                                  &properties);
     limits_ = properties.properties.limits;
+    cpu_ = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     scratchAlignment_ = structures.minAccelerationStructureScratchOffsetAlignment;
     VkPhysicalDeviceMemoryProperties memory{};
     instanceFunction<PFN_vkGetPhysicalDeviceMemoryProperties>(open, "vkGetPhysicalDeviceMemoryProperties")(

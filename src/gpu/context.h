@@ -71,6 +71,8 @@ public:
     Context& operator=(const Context&) = delete;
 
     [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return limits_; }
+    /// Whether the device is a CPU: a barrier costs it nothing, and its caches hold what was written last.
+    [[nodiscard]] bool isCpu() const { return cpu_; }
     /// Whether acceleration structures can be built and queried by shaders.
     [[nodiscard]] bool hasRayQuery() const { return rayQuery_; }
     /// Alignment of the memory that building an acceleration structure needs; 0 without ray query.
@@ -127,6 +129,7 @@ private:
     VkDeviceSize scratchAlignment_ = 0;
     bool anisotropic_ = false;
     bool rayQuery_ = false;
+    bool cpu_ = false;
     ObjectCounts counts_;
     std::unique_ptr<Memory> memory_;
     ShaderLibrary shaders_;

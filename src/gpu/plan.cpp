@@ -75,7 +75,9 @@ void orderPasses(const PassGraph& graph, Plan& plan) {
             plan.order.push_back(p);
         }
     }
-    std::ranges::stable_sort(plan.order, {}, [&](uint32_t p) { return levels[p]; });
+    if (graph.order == PassOrder::byLevel) {
+        std::ranges::stable_sort(plan.order, {}, [&](uint32_t p) { return levels[p]; });
+    }
     std::ranges::transform(plan.order, std::back_inserter(plan.levels), [&](uint32_t p) { return levels[p]; });
     plan.lifetimes.resize(graph.resources.size());
     for (uint32_t i = 0; i < plan.order.size(); ++i) {

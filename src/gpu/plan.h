@@ -92,7 +92,13 @@ struct GraphHeap {
     bool operator==(const GraphHeap&) const = default;
 };
 
+enum class PassOrder : uint8_t {
+    byLevel,   ///< passes that need not wait for each other stand together: fewest barriers. For GPUs
+    asListed,  ///< what a pass reads is still in the caches of a CPU, to which a barrier costs nothing
+};
+
 struct PassGraph {
+    PassOrder order = PassOrder::byLevel;
     std::vector<GraphPass> passes;
     std::vector<ResourceUse> uses;
     std::vector<GraphResource> resources;

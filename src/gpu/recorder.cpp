@@ -18,6 +18,10 @@ constexpr uint32_t mostRoomyFrames = 16;
 }  // namespace
 
 // The other constructor first, so that the destructor runs if something fails here.
+Recorder::Recorder(Context& context, WithoutSlots /*tag*/) : PassList(context), sets_(context), timers_(context) {
+    orderPasses(context.isCpu() ? PassOrder::asListed : PassOrder::byLevel);
+}
+
 Recorder::Recorder(Context& context, uint32_t framesInFlight) : Recorder(context, WithoutSlots{}) {
     REFLET_CHECK(framesInFlight >= 1 && framesInFlight <= maxFramesInFlight, "{} frames in flight", framesInFlight);
     slots_.resize(framesInFlight);

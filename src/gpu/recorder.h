@@ -81,6 +81,9 @@ public:
     /// Of the last frame that was ended.
     [[nodiscard]] const PassListing& listing() const { return listing_; }
 
+    /// From the next list on; by default what suits the device.
+    void orderPasses(PassOrder order) { graph_.order = order; }
+
     /// For tests: fills the memory of what lives in one frame with NaN before its first and after its last use. Slow.
     void poisonTransients(bool poisons) { poisons_ = poisons; }
 
@@ -91,7 +94,7 @@ protected:
 
 private:
     struct WithoutSlots {};
-    Recorder(Context& context, WithoutSlots /*tag*/) : PassList(context), sets_(context), timers_(context) {}
+    Recorder(Context& context, WithoutSlots /*tag*/);
 
     // A block of uniforms, and what it is known by.
     struct UniformBlock {

@@ -43,6 +43,8 @@ public:
     void listPasses() { frame_.listPasses(); }
     /// For tests (gpu::Recorder::poisonTransients).
     void poisonTransients(bool poisons) { frame_.poisonTransients(poisons); }
+    /// For tests (gpu::Recorder::orderPasses).
+    void orderPasses(gpu::PassOrder order) { frame_.orderPasses(order); }
 
 private:
     /// Poses the scene at the time of the view.

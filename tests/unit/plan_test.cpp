@@ -106,6 +106,22 @@ TEST(Plan, IndependentChainsShareTheirBarriers) {
     EXPECT_EQ(plan.barriers.size(), 6U);
 }
 
+TEST(Plan, AListCanKeepItsOrder) {
+    Graph g;
+    const uint32_t out = g.output();
+    const uint32_t first = g.transient();
+    const uint32_t second = g.transient();
+    const uint32_t other = g.transient();
+    g.pass({{first, writing}});
+    g.pass({{first, reading}, {second, writing}});
+    g.pass({{other, writing}});
+    g.pass({{second, reading}, {other, reading}, {out, writing}});
+    EXPECT_EQ(g.plan().order, (std::vector<uint32_t>{0, 2, 1, 3}));
+    g.graph.order = gpu::PassOrder::asListed;
+    EXPECT_EQ(g.plan().order, (std::vector<uint32_t>{0, 1, 2, 3}));
+    EXPECT_EQ(g.plan().levels, (std::vector<uint32_t>{0, 1, 0, 2}));
+}
+
 TEST(Plan, TwoThatOnlyReadHaveNoBarrierBetweenThem) {
     Graph g;
     const uint32_t source = g.kept();
@@ -320,7 +336,8 @@ private:
 
 TEST(Plan, TenThousandRandomListsAreRight) {
     for (uint32_t seed = 1; seed <= 10000; ++seed) {
-        const PassGraph graph = RandomGraph(seed).graph;
+        PassGraph graph = RandomGraph(seed).graph;
+        graph.order = seed % 4 == 0 ? gpu::PassOrder::asListed : gpu::PassOrder::byLevel;
         const std::string fault = faultOf(graph, compile(graph));
         ASSERT_EQ(fault, "") << "seed " << seed;
     }
