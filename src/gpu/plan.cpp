@@ -77,8 +77,11 @@ void orderPasses(const PassGraph& graph, Plan& plan) {
     }
     if (graph.order == PassOrder::byLevel) {
         std::ranges::stable_sort(plan.order, {}, [&](uint32_t p) { return levels[p]; });
+        std::ranges::transform(plan.order, std::back_inserter(plan.levels), [&](uint32_t p) { return levels[p]; });
+    } else {
+        plan.levels.resize(plan.order.size());
+        std::iota(plan.levels.begin(), plan.levels.end(), 0U);
     }
-    std::ranges::transform(plan.order, std::back_inserter(plan.levels), [&](uint32_t p) { return levels[p]; });
     plan.lifetimes.resize(graph.resources.size());
     for (uint32_t i = 0; i < plan.order.size(); ++i) {
         for (const ResourceUse& u : usesOf(graph, plan.order[i])) {

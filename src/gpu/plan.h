@@ -132,7 +132,8 @@ struct Plan {
     static constexpr VkDeviceSize unplaced = ~VkDeviceSize(0);
 
     std::vector<uint32_t> order;   ///< the passes that are needed
-    std::vector<uint32_t> levels;  ///< of these: the most dependencies in a row before each
+    std::vector<uint32_t> levels;  ///< of these: passes of one level share no memory. By level: the most dependencies
+                                   ///< in a row before each; as listed: one for each pass
     std::vector<PlannedBarrier> barriers;
     std::vector<Lifetime> lifetimes;    ///< of each resource
     std::vector<VkDeviceSize> offsets;  ///< of each resource in its heap; unplaced: not transient, or not needed

@@ -119,7 +119,7 @@ TEST(Plan, AListCanKeepItsOrder) {
     EXPECT_EQ(g.plan().order, (std::vector<uint32_t>{0, 2, 1, 3}));
     g.graph.order = gpu::PassOrder::asListed;
     EXPECT_EQ(g.plan().order, (std::vector<uint32_t>{0, 1, 2, 3}));
-    EXPECT_EQ(g.plan().levels, (std::vector<uint32_t>{0, 1, 0, 2}));
+    EXPECT_EQ(g.plan().levels, (std::vector<uint32_t>{0, 1, 2, 3}));
 }
 
 TEST(Plan, TwoThatOnlyReadHaveNoBarrierBetweenThem) {
