@@ -307,6 +307,12 @@ typedef struct RefletFrameInfo {
     uint32_t clipYUp;
     /** Seconds since the last frame, for automatic exposure. */
     float elapsed;
+    /**
+     * Frames before this one in which nothing changed: neither camera, nor lights, surfaces, materials, settings or
+     * anything that they are made of. What is at rest converges: histories grow beyond what the settings allow for
+     * motion. 0: something changes, or the host cannot tell. Jitter goes on at rest.
+     */
+    uint32_t restFrames;
     RefletGBuffer gbuffer; /**< required; the last field, so that it can grow */
 } RefletFrameInfo;
 

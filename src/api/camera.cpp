@@ -66,6 +66,7 @@ ViewParams viewParams(const RefletFrameInfo& info, uvec2 size) {
                                   : reflectedProjection(matrixOf(info.previousViewToClip, "previousViewToClip"), info) *
                                         matrixOf(info.previousWorldToView, "previousWorldToView");
     v.frame = info.frameIndex;
+    v.rest = info.restFrames;
     const auto jitterOf = [](const float(&given)[2], const char* name) {
         if (!(std::abs(given[0]) <= 1.0F && std::abs(given[1]) <= 1.0F)) {
             failArgument("RefletFrameInfo.{}: is ({}, {}) pixels; must be -1 to 1", name, given[0], given[1]);

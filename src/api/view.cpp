@@ -89,9 +89,12 @@ HostSurfaces hostSurfaces(const RefletGBuffer& g, const std::function<gpu::Image
     return host;
 }
 
-Settings settingsOfFrame(const RefletView_T& view, const Settings& settings) {
+Settings settingsOfFrame(const RefletView_T& view, const Settings& settings, uint32_t rest) {
     Settings ofFrame = settings;
-    lighting::countRenderedPixels(ofFrame, static_cast<float>(view.size.y), static_cast<float>(outputSizeOf(view).y));
+    const auto height = static_cast<float>(view.size.y);
+    const auto outputHeight = static_cast<float>(outputSizeOf(view).y);
+    lighting::countRenderedPixels(ofFrame, height, outputHeight);
+    lighting::letHistoriesGrow(ofFrame, rest, height / outputHeight);
     ofFrame.traceScreen.countSteps = 0;  // nobody can look at them
     return ofFrame;
 }
@@ -129,7 +132,7 @@ RefletResult inFrame(RefletView view, RefletSettings settings,
         }
         Frame before = *view->frame;
         try {
-            body(*view->frame, settingsOfFrame(*view, settings->values));
+            body(*view->frame, settingsOfFrame(*view, settings->values, view->frame->context.view.rest));
         } catch (...) {
             view->recorder.drop();
             before.light = view->recorder.isKept(before.light) ? before.light : gpu::Image{};

@@ -40,5 +40,10 @@ bool keepsPenumbras(const ShadowSettings& settings);
 /// that is rendered at another height than its output has (temporal upscaling).
 void countRenderedPixels(LightingSettings& settings, float renderedHeight, float outputHeight);
 
+/// What is at rest converges: its histories grow with `rest`, the frames before this one in which nothing changed
+/// (ViewParams::rest), beyond what settings allow for motion, and are not clipped. Scale: of rendered frames to the
+/// output. Call it once for the settings of a frame.
+void letHistoriesGrow(LightingSettings& settings, uint32_t rest, float scale);
+
 }  // namespace lighting
 }  // namespace reflet

@@ -12,7 +12,7 @@ constexpr uint32_t texels[] = {
 }  // namespace
 
 std::span<const uint32_t> blueNoise() {
-    static_assert(std::size(texels) == size_t{blueNoiseSide} * blueNoiseSide * blueNoiseSlices);
+    static_assert(std::size(texels) == size_t{blueNoiseSide} * blueNoiseSide);
     return texels;
 }
 

@@ -106,10 +106,14 @@ const std::vector<Probe>& Renderer::probesOf(const View& view, const ProbesSetti
 }
 
 uint32_t Renderer::countFramesBefore(const View& view, const ViewParams& params, const Settings& settings) {
-    const bool same = asked_ && asked_->view == view && asked_->size == params.size && asked_->seed == params.seed &&
+    Asked now{view, settings, params.size, params.seed};
+    if (source_.nodes.empty()) {
+        now.view.time = 0.0;  // time changes nothing
+    }
+    const bool same = asked_ && asked_->view == now.view && asked_->size == now.size && asked_->seed == now.seed &&
                       sameSettings(asked_->settings, settings);
     framesBefore_ = same ? framesBefore_ + 1 : 0;
-    asked_ = Asked{view, settings, params.size, params.seed};
+    asked_ = std::move(now);
     return framesBefore_;
 }
 
@@ -163,6 +167,7 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
     params.previousWorldToClip = previousWorldToClip_.value_or(params.worldToClip);
     previousWorldToClip_ = params.worldToClip;
     const uint32_t framesBefore = countFramesBefore(view, params, settings);
+    params.rest = framesBefore;
     const std::vector<Mirror> mirrors = planMirrors(view, params, settings);  // their pictures' sizes do not jitter
     const vec2 place = frameJitter(settings, params.frame, framesBefore);
     applyJitter(params, place, previousPlace_);

@@ -1,6 +1,6 @@
 // Sample points of the unit square for the rays of a pixel: a low-discrepancy sequence, shifted per pixel by a
-// blue-noise mask (Cranley-Patterson rotation), so that the remaining error differs between neighbours and between
-// frames. (Georgiev and Fajardo, Blue-noise Dithered Sampling, SIGGRAPH talks 2016; masks: see noise/blue_noise.h)
+// blue-noise mask and per frame by another sequence (Cranley-Patterson rotation), so that the remaining error differs
+// between neighbours and between frames. (Georgiev and Fajardo, Blue-noise Dithered Sampling, SIGGRAPH talks 2016; masks: see noise/blue_noise.h)
 // The includer defines, before it includes this: uint loadBlueNoise(uint texel).
 #ifndef REFLET_BLUE_NOISE_GLSL
 #define REFLET_BLUE_NOISE_GLSL
@@ -24,11 +24,20 @@ uvec2 sobolPoint(uint index) {
 }
 
 // Index of a pixel's mask texel. Streams (lobes, seeds) are offset against one another.
-uint blueNoiseTexel(uvec2 pixel, uint stream, uint frame) {
+uint blueNoiseTexel(uvec2 pixel, uint stream) {
     uint move = hashPcg(stream);
     uvec2 at = (pixel + uvec2(move, move >> 8u)) % blueNoiseSide;
-    uint slice = (frame + (move >> 16u)) % blueNoiseSlices;
-    return (slice * blueNoiseSide + at.y) * blueNoiseSide + at.x;
+    return at.y * blueNoiseSide + at.x;
+}
+
+// A pixel's shift in a frame, as 32-bit fractions of 1: its mask, and a Kronecker sequence over frames that never
+// repeats. The points of any run of frames are evenly spread in each pixel, so that means over frames converge faster
+// than those of random numbers, and those of one frame in each neighbourhood. The steps are sqrt(2) and sqrt(5) modulo
+// 1: with those of the subpixel jitter (jitter.cpp) they are evenly spread in four dimensions, too. (L. Kuipers and
+// H. Niederreiter, Uniform Distribution of Sequences, 1974)
+uvec2 blueNoiseShift(uvec2 pixel, uint stream, uint frame) {
+    uint mask = loadBlueNoise(blueNoiseTexel(pixel, stream));
+    return uvec2(mask << 16u, mask & 0xffff0000u) + frame * uvec2(0x6a09e667u, 0x3c6ef373u);
 }
 
 // Shifts one of a sequence's first `count` points by `shift`, modulo 1. With 2^k points, a shift over the whole square
@@ -43,17 +52,11 @@ uvec2 shiftPoint(uvec2 point, uvec2 shift, uint scramble, uint count) {
     return box | ((point + (shift >> cuts)) & inside);
 }
 
-// Sample point of ray `number` of `count` (1 to 2^16). Each frame takes the next slice of the mask; once all slices
-// have been used, the rays continue with the next points of the sequence, so that every frame adds new samples. stride:
-// points per such cycle: `count`, or a power of two that `count` never exceeds if it changes from frame to frame.
-vec2 blueNoisePoint(uvec2 pixel, uint stream, uint frame, uint number, uint count, uint stride) {
-    uint mask = loadBlueNoise(blueNoiseTexel(pixel, stream, frame));
-    uvec2 point = shiftPoint(sobolPoint(frame / blueNoiseSlices * stride + number),
-                             uvec2(mask << 16u, mask & 0xffff0000u), hashPixel(pixel, stream, frame), count);
-    return vec2(hashToUnit(point.x), hashToUnit(point.y));
-}
+// Sample point of ray `number` of `count` (1 to 2^16).
 vec2 blueNoisePoint(uvec2 pixel, uint stream, uint frame, uint number, uint count) {
-    return blueNoisePoint(pixel, stream, frame, number, count, count);
+    uvec2 point = shiftPoint(sobolPoint(number), blueNoiseShift(pixel, stream, frame), hashPixel(pixel, stream, frame),
+                             count);
+    return vec2(hashToUnit(point.x), hashToUnit(point.y));
 }
 
 #endif

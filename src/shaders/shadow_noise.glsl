@@ -13,9 +13,9 @@ vec4 shadowNoise(ivec2 pixel, ViewParams view, bool rings, uint stream) {
         uint h = hashPixel(at, view.seed + stream, view.frame);
         return vec4(hashToUnit2(h), hashToUnit2(hashPcg(h)));
     }
-    uint filterMask = loadBlueNoise(blueNoiseTexel(at, stream + view.seed, view.frame));
-    uint searchMask = loadBlueNoise(blueNoiseTexel(at, stream + 1u + view.seed, view.frame));
-    return vec4(filterMask & 0xffffu, filterMask >> 16u, searchMask & 0xffffu, searchMask >> 16u) / 65536.0;
+    uvec2 ofFilter = blueNoiseShift(at, stream + view.seed, view.frame);
+    uvec2 ofSearch = blueNoiseShift(at, stream + 1u + view.seed, view.frame);
+    return vec4(ofFilter >> 8u, ofSearch >> 8u) / 16777216.0;
 }
 
 #endif

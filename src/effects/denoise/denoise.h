@@ -20,7 +20,7 @@ SHARED_BEGIN
            "low sample counts.")                                                                                       \
     VALUE(uint, history, 64, 0, 1024,                                                                                  \
           "Maximum history length in frames (temporal accumulation). More: less noise, more ghosting. 0: no history, " \
-          "each frame is denoised alone.")                                                                             \
+          "each frame is denoised alone. At rest histories grow beyond it.")                                           \
     VALUE(uint, passes, 2, 0, 4,                                                                                       \
           "Blur passes of eight taps each; every pass halves the radius. More: smoother, slower.")                     \
     VALUE(float, radius, 24.0, 0.0, 256.0,                                                                             \

@@ -7,6 +7,7 @@
 #include "effects/lobe/ray_tiles.glsl"
 #include "effects/denoise/denoise.glsl"
 #include "effects/gbuffer/gbuffer.h"
+#include "shaders/noise.glsl"
 
 layout(constant_id = 0) const uint lobe = 0u;
 layout(constant_id = 1) const uint hasImageMotion = 0u;
@@ -142,7 +143,7 @@ struct HistoryLookup {
     vec2 home;       // pixel of the surface point in the last frame
     float expected;  // its depth there
     float away;      // hit distance of the reflection [m]; negative: ignore it
-    float most;      // maximum history length if interpolated between pixels
+    float most;      // maximum history length if the image moves
 };
 
 // Adds the weight of a pixel of the history and its light to the sums, if it shows a similar surface.
@@ -203,7 +204,9 @@ HistorySample historyAt(HistoryLookup w, KeptSurface own, ScreenPlane plane) {
         return noHistory;
     }
     float frames = sum.frames / weights;
-    return HistorySample(sum.light / weights, f == vec2(0.0) ? frames : min(frames, w.most), sum.square / weights,
+    // With jitter, what a mirror shows moves within its pixel: temporal antialiasing keeps its samples apart.
+    bool rests = f == vec2(0.0) && params.view.jitterChange == vec2(0.0);
+    return HistorySample(sum.light / weights, rests ? frames : min(frames, w.most), sum.square / weights,
                 sum.directional / weights);
 }
 
@@ -233,7 +236,7 @@ HistorySample reprojectHistory(ivec2 pixel, vec3 p, KeptSurface own, ScreenPlane
     if (asImage == 1.0) {
         return image;
     }
-    HistorySample still = historyAt(HistoryLookup(home, home, expected, -1.0, 1e4), own, plane);
+    HistorySample still = historyAt(HistoryLookup(home, home, expected, -1.0, 1e6), own, plane);
     if (image.frames == 0.0 || still.frames == 0.0) {
         still.frames *= 1.0 - asImage;
         return image.frames > 0.0 ? image : still;
@@ -255,7 +258,8 @@ void clipHistory(Neighbourhood seen, inout HistorySample past) {
 }
 
 void keep(ivec2 pixel, vec4 light, vec4 turning, KeptSurface own, vec2 m) {
-    light = roundToHalf(light);
+    uint random = hashPixel(uvec2(pixel), 71u + lobe, params.view.frame);
+    light = vec4(ditherToHalf(clampToHalf(light.rgb), random), roundToHalf(light).a);
     imageStore(gathered, pixel, light);
     imageStore(surface, pixel, uvec4(packSurface(own), 0u, 0u));
     imageStore(moments, pixel, roundToHalf(vec4(m, 0.0, 0.0)));

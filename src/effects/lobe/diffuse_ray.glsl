@@ -1,9 +1,8 @@
 // Directions and weights of diffuse rays. The includer declares rayParams (GenerateRaysParams), the buffer blueNoise and the
-// constants lobe, noise, distribution and adaptive.
+// constants lobe, noise and distribution.
 #ifndef REFLET_DIFFUSE_RAY_GLSL
 #define REFLET_DIFFUSE_RAY_GLSL
 
-#include "effects/lobe/adaptive_rays.h"
 #include "effects/lobe/rays.glsl"
 #include "shaders/noise.glsl"
 #include "shaders/sampling.glsl"
@@ -24,8 +23,7 @@ struct RayNumber {
 vec2 randomPair(RayNumber ray) {
     uint seed = rayParams.view.seed + lobe;
     if (noise == RayNoise_blue) {
-        uint stride = adaptive != 0u ? maxAdaptiveRays : ray.count;
-        return blueNoisePoint(uvec2(ray.pixel), seed, rayParams.view.frame, ray.index, ray.count, stride);
+        return blueNoisePoint(uvec2(ray.pixel), seed, rayParams.view.frame, ray.index, ray.count);
     }
     return hashToUnit2(hashPixel(uvec2(ray.pixel), ray.index * 2u + hashPcg(seed), rayParams.view.frame));
 }

@@ -9,7 +9,6 @@
 layout(constant_id = 0) const uint lobe = 0u;
 layout(constant_id = 1) const uint noise = RayNoise_blue;
 layout(constant_id = 2) const uint distribution = RayDistribution_cosine;
-layout(constant_id = 3) const uint adaptive = 0u;  // 1: rays per pixel change from frame to frame
 layout(constant_id = 7) const uint spreads = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -64,7 +64,6 @@ Rays generateRays(gpu::PassList& f, const RayGeneration& in) {
     Rays rays = raysOf(f, in);
     gpu::ComputePass pass = f.compute("generate_rays", "generate_rays.comp");
     bindGeneration(f, pass, in)
-        .constant("adaptive", in.tiles.meanRays > 0 ? 1U : 0U)
         .read("list", in.tiles.list)
         .write("direction", rays.direction)
         .write("answer", rays.answer)

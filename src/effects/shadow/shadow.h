@@ -88,7 +88,7 @@ CHOICES(ShadowUnit, SHADOW_UNITS)
         "Denoise penumbras over neighbouring pixels and frames (pcf, pcss). Removes the noise of low sample counts.")  \
     VALUE(uint, history, 0, 0, 1024,                                                                                   \
           "Maximum history length of shadow denoising, in frames. More: less noise, slower reaction to moving "        \
-          "shadows. 0: no history.")
+          "shadows. 0: no history. At rest histories grow beyond it.")
 SETTINGS(ShadowSettings, SHADOW_SETTINGS)
 
 // Shadow space: x, y in clip space of the map, z reversed depth (1 nearest to the sun), all of it linear.

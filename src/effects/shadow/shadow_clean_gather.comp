@@ -126,13 +126,20 @@ void gather(ivec2 pixel) {
     // If the blocker search failed here but succeeded in most neighbours, inside a penumbra wider than the
     // neighbourhood, the pixel is not really lit: use the neighbours' mean.
     vec3 metres = metresAcross(uv, d, plane, params.view.clipToWorld, params.view.pixel, params.toSun);
-    bool wide = n.width > wideEnough * sqrt(max(metres.x, metres.z));
+    float pixelsWide = n.width * inversesqrt(max(max(metres.x, metres.z), 1e-20));
+    bool wide = pixelsWide > wideEnough;
     if (imageLoad(penumbra, pixel).r < 0.0 && n.found.y >= enoughFound && wide) {
         seen = n.found.x / n.found.y;
     }
     vec2 before = params.hasPrevious != 0u ? remembered(pixel, p, plane) : vec2(0.0);
-    float held = clamp(before.x, n.lowest - allowance, n.highest + allowance);
-    before.y *= max(1.0 - 8.0 * abs(held - before.x), 0.0) * similarity(seen - held, params.samples);
+    float held = before.x;
+    if (params.view.rest < settledFrames) {
+        held = clamp(before.x, n.lowest - allowance, n.highest + allowance);
+        before.y *= max(1.0 - 8.0 * abs(held - before.x), 0.0) * similarity(seen - held, params.samples);
+    } else if (params.view.jitterChange != vec2(0.0)) {
+        // A sharp edge moves within its pixel with the jitter: temporal antialiasing keeps its samples apart.
+        before.y *= min(pixelsWide / wideEnough, 1.0);
+    }
     float mean = (held * before.y + seen) / (before.y + 1.0);
     vec3 form = min(formAt(metres, n, inversesqrt(sqrt(before.y + 1.0))), vec3(1e4));
     imageStore(kernel, pixel,

@@ -25,13 +25,14 @@ SHARED_BEGIN
            "Temporal antialiasing (TAA) over frames (--frames), with subpixel jitter. Ignored if accumulate.enabled, " \
            "which antialiases by itself.")                                                                             \
     VALUE(uint, frames, 32, 1, 1024,                                                                                   \
-          "Maximum history length where nothing moves, in frames. More: smoother edges, slower reaction to changes.")  \
+          "Maximum history length where the image does not move, in frames. More: smoother edges, slower reaction to " \
+          "changes. Where nothing changes at all, histories grow beyond it.")                                          \
     VALUE(uint, framesInMotion, 8, 1, 1024,                                                                            \
           "Maximum history length where the image moves by a quarter pixel per frame or faster. More: smoother; "      \
           "fewer: sharper.")                                                                                           \
     VALUE(float, clip, 1.0, 0.0, 16.0,                                                                                 \
           "History clip (variance clipping): maximum difference of the history from the pixels around it, in "         \
-          "standard deviations. Lower: less ghosting, more flicker.")                                                  \
+          "standard deviations. Lower: less ghosting, more flicker. 0: off, as after some frames at rest.")            \
     VALUE(float, scale, 1.0, 0.25, 1.0,                                                                                \
           "Temporal upscaling: the share of the picture's width and height at which frames are rendered; their mean "  \
           "has full size. 0.5: a quarter of the cost of a frame, and twice as many frames until all is sharp.")

@@ -101,7 +101,7 @@ void accumulate(ivec2 pixel, Shown now) {
     share = min(share, halfCovered / max(abs(history.covered - now.coveredMiddle), halfCovered));
 #endif
     // At rest, only a sample of the pixel's own area can tell that it changed: neighbours may have missed a thin bar.
-    share = mix(share, 1.0, trust * (1.0 - now.inside));
+    share = params.settings.clip > 0.0 ? mix(share, 1.0, trust * (1.0 - now.inside)) : 1.0;
     vec3 clipped = mix(now.middle, held, share);
     vec3 kept = share < 1.0 ? toneExpand(clipped) : before.rgb;
 #if HAS_COVERAGE
@@ -109,7 +109,7 @@ void accumulate(ivec2 pixel, Shown now) {
 #endif
 
     float most = mix(float(params.settings.framesInMotion), float(params.settings.frames), still);
-    float fresh = still > 0.0 ? trust / still : 1.0;
+    float fresh = still > 0.0 && params.settings.clip > 0.0 ? trust / still : 1.0;
     float lasting = before.a * share * fresh;
     float weight = now.near + (now.inside - now.near) * still * min(lasting, 1.0);
     float frames = min(lasting, most - weight) + weight;

@@ -264,8 +264,7 @@ SceneRay rayOfPixel(ivec3 slot, Ray ray) {
 bool isChosen(ivec3 slot) {
     float chance = params.rayLimit / float(waiting.count);
     uint stream = params.firstRay + uint(slot.z) + 16u * lobe + hashPcg(params.own.seed + 7u);
-    uint mask = loadBlueNoise(blueNoiseTexel(uvec2(slot.xy), stream, params.own.frame));
-    return float(mask & 0xffffu) < 65536.0 * chance;
+    return hashToUnit(blueNoiseShift(uvec2(slot.xy), stream, params.own.frame).x) < chance;
 }
 
 // Writes the motion of the reflected image caused by the hit object's own motion, if the hit is visible on screen.
