@@ -54,7 +54,7 @@ std::optional<std::string> pipelineData(std::string_view file, const VkPhysicalD
     const bool sameDevice = head.vendorID == device.vendorID && head.deviceID == device.deviceID &&
                             std::memcmp(head.pipelineCacheUUID, device.pipelineCacheUUID, VK_UUID_SIZE) == 0;
     if (head.headerVersion != VK_PIPELINE_CACHE_HEADER_VERSION_ONE || !sameDevice ||
-        file.substr(heading.size(), sumDigits) != sumOf(data)) {
+        file.substr(heading.size(), sumDigits + 1) != sumOf(data) + "\n") {
         return std::nullopt;
     }
     return std::string(data);
