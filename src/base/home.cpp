@@ -24,4 +24,13 @@ std::optional<std::filesystem::path> homeFolder() {
     return std::nullopt;
 }
 
+std::optional<std::filesystem::path> cacheFolder() {
+    const char* cache = std::getenv("XDG_CACHE_HOME");  // NOLINT(concurrency-mt-unsafe): nothing sets the environment
+    if (cache != nullptr && *cache != '\0') {
+        return std::filesystem::path(cache) / "reflet";
+    }
+    const auto home = homeFolder();
+    return home ? std::optional(*home / ".cache" / "reflet") : std::nullopt;
+}
+
 }  // namespace reflet

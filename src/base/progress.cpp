@@ -7,12 +7,16 @@
 
 #include <unistd.h>
 #include <cmath>
+#include <condition_variable>
+#include <mutex>
+#include <system_error>
 
 namespace reflet {
 
 namespace {
 
 constexpr std::chrono::milliseconds patience(500);  // work shorter than this shows nothing
+constexpr std::chrono::seconds notePatience(1);
 
 std::string durationText(double seconds) {
     const auto whole = std::llround(seconds);
@@ -25,6 +29,35 @@ void tellWritten(const std::string& what) {
     if (isatty(STDERR_FILENO) != 0) {
         printRaw(fmt::format("written: {}\n", what));
     }
+}
+
+WaitingNote::WaitingNote() : terminal_(isatty(STDERR_FILENO) != 0) {}
+
+void WaitingNote::begin(std::string text) {
+    end();
+    if (!terminal_) {
+        return;
+    }
+    try {
+        thread_ = std::jthread([text = std::move(text)](const std::stop_token& stop) {
+            std::mutex mutex;
+            std::condition_variable_any stopped;
+            std::unique_lock lock(mutex);
+            stopped.wait_for(lock, stop, notePatience, [] { return false; });
+            if (stop.stop_requested()) {
+                return;
+            }
+            printRaw(fmt::format("\r\033[K{}", text));
+            stopped.wait(lock, stop, [] { return false; });
+            printRaw("\r\033[K");
+        });
+    } catch (const std::system_error&) {  // without a thread nothing is said
+        return;
+    }
+}
+
+void WaitingNote::end() {
+    thread_ = {};
 }
 
 Progress::Progress(std::string what, uint64_t total)

@@ -5,11 +5,29 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <thread>
 
 namespace reflet {
 
 /// Ends work on a terminal by saying where its result is: "written: cubes.png".
 void tellWritten(const std::string& what);
+
+/// Says what is going on if it takes longer than a second, where nobody knows how long it will take.
+class WaitingNote {
+public:
+    WaitingNote();
+    ~WaitingNote() { end(); }
+    WaitingNote(const WaitingNote&) = delete;
+    WaitingNote& operator=(const WaitingNote&) = delete;
+
+    /// Ends the note before.
+    void begin(std::string text);
+    void end();
+
+private:
+    bool terminal_;
+    std::jthread thread_;
+};
 
 class Progress {
 public:

@@ -11,7 +11,6 @@
 #include "measure/bench/output.h"
 #include "measure/bench/work.h"
 #include "renderer/presets.h"
-#include "renderer/shaders.h"
 #include "version.h"
 
 #include <CLI/CLI.hpp>
@@ -189,10 +188,7 @@ void writeResults(const BenchCommand& command, const BenchHead& head, const Benc
 
 void bench(const BenchCommand& command, const std::string& typed) {
     BenchPlan plan = makePlan(command);
-    gpu::Device device({.select = command.device,
-                        .validation = command.validate,
-                        .onMessage = printWarning,
-                        .shaders = {effectShaders(), rendererShaders()}});
+    gpu::Device device(programDevice(command.device, command.validate));
     for (const uvec2& size : plan.sizes) {
         requireSize(device, size);
     }

@@ -1,5 +1,6 @@
 // `reflet defocus`: depth of field on a picture that was made elsewhere, or by the reference without a lens.
 #include "base/error.h"
+#include "base/progress.h"
 #include "capture/pictures.h"
 #include "capture/texels.h"
 #include "cli/commands.h"
@@ -11,7 +12,6 @@
 #include "effects/depth_of_field/depth_of_field.h"
 #include "effects/tonemap/tone_map_image.h"
 #include "renderer/scene_exposure/scene_exposure.h"
-#include "renderer/shaders.h"
 #include "renderer/view_params.h"
 #include "scene/pose.h"
 
@@ -104,7 +104,7 @@ void defocus(const DefocusCommand& command) {
             "the camera is a pinhole: give it an aperture in a view file, such as {{\"camera\": "
             "{{\"aperture_radius\": 0.01, \"focus_distance\": 4}}}} (--view-file)");
     }
-    gpu::Device device({.select = command.device, .onMessage = printWarning, .shaders = {effectShaders()}});
+    gpu::Device device(programDevice(command.device));
     requireSize(device, {sharp.radiance.width, sharp.radiance.height});
     const FloatImage image = blurred(device, sharp, view.camera, settings.dof);
     const TonemapSettings tonemap = exposedAs(settings.tonemap, scene, sharp.radiance, sharp.depth);

@@ -5,7 +5,6 @@
 #include "cli/pass_listing.h"
 #include "cli/scene_arguments.h"
 #include "renderer/renderer.h"
-#include "renderer/shaders.h"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -29,10 +28,7 @@ void listPasses(const PassesCommand& command) {
     const Settings settings = loadSettings(command.scene);
     const Scene scene = loadScene(command.scene);
     const View view = loadView(command.scene, scene);
-    gpu::Device device({.select = command.device,
-                        .validation = false,
-                        .onMessage = printWarning,
-                        .shaders = {effectShaders(), rendererShaders()}});
+    gpu::Device device(programDevice(command.device));
     requireSize(device, size);
     Renderer renderer(device, scene, printWarning);
     renderer.listPasses();

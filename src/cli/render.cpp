@@ -12,7 +12,6 @@
 #include "job/sequence.h"
 #include "renderer/history.h"
 #include "renderer/renderer.h"
-#include "renderer/shaders.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -99,10 +98,7 @@ void render(const RenderOptions& asked) {
     options.frames = framesFor(asked, settings, scene);
     const View view = loadView(options.scene, scene);
 
-    gpu::Device device({.select = options.device,
-                        .validation = options.validate,
-                        .onMessage = printWarning,
-                        .shaders = {effectShaders(), rendererShaders()}});
+    gpu::Device device(programDevice(options.device, options.validate));
     requireSize(device, size);
     Renderer renderer(device, scene, printWarning);
     Timings timings(!sequence);

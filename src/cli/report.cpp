@@ -14,7 +14,6 @@
 #include "reference/sample_progress.h"
 #include "renderer/presets.h"
 #include "renderer/renderer.h"
-#include "renderer/shaders.h"
 #include "scene/builtin.h"
 #include "version.h"
 
@@ -158,8 +157,7 @@ void report(const ReportCommand& command, const std::string& typed) {
     const ReportWork work = makeWork(command);
     const std::vector<ReportInput> inputs = loadInputs(command);
     makeReportFolder(work.folder);
-    gpu::Device device(
-        {.select = command.device, .onMessage = printWarning, .shaders = {effectShaders(), rendererShaders()}});
+    gpu::Device device(programDevice(command.device));
     requireSize(device, work.size);
 
     ReportPage page;

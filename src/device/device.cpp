@@ -4,7 +4,9 @@
 #include "base/error.h"
 #include "device/physical_device.h"
 
+#include <algorithm>
 #include <array>
+#include <thread>
 
 namespace reflet::gpu {
 
@@ -31,9 +33,11 @@ DeviceHandles::DeviceHandles(const DeviceOptions& options) : DeviceHandles(optio
     physical_ = choosePhysicalDevice(instance_, options.select);
     description_ = describe(physical_);
     createDevice(!options.windowExtensions.empty());
+    keepPipelines(options);
 }
 
 DeviceHandles::~DeviceHandles() {
+    pipelines_.reset();
     if (device_ != VK_NULL_HANDLE) {
         functions_.vkDestroyDevice(device_, nullptr);
     }
@@ -118,6 +122,16 @@ void DeviceHandles::createDevice(bool fillsWindows) {
                .lookUp = vkGetInstanceProcAddr,
                .samplerAnisotropy = has.samplerAnisotropy != 0,
                .rayQuery = rayQuery};
+}
+
+void DeviceHandles::keepPipelines(const DeviceOptions& options) {
+    opened_.pipelines = {.threads = std::max(std::thread::hardware_concurrency(), 1U), .onCompile = options.onCompile};
+    if (!options.pipelineFolder.empty()) {
+        VkPhysicalDeviceProperties properties{};
+        vkGetPhysicalDeviceProperties(physical_, &properties);
+        pipelines_.emplace(functions_, device_, properties, options.pipelineFolder);
+        opened_.pipelines.driverCache = pipelines_->handle();
+    }
 }
 
 Device::Device(const DeviceOptions& options) : DeviceHandles(options), Context(opened()) {

@@ -2,12 +2,15 @@
 // the context that it is.
 #pragma once
 
+#include "device/pipeline_file.h"
 #include "gpu/context.h"
 
 #include <volk.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,6 +37,10 @@ struct DeviceOptions {
     std::vector<std::span<const Shader>> shaders;
     /// Instance extensions that the window system needs; if there are any, the device can present to windows.
     std::vector<const char*> windowExtensions;
+    /// Where the driver's pipeline cache is kept from run to run; empty: nowhere. For one device of a program.
+    std::filesystem::path pipelineFolder;
+    /// See PipelineMaking.
+    std::function<void(uint32_t shaders)> onCompile;
 };
 
 /// All devices that the loader finds, usable or not. Empty without a loader or a driver.
@@ -65,11 +72,13 @@ private:
     explicit DeviceHandles(std::function<void(const std::string&)> onMessage);
     void createInstance(const DeviceOptions& options);
     void createDevice(bool fillsWindows);
+    void keepPipelines(const DeviceOptions& options);
     static VKAPI_ATTR VkBool32 VKAPI_CALL onValidation(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
                                                        VkDebugUtilsMessageTypeFlagsEXT types,
                                                        const VkDebugUtilsMessengerCallbackDataEXT* data, void* self);
 
     OpenDevice opened_;
+    std::optional<KeptPipelines> pipelines_;
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;

@@ -61,6 +61,7 @@ void Frame::runCommands(const std::function<bool()>& stop) {
     device_.wait(serial_);
     beginCommands();
     if (stop()) {
+        device_.pipelines().noteUsed();
         throw FrameStopped();
     }
 }
@@ -79,6 +80,7 @@ void Frame::wait() {
     device_.wait(serial_);
     submittedMs_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - submitted_).count();
     finish();
+    device_.pipelines().noteUsed();
 }
 
 }  // namespace reflet::gpu

@@ -47,7 +47,7 @@ Context::Context(const OpenDevice& open)
     instanceFunction<PFN_vkGetPhysicalDeviceMemoryProperties>(open, "vkGetPhysicalDeviceMemoryProperties")(
         open.physical, &memory);
     memory_ = std::make_unique<Memory>(*this, memory);
-    pipelines_ = std::make_unique<PipelineCache>(*this);
+    pipelines_ = std::make_unique<PipelineCache>(*this, open.pipelines);
 }
 
 Context::~Context() {

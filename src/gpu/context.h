@@ -33,6 +33,7 @@ struct OpenDevice {
     /// Device memory, if the host hands it out itself; both or none.
     std::function<VkResult(const VkMemoryAllocateInfo&, VkDeviceMemory*)> allocateMemory;
     std::function<void(VkDeviceMemory)> freeMemory;
+    PipelineMaking pipelines;
 };
 
 /// Parameters of a sampler.

@@ -5,7 +5,11 @@
 #include "gpu/context.h"
 
 #include <algorithm>
-#include <optional>
+#include <atomic>
+#include <exception>
+#include <functional>
+#include <iterator>
+#include <thread>
 
 namespace reflet::gpu {
 
@@ -128,7 +132,7 @@ VertexInput vertexInput(const Shader& shader, const VertexLayout* layout) {
 }
 
 // Fixed: triangle lists, reversed depth (greater or equal passes). Dynamic: viewport, scissor, culling.
-VkPipeline makeGraphics(Context& context, const PipelineInfo& info, const VertexInput& vertices,
+VkPipeline makeGraphics(Context& context, VkPipelineCache cache, const PipelineInfo& info, const VertexInput& vertices,
                         VkPipelineLayout layout, const std::vector<VkPipelineShaderStageCreateInfo>& stages) {
     VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
     input.vertexBindingDescriptionCount = static_cast<uint32_t>(vertices.buffers.size());
@@ -185,22 +189,24 @@ VkPipeline makeGraphics(Context& context, const PipelineInfo& info, const Vertex
     create.pDynamicState = &dynamic;
     create.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    vkCheck(context.vk.vkCreateGraphicsPipelines(context.handle(), VK_NULL_HANDLE, 1, &create, nullptr, &pipeline),
+    vkCheck(context.vk.vkCreateGraphicsPipelines(context.handle(), cache, 1, &create, nullptr, &pipeline),
             "creating a graphics pipeline");
     return pipeline;
 }
 
-VkPipeline makeCompute(Context& context, const VkPipelineShaderStageCreateInfo& stage, VkPipelineLayout layout) {
+VkPipeline makeCompute(Context& context, VkPipelineCache cache, const VkPipelineShaderStageCreateInfo& stage,
+                       VkPipelineLayout layout) {
     VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     create.stage = stage;
     create.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    vkCheck(context.vk.vkCreateComputePipelines(context.handle(), VK_NULL_HANDLE, 1, &create, nullptr, &pipeline),
+    vkCheck(context.vk.vkCreateComputePipelines(context.handle(), cache, 1, &create, nullptr, &pipeline),
             "creating a compute pipeline");
     return pipeline;
 }
 
-void makePipeline(Context& context, const PipelineInfo& info, const std::vector<Shader>& shaders, Pipeline& pipeline) {
+VkPipeline makePipeline(Context& context, VkPipelineCache cache, const PipelineInfo& info,
+                        const std::vector<Shader>& shaders, VkPipelineLayout layout) {
     std::vector<Specialization> specializations;
     std::vector<VkPipelineShaderStageCreateInfo> stages;
     Modules modules(context);
@@ -215,16 +221,86 @@ void makePipeline(Context& context, const PipelineInfo& info, const std::vector<
         stage.pSpecializationInfo = &specialization.info;
         stages.push_back(stage);
     }
-    pipeline.handle =
-        shaders.front().stage == VK_SHADER_STAGE_COMPUTE_BIT
-            ? makeCompute(context, stages.front(), pipeline.layout)
-            : makeGraphics(context, info, vertexInput(shaders.front(), info.vertices), pipeline.layout, stages);
+    return shaders.front().stage == VK_SHADER_STAGE_COMPUTE_BIT
+               ? makeCompute(context, cache, stages.front(), layout)
+               : makeGraphics(context, cache, info, vertexInput(shaders.front(), info.vertices), layout, stages);
 }
 
 void destroy(Context& context, const Pipeline& pipeline) {
     context.vk.vkDestroyPipeline(context.handle(), pipeline.handle, nullptr);
     context.vk.vkDestroyPipelineLayout(context.handle(), pipeline.layout, nullptr);
     context.vk.vkDestroyDescriptorSetLayout(context.handle(), pipeline.set, nullptr);
+}
+
+// A pipeline on its way: destroyed with this unless it was taken.
+class Making {
+public:
+    Making(Context& context, const PipelineInfo& info, const ShaderInterface& interface)
+        : context_(context), info_(info), pipeline_(std::make_unique<Pipeline>()) {
+        std::ranges::transform(info.shaders, std::back_inserter(shaders_),
+                               [&](std::string_view name) { return context.shaders().find(name); });
+        try {
+            pipeline_->set = makeSetLayout(context, interface.bindings);
+            pipeline_->layout = makeLayout(context, pipeline_->set, info.drawSet, interface.pushConstantSize);
+        } catch (...) {
+            destroy(context, *pipeline_);
+            throw;
+        }
+    }
+    ~Making() {
+        if (pipeline_) {
+            destroy(context_, *pipeline_);
+        }
+    }
+    Making(const Making&) = delete;
+    Making& operator=(const Making&) = delete;
+
+    /// For any thread.
+    void compile(VkPipelineCache cache) noexcept {
+        try {
+            pipeline_->handle = makePipeline(context_, cache, info_, shaders_, pipeline_->layout);
+        } catch (...) {
+            failure_ = std::current_exception();
+        }
+    }
+
+    [[nodiscard]] const PipelineInfo& info() const { return info_; }
+    [[nodiscard]] const std::exception_ptr& failure() const { return failure_; }
+    [[nodiscard]] std::unique_ptr<Pipeline> take() { return std::move(pipeline_); }
+    [[nodiscard]] size_t words() const {
+        size_t sum = 0;
+        for (const Shader& shader : shaders_) {
+            sum += shader.words.size();
+        }
+        return sum;
+    }
+
+private:
+    Context& context_;
+    const PipelineInfo& info_;
+    std::vector<Shader> shaders_;
+    std::unique_ptr<Pipeline> pipeline_;
+    std::exception_ptr failure_;
+};
+
+// The largest ones first, so that no thread has one left when the others have finished.
+void compileAll(std::vector<std::unique_ptr<Making>>& all, VkPipelineCache cache, uint32_t threads) {
+    std::ranges::sort(all, std::greater(), [](const auto& making) { return making->words(); });
+    std::atomic<size_t> next = 0;
+    const auto work = [&]() noexcept {
+        for (size_t i = next++; i < all.size(); i = next++) {
+            all[i]->compile(cache);
+        }
+    };
+    std::vector<std::jthread> helpers;  // they end before what they refer to
+    try {
+        for (size_t i = 1; i < std::min<size_t>(threads, all.size()); ++i) {
+            helpers.emplace_back(work);
+        }
+    } catch (const std::exception&) {
+        return work();  // with the threads that there are
+    }
+    work();
 }
 
 }  // namespace
@@ -274,23 +350,40 @@ const Pipeline& PipelineCache::get(const PipelineInfo& info) {
     if (const auto known = pipelines_.find(info); known != pipelines_.end()) {
         return *known->second;
     }
-    std::vector<Shader> shaders;
-    std::ranges::transform(info.shaders, std::back_inserter(shaders),
-                           [&](std::string_view name) { return context_.shaders().find(name); });
-    const ShaderInterface& interface = interfaceOf(info.shaders);
-    auto pipeline = std::make_unique<Pipeline>();
-    Pipeline& made = *pipeline;
-    try {
-        made.set = makeSetLayout(context_, interface.bindings);
-        made.layout = makeLayout(context_, made.set, info.drawSet, interface.pushConstantSize);
-        makePipeline(context_, info, shaders, made);
-        pipelines_.emplace(info, nullptr).first->second = std::move(pipeline);
-    } catch (...) {
-        destroy(context_, made);
-        throw;
+    make({&info, 1});
+    return *pipelines_.at(info);
+}
+
+void PipelineCache::make(std::span<const PipelineInfo> missing) {
+    std::vector<std::unique_ptr<Making>> all;
+    uint32_t shaders = 0;
+    for (const PipelineInfo& info : missing) {
+        all.push_back(std::make_unique<Making>(context_, info, interfaceOf(info.shaders)));
+        shaders += static_cast<uint32_t>(info.shaders.size());
     }
-    ++context_.counts().pipelines;
-    return made;
+    if (making_.onCompile) {
+        compiles_ = true;
+        making_.onCompile(shaders);
+    }
+    compileAll(all, making_.driverCache, making_.threads);
+    std::exception_ptr failure;
+    for (const std::unique_ptr<Making>& making : all) {
+        if (making->failure()) {
+            failure = making->failure();
+            continue;
+        }
+        pipelines_.emplace(making->info(), nullptr).first->second = making->take();
+        ++context_.counts().pipelines;
+    }
+    if (failure) {
+        std::rethrow_exception(failure);
+    }
+}
+
+void PipelineCache::noteUsed() {
+    if (std::exchange(compiles_, false)) {
+        making_.onCompile(0);
+    }
 }
 
 }  // namespace reflet::gpu

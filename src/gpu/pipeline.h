@@ -1,9 +1,11 @@
-// Pipelines, created on first use and cached by shaders, constants and render target formats.
+// Pipelines, created on first use and cached by shaders, constants and render target formats. Drivers compile when a
+// pipeline is created (some only when it is used first), so those that a frame lacks are created on several threads.
 #pragma once
 
 #include "gpu/shader.h"
 #include "gpu/vulkan.h"
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -60,9 +62,17 @@ struct Pipeline {
     VkDescriptorSetLayout set = VK_NULL_HANDLE;  ///< set 0; uniform blocks have dynamic offsets
 };
 
+/// How a context creates pipelines.
+struct PipelineMaking {
+    VkPipelineCache driverCache = VK_NULL_HANDLE;  ///< of the owner of the device, or none
+    uint32_t threads = 1;                          ///< at most; the calling one is among them
+    /// Told the number of shaders before pipelines are created, and 0 once a frame with them has run.
+    std::function<void(uint32_t shaders)> onCompile;
+};
+
 class PipelineCache {
 public:
-    explicit PipelineCache(Context& context) : context_(context) {}
+    PipelineCache(Context& context, PipelineMaking making) : context_(context), making_(std::move(making)) {}
     ~PipelineCache();
     PipelineCache(const PipelineCache&) = delete;
     PipelineCache& operator=(const PipelineCache&) = delete;
@@ -76,6 +86,12 @@ public:
 
     [[nodiscard]] bool has(const PipelineInfo& info) const { return pipelines_.contains(info); }
 
+    /// Creates pipelines, all different and none of which it has, on as many threads as the context allows. If some
+    /// cannot be created, it has the others, and throws as get() does.
+    void make(std::span<const PipelineInfo> missing);
+    /// A frame that uses the pipelines created so far has run.
+    void noteUsed();
+
     /// Forgets all pipelines, because shaders have changed.
     void clear();
     /// Counts calls of clear().
@@ -83,6 +99,8 @@ public:
 
 private:
     Context& context_;
+    PipelineMaking making_;
+    bool compiles_ = false;  ///< since the last noteUsed()
     uint64_t version_ = 0;
     std::map<std::vector<std::string_view>, std::unique_ptr<ShaderInterface>> interfaces_;
     std::map<PipelineInfo, std::unique_ptr<Pipeline>> pipelines_;

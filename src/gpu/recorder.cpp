@@ -159,20 +159,32 @@ void Recorder::noteLayouts(const CachedPlan& cached) {
 
 void Recorder::makePipelines(const Plan& plan) {
     PipelineCache& pipelines = context().pipelines();
-    for (const uint32_t i : plan.order) {
-        PassRecord& pass = *passes()[i];
-        if (pass.kind != PassKind::compute && pass.kind != PassKind::raster) {
-            continue;
-        }
-        if (missing_ != nullptr) {
-            if (!pipelines.has(pass.info) && std::ranges::find(*missing_, pass.info) == missing_->end()) {
-                missing_->push_back(pass.info);
+    std::vector<PipelineInfo> found;
+    std::vector<PipelineInfo>& missing = missing_ != nullptr ? *missing_ : found;
+    const auto eachWithout = [&](const auto& handle) {
+        for (const uint32_t i : plan.order) {
+            PassRecord& pass = *passes()[i];
+            if ((pass.kind == PassKind::compute || pass.kind == PassKind::raster) &&
+                (pass.pipeline == nullptr || !(pass.madeInfo == pass.info))) {
+                handle(pass);
             }
-        } else if (pass.pipeline == nullptr || !(pass.madeInfo == pass.info)) {
-            pass.pipeline = &pipelines.get(pass.info);
-            pass.madeInfo = pass.info;
         }
+    };
+    eachWithout([&](const PassRecord& pass) {
+        if (!pipelines.has(pass.info) && std::ranges::find(missing, pass.info) == missing.end()) {
+            missing.push_back(pass.info);
+        }
+    });
+    if (missing_ != nullptr) {
+        return;
     }
+    if (!found.empty()) {
+        pipelines.make(found);
+    }
+    eachWithout([&](PassRecord& pass) {
+        pass.pipeline = &pipelines.get(pass.info);
+        pass.madeInfo = pass.info;
+    });
 }
 
 void Recorder::flush() {

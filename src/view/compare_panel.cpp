@@ -49,6 +49,9 @@ void ComparePanel::error() {
     ImGui::Text("HDR-FLIP %.4f   relative MSE %.5f   bias %+.1f %%", compare_.error()->flip,
                 compare_.error()->relativeMse, 100.0 * compare_.error()->bias);
     tooltip("Error of the left side against the right one, computed in the background.");
+    if (const uint32_t samples = compare_.errorSamples(); samples > 0) {
+        ImGui::TextColored(quietColor, "against %s per pixel", CompareView::sampleText(samples).c_str());
+    }
     ImGui::Checkbox("error map on the right", &work_.state.compare.errorImage);
     work_.places.note("error image");
     tooltip("HDR-FLIP of each pixel in false colours, instead of the right image.");

@@ -45,12 +45,18 @@ void CompareView::forget() {
     values_ = nullptr;
     pictureOf_ = nullptr;
     picture_ = nullptr;
+    forgetError();
+    message_.clear();
+    failed_ = false;
+}
+
+// With the result of a computation that is not finished.
+void CompareView::forgetError() {
     error_.reset();
+    errorSamples_ = 0;
     errorLeft_ = nullptr;
     errorRight_ = nullptr;
     errorMap_ = nullptr;
-    message_.clear();
-    failed_ = false;
 }
 
 void CompareView::setProblem(const std::string& text) {
@@ -172,7 +178,7 @@ void CompareView::updateTruth(const Inputs& in) {
         samples_ = 0;
         layers_.clear();
         values_ = nullptr;
-        error_.reset();
+        forgetError();
     }
     if (!in.mayTrace) {
         truth_.cancel();
@@ -194,13 +200,14 @@ void CompareView::updateTruth(const Inputs& in) {
     chooseLayer(state);
     if (values_) {
         message_ = fmt::format("path traced, {} of {} samples per pixel", samples_, state.compare.samples);
-        name_ = fmt::format("path traced, {} samples", samples_);
+        name_ = fmt::format("path traced, {}", sampleText(samples_));
     }
 }
 
 void CompareView::updateError(const RenderedImage& live) {
-    if (const auto comparison = errorWork_.take()) {
+    if (const auto comparison = errorWork_.take(); comparison && errorRight_) {
         error_ = comparison->difference;
+        errorSamples_ = errorRightSamples_;
         errorMap_ = std::make_shared<const FloatImage>(comparison->flip);
     }
     const std::shared_ptr<const FloatImage>& left = live.values;
@@ -212,6 +219,7 @@ void CompareView::updateError(const RenderedImage& live) {
     }
     errorLeft_ = left;
     errorRight_ = values_;
+    errorRightSamples_ = samples_;
     errorWork_.start([left, right = values_](const std::atomic<bool>&) {
         CompareOptions options;
         options.imageName = "the left side";

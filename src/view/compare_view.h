@@ -8,7 +8,9 @@
 #include "view/session.h"
 #include "view/viewer_state.h"
 
+#include <fmt/format.h>
 #include <algorithm>
+
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -54,14 +56,20 @@ public:
     /// HDR-FLIP of each pixel; null: not computed yet.
     [[nodiscard]] const std::shared_ptr<const FloatImage>& errorMap() const { return errorMap_; }
     [[nodiscard]] bool busy() const { return errorWork_.busy() || fileWork_.busy(); }
-    /// Error of the left side against the right one.
+    /// Error of the left side against the right one, which may have been replaced since: measuring takes a while.
     [[nodiscard]] const std::optional<Difference>& error() const { return error_; }
+    /// Samples per pixel of the ground truth that the error is against; 0: it is against something else.
+    [[nodiscard]] uint32_t errorSamples() const { return errorSamples_; }
+    /// The error's name over the picture: "HDR-FLIP".
+    [[nodiscard]] std::string errorName() const {
+        return errorSamples_ > 0 ? fmt::format("HDR-FLIP, {}", sampleText(errorSamples_)) : "HDR-FLIP";
+    }
     /// Progress, or the reason why nothing is shown.
     [[nodiscard]] const std::string& message() const { return message_; }
     /// What the right side is.
     [[nodiscard]] std::string name(const ViewerState& state) const {
         return state.compare.with == CompareWith::preset ? state.compare.preset
-               : state.compare.errorImage && errorMap_   ? "error"
+               : state.compare.errorImage && errorMap_   ? errorName()
                : state.compare.with == CompareWith::file ? std::filesystem::path(file_).filename().string()
                : samples_ > 0                            ? name_
                                                          : "path tracing";
@@ -70,6 +78,10 @@ public:
     /// Samples per pixel of the picture that follows one of so many, 0: none; all of them are traced anew.
     [[nodiscard]] static uint32_t nextSamples(uint32_t samples, uint32_t most) {
         return std::min(samples == 0 ? 1 : samples * 4, most);
+    }
+    /// "4 samples".
+    [[nodiscard]] static std::string sampleText(uint32_t samples) {
+        return fmt::format("{} {}", samples, samples == 1 ? "sample" : "samples");
     }
     /// Samples per pixel of the displayed ground truth, and progress of the next, better one (0 to 1).
     [[nodiscard]] uint32_t samples() const { return samples_; }
@@ -91,6 +103,7 @@ private:
     void startTruth(const Inputs& in);
     void chooseLayer(const ViewerState& state);
     void updateError(const RenderedImage& live);
+    void forgetError();
     /// tonemap: of the left side, whose exposure both have.
     void updatePicture(const ViewerState& state, const TonemapSettings& tonemap);
     void setProblem(const std::string& text);
@@ -113,9 +126,11 @@ private:
     vec2 pictureRange_{0.0F};
     std::shared_ptr<const Bitmap> picture_;
     BackgroundTask<Comparison> errorWork_;
-    std::shared_ptr<const FloatImage> errorLeft_;  ///< inputs of the last or current error computation
+    std::shared_ptr<const FloatImage> errorLeft_;  ///< inputs of the last or current error computation; null: unwanted
     std::shared_ptr<const FloatImage> errorRight_;
+    uint32_t errorRightSamples_ = 0;  ///< of errorRight_
     std::optional<Difference> error_;
+    uint32_t errorSamples_ = 0;  ///< of error_
     std::shared_ptr<const FloatImage> errorMap_;
     bool pictureIsError_ = false;
     std::string message_;

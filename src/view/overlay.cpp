@@ -79,8 +79,9 @@ void Overlay::drawErrorAt(const vec2& mouse) const {
         return valuesText(std::vector<float>(first, first + static_cast<std::ptrdiff_t>(channels)));
     };
     std::string lines;
-    for (const auto& [name, image] : {std::pair("A", work_.live().values), std::pair("B", compare_.values()),
-                                      std::pair("HDR-FLIP", compare_.errorMap())}) {
+    for (const auto& [name, image] :
+         {std::pair(std::string("A"), work_.live().values), std::pair(std::string("B"), compare_.values()),
+          std::pair(compare_.errorName(), compare_.errorMap())}) {
         if (const auto value = valueAt(image)) {
             lines += fmt::format("{}{}  {}", lines.empty() ? "" : "\n", name, *value);
         }

@@ -3,6 +3,7 @@
 
 #include "renderer/presets.h"
 #include "view/panel_text.h"
+#include "view/progress_text.h"
 #include "view/switches.h"
 
 #include <imgui.h>
@@ -34,28 +35,11 @@ Panels::Panels(Workspace& work, const Parts& parts)
       compare_(work, parts.compare),
       files_(work, parts.actions, parts.opener) {}
 
-// How far the image is.
-std::string Panels::progressText() const {
-    const RenderedImage& shown = work_.live();
-    if (const std::string job = render_.busyWith(); !job.empty()) {
-        return job;
-    }
-    if (work_.state.running == Running::paused) {
-        return fmt::format("frame {}, paused", shown.frames);
-    }
-    if (work_.published.effort.isReduced()) {
-        return fmt::format("moving: resolution x {:.2f}{}", work_.published.effort.scale,
-                           work_.published.effort.fewRays ? ", 1 ray" : "");
-    }
-    return shown.frames >= shown.framesToConverge ? fmt::format("frame {}, converged", shown.frames)
-                                                  : fmt::format("refining {}/{}", shown.frames, shown.framesToConverge);
-}
-
 void Panels::runPanel() {
     int running = static_cast<int>(work_.state.running);
     ImGui::RadioButton("on demand", &running, int(Running::onDemand));
     work_.places.note("on demand");
-    tooltip("Renders after a change until the image has converged.");
+    tooltip("Renders after a change until more frames change nothing.");
     ImGui::SameLine();
     ImGui::RadioButton("continuous", &running, int(Running::continuous));
     work_.places.note("continuous");
@@ -72,7 +56,8 @@ void Panels::runPanel() {
     work_.places.note("step");
     tooltip("Renders one frame (.).");
     const uvec2 size = work_.renderSize();
-    ImGui::TextColored(quietColor, "%ux%u, %s", size.x, size.y, progressText().c_str());
+    const std::string progress = progressText(work_.published, work_.state.running, render_.busyWith());
+    ImGui::TextColored(quietColor, "%ux%u, %s", size.x, size.y, progress.c_str());
     if (const std::optional<float> stops = work_.live().exposure) {
         ImGui::TextColored(quietColor, "automatic exposure: %+.2f stops", double(*stops));
     }

@@ -40,7 +40,6 @@ private:
     };
 
     void section(const char* title, const Folding& how, const std::function<void()>& panel);
-    [[nodiscard]] std::string progressText() const;
     void runPanel();
     void timePanel();
     void switchesPanel();

@@ -44,7 +44,7 @@ private:
     [[nodiscard]] vec2 onWindowOf(const vec4& clip) const;
     void drawHemisphere() const;
     void drawShadowSearch() const;
-    void drawSteps(const RecordedRay& ray) const;
+    void drawCells() const;
     void drawMirrorRay(const RecordedRay& ray) const;
 
     Workspace& work_;

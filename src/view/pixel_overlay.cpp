@@ -26,7 +26,7 @@ ImVec2 units(const vec2& v) {
 
 }  // namespace
 
-// From pixels of the image.
+// From pixels of the picture.
 vec2 PixelInspector::onWindow(const vec2& pixel) const {
     const PictureRect rect = work_.pictureRect();
     return rect.min + pixel / vec2(work_.live().size) * rect.size;
@@ -84,16 +84,16 @@ void PixelInspector::drawShadowSearch() const {
 }
 
 // The cells of the depth pyramid that the march has read.
-void PixelInspector::drawSteps(const RecordedRay& ray) const {
+void PixelInspector::drawCells() const {
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-    const vec2 perPixel = work_.pictureRect().size / vec2(work_.live().size);
-    for (const RayStep& step : ray.steps) {
-        const auto side = static_cast<float>(1U << step.level);
-        const vec2 low = onWindow(vec2(step.cell) * side);
-        if (step.level > 0 || perPixel.x >= 4.0F) {
-            draw.AddRect(units(low), units(low + side * perPixel), IM_COL32(120, 200, 255, 110));
+    constexpr float smallest = 4.0F;  // side of a square that can be told from a dot
+    for (const PickedCell& cell : picked_->cells) {
+        const vec2 low = onWindow(cell.corner);
+        const vec2 high = onWindow(cell.corner + cell.size);
+        if (!cell.isPixel || high.x - low.x >= smallest) {
+            draw.AddRect(units(low), units(high), IM_COL32(120, 200, 255, 110));
         } else {
-            draw.AddCircleFilled(units(low + 0.5F * perPixel), 1.8F, IM_COL32(120, 200, 255, 220), 6);
+            draw.AddCircleFilled(units(0.5F * (low + high)), 1.8F, IM_COL32(120, 200, 255, 220), 6);
         }
     }
 }
@@ -120,7 +120,7 @@ void PixelInspector::drawMirrorRay(const RecordedRay& ray) const {
     }
 }
 
-// The steps and the pixel are valid only for the view at the time of the pick. The ray is in world space and is also
+// The cells and the pixel are valid only for the view at the time of the pick. The ray is in world space and is also
 // drawn from other views.
 void PixelInspector::drawOverlay() const {
     if (!picked_ || work_.live().frames == 0) {
@@ -136,7 +136,7 @@ void PixelInspector::drawOverlay() const {
         drawHemisphere();
     } else if (picked_->ray) {
         if (asPicked) {
-            drawSteps(*picked_->ray);
+            drawCells();
         }
         drawMirrorRay(*picked_->ray);
     }

@@ -131,8 +131,10 @@ void RenderThread::run(const gpu::DeviceOptions& options, const std::string& sha
     stepBack();
     std::unique_ptr<gpu::Device> device;
     std::unique_ptr<ShaderWatch> watch;
+    gpu::DeviceOptions own = options;
+    own.onCompile = [this](uint32_t count) { publish([&](State& state) { state.compiling = count; }); };
     try {
-        device = std::make_unique<gpu::Device>(options);
+        device = std::make_unique<gpu::Device>(own);
         watch = std::make_unique<ShaderWatch>(device->shaders(), shaders);
         opened.set_value();  // its owner may be gone from now on
     } catch (...) {
@@ -219,6 +221,7 @@ void RenderThread::publishFailure(const std::string& why) {
     publish([&](State& state) {
         state.live = shown;
         state.scene = scene_;  // even if none of its frames has succeeded
+        state.compiling = 0;
     });
 }
 

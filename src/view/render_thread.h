@@ -53,6 +53,7 @@ public:
         Effort effort;                      ///< of the last live frame
         uint64_t scene = 0;                 ///< of `live`
         uint64_t deviceMemory = 0;          ///< bytes
+        uint32_t compiling = 0;             ///< shaders that the frame waits for
         std::string shaderProblem;          ///< why an edited shader does not compile; empty: none
         std::vector<std::string> reloaded;  ///< shaders that were replaced last
         uint32_t reloads = 0;               ///< how often shaders were replaced

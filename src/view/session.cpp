@@ -186,6 +186,7 @@ Picked Session::pick(const ViewerState& state, uvec2 size, uvec2 pixel) {
     gpu::Readback ray;
     gpu::Readback hemisphere;
     std::optional<gpu::Readback> shadow;
+    PixelScale scale;
     const float sunSlope = std::tan(0.5F * posed(state.view, *opened_.scene).sun.angularDiameter);
     TraceScreenSettings diffuse = settings.traceScreen;
     diffuse.maxDistance = std::min(diffuse.maxDistance, settings.diffuse.maxDistance);
@@ -197,7 +198,8 @@ Picked Session::pick(const ViewerState& state, uvec2 size, uvec2 pixel) {
             }
         }
         const RecordRayInputs inputs{made.g, made.backDepth, made.pyramid};
-        const uvec2 place = pixel * made.g.depth.size / size;
+        scale = {made.g.depth.size, size};
+        const uvec2 place = scale.toFrame(pixel);
         ray = recordRay(f, inputs, made.view, settings.traceScreen, place);
         if (made.shadowMap && settings.shadow.filter != ShadowFilter::traced) {
             shadow = recordShadow(f, made.g, {made.shadowMap, made.shadowRange, {}},
@@ -206,9 +208,10 @@ Picked Session::pick(const ViewerState& state, uvec2 size, uvec2 pixel) {
         hemisphere = recordHemisphere(f, inputs, made.view, diffuse, place);
     });
     const gpu::Frame& frame = renderer_.frame();
-    Picked picked{pixel, {}, recordedRay(frame, ray), {}, {}, shown_.view, shown_.changes};
-    if (picked.ray) {
-        picked.hemisphere = recordedHemisphere(frame, hemisphere);
+    Picked picked{.pixel = pixel, .view = shown_.view, .change = shown_.changes};
+    if (const std::optional<RecordedRay> recorded = recordedRay(frame, ray)) {
+        takeRay(picked, *recorded, scale);
+        takeHemisphere(picked, recordedHemisphere(frame, hemisphere), scale);
         picked.shadow = shadow ? std::optional(recordedShadow(frame, *shadow)) : std::nullopt;
     }
     for (const ShowReadback& readback : readbacks) {

@@ -3,9 +3,8 @@
 #pragma once
 
 #include "capture/show.h"
-#include "effects/lobe/record_ray.h"
-#include "effects/shadow/record_shadow.h"
 #include "renderer/renderer.h"
+#include "view/picked.h"
 #include "view/viewer_state.h"
 
 #include <functional>
@@ -15,28 +14,6 @@
 #include <vector>
 
 namespace reflet {
-
-/// Values of the picked pixel in one render target.
-struct PickedValues {
-    std::string name;
-    std::vector<std::string> channels;
-    std::vector<float> values;
-};
-
-struct Picked {
-    uvec2 pixel{0};
-    std::vector<PickedValues> values;
-    std::optional<RecordedRay> ray;          ///< none where the pixel shows no surface
-    std::vector<RecordedSample> hemisphere;  ///< diffuse rays from the pixel; none without a surface
-    std::optional<RecordedShadow> shadow;    ///< of the sun; none without a surface or a shadow map
-    ViewParams view{};                       ///< at the time of the pick
-    uint64_t change = 0;                     ///< RenderedImage::changes at the time of the pick
-};
-
-/// Whether these settings count the hit: back faces may be rejected.
-inline bool countsAsHit(const RecordedRay& ray, const TraceScreenSettings& settings) {
-    return ray.outcome == RayOutcome::hit && !(ray.facesAway && settings.rejectBackfaces != 0);
-}
 
 /// The display image of a show's values: tone mapped, as by --show, or in false colours.
 Bitmap shownPicture(const ViewerState& state, const TonemapSettings& tonemap, const FloatImage& values);

@@ -2,6 +2,7 @@
 #include "view/status.h"
 
 #include "base/json_text.h"
+#include "view/progress_text.h"
 
 #include <nlohmann/json.hpp>
 
@@ -55,6 +56,7 @@ std::string statusText(const WindowStatus& status) {
                       {"at_rest", status.atRest},
                       {"answered", work.redraws() == 0},
                       {"busy", status.busyWith},
+                      {"progress", progressText(work.published, work.state.running, status.busyWith)},
                       {"scene", work.state.source.scene},
                       {"paused", work.state.running == Running::paused},
                       {"window", {status.window.x, status.window.y}},
@@ -77,6 +79,7 @@ std::string statusText(const WindowStatus& status) {
     if (status.compare.error()) {
         json["compare"]["relative_mse"] = status.compare.error()->relativeMse;
         json["compare"]["flip"] = status.compare.error()->flip;
+        json["compare"]["error_samples"] = status.compare.errorSamples();
     }
     if (status.picked) {
         json["picked"] = pickedJson(*status.picked);

@@ -7,7 +7,6 @@
 #include "cli/device_options.h"
 #include "gpu/pipeline.h"
 #include "renderer/presets.h"
-#include "renderer/shaders.h"
 #include "view/saved_state.h"
 #include "view/status.h"
 
@@ -49,16 +48,23 @@ ViewerState initialState(const ViewerOptions& options) {
     return state;
 }
 
+// Of the device that renders.
 gpu::DeviceOptions deviceOptions(const ViewerOptions& options, std::atomic<size_t>& messages) {
-    return {.select = options.device,
-            .validation = options.validate,
-            .onMessage =
-                [&messages](const std::string& message) {
-                    ++messages;
-                    printWarning(message);
-                },
-            .shaders = {effectShaders(), rendererShaders()},
-            .windowExtensions = Window::vulkanExtensions()};
+    gpu::DeviceOptions device = programDevice(options.device, options.validate);
+    device.onMessage = [&messages](const std::string& message) {
+        ++messages;
+        printWarning(message);
+    };
+    device.onCompile = {};  // the window tells
+    device.windowExtensions = Window::vulkanExtensions();
+    return device;
+}
+
+// Of the device that draws the window, with a handful of shaders.
+gpu::DeviceOptions windowDeviceOptions(const ViewerOptions& options, std::atomic<size_t>& messages) {
+    gpu::DeviceOptions device = deviceOptions(options, messages);
+    device.pipelineFolder.clear();
+    return device;
 }
 
 uvec2 parsePixel(const std::string& text) {
@@ -82,7 +88,7 @@ Viewer::Viewer(const ViewerOptions& options, const ViewerState& first)
     : options_(options),
       window_("Reflet", first.window),
       render_(deviceOptions(options, messages_), options.shaders.empty() ? REFLET_SHADER_SOURCES : options.shaders),
-      device_(deviceOptions(options, messages_)),
+      device_(windowDeviceOptions(options, messages_)),
       presenter_(device_, window_.surface(device_.instance())),
       work_(first, window_, device_.limits().maxImageDimension2D),
       saver_(work_, window_),

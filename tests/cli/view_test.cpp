@@ -161,6 +161,7 @@ protected:
 TEST_F(ViewWalk, PassesUnderTheValidationLayers) {
     openViewer(with(cubes, {"--validate", "--preset", "plain"}));  // without history, each rest is one frame
     EXPECT_EQ(status()["size"], json({240, 400}));
+    EXPECT_EQ(status()["progress"], "finished");
     togglesASetting();
     movesTheCamera();
     picksAPixel();

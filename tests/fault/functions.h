@@ -37,6 +37,7 @@ using PFN_vkCreateXlibSurfaceKHR = PFN_vkCreateXcbSurfaceKHR;
     F(vkCreateGraphicsPipelines, vkDestroyPipeline, REFLET_MEMORY)                                      \
     F(vkCreateImage, vkDestroyImage, REFLET_MEMORY)                                                     \
     F(vkCreateImageView, vkDestroyImageView, REFLET_MEMORY)                                             \
+    F(vkCreatePipelineCache, vkDestroyPipelineCache, REFLET_MEMORY)                                     \
     F(vkCreatePipelineLayout, vkDestroyPipelineLayout, REFLET_MEMORY)                                   \
     F(vkCreateQueryPool, vkDestroyQueryPool, REFLET_MEMORY)                                             \
     F(vkCreateSampler, vkDestroySampler, REFLET_MEMORY)                                                 \
@@ -59,6 +60,7 @@ using PFN_vkCreateXlibSurfaceKHR = PFN_vkCreateXcbSurfaceKHR;
     F(vkEndCommandBuffer, REFLET_MEMORY)                                                              \
     F(vkEnumerateDeviceExtensionProperties, REFLET_MEMORY)                                            \
     F(vkEnumeratePhysicalDevices, REFLET_MEMORY, VK_ERROR_INITIALIZATION_FAILED)                      \
+    F(vkGetPipelineCacheData, REFLET_MEMORY)                                                          \
     F(vkGetPhysicalDeviceSurfaceCapabilitiesKHR, REFLET_SURFACE)                                      \
     F(vkGetPhysicalDeviceSurfaceFormatsKHR, REFLET_SURFACE)                                           \
     F(vkGetPhysicalDeviceSurfacePresentModesKHR, REFLET_SURFACE)                                      \

@@ -6,6 +6,7 @@
 #include "gpu/shader.h"
 #include "pass/harness.h"
 #include "reflection/reflect_shader.h"
+#include "renderer/shaders.h"
 #include "support/device_fixture.h"
 
 #include <functional>
@@ -151,6 +152,34 @@ TEST_F(Gpu, TimesAreThereForEveryPassByItsScopedName) {
     EXPECT_EQ(f.passTimes()[0].name, "frame");
     EXPECT_EQ(f.passTimes()[1].name, "outer.tonemap");
     EXPECT_GT(f.passTimes()[1].ms, 0.0);
+}
+
+// Compiling takes seconds on some drivers, so it is announced, and its end is that of the first frame with what was
+// compiled.
+TEST_F(Gpu, TellsWhatIsCompiledAndWhenItWasUsed) {
+    std::vector<uint32_t> told;
+    gpu::Device device({.shaders = {effectShaders()}, .onCompile = [&](uint32_t shaders) { told.push_back(shaders); }});
+    gpu::Frame f(device);
+    gpu::KeptImage radiance("radiance");
+    gpu::KeptImage display("display");
+    const auto render = [&] {
+        f.begin();
+        const gpu::Image from = radiance.storage(f, VK_FORMAT_R16G16B16A16_SFLOAT, size);
+        const gpu::Image to = display.storage(f, VK_FORMAT_R8G8B8A8_UNORM, size);
+        f.clear(from);
+        for (const char* name : {"tonemap", "again"}) {
+            f.compute(name, "tonemap.comp")
+                .read("radiance", from)
+                .write("display", to)
+                .params(TonemapParams{{}, size})
+                .dispatch(size);
+        }
+        f.submit();
+        f.wait();
+    };
+    render();
+    render();
+    EXPECT_EQ(told, (std::vector<uint32_t>{1, 0}));
 }
 
 TEST_F(Gpu, AShaderIsReplacedOnlyByOneThatBindsTheSame) {

@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cstdlib>
 #include <utility>
 
 namespace reflet {
@@ -192,14 +191,8 @@ void parseTruth(const std::string& text, TruthOptions& options) {
 }
 
 fs::path standardTruthFolder() {
-    const char* cache = std::getenv("XDG_CACHE_HOME");
-    if (cache != nullptr && *cache != '\0') {
-        return fs::path(cache) / "reflet" / "truth";
-    }
-    if (const auto home = homeFolder()) {
-        return *home / ".cache" / "reflet" / "truth";
-    }
-    return {};  // not the shared temporary folder, where others could prepare what is read
+    const auto cache = cacheFolder();
+    return cache ? *cache / "truth" : fs::path();
 }
 
 Settings chainSettings(const Settings& settings, uint32_t raysPerFrame) {

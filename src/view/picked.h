@@ -1,0 +1,64 @@
+// What is known of a picked pixel. Frames may be smaller than the picture (temporal.scale): what people see, point at
+// and read is in pixels of the picture, and what shaders record is in pixels of the frame. PixelScale is between them.
+#pragma once
+
+#include "effects/lobe/record_ray.h"
+#include "effects/shadow/record_shadow.h"
+#include "effects/view.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace reflet {
+
+/// Between the pixels of a frame and those of the picture that is made of it.
+struct PixelScale {
+    uvec2 frame{1};    ///< size that is rendered
+    uvec2 picture{1};  ///< size that is shown
+
+    /// The frame's pixel at a pixel of the picture.
+    [[nodiscard]] uvec2 toFrame(uvec2 pixel) const { return pixel * frame / picture; }
+    /// The picture's pixel in the middle of a pixel of the frame.
+    [[nodiscard]] uvec2 toPicture(uvec2 pixel) const { return uvec2(placeInPicture(vec2(pixel) + 0.5F)); }
+    /// The same for any place, in pixels from the upper left corner.
+    [[nodiscard]] vec2 placeInPicture(const vec2& place) const { return place * vec2(picture) / vec2(frame); }
+};
+
+/// Values of the picked pixel in one render target.
+struct PickedValues {
+    std::string name;
+    std::vector<std::string> channels;
+    std::vector<float> values;
+};
+
+/// A cell of the depth pyramid, in pixels of the picture.
+struct PickedCell {
+    vec2 corner{0.0F};
+    vec2 size{0.0F};
+    bool isPixel = false;  ///< of the frame: the finest level
+};
+
+/// All pixels are the picture's.
+struct Picked {
+    uvec2 pixel{0};
+    std::vector<PickedValues> values;
+    std::optional<RecordedRay> ray;          ///< none where the pixel shows no surface
+    std::vector<PickedCell> cells;           ///< that the ray's march has read, in its order
+    std::vector<RecordedSample> hemisphere;  ///< diffuse rays from the pixel; none without a surface
+    std::optional<RecordedShadow> shadow;    ///< of the sun; none without a surface or a shadow map
+    ViewParams view{};                       ///< at the time of the pick
+    uint64_t change = 0;                     ///< RenderedImage::changes at the time of the pick
+};
+
+/// Records of a frame, in pixels of the picture. The ray's steps stay cells of the frame.
+void takeRay(Picked& picked, const RecordedRay& ray, const PixelScale& scale);
+void takeHemisphere(Picked& picked, std::vector<RecordedSample> samples, const PixelScale& scale);
+
+/// Whether these settings count the hit: back faces may be rejected.
+inline bool countsAsHit(const RecordedRay& ray, const TraceScreenSettings& settings) {
+    return ray.outcome == RayOutcome::hit && !(ray.facesAway && settings.rejectBackfaces != 0);
+}
+
+}  // namespace reflet
