@@ -95,6 +95,24 @@ std::vector<BenchScene> scenesOf(const BenchCommand& command) {
     return scenes;
 }
 
+// In ascending order, each once.
+std::vector<uint32_t> stillFrames(const BenchCommand& command, TruthKind truth) {
+    std::vector<uint32_t> frames = command.convergence;
+    if (command.octaves) {
+        frames.insert(frames.end(), {1, 8, 32, 128});
+    }
+    const char* option = command.octaves ? "--octaves" : "--convergence";
+    if (!frames.empty() && truth == TruthKind::none) {
+        failUsage("{} needs a ground truth: --truth reference or --truth chain:RAYS", option);
+    }
+    if (!frames.empty() && !command.against.empty()) {
+        failUsage("{} and --against exclude each other: --against measures no errors", option);
+    }
+    std::ranges::sort(frames);
+    frames.erase(std::ranges::unique(frames).begin(), frames.end());
+    return frames;
+}
+
 BenchPlan makePlan(const BenchCommand& command) {
     BenchPlan plan;
     plan.sizes = sizesOf(command);
@@ -106,6 +124,8 @@ BenchPlan makePlan(const BenchCommand& command) {
     plan.frames = command.frames;
     plan.layer = command.layer;
     plan.motion = {command.motionFrames, command.orbit, command.warmup, command.fps, command.restFrames};
+    plan.stillFrames = stillFrames(command, plan.truth.kind);
+    plan.plotsConvergence = !command.convergence.empty();
     if (plan.motion.frames > 0 && plan.truth.kind == TruthKind::none) {
         failUsage("--motion needs a ground truth: --truth reference or --truth chain:RAYS");
     }

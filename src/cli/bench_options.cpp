@@ -19,6 +19,8 @@ constexpr const char* benchFooter =
     "with alternating frames. --against runs another build of this program and this one alternately.\n"
     "The bytes of a pass are those of all images and buffers that it binds, each counted once; floor: the time to "
     "transfer them at the measured bandwidth. See docs/bench.md\n"
+    "--octaves and --convergence also split the relative MSE by wavelength: noise from pixel to pixel is in the octave "
+    "of 2 to 4 pixels, mottling in the middle ones, bias in the coarsest. The parts sum to the relative MSE.\n"
     "builtin:tessellated-N is a room of N triangles (100 times a square number: 100, 400, … 1000000).\n"
     "Example: reflet bench builtin:cubes builtin:cave --preset fast,quality --size 640x360 --json bench.json";
 
@@ -51,6 +53,16 @@ void addTimesOptions(CLI::App& command, BenchCommand& options) {
                     "Frames at rest after the motion, whose reflections are compared with their final value; 0: none")
         ->check(CLI::Range(0U, 1000U))
         ->capture_default_str();
+    command.add_flag("--octaves", options.octaves,
+                     "Errors of frames 1, 8, 32 and 128 of a still view, also by octave of spatial frequency");
+    command
+        .add_option("--convergence", options.convergence,
+                    "The same of these frames, such as 32,128,512,2048, to see what error remains: the bias. --plot "
+                    "draws them")
+        ->type_name("N,M,...")
+        ->allow_extra_args(false)
+        ->delimiter(',')
+        ->check(CLI::Range(1U, 1000000U));
     command.add_option("--rounds", options.rounds, "With --against: runs of each program")
         ->check(CLI::Range(1U, 1000U))
         ->capture_default_str();
@@ -95,7 +107,8 @@ void addTruthOptions(CLI::App& command, BenchCommand& options) {
 void addOutputOptions(CLI::App& command, BenchCommand& options) {
     command.add_option("--json", options.json, "Write all numbers")->type_name("F.json");
     command.add_flag("--markdown", options.markdown, "Print the tables as Markdown, for a file");
-    command.add_option("--plot", options.plot, "Write a plot of error against time")->type_name("F.svg");
+    command.add_option("--plot", options.plot, "Write a plot of error against time; with --convergence, over frames")
+        ->type_name("F.svg");
     command.add_flag("--validate", options.validate,
                      "Enable the Vulkan validation layers; any message is a failure. Times are meaningless then");
 }

@@ -40,6 +40,8 @@ struct BenchCommand {
     float orbit = 30.0F;
     float fps = 24.0F;
     uint32_t restFrames = 0;
+    bool octaves = false;
+    std::vector<uint32_t> convergence;
     std::string device;
     bool validate = false;
     std::string json;

@@ -25,11 +25,11 @@ namespace {
 Limit parseLimit(const std::string& text) {
     const size_t equals = text.find('=');
     const std::string name = text.substr(0, equals);
-    const auto metric = std::ranges::find(metrics(), name, &Metric::name);
-    if (metric == metrics().end()) {
+    const std::vector<Metric> all = comparedMetrics();
+    const auto metric = std::ranges::find(all, name, &Metric::name);
+    if (metric == all.end()) {
         std::vector<std::string> names;
-        std::ranges::transform(metrics(), std::back_inserter(names),
-                               [](const Metric& m) { return std::string(m.name); });
+        std::ranges::transform(all, std::back_inserter(names), [](const Metric& m) { return std::string(m.name); });
         failUsage("--fail-above {}: there is no metric '{}'; available: {}{}", text, name, fmt::join(names, ", "),
                   suggestion(name, names));
     }
@@ -40,7 +40,7 @@ Limit parseLimit(const std::string& text) {
     if (error != std::errc() || rest != end || !std::isfinite(value)) {
         failUsage("--fail-above {}: expected METRIC=NUMBER, such as {}=0.1", text, name);
     }
-    return {&*metric, value};
+    return {*metric, value};
 }
 
 void checkOutput(std::string_view option, const std::string& file, std::string_view ending) {
@@ -60,7 +60,7 @@ std::vector<bool> loadMask(const std::string& mask, const PicturePair& names, co
 }
 
 void printTable(const Difference& difference, uint64_t pixels) {
-    for (const Metric& metric : metrics()) {
+    for (const Metric& metric : comparedMetrics()) {
         fmt::print("{:<13} {}\n", metric.name, valueText(metric, metric.value(difference)));
     }
     fmt::print("{:<13} {} of {}\n", "pixels", difference.pixels, pixels);
@@ -73,7 +73,7 @@ void printJson(const CompareCommand& command, const FloatImage& flip, ImageKind 
                                 {"kind", kind == ImageKind::linear ? "linear" : "display"},
                                 {"size", {flip.width, flip.height}},
                                 {"pixels_per_degree", command.pixelsPerDegree}};
-    for (const Metric& metric : metrics()) {
+    for (const Metric& metric : comparedMetrics()) {
         json[std::string(metric.name)] = metric.value(difference);
     }
     json["pixels"] = difference.pixels;
@@ -84,9 +84,9 @@ void checkLimits(const std::vector<Limit>& limits, const Difference& difference)
     std::vector<std::string> broken;
     for (const Limit& limit : limits) {
         if (limit.isBroken(difference)) {
-            broken.push_back(fmt::format("{} is {}, {} the limit {}", limit.metric->name,
-                                         valueText(*limit.metric, limit.metric->value(difference)),
-                                         limit.metric->largeIsGood ? "below" : "above", limit.value));
+            broken.push_back(fmt::format("{} is {}, {} the limit {}", limit.metric.name,
+                                         valueText(limit.metric, limit.metric.value(difference)),
+                                         limit.metric.largeIsGood ? "below" : "above", limit.value));
         }
     }
     if (!broken.empty()) {
@@ -136,12 +136,14 @@ void compare(const CompareCommand& command) {
 
 std::string compareFooter() {
     std::string text = "Metrics (a: a value of A, b: the same value of B):\n";
-    for (const Metric& metric : metrics()) {
+    for (const Metric& metric : comparedMetrics()) {
         text += fmt::format("  {:<13} {}{}\n", metric.name, metric.definition,
                             metric.unit.empty() ? "" : fmt::format(" [{}]", metric.unit));
     }
     return text +
            "  pixels        number of pixels compared\n"
+           "A pattern's wavelength is the shorter one of those along rows and columns. With a mask, the other pixels'\n"
+           "errors count as 0 in the octaves. Noise of the reference counts, too, mostly in the finest octave.\n"
            ".png and .jpg files are display-encoded, and compared as stored (0..1); .exr and .hdr files are linear.\n"
            "Both images must have the same kind, size and number of channels (1 or 3); alpha is ignored. HDR-FLIP\n"
            "derives its exposures from all of B, and a pixel's FLIP depends on its neighbours, masked or not.\n"
@@ -150,7 +152,7 @@ std::string compareFooter() {
            "--json prints { picture, truth, kind, size, pixels_per_degree, METRIC..., pixels }; infinity is null.\n"
            "Sequences: every frame of B is compared with the frame of A that has its number; B may also be one image.\n"
            "Prints every frame, the means and the worst frame of each metric (bias: the largest |bias|; JSON: frames,\n"
-           "mean, worst). --fail-above holds for every frame.\n"
+           "mean, worst); then the same of the octaves. --fail-above holds for every frame.\n"
            "Example: reflet compare image.exr reference.exr:final --mask hits --heatmap error.png --fail-above "
            "flip=0.1\n"
            "reflet compare noisy_####.exr clean_####.exr --plot error.svg --heatmap worst.png";
@@ -159,8 +161,14 @@ std::string compareFooter() {
 }  // namespace
 
 bool Limit::isBroken(const Difference& difference) const {
-    const double is = metric->value(difference);
-    return metric->largeIsGood ? is < value : is > value;
+    const double is = metric.value(difference);
+    return metric.largeIsGood ? is < value : is > value;
+}
+
+std::vector<Metric> comparedMetrics() {
+    std::vector<Metric> all(metrics().begin(), metrics().end());
+    all.insert(all.end(), octaveMetrics().begin(), octaveMetrics().end());
+    return all;
 }
 
 std::string valueText(const Metric& metric, double value) {
@@ -184,7 +192,7 @@ Comparison comparePair(const CompareCommand& command, const PicturePair& names) 
     const FloatImage picture = readPicture(names[0]);
     checkMemory(picture, names[0].text);
     const FloatImage truth = readPicture(names[1]);
-    CompareOptions options{names[0].kind, command.pixelsPerDegree, {}, names[0].text, names[1].text};
+    CompareOptions options{names[0].kind, command.pixelsPerDegree, {}, names[0].text, names[1].text, true};
     checkComparable(picture, truth, options);
     options.mask = loadMask(command.mask, names, picture);
     return compareImages(picture, truth, options);

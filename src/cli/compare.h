@@ -25,11 +25,14 @@ using PicturePair = std::array<PictureName, 2>;  ///< the image, the reference
 
 /// METRIC=X of --fail-above.
 struct Limit {
-    const Metric* metric = nullptr;
+    Metric metric;
     double value = 0.0;
 
     [[nodiscard]] bool isBroken(const Difference& difference) const;
 };
+
+/// What is measured: metrics(), then octaveMetrics().
+std::vector<Metric> comparedMetrics();
 
 /// "31.2 dB"
 std::string valueText(const Metric& metric, double value);

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace reflet {
@@ -93,15 +94,15 @@ double meanOf(const Metric& metric, const FrameErrors& errors) {
 }
 
 // 10 characters take every number of 4 digits: -1.234e-05.
-void printTable(const FrameErrors& errors) {
+void printTable(const FrameErrors& errors, std::span<const Metric> columns) {
     fmt::print("{:<10}", "frame");
-    for (const Metric& metric : metrics()) {
+    for (const Metric& metric : columns) {
         fmt::print(" {:>12}", metric.name);
     }
     fmt::print("\n");
-    const auto row = [](const std::string& name, const auto& textOf) {
+    const auto row = [&](const std::string& name, const auto& textOf) {
         fmt::print("{:<10}", name);
-        for (const Metric& metric : metrics()) {
+        for (const Metric& metric : columns) {
             fmt::print(" {:>12}", textOf(metric));
         }
         fmt::print("\n");
@@ -125,13 +126,13 @@ void printJson(const CompareCommand& command, ImageKind kind, uvec2 size, const 
                                 {"frames", nlohmann::ordered_json::array()}};
     for (const FrameError& error : errors) {
         nlohmann::ordered_json frame{{"frame", error.frame}};
-        for (const Metric& metric : metrics()) {
+        for (const Metric& metric : comparedMetrics()) {
             frame[std::string(metric.name)] = metric.value(error.difference);
         }
         frame["pixels"] = error.difference.pixels;
         json["frames"].push_back(frame);
     }
-    for (const Metric& metric : metrics()) {
+    for (const Metric& metric : comparedMetrics()) {
         const FrameError& worst = worstOf(metric, errors);
         json["mean"][std::string(metric.name)] = meanOf(metric, errors);
         json["worst"][std::string(metric.name)] = {{"frame", worst.frame}, {"value", metric.value(worst.difference)}};
@@ -165,13 +166,13 @@ void checkLimits(const std::vector<Limit>& limits, const FrameErrors& errors) {
         }
         // Of a metric with a sign (bias), only what is too large breaks the limit.
         const FrameError& worst = *std::ranges::max_element(errors, {}, [&](const FrameError& error) {
-            const double value = limit.metric->value(error.difference);
-            return limit.metric->largeIsGood ? -value : value;
+            const double value = limit.metric.value(error.difference);
+            return limit.metric.largeIsGood ? -value : value;
         });
         broken.push_back(
-            fmt::format("{} is {} in frame {}, {} the limit {}{}", limit.metric->name,
-                        valueText(*limit.metric, limit.metric->value(worst.difference)), worst.frame,
-                        limit.metric->largeIsGood ? "below" : "above", limit.value,
+            fmt::format("{} is {} in frame {}, {} the limit {}{}", limit.metric.name,
+                        valueText(limit.metric, limit.metric.value(worst.difference)), worst.frame,
+                        limit.metric.largeIsGood ? "below" : "above", limit.value,
                         count > 1 ? fmt::format(" ({} of {} frames break it)", count, errors.size()) : ""));
     }
     if (!broken.empty()) {
@@ -211,7 +212,9 @@ void compareSequences(const CompareCommand& command, const PicturePair& names, c
     if (command.json) {
         printJson(command, names[0].kind, {worstMap.width, worstMap.height}, errors);
     } else {
-        printTable(errors);
+        printTable(errors, metrics());
+        fmt::print("\n");
+        printTable(errors, octaveMetrics());
     }
     checkLimits(limits, errors);
 }

@@ -70,7 +70,6 @@ Planes3 linearPlanes(const FloatImage& image, ImageKind kind) {
 // Sums in double and in the order of the pixels.
 Difference differenceOf(const FloatImage& image, const FloatImage& reference, const Plane& flip,
                         const CompareOptions& options) {
-    constexpr double darkness = 0.01;  // limits the relative error of dark pixels
     Difference d;
     double squares = 0.0;
     double sumA = 0.0;
@@ -87,7 +86,7 @@ Difference differenceOf(const FloatImage& image, const FloatImage& reference, co
             const double b = reference.data[value];
             const double error = std::abs(image.data[value] - b);
             squares += error * error;
-            d.relativeMse += error * error / (b * b + darkness);
+            d.relativeMse += error * error / (b * b + relativeErrorFloor);
             d.mean += error;
             sumA += image.data[value];
             sumB += b;
@@ -140,7 +139,10 @@ Comparison compareImages(const FloatImage& image, const FloatImage& reference, c
     const auto flipOf = options.kind == ImageKind::display ? ldrFlip : hdrFlip;
     Plane flip =
         flipOf(linearPlanes(image, options.kind), linearPlanes(reference, options.kind), options.pixelsPerDegree);
-    const Difference difference = differenceOf(image, reference, flip, options);
+    Difference difference = differenceOf(image, reference, flip, options);
+    if (options.octaves) {
+        difference.octaves = errorByOctave(image, reference, options.mask);
+    }
     return {difference, {flip.width, flip.height, {"Y"}, std::move(flip.data)}};
 }
 
@@ -158,6 +160,21 @@ std::span<const Metric> metrics() {
         {"bias", "", "mean of a / mean of b - 1: above 0 too bright, below 0 too dark", false,
          [](const Difference& d) { return d.bias; }},
         {"max", "", "largest |a - b| of any pixel and channel", false, [](const Difference& d) { return d.max; }},
+    }};
+    return all;
+}
+
+std::span<const Metric> octaveMetrics() {
+    static constexpr std::array<Metric, octaveCount> all{{
+        {"octave_2_4", "", "relative_mse in the octave of wavelengths of 2 to 4 pixels: noise from pixel to pixel",
+         false, [](const Difference& d) { return d.octaves[0]; }},
+        {"octave_4_8", "", "4 to 8 pixels", false, [](const Difference& d) { return d.octaves[1]; }},
+        {"octave_8_16", "", "8 to 16 pixels: mottling, as of denoised noise", false,
+         [](const Difference& d) { return d.octaves[2]; }},
+        {"octave_16_32", "", "16 to 32 pixels", false, [](const Difference& d) { return d.octaves[3]; }},
+        {"octave_32_64", "", "32 to 64 pixels", false, [](const Difference& d) { return d.octaves[4]; }},
+        {"octave_64_up", "", "64 pixels and more, with the mean; all octaves sum to relative_mse", false,
+         [](const Difference& d) { return d.octaves[5]; }},
     }};
     return all;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/image_file.h"
+#include "compare/octaves.h"
 
 #include <cstdint>
 #include <span>
@@ -22,6 +23,7 @@ struct CompareOptions {
     std::vector<bool> mask;                       ///< pixels to compare; empty: all
     std::string imageName = "the image";          ///< for messages
     std::string referenceName = "the reference";  ///< for messages
+    bool octaves = false;                         ///< whether to fill Difference::octaves
 };
 
 struct Difference {
@@ -29,11 +31,12 @@ struct Difference {
     /// 10 log10(peak² / mean of (a - b)²) [dB], infinite for identical images. The peak is 1 for display images, the
     /// largest |b| for linear ones (1 if the reference is all 0).
     double psnr = 0.0;
-    double flip = 0.0;    ///< mean FLIP, 0 (identical) to 1
-    double mean = 0.0;    ///< mean over pixels and channels of |a - b|
-    double bias = 0.0;    ///< mean of a / mean of b - 1: above 0 too bright; 0 if both means are 0
-    double max = 0.0;     ///< largest |a - b|
-    uint64_t pixels = 0;  ///< number of pixels compared
+    double flip = 0.0;       ///< mean FLIP, 0 (identical) to 1
+    double mean = 0.0;       ///< mean over pixels and channels of |a - b|
+    double bias = 0.0;       ///< mean of a / mean of b - 1: above 0 too bright; 0 if both means are 0
+    double max = 0.0;        ///< largest |a - b|
+    uint64_t pixels = 0;     ///< number of pixels compared
+    OctaveErrors octaves{};  ///< parts of relativeMse; 0 unless CompareOptions::octaves
 };
 
 struct Comparison {
@@ -61,5 +64,8 @@ struct Metric {
 
 /// relative_mse, psnr, flip, mean, bias, max.
 std::span<const Metric> metrics();
+
+/// octave_2_4, octave_4_8, ..., octave_64_up: those of Difference::octaves.
+std::span<const Metric> octaveMetrics();
 
 }  // namespace reflet

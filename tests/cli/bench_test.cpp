@@ -207,6 +207,62 @@ TEST_F(BenchTest, MovingFramesAreEachComparedWithAReference) {
     EXPECT_TRUE(refused(bench({"--rest", "3"}), 2, {"--rest", "--motion"}));
 }
 
+double sumOfOctaves(const nlohmann::json& json) {
+    double sum = 0.0;
+    for (const char* octave :
+         {"octave_2_4", "octave_4_8", "octave_8_16", "octave_16_32", "octave_32_64", "octave_64_up"}) {
+        EXPECT_GE(json.at(octave), 0.0) << octave;
+        sum += json.at(octave).get<double>();
+    }
+    return sum;
+}
+
+// Over 5 s: its processes each have their shaders compiled by the driver.
+TEST_F(BenchTest, ErrorsOfAStillViewAreThereByFrameAndOctave) {
+    const Outcome outcome = bench({"--preset", "fast", "--convergence", "5,1,2,5", "--plot", "p.svg", "--markdown"});
+    ASSERT_TRUE(quietSuccess(outcome));
+    const nlohmann::json run = numbers()["runs"][0];
+    const nlohmann::json& errors = run.at("convergence");
+    ASSERT_EQ(errors.size(), 3U);
+    const std::vector<uint32_t> frames{1, 2, 5};
+    for (size_t i = 0; i < frames.size(); ++i) {
+        EXPECT_EQ(errors[i].at("frame"), frames[i]);
+        const double total = errors[i].at("relative_mse");
+        EXPECT_NEAR(sumOfOctaves(errors[i]), total, 1e-5 * total);
+        EXPECT_GT(errors[i].at("flip"), 0.0);
+        EXPECT_GT(errors[i].at("displayed_flip"), 0.0);
+        EXPECT_NE(outcome.out.find(fmt::format("| fast | 32x18 | {} |", frames[i])), std::string::npos) << outcome.out;
+    }
+    // Frame 1 is the first state; frame 5 follows one frame of warm-up and three measured ones. That frames before it
+    // are compared changes nothing.
+    const auto error = [](const nlohmann::json& of) { return of.at("relative_mse").get<double>(); };
+    EXPECT_NEAR(error(errors[0]), error(run["first"]["error"]), 1e-4 * error(errors[0]));
+    EXPECT_NEAR(error(errors[2]), error(run["steady"]["error"]), 1e-4 * error(errors[2]));
+    EXPECT_NE(read("p.svg").find("class=\"line\""), std::string::npos);
+    EXPECT_NE(read("p.svg").find(">frame</text>"), std::string::npos);
+    EXPECT_TRUE(refused(bench({"--convergence", "3", "--truth", "none"}), 2, {"--convergence", "--truth"}));
+    EXPECT_TRUE(refused(bench({"--octaves", "--truth", "none"}), 2, {"--octaves", "--truth"}));
+    EXPECT_TRUE(refused(bench({"--octaves", "--against", REFLET_PROGRAM}), 2, {"--octaves", "--against"}));
+    EXPECT_TRUE(refused(bench({"--convergence", "0"}), 2, {"--convergence"}));
+}
+
+// Over 5 s: its processes each have their shaders compiled by the driver.
+TEST_F(BenchTest, OctavesAreThoseOfFourFramesAtRestAndOfFramesInMotion) {
+    const Outcome outcome = bench({"--preset", "direct", "--octaves", "--motion", "2", "--orbit", "10", "--markdown"});
+    ASSERT_TRUE(quietSuccess(outcome));
+    const nlohmann::json run = numbers()["runs"][0];
+    std::vector<uint32_t> frames;
+    for (const nlohmann::json& error : run.at("convergence")) {
+        frames.push_back(error.at("frame"));
+    }
+    EXPECT_EQ(frames, (std::vector<uint32_t>{1, 8, 32, 128}));
+    const nlohmann::json& motion = run.at("motion");
+    ASSERT_EQ(motion.at("relative_mse").size(), 2U);
+    const double mean = (motion["relative_mse"][0].get<double>() + motion["relative_mse"][1].get<double>()) / 2.0;
+    EXPECT_NEAR(sumOfOctaves(motion.at("octaves")), mean, 1e-5 * mean);
+    EXPECT_NE(outcome.out.find("| direct | 32x18 | in motion |"), std::string::npos) << outcome.out;
+}
+
 // Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(BenchTest, AnotherBuildTakesTurnsWithThisOne) {
     ASSERT_TRUE(quietSuccess(

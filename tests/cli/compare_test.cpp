@@ -3,6 +3,7 @@
 
 #include "base/image_file.h"
 #include "base/json_text.h"
+#include "base/math.h"
 
 #include <nlohmann/json.hpp>
 
@@ -63,7 +64,9 @@ TEST_F(Compare, HelpNamesAndDefinesEveryMetric) {
          {"relative_mse  mean over pixels and channels of (a - b)² / (b² + 0.01)",
           "psnr          10 log10(peak² / mean of (a - b)²)", "flip          mean over pixels of FLIP",
           "mean          mean over pixels and channels of |a - b|", "max           largest |a - b|",
-          "pixels        number of pixels compared", "alpha is ignored", "psnr: below X"}) {
+          "octave_2_4    relative_mse in the octave of wavelengths of 2 to 4 pixels",
+          "octave_64_up  64 pixels and more, with the mean", "pixels        number of pixels compared",
+          "alpha is ignored", "psnr: below X"}) {
         EXPECT_NE(help.out.find(words), std::string::npos) << words;
     }
 }
@@ -73,8 +76,10 @@ TEST_F(Compare, ARenderedPictureIsEqualToItselfInEveryMetric) {
     for (const char* file : {"a.exr", "a.png"}) {
         const Outcome done = compare({file, file});
         ASSERT_TRUE(quietSuccess(done));
-        EXPECT_EQ(firstWords(done.out),
-                  (std::vector<std::string>{"relative_mse", "psnr", "flip", "mean", "bias", "max", "pixels"}));
+        EXPECT_EQ(
+            firstWords(done.out),
+            (std::vector<std::string>{"relative_mse", "psnr", "flip", "mean", "bias", "max", "octave_2_4", "octave_4_8",
+                                      "octave_8_16", "octave_16_32", "octave_32_64", "octave_64_up", "pixels"}));
         EXPECT_NE(done.out.find("flip          0\n"), std::string::npos) << done.out;
         EXPECT_NE(done.out.find("psnr          inf dB\n"), std::string::npos) << done.out;
         EXPECT_NE(done.out.find("pixels        576 of 576\n"), std::string::npos) << done.out;
@@ -96,6 +101,30 @@ TEST_F(Compare, JsonHoldsTheMetricsAndWhatWasCompared) {
     EXPECT_NEAR(all["max"].get<double>(), 0.5, 1e-9);
     EXPECT_GT(all["flip"].get<double>(), 0.05);
     EXPECT_TRUE(json({"a.exr", "a.exr"})["psnr"].is_null());
+}
+
+TEST_F(Compare, TheErrorIsSplitByOctaves) {
+    writeLayers("reference.exr", {{"", rgb(0.0F)}});
+    writeLayers("constant.exr", {{"", rgb(0.1F)}});
+    FloatImage stripes = rgb(0.1F);  // of a wavelength of 2.7 pixels
+    for (size_t i = 0; i < stripes.data.size(); ++i) {
+        const double x = static_cast<double>(i / 3 % width) + 0.5;
+        stripes.data[i] *= static_cast<float>(std::sqrt(2.0) * std::cos(2.0 * pi * x * 6.0 / 16.0));
+    }
+    writeLayers("stripes.exr", {{"", stripes}});
+    for (const auto& [file, octave] :
+         {std::pair("constant.exr", "octave_64_up"), std::pair("stripes.exr", "octave_2_4")}) {
+        const nlohmann::json all = json({file, "reference.exr"});
+        EXPECT_NEAR(all["relative_mse"].get<double>(), 1.0, 1e-5) << file;
+        for (const char* name :
+             {"octave_2_4", "octave_4_8", "octave_8_16", "octave_16_32", "octave_32_64", "octave_64_up"}) {
+            EXPECT_NEAR(all[name].get<double>(), std::string_view(name) == octave ? 1.0 : 0.0, 1e-3) << file << name;
+        }
+    }
+    EXPECT_TRUE(quietSuccess(compare({"constant.exr", "reference.exr", "--fail-above", "octave_2_4=1e-6"})));
+    const Outcome above = compare({"stripes.exr", "reference.exr", "--fail-above", "octave_2_4=1e-6"});
+    EXPECT_EQ(above.status, 1);
+    EXPECT_NE(above.err.find(", above the limit 1e-06\n"), std::string::npos) << above.err;
 }
 
 TEST_F(Compare, DisplayPicturesCountAsTheyAreInTheFile) {
@@ -231,7 +260,7 @@ TEST_F(Compare, FailAboveExitsWithOneAndNamesMetricValueAndLimit) {
     const Outcome mean = compare({"--fail-above", "mean=0.4", "a.exr", "b.exr"});
     EXPECT_EQ(mean.status, 1);
     EXPECT_EQ(mean.err, "reflet: mean is 0.5, above the limit 0.4\n");
-    EXPECT_EQ(firstWords(mean.out).size(), 7U);
+    EXPECT_EQ(firstWords(mean.out).size(), 13U);
     const Outcome both = compare({"a.exr", "b.exr", "--fail-above", "psnr=6.1", "--fail-above=max=0"});
     EXPECT_EQ(both.status, 1);
     EXPECT_EQ(both.err, "reflet: psnr is 6.0206 dB, below the limit 6.1; max is 0.5, above the limit 0\n");

@@ -5,6 +5,7 @@
 #include "measure/report/plot_labels.h"
 #include "measure/report/xml_text.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -135,6 +136,25 @@ TEST(ScatterPlot, PutsNoErrorAtTheFloorUnderAllOthers) {
     const std::string zeros = scatterPlot(plotOf({{"a", "s", 1.0, 0.0}, {"b", "s", 2.0, 0.0}}));
     expectSound(zeros);
     EXPECT_EQ(markersOf(zeros)[0].y, markersOf(zeros)[1].y);
+}
+
+TEST(ScatterPlot, JoinsPointsInTheirOrder) {
+    ScatterPlot plot =
+        plotOf({{"", "a", 32.0, 0.1}, {"", "a", 128.0, 0.02}, {"a", "a", 2048.0, 0.03}, {"", "b", 32.0, 0.3}});
+    plot.joined = true;
+    const std::string svg = scatterPlot(plot);
+    expectSound(svg);
+    const auto markers = markersOf(svg);
+    ASSERT_EQ(markers.size(), 4U);
+    EXPECT_EQ(count(svg, "class=\"line\""), 1U);  // one point alone has no line
+    EXPECT_NE(svg.find(fmt::format("class=\"line\" d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}\"", markers[0].x,
+                                   markers[0].y, markers[1].x, markers[1].y, markers[2].x, markers[2].y)),
+              std::string::npos)
+        << svg;
+    EXPECT_EQ(count(svg, "class=\"label\""), 1U);
+    EXPECT_NE(svg.find("<title>a: ms per frame 128, relative MSE 0.02</title>"), std::string::npos) << svg;
+    EXPECT_NE(svg.find("a: (32, 0.1); (128, 0.02); (2048, 0.03)"), std::string::npos);
+    EXPECT_EQ(svg.find("Pareto"), std::string::npos);
 }
 
 TEST(ScatterPlot, DrawsTheFrontThroughWhatIsNotBeaten) {

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 
 namespace reflet {
 
@@ -154,6 +156,52 @@ Section motionSection(const BenchResult& result) {
             std::move(table)};
 }
 
+std::vector<TextTable::Column> octaveColumns() {
+    std::vector<TextTable::Column> columns{{"scene"}, {"variant"}, {"size"}};
+    for (const char* name :
+         {"frame", "rel. MSE", "FLIP", "shown", "2–4 pixels", "4–8", "8–16", "16–32", "32–64", "64–"}) {
+        columns.push_back({name, isNumber});
+    }
+    return columns;
+}
+
+// Errors of octaves span several orders of magnitude.
+std::string powerText(double error) {
+    return fmt::format("{:.2e}", error);
+}
+
+double meanOf(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+void addOctaveRow(TextTable& table, const BenchRun& run, const std::string& frame, std::array<double, 3> errors,
+                  const OctaveErrors& octaves) {
+    TextTable::Row row{run.scene,           run.variant,        sizeText(run.size), frame, powerText(errors[0]),
+                       flipText(errors[1]), flipText(errors[2])};
+    std::ranges::transform(octaves, std::back_inserter(row), powerText);
+    table.rows.push_back(std::move(row));
+}
+
+Section octaveSection(const BenchResult& result) {
+    TextTable table{octaveColumns(), {}};
+    for (const BenchRun& run : result.runs) {
+        for (const StillError& error : run.still) {
+            const Difference& d = error.difference;
+            addOctaveRow(table, run, std::to_string(error.frame), {d.relativeMse, d.flip, error.displayedFlip},
+                         d.octaves);
+        }
+        if (run.motion) {
+            const MotionResult& m = *run.motion;
+            addOctaveRow(table, run, "in motion", {meanOf(m.relativeMse), meanOf(m.flip), meanOf(m.displayedFlip)},
+                         m.octaves);
+        }
+    }
+    return {"Error over frames and by octave",
+            {"Frames of a still view, frame 1 without history; in motion: means over frames. Octaves: parts of the "
+             "relative MSE by wavelength; they sum to it."},
+            std::move(table)};
+}
+
 Section restSection(const BenchResult& result) {
     constexpr size_t shown[] = {1, 2, 4, 8, 16};
     TextTable table{{{"scene"}, {"variant"}, {"size"}}, {}};
@@ -232,6 +280,9 @@ std::vector<Section> benchDocument(const BenchHead& head, const BenchPlan& plan,
     }
     if (const auto scaling = scalingOf(result); !scaling.empty()) {
         document.push_back(scalingSection(scaling));
+    }
+    if (!plan.stillFrames.empty() || plan.motion.frames > 0) {
+        document.push_back(octaveSection(result));
     }
     if (plan.motion.frames > 0) {
         document.push_back(motionSection(result));

@@ -65,9 +65,31 @@ Json stateJson(const BenchState& state, double bandwidth) {
     return json;
 }
 
+void addOctaves(Json& json, const Difference& difference) {
+    for (const Metric& metric : octaveMetrics()) {
+        json[std::string(metric.name)] = metric.value(difference);
+    }
+}
+
+Json stillJson(const std::vector<StillError>& errors) {
+    Json frames = Json::array();
+    for (const StillError& error : errors) {
+        Json frame = {{"frame", error.frame}};
+        frame.update(errorJson(error.difference));
+        addOctaves(frame, error.difference);
+        frame["displayed_flip"] = error.displayedFlip;
+        frames.push_back(std::move(frame));
+    }
+    return frames;
+}
+
 Json motionJson(const MotionResult& motion) {
+    Json octaves = Json::object();
+    addOctaves(octaves, {.octaves = motion.octaves});
     return {{"flip", motion.flip},
             {"displayed_flip", motion.displayedFlip},
+            {"relative_mse", motion.relativeMse},
+            {"octaves", octaves},
             {"flicker", motion.flicker},
             {"truth_flicker", motion.truthFlicker},
             {"rest", motion.rest}};
@@ -79,6 +101,7 @@ Json runJson(const BenchRun& run, double bandwidth) {
     json["truth"] = run.truthFile.empty()
                         ? Json()
                         : Json{{"file", run.truthFile}, {"samples", run.truthSamples}, {"noise", run.truthNoise}};
+    json["convergence"] = stillJson(run.still);
     json["motion"] = run.motion ? motionJson(*run.motion) : Json();
     json["first"] = stateJson(run.first, bandwidth);
     json["steady"] = stateJson(run.steady, bandwidth);
@@ -135,6 +158,30 @@ Json truthJson(const TruthOptions& truth) {
             {"bounces", r.bounces == ReferenceOptions::unlimited ? Json() : Json(r.bounces)},
             {"visible_only", r.visibleOnly},
             {"spp", r.samples}};
+}
+
+std::string convergencePlot(const BenchPlan& plan, const BenchResult& result) {
+    ScatterPlot plot;
+    plot.title = "A still view: error over frames, down to the bias";
+    plot.xLabel = "frame";
+    plot.yLabel = fmt::format("relative MSE of {}", plan.layer);
+    plot.joined = true;
+    for (const BenchRun& run : result.runs) {
+        std::string series = run.variant;
+        if (plan.scenes.size() > 1) {
+            series = fmt::format("{}, {}", run.scene, series);
+        }
+        if (plan.sizes.size() > 1) {
+            series += fmt::format(", {}x{}", run.size.x, run.size.y);
+        }
+        for (const StillError& error : run.still) {
+            plot.points.push_back({"", series, double(error.frame), error.difference.relativeMse});
+        }
+        if (!run.still.empty()) {
+            plot.points.back().label = run.variant;
+        }
+    }
+    return scatterPlot(plot);
 }
 
 }  // namespace
@@ -198,6 +245,9 @@ std::string benchJson(const BenchHead& head, const BenchPlan& plan, const BenchR
 }
 
 std::string benchPlot(const BenchPlan& plan, const BenchResult& result) {
+    if (plan.plotsConvergence) {
+        return convergencePlot(plan, result);
+    }
     ScatterPlot plot;
     plot.title = "Steady state: left is faster, down is closer to the reference";
     plot.xLabel = "milliseconds per frame, from submission to fence";

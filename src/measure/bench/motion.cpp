@@ -170,8 +170,13 @@ MotionResult measureMotion(gpu::Device& device, const BenchScene& scene, uvec2 s
         now.view = viewInMotion(scene.view, plan, i + 1);
         const Truth own = getTruth(device, now, size, settings, truth);
         const FloatImage& picture = own.layers.at("final");
-        const CompareOptions options;
-        result.flip.push_back(compareImages(frames[i].picture, picture, options).difference.flip);
+        CompareOptions options;
+        options.octaves = true;
+        const Difference difference = compareImages(frames[i].picture, picture, options).difference;
+        result.flip.push_back(difference.flip);
+        result.relativeMse.push_back(difference.relativeMse);
+        std::ranges::transform(result.octaves, difference.octaves, result.octaves.begin(),
+                               [&](double mean, double value) { return mean + value / plan.frames; });
         result.displayedFlip.push_back(displayedFlip(frames[i].picture, picture, frames[i].depth, settings.tonemap,
                                                      scene.scene, options.pixelsPerDegree));
         if (i > 0) {

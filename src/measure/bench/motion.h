@@ -2,6 +2,7 @@
 // reference, and how fast reflections converge when everything stops.
 #pragma once
 
+#include "compare/octaves.h"
 #include "measure/bench/subject.h"
 #include "measure/bench/truth.h"
 
@@ -21,6 +22,8 @@ struct MotionPlan {
 struct MotionResult {
     std::vector<double> flip;           ///< of every frame against its own reference, mean over the image
     std::vector<double> displayedFlip;  ///< the same by displayedFlip()
+    std::vector<double> relativeMse;    ///< of every frame
+    OctaveErrors octaves{};             ///< parts of relativeMse, mean over frames
     /// Mean over pixels and channels of |frame - previous frame reprojected by the motion vectors|, mean over frames.
     double flicker = 0.0;
     double truthFlicker = 0.0;  ///< the same for the references

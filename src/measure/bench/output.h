@@ -21,10 +21,11 @@ struct BenchHead {
 /// The keys are described in docs/bench.md.
 std::string benchJson(const BenchHead& head, const BenchPlan& plan, const BenchResult& result);
 
-/// Tables: frames; comparisons; cost per pixel, if there are several sizes; passes.
+/// Tables: frames; comparisons; cost per pixel, if there are several sizes; error over frames and by octave; passes.
 std::vector<Section> benchDocument(const BenchHead& head, const BenchPlan& plan, const BenchResult& result);
 
 /// An SVG: relative MSE against milliseconds from submission to fence, steady state; a series for each scene and size.
+/// With BenchPlan::plotsConvergence: relative MSE over frames of a still view, a line for each run.
 std::string benchPlot(const BenchPlan& plan, const BenchResult& result);
 
 /// Times per pixel of one scene and variant at several sizes.

@@ -136,6 +136,8 @@ std::vector<BenchRun> Turns::measure(gpu::Device& device) {
         run.truthFile = truth.file;
         run.truthNoise = truth.noise;
         run.truthSamples = truth.samples;
+        run.still = measureConvergence(device, scene_, size_, variants_[v]->settings, truth,
+                                       {plan_.stillFrames, plan_.layer, plan_.pixelsPerDegree});
         if (plan_.motion.frames > 0) {
             MotionPlan motion = plan_.motion;
             motion.warmup = plan_.warmup;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "compare/compare.h"
+#include "measure/bench/convergence.h"
 #include "measure/bench/motion.h"
 #include "measure/bench/samples.h"
 #include "measure/bench/subject.h"
@@ -28,6 +29,8 @@ struct BenchPlan {
     MotionPlan motion;            ///< its warmup equals that of the plan
     std::string layer = "final";  ///< whose error is measured
     float pixelsPerDegree = 67.0F;
+    std::vector<uint32_t> stillFrames;  ///< as in ConvergencePlan; empty: not measured
+    bool plotsConvergence = false;      ///< whether the plot is that of the error over these frames
 };
 
 /// Measurements of one state: without history, or with that of earlier frames.
@@ -45,7 +48,8 @@ struct BenchRun {
     uint64_t triangles = 0;
     uint64_t memory = 0;  ///< bytes of device memory: scene, frame and history
     BenchState first;
-    BenchState steady;  ///< the error is that of frame warmup + frames + 1
+    BenchState steady;              ///< the error is that of frame warmup + frames + 1
+    std::vector<StillError> still;  ///< of the plan's stillFrames
     std::optional<MotionResult> motion;
     std::string truthFile;
     double truthNoise = 0.0;

@@ -1,4 +1,5 @@
-// Draws the scatter plot: header, axes, fronts, markers, labels. Units are those of the viewBox, about a pixel.
+// Draws the scatter plot: header, axes, fronts or lines, markers, labels. Units are those of the viewBox, about a
+// pixel.
 #include "measure/report/plot.h"
 
 #include "measure/report/plot_axis.h"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <string_view>
 
@@ -47,6 +49,13 @@ std::string labelOf(std::string_view text) {
     return shortened(text, 26);
 }
 
+/// Counts, such as frames, in full.
+std::string xText(double value) {
+    constexpr double largestCount = 1e6;
+    return value <= largestCount && value == std::floor(value) ? fmt::format("{:.0f}", value)
+                                                               : fmt::format("{:.3g}", value);
+}
+
 class Drawing {
 public:
     explicit Drawing(const ScatterPlot& plot);
@@ -62,6 +71,7 @@ private:
     [[nodiscard]] std::string valuesText(const ScatterPoint& point) const;
     void addHeader();
     void addAxes();
+    void addJoints();
     void addFronts();
     void addPoint(size_t index, size_t series, const LabelPlace& place);
     void addPoints();
@@ -75,7 +85,7 @@ private:
     LogAxis x_{{}, 0.0, 1.0};
     LogAxis y_{{}, 0.0, 1.0};
     std::vector<vec2> positions_;
-    std::vector<PlotSegment> fronts_;
+    std::vector<PlotSegment> lines_;
     std::string svg_;
 };
 
@@ -119,20 +129,30 @@ float Drawing::layoutLegend(const std::vector<PlotSeries>& series, float top, st
 }
 
 std::string Drawing::valuesText(const ScatterPoint& point) const {
-    return fmt::format("{}: {} {:.3g}, {} {:.3g}",
-                       series_.size() > 1 ? fmt::format("{}, {}", point.label, point.series) : point.label,
-                       plot_.xLabel, point.x, plot_.yLabel, point.y);
+    std::string name = series_.size() > 1 || point.label.empty() ? point.series : point.label;
+    if (series_.size() > 1 && !point.label.empty()) {
+        name = fmt::format("{}, {}", point.label, point.series);
+    }
+    return fmt::format("{}: {} {}, {} {:.3g}", name, plot_.xLabel, xText(point.x), plot_.yLabel, point.y);
 }
 
 /// Text alternative for screen readers.
 std::string Drawing::description() const {
-    std::string text = fmt::format("Scatter plot with logarithmic axes: {} across, {} up; less is better. {} point{}",
-                                   plot_.xLabel, plot_.yLabel, points_.size(), points_.size() == 1 ? "" : "s");
+    std::string text = fmt::format("{} with logarithmic axes: {} across, {} up; less is better. {} point{}",
+                                   plot_.joined ? "Line plot" : "Scatter plot", plot_.xLabel, plot_.yLabel,
+                                   points_.size(), points_.size() == 1 ? "" : "s");
     if (points_.size() < plot_.points.size()) {
         text += fmt::format(" ({} more have no value that can be drawn)", plot_.points.size() - points_.size());
     }
     for (const PlotSeries& series : series_) {
         std::vector<std::string> members;
+        if (plot_.joined) {
+            for (const size_t i : series.points) {
+                members.push_back(fmt::format("({}, {:.3g})", xText(points_[i].x), points_[i].y));
+            }
+            text += fmt::format(". {}: {}", series.name, fmt::join(members, "; "));
+            continue;
+        }
         for (const size_t i : frontOf(series, points_)) {
             members.push_back(fmt::format("{} ({:.3g}, {:.3g})", points_[i].label, points_[i].x, points_[i].y));
         }
@@ -194,6 +214,21 @@ void Drawing::addAxes() {
         area_.left, bend, area_.bottom);
 }
 
+void Drawing::addJoints() {
+    for (size_t s = 0; s < series_.size(); ++s) {
+        const std::vector<size_t>& points = series_[s].points;
+        std::string path = fmt::format("M{:.1f} {:.1f}", positions_[points[0]].x, positions_[points[0]].y);
+        for (size_t i = 1; i < points.size(); ++i) {
+            path += fmt::format("L{:.1f} {:.1f}", positions_[points[i]].x, positions_[points[i]].y);
+            lines_.push_back({positions_[points[i - 1]], positions_[points[i]]});
+        }
+        if (points.size() > 1) {
+            add("<path class=\"line\" d=\"{}\" stroke=\"{}\" stroke-opacity=\"0.75\" fill=\"none\"/>\n", path,
+                colors.at(s % colors.size()));
+        }
+    }
+}
+
 void Drawing::addFronts() {
     for (size_t s = 0; s < series_.size(); ++s) {
         const std::vector<size_t> front = frontOf(series_[s], points_);
@@ -202,8 +237,8 @@ void Drawing::addFronts() {
             const vec2 from = positions_[front[i - 1]];
             const vec2 to = positions_[front[i]];
             path += fmt::format("H{:.1f}V{:.1f}", to.x, to.y);
-            fronts_.push_back({from, {to.x, from.y}});
-            fronts_.push_back({{to.x, from.y}, to});
+            lines_.push_back({from, {to.x, from.y}});
+            lines_.push_back({{to.x, from.y}, to});
         }
         if (front.size() > 1) {
             add("<path d=\"{}\" stroke=\"{}\" stroke-opacity=\"0.75\" fill=\"none\"/>\n", path,
@@ -216,16 +251,21 @@ void Drawing::addPoint(size_t index, size_t series, const LabelPlace& place) {
     const std::string_view color = colors.at(series % colors.size());
     const PlotBox& box = place.box;
     add("<g><title>{}</title>", xmlText(valuesText(points_[index])));
-    if (place.leader) {
+    const bool labelled = !points_[index].label.empty();
+    if (labelled && place.leader) {
         add("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"currentColor\" stroke-opacity=\"0.5\" "
             "stroke-width=\"0.8\"/>",
             place.leader->from.x, place.leader->from.y, place.leader->to.x, place.leader->to.y);
     }
     add("<path class=\"marker\" d=\"{}\" transform=\"translate({:.1f},{:.1f})\" fill=\"{}\"/>",
         shapes.at(series % shapes.size()), positions_[index].x, positions_[index].y, color);
-    const char* anchor = place.align == 0.0F ? "start" : place.align == 1.0F ? "end" : "middle";
-    add("<text class=\"label\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text></g>\n",
-        glm::mix(box.left, box.right, place.align), box.bottom - 3.0F, anchor, xmlText(labelOf(points_[index].label)));
+    if (labelled) {
+        const char* anchor = place.align == 0.0F ? "start" : place.align == 1.0F ? "end" : "middle";
+        add("<text class=\"label\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>",
+            glm::mix(box.left, box.right, place.align), box.bottom - 3.0F, anchor,
+            xmlText(labelOf(points_[index].label)));
+    }
+    add("</g>\n");
 }
 
 void Drawing::addPoints() {
@@ -235,7 +275,7 @@ void Drawing::addPoints() {
     }
     PlotBox area = area_;
     area.left += 4.0F;
-    const std::vector<LabelPlace> places = placeLabels(requests, markerRadius, area, fronts_);
+    const std::vector<LabelPlace> places = placeLabels(requests, markerRadius, area, lines_);
     for (size_t s = 0; s < series_.size(); ++s) {
         for (const size_t index : series_[s].points) {
             addPoint(index, s, places[index]);
@@ -257,7 +297,11 @@ std::string Drawing::draw() {
         xmlText(description()));
     addHeader();
     addAxes();
-    addFronts();
+    if (plot_.joined) {
+        addJoints();
+    } else {
+        addFronts();
+    }
     addPoints();
     return svg_ + "</svg>\n";
 }
