@@ -10,6 +10,7 @@
 #include "cli/sequence_arguments.h"
 #include "device/device.h"
 #include "job/sequence.h"
+#include "job/still.h"
 #include "renderer/history.h"
 #include "renderer/renderer.h"
 
@@ -17,6 +18,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -44,6 +46,14 @@ void checkOutputs(const RenderOptions& options) {
     tryOutputs(outputs, inputFiles(options.scene, {options.sequence.path}));
 }
 
+// Writes the last frame.
+void writePictures(const RenderJob& job) {
+    const ViewParams params = makeViewParams(job.view.camera, job.size, 0, job.options.scene.seed);
+    for (const std::string& file : job.options.outputs) {
+        job.pictures.write(file, job.renderer.frame(), params);
+    }
+}
+
 // Renders the frames of one view and writes the last one.
 void renderOne(const RenderJob& job) {
     const RenderOptions& options = job.options;
@@ -59,10 +69,7 @@ void renderOne(const RenderJob& job) {
         job.timings.add(job.renderer.frame().passTimes());
         progress.advance();
     }
-    const ViewParams params = makeViewParams(job.view.camera, job.size, 0, options.scene.seed);
-    for (const std::string& file : options.outputs) {
-        job.pictures.write(file, job.renderer.frame(), params);
-    }
+    writePictures(job);
 }
 
 void writeTimings(const RenderJob& job) {
@@ -86,16 +93,29 @@ uint32_t framesFor(const RenderOptions& options, const Settings& settings, const
                : framesToSettle(historyUse(settings, scene), settings);
 }
 
+// What stills are lit by, and when they end.
+std::string stillNote(const RenderOptions& options, const Settings& settings) {
+    const bool paths = settings.traceScene.enabled != 0 && settings.traceScene.light == SceneHitLight::path;
+    return fmt::format("a still, {}; {} (frames of a preset: --preset; see reflet render --help)",
+                       paths ? "lit by rays through the scene, with all bounces" : "lit by the screen and probes",
+                       stillLimits(options));
+}
+
 void render(const RenderOptions& asked) {
+    const auto start = std::chrono::steady_clock::now();
     const uvec2 size = parseSize(asked.scene.size);
-    Settings settings = loadSettings(asked.scene);
     RenderOptions options = asked;
+    const bool still = isStill(options);
+    if (still && options.scene.preset.empty()) {
+        options.scene.preset = stillPreset(options);
+    }
+    Settings settings = loadSettings(options.scene);
     Pictures pictures(options.show, options.aovs);
     pictures.prepare(settings);
     checkOutputs(options);
     const bool sequence = isSequence(options.outputs, options.sequence, options.frames);
     const Scene scene = loadScene(options.scene);
-    options.frames = framesFor(asked, settings, scene);
+    options.frames = still ? 0 : framesFor(asked, settings, scene);
     const View view = loadView(options.scene, scene);
 
     gpu::Device device(programDevice(options.device, options.validate));
@@ -106,6 +126,10 @@ void render(const RenderOptions& asked) {
     bool rendered = true;
     if (sequence) {
         rendered = renderSequence(job);
+    } else if (still) {
+        printNote(stillNote(options, settings));
+        renderStill(job, start);
+        writePictures(job);
     } else {
         renderOne(job);
     }
@@ -137,8 +161,17 @@ void addRenderCommand(CLI::App& app) {
     command
         ->add_option("--frames", options->frames,
                      "Frames to render; the last one is written, or, with # in the name, all of them [1; for a single "
-                     "image as many as its histories need to settle]")
+                     "image of a preset as many as its histories need to settle]")
         ->check(CLI::Range(1U, 1000000U));
+    command
+        ->add_option(
+            "--effort", options->effort,
+            "Stills, pictures without --preset or --frames: draft (up to 8 s, by the preset balanced), normal (up to "
+            "30 s) or high (up to 10 minutes); the end comes earlier if little noise is left [normal]")
+        ->type_name("draft|normal|high");
+    command->add_option("--seconds", options->seconds, "Stills: time for the picture, from the start of the program")
+        ->check(CLI::Range(0.1, 1e6))
+        ->type_name("N");
     const auto sequenceOptions = addSequenceOptions(*command, options->sequence, true);
     command->add_option("--show", options->show, "Render target to write (see reflet list shows)")
         ->type_name("NAME")

@@ -14,7 +14,9 @@ namespace reflet {
 void addSceneOptions(CLI::App& command, SceneOptions& options) {
     command.add_option("SCENE", options.scene, "A .gltf or .glb file, or builtin:NAME (see reflet list scenes)")
         ->required();
-    command.add_option("--preset", options.preset, "Preset of settings (see reflet list presets) [balanced]")
+    command
+        .add_option("--preset", options.preset,
+                    "Preset of settings (see reflet list presets) [balanced; stills: see --effort]")
         ->type_name("P");
     command.add_option("--variant", options.variant, "Material variant of the glTF file (see reflet list variants)")
         ->type_name("NAME");

@@ -13,7 +13,9 @@ namespace reflet {
 struct RenderOptions {
     SceneOptions scene;
     std::vector<std::string> outputs;
-    uint32_t frames = 0;  ///< 0: as many as the settings need
+    uint32_t frames = 0;   ///< 0: as many as the settings need
+    std::string effort;    ///< of a still: draft, normal or high; empty: normal
+    double seconds = 0.0;  ///< of a still, at most; 0: the effort's
     SequenceOptions sequence;
     std::string show = "final";
     std::vector<std::string> aovs;

@@ -25,9 +25,9 @@ struct Effort {
 constexpr std::array efforts = {Effort{"draft", "balanced", 8.0, 4.0 / 255.0},
                                 Effort{"normal", "still", 30.0, 1.0 / 255.0},
                                 Effort{"high", "still", 600.0, 0.4 / 255.0}};
-constexpr uint32_t firstCheck = 8;   // frames: before, histories are too short to tell
-constexpr uint32_t fewest = 2;       // frames: those before the last show no light of a second bounce on screen
-constexpr uint32_t most = 4096;      // frames: histories do not grow beyond half of them
+constexpr uint32_t firstCheck = 8;  // frames: before, histories are too short to tell
+constexpr uint32_t fewest = 2;      // frames: those before the last show no light of a second bounce on screen
+constexpr uint32_t most = 4096;     // frames: histories do not grow beyond half of them
 
 const Effort& effortOf(const RenderOptions& options) {
     const std::string_view name = options.effort.empty() ? "normal" : std::string_view(options.effort);
@@ -36,6 +36,10 @@ const Effort& effortOf(const RenderOptions& options) {
         failUsage("--effort {}: must be draft, normal or high", name);
     }
     return *found;
+}
+
+double secondsOf(const RenderOptions& options) {
+    return options.seconds > 0.0 ? options.seconds : effortOf(options).seconds;
 }
 
 // Root mean square difference of two pictures of 8-bit display values, 0 to 1.
@@ -87,9 +91,14 @@ std::string_view stillPreset(const RenderOptions& options) {
     return effortOf(options).preset;
 }
 
+std::string stillLimits(const RenderOptions& options) {
+    const Effort& effort = effortOf(options);
+    return fmt::format("at most {} s, or until its noise is {:.2g}", secondsOf(options), effort.noise);
+}
+
 void renderStill(const RenderJob& job, Clock::time_point start) {
     const Effort& effort = effortOf(job.options);
-    const double limit = job.options.seconds > 0.0 ? job.options.seconds : effort.seconds;
+    const double limit = secondsOf(job.options);
     const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
     Progress progress("rendering", most);
     NoiseMeter meter;

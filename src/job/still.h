@@ -3,6 +3,10 @@
 
 #include "job/sequence.h"
 
+#include <chrono>
+#include <string>
+#include <string_view>
+
 namespace reflet {
 
 /// Whether the options ask for a still: one picture and nothing that is about single frames; or an effort.
@@ -10,6 +14,9 @@ bool isStill(const RenderOptions& options);
 
 /// The preset of a still, if the user names none.
 std::string_view stillPreset(const RenderOptions& options);
+
+/// "at most 30 s, or until the noise is 0.004".
+std::string stillLimits(const RenderOptions& options);
 
 /// Renders frames of the view until the effort's noise or time is reached, and keeps the last one in job.pictures.
 /// The time counts from `start`, with all that was done before the first frame.
