@@ -19,6 +19,7 @@ constexpr const char* benchFooter =
     "with alternating frames. --against runs another build of this program and this one alternately.\n"
     "The bytes of a pass are those of all images and buffers that it binds, each counted once; floor: the time to "
     "transfer them at the measured bandwidth. See docs/bench.md\n"
+    "--motions renders small sequences at 160x90 (--size): errors against those at rest, ghosts, lag, flicker.\n"
     "builtin:tessellated-N is a room of N triangles (100 times a square number: 100, 400, … 1000000).\n"
     "Example: reflet bench builtin:cubes builtin:cave --preset fast,quality --size 640x360 --json bench.json";
 
@@ -51,6 +52,12 @@ void addTimesOptions(CLI::App& command, BenchCommand& options) {
                     "Frames at rest after the motion, whose reflections are compared with their final value; 0: none")
         ->check(CLI::Range(0U, 1000U))
         ->capture_default_str();
+    command
+        .add_option("--motions", options.motions,
+                    "Measure hard motion instead of scenes: cases such as pan-5, rods, lamp-off, or all of them")
+        ->type_name("all|NAME,...")
+        ->allow_extra_args(false)
+        ->delimiter(',');
     command.add_option("--rounds", options.rounds, "With --against: runs of each program")
         ->check(CLI::Range(1U, 1000U))
         ->capture_default_str();
@@ -96,6 +103,9 @@ void addOutputOptions(CLI::App& command, BenchCommand& options) {
     command.add_option("--json", options.json, "Write all numbers")->type_name("F.json");
     command.add_flag("--markdown", options.markdown, "Print the tables as Markdown, for a file");
     command.add_option("--plot", options.plot, "Write a plot of error against time")->type_name("F.svg");
+    command.add_option("--strips", options.strips, "With --motions: a folder for a picture of each case")
+        ->type_name("DIR")
+        ->check(CLI::ExistingDirectory);
     command.add_flag("--validate", options.validate,
                      "Enable the Vulkan validation layers; any message is a failure. Times are meaningless then");
 }
@@ -103,7 +113,7 @@ void addOutputOptions(CLI::App& command, BenchCommand& options) {
 }  // namespace
 
 void addBenchOptions(CLI::App& command, BenchCommand& options) {
-    command.add_option("SCENE", options.scenes, "A .gltf or .glb file, or builtin:NAME; may be several")->required();
+    command.add_option("SCENE", options.scenes, "A .gltf or .glb file, or builtin:NAME; may be several");
     command.add_option("--preset", options.presets, "Presets to measure (see reflet list presets)")
         ->type_name("P,Q,...")
         ->allow_extra_args(false)

@@ -40,6 +40,10 @@ struct BenchCommand {
     float orbit = 30.0F;
     float fps = 24.0F;
     uint32_t restFrames = 0;
+    std::vector<std::string> motions;  ///< names of cases; empty: scenes are measured
+    std::string strips;                ///< folder
+    bool hasSize = false;              ///< --size was given
+    bool hasWarmup = false;            ///< --warmup was given
     std::string device;
     bool validate = false;
     std::string json;
