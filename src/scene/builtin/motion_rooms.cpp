@@ -44,7 +44,7 @@ Lamp roomLamp(const vec3& position) {
     Lamp lamp;
     lamp.name = "lamp";
     lamp.position = position;
-    lamp.intensity = vec3(6.0F, 5.2F, 4.2F);
+    lamp.intensity = vec3(12.0F, 10.4F, 8.4F);
     lamp.radius = 0.05F;
     return lamp;
 }
@@ -100,7 +100,7 @@ Scene makeMotionLamp() {
     Lamp lamp = roomLamp({-1.6F, 1.9F, -0.9F});
     lamp.node = addSlidingNode(scene, lamp.position, {1.6F, 1.9F, -0.9F}, 1.0F);
     scene.lamps.push_back(lamp);
-    scene.cameras.push_back(camera("main", {0.0F, 1.6F, 2.6F}, {0.0F, 0.8F, -1.5F}, 55));
+    scene.cameras.push_back(camera("main", {0.0F, 1.6F, 1.9F}, {0.0F, 0.8F, -1.5F}, 55));
     return scene;
 }
 
@@ -118,7 +118,7 @@ Scene makeMotionLampOff() {
     second.name = "weak lamp";
     second.intensity *= 0.15F;
     scene.lamps.push_back(second);
-    scene.cameras.push_back(camera("main", {0.0F, 1.6F, 2.7F}, {0.0F, 0.9F, -1.5F}, 55));
+    scene.cameras.push_back(camera("main", {0.0F, 1.6F, 1.9F}, {0.0F, 0.9F, -1.5F}, 60));
     return scene;
 }
 

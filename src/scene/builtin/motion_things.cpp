@@ -108,8 +108,8 @@ void addMorphedFigure(Scene& scene, const vec3& center) {
             {.target = Channel::Target::weights, .times = {0.0F, 1.0F}, .values = {}, .weights = {-0.4F, 1.6F}});
 }
 
-Material motionGlass(const char* name, float thickness) {
-    Material m = plain(name, {0xFFFFFF, 0.0F});
+Material motionGlass(const char* name, Hex color, float thickness) {
+    Material m = plain(name, {color, 0.0F});
     m.transmission.factor = 1.0F;
     m.transmission.thickness = thickness;
     m.transmission.attenuationColor = {0.75F, 0.9F, 0.8F};
@@ -188,10 +188,10 @@ Scene makeMotionInstances() {
 
 Scene makeMotionGlass() {
     Scene scene = motionStage("motion-glass");
-    const uint32_t solid = addMaterial(scene, motionGlass("glass", 0.7F));
+    const uint32_t solid = addMaterial(scene, motionGlass("glass", 0xFFFFFF, 0.7F));
     place(scene, "ball", solid, sphere(0.45F, 32));
     scene.instances.back().node = addSlidingNode(scene, {-1.3F, 0.55F, -0.2F}, {1.1F, 0.55F, -0.2F}, 1.0F);
-    const uint32_t sheet = addMaterial(scene, motionGlass("pane", 0.0F));
+    const uint32_t sheet = addMaterial(scene, motionGlass("pane", 0x8FD0B0, 0.0F));
     place(scene, "pane", sheet, uprightPane());
     scene.instances.back().node = addSlidingNode(scene, {1.2F, 1.1F, -0.9F}, {-1.2F, 1.1F, -0.9F}, 1.0F);
     return scene;
