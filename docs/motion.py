@@ -76,11 +76,14 @@ def main():
             own = sorted((run for run in runs if run["variant"] == preset), key=lambda run: run["case"])
             if own:
                 page.write(f"\n## {preset}\n\n{table(own)}\n")
-        page.write("\n## Pictures\n\nFor each case: the reference, then a row for each preset in the order above; the first, fourth and "
-                   "eighth frame in motion, or\nafter the step.\n")
+            missing = sorted({run["case"] for run in runs} - {run["case"] for run in own})
+            if own and missing:
+                page.write(f"\nNot measured yet: {', '.join(missing)}.\n")
+        page.write("\n## Pictures\n\nFor each case: the reference, then a row for each preset that has the case, in the order above; the "
+                   "first and the\neighth frame in motion, or after the step.\n")
         for name in sorted({run["case"] for run in runs}):
             if os.path.exists(f"{PICTURES}/{name}.png"):
-                page.write(f"\n**{name}**\n\n![{name}: the reference and presets in three frames](pictures/motion/{name}.png)\n")
+                page.write(f"\n**{name}**\n\n![{name}: the reference and presets in two frames](pictures/motion/{name}.png)\n")
 
 
 if __name__ == "__main__":

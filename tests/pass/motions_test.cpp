@@ -198,19 +198,18 @@ TEST(Motions, AStripHasARowForTheReferenceAndForEachVariant) {
     plan.variants.resize(2);
     const auto shade = [](uint8_t value) { return Bitmap{4, 2, 3, std::vector<uint8_t>(size_t(4) * 2 * 3, value)}; };
     MotionsResult result;
-    result.truths = {std::vector<Bitmap>(stripFrames.size(), shade(10))};
+    result.truths = {std::vector<Bitmap>(stripFrames.size(), shade(12))};
     result.runs.resize(2);
-    result.runs[0].pictures.assign(stripFrames.size(), shade(20));
-    result.runs[1].pictures = {shade(30), shade(31), shade(32)};
+    result.runs[0].pictures.assign(stripFrames.size(), shade(21));
+    result.runs[1].pictures = {shade(32), shade(36)};
     const Bitmap strip = motionsStrip(plan, result, 0);
-    EXPECT_EQ(strip.width, 12U);
+    EXPECT_EQ(strip.width, 8U);
     EXPECT_EQ(strip.height, 6U);
     const auto at = [&](size_t x, size_t y) { return strip.data[(y * strip.width + x) * 3]; };
-    EXPECT_EQ(at(0, 0), 10);
-    EXPECT_EQ(at(11, 3), 20);
-    EXPECT_EQ(at(0, 4), 30);
-    EXPECT_EQ(at(5, 5), 31);
-    EXPECT_EQ(at(11, 5), 32);
+    EXPECT_EQ(at(0, 0), 12);
+    EXPECT_EQ(at(7, 3), 20);  // 6 bits
+    EXPECT_EQ(at(0, 4), 32);
+    EXPECT_EQ(at(7, 5), 36);
 }
 
 }  // namespace

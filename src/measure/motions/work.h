@@ -31,7 +31,7 @@ constexpr uint32_t settledFrames = 8;
 constexpr uint32_t oldestGhost = 8;
 
 /// Frames after the event that a strip shows.
-constexpr std::array<uint32_t, 3> stripFrames{0, 3, 7};
+constexpr std::array<uint32_t, 2> stripFrames{0, 7};
 
 /// Errors against the reference, one of each frame.
 struct MotionErrors {
