@@ -94,7 +94,7 @@ Settings settingsOfFrame(const RefletView_T& view, const Settings& settings, uin
     const auto height = static_cast<float>(view.size.y);
     const auto outputHeight = static_cast<float>(outputSizeOf(view).y);
     lighting::countRenderedPixels(ofFrame, height, outputHeight);
-    lighting::letHistoriesGrow(ofFrame, rest, height / outputHeight);
+    lighting::fitHistories(ofFrame, {.rest = rest}, height / outputHeight);
     ofFrame.traceScreen.countSteps = 0;  // nobody can look at them
     return ofFrame;
 }

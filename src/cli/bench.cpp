@@ -1,6 +1,7 @@
 // `reflet bench`: measures the cost of frames, pass by pass, and their error against a reference; compares variants.
 #include "base/error.h"
 #include "base/file.h"
+#include "cli/bench_motions.h"
 #include "cli/bench_options.h"
 #include "cli/command_line.h"
 #include "cli/commands.h"
@@ -114,6 +115,9 @@ std::vector<uint32_t> stillFrames(const BenchCommand& command, TruthKind truth) 
 }
 
 BenchPlan makePlan(const BenchCommand& command) {
+    if (command.scenes.empty()) {
+        failUsage("SCENE is missing: name scenes, or cases with --motions");
+    }
     BenchPlan plan;
     plan.sizes = sizesOf(command);
     plan.truth = truthOptions(command);
@@ -206,20 +210,36 @@ void writeResults(const BenchCommand& command, const BenchHead& head, const Benc
     fmt::print("{}", command.markdown ? markdownOf(document) : plainTextOf(document, terminalWidth));
 }
 
-void bench(const BenchCommand& command, const std::string& typed) {
-    BenchPlan plan = makePlan(command);
-    gpu::Device device(programDevice(command.device, command.validate));
+void benchScenes(const BenchCommand& command, const BenchPlan& plan, BenchHead& head, gpu::Device& device) {
     for (const uvec2& size : plan.sizes) {
         requireSize(device, size);
     }
-    BenchHead head{versionText, typed, device.description().name, device.description().driver};
     if (!command.against.empty()) {
-        plan.truth.kind = TruthKind::none;
-        writeResults(command, head, plan, benchAgainst(command, plan));
+        BenchPlan untrue = plan;
+        untrue.truth.kind = TruthKind::none;
+        writeResults(command, head, untrue, benchAgainst(command, untrue));
         return;
     }
     head.bandwidth = command.noBandwidth ? 0.0 : measureBandwidth(device);
     writeResults(command, head, plan, measure(plan, device));
+}
+
+void bench(const BenchCommand& command, const std::string& typed) {
+    std::optional<BenchPlan> scenes;
+    std::optional<MotionsPlan> motions;
+    if (command.motions.empty()) {
+        scenes = makePlan(command);
+    } else {
+        motions = motionsPlan(command, truthOptions(command), variantsOf(command));
+    }
+    gpu::Device device(programDevice(command.device, command.validate));
+    BenchHead head{versionText, typed, device.description().name, device.description().driver};
+    if (motions) {
+        requireSize(device, motions->size);
+        benchMotions(command, *motions, head, device);
+    } else {
+        benchScenes(command, *scenes, head, device);
+    }
     if (command.validate && !device.validationMessages().empty()) {
         fail("the validation layers reported {} messages", device.validationMessages().size());
     }
@@ -231,7 +251,11 @@ void addBenchCommand(CLI::App& app) {
     auto options = std::make_shared<BenchCommand>();
     CLI::App* command = app.add_subcommand("bench", "Measure the cost of frames and their error against a reference");
     addBenchOptions(*command, *options);
-    command->callback([options, command] { bench(*options, commandLine(*command)); });
+    command->callback([options, command] {
+        options->hasSize = command->count("--size") > 0;
+        options->hasWarmup = command->count("--warmup") > 0;
+        bench(*options, commandLine(*command));
+    });
 }
 
 }  // namespace reflet

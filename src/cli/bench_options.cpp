@@ -21,6 +21,7 @@ constexpr const char* benchFooter =
     "transfer them at the measured bandwidth. See docs/bench.md\n"
     "--octaves and --convergence also split the relative MSE by wavelength: noise from pixel to pixel is in the octave "
     "of 2 to 4 pixels, mottling in the middle ones, bias in the coarsest. The parts sum to the relative MSE.\n"
+    "--motions renders small sequences at 160x90 (--size): errors against those at rest, ghosts, lag, flicker.\n"
     "builtin:tessellated-N is a room of N triangles (100 times a square number: 100, 400, … 1000000).\n"
     "Example: reflet bench builtin:cubes builtin:cave --preset fast,quality --size 640x360 --json bench.json";
 
@@ -63,6 +64,12 @@ void addTimesOptions(CLI::App& command, BenchCommand& options) {
         ->allow_extra_args(false)
         ->delimiter(',')
         ->check(CLI::Range(1U, 1000000U));
+    command
+        .add_option("--motions", options.motions,
+                    "Measure hard motion instead of scenes: cases such as pan-5, rods, lamp-off, or all of them")
+        ->type_name("all|NAME,...")
+        ->allow_extra_args(false)
+        ->delimiter(',');
     command.add_option("--rounds", options.rounds, "With --against: runs of each program")
         ->check(CLI::Range(1U, 1000U))
         ->capture_default_str();
@@ -109,6 +116,9 @@ void addOutputOptions(CLI::App& command, BenchCommand& options) {
     command.add_flag("--markdown", options.markdown, "Print the tables as Markdown, for a file");
     command.add_option("--plot", options.plot, "Write a plot of error against time; with --convergence, over frames")
         ->type_name("F.svg");
+    command.add_option("--strips", options.strips, "With --motions: a folder for a picture of each case")
+        ->type_name("DIR")
+        ->check(CLI::ExistingDirectory);
     command.add_flag("--validate", options.validate,
                      "Enable the Vulkan validation layers; any message is a failure. Times are meaningless then");
 }
@@ -116,7 +126,7 @@ void addOutputOptions(CLI::App& command, BenchCommand& options) {
 }  // namespace
 
 void addBenchOptions(CLI::App& command, BenchCommand& options) {
-    command.add_option("SCENE", options.scenes, "A .gltf or .glb file, or builtin:NAME; may be several")->required();
+    command.add_option("SCENE", options.scenes, "A .gltf or .glb file, or builtin:NAME; may be several");
     command.add_option("--preset", options.presets, "Presets to measure (see reflet list presets)")
         ->type_name("P,Q,...")
         ->allow_extra_args(false)

@@ -42,6 +42,10 @@ struct BenchCommand {
     uint32_t restFrames = 0;
     bool octaves = false;
     std::vector<uint32_t> convergence;
+    std::vector<std::string> motions;  ///< names of cases; empty: scenes are measured
+    std::string strips;                ///< folder
+    bool hasSize = false;              ///< --size was given
+    bool hasWarmup = false;            ///< --warmup was given
     std::string device;
     bool validate = false;
     std::string json;

@@ -8,7 +8,7 @@ SHARED_BEGIN
 
 // After so many frames at rest, histories hold nothing of what was before, and are not clipped any more: history clips
 // cut noise, too, and so cost energy.
-const uint settledFrames = 16;
+const uint framesUntilSettled = 16;
 
 // Clip space is Vulkan's with reversed depth: 1 at the near plane, 0 at infinity. uv = 0.5 + 0.5 · ndc.xy.
 struct ViewParams {
@@ -30,7 +30,7 @@ struct ViewParams {
     uint frame;         // counts up; decorrelates the noise of successive frames
     uint seed;          // random seed of the rendering
     uint rest;          // frames before this one since anything changed: camera, lights, surfaces, settings. How
-                        // histories use it: lighting::letHistoriesGrow
+                        // histories use it: lighting::fitHistories
 };
 
 SHARED_END

@@ -40,10 +40,16 @@ bool keepsPenumbras(const ShadowSettings& settings);
 /// that is rendered at another height than its output has (temporal upscaling).
 void countRenderedPixels(LightingSettings& settings, float renderedHeight, float outputHeight);
 
-/// What is at rest converges: its histories grow with `rest`, the frames before this one in which nothing changed
-/// (ViewParams::rest), beyond what settings allow for motion, and are not clipped. Scale: of rendered frames to the
-/// output. Call it once for the settings of a frame.
-void letHistoriesGrow(LightingSettings& settings, uint32_t rest, float scale);
+/// What has changed since the last frame.
+struct Change {
+    uint32_t rest = 0;   ///< frames before this one since anything changed (ViewParams::rest)
+    float light = 0.0F;  ///< the share of the light that has changed, 0 to 1
+};
+
+/// Sets how long histories may be. What is at rest converges: its histories grow beyond what settings allow for motion,
+/// and are not clipped. Where light changes they shrink at once, to what a mean would hold that forgets that share in
+/// each frame. scale: of rendered frames to the output. Call it once for the settings of a frame.
+void fitHistories(LightingSettings& settings, const Change& change, float scale);
 
 }  // namespace lighting
 }  // namespace reflet

@@ -20,7 +20,7 @@ namespace {
 
 Settings settingsOfFrame(const FrameInputs& in, Settings settings) {
     lighting::countRenderedPixels(settings, in.view.size.y, static_cast<float>(in.outputSize.y));
-    lighting::letHistoriesGrow(settings, in.view.rest, in.view.size.y / static_cast<float>(in.outputSize.y));
+    lighting::fitHistories(settings, {in.view.rest, in.lightChange}, in.view.size.y / static_cast<float>(in.outputSize.y));
     return settings;
 }
 

@@ -151,6 +151,7 @@ void Renderer::restart(uint32_t frameNumber) {
     previousPlace_ = vec2(0.0F);
     previousTime_.reset();
     asked_.reset();
+    lightChange_.forget();
     framesBefore_ = 0;
     pose_.reset();
     probes_.restart(!source_.nodes.empty());
@@ -174,6 +175,7 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
     previousPlace_ = place;
     LampBlock lamps = scene_.lamps();
     const LampShadows lampShadows = planLamps(lamps, view, settings.shadow);
+    const float lightChange = lightChange_.update(lamps, view);
     scene_.setTextureFilter({settings.materials.anisotropy, settings.materials.mips != 0,
                              settings.materials.mipBias + std::log2(params.size.y / static_cast<float>(size.y))});
     scene_.setLiveHeight(settings.live.height);
@@ -199,6 +201,7 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
         mirrors,
         live,
         framesBefore,
+        lightChange,
         backgroundOf(view),
         exposesAutomatically(settings.tonemap, source_),
         static_cast<float>(std::abs(asked.time - previousTime_.value_or(asked.time))),

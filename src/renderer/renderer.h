@@ -5,6 +5,7 @@
 #include "renderer/environment_maps/environment_maps.h"
 #include "renderer/frame.h"
 #include "renderer/gpu_scene.h"
+#include "renderer/light_change.h"
 #include "renderer/probe/capture_probe.h"
 #include "renderer/view_params.h"
 #include "scene/pose.h"
@@ -95,6 +96,7 @@ private:
 
     std::optional<Asked> asked_;  ///< of the last frame
     uint32_t framesBefore_ = 0;
+    LightChange lightChange_;
     std::optional<mat4> previousWorldToClip_;  ///< without jitter
     vec2 previousPlace_{0.0F};                 ///< in the pixel, that the last frame looked through
     std::optional<double> previousTime_;       ///< that the last frame was asked for, not looped [s]

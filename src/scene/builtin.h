@@ -22,7 +22,8 @@ std::span<const BuiltinScene> builtinScenes();
 const BuiltinScene* findBuiltinScene(std::string_view name);
 
 /// One of the list, or "tessellated-N": a room of N triangles that looks the same for every N. N is 100 times the
-/// square of a number from 1 to 100. It is for benchmarks and not in the list. nullopt if there is none of that name.
+/// square of a number from 1 to 100. Or "motion-NAME": a scene of `reflet bench --motions`. Both are for benchmarks and
+/// not in the list. nullopt if there is none of that name.
 std::optional<Scene> makeBuiltinScene(std::string_view name);
 
 }  // namespace reflet

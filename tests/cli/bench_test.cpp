@@ -263,6 +263,40 @@ TEST_F(BenchTest, OctavesAreThoseOfFourFramesAtRestAndOfFramesInMotion) {
     EXPECT_NE(outcome.out.find("| direct | 32x18 | in motion |"), std::string::npos) << outcome.out;
 }
 
+// Over 5 s: its process has its shaders compiled by the driver.
+TEST_F(BenchTest, HardMotionIsMeasuredInCasesOfItsOwn) {
+    const Arguments motions{"bench", "--motions", "lamp-off", "--truth-spp", "2", "--truth-cache", "truths"};
+    const auto with = [&](const Arguments& more) {
+        Arguments all = motions;
+        all.insert(all.end(), more.begin(), more.end());
+        return run(all);
+    };
+    const Outcome outcome = with({"--preset", "direct", "--size", "32x18", "--warmup", "2", "--json", "out.json",
+                                  "--strips", ".", "--markdown"});
+    ASSERT_TRUE(quietSuccess(outcome));
+    EXPECT_NE(outcome.out.find("| lamp-off |"), std::string::npos) << outcome.out;
+    const nlohmann::json json = numbers();
+    EXPECT_EQ(json.at("size"), (nlohmann::json{32, 18}));
+    ASSERT_EQ(json.at("motions").size(), 1U);
+    const nlohmann::json& motion = json["motions"][0];
+    EXPECT_EQ(motion.at("case"), "lamp-off");
+    EXPECT_EQ(motion.at("variant"), "direct");
+    EXPECT_EQ(motion.at("error_in_motion").at("displayed_flip").size(), 12U);
+    EXPECT_EQ(motion.at("error_at_rest").at("relative_mse").size(), 12U);
+    EXPECT_EQ(motion.at("ghost").at("left").size(), 8U);
+    // Direct light has no history.
+    EXPECT_EQ(motion.at("lag").at("frames"), 0);
+    EXPECT_NEAR(motion.at("error_ratio").get<double>(), 1.0, 1e-3);
+    EXPECT_NEAR(motion.at("ghost").at("left")[7].get<double>(), 0.0, 1e-3);
+    EXPECT_TRUE(std::filesystem::is_regular_file(path("lamp-off.png")));
+    EXPECT_EQ(truths(), 2U);  // after the step; all frames share it
+    EXPECT_TRUE(refused(with({"builtin:cubes"}), 2, {"--motions", "builtin:cubes"}));
+    EXPECT_TRUE(refused(with({"--motion", "2"}), 2, {"--motions", "--motion"}));
+    EXPECT_TRUE(refused(with({"--truth", "none"}), 2, {"--motions", "--truth"}));
+    EXPECT_TRUE(refused(run({"bench", "--motions", "jump"}), 2, {"jump", "lamp-off"}));
+    EXPECT_TRUE(refused(run({"bench"}), 2, {"SCENE"}));
+}
+
 // Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(BenchTest, AnotherBuildTakesTurnsWithThisOne) {
     ASSERT_TRUE(quietSuccess(

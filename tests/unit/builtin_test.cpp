@@ -171,8 +171,9 @@ TEST(BuiltinScenes, TheTessellatedRoomHasAsManyTrianglesAsItsNameSays) {
         EXPECT_EQ(indices, 3 * wanted);
         EXPECT_EQ(scene->bounds().max, makeBuiltinScene("tessellated-100")->bounds().max);
     }
-    for (const char* name : {"tessellated-", "tessellated-0", "tessellated-101", "tessellated-200",
-                             "tessellated-1020100", "tessellated-100x", "tessellated", "cube"}) {
+    for (const char* name :
+         {"tessellated-", "tessellated-0", "tessellated-101", "tessellated-200", "tessellated-1020100",
+          "tessellated-100x", "tessellated", "cube", "motion-", "motion-cube"}) {
         EXPECT_FALSE(makeBuiltinScene(name)) << name;
     }
     EXPECT_EQ(makeBuiltinScene("cubes")->name, findBuiltinScene("cubes")->make().name);

@@ -311,8 +311,9 @@ void main() {
             return;
         }
     }
+    past.frames = min(past.frames, max(most - count, 0.0));
     float share = count / (past.frames + count);
-    float frames = min(past.frames + count, most);
+    float frames = past.frames + count;
     keep(pixel, mix(past.light, seen.light, share), mix(past.directional, seen.directional, share), own,
          vec2(frames, mix(past.square, bright * bright, share)));
 }

@@ -133,13 +133,14 @@ void gather(ivec2 pixel) {
     }
     vec2 before = params.hasPrevious != 0u ? remembered(pixel, p, plane) : vec2(0.0);
     float held = before.x;
-    if (params.view.rest < settledFrames) {
+    if (params.view.rest < framesUntilSettled) {
         held = clamp(before.x, n.lowest - allowance, n.highest + allowance);
         before.y *= max(1.0 - 8.0 * abs(held - before.x), 0.0) * similarity(seen - held, params.samples);
     } else if (params.view.jitterChange != vec2(0.0)) {
         // A sharp edge moves within its pixel with the jitter: temporal antialiasing keeps its samples apart.
         before.y *= min(pixelsWide / wideEnough, 1.0);
     }
+    before.y = min(before.y, max(float(params.historyFrames) - 1.0, 0.0));
     float mean = (held * before.y + seen) / (before.y + 1.0);
     vec3 form = min(formAt(metres, n, inversesqrt(sqrt(before.y + 1.0))), vec3(1e4));
     imageStore(kernel, pixel,

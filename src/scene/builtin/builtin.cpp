@@ -1,6 +1,7 @@
 // The list of built-in scenes.
 #include "scene/builtin.h"
 
+#include "scene/builtin/motion_scenes.h"
 #include "scene/builtin/scenes.h"
 
 #include <algorithm>
@@ -46,6 +47,9 @@ const BuiltinScene* findBuiltinScene(std::string_view name) {
 std::optional<Scene> makeBuiltinScene(std::string_view name) {
     if (const BuiltinScene* builtin = findBuiltinScene(name)) {
         return builtin->make();
+    }
+    if (std::optional<Scene> scene = builtin::makeMotionScene(name)) {
+        return scene;
     }
     const std::optional<uint32_t> triangles = builtin::tessellatedTriangles(name);
     return triangles ? std::optional(builtin::makeTessellated(*triangles)) : std::nullopt;

@@ -1,36 +1,17 @@
 // An animated room, from time 0 on: a box that slides and stops at 1 s, a rotating cube, a bending tube. One half of
 // the floor is glossy, the other a mirror. The animation repeats after 4 s.
+#include "scene/builtin/animate.h"
 #include "scene/builtin/assemble.h"
 #include "scene/builtin/patterns.h"
 #include "scene/builtin/scenes.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace reflet::builtin {
 namespace {
 
 constexpr vec3 room{3.0F, 1.5F, 2.5F};  // half size, metres; the floor is at y = 0, front and top are open
-
-int32_t addNode(Scene& scene, const glm::dvec3& translation, int32_t parent = -1) {
-    Node node;
-    node.parent = parent;
-    node.translation = translation;
-    scene.nodes.push_back(node);
-    return static_cast<int32_t>(scene.nodes.size() - 1);
-}
-
-void animate(Scene& scene, int32_t node, Channel channel) {
-    channel.node = static_cast<uint32_t>(node);
-    scene.animations.front().channels.push_back(std::move(channel));
-}
-
-/// Quaternion x, y, z, w of a rotation about an axis by an angle in degrees.
-vec4 rotation(double degrees, const glm::dvec3& axis) {
-    const double half = 0.5 * glm::radians(degrees);
-    return {vec3(std::sin(half) * axis), static_cast<float>(std::cos(half))};
-}
 
 void addTiledRoom(Scene& scene) {
     static constexpr std::array<Hex, 4> wallColors{0xE9DDC6, 0xDDB98A, 0xC96F4A, 0x7E9C93};
@@ -141,7 +122,6 @@ void addBendingTube(Scene& scene) {
 Scene makeMoving() {
     Scene scene;
     scene.name = "moving";
-    scene.animations.push_back({.name = "all", .channels = {}});
     addTiledRoom(scene);
     addSlidingBox(scene);
     addTurningCube(scene);

@@ -1,0 +1,37 @@
+// The cases of `reflet bench --motions`: a small scene, and how its view, time and lights change from frame to frame.
+#pragma once
+
+#include "scene/scene.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace reflet {
+
+struct MotionCase {
+    /// What the lag counts from `event` on.
+    enum class Lag : uint8_t {
+        none,
+        light,  ///< frames until a step of light has arrived to 90 %; nothing else changes
+        rest,   ///< frames until the error is at most 1.1 times that at rest
+    };
+
+    std::string_view name;
+    std::string_view description;                     ///< one line
+    std::string_view scene;                           ///< a built-in scene
+    uint32_t frames = 12;                             ///< that are measured
+    View (*view)(const View& first, uint32_t frame);  ///< frame 0: at rest, before the measured frames
+    double ratio = 1.5;                               ///< target: error in motion over error at rest
+    Lag lag = Lag::none;
+    uint32_t event = 1;  ///< the frame with the step, or the first at rest
+};
+
+std::span<const MotionCase> motionCases();
+
+/// "all" or names, each once. Throws UsageError for an unknown name.
+std::vector<MotionCase> findMotionCases(const std::vector<std::string>& names);
+
+}  // namespace reflet
