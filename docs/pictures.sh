@@ -28,7 +28,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 "$reflet" reference builtin:cubes --size 320x180 --spp 1024 -o docs/pictures/cubes-truth.png -o "$work/truth.exr"
 "$reflet" reference builtin:cubes --size 320x180 --spp 1024 --visible-only -o docs/pictures/cubes-visible-only.png
-"$reflet" render builtin:cubes --size 320x180 -o docs/pictures/cubes-default.png -o "$work/default.exr"
+"$reflet" render builtin:cubes --preset balanced --size 320x180 -o docs/pictures/cubes-default.png -o "$work/default.exr"
 "$reflet" compare "$work/default.exr" "$work/truth.exr" --heatmap docs/pictures/cubes-default-error.png
 
 # The window, on a virtual display.

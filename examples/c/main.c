@@ -81,6 +81,7 @@ static RefletImage record_effects(Host* h, Slot* slot, RefletView view, RefletSe
     frame.structSize = sizeof frame;
     frame.commandBuffer = slot->commands;
     frame.frameIndex = h->frame;
+    frame.restFrames = h->rest;
     memcpy(frame.worldToView, now->world_to_view, sizeof frame.worldToView);
     memcpy(frame.viewToClip, h->view_to_clip, sizeof frame.viewToClip);
     memcpy(frame.previousWorldToView, before->world_to_view, sizeof frame.worldToView);

@@ -101,6 +101,8 @@ void host_camera(Host* h, Camera* c, const Camera* before, const float jitter[2]
         jittered[4 * i + 1] -= 2.0F * jitter[1] / (float)h->height * h->view_to_clip[4 * i + 3];
     }
     multiply(c->world_to_clip, jittered, c->world_to_view);
+    const bool still = before != NULL && memcmp(c->world_to_view, before->world_to_view, sizeof c->world_to_view) == 0;
+    h->rest = still ? h->rest + 1 : 0;
     memcpy(c->previous_world_to_clip, before != NULL ? before->world_to_clip_plain : c->world_to_clip_plain,
            sizeof c->world_to_clip);
     float to_sun[3] = {0.45F, 1.0F, 0.55F};

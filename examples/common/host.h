@@ -49,6 +49,7 @@ typedef struct Host {
     uint8_t* mapped_cameras;
     Slot slots[FRAMES_IN_FLIGHT];
     uint32_t width, height, frame;
+    uint32_t rest; /* frames since anything moved: here only the camera can */
     Picture depth, normal, color, motion, lit, sun_map;
     float view_to_clip[16]; /* without jitter */
 } Host;

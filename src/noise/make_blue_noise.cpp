@@ -20,8 +20,8 @@ int main(int argc, char** argv) {
         std::fputs("make_blue_noise: needs one argument, a file that can be written\n", stderr);
         return 1;
     }
-    const auto low = reflet::voidAndClusterRanks(reflet::blueNoiseSide, 1, 1);
-    const auto high = reflet::voidAndClusterRanks(reflet::blueNoiseSide, 1, 2);
+    const auto low = reflet::voidAndClusterRanks(reflet::blueNoiseSide, 1);
+    const auto high = reflet::voidAndClusterRanks(reflet::blueNoiseSide, 2);
     for (size_t i = 0; i < low.size(); ++i) {
         std::fprintf(file, "0x%08xU,%c", fractionOf(low[i]) | fractionOf(high[i]) << 16U, i % 8 == 7 ? '\n' : ' ');
     }

@@ -1,9 +1,7 @@
-// Void-and-cluster in space and time: cells are switched on one after another, each in the largest void between the
-// earlier ones.
+// Void-and-cluster: cells are switched on one after another, each in the largest void between the earlier ones.
 //
-// The energy of a cell is the sum, over all cells that are on, of a Gaussian of their distance. Only cells of the same
-// slice (distance in space) and of the same pixel (distance in time) count: other pixels in other frames do not matter.
-// Energies are integers, so switching a cell off exactly undoes switching it on, and results do not depend on rounding.
+// The energy of a cell is the sum, over all cells that are on, of a Gaussian of their distance. Energies are integers,
+// so switching a cell off exactly undoes switching it on, and results do not depend on rounding.
 #include "noise/void_and_cluster.h"
 
 #include <algorithm>
@@ -13,7 +11,7 @@ namespace reflet {
 
 namespace {
 
-constexpr double sigma = 1.9;         // pixels and frames, as Wolfe et al.
+constexpr double sigma = 1.9;         // pixels
 constexpr uint32_t largestReach = 8;  // pixels; the energy beyond 4 sigma is negligible
 constexpr double energyScale = 1 << 20U;
 constexpr uint32_t cellsPerInitialPoint = 10;  // one in this many cells is on in the initial pattern
@@ -24,7 +22,7 @@ uint32_t energyAt(double squaredDistance) {
 
 class Pattern {
 public:
-    Pattern(uint32_t side, uint32_t slices);
+    explicit Pattern(uint32_t side);
 
     /// Switches a cell on, or off.
     void flip(uint32_t cell);
@@ -44,71 +42,46 @@ private:
         std::vector<uint8_t> stale;
     };
 
-    void addInSpace(uint32_t cell, uint32_t sign);
-    void addInTime(uint32_t cell, uint32_t sign);
     template <class Key, class Better>
     uint32_t bestCell(RowBests& bests, const Key& key, const Better& better);
 
     uint32_t side_;
-    uint32_t slices_;
     uint32_t reach_;
-    std::vector<uint32_t> spaceKernel_;  ///< (2 reach + 1)²
-    std::vector<uint32_t> timeKernel_;   ///< by distance in frames
+    std::vector<uint32_t> kernel_;  ///< (2 reach + 1)²
     std::vector<uint32_t> energy_;
     std::vector<uint32_t> on_;  ///< all bits, or none
     RowBests voids_;
     RowBests clusters_;
 };
 
-Pattern::Pattern(uint32_t side, uint32_t slices)
+Pattern::Pattern(uint32_t side)
     : side_(side),
-      slices_(slices),
       reach_(std::min(largestReach, (side - 1) / 2)),
-      energy_(size_t{side} * side * slices, 0),
+      energy_(size_t{side} * side, 0),
       on_(energy_.size(), 0) {
     const auto reach = static_cast<int>(reach_);
     for (int y = -reach; y <= reach; ++y) {
         for (int x = -reach; x <= reach; ++x) {
-            spaceKernel_.push_back(energyAt(x * x + y * y));
+            kernel_.push_back(energyAt(x * x + y * y));
         }
     }
-    timeKernel_.push_back(0);  // the cell itself is counted in space
-    for (uint32_t later = 1; later < slices; ++later) {
-        const uint32_t distance = std::min(later, slices - later);
-        timeKernel_.push_back(energyAt(distance * distance));
-    }
-    const size_t rows = size_t{side} * slices;
-    voids_ = clusters_ = {std::vector<uint32_t>(rows), std::vector<uint8_t>(rows, 1)};
+    voids_ = clusters_ = {std::vector<uint32_t>(side), std::vector<uint8_t>(side, 1)};
 }
 
 void Pattern::flip(uint32_t cell) {
     on_[cell] = ~on_[cell];
     const uint32_t sign = isOn(cell) ? 1 : ~0U;  // times -1, modulo 2^32
-    addInSpace(cell, sign);
-    addInTime(cell, sign);
-}
-
-void Pattern::addInSpace(uint32_t cell, uint32_t sign) {
     const uint32_t width = 2 * reach_ + 1;
-    const uint32_t firstRow = cell / (side_ * side_) * side_;
     const uint32_t left = cell % side_ + side_ - reach_;
-    const uint32_t top = cell / side_ % side_ + side_ - reach_;
+    const uint32_t top = cell / side_ + side_ - reach_;
     for (uint32_t j = 0; j < width; ++j) {
-        const uint32_t row = firstRow + (top + j) % side_;
+        const uint32_t row = (top + j) % side_;
         voids_.stale[row] = clusters_.stale[row] = 1;
-        const uint32_t* kernel = &spaceKernel_[size_t{j} * width];
+        const uint32_t* kernel = &kernel_[size_t{j} * width];
         uint32_t* energies = &energy_[size_t{row} * side_];
         for (uint32_t i = 0; i < width; ++i) {
             energies[(left + i) % side_] += sign * kernel[i];
         }
-    }
-}
-
-void Pattern::addInTime(uint32_t cell, uint32_t sign) {
-    for (uint32_t later = 1; later < slices_; ++later) {
-        const uint32_t other = (cell + later * side_ * side_) % cellCount();
-        voids_.stale[other / side_] = clusters_.stale[other / side_] = 1;
-        energy_[other] += sign * timeKernel_[later];
     }
 }
 
@@ -164,8 +137,8 @@ private:
 
 // The initial pattern: random cells, moved from the tightest cluster to the largest void until that brings no
 // improvement.
-Pattern startingPattern(uint32_t side, uint32_t slices, uint32_t seed, uint32_t& count) {
-    Pattern pattern(side, slices);
+Pattern startingPattern(uint32_t side, uint32_t seed, uint32_t& count) {
+    Pattern pattern(side);
     Random random(seed);
     count = std::max(1U, pattern.cellCount() / cellsPerInitialPoint);
     for (uint32_t placed = 0; placed < count;) {
@@ -188,9 +161,9 @@ Pattern startingPattern(uint32_t side, uint32_t slices, uint32_t seed, uint32_t&
 
 // All cells in the order in which they are switched on. Ulichney's third phase, which fills the tightest clusters of
 // off cells, is the same as the second: on a torus the energies of on and off cells have the same sum everywhere.
-std::vector<uint32_t> cellsInOrder(uint32_t side, uint32_t slices, uint32_t seed) {
+std::vector<uint32_t> cellsInOrder(uint32_t side, uint32_t seed) {
     uint32_t count = 0;
-    Pattern pattern = startingPattern(side, slices, seed, count);
+    Pattern pattern = startingPattern(side, seed, count);
     std::vector<uint32_t> order(pattern.cellCount());
     Pattern emptied = pattern;
     for (uint32_t i = count; i-- > 0;) {
@@ -206,11 +179,11 @@ std::vector<uint32_t> cellsInOrder(uint32_t side, uint32_t slices, uint32_t seed
 
 }  // namespace
 
-std::vector<uint32_t> voidAndClusterRanks(uint32_t side, uint32_t slices, uint32_t seed) {
-    std::vector<uint32_t> ranks(size_t{side} * side * slices);
-    std::vector<uint32_t> next(slices, 0);
-    for (const uint32_t cell : cellsInOrder(side, slices, seed)) {
-        ranks[cell] = next[cell / (side * side)]++;
+std::vector<uint32_t> voidAndClusterRanks(uint32_t side, uint32_t seed) {
+    std::vector<uint32_t> ranks(size_t{side} * side);
+    uint32_t next = 0;
+    for (const uint32_t cell : cellsInOrder(side, seed)) {
+        ranks[cell] = next++;
     }
     return ranks;
 }

@@ -14,8 +14,9 @@ namespace reflet {
 
 namespace {
 
-/// Presets to render with, in the order of time and error; all others show single methods.
-constexpr std::array<std::string_view, 6> toRenderWith{"fast", "balanced", "quality", "hybrid", "still", "pathtrace"};
+/// Presets to render with, that of finished pictures first, then in the order of time and error; all others show single
+/// methods.
+constexpr std::array<std::string_view, 6> toRenderWith{"still", "fast", "balanced", "quality", "hybrid", "pathtrace"};
 
 std::string_view presetName(const EmbeddedFile& file) {
     return file.name.substr(0, file.name.find('.'));

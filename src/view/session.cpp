@@ -19,12 +19,14 @@ namespace reflet {
 
 namespace {
 
-constexpr uint32_t meanSettledAfter = 1024;  // accumulate
+// Pictures at rest converge; behind this frame nobody sees a difference.
+constexpr uint32_t convergedAfter = 512;
 
 uint32_t framesFor(const Settings& settings, const Scene& scene) {
     const HistoryUse use = historyUse(settings, scene);
     const uint32_t exposed = use.exposure ? exposureFrames : 1;
-    return use.accumulate ? meanSettledAfter : std::max(framesToSettle(use, settings), exposed);
+    const bool converges = use.accumulate || use.temporal || use.denoise || use.shadows;
+    return std::max({converges ? convergedAfter : 1U, framesToSettle(use, settings), exposed});
 }
 
 bool isMade(const Show& show, const FrameImages& images) {

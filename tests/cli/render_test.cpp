@@ -151,6 +151,29 @@ TEST_F(Render, TheLastOfSeveralFramesIsWritten) {
     EXPECT_NE(picture({"--frames", "1"}), picture({"--frames", "3"}));  // successive frames have different noise
 }
 
+// Over 5 s: stills compile shaders of their own.
+TEST_F(Render, APictureWithoutAPresetIsAStill) {
+    const Outcome still = run({"render", cubes, "--size", "32x18", "--seconds", "3", "-o", "a.png"});
+    ASSERT_EQ(still.status, 0) << still.err;
+    EXPECT_TRUE(has(still.err, {"a still", "all bounces", "at most 3 s"}));
+    EXPECT_EQ(readBitmap(path("a.png")).width, 32U);
+    const Outcome draft = run({"render", cubes, "--size", "32x18", "--effort", "draft", "-o", "b.png"});
+    ASSERT_EQ(draft.status, 0) << draft.err;
+    EXPECT_TRUE(has(draft.err, {"a still", "probes", "at most 8 s"}));
+    EXPECT_TRUE(quietSuccess(run({"render", cubes, "--size", "32x18", "--preset", "plain", "-o", "c.png"})));
+}
+
+TEST_F(Render, AnEffortIsForAStill) {
+    const auto refusedWith = [&](const Arguments& more) {
+        Arguments all{"render", cubes, "--size", "32x18", "-o", "a.png"};
+        all.insert(all.end(), more.begin(), more.end());
+        return run(all);
+    };
+    EXPECT_TRUE(refused(refusedWith({"--effort", "best"}), 2, {"--effort best", "draft, normal or high"}));
+    EXPECT_TRUE(refused(refusedWith({"--effort", "high", "--frames", "3"}), 2, {"--effort", "--seconds"}));
+    EXPECT_TRUE(refused(refusedWith({"--seconds", "0"}), 2, {"--seconds"}));
+}
+
 TEST_F(Render, TimingsTellEveryPassOfTheFrame) {
     ASSERT_TRUE(quietSuccess(render(cubes, {"--frames", "3", "--timings", "t.json"})));
     EXPECT_EQ(files(), Names{"t.json"});

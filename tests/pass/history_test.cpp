@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 namespace reflet::test::history_test {
 namespace {
 
@@ -72,8 +74,8 @@ TEST_F(History, OfPresetsIsKeptByThoseThatDenoise) {
         Settings settings;
         applyPreset(settings, preset.name);
         const HistoryUse use = historyUse(settings);
-        const bool denoises =
-            preset.name == "fast" || preset.name == "balanced" || preset.name == "quality" || preset.name == "hybrid";
+        const std::set<std::string> denoising{"still", "fast", "balanced", "quality", "hybrid"};
+        const bool denoises = denoising.contains(preset.name);
         EXPECT_EQ(use.shadows && use.denoise && use.temporal, denoises) << preset.name;
         EXPECT_EQ(use.any(), denoises || preset.name == "pathtrace") << preset.name;
         const uint32_t settled = settings.temporal.scale < 1.0F ? 64 : 32;

@@ -33,7 +33,7 @@ TEST_F(SteadyState, MakesNothing) {
     for (const char* name : {"fast", "balanced", "quality", "hybrid"}) {
         Renderer renderer(device(), scene_, [](const std::string&) {});
         const Settings settings = SteadyState::preset(name);
-        renderFrames(renderer, view_, {48, 32}, settings, 3);
+        renderFrames(renderer, view_, {48, 32}, settings, 6);  // histories swap, and lend their memory
         const gpu::ObjectCounts made = device().counts();
         renderFrames(renderer, view_, {48, 32}, settings, 3);
         EXPECT_TRUE(made == device().counts()) << name;
@@ -60,10 +60,10 @@ TEST_F(SteadyState, TwoViewsInTurnMakeNothing) {
     Renderer other(device(), scene_, [](const std::string&) {});
     const Settings settings = preset("fast");
     gpu::ObjectCounts made;
-    for (int i = 0; i < 5; ++i) {
+    for (int i = 0; i < 9; ++i) {
         renderFrames(one, view_, {48, 32}, settings, 1);
         renderFrames(other, view_, {40, 24}, settings, 1);
-        made = i == 2 ? device().counts() : made;
+        made = i == 6 ? device().counts() : made;
     }
     EXPECT_TRUE(made == device().counts());
 }

@@ -15,7 +15,7 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i < outputs.items.length()) {
         BlueNoiseCase c = inputs.items[i];
-        outputs.items[i] = BlueNoiseSample(blueNoiseTexel(c.pixel, c.stream, c.frame), sobolPoint(c.number),
+        outputs.items[i] = BlueNoiseSample(blueNoiseTexel(c.pixel, c.stream), sobolPoint(c.number),
                                            blueNoisePoint(c.pixel, c.stream, c.frame, c.number, c.count));
     }
 }
