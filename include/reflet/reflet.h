@@ -313,6 +313,12 @@ typedef struct RefletFrameInfo {
      * motion. 0: something changes, or the host cannot tell. Jitter goes on at rest.
      */
     uint32_t restFrames;
+    /**
+     * Share of the light that has changed since the last frame, 0 to 1: a lamp that was switched, the sun that turned.
+     * Histories shrink to what a mean would hold that forgets this share in each frame. Light at hits is the last
+     * frame's: let it fade over some frames, such as by 0.7 in each.
+     */
+    float lightChange;
     RefletGBuffer gbuffer; /**< required; the last field, so that it can grow */
 } RefletFrameInfo;
 

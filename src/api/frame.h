@@ -19,7 +19,7 @@ inline uvec2 outputSizeOf(const RefletView_T& view) {
 }
 
 /// The settings as the stages take them.
-Settings settingsOfFrame(const RefletView_T& view, const Settings& settings, uint32_t rest);
+Settings settingsOfFrame(const RefletView_T& view, const Settings& settings, const lighting::Change& change);
 
 /// Throws Failure if an image cannot be sampled, or has not this size (0: any). name: of the field.
 void checkImage(const RefletImage& image, const char* name, uvec2 size);

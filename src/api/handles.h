@@ -75,6 +75,7 @@ struct Frame : lighting::Surfaces {
     std::optional<LobeLight> diffuse;
     std::optional<LobeLight> specular;
     float elapsed = 0.0F;
+    reflet::lighting::Change change;
     vec2 jitter{0.0F};
 };
 

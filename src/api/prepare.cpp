@@ -91,7 +91,7 @@ void prepareOnce(RefletView_T& view, const Settings& settings, const RefletPrepa
     view.last.reset();  // its images belong to the frame that is prepared now
     view.recorder.prepare(missing);
     try {
-        prepareFrame(view, settingsOfFrame(view, settings, 0), info);
+        prepareFrame(view, settingsOfFrame(view, settings, {}), info);
     } catch (...) {
         view.recorder.drop();
         view.recorder.end();

@@ -89,12 +89,12 @@ HostSurfaces hostSurfaces(const RefletGBuffer& g, const std::function<gpu::Image
     return host;
 }
 
-Settings settingsOfFrame(const RefletView_T& view, const Settings& settings, uint32_t rest) {
+Settings settingsOfFrame(const RefletView_T& view, const Settings& settings, const lighting::Change& change) {
     Settings ofFrame = settings;
     const auto height = static_cast<float>(view.size.y);
     const auto outputHeight = static_cast<float>(outputSizeOf(view).y);
     lighting::countRenderedPixels(ofFrame, height, outputHeight);
-    lighting::fitHistories(ofFrame, {.rest = rest}, height / outputHeight);
+    lighting::fitHistories(ofFrame, change, height / outputHeight);
     ofFrame.traceScreen.countSteps = 0;  // nobody can look at them
     return ofFrame;
 }
@@ -132,7 +132,7 @@ RefletResult inFrame(RefletView view, RefletSettings settings,
         }
         Frame before = *view->frame;
         try {
-            body(*view->frame, settingsOfFrame(*view, settings->values, view->frame->context.view.rest));
+            body(*view->frame, settingsOfFrame(*view, settings->values, view->frame->change));
         } catch (...) {
             view->recorder.drop();
             before.light = view->recorder.isKept(before.light) ? before.light : gpu::Image{};
@@ -264,6 +264,10 @@ RefletResult refletBeginFrame(RefletView view, const RefletFrameInfo* info) {
         frame.context.view = viewParams(given, view->size);
         frame.jitter = {given.jitter[0], given.jitter[1]};
         frame.elapsed = std::clamp(given.elapsed, 0.0F, 3600.0F);
+        if (!(given.lightChange >= 0.0F && given.lightChange <= 1.0F)) {
+            failArgument("RefletFrameInfo.lightChange: is {}; must be 0 to 1", given.lightChange);
+        }
+        frame.change = {given.restFrames, given.lightChange};
         const ImportParams params = importParams(given, frame.context.view);
         view->commands = given.commandBuffer;
         view->hostImages.clear();

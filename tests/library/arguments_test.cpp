@@ -150,6 +150,7 @@ TEST_F(Arguments, OfAFrame) {
     expectFrameError("viewToClip", [](auto& i) { i.viewToClip[0] = 0.0F; });
     expectFrameError("viewToClip", [](auto& i) { i.viewToClip[5] = INFINITY; });
     expectFrameError("jitter", [](auto& i) { i.jitter[1] = 3.0F; });
+    expectFrameError("lightChange", [](auto& i) { i.lightChange = 1.5F; });
     expectFrameError("previousJitter", [](auto& i) { i.previousJitter[0] = NAN; });
     using G = RefletGBuffer;
     const std::pair<const char*, RefletImage G::*> images[] = {{"gbuffer.depth", &G::depth},

@@ -118,9 +118,10 @@ Environment environmentImage() {
 
 std::vector<View> pathOf(const Scene& scene, const uvec2& rendered) {
     std::vector<View> path;
+    const Environment environment = environmentImage();
     for (uint32_t i = 0; i < frameCount; ++i) {
         View view = defaultView(scene);
-        view.environment = environmentImage();
+        view.environment = environment;
         view.sun.direction = exactDirection(view.sun.direction);
         view.camera.position.x += 0.3F + 0.02F * float(i);  // not 0, near which last places are too fine
         view.camera.apertureRadius = 0.05F;
