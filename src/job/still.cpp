@@ -23,8 +23,8 @@ struct Effort {
 };
 
 constexpr std::array efforts = {Effort{"draft", "balanced", 8.0, 4.0 / 255.0},
-                                Effort{"normal", "still", 30.0, 1.0 / 255.0},
-                                Effort{"high", "still", 600.0, 0.4 / 255.0}};
+                                Effort{"normal", "still", 30.0, 0.5 / 255.0},
+                                Effort{"high", "still", 600.0, 0.2 / 255.0}};
 constexpr uint32_t firstCheck = 8;  // frames: before, histories are too short to tell
 constexpr uint32_t fewest = 2;      // frames: those before the last show no light of a second bounce on screen
 constexpr uint32_t most = 4096;     // frames: histories do not grow beyond half of them

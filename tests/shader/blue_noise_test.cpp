@@ -120,7 +120,7 @@ double discrepancy(const std::vector<vec2>& points) {
     return most;
 }
 
-// The mean over some pixels. Random points have 0.1 at 64 frames and 0.05 at 256. Every second or fourth frame: those
+// The mean over some pixels. Random points have 0.123 at 64 frames and 0.068 at 256. Every second or fourth frame: those
 // of a pixel that does not trace in each.
 TEST_F(BlueNoisePoints, OfAnyRunOfFramesAreEvenlySpreadAtEachPixel) {
     constexpr uint32_t pixels = 8;
@@ -141,8 +141,8 @@ TEST_F(BlueNoisePoints, OfAnyRunOfFramesAreEvenlySpreadAtEachPixel) {
             points.resize(64);
             at64 += discrepancy(points) / pixels;
         }
-        EXPECT_LT(at64, 0.08) << first << ", " << stride;
-        EXPECT_LT(at256, 0.03) << first << ", " << stride;
+        EXPECT_LT(at64, 0.1) << first << ", " << stride;
+        EXPECT_LT(at256, 0.04) << first << ", " << stride;
     }
 }
 

@@ -54,6 +54,9 @@ const float sameThingRough = 3.0;
 // Maximum history length of moving reflections. A mirror's history is blurred by every interpolation and has no noise,
 // so it is short; rougher reflections have more noise than detail.
 const float framesInMotion = 1.0;
+// Up to the first roughness a reflection may show detail of a pixel's size, above the second none.
+const float mirrorLike = 0.05;
+const float blurred = 0.15;
 const float framesInMotionRough = 64.0;
 
 // This frame's light of the pixel and its neighbours on the same surface.
@@ -153,7 +156,8 @@ void addHistory(HistoryLookup w, KeptSurface own, ScreenPlane plane, ivec2 texel
     vec2 away = vec2(texel) - w.home;
     float height = heightAbove(plane, away, there.depth - w.expected) / max(length(away), 1.0);
     vec4 light = imageLoad(previousLight, texel);
-    bool same = w.away < 0.0 || isSameReflectedObject(w.away, light.a, own.roughness);
+    // At rest what a rough mirror shows is the same, however much the distances of single rays differ.
+    bool same = w.away < 0.0 || params.view.rest > 0u || isSameReflectedObject(w.away, light.a, own.roughness);
     // Directional light fits other normals, too.
     float alike = hasDirectional != 0u ? normalSimilarity(own, there) : surfaceSimilarity(own, there, lobe);
     float allowed = heightSlack + distanceSlack / params.view.pixelAngle;
@@ -205,9 +209,10 @@ HistorySample historyAt(HistoryLookup w, KeptSurface own, ScreenPlane plane) {
     }
     float frames = sum.frames / weights;
     // With jitter, what a mirror shows moves within its pixel: temporal antialiasing keeps its samples apart.
-    bool rests = f == vec2(0.0) && params.view.jitterChange == vec2(0.0);
-    return HistorySample(sum.light / weights, rests ? frames : min(frames, w.most), sum.square / weights,
-                sum.directional / weights);
+    bool jittered = params.view.jitterChange != vec2(0.0);
+    float sharp = w.away < 0.0 || !jittered ? 0.0 : 1.0 - smoothstep(mirrorLike, blurred, own.roughness);
+    float most = f == vec2(0.0) ? 1.0 / max(sharp, 1e-6) : w.most;
+    return HistorySample(sum.light / weights, min(frames, most), sum.square / weights, sum.directional / weights);
 }
 
 vec2 pixelOf(vec4 clip) { return ndcToUv(clip.xy / clip.w) * params.view.size - 0.5; }
