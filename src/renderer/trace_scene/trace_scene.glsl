@@ -208,6 +208,11 @@ vec3 probeLight(LitPoint at) {
     return at.surface.diffuse * around + at.surface.specular * mirrored;
 }
 
+// Whether a surface shows a path about what it shows the camera. Paths of more bounces know better.
+bool looksTheSame(SceneSurface at) {
+    return params.bounces <= 1u || at.roughness >= mix(0.2, roughest, at.metallic);
+}
+
 // Radiance along the ray from its hit. hitDistance: metres; negative: miss.
 vec3 radianceAlong(SceneRay ray, inout uint random, out float hitDistance) {
     vec3 radiance = vec3(0.0);
@@ -222,7 +227,7 @@ vec3 radianceAlong(SceneRay ray, inout uint random, out float hitDistance) {
         float width = params.mips != 0u ? ray.width + ray.spread * hit.distance : 0.0;
         SceneSurface found = sceneSurface(hit, ray.direction, width);
         vec3 shown;
-        if (reuseScreen != 0u && (bounce == 0u || params.fromPrevious != 0u) && screenLight(found, shown)) {
+        if (reuseScreen != 0u && looksTheSame(found) && (bounce == 0u || params.fromPrevious != 0u) && screenLight(found, shown)) {
             return radiance + throughput * shown;
         }
         LitPoint at = LitPoint(found.position, found.geometricNormal, found.normal, -ray.direction, found.clearance,
