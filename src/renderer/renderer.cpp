@@ -107,11 +107,12 @@ const std::vector<Probe>& Renderer::probesOf(const View& view, const ProbesSetti
 
 uint32_t Renderer::countFramesBefore(const View& view, const ViewParams& params, const Settings& settings) {
     Asked now{view, settings, params.size, params.seed};
+    now.settings.composite.layers = 0;  // changes no light
     if (source_.nodes.empty()) {
-        now.view.time = 0.0;  // time changes nothing
+        now.view.time = 0.0;  // nor does time
     }
     const bool same = asked_ && asked_->view == now.view && asked_->size == now.size && asked_->seed == now.seed &&
-                      sameSettings(asked_->settings, settings);
+                      sameSettings(asked_->settings, now.settings);
     framesBefore_ = same ? framesBefore_ + 1 : 0;
     asked_ = std::move(now);
     return framesBefore_;

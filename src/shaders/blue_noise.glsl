@@ -32,12 +32,13 @@ uint blueNoiseTexel(uvec2 pixel, uint stream) {
 
 // A pixel's shift in a frame, as 32-bit fractions of 1: its mask, and a Kronecker sequence over frames that never
 // repeats. The points of any run of frames are evenly spread in each pixel, so that means over frames converge faster
-// than those of random numbers, and those of one frame in each neighbourhood. The steps are sqrt(2) and sqrt(5) modulo
-// 1: with those of the subpixel jitter (jitter.cpp) they are evenly spread in four dimensions, too. (L. Kuipers and
-// H. Niederreiter, Uniform Distribution of Sequences, 1974)
+// than those of random numbers, and those of one frame in each neighbourhood. The steps are of the best among some
+// thousand pairs, by the discrepancy (L2) of 8 to 48 points: of all frames, of every second and fourth, of those in
+// which a pixel of four traces (pixelRays), and together with the subpixel jitter (jitter.cpp): at most 0.6 of that of
+// random points. (L. Kuipers and H. Niederreiter, Uniform Distribution of Sequences, 1974)
 uvec2 blueNoiseShift(uvec2 pixel, uint stream, uint frame) {
     uint mask = loadBlueNoise(blueNoiseTexel(pixel, stream));
-    return uvec2(mask << 16u, mask & 0xffff0000u) + frame * uvec2(0x6a09e667u, 0x3c6ef373u);
+    return uvec2(mask << 16u, mask & 0xffff0000u) + frame * uvec2(0x349f3d4bu, 0xafae35b9u);
 }
 
 // Shifts one of a sequence's first `count` points by `shift`, modulo 1. With 2^k points, a shift over the whole square

@@ -4,7 +4,6 @@
 #include "base/file.h"
 #include "base/json_text.h"
 #include "cli/command_line.h"
-#include "renderer/presets.h"
 #include "scene/default_light.h"
 #include "scene/view_file.h"
 #include "view/saved_state.h"
@@ -68,9 +67,7 @@ std::string renderCommand(const Workspace& work) {
         line += " --variant " + shellWord(source.variant);
     }
     line += fmt::format(" --size {}x{}", size.x, size.y);
-    if (state.preset != defaultPreset) {
-        line += " --preset " + shellWord(state.preset);
-    }
+    line += " --preset " + shellWord(state.preset);  // without one, render makes a still
     for (const SettingEntry& entry : settingEntries()) {
         const std::string value = settingText(state.settings, entry);
         if (value != settingText(state.ofPreset, entry)) {

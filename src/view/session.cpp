@@ -20,12 +20,12 @@ namespace reflet {
 namespace {
 
 // Pictures at rest converge; behind this frame nobody sees a difference.
-constexpr uint32_t convergedAfter = 512;
+constexpr uint32_t convergedAfter = 256;
 
 uint32_t framesFor(const Settings& settings, const Scene& scene) {
     const HistoryUse use = historyUse(settings, scene);
     const uint32_t exposed = use.exposure ? exposureFrames : 1;
-    const bool converges = use.accumulate || use.temporal || use.denoise || use.shadows;
+    const bool converges = use.accumulate || use.denoise;  // what has no noise settles sooner
     return std::max({converges ? convergedAfter : 1U, framesToSettle(use, settings), exposed});
 }
 

@@ -185,7 +185,12 @@ TEST(Layers, WhiteOnesReturnAllLight) {
     EXPECT_NEAR(wall(white, false).value("final", 32, 24), 1.0F, 0.01F);
     white = brushed();
     white.baseColor = vec4(1.0F);
-    EXPECT_NEAR(wall(white, false).value("final", 32, 24), 1.0F, 0.05F) << "compensated as an isotropic lobe";
+    const Pictures p = wall(white, false);
+    float mean = 0.0F;
+    for (unsigned i = 0; i < 64; ++i) {
+        mean += p.value("final", 28 + i % 8, 20 + i / 8) / 64.0F;
+    }
+    EXPECT_NEAR(mean, 1.0F, 0.05F) << "compensated as an isotropic lobe";
 }
 
 TextureImage texels(const std::vector<std::array<uint8_t, 4>>& row) {
