@@ -153,9 +153,9 @@ TEST_F(Render, TheLastOfSeveralFramesIsWritten) {
 
 // Over 5 s: stills compile shaders of their own.
 TEST_F(Render, APictureWithoutAPresetIsAStill) {
-    const Outcome still = run({"render", cubes, "--size", "32x18", "--seconds", "3", "-o", "a.png"});
+    const Outcome still = run({"render", cubes, "--size", "32x18", "--seconds", "1", "-o", "a.png"});
     ASSERT_EQ(still.status, 0) << still.err;
-    EXPECT_NE(still.err.find("a still, lit by rays through the scene, with all bounces; at most 3 s"),
+    EXPECT_NE(still.err.find("a still, lit by rays through the scene, with all bounces; at most 1 s"),
               std::string::npos);
     EXPECT_EQ(readBitmap(path("a.png")).width, 32U);
     const Outcome draft = run({"render", cubes, "--size", "32x18", "--effort", "draft", "-o", "b.png"});

@@ -104,12 +104,12 @@ protected:
 };
 
 // Pictures of different numbers of frames differ by the noise of the shorter one, or by what it has not seen yet.
-// Over 5 s: it renders a thousand frames.
+// Over 5 s: it renders some hundred frames.
 TEST_F(AtRest, PicturesConvergeBeyondTheHistoriesOfMotion) {
-    const FloatImage converged = after(700, view);
+    const FloatImage converged = after(400, view);
     const double at32 = squaredDifference(after(32, view), converged);
-    const double at256 = squaredDifference(after(256, view), converged);
-    EXPECT_LT(at256, 0.3 * at32) << at32;
+    const double at200 = squaredDifference(after(200, view), converged);
+    EXPECT_LT(at200, 0.3 * at32) << at32;
 }
 
 }  // namespace

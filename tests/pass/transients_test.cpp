@@ -62,11 +62,11 @@ protected:
         if (std::getenv("REFLET_TRANSIENTS") != nullptr) {  // NOLINT(concurrency-mt-unsafe): one thread
             return all;
         }
-        // A third with each scene, and so each with several: compiling their shaders takes most of the time.
+        // A sixth with each scene, and so each with one or two: compiling their shaders takes most of the time.
         const auto scenes = builtinScenes();
         const auto index = std::ranges::find(scenes, scene, &BuiltinScene::name) - scenes.begin();
         std::vector<Preset> some;
-        for (auto i = static_cast<size_t>(index) % 3; i < all.size(); i += 3) {
+        for (auto i = static_cast<size_t>(index) % 6; i < all.size(); i += 6) {
             some.push_back(all[i]);
         }
         return some;
