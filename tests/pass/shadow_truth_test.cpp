@@ -111,6 +111,7 @@ TEST_P(ShadowTruth, PcssIsNearerThanHardShadowsAndPcfWhateverTheSamplesAndDenois
             EXPECT_LT(soft.flip, 0.8 * hard.raw.flip) << samples;
             EXPECT_LT(soft.flip, 0.7 * fixed.flip) << samples;
         }
+        // Raw visibility has little noise under so small a sun, and the blur costs a few percent.
         EXPECT_LT(pcss.cleaned.relativeMse, 1.1 * pcss.raw.relativeMse) << samples;
         if (samples == 16) {
             EXPECT_LT(pcss.raw.relativeMse, GetParam().errorLimit);
