@@ -20,7 +20,8 @@ namespace {
 
 Settings settingsOfFrame(const FrameInputs& in, Settings settings) {
     lighting::countRenderedPixels(settings, in.view.size.y, static_cast<float>(in.outputSize.y));
-    lighting::fitHistories(settings, {in.view.rest, in.lightChange}, in.view.size.y / static_cast<float>(in.outputSize.y));
+    lighting::fitHistories(settings, {in.view.rest, in.lightChange},
+                           in.view.size.y / static_cast<float>(in.outputSize.y));
     return settings;
 }
 

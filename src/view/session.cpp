@@ -19,7 +19,7 @@ namespace reflet {
 
 namespace {
 
-// Pictures at rest converge without end; noise is then about a third of that of frame 32.
+// Pictures at rest converge without end; eight times the frames of a settled history.
 constexpr uint32_t convergedAfter = 256;
 
 uint32_t framesFor(const Settings& settings, const Scene& scene) {
