@@ -6,7 +6,7 @@ namespace reflet {
 namespace {
 
 // Exactly the identity for a still camera, and for orthographic ones, which have one view direction.
-mat4 skyToPrevious(const ViewParams& view) {
+mat4 toPrevious(const ViewParams& view) {
     const bool moves = view.eye.w != 0.0F && view.worldToClip != view.previousWorldToClip;
     return moves ? mat4(glm::dmat4(view.previousWorldToClip) * glm::dmat4(view.clipToWorld)) : mat4(1.0F);
 }
@@ -16,19 +16,23 @@ struct Histories {
     gpu::History mean;
     gpu::History deviations;
     gpu::History coverage;
+    gpu::History seen;
+    gpu::History changes;
     bool valid = false;
 };
 
-Histories swapHistories(gpu::PassList& f, TemporalStore& own, uvec2 size, bool covers) {
+Histories swapHistories(gpu::PassList& f, TemporalStore& own, uvec2 size, uvec2 output, bool covers) {
     // Of frames at rest, deviation of the tone-compressed luma from the history: variance, and mean over the last few
     // frames.
-    Histories h{own.mean.swap(f, VK_FORMAT_R16G16B16A16_SFLOAT, size),
-                own.deviations.swap(f, VK_FORMAT_R16G16_SFLOAT, size),
+    Histories h{own.mean.swap(f, VK_FORMAT_R16G16B16A16_SFLOAT, output),
+                own.deviations.swap(f, VK_FORMAT_R16G16_SFLOAT, output),
                 {},
+                own.seen.swap(f, VK_FORMAT_R16G16B16A16_SFLOAT, size),
+                own.changes.swap(f, VK_FORMAT_R16G16B16A16_SFLOAT, size),
                 false};
-    h.valid = h.mean.valid;
+    h.valid = h.mean.valid && h.seen.valid && h.changes.valid;
     if (covers) {
-        h.coverage = own.coverage.swap(f, VK_FORMAT_R32_SFLOAT, size);
+        h.coverage = own.coverage.swap(f, VK_FORMAT_R32_SFLOAT, output);
         h.valid = h.valid && h.coverage.valid;
     }
     return h;
@@ -46,17 +50,22 @@ void bindHistories(gpu::ComputePass& pass, const Histories& h, const TemporalInp
     }
 }
 
+void bindSurfaces(gpu::ComputePass& pass, const Histories& h) {
+    pass.read("previousSeen", h.seen.previous)
+        .write("seen", h.seen.next)
+        .read("previousChanges", h.changes.previous)
+        .write("changes", h.changes.next);
+}
+
 uvec2 columns(uvec2 size) {
     return {size.x, (size.y + temporalColumn - 1) / temporalColumn};
 }
 
-void upscale(gpu::PassList& f, TemporalStore& own, const Histories& h, const TemporalInputs& in,
+void upscale(gpu::PassList& f, const Histories& h, const TemporalInputs& in,
              const TemporalParams& params) {
     const uvec2 output = h.mean.next.size;
-    const gpu::History changes = own.changes.swap(f, VK_FORMAT_R16G16B16A16_SFLOAT, params.size);
-    TemporalParams aroundParams = params;
-    aroundParams.hasPrevious = changes.valid ? params.hasPrevious : 0U;
     const gpu::Image around = f.image("temporal.around", VK_FORMAT_R16G16B16A16_SFLOAT, params.size);
+    const gpu::Image changed = f.image("temporal.changed", VK_FORMAT_R16G16_SFLOAT, params.size);
     const gpu::Image spread = f.image("temporal.spread", VK_FORMAT_R16G16B16A16_SFLOAT, params.size);
     gpu::ComputePass near =
         f.compute("temporal.around", in.coverage ? "temporal_around_coverage.comp" : "temporal_around.comp");
@@ -67,19 +76,19 @@ void upscale(gpu::PassList& f, TemporalStore& own, const Histories& h, const Tem
         near.read("coverage", in.coverage).write("coveredAround", covered);
         add.read("coveredAround", covered);
     }
+    bindSurfaces(near, h);
     near.read("radiance", in.radiance)
         .read("depth", in.depth)
         .read("motion", in.motion)
         .write("around", around)
         .write("spread", spread)
-        .read("previousChanges", changes.previous)
-        .write("changes", changes.next)
-        .params(aroundParams)
+        .write("changed", changed)
+        .params(params)
         .dispatch(columns(params.size));
     bindHistories(add, h, in);
     add.read("around", around)
         .read("spread", spread)
-        .read("changes", changes.next)
+        .read("changed", changed)
         .params(TemporalUpscaleParams{params.settings, params.size, vec2(params.size) / vec2(output), in.jitter,
                                       params.frame, params.hasPrevious})
         .dispatch(output);
@@ -91,13 +100,14 @@ TemporalImages temporal(gpu::PassList& f, TemporalStore& own, const TemporalInpu
                         const TemporalSettings& settings) {
     const uvec2 size = in.radiance.size;
     const uvec2 output = in.outputSize.x > 0 ? in.outputSize : size;
-    const Histories h = swapHistories(f, own, output, static_cast<bool>(in.coverage));
-    const TemporalParams params{skyToPrevious(in.view), settings, size, in.view.frame, h.valid ? 1U : 0U};
+    const Histories h = swapHistories(f, own, size, output, static_cast<bool>(in.coverage));
+    const TemporalParams params{toPrevious(in.view), settings, size, in.jitter, in.view.jitterChange, in.view.frame, h.valid ? 1U : 0U};
     if (size != output) {
-        upscale(f, own, h, in, params);
+        upscale(f, h, in, params);
     } else {
         gpu::ComputePass pass = f.compute("temporal", in.coverage ? "temporal_coverage.comp" : "temporal.comp");
         bindHistories(pass, h, in);
+        bindSurfaces(pass, h);
         pass.read("depth", in.depth).read("motion", in.motion).params(params).dispatch(columns(size));
     }
     return {h.mean.next, h.coverage.next};

@@ -10,6 +10,10 @@ uniform sampler2D depth;
 uniform sampler2D motion;
 layout(rgba16f) uniform readonly image2D previousMean;    // radiance, history length
 layout(rg16f) uniform readonly image2D previousDeviations;
+layout(rgba16f) uniform readonly image2D previousSeen;
+layout(rgba16f) uniform writeonly image2D seen;  // distance, own motion, 1: at rest
+layout(rgba16f) uniform readonly image2D previousChanges;
+layout(rgba16f) uniform writeonly image2D changes;
 layout(rgba16f) uniform writeonly image2D mean;
 layout(rg16f) uniform writeonly image2D deviations;
 #if HAS_COVERAGE
@@ -18,21 +22,24 @@ layout(r32f) uniform readonly image2D previousCoverage;
 layout(r32f) uniform writeonly image2D meanCoverage;
 #endif
 const vec2 allowance = vec2(1.0, 1.25);
-const vec2 staleness = vec2(0.25, 0.5);
+const vec2 pixelStaleLimits = vec2(0.25, 0.5);
 #include "effects/temporal/temporal_history.glsl"
-#include "effects/temporal/temporal_rows.glsl"
+#include "effects/temporal/temporal_changes.glsl"
 
 void resolve(ivec2 pixel, Row above, Row row, Row below) {
-    float nearest = max(max(above.nearest, below.nearest), row.nearest);
+    Seen surface = seenAt(pixel, above, row, below);
     Shown now;
     now.own = row.middle;
-    now.changed = 0.0;
     now.inside = 1.0;
     now.blurred = row.middle;
     now.near = 1.0;
     now.middle = (above.sum + row.sum + below.sum) / 9.0;
     now.variance = max((above.squares + row.squares + below.squares) / 9.0 - now.middle * now.middle, 0.0);
-    now.moved = motionAt(nearest > 0.0 ? nearestAround(above, row, below) : pixel, nearest) * vec2(params.size);
+    now.moved = surface.moved * vec2(params.size);
+    now.follows = surface.follows;
+    Changed change = changedAt(pixel, steadyLuma(above, row, below), surface);
+    now.stale = change.stale;
+    now.relit = change.relit;
 #if HAS_COVERAGE
     now.covered = row.covered;
     now.coveredMiddle = (above.coveredSum + row.coveredSum + below.coveredSum) / 9.0;

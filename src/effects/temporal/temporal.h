@@ -42,9 +42,11 @@ SETTINGS(TemporalSettings, TEMPORAL_SETTINGS)
 const uint temporalColumn = 4;
 
 struct TemporalParams {
-    mat4 skyToPrevious;  // clip space to the last frame's clip space, for points at infinity
+    mat4 toPrevious;  // clip space to the last frame's clip space, of what is at rest
     TemporalSettings settings;
     uvec2 size;
+    vec2 jitter;        // of this frame, in its pixels
+    vec2 jitterChange;  // uv: of ViewParams
     uint frame;        // counts up; decorrelates dithering between frames
     uint hasPrevious;  // 1: the history holds the last frame
 };
@@ -70,7 +72,7 @@ namespace reflet {
 /// depth, motion: of what the radiance moves with; motion without jitter. radiance: RGBA16F, rendered with subpixel
 /// jitter (jitter.h), may contain NaN and infinity. view: of this frame; the sky is reprojected with it. coverage: if
 /// given, that of the pixels by surfaces, red, 0 to 1; radiance is premultiplied by it. outputSize: at least that of
-/// radiance; 0: the same. jitter: of this frame, in its pixels; needed if the sizes differ.
+/// radiance; 0: the same. jitter: of this frame, in its pixels.
 struct TemporalInputs {
     gpu::Image depth;
     gpu::Image motion;
@@ -93,6 +95,7 @@ struct TemporalStore {
     gpu::HistoryImage deviations{"temporal_deviations"};
     gpu::HistoryImage coverage{"temporal_coverage"};
     gpu::HistoryImage changes{"temporal_changes"};
+    gpu::HistoryImage seen{"temporal_seen"};
 };
 
 TemporalImages temporal(gpu::PassList& f, TemporalStore& own, const TemporalInputs& in,

@@ -5,6 +5,7 @@
 #ifndef REFLET_TEMPORAL_HISTORY_GLSL
 #define REFLET_TEMPORAL_HISTORY_GLSL
 
+#include "effects/temporal/temporal_stale.glsl"
 #include "shaders/catmull_rom.glsl"
 #include "shaders/half_float.glsl"
 #include "shaders/noise.glsl"
@@ -14,9 +15,8 @@
 const float slack = 0.002;
 const float stillest = 0.25;     // pixels per frame; faster motion counts as not at rest
 // At rest, jitter makes an edge or a thin bar appear in some of a pixel's frames only, so limits are widened by the
-// variance of past frames around their mean. If the differences keep the same sign, the history is stale. The measure
-// is the squared recent mean difference over the variance, between the includer's bounds `staleness`.
-const float recent = 0.25;  // weight of a frame in the recent mean difference
+// variance of past frames around their mean, unless the history is stale: staleShare between the includer's bounds
+// pixelStaleLimits.
 
 struct HistorySample {
     vec4 mean;  // radiance, length
@@ -61,7 +61,9 @@ struct Shown {
     vec3 middle;    // of the 3x3 neighbourhood: mean, tone-compressed
     vec3 variance;
     vec2 moved;     // pixels of the output
-    float changed;  // of the neighbourhood: as `stale` below
+    bool follows;   // the last frame showed the same surface
+    float stale;    // 0 to 1: the neighbourhood has changed; -1: it cannot have
+    float relit;    // factor of that change
 #if HAS_COVERAGE
     float covered;
     float coveredMiddle;
@@ -73,22 +75,23 @@ struct Shown {
 void accumulate(ivec2 pixel, Shown now) {
     vec2 size = vec2(imageSize(mean));
     vec2 at = vec2(pixel) - now.moved;
-    bool known = params.hasPrevious != 0u && all(greaterThan(at, vec2(-0.5))) && all(lessThan(at, size - 0.5));
+    bool known = params.hasPrevious != 0u && now.follows && all(greaterThan(at, vec2(-0.5))) && all(lessThan(at, size - 0.5));
     float still = known ? max(1.0 - length(now.moved) / stillest, 0.0) : 0.0;
     HistorySample history = HistorySample(vec4(0.0), 0.0);
     if (known) {
         history = reprojectedHistory(at);
     }
-    vec4 before = history.mean;
+    vec4 before = vec4(history.mean.rgb * now.relit, history.mean.a);
     vec2 differed = still > 0.0 ? imageLoad(previousDeviations, ivec2(at + 0.5)).rg : vec2(0.0);
-    float stale = max(differed.y * differed.y / (differed.x + 1e-5), now.changed);
-    float trust = still * clamp((staleness.y - stale) / (staleness.y - staleness.x), 0.0, 1.0);
-    float variance = trust * differed.x;
+    float stale = staleness(staleShare(differed.y, differed.x, now.middle.x), pixelStaleLimits);
+    float trust = still * (1.0 - stale);
+    float unchanged = min(1.0 - now.stale, 1.0);
+    float variance = trust * unchanged * differed.x;
 
     vec3 held = toneCompress(before.rgb);
     float allowed = params.settings.clip * mix(allowance.x, allowance.y, still);
-    // With a history at rest, a pixel takes only samples of its own area.
-    float exact = still * min(before.a, 1.0);
+    // With a history at rest that is right, a pixel takes only samples of its own area.
+    float exact = trust * min(before.a, 1.0);
     vec3 shown = now.blurred + (now.own - now.blurred) * exact;
     // This frame's own value is always within the box: it may be a one-pixel feature.
     vec3 own = toneCompress(shown);
@@ -101,7 +104,8 @@ void accumulate(ivec2 pixel, Shown now) {
     share = min(share, halfCovered / max(abs(history.covered - now.coveredMiddle), halfCovered));
 #endif
     // At rest, only a sample of the pixel's own area can tell that it changed: neighbours may have missed a thin bar.
-    share = params.settings.clip > 0.0 ? mix(share, 1.0, trust * (1.0 - now.inside)) : 1.0;
+    share = mix(share, 1.0, trust * unchanged * (1.0 - now.inside));
+    share = params.settings.clip > 0.0 && now.stale >= 0.0 ? share : 1.0;
     vec3 clipped = mix(now.middle, held, share);
     vec3 kept = share < 1.0 ? toneExpand(clipped) : before.rgb;
 #if HAS_COVERAGE
@@ -109,7 +113,7 @@ void accumulate(ivec2 pixel, Shown now) {
 #endif
 
     float most = mix(float(params.settings.framesInMotion), float(params.settings.frames), still);
-    float fresh = still > 0.0 && params.settings.clip > 0.0 ? trust / still : 1.0;
+    float fresh = still > 0.0 && now.stale >= 0.0 && params.settings.clip > 0.0 ? 1.0 - stale : 1.0;
     float lasting = before.a * share * fresh;
     float weight = now.near + (now.inside - now.near) * still * min(lasting, 1.0);
     float frames = min(lasting, most - weight) + weight;
@@ -123,7 +127,7 @@ void accumulate(ivec2 pixel, Shown now) {
 #endif
     float off = own.x - clipped.x;
     vec2 differs =
-        vec2(still * mix(variance, off * off, part), trust * mix(differed.y, off, max(part, recent * now.inside)));
+        vec2(still * mix(variance, off * off, part), trust * mix(differed.y, off, max(part, recentShare * now.inside)));
     imageStore(deviations, pixel, vec4(differs, 0.0, 0.0));
 }
 

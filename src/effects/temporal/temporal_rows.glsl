@@ -1,5 +1,6 @@
 // 3x3 neighbourhoods of this frame's pixels, a row at a time, so that pixels above one another share their loads.
-// The includer declares params.size, the images radiance, depth and motion, and with HAS_COVERAGE coverage.
+// The includer declares params as TemporalParams, the images radiance, depth, motion, previousSeen and seen, and with
+// HAS_COVERAGE coverage.
 #ifndef REFLET_TEMPORAL_ROWS_GLSL
 #define REFLET_TEMPORAL_ROWS_GLSL
 
@@ -12,8 +13,10 @@ struct Row {
     vec3 middle;   // linear
     vec3 sum;      // tone-compressed
     vec3 squares;
+    float steady;  // luma, weighted by steadyWeights
     float nearest;  // reversed depth
     ivec2 at;       // of that
+    float own;      // reversed depth of the middle pixel
 #if HAS_COVERAGE
     float covered;         // the middle pixel
     float coveredSum;
@@ -21,11 +24,24 @@ struct Row {
 #endif
 };
 
+// Of three samples around a pixel's centre: the quadratic B-spline, which the position of the samples hardly changes.
+// jitter: of the samples, in pixels.
+vec3 steadyWeights(float jitter) {
+    float at = clamp(-jitter, -0.5, 0.5);
+    return vec3(0.5 * (0.5 - at) * (0.5 - at), 0.75 - at * at, 0.5 * (0.5 + at) * (0.5 + at));
+}
+
+float steadyLuma(Row above, Row row, Row below) {
+    return dot(steadyWeights(params.jitter.y), vec3(above.steady, row.steady, below.steady));
+}
+
 Row loadRow(ivec2 pixel) {
+    vec3 weights = steadyWeights(params.jitter.x);
     ivec2 last = ivec2(params.size) - 1;
     Row row;
     row.sum = vec3(0.0);
     row.squares = vec3(0.0);
+    row.steady = 0.0;
     row.nearest = -1.0;
 #if HAS_COVERAGE
     row.covered = texelFetch(coverage, clamp(pixel, ivec2(0), last), 0).r;
@@ -39,7 +55,9 @@ Row loadRow(ivec2 pixel) {
         vec3 t = toneCompress(c);
         row.sum += t;
         row.squares += t * t;
+        row.steady += weights[x + 1] * t.x;
         float d = texelFetch(depth, at, 0).r;
+        row.own = x == 0 ? d : row.own;
         row.at = d > row.nearest ? at : row.at;
         row.nearest = max(d, row.nearest);
 #if HAS_COVERAGE
@@ -64,8 +82,58 @@ vec2 motionAt(ivec2 pixel, float nearest) {
         return texelFetch(motion, pixel, 0).rg;
     }
     vec2 uv = pixelToUv(pixel, 1.0 / vec2(params.size));
-    vec4 before = params.skyToPrevious * vec4(uvToNdc(uv), 0.0, 1.0);
+    vec4 before = params.toPrevious * vec4(uvToNdc(uv), 0.0, 1.0);
     return before.w > 0.0 ? uv - ndcToUv(before.xy / before.w) : vec2(2.0);  // 2: off-screen: it was behind the camera
+}
+
+// What a pixel shows, and how it moved since the last frame.
+struct Seen {
+    vec2 moved;    // uv
+    bool follows;  // the last frame showed the same surface where it was
+    ivec2 before;  // its pixel in the last frame
+    bool sky;
+};
+
+const float slowest = 0.25;      // of the frame's pixels; faster motion counts as not at rest
+const float skyDistance = -64.0;  // in place of log2 of the reversed depth, which is 0
+const float sameDistance = 0.15;  // of log2: 11 %
+const vec2 sameMotion = vec2(1.0, 0.5);  // of the frame's pixels, and of the motion
+
+float distanceOf(float reversedDepth) {
+    return reversedDepth > 0.0 ? max(log2(reversedDepth), skyDistance) : skyDistance;
+}
+
+// Whether the last frame showed something else there: what hid this surface has left, or something has come that no
+// motion vector tells of. It had another distance or, beside what it stands on, another motion of its own. Where
+// nothing moves or moved, jitter alone lets a thin thing come and go. `of`: that surface, as imageStored in seen.
+bool disoccluded(ivec2 at, vec4 of, float expected, float steep) {
+    if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(params.size)))) {
+        return true;
+    }
+    vec4 before = imageLoad(previousSeen, at);
+    bool otherMotion = distance(before.yz, of.yz) > max(sameMotion.x, sameMotion.y * length(of.yz));
+    bool rest = before.w > 0.0 && of.w > 0.0;
+    return otherMotion || (!rest && abs(before.x - expected) > sameDistance + steep);
+}
+
+Seen seenAt(ivec2 pixel, Row above, Row row, Row below) {
+    float nearest = max(max(above.nearest, below.nearest), row.nearest);
+    ivec2 nearestPixel = nearest > 0.0 ? nearestAround(above, row, below) : pixel;
+    Seen now;
+    now.moved = motionAt(nearestPixel, nearest);
+    vec2 uv = pixelToUv(nearestPixel, 1.0 / vec2(params.size));
+    vec4 was = params.toPrevious * vec4(uvToNdc(uv), nearest, 1.0);
+    vec2 own = nearest > 0.0 ? now.moved - (uv - ndcToUv(was.xy / was.w)) : vec2(0.0);
+    float rests = length(now.moved * vec2(params.size)) < slowest ? 1.0 : 0.0;
+    vec4 of = vec4(distanceOf(nearest), clamp(own * vec2(params.size), -largestHalf, largestHalf), rests);
+    // A steep surface changes its distance from pixel to pixel.
+    float steep = 2.0 * (of.x - distanceOf(row.own));
+    vec2 from = vec2(pixel) - (now.moved - params.jitterChange) * vec2(params.size);
+    now.sky = nearest <= 0.0;
+    now.before = rests > 0.0 ? pixel : ivec2(floor(from + 0.5));
+    now.follows = params.hasPrevious != 0u && !disoccluded(now.before, of, distanceOf(was.z / was.w), steep);
+    imageStore(seen, pixel, of);
+    return now;
 }
 
 #endif

@@ -8,7 +8,7 @@ layout(scalar) uniform ParamsBlock { TemporalUpscaleParams params; };
 layout(rgba16f) uniform readonly image2D radiance;
 layout(rgba16f) uniform readonly image2D around;
 layout(rgba16f) uniform readonly image2D spread;
-layout(rgba16f) uniform readonly image2D changes;
+layout(rg16f) uniform readonly image2D changed;
 layout(rgba16f) uniform readonly image2D previousMean;  // radiance, history length
 layout(rg16f) uniform readonly image2D previousDeviations;
 layout(rgba16f) uniform writeonly image2D mean;
@@ -21,7 +21,7 @@ layout(r32f) uniform writeonly image2D meanCoverage;
 #endif
 // Neighbourhoods are wider than the output's, and samples of a pixel's own area are rarer and less evenly spread.
 const vec2 allowance = vec2(1.0, 2.0);
-const vec2 staleness = vec2(0.4, 0.8);
+const vec2 pixelStaleLimits = vec2(0.4, 0.8);
 #include "effects/temporal/temporal_history.glsl"
 
 // Of the Gaussian, by the square of the distance in pixels of the output: 0.4 half a pixel off to both sides.
@@ -58,8 +58,10 @@ void main() {
     Shown now;
     now.own = clampToHalf(imageLoad(radiance, nearest).rgb);
     now.blurred = sum / total;
-    vec4 changed = imageLoad(changes, nearest);
-    now.changed = changed.z * changed.z / (changed.y + 1e-5);
+    vec2 change = imageLoad(changed, nearest).rg;
+    now.follows = change.y >= 0.0;
+    now.stale = change.x;
+    now.relit = change.y;
     now.inside = all(lessThanEqual(away, vec2(0.5))) ? 1.0 : 0.0;
     now.near = nearness(away) + 1e-3;
     now.middle = middle.rgb;

@@ -1,0 +1,44 @@
+// How the 3x3 neighbourhoods of a surface's pixels change from frame to frame. The includer declares params as
+// TemporalParams and the images previousChanges and changes: of steadyLuma over the frames that showed the surface: mean,
+// variance, recent mean difference, and their number.
+#ifndef REFLET_TEMPORAL_CHANGES_GLSL
+#define REFLET_TEMPORAL_CHANGES_GLSL
+
+#include "effects/temporal/temporal_rows.glsl"
+#include "effects/temporal/temporal_stale.glsl"
+#include "shaders/not_inlined.glsl"
+
+const float lastingFrames = 16.0;
+const vec2 staleLimits = vec2(0.4, 0.8);
+const float mostRelit = 16.0;
+
+struct Changed {
+    float stale;  // 0 to 1; -1: it is the sky, whose motion is known exactly, and which does not change
+    float relit;  // factor on what is kept of earlier frames
+};
+
+// The factor on linear radiance between two tone-compressed lumas.
+float relitFactor(float from, float to) { return min(to * (1.0 - from) / max(from * (1.0 - to), 1e-8), mostRelit); }
+
+// Jitter changes the mean, too: only the differences of several frames together tell that light changed. Then earlier
+// frames count as lit alike, so that the detail they have is kept.
+Changed changedAt(ivec2 pixel, float luma, Seen now) {
+    if (now.sky) {
+        imageStore(changes, pixel, vec4(0.0));
+        return Changed(-1.0, 1.0);
+    }
+    vec4 past = vec4(0.0);
+    if (notInlined(uint(now.follows), gl_GlobalInvocationID.x) != 0u) {
+        past = imageLoad(previousChanges, now.before);
+    }
+    float frames = min(past.a + 1.0, lastingFrames);
+    float off = past.a > 0.0 ? luma - past.x : 0.0;
+    float variance = mix(past.y, off * off, 1.0 / frames);
+    float recent = mix(past.z, off, recentShare);
+    float stale = staleness(staleShare(recent, variance, luma), staleLimits);
+    float lit = past.x + off * stale;
+    imageStore(changes, pixel, roundToHalf(vec4(lit + (luma - lit) / frames, variance, recent, frames)));
+    return Changed(stale, past.a > 0.0 ? relitFactor(past.x, lit) : 1.0);
+}
+
+#endif
