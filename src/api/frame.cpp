@@ -207,7 +207,7 @@ gpu::Image recordTemporal(RefletView_T& view, Frame& frame, const Settings& sett
                      size.y, view.size.x, view.size.y);
     }
     frame.antialiased = lighting::antialias(f, view.store->temporal, frame.context, settings,
-                                            lightWith(frame, radiance), size, frame.jitter)
+                                            lightWith(frame, radiance), {size, frame.jitter})
                             .lit;
     finishCall(view, frame);
     return frame.antialiased;

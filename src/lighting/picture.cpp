@@ -72,10 +72,17 @@ Light accumulate(gpu::PassList& f, AccumulateHistory& own, const Light& light, u
 }
 
 Light antialias(gpu::PassList& f, TemporalStore& own, const ViewContext& in, const LightingSettings& settings,
-                const Light& light, uvec2 outputSize, const vec2& jitter) {
-    const TemporalImages means = temporal(
-        f, own, {light.followedDepth, light.followedMotion, light.lit, light.coverage, in.view, outputSize, jitter},
-        settings.temporal);
+                const Light& light, const Antialiasing& to) {
+    const TemporalImages means = temporal(f, own,
+                                          {.depth = light.followedDepth,
+                                           .motion = light.followedMotion,
+                                           .radiance = light.lit,
+                                           .coverage = light.coverage,
+                                           .view = in.view,
+                                           .outputSize = to.size,
+                                           .jitter = to.jitter,
+                                           .sky = light.coverage ? nullptr : to.sky},
+                                          settings.temporal);
     Light out = light;
     out.unfiltered = unfilteredOf(light);
     out.antialiased = means.mean;

@@ -40,9 +40,17 @@ struct AccumulateHistory {
 /// Means over this frame and the `framesBefore` before it. The light must have layers.
 Light accumulate(gpu::PassList& f, AccumulateHistory& own, const Light& light, uint32_t framesBefore);
 
-/// Temporal antialiasing, and upscaling to the size of the output. jitter: of the view, in its pixels.
+/// What antialiases to. size: of the picture; larger than the view's with temporal upscaling. jitter: of the view, in its
+/// pixels. sky: of TemporalInputs.
+struct Antialiasing {
+    uvec2 size{};
+    vec2 jitter{};
+    const EnvironmentLight* sky = nullptr;
+};
+
+/// Temporal antialiasing, and upscaling to the size of the output.
 Light antialias(gpu::PassList& f, TemporalStore& own, const ViewContext& in, const LightingSettings& settings,
-                const Light& light, uvec2 outputSize, const vec2& jitter);
+                const Light& light, const Antialiasing& to);
 
 struct DofHistory {
     gpu::HistoryImage light{"circle_of_confusion"};

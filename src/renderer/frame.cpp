@@ -49,12 +49,38 @@ lighting::Light withMeans(gpu::PassList& f, FrameStore& own, const FrameInputs& 
     return settings.accumulate.enabled != 0 ? lighting::accumulate(f, own.means, light, in.framesBefore) : light;
 }
 
+// The environment, if it is what the camera sees behind everything and has detail.
+const EnvironmentLight* skyOf(const FrameInputs& in) {
+    const EnvironmentLight& sky = in.background.environment ? *in.background.environment : in.environment;
+    return sky.texels.size.x > 1 ? &sky : nullptr;
+}
+
+// before: without the blended surfaces `front`, which `light` has. They move otherwise than what is behind them, so they
+// have a history of their own.
 lighting::Light withoutNoise(gpu::PassList& f, FrameStore& own, const FrameInputs& in, const Settings& settings,
-                             const lighting::Light& light) {
+                             const lighting::Light& light, const lighting::Light& before,
+                             const BlendedSurfaces& blended) {
     if (!historyUse(settings).temporal) {
         return light;
     }
-    return lighting::antialias(f, own.temporal, contextOf(in, settings), settings, light, in.outputSize, in.jitter);
+    const lighting::ViewContext context = contextOf(in, settings);
+    const lighting::Antialiasing to{in.outputSize, in.jitter, skyOf(in)};
+    if (!blended.front.lit || light.coverage || settings.composite.direct == 0) {
+        return lighting::antialias(f, own.temporal, context, settings, light, to);
+    }
+    lighting::Light out = lighting::antialias(f, own.temporal, context, settings, before, to);
+    const auto scope = f.scope("blend");
+    lighting::Light front;
+    front.lit = blended.front.lit;
+    front.coverage = coverageOf(f, blended.front.lit);
+    front.followedDepth = blended.depth;
+    front.followedMotion = blended.motion;
+    front = lighting::antialias(f, own.blended, context, settings, front, to);
+    out.lit = blendAntialiased(f, front.lit, front.coverage, out.lit);
+    out.antialiased = out.lit;
+    out.unfiltered = lighting::unfilteredOf(light);
+    out.translucent = light.translucent;
+    return out;
 }
 
 FrameImages imagesOf(const ViewImages& images, const FrameInputs& in, const lighting::Light& light) {
@@ -98,17 +124,19 @@ FrameImages renderFrame(gpu::PassList& f, FrameStore& own, const FrameInputs& in
     light = withCoats(f, in, settings, seen, light);
     light = withBlended(f, blended.behindGlass, light);
     light = throughGlass(f, in, settings, seen, light);
-    const lighting::Light before = light;
+    lighting::Light before = light;
     light = withBlended(f, blended.front, light);
-    keepForNextFrame(f, lit, light);
+    const lighting::Light complete = light;
     if (in.background.environment) {
-        light = withBlended(f, blended.front, withBackground(f, in.background, in.view, before));
+        before = withBackground(f, in.background, in.view, before);
+        light = withBlended(f, blended.front, before);
     }
 
     // The picture.
     light = withMeans(f, own, in, settings, light);
     light = settings.composite.direct != 0 ? light : lighting::withoutDirect(f, light);
-    light = withoutNoise(f, own, in, settings, light);
+    light = withoutNoise(f, own, in, settings, light, before, blended);
+    keepForNextFrame(f, lit, complete);  // last: it may overwrite the light that has been antialiased
     gpu::Image exposure;
     if (in.autoExposure) {
         exposure = lighting::exposure(f, own.exposure, settings, seen.images, light, in.elapsed);

@@ -25,6 +25,7 @@ struct FrameStore {
     std::vector<DirectViewStore> live;
     lighting::AccumulateHistory means;
     TemporalStore temporal;
+    TemporalStore blended;
     gpu::HistoryImage exposure{"exposure"};
     lighting::DofHistory lens;
 };

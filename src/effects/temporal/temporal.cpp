@@ -5,10 +5,14 @@ namespace reflet {
 
 namespace {
 
-// Exactly the identity for a still camera, and for orthographic ones, which have one view direction.
+// Not so for orthographic cameras, which have one view direction.
+bool movesSky(const ViewParams& view) {
+    return view.eye.w != 0.0F && view.worldToClip != view.previousWorldToClip;
+}
+
+// Exactly the identity for a still camera.
 mat4 toPrevious(const ViewParams& view) {
-    const bool moves = view.eye.w != 0.0F && view.worldToClip != view.previousWorldToClip;
-    return moves ? mat4(glm::dmat4(view.previousWorldToClip) * glm::dmat4(view.clipToWorld)) : mat4(1.0F);
+    return movesSky(view) ? mat4(glm::dmat4(view.previousWorldToClip) * glm::dmat4(view.clipToWorld)) : mat4(1.0F);
 }
 
 // The histories of this frame.
@@ -94,6 +98,16 @@ void upscale(gpu::PassList& f, const Histories& h, const TemporalInputs& in,
         .dispatch(output);
 }
 
+void resolveSky(gpu::PassList& f, const Histories& h, const TemporalInputs& in, const TemporalSettings& settings) {
+    gpu::ComputePass pass = f.compute("temporal.sky", "temporal_sky.comp");
+    bindEnvironment(pass, *in.sky);
+    pass.read("depth", in.depth)
+        .write("mean", h.mean.next)
+        .params(TemporalSkyParams{in.view, vec2(in.radiance.size) / vec2(h.mean.next.size), in.jitter,
+                                  static_cast<float>(settings.framesInMotion)})
+        .dispatch(h.mean.next.size);
+}
+
 }  // namespace
 
 TemporalImages temporal(gpu::PassList& f, TemporalStore& own, const TemporalInputs& in,
@@ -101,7 +115,7 @@ TemporalImages temporal(gpu::PassList& f, TemporalStore& own, const TemporalInpu
     const uvec2 size = in.radiance.size;
     const uvec2 output = in.outputSize.x > 0 ? in.outputSize : size;
     const Histories h = swapHistories(f, own, size, output, static_cast<bool>(in.coverage));
-    const TemporalParams params{toPrevious(in.view), settings, size, in.jitter, in.view.jitterChange, in.view.frame, h.valid ? 1U : 0U};
+    const TemporalParams params{toPrevious(in.view), settings, size, in.jitter, in.view.jitterChange, in.view.frame, h.valid ? 1U : 0U, in.sky != nullptr ? 1U : 0U};
     if (size != output) {
         upscale(f, h, in, params);
     } else {
@@ -109,6 +123,9 @@ TemporalImages temporal(gpu::PassList& f, TemporalStore& own, const TemporalInpu
         bindHistories(pass, h, in);
         bindSurfaces(pass, h);
         pass.read("depth", in.depth).read("motion", in.motion).params(params).dispatch(columns(size));
+    }
+    if (in.sky != nullptr && movesSky(in.view)) {
+        resolveSky(f, h, in, settings);
     }
     return {h.mean.next, h.coverage.next};
 }

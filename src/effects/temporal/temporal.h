@@ -49,6 +49,7 @@ struct TemporalParams {
     vec2 jitterChange;  // uv: of ViewParams
     uint frame;        // counts up; decorrelates dithering between frames
     uint hasPrevious;  // 1: the history holds the last frame
+    uint skyIsFixed;   // 1: where depth is 0 the picture changes by the camera alone
 };
 
 struct TemporalUpscaleParams {
@@ -60,10 +61,18 @@ struct TemporalUpscaleParams {
     uint hasPrevious;
 };
 
+struct TemporalSkyParams {
+    ViewParams view;  // of this frame
+    vec2 ratio;       // as in TemporalUpscaleParams
+    vec2 jitter;
+    float frames;  // history length of what is written
+};
+
 SHARED_END
 
 #ifdef __cplusplus
 
+#include "effects/environment/environment_light.h"
 #include "effects/gbuffer/gbuffer.h"
 #include "gpu/pass_list.h"
 
@@ -72,7 +81,8 @@ namespace reflet {
 /// depth, motion: of what the radiance moves with; motion without jitter. radiance: RGBA16F, rendered with subpixel
 /// jitter (jitter.h), may contain NaN and infinity. view: of this frame; the sky is reprojected with it. coverage: if
 /// given, that of the pixels by surfaces, red, 0 to 1; radiance is premultiplied by it. outputSize: at least that of
-/// radiance; 0: the same. jitter: of this frame, in its pixels.
+/// radiance; 0: the same. jitter: of this frame, in its pixels. sky: what is seen where depth is 0, if that is an
+/// environment and nothing else; it must live until the call returns.
 struct TemporalInputs {
     gpu::Image depth;
     gpu::Image motion;
@@ -81,6 +91,7 @@ struct TemporalInputs {
     const ViewParams& view;
     uvec2 outputSize{};
     vec2 jitter{};
+    const EnvironmentLight* sky = nullptr;
 };
 
 struct TemporalImages {

@@ -91,7 +91,7 @@ struct Seen {
     vec2 moved;    // uv
     bool follows;  // the last frame showed the same surface where it was
     ivec2 before;  // its pixel in the last frame
-    bool sky;
+    bool sky;      // the environment, which does not change
 };
 
 const float slowest = 0.25;      // of the frame's pixels; faster motion counts as not at rest
@@ -129,7 +129,7 @@ Seen seenAt(ivec2 pixel, Row above, Row row, Row below) {
     // A steep surface changes its distance from pixel to pixel.
     float steep = 2.0 * (of.x - distanceOf(row.own));
     vec2 from = vec2(pixel) - (now.moved - params.jitterChange) * vec2(params.size);
-    now.sky = nearest <= 0.0;
+    now.sky = nearest <= 0.0 && params.skyIsFixed != 0u;
     now.before = rests > 0.0 ? pixel : ivec2(floor(from + 0.5));
     now.follows = params.hasPrevious != 0u && !disoccluded(now.before, of, distanceOf(was.z / was.w), steep);
     imageStore(seen, pixel, of);

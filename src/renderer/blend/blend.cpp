@@ -41,4 +41,26 @@ void coverOver(gpu::PassList& f, gpu::Image accumulated, gpu::Image behind, gpu:
     compositeOver(f, accumulated, behind, over, 1);
 }
 
+gpu::Image coverageOf(gpu::PassList& f, gpu::Image accumulated) {
+    const gpu::Image covered = f.image("blend.covered", VK_FORMAT_R32_SFLOAT, accumulated.size);
+    f.compute("blend_coverage", "blend_coverage.comp")
+        .read("accumulated", accumulated)
+        .write("covered", covered)
+        .params(BlendOverParams{covered.size, 0})
+        .dispatch(covered.size);
+    return covered;
+}
+
+gpu::Image blendAntialiased(gpu::PassList& f, gpu::Image radiance, gpu::Image covered, gpu::Image behind) {
+    const gpu::Image over = f.image("blend.antialiased", VK_FORMAT_R16G16B16A16_SFLOAT, behind.size);
+    f.compute("blend_antialiased", "blend_antialiased.comp")
+        .read("radiance", radiance)
+        .read("covered", covered)
+        .read("behind", behind)
+        .write("over", over)
+        .params(BlendOverParams{over.size, 0})
+        .dispatch(over.size);
+    return over;
+}
+
 }  // namespace reflet

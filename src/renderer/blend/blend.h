@@ -67,6 +67,12 @@ void blendOver(gpu::PassList& f, gpu::Image accumulated, gpu::Image behind, gpu:
 /// The same for the share of the pixel that surfaces cover, in red, green and blue.
 void coverOver(gpu::PassList& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over);
 
+/// R32F: what the accumulated layers cover.
+gpu::Image coverageOf(gpu::PassList& f, gpu::Image accumulated);
+
+/// RGBA16F: as blendOver, with the radiance of the layers and what they cover in two images.
+gpu::Image blendAntialiased(gpu::PassList& f, gpu::Image radiance, gpu::Image covered, gpu::Image behind);
+
 }  // namespace reflet
 #endif
 

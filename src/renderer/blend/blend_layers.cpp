@@ -54,7 +54,7 @@ BlendedSurfaces lightBlended(gpu::PassList& f, const ViewInputs& in, const Setti
     const auto scope = f.scope("blend");
     const Settings ofLayer = layerSettings(settings);
     const uvec2 size = seen.images.g.depth.size;
-    const BlendedSurfaces out{imagesOf(f, size, layers), glassDepth ? imagesOf(f, size, layers) : LightLayers{}};
+    BlendedSurfaces out{imagesOf(f, size, layers), glassDepth ? imagesOf(f, size, layers) : LightLayers{}, {}, {}};
     gpu::Image nearer;
     for (uint32_t i = 0; i < settings.blend.layers; ++i) {
         TracedView layer{seen.images, seen.screen, {}};
@@ -64,6 +64,8 @@ BlendedSurfaces lightBlended(gpu::PassList& f, const ViewInputs& in, const Setti
         layer.images.g = drawGBuffer(f, in.draws, in.view, settings.materials, content);
         const LightLayers lit = litLayer(f, in, ofLayer, layer, nearer, layers);
         nearer = layer.images.g.depth;
+        out.depth = i == 0 ? nearer : out.depth;
+        out.motion = i == 0 ? layer.images.g.motion : out.motion;
         const BlendedLayer blended{nearer, layer.images.g.motion, glassDepth, i == 0};
         addLayer(f, out.front, lit, blended, glassDepth ? BlendSide::beforeGlass : BlendSide::all);
         if (glassDepth) {

@@ -11,6 +11,8 @@ namespace reflet {
 struct BlendedSurfaces {
     LightLayers front;        ///< none: the view shows no blended surfaces
     LightLayers behindGlass;  ///< of those behind the nearest glass; none: the view shows no glass
+    gpu::Image depth;         ///< of the nearest layer, as is the motion
+    gpu::Image motion;
 };
 
 /// seen: the opaque surfaces, with the screen that reflections read. layers: also the parts of the light, not only the
