@@ -144,6 +144,7 @@ gpu::Image directLightOn(gpu::PassList& f, const ViewInputs& in, const Settings&
     return lighting::directLight(f, contextOf(in, settings), images,
                                  {-in.sunDirection,
                                   in.sunIrradiance,
+                                  sunSlope(in),
                                   in.lamps,
                                   {images.sunVisibility, images.lampVisibility, images.lampTiles.masks}});
 }

@@ -57,6 +57,8 @@ gpu::SamplerInfo samplerInfo(const Sampler& s) {
             .maxLod = s.mips ? VK_LOD_CLAMP_NONE : 0.0F};
 }
 
+}  // namespace
+
 LampParams lampParams(const Lamp& lamp) {
     LampParams p{};
     p.position = lamp.position;
@@ -73,8 +75,6 @@ LampParams lampParams(const Lamp& lamp) {
     p.shadow = noLampShadow;
     return p;
 }
-
-}  // namespace
 
 GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn)
     : GpuScene(device) {  // so that the destructor runs if something fails below

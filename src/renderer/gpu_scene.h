@@ -28,6 +28,9 @@ struct TextureFilter {
     bool operator==(const TextureFilter&) const = default;
 };
 
+/// Of a lamp that casts no shadow.
+LampParams lampParams(const Lamp& lamp);
+
 class GpuScene {
 public:
     /// Uploads everything. `warn` receives messages about what is left out (of more than maxLamps lamps, the weakest).
