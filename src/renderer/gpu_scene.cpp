@@ -6,11 +6,13 @@
 #include "device/upload.h"
 #include "renderer/live/live_picture.h"
 #include "renderer/material.h"
+#include "scene/mesh_pieces.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <numeric>
 #include <span>
 
@@ -238,6 +240,7 @@ void GpuScene::addDraws(const Scene& scene) {
     draws_.indices = indices_.handle();
     draws_.materialLayout = materialLayout_;
     draws_.unlit = isUnlit(scene);
+    std::ranges::transform(scene.meshes, std::back_inserter(pieces_), meshPieces);
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes.at(instance.mesh);
         const Material& material = scene.materials.at(mesh.material);
@@ -248,6 +251,9 @@ void GpuScene::addDraws(const Scene& scene) {
         draw.objectToWorld = instance.objectToWorld;
         draw.previousObjectToWorld = instance.objectToWorld;
         draw.boundsW = transformed(mesh.bounds, instance.objectToWorld);
+        if (!isDeformed(instance)) {
+            draw.pieces = pieces_[instance.mesh];
+        }
         draw.material = materialBindings_[mesh.material].set;
         draw.masked = material.alphaCutoff > 0.0F;
         draw.glass = material.transmission.factor > 0.0F;

@@ -101,6 +101,7 @@ private:
     gpu::Buffer indices_;
     gpu::Buffer materials_;
     std::vector<MeshRange> ranges_;
+    std::vector<std::vector<Aabb>> pieces_;  ///< meshPieces of every mesh
     SkinnedVertices skinned_;
     std::map<size_t, int32_t> skinnedFirst_;                     ///< first vertex of a deformed instance
     std::map<size_t, std::vector<Aabb>> skinnedBounds_;          ///< by joint, of a deformed instance

@@ -144,7 +144,10 @@ std::vector<LiveView> Renderer::liveViews(const ViewParams& view) {
     return live;
 }
 
-View Renderer::withSuns(const View& view, std::vector<Lamp>& others) {
+View Renderer::withSuns(const View& view, const Settings& settings, std::vector<Lamp>& others) {
+    if (settings.environment.enabled == 0) {
+        return view;
+    }
     if (sunsFrom_ != view.environment.image) {
         sunsFrom_ = view.environment.image;
         suns_ = sunsFrom_ ? findImageSuns(*sunsFrom_) : ImageSuns{};
@@ -186,7 +189,7 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
                              const std::function<void(gpu::Frame&, const FrameImages&)>& after) {
     const View shown = posed(asked, source_);
     std::vector<Lamp> otherSuns;
-    const View view = withSuns(shown, otherSuns);
+    const View view = withSuns(shown, settings, otherSuns);
     pose(view);
     ViewParams params = resized(makeViewParams(view.camera, size, frameNumber_++, seed), renderSize(settings, size));
     params.previousWorldToClip = previousWorldToClip_.value_or(params.worldToClip);

@@ -61,7 +61,7 @@ private:
     /// The live camera images for the frame of this view.
     std::vector<LiveView> liveViews(const ViewParams& view);
     /// The view with the suns of its environment's image as lights. others: of these, what is not the view's sun.
-    View withSuns(const View& view, std::vector<Lamp>& others);
+    View withSuns(const View& view, const Settings& settings, std::vector<Lamp>& others);
     /// lit: the view with its suns as lights, whose environment has none.
     FrameBackground backgroundOf(const View& view, const View& lit);
     std::vector<Mirror> planMirrors(const View& view, const ViewParams& params, const Settings& settings);
