@@ -47,9 +47,9 @@ TEST(ImageSuns, ADiskIsOneOfItsSizeDirectionAndLightAndLeavesTheSky) {
             imageOf({1024, 512}, [&](const vec3& d) { return isWithin(d, axis, 1.5F) ? warm : blue; });
         const ImageSuns found = findImageSuns(image);
         ASSERT_EQ(found.suns.size(), 1U);
-        expectNear(found.suns[0].irradiance, diskSolidAngle(1.5F) * (warm - blue), 0.05F);
+        expectNear(found.suns[0].irradiance, diskSolidAngle(1.5F) * (warm - blue), 0.08F);  // of whole texels
         expectNear(found.suns[0].toSun, glm::normalize(axis), 0.002F);
-        EXPECT_NEAR(found.suns[0].angularDiameter, 3.0F * degree, 0.1F * degree);
+        EXPECT_NEAR(found.suns[0].angularDiameter, 3.0F * degree, 0.15F * degree);
         expectNear(meanRadiance(*found.image), blue, 1e-3F);
         // Nothing is lost: of the mean over the sphere of 4 pi.
         const vec3 sum = meanRadiance(*found.image) + found.suns[0].irradiance / (4.0F * glm::pi<float>());
