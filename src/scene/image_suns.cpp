@@ -50,7 +50,7 @@ private:
         return environmentDirection((vec2(t.x, t.y) + 0.5F) / vec2(image_.width, image_.height), 0.0F);
     }
     [[nodiscard]] double solidAngle(uint32_t row) const;
-    [[nodiscard]] double fluxOfRest() const;
+    [[nodiscard]] double flux() const;
     template <typename Visit>
     void visitNeighbours(Texel t, const Visit& visit) const;
     [[nodiscard]] Cluster grow(Texel seed, double threshold, std::vector<uint8_t>& seen) const;
@@ -63,6 +63,7 @@ private:
     std::vector<float> luminance_;
     std::vector<uint32_t> owners_;  ///< Cluster::id; 0: none
     std::vector<Cluster> clusters_;
+    double rest_ = 0.0;  ///< flux of what no cluster has
     uint32_t lastId_ = 0;
 };
 
@@ -71,17 +72,17 @@ double Finder::solidAngle(uint32_t row) const {
     return 2.0 * glm::pi<double>() / image_.width * (edge(row) - edge(row + 1));
 }
 
-// Luminance of the image without the clusters, integrated over all directions.
-double Finder::fluxOfRest() const {
-    double flux = 0.0;
+// Luminance of the image, integrated over all directions.
+double Finder::flux() const {
+    double sum = 0.0;
     for (uint32_t y = 0; y < image_.height; ++y) {
         double row = 0.0;
         for (size_t i = indexOf({0, y}); i < indexOf({0, y + 1}); ++i) {
-            row += owners_[i] != 0 ? 0.0 : double(luminance_[i]);
+            row += double(luminance_[i]);
         }
-        flux += row * solidAngle(y);
+        sum += row * solidAngle(y);
     }
-    return flux;
+    return sum;
 }
 
 // The eight around a texel; across the left and right edge, and across the poles.
@@ -131,7 +132,7 @@ bool Finder::extend(double threshold) {
     std::vector<uint8_t> seen(luminance_.size(), 0);
     const uint32_t before = lastId_;
     for (uint32_t i = 0; i < luminance_.size(); ++i) {
-        if (seen[i] != 0 || !(luminance_[i] > threshold)) {
+        if (!(luminance_[i] > threshold) || seen[i] != 0) {
             continue;
         }
         Cluster cluster = grow({i % image_.width, i / image_.width}, threshold, seen);
@@ -139,7 +140,9 @@ bool Finder::extend(double threshold) {
         if (grows && isCompact(cluster)) {
             cluster.id = ++lastId_;
             for (const Texel t : cluster.texels) {
-                owners_[indexOf(t)] = cluster.id;
+                uint32_t& owner = owners_[indexOf(t)];
+                rest_ -= owner == 0 ? solidAngle(t.y) * double(luminance_[indexOf(t)]) : 0.0;
+                owner = cluster.id;
             }
             clusters_.push_back(std::move(cluster));
         }
@@ -187,16 +190,15 @@ ImageSun Finder::sunOf(const Cluster& cluster, const dvec3& around) const {
 }
 
 ImageSuns Finder::find() {
-    const double all = fluxOfRest();
-    double rest = all;
-    for (int round = 0; round < mostRounds && rest > 0.0; ++round) {
-        if (!extend(contrast * rest / (4.0 * glm::pi<double>()))) {
+    const double all = flux();
+    rest_ = all;
+    for (int round = 0; round < mostRounds && rest_ > 1e-9 * all; ++round) {
+        if (!extend(contrast * rest_ / (4.0 * glm::pi<double>()))) {
             break;
         }
-        rest = fluxOfRest();
     }
     ImageSuns found;
-    FloatImage without = image_;
+    FloatImage without;
     for (const Cluster& cluster : clusters_) {
         const dvec3 around = surroundings(cluster);
         const ImageSun sun = sunOf(cluster, around);
@@ -204,6 +206,9 @@ ImageSuns Finder::find() {
             continue;
         }
         found.suns.push_back(sun);
+        if (without.data.empty()) {
+            without = image_;
+        }
         for (const Texel t : cluster.texels) {
             const vec3 replaced(glm::min(radiance(t), around));
             std::copy_n(&replaced.x, 3, &without.data[3 * indexOf(t)]);
