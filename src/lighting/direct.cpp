@@ -12,6 +12,11 @@ uint32_t tileSide(const SunMaps& maps) {
     return maps.map.size.x / (maps.sun.count > 1 ? 2U : 1U);
 }
 
+// Normals vary by half as much as mirrored directions, and the mean square of a disk's radius is half of its square.
+float sunRoughness(float slope) {
+    return std::sqrt(std::min(0.5F * std::sqrt(0.5F) * slope, 1.0F));
+}
+
 gpu::Image withoutNoise(gpu::PassList& f, gpu::HistoryImage* history, const ViewContext& in,
                         const ShadowSettings& settings, const Surfaces& surfaces, const SunVisibility& seen,
                         const vec3& toSun) {
@@ -88,7 +93,7 @@ gpu::Image lampShadow(gpu::PassList& f, const ViewContext& in, const LightingSet
 
 gpu::Image directLight(gpu::PassList& f, const ViewContext& in, const Surfaces& surfaces, const LightSources& lights) {
     return reflet::directLight(f, surfaces.g, lights.visibility, in.ggxTable,
-                               {in.view, lights.toSun, lights.sunIrradiance},
+                               {in.view, lights.toSun, lights.sunIrradiance, sunRoughness(lights.sunSlope)},
                                {lights.lamps, in.environment, in.lambertOnly});
 }
 

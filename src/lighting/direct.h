@@ -66,6 +66,7 @@ gpu::Image lampShadow(gpu::PassList& f, const ViewContext& in, const LightingSet
 struct LightSources {
     vec3 toSun{0.0F};          ///< unit
     vec3 sunIrradiance{0.0F};  ///< [W/m²]; 0: no sun
+    float sunSlope = 0.0F;     ///< of sunSlope
     const LampBlock& lamps;
     LightVisibility visibility;
 };

@@ -45,8 +45,10 @@ void drawSunMaps(gpu::PassList& f, DirectViewStore& own, const ViewInputs& in, c
                  ViewImages& out) {
     ShadowSettings shadow = settings.shadow;
     shadow.filter = sunShines(in) ? shadow.filter : ShadowFilter::none;
+    const bool choosesCascades = shadow.filter != ShadowFilter::none && shadow.cascades == 0;
     out.sun = fitSunShadows(in.view, in.draws.boundsW, in.sunDirection, shadow,
-                            filterReach(in.draws.boundsW, shadow, sunSlope(in)));
+                            filterReach(in.draws.boundsW, shadow, sunSlope(in)),
+                            choosesCascades ? nearestSurface(in.view, in.draws) : 0.0F);
     if (shadow.filter == ShadowFilter::none) {
         return;
     }
@@ -144,6 +146,7 @@ gpu::Image directLightOn(gpu::PassList& f, const ViewInputs& in, const Settings&
     return lighting::directLight(f, contextOf(in, settings), images,
                                  {-in.sunDirection,
                                   in.sunIrradiance,
+                                  sunSlope(in),
                                   in.lamps,
                                   {images.sunVisibility, images.lampVisibility, images.lampTiles.masks}});
 }

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace reflet {
@@ -18,6 +19,7 @@ struct Draw {
     mat4 objectToWorld{1.0F};
     mat4 previousObjectToWorld{1.0F};
     Aabb boundsW;
+    std::span<const Aabb> pieces;  ///< bounds of its parts, in object space; empty: only boundsW is known
     VkDescriptorSet material = VK_NULL_HANDLE;
     bool masked = false;   ///< has an alpha cutoff
     bool blended = false;  ///< alpha is coverage; masked, too

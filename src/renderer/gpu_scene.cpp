@@ -6,11 +6,13 @@
 #include "device/upload.h"
 #include "renderer/live/live_picture.h"
 #include "renderer/material.h"
+#include "scene/mesh_pieces.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <numeric>
 #include <span>
 
@@ -57,6 +59,8 @@ gpu::SamplerInfo samplerInfo(const Sampler& s) {
             .maxLod = s.mips ? VK_LOD_CLAMP_NONE : 0.0F};
 }
 
+}  // namespace
+
 LampParams lampParams(const Lamp& lamp) {
     LampParams p{};
     p.position = lamp.position;
@@ -73,8 +77,6 @@ LampParams lampParams(const Lamp& lamp) {
     p.shadow = noLampShadow;
     return p;
 }
-
-}  // namespace
 
 GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn)
     : GpuScene(device) {  // so that the destructor runs if something fails below
@@ -238,6 +240,7 @@ void GpuScene::addDraws(const Scene& scene) {
     draws_.indices = indices_.handle();
     draws_.materialLayout = materialLayout_;
     draws_.unlit = isUnlit(scene);
+    std::ranges::transform(scene.meshes, std::back_inserter(pieces_), meshPieces);
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes.at(instance.mesh);
         const Material& material = scene.materials.at(mesh.material);
@@ -248,6 +251,9 @@ void GpuScene::addDraws(const Scene& scene) {
         draw.objectToWorld = instance.objectToWorld;
         draw.previousObjectToWorld = instance.objectToWorld;
         draw.boundsW = transformed(mesh.bounds, instance.objectToWorld);
+        if (!isDeformed(instance)) {
+            draw.pieces = pieces_[instance.mesh];
+        }
         draw.material = materialBindings_[mesh.material].set;
         draw.masked = material.alphaCutoff > 0.0F;
         draw.glass = material.transmission.factor > 0.0F;

@@ -28,6 +28,9 @@ struct TextureFilter {
     bool operator==(const TextureFilter&) const = default;
 };
 
+/// Of a lamp that casts no shadow.
+LampParams lampParams(const Lamp& lamp);
+
 class GpuScene {
 public:
     /// Uploads everything. `warn` receives messages about what is left out (of more than maxLamps lamps, the weakest).
@@ -98,6 +101,7 @@ private:
     gpu::Buffer indices_;
     gpu::Buffer materials_;
     std::vector<MeshRange> ranges_;
+    std::vector<std::vector<Aabb>> pieces_;  ///< meshPieces of every mesh
     SkinnedVertices skinned_;
     std::map<size_t, int32_t> skinnedFirst_;                     ///< first vertex of a deformed instance
     std::map<size_t, std::vector<Aabb>> skinnedBounds_;          ///< by joint, of a deformed instance

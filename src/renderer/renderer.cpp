@@ -18,6 +18,18 @@
 
 namespace reflet {
 
+namespace {
+
+void addLamps(LampBlock& block, const std::vector<Lamp>& lamps) {
+    for (const Lamp& lamp : lamps) {
+        if (block.count < maxLamps) {
+            block.lamps[block.count++] = lampParams(lamp);
+        }
+    }
+}
+
+}  // namespace
+
 Renderer::Renderer(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn)
     : frame_(device),
       source_(scene),
@@ -132,10 +144,22 @@ std::vector<LiveView> Renderer::liveViews(const ViewParams& view) {
     return live;
 }
 
-FrameBackground Renderer::backgroundOf(const View& view) {
+View Renderer::withSuns(const View& view, const Settings& settings, std::vector<Lamp>& others) {
+    if (settings.environment.enabled == 0) {
+        return view;
+    }
+    if (sunsFrom_ != view.environment.image) {
+        sunsFrom_ = view.environment.image;
+        suns_ = sunsFrom_ ? findImageSuns(*sunsFrom_) : ImageSuns{};
+    }
+    return withImageSuns(view, suns_, others);
+}
+
+FrameBackground Renderer::backgroundOf(const View& view, const View& lit) {
     const Background& background = view.background;
     const bool constant = background.mode == Background::Mode::blur && !view.environment.image;
-    if (background.mode == Background::Mode::environment || constant) {
+    const bool same = view.environment.image == lit.environment.image;
+    if ((background.mode == Background::Mode::environment && same) || constant) {
         return {};
     }
     if (needsBlurredImage(view) && blurredFrom_ != view.environment.image) {
@@ -163,7 +187,9 @@ void Renderer::restart(uint32_t frameNumber) {
 
 FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const Settings& settings,
                              const std::function<void(gpu::Frame&, const FrameImages&)>& after) {
-    const View view = posed(asked, source_);
+    const View shown = posed(asked, source_);
+    std::vector<Lamp> otherSuns;
+    const View view = withSuns(shown, settings, otherSuns);
     pose(view);
     ViewParams params = resized(makeViewParams(view.camera, size, frameNumber_++, seed), renderSize(settings, size));
     params.previousWorldToClip = previousWorldToClip_.value_or(params.worldToClip);
@@ -176,6 +202,7 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
     previousPlace_ = place;
     LampBlock lamps = scene_.lamps();
     const LampShadows lampShadows = planLamps(lamps, view, settings.shadow);
+    addLamps(lamps, otherSuns);
     const float lightChange = lightChange_.update(lamps, view);
     scene_.setTextureFilter({settings.materials.anisotropy, settings.materials.mips != 0,
                              settings.materials.mipBias + std::log2(params.size.y / static_cast<float>(size.y))});
@@ -203,7 +230,7 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
         live,
         framesBefore,
         lightChange,
-        backgroundOf(view),
+        backgroundOf(shown, view),
         exposesAutomatically(settings.tonemap, source_),
         static_cast<float>(std::abs(asked.time - previousTime_.value_or(asked.time))),
         size,

@@ -8,6 +8,7 @@
 #include "renderer/light_change.h"
 #include "renderer/probe/capture_probe.h"
 #include "renderer/view_params.h"
+#include "scene/image_suns.h"
 #include "scene/pose.h"
 
 #include <functional>
@@ -59,7 +60,10 @@ private:
     const std::vector<Probe>& probesOf(const View& view, const ProbesSettings& settings);
     /// The live camera images for the frame of this view.
     std::vector<LiveView> liveViews(const ViewParams& view);
-    FrameBackground backgroundOf(const View& view);
+    /// The view with the suns of its environment's image as lights. others: of these, what is not the view's sun.
+    View withSuns(const View& view, const Settings& settings, std::vector<Lamp>& others);
+    /// lit: the view with its suns as lights, whose environment has none.
+    FrameBackground backgroundOf(const View& view, const View& lit);
     std::vector<Mirror> planMirrors(const View& view, const ViewParams& params, const Settings& settings);
     void warnOnce(const std::string& text);
 
@@ -78,6 +82,8 @@ private:
     gpu::Buffer blueNoise_;
     EnvironmentMaps environment_;
     EnvironmentMaps background_{/*prefilters=*/false};
+    std::shared_ptr<const FloatImage> sunsFrom_;  ///< image of the environment
+    ImageSuns suns_;
     std::shared_ptr<const FloatImage> blurredFrom_;  ///< image of the environment
     std::shared_ptr<const FloatImage> blurred_;
     Probes probes_;

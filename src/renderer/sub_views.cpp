@@ -30,6 +30,7 @@ Settings coatSettings(const Settings& settings) {
 }
 
 Settings planarSettings(Settings settings) {
+    settings.shadow.cascades = std::max(settings.shadow.cascades, 1U);
     const bool lit = settings.traceScreen.light != HitLight::direct;
     settings.traceScreen.light = lit ? HitLight::lit : HitLight::direct;
     settings.traceScreen.countSteps = 0;

@@ -155,8 +155,10 @@ TEST(Cascades, FourMakeLessThanAQuarterOfTheErrorThatOneMakesNearTheCameraInALon
     };
     const double one = error("1");
     const double four = error("4");
+    const double chosen = error("0");
     EXPECT_GT(one, 0.005);
     EXPECT_LT(four, 0.25 * one) << "of " << one;
+    EXPECT_LT(chosen, 0.25 * one) << "of " << one;
     RecordProperty("one", std::to_string(one));
     RecordProperty("four", std::to_string(four));
 }

@@ -242,6 +242,62 @@ TEST(FitSunShadows, areOneMapWhereTheExtentIsGiven) {
               centredSunShadow(large(), {0, -1, 0}, 10.0F, settings.resolution).worldToShadow);
 }
 
+// A camera at the origin that looks along -Z.
+ViewParams straightAhead() {
+    return makeViewParams(cameraAt({0, 0, 0}, {0, 0, -1}), pixels, 0, 0);
+}
+
+float nearestOf(const std::vector<Draw>& draws) {
+    DrawList list;
+    list.draws = draws;
+    return nearestSurface(straightAhead(), list);
+}
+
+Draw drawOf(const Aabb& box) {
+    Draw draw;
+    draw.boundsW = box;
+    return draw;
+}
+
+TEST(NearestSurface, isWhereBoxesComeIntoView) {
+    EXPECT_EQ(nearestOf({drawOf(boxOf({-1, -1, 3}, {1, 1, 5}))}), std::numeric_limits<float>::max());
+    EXPECT_NEAR(nearestOf({drawOf(boxOf({-1, -1, -9}, {1, 1, -7})), drawOf(boxOf({30, 0, -20}, {31, 1, -5}))}), 7.0F,
+                0.01F);
+    // Ground below the camera is first seen where the view's lower edge meets it.
+    const float slope = 0.5F * straightAhead().pixelAngle * static_cast<float>(pixels.y);
+    EXPECT_NEAR(nearestOf({drawOf(boxOf({-99, -3, -99}, {99, -2, 99}))}), 2.0F / slope, 0.05F);
+}
+
+TEST(NearestSurface, isThatOfAMeshesPartsWhereItsBoxHoldsTheCamera) {
+    const Aabb parts[] = {boxOf({-5, -5, -5}, {5, -4, 5}), boxOf({-5, -5, -5}, {5, 5, -4})};
+    Draw room = drawOf(boxOf({-10, -10, -10}, {10, 10, 10}));
+    EXPECT_LT(nearestOf({room}), 0.2F);
+    room.pieces = parts;
+    room.objectToWorld = glm::scale(mat4(1.0F), vec3(2.0F));
+    EXPECT_NEAR(nearestOf({room}), 8.0F, 0.01F);
+}
+
+TEST(FitSunShadows, chooseOneMapForARoomAndFineOnesForALongRoad) {
+    ShadowSettings settings;
+    const vec3 sun = glm::normalize(vec3(0.5F, -0.4F, 0.3F));
+    const ViewParams view = straightAhead();
+    const Aabb room = boxOf({-4, -2, -8}, {4, 3, 2});
+    const Aabb road = boxOf({-200, -2, -1000}, {200, 6, 10});
+    const float slope = std::tan(glm::radians(0.265F));
+    const auto fit = [&](const Aabb& scene, float nearest) {
+        return fitSunShadows(view, scene, sun, settings, filterReach(scene, settings, slope), nearest);
+    };
+    EXPECT_EQ(fit(room, 2.0F).count, 1U);
+    EXPECT_EQ(fit(road, 0.0F).count, 1U);
+    EXPECT_EQ(fit(road, 300.0F).count, 1U);
+    const SunShadowParams cascades = fit(road, 4.0F);
+    EXPECT_GT(cascades.count, 1U);
+    EXPECT_LT(cascades.maps[0].texelSize, 0.02F);
+    EXPECT_GE(cascades.ends[cascades.count - 1], 1000.0F);
+    // The grid stays where it is while the nearest surface changes a little.
+    EXPECT_EQ(fit(road, 4.7F).maps[0].worldToShadow, cascades.maps[0].worldToShadow);
+}
+
 class Cascades : public ShaderTest {};
 
 TEST_F(Cascades, followOneAnotherByDistanceAndBlendEvenly) {

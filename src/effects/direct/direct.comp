@@ -55,7 +55,9 @@ vec3 radianceAt(ivec2 pixel) {
 
     float visibility = texelFetch(sunVisibility, pixel, 0).r;
     vec3 radiance = emissionAt(texelFetch(emissive, pixel, 0).rgb, base, m);
-    radiance += brdfTimesCosine(s, n, v, params.toSun) * params.sunIrradiance * visibility;
+    Surface underSun = s;
+    underSun.roughness = max(s.roughness, params.sunRoughness);
+    radiance += brdfTimesCosine(underSun, n, v, params.toSun) * params.sunIrradiance * visibility;
     for (uint first = 0u; anyLamps != 0u && first < lampBlock.count; first += lampsPerLayer) {
         uvec4 bits = lampMaskAt(pixel, first / lampsPerLayer);
         while (bits != uvec4(0u)) {

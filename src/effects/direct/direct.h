@@ -12,6 +12,7 @@ struct DirectParams {
     ViewParams view;
     vec3 toSun;
     vec3 sunIrradiance;  // on a surface that faces it [W/m²]
+    float sunRoughness;  // perceptual, of a lobe about as wide as the sun's disk: highlights are no sharper
 };
 
 SHARED_END

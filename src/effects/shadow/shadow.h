@@ -70,9 +70,10 @@ CHOICES(ShadowUnit, SHADOW_UNITS)
         "pixel by blue noise. rings: a spiral of `rings` turns, denser at the centre, rotated per pixel by a hash.")   \
     VALUE(float, rings, 10.0, 0.0, 100.0, "Turns of the spiral (pattern rings).")                                      \
     SWITCH(mirrored, 0, "Make every second sample the mirror image of the one before (pattern rings).")                \
-    VALUE(uint, cascades, 1, 1, 4,                                                                                     \
-          "Number of cascades of the sun's cascaded shadow map, for large scenes. 1: a single map fitted to "          \
-          "everything in view. More: finer shadows near the camera; each cascade is one more map to draw.")            \
+    VALUE(uint, cascades, 0, 0, 4,                                                                                     \
+          "Number of cascades of the sun's cascaded shadow map, for large scenes. 0: as many as needed for fine "      \
+          "texels where surfaces are nearest; small scenes need one map. 1: a single map fitted to everything in "     \
+          "view. More: finer shadows near the camera; each cascade is one more map to draw.")                          \
     VALUE(                                                                                                             \
         float, cascadeSplit, 1.0, 0.0, 1.0,                                                                            \
         "Distribution of cascade splits along the view: 0 uniform, 1 logarithmic (near cascades shorter and finer).")  \

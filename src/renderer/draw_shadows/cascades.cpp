@@ -13,6 +13,11 @@ namespace reflet {
 
 namespace {
 
+// Largest texels, in units of the finest shadows that the picture shows where surfaces are nearest: of a single map,
+// and of cascades if that is too coarse.
+constexpr float coarsestInOneMap = 4.0F;
+constexpr float coarsestInCascades = 0.5F;
+
 // Range to be covered by cascades: distances in front of the camera [m].
 struct DepthRange {
     float first = 0.0F;  // near end of the scene
@@ -39,7 +44,7 @@ float cornerSlope(const ViewParams& view) {
 }
 
 // Camera rotation does not change these; translation changes them in steps.
-DepthRange depthRangeOf(const ViewParams& view, const Aabb& scene) {
+DepthRange depthRangeOf(const ViewParams& view, const Aabb& scene, float surface) {
     const bool orthographic = view.eye.w == 0.0F;
     float nearest = std::numeric_limits<float>::max();
     float farthest = 0.0F;
@@ -61,6 +66,10 @@ DepthRange depthRangeOf(const ViewParams& view, const Aabb& scene) {
     const float corner = cornerSlope(view);
     range.first = orthographic ? begin : begin / std::sqrt(1.0F + corner * corner);
     range.near = std::max(begin, range.far * nearestSplit);
+    if (surface > 0.0F) {
+        range.near = std::min(surface, range.far);
+        range.first = range.near;
+    }
     return range;
 }
 
@@ -98,12 +107,12 @@ SunShadowParams oneMap(const ShadowMapParams& map) {
 }  // namespace
 
 SunShadowParams fitCascades(const ViewParams& view, const Aabb& sceneBounds, const vec3& direction,
-                            const ShadowSettings& settings, float reach) {
+                            const ShadowSettings& settings, float reach, float nearest) {
     if (sceneBounds.empty()) {
         return oneMap(emptyMap(direction));
     }
     const LightSpace light = lightSpaceOf(sceneBounds, direction);
-    const DepthRange range = depthRangeOf(view, sceneBounds);
+    const DepthRange range = depthRangeOf(view, sceneBounds, nearest);
     SunShadowParams sun{};
     sun.count = settings.cascades;
     float begin = range.first;  // start of the blend into this cascade
@@ -139,15 +148,55 @@ float filterReach(const Aabb& sceneBounds, const ShadowSettings& settings, float
     }
 }
 
+namespace {
+
+// Share of the scene's diagonal that the longest way of light through its bounding box has.
+float longestWay(const Aabb& scene, const vec3& direction) {
+    const vec3 ways = scene.size() / glm::max(glm::abs(direction), vec3(1e-6F));
+    return std::min({ways.x, ways.y, ways.z, glm::length(scene.size())}) / glm::length(scene.size());
+}
+
+// As few cascades as make the texels fine enough where each begins. finest: size of shadows, per metre from the camera.
+SunShadowParams enoughCascades(const ViewParams& view, const Aabb& sceneBounds, const vec3& direction,
+                               ShadowSettings settings, float reach, float nearest, float finest) {
+    SunShadowParams sun{};
+    for (settings.cascades = 2; settings.cascades <= maxCascades; ++settings.cascades) {
+        sun = fitCascades(view, sceneBounds, direction, settings, reach, nearest);
+        float begin = nearest;
+        bool fine = true;
+        for (uint i = 0; i < sun.count; ++i) {
+            fine = fine && sun.maps[i].texelSize <= coarsestInCascades * finest * begin;
+            begin = sun.ends[i];
+        }
+        if (fine) {
+            break;
+        }
+    }
+    return sun;
+}
+
+}  // namespace
+
 SunShadowParams fitSunShadows(const ViewParams& view, const Aabb& sceneBounds, const vec3& direction,
-                              const ShadowSettings& settings, float reach) {
+                              const ShadowSettings& settings, float reach, float nearest) {
     if (settings.extent > 0.0F) {
         return oneMap(centredSunShadow(sceneBounds, direction, settings.extent, settings.resolution));
     }
-    if (settings.cascades == 1) {
-        return oneMap(fitSunShadow(view.paddedClipToWorld, sceneBounds, direction, settings.resolution, reach));
+    if (settings.cascades > 1) {
+        return fitCascades(view, sceneBounds, direction, settings, reach);
     }
-    return fitCascades(view, sceneBounds, direction, settings, reach);
+    const ShadowMapParams one =
+        fitSunShadow(view.paddedClipToWorld, sceneBounds, direction, settings.resolution, reach);
+    const bool known = nearest > 0.0F && nearest < std::numeric_limits<float>::max() && view.eye.w > 0.0F;
+    // Per metre from the camera: a pixel, or the penumbra of what is as far from the surface as the camera.
+    const float slope = settings.filter == ShadowFilter::pcss ? reach / glm::length(sceneBounds.size()) : 0.0F;
+    const float finest = std::max(view.pixelAngle, 2.0F * slope);
+    if (settings.cascades == 1 || !known || one.texelSize <= coarsestInOneMap * finest * nearest) {
+        return oneMap(one);
+    }
+    const float needed = slope > 0.0F ? longestWay(sceneBounds, direction) : 1.0F;
+    const float surface = std::exp2(std::floor(std::log2(nearest)));  // changes seldom when the camera moves
+    return enoughCascades(view, sceneBounds, direction, settings, needed * reach, surface, finest);
 }
 
 }  // namespace reflet

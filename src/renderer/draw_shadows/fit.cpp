@@ -59,9 +59,11 @@ std::array<vec4, 5> frustumPlanes(const mat4& worldToClip) {
     return {rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1], rows[3] - rows[2]};
 }
 
-// Bounds, in the space of `light`, of the intersection of box and frustum: the box's faces clipped by the frustum, and
+}  // namespace
+
+// The intersection of box and frustum: the box's faces clipped by the frustum, and
 // (where frustum edges pass through the box) the frustum's faces, as large polygons, clipped by the box.
-Aabb visibleBounds(const Aabb& box, const mat4& clipToWorld, const LightSpace& light) {
+Aabb visibleBounds(const Aabb& box, const mat4& clipToWorld, const mat3& axes) {
     const auto planes = frustumPlanes(glm::inverse(clipToWorld));
     Aabb seen;
     const auto addClipped = [&](Polygon polygon, size_t skip) {
@@ -69,7 +71,7 @@ Aabb visibleBounds(const Aabb& box, const mat4& clipToWorld, const LightSpace& l
             polygon = i == skip ? polygon : clip(polygon, planes[i]);
         }
         for (size_t i = 0; i < polygon.count; ++i) {
-            seen.add(light.worldToLight * polygon.points[i]);
+            seen.add(axes * polygon.points[i]);
         }
     };
     for (const Polygon& face : boxFaces(box)) {
@@ -98,15 +100,13 @@ Aabb visibleBounds(const Aabb& box, const mat4& clipToWorld, const LightSpace& l
     return seen;
 }
 
-}  // namespace
-
 ShadowMapParams fitSunShadow(const mat4& clipToWorld, const Aabb& sceneBounds, const vec3& direction, uint resolution,
                              float reach) {
     if (sceneBounds.empty()) {
         return emptyMap(direction);
     }
     const LightSpace light = lightSpaceOf(sceneBounds, direction);
-    Aabb seen = visibleBounds(sceneBounds, clipToWorld, light);
+    Aabb seen = visibleBounds(sceneBounds, clipToWorld, light.worldToLight);
     if (seen.empty()) {  // the scene is out of view
         seen = light.scene;
     }

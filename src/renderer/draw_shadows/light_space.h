@@ -15,6 +15,9 @@ struct LightSpace {
 /// sceneBounds: not empty. direction: direction of travel of the light.
 LightSpace lightSpaceOf(const Aabb& sceneBounds, const vec3& direction);
 
+/// Bounds, in the space of `axes` (from world space), of the part of a box that a view shows.
+Aabb visibleBounds(const Aabb& box, const mat4& clipToWorld, const mat3& axes);
+
 /// Rounded up to the next eighth of an octave (steps of 9 %).
 float steppedUp(float metres);
 

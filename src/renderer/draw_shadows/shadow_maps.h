@@ -8,9 +8,14 @@
 namespace reflet {
 
 /// The maps for the settings: one by fitSunShadow or centredSunShadow, or cascades. `reach`: extra metres around the
-/// visible part for filters; two texels are always added.
+/// visible part for filters; two texels are always added. nearest: of nearestSurface; 0: unknown, and settings that
+/// leave the number of cascades open get one map.
 SunShadowParams fitSunShadows(const ViewParams& view, const Aabb& sceneBounds, const vec3& direction,
-                              const ShadowSettings& settings, float reach = 0.0F);
+                              const ShadowSettings& settings, float reach = 0.0F, float nearest = 0.0F);
+
+/// Distance in front of the camera before which no surface is in view, by bounding boxes [m]; the largest float: there
+/// is none in view.
+float nearestSurface(const ViewParams& view, const DrawList& list);
 
 /// Largest filter radius, perpendicular to the sun direction [m]. sunSlope: as in ShadowVisibilityParams.
 float filterReach(const Aabb& sceneBounds, const ShadowSettings& settings, float sunSlope);
@@ -23,7 +28,7 @@ ShadowMapParams fitSunShadow(const mat4& clipToWorld, const Aabb& sceneBounds, c
 /// One map per cascade. Texels snap to a grid and keep their size under camera rotation, and under translation except
 /// for steps of 9 % in the scene's near and far distance.
 SunShadowParams fitCascades(const ViewParams& view, const Aabb& sceneBounds, const vec3& direction,
-                            const ShadowSettings& settings, float reach = 0.0F);
+                            const ShadowSettings& settings, float reach = 0.0F, float nearest = 0.0F);
 
 /// A fixed orthographic map of ±extent metres around the world's origin, with the depth of `sceneBounds`.
 ShadowMapParams centredSunShadow(const Aabb& sceneBounds, const vec3& direction, float extent, uint resolution);
