@@ -54,7 +54,7 @@ vec3 radianceAt(ivec2 pixel) {
     Surface s = surfaceAt(pixel, base, m, dot(n, v), ggxTable, lambertOnly != 0u);
 
     float visibility = texelFetch(sunVisibility, pixel, 0).r;
-    vec3 radiance = emissionAt(texelFetch(emissive, pixel, 0).rgb, base, m);
+    vec3 radiance = emissionAt(texelFetch(emissive, pixel, 0).rgb, base, m, params.view.preExposure);
     radiance += brdfTimesCosine(s, n, v, params.toSun) * params.sunIrradiance * visibility;
     for (uint first = 0u; anyLamps != 0u && first < lampBlock.count; first += lampsPerLayer) {
         uvec4 bits = lampMaskAt(pixel, first / lampsPerLayer);
