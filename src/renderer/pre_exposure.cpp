@@ -2,6 +2,7 @@
 #include "renderer/pre_exposure.h"
 
 #include "base/color.h"
+#include "base/exposure.h"
 #include "scene/sky.h"
 
 #include <algorithm>
@@ -12,8 +13,6 @@ namespace reflet {
 
 namespace {
 
-// Wide enough for the scenes that people light by eye, and for what the estimate is off.
-constexpr float stopsOff = 5.0F;
 // What is brightest is not farther above the estimate than that.
 constexpr float contrast = 1.0F / 512.0F;
 constexpr float lightShare = 0.8F;  // of the places are darker than what counts as lit
@@ -59,13 +58,6 @@ float irradianceFrom(const LampParams& lamp, const vec3& at) {
 }
 
 }  // namespace
-
-float preExposureFor(float radiance, float now) {
-    if (!(radiance > 0.0F) || !std::isfinite(radiance)) {
-        return now;
-    }
-    return std::abs(std::log2(radiance * now)) <= stopsOff ? now : std::exp2(-std::round(std::log2(radiance)));
-}
 
 PreExposure::PreExposure(const Scene& scene) {
     std::vector<MeshArea> areas;

@@ -17,10 +17,6 @@
 
 namespace reflet {
 
-/// The power of two that brings a typical radiance close to 1. It is `now` as long as that brings it within some stops
-/// of 1, and if the radiance is 0.
-float preExposureFor(float radiance, float now = 1.0F);
-
 class PreExposure {
 public:
     explicit PreExposure(const Scene& scene);

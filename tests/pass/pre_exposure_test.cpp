@@ -1,6 +1,7 @@
 // Light in any unit: lights that are brighter by a factor give the same picture, brighter by that factor.
 #include "renderer/pre_exposure.h"
 
+#include "base/exposure.h"
 #include "capture/show.h"
 #include "pass/harness.h"
 #include "renderer/presets.h"

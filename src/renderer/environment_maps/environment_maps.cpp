@@ -2,8 +2,8 @@
 #include "renderer/environment_maps/environment_maps.h"
 
 #include "base/color.h"
+#include "base/exposure.h"
 #include "gpu/context.h"
-#include "renderer/pre_exposure.h"
 #include "scene/sky.h"
 
 #include <glm/gtc/packing.hpp>
