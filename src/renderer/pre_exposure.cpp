@@ -15,7 +15,7 @@ namespace {
 
 // What is brightest is not farther above the estimate than that.
 constexpr float contrast = 1.0F / 512.0F;
-constexpr float lightShare = 0.8F;  // of the places are darker than what counts as lit
+constexpr float lightShare = 0.5F;  // of the places are darker than what counts as lit
 constexpr size_t mostPlaces = 256;
 
 struct MeshArea {
@@ -76,7 +76,9 @@ PreExposure::PreExposure(const Scene& scene) {
         area += double(own.all()) * scale * scale;
         power += double(own.all()) * scale * scale * emission;
         brightest = std::max(brightest, emission);
-        for (size_t n = 0; n < each && i % step == 0 && own.all() > 0.0F; ++n) {
+        // What shines is close to a lamp of its own, such as a bulb, and tells nothing of what others receive.
+        const bool receives = emission == 0.0F && own.all() > 0.0F && i % step == 0;
+        for (size_t n = 0; n < each && receives; ++n) {
             const float place = own.all() * (static_cast<float>(n) + 0.5F) / static_cast<float>(each);
             const auto found = std::ranges::upper_bound(own.until, place) - own.until.begin();
             const auto triangle = std::min<size_t>(static_cast<size_t>(found), own.until.size() - 1);
