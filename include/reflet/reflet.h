@@ -17,8 +17,8 @@
  * thread; a command buffer belongs to the thread that records it, as always in Vulkan.
  *
  * Units: metres, W/(m² sr) for radiance (any other linear unit works as well; images are half floats, so one in which
- * what is lit is about 1), pixels, seconds. Matrices are column-major, multiply column vectors, and are in this order in
- * memory: element (row r, column c) is m[4 * c + r].
+ * what is lit is about 1), pixels, seconds. Matrices are column-major, multiply column vectors, and are in this order
+ * in memory: element (row r, column c) is m[4 * c + r].
  */
 #ifndef REFLET_REFLET_H
 #define REFLET_REFLET_H
