@@ -16,8 +16,9 @@
  * Threads: calls on one context and its views are serialized by a mutex of the context, so they may come from any
  * thread; a command buffer belongs to the thread that records it, as always in Vulkan.
  *
- * Units: metres, W/(m² sr) for radiance (any other linear unit works as well), pixels, seconds. Matrices are
- * column-major, multiply column vectors, and are in this order in memory: element (row r, column c) is m[4 * c + r].
+ * Units: metres, W/(m² sr) for radiance (any other linear unit works as well; images are half floats, so one in which
+ * what is lit is about 1), pixels, seconds. Matrices are column-major, multiply column vectors, and are in this order
+ * in memory: element (row r, column c) is m[4 * c + r].
  */
 #ifndef REFLET_REFLET_H
 #define REFLET_REFLET_H

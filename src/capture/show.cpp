@@ -21,7 +21,8 @@ const Show& findShow(std::string_view name) {
 }
 
 ShowReadback requestShow(gpu::Frame& f, const FrameImages& images, const Show& show) {
-    ShowReadback readback{&show, show.images(images), {}};
+    const float scale = show.is(ShowProperty::radiance) ? 1.0F / images.view.preExposure : 1.0F;
+    ShowReadback readback{&show, show.images(images), {}, scale};
     for (const gpu::Image& image : readback.images) {
         if (!image) {
             fail("image '{}' is not available with this scene and these settings: {}", show.name, show.description);
@@ -44,6 +45,13 @@ struct Decoded {
     }
 };
 
+void valuesOf(const ShowReadback& readback, std::span<const vec4> texels, const ViewParams& view, float* out) {
+    readback.show->values(texels, view, out);
+    for (size_t i = 0; i < readback.show->channels.size(); ++i) {
+        out[i] *= readback.scale;
+    }
+}
+
 }  // namespace
 
 FloatImage fetchValues(const gpu::Frame& f, const ShowReadback& readback, const ViewParams& view) {
@@ -61,7 +69,7 @@ FloatImage fetchValues(const gpu::Frame& f, const ShowReadback& readback, const 
     for (uvec2 pixel(0); pixel.y < size.y; ++pixel.y) {
         for (pixel.x = 0; pixel.x < size.x; ++pixel.x, out += channels.size()) {
             std::ranges::transform(decoded, texels.begin(), [&](const Decoded& d) { return d.at(pixel, size); });
-            readback.show->values(texels, view, out);
+            valuesOf(readback, texels, view, out);
         }
     }
     return values;
@@ -77,7 +85,7 @@ std::vector<float> fetchValue(const gpu::Frame& f, const ShowReadback& readback,
         texels.push_back(decodeTexels(image.format, at).front());
     }
     std::vector<float> values(readback.show->channels.size());
-    readback.show->values(texels, view, values.data());
+    valuesOf(readback, texels, view, values.data());
     return values;
 }
 

@@ -13,10 +13,15 @@
 namespace reflet {
 
 enum class ShowProperty : uint8_t {
-    ordinary,
-    ownSize,      ///< its size differs from the frame's
-    countsSteps,  ///< needs trace_screen.count_steps
+    ordinary = 0,
+    ownSize = 1,      ///< its size differs from the frame's
+    countsSteps = 2,  ///< needs trace_screen.count_steps
+    radiance = 4,     ///< its values are radiance
 };
+
+constexpr ShowProperty operator|(ShowProperty a, ShowProperty b) {
+    return static_cast<ShowProperty>(static_cast<uint8_t>(a) | static_cast<uint8_t>(b));
+}
 
 struct Show {
     std::string_view name;
@@ -30,7 +35,9 @@ struct Show {
     vec3 (*picture)(const float* values);
     ShowProperty property = ShowProperty::ordinary;
 
-    [[nodiscard]] bool is(ShowProperty wanted) const { return property == wanted; }
+    [[nodiscard]] bool is(ShowProperty wanted) const {
+        return (static_cast<uint8_t>(property) & static_cast<uint8_t>(wanted)) != 0;
+    }
 };
 
 std::span<const Show> shows();
@@ -43,6 +50,7 @@ struct ShowReadback {
     const Show* show = nullptr;
     std::vector<gpu::Image> images;
     std::vector<gpu::Readback> copies;
+    float scale = 1.0F;  ///< of the values
 };
 
 /// Throws Error for an image that the frame's settings do not produce.

@@ -67,9 +67,22 @@ Planes3 linearPlanes(const FloatImage& image, ImageKind kind) {
     return planes;
 }
 
+double floorOf(const FloatImage& reference, ImageKind kind) {
+    if (kind == ImageKind::display) {
+        return relativeErrorFloor;
+    }
+    const size_t channels = reference.channels.size();
+    std::vector<float> luminances;
+    for (size_t i = 0; i < reference.data.size(); i += channels) {
+        const float* c = &reference.data[i];
+        luminances.push_back(channels == 3 ? luminance({c[0], c[1], c[2]}) : c[0]);
+    }
+    return relativeErrorFloorFor(std::move(luminances));
+}
+
 // Sums in double and in the order of the pixels.
 Difference differenceOf(const FloatImage& image, const FloatImage& reference, const Plane& flip,
-                        const CompareOptions& options) {
+                        const CompareOptions& options, double floor) {
     Difference d;
     double squares = 0.0;
     double sumA = 0.0;
@@ -86,7 +99,7 @@ Difference differenceOf(const FloatImage& image, const FloatImage& reference, co
             const double b = reference.data[value];
             const double error = std::abs(image.data[value] - b);
             squares += error * error;
-            d.relativeMse += error * error / (b * b + relativeErrorFloor);
+            d.relativeMse += error * error / (b * b + floor);
             d.mean += error;
             sumA += image.data[value];
             sumB += b;
@@ -139,17 +152,21 @@ Comparison compareImages(const FloatImage& image, const FloatImage& reference, c
     const auto flipOf = options.kind == ImageKind::display ? ldrFlip : hdrFlip;
     Plane flip =
         flipOf(linearPlanes(image, options.kind), linearPlanes(reference, options.kind), options.pixelsPerDegree);
-    Difference difference = differenceOf(image, reference, flip, options);
+    const double floor = floorOf(reference, options.kind);
+    Difference difference = differenceOf(image, reference, flip, options, floor);
     if (options.octaves) {
-        difference.octaves = errorByOctave(image, reference, options.mask);
+        difference.octaves = errorByOctave(image, reference, options.mask, floor);
     }
     return {difference, {flip.width, flip.height, {"Y"}, std::move(flip.data)}};
 }
 
 std::span<const Metric> metrics() {
     static constexpr std::array<Metric, 6> all{{
-        {"relative_mse", "", "mean over pixels and channels of (a - b)² / (b² + 0.01)", false,
-         [](const Difference& d) { return d.relativeMse; }},
+        {"relative_mse", "",
+         "mean over pixels and channels of (a - b)² / (b² + 0.01); of radiance with light tones beyond 1/256 to 32, "
+         "that of "
+         "both divided by a power of two that makes these about 1",
+         false, [](const Difference& d) { return d.relativeMse; }},
         {"psnr", "dB",
          "10 log10(peak² / mean of (a - b)²); the peak is 1 for display images, the largest |b| for linear ones", true,
          [](const Difference& d) { return d.psnr; }},

@@ -27,7 +27,7 @@ struct CompareOptions {
 };
 
 struct Difference {
-    double relativeMse = 0.0;  ///< mean over pixels and channels of (a - b)² / (b² + 0.01); b is the reference
+    double relativeMse = 0.0;  ///< mean over pixels and channels of (a - b)² / (b² + floor); b is the reference
     /// 10 log10(peak² / mean of (a - b)²) [dB], infinite for identical images. The peak is 1 for display images, the
     /// largest |b| for linear ones (1 if the reference is all 0).
     double psnr = 0.0;

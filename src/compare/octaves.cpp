@@ -5,6 +5,7 @@
 // filter's eigenfunctions.
 #include "compare/octaves.h"
 
+#include "base/exposure.h"
 #include "compare/filter.h"
 
 #include <algorithm>
@@ -103,13 +104,13 @@ double sumOfSquares(const Plane& plane) {
 
 // The relative error of one channel, in the order of the pixels.
 std::vector<double> relativeError(const FloatImage& image, const FloatImage& reference, const std::vector<bool>& mask,
-                                  size_t channel) {
+                                  size_t channel, double floor) {
     const size_t channels = image.channels.size();
     std::vector<double> error(image.data.size() / channels);
     for (size_t i = 0; i < error.size(); ++i) {
         if (mask.empty() || mask[i]) {
             const double b = reference.data[i * channels + channel];
-            error[i] = (image.data[i * channels + channel] - b) / std::sqrt(b * b + relativeErrorFloor);
+            error[i] = (image.data[i * channels + channel] - b) / std::sqrt(b * b + floor);
         }
     }
     return error;
@@ -148,7 +149,19 @@ OctaveErrors sumsByOctave(const std::vector<double>& error, uint32_t width, uint
 
 }  // namespace
 
-OctaveErrors errorByOctave(const FloatImage& image, const FloatImage& reference, const std::vector<bool>& mask) {
+double relativeErrorFloorFor(std::vector<float> luminances) {
+    constexpr double lightShare = 0.9;
+    if (luminances.empty()) {
+        return relativeErrorFloor;
+    }
+    const auto light = luminances.begin() + static_cast<std::ptrdiff_t>(lightShare * double(luminances.size() - 1));
+    std::ranges::nth_element(luminances, light);
+    const double unit = 1.0 / preExposureFor(*light);
+    return relativeErrorFloor * unit * unit;
+}
+
+OctaveErrors errorByOctave(const FloatImage& image, const FloatImage& reference, const std::vector<bool>& mask,
+                           double floor) {
     static const HalfKernel kernel = lowPass();
     const size_t channels = image.channels.size();
     const size_t pixels = image.data.size() / channels;
@@ -156,7 +169,7 @@ OctaveErrors errorByOctave(const FloatImage& image, const FloatImage& reference,
     OctaveErrors errors{};
     for (size_t channel = 0; channel < channels; ++channel) {
         const OctaveErrors sums =
-            sumsByOctave(relativeError(image, reference, mask, channel), image.width, image.height, kernel);
+            sumsByOctave(relativeError(image, reference, mask, channel, floor), image.width, image.height, kernel);
         for (size_t i = 0; i < octaveCount; ++i) {
             errors[i] += sums[i] / (compared * static_cast<double>(channels));
         }

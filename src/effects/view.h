@@ -31,6 +31,7 @@ struct ViewParams {
     uint seed;          // random seed of the rendering
     uint rest;          // frames before this one since anything changed: camera, lights, surfaces, settings. How
                         // histories use it: lighting::fitHistories
+    float preExposure;  // power of two by which all radiance in images is multiplied, so that half floats hold it
 };
 
 SHARED_END

@@ -210,8 +210,9 @@ private:
 }  // namespace
 
 void addTo(Fingerprint& print, const Scene& scene) {
-    const auto& [name, fromFile, images, samplers, materials, meshes, instances, lamps, cameras, sun, environment,
-                 nodes, animations, skins, variants] = scene;
+    const auto& [name, origin, fromFile, images, samplers, materials, meshes, instances, lamps, cameras, sun,
+                 environment, nodes, animations, skins, variants] = scene;
+    (void)origin;    // of coordinates that are not in the picture
     (void)fromFile;  // it does not change radiance
     (void)variants;  // names alone
     Adder(print).all(fingerprintVersion, name, images, samplers, materials, meshes, instances, lamps, cameras, sun,
@@ -219,8 +220,9 @@ void addTo(Fingerprint& print, const Scene& scene) {
 }
 
 void addTo(Fingerprint& print, const View& view) {
-    const auto& [camera, sun, environment, background, time, lampRadius, lampsOff, probes, mirrors, hasDefaultSun] =
-        view;
+    const auto& [camera, sun, environment, background, time, lampRadius, lampsOff, probes, mirrors, hasDefaultSun,
+                 origin] = view;
+    (void)origin;
     (void)probes;
     (void)mirrors;
     Adder(print).all(fingerprintVersion, camera, sun, environment, background.mode, background.color, time, lampRadius,

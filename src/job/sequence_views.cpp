@@ -24,7 +24,7 @@ SequenceViews::SequenceViews(const View& first, const Scene& scene, const Sequen
         pivot_ = scene.nodes.empty() ? orbitPivot(first_.camera, scene)
                                      : orbitPivot(first_.camera, frozen(scene, first_.time));
     } else if (!options.path.empty()) {
-        path_ = loadCameraPath(options.path, first_.camera);
+        path_ = loadCameraPath(options.path, first_.camera, first_.origin);
         path_->checkFocus(scene, options.path);
     }
     if (const double last = first_.time + (frames - 1) / fps_; last > View::largestTime) {

@@ -124,8 +124,9 @@ bool canMeter(const Light& light, const Surfaces& surfaces) {
 }
 
 gpu::Image exposure(gpu::PassList& f, gpu::HistoryImage& own, const LightingSettings& settings,
-                    const Surfaces& surfaces, const Light& light, float elapsed) {
-    return measureExposure(f, own, meteredOf(light, surfaces), surfaces.g.depth, elapsed, settings.tonemap.adaptation);
+                    const Surfaces& surfaces, const Light& light, float elapsed, float preExposure) {
+    return measureExposure(f, own, meteredOf(light, surfaces), surfaces.g.depth, elapsed, settings.tonemap.adaptation,
+                           preExposure);
 }
 
 gpu::Image display(gpu::PassList& f, const LightingSettings& settings, gpu::Image radiance, gpu::Image exposure) {

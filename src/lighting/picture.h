@@ -66,9 +66,9 @@ Light defocus(gpu::PassList& f, DofHistory& own, const ViewContext& in, const Li
 bool canMeter(const Light& light, const Surfaces& surfaces);
 
 /// Stops of automatic exposure, smoothed over frames: of the light before the lens. elapsed: seconds since the last
-/// frame.
+/// frame. preExposure: stops by which the light has been exposed already.
 gpu::Image exposure(gpu::PassList& f, gpu::HistoryImage& own, const LightingSettings& settings,
-                    const Surfaces& surfaces, const Light& light, float elapsed);
+                    const Surfaces& surfaces, const Light& light, float elapsed, float preExposure = 0.0F);
 
 /// RGBA8, display encoded, alpha 1. exposure: none: that of the settings.
 gpu::Image display(gpu::PassList& f, const LightingSettings& settings, gpu::Image radiance, gpu::Image exposure);

@@ -4,6 +4,7 @@
 
 #include "base/color.h"
 #include "base/error.h"
+#include "compare/octaves.h"
 #include "reference/parallel.h"
 #include "reference/path_tracer.h"
 #include "scene/pose.h"
@@ -52,11 +53,11 @@ struct PixelSum {
     }
 
     // Of the mean, assuming independent samples; low-discrepancy samples do better.
-    [[nodiscard]] double relativeVariance() const {
+    [[nodiscard]] double relativeVariance(double floor) const {
         const double n = count;
         const double mean = luminance / n;
         const double variance = std::max(luminanceSquared / n - mean * mean, 0.0) / (n - 1.0);
-        return variance / (mean * mean + 0.01);
+        return variance / (mean * mean + floor);
     }
 };
 
@@ -88,12 +89,17 @@ public:
     [[nodiscard]] bool stopped() const { return stopped_; }
 
     [[nodiscard]] double noise() const {
-        double sum = 0.0;
+        std::vector<float> means;
         for (const PixelSum& pixel : sums_) {
             if (pixel.count < 2) {
                 return 0.0;
             }
-            sum += pixel.relativeVariance();
+            means.push_back(static_cast<float>(pixel.luminance / pixel.count));
+        }
+        const double floor = relativeErrorFloorFor(std::move(means));
+        double sum = 0.0;
+        for (const PixelSum& pixel : sums_) {
+            sum += pixel.relativeVariance(floor);
         }
         return std::sqrt(sum / static_cast<double>(sums_.size()));
     }

@@ -63,7 +63,7 @@ struct ReferencePicture {
                            ///< visibleOnly only what the camera sees is; 1 in the background; empty unless traced
     FloatImage coverage;   ///< Y: share of the pixel's samples that see a surface; no layer of its own
     uint32_t samples = 0;  ///< per pixel (the minimum)
-    double noise = 0.0;    ///< root of the mean over pixels of variance of the mean / (luminance² + 0.01): its
+    double noise = 0.0;    ///< root of the mean over pixels of variance of the mean / (luminance² + floor): its
                            ///< square estimates the relative MSE of this image against a converged one. 0 with
                            ///< less than two samples
     uint64_t rays = 0;     ///< traced, including shadow rays

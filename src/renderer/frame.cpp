@@ -14,6 +14,8 @@
 #include "renderer/trace_lobe.h"
 #include "renderer/view_light.h"
 
+#include <cmath>
+
 namespace reflet {
 
 namespace {
@@ -22,6 +24,7 @@ Settings settingsOfFrame(const FrameInputs& in, Settings settings) {
     lighting::countRenderedPixels(settings, in.view.size.y, static_cast<float>(in.outputSize.y));
     lighting::fitHistories(settings, {in.view.rest, in.lightChange},
                            in.view.size.y / static_cast<float>(in.outputSize.y));
+    settings.tonemap.exposure -= std::log2(in.view.preExposure);
     return settings;
 }
 
@@ -139,7 +142,8 @@ FrameImages renderFrame(gpu::PassList& f, FrameStore& own, const FrameInputs& in
     keepForNextFrame(f, lit, complete);  // last: it may overwrite the light that has been antialiased
     gpu::Image exposure;
     if (in.autoExposure) {
-        exposure = lighting::exposure(f, own.exposure, settings, seen.images, light, in.elapsed);
+        exposure = lighting::exposure(f, own.exposure, settings, seen.images, light, in.elapsed,
+                                      std::log2(in.view.preExposure));
     }
     light = lighting::defocus(f, own.lens, context, settings, in.lens, seen.images, light, &specular);
     FrameImages out = imagesOf(seen.images, in, light);

@@ -191,6 +191,7 @@ void GpuScene::uploadMaterials(const Scene& scene, const std::function<void(cons
         live[i] = livePictureOf(scene, scene.materials[i], warn);
         if (live[i]) {
             params.emissive = vec3(1.0F);
+            params.preExposed = 1.0F;
             params.textured |= 1U << slotEmissive;
         }
         draws_.textureSlots |= params.textured;

@@ -65,6 +65,7 @@ struct MaterialParams {
     float sheenRoughness;  // perceptual
     vec2 anisotropyAlong;  // direction of the anisotropy along tangent and bitangent, unit
     float anisotropy;      // its strength, 0..1
+    float preExposed;      // 1: `emissive` is a live picture, whose radiance is pre-exposed; else 0
 };
 
 SHARED_END

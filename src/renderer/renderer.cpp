@@ -38,7 +38,8 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const std::function<
       posedPieces_(flatPieces_),
       blueNoise_(
           gpu::uploadBuffer(device, std::as_bytes(blueNoise()), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "blue_noise")),
-      warn_(warn) {}
+      warn_(warn),
+      preExposure_(scene) {}
 
 void Renderer::pose(const View& view) {
     if (source_.nodes.empty()) {
@@ -117,7 +118,7 @@ const std::vector<Probe>& Renderer::probesOf(const View& view, const ProbesSetti
     return placed_;
 }
 
-uint32_t Renderer::countFramesBefore(const View& view, const ViewParams& params, const Settings& settings) {
+void Renderer::countFramesBefore(const View& view, const ViewParams& params, const Settings& settings) {
     Asked now{view, settings, params.size, params.seed};
     now.settings.composite.layers = 0;  // changes no light
     if (source_.nodes.empty()) {
@@ -127,7 +128,6 @@ uint32_t Renderer::countFramesBefore(const View& view, const ViewParams& params,
                       sameSettings(asked_->settings, now.settings);
     framesBefore_ = same ? framesBefore_ + 1 : 0;
     asked_ = std::move(now);
-    return framesBefore_;
 }
 
 // New pictures are cleared: what captures probes, or shows itself in its own picture, reads them before they are drawn.
@@ -139,7 +139,7 @@ std::vector<LiveView> Renderer::liveViews(const ViewParams& view) {
             frame_.clear(picture);
             p.fresh = false;
         }
-        live.push_back({makeViewParams(p.posed, picture.size, view.frame, view.seed), picture});
+        live.push_back({makeViewParams(p.posed, picture.size, view), picture});
     }
     return live;
 }
@@ -169,41 +169,68 @@ FrameBackground Renderer::backgroundOf(const View& view, const View& lit) {
     return {background, background_.update(frame_, environmentBehind(view, blurred_))};
 }
 
-void Renderer::restart(uint32_t frameNumber) {
-    frameNumber_ = frameNumber;
+// A change of the pre-exposure is rare: an animation that dims the light by many stops has one now and then. So
+// histories start again rather than being rescaled.
+float Renderer::preExpose(LampBlock& lamps, View& view) {
+    const float before = preExposure_.value();
+    const float factor = preExposure_.update(lamps, view);
+    if (factor != before) {
+        forgetLight();
+        probes_.restart(true);
+    }
+    view.sun.irradiance *= factor;
+    view.environment.radiance *= factor;
+    view.environment.intensity *= factor;
+    for (uint32_t i = 0; i < lamps.count; ++i) {
+        lamps.lamps[i].intensity *= factor;
+    }
+    return factor;
+}
+
+void Renderer::forgetLight() {
     frame_.forget();
-    previousWorldToClip_.reset();
-    previousPlace_ = vec2(0.0F);
-    previousTime_.reset();
-    asked_.reset();
-    lightChange_.forget();
     framesBefore_ = 0;
-    pose_.reset();
-    probes_.restart(!source_.nodes.empty());
     for (GpuScene::LivePicture& picture : scene_.livePictures()) {
         picture.fresh = true;
     }
 }
 
+void Renderer::restart(uint32_t frameNumber) {
+    frameNumber_ = frameNumber;
+    forgetLight();
+    previousWorldToClip_.reset();
+    previousPlace_ = vec2(0.0F);
+    previousTime_.reset();
+    asked_.reset();
+    lightChange_.forget();
+    preExposure_.forget();
+    pose_.reset();
+    probes_.restart(!source_.nodes.empty());
+}
+
 FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const Settings& settings,
                              const std::function<void(gpu::Frame&, const FrameImages&)>& after) {
-    const View shown = posed(asked, source_);
+    View shown = posed(asked, source_);
     std::vector<Lamp> otherSuns;
-    const View view = withSuns(shown, settings, otherSuns);
+    View view = withSuns(shown, settings, otherSuns);
     pose(view);
+    LampBlock lamps = scene_.lamps();
+    const LampShadows lampShadows = planLamps(lamps, view, settings.shadow);
+    addLamps(lamps, otherSuns);
+    const float lightChange = lightChange_.update(lamps, view);
     ViewParams params = resized(makeViewParams(view.camera, size, frameNumber_++, seed), renderSize(settings, size));
     params.previousWorldToClip = previousWorldToClip_.value_or(params.worldToClip);
     previousWorldToClip_ = params.worldToClip;
-    const uint32_t framesBefore = countFramesBefore(view, params, settings);
+    countFramesBefore(view, params, settings);
+    params.preExposure = preExpose(lamps, view);
+    shown.environment.radiance *= params.preExposure;
+    shown.environment.intensity *= params.preExposure;
+    const uint32_t framesBefore = framesBefore_;
     params.rest = framesBefore;
     const std::vector<Mirror> mirrors = planMirrors(view, params, settings);  // their pictures' sizes do not jitter
     const vec2 place = frameJitter(settings, params.frame, framesBefore);
     applyJitter(params, place, previousPlace_);
     previousPlace_ = place;
-    LampBlock lamps = scene_.lamps();
-    const LampShadows lampShadows = planLamps(lamps, view, settings.shadow);
-    addLamps(lamps, otherSuns);
-    const float lightChange = lightChange_.update(lamps, view);
     scene_.setTextureFilter({settings.materials.anisotropy, settings.materials.mips != 0,
                              settings.materials.mipBias + std::log2(params.size.y / static_cast<float>(size.y))});
     scene_.setLiveHeight(settings.live.height);

@@ -6,6 +6,7 @@
 #include "renderer/frame.h"
 #include "renderer/gpu_scene.h"
 #include "renderer/light_change.h"
+#include "renderer/pre_exposure.h"
 #include "renderer/probe/capture_probe.h"
 #include "renderer/view_params.h"
 #include "scene/image_suns.h"
@@ -53,6 +54,10 @@ private:
     void pose(const View& view);
     /// Radii that the view gives; who casts a shadow. Warns, but only once of the same.
     LampShadows planLamps(LampBlock& lamps, const View& view, const ShadowSettings& settings);
+    /// Multiplies the lights by the pre-exposure, and returns it.
+    float preExpose(LampBlock& lamps, View& view);
+    /// Discards all images of light of earlier frames.
+    void forgetLight();
 
     /// The BVH for ray tracing, if the settings need one.
     const TracedScene* tracedScene(const Settings& settings);
@@ -91,8 +96,8 @@ private:
     std::optional<uint32_t> placedCount_;  ///< that placed_ were asked for
     std::function<void(const std::string&)> warn_;
     std::set<std::string> warned_;
-    /// In which the picture has been what it is asked to be now: how many there were.
-    uint32_t countFramesBefore(const View& view, const ViewParams& params, const Settings& settings);
+    /// Sets framesBefore_.
+    void countFramesBefore(const View& view, const ViewParams& params, const Settings& settings);
     struct Asked {
         View view;
         Settings settings;
@@ -101,8 +106,9 @@ private:
     };
 
     std::optional<Asked> asked_;  ///< of the last frame
-    uint32_t framesBefore_ = 0;
+    uint32_t framesBefore_ = 0;   ///< in which the picture has been what it is asked to be now
     LightChange lightChange_;
+    PreExposure preExposure_;
     std::optional<mat4> previousWorldToClip_;  ///< without jitter
     vec2 previousPlace_{0.0F};                 ///< in the pixel, that the last frame looked through
     std::optional<double> previousTime_;       ///< that the last frame was asked for, not looped [s]

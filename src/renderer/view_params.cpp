@@ -26,6 +26,12 @@ ViewParams makeViewParams(const Camera& camera, uvec2 size, uint32_t frame, uint
     return v;
 }
 
+ViewParams makeViewParams(const Camera& camera, uvec2 size, const ViewParams& frameView) {
+    ViewParams v = makeViewParams(camera, size, frameView.frame, frameView.seed);
+    v.preExposure = frameView.preExposure;
+    return v;
+}
+
 ViewParams resized(ViewParams view, uvec2 size) {
     view.pixelAngle *= view.size.y / static_cast<float>(size.y);
     view.size = vec2(size);

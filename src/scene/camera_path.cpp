@@ -7,6 +7,7 @@
 #include "scene/camera_json.h"
 #include "scene/focus.h"
 #include "scene/json_values.h"
+#include "scene/move_positions.h"
 
 #include <algorithm>
 #include <array>
@@ -215,9 +216,12 @@ Camera CameraPath::at(double time) const {
     return cameraOf(now, from, to, x);
 }
 
-CameraPath loadCameraPath(const std::filesystem::path& path, const Camera& camera) {
+CameraPath loadCameraPath(const std::filesystem::path& path, const Camera& camera, const glm::dvec3& origin) {
     static const std::array<std::string, 2> keys{"keyframes", "loop"};
-    const nlohmann::json file = parseJsonFile(path);
+    nlohmann::json file = parseJsonFile(path);
+    if (origin != glm::dvec3(0.0)) {
+        movePositions(file, -origin);
+    }
     const JsonNode root(file, path);
     root.requireKeys(keys);
     const JsonNode list = required(root, "keyframes");

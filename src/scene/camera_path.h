@@ -52,8 +52,8 @@ private:
 /// { "keyframes": [{ "time": 0, "position": [6,1,0], "target": [0,0,0], "up": [0,1,0], "fov_y": 75,
 ///                   "easing": "smooth" }], "loop": false }
 /// Time, position and target are required; up, fov_y and the lens default to those of `camera`. Angles are in degrees;
-/// times are on the scale of View::time. Throws Error as applyViewFile does.
-CameraPath loadCameraPath(const std::filesystem::path& path, const Camera& camera);
+/// times are on the scale of View::time. origin: Scene::origin. Throws Error as applyViewFile does.
+CameraPath loadCameraPath(const std::filesystem::path& path, const Camera& camera, const glm::dvec3& origin = {});
 
 /// Centre of an orbit: the camera's target or, if the target only gives a direction, the first surface along it, else
 /// the point ahead that is nearest to the scene's centre.

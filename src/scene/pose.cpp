@@ -94,6 +94,10 @@ glm::dmat4 localTransform(const Node& node) {
     return glm::scale(moved, node.scale);
 }
 
+glm::dmat4 fileToWorld(const Scene& scene) {
+    return glm::translate(glm::dmat4(1.0), -scene.origin);
+}
+
 double animationDuration(const Scene& scene) {
     double last = 0.0;
     for (const Animation& animation : scene.animations) {
@@ -131,7 +135,7 @@ ScenePose scenePose(const Scene& scene, double time) {
         const auto parent = static_cast<size_t>(std::max(nodes[i].parent, 0));
         const bool hangs = nodes[i].parent >= 0;
         pose.moving[i] = pose.moving[i] || (hangs && pose.moving[parent]);
-        toWorld.push_back((hangs ? toWorld[parent] : glm::dmat4(1.0)) * localTransform(nodes[i]));
+        toWorld.push_back((hangs ? toWorld[parent] : fileToWorld(scene)) * localTransform(nodes[i]));
         pose.nodeToWorld.push_back(finiteOr(toWorld.back(), mat4(1.0F)));
     }
     for (const Instance& instance : scene.instances) {

@@ -12,6 +12,9 @@ namespace reflet {
 /// Node-to-parent matrix.
 glm::dmat4 localTransform(const Node& node);
 
+/// From the coordinates of the scene's file to the world.
+glm::dmat4 fileToWorld(const Scene& scene);
+
 /// Seconds after which the scene repeats: the last key of its longest animation. 0: nothing is animated.
 double animationDuration(const Scene& scene);
 

@@ -97,6 +97,7 @@ bool isUnlit(const Scene& scene) {
 
 View defaultView(const Scene& scene, float aspect) {
     View view;
+    view.origin = scene.origin;
     view.camera = scene.cameras.empty() ? framingCamera(scene, aspect) : scene.cameras.front();
     view.hasDefaultSun = !isLit(scene) && !isUnlit(scene);
     view.sun = view.hasDefaultSun ? defaultSun(view.camera) : scene.sun.value_or(Sun{});

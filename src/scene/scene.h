@@ -1,6 +1,7 @@
 // The scene description: meshes, materials, images, lamps, cameras, a sun, an environment. Plain values, filled by the
 // loader or by a built-in scene, and read by both the GPU renderer and the reference path tracer.
-// World: right-handed, Y up, metres. A view looks along its own -Z. Angles in radians.
+// World: right-handed, Y up, metres. A view looks along its own -Z. Angles in radians. Its origin may be elsewhere than
+// the file's (Scene::origin).
 #pragma once
 
 #include "base/image_file.h"
@@ -206,6 +207,9 @@ struct Environment {
 
 struct Scene {
     std::string name;
+    /// Of world space, in the coordinates of the file. Floats have few digits far from their origin, so it is near what
+    /// the file has [m].
+    glm::dvec3 origin{0.0};
     bool fromFile = false;  ///< its lights may have any unit; those of other scenes suit an exposure of 0
     std::vector<TextureImage> images;
     std::vector<Sampler> samplers;
@@ -266,6 +270,7 @@ struct View {
     std::optional<std::vector<Probe>> probes;  ///< at most maxProbes; nullopt: placed automatically
     std::vector<std::string> mirrors;          ///< instances with planar reflections; empty: detected automatically
     bool hasDefaultSun = false;                ///< the scene has no light, and the sun is a default
+    glm::dvec3 origin{0.0};                    ///< Scene::origin; positions in view files are relative to the file's
 
     bool operator==(const View&) const = default;
 };

@@ -9,6 +9,7 @@
 #include "scene/default_light.h"
 #include "scene/environment.h"
 #include "scene/json_values.h"
+#include "scene/move_positions.h"
 
 #include <algorithm>
 #include <array>
@@ -253,6 +254,9 @@ nlohmann::ordered_json viewJson(const View& view) {
         json["mirrors"] = view.mirrors;
     }
     json["time"] = view.time;
+    if (view.origin != glm::dvec3(0.0)) {
+        movePositions(json, view.origin);
+    }
     return json;
 }
 
@@ -263,7 +267,12 @@ void applyViewFile(const std::filesystem::path& path, View& view) {
 void applyViewJson(const nlohmann::json& file, const std::filesystem::path& path, View& view) {
     static const std::array<std::string, 8> keys{"camera",     "sun",    "lamps",   "environment",
                                                  "background", "probes", "mirrors", "time"};
-    const JsonNode root(file, path);
+    nlohmann::json inWorld;
+    if (view.origin != glm::dvec3(0.0)) {
+        inWorld = file;
+        movePositions(inWorld, -view.origin);
+    }
+    const JsonNode root(inWorld.is_null() ? file : inWorld, path);
     root.requireKeys(keys);
     View changed = view;
     if (const auto camera = root.find("camera")) {

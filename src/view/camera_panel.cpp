@@ -9,6 +9,18 @@
 
 namespace reflet {
 
+namespace {
+
+// In the coordinates of the scene's file.
+void dragPosition(const char* label, vec3& position, const glm::dvec3& origin) {
+    glm::dvec3 shown = origin + glm::dvec3(position);
+    if (ImGui::DragScalarN(label, ImGuiDataType_Double, &shown.x, 3, 0.01F, nullptr, nullptr, "%.3f")) {
+        position = shown - origin;
+    }
+}
+
+}  // namespace
+
 void CameraPanel::lens() {
     Camera& camera = work_.state.view.camera;
     constexpr auto flags = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic;
@@ -59,8 +71,8 @@ void CameraPanel::draw() {
         }
     }
     ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.6F);
-    ImGui::DragFloat3("position", &camera.position.x, 0.01F, 0.0F, 0.0F, "%.3f");
-    ImGui::DragFloat3("target", &camera.target.x, 0.01F, 0.0F, 0.0F, "%.3f");
+    dragPosition("position", camera.position, work_.state.view.origin);
+    dragPosition("target", camera.target, work_.state.view.origin);
     if (camera.orthographicHeight <= 0.0F) {
         float fov = glm::degrees(camera.fovY);
         if (ImGui::SliderFloat("field of view", &fov, 5.0F, 150.0F, "%.1f°", ImGuiSliderFlags_AlwaysClamp)) {

@@ -47,6 +47,7 @@ std::string statusText(const WindowStatus& status) {
     const PictureRect rect = work.pictureRect();
     const uvec2 size = work.renderSize();
     const Camera& camera = work.state.view.camera;
+    const glm::dvec3 position = work.state.view.origin + glm::dvec3(camera.position);
     ordered_json json{{"drawn", status.drawn},
                       {"rendered", work.live().rendered},
                       {"frames", work.live().frames},
@@ -67,7 +68,7 @@ std::string statusText(const WindowStatus& status) {
                       {"shader_problem", work.published.shaderProblem},
                       {"settings", settingsJson(work.state.settings, work.state.ofPreset)},
                       {"preset", work.state.preset},
-                      {"camera", {camera.position.x, camera.position.y, camera.position.z}},
+                      {"camera", {position.x, position.y, position.z}},
                       {"lens", {{"aperture_radius", camera.apertureRadius}, {"focus_distance", camera.focusDistance}}},
                       {"compare", {{"message", status.compare.message()}, {"samples", status.compare.samples()}}}};
     for (const gpu::PassTime& pass : work.live().passes) {

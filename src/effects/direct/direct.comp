@@ -54,7 +54,7 @@ vec3 radianceAt(ivec2 pixel) {
     Surface s = surfaceAt(pixel, base, m, dot(n, v), ggxTable, lambertOnly != 0u);
 
     float visibility = texelFetch(sunVisibility, pixel, 0).r;
-    vec3 radiance = emissionAt(texelFetch(emissive, pixel, 0).rgb, base, m);
+    vec3 radiance = emissionAt(texelFetch(emissive, pixel, 0).rgb, base, m, params.view.preExposure);
     Surface underSun = s;
     underSun.roughness = max(s.roughness, params.sunRoughness);
     radiance += brdfTimesCosine(underSun, n, v, params.toSun) * params.sunIrradiance * visibility;

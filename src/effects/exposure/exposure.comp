@@ -27,7 +27,7 @@ void main() {
     if (gl_LocalInvocationIndex > 0u) {
         return;
     }
-    float own = meteredExposure();
+    float own = meteredExposure() + params.preExposure;
     imageStore(next, ivec2(0), vec4(own, 0.0, 0.0, 0.0));
     float sum = own;
     float weights = 1.0;

@@ -15,7 +15,7 @@ uint32_t meterStep(uvec2 size) {
 }
 
 gpu::Image measureExposure(gpu::PassList& f, gpu::HistoryImage& own, gpu::Image radiance, gpu::Image depth,
-                           float elapsed, float adaptation) {
+                           float elapsed, float adaptation, float preExposure) {
     const auto scope = f.scope("exposure");
     const gpu::BufferView histogram = f.buffer("histogram", meterSize * sizeof(uint32_t));
     constexpr std::array<uint32_t, meterSize> none{};
@@ -33,7 +33,7 @@ gpu::Image measureExposure(gpu::PassList& f, gpu::HistoryImage& own, gpu::Image 
         .read("histogram", histogram)
         .read("previous", exposures.previous)
         .write("next", exposures.next)
-        .params(ExposureParams{elapsed, adaptation, exposures.valid ? 1U : 0U})
+        .params(ExposureParams{elapsed, adaptation, exposures.valid ? 1U : 0U, preExposure})
         .dispatch(1);
     return exposures.next;
 }

@@ -40,9 +40,10 @@ struct MeterParams {
 };
 
 struct ExposureParams {
-    float elapsed;     // seconds since the last frame, not negative
-    float adaptation;  // seconds in which the weight of a frame falls to 1/e; 0: no smoothing
-    uint hasPrevious;  // 1: `previous` holds the last frame's
+    float elapsed;      // seconds since the last frame, not negative
+    float adaptation;   // seconds in which the weight of a frame falls to 1/e; 0: no smoothing
+    uint hasPrevious;   // 1: `previous` holds the last frame's
+    float preExposure;  // stops by which the metered radiance has been exposed already; exposures include them
 };
 
 SHARED_END
@@ -58,9 +59,10 @@ namespace reflet {
 uint32_t meterStep(uvec2 size);
 
 /// R32G32_SFLOAT, exposureTexels wide; the last texel's R: stops by which the tone map multiplies the radiance.
-/// `radiance`: RGBA16F; `depth`: 0 where there is no surface; `elapsed`: seconds since the last frame.
+/// `radiance`: RGBA16F; `depth`: 0 where there is no surface; `elapsed`: seconds since the last frame; `preExposure`:
+/// stops that `radiance` has been multiplied by, as if it had not.
 gpu::Image measureExposure(gpu::PassList& f, gpu::HistoryImage& own, gpu::Image radiance, gpu::Image depth,
-                           float elapsed, float adaptation);
+                           float elapsed, float adaptation, float preExposure = 0.0F);
 
 /// Stops, from a read-back of that image.
 float exposureOf(const gpu::Recorder& f, gpu::Readback exposure);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace reflet {
 namespace {
@@ -23,6 +24,17 @@ struct Meter {
 };
 }  // namespace glsl
 
+// Stops that bring the brightest value into the range of the levels, and the darkest with it. Whole ones change nothing
+// else.
+float stopsIntoRange(const FloatImage& radiance) {
+    constexpr int dim = -8;
+    const float brightest = std::accumulate(radiance.data.begin(), radiance.data.end(), 0.0F, [](float most, float v) {
+        return std::isfinite(v) ? std::max(most, v) : most;
+    });
+    const float stops = brightest > 0.0F ? std::ceil(std::log2(brightest)) : 0.0F;
+    return stops < dim ? -stops : std::min(float(highestStop) - stops, 0.0F);
+}
+
 }  // namespace
 
 float meteredExposure(const FloatImage& radiance, const FloatImage& depth) {
@@ -31,12 +43,14 @@ float meteredExposure(const FloatImage& radiance, const FloatImage& depth) {
     REFLET_CHECK(depth.data.empty() || depth.data.size() == pixels, "{} depths of {} pixels", depth.data.size(),
                  pixels);
     const uint32_t step = meterStep({radiance.width, radiance.height});
+    const float stops = stopsIntoRange(radiance);
+    const float factor = std::exp2(stops);
     glsl::Meter meter;
     for (uint32_t y = step / 2; y < radiance.height; y += step) {
         for (uint32_t x = step / 2; x < radiance.width; x += step) {
             const size_t pixel = size_t(y) * radiance.width + x;
             const float* c = &radiance.data[3 * pixel];
-            const int level = meter.meterLevel(glsl::luminance({c[0], c[1], c[2]}));
+            const int level = meter.meterLevel(factor * glsl::luminance({c[0], c[1], c[2]}));
             if (level >= 0) {
                 const bool surface = depth.data.empty() || depth.data[pixel] > 0.0F;
                 const uint32_t bin =
@@ -46,7 +60,7 @@ float meteredExposure(const FloatImage& radiance, const FloatImage& depth) {
             }
         }
     }
-    return meter.meteredExposure();
+    return meter.meteredExposure() + stops;
 }
 
 }  // namespace reflet

@@ -35,7 +35,7 @@ struct GBuffer {
                            ///< RGBA8 sRGB in the same four bytes (llvmpipe, base colour 0.5)
     gpu::Image material;   ///< RGBA8: perceptual roughness (of anisotropic surfaces that of the geometric mean of
                            ///< both alphas), metallic, occlusion, flags / 255
-    gpu::Image emissive;   ///< B10G11R11: emitted radiance
+    gpu::Image emissive;   ///< B10G11R11: emitted radiance, pre-exposed
     gpu::Image motion;     ///< RGBA16F: uv now minus uv last frame; the surface's own motion away from the camera along
                            ///< its axis [m], exactly 0 at rest; alpha of blended surfaces, share of clear coats, else 0
     gpu::Image reflectance{};  ///< RGBA16F: F0 of the dielectric over 4 %, F90; null unless a material differs from 1

@@ -41,9 +41,9 @@ Surface surfaceAt(ivec2 pixel, vec3 baseColorTexel, MaterialTexel m, float nv, s
     return s;
 }
 
-// Emitted radiance. Unlit surfaces emit their base colour, which has more digits than the emissive image.
-vec3 emissionAt(vec3 emissiveTexel, vec3 baseColorTexel, MaterialTexel m) {
-    return isUnlit(m) ? unpackBaseColor(baseColorTexel) : emissiveTexel;
+// Emitted radiance, pre-exposed. Unlit surfaces emit their base colour, which has more digits than the emissive image.
+vec3 emissionAt(vec3 emissiveTexel, vec3 baseColorTexel, MaterialTexel m, float preExposure) {
+    return isUnlit(m) ? preExposure * unpackBaseColor(baseColorTexel) : emissiveTexel;
 }
 
 #endif

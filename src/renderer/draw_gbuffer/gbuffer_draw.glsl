@@ -150,7 +150,7 @@ void main() {
         float o = texture(occlusionTexture, slotUv(slotOcclusion, uv.xy, uv.zw)).r;
         occlusion = 1.0 + material.occlusionStrength * (o - 1.0);
     }
-    outEmissive = material.emissive;
+    outEmissive = material.emissive * mix(params.view.preExposure, 1.0, material.preExposed);
     if (hasTexture(slotEmissive)) {
         outEmissive *= texture(emissiveTexture, slotUv(slotEmissive, uv.xy, uv.zw)).rgb;
     }

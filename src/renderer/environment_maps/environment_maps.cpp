@@ -1,7 +1,10 @@
 // Uploads the environment's image.
 #include "renderer/environment_maps/environment_maps.h"
 
+#include "base/color.h"
+#include "base/exposure.h"
 #include "gpu/context.h"
+#include "scene/sky.h"
 
 #include <glm/gtc/packing.hpp>
 
@@ -13,7 +16,8 @@ namespace reflet {
 
 namespace {
 
-// A power of two. A larger one would lose the dim parts of an image that contains the sun.
+// Powers of two, of an image that is as bright as most. A larger one would lose the dim parts of an image that contains
+// the sun.
 constexpr int largestScale = 10;
 constexpr int smallestScale = -20;
 
@@ -23,8 +27,9 @@ float scaleFor(const FloatImage& image) {
     if (brightest <= 0.0F) {
         return 1.0F;
     }
+    const int typical = -static_cast<int>(std::log2(preExposureFor(luminance(meanRadiance(image)))));
     const int power = static_cast<int>(std::ceil(std::log2(brightest / largestHalf)));
-    return std::exp2(static_cast<float>(std::clamp(power, smallestScale, largestScale)));
+    return std::exp2(static_cast<float>(std::clamp(power, typical + smallestScale, typical + largestScale)));
 }
 
 std::vector<uint64_t> halfTexels(const FloatImage& image, float scale) {

@@ -16,8 +16,8 @@ public:
     explicit EnvironmentMaps(bool prefilters) : prefilters_(prefilters) {}
 
     /// Records the upload and prefiltering of the image if it has changed; intensity and rotation may change freely.
-    /// Values beyond half floats are kept up to 6.7e7 and clamped above: images are stored divided by a power of two of
-    /// up to 1024.
+    /// Values beyond half floats are kept up to 6.7e7, or as many times the image's mean, and clamped above: images are
+    /// stored divided by a power of two.
     EnvironmentLight update(gpu::PassList& f, const Environment& environment);
 
 private:

@@ -123,7 +123,7 @@ ViewInputs mirrorViewInputs(const ViewInputs& in, const Mirror& mirror, const Pl
     const vec2 sides = mirror.high - mirror.low;
     const float width = static_cast<float>(settings.cameraSize) * sides.x / std::max(sides.y, 1e-6F);
     const uvec2 size(glm::clamp(width, 1.0F, largestCameraWidth), settings.cameraSize);
-    view.view = makeViewParams(mirrorCamera(mirror, settings), size, in.view.frame, in.view.seed);
+    view.view = makeViewParams(mirrorCamera(mirror, settings), size, in.view);
     return view;
 }
 

@@ -95,7 +95,7 @@ gpu::Image Probes::captureFace(gpu::PassList& f, const Capture& capture, uint32_
     const uvec2 size = distance_.info().size;
     const vec3& position = block_.probes[face / probeFaces].position;
     ViewInputs in = capture.in;
-    in.view = makeViewParams(cubeFaceCamera(position, face % probeFaces), size, in.view.frame, in.view.seed);
+    in.view = makeViewParams(cubeFaceCamera(position, face % probeFaces), size, in.view);
     const ViewImages images = directView(f, faces_, in, captureSettings(capture.settings), lampShadowMap);
     gpu::ComputePass pass = f.compute("capture_probe", "capture_probe.comp");
     pass.params(in.environment.params, "environment");  // without its texels, which are not used here

@@ -45,7 +45,7 @@ LitPoint pointAt(ivec2 pixel, float d) {
 
 vec3 emissionOf(ivec2 pixel) {
     return emissionAt(texelFetch(emissive, pixel, 0).rgb, texelFetch(baseColor, pixel, 0).rgb,
-                      unpackMaterial(texelFetch(material, pixel, 0)));
+                      unpackMaterial(texelFetch(material, pixel, 0)), params.view.preExposure);
 }
 
 void main() {

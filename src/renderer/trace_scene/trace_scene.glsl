@@ -233,7 +233,7 @@ vec3 radianceAlong(SceneRay ray, inout uint random, out float hitDistance) {
         LitPoint at = LitPoint(found.position, found.geometricNormal, found.normal, -ray.direction, found.clearance,
                                surfaceOf(found, -ray.direction));
         float sunVisible;
-        radiance += throughput * (found.emissive + sunAndLamps(at, random, sunVisible));
+        radiance += throughput * (params.view.preExposure * found.emissive + sunAndLamps(at, random, sunVisible));
         if (bounce >= params.bounces) {
             return endsInProbes != 0u ? radiance + throughput * probeLight(at) : radiance;
         }

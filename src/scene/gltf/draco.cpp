@@ -1,6 +1,6 @@
 // Decodes primitives compressed with KHR_draco_mesh_compression; the packaged tinygltf is built without Draco. The
-// counts in the headers are checked before the Draco library allocates memory for them. Layout of the headers: "Draco 3D
-// Data Compression Bitstream Specification", version 2.2, 2018.
+// counts in the headers are checked before the Draco library allocates memory for them. Layout of the headers: "Draco
+// 3D Data Compression Bitstream Specification", version 2.2, 2018.
 #include "scene/gltf/draco.h"
 
 #include <draco/compression/decode.h>

@@ -5,6 +5,7 @@
 #include "scene/gltf/lens.h"
 #include "scene/gltf/morph.h"
 #include "scene/gltf/motion.h"
+#include "scene/gltf/origin.h"
 #include "scene/morph.h"
 #include "scene/pose.h"
 
@@ -99,27 +100,47 @@ public:
             addCopies(index, exact, part);
         }
         if (node.camera >= 0) {
-            report_.tolerate("the camera will be missing", [&] { addCamera(node.camera, index, toWorld); });
+            report_.tolerate("the camera will be missing", [&] { addCamera(node.camera, index, exact); });
         }
         const auto light = node.extensions.find("KHR_lights_punctual");
         if (light != node.extensions.end()) {
             const int which = light->second.Get("light").GetNumberAsInt();
-            report_.tolerate("the lamp will be missing", [&] { addLight(which, index, toWorld); });
+            report_.tolerate("the lamp will be missing", [&] { addLight(which, index, exact); });
         }
         return exact;
+    }
+
+    /// Puts the origin of the world near the instances, if they are far from that of the file.
+    void finish() {
+        scene_.origin = nearbyOrigin(scene_);
+        if (scene_.origin == glm::dvec3(0.0)) {
+            return;
+        }
+        const glm::dmat4 toWorld = fileToWorld(scene_);
+        for (size_t i = 0; i < scene_.instances.size(); ++i) {
+            scene_.instances[i].objectToWorld = mat4(toWorld * exactInstances_[i]);
+        }
+        for (size_t i = 0; i < scene_.cameras.size(); ++i) {
+            setTransform(scene_.cameras[i], mat4(toWorld * exactCameras_[i]));
+        }
+        for (size_t i = 0; i < scene_.lamps.size(); ++i) {
+            setTransform(scene_.lamps[i], mat4(toWorld * exactLamps_[i]));
+        }
     }
 
 private:
     void addCopies(int index, const glm::dmat4& nodeToWorld, const std::string& part) {
         const tinygltf::Node& node = document_.model.nodes[static_cast<size_t>(index)];
         for (const glm::dmat4& toNode : readGltfCopies(document_, node, part, report_)) {
-            const mat4 toWorld(nodeToWorld * toNode);
+            const glm::dmat4 exact = nodeToWorld * toNode;
+            const mat4 toWorld(exact);
             report_.tolerate("the mesh will not be drawn", [&] {
                 if (!isFinite(toWorld)) {
                     report_.fail(part, "the transform of an instance to the world is not finite");
                 }
                 addInstances(index, toWorld, mat4(toNode), part);
             });
+            exactInstances_.resize(scene_.instances.size(), exact);
             if (node.skin >= 0) {
                 break;  // joints alone place a skinned mesh: all copies would be in the same place
             }
@@ -172,20 +193,22 @@ private:
         return found->second;
     }
 
-    void addCamera(int camera, int node, const mat4& toWorld) {
+    void addCamera(int camera, int node, const glm::dmat4& toWorld) {
         const auto& source = document_.model.cameras[static_cast<size_t>(camera)];
-        scene_.cameras.push_back(placeCamera(source, toWorld, fmt::format("cameras[{}]", camera), report_));
+        scene_.cameras.push_back(placeCamera(source, mat4(toWorld), fmt::format("cameras[{}]", camera), report_));
         scene_.cameras.back().node = motion_.node(node);
+        exactCameras_.push_back(toWorld);
     }
 
-    void addLight(int light, int node, const mat4& toWorld) {
+    void addLight(int light, int node, const glm::dmat4& toWorld) {
         const std::string part = fmt::format("extensions.KHR_lights_punctual.lights[{}]", light);
-        Lamp lamp = placeLamp(document_.model.lights[static_cast<size_t>(light)], toWorld, part, report_);
+        Lamp lamp = placeLamp(document_.model.lights[static_cast<size_t>(light)], mat4(toWorld), part, report_);
         lamp.node = motion_.node(node);
         if (lamp.type == Lamp::Type::directional && !scene_.sun) {
             scene_.sun = Sun{.direction = lamp.direction, .irradiance = lamp.intensity, .node = lamp.node};
         } else {
             scene_.lamps.push_back(std::move(lamp));
+            exactLamps_.push_back(toWorld);
         }
     }
 
@@ -195,6 +218,10 @@ private:
     Scene& scene_;
     GltfReport& report_;
     std::map<std::pair<uint32_t, std::vector<float>>, uint32_t> shaped_;  ///< by mesh and weights
+    /// To the coordinates of the file, of the scene's.
+    std::vector<glm::dmat4> exactInstances_;
+    std::vector<glm::dmat4> exactCameras_;
+    std::vector<glm::dmat4> exactLamps_;
 };
 
 }  // namespace
@@ -222,6 +249,7 @@ void placeGltfNodes(const GltfDocument& document, const std::vector<int>& roots,
             push(document.model.nodes[static_cast<size_t>(next.node)].children, toWorld);
         });
     }
+    placer.finish();
 }
 
 }  // namespace reflet
