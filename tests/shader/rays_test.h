@@ -21,6 +21,7 @@ struct WaitingItem {
     float rest;
     float clear;  // metres
     uint lost;
+    vec3 inFront;
 };
 
 SHARED_END

@@ -16,7 +16,7 @@ const float environmentDistance = 10000.0;
            "stays visible.")                                                                                        \
     VALUE(float, occludedWeight, 0.5, 0.0, 1.0,                                                                     \
           "Share of environment light for rays that passed behind a visible surface, where the screen cannot tell " \
-          "whether they hit. 0: darker; 1: more light leaking.")
+          "whether they hit. The rest is the light of that surface, if it is darker. 0: darker; 1: more light leaking.")
 SETTINGS(EnvironmentSettings, ENVIRONMENT_SETTINGS)
 
 struct AnswerEnvironmentParams {
