@@ -21,7 +21,6 @@ struct WaitingItem {
     float rest;
     float clear;  // metres
     uint lost;
-    vec3 inFront;
 };
 
 SHARED_END
