@@ -174,7 +174,7 @@ void setCoat(SurfacePoint& s, const RayScene& rays, const Material& material, co
     s.coat.factor = factorAt(scene, c.factor, c.texture, corners, 0);
     s.coat.roughness = factorAt(scene, c.roughness, c.roughnessTexture, corners, 1);
     const vec3 normal = outerNormal(rays, s.hit, corners, outer, c.normalTexture, c.normalScale);
-    s.coat.normal = s.front ? normal : -normal;
+    s.coat.normal = consistentNormal(s.front ? normal : -normal, s.geometricNormal, s.toOrigin);
     const float cosine = glm::dot(s.coat.normal, s.toOrigin);
     s.emission *= 1.0F - s.coat.factor * (0.04F + 0.96F * schlick(cosine));
 }
@@ -185,6 +185,26 @@ float largest(const vec3& v) {
 }
 
 }  // namespace
+
+vec3 consistentNormal(const vec3& normal, const vec3& geometric, const vec3& toViewer) {
+    constexpr float lowestMirror = 0.01F;
+    const float height = std::max(glm::dot(toViewer, geometric), 1e-4F);
+    const float least = std::min(0.9F * height, lowestMirror);
+    const float upright = glm::dot(normal, geometric);
+    if (upright > 0.0F && 2.0F * glm::dot(normal, toViewer) * upright - height >= least) {
+        return normal;
+    }
+    const vec3 aside = normal - upright * geometric;
+    const float length = glm::length(aside);
+    if (!(length > 1e-6F)) {
+        return geometric;
+    }
+    // The mirror direction turns in the plane of both normals; the angle of view and normal is half of theirs.
+    const float x = glm::dot(toViewer, aside) / length;
+    const float turned = std::acos(std::min(least / std::hypot(x, height), 1.0F));
+    const float angle = 0.5F * (std::atan2(x, height) + turned);
+    return std::sin(angle) / length * aside + std::cos(angle) * geometric;
+}
 
 SurfacePoint surfaceAt(const RayScene& rays, const Hit& hit, const vec3& direction) {
     const Scene& scene = rays.scene();
@@ -202,7 +222,7 @@ SurfacePoint surfaceAt(const RayScene& rays, const Hit& hit, const vec3& directi
     s.front = glm::dot(outer, s.toOrigin) >= 0.0F;
     s.geometricNormal = s.front ? outer : -outer;
     const vec3 shading = outerNormal(rays, hit, corners, outer, material.normalTexture, material.normalScale);
-    s.normal = s.front ? shading : -shading;
+    s.normal = consistentNormal(s.front ? shading : -shading, s.geometricNormal, s.toOrigin);
 
     s.baseColor = glm::clamp(vec3(baseColorAt(scene, material, corners)), 0.0F, 1.0F);
     s.roughness = material.roughness;
@@ -215,7 +235,7 @@ SurfacePoint surfaceAt(const RayScene& rays, const Hit& hit, const vec3& directi
     setGlass(s, scene, material, corners);
     setDielectric(s, scene, material, corners);
     setSheen(s, scene, material, corners);
-    setAnisotropy(s, rays, material, corners, shading);
+    setAnisotropy(s, rays, material, corners, s.front ? s.normal : -s.normal);
     s.unlit = material.unlit;
     if (s.front || material.doubleSided) {
         s.emission = emissionOf(scene, material, corners);

@@ -59,6 +59,11 @@ struct SurfacePoint {
     }
 };
 
+/// The shading normal, or if its mirror direction is below the surface, one bent toward the geometric normal until it
+/// is just above: nothing faces away from the viewer. Specified in src/shaders/shading_normal.glsl. All unit,
+/// `geometric` on the viewer's side.
+vec3 consistentNormal(const vec3& normal, const vec3& geometric, const vec3& toViewer);
+
 SurfacePoint surfaceAt(const RayScene& rays, const Hit& hit, const vec3& direction);
 
 /// Whether the material's alpha is below its cutoff there; below `blendedCutoff` if it is blended.

@@ -12,7 +12,7 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i < outputs.items.length()) {
         WaitingItem given = inputs.items[i];
-        WaitingRay ray = WaitingRay(ivec3(0), given.rest, given.clear, given.lost != 0u);
+        WaitingRay ray = WaitingRay(ivec3(0), given.rest, given.clear, given.lost != 0u, vec3(1.0));
         ray = unpackWaitingRay(packWaitingRay(ray));
         outputs.items[i] = WaitingItem(ray.rest, ray.clear, ray.lost ? 1u : 0u);
     }

@@ -71,6 +71,12 @@ float noiseAt(ivec2 pixel, ivec2 size, float frames) {
 // history takes its light from neighbours with a longer one. Not 0, for pixels that have no history yet.
 float trust(float frames) { return clamp(frames, 0.25, lobe == 0u ? trustedFrames : trustedFramesReflections); }
 
+// Edge-stopping weight of reflections by the angle between both mirror directions, relative to the lobe's width.
+float reflectsAlike(KeptSurface a, KeptSurface b) {
+    float width = max(ggxConeTangent(a.roughness * a.roughness), 0.01);
+    return exp(-4.0 * max(1.0 - dot(a.normal, b.normal), 0.0) / (width * width));
+}
+
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     ivec2 size = ivec2(params.view.size);
@@ -103,6 +109,7 @@ void main() {
         vec2 o = vec2(at - pixel);
         if (there.depth > 0.0 && onSurface(plane, o, there.depth - own.depth)) {
             float same = hasDirectional != 0u ? normalSimilarity(own, there) : surfaceSimilarity(own, there, lobe);
+            same *= lobe == 0u ? 1.0 : reflectsAlike(own, there);
             float weight = exp(-1.5 * reach * reach) * same * trust(imageLoad(moments, at).x);
             sum += weight * imageLoad(from, at);
             if (hasDirectional != 0u) {

@@ -6,6 +6,7 @@
 #include "effects/import/import.h"
 #include "effects/material_features.glsl"
 #include "shaders/projection.glsl"
+#include "shaders/shading_normal.glsl"
 #include "shaders/srgb.glsl"
 
 layout(constant_id = 0) const uint reversed = 1u;
@@ -148,7 +149,7 @@ void main() {
                                          : normalFromDepth(pixel, d, p, n);
     }
     flat_ = dot(flat_, toEye) < 0.0 ? -flat_ : flat_;
-    imageStore(normal, pixel, uvec4(packUnitVector(n)));
+    imageStore(normal, pixel, uvec4(packUnitVector(consistentNormal(n, flat_, toEye))));
     imageStore(geometricNormal, pixel, uvec4(packUnitVector(flat_)));
     imageStore(baseColor, pixel, vec4(packBaseColor(baseColorAt(pixel)), 1.0));
     float metal = 0.0;

@@ -27,7 +27,7 @@ void main() {
         float occlusion = lobe == lobeDiffuse && !isKnownMiss(w) ? texelFetch(material, w.slot.xy, 0).b : 1.0;
         Ray ray = unpackRay(imageLoad(direction, w.slot).xy);
         occlusion = min(occlusion, ambientVisibility(w.slot.xy, ray));
-        RayAnswer a = answerOfEnvironment(ray, occlusion, w.lost);
+        RayAnswer a = answerOfEnvironment(ray, occlusion, w.lost, w.inFront);
         addAnswer(w.slot, a, w.rest, sourceEnvironment);
     }
 }

@@ -10,13 +10,14 @@ SHARED_BEGIN
 // Hit distance stored for misses [m]: far away, but representable as a half float.
 const float environmentDistance = 10000.0;
 
-#define ENVIRONMENT_SETTINGS(VALUE, SWITCH, CHOICE)                                                                 \
-    SWITCH(enabled, 1,                                                                                              \
-           "Image-based lighting: rays that hit nothing get the environment. Off: they are black; the background "  \
-           "stays visible.")                                                                                        \
-    VALUE(float, occludedWeight, 0.5, 0.0, 1.0,                                                                     \
-          "Share of environment light for rays that passed behind a visible surface, where the screen cannot tell " \
-          "whether they hit. 0: darker; 1: more light leaking.")
+#define ENVIRONMENT_SETTINGS(VALUE, SWITCH, CHOICE)                                                                \
+    SWITCH(enabled, 1,                                                                                             \
+           "Image-based lighting: rays that hit nothing get the environment. Off: they are black; the background " \
+           "stays visible.")                                                                                       \
+    VALUE(                                                                                                         \
+        float, occludedWeight, 0.5, 0.0, 1.0,                                                                      \
+        "Share of environment light for rays that passed behind a visible surface, where the screen cannot tell "  \
+        "whether they hit. The rest is the light of that surface, if it is darker. 0: darker; 1: more light leaking.")
 SETTINGS(EnvironmentSettings, ENVIRONMENT_SETTINGS)
 
 struct AnswerEnvironmentParams {

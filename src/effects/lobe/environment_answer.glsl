@@ -19,10 +19,13 @@ vec3 radianceFor(Ray ray) {
 }
 
 // occlusion: of the surface's occlusion map, which stands for nearby geometry; 1 for rays that ray tracing has found to be
-// unoccluded. lost: the ray passed behind a visible surface.
-RayAnswer answerOfEnvironment(Ray ray, float occlusion, bool lost) {
-    float share = occlusion * (lost ? environmentAnswer.settings.occludedWeight : 1.0);
-    return RayAnswer(radianceFor(ray) * share, 1.0, environmentDistance);
+// unoccluded. Of the rays that passed behind a visible surface some hit what the screen does not show. It is taken to be as
+// bright as the surface in front, but no brighter than the environment, which may be its only light: black would make white
+// things darker than what surrounds them.
+RayAnswer answerOfEnvironment(Ray ray, float occlusion, bool lost, vec3 inFront) {
+    vec3 open = radianceFor(ray);
+    float share = lost ? environmentAnswer.settings.occludedWeight : 1.0;
+    return RayAnswer(mix(min(inFront, open), open, share) * occlusion, 1.0, environmentDistance);
 }
 
 #endif

@@ -47,7 +47,7 @@ void generate(ivec2 pixel, uint rays) {
         Ray ray = Ray(vec3(0.0, 0.0, 1.0), 0.0, 0.0, 0.0);
         if (needed) {
             ray = makeRay(RayNumber(pixel, i, rays), p, n, m, geometric);
-            appendRay(WaitingRay(slot, 1.0, 0.0, false));
+            appendRay(WaitingRay(slot, 1.0, 0.0, false, vec3(0.0)));
         }
         imageStore(direction, slot, uvec4(packRay(ray), 0u, 0u));
     }

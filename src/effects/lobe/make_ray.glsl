@@ -17,6 +17,39 @@ float relativeF0(ivec2 pixel, MaterialTexel m) {
     return f90 > 0.0 ? dot(f0, vec3(0.2126, 0.7152, 0.0722)) / f90 : dielectricF0;
 }
 
+// Share of the light along l that reaches the eye from a normal that is visible to it: the rest is masked.
+float unmaskedShare(vec3 l, vec3 eye, float alpha, vec2 widths) {
+    vec3 toLight = vec3(l.xy, max(l.z, 0.0));
+    if (mayBeAnisotropic()) {
+        return ggxVisibility(toLight, eye, widths) * 2.0 * toLight.z * (eye.z + length(vec3(widths * eye.xy, eye.z)));
+    }
+    float a2 = alpha * alpha;
+    return ggxVisibility(toLight.z, eye.z, alpha) * 2.0 * toLight.z * (eye.z + sqrt(eye.z * eye.z * (1.0 - a2) + a2));
+}
+
+// Samples a reflection by the lobe with its masking: visible normals are drawn until masking lets one pass. All such rays
+// have the same share, `albedo`: the mean share of visible normals. The last try passes with its own share, which
+// keeps the mean. Shares of single visible normals vary from 0 to 2 times their mean on rough surfaces, noise that would be
+// there even where the same light comes from all directions.
+const uint lobeTries = 6u;
+vec3 sampleUnmasked(RayNumber number, vec3 eye, float alpha, vec2 widths, float albedo, out float share) {
+    vec2 u = randomPair(number);
+    uint random = hashPixel(uvec2(number.pixel), number.index * 2u + 1u + hashPcg(rayParams.view.seed + 5u), rayParams.view.frame);
+    vec3 h;
+    for (uint i = 1u;; ++i) {
+        h = sampleGgxVisible(u, eye, widths);
+        share = unmaskedShare(2.0 * dot(eye, h) * h - eye, eye, alpha, widths);
+        random = hashPcg(random);
+        bool passes = hashToUnit(random) < share;
+        share = passes ? albedo : share;
+        if (passes || i == lobeTries) {
+            return h;
+        }
+        random = hashPcg(random);
+        u = hashToUnit2(random);
+    }
+}
+
 // Reflection at a sampled visible GGX normal. The weight is BRDF · cos / pdf divided by the directional albedo, which
 // the composite multiplies in. One weight for all three channels: F0 is taken by its luminance.
 Ray specularRay(RayNumber number, vec3 n, vec3 v, MaterialTexel m) {
@@ -28,32 +61,23 @@ Ray specularRay(RayNumber number, vec3 n, vec3 v, MaterialTexel m) {
     vec2 widths = mayBeAnisotropic() ? anisotropicAlpha(alpha, anisotropy) : vec2(alpha);
     bool cone = spreads != 0u && m.roughness > rayParams.specular.maxRoughness &&
                 rayParams.specular.roughFallback == RoughFallback_mips && anisotropy == vec2(0.0);
-    vec3 h = vec3(0.0, 0.0, 1.0);
-    float share = 1.0;  // masking: the share of light along the ray that reaches the eye
     if (cone && rayParams.coneShare == 0.0) {
         return Ray(frame * ggxMeanDirection(eye, alpha), 1.0, 1.0, m.roughness);
     }
-    if (m.roughness > mirrorRoughness) {
-        vec2 u = randomPair(number);
-        h = sampleGgxVisible(cone ? u * vec2(rayParams.coneShare, 1.0) : u, eye, widths);
+    float tableRoughness = mayBeAnisotropic() ? albedoRoughness(m.roughness, anisotropy) : m.roughness;
+    vec2 table = textureLod(ggxTable, ggxTableUv(eye.z, tableRoughness), 0.0).rg;
+    vec3 h = vec3(0.0, 0.0, 1.0);
+    float share = 1.0;
+    if (cone && m.roughness > mirrorRoughness) {
+        h = sampleGgxVisible(randomPair(number) * vec2(rayParams.coneShare, 1.0), eye, widths);
+    } else if (m.roughness > mirrorRoughness) {
+        h = sampleUnmasked(number, eye, alpha, widths, table.x + table.y, share);
     }
     vec3 l = 2.0 * dot(eye, h) * h - eye;
     if (cone) {
         return Ray(frame * l, 1.0, 1.0, m.roughness);
     }
-    if (m.roughness > mirrorRoughness) {
-        if (mayBeAnisotropic()) {
-            vec3 toLight = vec3(l.xy, max(l.z, 0.0));
-            share = ggxVisibility(toLight, eye, widths) * 2.0 * toLight.z * (eye.z + length(vec3(widths * eye.xy, eye.z)));
-        } else {
-            float a2 = alpha * alpha;
-            share = ggxVisibility(max(l.z, 0.0), eye.z, alpha) * 2.0 * max(l.z, 0.0) *
-                    (eye.z + sqrt(eye.z * eye.z * (1.0 - a2) + a2));
-        }
-    }
     float y = relativeF0(number.pixel, m);
-    float tableRoughness = mayBeAnisotropic() ? albedoRoughness(m.roughness, anisotropy) : m.roughness;
-    vec2 table = textureLod(ggxTable, ggxTableUv(eye.z, tableRoughness), 0.0).rg;
     float weight = share * fresnelSchlick(vec3(y), dot(eye, h)).x / max(y * table.x + table.y, 1e-3);
     float fade = rayParams.specular.maxRoughness < 1.0 && rayParams.specular.roughFallback == RoughFallback_next
                      ? smoothstep(rayParams.specular.maxRoughness - 0.1, rayParams.specular.maxRoughness, m.roughness)

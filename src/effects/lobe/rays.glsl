@@ -16,16 +16,30 @@ struct WaitingRay {
     float rest;   // remaining weight, 0..1, in 16 bits
     float clear;  // metres along the ray known to be unoccluded, where the next source may continue; a half float, rounded down
     bool lost;    // there it passed behind a visible surface: whether it hits something is unknown
+    vec3 inFront;  // radiance of that surface, if it is known; positive small floats of 6, 6 and 5 bits of mantissa
 };
+
+uint packSmallFloats(vec3 v) {
+    v = clampToHalf(v);
+    uint red = packHalf2x16(vec2(v.r, 0.0)) >> 4u;
+    uint green = packHalf2x16(vec2(v.g, 0.0)) >> 4u;
+    return red | (green << 11u) | ((packHalf2x16(vec2(v.b, 0.0)) >> 5u) << 22u);
+}
+vec3 unpackSmallFloats(uint bits) {
+    vec2 redGreen = unpackHalf2x16(((bits & 0x7ffu) << 4u) | (((bits >> 11u) & 0x7ffu) << 20u));
+    return vec3(redGreen, unpackHalf2x16((bits >> 22u) << 5u).x);
+}
 
 RayItem packWaitingRay(WaitingRay ray) {
     uint clear = packHalf2x16(vec2(min(ray.clear * (1.0 - 1.0 / 2048.0), largestHalf), 0.0));
     uint lost = ray.lost ? 0x8000u : 0u;  // in the half's sign bit
-    return RayItem(packSlot(ray.slot), uint(ray.rest * 65535.0 + 0.5) | ((clear | lost) << 16u));
+    return RayItem(packSlot(ray.slot), uint(ray.rest * 65535.0 + 0.5) | ((clear | lost) << 16u),
+                   packSmallFloats(ray.inFront));
 }
 WaitingRay unpackWaitingRay(RayItem item) {
     return WaitingRay(unpackSlot(item.slot), float(item.restAndClear & 0xffffu) / 65535.0,
-                      unpackHalf2x16((item.restAndClear >> 16u) & 0x7fffu).x, (item.restAndClear & 0x80000000u) != 0u);
+                      unpackHalf2x16((item.restAndClear >> 16u) & 0x7fffu).x, (item.restAndClear & 0x80000000u) != 0u,
+                      unpackSmallFloats(item.inFront));
 }
 
 // Whether the ray is known to hit nothing.

@@ -101,6 +101,7 @@ const uint maxFrameSize = 16384;
 struct RayItem {
     uint slot;
     uint restAndClear;
+    uint inFront;
 };
 
 // Header size in bytes: group counts for an indirect dispatch, then the number of items.

@@ -79,16 +79,14 @@ float evaluateLobe(Shown s, vec3 l) {
     return ggxDistribution(nh, s.alpha) * ggxVisibility(nl, nv, s.alpha) * nl;
 }
 
-// The pdf of a direction, as sampled by generate_rays.comp; in the units of evaluateLobe.
+// The pdf of a direction, as sampled by generate_rays.comp; in the units of evaluateLobe. Reflection rays are distributed as
+// the lobe, up to a factor that is about the same for neighbours.
 float pdfOf(Shown s, Ray ray) {
     float nl = max(dot(s.normal, ray.direction), leastCosine);
     if (lobe == lobeDiffuse) {
         return nl / max(ray.weight, 0.05);  // the weight accounts for distributions other than cosine
     }
-    float nv = max(dot(s.normal, s.toEye), leastCosine);
-    float nh = clamp(dot(s.normal, normalize(s.toEye + ray.direction)), 0.0, 1.0);
-    float a2 = s.alpha * s.alpha;
-    return ggxDistribution(nh, s.alpha) / (2.0 * (nv + sqrt(nv * nv * (1.0 - a2) + a2)));
+    return evaluateLobe(s, ray.direction);
 }
 
 void add(inout Sum sum, float weight, vec4 answered, vec3 toward, vec3 normal) {

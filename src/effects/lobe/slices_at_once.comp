@@ -47,7 +47,7 @@ layout(rgba16f) uniform image2D directional;
 void addSlice(inout RaySum mean, SliceOrigin from, SliceLight found) {
     RayAnswer sky = RayAnswer(vec3(1.0), 1.0, params.slice.radius);
     if (ambient == 0u) {
-        sky = answerOfEnvironment(found.ray, texelFetch(ownMaterial, from.pixel, 0).b, found.behind);
+        sky = answerOfEnvironment(found.ray, texelFetch(ownMaterial, from.pixel, 0).b, found.behind, vec3(0.0));
     }
     AnswerSum sum = AnswerSum(found.covered, (1.0 - found.open) * sourceScreen);
     addAnswer(sum, sky, found.open, sourceEnvironment);

@@ -54,7 +54,7 @@ void store(ivec3 slot, SliceOrigin from, SliceLight found) {
         imageStore(steps, slot, vec4(from.depth > 0.0 ? 2.0 * float(params.slice.steps) : 0.0));
     }
     if (found.open > 0.0) {
-        appendRay(WaitingRay(slot, found.open, 0.0, found.behind));
+        appendRay(WaitingRay(slot, found.open, 0.0, found.behind, vec3(0.0)));
     }
 }
 

@@ -63,7 +63,7 @@ float traceOnScreen(RayOrigin from, uint number, Ray ray, inout WaitingRay w, in
     MarchRay march = makeMarchRay(from.point, ray.direction, from.plane, view);
     MarchResult hit = marchBy(method, march, screenOptions(from.pixel, number), view);
     bool facesAway = hitsBackOf(hit, ray);
-    updateClearDistance(hit, facesAway, w);
+    updateClearDistance(hit, facesAway, from.point, ray.direction, w);
     if (hit.outcome == marchHit && !facesAway) {
         if (tellsMotion != 0u && number == 0u) {
             writeReflectionMotion(from.pixel, ray, from.point, hit);
@@ -75,7 +75,7 @@ float traceOnScreen(RayOrigin from, uint number, Ray ray, inout WaitingRay w, in
 
 void traceRay(RayOrigin from, RayNumber number, inout RaySum mean) {
     Ray ray = makeRay(number, from.point, from.normal, from.material, from.geometric);
-    WaitingRay w = WaitingRay(ivec3(0), 1.0, 0.0, false);
+    WaitingRay w = WaitingRay(ivec3(0), 1.0, 0.0, false, vec3(0.0));
     AnswerSum sum = AnswerSum(vec4(0.0), vec4(0.0));
     float looked = 0.0;
     if (screen != 0u) {
@@ -84,7 +84,7 @@ void traceRay(RayOrigin from, RayNumber number, inout RaySum mean) {
     if (w.rest > 0.0) {
         float occlusion = lobe == lobeDiffuse ? from.material.occlusion : 1.0;
         occlusion = min(occlusion, ambientVisibility(from.pixel, ray));
-        addAnswer(sum, answerOfEnvironment(ray, occlusion, w.lost), w.rest, sourceEnvironment);
+        addAnswer(sum, answerOfEnvironment(ray, occlusion, w.lost, w.inFront), w.rest, sourceEnvironment);
     }
     addRay(mean, ray, sum, from.normal, looked);
 }

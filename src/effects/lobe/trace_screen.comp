@@ -45,7 +45,7 @@ RayAnswer traceAnswer(ivec3 slot, Ray ray, vec3 p, vec3 n, inout WaitingRay w) {
         imageStore(steps, slot, vec4(float(hit.steps)));
     }
     bool facesAway = hitsBackOf(hit, ray);
-    updateClearDistance(hit, facesAway, w);
+    updateClearDistance(hit, facesAway, p, ray.direction, w);
     if (tellsMotion != 0u && slot.z == 0 && hit.outcome == marchHit && !facesAway) {
         writeReflectionMotion(slot.xy, ray, p, hit);
     }

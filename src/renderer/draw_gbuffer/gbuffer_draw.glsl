@@ -3,6 +3,7 @@
 // anisotropy: a shader must not write to one that is missing.
 #include "effects/gbuffer/gbuffer.glsl"
 #include "renderer/draw_gbuffer/draw_gbuffer.h"
+#include "shaders/shading_normal.glsl"
 
 layout(constant_id = 0) const uint clipped = 0u;
 layout(constant_id = 2) const uint usedSlots = 32767u;
@@ -36,6 +37,8 @@ layout(location = 6) out vec4 outReflectance;
 layout(location = 7) out uvec2 outLayers;
 #endif
 
+vec3 towardEye() { return params.view.eye.w > 0.0 ? -fromEye : params.view.eye.xyz; }
+
 // The triangle's normal, facing the camera; the shading normal if the triangle is seen edge-on.
 vec3 geometricNormal(vec3 shading) {
     vec3 n = cross(dFdx(fromEye), dFdy(fromEye));
@@ -43,8 +46,7 @@ vec3 geometricNormal(vec3 shading) {
     if (!(square > 1e-30)) {
         return shading;
     }
-    vec3 toEye = params.view.eye.w > 0.0 ? -fromEye : params.view.eye.xyz;
-    return n * (inversesqrt(square) * (dot(n, toEye) < 0.0 ? -1.0 : 1.0));
+    return n * (inversesqrt(square) * (dot(n, towardEye()) < 0.0 ? -1.0 : 1.0));
 }
 
 mat3 tangentFrame(vec3 n) {
@@ -127,7 +129,8 @@ bool isDrawn(float alpha, bool kept) {
 
 void main() {
     vec3 n = shadingNormal();
-    uint packedGeometric = packUnitVector(geometricNormal(n));  // derivatives must be taken before any discard
+    vec3 geometric = geometricNormal(n);  // derivatives must be taken before any discard
+    n = consistentNormal(n, geometric, normalize(towardEye()));
     vec3 positionW = fromEye + params.view.eye.xyz * params.view.eye.w;
     if (clipped != 0u && dot(params.clipPlane, vec4(positionW, 1.0)) <= 0.0) {
         discard;
@@ -177,7 +180,7 @@ void main() {
 #endif
     outBaseColor = vec4(packBaseColor(baseColor.rgb), 1.0);
     outNormal = packUnitVector(n);
-    outGeometricNormal = packedGeometric;
+    outGeometricNormal = packUnitVector(geometric);
     outMaterial = vec4(roughnessMetallic, occlusion, float(flags) / 255.0);
     outMotion = vec4(0.5 * (clipNow.xy / clipNow.z - clipBefore.xy / clipBefore.z), clipBefore.w,
                      surfaces == surfacesOpaque ? 0.0 : baseColor.a);

@@ -131,7 +131,7 @@ void emitRay(Pane pane, int layer, Refracted r, float ior) {
     Ray ray = Ray(r.direction, 1.0, 1.0, frosted ? spread : 0.0);
     imageStore(origins, ivec3(pane.pixel, layer), vec4(r.exit.point, r.exit.path));
     imageStore(direction, ivec3(pane.pixel, layer), uvec4(packRay(ray), 0u, 0u));
-    appendRay(WaitingRay(ivec3(pane.pixel, layer), 1.0, 0.0, false));
+    appendRay(WaitingRay(ivec3(pane.pixel, layer), 1.0, 0.0, false, vec3(0.0)));
 }
 
 void refractPixel(ivec2 pixel, float d) {

@@ -9,6 +9,7 @@
 #include "renderer/trace_scene/scene_materials.h"
 #include "renderer/trace_scene/scene_triangles.glsl"
 #include "shaders/noise.glsl"
+#include "shaders/shading_normal.glsl"
 
 // VertexAttributes (scene/scene.h); color: four 16-bit parts of 1.
 struct SceneVertex {
@@ -219,7 +220,7 @@ SceneSurface sceneSurface(SceneHit hit, vec3 direction, float width) {
     MaterialParams material = sceneMaterials.items[place.material].params;
     s.baseColor = clamp(sceneBaseColor(place).rgb, 0.0, 1.0);
     vec3 shading = sceneShadingNormal(t, place, front);
-    s.normal = facing <= 0.0 ? shading : -shading;
+    s.normal = consistentNormal(facing <= 0.0 ? shading : -shading, s.geometricNormal, -direction);
     s.roughness = material.roughness;
     s.metallic = material.metallic;
     if (hasSceneTexture(place, slotMetallicRoughness)) {
