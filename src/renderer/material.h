@@ -65,6 +65,7 @@ struct MaterialParams {
     float sheenRoughness;  // perceptual
     vec2 anisotropyAlong;  // direction of the anisotropy along tangent and bitangent, unit
     float anisotropy;      // its strength, 0..1
+    uint emitter;          // 1: findEmitters has what it emits
 };
 
 SHARED_END
