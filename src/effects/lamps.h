@@ -12,21 +12,24 @@ const uint maxLamps = 200;
 const uint lampPoint = 0;
 const uint lampSpot = 1;
 const uint lampDirectional = 2;
+const uint lampEmitter = 3;  // small emissive surfaces, seen from afar
 
 const uint noLampShadow = 0xFFFFFFFFu;
 
-// KHR_lights_punctual.
+// KHR_lights_punctual. An emitter has other values in members that mean nothing to it: its radiant intensity in the
+// direction w is that of `intensity` times max(dot(toLamp, w) + length(S * w), 0). It lights the diffuse lobe only:
+// reflections show the surfaces themselves. Packed by packEmitterShape.
 struct LampParams {
     vec3 position;  // world space
     uint type;
     vec3 toLamp;         // unit, opposite to the light's direction of travel (spot, directional)
-    float inverseRange;  // 1 / range; 0: infinite range
+    float inverseRange;  // 1 / range; 0: infinite range. Emitter: minus what is added to squared distances [m²]
     vec3 intensity;      // [W/sr]; directional: irradiance [W/m²]
-    float spotScale;     // factor = clamp(cos · scale + offset, 0, 1)²
-    float spotOffset;
-    float cosOuter;  // spot: cosine of the outer cone angle, beyond which it is dark
-    float radius;    // of its disk, for soft shadows [m]
-    uint shadow;     // index among the shadow-casting lamps, or noLampShadow
+    float spotScale;     // factor = clamp(cos · scale + offset, 0, 1)². Emitter: S.xx, S.yy as halfs
+    float spotOffset;    // emitter: S.zz, S.xy
+    float cosOuter;      // spot: cosine of the outer cone angle, beyond which it is dark. Emitter: S.xz, S.yz
+    float radius;        // of its disk, for soft shadows [m]
+    uint shadow;         // index among the shadow-casting lamps, or noLampShadow
 };
 
 struct LampBlock {
@@ -41,5 +44,19 @@ const uint lampTileSide = 1u << lampTileShift;  // pixels
 const uint lampsPerLayer = 128;
 
 SHARED_END
+
+#ifdef __cplusplus
+
+#include <algorithm>
+
+namespace reflet {
+
+inline bool anyEmitters(const LampBlock& block) {
+    return std::any_of(block.lamps, block.lamps + block.count,
+                       [](const LampParams& lamp) { return lamp.type == lampEmitter; });
+}
+
+}  // namespace reflet
+#endif
 
 #endif

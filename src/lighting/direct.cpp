@@ -91,7 +91,7 @@ gpu::Image lampShadow(gpu::PassList& f, const ViewContext& in, const LightingSet
     return lampVisibility(f, surfaces.g, {map, tiles.masks, in.blueNoise}, shadows, {in.view, settings.shadow});
 }
 
-gpu::Image directLight(gpu::PassList& f, const ViewContext& in, const Surfaces& surfaces, const LightSources& lights) {
+DirectLight directLight(gpu::PassList& f, const ViewContext& in, const Surfaces& surfaces, const LightSources& lights) {
     return reflet::directLight(f, surfaces.g, lights.visibility, in.ggxTable,
                                {in.view, lights.toSun, lights.sunIrradiance, sunRoughness(lights.sunSlope)},
                                {lights.lamps, in.environment, in.lambertOnly});

@@ -71,7 +71,7 @@ struct LightSources {
     LightVisibility visibility;
 };
 
-/// RGBA16F: radiance of direct light, emission and the environment behind.
-gpu::Image directLight(gpu::PassList& f, const ViewContext& in, const Surfaces& surfaces, const LightSources& lights);
+/// Radiance of direct light, emission and the environment behind.
+DirectLight directLight(gpu::PassList& f, const ViewContext& in, const Surfaces& surfaces, const LightSources& lights);
 
 }  // namespace reflet::lighting

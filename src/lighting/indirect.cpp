@@ -89,7 +89,9 @@ bool readsScreenLight(const LightingSettings& settings, const RaySources& source
 }
 
 LobeLight traceLobe(gpu::PassList& f, LobeStore* history, const ViewContext& in, const LightingSettings& settings,
-                    uint32_t lobe, const Surfaces& surfaces, const ScreenImages& screen, const RaySources& sources) {
+                    uint32_t lobe, const Surfaces& surfaces, const ScreenImages& seen, const RaySources& sources) {
+    ScreenImages screen = seen;
+    screen.leavesOutEmitters = in.emitterLamps && lobe == lobeDiffuse;
     const bool marched = settings.traceScreen.enabled != 0;
     const bool first = marched && !startsWithMirrors(sources, lobe);
     const std::vector<RaySource> order = orderOf(settings, screen, sources, lobe);

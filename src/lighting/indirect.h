@@ -27,10 +27,10 @@ ScreenImages screenOf(gpu::PassList& f, const ViewContext& in, const LightingSet
 /// Whether any rays read ScreenImages::light.
 bool readsScreenLight(const LightingSettings& settings, const RaySources& sources);
 
-/// The light of one lobe, for rays that start at the surfaces. screen: that they are marched through; it may be another
-/// view's. history: none: this frame alone.
+/// The light of one lobe, for rays that start at the surfaces. seen: the screen that they are marched through; it may
+/// be another view's. history: none: this frame alone.
 LobeLight traceLobe(gpu::PassList& f, LobeStore* history, const ViewContext& in, const LightingSettings& settings,
-                    uint32_t lobe, const Surfaces& surfaces, const ScreenImages& screen, const RaySources& sources);
+                    uint32_t lobe, const Surfaces& surfaces, const ScreenImages& seen, const RaySources& sources);
 
 /// A lobe that a host has traced, denoised. noisy: radiance; alpha: hit distance [m].
 LobeLight denoiseLobe(gpu::PassList& f, LobeStore& history, const ViewContext& in, const LightingSettings& settings,

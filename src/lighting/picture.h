@@ -16,6 +16,7 @@ struct LightParts {
     gpu::Image direct;
     LobeLight diffuse;
     LobeLight specular;
+    gpu::Image fromEmitters{};  ///< part of `direct` that counts as indirect light
 };
 
 /// A lobe without rays.

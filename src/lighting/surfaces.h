@@ -22,6 +22,8 @@ struct ViewContext {
     gpu::BufferView blueNoise;  ///< noise/blue_noise.h
     bool lambertOnly = false;   ///< every material is Lambert diffuse (MaterialsSettings)
     bool unlit = false;         ///< nothing reflects light: no rays are traced
+    bool emitterLamps =
+        false;  ///< lamps stand for what surfaces with materialFlagEmitter emit: diffuse rays leave it out
 };
 
 /// Surfaces that a view sees: its G-buffer, and what stages have derived from it.

@@ -96,7 +96,8 @@ lighting::ViewContext contextOf(const ViewInputs& in, const Settings& settings) 
             .ggxTable = in.ggxTable,
             .blueNoise = in.blueNoise,
             .lambertOnly = settings.materials.lambertOnly != 0,
-            .unlit = in.draws.unlit};
+            .unlit = in.draws.unlit,
+            .emitterLamps = anyEmitters(in.lamps)};
 }
 
 SceneLights sceneLights(const ViewInputs& in, const Settings& settings) {
@@ -136,12 +137,14 @@ void lightSurfaces(gpu::PassList& f, gpu::HistoryImage* history, const ViewInput
     out.lampTiles = lighting::lampTiles(f, context, settings.direct, out, in.lamps);
     out.lampVisibility =
         lighting::lampShadow(f, context, settings, out, out.lampTiles, in.lampShadows, out.lampShadowMap);
-    out.direct = directLightOn(f, in, settings, out);
+    const DirectLight light = directLightOn(f, in, settings, out);
+    out.direct = light.all;
+    out.fromEmitters = light.fromEmitters;
 }
 
-gpu::Image directLightOn(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const ViewImages& images) {
+DirectLight directLightOn(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const ViewImages& images) {
     if (tracesShadows(in, settings)) {
-        return traceDirectLight(f, in, settings, images.g).direct;
+        return {traceDirectLight(f, in, settings, images.g).direct, {}};
     }
     return lighting::directLight(f, contextOf(in, settings), images,
                                  {-in.sunDirection,

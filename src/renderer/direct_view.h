@@ -50,6 +50,7 @@ struct ViewImages : lighting::Surfaces {
     LampTiles lampTiles;          ///< of all lamps
     gpu::Image lampVisibility;    ///< none if no lamp casts a shadow
     gpu::Image direct;
+    gpu::Image fromEmitters;  ///< of DirectLight
 };
 
 /// Lights for shading at hits of traced rays.
@@ -77,6 +78,6 @@ void lightSurfaces(gpu::PassList& f, gpu::HistoryImage* history, const ViewInput
                    ViewImages& out);
 
 /// Direct light at surfaces that are in the same shadows as those of the view, whose visibilities `images` has.
-gpu::Image directLightOn(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const ViewImages& images);
+DirectLight directLightOn(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const ViewImages& images);
 
 }  // namespace reflet

@@ -27,6 +27,7 @@ struct Draw {
     bool coated = false;   ///< has a clear coat
     float alpha = 1.0F;    ///< of blended draws: the largest that occurs, or more
     bool doubleSided = false;
+    bool emitter = false;     ///< lamps stand for what it emits
     bool turnedOver = false;  ///< its triangles have clockwise winding in object space
 };
 

@@ -30,7 +30,7 @@ Settings settingsOfFrame(const FrameInputs& in, Settings settings) {
 
 // Whether the picture's layers are wanted, besides their sum.
 bool keepsLayers(const Settings& settings) {
-    return settings.composite.layers != 0 || settings.accumulate.enabled != 0;
+    return settings.composite.layers != 0 || settings.composite.direct == 0 || settings.accumulate.enabled != 0;
 }
 
 // The image of this frame's light, and the last one's. Without rays, no frame reads the last one's.
@@ -122,8 +122,8 @@ FrameImages renderFrame(gpu::PassList& f, FrameStore& own, const FrameInputs& in
     const LobeLight specular = traceLobe(f, &own.specular, in, settings, seen, lobeSpecular);
 
     // The light of the surfaces, and of what is in front of them.
-    lighting::Light light =
-        lighting::compose(f, context, settings, seen.images, {images.direct, diffuse, specular}, layers, lit.next);
+    lighting::Light light = lighting::compose(
+        f, context, settings, seen.images, {images.direct, diffuse, specular, images.fromEmitters}, layers, lit.next);
     light = withCoats(f, in, settings, seen, light);
     light = withBlended(f, blended.behindGlass, light);
     light = throughGlass(f, in, settings, seen, light);

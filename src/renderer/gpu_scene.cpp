@@ -82,8 +82,9 @@ GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const std::function<
     : GpuScene(device) {  // so that the destructor runs if something fails below
     materialLayout_ = materialLayout(device);
     uploadMeshes(scene);
-    uploadMaterials(scene, warn);
     addLamps(scene, warn);
+    emitters_.emplace(scene, lamps_.count);
+    uploadMaterials(scene, warn);
     addDraws(scene);
 }
 
@@ -188,6 +189,7 @@ void GpuScene::uploadMaterials(const Scene& scene, const std::function<void(cons
     for (uint32_t i = 0; i < count; ++i) {
         MaterialParams params = materialParams(scene.materials[i]);
         params.glass = params.transmission > 0.0F ? glassKind(scene.materials[i], i + 1) : 0;
+        params.emitter = emitters_->standFor(i) ? 1U : 0U;
         live[i] = livePictureOf(scene, scene.materials[i], warn);
         if (live[i]) {
             params.emissive = vec3(1.0F);
@@ -234,6 +236,14 @@ void GpuScene::addLamps(const Scene& scene, const std::function<void(const std::
     std::ranges::transform(lampSources_, lamps_.lamps, [&](size_t i) { return lampParams(scene.lamps[i]); });
 }
 
+LampBlock GpuScene::lamps(bool emitters) const {
+    LampBlock block = lamps_;
+    if (emitters) {
+        emitters_->appendTo(block);
+    }
+    return block;
+}
+
 void GpuScene::addDraws(const Scene& scene) {
     draws_.positions = positions_.handle();
     draws_.previousPositions = skinned_.empty() ? VK_NULL_HANDLE : previousPositions_.handle();
@@ -271,6 +281,7 @@ void GpuScene::addDraws(const Scene& scene) {
         draws_.coatedGlass = draws_.coatedGlass || (draw.coated && draw.glass);
         draw.alpha = draw.blended ? material.baseColor.a : 1.0F;
         draw.doubleSided = material.doubleSided;
+        draw.emitter = emitters_->standFor(mesh.material);
         draws_.boundsW.add(draw.boundsW);
         draws_.draws.push_back(draw);
     }

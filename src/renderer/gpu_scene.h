@@ -5,6 +5,7 @@
 #include "effects/lamps.h"
 #include "gpu/resource.h"
 #include "renderer/draw_list.h"
+#include "renderer/emitter_lamps.h"
 #include "renderer/material.h"
 #include "renderer/skin/skin.h"
 #include "scene/scene.h"
@@ -62,7 +63,9 @@ public:
     [[nodiscard]] std::vector<LivePicture>& livePictures() { return live_; }
 
     [[nodiscard]] const DrawList& draws() const { return draws_; }
-    [[nodiscard]] const LampBlock& lamps() const { return lamps_; }
+    /// emitters: with the lamps that stand for them.
+    [[nodiscard]] LampBlock lamps(bool emitters) const;
+    [[nodiscard]] const EmitterLamps& emitters() const { return *emitters_; }
     /// For ray hits: VertexAttributes and indices of all meshes, one after another; indices are relative to their mesh.
     [[nodiscard]] gpu::BufferView attributes() const { return attributes_.view(); }
     [[nodiscard]] gpu::BufferView indices() const { return indices_.view(); }
@@ -112,6 +115,7 @@ private:
     std::vector<LivePicture> live_;
     TextureFilter filter_;
     LampBlock lamps_{};
+    std::optional<EmitterLamps> emitters_;
     std::vector<size_t> lampSources_;  ///< indices into Scene::lamps
     std::optional<double> posedTime_;  ///< time of the current pose
     DrawList draws_{.version = 1};

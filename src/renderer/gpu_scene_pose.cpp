@@ -48,6 +48,7 @@ void GpuScene::pose(const Scene& scene, const ScenePose& now, const ScenePose& b
         lamps_.lamps[i].position = lamp.position;
         lamps_.lamps[i].toLamp = -lamp.direction;
     }
+    emitters_->pose(now);
     for (LivePicture& picture : live_) {
         picture.posed = posed(picture.camera, now);
     }

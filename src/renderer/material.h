@@ -66,6 +66,7 @@ struct MaterialParams {
     vec2 anisotropyAlong;  // direction of the anisotropy along tangent and bitangent, unit
     float anisotropy;      // its strength, 0..1
     float preExposed;      // 1: `emissive` is a live picture, whose radiance is pre-exposed; else 0
+    uint emitter;          // 1: findEmitters has what it emits
 };
 
 SHARED_END

@@ -55,6 +55,9 @@ void Renderer::pose(const View& view) {
 
 LampShadows Renderer::planLamps(LampBlock& lamps, const View& view, const ShadowSettings& settings) {
     for (uint32_t i = 0; i < lamps.count; ++i) {
+        if (lamps.lamps[i].type == lampEmitter) {
+            continue;
+        }
         lamps.lamps[i].radius = view.lampRadius.value_or(lamps.lamps[i].radius);
         if (std::ranges::binary_search(view.lampsOff, i)) {
             lamps.lamps[i].intensity = vec3(0.0F);
@@ -214,7 +217,7 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
     std::vector<Lamp> otherSuns;
     View view = withSuns(shown, settings, otherSuns);
     pose(view);
-    LampBlock lamps = scene_.lamps();
+    LampBlock lamps = scene_.lamps(lightsByEmitters(settings));
     const LampShadows lampShadows = planLamps(lamps, view, settings.shadow);
     addLamps(lamps, otherSuns);
     const float lightChange = lightChange_.update(lamps, view);

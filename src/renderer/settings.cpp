@@ -98,6 +98,12 @@ bool tracesScene(const Settings& settings) {
     return settings.traceScene.enabled != 0 || settings.shadow.filter == ShadowFilter::traced;
 }
 
+bool lightsByEmitters(const Settings& settings) {
+    const bool shadows = settings.shadow.filter == ShadowFilter::traced ||
+                         (settings.shadow.filter != ShadowFilter::none && settings.shadow.lamps > 0);
+    return settings.direct.emitters != 0 && settings.diffuse.rays > 0 && shadows;
+}
+
 const SettingTable& settingTable() {
     static const SettingTable table = makeTable();
     return table;

@@ -39,6 +39,9 @@ struct Settings : LightingSettings {
 /// Whether a frame with these settings traces rays against the scene's BVH.
 bool tracesScene(const Settings& settings);
 
+/// Whether lamps stand for emitters: diffuse rays are to leave out what these emit, and lamps to have shadows.
+bool lightsByEmitters(const Settings& settings);
+
 const SettingTable& settingTable();
 
 /// All of them, in the order of the tables.

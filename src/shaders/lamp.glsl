@@ -3,6 +3,19 @@
 #define REFLET_LAMP_GLSL
 
 #include "effects/lamps.h"
+#include "shaders/ggx.glsl"
+
+// CPU devices execute the code of all branches.
+layout(constant_id = 50) const uint anyEmitters = 1u;
+
+// Share of its intensity that an emitter sends along `away`, a unit vector.
+float emitterProfile(LampParams lamp, vec3 away) {
+    vec2 a = unpackHalf2x16(floatBitsToUint(lamp.spotScale));
+    vec2 b = unpackHalf2x16(floatBitsToUint(lamp.spotOffset));
+    vec2 c = unpackHalf2x16(floatBitsToUint(lamp.cosOuter));
+    vec3 turned = vec3(a.x, b.y, c.x) * away.x + vec3(b.y, a.y, c.y) * away.y + vec3(c.x, c.y, b.x) * away.z;
+    return max(dot(lamp.toLamp, away) + length(turned), 0.0);
+}
 
 // Irradiance on a surface at p that faces the lamp. toLamp: unit, from p.
 vec3 lampIrradiance(LampParams lamp, vec3 p, out vec3 toLamp) {
@@ -13,6 +26,9 @@ vec3 lampIrradiance(LampParams lamp, vec3 p, out vec3 toLamp) {
     vec3 d = lamp.position - p;
     float square = max(dot(d, d), 1e-8);
     toLamp = d * inversesqrt(square);
+    if (anyEmitters != 0u && lamp.type == lampEmitter) {
+        return lamp.intensity * (emitterProfile(lamp, -toLamp) / (square - lamp.inverseRange));
+    }
     float reach = square * lamp.inverseRange * lamp.inverseRange;
     float window = clamp(1.0 - reach * reach, 0.0, 1.0);
     float factor = window / square;
@@ -21,6 +37,12 @@ vec3 lampIrradiance(LampParams lamp, vec3 p, out vec3 toLamp) {
         factor *= cone * cone;
     }
     return lamp.intensity * factor;
+}
+
+// The part of the surface that the lamp lights.
+Surface surfaceFor(LampParams lamp, Surface s) {
+    s.compensation = anyEmitters != 0u && lamp.type == lampEmitter ? vec3(0.0) : s.compensation;
+    return s;
 }
 
 #endif

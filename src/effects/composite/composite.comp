@@ -15,6 +15,7 @@ layout(constant_id = 0) const uint diffuseScale = 1u;  // 0: the lobe is black
 layout(constant_id = 2) const uint lambertOnly = 0u;
 layout(constant_id = 3) const uint layers = 1u;
 layout(constant_id = 4) const uint hasDirectional = 0u;
+layout(constant_id = 5) const uint splits = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { CompositeParams params; };
@@ -24,7 +25,9 @@ uniform sampler2D baseColor;
 uniform sampler2D material;
 uniform sampler2D ggxTable;
 layout(rgba16f) uniform readonly image2D direct;
+layout(rgba16f) uniform readonly image2D fromEmitters;
 layout(rgba16f) uniform readonly image2D diffuse;
+layout(rgba16f) uniform writeonly image2D directAlone;
 layout(rgba16f) uniform writeonly image2D indirectDiffuse;
 layout(rgba16f) uniform writeonly image2D indirectSpecular;
 layout(rgba16f) uniform writeonly image2D lit;
@@ -88,11 +91,17 @@ void main() {
         fromDiffuse = params.diffuseGain * (s.diffuse + s.sheenAlbedo) * diffuseRadiance(shown);
         fromSpecular = s.specular * specularLight(shown, params.specularBlockOffset).rgb;
     }
+    vec3 all = imageLoad(direct, pixel).rgb;
     if (layers != 0u) {
-        imageStore(indirectDiffuse, pixel, vec4(clampToHalf(fromDiffuse), 1.0));
+        vec3 emitters = vec3(0.0);
+        if (splits != 0u) {
+            emitters = imageLoad(fromEmitters, pixel).rgb;
+            imageStore(directAlone, pixel, vec4(max(all - emitters, vec3(0.0)), 1.0));
+        }
+        imageStore(indirectDiffuse, pixel, vec4(clampToHalf(fromDiffuse + emitters), 1.0));
         imageStore(indirectSpecular, pixel, vec4(clampToHalf(fromSpecular), 1.0));
     }
-    vec3 sum = imageLoad(direct, pixel).rgb + fromDiffuse + fromSpecular;
+    vec3 sum = all + fromDiffuse + fromSpecular;
     float away = d > 0.0 ? min(depthToViewDistance(d, params.view.depthToDistance), largestHalf) : 0.0;
     imageStore(lit, pixel, vec4(clampToHalf(sum), away));
 }

@@ -11,7 +11,8 @@ LightLayers composite(gpu::PassList& f, const CompositeInputs& in, gpu::Image li
     const auto layer = [&](const char* name) {
         return in.layers ? f.image(name, VK_FORMAT_R16G16B16A16_SFLOAT, size) : gpu::Image{};
     };
-    const LightLayers result{.direct = in.direct,
+    const bool splits = in.layers && in.fromEmitters;
+    const LightLayers result{.direct = splits ? layer("direct_alone") : in.direct,
                              .indirectDiffuse = layer("indirect_diffuse"),
                              .indirectSpecular = layer("indirect_specular"),
                              .lit = lit};
@@ -24,6 +25,7 @@ LightLayers composite(gpu::PassList& f, const CompositeInputs& in, gpu::Image li
         .constant("diffuseScale", upsampledScale(in.diffuse))
         .constant("lambertOnly", in.lambertOnly ? 1U : 0U)
         .constant("layers", in.layers ? 1U : 0U)
+        .constant("splits", splits ? 1U : 0U)
         .constant("hasDirectional", in.diffuse.directional ? 1U : 0U)
         .read("depth", in.g.depth)
         .read("normal", in.g.normal)
@@ -34,6 +36,8 @@ LightLayers composite(gpu::PassList& f, const CompositeInputs& in, gpu::Image li
         .read("diffuseDepth", surfacesToUpsample(f, in.diffuse, in.diffuse.from.g.depth, VK_FORMAT_R32_SFLOAT))
         .read("diffuseNormal", surfacesToUpsample(f, in.diffuse, in.diffuse.from.g.normal, VK_FORMAT_R32_UINT))
         .read("direct", in.direct)
+        .read("fromEmitters", splits ? in.fromEmitters : in.direct)
+        .write("directAlone", splits ? result.direct : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT))
         .read("diffuse", in.diffuse.radiance)
         .read("diffuseDirectional", in.diffuse.directional ? in.diffuse.directional : in.diffuse.radiance)
         .write("indirectDiffuse", in.layers ? result.indirectDiffuse : unwritten)

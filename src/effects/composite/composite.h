@@ -40,8 +40,9 @@ struct CompositeInputs {
     LobeLight diffuse;  ///< lobes at reduced resolution are upsampled
     LobeLight specular;
     gpu::Image ggxTable;
-    bool lambertOnly = false;  ///< MaterialsSettings
-    bool layers = true;        ///< false: only the sum is written
+    bool lambertOnly = false;   ///< MaterialsSettings
+    bool layers = true;         ///< false: only the sum is written
+    gpu::Image fromEmitters{};  ///< with layers, the part of `direct` that goes to indirect diffuse light; may be none
 };
 
 /// Radiance, of one frame (RGBA16F) or means over several: lit = direct + indirectDiffuse + indirectSpecular.

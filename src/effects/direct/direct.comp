@@ -1,6 +1,6 @@
 // Direct light of sun and lamps, emission and background. In: G-buffer, visibility of sun and lamps, lamp masks per
 // tile.
-// Out: direct radiance.
+// Out: direct radiance; the part of it that lamps bring which stand for emissive surfaces.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/direct/direct.h"
@@ -26,6 +26,7 @@ uniform sampler2DArray lampVisibility;
 uniform sampler2D ggxTable;
 uniform usampler2DArray lampMasks;
 layout(rgba16f) uniform writeonly image2D direct;
+layout(rgba16f) uniform writeonly image2D fromEmitters;
 
 uvec4 loadLampMask(ivec3 texel) { return texelFetch(lampMasks, texel, 0); }
 #include "shaders/lamp_mask.glsl"
@@ -34,13 +35,18 @@ float visibilityOfLamp(uint shadow, ivec2 pixel) {
     return shadow == noLampShadow ? 1.0 : texelFetch(lampVisibility, ivec3(pixel, shadow / 4u), 0)[shadow % 4u];
 }
 
-vec3 lampLight(uint index, Surface s, vec3 p, vec3 n, vec3 v, ivec2 pixel) {
+// emitters: their part of it.
+vec3 lampLight(uint index, Surface s, vec3 p, vec3 n, vec3 v, ivec2 pixel, inout vec3 emitters) {
     vec3 toLamp;
     vec3 irradiance = lampIrradiance(lampBlock.lamps[index], p, toLamp);
-    return brdfTimesCosine(s, n, v, toLamp) * irradiance * visibilityOfLamp(lampBlock.lamps[index].shadow, pixel);
+    s = surfaceFor(lampBlock.lamps[index], s);
+    vec3 light = brdfTimesCosine(s, n, v, toLamp) * irradiance * visibilityOfLamp(lampBlock.lamps[index].shadow, pixel);
+    emitters += lampBlock.lamps[index].type == lampEmitter ? light : vec3(0.0);
+    return light;
 }
 
-vec3 radianceAt(ivec2 pixel) {
+vec3 radianceAt(ivec2 pixel, out vec3 emitters) {
+    emitters = vec3(0.0);
     float d = texelFetch(depth, pixel, 0).r;
     if (d <= 0.0) {
         vec2 uv = pixelToUv(pixel, params.view.pixel);
@@ -61,7 +67,7 @@ vec3 radianceAt(ivec2 pixel) {
     for (uint first = 0u; anyLamps != 0u && first < lampBlock.count; first += lampsPerLayer) {
         uvec4 bits = lampMaskAt(pixel, first / lampsPerLayer);
         while (bits != uvec4(0u)) {
-            radiance += lampLight(first + popFirstLamp(bits), s, p, n, v, pixel);
+            radiance += lampLight(first + popFirstLamp(bits), s, p, n, v, pixel, emitters);
         }
     }
     return radiance;
@@ -70,6 +76,10 @@ vec3 radianceAt(ivec2 pixel) {
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (all(lessThan(pixel, ivec2(params.view.size)))) {
-        imageStore(direct, pixel, vec4(clampToHalf(radianceAt(pixel)), 1.0));
+        vec3 emitters;
+        imageStore(direct, pixel, vec4(clampToHalf(radianceAt(pixel, emitters)), 1.0));
+        if (anyEmitters != 0u) {
+            imageStore(fromEmitters, pixel, vec4(clampToHalf(emitters), 1.0));
+        }
     }
 }

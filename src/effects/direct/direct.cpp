@@ -14,9 +14,11 @@ gpu::Image ggxTable(gpu::PassList& f, gpu::KeptImage& own) {
     return table;
 }
 
-gpu::Image directLight(gpu::PassList& f, const GBuffer& g, const LightVisibility& visibility, gpu::Image ggxTable,
-                       const DirectParams& params, const DirectLights& lights) {
+DirectLight directLight(gpu::PassList& f, const GBuffer& g, const LightVisibility& visibility, gpu::Image ggxTable,
+                        const DirectParams& params, const DirectLights& lights) {
     const gpu::Image direct = f.image("direct", VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size);
+    const bool emitters = anyEmitters(lights.lamps);
+    const gpu::Image fromEmitters = emitters ? f.image("from_emitters", direct.format, g.depth.size) : gpu::Image{};
     // Always bound, but not read if no lamp casts a shadow.
     const gpu::Image lampVisibility =
         visibility.lamps ? visibility.lamps : f.placeholder(VK_FORMAT_R8G8B8A8_UNORM, gpu::ViewKind::array);
@@ -35,11 +37,13 @@ gpu::Image directLight(gpu::PassList& f, const GBuffer& g, const LightVisibility
         .read("lampMasks", visibility.lampMasks)
         .write("direct", direct)
         .constant("lambertOnly", lights.lambertOnly ? 1U : 0U)
+        .write("fromEmitters", emitters ? fromEmitters : f.placeholder(direct.format))
+        .constant("anyEmitters", emitters ? 1U : 0U)
         .constant("anyLamps", lights.lamps.count > 0 ? 1U : 0U)
         .params(params)
         .params(lights.lamps, "lampBlock")
         .dispatch(direct.size);
-    return direct;
+    return {direct, fromEmitters};
 }
 
 }  // namespace reflet

@@ -43,9 +43,14 @@ struct DirectLights {
     bool lambertOnly = false;             ///< MaterialsSettings
 };
 
-/// RGBA16F: radiance of direct light, emission and background, alpha 1.
-gpu::Image directLight(gpu::PassList& f, const GBuffer& g, const LightVisibility& visibility, gpu::Image ggxTable,
-                       const DirectParams& params, const DirectLights& lights);
+/// RGBA16F, alpha 1.
+struct DirectLight {
+    gpu::Image all;           ///< radiance of sun and lamps, emission and background
+    gpu::Image fromEmitters;  ///< of it, what lamps bring that stand for emissive surfaces; none without these
+};
+
+DirectLight directLight(gpu::PassList& f, const GBuffer& g, const LightVisibility& visibility, gpu::Image ggxTable,
+                        const DirectParams& params, const DirectLights& lights);
 
 }  // namespace reflet
 #endif

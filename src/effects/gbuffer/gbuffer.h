@@ -8,7 +8,8 @@ SHARED_BEGIN
 
 // Bits of the material image's alpha.
 const uint materialFlagLambert = 1;
-const uint materialFlagUnlit = 2;  // emits the base colour, reflects nothing
+const uint materialFlagUnlit = 2;    // emits the base colour, reflects nothing
+const uint materialFlagEmitter = 4;  // with DirectSettings.emitters lamps stand for what it emits
 
 // What shaders are specialized for, because any material that is drawn has it.
 const uint materialFeatureReflectance = 1;  // the dielectric's F0 is not 4 % of all light, or its F90 is not 1

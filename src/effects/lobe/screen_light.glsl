@@ -12,6 +12,7 @@
 
 layout(constant_id = 22) const uint cones = 0u;
 layout(constant_id = 29) const uint readsPrevious = 0u;
+layout(constant_id = 32) const uint leavesOutEmitters = 0u;
 
 layout(scalar) uniform ParamsBlock { TraceScreenParams params; };
 uniform sampler2D depth;
@@ -20,6 +21,8 @@ uniform sampler2D motion;
 layout(rgba16f) uniform readonly image2D light;
 layout(rgba16f) uniform readonly image2D previousLit;
 uniform sampler2D lightMips;
+uniform sampler2D hitMaterial;
+uniform sampler2D hitEmissive;
 
 float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
 
@@ -34,9 +37,15 @@ vec3 loadLight(ivec2 cell, int level) {
 #include "effects/lobe/last_frame.glsl"
 #include "effects/light_mips/light_mips.glsl"
 
+// Of what the pixel shows, the radiance that lamps stand for.
+vec3 emitterAt(ivec2 pixel) {
+    bool emits = (unpackMaterial(texelFetch(hitMaterial, pixel, 0)).flags & materialFlagEmitter) != 0u;
+    return emits ? texelFetch(hitEmissive, pixel, 0).rgb : vec3(0.0);
+}
+
 // Radiance at the pixel, blurred over `width` pixels. If the last frame is used but did not show the point
 // (disocclusion), this frame's light, unblurred.
-vec3 lightAt(ivec2 pixel, float width) {
+vec3 allLightAt(ivec2 pixel, float width) {
     vec2 uv = pixelToUv(pixel, params.view.pixel);
     if (fromPrevious()) {
         vec3 p = uvToWorld(uv, loadDepth(pixel), params.view.clipToWorld);
@@ -50,6 +59,11 @@ vec3 lightAt(ivec2 pixel, float width) {
         return blurredLight(uv * params.view.size, width, ivec2(params.view.size));
     }
     return loadLight(ivec2(uv * params.view.size), 0);
+}
+
+vec3 lightAt(ivec2 pixel, float width) {
+    vec3 all = allLightAt(pixel, width);
+    return leavesOutEmitters != 0u ? max(all - emitterAt(pixel), vec3(0.0)) : all;
 }
 
 #endif

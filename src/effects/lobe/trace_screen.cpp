@@ -14,8 +14,8 @@ struct Trace {
 };
 
 // The pass as shared by both sources. rays.waiting: in: rays to trace; out: misses.
-void record(gpu::PassList& f, gpu::ComputePass pass, Rays& rays, const Trace& trace, const TraceScreenSettings& settings,
-            float longest) {
+void record(gpu::PassList& f, gpu::ComputePass pass, Rays& rays, const Trace& trace,
+            const TraceScreenSettings& settings, float longest) {
     const bool countSteps = rays.countSteps && trace.through == throughScreen;
     const gpu::BufferView missed = makeRayList(f, rays);
     ScreenImages seen = trace.seen;
@@ -57,7 +57,8 @@ uint32_t throughOf(PlanarForm form) {
 
 }  // namespace
 
-gpu::ComputePass& bindScreenLight(gpu::PassList& f, gpu::ComputePass& pass, const ScreenImages& seen, TraceScreenParams params) {
+gpu::ComputePass& bindScreenLight(gpu::PassList& f, gpu::ComputePass& pass, const ScreenImages& seen,
+                                  TraceScreenParams params) {
     const bool previous = seen.lit.valid;
     const gpu::Image light = seen.light ? seen.light : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT);
     params.view = seen.view;
@@ -65,6 +66,7 @@ gpu::ComputePass& bindScreenLight(gpu::PassList& f, gpu::ComputePass& pass, cons
     params.longest = std::min(params.longest, params.settings.maxDistance);
     return pass.constant("readsPrevious", params.settings.light == HitLight::previous ? 1U : 0U)
         .constant("secondLayer", seen.backDepth ? 1U : 0U)
+        .constant("leavesOutEmitters", seen.leavesOutEmitters ? 1U : 0U)
         .constant("cones", seen.lightMips ? 1U : 0U)
         .read("depth", seen.g.depth)
         .read("backDepth", seen.backDepth ? seen.backDepth : seen.g.depth)
@@ -72,12 +74,14 @@ gpu::ComputePass& bindScreenLight(gpu::PassList& f, gpu::ComputePass& pass, cons
         .read("motion", seen.g.motion)
         .read("light", light)
         .read("previousLit", previous ? seen.lit.previous : light)
+        .read("hitMaterial", seen.leavesOutEmitters ? seen.g.material : light)
+        .read("hitEmissive", seen.leavesOutEmitters ? seen.g.emissive : light)
         .read("lightMips", seen.lightMips ? seen.lightMips : light)
         .params(params);
 }
 
-gpu::ComputePass& bindScreen(gpu::PassList& f, gpu::ComputePass& pass, const ScreenImages& seen, const TraceScreenParams& params,
-                      gpu::Image imageMotion) {
+gpu::ComputePass& bindScreen(gpu::PassList& f, gpu::ComputePass& pass, const ScreenImages& seen,
+                             const TraceScreenParams& params, gpu::Image imageMotion) {
     const bool tellsMotion = imageMotion && params.firstRay == 0;
     const TraceScreenSettings& s = params.settings;
     const bool fades = s.edgeFade > 0 || s.distanceFade > 0 || s.cameraFade > 0;

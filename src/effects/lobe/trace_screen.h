@@ -119,15 +119,17 @@ struct ScreenImages {
     gpu::History lit;      ///< of the last frame, reprojected by the hit's motion
     gpu::Image
         lightMips;  ///< from makeLightMips, of the image that hits read; blurs the light at hits of cones (Ray.spread)
+    bool leavesOutEmitters = false;  ///< hits do not read what surfaces with materialFlagEmitter emit
 };
 
 /// Binds what screen_light.glsl reads and the back depth, and sets its constants. params: `view` and `previousValid`
 /// are set here, `longest` is bounded by the settings.
-gpu::ComputePass& bindScreenLight(gpu::PassList& f, gpu::ComputePass& pass, const ScreenImages& seen, TraceScreenParams params);
+gpu::ComputePass& bindScreenLight(gpu::PassList& f, gpu::ComputePass& pass, const ScreenImages& seen,
+                                  TraceScreenParams params);
 
 /// The same for screen_hit.glsl. imageMotion: of Rays; may be none.
-gpu::ComputePass& bindScreen(gpu::PassList& f, gpu::ComputePass& pass, const ScreenImages& seen, const TraceScreenParams& params,
-                      gpu::Image imageMotion);
+gpu::ComputePass& bindScreen(gpu::PassList& f, gpu::ComputePass& pass, const ScreenImages& seen,
+                             const TraceScreenParams& params, gpu::Image imageMotion);
 
 /// Gives rays that hit a visible surface the light there; the others stay in rays.waiting. longest: maximum length of
 /// the lobe's rays [m].

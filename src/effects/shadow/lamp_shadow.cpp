@@ -17,6 +17,7 @@ gpu::Image lampVisibility(gpu::PassList& f, const GBuffer& g, const LampShadowIn
         .write("visibility", visibility)
         .params(params)
         .params(shadows, "shadowBlock")
+        .constant("anyEmitters", 0U)  // several may share a map, so these shine in all directions
         .constant("filterKind", static_cast<uint32_t>(params.settings.filter))
         .dispatch(visibility.size);
     return visibility;

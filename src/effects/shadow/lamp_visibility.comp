@@ -26,6 +26,7 @@ uvec4 loadLampMask(ivec3 texel) { return texelFetch(lampMasks, texel, 0); }
 #include "shaders/shadow_noise.glsl"
 
 const uint lampStream = 0x1a90u;       // of the noise
+const uint lampsPerEmitter = 4u;       // samples of a lamp over those of an emitter, of which there may be many
 
 LampReceiver receiver;
 ShadowTexel shadowTexel(vec2 offset) { return lampTexel(receiver, offset); }
@@ -35,10 +36,9 @@ float hardShadow() { return hardLampVisibility(receiver); }
 // Shrinks the blocker search radius iteratively to the penumbra radius of the highest blocker sampled so far. Otherwise
 // few samples over a very wide disk would miss narrow penumbras. 0: no blockers; -1: nor the receiver's own
 // surface in the texel that holds it.
-float shrunkSearch(ShadowCone cone, float radius, float least, vec2 noise) {
+float shrunkSearch(ShadowCone cone, float radius, float least, vec2 noise, uint count) {
     bool own = false;
     for (int i = 0; i < 3; ++i) {
-        uint count = params.settings.blockerSamples;
         ShadowPattern pattern = shadowPattern(params.settings, count, fract(noise + 0.618 * float(i)));
         float highest = -1.0;
         for (uint k = 0u; k <= count; ++k) {
@@ -58,8 +58,7 @@ float shrunkSearch(ShadowCone cone, float radius, float least, vec2 noise) {
     return radius;
 }
 
-float pcss(ShadowCone cone, vec4 noise) {
-    ShadowSettings s = params.settings;
+float pcss(ShadowCone cone, vec4 noise, ShadowSettings s) {
     float least = minFilterRadius * receiver.texel;
     // Any depth of the tile could cast, but for blockers closer to the lamp than ten radii the search would get far too
     // wide: they are found only where they hide the lamp's centre (lampSearchTangent).
@@ -68,7 +67,7 @@ float pcss(ShadowCone cone, vec4 noise) {
     if (radius <= least) {
         return sharpLampVisibility(receiver);
     }
-    radius = shrunkSearch(cone, radius, least, noise.wz);
+    radius = shrunkSearch(cone, radius, least, noise.wz, s.blockerSamples);
     if (radius == 0.0) {
         return 1.0;
     }
@@ -103,7 +102,11 @@ float visibilityAt(ivec2 pixel, uint index, vec3 p, vec3 n) {
     }
     float slope = shadow.lamp.radius / receiver.distance;
     float share = fractionAboveHorizon(facing, slope * inversesqrt(1.0 + slope * slope));
-    return share * pcss(ShadowCone(slope, 1.0 / receiver.distance), noise);
+    if (shadow.lamp.type == lampEmitter) {
+        s.samples = max(s.samples / lampsPerEmitter, 1u);
+        s.blockerSamples = max(s.blockerSamples / lampsPerEmitter, 1u);
+    }
+    return share * pcss(ShadowCone(slope, 1.0 / receiver.distance), noise, s);
 }
 
 void main() {

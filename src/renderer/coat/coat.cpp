@@ -60,7 +60,7 @@ LightLayers addCoats(gpu::PassList& f, const ViewInputs& in, const Settings& set
     TracedView coats = seen;
     coats.images.ambientOcclusion = {};
     coats.images.g = drawGBuffer(f, in.draws, in.view, ofCoat.materials, contentOf(in, ofCoat, surfaces));
-    coats.images.direct = directLightOn(f, in, ofCoat, coats.images);  // a coat is in the shadows of its surface
+    coats.images.direct = directLightOn(f, in, ofCoat, coats.images).all;  // a coat is in the shadows of its surface
     const bool layers = bool(behind.indirectDiffuse);
     const LightLayers light = reflectedLight(f, in, ofCoat, coats, layers);
     const GBuffer& g = coats.images.g;

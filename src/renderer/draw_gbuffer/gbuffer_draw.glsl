@@ -158,6 +158,7 @@ void main() {
         outEmissive *= texture(emissiveTexture, slotUv(slotEmissive, uv.xy, uv.zw)).rgb;
     }
     uint flags = params.settings.lambertOnly != 0u ? materialFlagLambert : 0u;
+    flags |= material.emitter != 0u ? materialFlagEmitter : 0u;
     if (mayBeUnlit() && notInlined(material.unlit, gl_FragCoord) != 0u) {
         flags |= materialFlagUnlit;
         roughnessMetallic = vec2(1.0, 0.0);

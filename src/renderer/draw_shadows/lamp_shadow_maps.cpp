@@ -2,6 +2,7 @@
 #include "renderer/draw_shadows/lamp_shadow_maps.h"
 
 #include "gpu/context.h"
+#include "renderer/draw_shadows/emitter_groups.h"
 
 #include <fmt/format.h>
 
@@ -19,11 +20,12 @@ float strength(const LampParams& lamp) {
     return std::max({lamp.intensity.x, lamp.intensity.y, lamp.intensity.z});
 }
 
-// Indices of the lamps that can cast shadows, the strongest first.
+// Indices of the lamps besides emitters that can cast shadows, the strongest first.
 std::vector<uint32_t> casters(const LampBlock& lamps) {
     std::vector<uint32_t> indices;
     for (uint32_t i = 0; i < lamps.count; ++i) {
-        if (lamps.lamps[i].type != lampDirectional && strength(lamps.lamps[i]) > 0.0F) {
+        const bool punctual = lamps.lamps[i].type == lampPoint || lamps.lamps[i].type == lampSpot;
+        if (punctual && strength(lamps.lamps[i]) > 0.0F) {
             indices.push_back(i);
         }
     }
@@ -35,12 +37,13 @@ bool hasOneTile(const LampParams& lamp) {
     return lamp.type == lampSpot && lamp.cosOuter > std::cos(glm::radians(widestSpot));
 }
 
-LampShadow shadowOf(const LampBlock& lamps, uint32_t index, uint32_t firstTile, uint32_t tileSize) {
-    const LampParams& lamp = lamps.lamps[index];
+// index: in the block, of a lamp that is lit wherever this one is.
+LampShadow shadowOf(const LampParams& lamp, uint32_t index, uint32_t firstTile, uint32_t tileSize) {
     LampShadow shadow{};
     shadow.lamp = lamp;
     shadow.index = index;
-    shadow.near = std::max(lamp.radius, 1e-3F);  // lampClearance of scene.h
+    // lampClearance of scene.h. The map of an emitter leaves out its own surfaces.
+    shadow.near = lamp.type == lampEmitter ? 1e-3F : std::max(lamp.radius, 1e-3F);
     shadow.firstTile = firstTile;
     shadow.tiles = cubeFaces;
     shadow.halfTangent = 1.0F;
@@ -89,7 +92,9 @@ void drawTiles(const gpu::DrawCommands& to, const DrawList& list, const LampShad
     for (uint32_t i = 0; i < shadows.count; ++i) {
         const LampShadow& shadow = shadows.lamps[i];
         const auto lit = [&](const Draw& d) {
-            return d.masked == masked && distanceTo(d.boundsW, shadow.lamp.position) * shadow.lamp.inverseRange < 1.0F;
+            const bool own = d.emitter && shadow.lamp.type == lampEmitter;
+            return d.masked == masked && !own &&
+                   distanceTo(d.boundsW, shadow.lamp.position) * shadow.lamp.inverseRange < 1.0F;
         };
         for (uint32_t face = 0; face < shadow.tiles; ++face) {
             const uint32_t tile = shadow.firstTile + face;
@@ -111,29 +116,40 @@ uint32_t tilesOf(const LampShadows& shadows) {
 LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, uint32_t largestSide,
                             const std::function<void(const std::string&)>& warn) {
     LampShadows shadows{};
-    std::vector<uint32_t> indices = casters(lamps);
-    if (settings.filter == ShadowFilter::none || settings.lamps == 0 || indices.empty()) {
+    if (settings.filter == ShadowFilter::none || settings.lamps == 0) {
         return shadows;
     }
-    shadows.count = std::min({settings.lamps, maxShadowedLamps, static_cast<uint32_t>(indices.size())});
-    shadows.tileSize = settings.lampResolution;
-    if (indices.size() > shadows.count) {
+    std::vector<uint32_t> indices = casters(lamps);
+    constexpr uint32_t keptForEmitters = 4;
+    const uint32_t room = maxShadowedLamps - (anyEmitters(lamps) ? keptForEmitters : 0);
+    const uint32_t own = std::min({settings.lamps, room, static_cast<uint32_t>(indices.size())});
+    if (indices.size() > own) {
         warn(fmt::format(
             "the scene has {} point and spot lamps, but only the strongest {} cast shadows: shadow.lamps is the limit",
-            indices.size(), shadows.count));
+            indices.size(), own));
     }
-    indices.resize(shadows.count);
+    indices.resize(own);
+    std::vector<EmitterGroup> groups;  // one of each lamp, too
     uint32_t tiles = 0;
     for (const uint32_t i : indices) {
+        groups.push_back({{i}, lamps.lamps[i]});
         tiles += hasOneTile(lamps.lamps[i]) ? 1 : cubeFaces;
     }
+    for (EmitterGroup& group : groupEmitters(lamps, std::min(settings.lamps, maxShadowedLamps - own))) {
+        groups.push_back(std::move(group));
+        tiles += cubeFaces;
+    }
+    shadows.count = static_cast<uint32_t>(groups.size());
+    shadows.tileSize = settings.lampResolution;
     shadows.columns = static_cast<uint32_t>(std::ceil(std::sqrt(static_cast<float>(tiles))));
     while (shadows.columns * shadows.tileSize > largestSide) {
         shadows.tileSize /= 2;
     }
     for (uint32_t i = 0, tile = 0; i < shadows.count; tile += shadows.lamps[i++].tiles) {
-        lamps.lamps[indices[i]].shadow = i;
-        shadows.lamps[i] = shadowOf(lamps, indices[i], tile, shadows.tileSize);
+        for (const uint32_t lamp : groups[i].lamps) {
+            lamps.lamps[lamp].shadow = i;
+        }
+        shadows.lamps[i] = shadowOf(groups[i].seenFrom, groups[i].lamps.front(), tile, shadows.tileSize);
     }
     if (shadows.tileSize < settings.lampResolution) {
         warn(fmt::format(

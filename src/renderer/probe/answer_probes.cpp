@@ -18,7 +18,7 @@ void answerProbes(gpu::PassList& f, Rays& rays, const ProbeMaps& probes, const P
         .constant("parallax", static_cast<uint32_t>(settings.parallax))
         .read("depth", rays.from.g.depth)
         .read("material", rays.from.g.material)
-        .read("probeLobes", probes.lobes, trilinear)
+        .read("probeLobes", rays.lobe == lobeDiffuse ? probes.diffuse : probes.lobes, trilinear)
         .read("probeIrradiance", probes.irradiance)
         .read("probeDistance", probes.distance)
         .read("direction", rays.direction)

@@ -47,6 +47,16 @@ VkSampler probeSampler(gpu::Context& context) {
     return context.sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
 }
 
+// Emitters move with the scene.
+LampBlock withoutMotion(LampBlock lamps) {
+    for (uint32_t i = 0; i < lamps.count; ++i) {
+        if (lamps.lamps[i].type == lampEmitter) {
+            lamps.lamps[i] = LampParams{.type = lampEmitter, .intensity = lamps.lamps[i].intensity};
+        }
+    }
+    return lamps;
+}
+
 // Everything that the maps depend on, except for the scene, whose motion matters only with refresh moving. With refresh
 // face, captures follow the lights by themselves.
 std::vector<std::byte> keyOf(const ProbeBlock& block, const ViewInputs& in, const Settings& settings) {
@@ -62,7 +72,7 @@ std::vector<std::byte> keyOf(const ProbeBlock& block, const ViewInputs& in, cons
     append(key, settings.shadow);
     append(key, in.sunDirection);
     append(key, in.sunIrradiance);
-    append(key, in.lamps);
+    append(key, withoutMotion(in.lamps));
     append(key, settings.probes.refresh == ProbeRefresh::moving ? in.time : 0.0);
     append(key, settings.probes.bounces);
     if (settings.probes.bounces > 0) {
@@ -81,13 +91,15 @@ void Probes::makeMaps(gpu::Context& context, uint32_t resolution) {
     const uint32_t side = std::bit_floor(resolution);
     const uint32_t layers = block_.count * probeFaces;
     const gpu::ImageInfo distance{VK_FORMAT_R32_SFLOAT, uvec2(side), 1, layers, usage, gpu::ViewKind::cubeArray};
-    if (distance_.info() == distance) {
-        return;
+    if (distance_.info() != distance) {
+        map_ = CubeMap(context, side, block_.count, "probes");
+        distance_ = gpu::Texture(context, distance, "probes.distance");
+        const uvec2 all = side * uvec2(probeFaces, block_.count);
+        atlas_ = gpu::Texture(context, {VK_FORMAT_R16G16B16A16_SFLOAT, all, 1, 1, usage}, "probes.atlas");
     }
-    map_ = CubeMap(context, side, block_.count, "probes");
-    distance_ = gpu::Texture(context, distance, "probes.distance");
-    const uvec2 all = side * uvec2(probeFaces, block_.count);
-    atlas_ = gpu::Texture(context, {VK_FORMAT_R16G16B16A16_SFLOAT, all, 1, 1, usage}, "probes.atlas");
+    if (splits_ && !(matte_.sharp.info() == map_.sharp.info())) {
+        matte_ = CubeMap(context, side, block_.count, "probes.matte");
+    }
 }
 
 gpu::Image Probes::captureFace(gpu::PassList& f, const Capture& capture, uint32_t face, gpu::Image lampShadowMap) {
@@ -102,6 +114,8 @@ gpu::Image Probes::captureFace(gpu::PassList& f, const Capture& capture, uint32_
     bindEnvironmentLobes(pass, f.context(), in.environment);
     bindSurfaces(f, pass, images.g);
     pass.constant("furtherLight", capture.furtherLight ? 1U : 0U)
+        .constant("splits", splits_ ? 1U : 0U)
+        .read("emissive", images.g.emissive)
         .read("depth", images.g.depth)
         .read("normal", images.g.normal)
         .read("baseColor", images.g.baseColor)
@@ -109,14 +123,25 @@ gpu::Image Probes::captureFace(gpu::PassList& f, const Capture& capture, uint32_
         .read("ggxTable", in.ggxTable, f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
         .read("direct", images.direct)
         .read("probeLobes", map_.lobes.image(), probeSampler(f.context()))
-        .read("probeIrradiance", map_.irradiance.image())
+        .read("probeIrradiance", forDiffuse().irradiance.image())
         .read("probeDistance", map_.lobes.image())  // placeholder: unused here, and the real one is being written
         .write("sharp", map_.sharp.mip(0))
+        .write("matte",
+               splits_ ? matte_.sharp.mip(0) : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT, gpu::ViewKind::array))
         .write("distance", distance_.mip(0))
         .write("atlas", atlas_.image())
         .params(CaptureProbeParams{in.view, face, capture.settings.probes.blend, block_})
         .dispatch(size);
     return images.lampShadowMap;
+}
+
+void Probes::filter(gpu::PassList& f, uint32_t firstCube, uint32_t count) {
+    const auto scope = f.scope("probe");
+    filterCubeMap(f, map_, firstCube, count);
+    if (splits_) {
+        makeCubeMips(f, matte_, {6 * firstCube, 6 * count});
+        projectCubeIrradiance(f, matte_, firstCube, count);
+    }
 }
 
 void Probes::captureAll(gpu::PassList& f, const ViewInputs& in, const Settings& settings) {
@@ -125,8 +150,7 @@ void Probes::captureAll(gpu::PassList& f, const ViewInputs& in, const Settings& 
         for (uint32_t face = 0; face < block_.count * probeFaces; ++face) {
             lampShadowMap = captureFace(f, {in, settings, bounce > 0}, face, lampShadowMap);
         }
-        const auto scope = f.scope("probe");
-        filterCubeMap(f, map_, 0, block_.count);
+        filter(f, 0, block_.count);
     }
 }
 
@@ -136,8 +160,7 @@ void Probes::captureNextFace(gpu::PassList& f, const ViewInputs& in, const Setti
     captureFace(f, {in, settings, settings.probes.bounces > 0 && facesCaptured_ >= faces}, face);
     ++facesCaptured_;
     if (face % probeFaces == probeFaces - 1) {
-        const auto scope = f.scope("probe");
-        filterCubeMap(f, map_, face / probeFaces, 1);
+        filter(f, face / probeFaces, 1);
     }
 }
 
@@ -154,7 +177,8 @@ ProbeMaps Probes::update(gpu::PassList& f, const ViewInputs& in, std::span<const
     }
     block_ = blockOf(probes);
     std::vector<std::byte> key = keyOf(block_, in, settings);
-    const bool changed = key != key_;
+    const bool changed = key != key_ || splits_ != anyEmitters(in.lamps);
+    splits_ = anyEmitters(in.lamps);
     byFace_ = settings.probes.refresh == ProbeRefresh::face;
     key_ = std::move(key);
     if (changed) {
@@ -165,13 +189,22 @@ ProbeMaps Probes::update(gpu::PassList& f, const ViewInputs& in, std::span<const
         if (changed) {  // nothing is captured yet
             f.clear(map_.lobes.image());
             f.clear(map_.irradiance.image());
+            if (splits_) {
+                f.clear(matte_.sharp.image());
+                f.clear(matte_.irradiance.image());
+            }
             f.clear(atlas_.image());
         }
         captureNextFace(f, in, settings);
     } else if (changed) {
         captureAll(f, in, settings);
     }
-    return {map_.lobes.image(), map_.irradiance.image(), distance_.image(), atlas_.image(), block_};
+    return {map_.lobes.image(),
+            splits_ ? matte_.sharp.image() : map_.lobes.image(),
+            forDiffuse().irradiance.image(),
+            distance_.image(),
+            atlas_.image(),
+            block_};
 }
 
 }  // namespace reflet

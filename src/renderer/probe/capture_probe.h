@@ -53,6 +53,9 @@ private:
         bool furtherLight;  ///< add indirect light from the existing maps
     };
     void makeMaps(gpu::Context& context, uint32_t resolution);
+    /// Prefilters the captured faces.
+    void filter(gpu::PassList& f, uint32_t firstCube, uint32_t count);
+    [[nodiscard]] const CubeMap& forDiffuse() const { return splits_ ? matte_ : map_; }
     void captureAll(gpu::PassList& f, const ViewInputs& in, const Settings& settings);
     void captureNextFace(gpu::PassList& f, const ViewInputs& in, const Settings& settings);
     /// face: 6 · probe + its number. Returns the lamps' shadow map, to be shared with other faces of the frame.
@@ -60,6 +63,8 @@ private:
 
     DirectViewStore faces_;  ///< of the face that is captured
     CubeMap map_;
+    CubeMap matte_;        ///< without what lamps stand for; only its mips and irradiance are used
+    bool splits_ = false;  ///< whether there is such light
     gpu::Texture distance_;
     gpu::Texture atlas_;
     ProbeBlock block_{};

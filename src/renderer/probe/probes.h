@@ -63,7 +63,8 @@ namespace reflet {
 /// Cube maps for passes to read.
 struct ProbeMaps {
     gpu::Image lobes;       ///< of CubeMap (cube_map.h): radiance · alpha; alpha: 1 surface, 0 sky
-    gpu::Image irradiance;  ///< of CubeMap, with alpha as well
+    gpu::Image diffuse;     ///< its first level, for diffuse rays: without what lamps stand for (lampEmitter)
+    gpu::Image irradiance;  ///< of CubeMap, with alpha as well; as `diffuse`
     gpu::Image distance;    ///< R32F cube array: 1 / metres from the probe, 0: sky
     gpu::Image atlas;       ///< RGBA16F: the captured faces, a row of six per probe
     ProbeBlock block{};

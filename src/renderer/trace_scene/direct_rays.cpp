@@ -15,7 +15,8 @@ DirectRays directByRays(gpu::PassList& f, const GBuffer& g, const DirectRaysInpu
     in.scene.surfaces.bind(pass);
     bindEnvironment(pass, in.environment);
     bindSurfaces(f, pass, g);
-    pass.read("depth", g.depth)
+    pass.constant("anyEmitters", anyEmitters(in.lamps) ? 1U : 0U)
+        .read("depth", g.depth)
         .read("normal", g.normal)
         .read("geometricNormal", g.geometricNormal)
         .read("baseColor", g.baseColor)

@@ -106,6 +106,7 @@ LightRay drawLamp(LitPoint at, inout uint random) {
         float mine = lampStrength(at, i, irradiance, toLamp);
         if (mine > 0.0 && (left < mine || i + 1u == lampCount())) {
             LampParams lamp = loadLamp(i);
+            at.surface = surfaceFor(lamp, at.surface);
             ray.light = reflectToViewer(at, toLamp) * irradiance * (total / mine);
             ray.casts = sceneLights().allLampsCast != 0u || lamp.shadow != noLampShadow;
             aimAtLamp(at, lamp, at.position + at.geometricNormal * at.clearance, toLamp, u, ray);

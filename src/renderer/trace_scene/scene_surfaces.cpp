@@ -119,6 +119,7 @@ SceneSurfaces::SceneSurfaces(gpu::Device& device, const Scene& scene, const GpuS
     std::vector<SceneMaterial> materials;
     for (const Material& material : scene.materials) {
         SceneMaterial m{materialParams(material), {}};
+        m.params.emitter = onDevice.emitters().standFor(static_cast<uint32_t>(materials.size())) ? 1U : 0U;
         const auto slots = textureSlots(material);
         for (uint32_t i = 0; i < sceneSlotCount; ++i) {
             if (!(isSrgb(i) ? colors : data).find(scene, *slots[i], m.textures[i])) {

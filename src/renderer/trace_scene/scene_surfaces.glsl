@@ -146,6 +146,7 @@ struct SceneSurface {
     float occlusion;       // of the occlusion map, 1 open
     vec3 emissive;         // radiance; surfaces emit from their visible sides
     float clearance;       // offset of ray origins against self-intersection [m]
+    bool emitter;          // lamps stand for what it emits
     bool hiddenBack;       // back of a single-sided surface, which is culled for the camera
 };
 
@@ -237,6 +238,7 @@ SceneSurface sceneSurface(SceneHit hit, vec3 direction, float width) {
     if (s.emissive != vec3(0.0) && hasSceneTexture(place, slotEmissive)) {
         s.emissive *= readSceneTexture(place, slotEmissive).rgb;
     }
+    s.emitter = material.emitter != 0u;
     s.reflectance = mayReflectUnusually() ? sceneReflectance(place) : vec4(1.0);
     s.unlit = mayBeUnlit() && material.unlit != 0u;
     if (s.unlit) {

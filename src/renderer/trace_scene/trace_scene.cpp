@@ -24,6 +24,7 @@ void traceScene(gpu::PassList& f, Rays& rays, const TraceSceneInputs& in, uint32
         .constant("sunShadows", sunShadows)
         .constant("reuseScreen", reuse ? 1U : 0U)
         .constant("tellsMotion", tellsMotion ? 1U : 0U)
+        .constant("anyEmitters", anyEmitters(in.lamps) ? 1U : 0U)
         .constant("endsInProbes", in.probes ? 1U : 0U)
         .read("probeLobes", in.probes ? in.probes.lobes : in.environment.lobes, linear)
         .read("probeIrradiance", in.probes ? in.probes.irradiance : in.environment.irradiance)

@@ -152,18 +152,19 @@ Surface surfaceOf(SceneSurface at, vec3 toViewer) {
 
 // Samples the next ray of a path from one of the two lobes and returns its throughput. 0: it would go below the
 // surface.
-vec3 scatter(LitPoint at, bool diffuseOnly, inout uint random, out SceneRay next) {
+vec3 scatter(LitPoint at, bool diffuseOnly, inout uint random, out SceneRay next, out bool diffuse) {
     float specularLight = dot(at.surface.specular, vec3(1.0));
     float both = specularLight + dot(at.surface.diffuse, vec3(1.0));
     float chance = both > 0.0 ? specularLight / both : 0.0;
     chance = diffuseOnly ? 0.0 : chance > 0.0 && chance < 1.0 ? clamp(chance, 0.1, 0.9) : chance;
     float choice = nextRandom(random);
     vec2 u = nextRandom2(random);
+    diffuse = choice >= chance;
     mat3 frame = basisAround(at.normal);
     vec3 l;
     vec3 weight;
     float lobeWidth = 1.0;
-    if (choice < chance) {
+    if (!diffuse) {
         vec3 eye = at.toViewer * frame;
         eye = normalize(vec3(eye.xy, max(eye.z, 1e-3)));
         float alpha = at.surface.roughness * at.surface.roughness;
@@ -218,6 +219,7 @@ vec3 radianceAlong(SceneRay ray, inout uint random, out float hitDistance) {
     vec3 radiance = vec3(0.0);
     vec3 throughput = vec3(1.0);
     hitDistance = -1.0;
+    bool diffuse = lobe == lobeDiffuse;
     for (uint bounce = 0u;; ++bounce) {
         SceneHit hit;
         if (!closestHit(ray.origin, ray.direction, 0.0, sceneFar, hit)) {
@@ -226,19 +228,21 @@ vec3 radianceAlong(SceneRay ray, inout uint random, out float hitDistance) {
         hitDistance = bounce == 0u ? hit.distance : hitDistance;
         float width = params.mips != 0u ? ray.width + ray.spread * hit.distance : 0.0;
         SceneSurface found = sceneSurface(hit, ray.direction, width);
+        vec3 emitted = params.view.preExposure * found.emissive;
+        vec3 byLamps = anyEmitters != 0u && diffuse && found.emitter ? emitted : vec3(0.0);
         vec3 shown;
         if (reuseScreen != 0u && looksTheSame(found) && (bounce == 0u || params.fromPrevious != 0u) && screenLight(found, shown)) {
-            return radiance + throughput * shown;
+            return radiance + throughput * max(shown - byLamps, vec3(0.0));
         }
         LitPoint at = LitPoint(found.position, found.geometricNormal, found.normal, -ray.direction, found.clearance,
                                surfaceOf(found, -ray.direction));
         float sunVisible;
-        radiance += throughput * (params.view.preExposure * found.emissive + sunAndLamps(at, random, sunVisible));
+        radiance += throughput * (emitted - byLamps + sunAndLamps(at, random, sunVisible));
         if (bounce >= params.bounces) {
             return endsInProbes != 0u ? radiance + throughput * probeLight(at) : radiance;
         }
         SceneRay next;
-        throughput *= scatter(at, params.diffuseOnly != 0u, random, next);
+        throughput *= scatter(at, params.diffuseOnly != 0u, random, next, diffuse);
         next.width = width;
         if (bounce + 1u >= rouletteStart) {
             float survival = min(max(throughput.x, max(throughput.y, throughput.z)), 0.95);
