@@ -131,9 +131,9 @@ public:
         const gpu::History lit = stores_.lit.swap(f, colorFormat, size);
         const lighting::LightParts parts = lightIndirectly(f, context, settings, surfaces, direct, lit);
         const lighting::Light light = lighting::compose(f, context, settings, surfaces, parts, true, lit.next);
-        const lighting::Light mean = lighting::antialias(f, stores_.temporal, context, settings, light, size, vec2(0));
+        const lighting::Light mean = lighting::antialias(f, stores_.temporal, context, settings, light, {size, vec2(0.0F)});
         const lighting::Light upscaled =
-            lighting::antialias(f, stores_.upscaling, context, settings, light, 2U * size, vec2(0.1F, -0.2F));
+            lighting::antialias(f, stores_.upscaling, context, settings, light, {2U * size, vec2(0.1F, -0.2F)});
         const Lens lens{.apertureRadius = 0.05F, .focusDistance = 2.0F};
         f.keep(lighting::defocus(f, stores_.lens, context, settings, lens, surfaces, mean, &parts.specular).lit);
         const lighting::Light means = lighting::accumulate(f, stores_.means, light, 0);
@@ -258,7 +258,8 @@ private:
         const gpu::Image lampsSeen =
             lighting::lampShadow(f, context, settings, surfaces, tiles, shadows, stores_.shadowMap.last());
         return lighting::directLight(f, context, surfaces,
-                                     {toSun, vec3(3.0F), lamps, {seen.visibility, lampsSeen, tiles.masks}});
+                                     {toSun, vec3(3.0F), sun.slope, lamps, {seen.visibility, lampsSeen, tiles.masks}})
+            .all;
     }
 
     lighting::LightParts lightIndirectly(gpu::PassList& f, const lighting::ViewContext& context,

@@ -16,8 +16,8 @@ protected:
         Scene scene;
         scene.lamps.push_back(lamp);
         const GpuScene onDevice(device(), scene, [](const std::string& text) { ADD_FAILURE() << text; });
-        EXPECT_EQ(onDevice.lamps().count, 1U);
-        return onDevice.lamps().lamps[0];
+        EXPECT_EQ(onDevice.lamps(false).count, 1U);
+        return onDevice.lamps(false).lamps[0];
     }
 
     static std::vector<LampLight> lightAt(const Lamp& lamp, const std::vector<vec3>& points) {
