@@ -41,8 +41,8 @@ struct AccumulateHistory {
 /// Means over this frame and the `framesBefore` before it. The light must have layers.
 Light accumulate(gpu::PassList& f, AccumulateHistory& own, const Light& light, uint32_t framesBefore);
 
-/// What antialiases to. size: of the picture; larger than the view's with temporal upscaling. jitter: of the view, in its
-/// pixels. sky: of TemporalInputs.
+/// What antialiases to. size: of the picture; larger than the view's with temporal upscaling. jitter: of the view, in
+/// its pixels. sky: of TemporalInputs.
 struct Antialiasing {
     uvec2 size{};
     vec2 jitter{};

@@ -58,8 +58,8 @@ const EnvironmentLight* skyOf(const FrameInputs& in) {
     return sky.texels.size.x > 1 ? &sky : nullptr;
 }
 
-// before: without the blended surfaces `front`, which `light` has. They move otherwise than what is behind them, so they
-// have a history of their own.
+// before: without the blended surfaces `front`, which `light` has. They move otherwise than what is behind them, so
+// they have a history of their own.
 lighting::Light withoutNoise(gpu::PassList& f, FrameStore& own, const FrameInputs& in, const Settings& settings,
                              const lighting::Light& light, const lighting::Light& before,
                              const BlendedSurfaces& blended) {

@@ -58,7 +58,7 @@ TEST(Furnace, RaysOfRoughMetalsHardlyDifferInTheirWeight) {
                                   settingsOf({"diffuse.rays=0", "trace_screen.enabled=false"}), {"final", "depth"});
         const Spread s = spreadOf(p);
         EXPECT_NEAR(s.mean, 1.0, 0.02) << roughness;
-        EXPECT_LT(s.deviation, 0.15) << roughness;
+        EXPECT_LT(s.deviation, 0.25) << roughness;
     }
     expectSilentValidation("furnace");
 }
@@ -71,28 +71,28 @@ TEST(Furnace, WhatTheScreenDoesNotShowIsNotBlack) {
     scene.instances[1].objectToWorld = builtin::at({0.5F, 0, 0});
     const Pictures p = render(
         scene, whiteView({0, 0, 3}, {0, 0, 0}), size,
-        settingsOf({"specular.rays=16", "trace_screen.light=previous", "trace_screen.thickness_mode=second_layer"}),
+        settingsOf({"specular.rays=4", "trace_screen.light=previous", "trace_screen.thickness_mode=second_layer"}),
         {"final", "depth"}, 8);
-    EXPECT_NEAR(spreadOf(p).mean, 1.0, 0.02);
+    EXPECT_NEAR(spreadOf(p).mean, 1.0, 0.04);
 }
 
 // A floor whose normals lean away from the viewer.
 TEST(Furnace, NormalsThatFaceAwayReflectAsInTheReference) {
     Scene scene = sceneOf(lambertMaterial(vec3(0.0F)), builtin::ground({20.0F, 20.0F}, {1, 1}, {1.0F, 1.0F}));
-    scene.materials[0].roughness = 0.1F;
+    scene.materials[0].roughness = 0.0F;
     for (VertexAttributes& v : scene.meshes[0].attributes) {
         v.normal = glm::normalize(vec3(0, 1, -1));
     }
     View view = whiteView({0, 1, 4}, {0, 0, 0});
     view.camera.fovY = glm::radians(10.0F);
     const ReferencePicture truth = traceReference(scene, view, size, {.samples = 64});
-    const Pictures p = render(scene, view, size, settingsOf({"specular.rays=64"}), {"final", "depth"});
+    const Pictures p = render(scene, view, size, settingsOf({}), {"final", "depth"});
     double expected = 0.0;
     for (size_t i = 0; i < truth.final.data.size(); i += truth.final.channels.size()) {
         expected += truth.final.data[i] / (double(size.x) * size.y);
     }
     EXPECT_GT(expected, 0.05);
-    EXPECT_NEAR(spreadOf(p).mean, expected, 0.25 * expected);
+    EXPECT_NEAR(spreadOf(p).mean, expected, 0.05 * expected);
 }
 
 }  // namespace

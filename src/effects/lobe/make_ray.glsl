@@ -28,21 +28,19 @@ float unmaskedShare(vec3 l, vec3 eye, float alpha, vec2 widths) {
 }
 
 // Samples a reflection by the lobe with its masking: visible normals are drawn until masking lets one pass. All such rays
-// have the same share, `albedo`: the mean share of visible normals. The last try passes with its own share, which
-// keeps the mean. Shares of single visible normals vary from 0 to 2 times their mean on rough surfaces, noise that would be
-// there even where the same light comes from all directions.
-const uint lobeTries = 6u;
-vec3 sampleUnmasked(RayNumber number, vec3 eye, float alpha, vec2 widths, float albedo, out float share) {
+// have the same share, the mean one. Shares of single visible normals are anything from 0 to a multiple of their mean on rough
+// surfaces, noise that would be there even where the same light comes from all directions. The last try always passes: about
+// 1 % of the rays of a surface of roughness 1 seen from above, fewer on smoother ones.
+const uint lobeTries = 8u;
+vec3 sampleUnmasked(RayNumber number, vec3 eye, float alpha, vec2 widths) {
     vec2 u = randomPair(number);
-    uint random = hashPixel(uvec2(number.pixel), number.index * 2u + 1u + hashPcg(rayParams.view.seed + 5u), rayParams.view.frame);
-    vec3 h;
+    uint stream = number.index * 2u + 1u + hashPcg(rayParams.view.seed + 5u);
+    uint random = hashPixel(uvec2(number.pixel), stream, rayParams.view.frame);
     for (uint i = 1u;; ++i) {
-        h = sampleGgxVisible(u, eye, widths);
-        share = unmaskedShare(2.0 * dot(eye, h) * h - eye, eye, alpha, widths);
+        vec3 h = sampleGgxVisible(u, eye, widths);
+        float share = unmaskedShare(2.0 * dot(eye, h) * h - eye, eye, alpha, widths);
         random = hashPcg(random);
-        bool passes = hashToUnit(random) < share;
-        share = passes ? albedo : share;
-        if (passes || i == lobeTries) {
+        if (i == lobeTries || hashToUnit(random) < share) {
             return h;
         }
         random = hashPcg(random);
@@ -71,7 +69,8 @@ Ray specularRay(RayNumber number, vec3 n, vec3 v, MaterialTexel m) {
     if (cone && m.roughness > mirrorRoughness) {
         h = sampleGgxVisible(randomPair(number) * vec2(rayParams.coneShare, 1.0), eye, widths);
     } else if (m.roughness > mirrorRoughness) {
-        h = sampleUnmasked(number, eye, alpha, widths, table.x + table.y, share);
+        h = sampleUnmasked(number, eye, alpha, widths);
+        share = table.x + table.y;
     }
     vec3 l = 2.0 * dot(eye, h) * h - eye;
     if (cone) {

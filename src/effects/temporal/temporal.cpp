@@ -65,8 +65,7 @@ uvec2 columns(uvec2 size) {
     return {size.x, (size.y + temporalColumn - 1) / temporalColumn};
 }
 
-void upscale(gpu::PassList& f, const Histories& h, const TemporalInputs& in,
-             const TemporalParams& params) {
+void upscale(gpu::PassList& f, const Histories& h, const TemporalInputs& in, const TemporalParams& params) {
     const uvec2 output = h.mean.next.size;
     const gpu::Image around = f.image("temporal.around", VK_FORMAT_R16G16B16A16_SFLOAT, params.size);
     const gpu::Image changed = f.image("temporal.changed", VK_FORMAT_R16G16_SFLOAT, params.size);
@@ -115,7 +114,9 @@ TemporalImages temporal(gpu::PassList& f, TemporalStore& own, const TemporalInpu
     const uvec2 size = in.radiance.size;
     const uvec2 output = in.outputSize.x > 0 ? in.outputSize : size;
     const Histories h = swapHistories(f, own, size, output, static_cast<bool>(in.coverage));
-    const TemporalParams params{toPrevious(in.view), settings, size, in.jitter, in.view.jitterChange, in.view.frame, h.valid ? 1U : 0U, in.sky != nullptr ? 1U : 0U};
+    const TemporalParams params{
+        toPrevious(in.view),        settings, size, in.jitter, in.view.jitterChange, in.view.frame, h.valid ? 1U : 0U,
+        in.sky != nullptr ? 1U : 0U};
     if (size != output) {
         upscale(f, h, in, params);
     } else {

@@ -47,9 +47,9 @@ struct TemporalParams {
     uvec2 size;
     vec2 jitter;        // of this frame, in its pixels
     vec2 jitterChange;  // uv: of ViewParams
-    uint frame;        // counts up; decorrelates dithering between frames
-    uint hasPrevious;  // 1: the history holds the last frame
-    uint skyIsFixed;   // 1: where depth is 0 the picture changes by the camera alone
+    uint frame;         // counts up; decorrelates dithering between frames
+    uint hasPrevious;   // 1: the history holds the last frame
+    uint skyIsFixed;    // 1: where depth is 0 the picture changes by the camera alone
 };
 
 struct TemporalUpscaleParams {

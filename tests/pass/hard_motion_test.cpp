@@ -1,0 +1,137 @@
+// Temporal antialiasing where things, light and the sky move: the last frame of a sequence shows what the same moment
+// shows at rest.
+#include "compare/compare.h"
+#include "pass/harness.h"
+#include "scene/builtin/animate.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace reflet::test::hard_motion_test {
+namespace {
+
+using builtin::at;
+
+constexpr uvec2 size(96, 54);
+constexpr double step = 1.0 / 24.0;
+constexpr int moves = 7;
+
+Settings withScale(const char* scale) {
+    return settingsOf({"temporal.enabled=on", fmt::format("temporal.scale={}", scale), "diffuse.rays=0",
+                       "specular.rays=0", "shadow.filter=hard"});
+}
+
+// A wall of tiles of 0.5 m.
+Scene tiledWall() {
+    Scene scene;
+    const uint32_t dark = builtin::addMaterial(scene, lambertMaterial(vec3(0.06F)));
+    const uint32_t light = builtin::addMaterial(scene, lambertMaterial(vec3(0.8F)));
+    for (int i = 0; i < 12 * 8; ++i) {
+        const vec3 middle{-2.75F + 0.5F * float(i % 12), -1.75F + 0.5F * float(i / 12), 0};
+        builtin::place(scene, fmt::format("tile {}", i), (i % 12 + i / 12) % 2 == 0 ? dark : light,
+                       builtin::patch({.right = {0.25F, 0, 0}, .up = {0, 0.25F, 0}}), at(middle));
+    }
+    return scene;
+}
+
+void slide(Scene& scene, int32_t node, float from, float z) {
+    builtin::animate(scene, node,
+                     {.target = Channel::Target::translation,
+                      .interpolation = Interpolation::linear,
+                      .times = {0.0F, 1.0F},
+                      .values = {vec4(from, 0, z, 0), vec4(-from, 0, z, 0)}});
+}
+
+Scene boxBeforeWall(float alpha) {
+    Scene scene = tiledWall();
+    const int32_t node = builtin::addNode(scene, {1.5, 0, 0.6});
+    slide(scene, node, 1.5F, 0.6F);
+    Material red = lambertMaterial(vec3(0.7F, 0.1F, 0.05F));
+    red.baseColor.a = alpha;
+    red.blended = alpha < 1.0F;
+    builtin::place(scene, "box", builtin::addMaterial(scene, red), builtin::box({0.25F, 0.5F, 0.1F}),
+                   at({1.5F, 0, 0.6F}));
+    scene.instances.back().node = node;
+    return scene;
+}
+
+View before(double time) {
+    View view;
+    view.camera.position = {0, 0, 4};
+    view.camera.target = {0, 0, 0};
+    view.environment.radiance = vec3(0.6F);
+    view.time = time;
+    return view;
+}
+
+// Of the last of some frames that move after some at rest, against the mean of many at rest.
+double errorInMotion(const Scene& scene, const std::vector<View>& path, const Settings& settings) {
+    const Pictures moving = renderPath(scene, path, size, settings, {"final"}).back();
+    Settings mean = settings;
+    mean.temporal.enabled = 0;
+    mean.accumulate.enabled = 1;
+    const Pictures still = render(scene, path.back(), size, mean, {"final"}, 64);
+    return compare(moving.images.at("final"), still.images.at("final")).relativeMse;
+}
+
+std::vector<View> inTime(double from) {
+    std::vector<View> path(16, before(from));
+    for (int i = 1; i <= moves; ++i) {
+        path.push_back(before(from + step * double(i)));
+    }
+    return path;
+}
+
+class HardMotion : public testing::TestWithParam<const char*> {
+protected:
+    void expectAtMost(double limit, const Scene& scene, const std::vector<View>& path) {
+        const double error = errorInMotion(scene, path, withScale(GetParam()));
+        RecordProperty("error", fmt::format("{}", error));
+        EXPECT_LT(error, limit);
+    }
+    [[nodiscard]] bool isUpscaled() const { return GetParam() != std::string("1"); }
+};
+
+TEST_P(HardMotion, ABoxLeavesNoTrail) {
+    expectAtMost(1.0, boxBeforeWall(1.0F), inTime(0.3));
+}
+
+TEST_P(HardMotion, ABlendedBoxKeepsItsShape) {
+    expectAtMost(1.0, boxBeforeWall(0.6F), inTime(0.3));
+}
+
+TEST_P(HardMotion, LightFollowsALamp) {
+    Scene scene = tiledWall();
+    const int32_t node = builtin::addNode(scene, {2, 0, 1});
+    slide(scene, node, 2.0F, 1.0F);
+    scene.lamps.push_back({.name = "lamp", .intensity = vec3(4.0F), .node = node});
+    expectAtMost(1.0, scene, inTime(0.3));
+}
+
+TEST_P(HardMotion, StarsStayWhileTheCameraTurns) {
+    auto sky = std::make_shared<FloatImage>(FloatImage{512, 256, {"R", "G", "B"}, {}});
+    sky->data.assign(size_t{3} * 512 * 256, 0.02F);
+    for (size_t i = 0; i < 3000; ++i) {
+        const size_t texel = i * 7919 % (size_t{512} * 256);
+        std::fill_n(sky->data.begin() + std::ptrdiff_t(3 * texel), 3, 1.0F);
+    }
+    Scene scene = boxBeforeWall(1.0F);
+    scene.instances.erase(scene.instances.begin(), scene.instances.end() - 1);
+    std::vector<View> path;
+    for (int i = 0; i < 16 + moves; ++i) {
+        View view = before(0.0);
+        const float angle = glm::radians(0.8F) * float(std::max(i - 16, 0));
+        view.camera.target = view.camera.position + vec3(std::sin(angle), 0, -std::cos(angle));
+        view.environment = {.image = sky};
+        path.push_back(view);
+    }
+    expectAtMost(0.02, scene, path);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scales, HardMotion, testing::Values("1", "0.5"), [](const auto& scale) {
+    return std::string(scale.param == std::string("1") ? "full" : "half");
+});
+
+}  // namespace
+}  // namespace reflet::test::hard_motion_test
