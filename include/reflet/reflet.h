@@ -320,6 +320,12 @@ typedef struct RefletFrameInfo {
      * frame's: let it fade over some frames, such as by 0.7 in each.
      */
     float lightChange;
+    /**
+     * 1: where depth is 0, the picture that refletTemporal gets shows the environment of RefletIndirectLight as it is. While the
+     * camera turns, refletTemporal then filters it over each pixel instead of following it, which keeps stars. 0: it
+     * may show anything.
+     */
+    uint32_t backgroundIsEnvironment;
     RefletGBuffer gbuffer; /**< required; the last field, so that it can grow */
 } RefletFrameInfo;
 

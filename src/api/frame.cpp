@@ -206,9 +206,12 @@ gpu::Image recordTemporal(RefletView_T& view, Frame& frame, const Settings& sett
         failArgument("view: its output size, {}x{}, is smaller than its size, {}x{} (refletSetOutputSize)", size.x,
                      size.y, view.size.x, view.size.y);
     }
-    frame.antialiased = lighting::antialias(f, view.store->temporal, frame.context, settings,
-                                            lightWith(frame, radiance), {size, frame.jitter})
-                            .lit;
+    const EnvironmentLight& sky = frame.context.environment;
+    const bool filtersSky = frame.showsEnvironment && sky.texels && sky.texels.size.x > 1;
+    frame.antialiased =
+        lighting::antialias(f, view.store->temporal, frame.context, settings, lightWith(frame, radiance),
+                            {size, frame.jitter, filtersSky ? &sky : nullptr})
+            .lit;
     finishCall(view, frame);
     return frame.antialiased;
 }

@@ -76,6 +76,7 @@ struct Frame : lighting::Surfaces {
     std::optional<LobeLight> specular;
     float elapsed = 0.0F;
     reflet::lighting::Change change;
+    bool showsEnvironment = false;  ///< RefletFrameInfo::backgroundIsEnvironment
     vec2 jitter{0.0F};
 };
 

@@ -268,6 +268,7 @@ RefletResult refletBeginFrame(RefletView view, const RefletFrameInfo* info) {
             failArgument("RefletFrameInfo.lightChange: is {}; must be 0 to 1", given.lightChange);
         }
         frame.change = {given.restFrames, given.lightChange};
+        frame.showsEnvironment = given.backgroundIsEnvironment != 0;
         const ImportParams params = importParams(given, frame.context.view);
         view->commands = given.commandBuffer;
         view->hostImages.clear();

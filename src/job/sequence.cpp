@@ -17,7 +17,7 @@ namespace reflet {
 
 namespace {
 
-SequencePlan makePlan(const RenderJob& job) {
+SequencePlan makePlan(const RenderJob& job, const SequenceViews& views) {
     const SequenceOptions& o = job.options.sequence;
     const bool history = historyUse(job.settings, job.scene).any();
     const bool motion = job.pictures.contains("motion");  // relative to the previous frame
@@ -25,6 +25,7 @@ SequencePlan makePlan(const RenderJob& job) {
     if (history || motion) {
         plan.segment = o.segment == 0 ? plan.frames : o.segment;
         plan.warmUp = std::max(history ? o.warmUp : 0, motion ? 1U : 0U);
+        plan.cuts = views.cuts(job.scene);
     }
     return plan;
 }
@@ -50,15 +51,16 @@ nlohmann::ordered_json makeRecord(const RenderJob& job, const SequencePlan& plan
 /// Renders frames consecutively and writes those that are missing.
 class Writer {
 public:
-    Writer(const RenderJob& job, const SequenceFiles& files)
-        : job_(job), files_(files), views_(job.view, job.scene, job.options.sequence, job.options.frames) {}
+    Writer(const RenderJob& job, const SequenceFiles& files, const SequenceViews& views)
+        : job_(job), files_(files), views_(views) {}
 
     // The noise depends on the frame's number in the sequence, so that shares and resumed runs give the same images.
     void render(const SequencePlan& plan, const SequencePlan::Run& run, Progress& progress) {
         job_.renderer.restart(run.begin);
+        const uint32_t known = run.begin - plan.shotOf(run.begin);
         for (uint32_t i = 0; i < plan.warmUp; ++i) {
             const uint32_t before = plan.warmUp - i;
-            job_.renderer.render(views_.of(run.begin - std::min(before, run.begin)), job_.size, seed(), job_.settings);
+            job_.renderer.render(views_.of(run.begin - std::min(before, known)), job_.size, seed(), job_.settings);
             stopIfAsked();
             progress.advance();
         }
@@ -99,7 +101,7 @@ private:
 
     const RenderJob& job_;
     const SequenceFiles& files_;
-    SequenceViews views_;
+    const SequenceViews& views_;
     uint32_t written_ = 0;
 };
 
@@ -107,9 +109,10 @@ private:
 
 bool renderSequence(const RenderJob& job) {
     const InterruptNote note;
-    const SequencePlan plan = makePlan(job);
+    const SequenceViews views(job.view, job.scene, job.options.sequence, job.options.frames);
+    const SequencePlan plan = makePlan(job, views);
     const SequenceFiles files(job.options.outputs, job.options.sequence.firstFrame);
-    Writer writer(job, files);
+    Writer writer(job, files, views);
     for (const FrameNames& names : files.names()) {
         beginSequence(names, makeRecord(job, plan, names), job.options.sequence.overwrite, printWarning);
     }

@@ -2,6 +2,7 @@
 #include "job/sequence_plan.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace reflet {
 
@@ -14,11 +15,22 @@ std::vector<SequencePlan::Run> SequencePlan::runs(Share share,
         while (run.end > run.begin && !isMissing(run.end - 1)) {
             --run.end;
         }
+        for (const uint32_t cut : cuts) {
+            if (cut > run.begin && cut < run.end) {
+                result.push_back({run.begin, cut});
+                run.begin = cut;
+            }
+        }
         if (run.end > run.begin) {
             result.push_back(run);
         }
     }
     return result;
+}
+
+uint32_t SequencePlan::shotOf(uint32_t frame) const {
+    const auto next = std::ranges::upper_bound(cuts, frame);
+    return next == cuts.begin() ? 0 : *std::prev(next);
 }
 
 uint64_t SequencePlan::work(const std::vector<Run>& runs) const {

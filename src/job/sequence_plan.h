@@ -12,8 +12,9 @@ namespace reflet {
 
 struct SequencePlan {
     uint32_t frames = 1;
-    uint32_t segment = 1;  ///< frames, at least 1
-    uint32_t warmUp = 0;   ///< frames rendered before each segment
+    uint32_t segment = 1;        ///< frames, at least 1
+    uint32_t warmUp = 0;         ///< frames rendered before each segment and each shot
+    std::vector<uint32_t> cuts;  ///< first frames of shots but the first, ascending: they have no history either
 
     /// Frames [begin, end), counted from 0, to be rendered consecutively.
     struct Run {
@@ -21,9 +22,11 @@ struct SequencePlan {
         uint32_t end = 0;
     };
 
-    /// Segments are dealt to the shares round-robin. Returns the share's segments that miss frames, each cut after its
-    /// last missing frame.
+    /// Segments are dealt to the shares round-robin. Returns the share's segments that miss frames, each ended after
+    /// its last missing frame, and parted into shots.
     [[nodiscard]] std::vector<Run> runs(Share share, const std::function<bool(uint32_t frame)>& isMissing) const;
+    /// The first frame of the shot that the frame belongs to.
+    [[nodiscard]] uint32_t shotOf(uint32_t frame) const;
     /// Number of frames to render, including warm-up frames.
     [[nodiscard]] uint64_t work(const std::vector<Run>& runs) const;
 };

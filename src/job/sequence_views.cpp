@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <string_view>
 
 namespace reflet {
@@ -14,6 +16,19 @@ namespace reflet {
 namespace {
 
 constexpr std::string_view orbitPath = "orbit";
+
+// How far a camera goes from frame to frame: radians that it turns, and the way relative to the distance of its target.
+// A jump is at least smallestJump, and muchFarther times what the frames around it do.
+constexpr float smallestJump = 0.1F;
+constexpr float muchFarther = 6.0F;
+
+float wayBetween(const Camera& a, const Camera& b) {
+    const vec3 from = a.target - a.position;
+    const vec3 to = b.target - b.position;
+    const float turn = std::acos(std::clamp(glm::dot(glm::normalize(from), glm::normalize(to)), -1.0F, 1.0F));
+    const float distance = std::max(std::min(glm::length(from), glm::length(to)), 1e-6F);
+    return turn + glm::length(b.position - a.position) / distance;
+}
 
 }  // namespace
 
@@ -41,6 +56,24 @@ View SequenceViews::of(uint32_t frame) const {
         view.camera = path_->at(view.time);
     }
     return view;
+}
+
+std::vector<uint32_t> SequenceViews::cuts(const Scene& scene) const {
+    std::vector<float> ways{0.0F};  // to each frame
+    Camera last = posed(of(0), scene).camera;
+    for (uint32_t frame = 1; frame < frames_; ++frame) {
+        const Camera now = posed(of(frame), scene).camera;
+        ways.push_back(wayBetween(last, now));
+        last = now;
+    }
+    std::vector<uint32_t> found;
+    for (uint32_t frame = 1; frame < frames_; ++frame) {
+        const float around = std::max(ways[frame - 1], frame + 1 < frames_ ? ways[frame + 1] : 0.0F);
+        if (ways[frame] > std::max(smallestJump, muchFarther * around)) {
+            found.push_back(frame);
+        }
+    }
+    return found;
 }
 
 nlohmann::ordered_json pathRecord(const SequenceOptions& options, uint32_t frames) {

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace reflet {
 
@@ -19,6 +20,8 @@ public:
 
     /// frame: counted from 0.
     [[nodiscard]] View of(uint32_t frame) const;
+    /// The frames before which the camera jumps: it moves or turns much farther than in the frames around.
+    [[nodiscard]] std::vector<uint32_t> cuts(const Scene& scene) const;
 
 private:
     View first_;

@@ -206,6 +206,8 @@ TEST_F(View, AScreenshotIsWhatRenderWritesAndAllComesBackTheNextTime) {
     click("diffuse.adaptive");
     EXPECT_TRUE(shows([](const json& now) { return now["settings"].contains("diffuse"); }));
     isWhatRenderWrites("cubes-1.png");  // of the scene's own view, whose bits no file has
+    findSetting("temporal.enabled");
+    click("temporal.enabled");  // from here on each rest is one frame
     const auto from = inPicture(0.5, 0.5);
     drag(from[0], from[1], from[0] - 40.0, from[1] + 12.0);
     EXPECT_TRUE(shows([&](const json& now) { return now["camera"] != first; }));

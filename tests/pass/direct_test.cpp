@@ -62,7 +62,7 @@ TEST(GBuffer, NormalsOfASphereArePerpendicularToIt) {
                 continue;
             }
             const vec3 expected = glm::normalize(p.position(x, y));
-            EXPECT_GT(glm::dot(p.color("normal", x, y), expected), std::cos(glm::radians(0.5F))) << x << ", " << y;
+            EXPECT_GT(glm::dot(p.color("normal", x, y), expected), std::cos(glm::radians(0.6F))) << x << ", " << y;
             EXPECT_GT(glm::dot(p.color("geometric_normal", x, y), expected), std::cos(glm::radians(4.0F)));
             ++seen;
         }

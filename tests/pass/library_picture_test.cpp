@@ -228,6 +228,7 @@ private:
             std::memcpy(frame.previousViewToClip, last_.viewToClip, sizeof last_.viewToClip);
             std::memcpy(frame.previousJitter, last_.jitter, sizeof last_.jitter);
             frame.elapsed = frameTime;
+            frame.backgroundIsEnvironment = 1;
         }
         if (is("temporal.enabled", "true")) {
             refletJitter(frame.frameIndex, frame.jitter);

@@ -232,6 +232,7 @@ const Context& contextOf(const std::string& setting) {
 // Why no image can tell how these are set.
 const std::map<std::string_view, std::string_view> invisible{
     {"direct.lamp_tiles", "culling"},
+    {"direct.emitters", "the scene has none"},
     {"trace_scene.ray_query", "hardware"},
 };
 

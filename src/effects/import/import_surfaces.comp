@@ -149,7 +149,9 @@ void main() {
                                          : normalFromDepth(pixel, d, p, n);
     }
     flat_ = dot(flat_, toEye) < 0.0 ? -flat_ : flat_;
-    imageStore(normal, pixel, uvec4(packUnitVector(consistentNormal(n, flat_, toEye))));
+    // Normals that the host has bent by the same rule are kept bit for bit.
+    vec3 bent = consistentNormal(n, flat_, toEye);
+    imageStore(normal, pixel, uvec4(packUnitVector(dot(bent, n) > 0.9999 ? n : bent)));
     imageStore(geometricNormal, pixel, uvec4(packUnitVector(flat_)));
     imageStore(baseColor, pixel, vec4(packBaseColor(baseColorAt(pixel)), 1.0));
     float metal = 0.0;

@@ -25,6 +25,8 @@ SHARED_END
 
 #ifdef __cplusplus
 
+#include "gpu/recorder.h"
+
 #include <vector>
 
 namespace reflet {

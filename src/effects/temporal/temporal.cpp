@@ -114,9 +114,15 @@ TemporalImages temporal(gpu::PassList& f, TemporalStore& own, const TemporalInpu
     const uvec2 size = in.radiance.size;
     const uvec2 output = in.outputSize.x > 0 ? in.outputSize : size;
     const Histories h = swapHistories(f, own, size, output, static_cast<bool>(in.coverage));
-    const TemporalParams params{
-        toPrevious(in.view),        settings, size, in.jitter, in.view.jitterChange, in.view.frame, h.valid ? 1U : 0U,
-        in.sky != nullptr ? 1U : 0U};
+    const TemporalParams params{toPrevious(in.view),
+                                settings,
+                                size,
+                                in.jitter,
+                                in.view.jitterChange,
+                                in.view.frame,
+                                h.valid ? 1U : 0U,
+                                in.view.rest == 0 ? 1U : 0U,
+                                in.sky != nullptr ? 1U : 0U};
     if (size != output) {
         upscale(f, h, in, params);
     } else {

@@ -4,11 +4,13 @@
 #include "effects/temporal/temporal.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(scalar) uniform ParamsBlock { TemporalParams params; };
+layout(scalar) uniform ParamsBlock {
+    TemporalParams params;
+};
 layout(rgba16f) uniform readonly image2D radiance;
 uniform sampler2D depth;
 uniform sampler2D motion;
-layout(rgba16f) uniform readonly image2D previousMean;    // radiance, history length
+layout(rgba16f) uniform readonly image2D previousMean;  // radiance, history length
 layout(rg16f) uniform readonly image2D previousDeviations;
 layout(rgba16f) uniform readonly image2D previousSeen;
 layout(rgba16f) uniform writeonly image2D seen;  // distance, own motion, 1: at rest
@@ -23,8 +25,8 @@ layout(r32f) uniform writeonly image2D meanCoverage;
 #endif
 const vec2 allowance = vec2(1.0, 1.25);
 const vec2 pixelStaleLimits = vec2(0.25, 0.5);
-#include "effects/temporal/temporal_history.glsl"
 #include "effects/temporal/temporal_changes.glsl"
+#include "effects/temporal/temporal_history.glsl"
 
 void resolve(ivec2 pixel, Row above, Row row, Row below) {
     Seen surface = seenAt(pixel, above, row, below);

@@ -49,6 +49,7 @@ struct TemporalParams {
     vec2 jitterChange;  // uv: of ViewParams
     uint frame;         // counts up; decorrelates dithering between frames
     uint hasPrevious;   // 1: the history holds the last frame
+    uint mayChange;     // 1: something has changed since the last frame
     uint skyIsFixed;    // 1: where depth is 0 the picture changes by the camera alone
 };
 

@@ -10,6 +10,7 @@
 
 const float lastingFrames = 16.0;
 const vec2 staleLimits = vec2(0.4, 0.8);
+const float asGoodAsStill = 1.0 / 64.0;  // pixels
 const float mostRelit = 16.0;
 
 struct Changed {
@@ -18,7 +19,9 @@ struct Changed {
 };
 
 // The factor on linear radiance between two tone-compressed lumas.
-float relitFactor(float from, float to) { return min(to * (1.0 - from) / max(from * (1.0 - to), 1e-8), mostRelit); }
+float relitFactor(float from, float to) {
+    return clamp(to * (1.0 - from) / max(from * (1.0 - to), 1e-8), 1.0 / mostRelit, mostRelit);
+}
 
 // Jitter changes the mean, too: only the differences of several frames together tell that light changed. Then earlier
 // frames count as lit alike, so that the detail they have is kept.
@@ -28,7 +31,10 @@ Changed changedAt(ivec2 pixel, float luma, Seen now) {
         return Changed(-1.0, 1.0);
     }
     vec4 past = vec4(0.0);
-    if (notInlined(uint(now.follows), gl_GlobalInvocationID.x) != 0u) {
+    // Of what moves, even slowly, neighbourhoods are never the same.
+    bool rests = length(now.moved * vec2(params.size)) < asGoodAsStill;
+    bool known = now.follows && rests && params.mayChange != 0u;
+    if (notInlined(uint(known), gl_GlobalInvocationID.x) != 0u) {
         past = imageLoad(previousChanges, now.before);
     }
     float frames = min(past.a + 1.0, lastingFrames);
@@ -38,7 +44,7 @@ Changed changedAt(ivec2 pixel, float luma, Seen now) {
     float stale = staleness(staleShare(recent, variance, luma), staleLimits);
     float lit = past.x + off * stale;
     imageStore(changes, pixel, roundToHalf(vec4(lit + (luma - lit) / frames, variance, recent, frames)));
-    return Changed(stale, past.a > 0.0 ? relitFactor(past.x, lit) : 1.0);
+    return Changed(stale, past.a > 0.0 && stale > 0.0 ? relitFactor(past.x, lit) : 1.0);
 }
 
 #endif
