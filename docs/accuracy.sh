@@ -93,6 +93,7 @@ otherSections() {
 
 The error of the presets against a path-traced reference, and its cost, on all built-in scenes, including the cases where
 it is bad. [performance.md](performance.md) summarises this page. Made by `docs/accuracy.sh`.
+Faults that others have reported: [hard-cases.md](hard-cases.md).
 
 - **truth** (the reference, ground truth): all light, path-traced by `reflet reference`.
 - **visible-only**: the same, but scattered rays return light only from points that the camera sees, and from the
