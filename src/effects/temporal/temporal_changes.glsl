@@ -18,11 +18,6 @@ struct Changed {
     float relit;  // factor on what is kept of earlier frames
 };
 
-// The factor on linear radiance between two tone-compressed lumas.
-float relitFactor(float from, float to) {
-    return clamp(to * (1.0 - from) / max(from * (1.0 - to), 1e-8), 1.0 / mostRelit, mostRelit);
-}
-
 // Jitter changes the mean, too: only the differences of several frames together tell that light changed. Then earlier
 // frames count as lit alike, so that the detail they have is kept.
 Changed changedAt(ivec2 pixel, float luma, Seen now) {
@@ -35,7 +30,7 @@ Changed changedAt(ivec2 pixel, float luma, Seen now) {
     bool rests = length(now.moved * vec2(params.size)) < asGoodAsStill;
     bool known = now.follows && rests && params.mayChange != 0u;
     if (notInlined(uint(known), gl_GlobalInvocationID.x) != 0u) {
-        past = imageLoad(previousChanges, now.before);
+        past = imageLoad(previousChanges, pixel);
     }
     float frames = min(past.a + 1.0, lastingFrames);
     float off = past.a > 0.0 ? luma - past.x : 0.0;
@@ -44,7 +39,8 @@ Changed changedAt(ivec2 pixel, float luma, Seen now) {
     float stale = staleness(staleShare(recent, variance, luma), staleLimits);
     float lit = past.x + off * stale;
     imageStore(changes, pixel, roundToHalf(vec4(lit + (luma - lit) / frames, variance, recent, frames)));
-    return Changed(stale, past.a > 0.0 && stale > 0.0 ? relitFactor(past.x, lit) : 1.0);
+    float relit = past.a > 0.0 && stale > 0.0 ? clamp(lit / max(past.x, 1e-6), 1.0 / mostRelit, mostRelit) : 1.0;
+    return Changed(stale, relit);
 }
 
 #endif

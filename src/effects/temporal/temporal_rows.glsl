@@ -13,7 +13,7 @@ struct Row {
     vec3 middle;   // linear
     vec3 sum;      // tone-compressed
     vec3 squares;
-    float steady;  // luma, weighted by steadyWeights
+    float steady;  // luma of the linear radiance, weighted by steadyWeights
     float nearest;  // reversed depth
     ivec2 at;       // of that
     float own;      // reversed depth of the middle pixel
@@ -55,7 +55,7 @@ Row loadRow(ivec2 pixel) {
         vec3 t = toneCompress(c);
         row.sum += t;
         row.squares += t * t;
-        row.steady += weights[x + 1] * t.x;
+        row.steady += weights[x + 1] * dot(c, vec3(0.25, 0.5, 0.25));
         float d = texelFetch(depth, at, 0).r;
         row.own = x == 0 ? d : row.own;
         row.at = d > row.nearest ? at : row.at;
@@ -90,7 +90,6 @@ vec2 motionAt(ivec2 pixel, float nearest) {
 struct Seen {
     vec2 moved;    // uv
     bool follows;  // the last frame showed the same surface where it was
-    ivec2 before;  // its pixel in the last frame
     bool sky;      // the environment, which does not change
 };
 
@@ -130,8 +129,8 @@ Seen seenAt(ivec2 pixel, Row above, Row row, Row below) {
     float steep = 2.0 * (of.x - distanceOf(row.own));
     vec2 from = vec2(pixel) - (now.moved - params.jitterChange) * vec2(params.size);
     now.sky = nearest <= 0.0 && params.skyIsFixed != 0u;
-    now.before = rests > 0.0 ? pixel : ivec2(floor(from + 0.5));
-    now.follows = params.hasPrevious != 0u && !disoccluded(now.before, of, distanceOf(was.z / was.w), steep);
+    ivec2 before = rests > 0.0 ? pixel : ivec2(floor(from + 0.5));
+    now.follows = params.hasPrevious != 0u && !disoccluded(before, of, distanceOf(was.z / was.w), steep);
     imageStore(seen, pixel, of);
     return now;
 }
