@@ -93,7 +93,7 @@ void upscale(gpu::PassList& f, const Histories& h, const TemporalInputs& in, con
         .read("spread", spread)
         .read("changed", changed)
         .params(TemporalUpscaleParams{params.settings, params.size, vec2(params.size) / vec2(output), in.jitter,
-                                      params.frame, params.hasPrevious})
+                                      params.frame})
         .dispatch(output);
 }
 

@@ -4,14 +4,13 @@
 // Each pixel is reprojected (by the motion of the nearest surface in its neighbourhood, so that edges move with the
 // foreground), reads the history there (Catmull-Rom, to stay sharp), clips it to the local distribution of this frame's
 // pixels (history clip), and blends in this frame with a weight of one over the history length.
-// What the last frame did not show where a surface was (it was hidden by what has left) starts anew: each pixel keeps the
-// distance and the own motion of what it showed. Where a static surface's neighbourhood gets brighter or darker over
-// frames, its light has changed, and the history is scaled alike, so that its detail is kept. The sky of a moving camera is
-// filtered over each pixel, without history.
-// Frames may be smaller than the output (temporal upscaling): the jitter then brings samples to all of the output's
-// pixels in turn. At rest, a pixel's mean takes only samples that lie in its own area, so that it converges to what a
-// frame of the output's size converges to; until it has one, and in motion, it takes those around it, weighted by a
-// Gaussian of their distance, which also is their weight in the mean.
+// What the last frame did not show where a surface was (it was hidden by what has left) starts anew: each pixel keeps
+// the distance and the own motion of what it showed. Where a static surface's neighbourhood gets brighter or darker
+// over frames, its light has changed, and the history is scaled alike, so that its detail is kept. The sky of a moving
+// camera is filtered over each pixel, without history. Frames may be smaller than the output (temporal upscaling): the
+// jitter then brings samples to all of the output's pixels in turn. At rest, a pixel's mean takes only samples that lie
+// in its own area, so that it converges to what a frame of the output's size converges to; until it has one, and in
+// motion, it takes those around it, weighted by a Gaussian of their distance, which also is their weight in the mean.
 // (Karis, High Quality Temporal Supersampling, SIGGRAPH 2014: jitter, clipping in YCoCg, tone-compressed;
 // Salvi, An Excursion in Temporal Supersampling, GDC 2016: limits from local mean and variance;
 // Jimenez, Filmic SMAA: Sharp Morphological and Temporal Antialiasing, SIGGRAPH 2016: Catmull-Rom without its corners;
@@ -63,7 +62,6 @@ struct TemporalUpscaleParams {
     vec2 ratio;   // of this frame's size to the output's
     vec2 jitter;  // of this frame, in its pixels
     uint frame;   // as in TemporalParams
-    uint hasPrevious;
 };
 
 struct TemporalSkyParams {

@@ -6,7 +6,6 @@
 
 #include "effects/temporal/temporal_rows.glsl"
 #include "effects/temporal/temporal_stale.glsl"
-#include "shaders/not_inlined.glsl"
 
 const float lastingFrames = 16.0;
 const vec2 staleLimits = vec2(0.4, 0.8);
@@ -29,7 +28,7 @@ Changed changedAt(ivec2 pixel, float luma, Seen now) {
     // Of what moves, even slowly, neighbourhoods are never the same.
     bool rests = length(now.moved * vec2(params.size)) < asGoodAsStill;
     bool known = now.follows && rests && params.mayChange != 0u;
-    if (notInlined(uint(known), gl_GlobalInvocationID.x) != 0u) {
+    if (known) {
         past = imageLoad(previousChanges, pixel);
     }
     float frames = min(past.a + 1.0, lastingFrames);

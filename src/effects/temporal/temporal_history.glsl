@@ -1,5 +1,5 @@
 // The history of temporal antialiasing: reprojection, clipping, and the mean with what a frame shows.
-// The includer declares params.settings, frame and hasPrevious, the constants allowance
+// The includer declares params.settings and frame, the constants allowance
 // (factors on the clip limits in motion and at rest) and staleness, and of the output's size the images previousMean,
 // previousDeviations, mean and deviations, with HAS_COVERAGE also previousCoverage and meanCoverage.
 #ifndef REFLET_TEMPORAL_HISTORY_GLSL
@@ -75,7 +75,7 @@ struct Shown {
 void accumulate(ivec2 pixel, Shown now) {
     vec2 size = vec2(imageSize(mean));
     vec2 at = vec2(pixel) - now.moved;
-    bool known = params.hasPrevious != 0u && now.follows && all(greaterThan(at, vec2(-0.5))) && all(lessThan(at, size - 0.5));
+    bool known = now.follows && all(greaterThan(at, vec2(-0.5))) && all(lessThan(at, size - 0.5));
     float still = known ? max(1.0 - length(now.moved) / stillest, 0.0) : 0.0;
     HistorySample history = HistorySample(vec4(0.0), 0.0);
     if (known) {
@@ -105,7 +105,7 @@ void accumulate(ivec2 pixel, Shown now) {
 #endif
     // At rest, only a sample of the pixel's own area can tell that it changed: neighbours may have missed a thin bar.
     share = mix(share, 1.0, trust * unchanged * (1.0 - now.inside));
-    share = params.settings.clip > 0.0 && now.stale >= 0.0 ? share : 1.0;
+    share = now.stale >= 0.0 && params.settings.clip > 0.0 ? share : 1.0;
     vec3 clipped = mix(now.middle, held, share);
     vec3 kept = share < 1.0 ? toneExpand(clipped) : before.rgb;
 #if HAS_COVERAGE

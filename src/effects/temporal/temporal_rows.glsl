@@ -5,6 +5,7 @@
 #define REFLET_TEMPORAL_ROWS_GLSL
 
 #include "shaders/half_float.glsl"
+#include "shaders/not_inlined.glsl"
 #include "shaders/projection.glsl"
 #include "shaders/tone_compressed.glsl"
 
@@ -130,7 +131,7 @@ Seen seenAt(ivec2 pixel, Row above, Row row, Row below) {
     vec2 from = vec2(pixel) - (now.moved - params.jitterChange) * vec2(params.size);
     now.sky = nearest <= 0.0 && params.skyIsFixed != 0u;
     ivec2 before = rests > 0.0 ? pixel : ivec2(floor(from + 0.5));
-    now.follows = params.hasPrevious != 0u && !disoccluded(before, of, distanceOf(was.z / was.w), steep);
+    now.follows = notInlined(params.hasPrevious, gl_GlobalInvocationID.x) != 0u && !disoccluded(before, of, distanceOf(was.z / was.w), steep);
     imageStore(seen, pixel, of);
     return now;
 }
