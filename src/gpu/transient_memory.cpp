@@ -10,6 +10,9 @@ namespace reflet::gpu {
 
 namespace {
 
+// Covers the alignment of most resources on most devices, so that they share memory.
+constexpr VkDeviceSize leastHeapAlignment = 4096;
+
 constexpr VkBufferUsageFlags bufferUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
                                            VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 
@@ -46,11 +49,12 @@ TransientMemory::~TransientMemory() {
     release();
 }
 
-// Resources that may lie in the same kinds of memory share a heap.
+// Resources that may lie in the same kinds of memory share a heap. Its blocks begin and end at multiples of its
+// alignment, which therefore never changes: only resources of very coarse alignment have heaps of their own.
 uint32_t TransientMemory::heapOf(uint32_t memoryTypes, VkDeviceSize alignment) {
+    alignment = std::max(alignment, leastHeapAlignment);
     for (uint32_t i = 0; i < requirements_.size(); ++i) {
-        if (requirements_[i].memoryTypeBits == memoryTypes) {
-            requirements_[i].alignment = std::max(requirements_[i].alignment, alignment);
+        if (requirements_[i].memoryTypeBits == memoryTypes && requirements_[i].alignment == alignment) {
             return i;
         }
     }
@@ -175,7 +179,9 @@ std::shared_ptr<HeldImage> TransientMemory::hold(const ImageInfo& info, const st
     image->state.aspect = aspectOf(info.format);
     VkMemoryRequirements requirements = requirements_[needs.heap];
     context_.vk.vkGetImageMemoryRequirements(context_.handle(), image->state.image, &requirements);
-    requirements.alignment = std::max(requirements.alignment, needs.alignment);
+    // Whole steps of the heap's alignment, as all of it is lent.
+    requirements.alignment = requirements_[needs.heap].alignment;
+    requirements.size = alignUp(requirements.size, requirements.alignment);
     image->allocation = context_.memory().allocate(requirements, MemoryUse::device, false);
     context_.nameImage(image->state.image, name);
     vkCheck(context_.vk.vkBindImageMemory(context_.handle(), image->state.image, image->allocation.memory,
@@ -185,7 +191,7 @@ std::shared_ptr<HeldImage> TransientMemory::hold(const ImageInfo& info, const st
     image->state.bytes = needs.size;
     image->state.held = image.get();
     image->heap = needs.heap;
-    image->size = needs.size;
+    image->size = requirements.size;
     addHeld({image, needs.heap, 0, 0}, *image);
     return image;
 }
@@ -195,7 +201,7 @@ void TransientMemory::addHeld(HeldBlock block, HeldImage& image) {
     for (const VkDeviceSize size : heap.blocks) {
         block.offset += size;
     }
-    block.size = alignUp(image.size, requirements_[block.heap].alignment);
+    block.size = image.size;
     heap.blocks.push_back(block.size);
     blocks_[block.heap].push_back({image.allocation, block.offset, VK_NULL_HANDLE, true});
     image.offset = block.offset;

@@ -137,7 +137,7 @@ private:
 
     Context& context_;
     std::vector<GraphHeap> heaps_;
-    std::vector<VkMemoryRequirements> requirements_;  ///< of each heap: its memory types
+    std::vector<VkMemoryRequirements> requirements_;  ///< of each heap: its memory types and alignment
     std::vector<std::vector<Block>> blocks_;          ///< of each heap
     std::vector<HeldBlock> held_;
     std::vector<std::pair<ImageInfo, Needs>> imageNeeds_;
