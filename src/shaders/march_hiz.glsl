@@ -1,5 +1,5 @@
 // Hierarchical depth (hi-Z) traversal: a cell that the ray passes entirely in front of, or entirely behind by more than
-// the thickness, is skipped in one step, and the next coarser level is tried; otherwise the next finer one. (Uludag,
+// the thickness, is skipped in one step, and at its parent's border the next coarser level is tried; otherwise the next finer one. (Uludag,
 // Hi-Z Screen-Space Cone-Traced Reflections, GPU Pro 5, 2014, with nearest and farthest depth)
 // The includer also defines, before it includes this: vec2 loadCell(ivec2 cell, int level), level at least 1. It
 // returns the largest (nearest) and the smallest (farthest; of back faces if those are used) reversed depth of the
@@ -62,9 +62,11 @@ MarchResult marchHiz(MarchRay ray, MarchOptions o, MarchView view) {
         bool leaves = sLast >= 1.0 || any(lessThan(next, ivec2(0))) || any(greaterThan(next, lastPixel));
         ended = hit || (leaves && !descends);
         outcome = hit ? marchHit : (ended ? (r.leavesScreen ? marchLeftScreen : marchLimitReached) : outcome);
+        // Of a coarser cell that it had to descend into, the ray tests all parts before it tries that level again.
+        bool climbs = steps >= o.firstSteps && any(notEqual((next ^ pixel) >> (level + 1), ivec2(0)));
         pixel = ended || descends ? pixel : next;
         first = ended || descends ? first : there;
-        level = descends ? level - 1 : (steps < o.firstSteps ? 0 : min(level + 1, o.levels - 1));
+        level = descends ? level - 1 : (climbs ? min(level + 1, o.levels - 1) : level);
     }
     MarchResult result = MarchResult(outcome, pixel, last, clear, occluded, steps);
     return withHitDistance(result, first, ray, o, view);
