@@ -45,7 +45,8 @@ vec3 toTileSpace(LampShadow shadow, uint face, vec3 v) {
 }
 
 // bias: in texels, along the normal.
-LampReceiver lampReceiver(LampShadow shadow, uint tileSize, uint columns, vec3 p, vec3 normal, float bias) {
+LampReceiver lampReceiver(LampShadow shadow, uint tileSize, uint columns, vec3 p, vec3 normal, float bias,
+                          float rounding) {
     LampReceiver r;
     r.shadow = shadow;
     r.tileSize = tileSize;
@@ -63,7 +64,7 @@ LampReceiver lampReceiver(LampShadow shadow, uint tileSize, uint columns, vec3 p
     r.facing = max(facing, minLampFacing);
     float along = toTileSpace(shadow, tileFace(shadow, r.fromLamp), r.fromLamp).z;
     r.texel = 2.0 * shadow.halfTangent / float(tileSize) * along;
-    r.bias = planeBias(bias * r.texel, r.facing, rounding(p) / r.facing);
+    r.bias = planeBias(bias * r.texel, r.facing, rounding / r.facing);
     return r;
 }
 

@@ -30,6 +30,9 @@ vec3 objectDisplacement(vec3 p, vec2 uv, vec3 motion, mat4 previousWorldToClip, 
 // mirror. displacement: of the object, which is `away` metres from p. The image of a flat mirror lies behind it and its
 // motion is mirrored. Curved and rough mirrors are treated as flat.
 vec2 mirroredMotion(vec3 p, vec3 toEye, vec3 toThing, float away, vec3 displacement, mat4 previousWorldToClip) {
+    if (displacement == vec3(0.0)) {
+        return vec2(0.0);
+    }
     vec3 n = toEye + toThing;  // along the mirror's normal
     vec3 moved = displacement - n * (2.0 * dot(n, displacement) / max(dot(n, n), 1e-12));
     vec3 image = p - toEye * away;

@@ -20,6 +20,11 @@ float depthToViewDistance(float depth, vec4 depthToDistance) {
     return (depthToDistance.x + depthToDistance.y * depth) / max(denominator, 1e-20);
 }
 
+// Width of a pixel at the world position p [m]. viewPlane, eye, pixelAngle: of the view (effects/view.h).
+float pixelWidth(vec3 p, vec4 viewPlane, vec4 eye, float pixelAngle) {
+    return pixelAngle * (eye.w > 0.0 ? dot(viewPlane, vec4(p, 1.0)) : 1.0);
+}
+
 // The plane through p with normal n as coefficients f of (uv.x, uv.y, depth, 1): dot(f, …) > 0 on the side of n. The
 // value is the height above the plane per metre from the camera (orthographic: the height).
 vec4 planeOnScreen(vec3 p, vec3 n, mat4 clipToWorld) {

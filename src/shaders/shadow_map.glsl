@@ -50,8 +50,8 @@ ShadowReceiver receiverAt(vec3 p, ShadowMapParams map, ShadowTile tile) {
 
 // Receiver-plane depth bias: the depth to compare against is that of the receiver's plane at the centre of the texel
 // that is looked up, because the map holds the depth there. So planes never shadow themselves, however wide the filter
-// is. `bias`, in texels along the normal, comes on top.
-ShadowReceiver slopeReceiver(vec3 p, vec3 normal, ShadowMapParams map, ShadowTile tile, float bias) {
+// is. `bias`, in texels along the normal, comes on top. rounding: of p [m].
+ShadowReceiver slopeReceiver(vec3 p, vec3 normal, ShadowMapParams map, ShadowTile tile, float bias, float rounding) {
     ShadowReceiver r = receiverAt(p, map, tile);
     float facing = dot(normal, map.toSun);
     // The normal along the axes of shadow space: depth changes by -n.xy / n.z per step along x and y.
@@ -61,7 +61,7 @@ ShadowReceiver slopeReceiver(vec3 p, vec3 normal, ShadowMapParams map, ShadowTil
     r.tiltDirection = dot(sideways, sideways) > 1e-6 * dot(axisX, axisX) ? normalize(sideways) : vec2(0.0);
     r.slope = -sideways / vec2(dot(axisX, axisX), dot(axisY, axisY)) / max(facing, minFacing);
     // Below minFacing, the slope is not that of the plane.
-    r.bias = planeBias(bias * map.texelSize, facing, facing < minFacing ? bias * map.texelSize / minFacing : rounding(p) / facing);
+    r.bias = planeBias(bias * map.texelSize, facing, facing < minFacing ? bias * map.texelSize / minFacing : rounding / facing);
     return r;
 }
 

@@ -2,6 +2,8 @@
 #ifndef REFLET_SHADOW_TEXEL_GLSL
 #define REFLET_SHADOW_TEXEL_GLSL
 
+#include "shaders/subpixel.glsl"
+
 struct ShadowTexel {
     float height;     // of the stored surface above the receiver, toward the light [m]
     float clearance;  // of the stored surface above the receiver's plane, toward the light [m]; -1e9: none is stored
@@ -30,6 +32,10 @@ DepthBias planeBias(float width, float facing, float rounding) {
 
 // Rounding of a position in world space [m].
 float rounding(vec3 p) { return 1e-6 * max(max(abs(p.x), abs(p.y)), abs(p.z)); }
+
+// The same of a position from the depth of a pixel that is `width` metres wide: as a rule, not at worst, since what
+// counts as the receiver's own surface cannot shadow it.
+float roundingOfPixel(vec3 p, float width) { return max(rounding(p), 0.5 * subpixel * width); }
 
 bool blocks(ShadowTexel texel, DepthBias bias) { return texel.clearance > bias.most; }
 

@@ -41,5 +41,5 @@ void main() {
         return;
     }
     vec3 n = params.packedNormal != 0u ? unpackUnitVector(packUnitVector(c.normal)) : c.normal;
-    outputs.items[i] = dot(n, params.map.toSun) > 0.0 ? hardVisibility(slopeReceiver(c.point, n, params.map, tile, params.bias)) : 0.0;
+    outputs.items[i] = dot(n, params.map.toSun) > 0.0 ? hardVisibility(slopeReceiver(c.point, n, params.map, tile, params.bias, rounding(c.point))) : 0.0;
 }

@@ -91,7 +91,8 @@ float visibilityAt(ivec2 pixel, uint index, vec3 p, vec3 n) {
         return 0.0;  // out of its range or cone, or in the surface's own shadow
     }
     ShadowSettings s = params.settings;
-    receiver = lampReceiver(shadow, shadowBlock.tileSize, shadowBlock.columns, p, n, s.bias);
+    receiver = lampReceiver(shadow, shadowBlock.tileSize, shadowBlock.columns, p, n, s.bias,
+                            roundingOfPixel(p, pixelWidth(p, params.view.viewPlane, params.view.eye, params.view.pixelAngle)));
     if (filterKind == ShadowFilter_hard) {
         return hardLampVisibility(receiver);
     }
@@ -103,8 +104,7 @@ float visibilityAt(ivec2 pixel, uint index, vec3 p, vec3 n) {
     float slope = shadow.lamp.radius / receiver.distance;
     float share = fractionAboveHorizon(facing, slope * inversesqrt(1.0 + slope * slope));
     if (shadow.lamp.type == lampEmitter) {
-        s.samples = max(s.samples / lampsPerEmitter, 1u);
-        s.blockerSamples = max(s.blockerSamples / lampsPerEmitter, 1u);
+        return share * sharpLampVisibility(receiver);
     }
     return share * pcss(ShadowCone(slope, 1.0 / receiver.distance), noise, s);
 }

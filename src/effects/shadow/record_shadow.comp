@@ -63,7 +63,7 @@ void main() {
     ShadowTile tile =
         ShadowTile(cascadeTileOrigin(c.index, params.settings.resolution), ivec2(params.settings.resolution));
     noteBias = biasKind == ShadowBias_constant ? constantReceiver(point, map, tile, params.settings.constantBias).bias
-                                               : slopeReceiver(point, normal, map, tile, params.settings.bias).bias;
+                                               : slopeReceiver(point, normal, map, tile, params.settings.bias, roundingAt(point)).bias;
     Result r = resultIn(c.index, point, normal, vec4(0.25));
     imageStore(record, ivec2(0, 0), vec4(float(noted), r.visibility, r.width, r.height));
     imageStore(record, ivec2(1, 0), vec4(point, 1.0));

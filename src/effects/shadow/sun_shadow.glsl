@@ -105,12 +105,16 @@ float shareOfNormal(vec3 normal, vec3 toSun) {
     return filterKind == ShadowFilter_pcss ? fractionAboveHorizon(facing, sine) : facing > 0.0 ? 1.0 : 0.0;
 }
 
+float roundingAt(vec3 p) {
+    return roundingOfPixel(p, pixelWidth(p, params.view.viewPlane, params.view.eye, params.view.pixelAngle));
+}
+
 Result resultIn(uint cascade, vec3 p, vec3 normal, vec4 noise) {
     ShadowSettings s = params.settings;
     ShadowMapParams map = params.sun.maps[cascade];
     ShadowTile tile = ShadowTile(cascadeTileOrigin(cascade, s.resolution), ivec2(s.resolution));
     receiver = biasKind == ShadowBias_constant ? constantReceiver(p, map, tile, s.constantBias)
-                                                 : slopeReceiver(p, normal, map, tile, s.bias);
+                                                 : slopeReceiver(p, normal, map, tile, s.bias, roundingAt(p));
     hardLight = hardVisibility(receiver);
     if (filterKind == ShadowFilter_hard) {
         return Result(hardLight, 0.0, 0.0);

@@ -42,7 +42,7 @@ float passes(ivec2 texel, ShadowReceiver r, float plane) {
 // Bilinear over four texels.
 float transmittanceIn(uint cascade, vec3 p, vec3 normal) {
     ShadowTile tile = ShadowTile(cascadeTileOrigin(cascade, params.resolution), ivec2(params.resolution));
-    ShadowReceiver r = slopeReceiver(p, normal, params.sun.maps[cascade], tile, params.bias);
+    ShadowReceiver r = slopeReceiver(p, normal, params.sun.maps[cascade], tile, params.bias, rounding(p));
     ivec2 corner = ivec2(floor(r.at - 0.5));
     vec2 f = r.at - 0.5 - vec2(corner);
     float sum = 0.0;

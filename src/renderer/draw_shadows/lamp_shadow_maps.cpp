@@ -135,7 +135,8 @@ LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, ui
         groups.push_back({{i}, lamps.lamps[i]});
         tiles += hasOneTile(lamps.lamps[i]) ? 1 : cubeFaces;
     }
-    for (EmitterGroup& group : groupEmitters(lamps, std::min(settings.lamps, maxShadowedLamps - own))) {
+    for (EmitterGroup& group :
+         groupEmitters(lamps, std::min({settings.lamps, maxShadowedLamps - own, keptForEmitters}))) {
         groups.push_back(std::move(group));
         tiles += cubeFaces;
     }

@@ -35,8 +35,9 @@ LitPoint pointAt(ivec2 pixel, float d) {
     at.geometricNormal = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
     at.normal = unpackUnitVector(texelFetch(normal, pixel, 0).r);
     at.toViewer = directionToEye(at.position, params.view.eye);
-    at.clearance = clearanceOfPixel(at.position, depthToViewDistance(d, params.view.depthToDistance),
-                                    params.view.depthToDistance);
+    at.clearance =
+        clearanceOfPixel(at.position, depthToViewDistance(d, params.view.depthToDistance), params.view.depthToDistance,
+                         pixelWidth(at.position, params.view.viewPlane, params.view.eye, params.view.pixelAngle));
     MaterialTexel m = unpackMaterial(texelFetch(material, pixel, 0));
     at.surface = surfaceAt(pixel, texelFetch(baseColor, pixel, 0).rgb, m, dot(at.normal, at.toViewer), ggxTable,
                            isLambert(m));

@@ -10,6 +10,7 @@
 #include "renderer/trace_scene/scene_triangles.glsl"
 #include "shaders/noise.glsl"
 #include "shaders/shading_normal.glsl"
+#include "shaders/subpixel.glsl"
 
 // VertexAttributes (scene/scene.h); color: four 16-bit parts of 1.
 struct SceneVertex {
@@ -156,10 +157,11 @@ vec3 largestOf(vec3 a, vec3 b, vec3 c) { return max(abs(a), max(abs(b), abs(c)))
 const float relativeClearance = 4e-6;
 
 // The same for a point reconstructed from depth, `away` metres in front of the camera: depth and geometric normal are
-// rounded as well. Orthographic depth is rounded to about 1e-7 of the far distance.
-float clearanceOfPixel(vec3 p, float away, vec4 depthToDistance) {
+// rounded as well. Orthographic depth is rounded to about 1e-7 of the far distance. width: of the pixel there [m].
+float clearanceOfPixel(vec3 p, float away, vec4 depthToDistance, float width) {
     vec3 size = abs(p);
-    return max(4.0 * relativeClearance * max(max(size.x, size.y), max(size.z, away)), 4e-7 * abs(depthToDistance.y));
+    float ofDepth = max(4e-7 * abs(depthToDistance.y), subpixel * width);
+    return max(4.0 * relativeClearance * max(max(size.x, size.y), max(size.z, away)), ofDepth);
 }
 
 vec3 sceneShadingNormal(SceneTriangle t, ScenePlace place, vec3 fallback) {

@@ -63,7 +63,7 @@ float sunMapVisibility(vec3 p, vec3 normal) {
     ivec2 side = textureSize(shadowMap, 0) / (params.sun.count > 1u ? 2 : 1);
     for (uint i = 0u; i < params.sun.count; ++i) {
         ShadowTile tile = ShadowTile(cascadeTileOrigin(i, uint(side.x)), side);
-        ShadowReceiver receiver = slopeReceiver(p, normal, params.sun.maps[i], tile, params.shadowBias);
+        ShadowReceiver receiver = slopeReceiver(p, normal, params.sun.maps[i], tile, params.shadowBias, rounding(p));
         if (all(greaterThan(receiver.at, vec2(1.0))) && all(lessThan(receiver.at, vec2(side) - 1.0))) {
             return hardVisibility(receiver);
         }
@@ -265,7 +265,7 @@ SceneRay rayOfPixel(ivec3 slot, Ray ray) {
     float roughness = unpackMaterial(texelFetch(material, slot.xy, 0)).roughness;
     float lobeWidth = lobe == 0u ? 1.0 : ggxConeTangent(roughness * roughness);
     float pixelWidth = params.own.pixelAngle * (params.own.eye.w > 0.0 ? away : 1.0);
-    return SceneRay(p + n * clearanceOfPixel(p, away, params.own.depthToDistance), ray.direction, pixelWidth,
+    return SceneRay(p + n * clearanceOfPixel(p, away, params.own.depthToDistance, pixelWidth), ray.direction, pixelWidth,
                     params.own.pixelAngle * params.own.eye.w + shareOfLobe * lobeWidth);
 }
 
