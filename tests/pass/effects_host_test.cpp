@@ -79,7 +79,7 @@ TEST(EffectsHost, RecordsEveryEffectBetweenItsOwnCommands) {
         HostCamera camera(context);
         Results results;
         gpu::ObjectCounts made;
-        for (uint32_t frame = 0; frame < 9; ++frame) {
+        for (uint32_t frame = 0; frame < 14; ++frame) {
             host.frame([&](VkCommandBuffer commands) {
                 recorder.begin(commands);
                 if (frame == 0) {
@@ -88,12 +88,16 @@ TEST(EffectsHost, RecordsEveryEffectBetweenItsOwnCommands) {
                 results = camera.record(recorder, viewOf(frame));
                 recorder.end();
             });
-            // The first frame of every slot makes what is its own.
-            if (frame == 4) {
+            // The first frame of every slot makes what is its own, with either of the two images of each history.
+            if (frame == 8) {
                 made = context.counts();
             }
         }
-        EXPECT_TRUE(made == context.counts()) << "frames 5 to 8 made something";
+        EXPECT_TRUE(made == context.counts())
+            << "frames 9 to 13 made something: images " << made.images << ", " << context.counts().images << "; buffers "
+            << made.buffers << ", " << context.counts().buffers << "; memory " << made.memoryBlocks << ", "
+            << context.counts().memoryBlocks << "; pipelines " << made.pipelines << ", " << context.counts().pipelines
+            << "; pools " << made.descriptorPools << ", " << context.counts().descriptorPools;
         host.waitForAll();
         recorder.finish();
         expectLight(recorder, results.lit, colorFormat, "lit");

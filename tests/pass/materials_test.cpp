@@ -1,5 +1,6 @@
 // Material extensions in the renderer: unlit surfaces, index of refraction, specular colour; against exact values and
 // the path tracer.
+#include "compare/compare.h"
 #include "pass/harness.h"
 #include "reference/reference.h"
 
@@ -181,8 +182,10 @@ TEST(Materials, AtReducedResolutionReflectByTheirIorAndSpecular) {
     expectSilentValidation("ior and specular at reduced resolution");
 }
 
-// What a material reflects does not depend on whether another one needs the G-buffer's reflectance.
-TEST(Materials, WithoutTheExtensionsStayTheSameBytesBesideOthersThatUseThem) {
+// What a material reflects does not depend on whether another one needs the G-buffer's reflectance. The shaders differ,
+// so a compiler may fuse other operations: llvmpipe draws the same bytes, a GPU differed in the last bit of half
+// floats.
+TEST(Materials, WithoutTheExtensionsStayTheSameBesideOthersThatUseThem) {
     Scene plain = sceneOf(glossy(0.5F), builtin::sphere(1.0F, 32));
     Scene beside = plain;
     Material other = glossy(0.5F);
@@ -199,8 +202,9 @@ TEST(Materials, WithoutTheExtensionsStayTheSameBytesBesideOthersThatUseThem) {
     View lit = view;
     lit.environment.radiance = vec3(0.5F, 0.7F, 0.9F);
     lit.sun = builtin::sun(glm::normalize(vec3(-0.4F, -0.5F, -1.0F)), vec3(2.0F));
-    EXPECT_EQ(render(plain, lit, size, settings, {shown}).images.at(shown).data,
-              render(beside, lit, size, settings, {shown}).images.at(shown).data);
+    const FloatImage alone = render(plain, lit, size, settings, {shown}).images.at(shown);
+    const FloatImage together = render(beside, lit, size, settings, {shown}).images.at(shown);
+    EXPECT_LT(compareImages(together, alone, {}).difference.relativeMse, 1e-6);
 }
 
 /// A wall with a textured, vertex-coloured unlit material, and a white floor in front of it that may be left out.

@@ -2,6 +2,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "renderer/draw_gbuffer/back_depth.h"
+#include "renderer/draw_gbuffer/exact_transform.glsl"
 
 layout(scalar) uniform ParamsBlock { BackDepthParams params; };
 layout(push_constant, scalar) uniform DrawBlock { mat4x3 objectToWorld; } draw;
@@ -16,8 +17,8 @@ layout(location = 1) out vec4 vertexColor;
 invariant gl_Position;
 
 void main() {
-    vec3 positionW = draw.objectToWorld * vec4(position, 1.0);
-    gl_Position = params.worldToClip * vec4(positionW, 1.0);
+    vec3 positionW = exactTransform(draw.objectToWorld, position);
+    gl_Position = exactTransform(params.worldToClip, positionW);
     uv = vec4(uv0, uv1);
     vertexColor = color;
 }

@@ -3,6 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/gbuffer/gbuffer.h"
 #include "renderer/draw_gbuffer/draw_gbuffer.h"
+#include "renderer/draw_gbuffer/exact_transform.glsl"
 
 layout(constant_id = 1) const uint bent = 0u;  // 1: some vertices are skinned or morphed
 
@@ -38,12 +39,14 @@ void main() {
     tangentW = vec4(m * tangent.xyz, tangent.w * handedness);
     uv = vec4(uv0, uv1);
     vertexColor = color;
-    vec3 positionW = draw.objectToWorld * vec4(position, 1.0);
-    gl_Position = params.view.worldToClip * vec4(positionW, 1.0);
+    // What does not move has the same coordinates in both frames, bit by bit.
+    vec3 positionW = exactTransform(draw.objectToWorld, position);
+    vec4 clip = exactTransform(params.view.worldToClip, positionW);
+    gl_Position = clip;
     fromEye = positionW - params.view.eye.xyz * params.view.eye.w;
-    clipNow = gl_Position.xyw;
+    clipNow = clip.xyw;
     vec3 beforeO = bent != 0u ? previousPosition : position;
-    vec3 beforeW = draw.previousObjectToWorld * vec4(beforeO, 1.0);
-    vec4 before = params.view.previousWorldToClip * vec4(beforeW, 1.0);
+    vec3 beforeW = exactTransform(draw.previousObjectToWorld, beforeO);
+    vec4 before = exactTransform(params.view.previousWorldToClip, beforeW);
     clipBefore = vec4(before.xyw, dot(params.view.viewPlane.xyz, positionW - beforeW));
 }

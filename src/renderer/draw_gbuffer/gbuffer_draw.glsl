@@ -183,6 +183,7 @@ void main() {
     outNormal = packUnitVector(n);
     outGeometricNormal = packUnitVector(geometric);
     outMaterial = vec4(roughnessMetallic, occlusion, float(flags) / 255.0);
-    outMotion = vec4(0.5 * (clipNow.xy / clipNow.z - clipBefore.xy / clipBefore.z), clipBefore.w,
-                     surfaces == surfacesOpaque ? 0.0 : baseColor.a);
+    // Not fused: exactly 0 at rest.
+    precise vec2 moved = clipNow.xy / clipNow.z - clipBefore.xy / clipBefore.z;
+    outMotion = vec4(0.5 * moved, clipBefore.w, surfaces == surfacesOpaque ? 0.0 : baseColor.a);
 }

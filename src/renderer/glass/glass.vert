@@ -2,6 +2,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "renderer/glass/glass.h"
+#include "renderer/draw_gbuffer/exact_transform.glsl"
 
 layout(scalar) uniform ParamsBlock { GlassDrawParams params; };
 layout(push_constant, scalar) uniform DrawBlock { mat4x3 objectToWorld; } draw;
@@ -26,6 +27,6 @@ void main() {
     scale = (length(m[0]) + length(m[1]) + length(m[2])) / 3.0;
     uv = vec4(uv0, uv1);
     vertexColor = color;
-    vec3 positionW = draw.objectToWorld * vec4(position, 1.0);
-    gl_Position = params.view.worldToClip * vec4(positionW, 1.0);
+    vec3 positionW = exactTransform(draw.objectToWorld, position);
+    gl_Position = exactTransform(params.view.worldToClip, positionW);
 }
