@@ -6,7 +6,7 @@
 #     docs/performance.sh           makes the missing measurements, then writes the page
 #     docs/performance.sh page      writes the page from existing measurements
 #     docs/performance.sh NAME...   repeats these measurements (games202, mirror, …), then writes the page
-#     docs/performance.sh gpu       on a machine with a GPU: out/performance/gpu*.json
+#     docs/performance.sh gpu       on a machine with a GPU: out/performance/gpu*.json; then docs/performance.sh page
 #
 # CUBE1=FILE.gltf with FILE.view.json beside it: the assignment's scene, which is not part of the project. PRESET: the preset
 # to compare with the targets [balanced]. Hand-written text is in docs/performance-notes.md.
@@ -38,8 +38,11 @@ measure() {
 if [[ ${1:-} == gpu ]]; then
     wanted=()
     # shellcheck disable=SC2086  # a word for each scene
-    measure gpu $all_scenes --preset "$preset" --size 1920x1080 --first 1 --warmup 31
-    measure gpu-sizes builtin:cave --preset "$preset" --sizes 640x360,1280x720,1920x1080,3840x2160 --truth none
+    measure gpu $all_scenes --preset fast,balanced,quality,hybrid --size 1920x1080 --truth none --first 1 --warmup 31
+    measure gpu-sizes builtin:cave --preset fast,balanced,quality,hybrid --truth none --first 1 --warmup 31 \
+        --sizes 1280x720,1920x1080,2560x1440,3840x2160
+    # shellcheck disable=SC2086  # a word for each scene
+    measure gpu-errors $all_scenes --preset fast,balanced,quality,hybrid --size 320x180 --first 1 --warmup 31 --frames 1
     exit
 fi
 

@@ -114,8 +114,8 @@ const std::vector<Probe>& Renderer::probesOf(const View& view, const ProbesSetti
         return *view.probes;
     }
     if (settings.enabled != 0 && placedCount_ != settings.count) {
-        placed_ = source_.nodes.empty() ? placeProbes(source_, settings.count)
-                                        : placeProbes(frozen(source_, 0.0), settings.count);
+        placed_ = source_.nodes.empty() ? placeProbes(source_, settings.count, view.camera.position)
+                                        : placeProbes(frozen(source_, 0.0), settings.count, view.camera.position);
         placedCount_ = settings.count;
     }
     return placed_;

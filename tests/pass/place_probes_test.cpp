@@ -9,6 +9,12 @@
 namespace reflet::test::place_probes_test {
 namespace {
 
+const vec3 outside(0.0F, 0.0F, 100.0F);
+
+std::vector<Probe> placed(const Scene& scene, uint32_t count, const vec3& eye = outside) {
+    return placeProbes(scene, count, eye);
+}
+
 // Six slabs around the inside of a room.
 Scene closedRoom(const vec3& half) {
     constexpr float thick = 0.1F;
@@ -31,7 +37,7 @@ void expectNear(const vec3& a, const vec3& b, float margin) {
 
 TEST(PlaceProbes, OneInTheMiddleOfARoomHasItsWallsForABox) {
     const vec3 half(2.0F, 1.5F, 3.0F);
-    const auto probes = placeProbes(closedRoom(half), 1);
+    const auto probes = placed(closedRoom(half), 1);
     ASSERT_EQ(probes.size(), 1U);
     expectNear(probes[0].position, vec3(0.0F), 1e-3F);
     expectNear(probes[0].box.min, -half, 2e-3F);
@@ -42,14 +48,14 @@ TEST(PlaceProbes, ThingsInTheRoomDoNotMakeTheBoxSmaller) {
     const vec3 half(2.0F, 1.5F, 3.0F);
     Scene scene = closedRoom(half);
     builtin::place(scene, "post", 0, builtin::box({0.1F, 1.5F, 0.1F}), builtin::at({0.05F, 0, -1.5F}));
-    const auto probes = placeProbes(scene, 1);
+    const auto probes = placed(scene, 1);
     expectNear(probes.at(0).box.min, -half, 2e-3F);
 }
 
 TEST(PlaceProbes, OneThatWouldStandInABlockStandsBesideIt) {
     Scene scene = closedRoom({2.0F, 1.5F, 3.0F});
     builtin::place(scene, "block", 0, builtin::box({0.8F, 0.9F, 0.7F}));
-    const auto probes = placeProbes(scene, 1);
+    const auto probes = placed(scene, 1);
     const vec3 p = probes.at(0).position;
     EXPECT_GT(std::max({std::abs(p.x) - 0.8F, std::abs(p.y) - 0.9F, std::abs(p.z) - 0.7F}), 0.1F);
     EXPECT_LT(std::abs(p.x), 2.0F);
@@ -57,28 +63,49 @@ TEST(PlaceProbes, OneThatWouldStandInABlockStandsBesideIt) {
     EXPECT_LT(std::abs(p.z), 3.0F);
 }
 
+// Both sides of the block are drawn, and nothing but the camera's place tells whether it is a thing or a room.
+TEST(PlaceProbes, AClosedMeshThatIsDrawnFromBothSidesIsARoomIfTheCameraIsInIt) {
+    Scene scene;
+    Material both = lambertMaterial(vec3(0.5F));
+    both.doubleSided = true;
+    builtin::place(scene, "block", builtin::addMaterial(scene, both), builtin::box({0.8F, 0.9F, 0.7F}));
+    const vec3 beside = placed(scene, 1).at(0).position;
+    EXPECT_GT(std::max({std::abs(beside.x) - 0.8F, std::abs(beside.y) - 0.9F, std::abs(beside.z) - 0.7F}), 0.1F);
+    expectNear(placed(scene, 1, vec3(0.3F, -0.2F, 0.1F)).at(0).position, vec3(0.0F), 1e-3F);
+}
+
+// A sheet seen from behind encloses nothing.
+TEST(PlaceProbes, ASheetThatIsDrawnFromBothSidesMovesNone) {
+    Scene scene = closedRoom({2.0F, 1.5F, 3.0F});
+    Material both = lambertMaterial(vec3(0.5F));
+    both.doubleSided = true;
+    builtin::place(scene, "sheet", builtin::addMaterial(scene, both), builtin::ground({0.5F, 0.5F}, {1, 1}, {1, 1}),
+                   builtin::at({0, 0.6F, 0}));
+    expectNear(placed(scene, 1).at(0).position, vec3(0.0F), 1e-3F);
+}
+
 TEST(PlaceProbes, AreAsManyAsAskedForAtMostAndLieAlongTheLongestSides) {
     const Scene scene = closedRoom({8.0F, 1.5F, 2.0F});
-    EXPECT_TRUE(placeProbes(scene, 0).empty());
+    EXPECT_TRUE(placed(scene, 0).empty());
     for (uint32_t count = 1; count <= View::maxProbes; ++count) {
-        const auto probes = placeProbes(scene, count);
+        const auto probes = placed(scene, count);
         EXPECT_GE(probes.size(), 1U);
         EXPECT_LE(probes.size(), count);
         EXPECT_GE(2 * probes.size(), count);
     }
-    const auto four = placeProbes(scene, 4);
+    const auto four = placed(scene, 4);
     for (size_t i = 1; i < four.size(); ++i) {
         EXPECT_GT(four[i].position.x, four[i - 1].position.x + 3.0F);
     }
 }
 
 TEST(PlaceProbes, AnEmptySceneHasNone) {
-    EXPECT_TRUE(placeProbes({}, 4).empty());
+    EXPECT_TRUE(placed({}, 4).empty());
 }
 
 TEST(PlaceProbes, EveryBuiltinSceneHasThemInsideOfTheirBoxes) {
     for (const BuiltinScene& builtin : builtinScenes()) {
-        for (const Probe& probe : placeProbes(builtin.make(), 16)) {
+        for (const Probe& probe : placed(builtin.make(), 16)) {
             EXPECT_TRUE(glm::all(glm::lessThan(probe.box.min, probe.position))) << builtin.name;
             EXPECT_TRUE(glm::all(glm::greaterThan(probe.box.max, probe.position))) << builtin.name;
         }

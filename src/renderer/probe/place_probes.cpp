@@ -19,6 +19,7 @@ struct Triangle {
 struct Body {
     Aabb bounds;
     bool doubleSided;
+    bool solid;  ///< whoever sees back faces is inside
     std::vector<Triangle> triangles;
 };
 
@@ -27,7 +28,8 @@ std::vector<Body> bodiesOf(const Scene& scene) {
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[instance.mesh];
         const bool mirrored = glm::determinant(mat3(instance.objectToWorld)) < 0.0F;
-        Body body{{}, scene.materials[mesh.material].doubleSided, {}};
+        const bool doubleSided = scene.materials[mesh.material].doubleSided;
+        Body body{{}, doubleSided, !doubleSided, {}};
         const auto corner = [&](size_t i) {
             const vec3 p(instance.objectToWorld * vec4(mesh.positions[mesh.indices[i]], 1.0F));
             body.bounds.add(p);
@@ -46,7 +48,8 @@ std::vector<Body> bodiesOf(const Scene& scene) {
 
 struct Hit {
     float distance = never;
-    bool inside = false;  ///< back face of a single-sided surface
+    bool inside = false;  ///< back face of a solid body
+    bool back = false;    ///< back face
 };
 
 bool meets(const Aabb& box, const vec3& from, const vec3& direction) {
@@ -71,7 +74,7 @@ void intersect(const Body& body, const vec3& from, const vec3& direction, Hit& n
         const float v = glm::dot(direction, q);
         const float distance = glm::dot(t.edge2, q);
         if (u >= 0.0F && v >= 0.0F && u + v <= 1.0F && distance > 0.0F && distance < nearest.distance) {
-            nearest = {distance, determinant < 0.0F && !body.doubleSided};
+            nearest = {distance, determinant < 0.0F && body.solid, determinant < 0.0F};
         }
     }
 }
@@ -115,6 +118,27 @@ Surroundings castAxisRays(const std::vector<Body>& bodies, const vec3& from) {
         around.hits.at(side) = trace(bodies, from, axisRay(side, vec2(0.0F)));
     }
     return around;
+}
+
+bool encloses(const Body& body, const vec3& p) {
+    if (glm::any(glm::lessThan(p, body.bounds.min)) || glm::any(glm::greaterThan(p, body.bounds.max))) {
+        return false;
+    }
+    for (int side = 0; side < sides; ++side) {
+        Hit hit;
+        intersect(body, p, axisRay(side, vec2(0.0F)), hit);
+        if (!hit.back) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// A closed mesh that is drawn from both sides may be a thing or a room. It is a room if the camera is in it.
+void findSolids(std::vector<Body>& bodies, const vec3& p, const vec3& eye) {
+    for (Body& body : bodies) {
+        body.solid = !body.doubleSided || (encloses(body, p) && !encloses(body, eye));
+    }
 }
 
 // Moves a point out of solid bodies through the nearest side; if there is none, it stays.
@@ -186,8 +210,8 @@ glm::uvec3 cellsOf(const vec3& size, uint32_t count) {
 
 }  // namespace
 
-std::vector<Probe> placeProbes(const Scene& scene, uint32_t count) {
-    const std::vector<Body> bodies = bodiesOf(scene);
+std::vector<Probe> placeProbes(const Scene& scene, uint32_t count, const vec3& eye) {
+    std::vector<Body> bodies = bodiesOf(scene);
     const Aabb bounds = scene.bounds();
     std::vector<Probe> probes;
     if (bounds.empty() || count == 0) {
@@ -199,6 +223,7 @@ std::vector<Probe> placeProbes(const Scene& scene, uint32_t count) {
     for (uint32_t i = 0; i < cells.x * cells.y * cells.z; ++i) {
         const glm::uvec3 at(i % cells.x, i / cells.x % cells.y, i / cells.x / cells.y);
         const vec3 middle = bounds.min + (vec3(at) + 0.5F) * cell;
+        findSolids(bodies, middle, eye);
         const vec3 p = keepClear(bodies, leaveBodies(bodies, middle, clear), clear);
         probes.push_back({p, boxAround(bodies, p, bounds)});
     }
