@@ -1,6 +1,9 @@
 // The built-in scenes: valid data, deterministic, and lit as each scene intends.
 #include "scene/builtin.h"
 
+#include "scene/emitters.h"
+#include "scene/image_suns.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -90,6 +93,13 @@ std::vector<vec3> directions(int count) {
     return all;
 }
 
+/// Its directional light, or the strongest sun in the image of its sky.
+Sun sunOf(const Scene& scene) {
+    std::vector<Lamp> others;
+    const ImageSuns found = scene.environment.image ? findImageSuns(*scene.environment.image) : ImageSuns{};
+    return withImageSuns(defaultView(scene), found, others).sun;
+}
+
 /// A visible point on a coarse grid of the image, and whether the sun reaches it.
 struct VisiblePoint {
     vec3 position;
@@ -99,6 +109,7 @@ struct VisiblePoint {
 
 std::vector<VisiblePoint> visiblePoints(const Scene& scene, const std::vector<Triangle>& triangles) {
     const Camera& camera = scene.cameras.front();
+    const vec3 toSun = -sunOf(scene).direction;
     const vec3 ahead = glm::normalize(camera.target - camera.position);
     const vec3 right = glm::normalize(glm::cross(ahead, camera.up));
     const vec3 up = glm::cross(right, ahead);
@@ -115,9 +126,8 @@ std::vector<VisiblePoint> visiblePoints(const Scene& scene, const std::vector<Tr
             vec3 normal = faceNormal(*hit.triangle);
             normal = glm::dot(normal, ray) > 0.0F ? -normal : normal;
             VisiblePoint point{camera.position + hit.distance * ray + 1e-3F * normal};
-            point.facesSun = glm::dot(normal, scene.sun->direction) < 0.0F;
-            point.sunlit =
-                point.facesSun && castRay(triangles, point.position, -scene.sun->direction).triangle == nullptr;
+            point.facesSun = glm::dot(normal, toSun) > 0.0F;
+            point.sunlit = point.facesSun && castRay(triangles, point.position, toSun).triangle == nullptr;
             points.push_back(point);
         }
     }
@@ -144,8 +154,8 @@ INSTANTIATE_TEST_SUITE_P(Builtin, EveryBuiltinScene, testing::ValuesIn(builtinSc
                          });
 
 TEST(BuiltinScenes, AllAreListedAndFoundByName) {
-    const std::array<std::string_view, 11> names{"cubes",       "tilted-cube", "cornell", "cave", "gloss", "colonnade",
-                                                 "mirror-hall", "lamps",       "moving",  "lens", "glass"};
+    const std::array<std::string_view, 12> names{"cubes",       "tilted-cube", "cornell", "cave", "gloss", "colonnade",
+                                                 "mirror-hall", "lamps",       "moving",  "lens", "glass", "quay"};
     ASSERT_EQ(builtinScenes().size(), names.size());
     for (size_t i = 0; i < names.size(); ++i) {
         EXPECT_EQ(builtinScenes()[i].name, names[i]);
@@ -295,14 +305,15 @@ TEST_P(EveryBuiltinScene, BoundsContainAllPositionsTightly) {
 
 TEST_P(EveryBuiltinScene, IsSmallEnoughForOneShadowMapAndAFastFrame) {
     const vec3 size = scene.bounds().size();
-    EXPECT_LT(glm::length(size), 30.0F);
+    EXPECT_LT(glm::length(size), scene.name == "quay" ? 500.0F : 30.0F);  // the quay is there for cascades
     EXPECT_LE(worldTriangles(scene).size(), 60000U);
 }
 
 TEST_P(EveryBuiltinScene, HasASunOfUnitDirectionAndColoursThatReflectNoMoreThanTheyReceive) {
-    ASSERT_TRUE(scene.sun.has_value());
-    EXPECT_NEAR(glm::length(scene.sun->direction), 1.0F, 1e-5F);
-    EXPECT_LT(scene.sun->direction.y, 0.0F);
+    const Sun sun = sunOf(scene);
+    EXPECT_GT(sun.irradiance.g, 0.0F);
+    EXPECT_NEAR(glm::length(sun.direction), 1.0F, 1e-5F);
+    EXPECT_LT(sun.direction.y, 0.0F);
     for (const Lamp& lamp : scene.lamps) {
         EXPECT_NEAR(glm::length(lamp.direction), 1.0F, 1e-5F) << lamp.name;
     }
@@ -384,6 +395,21 @@ TEST(BuiltinCornell, IsClosedOnAllSidesButTheFront) {
             EXPECT_FLOAT_EQ(out.z, scene.bounds().max.z);
         }
     }
+}
+
+TEST(BuiltinQuay, HasWhatIsHard) {
+    const Scene scene = findBuiltinScene("quay")->make();
+    EXPECT_GT(scene.bounds().size().z, 250.0F);
+    const ImageSuns suns = findImageSuns(*scene.environment.image);
+    ASSERT_EQ(suns.suns.size(), 1U);
+    EXPECT_LT(suns.suns.front().angularDiameter, glm::radians(3.0F));
+    EXPECT_GE(findEmitters(scene, 1024).all.size(), 20U);  // those of the posts, and the lantern
+    EXPECT_TRUE(std::ranges::any_of(scene.lamps, [](const Lamp& lamp) { return lamp.node >= 0; }));
+    EXPECT_LE(scene.lamps.size(), 8U);  // as many as have shadows by default
+    const auto movesAndBlends = [&](const Instance& instance) {
+        return instance.node >= 0 && scene.materials[scene.meshes[instance.mesh].material].blended;
+    };
+    EXPECT_GT(std::ranges::count_if(scene.instances, movesAndBlends), 10);
 }
 
 TEST(BuiltinMirrorHall, IsClosedOnAllSidesButTheRoof) {
