@@ -6,6 +6,7 @@
 #include "scene/builtin/noise.h"
 #include "scene/builtin/patterns.h"
 #include "scene/builtin/scenes.h"
+#include "scene/pose.h"
 #include "scene/sky.h"
 
 #include <algorithm>
@@ -147,6 +148,10 @@ Scene makeQuay() {
     addHouses(scene, {houses, nearEnd, farEnd});
     addQuayLights(scene, {edge, nearEnd, farEnd});
     addQuayThings(scene);
+    const ScenePose start = scenePose(scene, 0.0);
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        scene.instances[i].objectToWorld = start.objectToWorld[i];
+    }
     scene.cameras.push_back(camera("main", {0.9F, 1.75F, 12.5F}, {-0.4F, 1.4F, -8.0F}, 48));
     scene.environment.image = dusk(glm::radians(10.0F));
     scene.environment.rotation = glm::radians(50.0F);  // the sun is over the water, ahead at the left
