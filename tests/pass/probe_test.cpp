@@ -76,7 +76,7 @@ TEST(Probe, AtItsOwnCentreSeesWhatThePathTracerSees) {
     options.filter = PixelFilter::center;
     for (unsigned face = 0; face < probeFaces; ++face) {
         const FloatImage seen = faceOf(p.images.at("probe_atlas"), face);
-        view.camera = cubeFaceCamera(view.probes->front().position, face);
+        view.camera = cubeFaceCamera(view.probes->front(), face);
         const FloatImage truth = traceReference(scene, view, {seen.width, seen.height}, options).final;
         std::vector<bool> smooth;
         unsigned displaced = 0;

@@ -107,6 +107,13 @@ void resolveSky(gpu::PassList& f, const Histories& h, const TemporalInputs& in, 
         .dispatch(h.mean.next.size);
 }
 
+// The history is clipped to the 3x3 pixels around. Frames that have fewer, of which each shows a large part of the
+// scene by one sample, would lose all that other frames saw.
+TemporalSettings fitted(TemporalSettings settings, uvec2 size) {
+    settings.clip = size.x * size.y < 9U ? 0.0F : settings.clip;
+    return settings;
+}
+
 }  // namespace
 
 TemporalImages temporal(gpu::PassList& f, TemporalStore& own, const TemporalInputs& in,
@@ -114,15 +121,9 @@ TemporalImages temporal(gpu::PassList& f, TemporalStore& own, const TemporalInpu
     const uvec2 size = in.radiance.size;
     const uvec2 output = in.outputSize.x > 0 ? in.outputSize : size;
     const Histories h = swapHistories(f, own, size, output, static_cast<bool>(in.coverage));
-    const TemporalParams params{toPrevious(in.view),
-                                settings,
-                                size,
-                                in.jitter,
-                                in.view.jitterChange,
-                                in.view.frame,
-                                h.valid ? 1U : 0U,
-                                in.view.rest == 0 ? 1U : 0U,
-                                in.sky != nullptr ? 1U : 0U};
+    const TemporalParams params{toPrevious(in.view), fitted(settings, size),      size,
+                                in.jitter,           in.view.jitterChange,        in.view.frame,
+                                h.valid ? 1U : 0U,   in.view.rest == 0 ? 1U : 0U, in.sky != nullptr ? 1U : 0U};
     if (size != output) {
         upscale(f, h, in, params);
     } else {

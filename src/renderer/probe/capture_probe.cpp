@@ -11,17 +11,19 @@
 
 namespace reflet {
 
-Camera cubeFaceCamera(const vec3& position, uint32_t face) {
+Camera cubeFaceCamera(const Probe& probe, uint32_t face) {
+    constexpr float usualNear = 0.01F;
+    constexpr float ofBox = 1e-3F;  // in scenes of a few centimetres, walls would be nearer than the usual near plane
     static constexpr std::array<vec3, probeFaces> forward{vec3(1, 0, 0),  vec3(-1, 0, 0), vec3(0, 1, 0),
                                                           vec3(0, -1, 0), vec3(0, 0, 1),  vec3(0, 0, -1)};
     static constexpr std::array<vec3, probeFaces> up{vec3(0, 1, 0), vec3(0, 1, 0), vec3(0, 0, -1),
                                                      vec3(0, 0, 1), vec3(0, 1, 0), vec3(0, 1, 0)};
     Camera camera;
-    camera.position = position;
-    camera.target = position + forward.at(face);
+    camera.position = probe.position;
+    camera.target = probe.position + forward.at(face);
     camera.up = up.at(face);
     camera.fovY = glm::half_pi<float>();
-    camera.near = 0.01F;
+    camera.near = std::min(usualNear, ofBox * glm::length(probe.box.size()));
     return camera;
 }
 
@@ -105,9 +107,10 @@ void Probes::makeMaps(gpu::Context& context, uint32_t resolution) {
 gpu::Image Probes::captureFace(gpu::PassList& f, const Capture& capture, uint32_t face, gpu::Image lampShadowMap) {
     const auto scope = f.scope("probe");
     const uvec2 size = distance_.info().size;
-    const vec3& position = block_.probes[face / probeFaces].position;
+    const ProbeParams& probe = block_.probes[face / probeFaces];
     ViewInputs in = capture.in;
-    in.view = makeViewParams(cubeFaceCamera(position, face % probeFaces), size, in.view);
+    in.view = makeViewParams(cubeFaceCamera({probe.position, {probe.boxMin, probe.boxMax}}, face % probeFaces), size,
+                             in.view);
     const ViewImages images = directView(f, faces_, in, captureSettings(capture.settings), lampShadowMap);
     gpu::ComputePass pass = f.compute("capture_probe", "capture_probe.comp");
     pass.params(in.environment.params, "environment");  // without its texels, which are not used here

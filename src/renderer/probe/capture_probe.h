@@ -30,9 +30,9 @@ SHARED_END
 
 namespace reflet {
 
-/// The camera at `position` for one cube face, 0 to 5: +X -X +Y -Y +Z -Z. Its image is the face mirrored left to right,
+/// The camera at a probe for one cube face, 0 to 5: +X -X +Y -Y +Z -Z. Its image is the face mirrored left to right,
 /// because cube maps are left-handed.
-Camera cubeFaceCamera(const vec3& position, uint32_t face);
+Camera cubeFaceCamera(const Probe& probe, uint32_t face);
 
 /// Owns the cube maps and captures them when needed.
 class Probes {

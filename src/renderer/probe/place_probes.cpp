@@ -189,8 +189,9 @@ Aabb boxAround(const std::vector<Body>& bodies, const vec3& p, const Aabb& scene
         (side % 2 == 0 ? box.max : box.min)[axis] = median < never ? wall : limit;
     }
     // Keeps the box from being empty for probes outside of the scene's bounds and for flat scenes.
-    box.min = glm::min(box.min, p - 0.01F);
-    box.max = glm::max(box.max, p + 0.01F);
+    const float least = std::min(0.01F, 1e-3F * glm::length(sceneBounds.size()));
+    box.min = glm::min(box.min, p - least);
+    box.max = glm::max(box.max, p + least);
     return box;
 }
 

@@ -26,7 +26,8 @@ float distanceToBox(ProbeParams probe, vec3 p, vec3 direction) {
 // Nearer probes count more.
 float weightOfProbe(ProbeParams probe, vec3 p, float inside) {
     vec3 away = p - probe.position;
-    float d2 = dot(away, away) + 1e-4;
+    vec3 size = probe.boxMax - probe.boxMin;
+    float d2 = dot(away, away) + min(1e-4, 1e-6 * dot(size, size));
     return inside / (d2 * d2);
 }
 
@@ -82,7 +83,7 @@ float alongRay(vec3 first, vec3 direction, float nearness, float part, out vec3 
 // Impostors, 2005; McGuire, Mara, Nowrouzezahrai and Luebke, Real-Time Global Illumination using Precomputed Light Field
 // Probes, I3D 2017). start: from the probe.
 bool marchProbe(uint probe, vec3 start, vec3 direction, out ProbePoint point) {
-    float from = max(length(start), 1e-4);
+    float from = max(length(start), 1e-9);
     vec3 first = start / from;
     float nearness = 1.0 / from;
     bool inSight = false;

@@ -10,7 +10,7 @@
 namespace reflet {
 namespace {
 
-constexpr std::array<BuiltinScene, 11> scenes{{
+constexpr std::array<BuiltinScene, 12> scenes{{
     {"cubes", "a polished box and painted cubes on labelled tiles: reflections, contact shadows, first steps",
      builtin::makeCubes},
     {"tilted-cube",
@@ -31,6 +31,9 @@ constexpr std::array<BuiltinScene, 11> scenes{{
      builtin::makeLens},
     {"glass", "clear, frosted and tinted glass, panes and a bottle with liquid before labelled tiles: refraction",
      builtin::makeGlass},
+    {"quay",
+     "a long quay at dusk: a low sun in the sky's image, tiny bulbs, wet paving, a swinging lantern, moving cloth",
+     builtin::makeQuay},
 }};
 
 }  // namespace

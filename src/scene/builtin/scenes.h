@@ -20,6 +20,7 @@ Scene makeLamps();
 Scene makeMoving();
 Scene makeLens();
 Scene makeGlass();
+Scene makeQuay();
 
 /// The number in "tessellated-N", if it is valid for makeTessellated.
 std::optional<uint32_t> tessellatedTriangles(std::string_view name);
