@@ -106,7 +106,7 @@ PathTracer::PathTracer(const RayScene& rays, const View& view, uvec2 size, const
         needsBlurredImage(view) ? std::make_shared<FloatImage>(blurredImage(*view.environment.image)) : nullptr;
     behind_ = environmentBehind(view, blurred);
     if (glass_) {
-        for (const uint32_t instance : volumesAround(rays.scene(), nullptr, view.camera)) {
+        for (const uint32_t instance : VolumeFinder{}.around(rays.scene(), nullptr, view.camera)) {
             media_.enter(mediumOf(rays, instance));
         }
     }

@@ -256,7 +256,7 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
          .blueNoise = blueNoise_.view(),
          .traced = traced,
          .time = view.time,
-         .medium = cameraMedium(source_, pose_ ? &*pose_ : nullptr, scene_.draws(), view.camera)},
+         .medium = cameraMedium(volumes_, source_, pose_ ? &*pose_ : nullptr, scene_.draws(), view.camera)},
         mirrors,
         live,
         framesBefore,

@@ -2,7 +2,6 @@
 #include "renderer/glass/camera_medium.h"
 
 #include "renderer/material.h"
-#include "scene/volumes_around.h"
 
 #include <algorithm>
 
@@ -17,12 +16,12 @@ bool mayHold(const Draw& draw, const vec3& eye) {
 
 }  // namespace
 
-std::optional<CameraMedium> cameraMedium(const Scene& scene, const ScenePose* pose, const DrawList& list,
-                                         const Camera& camera) {
+std::optional<CameraMedium> cameraMedium(VolumeFinder& volumes, const Scene& scene, const ScenePose* pose,
+                                         const DrawList& list, const Camera& camera) {
     if (!list.glass || std::ranges::none_of(list.draws, [&](const Draw& d) { return mayHold(d, camera.position); })) {
         return std::nullopt;
     }
-    const std::vector<uint32_t> around = volumesAround(scene, pose, camera);
+    const std::vector<uint32_t> around = volumes.around(scene, pose, camera);
     if (around.empty()) {
         return std::nullopt;
     }

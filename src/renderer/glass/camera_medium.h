@@ -22,7 +22,7 @@ SHARED_END
 
 #include "lighting/light.h"
 #include "renderer/draw_list.h"
-#include "scene/pose.h"
+#include "scene/volumes_around.h"
 
 #include <optional>
 
@@ -36,9 +36,9 @@ struct CameraMedium {
 };
 
 /// nullopt: air. Free if the camera is in no bounds of glass. An orthographic camera is nowhere. pose: of an animated
-/// scene; list: of that pose.
-std::optional<CameraMedium> cameraMedium(const Scene& scene, const ScenePose* pose, const DrawList& list,
-                                         const Camera& camera);
+/// scene; list: of that pose. volumes: of that scene.
+std::optional<CameraMedium> cameraMedium(VolumeFinder& volumes, const Scene& scene, const ScenePose* pose,
+                                         const DrawList& list, const Camera& camera);
 
 /// The light after its way through the medium, up to the nearest surface of `light`.
 lighting::Light throughMedium(gpu::PassList& f, const CameraMedium& medium, const ViewParams& view,
