@@ -123,6 +123,12 @@ void Media::leave(uint32_t instance) {
     }
 }
 
+void Media::disperse(uint32_t channel) {
+    for (size_t i = 0; i < count_; ++i) {
+        stack_[i].ior = stack_[i].iorOf(channel);
+    }
+}
+
 vec3 Media::transmittance(float distance) const {
     return count_ > 0 ? glm::exp(-stack_[count_ - 1].extinction * distance) : vec3(1.0F);
 }
@@ -137,7 +143,7 @@ Boundary Media::boundary(const Medium& volume, bool front) const {
     if (known && stack_[count_ - 1].instance != volume.instance) {
         return {Boundary::Kind::none, ior(), ior()};
     }
-    // A ray that started inside, or came through a hole of the mesh, has not entered it.
+    // A ray that came through a hole of the mesh has not entered it.
     return {Boundary::Kind::inner, known ? ior() : volume.ior, left.ior()};
 }
 

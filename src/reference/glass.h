@@ -89,6 +89,8 @@ struct Medium {
 class Media {
 public:
     void enter(const Medium& medium);
+    /// Of the light of that channel alone, in all these volumes (Medium::iorOf). Call it only once.
+    void disperse(uint32_t channel);
     void leave(uint32_t instance);
 
     /// That of the innermost volume, or of air.

@@ -6,6 +6,7 @@
 #include "reference/through_glass.h"
 #include "scene/background.h"
 #include "scene/environment.h"
+#include "scene/volumes_around.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,14 +63,17 @@ struct PathTracer::Walk {
         throughput.diffuse *= share;
         throughput.specular *= share;
     }
+    // The channel that glass which disperses light refracts.
+    [[nodiscard]] uint32_t chosenChannel() const {
+        return std::min(static_cast<uint32_t>(3.0F * random.pair(pairForChannel).x), 2U);
+    }
     // Glass that disperses light refracts one channel of three, with thrice the weight.
     void disperse() {
         refractable = vec3(1.0F);
         if (!(point.transmission > 0.0F) || !point.bounded || !(point.medium.dispersion > 0.0F)) {
             return;
         }
-        const uint32_t one =
-            channel.value_or(std::min(static_cast<uint32_t>(3.0F * random.pair(pairForChannel).x), 2U));
+        const uint32_t one = channel.value_or(chosenChannel());
         if (!channel) {
             refractable = vec3(one == 0 ? 3 : 0, one == 1 ? 3 : 0, one == 2 ? 3 : 0);
         }
@@ -101,6 +105,11 @@ PathTracer::PathTracer(const RayScene& rays, const View& view, uvec2 size, const
     const auto blurred =
         needsBlurredImage(view) ? std::make_shared<FloatImage>(blurredImage(*view.environment.image)) : nullptr;
     behind_ = environmentBehind(view, blurred);
+    if (glass_) {
+        for (const uint32_t instance : VolumeFinder{}.around(rays.scene(), nullptr, view.camera)) {
+            media_.enter(mediumOf(rays, instance));
+        }
+    }
 }
 
 std::optional<SurfacePoint> PathTracer::firstSurface(const vec2& place) const {
@@ -108,12 +117,12 @@ std::optional<SurfacePoint> PathTracer::firstSurface(const vec2& place) const {
 }
 
 std::optional<SurfacePoint> PathTracer::firstSurface(const Ray& ray) const {
-    const auto hit = rays_.intersect(ray, RayKind::camera);
+    const auto hit = rays_.intersect(ray, media_.inside() ? RayKind::inside : RayKind::camera);
     return hit ? std::optional(surfaceAt(rays_, *hit, ray.direction)) : std::nullopt;
 }
 
 PathSample PathTracer::trace(const vec2& place, const PixelSampler& random) const {
-    Walk walk{.point = {}, .media = {}, .channel = {}, .throughput = {}, .random = random, .out = {}};
+    Walk walk{.point = {}, .media = media_, .channel = {}, .throughput = {}, .random = random, .out = {}};
     const bool lens = camera_.hasLens() && !options_.pinhole;
     const Ray ray = walk.counted(lens ? camera_.throughLens(place, random.pair(pairForLens)) : camera_.through(place));
     const auto first = firstSurface(ray);
@@ -121,6 +130,9 @@ PathSample PathTracer::trace(const vec2& place, const PixelSampler& random) cons
         walk.out.direct = radianceFrom(behind_, ray.direction);
         walk.out.background = true;
         return walk.out;
+    }
+    if (media_.inside()) {
+        walk.media.disperse(walk.chosenChannel());
     }
     walk.point = *first;
     walk.out.albedo = first->baseColor;
@@ -144,6 +156,8 @@ PathSample PathTracer::trace(const vec2& place, const PixelSampler& random) cons
             break;
         }
     }
+    // All that is found comes through what is in front of the first surface.
+    walk.out.attenuate(media_.transmittance(first->hit.distance * glm::length(ray.direction)));
     return walk.out;
 }
 

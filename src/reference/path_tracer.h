@@ -19,6 +19,12 @@ struct PathSample {
     float ambientVisibility = 1.0F;  ///< of one cosine-distributed ray; 1 unless it is traced
     bool background = false;         ///< the camera sees no surface
     uint32_t rays = 0;               ///< rays traced
+
+    void attenuate(const vec3& share) {
+        direct *= share;
+        indirectDiffuse *= share;
+        indirectSpecular *= share;
+    }
 };
 
 class PathTracer {
@@ -50,7 +56,8 @@ private:
     Lights lights_;
     Environment behind_;  ///< what the camera sees where there is no surface
     ReferenceOptions options_;
-    bool glass_;  ///< any surface of the scene is transmissive
+    bool glass_;   ///< any surface of the scene is transmissive
+    Media media_;  ///< that the camera is in
 };
 
 }  // namespace reflet

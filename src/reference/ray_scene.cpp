@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "reference/sampler.h"
 #include "reference/surface.h"
+#include "scene/volumes_around.h"
 
 #if REFLET_EMBREE_MAJOR >= 4
 #include <embree4/rtcore.h>
@@ -25,6 +26,7 @@ struct EmbreeGeometry {
     uint32_t instance = 0;
     bool mirrored = false;
     bool doubleSided = false;
+    bool volume = false;
     mat3 normalToWorld{1.0F};
     const vec3* positions = nullptr;  ///< world space; Embree owns them
 };
@@ -75,11 +77,20 @@ void passBacks(const RTCFilterFunctionNArguments* args) {
     }
 }
 
+// The same from inside a volume of glass, whose back faces bound what the camera is in.
+void passBacksInside(const RTCFilterFunctionNArguments* args) {
+    if (!geometryOf(*args).volume) {
+        passBacks(args);
+    }
+}
+
 // Context of a query; the two versions of Embree differ here and in the calls below.
 class Query {
 public:
     explicit Query(RayKind kind) {
-        const RTCFilterFunctionN filter = kind == RayKind::camera ? passBacks : nullptr;
+        const RTCFilterFunctionN filter = kind == RayKind::camera   ? passBacks
+                                          : kind == RayKind::inside ? passBacksInside
+                                                                    : nullptr;
 #if REFLET_EMBREE_MAJOR >= 4
         rtcInitIntersectArguments(&intersect_);
         rtcInitOccludedArguments(&occluded_);
@@ -189,6 +200,7 @@ struct RayScene::State {
         checkReach(isWithin(m[0]) && isWithin(m[1]) && isWithin(m[2]));
         g.mirrored = glm::determinant(m) < 0.0F;
         g.doubleSided = material.doubleSided;
+        g.volume = boundsVolume(material);
         // The cofactor matrix: the inverse transpose up to a factor, but defined for singular matrices, too.
         g.normalToWorld =
             mat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])) * (g.mirrored ? -1.0F : 1.0F);

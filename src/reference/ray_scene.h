@@ -22,6 +22,7 @@ struct Ray {
 
 enum class RayKind : uint8_t {
     camera,  ///< ignores the back faces of single-sided surfaces
+    inside,  ///< of a camera inside a volume of glass: the same, but hits the back faces of such volumes
     light,   ///< hits both sides of all surfaces
 };
 

@@ -72,13 +72,18 @@ void setDielectric(SurfacePoint& s, const Scene& scene, const Material& material
     s.dielectric = s.dielectricBetween(1.0F, material.ior);
 }
 
+Medium mediumOf(uint32_t instance, const Material& material) {
+    const Transmission& t = material.transmission;
+    return {instance, material.ior,
+            -glm::log(glm::max(t.attenuationColor, 1e-6F)) / std::max(t.attenuationDistance, 1e-6F), t.dispersion};
+}
+
 // KHR_materials_transmission and KHR_materials_volume.
 void setGlass(SurfacePoint& s, const Scene& scene, const Material& material, const Corners& corners) {
     const Transmission& t = material.transmission;
     s.transmission = factorAt(scene, t.factor, t.texture, corners, 0);
     s.bounded = t.thickness > 0.0F;
-    s.medium = {s.hit.instance, material.ior,
-                -glm::log(glm::max(t.attenuationColor, 1e-6F)) / std::max(t.attenuationDistance, 1e-6F), t.dispersion};
+    s.medium = mediumOf(s.hit.instance, material);
 }
 
 // KHR_materials_sheen: on the outside of glass only.
@@ -204,6 +209,10 @@ vec3 consistentNormal(const vec3& normal, const vec3& geometric, const vec3& toV
     const float turned = std::acos(std::min(least / std::hypot(x, height), 1.0F));
     const float angle = 0.5F * (std::atan2(x, height) + turned);
     return std::sin(angle) / length * aside + std::cos(angle) * geometric;
+}
+
+Medium mediumOf(const RayScene& rays, uint32_t instance) {
+    return mediumOf(instance, rays.material(instance));
 }
 
 SurfacePoint surfaceAt(const RayScene& rays, const Hit& hit, const vec3& direction) {

@@ -64,6 +64,9 @@ struct SurfacePoint {
 /// `geometric` on the viewer's side.
 vec3 consistentNormal(const vec3& normal, const vec3& geometric, const vec3& toViewer);
 
+/// The volume that the instance's surface bounds.
+Medium mediumOf(const RayScene& rays, uint32_t instance);
+
 SurfacePoint surfaceAt(const RayScene& rays, const Hit& hit, const vec3& direction);
 
 /// Whether the material's alpha is below its cutoff there; below `blendedCutoff` if it is blended.

@@ -8,6 +8,7 @@
 #include "renderer/blend/blend_shadow.h"
 #include "renderer/draw_gbuffer/draw_gbuffer.h"
 #include "renderer/draw_list.h"
+#include "renderer/glass/camera_medium.h"
 #include "renderer/probe/probes.h"
 #include "renderer/settings.h"
 #include "renderer/trace_scene/direct_rays.h"
@@ -23,13 +24,14 @@ struct ViewInputs {
     float sunAngularDiameter = 0.0F;  ///< radians
     EnvironmentLight environment;     ///< of EnvironmentMaps::update
     const LampBlock& lamps;
-    const LampShadows& lampShadows;       ///< of planLampShadows
-    gpu::Image ggxTable;                  ///< of ggxTable
-    gpu::BufferView blueNoise;            ///< of blueNoise()
-    const TracedScene* traced = nullptr;  ///< BVH; only if the settings trace the scene (tracesScene)
-    double time = 0.0;                    ///< of the scene's animations [s]
-    ProbeMaps probes{};                   ///< probes for rays; may be empty
-    vec4 clipPlane{0.0F};                 ///< as for drawGBuffer; zero: none
+    const LampShadows& lampShadows;        ///< of planLampShadows
+    gpu::Image ggxTable;                   ///< of ggxTable
+    gpu::BufferView blueNoise;             ///< of blueNoise()
+    const TracedScene* traced = nullptr;   ///< BVH; only if the settings trace the scene (tracesScene)
+    double time = 0.0;                     ///< of the scene's animations [s]
+    ProbeMaps probes{};                    ///< probes for rays; may be empty
+    vec4 clipPlane{0.0F};                  ///< as for drawGBuffer; zero: none
+    std::optional<CameraMedium> medium{};  ///< of cameraMedium; only of the camera itself, not of sub-views
 };
 
 /// What the stages read of it.

@@ -79,7 +79,8 @@ void recordDraws(const gpu::DrawCommands& to, const DrawList& list, const DrawFi
     vk.vkCmdBindVertexBuffers(to.commands, 0, 3, buffers, offsets);
     vk.vkCmdBindIndexBuffer(to.commands, list.indices, 0, VK_INDEX_TYPE_UINT32);
     VkDescriptorSet boundMaterial = VK_NULL_HANDLE;
-    for (const Draw& draw : list.draws) {
+    for (uint32_t i = 0; i < list.draws.size(); ++i) {
+        const Draw& draw = list.draws[i];
         if (!passes(draw, filter)) {
             continue;
         }
@@ -90,7 +91,8 @@ void recordDraws(const gpu::DrawCommands& to, const DrawList& list, const DrawFi
         }
         const bool mirrored = (glm::determinant(mat3(draw.objectToWorld)) < 0.0F) != draw.turnedOver;
         vk.vkCmdSetFrontFace(to.commands, mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
-        vk.vkCmdSetCullMode(to.commands, cullMode(filter.cull, draw));
+        const Cull cull = filter.cull == Cull::back && filter.bothSides == i ? Cull::none : filter.cull;
+        vk.vkCmdSetCullMode(to.commands, cullMode(cull, draw));
         const DrawConstants constants{glm::mat4x3(draw.objectToWorld), glm::mat4x3(draw.previousObjectToWorld)};
         vk.vkCmdPushConstants(to.commands, to.layout, VK_SHADER_STAGE_ALL, 0,
                               previousTransform ? sizeof(constants) : sizeof(constants.objectToWorld), &constants);

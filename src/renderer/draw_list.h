@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -66,9 +67,10 @@ enum class Cull : uint8_t {
 struct DrawFilter {
     std::function<bool(const Draw&)> keep;
     Cull cull = Cull::back;
-    bool bindMaterials = true;  ///< false if the pipeline has no descriptor set 1
-    mat4 worldToClip{1.0F};     ///< for frustum culling
-    uint32_t instance = 0;      ///< the shader's gl_InstanceIndex
+    bool bindMaterials = true;            ///< false if the pipeline has no descriptor set 1
+    mat4 worldToClip{1.0F};               ///< for frustum culling
+    uint32_t instance = 0;                ///< the shader's gl_InstanceIndex
+    std::optional<uint32_t> bothSides{};  ///< index of a draw of which Cull::back keeps the back faces
 };
 
 /// Whether recordDraws would record any draw.

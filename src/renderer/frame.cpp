@@ -52,6 +52,14 @@ lighting::Light withMeans(gpu::PassList& f, FrameStore& own, const FrameInputs& 
     return settings.accumulate.enabled != 0 ? lighting::accumulate(f, own.means, light, in.framesBefore) : light;
 }
 
+// What is in front of the surfaces and the glass where the camera is in glass or water itself. Light of blended
+// surfaces in it is not attenuated.
+lighting::Light throughCameraMedium(gpu::PassList& f, const FrameInputs& in, const Settings& settings,
+                                    const lighting::Light& light) {
+    const bool drawn = in.medium && drawsGlass(in.draws, settings.transmission, settings.materials);
+    return drawn ? throughMedium(f, *in.medium, in.view, light) : light;
+}
+
 // The environment, if it is what the camera sees behind everything and has detail.
 const EnvironmentLight* skyOf(const FrameInputs& in) {
     const EnvironmentLight& sky = in.background.environment ? *in.background.environment : in.environment;
@@ -127,9 +135,9 @@ FrameImages renderFrame(gpu::PassList& f, FrameStore& own, const FrameInputs& in
     light = withCoats(f, in, settings, seen, light);
     light = withBlended(f, blended.behindGlass, light);
     light = throughGlass(f, in, settings, seen, light);
-    lighting::Light before = light;
-    light = withBlended(f, blended.front, light);
-    const lighting::Light complete = light;
+    lighting::Light before = throughCameraMedium(f, in, settings, light);
+    const lighting::Light complete = withBlended(f, blended.front, light);  // as other viewers see it
+    light = in.medium ? withBlended(f, blended.front, before) : complete;
     if (in.background.environment) {
         before = withBackground(f, in.background, in.view, before);
         light = withBlended(f, blended.front, before);

@@ -91,6 +91,7 @@ private:
     ImageSuns suns_;
     std::shared_ptr<const FloatImage> blurredFrom_;  ///< image of the environment
     std::shared_ptr<const FloatImage> blurred_;
+    VolumeFinder volumes_;
     Probes probes_;
     std::vector<Probe> placed_;
     std::optional<uint32_t> placedCount_;  ///< that placed_ were asked for

@@ -90,6 +90,26 @@ TEST(Glass, ClearGlassOfIndexOneChangesNothing) {
     }
 }
 
+// A lens blurs by the distance of what is seen through the glass: stripes nine metres away, glass at about five.
+TEST(Glass, WhatIsBehindAClearPaneIsBlurredByItsOwnDistance) {
+    for (const float focus : {5.0F, 9.0F}) {
+        View view = darkView();
+        view.camera.apertureRadius = 0.1F;
+        view.camera.focusDistance = focus;
+        const Pictures open = seen(stripes(), view);
+        const Pictures sharp = seen(stripes(), darkView());
+        const auto difference = [](const Pictures& a, const Pictures& b) {
+            return compareImages(a.images.at("final"), b.images.at("final"), {}).difference.relativeMse;
+        };
+        EXPECT_EQ(difference(open, sharp) > 1e-3, focus == 5.0F) << "out of focus";
+        for (const float thickness : {0.0F, 1.0F}) {
+            Scene scene = stripes();
+            add(scene, glass(thickness, 1.0F), thickness > 0.0F ? builtin::box({9, 9, 0.5F}) : wall({9, 9}));
+            EXPECT_LT(difference(seen(scene, view), open), 1e-5) << focus << ", " << thickness;
+        }
+    }
+}
+
 // Where the edge between black and white is in the picture's middle row, in pixels.
 float edge(const Pictures& p) {
     for (unsigned x = 1; x < size.x; ++x) {

@@ -87,7 +87,7 @@ GBuffer drawGBuffer(gpu::PassList& f, const DrawList& list, const ViewParams& vi
             const bool drawn = (blended ? layer : opaque) && (draw.coated || !content.coat);
             return drawn && (!clipped || isInFront(draw.boundsW, clipPlane));
         };
-        recordDraws(to, list, {keep, Cull::back, true, view.worldToClip}, true);
+        recordDraws(to, list, {keep, Cull::back, true, view.worldToClip, 0, content.bothSides}, true);
     });
     return g;
 }

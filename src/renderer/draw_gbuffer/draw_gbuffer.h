@@ -52,6 +52,8 @@ SHARED_END
 #include "renderer/draw_list.h"
 #include "renderer/material.h"
 
+#include <optional>
+
 namespace reflet {
 
 /// What of the draw list a G-buffer holds.
@@ -64,8 +66,9 @@ struct GBufferContent {
     /// The clear coats of those surfaces, or of the opaque ones: black dielectrics of the standard reflectance, whose
     /// share is in the motion's alpha. opaqueDepth: of the surfaces themselves.
     bool coat = false;
-    bool blendedCoats = false;  ///< those of a layer of blended surfaces, not of the opaque ones
-    bool withoutGlass = false;  ///< transmissive surfaces do not count as opaque
+    bool blendedCoats = false;            ///< those of a layer of blended surfaces, not of the opaque ones
+    bool withoutGlass = false;            ///< transmissive surfaces do not count as opaque
+    std::optional<uint32_t> bothSides{};  ///< index of a draw whose back faces are drawn, too
 };
 
 /// Draws the list, which must live until the frame has ended, for the view: reversed Z, back faces of single-sided

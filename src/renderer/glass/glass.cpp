@@ -10,7 +10,8 @@ bool drawsGlass(const DrawList& list, const TransmissionSettings& settings, cons
     return list.glass && settings.layers > 0 && materials.lambertOnly == 0;
 }
 
-GlassSurfaces glassSurfaces(gpu::PassList& f, const DrawList& list, const ViewParams& view, const GBuffer& g) {
+GlassSurfaces glassSurfaces(gpu::PassList& f, const DrawList& list, const ViewParams& view, const GBuffer& g,
+                            const std::optional<CameraMedium>& medium) {
     const uvec2 size = g.depth.size;
     const VkClearColorValue zero{};
     const GlassSurfaces out{f.target("glass.tint", VK_FORMAT_R16G16B16A16_SFLOAT, size),
@@ -18,19 +19,23 @@ GlassSurfaces glassSurfaces(gpu::PassList& f, const DrawList& list, const ViewPa
                             f.target("glass.kind", VK_FORMAT_R32_UINT, size),
                             f.target("glass.exit_depth", VK_FORMAT_D32_SFLOAT, size),
                             f.target("glass.exit_normal", VK_FORMAT_R32_UINT, size)};
+    const std::optional<uint32_t> bothSides = medium ? std::optional(medium->draw) : std::nullopt;
+    const GlassDrawParams params{view, medium ? medium->kind : 0U};
     const auto record = [&](Cull cull) {
-        return [&list, worldToClip = view.worldToClip, cull](const gpu::DrawCommands& to) {
-            recordDraws(to, list, {[](const Draw& d) { return d.glass; }, cull, true, worldToClip}, false);
+        return [&list, worldToClip = view.worldToClip, cull, bothSides](const gpu::DrawCommands& to) {
+            const DrawFilter filter{[](const Draw& d) { return d.glass; }, cull, true, worldToClip, 0, bothSides};
+            recordDraws(to, list, filter, false);
         };
     };
     f.raster("glass_front", {"glass.vert", "glass_front.frag"})
         .constant("usedSlots", list.textureSlots)
+        .constant("fromInside", medium ? 1U : 0U)
         .read("layerDepth", g.depth)
         .color("outTint", out.tint, zero)
         .color("outVolume", out.volume, zero)
         .color("outKind", out.kind, zero)
         .vertices(vertexLayout(), list.materialLayout)
-        .params(GlassDrawParams{view})
+        .params(params)
         .draw(record(Cull::back));
     f.raster("glass_exit", {"glass.vert", "glass_exit.frag"})
         .read("layerDepth", g.depth)
@@ -38,13 +43,14 @@ GlassSurfaces glassSurfaces(gpu::PassList& f, const DrawList& list, const ViewPa
         .color("outNormal", out.exitNormal, zero)
         .depth(out.exitDepth, 0.0F)
         .vertices(vertexLayout(), list.materialLayout)
-        .params(GlassDrawParams{view})
+        .params(params)
         .draw(record(Cull::front));
     return out;
 }
 
 RefractedRays refractRays(gpu::PassList& f, const GBuffer& g, const GlassSurfaces& glass, gpu::Image ggxTable,
-                          bool disperses, const RefractParams& params) {
+                          const Refraction& kinds, const RefractParams& params) {
+    const bool disperses = kinds.disperses;
     const uvec2 size = g.depth.size;
     RaySurfaces from{.g = g, .view = params.view};
     from.origins = f.image("glass.origins", VK_FORMAT_R32G32B32A32_SFLOAT, size, disperses ? 3 : 1, true);
@@ -57,6 +63,7 @@ RefractedRays refractRays(gpu::PassList& f, const GBuffer& g, const GlassSurface
     gpu::ComputePass pass = f.compute("refract_rays", "refract_rays.comp");
     bindSurfaces(f, pass, g)
         .constant("disperses", disperses ? 1U : 0U)
+        .constant("fromInside", kinds.fromInside ? 1U : 0U)
         .read("depth", g.depth)
         .read("normal", g.normal)
         .read("geometricNormal", g.geometricNormal)

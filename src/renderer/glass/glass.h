@@ -26,12 +26,14 @@ SETTINGS(TransmissionSettings, TRANSMISSION_SETTINGS)
 
 struct GlassDrawParams {
     ViewParams view;
+    uint medium;  // kind of the volume that the camera is in
 };
 
 struct RefractParams {
     ViewParams view;
     uint exitSteps;
-    uint frosted;  // 0: no surface is rough
+    uint frosted;    // 0: no surface is rough
+    float outerIor;  // around the volume that the camera is in
 };
 
 struct GlassOverParams {
@@ -46,6 +48,7 @@ SHARED_END
 #include "gpu/pass_list.h"
 #include "renderer/draw_gbuffer/draw_gbuffer.h"
 #include "renderer/draw_list.h"
+#include "renderer/glass/camera_medium.h"
 
 namespace reflet {
 
@@ -54,15 +57,17 @@ bool drawsGlass(const DrawList& list, const TransmissionSettings& settings, cons
 
 /// What a layer of transmissive surfaces is made of, and its back faces.
 struct GlassSurfaces {
-    gpu::Image tint;        ///< RGBA16F: share of light that passes the surface, without reflection; thickness [m]
+    gpu::Image tint;  ///< RGBA16F: share of light that passes the surface, without reflection; thickness [m], negative
+                      ///< where the camera sees the surface of the medium that it is in from inside
     gpu::Image volume;      ///< RGBA16F: extinction [1/m]; index of refraction
     gpu::Image kind;        ///< R32_UINT: MaterialParams::glass (glassKind), 0: none
     gpu::Image exitDepth;   ///< D32, reversed: of the nearest back face of that material behind the surface, 0: none
     gpu::Image exitNormal;  ///< R32_UINT: its normal, outward (packUnitVector)
 };
 
-/// g: of the layer, drawn with the same list and view.
-GlassSurfaces glassSurfaces(gpu::PassList& f, const DrawList& list, const ViewParams& view, const GBuffer& g);
+/// g: of the layer, drawn with the same list, view and medium, which the camera is in.
+GlassSurfaces glassSurfaces(gpu::PassList& f, const DrawList& list, const ViewParams& view, const GBuffer& g,
+                            const std::optional<CameraMedium>& medium);
 
 /// A ray for each pixel of the layer, or three where it disperses light, from where it leaves the glass.
 struct RefractedRays {
@@ -71,9 +76,14 @@ struct RefractedRays {
     gpu::Image share;
 };
 
-/// disperses: whether some of the glass does.
+/// What of refractRays is compiled.
+struct Refraction {
+    bool disperses = false;   ///< some of the glass does
+    bool fromInside = false;  ///< the camera is in a medium
+};
+
 RefractedRays refractRays(gpu::PassList& f, const GBuffer& g, const GlassSurfaces& glass, gpu::Image ggxTable,
-                          bool disperses, const RefractParams& params);
+                          const Refraction& kinds, const RefractParams& params);
 
 /// over = what the layer itself sends, where there is one, plus what it transmits (none: nothing); `behind` elsewhere.
 /// All RGBA16F. The alpha of `behind` is kept.

@@ -4,8 +4,11 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "renderer/glass/glass.h"
 layout(constant_id = 0) const uint usedSlots = 32767u;
+layout(constant_id = 1) const uint fromInside = 0u;  // 1: the camera is in a medium
 #include "renderer/material.glsl"
 #include "shaders/half_float.glsl"
+
+layout(scalar) uniform ParamsBlock { GlassDrawParams params; };
 
 const float leastThickness = 1e-4;  // metres
 
@@ -37,6 +40,9 @@ void main() {
     }
     // 0 is a sheet, which a volume is nowhere.
     thickness = material.thickness > 0.0 ? clamp(thickness, leastThickness, largestHalf) : 0.0;
+    if (fromInside != 0u && !gl_FrontFacing && material.glass == params.medium) {
+        thickness = -thickness;
+    }
     outTint = vec4(clamp(color.rgb, 0.0, 1.0) * (materialTransmission(uv.xy, uv.zw) * (1.0 - metallic)), thickness);
     outVolume = vec4(min(material.extinction, vec3(largestHalf)), material.ior);
     outKind = material.glass;

@@ -13,6 +13,11 @@ namespace reflet {
 
 namespace {
 
+// Whose back faces are layers, too.
+std::optional<uint32_t> mediumDraw(const ViewInputs& in) {
+    return in.medium ? std::optional(in.medium->draw) : std::nullopt;
+}
+
 // The nearest layers, the nearest first.
 std::vector<GBuffer> peelGlass(gpu::PassList& f, const ViewInputs& in, const Settings& settings,
                                gpu::Image opaqueDepth) {
@@ -21,7 +26,8 @@ std::vector<GBuffer> peelGlass(gpu::PassList& f, const ViewInputs& in, const Set
         const GBufferContent content{.clipPlane = in.clipPlane,
                                      .opaqueDepth = opaqueDepth,
                                      .nearerDepth = i > 0 ? peeled.back().depth : gpu::Image{},
-                                     .glass = true};
+                                     .glass = true,
+                                     .bothSides = mediumDraw(in)};
         peeled.push_back(drawGBuffer(f, in.draws, in.view, settings.materials, content));
     }
     return peeled;
@@ -43,9 +49,10 @@ LightThroughGlass addLayer(gpu::PassList& f, const ViewInputs& in, const Setting
     if (in.draws.frosted) {
         lighting::prefilterOwnLight(f, seen.screen);
     }
-    const GlassSurfaces made = glassSurfaces(f, in.draws, in.view, g);
-    RefractedRays refracted = refractRays(f, g, made, in.ggxTable, in.draws.dispersive,
-                                          {in.view, settings.transmission.exitSteps, in.draws.frosted ? 1U : 0U});
+    const GlassSurfaces made = glassSurfaces(f, in.draws, in.view, g, in.medium);
+    RefractedRays refracted = refractRays(
+        f, g, made, in.ggxTable, {in.draws.dispersive, in.medium.has_value()},
+        {in.view, settings.transmission.exitSteps, in.draws.frosted ? 1U : 0U, in.medium ? in.medium->outerIor : 1.0F});
     answerRays(f, refracted.rays, in, settings, seen);
     LightLayers out = behind;
     out.lit = glassOver(f, g, lit.lit, &refracted, behind.lit);
@@ -138,7 +145,8 @@ gpu::Image nearestGlass(gpu::PassList& f, const ViewInputs& in, const Settings& 
         return {};
     }
     const auto scope = f.scope("glass");
-    const GBufferContent content{.clipPlane = in.clipPlane, .opaqueDepth = opaqueDepth, .glass = true};
+    const GBufferContent content{
+        .clipPlane = in.clipPlane, .opaqueDepth = opaqueDepth, .glass = true, .bothSides = mediumDraw(in)};
     return drawGBuffer(f, in.draws, in.view, settings.materials, content).depth;
 }
 

@@ -23,7 +23,7 @@ void main() {
     float d = texelFetch(depth, pixel, 0).r;
     vec4 moved = texelFetch(motion, pixel, 0);
     float front = texelFetch(layerDepth, pixel, 0).r;
-    if (front > d && texelFetch(tint, pixel, 0).a > 0.0) {
+    if (front > d && texelFetch(tint, pixel, 0).a != 0.0) {
         d = front;
         moved.rgb = texelFetch(layerMotion, pixel, 0).rgb;
     }

@@ -12,7 +12,8 @@
 #include "shaders/projection.glsl"
 #include "shaders/refraction.glsl"
 
-layout(constant_id = 0) const uint disperses = 0u;  // 1: some materials do
+layout(constant_id = 0) const uint disperses = 0u;   // 1: some materials do
+layout(constant_id = 1) const uint fromInside = 0u;  // 1: the camera is in a medium
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { RefractParams params; };
@@ -125,8 +126,22 @@ Refracted refractBy(Pane pane, float ior, vec3 light) {
     return r;
 }
 
+// Out of the medium that the camera is in. ratio: index of refraction inside over that outside.
+Refracted leaveMedium(Pane pane, vec3 geometric, float ratio, vec3 light) {
+    vec3 along = -pane.toEye;
+    Refracted r = Refracted(Crossing(pane.point, -geometric, along, 0.0), along, light);
+    if (refractAt(along, -pane.normal, ratio, r.direction)) {
+        float cosine = max(dot(r.direction, -pane.normal), 0.0);
+        r.light = pane.passes.rgb * (1.0 - fresnelSchlick(pane.dielectric.rgb, pane.dielectric.a, cosine));
+    } else {
+        r.direction = reflect(along, pane.normal);
+        r.exit.normal = geometric;
+    }
+    return r;
+}
+
 void emitRay(Pane pane, int layer, Refracted r, float ior) {
-    float spread = pane.passes.a > 0.0 ? refractedRoughness(pane.roughness, ior) : pane.roughness;
+    float spread = pane.passes.a != 0.0 ? refractedRoughness(pane.roughness, ior) : pane.roughness;
     bool frosted = notInlined(params.frosted, gl_GlobalInvocationID.x) != 0u && spread > 0.05;
     Ray ray = Ray(r.direction, 1.0, 1.0, frosted ? spread : 0.0);
     imageStore(origins, ivec3(pane.pixel, layer), vec4(r.exit.point, r.exit.path));
@@ -146,6 +161,9 @@ void refractPixel(ivec2 pixel, float d) {
     Refracted r = Refracted(Crossing(p, -geometric, -v, 0.0), -v, light);
     float ior = max(pane.inside.a, 1.0);
     bool split = false;
+    if (fromInside != 0u && pane.passes.a < 0.0) {
+        r = leaveMedium(pane, geometric, ior / params.outerIor, light);
+    }
     if (pane.passes.a > 0.0) {
         r = refractBy(pane, ior, light);
         float dispersion = disperses != 0u ? float(texelFetch(kind, pixel, 0).r >> glassKindBits) / glassDispersionSteps : 0.0;

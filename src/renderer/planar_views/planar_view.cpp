@@ -116,6 +116,7 @@ MirroredScene mirroredScene(const ViewInputs& in, const Mirror& mirror, const Sh
 ViewInputs mirrorViewInputs(const ViewInputs& in, const Mirror& mirror, const PlanarSettings& settings) {
     ViewInputs view = in;
     view.clipPlane = mirror.plane - vec4(0, 0, 0, mirror.tolerance);
+    view.medium.reset();  // that view's camera is behind the mirror
     if (settings.form != PlanarForm::camera) {
         view.view = mirroredView(in.view, mirror, settings);
         return view;
