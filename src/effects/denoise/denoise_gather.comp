@@ -136,7 +136,8 @@ Neighbourhood gatherNeighbourhood(ivec2 pixel, float d, ScreenPlane plane) {
 
 // Whether a reflection showed the same object, by its hit distance.
 bool isSameReflectedObject(float now, float before, float roughness) {
-    float allowed = mix(sameThing, sameThingRough, min(roughness / movesAsImage, 1.0));
+    float rough = min(roughness / movesAsImage, 1.0);
+    float allowed = mix(sameThing, sameThingRough, rough * rough);
     return roughness > movesAsImage || max(now, before) <= (1.0 + allowed) * min(now, before) + 1e-3;
 }
 
@@ -260,6 +261,7 @@ void clipHistory(Neighbourhood seen, inout HistorySample past) {
     past.frames *= max(1.0 - moved, 0.0);
     past.directional *= luminance(held) / max(luminance(past.light.rgb), 1e-6);
     past.light.rgb = held;
+    past.square = luminance(held) * luminance(held) + ownVariance;
 }
 
 void keep(ivec2 pixel, vec4 light, vec4 turning, KeptSurface own, vec2 m) {
