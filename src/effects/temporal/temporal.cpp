@@ -123,7 +123,7 @@ TemporalImages temporal(gpu::PassList& f, TemporalStore& own, const TemporalInpu
     const Histories h = swapHistories(f, own, size, output, static_cast<bool>(in.coverage));
     const TemporalParams params{toPrevious(in.view), fitted(settings, size),      size,
                                 in.jitter,           in.view.jitterChange,        in.view.frame,
-                                h.valid ? 1U : 0U,   in.view.rest == 0 ? 1U : 0U, in.sky != nullptr ? 1U : 0U};
+                                h.valid ? 1U : 0U,   in.view.rest < framesThatFollow ? 1U : 0U, in.sky != nullptr ? 1U : 0U};
     if (size != output) {
         upscale(f, h, in, params);
     } else {

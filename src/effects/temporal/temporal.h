@@ -41,6 +41,9 @@ SHARED_BEGIN
           "has full size. 0.5: a quarter of the cost of a frame, and twice as many frames until all is sharp.")
 SETTINGS(TemporalSettings, TEMPORAL_SETTINGS)
 
+// Frames after a change in which its light may still spread: by then each pixel of the output has had samples, twice.
+const uint framesThatFollow = 8;
+
 // Vertically adjacent pixels per thread, which share their neighbourhood loads.
 const uint temporalColumn = 4;
 
@@ -52,7 +55,7 @@ struct TemporalParams {
     vec2 jitterChange;  // uv: of ViewParams
     uint frame;         // counts up; decorrelates dithering between frames
     uint hasPrevious;   // 1: the history holds the last frame
-    uint mayChange;     // 1: something has changed since the last frame
+    uint mayChange;     // 1: something has changed in the last framesThatFollow frames
     uint skyIsFixed;    // 1: where depth is 0 the picture changes by the camera alone
 };
 

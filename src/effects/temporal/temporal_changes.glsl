@@ -27,7 +27,7 @@ Changed changedAt(ivec2 pixel, float luma, Seen now) {
     vec4 past = vec4(0.0);
     // Of what moves, even slowly, neighbourhoods are never the same.
     bool rests = length(now.moved * vec2(params.size)) < asGoodAsStill;
-    bool known = now.follows && rests && params.mayChange != 0u;
+    bool known = now.follows && rests;
     if (known) {
         past = imageLoad(previousChanges, pixel);
     }
@@ -35,7 +35,7 @@ Changed changedAt(ivec2 pixel, float luma, Seen now) {
     float off = past.a > 0.0 ? luma - past.x : 0.0;
     float variance = mix(past.y, off * off, 1.0 / frames);
     float recent = mix(past.z, off, recentShare);
-    float stale = staleness(staleShare(recent, variance, luma), staleLimits);
+    float stale = float(params.mayChange) * staleness(staleShare(recent, variance, luma), staleLimits);
     float lit = past.x + off * stale;
     imageStore(changes, pixel, roundToHalf(vec4(lit + (luma - lit) / frames, variance, recent, frames)));
     float relit = past.a > 0.0 && stale > 0.0 ? clamp(lit / max(past.x, 1e-6), 1.0 / mostRelit, mostRelit) : 1.0;
