@@ -207,8 +207,9 @@ def gpu(folder, targets):
             targets.missing(f"denoised {group} light on a GPU, 1920x1080", f"{limit} ms")
         targets.missing("denoised PCSS on a GPU, 1920x1080", "0.2 ms")
         return
+    own = [run for run in data["runs"] if run["variant"] == "balanced"]
     for group, limit in limits:
-        worst = max(data["runs"], key=lambda run: group_ms(run, group))
+        worst = max(own, key=lambda run: group_ms(run, group))
         value = group_ms(worst, group)
         targets.add(f"denoised {group} light on {data['device']}, 1920x1080", f"{limit} ms",
                     f"{value:.3f} ms (`{short(worst['scene'])}`)", value <= limit)
@@ -216,7 +217,7 @@ def gpu(folder, targets):
     def shadow_ms(run):
         return sum(p["median"] for name, p in run["steady"]["passes"].items()
                    if ("shadow" in name or "visibility" in name) and not p["raster"])
-    worst = max(data["runs"], key=shadow_ms)
+    worst = max(own, key=shadow_ms)
     targets.add(f"denoised PCSS on {data['device']}, 1920x1080", "0.2 ms",
                 f"{shadow_ms(worst):.3f} ms (`{short(worst['scene'])}`)", shadow_ms(worst) <= 0.2)
 

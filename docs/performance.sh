@@ -6,7 +6,7 @@
 #     docs/performance.sh           makes the missing measurements, then writes the page
 #     docs/performance.sh page      writes the page from existing measurements
 #     docs/performance.sh NAME...   repeats these measurements (games202, mirror, …), then writes the page
-#     docs/performance.sh gpu       on a machine with a GPU: out/performance/gpu*.json; then docs/performance.sh page
+#     docs/performance.sh gpu       on a machine with a GPU: out/performance/gpu*.json; then docs/gpu.py
 #
 # CUBE1=FILE.gltf with FILE.view.json beside it: the assignment's scene, which is not part of the project. PRESET: the preset
 # to compare with the targets [balanced]. Hand-written text is in docs/performance-notes.md.
