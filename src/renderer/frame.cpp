@@ -49,7 +49,7 @@ void keepForNextFrame(gpu::PassList& f, const gpu::History& lit, const lighting:
 
 lighting::Light withMeans(gpu::PassList& f, FrameStore& own, const FrameInputs& in, const Settings& settings,
                           const lighting::Light& light) {
-    return settings.accumulate.enabled != 0 ? lighting::accumulate(f, own.means, light, in.framesBefore) : light;
+    return settings.accumulate.enabled != 0 ? lighting::accumulate(f, own.means, light, in.view.rest) : light;
 }
 
 // What is in front of the surfaces and the glass where the camera is in glass or water itself. Light of blended

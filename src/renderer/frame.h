@@ -33,7 +33,6 @@ struct FrameStore {
 struct FrameInputs : ViewInputs {
     std::span<const Mirror> mirrors;  ///< from planMirrors
     std::span<const LiveView> live;   ///< live camera images shown by materials of `draws`
-    uint32_t framesBefore = 0;        ///< this one with the same view, lights and settings
     float lightChange = 0.0F;         ///< of LightChange
     FrameBackground background{};
     bool autoExposure = false;  ///< measure the exposure

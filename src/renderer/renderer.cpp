@@ -211,6 +211,16 @@ void Renderer::restart(uint32_t frameNumber) {
     probes_.restart(!source_.nodes.empty());
 }
 
+// Without jitter, which mirrors' sizes must not follow, and without pre-exposure.
+ViewParams Renderer::nextParams(const View& view, uvec2 size, uint32_t seed, const Settings& settings) {
+    ViewParams params = resized(makeViewParams(view.camera, size, frameNumber_++, seed), renderSize(settings, size));
+    params.previousWorldToClip = previousWorldToClip_.value_or(params.worldToClip);
+    previousWorldToClip_ = params.worldToClip;
+    countFramesBefore(view, params, settings);
+    params.rest = framesBefore_;
+    return params;
+}
+
 FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const Settings& settings,
                              const std::function<void(gpu::Frame&, const FrameImages&)>& after) {
     View shown = posed(asked, source_);
@@ -221,17 +231,12 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
     const LampShadows lampShadows = planLamps(lamps, view, settings.shadow);
     addLamps(lamps, otherSuns);
     const float lightChange = lightChange_.update(lamps, view);
-    ViewParams params = resized(makeViewParams(view.camera, size, frameNumber_++, seed), renderSize(settings, size));
-    params.previousWorldToClip = previousWorldToClip_.value_or(params.worldToClip);
-    previousWorldToClip_ = params.worldToClip;
-    countFramesBefore(view, params, settings);
+    ViewParams params = nextParams(view, size, seed, settings);
     params.preExposure = preExpose(lamps, view);
     shown.environment.radiance *= params.preExposure;
     shown.environment.intensity *= params.preExposure;
-    const uint32_t framesBefore = framesBefore_;
-    params.rest = framesBefore;
     const std::vector<Mirror> mirrors = planMirrors(view, params, settings);  // their pictures' sizes do not jitter
-    const vec2 place = frameJitter(settings, params.frame, framesBefore);
+    const vec2 place = frameJitter(settings, params.frame, params.rest);
     applyJitter(params, place, previousPlace_);
     previousPlace_ = place;
     scene_.setTextureFilter({settings.materials.anisotropy, settings.materials.mips != 0,
@@ -259,7 +264,6 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
          .medium = cameraMedium(volumes_, source_, pose_ ? &*pose_ : nullptr, scene_.draws(), view.camera)},
         mirrors,
         live,
-        framesBefore,
         lightChange,
         backgroundOf(shown, view),
         exposesAutomatically(settings.tonemap, source_),

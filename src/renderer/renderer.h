@@ -97,6 +97,7 @@ private:
     std::optional<uint32_t> placedCount_;  ///< that placed_ were asked for
     std::function<void(const std::string&)> warn_;
     std::set<std::string> warned_;
+    ViewParams nextParams(const View& view, uvec2 size, uint32_t seed, const Settings& settings);
     /// Sets framesBefore_.
     void countFramesBefore(const View& view, const ViewParams& params, const Settings& settings);
     struct Asked {
