@@ -101,6 +101,16 @@ std::string stillNote(const RenderOptions& options, const Settings& settings) {
                        stillLimits(options));
 }
 
+// Glass refracts what the screen shows; without it, what is behind is noise and frosted glass shows the environment
+// alone.
+void refractByScreen(const RenderOptions& asked, const Scene& scene, Settings& settings) {
+    const bool transmits =
+        std::ranges::any_of(scene.materials, [](const Material& m) { return m.transmission.factor > 0.0F; });
+    if (asked.scene.preset.empty() && asked.scene.settingsFiles.empty() && asked.scene.set.empty() && transmits) {
+        settings.traceScreen.enabled = 1;
+    }
+}
+
 void render(const RenderOptions& asked) {
     const auto start = std::chrono::steady_clock::now();
     const uvec2 size = parseSize(asked.scene.size);
@@ -115,6 +125,9 @@ void render(const RenderOptions& asked) {
     checkOutputs(options);
     const bool sequence = isSequence(options.outputs, options.sequence, options.frames);
     const Scene scene = loadScene(options.scene);
+    if (still) {
+        refractByScreen(asked, scene, settings);
+    }
     options.frames = still ? 0 : framesFor(asked, settings, scene);
     const View view = loadView(options.scene, scene);
 
