@@ -106,7 +106,9 @@ std::string stillNote(const RenderOptions& options, const Settings& settings) {
 void refractByScreen(const RenderOptions& asked, const Scene& scene, Settings& settings) {
     const bool transmits =
         std::ranges::any_of(scene.materials, [](const Material& m) { return m.transmission.factor > 0.0F; });
-    if (asked.scene.preset.empty() && asked.scene.settingsFiles.empty() && asked.scene.set.empty() && transmits) {
+    const bool chosen = std::ranges::any_of(
+        asked.scene.set, [](const std::string& one) { return one.starts_with("trace_screen.enabled="); });
+    if (transmits && !chosen && asked.scene.preset.empty() && asked.scene.settingsFiles.empty()) {
         settings.traceScreen.enabled = 1;
     }
 }

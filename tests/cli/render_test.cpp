@@ -164,6 +164,19 @@ TEST_F(Render, APictureWithoutAPresetIsAStill) {
     EXPECT_TRUE(quietSuccess(run({"render", cubes, "--size", "32x18", "--preset", "plain", "-o", "c.png"})));
 }
 
+// Over 5 s: glass has many shaders. Other settings change nothing about it; its own does.
+TEST_F(Render, AStillOfGlassRefractsByTheScreen) {
+    const auto traces = [&](const char* setting) {
+        EXPECT_EQ(run({"render", "builtin:glass", "--size", "16x9", "--seconds", "0.5", "--timings", "t.json", "--set",
+                       setting, "-o", "a.png"})
+                      .status,
+                  0);
+        return parseJson(read("t.json")).at("passes").contains("specular.trace_screen");
+    };
+    EXPECT_TRUE(traces("tonemap.exposure=1"));
+    EXPECT_FALSE(traces("trace_screen.enabled=false"));
+}
+
 TEST_F(Render, AnEffortIsForAStill) {
     const auto refusedWith = [&](const Arguments& more) {
         Arguments all{"render", cubes, "--size", "32x18", "-o", "a.png"};

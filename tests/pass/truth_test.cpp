@@ -129,8 +129,9 @@ TEST_P(Energy, IsAtMostTwoPercentAboveTheTruthWithOneBounceAndWithAll) {
                                               std::string("trace_screen.light=") + (one ? "direct" : "previous")}),
                                   {"final"}, one ? 1 : 6);
         const Difference d = compareImages(p.images.at("final"), truth.final, {}).difference;
-        // Glass is 1.8 % bright on llvmpipe and 2.1 % on a GPU.
-        EXPECT_LT(d.bias, 0.022) << (one ? "one bounce" : "all bounces");
+        // Glass: 1.8 % on llvmpipe, 2.1 % on a GPU.
+        EXPECT_LT(d.bias, std::string(GetParam()->name) == "glass" ? 0.022 : 0.02)
+            << (one ? "one bounce" : "all bounces");
         RecordProperty(one ? "bias_one_bounce" : "bias_all_bounces", std::to_string(d.bias));
     }
 }
