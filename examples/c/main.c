@@ -36,7 +36,8 @@ static RefletContext make_context(const Host* h) {
 /* [image] */
 /* A host's image: where it is, in which layout, and what wrote it last. */
 static RefletImage given(const Picture* p, VkImageLayout layout, VkPipelineStageFlags2 stages, VkAccessFlags2 access) {
-    const RefletImage image = {p->image, p->view, p->format, p->width, p->height, layout, stages, access};
+    const RefletImage image = {.image = p->image, .view = p->view, .format = p->format, .width = p->width, .height = p->height,
+                               .layout = layout, .stages = stages, .access = access};
     return image;
 }
 
@@ -55,6 +56,7 @@ static RefletImage given_depth(const Picture* p) {
 static RefletGBuffer gbuffer_of(const Host* h) {
     RefletGBuffer g;
     memset(&g, 0, sizeof g);
+    g.structSize = sizeof g;
     g.depth = given_depth(&h->depth);
     g.depthKind = REFLET_DEPTH_STANDARD;
     g.normal = given_target(&h->normal);
@@ -88,7 +90,8 @@ static RefletImage record_effects(Host* h, Slot* slot, RefletView view, RefletSe
     memcpy(frame.previousViewToClip, h->view_to_clip, sizeof frame.viewToClip);
     memcpy(frame.jitter, jitter, sizeof frame.jitter);
     memcpy(frame.previousJitter, previous_jitter, sizeof frame.previousJitter);
-    frame.gbuffer = gbuffer_of(h);
+    const RefletGBuffer gbuffer = gbuffer_of(h);
+    frame.gbuffer = &gbuffer;
     reflet_check(refletBeginFrame(view, &frame));
 
     RefletSunShadow sun;
@@ -112,8 +115,12 @@ static RefletImage record_effects(Host* h, Slot* slot, RefletView view, RefletSe
     light.structSize = sizeof light;
     light.light = given(&h->lit, VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                         VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
-    memcpy(light.environment.factor, now->sky, sizeof light.environment.factor);
-    RefletLobe diffuse, specular;
+    RefletEnvironment environment;
+    memset(&environment, 0, sizeof environment);
+    environment.structSize = sizeof environment;
+    memcpy(environment.factor, now->sky, sizeof environment.factor);
+    light.environment = &environment;
+    RefletLobe diffuse = {.structSize = sizeof diffuse}, specular = {.structSize = sizeof specular};
     reflet_check(refletDiffuseGi(view, settings, &light, &diffuse));
     light.light.stages = 0; /* no longer new */
     reflet_check(refletReflections(view, settings, &light, &specular));
@@ -133,10 +140,10 @@ static void prepare(RefletView view, RefletSettings settings, const RefletGBuffe
                               .shadowMapSide = SUN_MAP_SIDE};
     info.effects = REFLET_EFFECT_SUN_SHADOW | REFLET_EFFECT_DIFFUSE_GI | REFLET_EFFECT_REFLECTIONS | REFLET_EFFECT_COMPOSITE |
                    REFLET_EFFECT_TEMPORAL | REFLET_EFFECT_TONE_MAP;
-    uint32_t left = 1;
-    while (left > 0) {
-        reflet_check(refletPrepare(view, settings, &info, 8, &left));
-        fprintf(stderr, "\rpipelines to make: %u ", left);
+    uint32_t remaining = 1;
+    while (remaining > 0) {
+        reflet_check(refletPrepare(view, settings, &info, 8, &remaining));
+        fprintf(stderr, "\rpipelines to make: %u ", remaining);
     }
     fprintf(stderr, "\n");
 }
@@ -173,7 +180,7 @@ int main(int count, char** arguments) {
 
     /* [view] */
     RefletContext context = make_context(&h);
-    const RefletViewInfo view_info = {sizeof view_info, width, height, FRAMES_IN_FLIGHT};
+    const RefletViewInfo view_info = {sizeof view_info, width, height, FRAMES_IN_FLIGHT, REFLET_VIEW_PASS_TIMES, 0};
     RefletView view;
     reflet_check(refletCreateView(context, &view_info, &view));
     RefletSettings settings;

@@ -92,7 +92,8 @@ static void trace(Host* h, Tracer* t, Slot* slot) {
 }
 
 static RefletImage given(const Picture* p, VkImageLayout layout, VkPipelineStageFlags2 stages, VkAccessFlags2 access) {
-    const RefletImage image = {p->image, p->view, p->format, p->width, p->height, layout, stages, access};
+    const RefletImage image = {.image = p->image, .view = p->view, .format = p->format, .width = p->width, .height = p->height,
+                               .layout = layout, .stages = stages, .access = access};
     return image;
 }
 
@@ -106,7 +107,11 @@ static void begin_frame(Host* h, Slot* slot, RefletView view, const Camera* now,
     memcpy(frame.viewToClip, h->view_to_clip, sizeof frame.viewToClip);
     memcpy(frame.previousWorldToView, before->world_to_view, sizeof frame.worldToView);
     memcpy(frame.previousViewToClip, h->view_to_clip, sizeof frame.viewToClip);
-    RefletGBuffer* g = &frame.gbuffer;
+    RefletGBuffer gbuffer;
+    memset(&gbuffer, 0, sizeof gbuffer);
+    RefletGBuffer* g = &gbuffer;
+    g->structSize = sizeof *g;
+    frame.gbuffer = g;
     const VkPipelineStageFlags2 drawn = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
     const VkAccessFlags2 written = VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
     g->depth = given(&h->depth, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
@@ -137,7 +142,7 @@ int main(int count, char** arguments) {
         .physicalDevice = h.physical, .device = h.device, .getInstanceProcAddr = vkGetInstanceProcAddr, .enabledFeatures = &h.features};
     RefletContext context;
     reflet_check(refletCreateContext(&info, &context));
-    const RefletViewInfo view_info = {sizeof view_info, WIDTH, HEIGHT, FRAMES_IN_FLIGHT};
+    const RefletViewInfo view_info = {sizeof view_info, WIDTH, HEIGHT, FRAMES_IN_FLIGHT, 0, 0};
     RefletView view;
     reflet_check(refletCreateView(context, &view_info, &view));
     RefletSettings settings;
@@ -174,14 +179,14 @@ int main(int count, char** arguments) {
         const VkPipelineStageFlags2 compute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
         const RefletImage rays = given(&tracer.noisy, VK_IMAGE_LAYOUT_GENERAL, compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
         const RefletImage direct = given(&h.lit, VK_IMAGE_LAYOUT_GENERAL, compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
-        RefletLobe clean;
+        RefletLobe clean = {.structSize = sizeof clean};
         reflet_check(refletDenoise(view, settings, REFLET_LOBE_DIFFUSE, &rays, &clean));
         RefletIndirectLight light; /* metals have no diffuse light: screen-space reflections for them */
         memset(&light, 0, sizeof light);
         light.structSize = sizeof light;
         light.light = direct;
         memcpy(light.environment.factor, now->sky, sizeof light.environment.factor);
-        RefletLobe specular;
+        RefletLobe specular = {.structSize = sizeof specular};
         reflet_check(refletReflections(view, settings, &light, &specular));
         RefletComposite sum = {.structSize = sizeof sum};
         reflet_check(refletComposite(view, settings, NULL, &sum));

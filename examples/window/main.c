@@ -100,7 +100,8 @@ static void on_key(GLFWwindow* window, int key, int code, int action, int modifi
 }
 
 static RefletImage given(const Picture* p, VkImageLayout layout, VkPipelineStageFlags2 stages, VkAccessFlags2 access) {
-    const RefletImage image = {p->image, p->view, p->format, p->width, p->height, layout, stages, access};
+    const RefletImage image = {.image = p->image, .view = p->view, .format = p->format, .width = p->width, .height = p->height,
+                               .layout = layout, .stages = stages, .access = access};
     return image;
 }
 
@@ -128,7 +129,11 @@ static RefletImage record_effects(Host* h, Slot* slot, RefletView view, RefletSe
     memcpy(frame.previousViewToClip, h->view_to_clip, sizeof frame.viewToClip);
     memcpy(frame.jitter, jitters[0], sizeof frame.jitter);
     memcpy(frame.previousJitter, jitters[1], sizeof frame.previousJitter);
-    RefletGBuffer* g = &frame.gbuffer;
+    RefletGBuffer gbuffer;
+    memset(&gbuffer, 0, sizeof gbuffer);
+    RefletGBuffer* g = &gbuffer;
+    g->structSize = sizeof *g;
+    frame.gbuffer = g;
     g->depth = given_depth(&h->depth);
     g->depthKind = REFLET_DEPTH_STANDARD;
     g->normal = given_target(&h->normal);
@@ -163,8 +168,12 @@ static RefletImage record_effects(Host* h, Slot* slot, RefletView view, RefletSe
     memset(&light, 0, sizeof light);
     light.structSize = sizeof light;
     light.light = given(&h->lit, VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
-    memcpy(light.environment.factor, now->sky, sizeof light.environment.factor);
-    RefletLobe lobe;
+    RefletEnvironment environment;
+    memset(&environment, 0, sizeof environment);
+    environment.structSize = sizeof environment;
+    memcpy(environment.factor, now->sky, sizeof environment.factor);
+    light.environment = &environment;
+    RefletLobe lobe = {.structSize = sizeof lobe};
     if (on->diffuse) reflet_check(refletDiffuseGi(view, settings, &light, &lobe));
     if (on->specular) reflet_check(refletReflections(view, settings, &light, &lobe));
     RefletComposite sum = {.structSize = sizeof sum};
@@ -231,7 +240,7 @@ int main(int count, char** arguments) {
         .physicalDevice = h.physical, .device = h.device, .getInstanceProcAddr = vkGetInstanceProcAddr, .enabledFeatures = &h.features};
     RefletContext context;
     reflet_check(refletCreateContext(&info, &context));
-    const RefletViewInfo view_info = {sizeof view_info, s.extent.width, s.extent.height, FRAMES_IN_FLIGHT};
+    const RefletViewInfo view_info = {sizeof view_info, s.extent.width, s.extent.height, FRAMES_IN_FLIGHT, 0, 0};
     RefletView view;
     reflet_check(refletCreateView(context, &view_info, &view));
     RefletSettings settings;

@@ -9,9 +9,10 @@
  * function that returns RefletResult reports failures by it, and refletLastError() says what, where and what to do. No
  * exception leaves the library.
  *
- * Structs that are passed in begin with `structSize`, which the host sets to sizeof the struct as it knows it: newer
- * libraries then take older structs, and what these lack is zero. Zero is the default of every field, unless its
- * comment says "required".
+ * Structs that can grow begin with `structSize`, which the host sets to sizeof the struct as it knows it: newer
+ * libraries then take older structs, and what these lack is zero. They are passed by pointer, also from struct to
+ * struct. RefletImage and RefletPassTime keep their size. Zero is the default of every field, unless its comment says
+ * "required". A number that stands for yes or no is 0 or 1.
  *
  * Threads: calls on one context and its views are serialized by a mutex of the context, so they may come from any
  * thread; a command buffer belongs to the thread that records it, as always in Vulkan.
@@ -40,7 +41,7 @@
 #endif
 
 #define REFLET_VERSION_MAJOR 0
-#define REFLET_VERSION_MINOR 1
+#define REFLET_VERSION_MINOR 2
 #define REFLET_VERSION_PATCH 0
 #define REFLET_MAKE_VERSION(major, minor, patch) \
     (((uint32_t)(major) << 20) | ((uint32_t)(minor) << 10) | (uint32_t)(patch))
@@ -88,7 +89,8 @@ REFLET_API const char* refletLastError(void);
 
 /** Device memory from the host's allocator; all NULL: the library allocates blocks of 64 MiB itself. */
 typedef struct RefletMemoryCallbacks {
-    void* user; /**< passed on */
+    size_t structSize; /**< required */
+    void* user;        /**< passed on */
     /** Allocates as vkAllocateMemory would; must be thread-safe if contexts are used by several threads. */
     VkResult (*allocate)(void* user, const VkMemoryAllocateInfo* info, VkDeviceMemory* memory);
     void (*free)(void* user, VkDeviceMemory memory); /**< what `allocate` gave */
@@ -114,6 +116,15 @@ typedef struct RefletContextInfo {
     const char* const* enabledExtensions;
     uint32_t enabledExtensionCount;      /**< of enabledExtensions */
     const RefletMemoryCallbacks* memory; /**< copied; NULL: none */
+    /** Of host memory of Vulkan objects; copied. NULL: the driver's own. */
+    const VkAllocationCallbacks* allocator;
+    /**
+     * Pipelines are made with it; it must outlive the context, and calls of the context use it while they make
+     * pipelines. VK_NULL_HANDLE: the context makes one, from `pipelineCacheData`.
+     */
+    VkPipelineCache pipelineCache;
+    const void* pipelineCacheData; /**< what refletPipelineCacheData gave in an earlier run; NULL: none */
+    size_t pipelineCacheDataSize;  /**< bytes */
     /** Called with the text of every error; NULL: none. */
     void (*log)(void* user, RefletResult result, const char* text);
     void* logUser; /**< passed to log */
@@ -125,6 +136,12 @@ REFLET_API RefletResult refletCreateContext(const RefletContextInfo* info, Refle
 REFLET_API void refletDestroyContext(RefletContext context);
 /** Bytes of device memory that the context has allocated: whole blocks, for all its views. */
 REFLET_API RefletResult refletContextMemory(RefletContext context, uint64_t* bytes);
+/**
+ * The content of the context's own pipeline cache, for RefletContextInfo::pipelineCacheData of a later run; drivers
+ * ignore data of another device or driver. *size in: room in `data`; out: bytes. data NULL: only how many there are. An
+ * error if the host gave a cache.
+ */
+REFLET_API RefletResult refletPipelineCacheData(RefletContext context, size_t* size, void* data);
 
 /* --------------------------------------------------------------------------------------------------- settings --- */
 
@@ -137,14 +154,17 @@ typedef enum RefletSettingType {
 
 /** A setting, for a host's user interface. The texts belong to the library and are valid for ever. */
 typedef struct RefletSettingInfo {
-    size_t structSize;      /**< required */
-    const char* name;       /**< "trace_screen.max_steps", as `reflet list settings` prints it */
-    const char* help;       /**< what it does, and its effect on quality and cost */
-    RefletSettingType type; /**< of its value */
-    double lowest;          /**< of numbers */
-    double highest;         /**< of numbers */
-    const char* range;      /**< as text: "1 to 4096", "true or false", "linear, halving, …" */
-    const char* standard;   /**< the default, as text */
+    size_t structSize;          /**< required */
+    const char* name;           /**< "trace_screen.max_steps", as `reflet list settings` prints it */
+    const char* help;           /**< what it does, and its effect on quality and cost */
+    RefletSettingType type;     /**< of its value */
+    double min;                 /**< of numbers */
+    double max;                 /**< of numbers */
+    const char* range;          /**< as text: "1 to 4096", "true or false", "linear, halving, …" */
+    const char* defaultValue;   /**< as text */
+    double defaultNumber;       /**< as refletGetSettingNumber gives it */
+    uint32_t choiceCount;       /**< of a choice, else 0 */
+    const char* const* choices; /**< their names; refletSetSettingNumber takes their index */
 } RefletSettingInfo;
 
 /** preset: NULL or "" for the defaults, else as refletApplyPreset. */
@@ -159,6 +179,9 @@ REFLET_API RefletResult refletApplyPreset(RefletSettings settings, const char* p
 REFLET_API RefletResult refletSetSetting(RefletSettings settings, const char* name, const char* value);
 /** The value as text; valid until the thread's next call of this function. NULL for an unknown name. */
 REFLET_API const char* refletGetSetting(RefletSettings settings, const char* name);
+/** The same as a number: of real and integer settings the value, 0 or 1 of a switch, the index of a choice. */
+REFLET_API RefletResult refletSetSettingNumber(RefletSettings settings, const char* name, double value);
+REFLET_API RefletResult refletGetSettingNumber(RefletSettings settings, const char* name, double* value);
 REFLET_API uint32_t refletSettingCount(void);
 /** index: 0 to refletSettingCount() - 1. */
 REFLET_API RefletResult refletSettingInfo(uint32_t index, RefletSettingInfo* info);
@@ -166,6 +189,15 @@ REFLET_API RefletResult refletSettingInfo(uint32_t index, RefletSettingInfo* inf
 /* ------------------------------------------------------------------------------------------------------- view --- */
 
 #define REFLET_MAX_FRAMES_IN_FLIGHT 4
+#define REFLET_MAX_VIEW_INDEX 64
+
+typedef enum RefletViewFlags {
+    /**
+     * Device times of each pass are measured, for refletPassTimes. Needs a queue family whose `timestampValidBits` is
+     * not 0.
+     */
+    REFLET_VIEW_PASS_TIMES = 1 << 0
+} RefletViewFlags;
 
 /** A view at its creation. */
 typedef struct RefletViewInfo {
@@ -177,6 +209,12 @@ typedef struct RefletViewInfo {
      * begun this many frames before.
      */
     uint32_t framesInFlight;
+    uint32_t flags; /**< a combination of RefletViewFlags */
+    /**
+     * Counts views that are seen together, such as two eyes or the faces of a cube: their noise is then independent. Below
+     * REFLET_MAX_VIEW_INDEX.
+     */
+    uint32_t viewIndex;
 } RefletViewInfo;
 
 REFLET_API RefletResult refletCreateView(RefletContext context, const RefletViewInfo* info, RefletView* view);
@@ -210,14 +248,18 @@ REFLET_API RefletResult refletViewMemory(RefletView view, uint64_t* bytes);
  */
 typedef struct RefletImage {
     VkImage image;    /**< VK_NULL_HANDLE: absent */
-    VkImageView view; /**< of it, all of its size */
+    VkImageView view; /**< of it: level `baseLevel` of layer `baseLayer` */
     VkFormat format;  /**< of the view */
-    uint32_t width;   /**< pixels */
-    uint32_t height;  /**< pixels */
-    /** Now. A layout that cannot be sampled is left for the time of the call, and restored. */
+    uint32_t width;   /**< of that level, in pixels */
+    uint32_t height;  /**< of that level, in pixels */
+    /** Now, of that level and layer. One that cannot be sampled is left for the time of the call, and restored. */
     VkImageLayout layout;
-    VkPipelineStageFlags2 stages; /**< that wrote it last; 0: a barrier has already made it visible to compute */
-    VkAccessFlags2 access;        /**< with which they wrote it */
+    /** That wrote it last; 0: a barrier has already made it visible to compute. docs/library.md: render passes. */
+    VkPipelineStageFlags2 stages;
+    VkAccessFlags2 access; /**< with which they wrote it */
+    uint32_t baseLayer;    /**< that the view shows, such as an eye's; barriers name no other */
+    uint32_t baseLevel;    /**< that the view shows; barriers name no other */
+    uint32_t reserved[6];  /**< 0 */
 } RefletImage;
 
 typedef enum RefletDepthKind {
@@ -256,6 +298,7 @@ typedef enum RefletMotionKind {
 
 /** All images have the view's size. */
 typedef struct RefletGBuffer {
+    size_t structSize;           /**< required */
     RefletImage depth;           /**< required: D16, D24S8, D32, D32S8, or R32F in red */
     RefletDepthKind depthKind;   /**< of `depth` and `backDepth` */
     RefletImage normal;          /**< required: shading normals */
@@ -275,9 +318,13 @@ typedef struct RefletGBuffer {
     /** Linear specular reflectance at normal incidence; given: `metallic` is not read. */
     RefletImage f0;
     RefletImage motion; /**< red and green; absent: computed from the matrices, which is right for what does not move */
-    RefletMotionKind motionKind;     /**< of `motion` */
-    uint32_t motionIsBeforeMinusNow; /**< 0: position now minus position in the last frame; 1: the negative of it */
-    uint32_t motionIncludesJitter;   /**< 1: computed from jittered positions */
+    RefletMotionKind motionKind; /**< of `motion` */
+    /**
+     * Times `motion` it is the position now minus that in the last frame, in the units of `motionKind`: (-1, -1) where
+     * it is before minus now. Both 0 stand for (1, 1).
+     */
+    float motionScale[2];
+    uint32_t motionIncludesJitter; /**< 1: computed from jittered positions */
     /**
      * Depth of the nearest back faces, in the kind of `depth`: with it `trace_screen.thickness_mode=second_layer` knows
      * how thick things are. Absent: that choice acts as `constant`.
@@ -293,7 +340,10 @@ typedef struct RefletFrameInfo {
     uint32_t frameIndex; /**< counts up; decorrelates the noise of successive frames */
     /** Required: world to view (camera) space; left- or right-handed. No scale. */
     float worldToView[16];
-    /** Required: projection without jitter; perspective or orthographic; near plane above 0. */
+    /**
+     * Required: projection without jitter; perspective or orthographic; near plane above 0. Its depth is from 0 to 1
+     * and runs as RefletGBuffer::depthKind says; with `clipDepthFromMinusOne` from -1 to 1.
+     */
     float viewToClip[16];
     /** Of the last frame. Both zero: as in this one. */
     float previousWorldToView[16];
@@ -306,8 +356,12 @@ typedef struct RefletFrameInfo {
     float previousJitter[2]; /**< of the last frame */
     /** 0: y is down in clip space, as in Vulkan; 1: up, drawn with a viewport of negative height. */
     uint32_t clipYUp;
-    /** Seconds since the last frame, for automatic exposure. */
-    float elapsed;
+    /**
+     * 1: both projections are OpenGL's, with clip-space depth from -1 to 1 (VK_EXT_depth_clip_control); the depth image
+     * holds 0 to 1 all the same.
+     */
+    uint32_t clipDepthFromMinusOne;
+    float elapsed; /**< seconds since the last frame, 0 to 3600, for automatic exposure */
     /**
      * Frames before this one in which nothing changed: neither camera, nor lights, surfaces, materials, settings or
      * anything that they are made of. What is at rest converges: histories grow beyond what the settings allow for
@@ -321,12 +375,12 @@ typedef struct RefletFrameInfo {
      */
     float lightChange;
     /**
-     * 1: where depth is 0, the picture that refletTemporal gets shows the environment of RefletIndirectLight as it is. While the
-     * camera turns, refletTemporal then filters it over each pixel instead of following it, which keeps stars. 0: it
-     * may show anything.
+     * 1: where depth is 0, the picture that refletTemporal gets shows the environment of RefletIndirectLight as it is.
+     * While the camera turns, refletTemporal then filters it over each pixel instead of following it, which keeps
+     * stars. 0: it may show anything.
      */
     uint32_t backgroundIsEnvironment;
-    RefletGBuffer gbuffer; /**< required; the last field, so that it can grow */
+    const RefletGBuffer* gbuffer; /**< required; read in refletBeginFrame */
 } RefletFrameInfo;
 
 /**
@@ -370,7 +424,7 @@ typedef struct RefletSunShadow {
     uint32_t cascades;
     float worldToClip[4][16]; /**< required: of each cascade */
     /** Far end of each cascade: metres in front of the camera. With one map: not read. */
-    float ends[4];
+    float cascadeSplits[4];
     float toSun[3]; /**< required: world space; need not have length 1 */
     /** The sun's, in radians; 0: 0.0093 (0.53 degrees). Penumbras of PCSS follow from it. */
     float angularDiameter;
@@ -387,13 +441,19 @@ REFLET_API RefletResult refletSunShadow(RefletView view, RefletSettings settings
 
 /** Light from beyond the screen. */
 typedef struct RefletEnvironment {
+    size_t structSize; /**< required */
     /**
-     * Radiance, equirectangular: +Y up; the centre is -Z, u grows toward +X. Absent: `factor` is the radiance from
-     * everywhere.
+     * Radiance, equirectangular: its upper edge is `worldUp`. With +Y up the centre is -Z, and u grows toward +X.
+     * Absent: `factor` is the radiance from everywhere.
      */
     RefletImage image;
     float factor[3]; /**< times the image; all 0 and no image: black. With an image, all 0 stands for 1 */
-    float rotation;  /**< around +Y, in radians */
+    float rotation;  /**< around `worldUp`, in radians */
+    /**
+     * World space; all 0 stands for +Y. Another one is the image with +Y up, turned by the shortest way that takes +Y
+     * there: with +Z up the centre is +Y.
+     */
+    float worldUp[3];
     /** Counts changes of the image's content: the maps made from it are made anew in the frame in which it changes. */
     uint64_t revision;
 } RefletEnvironment;
@@ -407,11 +467,12 @@ typedef struct RefletIndirectLight {
      * further bounces; if it did not run, this image.
      */
     RefletImage light;
-    RefletEnvironment environment; /**< what rays find that hit nothing */
+    const RefletEnvironment* environment; /**< what rays find that hit nothing; NULL: black */
 } RefletIndirectLight;
 
 /** One lobe of indirect light. */
 typedef struct RefletLobe {
+    size_t structSize; /**< set by the host, too */
     /**
      * RGBA16F: incoming radiance, weighted by the lobe (diffuse: irradiance / pi), without the surface's reflectance;
      * alpha: mean distance of what was hit, in metres. At traced resolution: (size + downsample - 1) / downsample.
@@ -538,14 +599,21 @@ typedef struct RefletPrepareInfo {
 } RefletPrepareInfo;
 
 /**
- * Makes up to `most` of the pipelines that frames with these effects and settings need, and their images; *left: how
- * many pipelines are still to be made. Call it until that is 0, to show progress while loading, and after settings have
- * changed. Without it, the first frame makes them. Not between refletBeginFrame and refletEndFrame.
+ * Makes up to `maxPipelines` of the pipelines that frames with these effects and settings need, and their images;
+ * *remaining: how many pipelines are still to be made. Call it until that is 0, to show progress while loading, and
+ * after settings have changed. Without it, the first frame makes them. Not between refletBeginFrame and refletEndFrame.
  */
 REFLET_API RefletResult refletPrepare(RefletView view, RefletSettings settings, const RefletPrepareInfo* info,
-                                      uint32_t most, uint32_t* left);
+                                      uint32_t maxPipelines, uint32_t* remaining);
 
 /* --------------------------------------------------------------------------------------------------- debugging --- */
+
+/**
+ * What the library understood of the current or last frame, about ten lines of text: sizes, camera, conventions,
+ * formats, what is absent, and what looks contradictory. The first thing to look at. *size in: room in `text`; out:
+ * bytes with the final 0. text NULL: only that. Text that does not fit is cut.
+ */
+REFLET_API RefletResult refletDescribe(RefletView view, size_t* size, char* text);
 
 /** Device time of one pass. */
 typedef struct RefletPassTime {
@@ -556,6 +624,7 @@ typedef struct RefletPassTime {
 /**
  * Device times of the last frame that the device is known to have finished; the first entry, "frame", is from start to
  * end, with the host's commands in between. *count in: room in `times`; out: how many there are. times NULL: only that.
+ * An error without REFLET_VIEW_PASS_TIMES.
  */
 REFLET_API RefletResult refletPassTimes(RefletView view, uint32_t* count, RefletPassTime* times);
 

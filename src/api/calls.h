@@ -48,15 +48,16 @@ RefletResult guarded(const F& body) {
     }
 }
 
-/// A struct of the host's in the size that this library knows: what an older host does not have is zero. Throws Failure
-/// for NULL and for a size that cannot be.
+/// A struct of the host's in the size that this library knows: what an older host does not have is zero. least: its
+/// size in version 0.2, the first with this binary interface, once it has grown since. Throws Failure for NULL and for
+/// a size that cannot be.
 template <class T>
-T adopted(const T* given, const char* name) {
+T adopted(const T* given, const char* name, size_t least = sizeof(T)) {
     if (given == nullptr) {
         failArgument("{}: is NULL", name);
     }
     T result{};
-    if (given->structSize < sizeof(size_t) * 2) {
+    if (given->structSize < least) {
         failArgument("{}.structSize: is {}; set it to sizeof the struct, here {}", name, given->structSize, sizeof(T));
     }
     if (given->structSize > sizeof(T)) {
@@ -66,6 +67,20 @@ T adopted(const T* given, const char* name) {
     }
     std::memcpy(&result, given, given->structSize);
     return result;
+}
+
+/// Throws Failure unless it is 0 or 1.
+inline void checkBoolean(uint32_t value, const char* name) {
+    if (value > 1) {
+        failArgument("{}: is {}; must be 0 or 1", name, value);
+    }
+}
+
+/// Throws Failure unless it is a value of the enum.
+inline void checkDepthKind(RefletDepthKind kind, const char* name) {
+    if (kind != REFLET_DEPTH_REVERSED && kind != REFLET_DEPTH_STANDARD) {
+        failArgument("{}: is {}; known values are 0 and 1", name, static_cast<int>(kind));
+    }
 }
 
 }  // namespace reflet::api

@@ -29,56 +29,126 @@ bool isZero(const float (&values)[16]) {
 }
 
 // To clip space with y down and reversed depth.
-mat4 reflectedProjection(mat4 viewToClip, const RefletFrameInfo& info) {
+mat4 reflectedProjection(mat4 viewToClip, const RefletFrameInfo& info, RefletDepthKind depthKind) {
     for (int column = 0; column < 4; ++column) {
         vec4& c = viewToClip[column];
         c.y = info.clipYUp != 0 ? -c.y : c.y;
-        c.z = info.gbuffer.depthKind == REFLET_DEPTH_STANDARD ? c.w - c.z : c.z;
+        c.z = info.clipDepthFromMinusOne != 0 ? 0.5F * (c.z + c.w) : c.z;
+        c.z = depthKind == REFLET_DEPTH_STANDARD ? c.w - c.z : c.z;
     }
     return viewToClip;
 }
 
-void checkCamera(const mat4& toView, const mat4& toClip, const mat4& clipToWorld) {
-    const float scale = glm::determinant(glm::mat3(toView));
-    if (std::abs(std::abs(scale) - 1.0F) > 0.01F) {
-        failArgument("RefletFrameInfo.worldToView: scales by {}; it must be a rotation and a translation, in metres",
-                     std::cbrt(std::abs(scale)));
+mat4 rigid(const float (&values)[16], const char* name) {
+    const mat4 m = matrixOf(values, name);
+    if (m[0][3] != 0.0F || m[1][3] != 0.0F || m[2][3] != 0.0F || m[3][3] != 1.0F) {
+        failArgument(
+            "RefletFrameInfo.{}: its last row is ({}, {}, {}, {}); must be (0, 0, 0, 1). Matrices are column-major",
+            name, m[0][3], m[1][3], m[2][3], m[3][3]);
     }
-    if (toClip[0][0] == 0.0F || toClip[1][1] == 0.0F || (toClip[2][3] == 0.0F && toClip[2][2] == 0.0F)) {
+    const glm::mat3 turn(m);
+    const float scale = glm::determinant(turn);
+    const glm::mat3 product = glm::transpose(turn) * turn;
+    float off = std::abs(std::abs(scale) - 1.0F);
+    for (int i = 0; i < 9; ++i) {
+        off = std::max(off, std::abs(product[i / 3][i % 3] - (i % 4 == 0 ? 1.0F : 0.0F)));
+    }
+    if (!(off <= 0.01F)) {
+        failArgument(
+            "RefletFrameInfo.{}: scales by {}, or is skewed; it must be a rotation and a translation, in metres", name,
+            std::cbrt(std::abs(scale)));
+    }
+    if (!(glm::length(vec3(m[3])) < 1e12F)) {
+        failArgument("RefletFrameInfo.{}: moves by {} metres; must be below 1e12", name, glm::length(vec3(m[3])));
+    }
+    return m;
+}
+
+// Of a perspective projection with reversed depth: depth falls with distance as slope + nearness / distance.
+void checkDepth(const mat4& toClip, RefletDepthKind kind) {
+    const float forward = toClip[2][3];
+    const float slope = toClip[2][2] / forward;
+    const float nearness = toClip[3][2];
+    const bool reversed = kind == REFLET_DEPTH_REVERSED;
+    if (!(nearness > 0.0F)) {
+        failArgument(
+            "RefletGBuffer.depthKind: is {}, and with RefletFrameInfo.viewToClip depth {} with distance; one of "
+            "them is wrong",
+            reversed ? "REFLET_DEPTH_REVERSED" : "REFLET_DEPTH_STANDARD", reversed ? "rises" : "falls");
+    }
+    const float near = nearness / (1.0F - slope);
+    if (!(near > 1e-6F && near < 1e9F)) {
+        failArgument(
+            "RefletFrameInfo.viewToClip: its near plane is at {} metres; must be 1e-6 to 1e9. OpenGL's projections "
+            "need clipDepthFromMinusOne",
+            near);
+    }
+}
+
+void checkProjection(const mat4& toClip, const mat4& clipToWorld, RefletDepthKind kind) {
+    const bool perspective = toClip[2][3] != 0.0F;
+    if (toClip[0][0] == 0.0F || toClip[1][1] == 0.0F || (!perspective && toClip[2][2] == 0.0F) ||
+        toClip[0][3] != 0.0F || toClip[1][3] != 0.0F) {
         failArgument("RefletFrameInfo.viewToClip: is no projection; matrices are column-major");
+    }
+    for (const int axis : {0, 1}) {
+        if (const float zoom = std::abs(toClip[axis][axis]); !(zoom > 1e-7F && zoom < 1e7F)) {
+            failArgument("RefletFrameInfo.viewToClip[{}]: is {}; must be 1e-7 to 1e7", 5 * axis, toClip[axis][axis]);
+        }
     }
     for (int i = 0; i < 16; ++i) {
         if (!std::isfinite(clipToWorld[i / 4][i % 4])) {
             failArgument("RefletFrameInfo.viewToClip: cannot be inverted");
         }
     }
+    if (perspective) {
+        checkDepth(toClip, kind);
+    }
+}
+
+vec2 jitterOf(const float (&given)[2], const char* name) {
+    constexpr float most = 0.5001F;  // of a sequence that rounds
+    if (!(std::abs(given[0]) <= most && std::abs(given[1]) <= most)) {
+        failArgument("RefletFrameInfo.{}: is ({}, {}) pixels; must be -0.5 to 0.5", name, given[0], given[1]);
+    }
+    return {given[0], given[1]};
+}
+
+// A projection off its centre by just what the jitter moves it has the jitter in it. toClip: y down.
+bool holdsJitter(const mat4& toClip, vec2 jitter, uvec2 size) {
+    const bool perspective = toClip[2][3] != 0.0F;
+    const vec2 offset = perspective ? vec2(toClip[2]) / toClip[2][3] : vec2(toClip[3]);
+    const vec2 moved = -2.0F * jitter / vec2(size);
+    return glm::length(jitter) > 0.05F && glm::length(offset - moved) < 0.05F * glm::length(moved);
 }
 
 }  // namespace
 
-ViewParams viewParams(const RefletFrameInfo& info, uvec2 size) {
-    const mat4 toView = matrixOf(info.worldToView, "worldToView");
-    const mat4 toClip = reflectedProjection(matrixOf(info.viewToClip, "viewToClip"), info);
+ViewParams viewParams(const RefletFrameInfo& info, RefletDepthKind depthKind, uvec2 size) {
+    const mat4 toView = rigid(info.worldToView, "worldToView");
+    const mat4 toClip = reflectedProjection(matrixOf(info.viewToClip, "viewToClip"), info, depthKind);
     ViewParams v = lighting::viewOf(toView, toClip, size);
-    checkCamera(toView, toClip, v.clipToWorld);
+    checkProjection(toClip, v.clipToWorld, depthKind);
     const bool first = isZero(info.previousWorldToView) && isZero(info.previousViewToClip);
-    v.previousWorldToClip = first ? v.worldToClip
-                                  : reflectedProjection(matrixOf(info.previousViewToClip, "previousViewToClip"), info) *
-                                        matrixOf(info.previousWorldToView, "previousWorldToView");
+    if (!first) {
+        const mat4 before =
+            reflectedProjection(matrixOf(info.previousViewToClip, "previousViewToClip"), info, depthKind);
+        if (before[0][0] == 0.0F || before[1][1] == 0.0F) {
+            failArgument("RefletFrameInfo.previousViewToClip: is no projection; both former matrices, or none");
+        }
+        v.previousWorldToClip = before * rigid(info.previousWorldToView, "previousWorldToView");
+    }
     v.frame = info.frameIndex;
     v.rest = info.restFrames;
-    const auto jitterOf = [](const float(&given)[2], const char* name) {
-        if (!(std::abs(given[0]) <= 1.0F && std::abs(given[1]) <= 1.0F)) {
-            failArgument("RefletFrameInfo.{}: is ({}, {}) pixels; must be -1 to 1", name, given[0], given[1]);
-        }
-        return vec2(given[0], given[1]);
-    };
-    applyJitter(v, jitterOf(info.jitter, "jitter"), jitterOf(info.previousJitter, "previousJitter"));
+    const vec2 jitter = jitterOf(info.jitter, "jitter");
+    if (holdsJitter(toClip, jitter, size)) {
+        failArgument("RefletFrameInfo.viewToClip: has the jitter in it; give the projection without jitter");
+    }
+    applyJitter(v, jitter, jitterOf(info.previousJitter, "previousJitter"));
     return v;
 }
 
-ImportParams importParams(const RefletFrameInfo& info, const ViewParams& view) {
-    const RefletGBuffer& g = info.gbuffer;
+ImportParams importParams(const RefletFrameInfo& info, const RefletGBuffer& g, const ViewParams& view) {
     ImportParams params{};
     params.view = view;
     params.normalToWorld = mat4(1.0F);
@@ -91,7 +161,13 @@ ImportParams importParams(const RefletFrameInfo& info, const ViewParams& view) {
     } else if (g.motionKind == REFLET_MOTION_PIXELS) {
         factor = view.pixel;
     }
-    params.motionToUv = g.motionIsBeforeMinusNow != 0 ? -factor : factor;
+    const vec2 scale(g.motionScale[0], g.motionScale[1]);
+    for (const int axis : {0, 1}) {
+        if (!(std::abs(scale[axis]) < 1e6F)) {
+            failArgument("RefletGBuffer.motionScale[{}]: is {}; must be a factor", axis, scale[axis]);
+        }
+    }
+    params.motionToUv = factor * (scale == vec2(0.0F) ? vec2(1.0F) : scale);
     params.motionOffset = g.motionIncludesJitter != 0 ? view.jitterChange : vec2(0.0F);
     return params;
 }

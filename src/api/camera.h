@@ -10,10 +10,10 @@
 namespace reflet::api {
 
 /// Throws Failure for matrices that are no camera.
-ViewParams viewParams(const RefletFrameInfo& info, uvec2 size);
+ViewParams viewParams(const RefletFrameInfo& info, RefletDepthKind depthKind, uvec2 size);
 
 /// view: of viewParams.
-ImportParams importParams(const RefletFrameInfo& info, const ViewParams& view);
+ImportParams importParams(const RefletFrameInfo& info, const RefletGBuffer& g, const ViewParams& view);
 
 /// adopt: makes an image of the host known to the recorder.
 HostSurfaces hostSurfaces(const RefletGBuffer& g, const std::function<gpu::Image(const RefletImage&)>& adopt);

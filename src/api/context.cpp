@@ -2,7 +2,10 @@
 #include "api/calls.h"
 #include "api/handles.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <iterator>
 #include <string_view>
 
 std::span<const reflet::gpu::Shader> effectShaders();
@@ -94,8 +97,21 @@ gpu::OpenDevice openDevice(const RefletContextInfo& info) {
         }
         open.debugUtils |= std::string_view(info.enabledExtensions[i]) == VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
     }
+    open.pipelines.driverCache = info.pipelineCache;
+    open.pipelines.keepsData = info.pipelineCache == VK_NULL_HANDLE;
+    if (info.pipelineCacheDataSize > 0) {
+        if (info.pipelineCacheData == nullptr || !open.pipelines.keepsData) {
+            failArgument("RefletContextInfo.pipelineCacheData: {}", info.pipelineCacheData == nullptr
+                                                                        ? "is NULL, and pipelineCacheDataSize is not 0"
+                                                                        : "is given, and pipelineCache as well");
+        }
+        open.pipelines.data = {static_cast<const std::byte*>(info.pipelineCacheData), info.pipelineCacheDataSize};
+    }
+    if (info.allocator != nullptr) {
+        open.allocator = *info.allocator;
+    }
     if (info.memory != nullptr) {
-        const RefletMemoryCallbacks calls = *info.memory;
+        const RefletMemoryCallbacks calls = adopted(info.memory, "RefletContextInfo.memory");
         if (calls.allocate == nullptr || calls.free == nullptr) {
             failArgument("RefletContextInfo.memory: allocate or free is NULL; give both, or no callbacks");
         }
@@ -109,14 +125,15 @@ gpu::OpenDevice openDevice(const RefletContextInfo& info) {
 
 void requireVersion(uint32_t version) {
     const uint32_t major = version >> 20U;
+    const uint32_t minor = version >> 10U & 1023U;
     if (version == 0) {
         failArgument("RefletContextInfo.version: is 0; set it to REFLET_VERSION");
     }
-    if (major != REFLET_VERSION_MAJOR || version > REFLET_VERSION) {
+    // 0.1 had another binary interface.
+    if (major != REFLET_VERSION_MAJOR || version > REFLET_VERSION || minor < 2) {
         failWith(REFLET_ERROR_INCOMPATIBLE_VERSION,
-                 "RefletContextInfo.version: the header is of version {}.{}.{}, the library of {}.{}.{}", major,
-                 version >> 10U & 1023U, version & 1023U, REFLET_VERSION_MAJOR, REFLET_VERSION_MINOR,
-                 REFLET_VERSION_PATCH);
+                 "RefletContextInfo.version: the header is of version {}.{}.{}, the library of {}.{}.{}", major, minor,
+                 version & 1023U, REFLET_VERSION_MAJOR, REFLET_VERSION_MINOR, REFLET_VERSION_PATCH);
     }
 }
 
@@ -132,6 +149,7 @@ RefletResult logged(const RefletContextInfo* info, RefletResult result) {
 struct SettingTexts {
     std::string range;
     std::string standard;
+    std::vector<const char*> choices;
 };
 
 const std::vector<SettingTexts>& settingTexts() {
@@ -139,11 +157,38 @@ const std::vector<SettingTexts>& settingTexts() {
         std::vector<SettingTexts> made;
         const Settings defaults{};
         for (const SettingEntry& entry : settingTable().entries()) {
-            made.push_back({rangeText(entry.info), settingText(&defaults, entry.info)});
+            std::vector<const char*> choices;
+            std::ranges::transform(entry.info.options, std::back_inserter(choices),
+                                   [](const SettingOption& option) { return option.name.c_str(); });
+            made.push_back({rangeText(entry.info), settingText(&defaults, entry.info), std::move(choices)});
         }
         return made;
     }();
     return texts;
+}
+
+// A setting's value as the C API's number: choices count in their list.
+double numberOf(const SettingInfo& info, double stored) {
+    const auto found = std::ranges::find(info.options, static_cast<uint32_t>(stored), &SettingOption::value);
+    return info.type == SettingType::choice ? static_cast<double>(found - info.options.begin()) : stored;
+}
+
+// The contrary: as text, which SettingTable::set checks.
+std::string textOfNumber(const SettingInfo& info, const std::string& name, double value) {
+    if (info.type == SettingType::real) {
+        return fmt::format("{}", static_cast<float>(value));
+    }
+    const double highest = info.type == SettingType::integer  ? info.highest
+                           : info.type == SettingType::toggle ? 1.0
+                                                              : static_cast<double>(info.options.size()) - 1.0;
+    const double lowest = info.type == SettingType::integer ? info.lowest : 0.0;
+    if (!(value >= lowest && value <= highest) || value != std::floor(value)) {
+        failArgument("{}: is {}; must be a whole number from {} to {}", name, value, lowest, highest);
+    }
+    if (info.type == SettingType::choice) {
+        return info.options[static_cast<size_t>(value)].name;
+    }
+    return info.type == SettingType::toggle ? (value != 0.0 ? "true" : "false") : fmt::format("{:.0f}", value);
 }
 
 RefletSettingType typeOf(SettingType type) {
@@ -200,6 +245,26 @@ RefletResult refletContextMemory(RefletContext context, uint64_t* bytes) {
     });
 }
 
+RefletResult refletPipelineCacheData(RefletContext context, size_t* size, void* data) {
+    return guarded([&] {
+        if (context == nullptr || size == nullptr) {
+            failArgument("{}: is NULL", context == nullptr ? "context" : "size");
+        }
+        const std::scoped_lock lock(context->mutex);
+        if (!context->gpu->pipelines().keepsData()) {
+            failArgument("context: was given a pipelineCache; ask that for its data");
+        }
+        const std::vector<std::byte> bytes = context->gpu->pipelines().data();
+        if (data != nullptr) {
+            if (*size < bytes.size()) {
+                failArgument("size: is {}, and there are {} bytes", *size, bytes.size());
+            }
+            std::ranges::copy(bytes, static_cast<std::byte*>(data));
+        }
+        *size = bytes.size();
+    });
+}
+
 RefletResult refletCreateSettings(const char* preset, RefletSettings* settings) {
     if (settings != nullptr) {
         *settings = nullptr;
@@ -250,6 +315,25 @@ const char* refletGetSetting(RefletSettings settings, const char* name) {
     return result == REFLET_SUCCESS ? text.c_str() : nullptr;
 }
 
+RefletResult refletSetSettingNumber(RefletSettings settings, const char* name, double value) {
+    return guarded([&] {
+        if (settings == nullptr || name == nullptr) {
+            failArgument("{}: is NULL", settings == nullptr ? "settings" : "name");
+        }
+        settingTable().set(&settings->values, name, textOfNumber(settingTable().find(name).info, name, value));
+    });
+}
+
+RefletResult refletGetSettingNumber(RefletSettings settings, const char* name, double* value) {
+    return guarded([&] {
+        if (settings == nullptr || name == nullptr || value == nullptr) {
+            failArgument("{}: is NULL", settings == nullptr ? "settings" : name == nullptr ? "name" : "value");
+        }
+        const SettingInfo& info = settingTable().find(name).info;
+        *value = numberOf(info, loadSetting(&settings->values, info));
+    });
+}
+
 uint32_t refletSettingCount(void) {
     return static_cast<uint32_t>(settingTable().entries().size());
 }
@@ -267,10 +351,14 @@ RefletResult refletSettingInfo(uint32_t index, RefletSettingInfo* info) {
         told.name = entry.name.c_str();
         told.help = entry.info.help.c_str();
         told.type = typeOf(entry.info.type);
-        told.lowest = entry.info.lowest;
-        told.highest = entry.info.highest;
-        told.range = settingTexts()[index].range.c_str();
-        told.standard = settingTexts()[index].standard.c_str();
+        const SettingTexts& texts = settingTexts()[index];
+        told.min = entry.info.lowest;
+        told.max = entry.info.highest;
+        told.range = texts.range.c_str();
+        told.defaultValue = texts.standard.c_str();
+        told.defaultNumber = numberOf(entry.info, entry.info.standard);
+        told.choiceCount = static_cast<uint32_t>(texts.choices.size());
+        told.choices = texts.choices.data();
         std::memcpy(info, &told, given.structSize);
     });
 }

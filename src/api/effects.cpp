@@ -64,6 +64,9 @@ SunInputs sunInputs(const RefletSunShadow& sun, const Settings& settings) {
     if (!(sun.angularDiameter >= 0.0F && sun.angularDiameter < 3.0F)) {
         failArgument("RefletSunShadow.angularDiameter: is {}; must be 0 to 3 radians", sun.angularDiameter);
     }
+    checkBoolean(sun.clipYUp, "RefletSunShadow.clipYUp");
+    checkBoolean(sun.contactShadows, "RefletSunShadow.contactShadows");
+    checkDepthKind(sun.depthKind, "RefletSunShadow.depthKind");
     in.toSun = glm::normalize(toSun);
     in.reversed = sun.depthKind == REFLET_DEPTH_REVERSED;
     in.contact = sun.contactShadows != 0;
@@ -73,10 +76,11 @@ SunInputs sunInputs(const RefletSunShadow& sun, const Settings& settings) {
     for (uint32_t i = 0; i < sun.cascades; ++i) {
         in.sun.maps[i] = mapParams(cascadeMatrix(sun, i), in.toSun, static_cast<float>(sun.map.width), i);
         const bool last = i + 1 == sun.cascades;
-        if (!last && !(sun.ends[i] > start)) {
-            failArgument("RefletSunShadow.ends[{}]: is {}; ends must rise from above 0", i, sun.ends[i]);
+        const float split = sun.cascadeSplits[i];
+        if (!last && !(split > start && std::isfinite(split))) {
+            failArgument("RefletSunShadow.cascadeSplits[{}]: is {}; splits must rise from above 0", i, split);
         }
-        const float end = last && !(sun.ends[i] > start) ? std::numeric_limits<float>::max() : sun.ends[i];
+        const float end = last && !(split > start) ? std::numeric_limits<float>::max() : split;
         in.sun.ends[i] = end;
         in.sun.blends[i] = lighting::cascadeBlend(settings.shadow, start, end);
         start = end;
@@ -93,7 +97,9 @@ EnvironmentInputs environmentInputs(const RefletEnvironment& environment, HostIm
     if (in.image && factor == vec3(0.0F)) {
         factor = vec3(1.0F);
     }
-    in.params = lighting::environmentParams(factor, environment.rotation);
+    const vec3 up(environment.worldUp[0], environment.worldUp[1], environment.worldUp[2]);
+    in.params = lighting::environmentParams(factor, environment.rotation,
+                                            up == vec3(0.0F) ? vec3(0.0F, 1.0F, 0.0F) : glm::normalize(up));
     return in;
 }
 
@@ -106,13 +112,19 @@ void checkEnvironment(const RefletEnvironment& environment) {
     if (!std::isfinite(environment.rotation)) {
         failArgument("RefletEnvironment.rotation: is not finite");
     }
+    const vec3 up(environment.worldUp[0], environment.worldUp[1], environment.worldUp[2]);
+    if (!std::isfinite(glm::dot(up, up)) || (up != vec3(0.0F) && !(glm::dot(up, up) > 1e-12F))) {
+        failArgument("RefletEnvironment.worldUp: is ({}, {}, {}); must be a direction, or all 0 for +Y", up.x, up.y,
+                     up.z);
+    }
     if (environment.image.image != VK_NULL_HANDLE) {
-        checkImage(environment.image, "RefletEnvironment.image", uvec2(0));
+        checkImage(environment.image, "RefletEnvironment.image", uvec2(0), 3);
     }
 }
 
-RefletLobe lobeOf(const LobeLight& light) {
+RefletLobe lobeOf(const LobeLight& light, size_t structSize) {
     RefletLobe out{};
+    out.structSize = structSize;
     out.radiance = resultOf(light.radiance);
     out.confidence = resultOf(light.source);
     out.downsample = light.from.scale;
@@ -122,18 +134,22 @@ RefletLobe lobeOf(const LobeLight& light) {
 RefletResult traceLobeOf(RefletView view, RefletSettings settings, const RefletIndirectLight* light, RefletLobe* lobe,
                          uint32_t kind) {
     return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
-        checkOut(lobe, "lobe");
+        const RefletLobe asked = adopted<RefletLobe>(lobe, "lobe");
         const RefletIndirectLight given = adopted(light, "RefletIndirectLight");
         if (given.light.image == VK_NULL_HANDLE) {
             failArgument("RefletIndirectLight.light.image: is VK_NULL_HANDLE, and is required");
         }
-        checkImage(given.light, "RefletIndirectLight.light", view->size);
-        checkEnvironment(given.environment);
+        checkImage(given.light, "RefletIndirectLight.light", view->size, 3);
+        const RefletEnvironment around = given.environment != nullptr
+                                             ? adopted(given.environment, "RefletIndirectLight.environment")
+                                             : RefletEnvironment{};
+        checkEnvironment(around);
         HostImages host(*view);
         const gpu::Image lit = host.add(given.light);
-        const EnvironmentInputs environment = environmentInputs(given.environment, host);
+        const EnvironmentInputs environment = environmentInputs(around, host);
         host.acquire();
-        *lobe = lobeOf(recordLobe(*view, frame, values, kind, lit, environment));
+        const RefletLobe out = lobeOf(recordLobe(*view, frame, values, kind, lit, environment), asked.structSize);
+        std::memcpy(lobe, &out, out.structSize);
     });
 }
 
@@ -146,7 +162,7 @@ gpu::Image hostImageOf(const RefletImage* given, const char* name, const char* o
     if (given->image == VK_NULL_HANDLE) {
         failArgument("{}.image: is VK_NULL_HANDLE; pass NULL for {}", name, otherwise);
     }
-    checkImage(*given, name, size);
+    checkImage(*given, name, size, 3);
     const gpu::Image image = host.add(*given);
     host.acquire();
     return image;
@@ -187,10 +203,10 @@ RefletResult refletSunShadow(RefletView view, RefletSettings settings, const Ref
         if (given.map.image == VK_NULL_HANDLE) {
             failArgument("RefletSunShadow.map.image: is VK_NULL_HANDLE, and is required");
         }
-        checkImage(given.map, "RefletSunShadow.map", uvec2(0));
+        checkImage(given.map, "RefletSunShadow.map", uvec2(0), depthChannel);
         SunInputs in = sunInputs(given, values);
         HostImages host(*view);
-        in.map = host.add(given.map);
+        in.map = host.add(given.map, given.cascades);
         host.acquire();
         *visibility = resultOf(recordSunShadow(*view, frame, values, in));
     });
@@ -216,21 +232,21 @@ RefletResult refletReflections(RefletView view, RefletSettings settings, const R
 RefletResult refletDenoise(RefletView view, RefletSettings settings, RefletLobeKind kind, const RefletImage* noisy,
                            RefletLobe* lobe) {
     return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
-        checkOut(lobe, "lobe");
+        const RefletLobe asked = adopted<RefletLobe>(lobe, "lobe");
         if (kind != REFLET_LOBE_DIFFUSE && kind != REFLET_LOBE_SPECULAR) {
             failArgument("kind: is {}; must be REFLET_LOBE_DIFFUSE or REFLET_LOBE_SPECULAR", static_cast<int>(kind));
         }
         if (noisy == nullptr || noisy->image == VK_NULL_HANDLE) {
             failArgument("noisy: is NULL");
         }
-        checkImage(*noisy, "noisy", view->size);
+        checkImage(*noisy, "noisy", view->size, 4);
         HostImages host(*view);
         const gpu::Image image = host.add(*noisy);
         host.acquire();
         const uint32_t which = kind == REFLET_LOBE_DIFFUSE ? lobeDiffuse : lobeSpecular;
-        RefletLobe out = lobeOf(recordDenoise(*view, frame, values, which, image));
+        RefletLobe out = lobeOf(recordDenoise(*view, frame, values, which, image), asked.structSize);
         out.confidence = {};
-        *lobe = out;
+        std::memcpy(lobe, &out, out.structSize);
     });
 }
 
@@ -273,6 +289,7 @@ RefletResult refletToneMap(RefletView view, RefletSettings settings, const Refle
                            RefletImage* display) {
     return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
         checkOut(display, "display");
+        checkBoolean(autoExposure, "autoExposure");
         HostImages host(*view);
         *display =
             resultOf(recordToneMap(*view, frame, values, colorOf(color, host, outputSizeOf(*view)), autoExposure != 0));

@@ -21,8 +21,11 @@ inline uvec2 outputSizeOf(const RefletView_T& view) {
 /// The settings as the stages take them.
 Settings settingsOfFrame(const RefletView_T& view, const Settings& settings, const lighting::Change& change);
 
-/// Throws Failure if an image cannot be sampled, or has not this size (0: any). name: of the field.
-void checkImage(const RefletImage& image, const char* name, uvec2 size);
+/// In place of a number of channels: depth.
+constexpr uint32_t depthChannel = 0;
+
+/// Throws Failure if an image cannot be sampled, has not this size (0: any) or lacks channels. name: of the field.
+void checkImage(const RefletImage& image, const char* name, uvec2 size, uint32_t channels);
 
 /// Makes the host's images readable by compute passes while it lives, and leaves them as they were.
 class HostImages {
@@ -32,14 +35,19 @@ public:
     HostImages(const HostImages&) = delete;
     HostImages& operator=(const HostImages&) = delete;
 
-    /// None for an absent one.
-    gpu::Image add(const RefletImage& image);
+    /// None for an absent one. layers: that its view has.
+    gpu::Image add(const RefletImage& image, uint32_t layers = 1);
     /// Records the barriers of all images added so far.
     void acquire();
 
 private:
+    struct Given {
+        RefletImage image;
+        uint32_t layers;
+    };
+
     RefletView_T& view_;
-    std::vector<RefletImage> images_;
+    std::vector<Given> images_;
     std::vector<VkImageMemoryBarrier2> back_;  ///< made by acquire(): the destructor must not allocate
 };
 

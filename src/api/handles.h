@@ -80,15 +80,30 @@ struct Frame : lighting::Surfaces {
     vec2 jitter{0.0F};
 };
 
+/// A frame as the host gave it, for refletDescribe. Its pointers are not to be followed.
+struct Described {
+    RefletFrameInfo info{};
+    RefletGBuffer gbuffer{};
+    uvec2 outputSize{0};
+    uint64_t frames = 0;  ///< before it
+    uint32_t lastIndex = 0;
+    std::array<float, 2> lastJitter{};
+};
+
 }  // namespace reflet::api
 
 struct RefletView_T {
-    RefletView_T(RefletContext_T& context, uint32_t framesInFlight)
-        : owner(context), memory(std::make_shared<VkDeviceSize>(0)), recorder(*context.gpu, framesInFlight) {}
+    RefletView_T(RefletContext_T& context, uint32_t framesInFlight, bool timesPasses)
+        : owner(context),
+          memory(std::make_shared<VkDeviceSize>(0)),
+          recorder(*context.gpu, framesInFlight, timesPasses),
+          timesPasses(timesPasses) {}
 
     RefletContext_T& owner;
     std::shared_ptr<VkDeviceSize> memory;  ///< bytes in use
     reflet::gpu::Recorder recorder;
+    bool timesPasses;   ///< REFLET_VIEW_PASS_TIMES
+    uint32_t seed = 0;  ///< RefletViewInfo::viewIndex
     reflet::uvec2 size{0};
     reflet::uvec2 outputSize{0};                ///< of refletTemporal's pictures; 0: as size
     VkCommandBuffer commands = VK_NULL_HANDLE;  ///< of the current frame
@@ -96,5 +111,6 @@ struct RefletView_T {
     std::optional<reflet::api::Frame> frame;         ///< between begin and end
     std::optional<reflet::api::Frame> last;          ///< that has ended, for refletFindImage
     std::deque<reflet::gpu::ImageState> hostImages;  ///< of the current frame; elements stay where they are
-    bool composedLast = false;                       ///< whether the last frame wrote ViewStore::lit
+    std::optional<reflet::api::Described> described;
+    bool composedLast = false;  ///< whether the last frame wrote ViewStore::lit
 };

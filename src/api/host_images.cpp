@@ -1,7 +1,9 @@
 // Images that go into and out of the library.
 #include "api/calls.h"
 #include "api/frame.h"
+#include "gpu/listing.h"
 
+#include <algorithm>
 #include <array>
 
 namespace reflet::api {
@@ -28,40 +30,65 @@ VkImageAspectFlags aspectsOf(VkFormat format) {
     }
 }
 
+struct KnownFormat {
+    VkFormat format;
+    uint32_t channels;
+};
+
 // Formats that shaders sample as floats, of up to 32 bits a channel.
-bool isSampledAsFloat(VkFormat format) {
-    constexpr std::array known{VK_FORMAT_R8_UNORM,
-                               VK_FORMAT_R8_SNORM,
-                               VK_FORMAT_R8G8_UNORM,
-                               VK_FORMAT_R8G8_SNORM,
-                               VK_FORMAT_R8G8B8_UNORM,
-                               VK_FORMAT_R8G8B8A8_UNORM,
-                               VK_FORMAT_R8G8B8A8_SNORM,
-                               VK_FORMAT_R8G8B8A8_SRGB,
-                               VK_FORMAT_B8G8R8A8_UNORM,
-                               VK_FORMAT_B8G8R8A8_SRGB,
-                               VK_FORMAT_A8B8G8R8_UNORM_PACK32,
-                               VK_FORMAT_A8B8G8R8_SNORM_PACK32,
-                               VK_FORMAT_A8B8G8R8_SRGB_PACK32,
-                               VK_FORMAT_A2R10G10B10_UNORM_PACK32,
-                               VK_FORMAT_A2B10G10R10_UNORM_PACK32,
-                               VK_FORMAT_R16_UNORM,
-                               VK_FORMAT_R16_SNORM,
-                               VK_FORMAT_R16_SFLOAT,
-                               VK_FORMAT_R16G16_UNORM,
-                               VK_FORMAT_R16G16_SNORM,
-                               VK_FORMAT_R16G16_SFLOAT,
-                               VK_FORMAT_R16G16B16_SFLOAT,
-                               VK_FORMAT_R16G16B16A16_UNORM,
-                               VK_FORMAT_R16G16B16A16_SNORM,
-                               VK_FORMAT_R16G16B16A16_SFLOAT,
-                               VK_FORMAT_R32_SFLOAT,
-                               VK_FORMAT_R32G32_SFLOAT,
-                               VK_FORMAT_R32G32B32_SFLOAT,
-                               VK_FORMAT_R32G32B32A32_SFLOAT,
-                               VK_FORMAT_B10G11R11_UFLOAT_PACK32,
-                               VK_FORMAT_E5B9G9R9_UFLOAT_PACK32};
-    return isDepth(format) || std::ranges::find(known, format) != known.end();
+constexpr std::array knownFormats{KnownFormat{VK_FORMAT_R8_UNORM, 1},
+                                  KnownFormat{VK_FORMAT_R8_SNORM, 1},
+                                  KnownFormat{VK_FORMAT_R8G8_UNORM, 2},
+                                  KnownFormat{VK_FORMAT_R8G8_SNORM, 2},
+                                  KnownFormat{VK_FORMAT_R8G8B8_UNORM, 3},
+                                  KnownFormat{VK_FORMAT_R8G8B8A8_UNORM, 4},
+                                  KnownFormat{VK_FORMAT_R8G8B8A8_SNORM, 4},
+                                  KnownFormat{VK_FORMAT_R8G8B8A8_SRGB, 4},
+                                  KnownFormat{VK_FORMAT_B8G8R8A8_UNORM, 4},
+                                  KnownFormat{VK_FORMAT_B8G8R8A8_SRGB, 4},
+                                  KnownFormat{VK_FORMAT_A8B8G8R8_UNORM_PACK32, 4},
+                                  KnownFormat{VK_FORMAT_A8B8G8R8_SNORM_PACK32, 4},
+                                  KnownFormat{VK_FORMAT_A8B8G8R8_SRGB_PACK32, 4},
+                                  KnownFormat{VK_FORMAT_A2R10G10B10_UNORM_PACK32, 4},
+                                  KnownFormat{VK_FORMAT_A2B10G10R10_UNORM_PACK32, 4},
+                                  KnownFormat{VK_FORMAT_R16_UNORM, 1},
+                                  KnownFormat{VK_FORMAT_R16_SNORM, 1},
+                                  KnownFormat{VK_FORMAT_R16_SFLOAT, 1},
+                                  KnownFormat{VK_FORMAT_R16G16_UNORM, 2},
+                                  KnownFormat{VK_FORMAT_R16G16_SNORM, 2},
+                                  KnownFormat{VK_FORMAT_R16G16_SFLOAT, 2},
+                                  KnownFormat{VK_FORMAT_R16G16B16_SFLOAT, 3},
+                                  KnownFormat{VK_FORMAT_R16G16B16A16_UNORM, 4},
+                                  KnownFormat{VK_FORMAT_R16G16B16A16_SNORM, 4},
+                                  KnownFormat{VK_FORMAT_R16G16B16A16_SFLOAT, 4},
+                                  KnownFormat{VK_FORMAT_R32_SFLOAT, 1},
+                                  KnownFormat{VK_FORMAT_R32G32_SFLOAT, 2},
+                                  KnownFormat{VK_FORMAT_R32G32B32_SFLOAT, 3},
+                                  KnownFormat{VK_FORMAT_R32G32B32A32_SFLOAT, 4},
+                                  KnownFormat{VK_FORMAT_B10G11R11_UFLOAT_PACK32, 3},
+                                  KnownFormat{VK_FORMAT_E5B9G9R9_UFLOAT_PACK32, 3}};
+
+// 0: not sampled as float.
+uint32_t channelsOf(VkFormat format) {
+    const auto found = std::ranges::find(knownFormats, format, &KnownFormat::format);
+    return found != knownFormats.end() ? found->channels : 0;
+}
+
+void checkFormat(VkFormat format, const char* name, uint32_t channels) {
+    const std::string given = gpu::formatName(format);
+    if (channels == depthChannel) {
+        if (!isDepth(format) && format != VK_FORMAT_R32_SFLOAT) {
+            failArgument("{}.format: is {}; depth is of a depth format or of R32_SFLOAT", name, given);
+        }
+        return;
+    }
+    if (channelsOf(format) == 0) {
+        failArgument("{}.format: is {}; must be a float, unorm or snorm format of colour", name, given);
+    }
+    if (channelsOf(format) < channels) {
+        failArgument("{}.format: is {}, which has {} of the {} channels that are read", name, given, channelsOf(format),
+                     channels);
+    }
 }
 
 bool isSampledIn(VkImageLayout layout) {
@@ -78,12 +105,30 @@ bool isSampledIn(VkImageLayout layout) {
     }
 }
 
-VkImageMemoryBarrier2 barrierOf(const RefletImage& image) {
+// Whether an image may be in it. Others have no content, or none that shaders can sample.
+bool isKnown(VkImageLayout layout) {
+    switch (layout) {
+        case VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL:
+        case VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL:
+        case VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_STENCIL_READ_ONLY_OPTIMAL:
+        case VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL:
+        case VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL:
+        case VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL:
+        case VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL:
+        case VK_IMAGE_LAYOUT_PRESENT_SRC_KHR:
+        case VK_IMAGE_LAYOUT_ATTACHMENT_FEEDBACK_LOOP_OPTIMAL_EXT:
+            return true;
+        default:
+            return isSampledIn(layout);
+    }
+}
+
+VkImageMemoryBarrier2 barrierOf(const RefletImage& image, uint32_t layers) {
     VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
     barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     barrier.image = image.image;
-    barrier.subresourceRange = {aspectsOf(image.format), 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
+    barrier.subresourceRange = {aspectsOf(image.format), image.baseLevel, 1, image.baseLayer, layers};
     return barrier;
 }
 
@@ -115,14 +160,11 @@ VkAccessFlags2 accessIn(VkImageLayout layout) {
 
 }  // namespace
 
-void checkImage(const RefletImage& image, const char* name, uvec2 size) {
+void checkImage(const RefletImage& image, const char* name, uvec2 size, uint32_t channels) {
     if (image.view == VK_NULL_HANDLE) {
         failArgument("{}.view: is VK_NULL_HANDLE", name);
     }
-    if (!isSampledAsFloat(image.format)) {
-        failArgument("{}.format: VkFormat {} is not sampled as float; use a float, unorm, snorm or depth format", name,
-                     static_cast<int>(image.format));
-    }
+    checkFormat(image.format, name, channels);
     if (image.width < 1 || image.height < 1) {
         failArgument("{}.width, height: are {}x{}", name, image.width, image.height);
     }
@@ -131,12 +173,19 @@ void checkImage(const RefletImage& image, const char* name, uvec2 size) {
             "{}.width, height: are {}x{}, and the view is {}x{}; call refletResizeView, or give images of its size",
             name, image.width, image.height, size.x, size.y);
     }
-    if (image.layout == VK_IMAGE_LAYOUT_UNDEFINED || image.layout == VK_IMAGE_LAYOUT_PREINITIALIZED) {
-        failArgument("{}.layout: VkImageLayout {} has no content to read", name, static_cast<int>(image.layout));
+    if (!isKnown(image.layout)) {
+        failArgument("{}.layout: is VkImageLayout {}, which has nothing that shaders can sample", name,
+                     static_cast<int>(image.layout));
+    }
+    if (image.baseLevel > 15) {
+        failArgument("{}.baseLevel: is {}; images have at most 16", name, image.baseLevel);
+    }
+    if (std::ranges::any_of(image.reserved, [](uint32_t value) { return value != 0; })) {
+        failArgument("{}.reserved: must be 0; clear the struct before you fill it", name);
     }
 }
 
-gpu::Image HostImages::add(const RefletImage& image) {
+gpu::Image HostImages::add(const RefletImage& image, uint32_t layers) {
     if (image.image == VK_NULL_HANDLE) {
         return {};
     }
@@ -146,21 +195,28 @@ gpu::Image HostImages::add(const RefletImage& image) {
     state.layout = sampledLayout(image);
     state.external = true;
     // One image may be given for several fields: it gets one barrier.
-    const bool known = std::ranges::any_of(images_, [&](const RefletImage& i) { return i.image == image.image; });
-    if (!known) {
-        images_.push_back(image);
+    const auto known = std::ranges::find_if(images_, [&](const Given& i) {
+        return i.image.image == image.image && i.image.baseLayer == image.baseLayer &&
+               i.image.baseLevel == image.baseLevel;
+    });
+    if (known == images_.end()) {
+        images_.push_back({image, layers});
+    } else {
+        known->image.stages |= image.stages;
+        known->image.access |= image.access;
+        known->layers = std::max(known->layers, layers);
     }
     return {&state, -1, image.format, {image.width, image.height}, 1, 1};
 }
 
 void HostImages::acquire() {
     std::vector<VkImageMemoryBarrier2> barriers;
-    for (const RefletImage& image : images_) {
+    for (const auto& [image, layers] : images_) {
         const bool moves = !isSampledIn(image.layout);
         if (image.stages == 0 && !moves) {
             continue;
         }
-        VkImageMemoryBarrier2 barrier = barrierOf(image);
+        VkImageMemoryBarrier2 barrier = barrierOf(image, layers);
         barrier.srcStageMask = image.stages != 0 ? image.stages : VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
         barrier.srcAccessMask = image.access;
         barrier.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
@@ -172,8 +228,8 @@ void HostImages::acquire() {
     back_.reserve(images_.size());
     record(view_, barriers);
     // Later writes of the host wait for the reads, and find the layout that they left.
-    for (const RefletImage& image : images_) {
-        VkImageMemoryBarrier2 barrier = barrierOf(image);
+    for (const auto& [image, layers] : images_) {
+        VkImageMemoryBarrier2 barrier = barrierOf(image, layers);
         barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
         barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
         barrier.dstAccessMask = accessIn(image.layout);

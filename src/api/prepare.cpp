@@ -31,12 +31,13 @@ private:
     RefletView_T& view_;
 };
 
-void prepareFrame(RefletView_T& view, const Settings& settings, const RefletPrepareInfo& info) {
+void prepareFrame(RefletView_T& view, const Settings& settings, const RefletPrepareInfo& info,
+                  const RefletGBuffer& gbuffer) {
     StandIns standIns(view);
     const auto asked = [&](RefletEffect effect) { return (info.effects & effect) != 0; };
     Frame frame;
     frame.context.view.size = vec2(view.size);
-    HostSurfaces surfaces = hostSurfaces(*info.gbuffer, [&](const RefletImage& i) { return standIns.makeIfGiven(i); });
+    HostSurfaces surfaces = hostSurfaces(gbuffer, [&](const RefletImage& i) { return standIns.makeIfGiven(i); });
     surfaces.depth = standIns.make(view.size);
     surfaces.normal = standIns.make(view.size);
     recordImport(view, frame, surfaces, {});
@@ -86,12 +87,12 @@ void prepareFrame(RefletView_T& view, const Settings& settings, const RefletPrep
 }
 
 void prepareOnce(RefletView_T& view, const Settings& settings, const RefletPrepareInfo& info,
-                 std::vector<gpu::PipelineInfo>& missing) {
+                 const RefletGBuffer& gbuffer, std::vector<gpu::PipelineInfo>& missing) {
     view.hostImages.clear();
     view.last.reset();  // its images belong to the frame that is prepared now
     view.recorder.prepare(missing);
     try {
-        prepareFrame(view, settingsOfFrame(view, settings, {}), info);
+        prepareFrame(view, settingsOfFrame(view, settings, {}), info, gbuffer);
     } catch (...) {
         view.recorder.drop();
         view.recorder.end();
@@ -132,15 +133,17 @@ std::vector<Named> imagesOf(const Frame& frame) {
 using namespace reflet;
 using namespace reflet::api;
 
-RefletResult refletPrepare(RefletView view, RefletSettings settings, const RefletPrepareInfo* info, uint32_t most,
-                           uint32_t* left) {
+RefletResult refletPrepare(RefletView view, RefletSettings settings, const RefletPrepareInfo* info,
+                           uint32_t maxPipelines, uint32_t* remaining) {
     return onView(view, [&] {
         const RefletPrepareInfo given = adopted(info, "RefletPrepareInfo");
-        if (settings == nullptr || left == nullptr || given.gbuffer == nullptr) {
-            failArgument("{}: is NULL", settings == nullptr ? "settings"
-                                        : left == nullptr   ? "left"
-                                                            : "RefletPrepareInfo.gbuffer");
+        if (settings == nullptr || remaining == nullptr) {
+            failArgument("{}: is NULL", settings == nullptr ? "settings" : "remaining");
         }
+        const RefletGBuffer gbuffer = adopted(given.gbuffer, "RefletPrepareInfo.gbuffer");
+        checkBoolean(given.hasEnvironmentImage, "RefletPrepareInfo.hasEnvironmentImage");
+        checkBoolean(given.autoExposure, "RefletPrepareInfo.autoExposure");
+        checkDepthKind(given.shadowDepthKind, "RefletPrepareInfo.shadowDepthKind");
         if (given.effects == 0 || (given.effects & ~allEffects) != 0) {
             failArgument("RefletPrepareInfo.effects: is {:#x}; must be a combination of RefletEffect", given.effects);
         }
@@ -148,16 +151,16 @@ RefletResult refletPrepare(RefletView view, RefletSettings settings, const Refle
             failArgument("view: a frame has begun; prepare before refletBeginFrame or after refletEndFrame");
         }
         std::vector<gpu::PipelineInfo> missing;
-        prepareOnce(*view, settings->values, given, missing);
+        prepareOnce(*view, settings->values, given, gbuffer, missing);
         if (view->recorder.counts().plans > 0) {  // now all histories exist: the rest goes around them
             view->recorder.tidy();
-            prepareOnce(*view, settings->values, given, missing);
+            prepareOnce(*view, settings->values, given, gbuffer, missing);
         }
-        const size_t made = std::min<size_t>(missing.size(), most);
+        const size_t made = std::min<size_t>(missing.size(), maxPipelines);
         for (size_t i = 0; i < made; ++i) {
             view->owner.gpu->pipelines().get(missing[i]);
         }
-        *left = static_cast<uint32_t>(missing.size() - made);
+        *remaining = static_cast<uint32_t>(missing.size() - made);
     });
 }
 
@@ -165,6 +168,9 @@ RefletResult refletPassTimes(RefletView view, uint32_t* count, RefletPassTime* t
     return onView(view, [&] {
         if (count == nullptr) {
             failArgument("count: is NULL");
+        }
+        if (!view->timesPasses) {
+            failArgument("view: measures no times; make it with REFLET_VIEW_PASS_TIMES in RefletViewInfo.flags");
         }
         const std::vector<gpu::PassTime>& known = view->recorder.passTimes();
         const auto all = static_cast<uint32_t>(known.size());

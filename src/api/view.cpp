@@ -36,35 +36,57 @@ void checkKinds(const RefletGBuffer& g) {
                          static_cast<int>(last));
         }
     };
-    check("depthKind", static_cast<int>(g.depthKind), static_cast<int>(REFLET_DEPTH_STANDARD));
+    checkDepthKind(g.depthKind, "gbuffer.depthKind");
     check("normalKind", static_cast<int>(g.normalKind), static_cast<int>(REFLET_NORMAL_VECTOR_UNORM));
     check("roughnessKind", static_cast<int>(g.roughnessKind), static_cast<int>(REFLET_ROUGHNESS_SMOOTHNESS));
     check("baseColorKind", static_cast<int>(g.baseColorKind), static_cast<int>(REFLET_COLOR_SRGB));
     check("motionKind", static_cast<int>(g.motionKind), static_cast<int>(REFLET_MOTION_PIXELS));
     check("roughnessChannel", static_cast<int64_t>(g.roughnessChannel), int64_t(3));
     check("metallicChannel", static_cast<int64_t>(g.metallicChannel), int64_t(3));
+    checkBoolean(g.normalsInViewSpace, "gbuffer.normalsInViewSpace");
+    checkBoolean(g.motionIncludesJitter, "gbuffer.motionIncludesJitter");
 }
 
 void checkGBuffer(const RefletGBuffer& g, uvec2 size) {
-    const std::pair<const char*, const RefletImage*> images[] = {{"gbuffer.depth", &g.depth},
-                                                                 {"gbuffer.normal", &g.normal},
-                                                                 {"gbuffer.roughness", &g.roughness},
-                                                                 {"gbuffer.geometricNormal", &g.geometricNormal},
-                                                                 {"gbuffer.metallic", &g.metallic},
-                                                                 {"gbuffer.baseColor", &g.baseColor},
-                                                                 {"gbuffer.f0", &g.f0},
-                                                                 {"gbuffer.motion", &g.motion},
-                                                                 {"gbuffer.backDepth", &g.backDepth}};
-    for (const auto& [name, image] : images) {
+    checkKinds(g);
+    struct Field {
+        const char* name;
+        const RefletImage* image;
+        uint32_t channels;
+    };
+    const bool octahedral =
+        g.normalKind == REFLET_NORMAL_OCTAHEDRAL_SNORM || g.normalKind == REFLET_NORMAL_OCTAHEDRAL_UNORM;
+    const uint32_t normalChannels = octahedral ? 2 : 3;
+    const Field fields[] = {{"gbuffer.depth", &g.depth, depthChannel},
+                            {"gbuffer.normal", &g.normal, normalChannels},
+                            {"gbuffer.roughness", &g.roughness, g.roughnessChannel + 1},
+                            {"gbuffer.geometricNormal", &g.geometricNormal, normalChannels},
+                            {"gbuffer.metallic", &g.metallic, g.metallicChannel + 1},
+                            {"gbuffer.baseColor", &g.baseColor, 3},
+                            {"gbuffer.f0", &g.f0, 3},
+                            {"gbuffer.motion", &g.motion, 2},
+                            {"gbuffer.backDepth", &g.backDepth, depthChannel}};
+    for (const auto& [name, image, channels] : fields) {
         const bool required = image == &g.depth || image == &g.normal;
         if (required && image->image == VK_NULL_HANDLE) {
             failArgument("{}.image: is VK_NULL_HANDLE, and is required", name);
         }
         if (image->image != VK_NULL_HANDLE) {
-            checkImage(*image, name, size);
+            checkImage(*image, name, size, channels);
         }
     }
-    checkKinds(g);
+}
+
+// For refletDescribe.
+void note(RefletView_T& view, const RefletFrameInfo& info, const RefletGBuffer& gbuffer) {
+    Described now{info, gbuffer, outputSizeOf(view)};
+    if (view.described) {
+        const RefletFrameInfo& before = view.described->info;
+        now.frames = view.described->frames + 1;
+        now.lastIndex = before.frameIndex;
+        now.lastJitter = {before.jitter[0], before.jitter[1]};
+    }
+    view.described = now;
 }
 
 }  // namespace
@@ -161,8 +183,18 @@ RefletResult refletCreateView(RefletContext context, const RefletViewInfo* info,
             failArgument("RefletViewInfo.framesInFlight: is {}; must be 1 to {}", given.framesInFlight,
                          REFLET_MAX_FRAMES_IN_FLIGHT);
         }
+        constexpr uint32_t knownFlags = REFLET_VIEW_PASS_TIMES;
+        if ((given.flags & ~knownFlags) != 0) {
+            failArgument("RefletViewInfo.flags: is {:#x}; must be a combination of RefletViewFlags", given.flags);
+        }
+        if (given.viewIndex >= REFLET_MAX_VIEW_INDEX) {
+            failArgument("RefletViewInfo.viewIndex: is {}; must be 0 to {}", given.viewIndex,
+                         REFLET_MAX_VIEW_INDEX - 1);
+        }
         const std::scoped_lock lock(context->mutex);
-        auto made = std::make_unique<RefletView_T>(*context, given.framesInFlight);
+        auto made =
+            std::make_unique<RefletView_T>(*context, given.framesInFlight, (given.flags & REFLET_VIEW_PASS_TIMES) != 0);
+        made->seed = given.viewIndex;
         made->size = {given.width, given.height};
         made->store = std::make_unique<ViewStore>();
         ++context->views;
@@ -259,17 +291,25 @@ RefletResult refletBeginFrame(RefletView view, const RefletFrameInfo* info) {
         if (given.commandBuffer == VK_NULL_HANDLE) {
             failArgument("RefletFrameInfo.commandBuffer: is VK_NULL_HANDLE");
         }
-        checkGBuffer(given.gbuffer, view->size);
+        const RefletGBuffer gbuffer = adopted(given.gbuffer, "RefletFrameInfo.gbuffer");
+        checkGBuffer(gbuffer, view->size);
+        checkBoolean(given.clipYUp, "RefletFrameInfo.clipYUp");
+        checkBoolean(given.clipDepthFromMinusOne, "RefletFrameInfo.clipDepthFromMinusOne");
+        checkBoolean(given.backgroundIsEnvironment, "RefletFrameInfo.backgroundIsEnvironment");
         Frame frame;
-        frame.context.view = viewParams(given, view->size);
+        frame.context.view = viewParams(given, gbuffer.depthKind, view->size);
+        frame.context.view.seed = view->seed;
         frame.jitter = {given.jitter[0], given.jitter[1]};
-        frame.elapsed = std::clamp(given.elapsed, 0.0F, 3600.0F);
+        if (!(given.elapsed >= 0.0F && given.elapsed <= 3600.0F)) {
+            failArgument("RefletFrameInfo.elapsed: is {}; must be 0 to 3600 seconds", given.elapsed);
+        }
+        frame.elapsed = given.elapsed;
         if (!(given.lightChange >= 0.0F && given.lightChange <= 1.0F)) {
             failArgument("RefletFrameInfo.lightChange: is {}; must be 0 to 1", given.lightChange);
         }
         frame.change = {given.restFrames, given.lightChange};
         frame.showsEnvironment = given.backgroundIsEnvironment != 0;
-        const ImportParams params = importParams(given, frame.context.view);
+        const ImportParams params = importParams(given, gbuffer, frame.context.view);
         view->commands = given.commandBuffer;
         view->hostImages.clear();
         view->recorder.begin(given.commandBuffer);
@@ -277,7 +317,7 @@ RefletResult refletBeginFrame(RefletView view, const RefletFrameInfo* info) {
             waitForReaders(*view);
             HostImages host(*view);
             const HostSurfaces surfaces =
-                hostSurfaces(given.gbuffer, [&](const RefletImage& image) { return host.add(image); });
+                hostSurfaces(gbuffer, [&](const RefletImage& image) { return host.add(image); });
             host.acquire();
             recordImport(*view, frame, surfaces, params);
         } catch (...) {
@@ -287,6 +327,7 @@ RefletResult refletBeginFrame(RefletView view, const RefletFrameInfo* info) {
         }
         view->frame = frame;
         view->last.reset();
+        note(*view, given, gbuffer);
     });
 }
 

@@ -13,19 +13,36 @@ template <class F>
 F instanceFunction(const OpenDevice& open, const char* name) {
     const PFN_vkVoidFunction found = open.lookUp(open.instance, name);
     if (found == nullptr) {
-        throw Unsupported(fmt::format("the Vulkan instance has no {}: Vulkan 1.3 is needed", name));
+        throw Unsupported(fmt::format(
+            "the Vulkan instance has no {}: it was created for a version below 1.3 (VkApplicationInfo::apiVersion)",
+            name));
     }
     return reinterpret_cast<F>(found);
+}
+
+void requireVersion(uint32_t version) {
+    if (version < VK_API_VERSION_1_3) {
+        throw Unsupported(fmt::format("the device has Vulkan {}.{}: 1.3 is needed", VK_API_VERSION_MAJOR(version),
+                                      VK_API_VERSION_MINOR(version)));
+    }
 }
 
 }  // namespace
 
 Context::Context(const OpenDevice& open)
     : device_(open.device),
+      allocator_(open.allocator),
       allocateMemory_(open.allocateMemory),
       freeMemory_(open.freeMemory),
       anisotropic_(open.samplerAnisotropy),
       rayQuery_(open.rayQuery) {
+    VkPhysicalDeviceAccelerationStructurePropertiesKHR structures{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
+                                           rayQuery_ ? &structures : nullptr};
+    instanceFunction<PFN_vkGetPhysicalDeviceProperties2>(open, "vkGetPhysicalDeviceProperties2")(open.physical,
+                                                                                                 &properties);
+    requireVersion(properties.properties.apiVersion);
     const auto lookUp = instanceFunction<PFN_vkGetDeviceProcAddr>(open, "vkGetDeviceProcAddr");
     vk = loadFunctions(lookUp, open.device, rayQuery_);
     if (open.debugUtils) {
@@ -34,12 +51,6 @@ Context::Context(const OpenDevice& open)
             reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(lookUp(device_, "vkCmdBeginDebugUtilsLabelEXT"));
         endLabel_ = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(lookUp(device_, "vkCmdEndDebugUtilsLabelEXT"));
     }
-    VkPhysicalDeviceAccelerationStructurePropertiesKHR structures{
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
-    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
-                                           rayQuery_ ? &structures : nullptr};
-    instanceFunction<PFN_vkGetPhysicalDeviceProperties2>(open, "vkGetPhysicalDeviceProperties2")(open.physical,
-                                                                                                 &properties);
     limits_ = properties.properties.limits;
     cpu_ = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     scratchAlignment_ = structures.minAccelerationStructureScratchOffsetAlignment;
@@ -56,10 +67,10 @@ Context::~Context() {
     collectRetired();
     memory_.reset();
     for (const auto& [info, sampler] : samplers_) {
-        vk.vkDestroySampler(device_, sampler, nullptr);
+        vk.vkDestroySampler(device_, sampler, allocator());
     }
     for (const auto& [bindings, layout] : setLayouts_) {
-        vk.vkDestroyDescriptorSetLayout(device_, layout, nullptr);
+        vk.vkDestroyDescriptorSetLayout(device_, layout, allocator());
     }
 }
 
@@ -82,7 +93,7 @@ VkSampler Context::sampler(const SamplerInfo& info) {
         anisotropic_ && info.anisotropy > 1.0F && info.min == VK_FILTER_LINEAR ? VK_TRUE : VK_FALSE;
     create.maxAnisotropy = std::min(info.anisotropy, limits_.maxSamplerAnisotropy);
     VkSampler sampler = VK_NULL_HANDLE;
-    vkCheck(vk.vkCreateSampler(device_, &create, nullptr, &sampler), "creating a sampler");
+    vkCheck(vk.vkCreateSampler(device_, &create, allocator(), &sampler), "creating a sampler");
     samplers_.emplace_back(info, sampler);
     ++counts_.samplers;
     return sampler;
@@ -102,7 +113,7 @@ VkDescriptorSetLayout Context::setLayout(const std::vector<VkDescriptorType>& bi
     info.bindingCount = static_cast<uint32_t>(list.size());
     info.pBindings = list.data();
     auto& [key, layout] = setLayouts_.emplace_back(bindings, VkDescriptorSetLayout(VK_NULL_HANDLE));
-    const VkResult result = vk.vkCreateDescriptorSetLayout(device_, &info, nullptr, &layout);
+    const VkResult result = vk.vkCreateDescriptorSetLayout(device_, &info, allocator(), &layout);
     if (result != VK_SUCCESS) {
         setLayouts_.pop_back();
         vkCheck(result, "creating a set layout");
@@ -111,14 +122,14 @@ VkDescriptorSetLayout Context::setLayout(const std::vector<VkDescriptorType>& bi
 }
 
 VkResult Context::allocateMemory(const VkMemoryAllocateInfo& info, VkDeviceMemory* memory) {
-    return allocateMemory_ ? allocateMemory_(info, memory) : vk.vkAllocateMemory(device_, &info, nullptr, memory);
+    return allocateMemory_ ? allocateMemory_(info, memory) : vk.vkAllocateMemory(device_, &info, allocator(), memory);
 }
 
 void Context::freeMemory(VkDeviceMemory memory) {
     if (freeMemory_) {
         freeMemory_(memory);
     } else {
-        vk.vkFreeMemory(device_, memory, nullptr);
+        vk.vkFreeMemory(device_, memory, allocator());
     }
 }
 

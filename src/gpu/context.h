@@ -12,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <new>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,6 +31,8 @@ struct OpenDevice {
     bool rayQuery = false;
     /// VK_EXT_debug_utils: names images and labels passes.
     bool debugUtils = false;
+    /// Host memory of Vulkan objects; none: the driver's own.
+    std::optional<VkAllocationCallbacks> allocator;
     /// Device memory, if the host hands it out itself; both or none.
     std::function<VkResult(const VkMemoryAllocateInfo&, VkDeviceMemory*)> allocateMemory;
     std::function<void(VkDeviceMemory)> freeMemory;
@@ -79,6 +82,7 @@ public:
     /// Alignment of the memory that building an acceleration structure needs; 0 without ray query.
     [[nodiscard]] VkDeviceSize scratchAlignment() const { return scratchAlignment_; }
     [[nodiscard]] VkDevice handle() const { return device_; }
+    [[nodiscard]] const VkAllocationCallbacks* allocator() const { return allocator_ ? &*allocator_ : nullptr; }
     [[nodiscard]] Memory& memory() { return *memory_; }
     [[nodiscard]] ShaderLibrary& shaders() { return shaders_; }
     [[nodiscard]] PipelineCache& pipelines() { return *pipelines_; }
@@ -121,6 +125,7 @@ private:
     static void destroyNow(const std::function<void()>& destroy) noexcept;
 
     VkDevice device_ = VK_NULL_HANDLE;
+    std::optional<VkAllocationCallbacks> allocator_;
     std::function<VkResult(const VkMemoryAllocateInfo&, VkDeviceMemory*)> allocateMemory_;
     std::function<void(VkDeviceMemory)> freeMemory_;
     PFN_vkSetDebugUtilsObjectNameEXT setName_ = nullptr;

@@ -29,7 +29,8 @@ VkDescriptorPool makePool(Context& context) {
     info.pPoolSizes = sizes.data();
     ++context.counts().descriptorPools;
     VkDescriptorPool pool = VK_NULL_HANDLE;
-    vkCheck(context.vk.vkCreateDescriptorPool(context.handle(), &info, nullptr, &pool), "creating a descriptor pool");
+    vkCheck(context.vk.vkCreateDescriptorPool(context.handle(), &info, context.allocator(), &pool),
+            "creating a descriptor pool");
     return pool;
 }
 
@@ -37,7 +38,7 @@ VkDescriptorPool makePool(Context& context) {
 
 DescriptorSets::~DescriptorSets() {
     for (const VkDescriptorPool pool : pools_) {
-        context_.vk.vkDestroyDescriptorPool(context_.handle(), pool, nullptr);
+        context_.vk.vkDestroyDescriptorPool(context_.handle(), pool, context_.allocator());
     }
 }
 

@@ -17,7 +17,10 @@ PFN_vkVoidFunction find(PFN_vkGetDeviceProcAddr lookUp, VkDevice device, const c
     if (const PFN_vkVoidFunction found = lookUp(device, (std::string(name) + "KHR").c_str())) {
         return found;
     }
-    throw Unsupported(fmt::format("this device has no {}: Vulkan 1.3 is needed", name));
+    throw Unsupported(
+        fmt::format("this device has no {}: its instance was created for a version of Vulkan below 1.3 "
+                    "(VkApplicationInfo::apiVersion), or a layer or driver lacks it",
+                    name));
 }
 
 }  // namespace

@@ -47,6 +47,9 @@ namespace reflet::gpu {
     F(vkCreatePipelineLayout)        \
     F(vkCreateQueryPool)             \
     F(vkCreateSampler)               \
+    F(vkCreatePipelineCache)         \
+    F(vkDestroyPipelineCache)        \
+    F(vkGetPipelineCacheData)        \
     F(vkCreateShaderModule)          \
     F(vkDestroyBuffer)               \
     F(vkDestroyDescriptorPool)       \

@@ -25,18 +25,22 @@ PassTime& nextTime(std::vector<PassTime>& times, size_t& used) {
 }  // namespace
 
 void PassTimers::makePool(Frame& frame) {
+    if (!measures_) {
+        return;
+    }
     VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
     info.queryType = VK_QUERY_TYPE_TIMESTAMP;
     info.queryCount = perPool;
     frame.pools.reserve(frame.pools.size() + 1);
     VkQueryPool pool = VK_NULL_HANDLE;
-    vkCheck(context_.vk.vkCreateQueryPool(context_.handle(), &info, nullptr, &pool), "creating a query pool");
+    vkCheck(context_.vk.vkCreateQueryPool(context_.handle(), &info, context_.allocator(), &pool),
+            "creating a query pool");
     frame.pools.push_back(pool);
 }
 
 void PassTimers::destroy(Frame& frame) {
     for (const VkQueryPool pool : frame.pools) {
-        context_.vk.vkDestroyQueryPool(context_.handle(), pool, nullptr);
+        context_.vk.vkDestroyQueryPool(context_.handle(), pool, context_.allocator());
     }
 }
 
@@ -58,6 +62,9 @@ std::pair<VkQueryPool, uint32_t> PassTimers::timestamp(Frame& frame, VkCommandBu
 
 void PassTimers::begin(Frame& frame, VkCommandBuffer commands, const Timed& pass) {
     context_.beginLabel(commands, pass.name.data());  // of a string, so that it ends with a zero
+    if (!measures_) {
+        return;
+    }
     frame.passes.push_back(pass);
     // The second timestamp is never read. llvmpipe takes a timestamp only when the next one flushes it, which otherwise
     // would be after the pass.
@@ -68,8 +75,10 @@ void PassTimers::begin(Frame& frame, VkCommandBuffer commands, const Timed& pass
 }
 
 void PassTimers::end(Frame& frame, VkCommandBuffer commands) {
-    const auto [pool, query] = timestamp(frame, commands, 2);
-    context_.vk.vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, query);
+    if (measures_) {
+        const auto [pool, query] = timestamp(frame, commands, 2);
+        context_.vk.vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, query);
+    }
     context_.endLabel(commands);
 }
 

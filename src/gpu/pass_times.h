@@ -26,7 +26,8 @@ struct PassTime {
 
 class PassTimers {
 public:
-    explicit PassTimers(Context& context) : context_(context) {}
+    /// measures: else passes have labels alone, and no time.
+    PassTimers(Context& context, bool measures) : context_(context), measures_(measures) {}
 
     struct Timed {
         std::string_view name;
@@ -52,6 +53,7 @@ private:
     std::pair<VkQueryPool, uint32_t> timestamp(Frame& frame, VkCommandBuffer commands, uint32_t which);
 
     Context& context_;
+    bool measures_;
     std::vector<uint64_t> ticks_;
     std::vector<uint32_t> indices_;  ///< by name index: place in the times, plus 1
 };

@@ -50,7 +50,8 @@ VkDescriptorSetLayout makeSetLayout(Context& context, const std::vector<ShaderBi
     info.bindingCount = static_cast<uint32_t>(list.size());
     info.pBindings = list.data();
     VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-    vkCheck(context.vk.vkCreateDescriptorSetLayout(context.handle(), &info, nullptr, &layout), "creating a set layout");
+    vkCheck(context.vk.vkCreateDescriptorSetLayout(context.handle(), &info, context.allocator(), &layout),
+            "creating a set layout");
     return layout;
 }
 
@@ -64,7 +65,8 @@ VkPipelineLayout makeLayout(Context& context, VkDescriptorSetLayout set, VkDescr
     info.pushConstantRangeCount = pushConstantSize > 0 ? 1 : 0;
     info.pPushConstantRanges = &push;
     VkPipelineLayout layout = VK_NULL_HANDLE;
-    vkCheck(context.vk.vkCreatePipelineLayout(context.handle(), &info, nullptr, &layout), "creating a pipeline layout");
+    vkCheck(context.vk.vkCreatePipelineLayout(context.handle(), &info, context.allocator(), &layout),
+            "creating a pipeline layout");
     return layout;
 }
 
@@ -94,7 +96,7 @@ struct Modules {
     explicit Modules(Context& of) : context(of) {}
     ~Modules() {
         for (VkShaderModule handle : handles) {
-            context.vk.vkDestroyShaderModule(context.handle(), handle, nullptr);
+            context.vk.vkDestroyShaderModule(context.handle(), handle, context.allocator());
         }
     }
     Modules(const Modules&) = delete;
@@ -106,7 +108,8 @@ VkShaderModule makeModule(Context& context, const Shader& shader) {
     info.codeSize = shader.words.size_bytes();
     info.pCode = shader.words.data();
     VkShaderModule shaderModule = VK_NULL_HANDLE;
-    vkCheck(context.vk.vkCreateShaderModule(context.handle(), &info, nullptr, &shaderModule), "creating a shader");
+    vkCheck(context.vk.vkCreateShaderModule(context.handle(), &info, context.allocator(), &shaderModule),
+            "creating a shader");
     return shaderModule;
 }
 
@@ -189,7 +192,7 @@ VkPipeline makeGraphics(Context& context, VkPipelineCache cache, const PipelineI
     create.pDynamicState = &dynamic;
     create.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    vkCheck(context.vk.vkCreateGraphicsPipelines(context.handle(), cache, 1, &create, nullptr, &pipeline),
+    vkCheck(context.vk.vkCreateGraphicsPipelines(context.handle(), cache, 1, &create, context.allocator(), &pipeline),
             "creating a graphics pipeline");
     return pipeline;
 }
@@ -200,7 +203,7 @@ VkPipeline makeCompute(Context& context, VkPipelineCache cache, const VkPipeline
     create.stage = stage;
     create.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    vkCheck(context.vk.vkCreateComputePipelines(context.handle(), cache, 1, &create, nullptr, &pipeline),
+    vkCheck(context.vk.vkCreateComputePipelines(context.handle(), cache, 1, &create, context.allocator(), &pipeline),
             "creating a compute pipeline");
     return pipeline;
 }
@@ -227,9 +230,9 @@ VkPipeline makePipeline(Context& context, VkPipelineCache cache, const PipelineI
 }
 
 void destroy(Context& context, const Pipeline& pipeline) {
-    context.vk.vkDestroyPipeline(context.handle(), pipeline.handle, nullptr);
-    context.vk.vkDestroyPipelineLayout(context.handle(), pipeline.layout, nullptr);
-    context.vk.vkDestroyDescriptorSetLayout(context.handle(), pipeline.set, nullptr);
+    context.vk.vkDestroyPipeline(context.handle(), pipeline.handle, context.allocator());
+    context.vk.vkDestroyPipelineLayout(context.handle(), pipeline.layout, context.allocator());
+    context.vk.vkDestroyDescriptorSetLayout(context.handle(), pipeline.set, context.allocator());
 }
 
 // A pipeline on its way: destroyed with this unless it was taken.
@@ -305,8 +308,31 @@ void compileAll(std::vector<std::unique_ptr<Making>>& all, VkPipelineCache cache
 
 }  // namespace
 
+PipelineCache::PipelineCache(Context& context, PipelineMaking making) : context_(context), making_(std::move(making)) {
+    if (making_.driverCache == VK_NULL_HANDLE && making_.keepsData) {
+        VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
+        info.initialDataSize = making_.data.size();
+        info.pInitialData = making_.data.data();
+        vkCheck(context.vk.vkCreatePipelineCache(context.handle(), &info, context.allocator(), &own_),
+                "creating a pipeline cache");
+        making_.driverCache = own_;
+    }
+    making_.data = {};
+}
+
 PipelineCache::~PipelineCache() {
     clear();
+    context_.vk.vkDestroyPipelineCache(context_.handle(), own_, context_.allocator());
+}
+
+std::vector<std::byte> PipelineCache::data() const {
+    const DeviceFunctions& vk = context_.vk;
+    size_t size = 0;
+    vkCheck(vk.vkGetPipelineCacheData(context_.handle(), own_, &size, nullptr), "reading a pipeline cache");
+    std::vector<std::byte> bytes(size);
+    vkCheck(vk.vkGetPipelineCacheData(context_.handle(), own_, &size, bytes.data()), "reading a pipeline cache");
+    bytes.resize(size);
+    return bytes;
 }
 
 // Commands that are still recorded or in flight may use them.

@@ -65,14 +65,17 @@ struct Pipeline {
 /// How a context creates pipelines.
 struct PipelineMaking {
     VkPipelineCache driverCache = VK_NULL_HANDLE;  ///< of the owner of the device, or none
-    uint32_t threads = 1;                          ///< at most; the calling one is among them
+    /// Without one of the owner's: makes one, with what data() gave before.
+    bool keepsData = false;
+    std::span<const std::byte> data;  ///< read by the constructor
+    uint32_t threads = 1;             ///< at most; the calling one is among them
     /// Told the number of shaders before pipelines are created, and 0 once a frame with them has run.
     std::function<void(uint32_t shaders)> onCompile;
 };
 
 class PipelineCache {
 public:
-    PipelineCache(Context& context, PipelineMaking making) : context_(context), making_(std::move(making)) {}
+    PipelineCache(Context& context, PipelineMaking making);
     ~PipelineCache();
     PipelineCache(const PipelineCache&) = delete;
     PipelineCache& operator=(const PipelineCache&) = delete;
@@ -89,6 +92,11 @@ public:
     /// Creates pipelines, all different and none of which it has, on as many threads as the context allows. If some
     /// cannot be created, it has the others, and throws as get() does.
     void make(std::span<const PipelineInfo> missing);
+    /// Whether data() can be asked: PipelineMaking::keepsData.
+    [[nodiscard]] bool keepsData() const { return own_ != VK_NULL_HANDLE; }
+    /// What the driver keeps of the pipelines so far.
+    [[nodiscard]] std::vector<std::byte> data() const;
+
     /// A frame that uses the pipelines created so far has run.
     void noteUsed();
 
@@ -100,6 +108,7 @@ public:
 private:
     Context& context_;
     PipelineMaking making_;
+    VkPipelineCache own_ = VK_NULL_HANDLE;
     bool compiles_ = false;  ///< since the last noteUsed()
     uint64_t version_ = 0;
     std::map<std::vector<std::string_view>, std::unique_ptr<ShaderInterface>> interfaces_;

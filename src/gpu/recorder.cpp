@@ -18,11 +18,13 @@ constexpr uint32_t mostRoomyFrames = 16;
 }  // namespace
 
 // The other constructor first, so that the destructor runs if something fails here.
-Recorder::Recorder(Context& context, WithoutSlots /*tag*/) : PassList(context), sets_(context), timers_(context) {
+Recorder::Recorder(Context& context, bool timesPasses, WithoutSlots /*tag*/)
+    : PassList(context), sets_(context), timers_(context, timesPasses) {
     orderPasses(context.isCpu() ? PassOrder::asListed : PassOrder::byLevel);
 }
 
-Recorder::Recorder(Context& context, uint32_t framesInFlight) : Recorder(context, WithoutSlots{}) {
+Recorder::Recorder(Context& context, uint32_t framesInFlight, bool timesPasses)
+    : Recorder(context, timesPasses, WithoutSlots{}) {
     REFLET_CHECK(framesInFlight >= 1 && framesInFlight <= maxFramesInFlight, "{} frames in flight", framesInFlight);
     slots_.resize(framesInFlight);
     for (Slot& slot : slots_) {

@@ -34,8 +34,8 @@ class Recorder : public PassList {
 public:
     static constexpr uint32_t maxFramesInFlight = 4;
 
-    /// framesInFlight: 1 to maxFramesInFlight.
-    explicit Recorder(Context& context, uint32_t framesInFlight = 1);
+    /// framesInFlight: 1 to maxFramesInFlight. timesPasses: measures device times, for passTimes().
+    explicit Recorder(Context& context, uint32_t framesInFlight = 1, bool timesPasses = true);
     /// The device must have finished all frames.
     ~Recorder();
     Recorder(const Recorder&) = delete;
@@ -94,7 +94,7 @@ protected:
 
 private:
     struct WithoutSlots {};
-    Recorder(Context& context, WithoutSlots /*tag*/);
+    Recorder(Context& context, bool timesPasses, WithoutSlots /*tag*/);
 
     // A block of uniforms, and what it is known by.
     struct UniformBlock {

@@ -76,7 +76,8 @@ VkImageView makeView(Context& context, VkImage image, VkImageViewType type, cons
     view.format = info.format;
     view.subresourceRange = range;
     VkImageView made = VK_NULL_HANDLE;
-    vkCheck(context.vk.vkCreateImageView(context.handle(), &view, nullptr, &made), "creating an image view");
+    vkCheck(context.vk.vkCreateImageView(context.handle(), &view, context.allocator(), &made),
+            "creating an image view");
     return made;
 }
 
@@ -104,7 +105,7 @@ VkImage makeImage(Context& context, const ImageInfo& info, const std::string& na
     create.usage = info.usage;
     ++context.counts().images;
     VkImage image = VK_NULL_HANDLE;
-    vkCheck(context.vk.vkCreateImage(context.handle(), &create, nullptr, &image), "creating an image");
+    vkCheck(context.vk.vkCreateImage(context.handle(), &create, context.allocator(), &image), "creating an image");
     return image;
 }
 
@@ -120,10 +121,10 @@ void makeViews(Context& context, const ImageInfo& info, ImageState& state) {
 
 void destroyImage(Context& context, const ImageState& state) {
     for (VkImageView mip : state.mips) {
-        context.vk.vkDestroyImageView(context.handle(), mip, nullptr);
+        context.vk.vkDestroyImageView(context.handle(), mip, context.allocator());
     }
-    context.vk.vkDestroyImageView(context.handle(), state.view, nullptr);
-    context.vk.vkDestroyImage(context.handle(), state.image, nullptr);
+    context.vk.vkDestroyImageView(context.handle(), state.view, context.allocator());
+    context.vk.vkDestroyImage(context.handle(), state.image, context.allocator());
 }
 
 Texture::Texture(Context& context, const ImageInfo& info, const std::string& name)
@@ -189,7 +190,8 @@ Buffer::Buffer(Context& context, VkDeviceSize size, VkBufferUsageFlags usage, Me
     auto state = std::make_shared<BufferState>();
     state->id = nextResourceId();
     state->name = name;
-    vkCheck(context.vk.vkCreateBuffer(context.handle(), &create, nullptr, &state->buffer), "creating a buffer");
+    vkCheck(context.vk.vkCreateBuffer(context.handle(), &create, context.allocator(), &state->buffer),
+            "creating a buffer");
     context_ = &context;
     size_ = size;
     state_ = std::move(state);
@@ -206,7 +208,7 @@ void Buffer::retire() {
         return;
     }
     context_->retire([context = context_, state = state_, allocation = allocation_] {
-        context->vk.vkDestroyBuffer(context->handle(), state->buffer, nullptr);
+        context->vk.vkDestroyBuffer(context->handle(), state->buffer, context->allocator());
         context->memory().release(allocation);
     });
     state_.reset();

@@ -24,7 +24,7 @@ VkBuffer makeBuffer(Context& context, VkDeviceSize size, VkBufferUsageFlags usag
     create.usage = usage;
     ++context.counts().buffers;
     VkBuffer buffer = VK_NULL_HANDLE;
-    vkCheck(context.vk.vkCreateBuffer(context.handle(), &create, nullptr, &buffer), "creating a buffer");
+    vkCheck(context.vk.vkCreateBuffer(context.handle(), &create, context.allocator(), &buffer), "creating a buffer");
     return buffer;
 }
 
@@ -42,7 +42,8 @@ HeldImage::~HeldImage() {
 }
 
 PlacedBuffer::~PlacedBuffer() {
-    context.retire([&of = context, buffer = state.buffer] { of.vk.vkDestroyBuffer(of.handle(), buffer, nullptr); });
+    context.retire(
+        [&of = context, buffer = state.buffer] { of.vk.vkDestroyBuffer(of.handle(), buffer, of.allocator()); });
 }
 
 TransientMemory::~TransientMemory() {
@@ -92,7 +93,7 @@ TransientMemory::Needs TransientMemory::needsOf(VkDeviceSize bufferSize) {
     const VkBuffer probe = makeBuffer(context_, bufferSize, bufferUsage);
     VkMemoryRequirements needs{};
     context_.vk.vkGetBufferMemoryRequirements(context_.handle(), probe, &needs);
-    context_.vk.vkDestroyBuffer(context_.handle(), probe, nullptr);
+    context_.vk.vkDestroyBuffer(context_.handle(), probe, context_.allocator());
     const VkDeviceSize alignment = std::max(needs.alignment, context_.limits().bufferImageGranularity);
     const Needs made{heapOf(needs.memoryTypeBits, alignment), needs.size, alignment};
     if (bufferNeeds_.size() == mostNeeds) {
@@ -232,7 +233,7 @@ void TransientMemory::release() {
         for (Block& block : blocks_[heap]) {
             context_.retire([&context = context_, held = block.held, allocation = block.allocation, all = block.all] {
                 if (all != VK_NULL_HANDLE) {
-                    context.vk.vkDestroyBuffer(context.handle(), all, nullptr);
+                    context.vk.vkDestroyBuffer(context.handle(), all, context.allocator());
                 }
                 if (!held) {
                     context.memory().release(allocation);

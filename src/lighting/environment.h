@@ -7,8 +7,9 @@
 
 namespace reflet::lighting {
 
-/// factor: scale of the image's values, or the constant radiance; rotation about +Y [rad].
-EnvironmentParams environmentParams(const vec3& factor, float rotation);
+/// factor: scale of the image's values, or the constant radiance. rotation: about `up` [rad]. up: unit length, world
+/// space; where the upper edge of the image is, turned there from +Y by the shortest way.
+EnvironmentParams environmentParams(const vec3& factor, float rotation, const vec3& up = vec3(0.0F, 1.0F, 0.0F));
 
 /// Makes `cube` of the texels of an image; imageWidth: 0: these are of constant radiance. Keeps the cube's memory if it
 /// has the size already.

@@ -98,7 +98,7 @@ protected:
     }
 
     RefletView createView(Caller& call, RefletContext context) {
-        const RefletViewInfo info{sizeof info, HostRoom::width, HostRoom::height, test::Host::framesInFlight};
+        const RefletViewInfo info{sizeof info, HostRoom::width, HostRoom::height, test::Host::framesInFlight, 0, 0};
         RefletView view = nullptr;
         call("refletCreateView", [&] { return refletCreateView(context, &info, &view); });
         if (view == nullptr) {
@@ -112,7 +112,7 @@ protected:
         RefletPrepareInfo info{};
         info.structSize = sizeof info;
         info.effects = allEffects;
-        info.gbuffer = &frame.gbuffer;
+        info.gbuffer = frame.gbuffer;
         info.autoExposure = 1;
         uint32_t left = 0;
         call("refletPrepare", [&] { return refletPrepare(view, settings, &info, 1000, &left); });
@@ -134,7 +134,7 @@ protected:
 
     void effects(Caller& call, RefletView view, RefletSettings settings, bool few, RefletImage& display) {
         RefletImage image{};
-        RefletLobe lobe{};
+        RefletLobe lobe = test::emptyLobe();
         RefletComposite sum{};
         sum.structSize = sizeof sum;
         const RefletIndirectLight light = room_->light();

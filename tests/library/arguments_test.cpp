@@ -2,6 +2,7 @@
 // leaked.
 #include "library/library_host.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -13,7 +14,7 @@ class Arguments : public ::testing::Test {
 protected:
     Arguments() : room_(host_, {}) {
         context_ = host_.makeContext();
-        const RefletViewInfo info{sizeof info, HostRoom::width, HostRoom::height, 3};
+        const RefletViewInfo info{sizeof info, HostRoom::width, HostRoom::height, 3, 0, 0};
         EXPECT_REFLET(refletCreateView(context_, &info, &view_));
         EXPECT_REFLET(refletCreateSettings("fast", &settings_));
     }
@@ -39,6 +40,15 @@ protected:
             RefletFrameInfo info = room_.frame(commands, 0);
             spoil(info);
             expectError(refletBeginFrame(view_, &info), field, wanted);
+        });
+    }
+
+    void expectGBufferError(const std::string& field, const std::function<void(RefletGBuffer&)>& spoil) {
+        RefletGBuffer spoiled{};
+        expectFrameError(field, [&](RefletFrameInfo& info) {
+            spoiled = *info.gbuffer;
+            spoil(spoiled);
+            info.gbuffer = &spoiled;
         });
     }
 
@@ -73,7 +83,12 @@ TEST_F(Arguments, OfAContext) {
     expect("enabledFeatures", [](auto& i) { i.enabledFeatures = nullptr; });
     expect("enabledExtensions", [](auto& i) { i.enabledExtensionCount = 1; });
     static RefletMemoryCallbacks none{};
-    expect("memory", [](auto& i) { i.memory = &none; });
+    expect("memory.structSize", [](auto& i) { i.memory = &none; });
+    static RefletMemoryCallbacks half{sizeof half, nullptr, nullptr, nullptr};
+    expect("memory: allocate", [](auto& i) { i.memory = &half; });
+    expect("pipelineCacheData", [](auto& i) { i.pipelineCacheDataSize = 8; });
+    expect(
+        "version", [](auto& i) { i.version = REFLET_MAKE_VERSION(0, 1, 0); }, REFLET_ERROR_INCOMPATIBLE_VERSION);
     static VkPhysicalDeviceFeatures2 features{};
     for (const char* field :
          {"shaderStorageImageExtendedFormats", "imageCubeArray", "scalarBlockLayout", "synchronization2"}) {
@@ -116,12 +131,14 @@ TEST_F(Arguments, OfAView) {
         expectError(refletCreateView(context_, &info, &view), field);
         EXPECT_EQ(view, nullptr);
     };
-    expect("structSize", {0, 8, 8, 1});
-    expect("width", {sizeof(RefletViewInfo), 0, 8, 1});
-    expect("height", {sizeof(RefletViewInfo), 8, 20000, 1});
-    expect("framesInFlight", {sizeof(RefletViewInfo), 8, 8, 0});
-    expect("framesInFlight", {sizeof(RefletViewInfo), 8, 8, 5});
-    const RefletViewInfo info{sizeof info, 8, 8, 1};
+    expect("structSize", {0, 8, 8, 1, 0, 0});
+    expect("flags", {sizeof(RefletViewInfo), 8, 8, 1, 2, 0});
+    expect("viewIndex", {sizeof(RefletViewInfo), 8, 8, 1, 0, REFLET_MAX_VIEW_INDEX});
+    expect("width", {sizeof(RefletViewInfo), 0, 8, 1, 0, 0});
+    expect("height", {sizeof(RefletViewInfo), 8, 20000, 1, 0, 0});
+    expect("framesInFlight", {sizeof(RefletViewInfo), 8, 8, 0, 0, 0});
+    expect("framesInFlight", {sizeof(RefletViewInfo), 8, 8, 5, 0, 0});
+    const RefletViewInfo info{sizeof info, 8, 8, 1, 0, 0};
     RefletView view = nullptr;
     expectError(refletCreateView(nullptr, &info, &view), "context");
     expectError(refletCreateView(context_, &info, nullptr), "view");
@@ -149,6 +166,22 @@ TEST_F(Arguments, OfAFrame) {
     expectFrameError("worldToView", [](auto& i) { i.worldToView[0] = 3.0F; });
     expectFrameError("viewToClip", [](auto& i) { i.viewToClip[0] = 0.0F; });
     expectFrameError("viewToClip", [](auto& i) { i.viewToClip[5] = INFINITY; });
+    expectFrameError("gbuffer", [](auto& i) { i.gbuffer = nullptr; });
+    expectFrameError("worldToView", [](auto& i) { i.worldToView[3] = 0.5F; });
+    expectFrameError("worldToView", [](auto& i) { i.worldToView[12] = 1e38F; });
+    expectFrameError("previousViewToClip", [](auto& i) { i.previousWorldToView[0] = 1.0F; });
+    expectFrameError("previousWorldToView", [](auto& i) { std::ranges::copy(i.viewToClip, i.previousViewToClip); });
+    expectFrameError("viewToClip", [](auto& i) { i.viewToClip[14] = 1e-44F; });
+    expectFrameError("viewToClip", [](auto& i) { i.viewToClip[0] = 1e38F; });
+    expectFrameError("has the jitter in it", [](auto& i) {
+        i.jitter[0] = 0.25F;
+        i.jitter[1] = -0.25F;
+        i.viewToClip[8] = 2.0F * 0.25F / HostRoom::width;
+        i.viewToClip[9] = -2.0F * 0.25F / HostRoom::height;
+    });
+    expectFrameError("clipYUp", [](auto& i) { i.clipYUp = 5; });
+    expectFrameError("clipDepthFromMinusOne", [](auto& i) { i.clipDepthFromMinusOne = 2; });
+    expectFrameError("elapsed", [](auto& i) { i.elapsed = NAN; });
     expectFrameError("jitter", [](auto& i) { i.jitter[1] = 3.0F; });
     expectFrameError("lightChange", [](auto& i) { i.lightChange = 1.5F; });
     expectFrameError("previousJitter", [](auto& i) { i.previousJitter[0] = NAN; });
@@ -165,28 +198,43 @@ TEST_F(Arguments, OfAFrame) {
     for (const auto& [name, member] : images) {
         const std::string field = name;
         const auto spoil = [&, at = member](const std::function<void(RefletImage&)>& change) {
-            return [=](RefletFrameInfo& i) {
-                if ((i.gbuffer.*at).image == VK_NULL_HANDLE) {
-                    i.gbuffer.*at = i.gbuffer.normal;
+            return [=](G& g) {
+                if ((g.*at).image == VK_NULL_HANDLE) {
+                    g.*at = at == &G::backDepth ? g.depth : g.normal;
                 }
-                change(i.gbuffer.*at);
+                change(g.*at);
             };
         };
-        expectFrameError(field + ".view", spoil([](RefletImage& i) { i.view = VK_NULL_HANDLE; }));
-        expectFrameError(field + ".format", spoil([](RefletImage& i) { i.format = VK_FORMAT_R32_UINT; }));
-        expectFrameError(field + ".width", spoil([](RefletImage& i) { i.width += 1; }));
-        expectFrameError(field + ".width", spoil([](RefletImage& i) { i.height = 0; }));
-        expectFrameError(field + ".layout", spoil([](RefletImage& i) { i.layout = VK_IMAGE_LAYOUT_UNDEFINED; }));
+        expectGBufferError(field + ".view", spoil([](RefletImage& i) { i.view = VK_NULL_HANDLE; }));
+        expectGBufferError(field + ".format", spoil([](RefletImage& i) { i.format = VK_FORMAT_R32_UINT; }));
+        expectGBufferError(field + ".width", spoil([](RefletImage& i) { i.width += 1; }));
+        expectGBufferError(field + ".width", spoil([](RefletImage& i) { i.height = 0; }));
+        expectGBufferError(field + ".layout", spoil([](RefletImage& i) { i.layout = VK_IMAGE_LAYOUT_UNDEFINED; }));
+        expectGBufferError(field + ".layout", spoil([](RefletImage& i) { i.layout = VkImageLayout(77); }));
+        expectGBufferError(field + ".baseLevel", spoil([](RefletImage& i) { i.baseLevel = 99; }));
+        expectGBufferError(field + ".reserved", spoil([](RefletImage& i) { i.reserved[2] = 1; }));
     }
-    expectFrameError("gbuffer.depth", [](auto& i) { i.gbuffer.depth.image = VK_NULL_HANDLE; });
-    expectFrameError("gbuffer.normal", [](auto& i) { i.gbuffer.normal.image = VK_NULL_HANDLE; });
-    expectFrameError("depthKind", [](auto& i) { i.gbuffer.depthKind = RefletDepthKind(7); });
-    expectFrameError("normalKind", [](auto& i) { i.gbuffer.normalKind = RefletNormalKind(4); });
-    expectFrameError("roughnessKind", [](auto& i) { i.gbuffer.roughnessKind = RefletRoughnessKind(9); });
-    expectFrameError("baseColorKind", [](auto& i) { i.gbuffer.baseColorKind = RefletColorKind(2); });
-    expectFrameError("motionKind", [](auto& i) { i.gbuffer.motionKind = RefletMotionKind(3); });
-    expectFrameError("roughnessChannel", [](auto& i) { i.gbuffer.roughnessChannel = 4; });
-    expectFrameError("metallicChannel", [](auto& i) { i.gbuffer.metallicChannel = 99; });
+    expectGBufferError("gbuffer.depth", [](auto& g) { g.depth.image = VK_NULL_HANDLE; });
+    expectGBufferError("gbuffer.normal", [](auto& g) { g.normal.image = VK_NULL_HANDLE; });
+    expectGBufferError("depthKind", [](auto& g) { g.depthKind = RefletDepthKind(7); });
+    expectGBufferError("normalKind", [](auto& g) { g.normalKind = RefletNormalKind(4); });
+    expectGBufferError("roughnessKind", [](auto& g) { g.roughnessKind = RefletRoughnessKind(9); });
+    expectGBufferError("baseColorKind", [](auto& g) { g.baseColorKind = RefletColorKind(2); });
+    expectGBufferError("motionKind", [](auto& g) { g.motionKind = RefletMotionKind(3); });
+    expectGBufferError("roughnessChannel", [](auto& g) { g.roughnessChannel = 4; });
+    expectGBufferError("metallicChannel", [](auto& g) { g.metallicChannel = 99; });
+    expectGBufferError("structSize", [](auto& g) { g.structSize = 8; });
+    expectGBufferError("depth.format: is R8G8B8A8_UNORM", [](auto& g) { g.depth.format = VK_FORMAT_R8G8B8A8_UNORM; });
+    expectGBufferError("normal.format: is D32_SFLOAT", [](auto& g) { g.normal.format = VK_FORMAT_D32_SFLOAT; });
+    expectGBufferError("normal.format: is R8_UNORM", [](auto& g) { g.normal.format = VK_FORMAT_R8_UNORM; });
+    expectGBufferError("metallic.format: is R32_SFLOAT", [](auto& g) {
+        g.metallic.format = VK_FORMAT_R32_SFLOAT;
+        g.metallicChannel = 3;
+    });
+    expectGBufferError("motionScale", [](auto& g) { g.motionScale[1] = INFINITY; });
+    expectGBufferError("normalsInViewSpace", [](auto& g) { g.normalsInViewSpace = 5; });
+    expectGBufferError("motionIncludesJitter", [](auto& g) { g.motionIncludesJitter = 2; });
+    expectGBufferError("depthKind: is REFLET_DEPTH_STANDARD", [](auto& g) { g.depthKind = REFLET_DEPTH_STANDARD; });
     EXPECT_EQ(LibraryHost::made().images, 0U) << "nothing was recorded";
 }
 
@@ -207,6 +255,11 @@ protected:
         expectError(refletDiffuseGi(view_, settings_, &given, &lobe_), field);
         expectError(refletReflections(view_, settings_, &given, &lobe_), field);
     }
+    void expectEnvironmentError(const std::string& field, const std::function<void(RefletEnvironment&)>& spoil) {
+        RefletEnvironment spoiled = *light_.environment;
+        spoil(spoiled);
+        expectLightError(field, [&](RefletIndirectLight& l) { l.environment = &spoiled; });
+    }
     void expectSunError(const std::string& field, const std::function<void(RefletSunShadow&)>& spoil) {
         RefletSunShadow given = room_.sun();
         spoil(given);
@@ -218,7 +271,7 @@ protected:
         expectError(refletDepthOfField(view_, settings_, &given, &light_.light, &image_), field);
     }
 
-    RefletLobe lobe_{};
+    RefletLobe lobe_ = emptyLobe();
     RefletImage image_{};
     RefletComposite sum_{sizeof sum_, {}, {}, {}};
     RefletIndirectLight light_ = room_.light();
@@ -230,12 +283,14 @@ TEST_F(EffectArguments, OfIndirectLight) {
         expectLightError("structSize", [](auto& l) { l.structSize = 3; });
         expectLightError("light.image", [](auto& l) { l.light.image = VK_NULL_HANDLE; });
         expectLightError("light.format", [](auto& l) { l.light.format = VK_FORMAT_R8G8B8A8_UINT; });
-        expectLightError("factor", [](auto& l) { l.environment.factor[1] = -1.0F; });
-        expectLightError("factor", [](auto& l) { l.environment.factor[2] = INFINITY; });
-        expectLightError("rotation", [](auto& l) { l.environment.rotation = NAN; });
-        expectLightError("Environment.image", [](auto& l) {
-            l.environment.image = l.light;
-            l.environment.image.view = VK_NULL_HANDLE;
+        expectEnvironmentError("structSize", [](auto& e) { e.structSize = 4; });
+        expectEnvironmentError("factor", [](auto& e) { e.factor[1] = -1.0F; });
+        expectEnvironmentError("factor", [](auto& e) { e.factor[2] = INFINITY; });
+        expectEnvironmentError("rotation", [](auto& e) { e.rotation = NAN; });
+        expectEnvironmentError("worldUp", [](auto& e) { e.worldUp[2] = NAN; });
+        expectEnvironmentError("Environment.image", [&](auto& e) {
+            e.image = light_.light;
+            e.image.view = VK_NULL_HANDLE;
         });
         expectError(refletDiffuseGi(view_, settings_, nullptr, &lobe_), "RefletIndirectLight");
         expectError(refletDiffuseGi(view_, settings_, &light_, nullptr), "lobe");
@@ -249,7 +304,11 @@ TEST_F(EffectArguments, OfTheSunsShadow) {
         expectSunError("map", [](auto& s) { s.map.width = 32; });
         expectSunError("cascades", [](auto& s) { s.cascades = 0; });
         expectSunError("cascades", [](auto& s) { s.cascades = 5; });
-        expectSunError("ends", [](auto& s) { s.cascades = 2; });
+        expectSunError("map.format", [](auto& s) { s.map.format = VK_FORMAT_R8G8B8A8_UNORM; });
+        expectSunError("depthKind", [](auto& s) { s.depthKind = RefletDepthKind(2); });
+        expectSunError("clipYUp", [](auto& s) { s.clipYUp = 5; });
+        expectSunError("contactShadows", [](auto& s) { s.contactShadows = 2; });
+        expectSunError("cascadeSplits", [](auto& s) { s.cascades = 2; });
         expectSunError("worldToClip", [](auto& s) { s.worldToClip[0][2] = NAN; });
         expectSunError("worldToClip", [](auto& s) { s.worldToClip[0][15] = 0.0F; });
         expectSunError("toSun", [](auto& s) { s.toSun[1] = 0.0F; });
@@ -313,7 +372,7 @@ TEST_F(EffectArguments, OfPreparing) {
     prepare.structSize = sizeof prepare;
     expectError(refletPrepare(view_, settings_, &prepare, 1, &left), "gbuffer");
     const RefletFrameInfo info = room_.frame(nullptr, 0);
-    prepare.gbuffer = &info.gbuffer;
+    prepare.gbuffer = info.gbuffer;
     expectError(refletPrepare(view_, settings_, &prepare, 1, &left), "effects");
     prepare.effects = 1U << 20U;
     expectError(refletPrepare(view_, settings_, &prepare, 1, &left), "effects");
@@ -326,7 +385,7 @@ TEST_F(Arguments, AnErrorIsLogged) {
     info.log = [](void* user, RefletResult, const char* text) { *static_cast<std::string*>(user) = text; };
     RefletContext context = nullptr;
     EXPECT_REFLET(refletCreateContext(&info, &context));
-    const RefletViewInfo size{sizeof size, 8, 8, 1};
+    const RefletViewInfo size{sizeof size, 8, 8, 1, 0, 0};
     RefletView view = nullptr;
     EXPECT_REFLET(refletCreateView(context, &size, &view));
     EXPECT_EQ(refletEndFrame(view), REFLET_ERROR_INVALID_ARGUMENT);

@@ -113,7 +113,8 @@ HostRoom::HostRoom(LibraryHost& host, RoomConventions conventions) {
     store(info_.worldToView, toView);
     store(info_.viewToClip, projection(odd));
     info_.clipYUp = odd ? 1 : 0;
-    RefletGBuffer& g = info_.gbuffer;
+    RefletGBuffer& g = gbuffer_;
+    g.structSize = sizeof g;
     g.depth = host.makeImage(VK_FORMAT_R32_SFLOAT, width, height, images.depth);
     g.depthKind = odd ? REFLET_DEPTH_STANDARD : REFLET_DEPTH_REVERSED;
     g.normal = host.makeImage(four, width, height, images.normal);
@@ -128,7 +129,11 @@ HostRoom::HostRoom(LibraryHost& host, RoomConventions conventions) {
     g.baseColorKind = odd ? REFLET_COLOR_SRGB : REFLET_COLOR_LINEAR;
     g.motion = host.makeImage(four, width, height, images.motion);
     g.motionKind = odd ? REFLET_MOTION_PIXELS : REFLET_MOTION_UV;
-    g.motionIsBeforeMinusNow = odd ? 1 : 0;
+    g.motionScale[0] = g.motionScale[1] = odd ? -1.0F : 0.0F;
+    environment_.structSize = sizeof environment_;
+    environment_.factor[0] = 0.5F;
+    environment_.factor[1] = 0.6F;
+    environment_.factor[2] = 0.8F;
     lit_ = host.makeImage(four, width, height, images.lit);
     shadowMap_ = host.makeImage(VK_FORMAT_R32_SFLOAT, 64, 64, std::vector<float>(size_t(64) * 64, 0.0F));
 }
@@ -137,6 +142,7 @@ RefletFrameInfo HostRoom::frame(VkCommandBuffer commands, uint32_t index) const 
     RefletFrameInfo info = info_;
     info.commandBuffer = commands;
     info.frameIndex = index;
+    info.gbuffer = &gbuffer_;
     info.elapsed = 0.04F;
     return info;
 }
@@ -145,9 +151,7 @@ RefletIndirectLight HostRoom::light() const {
     RefletIndirectLight light{};
     light.structSize = sizeof light;
     light.light = lit_;
-    light.environment.factor[0] = 0.5F;
-    light.environment.factor[1] = 0.6F;
-    light.environment.factor[2] = 0.8F;
+    light.environment = &environment_;
     return light;
 }
 

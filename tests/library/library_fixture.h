@@ -7,6 +7,7 @@
 
 #define GLM_ENABLE_EXPERIMENTAL
 #include <glm/gtc/packing.hpp>
+#include <glm/gtx/component_wise.hpp>
 
 #include <cstring>
 #include <vector>
@@ -39,7 +40,7 @@ protected:
 
     RefletView makeView(RefletContext context, uint32_t framesInFlight, uint32_t width = HostRoom::width,
                         uint32_t height = HostRoom::height) {
-        RefletViewInfo info{sizeof info, width, height, framesInFlight};
+        RefletViewInfo info{sizeof info, width, height, framesInFlight, REFLET_VIEW_PASS_TIMES, 0};
         RefletView view = nullptr;
         EXPECT_REFLET(refletCreateView(context, &info, &view));
         return view;

@@ -37,7 +37,7 @@ TEST_F(Library, PreparesAllPipelinesAndMakesNothingInLaterFrames) {
     info.effects = REFLET_EFFECT_SUN_SHADOW | REFLET_EFFECT_DIFFUSE_GI | REFLET_EFFECT_REFLECTIONS |
                    REFLET_EFFECT_COMPOSITE | REFLET_EFFECT_TEMPORAL | REFLET_EFFECT_TONE_MAP |
                    REFLET_EFFECT_AMBIENT_OCCLUSION | REFLET_EFFECT_DEPTH_OF_FIELD;
-    info.gbuffer = &frame.gbuffer;
+    info.gbuffer = frame.gbuffer;
     info.shadowMapSide = 64;
     info.autoExposure = 1;
     uint32_t left = 0;
@@ -67,6 +67,7 @@ TEST_F(Library, TellsItsMemoryAndGivesAllBack) {
         std::vector<std::pair<VkDeviceMemory, VkDeviceSize>> live;
     } blocks;
     RefletMemoryCallbacks calls{};
+    calls.structSize = sizeof calls;
     calls.user = &blocks;
     static VkDevice device = VK_NULL_HANDLE;
     device = host_.host.device().device;

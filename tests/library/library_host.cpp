@@ -122,7 +122,8 @@ struct Staging {
 };
 
 void move(VkCommandBuffer commands, const RefletImage& image, VkImageLayout from, VkImageLayout to,
-          VkPipelineStageFlags2 stages, VkAccessFlags2 access, VkPipelineStageFlags2 next, VkAccessFlags2 nextAccess) {
+          VkPipelineStageFlags2 stages, VkAccessFlags2 access, VkPipelineStageFlags2 next, VkAccessFlags2 nextAccess,
+          uint32_t firstLayer = 0, uint32_t layers = VK_REMAINING_ARRAY_LAYERS) {
     VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
     barrier.srcStageMask = stages;
     barrier.srcAccessMask = access;
@@ -131,7 +132,7 @@ void move(VkCommandBuffer commands, const RefletImage& image, VkImageLayout from
     barrier.oldLayout = from;
     barrier.newLayout = to;
     barrier.image = image.image;
-    barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, VK_REMAINING_ARRAY_LAYERS};
+    barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, firstLayer, layers};
     VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
     info.imageMemoryBarrierCount = 1;
     info.pImageMemoryBarriers = &barrier;
@@ -159,6 +160,9 @@ LibraryHost::LibraryHost() {
 
 LibraryHost::~LibraryHost() {
     host.waitForAll();
+    for (const VkImageView view : layerViews_) {
+        vkDestroyImageView(host.device().device, view, nullptr);
+    }
     for (const HostImage& image : images_) {
         vkDestroyImageView(host.device().device, image.view, nullptr);
         vkDestroyImage(host.device().device, image.image, nullptr);
@@ -197,7 +201,7 @@ RefletImage LibraryHost::makeImage(VkFormat format, uint32_t width, uint32_t hei
     info.mipLevels = 1;
     info.arrayLayers = layers;
     info.samples = VK_SAMPLE_COUNT_1_BIT;
-    info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     vkCreateImage(open.device, &info, nullptr, &made.image);
     VkMemoryRequirements needs;
     vkGetImageMemoryRequirements(open.device, made.image, &needs);
@@ -229,6 +233,33 @@ RefletImage LibraryHost::makeImage(VkFormat format, uint32_t width, uint32_t hei
     host.waitForAll();
     images_.push_back(made);
     return made.told;
+}
+
+VkImageView LibraryHost::layerView(const RefletImage& image, uint32_t layer) {
+    VkImageViewCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+    info.image = image.image;
+    info.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    info.format = image.format;
+    info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, layer, 1};
+    VkImageView view = VK_NULL_HANDLE;
+    vkCreateImageView(host.device().device, &info, nullptr, &view);
+    return layerViews_.emplace_back(view);
+}
+
+void LibraryHost::setLayout(const RefletImage& image, uint32_t layer, VkImageLayout from, VkImageLayout to) {
+    host.frame([&](VkCommandBuffer commands) {
+        move(commands, image, from, to, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT,
+             VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT, layer,
+             1);
+    });
+    host.waitForAll();
+}
+
+std::vector<vec4> LibraryHost::texelsOfInput(const RefletImage& image) {
+    const std::vector<std::byte> bytes = read(image, sizeof(vec4));
+    std::vector<vec4> texels(bytes.size() / sizeof(vec4));
+    std::memcpy(texels.data(), bytes.data(), bytes.size());
+    return texels;
 }
 
 std::vector<std::byte> LibraryHost::read(const RefletImage& image, size_t bytesPerTexel) {

@@ -1,6 +1,7 @@
 // A host of the C API: a device, images with content, and frames of a room that nobody drew.
 #pragma once
 
+#include "base/math.h"
 #include "pass/host.h"
 
 #include "reflet/reflet.h"
@@ -42,6 +43,11 @@ public:
     RefletImage makeImage(VkFormat format, uint32_t width, uint32_t height, const std::vector<T>& texels) {
         return makeImage(format, width, height, texels.data(), texels.size() * sizeof(T));
     }
+    /// Of one layer of an image of makeImage.
+    VkImageView layerView(const RefletImage& image, uint32_t layer);
+    void setLayout(const RefletImage& image, uint32_t layer, VkImageLayout from, VkImageLayout to);
+    /// Of an image of makeImage with four floats a texel.
+    [[nodiscard]] std::vector<vec4> texelsOfInput(const RefletImage& image);
     /// Of a result, after all frames are done.
     std::vector<std::byte> read(const RefletImage& image, size_t bytesPerTexel);
 
@@ -63,6 +69,7 @@ private:
     VkPhysicalDeviceVulkan12Features v12_{};
     VkPhysicalDeviceVulkan13Features v13_{};
     std::vector<HostImage> images_;
+    std::vector<VkImageView> layerViews_;
 };
 
 /// How a host means its G-buffer.
@@ -79,22 +86,32 @@ public:
 
     HostRoom(LibraryHost& host, RoomConventions conventions);
 
+    /// Both refer to the room.
     [[nodiscard]] RefletFrameInfo frame(VkCommandBuffer commands, uint32_t index) const;
     [[nodiscard]] RefletIndirectLight light() const;
     [[nodiscard]] RefletSunShadow sun() const;
 
 private:
     RefletFrameInfo info_{};
+    RefletGBuffer gbuffer_{};
+    RefletEnvironment environment_{};
     RefletImage lit_{};
     RefletImage shadowMap_{};
 };
+
+/// For the library to fill.
+inline RefletLobe emptyLobe() {
+    RefletLobe lobe{};
+    lobe.structSize = sizeof lobe;
+    return lobe;
+}
 
 /// Results of all effects in one frame.
 struct RoomResults {
     RefletImage visibility{};
     RefletImage occlusion{};  ///< none with ao.method=none
-    RefletLobe diffuse{};
-    RefletLobe specular{};
+    RefletLobe diffuse = emptyLobe();
+    RefletLobe specular = emptyLobe();
     RefletComposite sum{};
     RefletImage antialiased{};
     RefletImage defocused{};  ///< focused 3 m away

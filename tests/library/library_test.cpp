@@ -280,7 +280,7 @@ TEST_F(Library, MakesLargerPicturesOfSmallerFrames) {
     host_.host.frame([&](VkCommandBuffer commands) {
         const RefletFrameInfo frame = room.frame(commands, 8);
         const RefletIndirectLight light = room.light();
-        RefletLobe lobe{};
+        RefletLobe lobe = emptyLobe();
         RefletComposite sum{};
         sum.structSize = sizeof sum;
         RefletImage image{};
@@ -317,7 +317,7 @@ TEST_F(Library, DenoisesALobeOfTheHost) {
         }
         images.push_back(host_.makeImage(VK_FORMAT_R32G32B32A32_SFLOAT, HostRoom::width, HostRoom::height, texels));
     }
-    RefletLobe clean{};
+    RefletLobe clean = emptyLobe();
     for (uint32_t i = 0; i < images.size(); ++i) {
         host_.host.frame([&](VkCommandBuffer commands) {
             const RefletFrameInfo frame = room.frame(commands, i);
@@ -356,8 +356,8 @@ TEST(LibrarySettings, AreListedSetAndRead) {
         RefletSettingInfo info{};
         info.structSize = sizeof info;
         EXPECT_REFLET(refletSettingInfo(i, &info));
-        EXPECT_STREQ(refletGetSetting(settings, info.name), info.standard) << info.name;
-        EXPECT_REFLET(refletSetSetting(settings, info.name, info.standard));
+        EXPECT_STREQ(refletGetSetting(settings, info.name), info.defaultValue) << info.name;
+        EXPECT_REFLET(refletSetSetting(settings, info.name, info.defaultValue));
         EXPECT_GT(std::strlen(info.help), 10U);
     }
     EXPECT_REFLET(refletApplyPreset(settings, "balanced"));

@@ -12,7 +12,7 @@ namespace {
 double megabytes(RefletContext context, const char* preset, uint32_t effects, uint32_t width, uint32_t height,
                  const RefletGBuffer& gbuffer) {
     const uint32_t share = std::string_view(preset) == "quality" ? 1 : 2;
-    const RefletViewInfo info{sizeof info, width / share, height / share, 1};
+    const RefletViewInfo info{sizeof info, width / share, height / share, 1, 0, 0};
     RefletView view = nullptr;
     RefletSettings settings = nullptr;
     refletCreateView(context, &info, &view);
@@ -39,7 +39,7 @@ int main() {
     LibraryHost host;
     RefletContext context = host.makeContext();
     const HostRoom room(host, {});
-    const RefletGBuffer gbuffer = room.frame(nullptr, 0).gbuffer;
+    const RefletGBuffer gbuffer = *room.frame(nullptr, 0).gbuffer;
     struct Row {
         const char* name;
         uint32_t effects;

@@ -215,7 +215,7 @@ private:
                 .environment = {stores_.sky.last(),
                                 stores_.cube.lobes.image(),
                                 stores_.cube.irradiance.image(),
-                                {vec3(1.0F), vec2(1.0F, 0.0F)}},
+                                lighting::environmentParams(vec3(1.0F), 0.0F)},
                 .ggxTable = stores_.ggx.last(),
                 .blueNoise = stores_.blueNoise.get(f, blueNoise().size_bytes())};
     }

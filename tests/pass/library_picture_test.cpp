@@ -147,7 +147,7 @@ class LibraryCamera {
 public:
     LibraryCamera(LibraryHost& host, RefletContext context, RefletSettings settings, const uvec2& rendered)
         : host_(host), settings_(settings) {
-        const RefletViewInfo info{sizeof info, rendered.x, rendered.y, 3};
+        const RefletViewInfo info{sizeof info, rendered.x, rendered.y, 3, 0, 0};
         EXPECT_REFLET(refletCreateView(context, &info, &view_));
         EXPECT_REFLET(refletSetOutputSize(view_, size.x, size.y));
     }
@@ -163,7 +163,7 @@ public:
         const RefletLens lens{sizeof lens, c.apertureRadius, c.focusDistance, c.blades, c.bladeRotation};
         std::map<std::string, RefletImage> made;
         host_.host.frame([&](VkCommandBuffer commands) {
-            RefletLobe lobe{};
+            RefletLobe lobe = emptyLobe();
             RefletComposite sum{sizeof sum, {}, {}, {}};
             frame.commandBuffer = commands;
             EXPECT_REFLET(refletBeginFrame(view_, &frame));
@@ -233,7 +233,10 @@ private:
         if (is("temporal.enabled", "true")) {
             refletJitter(frame.frameIndex, frame.jitter);
         }
-        RefletGBuffer& g = frame.gbuffer;
+        RefletGBuffer& g = gbuffer_;
+        g = {};
+        g.structSize = sizeof g;
+        frame.gbuffer = &g;
         g.depth = given(from.images.at("depth"), VK_FORMAT_R32_SFLOAT);
         g.normal = given(from.images.at("normal"), VK_FORMAT_R16G16_SNORM);
         g.geometricNormal = given(from.images.at("geometric_normal"), VK_FORMAT_R16G16_SNORM);
@@ -252,9 +255,11 @@ private:
         RefletIndirectLight light{};
         light.structSize = sizeof light;
         light.light = given(from.images.at("direct"), VK_FORMAT_R16G16B16A16_SFLOAT);
-        store(light.environment.factor, vec3(view.environment.intensity));
-        light.environment.rotation = view.environment.rotation;
-        light.environment.image = environment(*view.environment.image);
+        around_.structSize = sizeof around_;
+        store(around_.factor, vec3(view.environment.intensity));
+        around_.rotation = view.environment.rotation;
+        around_.image = environment(*view.environment.image);
+        light.environment = &around_;
         return light;
     }
     RefletImage environment(const FloatImage& image) {
@@ -287,6 +292,8 @@ private:
     RefletView view_ = nullptr;
     RefletImage environment_{};
     RefletFrameInfo last_{};
+    RefletGBuffer gbuffer_{};
+    RefletEnvironment around_{};
     uint32_t frame_ = 0;
 };
 

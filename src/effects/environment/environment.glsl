@@ -12,8 +12,8 @@ uniform sampler2D environmentTexels;
 
 // Rotates a world direction to the image's frame.
 vec3 toEnvironment(vec3 direction) {
-    vec2 turn = environment.turn;
-    return vec3(direction.x * turn.x - direction.z * turn.y, direction.y, direction.z * turn.x + direction.x * turn.y);
+    vec3 axis = environment.turn.xyz;
+    return direction + 2.0 * cross(axis, cross(axis, direction) + environment.turn.w * direction);
 }
 
 // direction: world space, of any length but 0 [W/(m² sr)].

@@ -9,7 +9,7 @@ SHARED_BEGIN
 
 struct EnvironmentParams {
     vec3 factor;  // scale of all image values
-    vec2 turn;    // cosine and sine of the rotation; images are stored unrotated
+    vec4 turn;    // quaternion (x, y, z; w): world directions to those of the image, which is stored unturned
 };
 
 SHARED_END
