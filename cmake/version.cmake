@@ -1,4 +1,4 @@
-# reflet_version(TARGET): writes version.h, `reflet::versionText` ("0.1.0 (a1b2c3d)"), anew at every build, and only if
+# reflet_version(TARGET): writes version.h, `reflet::versionText` ("0.2.0 (a1b2c3d)"), anew at every build, and only if
 # it has changed. Run as a script (cmake -P), it is the build step that does so.
 if(CMAKE_SCRIPT_MODE_FILE)
     cmake_policy(VERSION 3.22)
