@@ -130,7 +130,7 @@ TEST_F(Install, PkgConfigKnowsIt) {
                "pkg-config --static --cflags --libs reflet) -o use && LD_LIBRARY_PATH=$(dirname $(find " +
                at("prefix") + " -name 'libreflet.*' | head -1)) ./use");
     const Ran version = run(path + "pkg-config --modversion reflet");
-    EXPECT_EQ(version.said, "0.1.0\n");
+    EXPECT_EQ(version.said, "0.2.0\n");
 }
 
 TEST_F(Install, TheProgramComesWithManualCompletionAndDesktopData) {
@@ -158,7 +158,7 @@ TEST_F(Install, AnotherMinorVersionIsRefused) {
           "cmake_minimum_required(VERSION 3.22)\nproject(use C CXX)\nfind_package(reflet 0.9 CONFIG REQUIRED)\n");
     const Ran ran = run(configure(at("use"), "used"));
     EXPECT_NE(ran.status, 0);
-    EXPECT_NE(ran.said.find("0.1.0"), std::string::npos) << ran.said;
+    EXPECT_NE(ran.said.find("0.2.0"), std::string::npos) << ran.said;
 }
 
 // Over 5 s: CMake looks at compilers and libraries.
