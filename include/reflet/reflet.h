@@ -14,8 +14,9 @@
  * struct. RefletImage and RefletPassTime keep their size. Zero is the default of every field, unless its comment says
  * "required". A number that stands for yes or no is 0 or 1.
  *
- * Threads: calls on one context and its views are serialized by a mutex of the context, so they may come from any
- * thread; a command buffer belongs to the thread that records it, as always in Vulkan.
+ * Threads: calls may come from any thread. Those on one view wait for each other; different views, also of one context,
+ * record side by side. A command buffer belongs to the thread that records it, as always in Vulkan; callbacks of a
+ * context (memory, log) may then be called by several threads at once.
  *
  * Units: metres, W/(m² sr) for radiance (any other linear unit works as well; images are half floats, so one in which
  * what is lit is about 1), pixels, seconds. Matrices are column-major, multiply column vectors, and are in this order
@@ -132,7 +133,10 @@ typedef struct RefletContextInfo {
 
 /** Makes a context. On failure *context is NULL. Records nothing, makes no pipelines. */
 REFLET_API RefletResult refletCreateContext(const RefletContextInfo* info, RefletContext* context);
-/** The device must have finished all recorded work, and all views must have been destroyed. NULL: does nothing. */
+/**
+ * The device must have finished all recorded work, and all views must have been destroyed; if some have not, that is an
+ * error in `log`, and the context goes with the last of them. NULL, or a context that was destroyed: does nothing.
+ */
 REFLET_API void refletDestroyContext(RefletContext context);
 /** Bytes of device memory that the context has allocated: whole blocks, for all its views. */
 REFLET_API RefletResult refletContextMemory(RefletContext context, uint64_t* bytes);
@@ -218,7 +222,7 @@ typedef struct RefletViewInfo {
 } RefletViewInfo;
 
 REFLET_API RefletResult refletCreateView(RefletContext context, const RefletViewInfo* info, RefletView* view);
-/** The device must have finished all frames of the view. NULL: does nothing. */
+/** The device must have finished all frames of the view. NULL, or a view that was destroyed: does nothing. */
 REFLET_API void refletDestroyView(RefletView view);
 /** From the next frame on. Images are made anew when that frame needs them; histories start again. */
 REFLET_API RefletResult refletResizeView(RefletView view, uint32_t width, uint32_t height);
@@ -438,6 +442,25 @@ typedef struct RefletSunShadow {
  */
 REFLET_API RefletResult refletSunShadow(RefletView view, RefletSettings settings, const RefletSunShadow* sun,
                                         RefletImage* visibility);
+
+/** A light that casts contact shadows. */
+typedef struct RefletContactLight {
+    size_t structSize; /**< required */
+    /** Required: world space: the direction toward the light, of any length but 0; with isPositional where it is [m]. */
+    float light[3];
+    uint32_t isPositional; /**< 0: far away, such as the sun; 1: a point or spot light */
+} RefletContactLight;
+
+/** Calls of refletContactShadows in a frame. */
+#define REFLET_MAX_CONTACT_LIGHTS 16
+
+/**
+ * Contact shadows of one light, with any shadow map or none: R8, 1: lit; rays of `contact.distance` metres, at most to the
+ * light, through the depth of the screen. Multiply the light's visibility by it. The sun of refletSunShadow has them by
+ * RefletSunShadow::contactShadows.
+ */
+REFLET_API RefletResult refletContactShadows(RefletView view, RefletSettings settings, const RefletContactLight* light,
+                                             RefletImage* visibility);
 
 /** Light from beyond the screen. */
 typedef struct RefletEnvironment {

@@ -1,6 +1,7 @@
 // Contexts and settings of the C API.
 #include "api/calls.h"
 #include "api/handles.h"
+#include "api/live.h"
 
 #include <algorithm>
 #include <array>
@@ -226,31 +227,49 @@ RefletResult refletCreateContext(const RefletContextInfo* info, RefletContext* c
         made->gpu->shaders().add(effectShaders());
         made->log = given.log;
         made->logUser = given.logUser;
+        Live<RefletContext_T>::add(made.get());
         *context = made.release();
     });
     return logged(info, result);
 }
 
 void refletDestroyContext(RefletContext context) {
-    delete context;
+    if (!Live<RefletContext_T>::remove(context)) {  // NULL, or destroyed before
+        return;
+    }
+    uint32_t views = 0;
+    {
+        const std::scoped_lock lock(context->mutex);
+        views = context->views;
+        context->destroyed = true;
+    }
+    if (views == 0) {
+        delete context;
+        return;
+    }
+    const RefletResult result =
+        guarded([&] { failArgument("context: has {} views, which are to be destroyed before it", views); });
+    if (context->log != nullptr) {
+        context->log(context->logUser, result, lastError().c_str());
+    }
 }
 
 RefletResult refletContextMemory(RefletContext context, uint64_t* bytes) {
     return guarded([&] {
-        if (context == nullptr || bytes == nullptr) {
-            failArgument("{}: is NULL", context == nullptr ? "context" : "bytes");
+        checkHandle(context, "context");
+        if (bytes == nullptr) {
+            failArgument("bytes: is NULL");
         }
-        const std::scoped_lock lock(context->mutex);
         *bytes = context->gpu->memory().reserved();
     });
 }
 
 RefletResult refletPipelineCacheData(RefletContext context, size_t* size, void* data) {
     return guarded([&] {
-        if (context == nullptr || size == nullptr) {
-            failArgument("{}: is NULL", context == nullptr ? "context" : "size");
+        checkHandle(context, "context");
+        if (size == nullptr) {
+            failArgument("size: is NULL");
         }
-        const std::scoped_lock lock(context->mutex);
         if (!context->gpu->pipelines().keepsData()) {
             failArgument("context: was given a pipelineCache; ask that for its data");
         }
@@ -277,18 +296,22 @@ RefletResult refletCreateSettings(const char* preset, RefletSettings* settings) 
         if (preset != nullptr && *preset != '\0') {
             applyPreset(made->values, preset);
         }
+        Live<RefletSettings_T>::add(made.get());
         *settings = made.release();
     });
 }
 
 void refletDestroySettings(RefletSettings settings) {
-    delete settings;
+    if (Live<RefletSettings_T>::remove(settings)) {
+        delete settings;
+    }
 }
 
 RefletResult refletApplyPreset(RefletSettings settings, const char* preset) {
     return guarded([&] {
-        if (settings == nullptr || preset == nullptr) {
-            failArgument("{}: is NULL", settings == nullptr ? "settings" : "preset");
+        checkHandle(settings, "settings");
+        if (preset == nullptr) {
+            failArgument("preset: is NULL");
         }
         applyPreset(settings->values, preset);
     });
@@ -296,8 +319,9 @@ RefletResult refletApplyPreset(RefletSettings settings, const char* preset) {
 
 RefletResult refletSetSetting(RefletSettings settings, const char* name, const char* value) {
     return guarded([&] {
-        if (settings == nullptr || name == nullptr || value == nullptr) {
-            failArgument("{}: is NULL", settings == nullptr ? "settings" : name == nullptr ? "name" : "value");
+        checkHandle(settings, "settings");
+        if (name == nullptr || value == nullptr) {
+            failArgument("{}: is NULL", name == nullptr ? "name" : "value");
         }
         settingTable().set(&settings->values, name, value);
     });
@@ -306,8 +330,9 @@ RefletResult refletSetSetting(RefletSettings settings, const char* name, const c
 const char* refletGetSetting(RefletSettings settings, const char* name) {
     thread_local std::string text;
     const RefletResult result = guarded([&] {
-        if (settings == nullptr || name == nullptr) {
-            failArgument("{}: is NULL", settings == nullptr ? "settings" : "name");
+        checkHandle(settings, "settings");
+        if (name == nullptr) {
+            failArgument("name: is NULL");
         }
         text = settingText(&settings->values, settingTable().find(name).info);
     });
@@ -317,8 +342,9 @@ const char* refletGetSetting(RefletSettings settings, const char* name) {
 
 RefletResult refletSetSettingNumber(RefletSettings settings, const char* name, double value) {
     return guarded([&] {
-        if (settings == nullptr || name == nullptr) {
-            failArgument("{}: is NULL", settings == nullptr ? "settings" : "name");
+        checkHandle(settings, "settings");
+        if (name == nullptr) {
+            failArgument("name: is NULL");
         }
         settingTable().set(&settings->values, name, textOfNumber(settingTable().find(name).info, name, value));
     });
@@ -326,8 +352,9 @@ RefletResult refletSetSettingNumber(RefletSettings settings, const char* name, d
 
 RefletResult refletGetSettingNumber(RefletSettings settings, const char* name, double* value) {
     return guarded([&] {
-        if (settings == nullptr || name == nullptr || value == nullptr) {
-            failArgument("{}: is NULL", settings == nullptr ? "settings" : name == nullptr ? "name" : "value");
+        checkHandle(settings, "settings");
+        if (name == nullptr || value == nullptr) {
+            failArgument("{}: is NULL", name == nullptr ? "name" : "value");
         }
         const SettingInfo& info = settingTable().find(name).info;
         *value = numberOf(info, loadSetting(&settings->values, info));

@@ -172,7 +172,7 @@ std::string describe(const RefletView_T& view) {
     }
     lines.push_back(fmt::format("effects so far: {}; {:.1f} MB of device memory",
                                 ran.empty() ? std::string("none") : fmt::format("{}", fmt::join(ran, ", ")),
-                                static_cast<double>(*view.memory) * 1e-6));
+                                static_cast<double>(view.owner.gpu->memory().read(view.memory)) * 1e-6));
     const Lines wrong = contradictions(d, v);
     lines.push_back(fmt::format("contradictions: {}",
                                 wrong.empty() ? std::string("none found") : fmt::format("{}", fmt::join(wrong, "; "))));

@@ -212,6 +212,24 @@ RefletResult refletSunShadow(RefletView view, RefletSettings settings, const Ref
     });
 }
 
+RefletResult refletContactShadows(RefletView view, RefletSettings settings, const RefletContactLight* light,
+                                  RefletImage* visibility) {
+    return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
+        checkOut(visibility, "visibility");
+        const RefletContactLight given = adopted(light, "RefletContactLight");
+        checkBoolean(given.isPositional, "RefletContactLight.isPositional");
+        const vec3 at(given.light[0], given.light[1], given.light[2]);
+        const float length = glm::length(at);
+        if (!std::isfinite(length) || (given.isPositional == 0 && !(length > 1e-12F))) {
+            failArgument(
+                "RefletContactLight.light: is ({}, {}, {}); must be a direction, or a position with isPositional", at.x,
+                at.y, at.z);
+        }
+        *visibility = resultOf(recordContactShadows(
+            *view, frame, values, given.isPositional != 0 ? vec4(at, 1.0F) : vec4(at / length, 0.0F)));
+    });
+}
+
 RefletResult refletAmbientOcclusion(RefletView view, RefletSettings settings, RefletImage* occlusion) {
     return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
         checkOut(occlusion, "occlusion");

@@ -112,6 +112,9 @@ void finishCall(RefletView_T& view, const Frame& frame) {
           frame.sunVisibility, frame.ambientOcclusion, frame.display}) {
         f.keep(image);
     }
+    for (uint32_t i = 0; i < frame.contactCount; ++i) {
+        f.keep(frame.contacts[i]);
+    }
     keepLobe(f, frame.diffuse);
     keepLobe(f, frame.specular);
     f.flush();
@@ -136,6 +139,20 @@ gpu::Image recordSunShadow(RefletView_T& view, Frame& frame, const Settings& set
     frame.sunVisibility = lighting::sunShadow(f, &view.store->sunVisibility, context, settings, frame, maps).visibility;
     finishCall(view, frame);
     return frame.sunVisibility;
+}
+
+gpu::Image recordContactShadows(RefletView_T& view, Frame& frame, const Settings& settings, const vec4& light) {
+    if (!(settings.contact.distance > 0.0F)) {
+        failArgument("contact.distance: is 0, its default; set how far contact shadows reach, in metres");
+    }
+    if (frame.contactCount == frame.contacts.size()) {
+        failArgument("light: is the {}th of this frame; at most {}", frame.contactCount + 1, frame.contacts.size());
+    }
+    const gpu::Image visibility =
+        lighting::contactVisibility(view.recorder, frame.context, settings.contact, frame, light);
+    frame.contacts[frame.contactCount++] = visibility;
+    finishCall(view, frame);
+    return visibility;
 }
 
 gpu::Image recordAmbientOcclusion(RefletView_T& view, Frame& frame, const Settings& settings) {

@@ -72,6 +72,8 @@ struct EnvironmentInputs {
 
 void recordImport(RefletView_T& view, Frame& frame, const HostSurfaces& host, const ImportParams& params);
 gpu::Image recordSunShadow(RefletView_T& view, Frame& frame, const Settings& settings, const SunInputs& in);
+/// light: see ContactParams.
+gpu::Image recordContactShadows(RefletView_T& view, Frame& frame, const Settings& settings, const vec4& light);
 gpu::Image recordAmbientOcclusion(RefletView_T& view, Frame& frame, const Settings& settings);
 LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image light,
                      const EnvironmentInputs& environment);

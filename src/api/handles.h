@@ -22,9 +22,10 @@
 #include <vector>
 
 struct RefletContext_T {
-    std::mutex mutex;
+    std::mutex mutex;  ///< of `views` and `destroyed`
     std::unique_ptr<reflet::gpu::Context> gpu;
-    uint32_t views = 0;  ///< that exist
+    uint32_t views = 0;      ///< that exist
+    bool destroyed = false;  ///< by the host, while views exist: the last of these destroys it
     void (*log)(void* user, RefletResult result, const char* text) = nullptr;
     void* logUser = nullptr;
 };
@@ -71,6 +72,8 @@ struct Frame : lighting::Surfaces {
     gpu::Image defocused;
     gpu::Image circleOfConfusion;
     gpu::Image sunVisibility;
+    std::array<gpu::Image, REFLET_MAX_CONTACT_LIGHTS> contacts;  ///< of refletContactShadows, in order
+    uint32_t contactCount = 0;
     gpu::Image display;
     std::optional<LobeLight> diffuse;
     std::optional<LobeLight> specular;
@@ -100,6 +103,7 @@ struct RefletView_T {
           timesPasses(timesPasses) {}
 
     RefletContext_T& owner;
+    std::mutex mutex;
     std::shared_ptr<VkDeviceSize> memory;  ///< bytes in use
     reflet::gpu::Recorder recorder;
     bool timesPasses;   ///< REFLET_VIEW_PASS_TIMES

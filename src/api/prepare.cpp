@@ -2,6 +2,7 @@
 #include "api/calls.h"
 #include "api/camera.h"
 #include "api/frame.h"
+#include "api/live.h"
 
 #include <algorithm>
 #include <array>
@@ -137,8 +138,9 @@ RefletResult refletPrepare(RefletView view, RefletSettings settings, const Refle
                            uint32_t maxPipelines, uint32_t* remaining) {
     return onView(view, [&] {
         const RefletPrepareInfo given = adopted(info, "RefletPrepareInfo");
-        if (settings == nullptr || remaining == nullptr) {
-            failArgument("{}: is NULL", settings == nullptr ? "settings" : "remaining");
+        checkHandle(settings, "settings");
+        if (remaining == nullptr) {
+            failArgument("remaining: is NULL");
         }
         const RefletGBuffer gbuffer = adopted(given.gbuffer, "RefletPrepareInfo.gbuffer");
         checkBoolean(given.hasEnvironmentImage, "RefletPrepareInfo.hasEnvironmentImage");

@@ -2,6 +2,7 @@
 #include "api/calls.h"
 #include "api/camera.h"
 #include "api/frame.h"
+#include "api/live.h"
 #include "lighting/jitter.h"
 
 #include <algorithm>
@@ -123,21 +124,18 @@ Settings settingsOfFrame(const RefletView_T& view, const Settings& settings, con
 
 RefletResult onView(RefletView view, const std::function<void()>& body) {
     const RefletResult result = guarded([&] {
-        if (view == nullptr) {
-            failArgument("view: is NULL");
-        }
-        const std::scoped_lock lock(view->owner.mutex);
-        gpu::Memory& memory = view->owner.gpu->memory();
-        memory.setAccount(view->memory);
+        checkHandle(view, "view");
+        const std::scoped_lock lock(view->mutex);
+        gpu::Memory::setAccount(view->memory);
         try {
             body();
         } catch (...) {
-            memory.setAccount(nullptr);
+            gpu::Memory::setAccount(nullptr);
             throw;
         }
-        memory.setAccount(nullptr);
+        gpu::Memory::setAccount(nullptr);
     });
-    if (result != REFLET_SUCCESS && view != nullptr && view->owner.log != nullptr) {
+    if (result != REFLET_SUCCESS && Live<RefletView_T>::contains(view) && view->owner.log != nullptr) {
         view->owner.log(view->owner.logUser, result, lastError().c_str());
     }
     return result;
@@ -146,9 +144,7 @@ RefletResult onView(RefletView view, const std::function<void()>& body) {
 RefletResult inFrame(RefletView view, RefletSettings settings,
                      const std::function<void(Frame&, const Settings&)>& body) {
     return onView(view, [&] {
-        if (settings == nullptr) {
-            failArgument("settings: is NULL");
-        }
+        checkHandle(settings, "settings");
         if (!view->frame) {
             failArgument("view: no frame has begun; call refletBeginFrame first");
         }
@@ -174,8 +170,9 @@ RefletResult refletCreateView(RefletContext context, const RefletViewInfo* info,
         *view = nullptr;
     }
     return guarded([&] {
-        if (context == nullptr || view == nullptr) {
-            failArgument("{}: is NULL", context == nullptr ? "context" : "view");
+        checkHandle(context, "context");
+        if (view == nullptr) {
+            failArgument("view: is NULL");
         }
         const RefletViewInfo given = adopted(info, "RefletViewInfo");
         checkSize(given.width, given.height);
@@ -197,20 +194,27 @@ RefletResult refletCreateView(RefletContext context, const RefletViewInfo* info,
         made->seed = given.viewIndex;
         made->size = {given.width, given.height};
         made->store = std::make_unique<ViewStore>();
+        Live<RefletView_T>::add(made.get());
         ++context->views;
         *view = made.release();
     });
 }
 
 void refletDestroyView(RefletView view) {
-    if (view == nullptr) {
+    if (!Live<RefletView_T>::remove(view)) {  // NULL, or destroyed before
         return;
     }
     RefletContext_T& context = view->owner;
-    const std::scoped_lock lock(context.mutex);
     view->recorder.finish();
-    --context.views;
     delete view;
+    bool last = false;
+    {
+        const std::scoped_lock lock(context.mutex);
+        last = --context.views == 0 && context.destroyed;
+    }
+    if (last) {
+        delete &context;
+    }
 }
 
 RefletResult refletResizeView(RefletView view, uint32_t width, uint32_t height) {
@@ -270,7 +274,7 @@ RefletResult refletViewMemory(RefletView view, uint64_t* bytes) {
         if (bytes == nullptr) {
             failArgument("bytes: is NULL");
         }
-        *bytes = *view->memory;
+        *bytes = view->owner.gpu->memory().read(view->memory);
     });
 }
 

@@ -75,6 +75,7 @@ Context::~Context() {
 }
 
 VkSampler Context::sampler(const SamplerInfo& info) {
+    const std::scoped_lock lock(mutex_);
     for (const auto& [known, sampler] : samplers_) {
         if (known == info) {
             return sampler;
@@ -100,6 +101,7 @@ VkSampler Context::sampler(const SamplerInfo& info) {
 }
 
 VkDescriptorSetLayout Context::setLayout(const std::vector<VkDescriptorType>& bindings) {
+    const std::scoped_lock lock(mutex_);
     for (const auto& [known, layout] : setLayouts_) {
         if (known == bindings) {
             return layout;
@@ -158,11 +160,13 @@ void Context::endLabel(VkCommandBuffer commands) const {
 }
 
 uint64_t Context::beginWork() {
+    const std::scoped_lock lock(mutex_);
     unfinished_.push_back(++lastSerial_);
     return lastSerial_;
 }
 
 void Context::finishWork(uint64_t serial) {
+    const std::scoped_lock lock(mutex_);
     std::erase(unfinished_, serial);
     collectRetired();
 }

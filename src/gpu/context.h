@@ -7,10 +7,12 @@
 #include "gpu/pipeline.h"
 #include "gpu/shader.h"
 
+#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <new>
 #include <optional>
 #include <string>
@@ -53,18 +55,39 @@ struct SamplerInfo {
     bool operator==(const SamplerInfo&) const = default;
 };
 
+/// Counts on any thread.
+class Counter {
+public:
+    Counter() = default;
+    Counter(const Counter& other) : value_(other.value_.load()) {}
+    Counter& operator=(const Counter& other) {
+        value_ = other.value_.load();
+        return *this;
+    }
+    Counter& operator++() {
+        ++value_;
+        return *this;
+    }
+    operator uint64_t() const { return value_; }
+    bool operator==(const Counter& other) const { return value_ == other.value_; }
+
+private:
+    std::atomic<uint64_t> value_ = 0;
+};
+
 /// How many objects a context and its recorders have made so far. In a steady state none of them grows.
 struct ObjectCounts {
-    uint64_t images = 0;
-    uint64_t buffers = 0;
-    uint64_t memoryBlocks = 0;
-    uint64_t pipelines = 0;
-    uint64_t samplers = 0;
-    uint64_t descriptorPools = 0;
+    Counter images;
+    Counter buffers;
+    Counter memoryBlocks;
+    Counter pipelines;
+    Counter samplers;
+    Counter descriptorPools;
 
     bool operator==(const ObjectCounts&) const = default;
 };
 
+/// Its functions, and those of what it owns, may be called from any thread: one per recorder.
 class Context {
 public:
     /// Throws Error that names a function that the device does not have.
@@ -142,6 +165,7 @@ private:
     std::unique_ptr<PipelineCache> pipelines_;
     std::vector<std::pair<SamplerInfo, VkSampler>> samplers_;
     std::vector<std::pair<std::vector<VkDescriptorType>, VkDescriptorSetLayout>> setLayouts_;
+    std::recursive_mutex mutex_;  ///< of all below, and of samplers_ and setLayouts_; destroying retires more
     uint64_t lastSerial_ = 0;
     std::vector<uint64_t> unfinished_;  ///< ascending
     std::deque<Retired> retired_;       ///< serials ascend
@@ -150,6 +174,7 @@ private:
 template <class F>
 void Context::retire(F destroy) noexcept {
     try {
+        const std::scoped_lock lock(mutex_);
         if (unfinished_.empty()) {
             destroy();
         } else {

@@ -59,6 +59,8 @@ struct MemoryBlock {
     }
 };
 
+thread_local std::shared_ptr<VkDeviceSize> Memory::account_;
+
 Memory::Memory(Context& context, const VkPhysicalDeviceMemoryProperties& properties)
     : context_(context), properties_(properties) {}
 
@@ -121,6 +123,7 @@ MemoryBlock& Memory::addBlock(uint32_t type, bool linear, VkDeviceSize size) {
 
 Allocation Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, bool linear) {
     const uint32_t type = chooseType(needs.memoryTypeBits, use);
+    const std::scoped_lock lock(mutex_);
     const auto placed = [&](MemoryBlock& block, VkDeviceSize offset) {
         std::byte* mapped = block.mapped != nullptr ? block.mapped + offset : nullptr;
         used_[static_cast<size_t>(use)] += needs.size;
@@ -144,6 +147,7 @@ void Memory::release(const Allocation& allocation) {
     if (allocation.block == nullptr) {
         return;
     }
+    const std::scoped_lock lock(mutex_);
     MemoryBlock& block = *allocation.block;
     used_[static_cast<size_t>(allocation.use)] -= allocation.size;
     if (allocation.account) {

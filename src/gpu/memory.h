@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -38,6 +39,7 @@ struct Allocation {
     std::shared_ptr<VkDeviceSize> account;  ///< that the bytes are added to
 };
 
+/// For any thread.
 class Memory {
 public:
     /// Buffers have device addresses if the context has ray query.
@@ -51,22 +53,35 @@ public:
     void release(const Allocation& allocation);
 
     /// Bytes in use by resources of this kind; retired resources count until they are destroyed.
-    [[nodiscard]] VkDeviceSize used(MemoryUse use) const { return used_[static_cast<size_t>(use)]; }
+    [[nodiscard]] VkDeviceSize used(MemoryUse use) const {
+        const std::scoped_lock lock(mutex_);
+        return used_[static_cast<size_t>(use)];
+    }
 
-    /// Where the bytes of allocations are added up from now on, until they are released; none: nowhere.
-    void setAccount(std::shared_ptr<VkDeviceSize> account) { account_ = std::move(account); }
+    /// Where the bytes of this thread's allocations are added up from now on, until they are released; none: nowhere.
+    static void setAccount(std::shared_ptr<VkDeviceSize> account) { account_ = std::move(account); }
+    /// The bytes of an account now.
+    [[nodiscard]] VkDeviceSize read(const std::shared_ptr<VkDeviceSize>& account) const {
+        const std::scoped_lock lock(mutex_);
+        return *account;
+    }
 
     /// Bytes of all blocks, as allocated from the device.
-    [[nodiscard]] VkDeviceSize reserved() const { return reserved_; }
+    [[nodiscard]] VkDeviceSize reserved() const {
+        const std::scoped_lock lock(mutex_);
+        return reserved_;
+    }
 
 private:
     uint32_t chooseType(uint32_t allowed, MemoryUse use) const;
     MemoryBlock& addBlock(uint32_t type, bool linear, VkDeviceSize size);
 
+    static thread_local std::shared_ptr<VkDeviceSize> account_;
+
     Context& context_;
+    mutable std::mutex mutex_;  ///< of all below
     VkPhysicalDeviceMemoryProperties properties_;
     std::vector<std::unique_ptr<MemoryBlock>> blocks_;
-    std::shared_ptr<VkDeviceSize> account_;
     VkDeviceSize reserved_ = 0;  ///< bytes allocated from the device
     std::array<VkDeviceSize, 3> used_{};
 };

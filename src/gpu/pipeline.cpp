@@ -347,6 +347,7 @@ void PipelineCache::clear() {
 
 const ShaderInterface& PipelineCache::interfaceOf(std::span<const std::string_view> shaders) {
     const std::vector<std::string_view> key(shaders.begin(), shaders.end());
+    const std::scoped_lock lock(mutex_);
     if (const auto known = interfaces_.find(key); known != interfaces_.end()) {
         return *known->second;
     }
@@ -373,11 +374,16 @@ const ShaderInterface& PipelineCache::interfaceOf(std::span<const std::string_vi
 }
 
 const Pipeline& PipelineCache::get(const PipelineInfo& info) {
-    if (const auto known = pipelines_.find(info); known != pipelines_.end()) {
-        return *known->second;
+    const auto find = [&]() -> const Pipeline* {
+        const std::scoped_lock lock(mutex_);
+        const auto known = pipelines_.find(info);
+        return known != pipelines_.end() ? known->second.get() : nullptr;
+    };
+    if (const Pipeline* known = find()) {
+        return *known;
     }
     make({&info, 1});
-    return *pipelines_.at(info);
+    return *find();
 }
 
 void PipelineCache::make(std::span<const PipelineInfo> missing) {
@@ -398,8 +404,11 @@ void PipelineCache::make(std::span<const PipelineInfo> missing) {
             failure = making->failure();
             continue;
         }
-        pipelines_.emplace(making->info(), nullptr).first->second = making->take();
-        ++context_.counts().pipelines;
+        const std::scoped_lock lock(mutex_);
+        if (const auto [place, isNew] = pipelines_.try_emplace(making->info()); isNew) {
+            place->second = making->take();
+            ++context_.counts().pipelines;
+        }  // else another thread was first
     }
     if (failure) {
         std::rethrow_exception(failure);
@@ -407,7 +416,7 @@ void PipelineCache::make(std::span<const PipelineInfo> missing) {
 }
 
 void PipelineCache::noteUsed() {
-    if (std::exchange(compiles_, false)) {
+    if (compiles_.exchange(false)) {
         making_.onCompile(0);
     }
 }

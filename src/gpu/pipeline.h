@@ -5,9 +5,11 @@
 #include "gpu/shader.h"
 #include "gpu/vulkan.h"
 
+#include <atomic>
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <string_view>
@@ -73,6 +75,7 @@ struct PipelineMaking {
     std::function<void(uint32_t shaders)> onCompile;
 };
 
+/// For any thread; while one makes pipelines, others get theirs. clear() is for the only one.
 class PipelineCache {
 public:
     PipelineCache(Context& context, PipelineMaking making);
@@ -87,7 +90,10 @@ public:
     /// Throws std::logic_error: an unknown shader, or stages with conflicting bindings. The info's constants are known.
     const Pipeline& get(const PipelineInfo& info);
 
-    [[nodiscard]] bool has(const PipelineInfo& info) const { return pipelines_.contains(info); }
+    [[nodiscard]] bool has(const PipelineInfo& info) const {
+        const std::scoped_lock lock(mutex_);
+        return pipelines_.contains(info);
+    }
 
     /// Creates pipelines, all different and none of which it has, on as many threads as the context allows. If some
     /// cannot be created, it has the others, and throws as get() does.
@@ -109,7 +115,8 @@ private:
     Context& context_;
     PipelineMaking making_;
     VkPipelineCache own_ = VK_NULL_HANDLE;
-    bool compiles_ = false;  ///< since the last noteUsed()
+    mutable std::mutex mutex_;            ///< of the maps
+    std::atomic<bool> compiles_ = false;  ///< since the last noteUsed()
     uint64_t version_ = 0;
     std::map<std::vector<std::string_view>, std::unique_ptr<ShaderInterface>> interfaces_;
     std::map<PipelineInfo, std::unique_ptr<Pipeline>> pipelines_;

@@ -73,9 +73,16 @@ SunShadow sunShadow(gpu::PassList& f, gpu::HistoryImage* history, const ViewCont
                   .cascadeIndex = seen.cascadeIndex};
     if (maps.contact && settings.contact.distance > 0.0F) {
         out.visibility = contactShadow(f, surfaces.g, depthPyramid(f, surfaces), out.visibility,
-                                       {in.view, settings.contact, maps.toSun});
+                                       {in.view, settings.contact, vec4(maps.toSun, 0.0F)});
     }
     return out;
+}
+
+gpu::Image contactVisibility(gpu::PassList& f, const ViewContext& in, const ContactSettings& settings,
+                             Surfaces& surfaces, const vec4& light) {
+    const gpu::Image lit = f.image("contact_shadow.lit", VK_FORMAT_R8_UNORM, surfaces.g.depth.size);
+    f.clear(lit, {{1.0F, 1.0F, 1.0F, 1.0F}});
+    return contactShadow(f, surfaces.g, depthPyramid(f, surfaces), lit, {in.view, settings, light});
 }
 
 LampTiles lampTiles(gpu::PassList& f, const ViewContext& in, const DirectSettings& settings, const Surfaces& surfaces,

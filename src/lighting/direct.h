@@ -54,6 +54,10 @@ void shadowRange(gpu::PassList& f, gpu::Image map, gpu::Image range);
 SunShadow sunShadow(gpu::PassList& f, gpu::HistoryImage* history, const ViewContext& in,
                     const LightingSettings& settings, Surfaces& surfaces, const SunMaps& maps);
 
+/// R8, 1: lit: contact shadows of one light alone. light: see ContactParams.
+gpu::Image contactVisibility(gpu::PassList& f, const ViewContext& in, const ContactSettings& settings,
+                             Surfaces& surfaces, const vec4& light);
+
 /// Which lamps may light each tile of the screen.
 LampTiles lampTiles(gpu::PassList& f, const ViewContext& in, const DirectSettings& settings, const Surfaces& surfaces,
                     const LampBlock& lamps);

@@ -1,4 +1,4 @@
-// Contact shadows: a short screen-space ray march toward the sun, for casters too small, or too close to the receiver,
+// Contact shadows: a short screen-space ray march toward a light, for casters too small, or too close to the receiver,
 // for the shadow map's resolution. Shared by C++ and GLSL.
 #ifndef REFLET_EFFECTS_CONTACT_H
 #define REFLET_EFFECTS_CONTACT_H
@@ -23,7 +23,7 @@ SETTINGS(ContactSettings, CONTACT_SETTINGS)
 struct ContactParams {
     ViewParams view;
     ContactSettings settings;
-    vec3 toSun;  // world space, unit
+    vec4 light;  // world space: unit direction toward the light and 0, or its position [m] and 1
 };
 
 SHARED_END
@@ -35,8 +35,8 @@ SHARED_END
 
 namespace reflet {
 
-/// R8, 1: lit: the minimum of `sunVisibility` (by the shadow map) and the contact shadow. pyramid: from makePyramid.
-gpu::Image contactShadow(gpu::PassList& f, const GBuffer& g, gpu::Image pyramid, gpu::Image sunVisibility,
+/// R8, 1: lit: the minimum of `byMap` (visibility by the shadow map) and the contact shadow. pyramid: from makePyramid.
+gpu::Image contactShadow(gpu::PassList& f, const GBuffer& g, gpu::Image pyramid, gpu::Image byMap,
                          const ContactParams& params);
 
 }  // namespace reflet

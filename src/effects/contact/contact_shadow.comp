@@ -1,5 +1,5 @@
-// Contact shadows: a short march through the depth buffer toward the sun. In: depth and its pyramid, geometric normal,
-// sun visibility by the shadow map. Out: the minimum of that and the march's result.
+// Contact shadows: a short march through the depth buffer toward a light. In: depth and its pyramid, geometric normal,
+// the light's visibility by the shadow map. Out: the minimum of that and the march's result.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/contact/contact.h"
@@ -12,7 +12,7 @@ layout(scalar) uniform ParamsBlock { ContactParams params; };
 uniform sampler2D depth;
 uniform usampler2D geometricNormal;
 layout(rg32f) uniform readonly image2D pyramid;
-uniform sampler2D sunVisibility;
+uniform sampler2D byMap;
 layout(r8) uniform writeonly image2D visibility;
 
 float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
@@ -28,33 +28,37 @@ vec3 positionAt(ivec2 pixel) {
 }
 
 // Whether the hit pixel's surface plane crosses the ray between p and its end. A depth sample covers a pixel's whole
-// width: without this test, a sunlit wall would darken the ground at its foot.
-bool isBetween(ivec2 pixel, vec3 p) {
+// width: without this test, a lit wall would darken the ground at its foot.
+bool isBetween(ivec2 pixel, vec3 p, vec3 toLight, float most) {
     vec3 n = normalAt(pixel);
-    float t = dot(n, positionAt(pixel) - p) / dot(n, params.toSun);
-    return t > 0.0 && t <= params.settings.distance;
+    float t = dot(n, positionAt(pixel) - p) / dot(n, toLight);
+    return t > 0.0 && t <= most;
 }
 
 // A ray that passes behind a thicker surface or leaves the screen counts as unoccluded.
 bool findsCaster(ivec2 pixel) {
     vec3 n = normalAt(pixel);
-    if (dot(n, params.toSun) <= 0.0) {
-        return false;  // faces away from the sun: dark anyway
-    }
     vec3 p = positionAt(pixel);
+    vec3 toLight = params.light.xyz - params.light.w * p;
+    float away = length(toLight);  // of a direction: 1
+    toLight /= max(away, 1e-9);
+    if (dot(n, toLight) <= 0.0) {
+        return false;  // faces away from the light: dark anyway
+    }
     ContactSettings s = params.settings;
+    float most = min(s.distance, mix(s.distance, away, params.light.w));
     MarchView view = MarchView(params.view.worldToClip, params.view.clipToWorld, params.view.viewPlane,
                                params.view.depthToDistance, params.view.size, params.view.pixel);
-    MarchRay ray = makeMarchRay(p, params.toSun, planeOnScreen(p, n, params.view.clipToWorld), view);
+    MarchRay ray = makeMarchRay(p, toLight, planeOnScreen(p, n, params.view.clipToWorld), view);
     MarchOptions o;  // marchHiz uses only these
-    o.maxDistance = s.distance;
+    o.maxDistance = most;
     o.maxSteps = s.maxSteps;
     o.thickness = s.thickness;
     o.secondLayer = false;
     o.levels = int(pyramidLevels);
     o.firstSteps = 2u;
     MarchResult hit = marchHiz(ray, o, view);
-    return hit.outcome == marchHit && isBetween(hit.pixel, p);
+    return hit.outcome == marchHit && isBetween(hit.pixel, p, toLight, most);
 }
 
 void main() {
@@ -62,7 +66,7 @@ void main() {
     if (any(greaterThanEqual(pixel, ivec2(params.view.size)))) {
         return;
     }
-    float byMap = texelFetch(sunVisibility, pixel, 0).r;
-    bool search = loadDepth(pixel) > 0.0 && byMap > 0.0;
-    imageStore(visibility, pixel, vec4(search && findsCaster(pixel) ? 0.0 : byMap));
+    float lit = texelFetch(byMap, pixel, 0).r;
+    bool search = loadDepth(pixel) > 0.0 && lit > 0.0;
+    imageStore(visibility, pixel, vec4(search && findsCaster(pixel) ? 0.0 : lit));
 }
