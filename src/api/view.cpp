@@ -5,6 +5,7 @@
 #include "lighting/jitter.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace reflet::api {
 
@@ -263,11 +264,16 @@ RefletResult refletBeginFrame(RefletView view, const RefletFrameInfo* info) {
         Frame frame;
         frame.context.view = viewParams(given, view->size);
         frame.jitter = {given.jitter[0], given.jitter[1]};
+        if (!std::isfinite(given.elapsed)) {
+            failArgument("RefletFrameInfo.elapsed: is {}; must be finite, in seconds", given.elapsed);
+        }
         frame.elapsed = std::clamp(given.elapsed, 0.0F, 3600.0F);
         if (!(given.lightChange >= 0.0F && given.lightChange <= 1.0F)) {
             failArgument("RefletFrameInfo.lightChange: is {}; must be 0 to 1", given.lightChange);
         }
-        frame.change = {given.restFrames, given.lightChange};
+        uint32_t& rest = frame.context.view.rest;
+        rest = std::min(rest, view->store->environmentRests++);
+        frame.change = {rest, given.lightChange};
         frame.showsEnvironment = given.backgroundIsEnvironment != 0;
         const ImportParams params = importParams(given, frame.context.view);
         view->commands = given.commandBuffer;

@@ -2,7 +2,6 @@
 #include "lighting/indirect.h"
 
 #include "effects/composite/composite.h"
-#include "effects/import/import.h"
 #include "effects/light_mips/light_mips.h"
 #include "effects/lobe/answer_environment.h"
 
@@ -124,7 +123,7 @@ LobeLight denoiseLobe(gpu::PassList& f, LobeStore& history, const ViewContext& i
     const auto scope = f.scope(lobe == lobeDiffuse ? "diffuse" : "specular");
     LobeLight light;
     light.from = {surfaces.g, in.view, 1};
-    light.radiance = importLight(f, noisy, true);
+    light.radiance = noisy;
     light.source = light.radiance;
     return denoise(f, &history.denoise, light, lobe, in.view, settings.denoise);
 }

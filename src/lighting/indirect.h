@@ -32,7 +32,7 @@ bool readsScreenLight(const LightingSettings& settings, const RaySources& source
 LobeLight traceLobe(gpu::PassList& f, LobeStore* history, const ViewContext& in, const LightingSettings& settings,
                     uint32_t lobe, const Surfaces& surfaces, const ScreenImages& seen, const RaySources& sources);
 
-/// A lobe that a host has traced, denoised. noisy: radiance; alpha: hit distance [m].
+/// A lobe that a host has traced, denoised. noisy: of importLight; radiance; alpha: hit distance [m].
 LobeLight denoiseLobe(gpu::PassList& f, LobeStore& history, const ViewContext& in, const LightingSettings& settings,
                       uint32_t lobe, const Surfaces& surfaces, gpu::Image noisy);
 

@@ -3,6 +3,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/gbuffer/gbuffer.glsl"
+#include "effects/import/finite.glsl"
 #include "effects/import/import.h"
 #include "effects/material_features.glsl"
 #include "shaders/projection.glsl"
@@ -41,10 +42,6 @@ layout(rgba16f) uniform writeonly image2D motion;
 layout(rgba16f) uniform writeonly image2D reflectance;
 layout(r32f) uniform writeonly image2D backDepth;
 
-bool finite(float x) { return !isnan(x) && !isinf(x); }
-bool finite(vec3 v) { return finite(v.x) && finite(v.y) && finite(v.z); }
-float orZero(float x) { return finite(x) ? x : 0.0; }
-
 // Reversed; 0 for the sky, and for what is no depth.
 float reversedDepth(float stored) {
     float d = reversed != 0u ? stored : 1.0 - stored;
@@ -70,6 +67,7 @@ vec3 decodedNormal(vec4 texel, vec3 toEye) {
         float fold = max(-n.z, 0.0);
         n.xy += vec2(n.x >= 0.0 ? -fold : fold, n.y >= 0.0 ? -fold : fold);
     }
+    n /= max(max(max(abs(n.x), abs(n.y)), abs(n.z)), 1.0);  // so that the square of its length is finite
     float length2 = dot(n, n);
     return finite(n) && length2 > 1e-8 ? mat3(params.normalToWorld) * (n * inversesqrt(length2)) : toEye;
 }
@@ -161,7 +159,7 @@ void main() {
     imageStore(material, pixel, vec4(roughnessAt(pixel), metal, 1.0, 0.0));
     if (hasF0 != 0u) {
         vec3 f0 = texelFetch(hostF0, pixel, 0).rgb;
-        f0 = finite(f0) ? clamp(f0, 0.0, 1.0) : vec3(dielectricF0);
+        f0 = finite(f0) ? clamp(f0, 0.0, 1.0) : vec3(0.0);
         imageStore(reflectance, pixel, vec4(f0 / dielectricF0, 1.0));
     }
     vec2 moved = d > 0.0 ? motionAt(pixel, uv, p) : vec2(0.0);
