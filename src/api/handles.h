@@ -72,6 +72,7 @@ struct ViewStore {
     std::array<LightBoundStore, 2> lobePeaks;  ///< of lobes that the host has traced
     LightBoundStore colorPeaks;                ///< of what refletTemporal is given
     std::array<std::optional<KnownEnvironment>, 2> environments;  ///< of the lobes
+    uint64_t lastGeneration = UINT64_MAX;                         ///< of the recorder in the last frame
     uint32_t environmentRests = UINT32_MAX / 2;                   ///< frames that began since one of them changed
 };
 

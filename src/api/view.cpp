@@ -274,6 +274,9 @@ RefletResult refletBeginFrame(RefletView view, const RefletFrameInfo* info) {
         uint32_t& rest = frame.context.view.rest;
         rest = std::min(rest, view->store->environmentRests++);
         frame.change = {rest, given.lightChange};
+        // In the first frame nobody knows whether the host will composite.
+        const bool first = view->store->lastGeneration != view->recorder.generation();
+        frame.context.composes = first || view->composedLast;
         frame.showsEnvironment = given.backgroundIsEnvironment != 0;
         const ImportParams params = importParams(given, frame.context.view);
         view->commands = given.commandBuffer;
@@ -303,6 +306,7 @@ RefletResult refletEndFrame(RefletView view) {
         }
         view->recorder.end();
         view->composedLast = static_cast<bool>(view->frame->composed);
+        view->store->lastGeneration = view->recorder.generation();
         view->last = view->frame;
         view->frame.reset();
     });
