@@ -6,7 +6,7 @@
 #include <cmath>
 #include <memory>
 
-namespace reflet::test {
+namespace reflet::test::disturbed_test {
 namespace {
 
 constexpr uint32_t width = 48;
@@ -333,4 +333,4 @@ TEST_F(Disturbed, FactorsAndTimesHaveARange) {
 }
 
 }  // namespace
-}  // namespace reflet::test
+}  // namespace reflet::test::disturbed_test

@@ -76,24 +76,50 @@ vec3 positionAt(ivec2 pixel, float d) {
     return uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
 }
 
-// The vector along the surface to the neighbour, before or after, whose distance fits a plane better: its second
-// difference with the neighbour behind it is smaller, as depth is linear in screen space on a plane.
+const float lies = 1e30;
+const float sameBend = 0.05;  // allowed change of slope from pixel to pixel, relative: curved surfaces, rounding
+const float sameStep = 0.25;  // and in widths of a pixel
+
+float awayOf(float d) { return depthToViewDistance(max(d, 1e-9), params.view.depthToDistance); }
+
+// How far the pixel lies off the line through its neighbour and the one behind that, in metres [lies: another surface].
+// Depth is linear in screen space on a plane.
+float offLine(float d, float next, float behind) {
+    float wanted = 2.0 * next - behind;
+    if (next <= 0.0 || behind <= 0.0 || wanted <= 0.0) {
+        return lies;
+    }
+    float away = awayOf(d);
+    float off = abs(away - awayOf(wanted));
+    float pixelWidth = params.view.pixelAngle * (params.view.eye.w > 0.0 ? away : 1.0);
+    return off <= sameStep * pixelWidth + sameBend * abs(awayOf(next) - awayOf(behind)) ? off : lies;
+}
+
+// The vector along the surface to the neighbour, before or after, whose distance continues a plane better; 0 if neither
+// does, as on a surface of one or two pixels.
 vec3 along(ivec2 pixel, ivec2 step, float d, vec3 p) {
     float before = depthAt(pixel - step);
     float after = depthAt(pixel + step);
-    float beforeFits = abs(2.0 * before - depthAt(pixel - 2 * step) - d);
-    float afterFits = abs(2.0 * after - depthAt(pixel + 2 * step) - d);
-    bool useBefore = after <= 0.0 || (before > 0.0 && beforeFits < afterFits);
-    if (useBefore) {
-        return before > 0.0 ? p - positionAt(pixel - step, before) : vec3(0.0);
+    float offBefore = offLine(d, before, depthAt(pixel - 2 * step));
+    float offAfter = offLine(d, after, depthAt(pixel + 2 * step));
+    if (min(offBefore, offAfter) >= lies) {
+        return vec3(0.0);
     }
-    return positionAt(pixel + step, after) - p;
+    return offBefore < offAfter ? p - positionAt(pixel - step, before) : positionAt(pixel + step, after) - p;
 }
 
-vec3 normalFromDepth(ivec2 pixel, float d, vec3 p, vec3 otherwise) {
-    vec3 n = cross(along(pixel, ivec2(1, 0), d, p), along(pixel, ivec2(0, 1), d, p));
+// Of the surface that the depths around show. Along an axis that shows none, the shading normal.
+vec3 normalFromDepth(ivec2 pixel, float d, vec3 p, vec3 shaded) {
+    vec3 right = along(pixel, ivec2(1, 0), d, p);
+    vec3 down = along(pixel, ivec2(0, 1), d, p);
+    vec3 n = cross(right, down);
+    bool one = (right == vec3(0.0)) != (down == vec3(0.0));
+    if (one) {
+        vec3 known = right + down;
+        n = shaded - known * (dot(shaded, known) / dot(known, known));
+    }
     float length2 = dot(n, n);
-    return finite(n) && length2 > 0.0 ? n * inversesqrt(length2) : otherwise;
+    return finite(n) && length2 > 0.0 ? n * inversesqrt(length2) : shaded;
 }
 
 float channelOf(vec4 texel, uint channel) { return clamp(orZero(texel[min(channel, 3u)]), 0.0, 1.0); }
