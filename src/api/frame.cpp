@@ -113,6 +113,13 @@ void noteEnvironment(RefletView_T& view, uint32_t lobe, const EnvironmentInputs&
     known = now;
 }
 
+// Then the sum is bounded, too: otherwise the lobes bring no more than the bounded light, and what the environment has
+// shown for long, such as a sun in mirrors, may be as bright as it is.
+bool isEnvironmentNew(const ViewStore& own) {
+    constexpr uint32_t frames = 8;
+    return own.environmentRests < frames;
+}
+
 LobeStore& storeOf(RefletView_T& view, uint32_t lobe) {
     return lobe == lobeDiffuse ? view.store->diffuse : view.store->specular;
 }
@@ -246,7 +253,7 @@ lighting::Light recordComposite(RefletView_T& view, Frame& frame, const Settings
     const lighting::LightParts parts{.direct = frame.light,
                                      .diffuse = lobeOr(frame.diffuse, lobeDiffuse),
                                      .specular = lobeOr(frame.specular, lobeSpecular),
-                                     .limits = bound.limits};
+                                     .limits = isEnvironmentNew(*view.store) ? bound.limits : gpu::Image{}};
     const lighting::Light sum = lighting::compose(f, context, settings, frame, parts, true, litOf(view, frame).next);
     lighting::measureLight(f, bound, sum.lit);
     frame.composed = sum.lit;

@@ -161,15 +161,18 @@ void prepareOnce(RefletView_T& view, const Settings& settings, const RefletPrepa
     view.last.reset();  // its images belong to the frame that is prepared now
     view.recorder.prepare(missing);
     const bool composed = std::exchange(view.composedLast, false);
+    const auto environments = std::exchange(view.store->environments, {});  // no frame has shown the stand-in
     try {
         prepareFrame(view, settingsOfFrame(view, settings, {}), info, kind);
     } catch (...) {
         view.composedLast = composed;
+        view.store->environments = environments;
         view.recorder.drop();
         view.recorder.end();
         throw;
     }
     view.composedLast = composed;
+    view.store->environments = environments;
     view.recorder.end();
 }
 
@@ -184,6 +187,9 @@ void prepareKinds(const RefletView_T& view, const Settings& settings, const Refl
     small.outputSize = outputSizeOf(view) != view.size ? 2U * size : uvec2(0);
     small.store = std::make_unique<ViewStore>();
     for (const FrameKind& kind : frameKinds(info)) {
+        small.store->environmentRests = UINT32_MAX / 2;
+        prepareOnce(small, settings, info, kind, missing);
+        small.store->environmentRests = 0;  // the environment has changed
         prepareOnce(small, settings, info, kind, missing);
     }
     small.recorder.finish();

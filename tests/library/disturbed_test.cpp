@@ -266,8 +266,8 @@ double relativeError(const std::vector<vec4>& picture, const std::vector<vec4>& 
     return sum / (3.0 * double(picture.size()));
 }
 
-// Takes 10 s on two cores: each input of the API, with each kind of value. Of surfaces histories keep less at rest than
-// in motion.
+// Takes 25 s on two busy cores: each input of the API, with each kind of value. Of surfaces histories keep less at rest
+// than in motion.
 TEST_F(Disturbed, NothingOfABlockLasts) {
     for (const bool rests : {false, true}) {
         std::vector<vec4> wanted[4];

@@ -6,9 +6,9 @@ namespace reflet {
 namespace {
 
 constexpr VkFormat format = VK_FORMAT_R32_SFLOAT;
-// Per frame. Light that is switched on is as bright as it is after three frames; one frame of 65504 counts as four
-// times what there was.
-constexpr float riseInMotion = 4.0F;
+// Per frame. Highlights of the sun come and go, up to about ten times as bright as all else; history clips take what is
+// left of a wrong frame.
+constexpr float riseInMotion = 16.0F;
 // Nothing changes at rest but what jitter shows of each pixel, so that less is enough. Means at rest never forget: a
 // frame that is twice as bright is 12 % in a mean of eight, and is gone in one of fifty.
 constexpr float riseAtRest = 2.0F;
