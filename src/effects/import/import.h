@@ -9,10 +9,10 @@
 
 SHARED_BEGIN
 
-#define INPUT_SETTINGS(VALUE, SWITCH, CHOICE)                                                                           \
-    VALUE(float, maxRadiance, 10000.0, 0.01, 65504.0,                                                                  \
-          "Maximum luminance of the radiance that the host gives: light, color, noisy lobes, not environments. What "  \
-          "is brighter keeps its hue. Images are half floats up to 65504, which sums must not reach: where what is "   \
+#define INPUT_SETTINGS(VALUE, SWITCH, CHOICE)                                                                         \
+    VALUE(float, maxRadiance, 10000.0, 0.01, 65504.0,                                                                 \
+          "Maximum luminance of the radiance that the host gives: light, color, noisy lobes, not environments. What " \
+          "is brighter keeps its hue. Images are half floats up to 65504, which sums must not reach: where what is "  \
           "lit is about 1, 10000 is 13 stops above it. Lower: fewer fireflies, less light of small bright emitters.")
 SETTINGS(InputSettings, INPUT_SETTINGS)
 
