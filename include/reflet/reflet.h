@@ -309,8 +309,7 @@ typedef struct RefletGBuffer {
     RefletNormalKind normalKind; /**< of `normal` and `geometricNormal` */
     /** 0: normals are in world space; 1: in view space. */
     uint32_t normalsInViewSpace;
-    /** Of the triangles, in the kind and space of `normal`; absent: from depth, which is wrong at edges of one pixel.
-     */
+    /** Of the triangles, in the kind and space of `normal`; absent: from depth, or `normal` on what is a pixel wide. */
     RefletImage geometricNormal;
     RefletImage roughness;             /**< absent: 1 */
     uint32_t roughnessChannel;         /**< 0 to 3 */

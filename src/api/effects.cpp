@@ -10,6 +10,7 @@ namespace reflet::api {
 namespace {
 
 constexpr float realSun = 0.0093F;  // radians
+constexpr float largestFactor = 65504.0F;
 
 template <class T>
 void checkOut(T* out, const char* name) {
@@ -105,8 +106,9 @@ EnvironmentInputs environmentInputs(const RefletEnvironment& environment, HostIm
 
 void checkEnvironment(const RefletEnvironment& environment) {
     for (int i = 0; i < 3; ++i) {
-        if (!(environment.factor[i] >= 0.0F && std::isfinite(environment.factor[i]))) {
-            failArgument("RefletEnvironment.factor[{}]: is {}; must be 0 or more", i, environment.factor[i]);
+        if (!(environment.factor[i] >= 0.0F && environment.factor[i] <= largestFactor)) {
+            failArgument("RefletEnvironment.factor[{}]: is {}; must be 0 to {}, as images are half floats", i,
+                         environment.factor[i], largestFactor);
         }
     }
     if (!std::isfinite(environment.rotation)) {

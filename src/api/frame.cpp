@@ -46,7 +46,7 @@ EnvironmentLight environmentLight(RefletView_T& view, const EnvironmentInputs& i
         const gpu::Image texels = own.texels.storage(f, lightFormat, in.image ? in.image.size : uvec2(1));
         if (in.image) {
             const auto scope = f.scope("environment");
-            lighting::importLight(f, in.image, false, texels);
+            lighting::importLight(f, in.image, {.into = texels});
         } else {  // the factor is its radiance
             f.clear(texels, {{1.0F, 1.0F, 1.0F, 1.0F}});
         }
@@ -58,6 +58,66 @@ EnvironmentLight environmentLight(RefletView_T& view, const EnvironmentInputs& i
         f.promise();
     }
     return {own.texels.last(), own.cube.lobes.image(), own.cube.irradiance.image(), in.params};
+}
+
+// How bright light of the host may be in this frame.
+LightBound& boundOf(RefletView_T& view, Frame& frame) {
+    if (!frame.bound) {
+        frame.bound = lighting::boundLight(view.recorder, view.store->lightPeaks, view.size,
+                                           frame.context.view.rest > 0, frame.change.light > 0.0F);
+    }
+    return *frame.bound;
+}
+
+gpu::Image hostRadiance(RefletView_T& view, const Settings& settings, LightBound& bound, gpu::Image given,
+                        bool keepAlpha) {
+    gpu::PassList& f = view.recorder;
+    const gpu::Image light = lighting::importLight(
+        f, given, {.maxRadiance = settings.input.maxRadiance, .limits = bound.limits, .keepAlpha = keepAlpha});
+    lighting::measureLight(f, bound, light);
+    return light;
+}
+
+// A host's radiance that has a history of its own.
+gpu::Image radianceWithHistory(RefletView_T& view, const Frame& frame, const Settings& settings, LightBoundStore& own,
+                               gpu::Image given, bool keepAlpha) {
+    LightBound bound =
+        lighting::boundLight(view.recorder, own, given.size, frame.context.view.rest > 0, frame.change.light > 0.0F);
+    return hostRadiance(view, settings, bound, given, keepAlpha);
+}
+
+// A picture that feeds no history.
+gpu::Image pictureOf(RefletView_T& view, const Settings& settings, gpu::Image given) {
+    return lighting::importLight(view.recorder, given, {.maxRadiance = settings.input.maxRadiance});
+}
+
+// Whether one is at least four times the other.
+bool isStep(const vec3& a, const vec3& b) {
+    constexpr float step = 4.0F;
+    return glm::any(glm::greaterThan(a, step * b)) || glm::any(glm::greaterThan(b, step * a));
+}
+
+// An environment that changes ends what the host calls rest, from the next frame on: means must forget the last one.
+// After a step of its factor the lobe's history starts anew, and rays do not read the last picture.
+void noteEnvironment(RefletView_T& view, uint32_t lobe, const EnvironmentInputs& in) {
+    ViewStore& own = *view.store;
+    const KnownEnvironment now{in.from, in.revision, in.params.factor, in.params.turn};
+    std::optional<KnownEnvironment>& known = own.environments[lobe];
+    if (known && *known != now) {
+        own.environmentRests = 0;
+        if (isStep(known->factor, now.factor)) {
+            (lobe == lobeDiffuse ? own.diffuse : own.specular) = {};
+            view.composedLast = false;
+        }
+    }
+    known = now;
+}
+
+// Then the sum is bounded, too: otherwise the lobes bring no more than the bounded light, and what the environment has
+// shown for long, such as a sun in mirrors, may be as bright as it is.
+bool isEnvironmentNew(const ViewStore& own) {
+    constexpr uint32_t frames = 8;
+    return own.environmentRests < frames;
 }
 
 LobeStore& storeOf(RefletView_T& view, uint32_t lobe) {
@@ -115,6 +175,7 @@ void finishCall(RefletView_T& view, const Frame& frame) {
     for (uint32_t i = 0; i < frame.contactCount; ++i) {
         f.keep(frame.contacts[i]);
     }
+    f.keep(frame.bound ? frame.bound->limits : gpu::Image{});
     keepLobe(f, frame.diffuse);
     keepLobe(f, frame.specular);
     f.flush();
@@ -168,10 +229,11 @@ gpu::Image recordAmbientOcclusion(RefletView_T& view, Frame& frame, const Settin
 LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image light,
                      const EnvironmentInputs& environment) {
     gpu::PassList& f = view.recorder;
+    noteEnvironment(view, lobe, environment);
     frame.context.environment = environmentLight(view, environment);
     const lighting::ViewContext& context = contextOf(view, frame);
     f.release(frame.light);  // of the other lobe
-    frame.light = lighting::importLight(f, light);
+    frame.light = hostRadiance(view, settings, boundOf(view, frame), light, false);
     const ScreenImages screen = lighting::lightAtHits(
         f, context, settings, lobe, lighting::screenOf(f, context, settings, frame, frame.light, litOf(view, frame)),
         frame.diffuse ? &*frame.diffuse : nullptr);
@@ -183,7 +245,9 @@ LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings,
 
 LobeLight recordDenoise(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image noisy) {
     gpu::PassList& f = view.recorder;
-    const LobeLight clean = lighting::denoiseLobe(f, storeOf(view, lobe), frame.context, settings, lobe, frame, noisy);
+    const gpu::Image radiance = radianceWithHistory(view, frame, settings, view.store->lobePeaks[lobe], noisy, true);
+    const LobeLight clean =
+        lighting::denoiseLobe(f, storeOf(view, lobe), frame.context, settings, lobe, frame, radiance);
     (lobe == lobeDiffuse ? frame.diffuse : frame.specular) = clean;
     finishCall(view, frame);
     return clean;
@@ -192,7 +256,7 @@ LobeLight recordDenoise(RefletView_T& view, Frame& frame, const Settings& settin
 lighting::Light recordComposite(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image light) {
     gpu::PassList& f = view.recorder;
     if (light) {
-        frame.light = lighting::importLight(f, light);
+        frame.light = hostRadiance(view, settings, boundOf(view, frame), light, false);
     }
     if (!frame.light) {
         failArgument(
@@ -202,9 +266,13 @@ lighting::Light recordComposite(RefletView_T& view, Frame& frame, const Settings
     const auto lobeOr = [&](const std::optional<LobeLight>& traced, uint32_t lobe) {
         return traced ? *traced : lighting::blackLobe(f, context, frame, lobe);
     };
-    const lighting::LightParts parts{frame.light, lobeOr(frame.diffuse, lobeDiffuse),
-                                     lobeOr(frame.specular, lobeSpecular)};
+    LightBound& bound = boundOf(view, frame);
+    const lighting::LightParts parts{.direct = frame.light,
+                                     .diffuse = lobeOr(frame.diffuse, lobeDiffuse),
+                                     .specular = lobeOr(frame.specular, lobeSpecular),
+                                     .limits = isEnvironmentNew(*view.store) ? bound.limits : gpu::Image{}};
     const lighting::Light sum = lighting::compose(f, context, settings, frame, parts, true, litOf(view, frame).next);
+    lighting::measureLight(f, bound, sum.lit);
     frame.composed = sum.lit;
     f.keep(sum.indirectDiffuse);
     f.keep(sum.indirectSpecular);
@@ -214,7 +282,8 @@ lighting::Light recordComposite(RefletView_T& view, Frame& frame, const Settings
 
 gpu::Image recordTemporal(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image color) {
     gpu::PassList& f = view.recorder;
-    const gpu::Image radiance = color ? lighting::importLight(f, color) : frame.composed;
+    const gpu::Image radiance =
+        color ? radianceWithHistory(view, frame, settings, view.store->colorPeaks, color, false) : frame.composed;
     if (!radiance) {
         failArgument("color: is NULL, and refletComposite has not run in this frame");
     }
@@ -236,7 +305,7 @@ gpu::Image recordTemporal(RefletView_T& view, Frame& frame, const Settings& sett
 gpu::Image recordDepthOfField(RefletView_T& view, Frame& frame, const Settings& settings, const Lens& lens,
                               gpu::Image color) {
     gpu::PassList& f = view.recorder;
-    const gpu::Image radiance = color ? lighting::importLight(f, color) : pictureSoFar(frame);
+    const gpu::Image radiance = color ? pictureOf(view, settings, color) : pictureSoFar(frame);
     const LobeLight* const specular = frame.specular && frame.composed ? &*frame.specular : nullptr;
     const lighting::Light blurred = lighting::defocus(f, view.store->lens, contextOf(view, frame), settings, lens,
                                                       frame, lightWith(frame, radiance), specular);
@@ -249,7 +318,7 @@ gpu::Image recordDepthOfField(RefletView_T& view, Frame& frame, const Settings& 
 
 gpu::Image recordToneMap(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image color, bool automatic) {
     gpu::PassList& f = view.recorder;
-    const lighting::Light light = pictureToMap(frame, color ? lighting::importLight(f, color) : gpu::Image{});
+    const lighting::Light light = pictureToMap(frame, color ? pictureOf(view, settings, color) : gpu::Image{});
     gpu::Image exposure;
     if (automatic) {
         if (!lighting::canMeter(light, frame)) {

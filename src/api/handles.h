@@ -46,6 +46,16 @@ struct EnvironmentImages {
     uint64_t list = 0;                 ///< whose passes make them
 };
 
+/// The environment that a lobe was given last.
+struct KnownEnvironment {
+    VkImageView from = VK_NULL_HANDLE;
+    uint64_t revision = 0;
+    vec3 factor{0.0F};
+    vec2 turn{0.0F};
+
+    bool operator==(const KnownEnvironment&) const = default;
+};
+
 /// All that a view keeps from frame to frame.
 struct ViewStore {
     gpu::KeptBuffer blueNoise{"blue_noise"};
@@ -59,13 +69,20 @@ struct ViewStore {
     TemporalStore temporal;
     lighting::DofHistory lens;
     gpu::HistoryImage exposure{"exposure"};
+    LightBoundStore lightPeaks;                ///< of the light that lobes and the composite are given, and their sum
+    std::array<LightBoundStore, 2> lobePeaks;  ///< of lobes that the host has traced
+    LightBoundStore colorPeaks;                ///< of what refletTemporal is given
+    std::array<std::optional<KnownEnvironment>, 2> environments;  ///< of the lobes
+    uint64_t lastGeneration = UINT64_MAX;                         ///< of the recorder in the last frame
+    uint32_t environmentRests = UINT32_MAX / 2;                   ///< frames that began since one of them changed
 };
 
 /// What has been recorded of the current frame.
 struct Frame : lighting::Surfaces {
-    lighting::ViewContext context;  ///< its environment is that of the last lobe
-    gpu::Image light;               ///< given to the lobes
-    gpu::History lit;               ///< swapped by the first effect that reads or writes it
+    lighting::ViewContext context;    ///< its environment is that of the last lobe
+    std::optional<LightBound> bound;  ///< of `light` and `composed`
+    gpu::Image light;                 ///< given to the lobes
+    gpu::History lit;                 ///< swapped by the first effect that reads or writes it
     gpu::Image composed;
     gpu::Image antialiased;
     gpu::Image sharp;  ///< what depth of field was given

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace reflet::api {
 
@@ -32,49 +33,119 @@ private:
     RefletView_T& view_;
 };
 
-void prepareFrame(RefletView_T& view, const Settings& settings, const RefletPrepareInfo& info,
-                  const RefletGBuffer& gbuffer) {
+// Where a lobe's light comes from.
+enum class LobeFrom : uint8_t { nowhere, rays, host };
+
+// A frame of some of the effects that a host has asked for.
+struct FrameKind {
+    uint32_t effects = 0;
+    LobeFrom diffuse = LobeFrom::nowhere;
+    LobeFrom specular = LobeFrom::nowhere;
+    bool skyMoves = false;  // the picture shows an environment, and the camera turns
+};
+
+FrameKind wholeFrame(uint32_t effects) {
+    const auto from = [&](RefletEffect rays) {
+        const bool denoises = (effects & REFLET_EFFECT_DENOISE) != 0;
+        return (effects & rays) != 0 ? LobeFrom::rays : denoises ? LobeFrom::host : LobeFrom::nowhere;
+    };
+    return {effects, from(REFLET_EFFECT_DIFFUSE_GI), from(REFLET_EFFECT_REFLECTIONS)};
+}
+
+std::vector<LobeFrom> choicesOf(uint32_t effects, RefletEffect rays) {
+    std::vector<LobeFrom> choices{LobeFrom::nowhere};
+    if ((effects & rays) != 0) {
+        choices.push_back(LobeFrom::rays);
+    }
+    if ((effects & REFLET_EFFECT_DENOISE) != 0) {
+        choices.push_back(LobeFrom::host);
+    }
+    return choices;
+}
+
+// Frames whose passes are all that frames of any of these effects can have: each effect may run or not. Effects that
+// change each other's passes are varied together.
+std::vector<FrameKind> frameKinds(const RefletPrepareInfo& info) {
+    const uint32_t all = info.effects;
+    std::vector<FrameKind> kinds;
+    for (const LobeFrom diffuse : choicesOf(all, REFLET_EFFECT_DIFFUSE_GI)) {
+        for (const LobeFrom specular : choicesOf(all, REFLET_EFFECT_REFLECTIONS)) {
+            kinds.push_back({all, diffuse, specular});
+            kinds.push_back({all & ~REFLET_EFFECT_TEMPORAL, diffuse, specular});
+        }
+    }
+    for (const uint32_t without :
+         {uint32_t(REFLET_EFFECT_AMBIENT_OCCLUSION), uint32_t(REFLET_EFFECT_CONTACT_SHADOWS),
+          uint32_t(REFLET_EFFECT_COMPOSITE), uint32_t(REFLET_EFFECT_COMPOSITE | REFLET_EFFECT_TEMPORAL)}) {
+        if ((all & without) != 0) {
+            FrameKind kind = wholeFrame(all);
+            kind.effects &= ~without;
+            kinds.push_back(kind);
+        }
+    }
+    if (info.hasEnvironmentImage != 0) {
+        kinds.push_back(wholeFrame(all));
+        kinds.back().skyMoves = true;
+    }
+    return kinds;
+}
+
+void prepareSun(RefletView_T& view, Frame& frame, const Settings& settings, const RefletPrepareInfo& info,
+                const FrameKind& kind, StandIns& standIns) {
+    SunInputs sun;
+    sun.map = standIns.make(uvec2(info.shadowMapSide > 0 ? info.shadowMapSide : 2048));
+    sun.reversed = info.shadowDepthKind == REFLET_DEPTH_REVERSED;
+    sun.sun.count = std::clamp(info.cascades, 1U, maxCascades);
+    sun.contact = (kind.effects & REFLET_EFFECT_CONTACT_SHADOWS) != 0;
+    recordSunShadow(view, frame, settings, sun);
+}
+
+void prepareLobes(RefletView_T& view, Frame& frame, const Settings& settings, const RefletPrepareInfo& info,
+                  const FrameKind& kind, StandIns& standIns) {
+    EnvironmentInputs environment;
+    environment.image = info.hasEnvironmentImage != 0 ? standIns.make(uvec2(256)) : gpu::Image{};
+    const gpu::Image color = standIns.make(view.size);
+    for (const uint32_t lobe : {lobeDiffuse, lobeSpecular}) {
+        const LobeFrom from = lobe == lobeDiffuse ? kind.diffuse : kind.specular;
+        if (from == LobeFrom::rays) {
+            recordLobe(view, frame, settings, lobe, color, environment);
+        } else if (from == LobeFrom::host) {
+            recordDenoise(view, frame, settings, lobe, color);
+        }
+    }
+}
+
+// The first frame of a view, which has passes that later ones lack.
+void prepareFrame(RefletView_T& view, const Settings& settings, const RefletPrepareInfo& info, const FrameKind& kind) {
     StandIns standIns(view);
-    const auto asked = [&](RefletEffect effect) { return (info.effects & effect) != 0; };
+    const auto asked = [&](RefletEffect effect) { return (kind.effects & effect) != 0; };
     Frame frame;
     frame.context.view.size = vec2(view.size);
-    HostSurfaces surfaces = hostSurfaces(gbuffer, [&](const RefletImage& i) { return standIns.makeIfGiven(i); });
+    frame.showsEnvironment = kind.skyMoves;
+    frame.context.view.eye.w = kind.skyMoves ? 1.0F : 0.0F;
+    frame.context.view.worldToClip[0][0] = kind.skyMoves ? 1.0F : 0.0F;  // other than the last frame's
+    HostSurfaces surfaces = hostSurfaces(*info.gbuffer, [&](const RefletImage& i) { return standIns.makeIfGiven(i); });
     surfaces.depth = standIns.make(view.size);
     surfaces.normal = standIns.make(view.size);
     recordImport(view, frame, surfaces, {});
     if (asked(REFLET_EFFECT_SUN_SHADOW)) {
-        SunInputs sun;
-        sun.map = standIns.make(uvec2(info.shadowMapSide > 0 ? info.shadowMapSide : 2048));
-        sun.reversed = info.shadowDepthKind == REFLET_DEPTH_REVERSED;
-        sun.sun.count = std::clamp(info.cascades, 1U, maxCascades);
-        sun.contact = asked(REFLET_EFFECT_CONTACT_SHADOWS);
-        recordSunShadow(view, frame, settings, sun);
+        prepareSun(view, frame, settings, info, kind, standIns);
+    }
+    if (asked(REFLET_EFFECT_CONTACT_SHADOWS) && settings.contact.distance > 0.0F) {
+        recordContactShadows(view, frame, settings, vec4(0.0F, 1.0F, 0.0F, 0.0F));
     }
     if (asked(REFLET_EFFECT_AMBIENT_OCCLUSION)) {
         recordAmbientOcclusion(view, frame, settings);
     }
-    EnvironmentInputs environment;
-    environment.image = info.hasEnvironmentImage != 0 ? standIns.make(uvec2(256)) : gpu::Image{};
-    const gpu::Image color = standIns.make(view.size);
+    prepareLobes(view, frame, settings, info, kind, standIns);
     // With a composite, what comes after it needs no picture of the host's.
     const bool composes = asked(REFLET_EFFECT_COMPOSITE);
     const auto pictureOr = [&](uvec2 size) { return composes ? gpu::Image{} : standIns.make(size); };
-    if (asked(REFLET_EFFECT_DIFFUSE_GI)) {
-        recordLobe(view, frame, settings, lobeDiffuse, color, environment);
-    }
-    if (asked(REFLET_EFFECT_REFLECTIONS)) {
-        recordLobe(view, frame, settings, lobeSpecular, color, environment);
-    }
-    if (asked(REFLET_EFFECT_DENOISE)) {
-        Frame denoised = frame;
-        recordDenoise(view, denoised, settings, lobeDiffuse, color);
-        recordDenoise(view, denoised, settings, lobeSpecular, color);
-    }
-    if (asked(REFLET_EFFECT_COMPOSITE)) {
-        recordComposite(view, frame, settings, frame.light ? gpu::Image{} : color);
+    if (composes) {
+        recordComposite(view, frame, settings, frame.light ? gpu::Image{} : standIns.make(view.size));
     }
     if (asked(REFLET_EFFECT_TEMPORAL)) {
-        recordTemporal(view, frame, settings, composes ? gpu::Image{} : color);
+        recordTemporal(view, frame, settings, pictureOr(view.size));
     }
     if (asked(REFLET_EFFECT_DEPTH_OF_FIELD)) {
         for (const uint32_t blades : {0U, 6U}) {  // round apertures, and polygons
@@ -83,23 +154,49 @@ void prepareFrame(RefletView_T& view, const Settings& settings, const RefletPrep
         }
     }
     if (asked(REFLET_EFFECT_TONE_MAP)) {
-        recordToneMap(view, frame, settings, pictureOr(outputSizeOf(view)), info.autoExposure != 0);
+        const bool meters = info.autoExposure != 0 && (composes || outputSizeOf(view) == view.size);
+        recordToneMap(view, frame, settings, pictureOr(outputSizeOf(view)), meters);
     }
 }
 
-void prepareOnce(RefletView_T& view, const Settings& settings, const RefletPrepareInfo& info,
-                 const RefletGBuffer& gbuffer, std::vector<gpu::PipelineInfo>& missing) {
+void prepareOnce(RefletView_T& view, const Settings& settings, const RefletPrepareInfo& info, const FrameKind& kind,
+                 std::vector<gpu::PipelineInfo>& missing) {
     view.hostImages.clear();
     view.last.reset();  // its images belong to the frame that is prepared now
     view.recorder.prepare(missing);
+    const bool composed = std::exchange(view.composedLast, false);
+    const auto environments = std::exchange(view.store->environments, {});  // no frame has shown the stand-in
     try {
-        prepareFrame(view, settingsOfFrame(view, settings, {}), info, gbuffer);
+        prepareFrame(view, settingsOfFrame(view, settings, {}), info, kind);
     } catch (...) {
+        view.composedLast = composed;
+        view.store->environments = environments;
         view.recorder.drop();
         view.recorder.end();
         throw;
     }
+    view.composedLast = composed;
+    view.store->environments = environments;
     view.recorder.end();
+}
+
+// The pipelines of all frames that these effects can make, by a small view: images of the real one are not made for
+// frames that may never be.
+void prepareKinds(const RefletView_T& view, const Settings& settings, const RefletPrepareInfo& info,
+                  std::vector<gpu::PipelineInfo>& missing) {
+    constexpr uvec2 size(64);
+    RefletView_T small(view.owner, 1, false);
+    small.memory = view.memory;
+    small.size = size;
+    small.outputSize = outputSizeOf(view) != view.size ? 2U * size : uvec2(0);
+    small.store = std::make_unique<ViewStore>();
+    for (const FrameKind& kind : frameKinds(info)) {
+        small.store->environmentRests = UINT32_MAX / 2;
+        prepareOnce(small, settings, info, kind, missing);
+        small.store->environmentRests = 0;  // the environment has changed
+        prepareOnce(small, settings, info, kind, missing);
+    }
+    small.recorder.finish();
 }
 
 struct Named {
@@ -137,12 +234,13 @@ using namespace reflet::api;
 RefletResult refletPrepare(RefletView view, RefletSettings settings, const RefletPrepareInfo* info,
                            uint32_t maxPipelines, uint32_t* remaining) {
     return onView(view, [&] {
-        const RefletPrepareInfo given = adopted(info, "RefletPrepareInfo");
+        RefletPrepareInfo given = adopted(info, "RefletPrepareInfo");
         checkHandle(settings, "settings");
         if (remaining == nullptr) {
             failArgument("remaining: is NULL");
         }
         const RefletGBuffer gbuffer = adopted(given.gbuffer, "RefletPrepareInfo.gbuffer");
+        given.gbuffer = &gbuffer;  // of the size that this library knows
         checkBoolean(given.hasEnvironmentImage, "RefletPrepareInfo.hasEnvironmentImage");
         checkBoolean(given.autoExposure, "RefletPrepareInfo.autoExposure");
         checkDepthKind(given.shadowDepthKind, "RefletPrepareInfo.shadowDepthKind");
@@ -153,11 +251,13 @@ RefletResult refletPrepare(RefletView view, RefletSettings settings, const Refle
             failArgument("view: a frame has begun; prepare before refletBeginFrame or after refletEndFrame");
         }
         std::vector<gpu::PipelineInfo> missing;
-        prepareOnce(*view, settings->values, given, gbuffer, missing);
+        const FrameKind whole = wholeFrame(given.effects);
+        prepareOnce(*view, settings->values, given, whole, missing);
         if (view->recorder.counts().plans > 0) {  // now all histories exist: the rest goes around them
             view->recorder.tidy();
-            prepareOnce(*view, settings->values, given, gbuffer, missing);
+            prepareOnce(*view, settings->values, given, whole, missing);
         }
+        prepareKinds(*view, settings->values, given, missing);
         const size_t made = std::min<size_t>(missing.size(), maxPipelines);
         for (size_t i = 0; i < made; ++i) {
             view->owner.gpu->pipelines().get(missing[i]);

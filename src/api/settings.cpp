@@ -19,6 +19,7 @@ namespace {
 
 SettingTable makeTable() {
     SettingTable table("refletSettingInfo");
+    table.add<InputSettings>("input", offsetIn<Settings>(&Settings::input));
     table.add<ShadowSettings>("shadow", offsetIn<Settings>(&Settings::shadow));
     table.add<ContactSettings>("contact", offsetIn<Settings>(&Settings::contact));
     table.add<TraceScreenSettings>("trace_screen", offsetIn<Settings>(&Settings::traceScreen));

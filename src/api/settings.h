@@ -2,13 +2,16 @@
 #pragma once
 
 #include "base/setting_table.h"
+#include "lighting/host_images.h"
 #include "lighting/settings.h"
 
 #include <string_view>
 
 namespace reflet::api {
 
-using Settings = LightingSettings;
+struct Settings : LightingSettings {
+    InputSettings input;
+};
 
 const SettingTable& settingTable();
 

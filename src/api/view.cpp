@@ -6,6 +6,7 @@
 #include "lighting/jitter.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace reflet::api {
 
@@ -311,7 +312,12 @@ RefletResult refletBeginFrame(RefletView view, const RefletFrameInfo* info) {
         if (!(given.lightChange >= 0.0F && given.lightChange <= 1.0F)) {
             failArgument("RefletFrameInfo.lightChange: is {}; must be 0 to 1", given.lightChange);
         }
-        frame.change = {given.restFrames, given.lightChange};
+        uint32_t& rest = frame.context.view.rest;
+        rest = std::min(rest, view->store->environmentRests++);
+        frame.change = {rest, given.lightChange};
+        // In the first frame nobody knows whether the host will composite.
+        const bool first = view->store->lastGeneration != view->recorder.generation();
+        frame.context.composes = first || view->composedLast;
         frame.showsEnvironment = given.backgroundIsEnvironment != 0;
         const ImportParams params = importParams(given, gbuffer, frame.context.view);
         view->commands = given.commandBuffer;
@@ -342,6 +348,7 @@ RefletResult refletEndFrame(RefletView view) {
         }
         view->recorder.end();
         view->composedLast = static_cast<bool>(view->frame->composed);
+        view->store->lastGeneration = view->recorder.generation();
         view->last = view->frame;
         view->frame.reset();
     });

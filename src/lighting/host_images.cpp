@@ -8,8 +8,16 @@ Surfaces importSurfaces(gpu::PassList& f, const HostSurfaces& host, const Import
     return {.g = imported.g, .backDepth = imported.backDepth, .pyramid = {}, .ambientOcclusion = {}};
 }
 
-gpu::Image importLight(gpu::PassList& f, gpu::Image light, bool keepAlpha, gpu::Image into) {
-    return reflet::importLight(f, light, keepAlpha, into);
+gpu::Image importLight(gpu::PassList& f, gpu::Image light, const LightImport& how) {
+    return reflet::importLight(f, light, how);
+}
+
+LightBound boundLight(gpu::PassList& f, LightBoundStore& own, uvec2 size, bool rests, bool unbounded) {
+    return reflet::boundLight(f, own, size, rests, unbounded);
+}
+
+void measureLight(gpu::PassList& f, LightBound& bound, gpu::Image light) {
+    reflet::measureLight(f, bound, light);
 }
 
 gpu::Image importShadowMap(gpu::PassList& f, gpu::Image map, uint32_t cascades, bool reversed) {

@@ -9,9 +9,14 @@ namespace reflet::lighting {
 /// The G-buffer and the second depth layer of a host. params: without the channels, which are set.
 Surfaces importSurfaces(gpu::PassList& f, const HostSurfaces& host, const ImportParams& params);
 
-/// RGBA16F of the same size: finite, 0 to 65504. alpha: as given with keepAlpha, else 1. into: where it is written;
-/// none: an image of this frame.
-gpu::Image importLight(gpu::PassList& f, gpu::Image light, bool keepAlpha = false, gpu::Image into = {});
+/// RGBA16F of the same size: finite, 0 to 65504.
+gpu::Image importLight(gpu::PassList& f, gpu::Image light, const LightImport& how = {});
+
+/// How bright a host's light may be in this frame, by what it was in the last ones.
+LightBound boundLight(gpu::PassList& f, LightBoundStore& own, uvec2 size, bool rests, bool unbounded);
+
+/// Notes light that the limits have bounded, for those of the next frame.
+void measureLight(gpu::PassList& f, LightBound& bound, gpu::Image light);
 
 /// R32F: the cascades' maps as tiles, depth reversed. map: a 2D array view if there are several.
 gpu::Image importShadowMap(gpu::PassList& f, gpu::Image map, uint32_t cascades, bool reversed);

@@ -2,7 +2,6 @@
 #include "lighting/indirect.h"
 
 #include "effects/composite/composite.h"
-#include "effects/import/import.h"
 #include "effects/light_mips/light_mips.h"
 #include "effects/lobe/answer_environment.h"
 
@@ -68,27 +67,12 @@ std::vector<RaySource> orderOf(const LightingSettings& settings, const ScreenIma
     return order;
 }
 
-}  // namespace
-
-ScreenImages screenOf(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings, Surfaces& surfaces,
-                      gpu::Image direct, const gpu::History& lit) {
-    if (tracesRays(settings) && marchesPyramid(settings)) {
-        depthPyramid(f, surfaces);
-    }
-    return {.g = surfaces.g,
-            .view = in.view,
-            .backDepth = surfaces.backDepth,
-            .pyramid = surfaces.pyramid,
-            .light = direct,
-            .lit = lit,
-            .lightMips = {}};
+// Whether rays would read the last picture, and there is none: in the first frame.
+bool lacksPicture(const ViewContext& in, const LightingSettings& settings, const ScreenImages& screen) {
+    return settings.traceScreen.light == HitLight::previous && in.composes && screen.lit.next && !screen.lit.valid;
 }
 
-bool readsScreenLight(const LightingSettings& settings, const RaySources& sources) {
-    return settings.traceScreen.enabled != 0 || sources.readScreen;
-}
-
-LobeLight traceLobe(gpu::PassList& f, LobeStore* history, const ViewContext& in, const LightingSettings& settings,
+LobeLight traceOnce(gpu::PassList& f, LobeStore* history, const ViewContext& in, const LightingSettings& settings,
                     uint32_t lobe, const Surfaces& surfaces, const ScreenImages& seen, const RaySources& sources) {
     ScreenImages screen = seen;
     screen.leavesOutEmitters = in.emitterLamps && lobe == lobeDiffuse;
@@ -119,12 +103,55 @@ LobeLight traceLobe(gpu::PassList& f, LobeStore* history, const ViewContext& in,
          .coneShare = marched ? coneShareOnScreen : 0.0F});
 }
 
+// What rays read at hits, with the reflections that have been traced.
+gpu::Image withReflections(gpu::PassList& f, const ViewContext& in, const ScreenImages& screen,
+                           const LobeLight& specular) {
+    const LobeLight none = reflet::blackLobe(f, {screen.g, in.view}, false);
+    const gpu::Image sum = f.image("lit_once", VK_FORMAT_R16G16B16A16_SFLOAT, screen.light.size);
+    const CompositeInputs parts{screen.g, screen.light, none, specular, in.ggxTable, in.lambertOnly, false};
+    return composite(f, parts, sum, {in.view, 1.0F}).lit;
+}
+
+}  // namespace
+
+ScreenImages screenOf(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings, Surfaces& surfaces,
+                      gpu::Image direct, const gpu::History& lit) {
+    if (tracesRays(settings) && marchesPyramid(settings)) {
+        depthPyramid(f, surfaces);
+    }
+    return {.g = surfaces.g,
+            .view = in.view,
+            .backDepth = surfaces.backDepth,
+            .pyramid = surfaces.pyramid,
+            .light = direct,
+            .lit = lit,
+            .lightMips = {}};
+}
+
+bool readsScreenLight(const LightingSettings& settings, const RaySources& sources) {
+    return settings.traceScreen.enabled != 0 || sources.readScreen;
+}
+
+LobeLight traceLobe(gpu::PassList& f, LobeStore* history, const ViewContext& in, const LightingSettings& settings,
+                    uint32_t lobe, const Surfaces& surfaces, const ScreenImages& seen, const RaySources& sources) {
+    const LobeLight traced = traceOnce(f, history, in, settings, lobe, surfaces, seen, sources);
+    if (lobe != lobeSpecular || traced.dark || settings.traceScreen.enabled == 0 || !lacksPicture(in, settings, seen)) {
+        return traced;
+    }
+    const auto scope = f.scope("specular");
+    ScreenImages lit = seen;
+    lit.light = withReflections(f, in, seen, traced);
+    if (lit.lightMips) {
+        lit.lightMips = makeLightMips(f, lit.light);
+    }
+    return traceOnce(f, history, in, settings, lobe, surfaces, lit, sources);
+}
 LobeLight denoiseLobe(gpu::PassList& f, LobeStore& history, const ViewContext& in, const LightingSettings& settings,
                       uint32_t lobe, const Surfaces& surfaces, gpu::Image noisy) {
     const auto scope = f.scope(lobe == lobeDiffuse ? "diffuse" : "specular");
     LobeLight light;
     light.from = {surfaces.g, in.view, 1};
-    light.radiance = importLight(f, noisy, true);
+    light.radiance = noisy;
     light.source = light.radiance;
     return denoise(f, &history.denoise, light, lobe, in.view, settings.denoise);
 }
@@ -142,7 +169,8 @@ void answerRays(gpu::PassList& f, Rays& rays, const ViewContext& in, const Light
 
 gpu::Image lightSoFar(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings,
                       const ScreenImages& screen, const LobeLight& diffuse) {
-    if (settings.traceScreen.light != HitLight::lit || settings.specular.rays == 0 || diffuse.dark) {
+    const bool read = settings.traceScreen.light == HitLight::lit || lacksPicture(in, settings, screen);
+    if (!read || settings.specular.rays == 0 || diffuse.dark) {
         return screen.light;
     }
     const auto scope = f.scope("specular");

@@ -28,11 +28,12 @@ ScreenImages screenOf(gpu::PassList& f, const ViewContext& in, const LightingSet
 bool readsScreenLight(const LightingSettings& settings, const RaySources& sources);
 
 /// The light of one lobe, for rays that start at the surfaces. seen: the screen that they are marched through; it may
-/// be another view's. history: none: this frame alone.
+/// be another view's. history: none: this frame alone. Reflections that would read the last picture are traced twice in
+/// a frame without one: what is lit by reflections alone, such as metal, would be black in mirrors.
 LobeLight traceLobe(gpu::PassList& f, LobeStore* history, const ViewContext& in, const LightingSettings& settings,
                     uint32_t lobe, const Surfaces& surfaces, const ScreenImages& seen, const RaySources& sources);
 
-/// A lobe that a host has traced, denoised. noisy: radiance; alpha: hit distance [m].
+/// A lobe that a host has traced, denoised. noisy: of importLight; radiance; alpha: hit distance [m].
 LobeLight denoiseLobe(gpu::PassList& f, LobeStore& history, const ViewContext& in, const LightingSettings& settings,
                       uint32_t lobe, const Surfaces& surfaces, gpu::Image noisy);
 
@@ -41,7 +42,7 @@ void answerRays(gpu::PassList& f, Rays& rays, const ViewContext& in, const Light
                 const ScreenImages& screen, const RaySources& sources);
 
 /// All light so far, which reflections (and rays of surfaces in front) read at hits: the screen's, with the diffuse
-/// lobe's if they are to read it.
+/// lobe's if they are to read it, or would read the last picture and there is none.
 gpu::Image lightSoFar(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings,
                       const ScreenImages& screen, const LobeLight& diffuse);
 

@@ -50,7 +50,7 @@ Light compose(gpu::PassList& f, const ViewContext& in, const LightingSettings& s
     const gpu::Image sum = into ? into : f.image("lit", lightFormat, surfaces.g.depth.size);
     static_cast<LightLayers&>(light) = composite(f,
                                                  {surfaces.g, parts.direct, parts.diffuse, parts.specular, in.ggxTable,
-                                                  in.lambertOnly, layers, parts.fromEmitters},
+                                                  in.lambertOnly, layers, parts.fromEmitters, parts.limits},
                                                  sum, {in.view, settings.diffuse.gain});
     return light;
 }

@@ -17,6 +17,7 @@ struct LightParts {
     LobeLight diffuse;
     LobeLight specular;
     gpu::Image fromEmitters{};  ///< part of `direct` that counts as indirect light
+    gpu::Image limits{};        ///< of the sum, by LightBound; may be none
 };
 
 /// A lobe without rays.

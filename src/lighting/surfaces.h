@@ -22,6 +22,7 @@ struct ViewContext {
     gpu::BufferView blueNoise;  ///< noise/blue_noise.h
     bool lambertOnly = false;   ///< every material is Lambert diffuse (MaterialsSettings)
     bool unlit = false;         ///< nothing reflects light: no rays are traced
+    bool composes = true;       ///< each frame's light is composited, for the next one's rays to read
     bool emitterLamps =
         false;  ///< lamps stand for what surfaces with materialFlagEmitter emit: diffuse rays leave it out
 };

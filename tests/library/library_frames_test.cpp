@@ -2,7 +2,6 @@
 #include "library/library_fixture.h"
 
 #include <functional>
-#include <thread>
 
 namespace reflet::test {
 namespace {
@@ -194,33 +193,5 @@ TEST_F(Library, WorksOnTwoDevicesOnTwoThreads) {
 }
 
 // Views of one context may be recorded by several threads at a time.
-TEST_F(Library, RecordsTwoViewsOnTwoThreads) {
-    RefletContext context = host_.makeContext();
-    const HostRoom room(host_, {});
-    RefletSettings settings = makeSettings("fast");
-    RefletView views[2] = {makeView(context, 3), makeView(context, 3)};
-    std::vector<uint32_t> pictures[2];
-    for (uint32_t i = 0; i < 4; ++i) {
-        RoomResults results[2];
-        host_.host.frame([&](VkCommandBuffer one) {
-            host_.host.frame([&](VkCommandBuffer other) {
-                std::thread thread([&] { results[0] = recordRoom(room, views[0], settings, one, i); });
-                results[1] = recordRoom(room, views[1], settings, other, i);
-                thread.join();
-            });
-        });
-        host_.host.waitForAll();
-        for (int k = 0; k < 2; ++k) {
-            pictures[k] = texelsOf<uint32_t>(host_, results[k].display);
-        }
-        EXPECT_EQ(pictures[0], pictures[1]) << i;
-    }
-    for (RefletView view : views) {
-        refletDestroyView(view);
-    }
-    refletDestroySettings(settings);
-    refletDestroyContext(context);
-}
-
 }  // namespace
 }  // namespace reflet::test

@@ -326,6 +326,9 @@ RefletSettings librarySettings(const std::string& preset, const Settings& settin
         RefletSettingInfo info{};
         info.structSize = sizeof info;
         EXPECT_REFLET(refletSettingInfo(i, &info));
+        if (std::string_view(info.name).starts_with("input.")) {
+            continue;  // of what a host gives: the renderer has no host
+        }
         const std::string value = settingText(settings, findSetting(info.name));
         const std::string changed[] = {"shadow.resolution", "contact.distance", "tonemap.auto_exposure"};
         if (!own || std::ranges::find(changed, info.name) != std::end(changed)) {

@@ -1,10 +1,11 @@
 // Multiplies indirect light by the surface's reflectance and sums all light. In: G-buffer, direct light, the lobes'
-// mean radiance, at reduced resolution with their surfaces. Out: both indirect layers, and lit = direct + both, with
-// the distance along the view [m], 0: the sky.
+// mean radiance, at reduced resolution with their surfaces. Out: both indirect layers, and lit = direct + both, within
+// the limits, with the distance along the view [m], 0: the sky.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/composite/composite.h"
 #include "effects/gbuffer/gbuffer_surface.glsl"
+#include "effects/import/bounded.glsl"
 #include "effects/lobe/upsample.glsl"
 #include "effects/lobe/upsample_specular.glsl"
 #include "shaders/directional_light.glsl"
@@ -16,6 +17,7 @@ layout(constant_id = 2) const uint lambertOnly = 0u;
 layout(constant_id = 3) const uint layers = 1u;
 layout(constant_id = 4) const uint hasDirectional = 0u;
 layout(constant_id = 5) const uint splits = 0u;
+layout(constant_id = 6) const uint bounded = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { CompositeParams params; };
@@ -31,6 +33,7 @@ layout(rgba16f) uniform writeonly image2D directAlone;
 layout(rgba16f) uniform writeonly image2D indirectDiffuse;
 layout(rgba16f) uniform writeonly image2D indirectSpecular;
 layout(rgba16f) uniform writeonly image2D lit;
+layout(r32f) uniform readonly image2D limits;
 
 uniform usampler2D geometricNormal;
 layout(r32f) uniform readonly image2D diffuseDepth;
@@ -102,6 +105,9 @@ void main() {
         imageStore(indirectSpecular, pixel, vec4(clampToHalf(fromSpecular), 1.0));
     }
     vec3 sum = all + fromDiffuse + fromSpecular;
+    if (bounded != 0u) {
+        sum = boundedLuminance(sum, imageLoad(limits, pixel / int(boundTileSide)).r);
+    }
     float away = d > 0.0 ? min(depthToViewDistance(d, params.view.depthToDistance), largestHalf) : 0.0;
     imageStore(lit, pixel, vec4(clampToHalf(sum), away));
 }

@@ -26,6 +26,8 @@ LightLayers composite(gpu::PassList& f, const CompositeInputs& in, gpu::Image li
         .constant("lambertOnly", in.lambertOnly ? 1U : 0U)
         .constant("layers", in.layers ? 1U : 0U)
         .constant("splits", splits ? 1U : 0U)
+        .constant("bounded", in.limits ? 1U : 0U)
+        .read("limits", in.limits ? in.limits : f.placeholder(VK_FORMAT_R32_SFLOAT))
         .constant("hasDirectional", in.diffuse.directional ? 1U : 0U)
         .read("depth", in.g.depth)
         .read("normal", in.g.normal)

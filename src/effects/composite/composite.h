@@ -43,6 +43,7 @@ struct CompositeInputs {
     bool lambertOnly = false;   ///< MaterialsSettings
     bool layers = true;         ///< false: only the sum is written
     gpu::Image fromEmitters{};  ///< with layers, the part of `direct` that goes to indirect diffuse light; may be none
+    gpu::Image limits{};        ///< of LightBound, of the sum; may be none
 };
 
 /// Radiance, of one frame (RGBA16F) or means over several: lit = direct + indirectDiffuse + indirectSpecular.

@@ -59,13 +59,15 @@ ImportedSurfaces importSurfaces(gpu::PassList& f, const HostSurfaces& host, Impo
     return out;
 }
 
-gpu::Image importLight(gpu::PassList& f, gpu::Image light, bool keepAlpha, gpu::Image into) {
-    const gpu::Image out = into ? into : f.image("light", VK_FORMAT_R16G16B16A16_SFLOAT, light.size);
+gpu::Image importLight(gpu::PassList& f, gpu::Image light, const LightImport& how) {
+    const gpu::Image out = how.into ? how.into : f.image("light", VK_FORMAT_R16G16B16A16_SFLOAT, light.size);
     f.compute("import.light", "import_light.comp")
-        .constant("keepAlpha", keepAlpha ? 1 : 0)
+        .constant("keepAlpha", how.keepAlpha ? 1 : 0)
+        .constant("bounded", how.limits ? 1 : 0)
         .read("hostLight", light)
+        .read("limits", how.limits ? how.limits : f.placeholder(VK_FORMAT_R32_SFLOAT))
         .write("light", out)
-        .params(ImportLightParams{light.size})
+        .params(ImportLightParams{light.size, how.maxRadiance})
         .dispatch(light.size);
     return out;
 }

@@ -1,5 +1,6 @@
 // Import: turns a host's G-buffer, light and shadow maps, whatever their conventions, into the images that effects
-// read. Values that are not finite become 0, so that nothing that a host draws can spread. Shared by C++ and GLSL.
+// read. Values that are not finite become 0, and light is bounded, so that nothing that a host draws can spread or last
+// (bound_light.h). Shared by C++ and GLSL.
 #ifndef REFLET_EFFECTS_IMPORT_H
 #define REFLET_EFFECTS_IMPORT_H
 
@@ -7,6 +8,13 @@
 #include "effects/view.h"
 
 SHARED_BEGIN
+
+#define INPUT_SETTINGS(VALUE, SWITCH, CHOICE)                                                                         \
+    VALUE(float, maxRadiance, 10000.0, 0.01, 65504.0,                                                                 \
+          "Maximum luminance of the radiance that the host gives: light, color, noisy lobes, not environments. What " \
+          "is brighter keeps its hue. Images are half floats up to 65504, which sums must not reach: where what is "  \
+          "lit is about 1, 10000 is 13 stops above it. Lower: fewer fireflies, less light of small bright emitters.")
+SETTINGS(InputSettings, INPUT_SETTINGS)
 
 const uint normalOctahedralSnorm = 0;
 const uint normalOctahedralUnorm = 1;
@@ -28,6 +36,7 @@ struct ImportParams {
 
 struct ImportLightParams {
     uvec2 size;
+    float maxRadiance;  // luminance
 };
 
 struct ImportShadowParams {
@@ -40,6 +49,7 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "effects/gbuffer/gbuffer.h"
+#include "effects/import/bound_light.h"
 #include "gpu/pass_list.h"
 
 namespace reflet {
@@ -71,9 +81,15 @@ struct ImportedSurfaces {
 /// params: without the channels, which are set.
 ImportedSurfaces importSurfaces(gpu::PassList& f, const HostSurfaces& host, ImportParams params);
 
-/// RGBA16F of the same size: finite, 0 to 65504. alpha: as given, or 1. into: where it is written;
-/// none: an image of this frame.
-gpu::Image importLight(gpu::PassList& f, gpu::Image light, bool keepAlpha = false, gpu::Image into = {});
+struct LightImport {
+    float maxRadiance = 65504.0F;  ///< luminance
+    gpu::Image limits{};           ///< of LightBound; may be none
+    bool keepAlpha = false;        ///< alpha: as given, else 1
+    gpu::Image into{};             ///< where it is written; none: an image of this frame
+};
+
+/// RGBA16F of the same size: finite, 0 to 65504.
+gpu::Image importLight(gpu::PassList& f, gpu::Image light, const LightImport& how = {});
 
 /// R32F: the cascades' maps as tiles, depth reversed (SunShadowParams). map: a 2D array view if there are several.
 gpu::Image importShadowMap(gpu::PassList& f, gpu::Image map, uint32_t cascades, bool reversed);

@@ -2,6 +2,7 @@
 // and row i / 2.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
+#include "effects/import/finite.glsl"
 #include "effects/import/import.h"
 
 layout(constant_id = 0) const uint reversed = 1u;
@@ -25,5 +26,5 @@ void main() {
     ivec2 from = to - tile * ivec2(params.size);
     float stored = texelFetch(hostMap, ivec3(from, cascade), 0).r;
     float d = reversed != 0u ? stored : 1.0 - stored;
-    imageStore(map, to, vec4(isnan(d) ? 0.0 : clamp(d, 0.0, 1.0)));
+    imageStore(map, to, vec4(clamp(orZero(d), 0.0, 1.0)));
 }

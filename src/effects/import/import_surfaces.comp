@@ -3,6 +3,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/gbuffer/gbuffer.glsl"
+#include "effects/import/finite.glsl"
 #include "effects/import/import.h"
 #include "effects/material_features.glsl"
 #include "shaders/projection.glsl"
@@ -41,10 +42,6 @@ layout(rgba16f) uniform writeonly image2D motion;
 layout(rgba16f) uniform writeonly image2D reflectance;
 layout(r32f) uniform writeonly image2D backDepth;
 
-bool finite(float x) { return !isnan(x) && !isinf(x); }
-bool finite(vec3 v) { return finite(v.x) && finite(v.y) && finite(v.z); }
-float orZero(float x) { return finite(x) ? x : 0.0; }
-
 // Reversed; 0 for the sky, and for what is no depth.
 float reversedDepth(float stored) {
     float d = reversed != 0u ? stored : 1.0 - stored;
@@ -70,6 +67,7 @@ vec3 decodedNormal(vec4 texel, vec3 toEye) {
         float fold = max(-n.z, 0.0);
         n.xy += vec2(n.x >= 0.0 ? -fold : fold, n.y >= 0.0 ? -fold : fold);
     }
+    n /= max(max(max(abs(n.x), abs(n.y)), abs(n.z)), 1.0);  // so that the square of its length is finite
     float length2 = dot(n, n);
     return finite(n) && length2 > 1e-8 ? mat3(params.normalToWorld) * (n * inversesqrt(length2)) : toEye;
 }
@@ -78,24 +76,50 @@ vec3 positionAt(ivec2 pixel, float d) {
     return uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
 }
 
-// The vector along the surface to the neighbour, before or after, whose distance fits a plane better: its second
-// difference with the neighbour behind it is smaller, as depth is linear in screen space on a plane.
+const float lies = 1e30;
+const float sameBend = 0.05;  // allowed change of slope from pixel to pixel, relative: curved surfaces, rounding
+const float sameStep = 0.25;  // and in widths of a pixel
+
+float awayOf(float d) { return depthToViewDistance(max(d, 1e-9), params.view.depthToDistance); }
+
+// How far the pixel lies off the line through its neighbour and the one behind that, in metres [lies: another surface].
+// Depth is linear in screen space on a plane.
+float offLine(float d, float next, float behind) {
+    float wanted = 2.0 * next - behind;
+    if (next <= 0.0 || behind <= 0.0 || wanted <= 0.0) {
+        return lies;
+    }
+    float away = awayOf(d);
+    float off = abs(away - awayOf(wanted));
+    float pixelWidth = params.view.pixelAngle * (params.view.eye.w > 0.0 ? away : 1.0);
+    return off <= sameStep * pixelWidth + sameBend * abs(awayOf(next) - awayOf(behind)) ? off : lies;
+}
+
+// The vector along the surface to the neighbour, before or after, whose distance continues a plane better; 0 if neither
+// does, as on a surface of one or two pixels.
 vec3 along(ivec2 pixel, ivec2 step, float d, vec3 p) {
     float before = depthAt(pixel - step);
     float after = depthAt(pixel + step);
-    float beforeFits = abs(2.0 * before - depthAt(pixel - 2 * step) - d);
-    float afterFits = abs(2.0 * after - depthAt(pixel + 2 * step) - d);
-    bool useBefore = after <= 0.0 || (before > 0.0 && beforeFits < afterFits);
-    if (useBefore) {
-        return before > 0.0 ? p - positionAt(pixel - step, before) : vec3(0.0);
+    float offBefore = offLine(d, before, depthAt(pixel - 2 * step));
+    float offAfter = offLine(d, after, depthAt(pixel + 2 * step));
+    if (min(offBefore, offAfter) >= lies) {
+        return vec3(0.0);
     }
-    return positionAt(pixel + step, after) - p;
+    return offBefore < offAfter ? p - positionAt(pixel - step, before) : positionAt(pixel + step, after) - p;
 }
 
-vec3 normalFromDepth(ivec2 pixel, float d, vec3 p, vec3 otherwise) {
-    vec3 n = cross(along(pixel, ivec2(1, 0), d, p), along(pixel, ivec2(0, 1), d, p));
+// Of the surface that the depths around show. Along an axis that shows none, the shading normal.
+vec3 normalFromDepth(ivec2 pixel, float d, vec3 p, vec3 shaded) {
+    vec3 right = along(pixel, ivec2(1, 0), d, p);
+    vec3 down = along(pixel, ivec2(0, 1), d, p);
+    vec3 n = cross(right, down);
+    bool one = (right == vec3(0.0)) != (down == vec3(0.0));
+    if (one) {
+        vec3 known = right + down;
+        n = shaded - known * (dot(shaded, known) / dot(known, known));
+    }
     float length2 = dot(n, n);
-    return finite(n) && length2 > 0.0 ? n * inversesqrt(length2) : otherwise;
+    return finite(n) && length2 > 0.0 ? n * inversesqrt(length2) : shaded;
 }
 
 float channelOf(vec4 texel, uint channel) { return clamp(orZero(texel[min(channel, 3u)]), 0.0, 1.0); }
@@ -161,7 +185,7 @@ void main() {
     imageStore(material, pixel, vec4(roughnessAt(pixel), metal, 1.0, 0.0));
     if (hasF0 != 0u) {
         vec3 f0 = texelFetch(hostF0, pixel, 0).rgb;
-        f0 = finite(f0) ? clamp(f0, 0.0, 1.0) : vec3(dielectricF0);
+        f0 = finite(f0) ? clamp(f0, 0.0, 1.0) : vec3(0.0);
         imageStore(reflectance, pixel, vec4(f0 / dielectricF0, 1.0));
     }
     vec2 moved = d > 0.0 ? motionAt(pixel, uv, p) : vec2(0.0);

@@ -1,0 +1,61 @@
+// Bounds what a host's light may be by what it was in the last frames, so that a frame of wrong values leaves nothing
+// in histories: these hold a multiple of what was seen before, at most. Shared by C++ and GLSL.
+//
+// peaks: the brightest luminance of each tile of 8x8 pixels, which falls slowly → limits: multiples of it. In motion
+// any tile may become as bright as the brightest; at rest light stays where it is, so that neighbours alone count.
+#ifndef REFLET_EFFECTS_BOUND_LIGHT_H
+#define REFLET_EFFECTS_BOUND_LIGHT_H
+
+#include "base/shared.h"
+
+SHARED_BEGIN
+
+const uint boundTileSide = 8;  // pixels
+
+const uint lightPeaksAdd = 0;    // to those that the frame has already
+const uint lightPeaksStart = 1;  // there are none, neither of this frame nor of the last
+const uint lightPeaksNext = 2;   // go on from the last frame's
+
+struct LightPeakParams {
+    uvec2 size;  // of the light
+    uint from;   // lightPeaks…
+};
+
+struct LightLimitsParams {
+    uvec2 tiles;
+    float whole;     // multiple of the picture's peak that is added to the limit
+    float near;      // of that of the tiles around
+    uint unbounded;  // 1: there is no limit
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "gpu/images.h"
+#include "gpu/pass_list.h"
+
+namespace reflet {
+
+/// The peaks of a host's light in the last frames.
+struct LightBoundStore {
+    gpu::HistoryImage peaks{"light_peaks"};
+};
+
+/// How bright light may be in this frame.
+struct LightBound {
+    gpu::Image limits;  ///< R32F: luminance, a texel for each tile
+    gpu::History peaks;
+    bool measured = false;  ///< peaks.next has light of this frame
+};
+
+/// rests: nothing has changed since the last frame. unbounded: its light may be of any luminance.
+LightBound boundLight(gpu::PassList& f, LightBoundStore& own, uvec2 size, bool rests, bool unbounded);
+
+/// Notes light of this frame, which the limits bound: the next frame's limits follow from it.
+void measureLight(gpu::PassList& f, LightBound& bound, gpu::Image light);
+
+}  // namespace reflet
+#endif
+
+#endif
