@@ -215,8 +215,8 @@ typedef struct RefletViewInfo {
     uint32_t framesInFlight;
     uint32_t flags; /**< a combination of RefletViewFlags */
     /**
-     * Counts views that are seen together, such as two eyes or the faces of a cube: their noise is then independent. Below
-     * REFLET_MAX_VIEW_INDEX.
+     * Counts views that are seen together, such as two eyes or the faces of a cube: their noise is then independent.
+     * Below REFLET_MAX_VIEW_INDEX.
      */
     uint32_t viewIndex;
 } RefletViewInfo;
@@ -333,6 +333,19 @@ typedef struct RefletGBuffer {
      * how thick things are. Absent: that choice acts as `constant`.
      */
     RefletImage backDepth;
+    /**
+     * Masks: 0 to 1, each a channel of any image; absent: 0. Above 0.5 in `excluded`: rays and ambient occlusion do not
+     * see what is there (first person weapons, gizmos, water that reflects by itself), and it gets no light of theirs.
+     * Above 0.5 in `unlit`: it reflects nothing (screens, skies in front of depth, interface), and rays see it.
+     * `reactive`: the share of the history that refletTemporal gives up, for what motion does not describe (particles,
+     * animated textures, blended surfaces).
+     */
+    RefletImage excluded;
+    uint32_t excludedChannel; /**< 0 to 3 */
+    RefletImage unlit;
+    uint32_t unlitChannel; /**< 0 to 3 */
+    RefletImage reactive;
+    uint32_t reactiveChannel; /**< 0 to 3 */
 } RefletGBuffer;
 
 /** A frame of a view: where it is recorded, its camera, and what the host has drawn. */
@@ -445,7 +458,8 @@ REFLET_API RefletResult refletSunShadow(RefletView view, RefletSettings settings
 /** A light that casts contact shadows. */
 typedef struct RefletContactLight {
     size_t structSize; /**< required */
-    /** Required: world space: the direction toward the light, of any length but 0; with isPositional where it is [m]. */
+    /** Required: world space: the direction toward the light, of any length but 0; with isPositional where it is [m].
+     */
     float light[3];
     uint32_t isPositional; /**< 0: far away, such as the sun; 1: a point or spot light */
 } RefletContactLight;
@@ -454,9 +468,9 @@ typedef struct RefletContactLight {
 #define REFLET_MAX_CONTACT_LIGHTS 16
 
 /**
- * Contact shadows of one light, with any shadow map or none: R8, 1: lit; rays of `contact.distance` metres, at most to the
- * light, through the depth of the screen. Multiply the light's visibility by it. The sun of refletSunShadow has them by
- * RefletSunShadow::contactShadows.
+ * Contact shadows of one light, with any shadow map or none: R8, 1: lit; rays of `contact.distance` metres, at most to
+ * the light, through the depth of the screen. Multiply the light's visibility by it. The sun of refletSunShadow has
+ * them by RefletSunShadow::contactShadows.
  */
 REFLET_API RefletResult refletContactShadows(RefletView view, RefletSettings settings, const RefletContactLight* light,
                                              RefletImage* visibility);

@@ -100,6 +100,10 @@ void describeSurfaces(Lines& lines, const RefletGBuffer& g) {
                         : fmt::format("motion: {}, {}, times ({:g}, {:g}), {} jitter", imageText(g.motion, ""),
                                       motionKinds[g.motionKind], scale.x, scale.y,
                                       g.motionIncludesJitter != 0 ? "with" : "without"));
+    lines.back() += fmt::format("; masks: excluded {}, unlit {}, reactive {}",
+                                channelText(g.excluded, g.excludedChannel, "0 to 1", "none"),
+                                channelText(g.unlit, g.unlitChannel, "0 to 1", "none"),
+                                channelText(g.reactive, g.reactiveChannel, "0 to 1", "none"));
 }
 
 bool isSnorm(VkFormat format) {

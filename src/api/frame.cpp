@@ -167,9 +167,9 @@ void finishCall(RefletView_T& view, const Frame& frame) {
     gpu::Recorder& f = view.recorder;
     const GBuffer& g = frame.g;
     for (const gpu::Image& image :
-         {g.depth, g.normal, g.geometricNormal, g.baseColor, g.material, g.motion, g.reflectance, frame.backDepth,
-          frame.pyramid, frame.light, frame.antialiased, frame.sharp, frame.defocused, frame.circleOfConfusion,
-          frame.sunVisibility, frame.ambientOcclusion, frame.display}) {
+         {frame.shownDepth, frame.reactive, g.depth, g.normal, g.geometricNormal, g.baseColor, g.material, g.motion,
+          g.reflectance, frame.backDepth, frame.pyramid, frame.light, frame.antialiased, frame.sharp, frame.defocused,
+          frame.circleOfConfusion, frame.sunVisibility, frame.ambientOcclusion, frame.display}) {
         f.keep(image);
     }
     for (uint32_t i = 0; i < frame.contactCount; ++i) {

@@ -45,6 +45,9 @@ void checkKinds(const RefletGBuffer& g) {
     check("motionKind", static_cast<int>(g.motionKind), static_cast<int>(REFLET_MOTION_PIXELS));
     check("roughnessChannel", static_cast<int64_t>(g.roughnessChannel), int64_t(3));
     check("metallicChannel", static_cast<int64_t>(g.metallicChannel), int64_t(3));
+    check("excludedChannel", static_cast<int64_t>(g.excludedChannel), int64_t(3));
+    check("unlitChannel", static_cast<int64_t>(g.unlitChannel), int64_t(3));
+    check("reactiveChannel", static_cast<int64_t>(g.reactiveChannel), int64_t(3));
     checkBoolean(g.normalsInViewSpace, "gbuffer.normalsInViewSpace");
     checkBoolean(g.motionIncludesJitter, "gbuffer.motionIncludesJitter");
 }
@@ -67,7 +70,10 @@ void checkGBuffer(const RefletGBuffer& g, uvec2 size) {
                             {"gbuffer.baseColor", &g.baseColor, 3},
                             {"gbuffer.f0", &g.f0, 3},
                             {"gbuffer.motion", &g.motion, 2},
-                            {"gbuffer.backDepth", &g.backDepth, depthChannel}};
+                            {"gbuffer.backDepth", &g.backDepth, depthChannel},
+                            {"gbuffer.excluded", &g.excluded, g.excludedChannel + 1},
+                            {"gbuffer.unlit", &g.unlit, g.unlitChannel + 1},
+                            {"gbuffer.reactive", &g.reactive, g.reactiveChannel + 1}};
     for (const auto& [name, image, channels] : fields) {
         const bool required = image == &g.depth || image == &g.normal;
         if (required && image->image == VK_NULL_HANDLE) {
@@ -110,6 +116,12 @@ HostSurfaces hostSurfaces(const RefletGBuffer& g, const std::function<gpu::Image
     host.f0 = adopt(g.f0);
     host.motion = adopt(g.motion);
     host.backDepth = adopt(g.backDepth);
+    host.excluded = adopt(g.excluded);
+    host.excludedChannel = g.excludedChannel;
+    host.unlit = adopt(g.unlit);
+    host.unlitChannel = g.unlitChannel;
+    host.reactive = adopt(g.reactive);
+    host.reactiveChannel = g.reactiveChannel;
     return host;
 }
 

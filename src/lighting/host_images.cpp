@@ -5,7 +5,12 @@ namespace reflet::lighting {
 
 Surfaces importSurfaces(gpu::PassList& f, const HostSurfaces& host, const ImportParams& params) {
     const ImportedSurfaces imported = reflet::importSurfaces(f, host, params);
-    return {.g = imported.g, .backDepth = imported.backDepth, .pyramid = {}, .ambientOcclusion = {}};
+    return {.g = imported.g,
+            .backDepth = imported.backDepth,
+            .shownDepth = imported.shownDepth,
+            .reactive = imported.reactive,
+            .pyramid = {},
+            .ambientOcclusion = {}};
 }
 
 gpu::Image importLight(gpu::PassList& f, gpu::Image light, const LightImport& how) {

@@ -34,8 +34,9 @@ LobeLight blackLobe(gpu::PassList& f, const ViewContext& in, const Surfaces& sur
 Light lightOf(const Surfaces& surfaces, gpu::Image lit) {
     Light light;
     light.lit = lit;
-    light.depth = surfaces.g.depth;
-    light.followedDepth = surfaces.g.depth;
+    light.depth = surfaces.shownDepth ? surfaces.shownDepth : surfaces.g.depth;
+    light.followedDepth = light.depth;
+    light.reactive = surfaces.reactive;
     light.followedMotion = surfaces.g.motion;
     return light;
 }
@@ -82,7 +83,8 @@ Light antialias(gpu::PassList& f, TemporalStore& own, const ViewContext& in, con
                                            .view = in.view,
                                            .outputSize = to.size,
                                            .jitter = to.jitter,
-                                           .sky = light.coverage ? nullptr : to.sky},
+                                           .sky = light.coverage ? nullptr : to.sky,
+                                           .reactive = light.reactive},
                                           settings.temporal);
     Light out = light;
     out.unfiltered = unfilteredOf(light);

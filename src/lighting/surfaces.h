@@ -31,6 +31,8 @@ struct ViewContext {
 struct Surfaces {
     GBuffer g;
     gpu::Image backDepth;         ///< second depth layer; none: thickness is assumed
+    gpu::Image shownDepth;        ///< with what `g.depth` leaves out, for the picture; none: `g.depth`
+    gpu::Image reactive;          ///< share of its history that antialiasing gives up; none: 0
     gpu::Image pyramid;           ///< of depthPyramid
     gpu::Image ambientOcclusion;  ///< of the stage; none: prefiltered light is not occluded
 };

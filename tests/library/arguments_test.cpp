@@ -194,7 +194,10 @@ TEST_F(Arguments, OfAFrame) {
                                                                {"gbuffer.motion", &G::motion},
                                                                {"gbuffer.geometricNormal", &G::geometricNormal},
                                                                {"gbuffer.f0", &G::f0},
-                                                               {"gbuffer.backDepth", &G::backDepth}};
+                                                               {"gbuffer.backDepth", &G::backDepth},
+                                                               {"gbuffer.excluded", &G::excluded},
+                                                               {"gbuffer.unlit", &G::unlit},
+                                                               {"gbuffer.reactive", &G::reactive}};
     for (const auto& [name, member] : images) {
         const std::string field = name;
         const auto spoil = [&, at = member](const std::function<void(RefletImage&)>& change) {
@@ -223,6 +226,9 @@ TEST_F(Arguments, OfAFrame) {
     expectGBufferError("motionKind", [](auto& g) { g.motionKind = RefletMotionKind(3); });
     expectGBufferError("roughnessChannel", [](auto& g) { g.roughnessChannel = 4; });
     expectGBufferError("metallicChannel", [](auto& g) { g.metallicChannel = 99; });
+    expectGBufferError("excludedChannel", [](auto& g) { g.excludedChannel = 4; });
+    expectGBufferError("unlitChannel", [](auto& g) { g.unlitChannel = 4; });
+    expectGBufferError("reactiveChannel", [](auto& g) { g.reactiveChannel = 4; });
     expectGBufferError("structSize", [](auto& g) { g.structSize = 8; });
     expectGBufferError("depth.format: is R8G8B8A8_UNORM", [](auto& g) { g.depth.format = VK_FORMAT_R8G8B8A8_UNORM; });
     expectGBufferError("normal.format: is D32_SFLOAT", [](auto& g) { g.normal.format = VK_FORMAT_D32_SFLOAT; });

@@ -2,6 +2,7 @@
 #include "library/library_fixture.h"
 
 #include <functional>
+#include <thread>
 
 namespace reflet::test {
 namespace {
@@ -192,6 +193,5 @@ TEST_F(Library, WorksOnTwoDevicesOnTwoThreads) {
     }
 }
 
-// Views of one context may be recorded by several threads at a time.
 }  // namespace
 }  // namespace reflet::test

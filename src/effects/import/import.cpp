@@ -23,8 +23,20 @@ ImportedSurfaces importSurfaces(gpu::PassList& f, const HostSurfaces& host, Impo
     if (host.backDepth) {
         out.backDepth = f.image("back_depth", VK_FORMAT_R32_SFLOAT, size);
     }
+    if (host.excluded) {
+        out.shownDepth = f.image("shown_depth", VK_FORMAT_R32_SFLOAT, size);
+    }
+    if (host.reactive) {
+        out.reactive = f.image("reactive", VK_FORMAT_R8_UNORM, size);
+    }
+    if (host.unlit) {
+        g.features |= materialFeatureUnlit;
+    }
     params.roughnessChannel = host.roughnessChannel;
     params.metallicChannel = host.metallicChannel;
+    params.excludedChannel = host.excludedChannel;
+    params.unlitChannel = host.unlitChannel;
+    params.reactiveChannel = host.reactiveChannel;
     f.compute("import.surfaces", "import_surfaces.comp")
         .constant("reversed", host.reversed ? 1 : 0)
         .constant("normalKind", host.normalKind)
@@ -37,6 +49,9 @@ ImportedSurfaces importSurfaces(gpu::PassList& f, const HostSurfaces& host, Impo
         .constant("hasF0", has(host.f0))
         .constant("hasMotion", has(host.motion))
         .constant("hasBackDepth", has(host.backDepth))
+        .constant("hasExcluded", has(host.excluded))
+        .constant("hasUnlit", has(host.unlit))
+        .constant("hasReactive", has(host.reactive))
         .read("hostDepth", host.depth)
         .read("hostNormal", host.normal)
         .read("hostGeometricNormal", given(host.geometricNormal))
@@ -46,6 +61,9 @@ ImportedSurfaces importSurfaces(gpu::PassList& f, const HostSurfaces& host, Impo
         .read("hostF0", given(host.f0))
         .read("hostMotion", given(host.motion))
         .read("hostBackDepth", given(host.backDepth))
+        .read("hostExcluded", given(host.excluded))
+        .read("hostUnlit", given(host.unlit))
+        .read("hostReactive", given(host.reactive))
         .write("depth", g.depth)
         .write("normal", g.normal)
         .write("geometricNormal", g.geometricNormal)
@@ -54,6 +72,8 @@ ImportedSurfaces importSurfaces(gpu::PassList& f, const HostSurfaces& host, Impo
         .write("motion", g.motion)
         .write("reflectance", g.reflectance ? g.reflectance : placeholder)
         .write("backDepth", out.backDepth ? out.backDepth : f.placeholder(VK_FORMAT_R32_SFLOAT))
+        .write("shownDepth", out.shownDepth ? out.shownDepth : f.placeholder(VK_FORMAT_R32_SFLOAT))
+        .write("reactive", out.reactive ? out.reactive : f.placeholder(VK_FORMAT_R8_UNORM))
         .params(params)
         .dispatch(size);
     return out;

@@ -32,6 +32,9 @@ struct ImportParams {
     vec2 motionOffset;   // uv, added
     uint roughnessChannel;
     uint metallicChannel;
+    uint excludedChannel;
+    uint unlitChannel;
+    uint reactiveChannel;
 };
 
 struct ImportLightParams {
@@ -71,11 +74,19 @@ struct HostSurfaces {
     gpu::Image f0;
     gpu::Image motion;
     gpu::Image backDepth;
+    gpu::Image excluded;  ///< masks of reflet.h
+    uint32_t excludedChannel = 0;
+    gpu::Image unlit;
+    uint32_t unlitChannel = 0;
+    gpu::Image reactive;
+    uint32_t reactiveChannel = 0;
 };
 
 struct ImportedSurfaces {
-    GBuffer g;             ///< without emissive; depth is R32F
-    gpu::Image backDepth;  ///< R32F, reversed; none if the host has none
+    GBuffer g;              ///< without emissive; depth is R32F
+    gpu::Image backDepth;   ///< R32F, reversed; none if the host has none
+    gpu::Image shownDepth;  ///< R32F, reversed: with what `g.depth` leaves out; none if the host excludes nothing
+    gpu::Image reactive;    ///< R8; none if the host has none
 };
 
 /// params: without the channels, which are set.

@@ -21,6 +21,9 @@ layout(constant_id = 7) const uint baseColorIsSrgb = 0u;
 layout(constant_id = 8) const uint hasF0 = 0u;
 layout(constant_id = 9) const uint hasMotion = 0u;
 layout(constant_id = 10) const uint hasBackDepth = 0u;
+layout(constant_id = 11) const uint hasExcluded = 0u;
+layout(constant_id = 12) const uint hasUnlit = 0u;
+layout(constant_id = 13) const uint hasReactive = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { ImportParams params; };
@@ -33,6 +36,9 @@ uniform sampler2D hostBaseColor;
 uniform sampler2D hostF0;
 uniform sampler2D hostMotion;
 uniform sampler2D hostBackDepth;
+uniform sampler2D hostExcluded;
+uniform sampler2D hostUnlit;
+uniform sampler2D hostReactive;
 layout(r32f) uniform writeonly image2D depth;
 layout(r32ui) uniform writeonly uimage2D normal;
 layout(r32ui) uniform writeonly uimage2D geometricNormal;
@@ -41,6 +47,8 @@ layout(rgba8) uniform writeonly image2D material;
 layout(rgba16f) uniform writeonly image2D motion;
 layout(rgba16f) uniform writeonly image2D reflectance;
 layout(r32f) uniform writeonly image2D backDepth;
+layout(r32f) uniform writeonly image2D shownDepth;
+layout(r8) uniform writeonly image2D reactive;
 
 // Reversed; 0 for the sky, and for what is no depth.
 float reversedDepth(float stored) {
@@ -48,12 +56,18 @@ float reversedDepth(float stored) {
     return finite(d) ? clamp(d, 0.0, 1.0) : 0.0;
 }
 
-// 0 outside of the picture.
+float channelOf(vec4 texel, uint channel) { return clamp(orZero(texel[min(channel, 3u)]), 0.0, 1.0); }
+
+float shownDepthAt(ivec2 pixel) { return reversedDepth(texelFetch(hostDepth, pixel, 0).r); }
+
+bool isExcluded(ivec2 pixel) {
+    return hasExcluded != 0u && channelOf(texelFetch(hostExcluded, pixel, 0), params.excludedChannel) > 0.5;
+}
+
+// 0 outside of the picture, and where the host excludes what is shown.
 float depthAt(ivec2 pixel) {
-    if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, ivec2(params.view.size)))) {
-        return 0.0;
-    }
-    return reversedDepth(texelFetch(hostDepth, pixel, 0).r);
+    bool outside = any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, ivec2(params.view.size)));
+    return outside || isExcluded(pixel) ? 0.0 : shownDepthAt(pixel);
 }
 
 // Unit, in world space; toward the camera if it is no direction.
@@ -122,8 +136,6 @@ vec3 normalFromDepth(ivec2 pixel, float d, vec3 p, vec3 shaded) {
     return finite(n) && length2 > 0.0 ? n * inversesqrt(length2) : shaded;
 }
 
-float channelOf(vec4 texel, uint channel) { return clamp(orZero(texel[min(channel, 3u)]), 0.0, 1.0); }
-
 float roughnessAt(ivec2 pixel) {
     if (hasRoughness == 0u) {
         return 1.0;
@@ -160,11 +172,18 @@ void main() {
     }
     float d = depthAt(pixel);
     imageStore(depth, pixel, vec4(d));
+    float shown = shownDepthAt(pixel);
+    if (hasExcluded != 0u) {
+        imageStore(shownDepth, pixel, vec4(shown));
+    }
+    if (hasReactive != 0u) {
+        imageStore(reactive, pixel, vec4(channelOf(texelFetch(hostReactive, pixel, 0), params.reactiveChannel)));
+    }
     if (hasBackDepth != 0u) {
         imageStore(backDepth, pixel, vec4(reversedDepth(texelFetch(hostBackDepth, pixel, 0).r)));
     }
     vec2 uv = pixelToUv(pixel, params.view.pixel);
-    vec3 p = uvToWorld(uv, max(d, 1e-9), params.view.clipToWorld);
+    vec3 p = uvToWorld(uv, max(shown, 1e-9), params.view.clipToWorld);
     vec3 toEye = directionToEye(p, params.view.eye);
     vec3 n = d > 0.0 ? decodedNormal(texelFetch(hostNormal, pixel, 0), toEye) : toEye;
     vec3 flat_ = toEye;
@@ -182,12 +201,13 @@ void main() {
     if (hasMetallic != 0u && hasF0 == 0u) {
         metal = channelOf(texelFetch(hostMetallic, pixel, 0), params.metallicChannel);
     }
-    imageStore(material, pixel, vec4(roughnessAt(pixel), metal, 1.0, 0.0));
+    bool dark = hasUnlit != 0u && channelOf(texelFetch(hostUnlit, pixel, 0), params.unlitChannel) > 0.5;
+    imageStore(material, pixel, vec4(roughnessAt(pixel), metal, 1.0, dark ? float(materialFlagUnlit) / 255.0 : 0.0));
     if (hasF0 != 0u) {
         vec3 f0 = texelFetch(hostF0, pixel, 0).rgb;
         f0 = finite(f0) ? clamp(f0, 0.0, 1.0) : vec3(0.0);
         imageStore(reflectance, pixel, vec4(f0 / dielectricF0, 1.0));
     }
-    vec2 moved = d > 0.0 ? motionAt(pixel, uv, p) : vec2(0.0);
+    vec2 moved = shown > 0.0 ? motionAt(pixel, uv, p) : vec2(0.0);
     imageStore(motion, pixel, vec4(clamp(moved, -4.0, 4.0), 0.0, 0.0));
 }

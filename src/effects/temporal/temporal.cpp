@@ -54,7 +54,9 @@ void bindHistories(gpu::ComputePass& pass, const Histories& h, const TemporalInp
     }
 }
 
-void bindSurfaces(gpu::ComputePass& pass, const Histories& h) {
+void bindSurfaces(gpu::PassList& f, gpu::ComputePass& pass, const Histories& h, const TemporalInputs& in) {
+    pass.constant("isReactive", in.reactive ? 1U : 0U)
+        .read("reactive", in.reactive ? in.reactive : f.placeholder(VK_FORMAT_R8_UNORM));
     pass.read("previousSeen", h.seen.previous)
         .write("seen", h.seen.next)
         .read("previousChanges", h.changes.previous)
@@ -68,7 +70,7 @@ uvec2 columns(uvec2 size) {
 void upscale(gpu::PassList& f, const Histories& h, const TemporalInputs& in, const TemporalParams& params) {
     const uvec2 output = h.mean.next.size;
     const gpu::Image around = f.image("temporal.around", VK_FORMAT_R16G16B16A16_SFLOAT, params.size);
-    const gpu::Image changed = f.image("temporal.changed", VK_FORMAT_R16G16_SFLOAT, params.size);
+    const gpu::Image changed = f.image("temporal.changed", VK_FORMAT_R16G16B16A16_SFLOAT, params.size);
     const gpu::Image spread = f.image("temporal.spread", VK_FORMAT_R16G16B16A16_SFLOAT, params.size);
     gpu::ComputePass near =
         f.compute("temporal.around", in.coverage ? "temporal_around_coverage.comp" : "temporal_around.comp");
@@ -79,7 +81,7 @@ void upscale(gpu::PassList& f, const Histories& h, const TemporalInputs& in, con
         near.read("coverage", in.coverage).write("coveredAround", covered);
         add.read("coveredAround", covered);
     }
-    bindSurfaces(near, h);
+    bindSurfaces(f, near, h, in);
     near.read("radiance", in.radiance)
         .read("depth", in.depth)
         .read("motion", in.motion)
@@ -121,15 +123,21 @@ TemporalImages temporal(gpu::PassList& f, TemporalStore& own, const TemporalInpu
     const uvec2 size = in.radiance.size;
     const uvec2 output = in.outputSize.x > 0 ? in.outputSize : size;
     const Histories h = swapHistories(f, own, size, output, static_cast<bool>(in.coverage));
-    const TemporalParams params{toPrevious(in.view), fitted(settings, size),      size,
-                                in.jitter,           in.view.jitterChange,        in.view.frame,
-                                h.valid ? 1U : 0U,   in.view.rest < framesThatFollow ? 1U : 0U, in.sky != nullptr ? 1U : 0U};
+    const TemporalParams params{toPrevious(in.view),
+                                fitted(settings, size),
+                                size,
+                                in.jitter,
+                                in.view.jitterChange,
+                                in.view.frame,
+                                h.valid ? 1U : 0U,
+                                in.view.rest < framesThatFollow ? 1U : 0U,
+                                in.sky != nullptr ? 1U : 0U};
     if (size != output) {
         upscale(f, h, in, params);
     } else {
         gpu::ComputePass pass = f.compute("temporal", in.coverage ? "temporal_coverage.comp" : "temporal.comp");
         bindHistories(pass, h, in);
-        bindSurfaces(pass, h);
+        bindSurfaces(f, pass, h, in);
         pass.read("depth", in.depth).read("motion", in.motion).params(params).dispatch(columns(size));
     }
     if (in.sky != nullptr && movesSky(in.view)) {

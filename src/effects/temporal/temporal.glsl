@@ -42,6 +42,7 @@ void resolve(ivec2 pixel, Row above, Row row, Row below) {
     Changed change = changedAt(pixel, steadyLuma(above, row, below), surface);
     now.stale = change.stale;
     now.relit = change.relit;
+    now.reactive = reactiveAt(pixel);
 #if HAS_COVERAGE
     now.covered = row.covered;
     now.coveredMiddle = (above.coveredSum + row.coveredSum + below.coveredSum) / 9.0;

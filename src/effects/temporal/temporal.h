@@ -87,8 +87,9 @@ namespace reflet {
 /// depth, motion: of what the radiance moves with; motion without jitter. radiance: RGBA16F, rendered with subpixel
 /// jitter (jitter.h), may contain NaN and infinity. view: of this frame; the sky is reprojected with it. coverage: if
 /// given, that of the pixels by surfaces, red, 0 to 1; radiance is premultiplied by it. outputSize: at least that of
-/// radiance; 0: the same. jitter: of this frame, in its pixels. sky: what is seen where depth is 0, if that is an
-/// environment and nothing else; it must live until the call returns.
+/// radiance; 0: the same. jitter: of this frame, in its pixels. reactive: red, the share of the history that a pixel
+/// gives up, 0 to 1; none: 0. sky: what is seen where depth is 0, if that is an environment and nothing else; it must
+/// live until the call returns.
 struct TemporalInputs {
     gpu::Image depth;
     gpu::Image motion;
@@ -98,6 +99,7 @@ struct TemporalInputs {
     uvec2 outputSize{};
     vec2 jitter{};
     const EnvironmentLight* sky = nullptr;
+    gpu::Image reactive{};
 };
 
 struct TemporalImages {

@@ -64,6 +64,7 @@ struct Shown {
     bool follows;   // the last frame showed the same surface
     float stale;    // 0 to 1: the neighbourhood has changed; -1: it cannot have
     float relit;    // factor of that change
+    float reactive;  // share of the history that is given up
 #if HAS_COVERAGE
     float covered;
     float coveredMiddle;
@@ -114,7 +115,7 @@ void accumulate(ivec2 pixel, Shown now) {
 
     float most = mix(float(params.settings.framesInMotion), float(params.settings.frames), still);
     float fresh = still > 0.0 && now.stale >= 0.0 && params.settings.clip > 0.0 ? 1.0 - stale : 1.0;
-    float lasting = before.a * share * fresh;
+    float lasting = before.a * share * fresh * (1.0 - now.reactive);
     float weight = now.near + (now.inside - now.near) * still * min(lasting, 1.0);
     float frames = min(lasting, most - weight) + weight;
     float part = weight / frames;

@@ -9,6 +9,11 @@
 #include "shaders/projection.glsl"
 #include "shaders/tone_compressed.glsl"
 
+layout(constant_id = 0) const uint isReactive = 0u;
+uniform sampler2D reactive;
+
+float reactiveAt(ivec2 pixel) { return isReactive != 0u ? texelFetch(reactive, pixel, 0).r : 0.0; }
+
 // Three pixels side by side.
 struct Row {
     vec3 middle;   // linear

@@ -8,7 +8,7 @@ layout(scalar) uniform ParamsBlock { TemporalUpscaleParams params; };
 layout(rgba16f) uniform readonly image2D radiance;
 layout(rgba16f) uniform readonly image2D around;
 layout(rgba16f) uniform readonly image2D spread;
-layout(rg16f) uniform readonly image2D changed;
+layout(rgba16f) uniform readonly image2D changed;
 layout(rgba16f) uniform readonly image2D previousMean;  // radiance, history length
 layout(rg16f) uniform readonly image2D previousDeviations;
 layout(rgba16f) uniform writeonly image2D mean;
@@ -58,10 +58,11 @@ void main() {
     Shown now;
     now.own = clampToHalf(imageLoad(radiance, nearest).rgb);
     now.blurred = sum / total;
-    vec2 change = imageLoad(changed, nearest).rg;
+    vec3 change = imageLoad(changed, nearest).rgb;
     now.follows = change.y >= 0.0;
     now.stale = change.x;
     now.relit = change.y;
+    now.reactive = change.z;
     now.inside = all(lessThanEqual(away, vec2(0.5))) ? 1.0 : 0.0;
     now.near = nearness(away) + 1e-3;
     now.middle = middle.rgb;
