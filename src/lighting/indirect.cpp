@@ -1,6 +1,7 @@
 // Records the stages of indirect light.
 #include "lighting/indirect.h"
 
+#include "base/error.h"
 #include "effects/composite/composite.h"
 #include "effects/import/import.h"
 #include "effects/light_mips/light_mips.h"
@@ -64,8 +65,36 @@ std::vector<RaySource> orderOf(const LightingSettings& settings, const ScreenIma
         order.emplace_back(
             [&screen, march, longest](gpu::PassList& f, Rays& rays) { traceScreen(f, rays, screen, march, longest); });
     }
-    order.insert(order.end(), sources.others.begin(), sources.others.end());
     return order;
+}
+
+// Refers to what it is given. first: the screen, if it is asked before all others.
+LobeInputs inputsOf(const ViewContext& in, const LightingSettings& settings, uint32_t lobe, const Surfaces& surfaces,
+                    const ScreenSource& first) {
+    LobeSettings rays = lobe == lobeDiffuse ? lobeSettings(settings.diffuse) : lobeSettings(settings.specular);
+    rays.rays = in.unlit ? 0 : rays.rays;
+    return {.lobe = lobe,
+            .g = surfaces.g,
+            .view = in.view,
+            .settings = rays,
+            .diffuse = settings.diffuse,
+            .specular = settings.specular,
+            .denoise = settings.denoise,
+            .environmentSettings = settings.environment,
+            .environment = in.environment,
+            .ggxTable = in.ggxTable,
+            .blueNoise = in.blueNoise,
+            .screen = first,
+            .sources = {},
+            .others = {},
+            .ambientOcclusion = surfaces.ambientOcclusion,
+            .countSteps = settings.traceScreen.countSteps != 0,
+            .coneShare = settings.traceScreen.enabled != 0 ? coneShareOnScreen : 0.0F};
+}
+
+ScreenImages screenForLobe(const ViewContext& in, uint32_t lobe, ScreenImages seen) {
+    seen.leavesOutEmitters = in.emitterLamps && lobe == lobeDiffuse;
+    return seen;
 }
 
 }  // namespace
@@ -90,33 +119,42 @@ bool readsScreenLight(const LightingSettings& settings, const RaySources& source
 
 LobeLight traceLobe(gpu::PassList& f, LobeStore* history, const ViewContext& in, const LightingSettings& settings,
                     uint32_t lobe, const Surfaces& surfaces, const ScreenImages& seen, const RaySources& sources) {
-    ScreenImages screen = seen;
-    screen.leavesOutEmitters = in.emitterLamps && lobe == lobeDiffuse;
-    const bool marched = settings.traceScreen.enabled != 0;
-    const bool first = marched && !startsWithMirrors(sources, lobe);
+    const ScreenImages screen = screenForLobe(in, lobe, seen);
+    const bool first = settings.traceScreen.enabled != 0 && !startsWithMirrors(sources, lobe);
     const std::vector<RaySource> order = orderOf(settings, screen, sources, lobe);
-    LobeSettings rays = lobe == lobeDiffuse ? lobeSettings(settings.diffuse) : lobeSettings(settings.specular);
-    rays.rays = in.unlit ? 0 : rays.rays;
-    return reflet::traceLobe(
-        f, history,
-        {.lobe = lobe,
-         .g = surfaces.g,
-         .view = in.view,
-         .settings = rays,
-         .diffuse = settings.diffuse,
-         .specular = settings.specular,
-         .denoise = settings.denoise,
-         .environmentSettings = settings.environment,
-         .environment = in.environment,
-         .ggxTable = in.ggxTable,
-         .blueNoise = in.blueNoise,
-         .screen = {first ? &screen : nullptr, marchOf(settings, screen), longestRay(settings, lobe)},
-         .sources = order,
-         .ambientOcclusion = surfaces.ambientOcclusion,
-         .lit = screen.lit,
-         .randomTracing = tracesAtRandom(settings, sources),
-         .countSteps = settings.traceScreen.countSteps != 0,
-         .coneShare = marched ? coneShareOnScreen : 0.0F});
+    LobeInputs inputs = inputsOf(in, settings, lobe, surfaces,
+                                 {first ? &screen : nullptr, marchOf(settings, screen), longestRay(settings, lobe)});
+    inputs.sources = order;
+    inputs.others = sources.others;
+    inputs.lit = screen.lit;
+    inputs.randomTracing = tracesAtRandom(settings, sources);
+    return reflet::traceLobe(f, history, inputs);
+}
+
+PendingLobe beginLobe(gpu::PassList& f, LobeStore* history, const ViewContext& in, const LightingSettings& settings,
+                      uint32_t lobe, const Surfaces& surfaces, const ScreenImages& seen) {
+    const ScreenImages screen = screenForLobe(in, lobe, seen);
+    const bool marched = settings.traceScreen.enabled != 0;
+    LobeInputs inputs = inputsOf(in, settings, lobe, surfaces,
+                                 {marched ? &screen : nullptr, marchOf(settings, screen), longestRay(settings, lobe)});
+    inputs.lit = screen.lit;
+    inputs.randomTracing = tracesAtRandom(settings, {});
+    if (inputs.settings.rays == 0) {
+        failUsage("{}.rays: is 0, so that no rays can miss; set 1 or more",
+                  lobe == lobeDiffuse ? "diffuse" : "specular");
+    }
+    PendingLobe pending{lobe, settings, reflet::beginLobe(f, history, inputs), {}};
+    const auto scope = f.scope(lobe == lobeDiffuse ? "diffuse" : "specular");
+    pending.missed = listMissed(f, pending.begun);
+    return pending;
+}
+
+LobeLight finishLobe(gpu::PassList& f, LobeStore* history, const ViewContext& in, const Surfaces& surfaces,
+                     const PendingLobe& pending) {
+    const RaySource host = [&](gpu::PassList& list, Rays& rays) { takeAnswers(list, rays, pending.missed.answers); };
+    LobeInputs inputs = inputsOf(in, pending.settings, pending.lobe, surfaces, {});
+    inputs.others = {&host, 1};
+    return reflet::finishLobe(f, history, inputs, pending.begun);
 }
 
 LobeLight denoiseLobe(gpu::PassList& f, LobeStore& history, const ViewContext& in, const LightingSettings& settings,
