@@ -10,7 +10,7 @@ namespace reflet::api {
 
 namespace {
 
-constexpr uint32_t allEffects = 2 * REFLET_EFFECT_DEPTH_OF_FIELD - 1;
+constexpr uint32_t allEffects = 2 * REFLET_EFFECT_MISSED_REFLECTION_RAYS - 1;
 
 // Stand-ins for the host's images: passes that are only prepared never read them.
 class StandIns {
@@ -58,12 +58,17 @@ void prepareFrame(RefletView_T& view, const Settings& settings, const RefletPrep
     // With a composite, what comes after it needs no picture of the host's.
     const bool composes = asked(REFLET_EFFECT_COMPOSITE);
     const auto pictureOr = [&](uvec2 size) { return composes ? gpu::Image{} : standIns.make(size); };
-    if (asked(REFLET_EFFECT_DIFFUSE_GI)) {
-        recordLobe(view, frame, settings, lobeDiffuse, color, environment);
-    }
-    if (asked(REFLET_EFFECT_REFLECTIONS)) {
-        recordLobe(view, frame, settings, lobeSpecular, color, environment);
-    }
+    const auto prepareLobe = [&](uint32_t lobe, RefletEffect whole, RefletEffect halves) {
+        if (asked(whole)) {
+            recordLobe(view, frame, settings, lobe, color, environment);
+        }
+        if (asked(halves)) {
+            recordMissedRays(view, frame, settings, lobe, color, environment);
+            recordAnswers(view, frame);
+        }
+    };
+    prepareLobe(lobeDiffuse, REFLET_EFFECT_DIFFUSE_GI, REFLET_EFFECT_MISSED_DIFFUSE_RAYS);
+    prepareLobe(lobeSpecular, REFLET_EFFECT_REFLECTIONS, REFLET_EFFECT_MISSED_REFLECTION_RAYS);
     if (asked(REFLET_EFFECT_DENOISE)) {
         Frame denoised = frame;
         recordDenoise(view, denoised, settings, lobeDiffuse, color);
