@@ -5,6 +5,8 @@
 
 #include <volk.h>
 
+#include <bit>
+
 std::span<const reflet::gpu::Shader> libraryTestShaders();
 
 namespace reflet::test {
@@ -110,6 +112,13 @@ RefletRayAnswers RayHost::answer(VkCommandBuffer commands, const RefletMissedRay
     vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof planes, &planes);
     vkCmdDispatchIndirect(commands, missed.rays.buffer, missed.rays.offset);
     return {sizeof(RefletRayAnswers), compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
+}
+
+RefletRayAnswers RayHost::fill(VkCommandBuffer commands, const RefletMissedRays& missed, float value) {
+    waitFor(commands, missed.answers, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+    vkCmdFillBuffer(commands, missed.answers.buffer, missed.answers.offset, missed.answers.size,
+                    std::bit_cast<uint32_t>(value));
+    return {sizeof(RefletRayAnswers), VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
 }
 
 }  // namespace reflet::test

@@ -24,6 +24,8 @@ public:
 
     /// Records the barriers, the dispatch and what refletAnswerRays is to be told.
     RefletRayAnswers answer(VkCommandBuffer commands, const RefletMissedRays& missed, const HiddenPlanes& planes);
+    /// Writes a number into everything that answers consist of.
+    static RefletRayAnswers fill(VkCommandBuffer commands, const RefletMissedRays& missed, float value);
 
 private:
     VkDescriptorSet setOf(const RefletMissedRays& missed);

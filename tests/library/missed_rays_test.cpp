@@ -25,6 +25,7 @@ struct Answering {
     bool asks = true;                    ///< the host; false: the effect itself
     std::optional<HiddenPlanes> planes;  ///< none: the host leaves the answers alone
     bool mirrors = false;                ///< every surface is one
+    bool fills = false;                  ///< the host writes 1 into all answers, by a command that is no shader
     uint32_t frames = 1;
 };
 
@@ -57,7 +58,9 @@ protected:
         missed.structSize = sizeof missed;
         EXPECT_REFLET(refletMissedRays(view, settings_, how.kind, &light, &missed));
         RefletRayAnswers answers{sizeof answers, 0, 0};
-        if (how.planes) {
+        if (how.fills) {
+            answers = RayHost::fill(commands, missed, 1.0F);
+        } else if (how.planes) {
             answers = answerer_.answer(commands, missed, *how.planes);
         }
         EXPECT_REFLET(refletAnswerRays(view, settings_, how.kind, &answers, &lobe));
@@ -181,6 +184,22 @@ TEST_F(MissedRays, TellWhereTheyStart) {
         }
         EXPECT_GT(found, 200 / (scale * scale));
     }
+}
+
+TEST_F(MissedRays, AreAnsweredByAnyCommand) {
+    set("denoise.enabled", "false");
+    set("specular.downsample", "1");
+    const LobeTexels white = trace({.mirrors = true, .fills = true});
+    size_t found = 0;
+    for (uint32_t i = 0; i < white.radiance.size(); ++i) {
+        if (seenInMirror(i, {})) {
+            ++found;
+            for (int c = 0; c < 4; ++c) {  // radiance, and a distance of 1 m
+                ASSERT_NEAR(white.radiance[i][c], 1.0F, 0.02F) << i % width << ' ' << i / width;
+            }
+        }
+    }
+    EXPECT_GT(found, 200U);
 }
 
 // Settings of a way to trace, and whether the effect itself keeps rays in memory, too: then all bytes are the same.
